@@ -1,0 +1,66 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace pleinair {
+
+/// The error for a file that could not be written: a full disk is the machine's fault (exit 1), a
+/// folder without permission the user's (exit 2).
+inline Error WriteError(const std::filesystem::path& path, int error_number) {
+  const bool system = error_number == ENOSPC || error_number == EDQUOT || error_number == EIO;
+  const std::string remedy = error_number == ENOSPC || error_number == EDQUOT
+                                 ? "free some space or choose another folder"
+                                 : "choose a folder that you may write to";
+  return Error{system ? ErrorKind::kSystem : ErrorKind::kInput, path.string(),
+               "cannot write: " + std::string(std::strerror(error_number)), remedy};
+}
+
+/// A name beside `path` to write to before renaming; keeps the extension, which encoders look at.
+inline std::filesystem::path TemporarySibling(const std::filesystem::path& path) {
+  return path.parent_path() / ("." + path.stem().string() + ".part" + std::to_string(getpid()) +
+                               path.extension().string());
+}
+
+/// Moves a finished temporary file to its name; removes it on failure.
+inline Result<void> CommitFile(const std::filesystem::path& temporary,
+                               const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    return tl::make_unexpected(WriteError(path, error.value()));
+  }
+  return {};
+}
+
+/// Writes a whole file under a temporary name, then renames it: readers see all of it or nothing.
+inline Result<void> WriteFileAtomically(const std::filesystem::path& path,
+                                        std::string_view content) {
+  const std::filesystem::path temporary = TemporarySibling(path);
+  errno = 0;
+  {
+    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+    file.write(content.data(), static_cast<std::streamsize>(content.size()));
+    file.close();
+    if (!file) {
+      const int error_number = errno != 0 ? errno : EIO;
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      return tl::make_unexpected(WriteError(path, error_number));
+    }
+  }
+  return CommitFile(temporary, path);
+}
+
+}  // namespace pleinair

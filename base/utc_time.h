@@ -1,0 +1,184 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace pleinair {
+
+/// A moment in UTC, counted in nanoseconds since 1970-01-01T00:00:00Z on the proleptic Gregorian
+/// calendar, without leap seconds (as POSIX does). Reaches 1678…2261.
+class UtcTime {
+ public:
+  struct Civil {
+    int year = 1970, month = 1, day = 1, hour = 0, minute = 0;
+    double second = 0.0;
+  };
+
+  constexpr UtcTime() = default;
+  constexpr explicit UtcTime(std::int64_t nanoseconds_since_1970) : ns_(nanoseconds_since_1970) {}
+
+  constexpr std::int64_t nanoseconds_since_1970() const { return ns_; }
+  constexpr auto operator<=>(const UtcTime&) const = default;
+  constexpr UtcTime PlusSeconds(double seconds) const {
+    return UtcTime(ns_ + static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
+  }
+
+  Civil ToCivil() const;
+
+  /// RFC 3339 with `Z`; fractional seconds only when there are any.
+  std::string ToString() const;
+
+  /// Parses RFC 3339 ("2025-09-14T11:05:00Z", "…+02:00", a space for the T). A time without `Z`
+  /// or offset is an error: nobody can know which zone it means. A leap second (":60") is taken
+  /// as the first second of the next minute.
+  static Result<UtcTime> Parse(std::string_view text);
+
+ private:
+  std::int64_t ns_ = 0;
+};
+
+namespace internal {
+
+/// Days since 1970-01-01 of a Gregorian date (Hinnant, "chrono-compatible low-level date
+/// algorithms", days_from_civil).
+constexpr std::int64_t DaysFromCivil(int year, int month, int day) {
+  year -= month <= 2;
+  const std::int64_t era = (year >= 0 ? year : year - 399) / 400;
+  const int year_of_era = year - static_cast<int>(era) * 400;
+  const int day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  const int day_of_era = year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year;
+  return era * 146097 + day_of_era - 719468;
+}
+
+constexpr int DaysInMonth(int year, int month) {
+  constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+  return month == 2 && leap ? 29 : kDays[month - 1];
+}
+
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+constexpr std::int64_t kNanosecondsPerDay = 86'400 * kNanosecondsPerSecond;
+
+}  // namespace internal
+
+inline UtcTime::Civil UtcTime::ToCivil() const {
+  std::int64_t days = ns_ / internal::kNanosecondsPerDay;
+  std::int64_t in_day = ns_ % internal::kNanosecondsPerDay;
+  if (in_day < 0) {
+    in_day += internal::kNanosecondsPerDay;
+    --days;
+  }
+  // Hinnant, civil_from_days.
+  days += 719468;
+  const std::int64_t era = (days >= 0 ? days : days - 146096) / 146097;
+  const int day_of_era = static_cast<int>(days - era * 146097);
+  const int year_of_era =
+      (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
+  const int day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+  const int shifted_month = (5 * day_of_year + 2) / 153;
+  Civil civil;
+  civil.day = day_of_year - (153 * shifted_month + 2) / 5 + 1;
+  civil.month = shifted_month < 10 ? shifted_month + 3 : shifted_month - 9;
+  civil.year = year_of_era + static_cast<int>(era) * 400 + (civil.month <= 2);
+  const std::int64_t seconds = in_day / internal::kNanosecondsPerSecond;
+  civil.hour = static_cast<int>(seconds / 3600);
+  civil.minute = static_cast<int>(seconds / 60 % 60);
+  civil.second = static_cast<double>(seconds % 60) +
+                 static_cast<double>(in_day % internal::kNanosecondsPerSecond) * 1e-9;
+  return civil;
+}
+
+inline std::string UtcTime::ToString() const {
+  const Civil civil = ToCivil();
+  std::int64_t fraction = ns_ % internal::kNanosecondsPerSecond;
+  if (fraction < 0) fraction += internal::kNanosecondsPerSecond;
+  const auto padded = [](std::int64_t value, std::size_t digits) {
+    std::string text = std::to_string(value);
+    return text.size() < digits ? std::string(digits - text.size(), '0') + text : text;
+  };
+  std::string text = padded(civil.year, 4) + "-" + padded(civil.month, 2) + "-" +
+                     padded(civil.day, 2) + "T" + padded(civil.hour, 2) + ":" +
+                     padded(civil.minute, 2) + ":" +
+                     padded(static_cast<std::int64_t>(civil.second), 2);
+  if (fraction != 0) {
+    std::string digits = padded(fraction, 9);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    text += "." + digits;
+  }
+  return text + "Z";
+}
+
+inline Result<UtcTime> UtcTime::Parse(std::string_view text) {
+  const auto fail = [&](std::string what) {
+    return InputError("", "time \"" + std::string(text.substr(0, 64)) + "\" " + std::move(what),
+                      "write it as RFC 3339 in UTC, for example 2025-09-14T11:05:00Z");
+  };
+  std::size_t at = 0;
+  bool well_formed = true;
+  const auto digits = [&](int count) {
+    int value = 0;
+    for (int i = 0; i < count; ++i, ++at) {
+      if (at >= text.size() || text[at] < '0' || text[at] > '9') {
+        well_formed = false;
+        return 0;
+      }
+      value = value * 10 + (text[at] - '0');
+    }
+    return value;
+  };
+  const auto expect = [&](std::string_view any_of) {
+    if (at >= text.size() || any_of.find(text[at]) == std::string_view::npos) {
+      well_formed = false;
+      return;
+    }
+    ++at;
+  };
+  const int year = digits(4);
+  expect("-");
+  const int month = digits(2);
+  expect("-");
+  const int day = digits(2);
+  expect("Tt ");
+  const int hour = digits(2);
+  expect(":");
+  const int minute = digits(2);
+  expect(":");
+  const int second = digits(2);
+  if (!well_formed) return fail("is not a date and time");
+  std::int64_t fraction_ns = 0;
+  if (at < text.size() && text[at] == '.') {
+    std::int64_t place_ns = internal::kNanosecondsPerSecond / 10;
+    const std::size_t first = ++at;
+    for (; at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at, place_ns /= 10) {
+      fraction_ns += (text[at] - '0') * place_ns;
+    }
+    if (at == first) return fail("has a decimal point without digits");
+  }
+  if (at == text.size()) return fail("has neither Z nor an offset, so its zone is unknown");
+  std::int64_t offset_minutes = 0;
+  const char zone = text[at++];
+  if (zone == '+' || zone == '-') {
+    const int offset_hour = digits(2);
+    expect(":");
+    const int offset_minute = digits(2);
+    if (!well_formed || offset_hour > 23 || offset_minute > 59) return fail("has a bad offset");
+    offset_minutes = (zone == '+' ? 1 : -1) * (offset_hour * 60 + offset_minute);
+  } else if (zone != 'Z' && zone != 'z') {
+    return fail("has neither Z nor an offset, so its zone is unknown");
+  }
+  if (at != text.size()) return fail("goes on after its offset");
+  if (year < 1678 || year > 2261) return fail("lies outside the years 1678 to 2261");
+  if (month < 1 || month > 12 || day < 1 || day > internal::DaysInMonth(year, month)) {
+    return fail("names a day that does not exist");
+  }
+  if (hour > 23 || minute > 59 || second > 60) return fail("names an hour that does not exist");
+  const std::int64_t seconds = internal::DaysFromCivil(year, month, day) * 86'400 + hour * 3600 +
+                               minute * 60 + second - offset_minutes * 60;
+  return UtcTime(seconds * internal::kNanosecondsPerSecond + fraction_ns);
+}
+
+}  // namespace pleinair

@@ -1,0 +1,53 @@
+# Functions that give every target of the project the same settings.
+
+# Warnings, sanitizers and include path of our own code.
+function(pleinair_configure_target target)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/pleinair>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                         $<$<BOOL:${PLEINAIR_WERROR}>:-Werror>)
+  if(PLEINAIR_SANITIZE)
+    list(JOIN PLEINAIR_SANITIZE "," sanitizers)
+    target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=${sanitizers}>
+                           $<BUILD_INTERFACE:-fno-omit-frame-pointer>)
+    target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=${sanitizers}>)
+    if("undefined" IN_LIST PLEINAIR_SANITIZE)
+      target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-fno-sanitize-recover=undefined>)
+    endif()
+  endif()
+endfunction()
+
+# pleinair_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): module library with the alias pleinair::NAME.
+function(pleinair_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(pleinair_${name} STATIC ${ARG_SOURCES})
+  add_library(pleinair::${name} ALIAS pleinair_${name})
+  set_target_properties(pleinair_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(pleinair_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  pleinair_configure_target(pleinair_${name})
+endfunction()
+
+# pleinair_test(NAME SOURCES ... LIBS ... [LABELS ...]): a GoogleTest program, each test known to ctest.
+function(pleinair_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gmock_main)
+  target_compile_definitions(${name} PRIVATE
+    PLEINAIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PLEINAIR_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  pleinair_configure_target(${name})
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
+endfunction()
+
+# pleinair_fuzzer(NAME SOURCES ... LIBS ...): a libFuzzer target (clang only).
+function(pleinair_fuzzer name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS})
+  pleinair_configure_target(${name})
+  target_compile_options(${name} PRIVATE -fsanitize=fuzzer)
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+endfunction()

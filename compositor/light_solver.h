@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/frames.h"
+#include "base/vector.h"
+#include "compositor/model.h"
+#include "sky/daylight.h"
+
+namespace pleinair::compositor {
+
+/// A model placed in the scene, for the light.
+struct PlacedModel {
+  std::shared_ptr<const Model> model;
+  Mat3 linear;            ///< Rotation and scale, marker from model coordinates.
+  Vec3 translation_m;     ///< Of the model's origin, marker coordinates.
+  bool is_phantom = false;  ///< Stand-in for a real surface, otherwise a virtual object.
+};
+
+/// A tessellated surface with the light that falls on its vertices besides the sun's own. Marker
+/// coordinates. The unit of irradiance is the Daylight's (lux, linear Rec.709).
+struct LitMesh {
+  bool is_phantom = false;
+  int placed_model = 0;  ///< Index into the scene's list of placed models.
+  int material = 0;      ///< Index into that model's materials.
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<float, 3>> normals;
+  std::vector<std::array<float, 2>> uvs;  ///< Empty, or one a position.
+  /// Sky and bounced light with the virtual objects there.
+  std::vector<std::array<float, 3>> ambient_with;
+  /// The same with the phantoms alone; of phantoms only, empty for virtual objects.
+  std::vector<std::array<float, 3>> ambient_without;
+  std::vector<std::uint32_t> indices;
+};
+
+struct LightSolverOptions {
+  int rays_per_vertex = 256;     ///< Cosine-weighted, stratified; lowered for huge models.
+  int bounces = 2;               ///< Diffuse reflections followed beyond the sky's direct light.
+  double near_edge_m = 0.04;     ///< Longest edge of a triangle close to a virtual object.
+  double growth_per_m = 0.25;    ///< How much longer edges may be per metre of distance.
+  int threads = 0;               ///< 0: as many as there are processors.
+};
+
+/// Computes where the day's light goes among phantoms and virtual objects (Embree). Keeps the ray
+/// scene, so that the sun's visibility at any point can be asked later.
+class LightSolver {
+ public:
+  /// Tessellates and builds the ray scene. Errors: an empty or degenerate geometry.
+  static Result<std::unique_ptr<LightSolver>> Create(std::vector<PlacedModel> scene,
+                                                     const LightSolverOptions& options);
+  virtual ~LightSolver() = default;
+
+  /// Light on every vertex for this daylight. Deterministic whatever the number of threads. Rays
+  /// with and without the virtual objects are the same, so that their ratio has no noise where
+  /// the objects change nothing.
+  virtual std::vector<LitMesh> Solve(const sky::Daylight& daylight, const Mat3& marker_from_world)
+      const = 0;
+
+  /// Share of the sun's disc (0…1) that the phantoms alone leave visible from a point.
+  virtual double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const = 0;
+
+  /// Sky and bounced light on a small surface at `point` facing `normal`, phantoms only: what
+  /// reaches the marker's print.
+  virtual LinearRgb AmbientPhantomsOnly(Point<Marker> point, Vec3 normal,
+                                        const sky::Daylight& daylight,
+                                        const Mat3& marker_from_world) const = 0;
+};
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/image.h"
+
+namespace pleinair::compositor {
+
+/// A surface material, metallic–roughness; colours linear Rec.709.
+struct Material {
+  std::string name;
+  std::array<float, 3> base_color{0.8F, 0.8F, 0.8F};
+  float metallic = 0.0F;
+  float roughness = 1.0F;
+  float specular_f0 = 0.0F;  ///< Normal reflectance of the dielectric coat; 0 is purely diffuse.
+  bool double_sided = false;
+  int base_color_texture = -1;  ///< Index into Model::textures, -1 for none.
+};
+
+/// Three corners a triangle, no sharing of vertices between materials required.
+struct Mesh {
+  std::string name;
+  int material = 0;
+  std::vector<std::array<float, 3>> positions;  ///< Metres, model coordinates.
+  std::vector<std::array<float, 3>> normals;    ///< Unit, one a position.
+  std::vector<std::array<float, 2>> uvs;        ///< Empty, or one a position; v down.
+  std::vector<std::uint32_t> indices;           ///< Three a triangle, counter-clockwise outside.
+};
+
+/// A loaded model: indexed triangle meshes with their materials and textures.
+struct Model {
+  std::filesystem::path file;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Image<std::uint8_t>> textures;  ///< sRGB-encoded, 3 or 4 channels.
+};
+
+enum class NormalsMode { kFromFile, kFlat, kSmooth };
+
+struct ModelOptions {
+  NormalsMode normals = NormalsMode::kFromFile;  ///< kFromFile: flat where the file has none.
+};
+
+/// Loads OBJ (with its MTL) or glTF 2.0 (.gltf/.glb), by content. Limits keep hostile files from
+/// exhausting memory: 20 M vertices, textures of 16384 × 16384.
+/// Errors: missing or cut short, indices out of range, values not finite, textures missing,
+/// too large or unreadable: each names the file and, for text, the line.
+Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options = {});
+
+}  // namespace pleinair::compositor

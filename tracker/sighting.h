@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "base/frames.h"
+#include "base/vector.h"
+
+namespace pleinair::tracker {
+
+/// Which way a marker was found.
+enum class DetectionPath { kFast, kSurfGolay, kTracked };
+
+/// "fast", "surf-golay", "tracked": as `detections.jsonl` spells it.
+const char* PathName(DetectionPath path);
+
+/// A marker found in a picture, before its pose is known.
+struct MarkerDetection {
+  std::string family;  ///< "tag36h11", "sg", …
+  int id = 0;
+  /// Corners of the outer black square in pixels (integer = pixel centre), top-left, then
+  /// clockwise, of the marker as its print is read.
+  std::array<Vec2, 4> corners_px;
+  double visible_fraction = 1.0;  ///< Share of the print that is seen, 0…1.
+  DetectionPath path = DetectionPath::kFast;
+};
+
+/// Order of the 6×6 covariance: rotation vector (rad), then translation (m), both in the camera
+/// frame: camera_from_marker' = (Exp(w) R, t + d). Row-major.
+using PoseCovariance = std::array<double, 36>;
+
+/// One solution of the planar pose problem.
+struct PoseSolution {
+  Transform<Camera, Marker> camera_from_marker;
+  double reprojection_rms_px = 0.0;
+};
+
+struct PoseEstimate {
+  PoseSolution best;
+  std::optional<PoseSolution> alternative;  ///< The other planar solution, where there is one.
+  /// best.reprojection_rms_px / alternative's: near 1 means that nobody can tell; 0 without one.
+  double ambiguity_ratio = 0.0;
+  PoseCovariance covariance{};
+};
+
+struct Sighting {
+  MarkerDetection detection;
+  PoseEstimate pose;
+};
+
+}  // namespace pleinair::tracker
