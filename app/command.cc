@@ -1,0 +1,103 @@
+#include "app/command.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair replay recordings/courtyard_midday -o out/demo\n"
+    "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
+    "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
+    "  pleinair doctor\n"
+    "'pleinair SUBCOMMAND --help' tells more. Exit codes: 0 done, 1 could not, 2 the input or\n"
+    "the usage is wrong.";
+
+/// Messages are one line, whatever a file's name or a library's text holds.
+std::string OneLine(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text;
+}
+
+int Fail(const std::string& message, ExitCode code) {
+  std::cerr << "pleinair: " << OneLine(message) << '\n';
+  return code;
+}
+
+/// Standard output may be a file on a full disk: what was printed counts only once it is out.
+int FlushOutput(int code) {
+  errno = 0;
+  std::cout.flush();
+  const bool failed = !std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (!failed || code != kExitDone) return code;
+  return Fail(std::string("standard output: cannot write: ") +
+                  std::strerror(errno != 0 ? errno : EIO) +
+                  "; free some space or send the output elsewhere",
+              kExitSystem);
+}
+
+}  // namespace
+
+int RunCommandLine(int argc, const char* const* argv) {
+  try {
+    CLI::App app{
+        "pleinair composes virtual objects into outdoor video, anchored to a printed\n"
+        "marker and lit by that day's sun and sky.",
+        "pleinair"};
+    app.footer(kExamples);
+    app.set_version_flag("--version", "pleinair " PLEINAIR_VERSION);
+    app.require_subcommand(0, 1);
+    CommandResult result;
+#ifdef PLEINAIR_HAS_REPLAY
+    AddReplayCommand(app, result);
+#endif
+#ifdef PLEINAIR_HAS_DETECT
+    AddDetectCommand(app, result);
+#endif
+#ifdef PLEINAIR_HAS_SUN
+    AddSunCommand(app, result);
+#endif
+#ifdef PLEINAIR_HAS_DOCTOR
+    AddDoctorCommand(app, result);
+#endif
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help, --version
+      return FlushOutput(app.exit(success, std::cout, std::cerr));
+    } catch (const CLI::ParseError& error) {
+      const auto chosen = app.get_subcommands();
+      const std::string help =
+          chosen.empty() ? "pleinair --help" : "pleinair " + chosen[0]->get_name() + " --help";
+      return Fail(std::string(error.what()) + "; see '" + help + "'", kExitInput);
+    }
+    if (app.get_subcommands().empty()) {
+      std::cerr << app.help();
+      return kExitInput;
+    }
+    if (!result.status) {
+      const Error& error = result.status.error();
+      return Fail(error.Message(), error.kind == ErrorKind::kInput ? kExitInput : kExitSystem);
+    }
+    return FlushOutput(kExitDone);
+  } catch (const std::bad_alloc&) {
+    return Fail("out of memory; use a smaller recording or model, or a machine with more",
+                kExitSystem);
+  } catch (const std::exception& error) {
+    return Fail(std::string("unexpected failure: ") + error.what() + "; please report it",
+                kExitSystem);
+  }
+}
+
+}  // namespace pleinair::app
