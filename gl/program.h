@@ -1,0 +1,70 @@
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "base/error.h"
+#include "gl/handle.h"
+
+namespace pleinair::gl {
+
+inline void DeleteProgram(GLuint id) { glDeleteProgram(id); }
+
+/// The stages of a program by their names in the ShaderLibrary; empty stages are left out.
+struct ProgramStages {
+  std::string vertex = {};
+  std::string fragment = {};
+  std::string geometry = {};
+  std::string compute = {};
+  std::vector<std::string> defines = {};  ///< "NAME" or "NAME value", for all stages.
+};
+
+/// One stage given as text.
+struct StageText {
+  GLenum stage = 0;  ///< GL_VERTEX_SHADER, …
+  std::string text;
+  std::string name;  ///< For messages.
+};
+
+/// A linked program and its uniforms. Set… needs no binding (direct state access); names that the
+/// compiler has optimised away are ignored, as GL does.
+class GlProgram {
+ public:
+  /// Loads, compiles and links. Errors (kSystem): the driver's log, with the names of the files
+  /// its numbers stand for; (kInput): what ShaderLibrary::Load reports.
+  static Result<GlProgram> Create(const ProgramStages& stages);
+  static Result<GlProgram> FromText(const std::vector<StageText>& stages);
+
+  GlProgram() = default;
+
+  void Use() const { glUseProgram(id()); }
+
+  void Set(std::string_view name, int value) const;
+  void Set(std::string_view name, float value) const;
+  void Set(std::string_view name, const glm::vec2& value) const;
+  void Set(std::string_view name, const glm::vec3& value) const;
+  void Set(std::string_view name, const glm::vec4& value) const;
+  void Set(std::string_view name, const glm::ivec2& value) const;
+  void Set(std::string_view name, const glm::mat3& value) const;
+  void Set(std::string_view name, const glm::mat4& value) const;
+  void SetArray(std::string_view name, const std::vector<glm::vec3>& values) const;
+  void SetArray(std::string_view name, const std::vector<glm::vec4>& values) const;
+  void SetArray(std::string_view name, const std::vector<float>& values) const;
+
+  /// Location of an active uniform, -1 where there is none.
+  int UniformLocation(std::string_view name) const;
+
+  GLuint id() const { return handle_.id(); }
+  explicit operator bool() const { return static_cast<bool>(handle_); }
+
+ private:
+  GlHandle<&DeleteProgram> handle_;
+  mutable std::unordered_map<std::string, int> locations_;
+};
+
+}  // namespace pleinair::gl

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstddef>
+#include <span>
+
+#include "base/error.h"
+#include "gl/handle.h"
+
+namespace pleinair::gl {
+
+inline void DeleteTexture(GLuint id) { glDeleteTextures(1, &id); }
+
+/// A texture with immutable storage. New textures clamp to the edge and filter linearly without
+/// mip maps (multisample textures have no filter).
+class GlTexture {
+ public:
+  /// Errors (all factories, kSystem): a size beyond the renderer's limit, no memory.
+  static Result<GlTexture> Create2D(GLenum internal_format, int width, int height, int levels = 1);
+  static Result<GlTexture> Create2DArray(GLenum internal_format, int width, int height, int layers,
+                                         int levels = 1);
+  static Result<GlTexture> Create2DMultisample(GLenum internal_format, int width, int height,
+                                               int samples);
+
+  GlTexture() = default;
+
+  /// Copies a whole level from memory; rows follow one another without padding. 2D textures.
+  void Upload(GLenum format, GLenum type, const void* pixels, int level = 0);
+  /// The same for one layer of an array.
+  void UploadLayer(int layer, GLenum format, GLenum type, const void* pixels, int level = 0);
+  /// Copies a level (of an array: all layers) to memory; `bytes` must be large enough. Waits for
+  /// the renderer.
+  void Download(GLenum format, GLenum type, std::span<std::byte> bytes, int level = 0) const;
+
+  void GenerateMipmaps();
+  void SetFilter(GLenum minification, GLenum magnification);
+  void SetWrap(GLenum mode);
+  void SetBorderColor(float r, float g, float b, float a);
+  /// Depth textures: sampling compares (sampler2DShadow) and filters the outcomes.
+  void SetCompare(GLenum function);
+
+  void Bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), handle_.id()); }
+
+  GLuint id() const { return handle_.id(); }
+  explicit operator bool() const { return static_cast<bool>(handle_); }
+  GLenum target() const { return target_; }
+  GLenum internal_format() const { return internal_format_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int layers() const { return layers_; }
+  int samples() const { return samples_; }
+
+ private:
+  static Result<GlTexture> Allocate(GLenum target, GLenum internal_format, int width, int height,
+                                    int layers, int levels, int samples);
+
+  GlHandle<&DeleteTexture> handle_;
+  GLenum target_ = GL_TEXTURE_2D;
+  GLenum internal_format_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+  int layers_ = 1;
+  int samples_ = 0;
+};
+
+}  // namespace pleinair::gl
