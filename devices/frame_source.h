@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
-#include "base/camera_model.h"
 #include "base/error.h"
 #include "devices/frame.h"
 
@@ -11,9 +11,13 @@ namespace pleinair::devices {
 /// Where frames come from. One thread calls Next() at a time.
 class FrameSource {
  public:
+  FrameSource() = default;
+  FrameSource(const FrameSource&) = delete;
+  FrameSource& operator=(const FrameSource&) = delete;
   virtual ~FrameSource() = default;
 
-  /// The next frame, nothing at the end, or an error that names the file or device.
+  /// The next frame, nothing at the end, or an error that names the file or device. After an
+  /// error the source is at its end.
   virtual Result<std::optional<Frame>> Next() = 0;
 
   /// How many frames there will be, where that is known (recordings).

@@ -1,0 +1,311 @@
+#include "devices/calibration.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <vector>
+
+#include "devices/json_fields.h"
+#include "devices/text_file.h"
+
+namespace pleinair::devices {
+namespace {
+
+constexpr int kMaxSide = 100'000;
+constexpr const char* kRemedy =
+    "see docs/formats.md for the calibrations that can be read, or calibrate anew";
+
+// Lower case, letters and digits only: "Radial-Tangential" and "radial_tangential" are one name.
+std::string Canonical(const std::string& word) {
+  std::string canonical;
+  for (const char c : word) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (std::isalnum(letter) != 0) canonical += static_cast<char>(std::tolower(letter));
+  }
+  return canonical;
+}
+
+// What a file says, before it is judged.
+struct Readings {
+  std::optional<int> width, height;
+  std::vector<double> focal_and_centre;  // fx fy cx cy
+  std::string model;                     // As the file names it; empty: not named.
+  bool fisheye = false;                  // Said apart from the model's name.
+  std::optional<std::vector<double>> distortion;
+};
+
+Result<DistortionModel> ModelOf(const Readings& readings, const std::string& name) {
+  if (readings.fisheye) return DistortionModel::kEquidistant;
+  const std::string model = Canonical(readings.model);
+  for (const char* known : {"equidistant", "fisheye", "opencvfisheye", "kannalabrandt",
+                            "kannalabrandt4", "kannalabrandt8", "kb4"}) {
+    if (model == known) return DistortionModel::kEquidistant;
+  }
+  for (const char* known : {"", "none", "pinhole", "radtan", "opencvradtan", "radialtangential",
+                            "plumbbob", "opencv", "opencvk1k2p1p2k3", "opencvk1k2p1p2",
+                            "rationalpolynomial", "opencvrational", "rational", "brownconrady"}) {
+    if (model == known) return DistortionModel::kBrownConrady;
+  }
+  return InputError(
+      name, "has the distortion model \"" + readings.model.substr(0, 64) + "\", which is not known",
+      "known are pinhole, radtan (plumb_bob, rational_polynomial) and equidistant "
+      "(fisheye)");
+}
+
+// OpenCV's thin prism and tilt terms (entries 9 to 14) are taken only where they are zero.
+Result<std::array<double, 8>> CoefficientsOf(const Readings& readings, DistortionModel model,
+                                             const std::string& name) {
+  std::array<double, 8> coefficients{};
+  const std::string word = Canonical(readings.model);
+  if (!readings.distortion) {
+    if (model == DistortionModel::kBrownConrady &&
+        (word.empty() || word == "pinhole" || word == "none")) {
+      return coefficients;
+    }
+    return InputError(name, "names a distortion model but has no distortion coefficients", kRemedy);
+  }
+  std::vector<double> given = *readings.distortion;
+  while (given.size() > 8 && given.size() <= 14 && given.back() == 0.0) given.pop_back();
+  const std::size_t count = given.size();
+  const bool fits = model == DistortionModel::kEquidistant
+                        ? count == 4
+                        : count == 0 || count == 4 || count == 5 || count == 8;
+  if (!fits) {
+    return InputError(name,
+                      "has " + std::to_string(count) + " distortion coefficients, but its model " +
+                          (model == DistortionModel::kEquidistant ? "(equidistant) has 4"
+                                                                  : "(radtan) has 4, 5 or 8"),
+                      kRemedy);
+  }
+  std::copy(given.begin(), given.end(), coefficients.begin());
+  return coefficients;
+}
+
+Result<CameraModel> Judge(const Readings& readings, const std::string& name) {
+  if (!readings.width || !readings.height) {
+    return InputError(name, "does not say how many pixels the picture has",
+                      "add image_width and image_height");
+  }
+  if (*readings.width < 1 || *readings.height < 1 || *readings.width > kMaxSide ||
+      *readings.height > kMaxSide) {
+    return InputError(name,
+                      "is for a picture of " + std::to_string(*readings.width) + "x" +
+                          std::to_string(*readings.height) + " pixels, which cannot be",
+                      "the sides must be 1 to 100000");
+  }
+  if (readings.focal_and_centre.size() != 4) {
+    return InputError(name, "lacks one of the four intrinsics fx, fy, cx, cy", kRemedy);
+  }
+  CameraModel camera;
+  camera.width = *readings.width;
+  camera.height = *readings.height;
+  camera.fx = readings.focal_and_centre[0];
+  camera.fy = readings.focal_and_centre[1];
+  camera.cx = readings.focal_and_centre[2];
+  camera.cy = readings.focal_and_centre[3];
+  for (const double intrinsic : readings.focal_and_centre) {
+    if (!std::isfinite(intrinsic) || std::fabs(intrinsic) > 1e7) {
+      return InputError(name, "has an intrinsic fx, fy, cx or cy that is not a usable number",
+                        kRemedy);
+    }
+  }
+  if (camera.fx <= 0.0 || camera.fy <= 0.0) {
+    return InputError(name, "has a focal length that is not greater than zero",
+                      "fx and fy are in pixels, about as many as the picture is wide");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(camera.distortion_model, ModelOf(readings, name));
+  PLEINAIR_ASSIGN_OR_RETURN(camera.distortion,
+                            CoefficientsOf(readings, camera.distortion_model, name));
+  return camera;
+}
+
+// The numbers under the first of `keys` that is there: a plain list, or OpenCV's and ROS's
+// {rows, cols, data}.
+Result<std::optional<std::vector<double>>> Matrix(const JsonFields& fields,
+                                                  std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    const Json* value = fields.Find(key);
+    if (value == nullptr) continue;
+    if (!value->is_object()) return fields.Numbers(key);
+    const JsonFields matrix = fields.Object(key);
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<int> rows, matrix.Integer("rows"));
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<int> columns, matrix.Integer("cols"));
+    PLEINAIR_ASSIGN_OR_RETURN(std::optional<std::vector<double>> data, matrix.Numbers("data"));
+    if (!data) return fields.Fail(key, "has no \"data\"", kRemedy);
+    const auto count = static_cast<double>(data->size());
+    if (rows && columns && static_cast<double>(*rows) * *columns != count) {
+      return fields.Fail(
+          key, "has " + std::to_string(data->size()) + " numbers, not rows times columns of them",
+          kRemedy);
+    }
+    return data;
+  }
+  return std::nullopt;
+}
+
+// The first of `keys` that is there, as a whole number.
+Result<std::optional<int>> IntegerOf(const JsonFields& fields,
+                                     std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    if (fields.Has(key)) return fields.Integer(key);
+  }
+  return std::nullopt;
+}
+
+// Sets the picture's size from a list [width, height].
+Result<void> SizeFromList(const JsonFields& fields, std::initializer_list<const char*> keys,
+                          Readings* readings) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::vector<double>> size, Matrix(fields, keys));
+  if (!size) return {};
+  if (size->size() != 2 || std::fabs((*size)[0]) > 1e9 || std::fabs((*size)[1]) > 1e9) {
+    return InputError(fields.name(), "has a picture size that is not [width, height]", kRemedy);
+  }
+  readings->width = static_cast<int>((*size)[0]);
+  readings->height = static_cast<int>((*size)[1]);
+  return {};
+}
+
+// Our form: {"image_width", "image_height", "model", "fx", "fy", "cx", "cy",
+// "distortion_k1_k2_p1_p2_k3": […]}; a scene.json says "dist" and has its size in "image".
+Result<CameraModel> ReadOwn(const JsonFields& fields, Readings readings) {
+  if (!readings.width) {
+    PLEINAIR_ASSIGN_OR_RETURN(readings.width, IntegerOf(fields, {"image_width", "width"}));
+    PLEINAIR_ASSIGN_OR_RETURN(readings.height, IntegerOf(fields, {"image_height", "height"}));
+  }
+  for (const char* key : {"fx", "fy", "cx", "cy"}) {
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> intrinsic, fields.Number(key));
+    if (!intrinsic) return fields.Fail(key, "is missing", kRemedy);
+    readings.focal_and_centre.push_back(*intrinsic);
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> model, fields.Text("model"));
+  readings.model = model.value_or("");
+  PLEINAIR_ASSIGN_OR_RETURN(
+      readings.distortion,
+      Matrix(fields, {"distortion_k1_k2_p1_p2_k3", "distortion_k1_k2_p1_p2_k3_k4_k5_k6",
+                      "distortion_k1_k2_k3_k4", "dist", "distortion", "distortion_coefficients"}));
+  return Judge(readings, fields.name());
+}
+
+// Kalibr's cam0 and EuRoC's sensor.yaml: intrinsics [fx, fy, cx, cy], resolution [w, h].
+Result<CameraModel> ReadKalibr(const JsonFields& fields) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> camera, fields.Text("camera_model"));
+  if (camera && Canonical(*camera) != "pinhole") {
+    return fields.Fail("camera_model", "is \"" + camera->substr(0, 64) + "\", which is not known",
+                       "calibrate with camera_model pinhole (pinhole-radtan or pinhole-equi)");
+  }
+  Readings readings;
+  PLEINAIR_RETURN_IF_ERROR(SizeFromList(fields, {"resolution"}, &readings));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::vector<double>> intrinsics,
+                            fields.Numbers("intrinsics"));
+  if (!intrinsics) return fields.Fail("intrinsics", "is missing", kRemedy);
+  readings.focal_and_centre = *intrinsics;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> model,
+                            fields.Text("distortion_model"));
+  readings.model = model.value_or("");
+  PLEINAIR_ASSIGN_OR_RETURN(readings.distortion,
+                            Matrix(fields, {"distortion_coeffs", "distortion_coefficients"}));
+  return Judge(readings, fields.name());
+}
+
+constexpr std::initializer_list<const char*> kMatrixKeys = {"camera_matrix",
+                                                            "cameraMatrix",
+                                                            "Camera_Matrix",
+                                                            "CameraMatrix",
+                                                            "camera_Matrix",
+                                                            "K",
+                                                            "k",
+                                                            "intrinsic_matrix",
+                                                            "intrinsics_matrix",
+                                                            "mtx",
+                                                            "M",
+                                                            "M1"};
+
+// OpenCV's and ROS's: a 3x3 camera matrix and a row or column of distortion coefficients.
+Result<CameraModel> ReadMatrixForm(const JsonFields& fields) {
+  Readings readings;
+  PLEINAIR_ASSIGN_OR_RETURN(
+      readings.width, IntegerOf(fields, {"image_width", "imageWidth", "image_Width", "width"}));
+  PLEINAIR_ASSIGN_OR_RETURN(readings.height, IntegerOf(fields, {"image_height", "imageHeight",
+                                                                "image_Height", "height"}));
+  if (!readings.width) {
+    PLEINAIR_RETURN_IF_ERROR(
+        SizeFromList(fields, {"image_size", "imageSize", "img_size", "size"}, &readings));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::vector<double>> matrix,
+                            Matrix(fields, kMatrixKeys));
+  if (!matrix || matrix->size() != 9) {
+    return InputError(fields.name(), "has a camera matrix that is not 3x3", kRemedy);
+  }
+  const std::vector<double>& k = *matrix;
+  if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
+    return InputError(fields.name(),
+                      "has a camera matrix that is not [fx 0 cx; 0 fy cy; 0 0 1], row by row",
+                      kRemedy);
+  }
+  if (std::fabs(k[1]) > 1e-6 * std::fabs(k[0])) {
+    return InputError(fields.name(), "has a camera matrix with skew, which is not known",
+                      "calibrate without skew, as OpenCV does");
+  }
+  readings.focal_and_centre = {k[0], k[4], k[2], k[5]};
+  for (const char* key : {"distortion_model", "camera_model", "model"}) {
+    if (readings.model.empty()) readings.model = fields.TextOr(key);
+  }
+  for (const char* key : {"fisheye_model", "fisheye", "is_fisheye"}) {
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<bool> fisheye, fields.Flag(key));
+    readings.fisheye = readings.fisheye || fisheye.value_or(false);
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      readings.distortion,
+      Matrix(fields, {"distortion_coefficients", "distortion_coeffs", "distCoeffs", "dist_coeffs",
+                      "dist_coeff", "Distortion_Coefficients", "DistortionCoefficients",
+                      "distCoefs", "distortion", "dist", "D", "d", "D1"}));
+  return Judge(readings, fields.name());
+}
+
+// The lens in a document of any of the forms.
+Result<CameraModel> CameraFromDocument(const Json& document, const std::string& name) {
+  const JsonFields fields(document, name);
+  if (fields.Has("cam0")) return ReadKalibr(fields.Object("cam0"));
+  if (fields.Has("calibration")) return ReadOwn(fields.Object("calibration"), {});
+  if (const Json* intrinsics = fields.Find("intrinsics"); intrinsics != nullptr) {
+    if (!intrinsics->is_object()) return ReadKalibr(fields);
+    Readings readings;
+    const JsonFields image = fields.Object("image");
+    PLEINAIR_ASSIGN_OR_RETURN(readings.width, image.Integer("width"));
+    PLEINAIR_ASSIGN_OR_RETURN(readings.height, image.Integer("height"));
+    return ReadOwn(fields.Object("intrinsics"), readings);
+  }
+  for (const char* key : {"fx", "fy", "cx", "cy"}) {
+    if (fields.Has(key)) return ReadOwn(fields, {});
+  }
+  for (const char* key : kMatrixKeys) {
+    if (fields.Has(key)) return ReadMatrixForm(fields);
+  }
+  return InputError(name, "is no calibration: it has neither fx, fy, cx, cy nor a camera matrix",
+                    "our JSON, OpenCV YAML, ROS camera_info, Kalibr and EuRoC can be read");
+}
+
+}  // namespace
+
+Result<CameraModel> ParseCalibration(std::string_view bytes, const std::string& name) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first == std::string_view::npos) {
+    return InputError(name, "is empty", "get a whole copy of it");
+  }
+  bytes.remove_prefix(first);
+  if (bytes.starts_with("<?xml")) {
+    return InputError(name, "is XML", "have OpenCV write it as .yaml or .json instead");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const Json document, bytes.starts_with('{') ? ParseJson(bytes, name)
+                                                                        : ParseYaml(bytes, name));
+  return CameraFromDocument(document, name);
+}
+
+Result<CameraModel> ReadCalibration(const std::filesystem::path& file) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(file, kMaxCalibrationBytes));
+  return ParseCalibration(bytes, file.string());
+}
+
+}  // namespace pleinair::devices

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "devices/picture_file.h"
+
+namespace pleinair::devices {
+
+/// Our two pictures of an 8-bit BGR one.
+Picture PictureFromBgr(const cv::Mat& bgr);
+
+}  // namespace pleinair::devices

@@ -1,0 +1,121 @@
+#include "devices/json_fields.h"
+
+#include <cmath>
+#include <exception>
+#include <limits>
+
+namespace pleinair::devices {
+namespace {
+
+const Json& NoObject() {
+  static const Json none = Json::object();
+  return none;
+}
+
+// Appends the numbers of a list and of the lists in it, to a depth of two.
+bool AppendNumbers(const Json& list, int depth, std::vector<double>* numbers) {
+  for (const Json& item : list) {
+    if (item.is_number()) {
+      numbers->push_back(item.get<double>());
+    } else if (!item.is_array() || depth == 0 || !AppendNumbers(item, depth - 1, numbers)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<Json> ParseJson(std::string_view bytes, const std::string& name) {
+  try {
+    return Json::parse(bytes.begin(), bytes.end());
+  } catch (const std::exception& error) {
+    // "[json.exception.parse_error.101] parse error at line 3, column 1: …"
+    std::string what = error.what();
+    if (const std::size_t bracket = what.find("] "); bracket != std::string::npos) {
+      what.erase(0, bracket + 2);
+    }
+    if (what.size() > 200) what = what.substr(0, 200) + "…";
+    // It quotes what it read last, bytes and all: keep the message one printable line.
+    for (char& c : what) {
+      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    }
+    const bool cut_short = what.find("unexpected end of input") != std::string::npos;
+    return InputError(name, "is not whole JSON: " + what,
+                      cut_short ? "the file is cut short: get a whole copy of it"
+                                : "mend the file at that place");
+  }
+}
+
+JsonFields::JsonFields(const Json& object, std::string name, std::string path)
+    : object_(object.is_object() ? object : NoObject()),
+      name_(std::move(name)),
+      path_(std::move(path)) {}
+
+const Json* JsonFields::Find(const char* key) const {
+  const auto found = object_.find(key);
+  return found == object_.end() || found->is_null() ? nullptr : &*found;
+}
+
+JsonFields JsonFields::Object(const char* key) const {
+  const Json* value = Find(key);
+  return {value != nullptr ? *value : NoObject(), name_, path_ + key + "."};
+}
+
+tl::unexpected<Error> JsonFields::Fail(const std::string& key, const std::string& what,
+                                       std::string remedy) const {
+  return InputError(name_, "\"" + path_ + key + "\" " + what, std::move(remedy));
+}
+
+Result<std::optional<double>> JsonFields::Number(const char* key) const {
+  const Json* value = Find(key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_number()) return Fail(key, "is not a number");
+  const double number = value->get<double>();
+  if (!std::isfinite(number)) return Fail(key, "is not a finite number");
+  return number;
+}
+
+Result<std::optional<int>> JsonFields::Integer(const char* key) const {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> number, Number(key));
+  if (!number) return std::nullopt;
+  if (std::trunc(*number) != *number || std::fabs(*number) > std::numeric_limits<int>::max()) {
+    return Fail(key, "is not a whole number of reasonable size");
+  }
+  return static_cast<int>(*number);
+}
+
+Result<std::optional<bool>> JsonFields::Flag(const char* key) const {
+  const Json* value = Find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->is_boolean()) return value->get<bool>();
+  if (value->is_number()) return value->get<double>() != 0.0;
+  return Fail(key, "is neither true nor false");
+}
+
+Result<std::optional<std::string>> JsonFields::Text(const char* key) const {
+  const Json* value = Find(key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_string()) return Fail(key, "is not a text");
+  return value->get<std::string>();
+}
+
+Result<std::optional<std::vector<double>>> JsonFields::Numbers(const char* key) const {
+  const Json* value = Find(key);
+  if (value == nullptr) return std::nullopt;
+  std::vector<double> numbers;
+  if (!value->is_array() || !AppendNumbers(*value, 1, &numbers)) {
+    return Fail(key, "is not a list of numbers");
+  }
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) return Fail(key, "holds a number that is not finite");
+  }
+  return numbers;
+}
+
+std::string JsonFields::TextOr(const char* key) const {
+  const Json* value = Find(key);
+  return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+}  // namespace pleinair::devices

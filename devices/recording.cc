@@ -1,0 +1,266 @@
+#include "devices/recording.h"
+
+#include <cmath>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "devices/calibration.h"
+#include "devices/euroc.h"
+#include "devices/picture_sequence.h"
+#include "devices/recording_manifest.h"
+#include "devices/scene_facts.h"
+#include "devices/text_file.h"
+#include "devices/video_file.h"
+
+namespace pleinair::devices {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+bool IsFolder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+std::int64_t Nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+/// A description file that is there, and its bytes.
+struct Description {
+  fs::path file;
+  std::string bytes;
+};
+
+Result<std::optional<Description>> ReadIfThere(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::nullopt;
+  PLEINAIR_ASSIGN_OR_RETURN(std::string bytes, ReadWholeFile(file, kMaxDescriptionBytes));
+  return Description{file, std::move(bytes)};
+}
+
+// A recording.json names no models: the stand-ins and the object lie beside it by custom.
+void AddModelsByCustom(const fs::path& folder, SceneFacts* facts) {
+  const auto add = [&](const char* name, std::vector<ModelReference>* models) {
+    if (IsFile(folder / name)) models->emplace_back().file = name;
+  };
+  add("phantom.obj", &facts->phantoms);
+  add("object.obj", &facts->objects);
+}
+
+Result<SceneDescription> CompleteAndCheck(const SceneFacts& facts, const fs::path& file) {
+  PLEINAIR_ASSIGN_OR_RETURN(SceneDescription scene, CompleteScene(facts, file));
+  PLEINAIR_RETURN_IF_ERROR(CheckModelsExist(scene));
+  return scene;
+}
+
+// The scene of `file`, leaning on what the recording itself knows.
+Result<SceneDescription> SceneFromFile(const fs::path& file, const SceneFacts& recorded) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(file, kMaxDescriptionBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(SceneFacts facts, ParseScene(bytes, file.string()));
+  return CompleteAndCheck(WithFallback(std::move(facts), recorded), file);
+}
+
+/// recording.json and scene.json of a folder, as far as they are there.
+struct OwnFolder {
+  fs::path folder;
+  std::optional<Description> recording_json, scene_json;
+};
+
+Result<std::optional<SceneDescription>> SceneOf(const OwnFolder& own,
+                                                const RecordingOptions& options) {
+  SceneFacts recorded;
+  if (own.recording_json) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        recorded, ParseSceneJson(own.recording_json->bytes, own.recording_json->file.string()));
+  }
+  SceneFacts scene;
+  if (own.scene_json) {
+    PLEINAIR_ASSIGN_OR_RETURN(scene,
+                              ParseSceneJson(own.scene_json->bytes, own.scene_json->file.string()));
+  }
+  const SceneFacts known = WithFallback(scene, recorded);
+  if (options.scene) return SceneFromFile(*options.scene, known);
+  if (IsFile(own.folder / "scene.toml")) return SceneFromFile(own.folder / "scene.toml", known);
+  if (own.scene_json) return CompleteAndCheck(known, own.scene_json->file);
+  if (recorded.LacksPlaceTimeAndMarker()) return std::nullopt;
+  AddModelsByCustom(own.folder, &recorded);
+  return CompleteAndCheck(recorded, own.recording_json->file);
+}
+
+// A recorder without a calibrated lens leaves it to the scene.
+Result<CameraModel> CameraOf(const OwnFolder& own, const RecordingManifest& manifest,
+                             const RecordingOptions& options) {
+  if (options.calibration) return ReadCalibration(*options.calibration);
+  const bool in_recording = own.recording_json && (manifest.has_calibration || !own.scene_json);
+  const Description& from = in_recording ? *own.recording_json : *own.scene_json;
+  return ParseCalibration(from.bytes, from.file.string());
+}
+
+Result<RecordingManifest> ManifestOf(const OwnFolder& own) {
+  RecordingManifest manifest;
+  if (own.recording_json) {
+    PLEINAIR_ASSIGN_OR_RETURN(manifest, ParseRecordingManifest(own.recording_json->bytes,
+                                                               own.recording_json->file.string()));
+    if (manifest.frames) return manifest;
+  }
+  if (own.scene_json) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        const RecordingManifest scene,
+        ParseRecordingManifest(own.scene_json->bytes, own.scene_json->file.string()));
+    manifest.frames = scene.frames;
+    if (!manifest.frame_count) manifest.frame_count = scene.frame_count;
+    if (!manifest.frame_rate_hz) manifest.frame_rate_hz = scene.frame_rate_hz;
+  }
+  return manifest;
+}
+
+// Where the frames are: what the manifest names, else the folder or the video of custom.
+fs::path FramesOf(const RecordingManifest& manifest, const fs::path& folder) {
+  fs::path named = folder / manifest.frames.value_or("frames");
+  // "frames/%04d.jpg": the pictures are found by number, whatever the padding.
+  if (named.filename().string().find('%') != std::string::npos) named = named.parent_path();
+  if (!IsFolder(named) && !IsFile(named) && IsFile(folder / "background.mp4")) {
+    return folder / "background.mp4";
+  }
+  return named.lexically_normal();
+}
+
+Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& options) {
+  OwnFolder own{folder, {}, {}};
+  PLEINAIR_ASSIGN_OR_RETURN(own.recording_json, ReadIfThere(folder / "recording.json"));
+  PLEINAIR_ASSIGN_OR_RETURN(own.scene_json, ReadIfThere(folder / "scene.json"));
+
+  Recording recording;
+  recording.path = folder;
+  PLEINAIR_ASSIGN_OR_RETURN(const RecordingManifest manifest, ManifestOf(own));
+  PLEINAIR_ASSIGN_OR_RETURN(recording.camera, CameraOf(own, manifest, options));
+  PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneOf(own, options));
+  const PictureSize size{recording.camera.width, recording.camera.height};
+  const fs::path frames = FramesOf(manifest, folder);
+  if (IsFile(frames)) {
+    PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video,
+                              OpenVideo(frames, {size, manifest.frame_count, manifest.frame_rate_hz,
+                                                 manifest.timestamps_s}));
+    recording.frame_rate_hz = video.frame_rate_hz;
+    recording.frames = std::move(video.frames);
+    return recording;
+  }
+  if (!IsFolder(frames)) {
+    return InputError(frames.string(), "the recording's frames are not there",
+                      "it must be a folder of numbered pictures or a video");
+  }
+  if (!manifest.frame_rate_hz) {
+    const Description& said = own.recording_json ? *own.recording_json : *own.scene_json;
+    return InputError(said.file.string(), "does not say the frame rate",
+                      "add frame_rate_hz or timestamps_s");
+  }
+  recording.frame_rate_hz = *manifest.frame_rate_hz;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files,
+                            ListNumberedPictures(frames, manifest.frame_count));
+  std::vector<SequenceFrame> sequence;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const double stamp_s = manifest.timestamps_s.empty()
+                               ? static_cast<double>(i) / recording.frame_rate_hz
+                               : manifest.timestamps_s[i];
+    sequence.push_back({files[i], Nanoseconds(stamp_s), std::nullopt});
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(recording.frames, OpenPictureSequence(std::move(sequence), size));
+  return recording;
+}
+
+// The scene of a recording that knows nothing of it: options', else one in the folder.
+Result<std::optional<SceneDescription>> SceneBeside(const fs::path& folder,
+                                                    const RecordingOptions& options) {
+  if (options.scene) return SceneFromFile(*options.scene, {});
+  for (const char* name : {"scene.toml", "scene.json"}) {
+    if (IsFile(folder / name)) return SceneFromFile(folder / name, {});
+  }
+  return std::nullopt;
+}
+
+Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folder,
+                            const RecordingOptions& options) {
+  Recording recording;
+  recording.path = folder;
+  const fs::path sensor = camera_folder / "sensor.yaml";
+  const fs::path table = camera_folder / "data.csv";
+  PLEINAIR_ASSIGN_OR_RETURN(recording.camera,
+                            ReadCalibration(options.calibration.value_or(sensor)));
+  PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneBeside(folder, options));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string csv, ReadWholeFile(table, kMaxDescriptionBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<EurocFrame> frames,
+                            ParseEurocTable(csv, table.string()));
+  std::optional<double> rate_hz;
+  if (IsFile(sensor)) {
+    PLEINAIR_ASSIGN_OR_RETURN(const std::string yaml, ReadWholeFile(sensor, kMaxCalibrationBytes));
+    PLEINAIR_ASSIGN_OR_RETURN(rate_hz, ParseEurocRate(yaml, sensor.string()));
+  }
+  const std::int64_t start_ns = frames.front().timestamp_ns;
+  const double span_s = static_cast<double>(frames.back().timestamp_ns - start_ns) * 1e-9;
+  if (!rate_hz && frames.size() < 2) {
+    return InputError(sensor.string(), "does not say the frame rate", "add rate_hz");
+  }
+  recording.frame_rate_hz = rate_hz ? *rate_hz : static_cast<double>(frames.size() - 1) / span_s;
+  std::vector<SequenceFrame> sequence;
+  for (const EurocFrame& frame : frames) {
+    sequence.push_back(
+        {camera_folder / "data" / frame.file, frame.timestamp_ns - start_ns, frame.timestamp_ns});
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      recording.frames,
+      OpenPictureSequence(std::move(sequence), {recording.camera.width, recording.camera.height}));
+  return recording;
+}
+
+Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& options) {
+  if (!options.calibration) {
+    return InputError(file.string(), "is a plain file, which says nothing of its lens",
+                      "give --calibration FILE (docs/formats.md), or name a recording's folder");
+  }
+  Recording recording;
+  recording.path = file;
+  PLEINAIR_ASSIGN_OR_RETURN(recording.camera, ReadCalibration(*options.calibration));
+  if (options.scene) {
+    PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneFromFile(*options.scene, {}));
+  }
+  VideoFacts facts;
+  facts.size = {recording.camera.width, recording.camera.height};
+  PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video, OpenVideo(file, facts));
+  recording.frame_rate_hz = video.frame_rate_hz;
+  recording.frames = std::move(video.frames);
+  return recording;
+}
+
+}  // namespace
+
+Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& options) {
+  if (IsFile(path)) {
+    const fs::path name = path.filename();
+    // Whoever names a recording's description means the recording.
+    if (name == "recording.json" || name == "scene.json") {
+      return OpenOwnFolder(path.parent_path(), options);
+    }
+    return OpenPlainVideo(path, options);
+  }
+  if (!IsFolder(path)) {
+    return InputError(path.string(), "there is no such recording", "check the name and the folder");
+  }
+  if (IsFile(path / "recording.json") || IsFile(path / "scene.json")) {
+    return OpenOwnFolder(path, options);
+  }
+  for (const fs::path& camera : {path / "mav0" / "cam0", path / "cam0", path}) {
+    if (IsFile(camera / "data.csv")) return OpenEuroc(path, camera, options);
+  }
+  return InputError(path.string(),
+                    "is no recording: it has neither recording.json nor scene.json nor "
+                    "mav0/cam0/data.csv",
+                    "docs/formats.md says what a recording is made of");
+}
+
+}  // namespace pleinair::devices

@@ -1,0 +1,185 @@
+#include "devices/scene_facts.h"
+
+#include <cmath>
+#include <system_error>
+
+namespace pleinair::devices {
+namespace {
+
+// Where `facts` is silent, `fallback` speaks.
+template <typename T>
+void Fill(std::optional<T>& fact, const std::optional<T>& fallback) {
+  if (!fact) fact = fallback;
+}
+
+bool Within(double value, double low, double high) {
+  return std::isfinite(value) && value >= low && value <= high;
+}
+
+Result<MarkerDescription> CompleteMarker(const SceneFacts& facts, const std::string& name) {
+  MarkerDescription marker;
+  if (!facts.marker_size_m) {
+    return InputError(name, "does not say how large the marker is",
+                      "add marker.size_mm: the edge of the outer black square");
+  }
+  // From a pinhead to a sports field.
+  if (!Within(*facts.marker_size_m, 1e-4, 1e3)) {
+    return InputError(name, "has a marker whose size is not greater than zero or not finite",
+                      "marker.size_mm is the edge of the outer black square, 0.1 to 1000000");
+  }
+  if (!facts.marker_heading_deg) {
+    return InputError(name, "does not say which way the marker points",
+                      "add marker.heading_deg: azimuth of its upper edge, clockwise from true "
+                      "north");
+  }
+  if (!Within(*facts.marker_heading_deg, -360.0, 360.0)) {
+    return InputError(name, "has a marker heading outside -360 to 360 degrees",
+                      "marker.heading_deg is clockwise from true north");
+  }
+  marker.family = facts.marker_family.value_or(marker.family);
+  marker.id = facts.marker_id;
+  if (marker.id && *marker.id < 0) {
+    return InputError(name, "has a marker id below zero", "ids count from 0");
+  }
+  marker.size_m = *facts.marker_size_m;
+  marker.heading = FromDegrees(*facts.marker_heading_deg);
+  marker.upright = facts.marker_upright.value_or(false);
+  marker.albedo_black = facts.albedo_black.value_or(marker.albedo_black);
+  marker.albedo_white = facts.albedo_white.value_or(marker.albedo_white);
+  if (!Within(marker.albedo_black, 0.0, 1.0) || !Within(marker.albedo_white, 0.0, 1.0) ||
+      marker.albedo_black >= marker.albedo_white) {
+    return InputError(name, "has marker reflectances that are not 0 <= black < white <= 1",
+                      "leave marker.albedo_black and marker.albedo_white out when unsure");
+  }
+  // One white module on each side of the ten that tag36h11's black square is wide makes 1.2 to
+  // 1.25 on common sheets.
+  marker.board_size_m = facts.marker_board_size_m.value_or(1.25 * marker.size_m);
+  if (!Within(marker.board_size_m, marker.size_m, 1e4)) {
+    return InputError(name, "has a marker board that is smaller than its black square",
+                      "marker.board_size_mm is the edge of the white board around it");
+  }
+  return marker;
+}
+
+Result<PlaceTime> CompletePlaceTime(const SceneFacts& facts, const std::string& name) {
+  if (!facts.latitude_deg || !facts.longitude_deg) {
+    return InputError(name, "does not say where the recording was made",
+                      "add latitude_deg (north positive) and longitude_deg (east positive)");
+  }
+  if (!facts.start) {
+    return InputError(name, "does not say when the recording was made",
+                      "add its time as RFC 3339, for example 2025-09-14T11:05:00Z");
+  }
+  if (!Within(*facts.latitude_deg, -90.0, 90.0)) {
+    return InputError(name, "has a latitude outside -90 to 90 degrees", "north is positive");
+  }
+  if (!Within(*facts.longitude_deg, -180.0, 180.0)) {
+    return InputError(name, "has a longitude outside -180 to 180 degrees", "east is positive");
+  }
+  const double height_m = facts.height_m.value_or(0.0);
+  if (!Within(height_m, -1000.0, 20000.0)) {
+    return InputError(name, "has a height outside -1000 to 20000 metres",
+                      "height_m is metres above sea level");
+  }
+  return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m, *facts.start};
+}
+
+Result<void> CheckPlacement(const ModelReference& model, const std::string& name) {
+  const std::string file = model.file.string();
+  if (file.empty()) return InputError(name, "has a model without a file name", "add its file");
+  if (!Within(model.scale, 1e-9, 1e9)) {
+    return InputError(name, "scales " + file + " by a number that is not greater than zero",
+                      "scale is metres for one unit of the model");
+  }
+  for (const Vec3& v : {model.translation_m, model.rotation_deg}) {
+    if (!Within(v.x, -1e6, 1e6) || !Within(v.y, -1e6, 1e6) || !Within(v.z, -1e6, 1e6)) {
+      return InputError(name, "places " + file + " beyond a million metres or degrees",
+                        "check its translation_m and rotation_deg");
+    }
+  }
+  return {};
+}
+
+Result<void> CheckLight(const SceneFacts& facts, const std::string& name) {
+  if (facts.turbidity && !Within(*facts.turbidity, 1.0, 64.0)) {
+    return InputError(name, "has a turbidity outside 1 to 64",
+                      "2 is a clear sky, 3 an ordinary one, 6 haze");
+  }
+  if (facts.exposure_gain) {
+    for (const double gain :
+         {facts.exposure_gain->r, facts.exposure_gain->g, facts.exposure_gain->b}) {
+      if (!Within(gain, 1e-12, 1e12)) {
+        return InputError(name, "has an exposure gain that is not greater than zero",
+                          "leave exposure_gain out to have it measured on the marker");
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<SceneFacts> ParseScene(std::string_view bytes, const std::string& name) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  // No TOML document begins with a brace.
+  const bool json = first != std::string_view::npos && bytes[first] == '{';
+  return json ? ParseSceneJson(bytes, name) : ParseSceneToml(bytes, name);
+}
+
+SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
+  Fill(facts.latitude_deg, fallback.latitude_deg);
+  Fill(facts.longitude_deg, fallback.longitude_deg);
+  Fill(facts.height_m, fallback.height_m);
+  Fill(facts.start, fallback.start);
+  // What a board measures and which marker it is belongs to one sheet of paper: it is taken over
+  // only along with the size.
+  if (!facts.marker_size_m) {
+    Fill(facts.marker_size_m, fallback.marker_size_m);
+    Fill(facts.marker_board_size_m, fallback.marker_board_size_m);
+    Fill(facts.marker_family, fallback.marker_family);
+    Fill(facts.marker_id, fallback.marker_id);
+    Fill(facts.albedo_black, fallback.albedo_black);
+    Fill(facts.albedo_white, fallback.albedo_white);
+  }
+  Fill(facts.marker_heading_deg, fallback.marker_heading_deg);
+  Fill(facts.marker_upright, fallback.marker_upright);
+  Fill(facts.cloudiness, fallback.cloudiness);
+  return facts;
+}
+
+Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::filesystem::path& file) {
+  const std::string name = file.string();
+  SceneDescription scene;
+  scene.file = file;
+  PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts, name));
+  PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckLight(facts, name));
+  scene.phantoms = facts.phantoms;
+  scene.objects = facts.objects;
+  for (std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
+    for (ModelReference& model : *models) {
+      PLEINAIR_RETURN_IF_ERROR(CheckPlacement(model, name));
+      model.file = (file.parent_path() / model.file).lexically_normal();
+    }
+  }
+  scene.cloudiness = facts.cloudiness.value_or(Cloudiness::kClear);
+  scene.turbidity = facts.turbidity;
+  scene.exposure_gain = facts.exposure_gain;
+  return scene;
+}
+
+Result<void> CheckModelsExist(const SceneDescription& scene) {
+  for (const std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
+    for (const ModelReference& model : *models) {
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(model.file, error)) {
+        return InputError(scene.file.string(),
+                          "names the model " + model.file.string() + ", which is not there",
+                          "put the file there or mend the name in the scene");
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace pleinair::devices

@@ -1,0 +1,121 @@
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <utility>
+
+#include "devices/json_fields.h"
+#include "devices/scene_facts.h"
+#include "devices/sky_words.h"
+
+namespace pleinair::devices {
+namespace {
+
+// How descriptions name a family, and what we call it: AprilTag 3's and the S-G markers.
+constexpr std::array<std::pair<const char*, const char*>, 9> kFamilies = {{
+    {"tag36h11", "tag36h11"},
+    {"tag25h9", "tag25h9"},
+    {"tag16h5", "tag16h5"},
+    {"tagCircle21h7", "tagCircle21h7"},
+    {"tagCircle49h12", "tagCircle49h12"},
+    {"tagCustom48h12", "tagCustom48h12"},
+    {"tagStandard41h12", "tagStandard41h12"},
+    {"tagStandard52h13", "tagStandard52h13"},
+    {"S-G", "sg"},
+}};
+
+// Family and id from words such as "AprilTag tag36h11 id 0, 10x10 modules".
+void MarkerFromWords(const std::string& words, SceneFacts* facts) {
+  for (const auto& [said, family] : kFamilies) {
+    if (words.find(said) == std::string::npos) continue;
+    facts->marker_family = family;
+    const std::size_t id = words.find(" id ");
+    if (id == std::string::npos) return;
+    const std::string digits = words.substr(id + 4, 6);
+    if (!digits.empty() && std::isdigit(static_cast<unsigned char>(digits[0])) != 0) {
+      facts->marker_id = std::atoi(digits.c_str());
+    }
+    return;
+  }
+}
+
+// The first of several spellings that is there.
+Result<std::optional<double>> NumberOf(const JsonFields& fields,
+                                       std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    if (fields.Has(key)) return fields.Number(key);
+  }
+  return std::nullopt;
+}
+
+Result<void> ReadMarker(const JsonFields& marker, SceneFacts* facts) {
+  MarkerFromWords(marker.TextOr("what"), facts);
+  if (marker.Has("family")) {
+    PLEINAIR_ASSIGN_OR_RETURN(facts->marker_family, marker.Text("family"));
+  }
+  if (marker.Has("id")) {
+    PLEINAIR_ASSIGN_OR_RETURN(facts->marker_id, marker.Integer("id"));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_size_m,
+                            NumberOf(marker, {"size_m", "black_square_side_m"}));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_board_size_m, marker.Number("board_size_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_heading_deg, marker.Number("heading_deg"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_upright, marker.Flag("upright"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_black, marker.Number("albedo_black"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_white, marker.Number("albedo_white"));
+  return {};
+}
+
+Result<void> ReadPlaceTime(const JsonFields& fields, SceneFacts* facts) {
+  PLEINAIR_ASSIGN_OR_RETURN(facts->latitude_deg, fields.Number("latitude_deg"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->longitude_deg, fields.Number("longitude_deg"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->height_m, fields.Number("height_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> utc, fields.Text("utc"));
+  if (utc) {
+    Result<UtcTime> start = UtcTime::Parse(*utc);
+    if (!start) return fields.Fail("utc", start.error().what, start.error().remedy);
+    facts->start = *start;
+  }
+  return {};
+}
+
+Result<void> ReadModel(const JsonFields& model, std::vector<ModelReference>* models) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> file, model.Text("file"));
+  if (!file) return {};
+  ModelReference reference;
+  reference.file = *file;
+  const std::string shading = model.TextOr("shading");
+  if (shading.starts_with("flat")) reference.shading = Shading::kFlat;
+  if (shading.starts_with("smooth")) reference.shading = Shading::kSmooth;
+  models->push_back(std::move(reference));
+  return {};
+}
+
+// What words are there of the weather. Of `sky` only the clouds: its amounts are ground truth.
+std::optional<Cloudiness> SkyInWords(const JsonFields& fields) {
+  std::string words = fields.TextOr("name");
+  for (const char* key : {"cloudiness", "weather", "sky"}) words += "; " + fields.TextOr(key);
+  for (const char* block : {"sky", "place_time"}) {
+    for (const char* key : {"clouds", "cloudiness", "condition", "weather"}) {
+      words += "; " + fields.Object(block).TextOr(key);
+    }
+  }
+  return CloudinessFromWords(words);
+}
+
+}  // namespace
+
+Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& name) {
+  PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseJson(bytes, name));
+  const JsonFields fields(document, name);
+  SceneFacts facts;
+  // scene.json has a block for it, recording.json says it at the top.
+  PLEINAIR_RETURN_IF_ERROR(
+      ReadPlaceTime(fields.Has("place_time") ? fields.Object("place_time") : fields, &facts));
+  PLEINAIR_RETURN_IF_ERROR(ReadMarker(fields.Object("marker"), &facts));
+  PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("real_geometry"), &facts.phantoms));
+  PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("virtual_object"), &facts.objects));
+  facts.cloudiness = SkyInWords(fields);
+  return facts;
+}
+
+}  // namespace pleinair::devices

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "devices/frame_source.h"
+#include "devices/picture_file.h"
+
+namespace pleinair::devices {
+
+/// What is known of a video apart from its file.
+struct VideoFacts {
+  PictureSize size;                     ///< What every frame must have: the calibration's.
+  std::optional<int> frame_count;       ///< Overrides what the file itself says.
+  std::optional<double> frame_rate_hz;  ///< Overrides what the file itself says.
+  std::vector<double> timestamps_s;     ///< One a frame; empty: index / rate.
+};
+
+struct OpenedVideo {
+  std::unique_ptr<FrameSource> frames;
+  double frame_rate_hz = 0.0;
+};
+
+/// Frames of a video file, decoded by FFmpeg through OpenCV; a turn said in the file (phones) is
+/// applied.
+/// Errors: no file, empty, no video FFmpeg knows, cut short before its index, another size, no
+/// frame rate; and from Next() fewer frames than the file or `frame_count` promises.
+Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoFacts& facts);
+
+}  // namespace pleinair::devices
