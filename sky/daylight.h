@@ -13,7 +13,8 @@ namespace pleinair::sky {
 enum class SkyCondition { kClear, kHazy, kPartlyCloudy, kOvercast };
 
 /// The light of one moment: sun and sky, in linear Rec.709 with absolute photometric scale:
-/// radiance in cd/m², irradiance in lux, so that Luminance(rgb) is the photometric figure.
+/// radiance in cd/m², irradiance in lux, so that Luminance(rgb) is the photometric figure. No
+/// channel is ever negative. Safe to ask from several threads at once.
 class Daylight {
  public:
   virtual ~Daylight() = default;
@@ -32,11 +33,17 @@ class Daylight {
 
 struct DaylightOptions {
   SkyCondition condition = SkyCondition::kClear;
-  double turbidity = 0.0;  ///< 0: the condition's default.
+  /// 0: the condition's default. Otherwise clamped to what PerezSky allows; without effect under
+  /// an overcast sky.
+  double turbidity = 0.0;
 };
 
-/// Perez/Preetham colours and gradient, scaled to the IES illuminances of the condition; the CIE
-/// overcast gradient for an overcast sky.
+/// The light of a moment, continuous from noon to night.
+/// - Clear and hazy: pattern and colours of PerezSky, colour of DirectSunIrradiance, both scaled to
+///   ComputeStandardIlluminance.
+/// - Partly cloudy: half the light of a clear sky (at dusk half of what there is), the rest from
+///   clouds: even and neutral; the sun's colour is that of the clear air, its strength IES'.
+/// - Overcast: no sun; CIE standard general sky type 1 (ISO 15469:2004), neutral (D65).
 std::unique_ptr<Daylight> CreateDaylight(const SunPosition& sun, const DaylightOptions& options);
 
 }  // namespace pleinair::sky

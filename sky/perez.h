@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+
+#include "base/frames.h"
+#include "base/units.h"
+#include "base/vector.h"
+#include "sky/colour.h"
+
+namespace pleinair::sky {
+
+/// The clear to hazy sky in the form of Perez, Seals & Michalsky 1993, "All-weather model for sky
+/// luminance distribution", with the coefficients of Preetham, Shirley & Smits 1999, "A practical
+/// analytic model for daylight", appendix A.2:
+///
+///   F(θ, γ) = (1 + A e^(B / cos θ)) (1 + C e^(D γ) + E cos² γ),
+///   value(θ, γ) = value_zenith F(θ, γ) / F(0, θ_sun),   each for luminance Y and chromaticity x,
+///   y,
+///
+/// θ from the zenith, γ from the sun. Y, x and y have their own A…E (Kolivand & Sunar 2014, Eqs.
+/// 8–9 forget that) and zenith values, all functions of turbidity and the sun's height.
+///
+/// Turbidity is clamped to the range in which the model is finite and positive; NaN gives the
+/// lowest. A sun below the horizon is put on it and the light falls with TwilightShare().
+///
+/// Luminances are the model's own, 1.1 to 3.9 times those of measured and simulated clear skies;
+/// sky/daylight.h takes the pattern and the colours and sets the scale by other means.
+class PerezSky {
+ public:
+  /// Below 2, zenith normaliser and horizon turn negative; above 10, the zenith at low suns.
+  static constexpr double kLowestTurbidity = 2.0;
+  static constexpr double kHighestTurbidity = 10.0;
+
+  /// `to_sun`: unit vector, east, north, up.
+  PerezSky(double turbidity, Direction<World> to_sun);
+
+  /// What is used, within the valid range.
+  double turbidity() const { return turbidity_; }
+  bool TurbidityWasClamped() const { return turbidity_was_clamped_; }
+
+  /// Luminance (cd/m²) and chromaticity in a direction; black below the horizon.
+  XyY At(Direction<World> from) const;
+
+  /// The same as linear Rec.709: radiance in cd/m², no channel negative.
+  LinearRgb Radiance(Direction<World> from) const { return RgbFromXyY(At(from)); }
+
+  /// Illuminance on level ground in lux, by IntegrateProjectedDome.
+  LinearRgb HorizontalIrradiance() const;
+
+ private:
+  struct Distribution {
+    double a = 0.0, b = 0.0, c = 0.0, d = 0.0, e = 0.0;
+    double zenith_over_f = 0.0;  ///< value_zenith / F(0, θ_sun).
+    double At(double cos_theta, double gamma, double cos_gamma) const;
+  };
+
+  double turbidity_ = kLowestTurbidity;
+  bool turbidity_was_clamped_ = false;
+  Vec3 to_sun_;  ///< On the horizon when the sun is below it.
+  Distribution luminance_, x_, y_;
+};
+
+/// Share of the horizon-sun's skylight that is left when the sun stands below the horizon: 1 at 0°,
+/// 0.004 at −6°, about 1e-6 at −18° and lower. Interpolated in the logarithm of the clear sky's
+/// illuminance in Seidelmann (ed.) 1992, "Explanatory Supplement to the Astronomical Almanac",
+/// Table 8.2.
+double TwilightShare(Radians apparent_elevation);
+
+}  // namespace pleinair::sky
