@@ -43,13 +43,11 @@ class Image {
  public:
   Image() = default;
   Image(int width, int height, int channels = 1)
-      : width_(width),
-        height_(height),
-        channels_(channels),
-        data_(static_cast<std::size_t>(width) * height * channels) {
+      : width_(width), height_(height), channels_(channels) {
     CHECK_GE(width, 0);
     CHECK_GE(height, 0);
     CHECK_GE(channels, 1);
+    data_.resize(static_cast<std::size_t>(width) * height * channels);
   }
 
   int width() const { return width_; }

@@ -127,13 +127,7 @@ class Table {
   }
 
  private:
-  // Appended piece by piece: GCC 12 warns wrongly of "literal" + std::string (PR 105329).
-  static std::string Quoted(std::string_view key) {
-    std::string quoted(1, '"');
-    quoted += key;
-    quoted += '"';
-    return quoted;
-  }
+  static std::string Quoted(std::string_view key) { return "\"" + std::string(key) + "\""; }
 
   Result<std::optional<double>> Number(const toml::node& node, const char* key) const {
     const std::optional<double> number = node.value<double>();
