@@ -17,18 +17,20 @@ namespace pleinair {
 /// The error for a file that could not be written: a full disk is the machine's fault (exit 1), a
 /// folder without permission the user's (exit 2).
 inline Error WriteError(const std::filesystem::path& path, int error_number) {
-  const bool system = error_number == ENOSPC || error_number == EDQUOT || error_number == EIO;
-  const std::string remedy = error_number == ENOSPC || error_number == EDQUOT
-                                 ? "free some space or choose another folder"
-                                 : "choose a folder that you may write to";
+  const bool full = error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
+  const bool system = full || error_number == EIO || error_number == ENOMEM;
+  const std::string remedy = full     ? "free some space or choose another folder"
+                             : system ? "try again or choose another folder"
+                                      : "choose a folder that you may write to";
   return Error{system ? ErrorKind::kSystem : ErrorKind::kInput, path.string(),
                "cannot write: " + std::string(std::strerror(error_number)), remedy};
 }
 
 /// A name beside `path` to write to before renaming; keeps the extension, which encoders look at.
 inline std::filesystem::path TemporarySibling(const std::filesystem::path& path) {
-  return path.parent_path() / ("." + path.stem().string() + ".part" + std::to_string(getpid()) +
-                               path.extension().string());
+  std::string name(1, '.');  // Built by +=: GCC 12 warns of "." + std::string (PR 105651).
+  name += path.stem().string() + ".part" + std::to_string(getpid()) + path.extension().string();
+  return path.parent_path() / name;
 }
 
 /// Moves a finished temporary file to its name; removes it on failure.
