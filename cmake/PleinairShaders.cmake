@@ -12,6 +12,7 @@ find_program(PLEINAIR_GLSLANG_VALIDATOR glslangValidator)
 if(NOT PLEINAIR_GLSLANG_VALIDATOR)
   message(STATUS "glslangValidator not found: shaders are checked by the driver only, at run time")
 endif()
+set(PLEINAIR_VALIDATE_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/ValidateShader.cmake)
 set(PLEINAIR_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/EmbedShaders.cmake)
 
 function(pleinair_embed_shaders module)
@@ -25,13 +26,11 @@ function(pleinair_embed_shaders module)
     list(APPEND paths ${path})
     if(PLEINAIR_GLSLANG_VALIDATOR AND NOT file MATCHES "\\.glsl$")
       string(REPLACE "/" "_" flat "${module}/${file}")
-      set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${flat}.valid)
+      set(stamp ${CMAKE_CURRENT_BINARY_DIR}/validated/${flat})
       add_custom_command(OUTPUT ${stamp}
-        COMMAND ${PLEINAIR_GLSLANG_VALIDATOR}
-                "-P#extension GL_GOOGLE_include_directive : require"
-                -I${PROJECT_SOURCE_DIR} ${path}
-        COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
-        DEPENDS ${path} ${includes}
+        COMMAND ${CMAKE_COMMAND} -DVALIDATOR=${PLEINAIR_GLSLANG_VALIDATOR} -DSHADER=${path}
+                -DROOT=${PROJECT_SOURCE_DIR} -DCOPY=${stamp} -P ${PLEINAIR_VALIDATE_SCRIPT}
+        DEPENDS ${path} ${includes} ${PLEINAIR_VALIDATE_SCRIPT}
         COMMENT "Validating ${module}/${file}" VERBATIM)
       list(APPEND stamps ${stamp})
     endif()

@@ -1,0 +1,45 @@
+// Formulae of shadow visibility that need no picture; compiled as C++ too (gl/glsl_as_cpp.h,
+// tests/shadows/formulae_test.cc).
+#ifndef PLEINAIR_SHADOW_FORMULAE
+#define PLEINAIR_SHADOW_FORMULAE
+
+// Share of the sun's uniform disc that a straight edge leaves visible; u = offset of the receiver
+// from the shadow's geometric edge over the disc's radius there (h tan 0.2665°), positive on the
+// lit side. Area of a circular segment.
+float StraightEdgeVisibility(float u) {
+  float pi = 3.14159265f;
+  float x = clamp(u, -1.0f, 1.0f);
+  return 0.5f + (x * sqrt(1.0f - x * x) + asin(x)) / pi;
+}
+
+// Point i of n spread evenly over the unit disc. Vogel 1979, "A better way to construct the
+// sunflower head", Math. Biosci. 44: golden angle 2.39996 rad, radius ∝ √.
+vec2 VogelDisc(int i, int n) {
+  float radius = sqrt((float(i) + 0.5f) / float(n));
+  float angle = 2.3999632f * float(i);
+  return vec2(radius * cos(angle), radius * sin(angle));
+}
+
+// Standard normal distribution function by the logistic fit of Bowling et al. 2009, "A logistic
+// approximation to the cumulative normal distribution", Eq. (10): error at most 1.4e-4.
+float NormalCdf(float x) {
+  return 1.0f / (1.0f + exp(-(0.07056f * x * x * x + 1.5976f * x)));
+}
+
+// The paper's visibility from mean and variance of the depths around (Kolivand & Sunar 2014, step
+// 6, after Gumbau et al. 2011): the part of a Gaussian depth distribution beyond the receiver.
+// Deviation: 1 − Φ as printed darkens every lit surface to ½; the one-tailed form does not.
+float GaussianVisibility(float depth, float mean, float variance) {
+  float x = (depth - mean) / sqrt(variance);
+  float tail = 2.0f * (1.0f - NormalCdf(max(x, 0.0f)));
+  return min(tail, 1.0f);
+}
+
+// Upper bound of the share of depths at or beyond the receiver: one-tailed Chebyshev inequality,
+// Donnelly & Lauritzen 2006, Eq. (5). Exact for one occluding plane parallel to the receiver.
+float VarianceVisibility(float depth, float mean, float variance) {
+  float d = max(depth - mean, 0.0f);
+  return variance / (variance + d * d);
+}
+
+#endif

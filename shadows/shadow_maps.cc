@@ -1,0 +1,316 @@
+#include "shadows/shadow_maps.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/check.h"
+#include "shadows/embedded_shaders.h"
+
+namespace pleinair::shadows {
+namespace {
+
+// Depth beyond the casters' own bounds, so that none is cut at the ends of the range.
+constexpr double kDepthSlackM = 0.01;
+
+// Highest a caster can stand above a receiver decides how far a kernel reaches.
+double KernelReach(const ShadowMapOptions& options, double depth_range_m) {
+  return depth_range_m * std::tan(options.sun_angular_radius.value());
+}
+
+// 4×4 matrix from marker coordinates to the window's clip space.
+glm::dmat4 ClipFromMarker(const LightAxes& axes, const LightWindow& window, double depth_min,
+                          double depth_max) {
+  const glm::dvec2 scale = 2.0 / (window.max - window.min);
+  const double depth_scale = 2.0 / (depth_max - depth_min);
+  glm::dmat4 rows(0.0);
+  rows[0] = glm::dvec4(axes.u * scale.x, -window.min.x * scale.x - 1.0);
+  rows[1] = glm::dvec4(axes.v * scale.y, -window.min.y * scale.y - 1.0);
+  rows[2] = glm::dvec4(-axes.to_sun * depth_scale, -depth_min * depth_scale - 1.0);
+  rows[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
+  return glm::transpose(rows);
+}
+
+Result<void> CheckOptions(const ShadowMapOptions& options) {
+  if (options.partitions < 1 || options.partitions > kMaxPartitions) {
+    return InputError("shadows", std::to_string(options.partitions) + " partitions",
+                      "choose 1 to 4");
+  }
+  for (int i = 0; i < options.partitions; ++i) {
+    const int resolution = options.resolutions[i];
+    if (resolution < 16 || resolution > 8192 ||
+        !std::has_single_bit(static_cast<unsigned>(resolution))) {
+      return InputError("shadows", "a map of " + std::to_string(resolution) + " texels a side",
+                        "choose a power of two from 16 to 8192");
+    }
+  }
+  if (!(options.split_weight >= 0.0 && options.split_weight <= 1.0)) {
+    return InputError("shadows", "a split weight outside 0 to 1", "0.5 is usual");
+  }
+  const double radius = options.sun_angular_radius.value();
+  if (!(radius > 0.0 && radius < 0.1)) {
+    return InputError("shadows", "an angular radius of the sun outside 0 to 0.1 rad",
+                      "the real one is 0.00465");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> ShadowMaps::ShaderDefines(const ShadowMapOptions& options, int sets) {
+  std::vector<std::string> defines{"SHADOW_SETS " + std::to_string(sets)};
+  if (options.method == VisibilityMethod::kGaussian) defines.emplace_back("SHADOW_METHOD_GAUSSIAN");
+  if (options.method == VisibilityMethod::kVariance) defines.emplace_back("SHADOW_METHOD_VARIANCE");
+  return defines;
+}
+
+Result<ShadowMaps> ShadowMaps::Create(const ShadowMapOptions& options) {
+  PLEINAIR_RETURN_IF_ERROR(CheckOptions(options));
+  RegisterShaders();
+  ShadowMaps maps;
+  maps.options_ = options;
+  const int size = *std::max_element(options.resolutions.begin(),
+                                     options.resolutions.begin() + options.partitions);
+  PLEINAIR_ASSIGN_OR_RETURN(maps.depth_, gl::GlTexture::Create2DArray(GL_DEPTH_COMPONENT32F, size,
+                                                                      size, options.partitions));
+  maps.depth_.SetFilter(GL_NEAREST, GL_NEAREST);
+  PLEINAIR_ASSIGN_OR_RETURN(maps.uniform_buffer_, gl::GlBuffer::Create(sizeof(ShadowUniforms)));
+  maps.no_vertices_ = gl::GlVertexArray::Create();
+  PLEINAIR_ASSIGN_OR_RETURN(
+      maps.depth_program_,
+      gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_depth.vert",
+                             .fragment = "shadows/shaders/shadow_depth.frag"}));
+  const std::string pass = maps.UsesMoments() ? "shadows/shaders/shadow_moments.frag"
+                                              : "shadows/shaders/shadow_bounds.frag";
+  PLEINAIR_ASSIGN_OR_RETURN(
+      maps.first_program_,
+      gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
+                             .fragment = pass,
+                             .defines = {"FROM_DEPTH"}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      maps.second_program_,
+      gl::GlProgram::Create(
+          {.vertex = "shadows/shaders/shadow_fullscreen.vert", .fragment = pass}));
+
+  if (maps.UsesMoments()) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        maps.moments_, gl::GlTexture::Create2DArray(GL_RG32F, size, size, options.partitions));
+    PLEINAIR_ASSIGN_OR_RETURN(maps.blur_, gl::GlTexture::Create2DArray(GL_RG32F, size, size, 1));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        maps.blur_target_,
+        gl::GlFramebuffer::Create({.colors = {{.texture = &maps.blur_, .layer = 0}}}));
+  } else {
+    const int levels = std::countr_zero(static_cast<unsigned>(size)) - 1;
+    PLEINAIR_ASSIGN_OR_RETURN(
+        maps.bounds_,
+        gl::GlTexture::Create2DArray(GL_RG32F, size / 2, size / 2, options.partitions, levels));
+    maps.bounds_.SetFilter(GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST);
+  }
+  for (int i = 0; i < options.partitions; ++i) {
+    Slice slice;
+    PLEINAIR_ASSIGN_OR_RETURN(
+        slice.depth_target,
+        gl::GlFramebuffer::Create({.depth = {.texture = &maps.depth_, .layer = i}}));
+    if (maps.UsesMoments()) {
+      PLEINAIR_ASSIGN_OR_RETURN(
+          slice.moments_target,
+          gl::GlFramebuffer::Create({.colors = {{.texture = &maps.moments_, .layer = i}}}));
+    } else {
+      const int levels = std::countr_zero(static_cast<unsigned>(options.resolutions[i])) - 1;
+      for (int level = 0; level < levels; ++level) {
+        PLEINAIR_ASSIGN_OR_RETURN(
+            gl::GlFramebuffer target,
+            gl::GlFramebuffer::Create(
+                {.colors = {{.texture = &maps.bounds_, .level = level, .layer = i}}}));
+        slice.bounds_targets.push_back(std::move(target));
+      }
+    }
+    maps.slices_.push_back(std::move(slice));
+  }
+  return maps;
+}
+
+LightAxes ShadowMaps::SteppedAxes(Direction<Marker> to_sun) {
+  const glm::dvec3 wanted = glm::normalize(glm::dvec3(to_sun.xyz.x, to_sun.xyz.y, to_sun.xyz.z));
+  // The chord of a small angle is the angle.
+  if (glm::distance(wanted, to_sun_) > options_.sun_step.value()) to_sun_ = wanted;
+  return LightAxes::FromSun(to_sun_);
+}
+
+Result<int> ShadowMaps::UpdateForView(std::span<const ShadowCaster> casters,
+                                      Direction<Marker> to_sun, const View& view) {
+  if (!(Norm(to_sun.xyz) > 0.0)) return InputError("shadows", "the sun has no direction");
+  if (!(view.near_m > 0.0 && view.far_m > view.near_m)) {
+    return InputError("shadows", "the view's near depth is not below its far depth");
+  }
+  const LightAxes axes = SteppedAxes(to_sun);
+  return Redraw(casters, axes,
+                FitWindowsToView(axes, view, options_.partitions, options_.split_weight,
+                                 options_.resolutions));
+}
+
+Result<int> ShadowMaps::UpdateForRegion(std::span<const ShadowCaster> casters,
+                                        Direction<Marker> to_sun, const Box& focus) {
+  if (!(Norm(to_sun.xyz) > 0.0)) return InputError("shadows", "the sun has no direction");
+  const LightAxes axes = SteppedAxes(to_sun);
+  Box scene = focus;
+  for (const ShadowCaster& caster : casters) scene.Include(caster.bounds);
+  if (scene.Empty()) scene.Include(glm::dvec3(0.0));
+  const LightExtent extent = Project(axes, scene);
+  const double margin =
+      KernelReach(options_, extent.depth_max - extent.depth_min) + 2.0 * kDepthSlackM;
+  return Redraw(casters, axes, FitWindowsToRegion(axes, focus, scene, options_.partitions, margin));
+}
+
+Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const LightAxes& axes,
+                               const std::vector<LightWindow>& windows) {
+  double depth_min = 1e300;
+  double depth_max = -1e300;
+  for (const ShadowCaster& caster : casters) {
+    const LightExtent extent = Project(axes, caster.bounds);
+    depth_min = std::min(depth_min, extent.depth_min);
+    depth_max = std::max(depth_max, extent.depth_max);
+  }
+  if (casters.empty()) depth_min = depth_max = 0.0;
+  depth_min -= kDepthSlackM;
+  depth_max += kDepthSlackM;
+  const double range = depth_max - depth_min;
+  const double reach = KernelReach(options_, range);
+
+  int redrawn = 0;
+  for (int i = 0; i < options_.partitions; ++i) {
+    const LightWindow& window = windows[i];
+    const glm::dvec2 texel =
+        (window.max - window.min) / static_cast<double>(options_.resolutions[i]);
+    SliceKey key{window, depth_min, depth_max, axes.to_sun, {}};
+    for (const ShadowCaster& caster : casters) {
+      const LightWindow footprint = Project(axes, caster.bounds).window;
+      if (!footprint.Overlaps(window)) continue;
+      // Eq. 14: what a finer window holds whole, with all that its kernels touch, need not be drawn
+      // again. Points are looked up in the finest window that holds them, so this loses nothing.
+      bool covered = false;
+      for (int finer = 0; finer < i && !covered; ++finer) {
+        LightWindow inner = windows[finer];
+        const glm::dvec2 border =
+            reach + 4.0 * glm::max(texel, (inner.max - inner.min) /
+                                              static_cast<double>(options_.resolutions[finer]));
+        inner.min += border;
+        inner.max -= border;
+        covered = inner.Contains(footprint);
+      }
+      if (covered) continue;
+      key.casters.push_back(
+          {caster.vertices->id(), caster.index_count, caster.marker_from_model, caster.revision});
+    }
+
+    const glm::dvec2 scale = 1.0 / texel;
+    uniforms_.slices[i] = {
+        glm::vec4(axes.u * scale.x, -window.min.x * scale.x),
+        glm::vec4(axes.v * scale.y, -window.min.y * scale.y),
+        glm::vec4(-axes.to_sun, -depth_min),
+        glm::vec4(texel, options_.resolutions[i], range),
+    };
+    if (key == slices_[i].drawn) continue;
+    slices_[i].drawn = std::move(key);
+    DrawDepth(i, axes);
+    if (UsesMoments()) {
+      DrawMoments(i);
+    } else {
+      DrawBounds(i);
+    }
+    ++redrawn;
+  }
+  uniforms_.light_u = glm::vec4(axes.u, 0.0);
+  uniforms_.light_v = glm::vec4(axes.v, 0.0);
+  uniforms_.to_sun = glm::vec4(axes.to_sun, std::tan(options_.sun_angular_radius.value()));
+  // Least deviation of the moment methods: 2·10⁻⁴ of the range, the noise of 32-bit moments.
+  uniforms_.settings = glm::vec4(options_.partitions, options_.bias.value(), 2e-4 * range, 0.0);
+  uniform_buffer_.Update(&uniforms_, sizeof uniforms_);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  return redrawn;
+}
+
+void ShadowMaps::DrawDepth(int slice, const LightAxes& axes) {
+  const SliceKey& key = slices_[slice].drawn;
+  slices_[slice].depth_target.Bind();
+  slices_[slice].depth_target.ClearDepth(1.0F);
+  glViewport(0, 0, options_.resolutions[slice], options_.resolutions[slice]);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_DEPTH_CLAMP);
+  depth_program_.Use();
+  const glm::dmat4 clip_from_marker =
+      ClipFromMarker(axes, key.window, key.depth_min, key.depth_max);
+  for (const CasterKey& caster : key.casters) {
+    depth_program_.Set("clip_from_model", glm::mat4(clip_from_marker * caster.marker_from_model));
+    glBindVertexArray(caster.vertices);
+    glDrawElements(GL_TRIANGLES, caster.index_count, GL_UNSIGNED_INT, nullptr);
+  }
+  glDisable(GL_DEPTH_CLAMP);
+}
+
+void ShadowMaps::DrawBounds(int slice) {
+  glDisable(GL_DEPTH_TEST);
+  no_vertices_.Bind();
+  depth_.Bind(0);
+  first_program_.Use();
+  first_program_.Set("slice", slice);
+  second_program_.Set("slice", slice);
+  const std::vector<gl::GlFramebuffer>& targets = slices_[slice].bounds_targets;
+  for (int level = 0; level < static_cast<int>(targets.size()); ++level) {
+    targets[level].Bind();
+    const int side = options_.resolutions[slice] >> (level + 1);
+    glViewport(0, 0, side, side);
+    if (level == 1) {
+      bounds_.Bind(0);
+      second_program_.Use();
+    }
+    if (level > 0) {
+      // Reading and drawing the same texture is defined only for levels shut out of the sampling.
+      glTextureParameteri(bounds_.id(), GL_TEXTURE_BASE_LEVEL, level - 1);
+      glTextureParameteri(bounds_.id(), GL_TEXTURE_MAX_LEVEL, level - 1);
+    }
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glTextureParameteri(bounds_.id(), GL_TEXTURE_BASE_LEVEL, 0);
+  glTextureParameteri(bounds_.id(), GL_TEXTURE_MAX_LEVEL, 1000);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void ShadowMaps::DrawMoments(int slice) {
+  glDisable(GL_DEPTH_TEST);
+  no_vertices_.Bind();
+  const int resolution = options_.resolutions[slice];
+  const glm::dvec2 texel = (slices_[slice].drawn.window.max - slices_[slice].drawn.window.min) /
+                           static_cast<double>(resolution);
+  // A uniform disc of radius ρ has the standard deviation ρ/2 along an axis.
+  const double sigma_m =
+      0.5 * options_.blur_blocker_distance.value() * std::tan(options_.sun_angular_radius.value());
+  const auto pass = [&](const gl::GlProgram& program, const gl::GlFramebuffer& target,
+                        const gl::GlTexture& source, int source_slice, bool along_u) {
+    target.Bind();
+    glViewport(0, 0, resolution, resolution);
+    source.Bind(0);
+    program.Use();
+    program.Set("slice", source_slice);
+    program.Set("resolution", resolution);
+    program.Set("axis", glm::ivec2(along_u ? 1 : 0, along_u ? 0 : 1));
+    program.Set("sigma_texels",
+                static_cast<float>(std::max(sigma_m / (along_u ? texel.x : texel.y), 0.01)));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  };
+  pass(first_program_, blur_target_, depth_, slice, true);
+  pass(second_program_, slices_[slice].moments_target, blur_, 0, false);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void ShadowMaps::Bind(int set) const {
+  CHECK_GE(set, 0);
+  uniform_buffer_.BindBase(GL_UNIFORM_BUFFER, kUniformBlockBinding + set);
+  (UsesMoments() ? moments_ : depth_).Bind(kTextureUnit + 2 * set);
+  (UsesMoments() ? moments_ : bounds_).Bind(kTextureUnit + 2 * set + 1);
+}
+
+}  // namespace pleinair::shadows
