@@ -1,0 +1,50 @@
+#include "app/progress_bar.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <utility>
+
+namespace pleinair::app {
+namespace {
+constexpr int kBarWidth = 30;
+constexpr std::chrono::milliseconds kRedraw{100};
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label, std::optional<std::int64_t> total)
+    : label_(std::move(label)),
+      total_(total),
+      on_terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_drawn_(start_) {}
+
+ProgressBar::~ProgressBar() {
+  if (on_terminal_) std::cerr << "\r\033[K" << std::flush;
+}
+
+void ProgressBar::Advance() {
+  ++done_;
+  const auto now = Clock::now();
+  if (!on_terminal_ || now - last_drawn_ < kRedraw) return;
+  last_drawn_ = now;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  std::cerr << "\r\033[K" << Line(label_, done_, total_, elapsed_s) << std::flush;
+}
+
+std::string ProgressBar::Line(const std::string& label, std::int64_t done,
+                              std::optional<std::int64_t> total, double elapsed_s) {
+  if (!total || *total <= 0) return label + " " + std::to_string(done) + " frames";
+  const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total));
+  const int filled = static_cast<int>(share * kBarWidth);
+  std::string line =
+      label + " [" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "] " +
+      std::to_string(static_cast<int>(share * 100)) + " % of " + std::to_string(*total) + " frames";
+  if (share > 0.0 && share < 1.0) {
+    line += ", " + std::to_string(std::lround(elapsed_s / share * (1.0 - share))) + " s to go";
+  }
+  return line;
+}
+
+}  // namespace pleinair::app

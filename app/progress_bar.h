@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace pleinair::app {
+
+/// A bar on standard error, drawn only on a terminal and at most ten times a second; its line is
+/// wiped when it goes.
+class ProgressBar {
+ public:
+  ProgressBar(std::string label, std::optional<std::int64_t> total);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void Advance();
+
+  /// The line as it is drawn: for a total, a bar with the share done and the seconds still to go.
+  static std::string Line(const std::string& label, std::int64_t done,
+                          std::optional<std::int64_t> total, double elapsed_s);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string label_;
+  std::optional<std::int64_t> total_;
+  std::int64_t done_ = 0;
+  bool on_terminal_;
+  Clock::time_point start_;
+  Clock::time_point last_drawn_;
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,333 @@
+#include "app/replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <set>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "app/interrupt.h"
+#include "app/progress_bar.h"
+#include "app/scene_renderer.h"
+#include "app/session.h"
+#include "app/sinks/detections_writer.h"
+#include "app/sinks/output_folder.h"
+#include "app/sinks/picture_writer.h"
+#include "app/sinks/report_html.h"
+#include "app/sinks/report_json.h"
+#include "app/sinks/tum_writer.h"
+#include "app/sinks/video_writer.h"
+#include "base/atomic_file.h"
+#include "devices/recording.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kReportPictures = 4;
+constexpr int kReportPictureWidth_px = 800;
+constexpr int kReportJpegQuality = 85;
+
+/// One replay from opening to report; its members are what the two passes share.
+class Replayer {
+ public:
+  Replayer(const ReplayOptions& options, OutputFolder folder)
+      : options_(options), folder_(std::move(folder)) {}
+
+  Result<ReplayReport> Run() {
+    auto report = RunPasses();
+    if (!report) return tl::make_unexpected(folder_.InTermsOfTarget(report.error()));
+    return report;
+  }
+
+ private:
+  Result<ReplayReport> RunPasses() {
+    PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenRecording());
+    if (!recording.scene) {
+      return InputError(options_.recording.string(), "has no scene",
+                        "write one (docs/formats.md) and give it with --scene");
+    }
+    scene_ = *recording.scene;
+    report_.recording = options_.recording.string();
+    report_.command = options_.command;
+    report_.version = PLEINAIR_VERSION;
+    report_.scene_file = scene_.file.string();
+    report_.place_time = scene_.place_time;
+    report_.cloudiness = scene_.cloudiness;
+    report_.virtual_objects = scene_.objects.size();
+    report_.phantoms = scene_.phantoms.size();
+    report_.frame_rate_hz = recording.frame_rate_hz;
+    const PictureSize size =
+        options_.size.value_or(PictureSize{recording.camera.width, recording.camera.height});
+    report_.width = size.width;
+    report_.height = size.height;
+    output_camera_ = ScaleCamera(recording.camera, size);
+    // Models are loaded before a long search for markers begins: their errors come at once.
+    PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_));
+    session_.emplace(scene_.marker);
+    PLEINAIR_RETURN_IF_ERROR(FindMarkers(recording));
+    PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
+    PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
+    PLEINAIR_RETURN_IF_ERROR(ComposeFrames(recording));
+    PLEINAIR_RETURN_IF_ERROR(WriteReports());
+    PLEINAIR_RETURN_IF_ERROR(folder_.Commit());
+    return std::move(report_);
+  }
+
+  Result<devices::Recording> OpenRecording() const {
+    return devices::OpenRecording(options_.recording, {options_.calibration, options_.scene});
+  }
+
+  /// The next frame, timed; nothing at the end.
+  Result<std::optional<devices::Frame>> NextFrame(devices::Recording& recording) {
+    if (InterruptGuard::Interrupted()) {
+      return SystemError(options_.recording.string(), "interrupted", "nothing was written");
+    }
+    return times_.Measure("read", [&] { return recording.frames->Next(); });
+  }
+
+  Result<void> FindMarkers(devices::Recording& recording) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        auto tracker,
+        tracker::Tracker::Create(recording.camera, {{scene_.marker.family}, scene_.marker.size_m}));
+    PLEINAIR_ASSIGN_OR_RETURN(auto detections,
+                              DetectionsWriter::Create(folder_.staging() / "detections.jsonl"));
+    ProgressBar bar("Finding markers", recording.frames->FrameCount());
+    while (true) {
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(recording));
+      if (!frame) break;
+      PLEINAIR_ASSIGN_OR_RETURN(auto sightings, times_.Measure("track", [&] {
+        return tracker->Track(frame->grey.view());
+      }));
+      session_->AddFrame(frame->index, frame->timestamp_ns, sightings);
+      PLEINAIR_RETURN_IF_ERROR(detections.Add(frame->index, frame->timestamp_ns, sightings));
+      lost_frames_ += frame->lost_before;
+      bar.Advance();
+    }
+    PLEINAIR_RETURN_IF_ERROR(detections.Finish());
+    report_.outputs.emplace_back("detections.jsonl");
+    report_.frames = session_->frames();
+    if (report_.frames == 0) {
+      return InputError(options_.recording.string(), "holds no frames", "record it again");
+    }
+    return {};
+  }
+
+  Result<void> ChooseAnchor() {
+    report_.anchor = session_->Anchor();
+    if (report_.anchor) report_.path = session_->Path(*report_.anchor);
+    PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
+    for (const auto& [marker, path] : session_->paths()) {
+      report_.markers.push_back(marker);
+      const std::string name = "poses/" + marker.ToString() + ".tum";
+      PLEINAIR_RETURN_IF_ERROR(WriteTum(folder_.staging() / name, path));
+      report_.outputs.push_back(name);
+    }
+    Warn();
+    // The frames for the report: spread evenly over those with a pose, or over all.
+    const auto count = static_cast<std::size_t>(report_.frames);
+    const std::size_t choice = report_.path.empty() ? count : report_.path.size();
+    const std::size_t shown = std::min(kReportPictures, choice);
+    for (std::size_t i = 0; i < shown; ++i) {
+      const std::size_t at = (2 * i + 1) * choice / (2 * shown);
+      pictured_.insert(report_.path.empty() ? static_cast<std::int64_t>(at)
+                                            : report_.path[at].frame_index);
+    }
+    return {};
+  }
+
+  void Warn() {
+    const auto missing = report_.frames - static_cast<std::int64_t>(report_.path.size());
+    const devices::MarkerDescription& marker = scene_.marker;
+    if (!report_.anchor) {
+      std::string seen;
+      for (const MarkerName& other : report_.markers) seen += " " + other.ToString();
+      report_.warnings.push_back(fmt::format(
+          "The scene's marker ({}{}) was seen in no frame, so nothing was drawn. Seen:{}.",
+          marker.family, marker.id ? "_" + std::to_string(*marker.id) : "",
+          seen.empty() ? " no other either" : seen));
+    } else if (missing > 0) {
+      report_.warnings.push_back(
+          fmt::format("{} of {} frames show no marker {}: they are left as they were recorded.",
+                      missing, report_.frames, report_.anchor->ToString()));
+    }
+    if (lost_frames_ > 0) {
+      report_.warnings.push_back(
+          fmt::format("{} frames were lost when this was recorded.", lost_frames_));
+    }
+    if (session_->frames_with_duplicates() > 0) {
+      report_.warnings.push_back(fmt::format(
+          "{} frames show a marker of the same number twice: the one nearest to its last place "
+          "counts.",
+          session_->frames_with_duplicates()));
+    }
+    const std::int64_t ambiguous = SummarizePath(report_.path).ambiguous_frames;
+    if (ambiguous > 0) {
+      report_.warnings.push_back(fmt::format(
+          "In {} frames the marker is too small or too frontal to tell its tilt for certain.",
+          ambiguous));
+    }
+    if (scene_.objects.empty()) {
+      report_.warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
+    }
+  }
+
+  Result<void> ComposeFrames(devices::Recording& recording) {
+    std::unique_ptr<VideoWriter> video;
+    if (options_.write_video) {
+      PLEINAIR_ASSIGN_OR_RETURN(
+          video, VideoWriter::Create(folder_.staging() / "composite.mp4",
+                                     {report_.width, report_.height, report_.frame_rate_hz}));
+      report_.video_encoder = video->encoder_name();
+      report_.outputs.emplace_back("composite.mp4");
+      if (report_.width % 2 != 0 || report_.height % 2 != 0) {
+        report_.warnings.emplace_back(
+            "composite.mp4 repeats the last column or row: H.264 needs even sizes.");
+      }
+    }
+    if (options_.write_frames) {
+      PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("frames"));
+      report_.outputs.emplace_back("frames/%04d.png");
+    }
+    auto pose = report_.path.begin();
+    ProgressBar bar("Composing", report_.frames);
+    for (std::int64_t count = 0;; ++count) {
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(recording));
+      if (!frame && count != report_.frames) {
+        return InputError(options_.recording.string(), "changed while it was being replayed",
+                          "replay it again when nothing writes to it");
+      }
+      if (!frame) break;
+      if (frame->rgb.width() != report_.width || frame->rgb.height() != report_.height) {
+        frame->rgb = times_.Measure(
+            "resize", [&] { return ResizeRgb(frame->rgb.view(), report_.width, report_.height); });
+      }
+      while (pose != report_.path.end() && pose->frame_index < frame->index) ++pose;
+      std::optional<RgbImage> composed;
+      if (pose != report_.path.end() && pose->frame_index == frame->index) {
+        PLEINAIR_ASSIGN_OR_RETURN(composed, Render(*frame, pose->camera_from_marker));
+      }
+      PLEINAIR_RETURN_IF_ERROR(Write(*frame, composed ? *composed : frame->rgb, video.get()));
+      bar.Advance();
+    }
+    if (video) PLEINAIR_RETURN_IF_ERROR(video->Finish());
+    return {};
+  }
+
+  Result<RgbImage> Render(const devices::Frame& frame,
+                          const Transform<Camera, Marker>& camera_from_marker) {
+    const UtcTime time(scene_.place_time.start.nanoseconds_since_1970() + frame.timestamp_ns);
+    auto composed = renderer_->Render(frame.rgb.view(), camera_from_marker, time);
+    if (scene_.objects.empty()) return composed;
+    const RenderTimes& times = renderer_->times();
+    if (times.light_ms > 1.0) times_.Add("light", times.light_ms);
+    times_.Add("meter", times.meter_ms);
+    times_.Add("compose", times.compose_ms);
+    report_.light = renderer_->light();
+    return composed;
+  }
+
+  Result<void> Write(const devices::Frame& frame, const RgbImage& composed, VideoWriter* video) {
+    if (pictured_.contains(frame.index)) {
+      report_.pictures.push_back(
+          {frame.index, EncodeJpeg(frame.rgb.view(), kReportPictureWidth_px, kReportJpegQuality),
+           EncodeJpeg(composed.view(), kReportPictureWidth_px, kReportJpegQuality)});
+    }
+    if (options_.write_frames) {
+      const fs::path file = folder_.staging() / "frames" / fmt::format("{:04}.png", frame.index);
+      PLEINAIR_RETURN_IF_ERROR(
+          times_.Measure("write picture", [&] { return WritePng(file, composed.view()); }));
+    }
+    if (video == nullptr) return {};
+    return times_.Measure("encode video",
+                          [&] { return video->Add(composed.view(), frame.timestamp_ns); });
+  }
+
+  Result<void> WriteReports() {
+    if (report_.light && report_.light->gain_is_guessed) {
+      report_.warnings.emplace_back(
+          "The marker could not be read as a light meter in any frame: the camera's gain is a "
+          "guess. Set it in the scene if the brightness is wrong.");
+    }
+    report_.outputs.emplace_back("report.json");
+    report_.outputs.emplace_back("report.html");
+    std::sort(report_.outputs.begin(), report_.outputs.end());
+    report_.timings = times_.Summarize();
+    PLEINAIR_RETURN_IF_ERROR(
+        WriteFileAtomically(folder_.staging() / "report.json", ReportJson(report_)));
+    return WriteFileAtomically(folder_.staging() / "report.html", ReportHtml(report_));
+  }
+
+  const ReplayOptions& options_;
+  OutputFolder folder_;
+  devices::SceneDescription scene_;
+  CameraModel output_camera_;
+  std::unique_ptr<SceneRenderer> renderer_;
+  std::optional<Session> session_;
+  std::set<std::int64_t> pictured_;
+  std::int64_t lost_frames_ = 0;
+  StageTimes times_;
+  ReplayReport report_;
+};
+
+/// Outputs must not replace what is being read.
+Result<void> CheckOutputIsApart(const ReplayOptions& options) {
+  std::error_code error;
+  const bool same = fs::equivalent(options.output, options.recording, error) ||
+                    fs::equivalent(options.output / "composite.mp4", options.recording, error);
+  if (!same) return {};
+  return InputError(options.output.string(), "is the recording itself",
+                    "name another folder with -o");
+}
+
+}  // namespace
+
+Result<ReplayReport> Replay(const ReplayOptions& options) {
+  PLEINAIR_RETURN_IF_ERROR(CheckOutputIsApart(options));
+  // Looked at before anything is made: a wrong name should not touch the disk.
+  std::error_code error;
+  if (!fs::exists(options.recording, error)) {
+    return InputError(options.recording.string(), "does not exist", "check the name");
+  }
+  const InterruptGuard guard;
+  PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.output));
+  return Replayer(options, std::move(folder)).Run();
+}
+
+CameraModel ScaleCamera(const CameraModel& camera, PictureSize size) {
+  CameraModel scaled = camera;
+  const double sx = static_cast<double>(size.width) / camera.width;
+  const double sy = static_cast<double>(size.height) / camera.height;
+  scaled.width = size.width;
+  scaled.height = size.height;
+  scaled.fx = camera.fx * sx;
+  scaled.fy = camera.fy * sy;
+  // The outer corner of the first pixel, at -0.5, stays where it is.
+  scaled.cx = (camera.cx + 0.5) * sx - 0.5;
+  scaled.cy = (camera.cy + 0.5) * sy - 0.5;
+  return scaled;
+}
+
+Result<PictureSize> ParsePictureSize(const std::string& text) {
+  constexpr int kSmallest = 16, kLargest = 16384;
+  PictureSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool has_cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+  const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.height)
+                                : std::from_chars_result{end, std::errc::invalid_argument};
+  const auto fits = [](int side) { return side >= kSmallest && side <= kLargest; };
+  if (height.ec != std::errc() || height.ptr != end || !fits(size.width) || !fits(size.height)) {
+    return InputError("--size", "\"" + text.substr(0, 40) + "\" is not a size",
+                      "write WIDTHxHEIGHT in pixels, 16 to 16384 each, for example 1280x720");
+  }
+  return size;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/sinks/report.h"
+#include "base/camera_model.h"
+#include "base/error.h"
+
+namespace pleinair::app {
+
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
+struct ReplayOptions {
+  std::filesystem::path recording;
+  std::filesystem::path output;                      ///< Folder; made where missing.
+  std::optional<std::filesystem::path> scene;        ///< Overrides the recording's own.
+  std::optional<std::filesystem::path> calibration;  ///< Needed for a plain video.
+  bool write_frames = false;
+  bool write_video = true;
+  std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
+  std::string command;              ///< For the report.
+};
+
+/// Composes a recording into a folder: composite.mp4, frames/, poses/, detections.jsonl,
+/// report.json and report.html. Reads the recording twice (markers first, then pictures), one
+/// frame in memory at a time. All outputs appear at the end; on an error nothing is left.
+Result<ReplayReport> Replay(const ReplayOptions& options);
+
+/// The lens as it looks after resizing its pictures to `size`.
+CameraModel ScaleCamera(const CameraModel& camera, PictureSize size);
+
+/// "1280x720"; errors: not two whole numbers of 16…16384.
+Result<PictureSize> ParsePictureSize(const std::string& text);
+
+}  // namespace pleinair::app

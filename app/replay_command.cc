@@ -1,0 +1,95 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "app/command.h"
+#include "app/replay.h"
+#include "app/sinks/report_json.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair replay recordings/courtyard_midday -o out/demo\n"
+    "  pleinair replay site/ -o out/site --frames --size 1280x720\n"
+    "  pleinair replay walk.mp4 --calibration phone.yaml --scene site/scene.toml -o out/walk\n"
+    "Writes composite.mp4, poses/MARKER.tum, detections.jsonl, report.json, report.html and, with\n"
+    "--frames, frames/0000.png and so on. docs/formats.md describes recordings and scenes.";
+
+/// As the parser filled it in.
+struct Arguments {
+  ReplayOptions options;
+  std::string recording, output, scene, calibration, size;
+  bool no_video = false;
+  bool json = false;
+};
+
+std::string CommandText(const Arguments& arguments) {
+  std::string text = "pleinair replay " + arguments.recording + " -o " + arguments.output;
+  if (!arguments.scene.empty()) text += " --scene " + arguments.scene;
+  if (!arguments.calibration.empty()) text += " --calibration " + arguments.calibration;
+  if (arguments.options.write_frames) text += " --frames";
+  if (!arguments.size.empty()) text += " --size " + arguments.size;
+  if (arguments.no_video) text += " --no-video";
+  return text;
+}
+
+Result<void> Run(Arguments& arguments) {
+  ReplayOptions& options = arguments.options;
+  options.recording = arguments.recording;
+  options.output = arguments.output;
+  if (!arguments.scene.empty()) options.scene = arguments.scene;
+  if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
+  if (!arguments.size.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize(arguments.size));
+  }
+  options.write_video = !arguments.no_video;
+  options.command = CommandText(arguments);
+  PLEINAIR_ASSIGN_OR_RETURN(const ReplayReport report, Replay(options));
+  if (arguments.json) {
+    std::cout << SummaryJson(report, options.output) << '\n';
+    return {};
+  }
+  std::cerr << report.path.size() << " of " << report.frames << " frames have a pose; ";
+  std::cerr << "results in " << arguments.output << ":";
+  for (const std::string& output : report.outputs) std::cerr << ' ' << output;
+  std::cerr << '\n';
+  for (const std::string& warning : report.warnings) std::cerr << "warning: " << warning << '\n';
+  return {};
+}
+
+}  // namespace
+
+void AddReplayCommand(CLI::App& app, CommandResult& result) {
+  CLI::App* command =
+      app.add_subcommand("replay", "Compose the virtual objects of a scene into a recording");
+  command->footer(kExamples);
+  auto arguments = std::make_shared<Arguments>();
+  command
+      ->add_option("RECORDING", arguments->recording,
+                   "Folder of a recording (own form or EuRoC), or a video file")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
+  command->add_option("--scene", arguments->scene,
+                      "Scene file (TOML or JSON) instead of the recording's own");
+  command->add_option("--calibration", arguments->calibration,
+                      "Calibration of the lens (own JSON, OpenCV, ROS or Kalibr YAML)");
+  command->add_flag("--frames", arguments->options.write_frames,
+                    "Also write every frame as a PNG picture");
+  command->add_option("--size", arguments->size, "Size of the output, WIDTHxHEIGHT in pixels");
+  command->add_flag("--no-video", arguments->no_video, "Do not write composite.mp4");
+  command->add_flag("--json", arguments->json, "Print a summary as one JSON object");
+  command->callback([arguments, &result] {
+    try {
+      result.status = Run(*arguments);
+    } catch (const std::exception& error) {
+      result.status = SystemError("", std::string("replay failed: ") + error.what(),
+                                  "please report it with the recording");
+    }
+  });
+}
+
+}  // namespace pleinair::app

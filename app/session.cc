@@ -1,0 +1,85 @@
+#include "app/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pleinair::app {
+namespace {
+
+// From this ratio of reprojection errors on, the pictures themselves hardly tell the two planar
+// solutions apart, and where the camera was a moment ago tells more.
+constexpr double kAmbiguousRatio = 0.8;
+// A last pose older than this says nothing of the next one.
+constexpr std::int64_t kMemoryNs = 500'000'000;
+
+/// How far apart two poses are: metres, with a radian counted as the distance to the marker.
+double PoseDistance(const Transform<Camera, Marker>& a, const Transform<Camera, Marker>& b) {
+  return Norm(a.translation_m - b.translation_m) +
+         RotationAngle(a.rotation, b.rotation) * Norm(b.translation_m);
+}
+
+}  // namespace
+
+double RotationAngle(const Mat3& a, const Mat3& b) {
+  const Mat3 relative = a.Transposed() * b;
+  const Vec3 twice_sine_axis{relative(2, 1) - relative(1, 2), relative(0, 2) - relative(2, 0),
+                             relative(1, 0) - relative(0, 1)};
+  const double trace = relative(0, 0) + relative(1, 1) + relative(2, 2);
+  return std::atan2(Norm(twice_sine_axis), trace - 1.0);
+}
+
+void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
+                       const std::vector<tracker::Sighting>& sightings) {
+  ++frames_;
+  std::map<MarkerName, std::vector<Observation>> candidates;
+  bool duplicates = false;
+  for (const tracker::Sighting& sighting : sightings) {
+    std::vector<Observation>& of_marker =
+        candidates[{sighting.detection.family, sighting.detection.id}];
+    duplicates = duplicates || !of_marker.empty();
+    const tracker::PoseEstimate& pose = sighting.pose;
+    of_marker.push_back({frame_index, timestamp_ns, pose.best.camera_from_marker,
+                         pose.best.reprojection_rms_px, pose.ambiguity_ratio});
+    if (pose.alternative && pose.ambiguity_ratio > kAmbiguousRatio) {
+      of_marker.push_back({frame_index, timestamp_ns, pose.alternative->camera_from_marker,
+                           pose.alternative->reprojection_rms_px, pose.ambiguity_ratio});
+    }
+  }
+  if (duplicates) ++frames_with_duplicates_;
+  for (const auto& [marker, options] : candidates) {
+    std::vector<Observation>& path = paths_[marker];
+    auto chosen = options.begin();
+    if (!path.empty() && timestamp_ns - path.back().timestamp_ns <= kMemoryNs) {
+      const Transform<Camera, Marker>& last = path.back().camera_from_marker;
+      chosen = std::min_element(options.begin(), options.end(), [&](const auto& a, const auto& b) {
+        return PoseDistance(a.camera_from_marker, last) < PoseDistance(b.camera_from_marker, last);
+      });
+    }
+    path.push_back(*chosen);
+  }
+}
+
+std::optional<MarkerName> Session::Anchor() const {
+  if (declared_.id) {
+    const MarkerName declared{declared_.family, *declared_.id};
+    if (paths_.contains(declared)) return declared;
+    return std::nullopt;
+  }
+  std::optional<MarkerName> most;
+  std::size_t sightings = 0;
+  for (const auto& [marker, path] : paths_) {
+    if (marker.family == declared_.family && path.size() > sightings) {
+      most = marker;
+      sightings = path.size();
+    }
+  }
+  return most;
+}
+
+const std::vector<Observation>& Session::Path(const MarkerName& marker) const {
+  static const std::vector<Observation> kNever;
+  const auto found = paths_.find(marker);
+  return found == paths_.end() ? kNever : found->second;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/frames.h"
+#include "devices/scene_description.h"
+#include "tracker/sighting.h"
+
+namespace pleinair::app {
+
+/// Family and number of a marker; files are named "tag36h11_0" after it.
+struct MarkerName {
+  std::string family;
+  int id = 0;
+  auto operator<=>(const MarkerName&) const = default;
+  std::string ToString() const { return family + "_" + std::to_string(id); }
+};
+
+/// What is kept of one sighting of one marker: bounded, whatever the picture's size.
+struct Observation {
+  std::int64_t frame_index = 0;
+  std::int64_t timestamp_ns = 0;  ///< Since the recording's start.
+  Transform<Camera, Marker> camera_from_marker;
+  double reprojection_rms_px = 0.0;
+  double ambiguity_ratio = 0.0;  ///< Near 1: the planar pose has two equally good solutions.
+};
+
+/// What is known of a recording's markers across its frames: which one anchors the scene and where
+/// the camera stood in each frame.
+class Session {
+ public:
+  explicit Session(const devices::MarkerDescription& declared) : declared_(declared) {}
+
+  /// Adds the sightings of one frame; frames come in order. Where a marker is seen more than once,
+  /// or its planar pose is ambiguous, what lies nearest to its last pose counts.
+  void AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
+                const std::vector<tracker::Sighting>& sightings);
+
+  /// The marker that the scene declares, else the one of its family that is seen most (the lower
+  /// number of equals); nothing where it is never seen.
+  std::optional<MarkerName> Anchor() const;
+
+  /// All that was seen of a marker, in order of frames.
+  const std::vector<Observation>& Path(const MarkerName& marker) const;
+  const std::map<MarkerName, std::vector<Observation>>& paths() const { return paths_; }
+
+  std::int64_t frames() const { return frames_; }
+  /// Frames in which some marker was seen twice or more.
+  std::int64_t frames_with_duplicates() const { return frames_with_duplicates_; }
+
+ private:
+  devices::MarkerDescription declared_;
+  std::map<MarkerName, std::vector<Observation>> paths_;
+  std::int64_t frames_ = 0;
+  std::int64_t frames_with_duplicates_ = 0;
+};
+
+/// Angle between two rotations, radians, 0…π.
+double RotationAngle(const Mat3& a, const Mat3& b);
+
+}  // namespace pleinair::app

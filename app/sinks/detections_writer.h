@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "base/error.h"
+#include "tracker/sighting.h"
+
+namespace pleinair::app {
+
+/// detections.jsonl: a line a frame, also where nothing was seen:
+/// {"frame":0,"timestamp_s":0.0,"markers":[…]}, the markers as `pleinair detect` prints them.
+/// Holds no milliseconds, so that two replays give the same bytes.
+class DetectionsWriter {
+ public:
+  static Result<DetectionsWriter> Create(const std::filesystem::path& file);
+
+  Result<void> Add(std::int64_t frame_index, std::int64_t timestamp_ns,
+                   const std::vector<tracker::Sighting>& sightings);
+  Result<void> Finish();
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::filesystem::path file_;
+  std::unique_ptr<std::FILE, CloseFile> out_;
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace pleinair::app {
+
+/// The folder that a replay writes to, all of it or nothing. Sinks write into staging(), a hidden
+/// folder inside the target; Commit() moves everything to its place. Without Commit() the
+/// destructor removes the staging folder and every folder that Create() made.
+class OutputFolder {
+ public:
+  /// Makes `path` and its parents where missing. Errors: no permission or not a folder (input),
+  /// disk full (system).
+  static Result<OutputFolder> Create(const std::filesystem::path& path);
+
+  OutputFolder(OutputFolder&& other) noexcept;
+  OutputFolder& operator=(OutputFolder&&) = delete;
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder();
+
+  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& staging() const { return staging_; }
+
+  /// Makes a folder in the staging area.
+  Result<void> MakeFolder(const std::string& name) const;
+
+  /// An error about a staged file told of the file that it was to become.
+  Error InTermsOfTarget(Error error) const;
+
+  /// Replaces what an earlier replay left in the folder (known by its report.json) and moves the
+  /// staged files in; other files stay. On an error the files already moved are removed again.
+  Result<void> Commit();
+
+ private:
+  OutputFolder() = default;
+
+  std::filesystem::path path_;
+  std::filesystem::path staging_;
+  std::vector<std::filesystem::path> created_;  // Outermost first.
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,53 @@
+#include "app/sinks/report.h"
+
+#include <algorithm>
+
+#include "base/units.h"
+
+namespace pleinair::app {
+namespace {
+constexpr double kAmbiguousRatio = 0.8;
+}
+
+PoseStatistics SummarizePath(const std::vector<Observation>& path) {
+  PoseStatistics statistics;
+  if (path.empty()) return statistics;
+  std::vector<double> distances_m, errors_px, turns_deg, moves_m;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Observation& at = path[i];
+    distances_m.push_back(Norm(at.camera_from_marker.translation_m));
+    errors_px.push_back(at.reprojection_rms_px);
+    if (at.ambiguity_ratio > kAmbiguousRatio) ++statistics.ambiguous_frames;
+    if (i == 0 || at.frame_index != path[i - 1].frame_index + 1) continue;
+    const auto here = at.camera_from_marker.Inverse();
+    const auto before = path[i - 1].camera_from_marker.Inverse();
+    moves_m.push_back(Norm(here.translation_m - before.translation_m));
+    turns_deg.push_back(ToDegrees(Radians(RotationAngle(before.rotation, here.rotation))));
+    statistics.path_length_m += moves_m.back();
+  }
+  const auto [nearest, farthest] = std::minmax_element(distances_m.begin(), distances_m.end());
+  statistics.distance_min_m = *nearest;
+  statistics.distance_max_m = *farthest;
+  statistics.distance_median_m = StageTimes::Quantile(distances_m, 0.5);
+  statistics.reprojection_median_px = StageTimes::Quantile(errors_px, 0.5);
+  statistics.reprojection_p95_px = StageTimes::Quantile(errors_px, 0.95);
+  statistics.step_rotation_p95_deg = StageTimes::Quantile(turns_deg, 0.95);
+  statistics.step_translation_p95_m = StageTimes::Quantile(moves_m, 0.95);
+  return statistics;
+}
+
+const char* CloudinessName(devices::Cloudiness cloudiness) {
+  switch (cloudiness) {
+    case devices::Cloudiness::kClear:
+      return "clear";
+    case devices::Cloudiness::kHazy:
+      return "hazy";
+    case devices::Cloudiness::kPartlyCloudy:
+      return "partly cloudy";
+    case devices::Cloudiness::kOvercast:
+      return "overcast";
+  }
+  return "clear";
+}
+
+}  // namespace pleinair::app

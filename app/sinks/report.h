@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene_renderer.h"
+#include "app/session.h"
+#include "app/stage_times.h"
+#include "devices/scene_description.h"
+
+namespace pleinair::app {
+
+/// A frame shown in the report, before and after; JPEG bytes.
+struct ReportPicture {
+  std::int64_t frame_index = 0;
+  std::vector<std::uint8_t> before_jpeg;
+  std::vector<std::uint8_t> after_jpeg;
+};
+
+/// What a replay did, for report.json and report.html.
+struct ReplayReport {
+  std::string version;
+  std::string command;    ///< As it was called.
+  std::string recording;  ///< Path as given.
+  std::string scene_file;
+  int width = 0, height = 0;  ///< Of the output, pixels.
+  double frame_rate_hz = 0.0;
+  std::int64_t frames = 0;
+  std::optional<MarkerName> anchor;
+  std::vector<MarkerName> markers;  ///< Every marker seen.
+  std::vector<Observation> path;    ///< Of the anchor, a frame it was seen in each.
+  devices::PlaceTime place_time;
+  devices::Cloudiness cloudiness = devices::Cloudiness::kClear;
+  std::size_t virtual_objects = 0, phantoms = 0;
+  std::optional<LightSummary> light;  ///< Nothing where nothing had to be lit.
+  std::string video_encoder;          ///< Empty without video.
+  std::vector<std::string> outputs;   ///< Relative to the output folder.
+  std::vector<std::string> warnings;
+  std::vector<ReportPicture> pictures;
+  std::vector<StageTimes::Summary> timings;
+};
+
+/// Figures of the camera's path as the report states them.
+struct PoseStatistics {
+  double distance_min_m = 0.0, distance_median_m = 0.0, distance_max_m = 0.0;
+  double path_length_m = 0.0;
+  double step_rotation_p95_deg = 0.0;  ///< Between neighbouring frames.
+  double step_translation_p95_m = 0.0;
+  double reprojection_median_px = 0.0, reprojection_p95_px = 0.0;
+  std::int64_t ambiguous_frames = 0;  ///< Ambiguity ratio above 0.8.
+};
+
+PoseStatistics SummarizePath(const std::vector<Observation>& path);
+
+/// "clear", "hazy", "partly cloudy", "overcast".
+const char* CloudinessName(devices::Cloudiness cloudiness);
+
+}  // namespace pleinair::app

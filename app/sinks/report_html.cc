@@ -1,0 +1,222 @@
+#include "app/sinks/report_html.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/sinks/line_plot.h"
+#include "base/units.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kStyle = R"(
+:root{color-scheme:light dark;--paper:#fbfaf7;--ink:#22262b;--soft:#6a7079;--rule:#dcdad3;
+--card:#fff;--warn:#9a5b00;--c0:#c2452d;--c1:#2f7d4f;--c2:#2c62b5}
+@media(prefers-color-scheme:dark){:root{--paper:#15181c;--ink:#e4e6e8;--soft:#98a0a8;
+--rule:#2d3238;--card:#1c2025;--warn:#e0a447;--c0:#ef7f66;--c1:#6cc090;--c2:#7aa8ee}}
+*{box-sizing:border-box}body{margin:0 auto;padding:2rem 1.2rem 4rem;max-width:62rem;
+background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}
+h1{font-size:1.6rem;margin:0}h2{font-size:1.1rem;margin:2.2rem 0 .6rem}
+p.lead{color:var(--soft);margin:.3rem 0 1.2rem}code{overflow-wrap:anywhere}
+.cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(11rem,1fr));gap:.8rem}
+.card{background:var(--card);border:1px solid var(--rule);border-radius:8px;padding:.7rem .9rem}
+.card b{display:block;font-size:1.25rem;font-variant-numeric:tabular-nums}
+.card span{color:var(--soft);font-size:.85rem}
+.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(20rem,1fr));gap:1rem}
+figure{margin:0}figcaption{color:var(--soft);font-size:.85rem}
+.pair{position:relative;display:block;overflow:hidden;border-radius:8px}
+.pair img{display:block;width:100%}
+.pair .after{position:absolute;inset:0;clip-path:inset(0 0 0 var(--cut,50%))}
+.pair::after{content:"";position:absolute;top:0;bottom:0;left:var(--cut,50%);width:2px;
+background:#fff;box-shadow:0 0 4px #0008}
+input[type=range]{width:100%;accent-color:var(--c0)}
+.plot{width:100%;height:auto;background:var(--card);border:1px solid var(--rule);
+border-radius:8px;margin-bottom:.8rem}
+.plot path{fill:none;stroke-width:1.6}.plot text{font-size:12px;fill:var(--soft)}
+.plot .title{font-weight:600;fill:var(--ink)}.grid{stroke:var(--rule)}
+.line0{stroke:var(--c0)}.line1{stroke:var(--c1)}.line2{stroke:var(--c2)}
+.plot .legend0{fill:var(--c0)}.plot .legend1{fill:var(--c1)}.plot .legend2{fill:var(--c2)}
+table{border-collapse:collapse;width:100%}th,td{text-align:right;padding:.35rem .6rem;
+border-bottom:1px solid var(--rule);font-variant-numeric:tabular-nums}
+th:first-child,td:first-child{text-align:left}th{color:var(--soft);font-weight:500}
+ul.warnings{padding-left:1.2rem;color:var(--warn)}
+)";
+
+constexpr const char* kScript = R"(
+for(const input of document.querySelectorAll('input[type=range]'))
+ input.addEventListener('input',()=>input.closest('figure').querySelector('.pair')
+  .style.setProperty('--cut',input.value+'%'));
+)";
+
+std::string Card(const std::string& figure, const std::string& caption) {
+  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", EscapeHtml(figure),
+                     EscapeHtml(caption));
+}
+
+std::string Pictures(const ReplayReport& report) {
+  std::string html;
+  for (const ReportPicture& picture : report.pictures) {
+    html += fmt::format(
+        "<figure><span class=\"pair\"><img alt=\"frame {0} as recorded\" "
+        "src=\"data:image/jpeg;base64,{1}\"><img class=\"after\" alt=\"frame {0} composed\" "
+        "src=\"data:image/jpeg;base64,{2}\"></span>"
+        "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" "
+        "aria-label=\"frame {0}: where the composed picture begins\">"
+        "<figcaption>Frame {0}: recorded left, composed right of the line</figcaption></figure>\n",
+        picture.frame_index, Base64(picture.before_jpeg), Base64(picture.after_jpeg));
+  }
+  return html;
+}
+
+/// Camera position, orientation and fit over time; a gap where the marker was not seen.
+std::string Plots(const ReplayReport& report) {
+  PlotLine x{"x", {}, {}}, y{"y", {}, {}}, z{"z", {}, {}};
+  PlotLine heading{"heading", {}, {}}, tilt{"tilt", {}, {}}, roll{"roll", {}, {}};
+  PlotLine error{"", {}, {}};
+  const auto add = [](PlotLine& line, double at_s, double value) {
+    line.x.push_back(at_s);
+    line.y.push_back(value);
+  };
+  constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t last_index = -1;
+  double last_heading = 0.0;
+  for (const Observation& at : report.path) {
+    const double t_s = static_cast<double>(at.timestamp_ns) * 1e-9;
+    if (last_index >= 0 && at.frame_index != last_index + 1) {
+      for (PlotLine* line : {&x, &y, &z, &heading, &tilt, &roll, &error}) add(*line, t_s, kGap);
+    }
+    const auto marker_from_camera = at.camera_from_marker.Inverse();
+    const Mat3& r = marker_from_camera.rotation;
+    add(x, t_s, marker_from_camera.translation_m.x);
+    add(y, t_s, marker_from_camera.translation_m.y);
+    add(z, t_s, marker_from_camera.translation_m.z);
+    // The columns of r are the camera's right, down and forward in the marker frame.
+    const double degree = 1.0 / kRadiansPerDegree;
+    double heading_deg = std::atan2(r(0, 2), r(1, 2)) * degree;
+    if (last_index >= 0) {
+      heading_deg += 360.0 * std::round((last_heading - heading_deg) / 360.0);
+    }
+    last_heading = heading_deg;
+    add(heading, t_s, heading_deg);
+    add(tilt, t_s, std::asin(std::fmax(-1.0, std::fmin(1.0, r(2, 2)))) * degree);
+    add(roll, t_s, std::atan2(-r(2, 0), -r(2, 1)) * degree);
+    add(error, t_s, at.reprojection_rms_px);
+    last_index = at.frame_index;
+  }
+  return LinePlotSvg("Camera position in the marker frame", "m", {x, y, z}) +
+         LinePlotSvg("Camera orientation: heading from the marker's y, tilt up, roll", "degrees",
+                     {heading, tilt, roll}) +
+         LinePlotSvg("Reprojection error of the marker's corners", "px rms", {error});
+}
+
+std::string Light(const ReplayReport& report) {
+  const devices::PlaceTime& place = report.place_time;
+  std::string html = Card(fmt::format("{:.4f}°, {:.4f}°", place.latitude_deg, place.longitude_deg),
+                          "latitude, longitude");
+  html += Card(place.start.ToString(), "start of the recording");
+  html += Card(CloudinessName(report.cloudiness), "sky, as the scene says");
+  if (!report.light) return html;
+  const LightSummary& light = *report.light;
+  html += Card(fmt::format("{:.1f}° / {:.1f}°", ToDegrees(light.sun.azimuth),
+                           ToDegrees(light.sun.elevation_refracted)),
+               "sun: azimuth / elevation");
+  html += Card(fmt::format("{:.1f} klx", light.sun_normal_lux / 1000), "sun, facing it");
+  html += Card(fmt::format("{:.1f} klx", light.sky_horizontal_lux / 1000), "sky, on level ground");
+  html += Card(fmt::format("{:.3g} {:.3g} {:.3g}", light.gain.r, light.gain.g, light.gain.b),
+               light.gain_is_guessed
+                   ? "camera gain (r g b per cd/m²), guessed"
+                   : fmt::format("camera gain (r g b per cd/m²), {} readings, spread {:.1f} %",
+                                 light.readings, light.gain_spread * 100));
+  return html;
+}
+
+}  // namespace
+
+std::string EscapeHtml(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string Base64(const std::vector<std::uint8_t>& bytes) {
+  constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned word = static_cast<unsigned>(bytes[i]) << 16;
+    if (count > 1) word |= static_cast<unsigned>(bytes[i + 1]) << 8;
+    if (count > 2) word |= bytes[i + 2];
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= count ? kAlphabet[(word >> (18 - 6 * k)) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+std::string ReportHtml(const ReplayReport& report) {
+  const PoseStatistics poses = SummarizePath(report.path);
+  std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
+  html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
+  html += "<title>pleinair: " + EscapeHtml(report.recording) + "</title><style>";
+  html += std::string(kStyle) + "</style></head><body>\n<h1>" + EscapeHtml(report.recording) +
+          "</h1>\n<p class=\"lead\">composed by pleinair " + EscapeHtml(report.version) +
+          ": <code>" + EscapeHtml(report.command) + "</code></p>\n<div class=\"cards\">\n";
+  html += Card(fmt::format("{} of {}", report.path.size(), report.frames), "frames with a pose");
+  html += Card(report.anchor ? report.anchor->ToString() : "none", "marker that anchors the scene");
+  html += Card(fmt::format("{}×{}, {:.4g} Hz", report.width, report.height, report.frame_rate_hz),
+               "output");
+  if (!report.path.empty()) {
+    html += Card(fmt::format("{:.2f}…{:.2f} m", poses.distance_min_m, poses.distance_max_m),
+                 "camera to marker");
+    html += Card(
+        fmt::format("{:.2f} px", poses.reprojection_median_px),
+        fmt::format("reprojection error, median (95 %: {:.2f} px)", poses.reprojection_p95_px));
+    html += Card(fmt::format("{:.2f} m", poses.path_length_m), "camera path");
+  }
+  html += "</div>\n";
+  if (!report.warnings.empty()) {
+    html += "<h2>Warnings</h2>\n<ul class=\"warnings\">\n";
+    for (const std::string& warning : report.warnings) {
+      html += "<li>" + EscapeHtml(warning) + "</li>\n";
+    }
+    html += "</ul>\n";
+  }
+  if (!report.pictures.empty()) {
+    html += "<h2>Before and after</h2>\n<div class=\"pictures\">\n" + Pictures(report) + "</div>\n";
+  }
+  html += "<h2>Light</h2>\n<div class=\"cards\">\n" + Light(report) + "</div>\n";
+  if (!report.path.empty()) html += "<h2>Camera path</h2>\n" + Plots(report);
+  html +=
+      "<h2>Time per stage</h2>\n<table><tr><th>stage</th><th>runs</th><th>median, ms</th>"
+      "<th>95 %, ms</th></tr>\n";
+  for (const StageTimes::Summary& stage : report.timings) {
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
+                        EscapeHtml(stage.stage), stage.runs, stage.median_ms, stage.p95_ms);
+  }
+  return html + "</table>\n<script>" + kScript + "</script></body></html>\n";
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,99 @@
+#include "app/sinks/report_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace pleinair::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A figure as a person would state it: nine significant digits.
+double Rounded(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return 0.0;
+  const double scale = std::pow(10.0, 8 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * scale) / scale;
+}
+
+std::string Dump(const Json& json, int indent) {
+  // A path on disk need not be UTF-8.
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json LightJson(const LightSummary& light) {
+  return {{"sun_azimuth_deg", Rounded(ToDegrees(light.sun.azimuth))},
+          {"sun_elevation_deg", Rounded(ToDegrees(light.sun.elevation))},
+          {"sun_elevation_refracted_deg", Rounded(ToDegrees(light.sun.elevation_refracted))},
+          {"sun_normal_lux", Rounded(light.sun_normal_lux)},
+          {"sky_horizontal_lux", Rounded(light.sky_horizontal_lux)},
+          {"gain_rgb", {Rounded(light.gain.r), Rounded(light.gain.g), Rounded(light.gain.b)}},
+          {"gain_relative_spread", Rounded(light.gain_spread)},
+          {"gain_readings", light.readings},
+          {"gain_is_guessed", light.gain_is_guessed}};
+}
+
+Json PosesJson(const ReplayReport& report) {
+  const PoseStatistics s = SummarizePath(report.path);
+  return {
+      {"distance_m",
+       {{"min", Rounded(s.distance_min_m)},
+        {"median", Rounded(s.distance_median_m)},
+        {"max", Rounded(s.distance_max_m)}}},
+      {"path_length_m", Rounded(s.path_length_m)},
+      {"step_rotation_p95_deg", Rounded(s.step_rotation_p95_deg)},
+      {"step_translation_p95_m", Rounded(s.step_translation_p95_m)},
+      {"reprojection_rms_px",
+       {{"median", Rounded(s.reprojection_median_px)}, {"p95", Rounded(s.reprojection_p95_px)}}},
+      {"ambiguous_frames", s.ambiguous_frames}};
+}
+
+}  // namespace
+
+std::string ReportJson(const ReplayReport& report) {
+  Json json;
+  json["program"] = "pleinair";
+  json["version"] = report.version;
+  json["command"] = report.command;
+  json["recording"] = report.recording;
+  json["scene"] = report.scene_file;
+  json["frames"] = report.frames;
+  json["frames_with_pose"] = report.path.size();
+  json["size_px"] = {report.width, report.height};
+  json["frame_rate_hz"] = Rounded(report.frame_rate_hz);
+  json["marker"] = report.anchor ? Json(report.anchor->ToString()) : Json();
+  json["markers_seen"] = Json::array();
+  for (const MarkerName& marker : report.markers) json["markers_seen"].push_back(marker.ToString());
+  json["poses"] = report.path.empty() ? Json() : PosesJson(report);
+  json["place_time"] = {{"latitude_deg", Rounded(report.place_time.latitude_deg)},
+                        {"longitude_deg", Rounded(report.place_time.longitude_deg)},
+                        {"height_m", Rounded(report.place_time.height_m)},
+                        {"start", report.place_time.start.ToString()}};
+  json["cloudiness"] = CloudinessName(report.cloudiness);
+  json["virtual_objects"] = report.virtual_objects;
+  json["phantoms"] = report.phantoms;
+  json["light"] = report.light ? LightJson(*report.light) : Json();
+  json["video_encoder"] = report.video_encoder.empty() ? Json() : Json(report.video_encoder);
+  json["outputs"] = report.outputs;
+  json["warnings"] = report.warnings;
+  json["timings"] = Json::array();
+  for (const StageTimes::Summary& stage : report.timings) {
+    json["timings"].push_back({{"stage", stage.stage},
+                               {"runs", stage.runs},
+                               {"median_ms", Rounded(stage.median_ms)},
+                               {"p95_ms", Rounded(stage.p95_ms)}});
+  }
+  return Dump(json, 1) + "\n";
+}
+
+std::string SummaryJson(const ReplayReport& report, const std::filesystem::path& folder) {
+  Json json;
+  json["folder"] = folder.string();
+  json["frames"] = report.frames;
+  json["frames_with_pose"] = report.path.size();
+  json["marker"] = report.anchor ? Json(report.anchor->ToString()) : Json();
+  json["outputs"] = report.outputs;
+  json["warnings"] = report.warnings;
+  return Dump(json, -1);
+}
+
+}  // namespace pleinair::app
