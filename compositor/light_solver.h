@@ -17,13 +17,18 @@ namespace pleinair::compositor {
 /// A model placed in the scene, for the light.
 struct PlacedModel {
   std::shared_ptr<const Model> model;
-  Mat3 linear;            ///< Rotation and scale, marker from model coordinates.
-  Vec3 translation_m;     ///< Of the model's origin, marker coordinates.
+  Mat3 linear;              ///< Rotation and scale, marker from model coordinates.
+  Vec3 translation_m;       ///< Of the model's origin, marker coordinates.
   bool is_phantom = false;  ///< Stand-in for a real surface, otherwise a virtual object.
 };
 
 /// A tessellated surface with the light that falls on its vertices besides the sun's own. Marker
 /// coordinates. The unit of irradiance is the Daylight's (lux, linear Rec.709).
+///
+/// Triangles run counter-clockwise seen from the side that the normals point to and that the light
+/// is for: draw them with back faces culled. Closed bodies (walls, boxes) come once, their outside.
+/// Open surfaces (ground, awnings, leaves) come twice in a row, once for each side, first the side
+/// that sees more of the sky; how the file winds them does not matter.
 struct LitMesh {
   bool is_phantom = false;
   int placed_model = 0;  ///< Index into the scene's list of placed models.
@@ -39,11 +44,11 @@ struct LitMesh {
 };
 
 struct LightSolverOptions {
-  int rays_per_vertex = 256;     ///< Cosine-weighted, stratified; lowered for huge models.
-  int bounces = 2;               ///< Diffuse reflections followed beyond the sky's direct light.
-  double near_edge_m = 0.04;     ///< Longest edge of a triangle close to a virtual object.
-  double growth_per_m = 0.25;    ///< How much longer edges may be per metre of distance.
-  int threads = 0;               ///< 0: as many as there are processors.
+  int rays_per_vertex = 256;   ///< Cosine-weighted, stratified; lowered for huge models.
+  int bounces = 2;             ///< Diffuse reflections followed beyond the sky's direct light.
+  double near_edge_m = 0.04;   ///< Longest edge of a triangle close to a virtual object.
+  double growth_per_m = 0.25;  ///< How much longer edges may be per metre of distance.
+  int threads = 0;             ///< 0: as many as there are processors.
 };
 
 /// Computes where the day's light goes among phantoms and virtual objects (Embree). Keeps the ray
@@ -58,8 +63,8 @@ class LightSolver {
   /// Light on every vertex for this daylight. Deterministic whatever the number of threads. Rays
   /// with and without the virtual objects are the same, so that their ratio has no noise where
   /// the objects change nothing.
-  virtual std::vector<LitMesh> Solve(const sky::Daylight& daylight, const Mat3& marker_from_world)
-      const = 0;
+  virtual std::vector<LitMesh> Solve(const sky::Daylight& daylight,
+                                     const Mat3& marker_from_world) const = 0;
 
   /// Share of the sun's disc (0…1) that the phantoms alone leave visible from a point.
   virtual double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const = 0;

@@ -1,0 +1,284 @@
+#include "compositor/light_gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compositor/light_samples.h"
+#include "compositor/parallel_for.h"
+
+namespace pleinair::compositor {
+namespace {
+
+using Hit = GatheredLight::Hit;
+
+// Real ground comes in layers (a lawn's sheet over paving); what lies between them is not seen.
+constexpr double kLayerGapM = 0.02;
+
+/// Above this share of rays that meet the inside of bodies a vertex is itself inside: from outside
+/// the share is 0 but for rays that slip through an edge, from inside a half or more.
+constexpr double kInsideShare = 0.25;
+
+class Gatherer {
+ public:
+  Gatherer(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays)
+      : scene_(scene), sky_(sky), sun_frame_(to_sun), rays_(rays) {
+    for (const LightScene::Sheet& sheet : scene.sheets) {
+      for (const auto& normal : sheet.mesh.normals) normals_.push_back(normal);
+      is_phantom_.insert(is_phantom_.end(), sheet.mesh.normals.size(), sheet.mesh.is_phantom);
+    }
+  }
+
+  GatheredLight::Vertex GatherVertex(std::uint32_t vertex, std::vector<Hit>* hits) const {
+    GatheredLight::Vertex light;
+    const auto& n = normals_[vertex];
+    const TangentFrame frame(Normalized({n[0], n[1], n[2]}));
+    const Vec3 origin = scene_.gather_origins[vertex];
+    const bool phantom = is_phantom_[vertex];
+    for (int i = 0; i < rays_; ++i) {
+      const auto ray = static_cast<std::uint32_t>(i);
+      const Vec3 direction =
+          CosineDirection(frame, ShiftedHammersley(ray, static_cast<std::uint32_t>(rays_), vertex));
+      const std::uint32_t seed = Hash(vertex, ray);
+      RayHit hit;
+      if (!scene_.rays->Intersect(RayTargets::kEverything, origin, direction, &hit)) {
+        AddSky(direction, true, phantom, &light);
+        continue;
+      }
+      const bool phantom_hit = scene_.sheets[scene_.FaceOf(hit).sheet].mesh.is_phantom;
+      AddHit(hit, origin, direction, seed, true, phantom && phantom_hit, &light, hits);
+      if (!phantom || phantom_hit) continue;
+      if (scene_.rays->Intersect(RayTargets::kPhantoms, origin, direction, &hit)) {
+        AddHit(hit, origin, direction, seed, false, true, &light, hits);
+      } else {
+        AddSky(direction, false, true, &light);
+      }
+    }
+    return light;
+  }
+
+ private:
+  void AddSky(Vec3 direction, bool with, bool without, GatheredLight::Vertex* light) const {
+    const std::array<float, 3> radiance = sky_.Radiance(direction);
+    const bool above = sky_.SineElevation(direction) > 0.0;
+    for (const int k : {0, 1}) {
+      if (!(k == 0 ? with : without)) continue;
+      for (int c = 0; c < 3; ++c) light->sky[k][c] += radiance[c];
+      if (above) ++light->sky_rays[k];
+    }
+  }
+
+  void AddHit(const RayHit& hit, Vec3 origin, Vec3 direction, std::uint32_t seed, bool with,
+              bool without, GatheredLight::Vertex* light, std::vector<Hit>* hits) const {
+    const LightScene::Face& face = scene_.FaceOf(hit);
+    const bool inside = hit.back && face.back_offset == 0;
+    for (const int k : {0, 1}) {
+      if (!(k == 0 ? with : without)) continue;
+      ++light->hit_rays[k];
+      if (inside) ++light->inside_rays[k];
+    }
+    if (inside) return;  // Black.
+    Hit record{};
+    record.face = static_cast<std::uint32_t>(&face - scene_.faces.data()) & ((1U << 26) - 1);
+    record.with = with;
+    record.without = without;
+    record.back = hit.back;
+    record.close = hit.distance_m < kLayerGapM && scene_.sheets[face.sheet].mesh.is_phantom;
+    record.u = Quantized(hit.u);
+    record.v = Quantized(hit.v);
+    const Vec3 normal = hit.back ? -face.normal : face.normal;
+    if (Dot(normal, sun_frame_.normal) > 0.0) {
+      const Vec3 to_sun =
+          SunDiscDirection(sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
+      const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffsetM;
+      const bool lit = !scene_.rays->Occluded(RayTargets::kEverything, point, to_sun);
+      record.sun_with = lit;
+      record.sun_without =
+          lit || (without && !scene_.rays->Occluded(RayTargets::kPhantoms, point, to_sun));
+    }
+    hits->push_back(record);
+  }
+
+  static std::uint16_t Quantized(float weight) {
+    return static_cast<std::uint16_t>(std::clamp(weight, 0.0F, 1.0F) * 65535.0F + 0.5F);
+  }
+
+  const LightScene& scene_;
+  const SkyTable& sky_;
+  TangentFrame sun_frame_;
+  int rays_;
+  std::vector<std::array<float, 3>> normals_;
+  std::vector<std::uint8_t> is_phantom_;
+};
+
+std::size_t BlockCount(std::uint32_t vertices) {
+  return (vertices + GatheredLight::kBlockSize - 1) / GatheredLight::kBlockSize;
+}
+
+/// Calls visit(vertex, first_hit, last_hit) for each vertex of a block.
+template <typename Visit>
+void ForEachVertex(const GatheredLight& gathered, std::size_t block_index, const Visit& visit) {
+  const GatheredLight::Block& block = gathered.blocks[block_index];
+  const Hit* first = block.hits.data();
+  auto vertex = static_cast<std::uint32_t>(block_index) * GatheredLight::kBlockSize;
+  for (const std::uint32_t end : block.ends) {
+    const Hit* last = block.hits.data() + end;
+    visit(vertex++, first, last);
+    first = last;
+  }
+}
+
+/// Sides of phantoms that look into the earth: they see neither sky nor, mostly, anything else.
+std::vector<std::uint8_t> EarthwardVertices(const LightScene& scene,
+                                            const GatheredLight& gathered) {
+  std::vector<std::uint8_t> earthward(scene.vertex_count);
+  const double rays = gathered.rays_per_vertex;
+  for (const LightScene::Sheet& sheet : scene.sheets) {
+    if (sheet.twin < 0 || !sheet.mesh.is_phantom) continue;
+    for (std::uint32_t i = 0; i < sheet.mesh.positions.size(); ++i) {
+      const GatheredLight::Vertex& light = gathered.vertices[sheet.first_vertex + i];
+      earthward[sheet.first_vertex + i] =
+          light.sky_rays[1] < 0.02 * rays && light.hit_rays[1] < 0.3 * rays;
+    }
+  }
+  return earthward;
+}
+
+std::array<std::uint32_t, 3> CornersOf(const LightScene::Face& face, const Hit& hit) {
+  std::array<std::uint32_t, 3> corners = face.vertices;
+  if (hit.back != 0) {
+    for (std::uint32_t& corner : corners) corner += face.back_offset;
+  }
+  return corners;
+}
+
+/// Vertices that lie inside a body or in the earth, by case.
+std::array<std::vector<std::uint8_t>, 2> InsideVertices(const LightScene& scene,
+                                                        const GatheredLight& gathered,
+                                                        int threads) {
+  const std::vector<std::uint8_t> earthward = EarthwardVertices(scene, gathered);
+  std::array<std::vector<std::uint8_t>, 2> inside;
+  for (auto& flags : inside) flags.resize(scene.vertex_count);
+  ParallelFor(gathered.blocks.size(), threads, [&](std::size_t block) {
+    ForEachVertex(gathered, block, [&](std::uint32_t vertex, const Hit* first, const Hit* last) {
+      std::array<std::uint32_t, 2> count = gathered.vertices[vertex].inside_rays;
+      for (const Hit* hit = first; hit != last; ++hit) {
+        if (hit->back == 0 && hit->close == 0) continue;
+        const auto corners = CornersOf(scene.faces[hit->face], *hit);
+        const bool buried =
+            hit->close != 0 || (earthward[corners[0]] != 0 && earthward[corners[1]] != 0 &&
+                                earthward[corners[2]] != 0);
+        if (!buried) continue;
+        count[0] += hit->with;
+        count[1] += hit->without;
+      }
+      for (const int k : {0, 1}) {
+        inside[k][vertex] = count[k] > kInsideShare * gathered.rays_per_vertex;
+      }
+    });
+  });
+  return inside;
+}
+
+/// Gives vertices inside bodies the mean of their neighbours outside, ring after ring.
+void FillFromNeighbours(const LightScene& scene, const std::vector<std::uint8_t>& inside,
+                        std::vector<std::array<float, 3>>* values) {
+  for (const LightScene::Sheet& sheet : scene.sheets) {
+    const std::uint32_t base = sheet.first_vertex;
+    const std::size_t size = sheet.mesh.positions.size();
+    std::vector<std::uint8_t> missing(inside.begin() + base, inside.begin() + base + size);
+    std::vector<std::array<float, 4>> sums(size);
+    for (bool progress = std::find(missing.begin(), missing.end(), 1) != missing.end(); progress;) {
+      std::fill(sums.begin(), sums.end(), std::array<float, 4>{});
+      for (std::size_t i = 0; i + 2 < sheet.mesh.indices.size(); i += 3) {
+        for (int e = 0; e < 6; ++e) {
+          const std::uint32_t from = sheet.mesh.indices[i + e % 3];
+          const std::uint32_t to = sheet.mesh.indices[i + (e + (e < 3 ? 1 : 2)) % 3];
+          if (missing[from] != 0 || missing[to] == 0) continue;
+          for (int c = 0; c < 3; ++c) sums[to][c] += (*values)[base + from][c];
+          ++sums[to][3];
+        }
+      }
+      progress = false;
+      for (std::size_t v = 0; v < size; ++v) {
+        if (missing[v] == 0 || sums[v][3] == 0.0F) continue;
+        for (int c = 0; c < 3; ++c) (*values)[base + v][c] = sums[v][c] / sums[v][3];
+        missing[v] = 0;
+        progress = true;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays_per_vertex,
+                     int threads) {
+  GatheredLight gathered;
+  gathered.rays_per_vertex = rays_per_vertex;
+  gathered.vertices.resize(scene.vertex_count);
+  gathered.blocks.resize(BlockCount(scene.vertex_count));
+  const Gatherer gatherer(scene, sky, to_sun, rays_per_vertex);
+  ParallelFor(gathered.blocks.size(), threads, [&](std::size_t index) {
+    GatheredLight::Block& block = gathered.blocks[index];
+    const auto first = static_cast<std::uint32_t>(index) * GatheredLight::kBlockSize;
+    const std::uint32_t last = std::min(first + GatheredLight::kBlockSize, scene.vertex_count);
+    for (std::uint32_t vertex = first; vertex < last; ++vertex) {
+      gathered.vertices[vertex] = gatherer.GatherVertex(vertex, &block.hits);
+      block.ends.push_back(static_cast<std::uint32_t>(block.hits.size()));
+    }
+    block.hits.shrink_to_fit();
+  });
+  return gathered;
+}
+
+VertexLight Reflect(const LightScene& scene, const GatheredLight& gathered,
+                    const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
+                    int threads) {
+  constexpr float kPi = std::numbers::pi_v<float>;
+  const auto inside = InsideVertices(scene, gathered, threads);
+  const float weight = kPi / static_cast<float>(gathered.rays_per_vertex);
+  VertexLight light;
+  for (const int k : {0, 1}) {
+    light.irradiance[k].resize(scene.vertex_count);
+    for (std::uint32_t v = 0; v < scene.vertex_count; ++v) {
+      for (int c = 0; c < 3; ++c) {
+        light.irradiance[k][v][c] = gathered.vertices[v].sky[k][c] * weight;
+      }
+    }
+    FillFromNeighbours(scene, inside[k], &light.irradiance[k]);
+  }
+  for (int bounce = 0; bounce < bounces; ++bounce) {
+    const VertexLight previous = light;
+    ParallelFor(gathered.blocks.size(), threads, [&](std::size_t block) {
+      ForEachVertex(gathered, block, [&](std::uint32_t vertex, const Hit* first, const Hit* last) {
+        auto sum = gathered.vertices[vertex].sky;
+        for (const Hit* hit = first; hit != last; ++hit) {
+          const LightScene::Face& face = scene.faces[hit->face];
+          const auto corners = CornersOf(face, *hit);
+          const float u = static_cast<float>(hit->u) / 65535.0F;
+          const float v = static_cast<float>(hit->v) / 65535.0F;
+          const auto& albedo = scene.sheets[face.sheet].albedo;
+          const auto cosine = static_cast<float>(std::fabs(Dot(face.normal, to_sun)));
+          for (const int k : {0, 1}) {
+            if ((k == 0 ? hit->with : hit->without) == 0) continue;
+            const auto& irradiance = previous.irradiance[k];
+            const float sun = (k == 0 ? hit->sun_with : hit->sun_without) != 0 ? cosine : 0.0F;
+            for (int c = 0; c < 3; ++c) {
+              const float ambient = (1.0F - u - v) * irradiance[corners[0]][c] +
+                                    u * irradiance[corners[1]][c] + v * irradiance[corners[2]][c];
+              sum[k][c] += albedo[c] / kPi * (sun_irradiance[c] * sun + ambient);
+            }
+          }
+        }
+        for (const int k : {0, 1}) {
+          for (int c = 0; c < 3; ++c) light.irradiance[k][vertex][c] = sum[k][c] * weight;
+        }
+      });
+    });
+    for (const int k : {0, 1}) FillFromNeighbours(scene, inside[k], &light.irradiance[k]);
+  }
+  return light;
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "compositor/light_scene.h"
+#include "compositor/sky_table.h"
+
+namespace pleinair::compositor {
+
+/// What the rays of every vertex met, so that reflections can be followed without tracing again.
+struct GatheredLight {
+  /// A surface that a vertex sees, in 8 bytes: there are millions.
+  struct Hit {
+    std::uint32_t face : 26;
+    std::uint32_t with : 1;         ///< Seen with the virtual objects there.
+    std::uint32_t without : 1;      ///< Seen with the phantoms alone.
+    std::uint32_t sun_with : 1;     ///< The sun shines on it, with the virtual objects there.
+    std::uint32_t sun_without : 1;  ///< The same with the phantoms alone.
+    std::uint32_t back : 1;
+    std::uint32_t close : 1;  ///< Nearer than layers of one real surface lie apart.
+    std::uint16_t u, v;       ///< Barycentric, 65535 = 1.
+  };
+  static_assert(sizeof(Hit) == 8);
+
+  /// Index 0: with the virtual objects, 1: phantoms alone.
+  struct Vertex {
+    std::array<std::array<float, 3>, 2> sky{};   ///< Sum of radiances of rays that left.
+    std::array<std::uint32_t, 2> sky_rays{};     ///< How many of them went above the horizon.
+    std::array<std::uint32_t, 2> inside_rays{};  ///< Rays that met the inside of a body.
+    std::array<std::uint32_t, 2> hit_rays{};
+  };
+
+  struct Block {
+    std::vector<Hit> hits;
+    std::vector<std::uint32_t> ends;  ///< One past each vertex's last hit.
+  };
+
+  static constexpr std::uint32_t kBlockSize = 256;  ///< Vertices a block.
+  int rays_per_vertex = 0;
+  std::vector<Vertex> vertices;
+  std::vector<Block> blocks;
+};
+
+/// Sends `rays_per_vertex` cosine-weighted rays from every vertex. A ray whose nearest surface is
+/// a phantom's serves both cases, so that they differ by what the objects change and not by noise.
+GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays_per_vertex,
+                     int threads);
+
+/// Irradiance on every vertex after `bounces` reflections; [0]: with the virtual objects, [1]:
+/// phantoms alone (meaningless for vertices of objects). Vertices that lie inside a body, such as
+/// the ground's under a wall, take their neighbours' values, lest they darken them.
+struct VertexLight {
+  std::array<std::vector<std::array<float, 3>>, 2> irradiance;
+};
+VertexLight Reflect(const LightScene& scene, const GatheredLight& gathered,
+                    const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
+                    int threads);
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,188 @@
+#include "compositor/light_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/srgb.h"
+#include "compositor/light_solver.h"
+#include "compositor/tessellation.h"
+
+namespace pleinair::compositor {
+namespace {
+
+// Hit records keep a face's index in 26 bits.
+constexpr std::size_t kMostFaces = std::size_t{1} << 26;
+
+Vec3 ToVec3(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
+
+/// Linear mean of a texture, pixels sampled on a grid of at most 256 × 256.
+std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture) {
+  const auto& linear = LinearFromSrgb8();
+  const int step_x = std::max(1, texture.width() / 256);
+  const int step_y = std::max(1, texture.height() / 256);
+  std::array<double, 3> sum{};
+  double count = 0.0;
+  for (int y = step_y / 2; y < texture.height(); y += step_y) {
+    for (int x = step_x / 2; x < texture.width(); x += step_x) {
+      for (int c = 0; c < 3; ++c) sum[c] += linear[texture(x, y, texture.channels() > 2 ? c : 0)];
+      ++count;
+    }
+  }
+  std::array<float, 3> mean{};
+  for (int c = 0; c < 3; ++c) mean[c] = static_cast<float>(sum[c] / std::max(1.0, count));
+  return mean;
+}
+
+std::array<float, 3> DiffuseAlbedo(const Model& model, int material_index) {
+  if (material_index < 0 || static_cast<std::size_t>(material_index) >= model.materials.size()) {
+    return {Material{}.base_color};
+  }
+  const Material& material = model.materials[material_index];
+  std::array<float, 3> albedo = material.base_color;
+  const int texture = material.base_color_texture;
+  if (texture >= 0 && static_cast<std::size_t>(texture) < model.textures.size() &&
+      !model.textures[texture].empty()) {
+    const std::array<float, 3> mean = MeanColor(model.textures[texture]);
+    for (int c = 0; c < 3; ++c) albedo[c] *= mean[c];
+  }
+  // An albedo of 1 or more would never let the light die away.
+  for (float& value : albedo) value = std::clamp(value * (1.0F - material.metallic), 0.0F, 0.98F);
+  return albedo;
+}
+
+Result<void> CheckModel(const PlacedModel& placed) {
+  if (placed.model == nullptr) return InputError("", "a placed model is missing");
+  const std::string file = placed.model->file.string();
+  for (const double value : placed.linear.m) {
+    if (!std::isfinite(value)) return InputError(file, "the model's placement is not finite");
+  }
+  for (const Mesh& mesh : placed.model->meshes) {
+    const std::size_t count = mesh.positions.size();
+    if (!mesh.uvs.empty() && mesh.uvs.size() != count) {
+      return InputError(file, "mesh \"" + mesh.name + "\" has too few texture coordinates");
+    }
+    for (const std::uint32_t index : mesh.indices) {
+      if (index >= count) return InputError(file, "mesh \"" + mesh.name + "\" lacks a vertex");
+    }
+  }
+  return {};
+}
+
+SurfaceMesh OtherSide(const SurfaceMesh& mesh) {
+  SurfaceMesh other = mesh;
+  for (auto& normal : other.normals) {
+    for (float& value : normal) value = -value;
+  }
+  for (std::size_t i = 0; i + 2 < other.indices.size(); i += 3) {
+    std::swap(other.indices[i + 1], other.indices[i + 2]);
+  }
+  return other;
+}
+
+/// Corners of bodies standing on the ground lie in the ground's plane, where a ray may start on
+/// either side of it: origins are pulled towards the middle of the neighbouring triangles.
+std::vector<Vec3> GatherOrigins(const SurfaceMesh& mesh) {
+  constexpr double kPull = 0.1;
+  constexpr double kMostPullM = 4e-3;
+  std::vector<Vec3> centre_sum(mesh.positions.size());
+  std::vector<double> count(mesh.positions.size());
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    Vec3 centre;
+    for (int c = 0; c < 3; ++c) {
+      centre = centre + ToVec3(mesh.positions[mesh.indices[i + c]]) * (1.0 / 3.0);
+    }
+    for (int c = 0; c < 3; ++c) {
+      centre_sum[mesh.indices[i + c]] = centre_sum[mesh.indices[i + c]] + centre;
+      ++count[mesh.indices[i + c]];
+    }
+  }
+  std::vector<Vec3> origins;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3 position = ToVec3(mesh.positions[v]);
+    Vec3 pull;
+    if (count[v] > 0.0) pull = (centre_sum[v] * (1.0 / count[v]) - position) * kPull;
+    if (const double length = Norm(pull); length > kMostPullM) pull = pull * (kMostPullM / length);
+    origins.push_back(position + pull + ToVec3(mesh.normals[v]) * kRayOffsetM);
+  }
+  return origins;
+}
+
+void AddSheet(SurfaceMesh mesh, const std::array<float, 3>& albedo, LightScene* scene) {
+  const std::vector<Vec3> origins = GatherOrigins(mesh);
+  scene->gather_origins.insert(scene->gather_origins.end(), origins.begin(), origins.end());
+  LightScene::Sheet sheet;
+  sheet.albedo = albedo;
+  sheet.first_vertex = scene->vertex_count;
+  scene->vertex_count += static_cast<std::uint32_t>(mesh.positions.size());
+  sheet.mesh = std::move(mesh);
+  scene->sheets.push_back(std::move(sheet));
+}
+
+void AddFaces(const SurfaceMesh& mesh, std::uint32_t sheet, LightScene* scene) {
+  const std::uint32_t base = scene->vertex_count;
+  const auto size = static_cast<std::uint32_t>(mesh.positions.size());
+  scene->first_face.push_back(static_cast<std::uint32_t>(scene->faces.size()));
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    LightScene::Face face;
+    std::array<Vec3, 3> p;
+    for (int c = 0; c < 3; ++c) {
+      p[c] = ToVec3(mesh.positions[mesh.indices[i + c]]);
+      face.vertices[c] = base + mesh.indices[i + c];
+    }
+    face.back_offset = mesh.closed ? 0 : size;
+    face.sheet = sheet;
+    const Vec3 normal = Cross(p[1] - p[0], p[2] - p[0]);
+    const double norm = Norm(normal);
+    face.normal = norm > 0.0 ? normal * (1.0 / norm) : ToVec3(mesh.normals[mesh.indices[i]]);
+    scene->faces.push_back(face);
+  }
+}
+
+}  // namespace
+
+Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
+                                      const LightSolverOptions& options) {
+  std::vector<SurfaceMesh> surfaces;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    PLEINAIR_RETURN_IF_ERROR(CheckModel(models[i]));
+    for (SurfaceMesh& surface : OrientedSurfaces(models[i], static_cast<int>(i))) {
+      surfaces.push_back(std::move(surface));
+    }
+  }
+  if (surfaces.empty()) {
+    return InputError("", "the scene's models have no surface to light",
+                      "give at least one phantom or object with triangles");
+  }
+  TessellationOptions tessellation;
+  tessellation.near_edge_m = options.near_edge_m;
+  tessellation.growth_per_m = options.growth_per_m;
+  Tessellate(tessellation, &surfaces);
+
+  LightScene scene;
+  std::vector<RayMesh> ray_meshes;
+  for (SurfaceMesh& surface : surfaces) {
+    ray_meshes.push_back({surface.positions, surface.indices, surface.is_phantom});
+    const std::array<float, 3> albedo =
+        DiffuseAlbedo(*models[surface.placed_model].model, surface.material);
+    const auto front = static_cast<int>(scene.sheets.size());
+    AddFaces(surface, static_cast<std::uint32_t>(front), &scene);
+    const bool closed = surface.closed;
+    SurfaceMesh back = closed ? SurfaceMesh{} : OtherSide(surface);
+    AddSheet(std::move(surface), albedo, &scene);
+    if (!closed) {
+      AddSheet(std::move(back), albedo, &scene);
+      scene.sheets[front].twin = front + 1;
+      scene.sheets[front + 1].twin = front;
+    }
+  }
+  if (scene.faces.size() >= kMostFaces) {
+    return InputError("", "the scene's models have more than 67 million triangles together",
+                      "use simpler models");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(scene.rays, RayScene::Create(ray_meshes));
+  return scene;
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,151 @@
+#include "compositor/light_solver.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "compositor/light_gather.h"
+#include "compositor/light_samples.h"
+#include "compositor/light_scene.h"
+#include "compositor/sky_table.h"
+
+namespace pleinair::compositor {
+namespace {
+
+// About five seconds on two processors.
+constexpr std::uint32_t kRayBudget = 25'000'000;
+constexpr std::uint32_t kFewestRays = 32;
+
+// Reflectance of the land beyond the phantoms; 0.2 is the customary value for mixed ground.
+constexpr double kLandAlbedo = 0.2;
+
+constexpr std::uint32_t kSunRays = 256;
+constexpr std::uint32_t kPaths = 2048;
+
+class EmbreeLightSolver : public LightSolver {
+ public:
+  EmbreeLightSolver(LightScene scene, const LightSolverOptions& options)
+      : scene_(std::move(scene)), options_(options) {}
+
+  std::vector<LitMesh> Solve(const sky::Daylight& day,
+                             const Mat3& marker_from_world) const override {
+    const SkyTable sky(day, marker_from_world, kLandAlbedo);
+    const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
+    const LinearRgb sun = day.SunNormalIrradiance();
+    const GatheredLight gathered = Gather(scene_, sky, to_sun, RaysPerVertex(), options_.threads);
+    const VertexLight light =
+        Reflect(scene_, gathered,
+                {static_cast<float>(sun.r), static_cast<float>(sun.g), static_cast<float>(sun.b)},
+                to_sun, options_.bounces, options_.threads);
+    std::vector<LitMesh> meshes;
+    for (std::size_t i = 0; i < scene_.sheets.size(); ++i) {
+      const int twin = scene_.sheets[i].twin;
+      if (twin >= 0 && static_cast<std::size_t>(twin) < i) continue;
+      meshes.push_back(MakeLitMesh(scene_.sheets[i], light));
+      if (twin < 0) continue;
+      meshes.push_back(MakeLitMesh(scene_.sheets[twin], light));
+      if (SkySeen(scene_.sheets[twin], gathered) > SkySeen(scene_.sheets[i], gathered)) {
+        std::swap(meshes.back(), meshes[meshes.size() - 2]);
+      }
+    }
+    return meshes;
+  }
+
+  double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const override {
+    const TangentFrame frame(Normalized(to_sun_in_marker));
+    const Vec3 origin = point.xyz + frame.normal * kRayOffsetM;
+    std::uint32_t visible = 0;
+    for (std::uint32_t i = 0; i < kSunRays; ++i) {
+      const Vec3 direction = SunDiscDirection(frame, ShiftedHammersley(i, kSunRays, 0));
+      if (!scene_.rays->Occluded(RayTargets::kPhantoms, origin, direction)) ++visible;
+    }
+    return static_cast<double>(visible) / kSunRays;
+  }
+
+  LinearRgb AmbientPhantomsOnly(Point<Marker> point, Vec3 normal, const sky::Daylight& day,
+                                const Mat3& marker_from_world) const override {
+    const SkyTable sky(day, marker_from_world, kLandAlbedo);
+    const TangentFrame sun_frame(marker_from_world * day.ToSun().xyz);
+    const LinearRgb sun = day.SunNormalIrradiance();
+    const TangentFrame frame(Normalized(normal));
+    LinearRgb sum;
+    for (std::uint32_t path = 0; path < kPaths; ++path) {
+      Vec3 origin = point.xyz + frame.normal * kRayOffsetM;
+      Vec3 direction = CosineDirection(frame, ShiftedHammersley(path, kPaths, 0));
+      LinearRgb throughput{1.0, 1.0, 1.0};
+      for (int bounce = 0;; ++bounce) {
+        RayHit hit;
+        if (!scene_.rays->Intersect(RayTargets::kPhantoms, origin, direction, &hit)) {
+          const std::array<float, 3> radiance = sky.Radiance(direction);
+          sum = sum + throughput * LinearRgb{radiance[0], radiance[1], radiance[2]};
+          break;
+        }
+        const LightScene::Face& face = scene_.FaceOf(hit);
+        if (bounce == options_.bounces || (hit.back && face.back_offset == 0)) break;
+        const auto& albedo = scene_.sheets[face.sheet].albedo;
+        throughput = throughput * LinearRgb{albedo[0], albedo[1], albedo[2]};
+        const TangentFrame at_hit(hit.back ? -face.normal : face.normal);
+        origin = origin + direction * hit.distance_m + at_hit.normal * kRayOffsetM;
+        const std::uint32_t seed = Hash(path, static_cast<std::uint32_t>(bounce));
+        const double cosine = Dot(at_hit.normal, sun_frame.normal);
+        const Vec3 to_sun = SunDiscDirection(sun_frame, RandomPoint(seed, 1));
+        if (cosine > 0.0 && !scene_.rays->Occluded(RayTargets::kPhantoms, origin, to_sun)) {
+          sum = sum + throughput * sun * (cosine / std::numbers::pi);
+        }
+        direction = CosineDirection(at_hit, RandomPoint(seed, 3));
+      }
+    }
+    return sum * (std::numbers::pi / kPaths);
+  }
+
+ private:
+  static SamplePoint RandomPoint(std::uint32_t seed, std::uint32_t salt) {
+    return {UnitFromHash(Hash(seed, salt)), UnitFromHash(Hash(seed, salt + 1))};
+  }
+
+  int RaysPerVertex() const {
+    const std::uint32_t affordable = kRayBudget / std::max(1U, scene_.vertex_count);
+    const auto wanted = static_cast<std::uint32_t>(std::max(1, options_.rays_per_vertex));
+    return static_cast<int>(std::min(wanted, std::max(kFewestRays, affordable)));
+  }
+
+  static LitMesh MakeLitMesh(const LightScene::Sheet& sheet, const VertexLight& light) {
+    LitMesh mesh;
+    mesh.is_phantom = sheet.mesh.is_phantom;
+    mesh.placed_model = sheet.mesh.placed_model;
+    mesh.material = sheet.mesh.material;
+    mesh.positions = sheet.mesh.positions;
+    mesh.normals = sheet.mesh.normals;
+    mesh.uvs = sheet.mesh.uvs;
+    mesh.indices = sheet.mesh.indices;
+    const auto slice = [&](int k) {
+      const auto first = light.irradiance[k].begin() + sheet.first_vertex;
+      return std::vector<std::array<float, 3>>(
+          first, first + static_cast<std::ptrdiff_t>(mesh.positions.size()));
+    };
+    mesh.ambient_with = slice(0);
+    if (mesh.is_phantom) mesh.ambient_without = slice(1);
+    return mesh;
+  }
+
+  static std::uint64_t SkySeen(const LightScene::Sheet& sheet, const GatheredLight& gathered) {
+    std::uint64_t rays = 0;
+    for (std::size_t i = 0; i < sheet.mesh.positions.size(); ++i) {
+      rays += gathered.vertices[sheet.first_vertex + i].sky_rays[0];
+    }
+    return rays;
+  }
+
+  LightScene scene_;
+  LightSolverOptions options_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LightSolver>> LightSolver::Create(std::vector<PlacedModel> scene,
+                                                         const LightSolverOptions& options) {
+  PLEINAIR_ASSIGN_OR_RETURN(LightScene light_scene, LightScene::Create(scene, options));
+  return std::make_unique<EmbreeLightSolver>(std::move(light_scene), options);
+}
+
+}  // namespace pleinair::compositor

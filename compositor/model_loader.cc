@@ -1,0 +1,33 @@
+#include <new>
+#include <utility>
+
+#include "compositor/mesh_normals.h"
+#include "compositor/model.h"
+#include "compositor/model_files.h"
+#include "compositor/obj_parser.h"
+#include "compositor/texture_decoder.h"
+
+namespace pleinair::compositor {
+namespace {
+
+Result<Model> ParseByContent(const std::string& content, const std::filesystem::path& file) {
+  return ParseObj(content, file, {ReadWholeFile, ReadTexture});
+}
+
+}  // namespace
+
+Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options) {
+  try {
+    PLEINAIR_ASSIGN_OR_RETURN(const std::string content, ReadWholeFile(file));
+    PLEINAIR_ASSIGN_OR_RETURN(Model model, ParseByContent(content, file));
+    ApplyNormals(options.normals, &model);
+    if (model.meshes.empty()) {
+      return InputError(file.string(), "all its triangles are degenerate", "export it again");
+    }
+    return model;
+  } catch (const std::bad_alloc&) {
+    return SystemError(file.string(), "not enough memory for this model", "use a simpler one");
+  }
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pleinair::compositor {
+
+/// Goes through the statements of OBJ and MTL text: comments cut off, lines that end in a
+/// backslash joined with the next, any line ends.
+class ObjLines {
+ public:
+  explicit ObjLines(std::string_view text) : text_(text) {}
+
+  /// The next statement that is not empty; false at the end.
+  bool Next() {
+    while (!text_.empty()) {
+      line_number_ = next_line_number_;
+      std::string_view line = TakeLine();
+      if (line.ends_with('\\')) {
+        joined_.clear();
+        while (line.ends_with('\\')) {
+          line.remove_suffix(1);
+          joined_.append(line);
+          joined_ += ' ';
+          line = TakeLine();
+        }
+        joined_.append(line);
+        line = joined_;
+      }
+      line = line.substr(0, line.find('#'));
+      rest_ = Trimmed(line);
+      if (!rest_.empty()) return true;
+    }
+    return false;
+  }
+
+  /// The next word of the statement; empty at its end.
+  std::string_view Word() {
+    const std::size_t end = rest_.find_first_of(kBlanks);
+    const std::string_view word = rest_.substr(0, end);
+    rest_ = end == std::string_view::npos ? std::string_view{} : Trimmed(rest_.substr(end));
+    return word;
+  }
+
+  /// All that is left of the statement.
+  std::string_view Rest() const { return rest_; }
+
+  /// Counted from 1; of the statement's first line.
+  int line_number() const { return line_number_; }
+
+ private:
+  static constexpr std::string_view kBlanks = " \t\r\v\f";
+
+  static std::string_view Trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  }
+
+  std::string_view TakeLine() {
+    const std::size_t end = text_.find('\n');
+    std::string_view line = text_.substr(0, end);
+    text_ = end == std::string_view::npos ? std::string_view{} : text_.substr(end + 1);
+    ++next_line_number_;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  std::string_view text_;
+  std::string_view rest_;
+  std::string joined_;
+  int line_number_ = 0;
+  int next_line_number_ = 1;
+};
+
+/// A word for an error message, at most 32 characters of it.
+inline std::string Quoted(std::string_view word) {
+  std::string quoted(1, '"');
+  quoted.append(word.substr(0, 32));
+  quoted.append(1, '"');
+  return quoted;
+}
+
+/// A number that is finite and, at most 1e8 in size, fit for a float; none otherwise.
+inline std::optional<float> ParseObjNumber(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  if (!std::isfinite(value) || std::fabs(value) > 1e8) return std::nullopt;
+  return static_cast<float>(value);
+}
+
+}  // namespace pleinair::compositor

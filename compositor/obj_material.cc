@@ -1,0 +1,177 @@
+#include "compositor/obj_material.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "compositor/obj_lines.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr std::size_t kMostMaterials = 100'000;
+
+/// What the classic statements say, turned into a Material when its statements have ended.
+struct Draft {
+  Material material;
+  std::optional<std::array<float, 3>> specular;
+  std::optional<float> exponent, roughness;
+  int illumination = 2;
+  bool has_color = false;
+};
+
+class MtlParser {
+ public:
+  MtlParser(std::string_view text, const std::filesystem::path& file,
+            const ObjCompanions& companions, Model* model)
+      : lines_(text), file_(file), companions_(companions), model_(model) {}
+
+  Result<void> Parse() {
+    while (lines_.Next()) {
+      const std::string_view keyword = lines_.Word();
+      if (keyword == "newmtl") {
+        Finish();
+        if (model_->materials.size() >= kMostMaterials) return Fail("has too many materials");
+        draft_.emplace();
+        draft_->material.name = std::string(lines_.Rest());
+      } else if (draft_) {
+        PLEINAIR_RETURN_IF_ERROR(Statement(keyword));
+      }
+    }
+    Finish();
+    return {};
+  }
+
+ private:
+  tl::unexpected<Error> Fail(std::string what) const {
+    return InputError(file_.string() + ":" + std::to_string(lines_.line_number()), std::move(what),
+                      "repair the material or export the model again");
+  }
+
+  Result<float> Number() {
+    const std::string_view word = lines_.Word();
+    const std::optional<float> value = ParseObjNumber(word);
+    if (!value) return Fail(Quoted(word) + " is not a finite number");
+    return *value;
+  }
+
+  Result<std::array<float, 3>> Color() {
+    PLEINAIR_ASSIGN_OR_RETURN(const float red, Number());
+    if (lines_.Rest().empty()) return std::array<float, 3>{red, red, red};
+    PLEINAIR_ASSIGN_OR_RETURN(const float green, Number());
+    PLEINAIR_ASSIGN_OR_RETURN(const float blue, Number());
+    return std::array<float, 3>{red, green, blue};
+  }
+
+  Result<void> Statement(std::string_view keyword) {
+    Material& material = draft_->material;
+    // "Kd spectral file" and "Kd xyz …" exist on paper; nobody writes them.
+    const bool is_color = keyword == "Kd" || keyword == "Ks";
+    if (is_color && (lines_.Rest().starts_with("spectral") || lines_.Rest().starts_with("xyz"))) {
+      return Fail("colours other than RGB are not supported");
+    }
+    if (is_color) {
+      PLEINAIR_ASSIGN_OR_RETURN(auto color, Color());
+      for (float& value : color) value = std::clamp(value, 0.0F, 1.0F);
+      if (keyword == "Ks") {
+        draft_->specular = color;
+      } else {
+        material.base_color = color;
+        draft_->has_color = true;
+      }
+    } else if (keyword == "Ns") {
+      PLEINAIR_ASSIGN_OR_RETURN(draft_->exponent, Number());
+    } else if (keyword == "Pr") {
+      PLEINAIR_ASSIGN_OR_RETURN(draft_->roughness, Number());
+    } else if (keyword == "Pm") {
+      PLEINAIR_ASSIGN_OR_RETURN(const float metallic, Number());
+      material.metallic = std::clamp(metallic, 0.0F, 1.0F);
+    } else if (keyword == "illum") {
+      PLEINAIR_ASSIGN_OR_RETURN(const float illumination, Number());
+      draft_->illumination = static_cast<int>(illumination);
+    } else if (keyword == "map_Kd") {
+      PLEINAIR_ASSIGN_OR_RETURN(material.base_color_texture, Texture());
+    }
+    return {};
+  }
+
+  /// The file's name stands last, after options such as "-s 1 1 1"; it may contain blanks.
+  Result<int> Texture() {
+    const std::map<std::string_view, int> arguments = {
+        {"-blendu", 1}, {"-blendv", 1}, {"-boost", 1},   {"-mm", 2},   {"-texres", 1},
+        {"-clamp", 1},  {"-bm", 1},     {"-imfchan", 1}, {"-type", 1}, {"-cc", 1}};
+    while (lines_.Rest().starts_with('-')) {
+      const std::string_view option = lines_.Word();
+      if (option == "-o" || option == "-s" || option == "-t") {
+        // One to three numbers.
+        for (int i = 0; i < 3; ++i) {
+          ObjLines ahead(lines_.Rest());
+          if (!ahead.Next() || !ParseObjNumber(ahead.Word())) break;
+          lines_.Word();
+        }
+        continue;
+      }
+      const auto found = arguments.find(option);
+      if (found == arguments.end()) {
+        return Fail("unknown texture option " + Quoted(option));
+      }
+      for (int i = 0; i < found->second; ++i) lines_.Word();
+    }
+    std::string name(lines_.Rest());
+    if (name.empty()) return Fail("map_Kd names no file");
+    std::replace(name.begin(), name.end(), '\\', '/');
+    if (const auto known = textures_.find(name); known != textures_.end()) return known->second;
+    const std::filesystem::path path = file_.parent_path() / name;
+    auto texture = companions_.read_texture(path);
+    if (!texture) return tl::make_unexpected(std::move(texture).error());
+    const int index = static_cast<int>(model_->textures.size());
+    model_->textures.push_back(*std::move(texture));
+    textures_.emplace(std::move(name), index);
+    return index;
+  }
+
+  void Finish() {
+    if (!draft_) return;
+    Material& material = draft_->material;
+    const bool textured = material.base_color_texture >= 0;
+    if (textured && (!draft_->has_color || material.base_color == std::array<float, 3>{})) {
+      material.base_color = {1.0F, 1.0F, 1.0F};
+    }
+    // illum 0 and 1 have no highlight. Ks is the coat's reflectance at normal incidence; files
+    // that leave the old default of (nearly) white mean "shiny", not a mirror: 8 % is the most
+    // that clear coats have.
+    if (draft_->specular && draft_->illumination >= 2) {
+      const auto& ks = *draft_->specular;
+      material.specular_f0 = std::min((ks[0] + ks[1] + ks[2]) / 3.0F, 0.08F);
+    }
+    if (draft_->exponent) {
+      // Blinn–Phong exponent to GGX roughness: alpha² = 2/(n+2), alpha = roughness²
+      // (Karis 2013, "Specular BRDF Reference").
+      const float exponent = std::max(0.0F, *draft_->exponent);
+      material.roughness = std::pow(2.0F / (exponent + 2.0F), 0.25F);
+    }
+    if (draft_->roughness) material.roughness = std::clamp(*draft_->roughness, 0.0F, 1.0F);
+    model_->materials.push_back(std::move(material));
+    draft_.reset();
+  }
+
+  ObjLines lines_;
+  const std::filesystem::path& file_;
+  const ObjCompanions& companions_;
+  Model* model_;
+  std::optional<Draft> draft_;
+  std::map<std::string, int> textures_;
+};
+
+}  // namespace
+
+Result<void> ParseMtl(std::string_view text, const std::filesystem::path& file,
+                      const ObjCompanions& companions, Model* model) {
+  return MtlParser(text, file, companions, model).Parse();
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,273 @@
+#include "compositor/obj_parser.h"
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "compositor/mesh_triangulation.h"
+#include "compositor/model_limits.h"
+#include "compositor/obj_lines.h"
+#include "compositor/obj_material.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr std::int64_t kNone = -1;
+
+struct Corner {
+  std::int64_t position = kNone, uv = kNone, normal = kNone;
+};
+
+struct VertexKey {
+  std::uint32_t mesh;
+  std::int64_t position, uv, normal;
+  bool operator==(const VertexKey&) const = default;
+};
+
+struct VertexKeyHash {
+  std::size_t operator()(const VertexKey& key) const {
+    std::uint64_t h = key.mesh;
+    for (const std::int64_t part : {key.position, key.uv, key.normal}) {
+      h = (h ^ static_cast<std::uint64_t>(part + 1)) * 0x9E3779B97F4A7C15U;
+      h ^= h >> 29;
+    }
+    return h;
+  }
+};
+
+class ObjParser {
+ public:
+  ObjParser(std::string_view text, const std::filesystem::path& file,
+            const ObjCompanions& companions)
+      : lines_(text), file_(file), companions_(companions) {
+    model_.file = file;
+  }
+
+  Result<Model> Parse() {
+    while (lines_.Next()) PLEINAIR_RETURN_IF_ERROR(Statement(lines_.Word()));
+    if (model_.meshes.empty()) {
+      return InputError(file_.string(), "has no faces", "is it a Wavefront OBJ, cut short?");
+    }
+    for (Mesh& mesh : model_.meshes) {
+      // Texture coordinates that no face of the mesh has are no use to anybody.
+      if (!has_uvs_[static_cast<std::size_t>(&mesh - model_.meshes.data())]) mesh.uvs.clear();
+    }
+    return std::move(model_);
+  }
+
+ private:
+  tl::unexpected<Error> Fail(std::string what,
+                             std::string remedy = "repair the model or export it again") const {
+    return InputError(file_.string() + ":" + std::to_string(lines_.line_number()), std::move(what),
+                      std::move(remedy));
+  }
+
+  Result<void> Statement(std::string_view keyword) {
+    if (keyword == "v") return Vector<3>(&positions_, 3);
+    if (keyword == "vn") return Vector<3>(&normals_, 3);
+    if (keyword == "vt") return Vector<2>(&uvs_, 1);
+    if (keyword == "f") return Face();
+    if (keyword == "o" || keyword == "g") {
+      name_ = std::string(lines_.Rest());
+      current_mesh_.reset();
+    } else if (keyword == "usemtl") {
+      UseMaterial(std::string(lines_.Rest()));
+    } else if (keyword == "mtllib") {
+      return ReadLibraries();
+    }
+    return {};
+  }
+
+  /// `N` numbers of which the first `needed` must be there; what follows them is passed over.
+  template <std::size_t N>
+  Result<void> Vector(std::vector<std::array<float, N>>* list, std::size_t needed) {
+    std::array<float, N> values{};
+    for (std::size_t i = 0; i < N; ++i) {
+      if (i >= needed && lines_.Rest().empty()) break;
+      const std::string_view word = lines_.Word();
+      if (word.empty()) return Fail("a vertex has too few numbers");
+      const std::optional<float> value = ParseObjNumber(word);
+      if (!value) {
+        return Fail(Quoted(word) + " is not a finite number below 1e8");
+      }
+      values[i] = *value;
+    }
+    if (list->size() >= kMostVertices) return Fail("has more than 20 million vertices");
+    list->push_back(values);
+    return {};
+  }
+
+  /// Index as written (from 1, or negative from the end) to one from 0.
+  Result<std::int64_t> Index(std::string_view word, std::size_t count, const char* what) const {
+    std::int64_t index = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
+    if (error != std::errc() || end != word.data() + word.size()) {
+      return Fail(Quoted(word) + " is not the number of a " + what);
+    }
+    const auto size = static_cast<std::int64_t>(count);
+    const std::int64_t from_zero = index < 0 ? size + index : index - 1;
+    if (index == 0 || from_zero < 0 || from_zero >= size) {
+      return Fail("face refers to " + std::string(what) + " " + std::to_string(index) + " of " +
+                  std::to_string(count));
+    }
+    return from_zero;
+  }
+
+  Result<Corner> ParseCorner(std::string_view word) const {
+    std::array<std::string_view, 3> parts;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t slash = word.find('/');
+      parts[i] = word.substr(0, slash);
+      if (slash == std::string_view::npos) {
+        word = {};
+        break;
+      }
+      word.remove_prefix(slash + 1);
+      if (i == 2) return Fail("a face's corner has more than three numbers");
+    }
+    Corner corner;
+    PLEINAIR_ASSIGN_OR_RETURN(corner.position, Index(parts[0], positions_.size(), "vertex"));
+    if (!parts[1].empty()) {
+      PLEINAIR_ASSIGN_OR_RETURN(corner.uv, Index(parts[1], uvs_.size(), "texture coordinate"));
+    }
+    if (!parts[2].empty()) {
+      PLEINAIR_ASSIGN_OR_RETURN(corner.normal, Index(parts[2], normals_.size(), "normal"));
+    }
+    return corner;
+  }
+
+  Result<void> Face() {
+    std::vector<Corner> corners;
+    std::vector<Vec3> points;
+    while (!lines_.Rest().empty()) {
+      PLEINAIR_ASSIGN_OR_RETURN(const Corner corner, ParseCorner(lines_.Word()));
+      corners.push_back(corner);
+      const auto& p = positions_[static_cast<std::size_t>(corner.position)];
+      points.push_back({p[0], p[1], p[2]});
+    }
+    if (corners.size() < 3) return Fail("a face has fewer than three corners");
+    const std::vector<std::uint32_t> triangles = TriangulatePolygon(points);
+    if (triangles.empty()) return Fail("a concave face has more than 2000 corners");
+    const std::uint32_t mesh_index = CurrentMesh();
+    std::vector<std::uint32_t> vertices;
+    for (const Corner& corner : corners) {
+      if (vertices_.size() >= kMostVertices) return Fail("has more than 20 million vertices");
+      vertices.push_back(Vertex(mesh_index, corner));
+    }
+    Mesh& mesh = model_.meshes[mesh_index];
+    if (index_count_ + triangles.size() > 3 * kMostTriangles) {
+      return Fail("has more than 40 million triangles");
+    }
+    index_count_ += triangles.size();
+    for (const std::uint32_t corner : triangles) mesh.indices.push_back(vertices[corner]);
+    return {};
+  }
+
+  std::uint32_t Vertex(std::uint32_t mesh_index, const Corner& corner) {
+    Mesh& mesh = model_.meshes[mesh_index];
+    const VertexKey key{mesh_index, corner.position, corner.uv, corner.normal};
+    const auto [found, is_new] =
+        vertices_.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+    if (!is_new) return found->second;
+    mesh.positions.push_back(positions_[static_cast<std::size_t>(corner.position)]);
+    mesh.normals.push_back(corner.normal == kNone
+                               ? std::array<float, 3>{}
+                               : normals_[static_cast<std::size_t>(corner.normal)]);
+    std::array<float, 2> uv{};
+    if (corner.uv != kNone) {
+      uv = uvs_[static_cast<std::size_t>(corner.uv)];
+      uv[1] = 1.0F - uv[1];  // OBJ counts v from the picture's bottom.
+      has_uvs_[mesh_index] = true;
+    }
+    mesh.uvs.push_back(uv);
+    return found->second;
+  }
+
+  /// The mesh for the current name and material.
+  std::uint32_t CurrentMesh() {
+    if (current_mesh_) return *current_mesh_;
+    if (material_ < 0) UseMaterial("");
+    const auto [found, is_new] =
+        meshes_.try_emplace({name_, material_}, static_cast<std::uint32_t>(model_.meshes.size()));
+    if (is_new) {
+      Mesh mesh;
+      mesh.name = name_;
+      mesh.material = material_;
+      model_.meshes.push_back(std::move(mesh));
+      has_uvs_.push_back(false);
+    }
+    current_mesh_ = found->second;
+    return found->second;
+  }
+
+  /// A name that no library defines gets the default material, as viewers do.
+  void UseMaterial(const std::string& name) {
+    const auto [found, is_new] =
+        materials_.try_emplace(name, static_cast<int>(model_.materials.size()));
+    if (is_new) {
+      Material material;
+      material.name = name;
+      model_.materials.push_back(std::move(material));
+    }
+    material_ = found->second;
+    current_mesh_.reset();
+  }
+
+  Result<void> ReadLibraries() {
+    // Several names may follow, but a single one may contain blanks: try the whole first.
+    std::string name(lines_.Rest());
+    if (name.empty()) return Fail("mtllib names no file");
+    if (++libraries_ > 100) return Fail("names more than 100 material libraries");
+    auto text = companions_.read_text(file_.parent_path() / name);
+    if (!text && name.find(' ') != std::string::npos) {
+      while (!lines_.Rest().empty()) PLEINAIR_RETURN_IF_ERROR(ReadLibrary(lines_.Word()));
+      return {};
+    }
+    return ReadLibrary(name);
+  }
+
+  Result<void> ReadLibrary(std::string_view name) {
+    const std::filesystem::path path = file_.parent_path() / name;
+    auto text = companions_.read_text(path);
+    if (!text) {
+      return Fail("material library " + text.error().Message(),
+                  "put the file beside the model or remove the mtllib line");
+    }
+    const std::size_t first = model_.materials.size();
+    PLEINAIR_RETURN_IF_ERROR(ParseMtl(*text, path, companions_, &model_));
+    for (std::size_t i = first; i < model_.materials.size(); ++i) {
+      materials_[model_.materials[i].name] = static_cast<int>(i);
+    }
+    return {};
+  }
+
+  ObjLines lines_;
+  const std::filesystem::path& file_;
+  const ObjCompanions& companions_;
+  Model model_;
+  std::vector<std::array<float, 3>> positions_, normals_;
+  std::vector<std::array<float, 2>> uvs_;
+  std::vector<bool> has_uvs_;  ///< By mesh.
+  std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> vertices_;
+  std::map<std::pair<std::string, int>, std::uint32_t> meshes_;
+  std::map<std::string, int> materials_;
+  std::string name_;
+  int material_ = -1;
+  std::optional<std::uint32_t> current_mesh_;
+  std::size_t index_count_ = 0;
+  int libraries_ = 0;
+};
+
+}  // namespace
+
+Result<Model> ParseObj(std::string_view text, const std::filesystem::path& file,
+                       const ObjCompanions& companions) {
+  return ObjParser(text, file, companions).Parse();
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace pleinair::compositor {
+
+/// Calls `body(chunk)` once for every chunk 0…chunks−1 on `threads` threads (0: one a processor).
+/// Which thread runs a chunk is left to chance: bodies must depend on the chunk alone.
+template <typename Body>
+void ParallelFor(std::size_t chunks, int threads, const Body& body) {
+  std::size_t count = threads > 0 ? static_cast<std::size_t>(threads)
+                                  : std::max(1U, std::thread::hardware_concurrency());
+  count = std::min(count, chunks);
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t chunk = next++; chunk < chunks; chunk = next++) body(chunk);
+  };
+  std::vector<std::jthread> others;
+  for (std::size_t i = 1; i < count; ++i) others.emplace_back(work);
+  work();
+}
+
+}  // namespace pleinair::compositor

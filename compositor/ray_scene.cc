@@ -1,0 +1,145 @@
+#include "compositor/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace pleinair::compositor {
+namespace {
+
+/// An Embree object with its reference, released on destruction.
+template <typename Handle, void (*Release)(Handle)>
+class Owned {
+ public:
+  Owned() = default;
+  explicit Owned(Handle handle) : handle_(handle) {}
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  Owned(Owned&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+  Owned& operator=(Owned&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  ~Owned() {
+    if (handle_ != nullptr) Release(handle_);
+  }
+  Handle get() const { return handle_; }
+
+ private:
+  Handle handle_ = nullptr;
+};
+
+using Device = Owned<RTCDevice, rtcReleaseDevice>;
+using Scene = Owned<RTCScene, rtcReleaseScene>;
+using Geometry = Owned<RTCGeometry, rtcReleaseGeometry>;
+
+RTCRay MakeRay(Vec3 origin, Vec3 direction) {
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(origin.x);
+  ray.org_y = static_cast<float>(origin.y);
+  ray.org_z = static_cast<float>(origin.z);
+  ray.dir_x = static_cast<float>(direction.x);
+  ray.dir_y = static_cast<float>(direction.y);
+  ray.dir_z = static_cast<float>(direction.z);
+  ray.tfar = std::numeric_limits<float>::infinity();
+  ray.mask = ~0U;
+  return ray;
+}
+
+class EmbreeScene : public RayScene {
+ public:
+  EmbreeScene(Device device, Scene everything, Scene phantoms)
+      : device_(std::move(device)),
+        everything_(std::move(everything)),
+        phantoms_(std::move(phantoms)) {}
+
+  bool Intersect(RayTargets targets, Vec3 origin, Vec3 direction, RayHit* hit) const override {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{};
+    query.ray = MakeRay(origin, direction);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(SceneOf(targets), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit->mesh = query.hit.geomID;
+    hit->triangle = query.hit.primID;
+    hit->u = query.hit.u;
+    hit->v = query.hit.v;
+    hit->distance_m = query.ray.tfar;
+    // Embree's Ng is (v1−v0)×(v2−v0): right-handed, so counter-clockwise towards the viewer.
+    hit->back = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y +
+                    query.hit.Ng_z * query.ray.dir_z >
+                0.0F;
+    return true;
+  }
+
+  bool Occluded(RayTargets targets, Vec3 origin, Vec3 direction) const override {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = MakeRay(origin, direction);
+    rtcOccluded1(SceneOf(targets), &context, &ray);
+    return ray.tfar < 0.0F;
+  }
+
+ private:
+  RTCScene SceneOf(RayTargets targets) const {
+    return targets == RayTargets::kEverything ? everything_.get() : phantoms_.get();
+  }
+
+  Device device_;
+  Scene everything_;
+  Scene phantoms_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& meshes) {
+  // One build thread: the hierarchy, and with it the choice among surfaces at equal distance,
+  // must not depend on the machine. 200,000 triangles take a quarter of a second.
+  Device device(rtcNewDevice("threads=1,set_affinity=0"));
+  if (device.get() == nullptr) {
+    return SystemError("", "Embree cannot start on this processor",
+                       "Embree 3 needs SSE2 or NEON instructions");
+  }
+  Scene everything(rtcNewScene(device.get()));
+  Scene phantoms(rtcNewScene(device.get()));
+  for (const RTCScene scene : {everything.get(), phantoms.get()}) {
+    // Robust: no ray slips through the edge between two triangles.
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  }
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const RayMesh& mesh = meshes[i];
+    if (mesh.indices.empty()) continue;
+    const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    void* positions =
+        rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh.positions.size());
+    void* indices =
+        rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
+    if (positions == nullptr || indices == nullptr) {
+      return SystemError("", "not enough memory for the models' ray queries",
+                         "use models with fewer triangles");
+    }
+    std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * 3 * sizeof(float));
+    std::memcpy(indices, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(everything.get(), geometry.get(), static_cast<unsigned>(i));
+    if (mesh.is_phantom) {
+      rtcAttachGeometryByID(phantoms.get(), geometry.get(), static_cast<unsigned>(i));
+    }
+  }
+  rtcCommitScene(everything.get());
+  rtcCommitScene(phantoms.get());
+  if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) {
+    return SystemError("", "Embree could not build the models' ray queries",
+                       "use models with fewer triangles");
+  }
+  return std::make_unique<EmbreeScene>(std::move(device), std::move(everything),
+                                       std::move(phantoms));
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,189 @@
+#include "compositor/tessellation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+
+namespace pleinair::compositor {
+namespace {
+
+struct Box {
+  std::array<float, 3> low, high;
+
+  double Distance(const std::array<float, 3>& p) const {
+    double squared = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const double outside = std::max({low[i] - p[i], p[i] - high[i], 0.0F});
+      squared += outside * outside;
+    }
+    return std::sqrt(squared);
+  }
+};
+
+/// Boxes around the virtual objects; one for all of them when there are very many.
+std::vector<Box> ObjectBoxes(const std::vector<SurfaceMesh>& surfaces) {
+  constexpr std::size_t kMost = 32;
+  std::vector<Box> boxes;
+  for (const SurfaceMesh& surface : surfaces) {
+    if (surface.is_phantom || surface.positions.empty()) continue;
+    Box box{surface.positions[0], surface.positions[0]};
+    for (const auto& p : surface.positions) {
+      for (int i = 0; i < 3; ++i) {
+        box.low[i] = std::min(box.low[i], p[i]);
+        box.high[i] = std::max(box.high[i], p[i]);
+      }
+    }
+    boxes.push_back(box);
+  }
+  if (boxes.empty()) boxes.push_back(Box{});
+  if (boxes.size() <= kMost) return boxes;
+  Box all = boxes[0];
+  for (const Box& box : boxes) {
+    for (int i = 0; i < 3; ++i) {
+      all.low[i] = std::min(all.low[i], box.low[i]);
+      all.high[i] = std::max(all.high[i], box.high[i]);
+    }
+  }
+  return {all};
+}
+
+class Refiner {
+ public:
+  Refiner(std::vector<Box> boxes, double near_edge_m, double growth_per_m)
+      : boxes_(std::move(boxes)), near_edge_m_(near_edge_m), growth_per_m_(growth_per_m) {}
+
+  /// Splits until every edge fits; false when more than `max_vertices` would be needed.
+  bool Refine(SurfaceMesh* surface, std::size_t max_vertices) const {
+    // Each pass halves the edges that are too long: 40 take any length below any precision.
+    for (int pass = 0; pass < 40; ++pass) {
+      if (!RefineOnce(surface)) return true;
+      if (surface->positions.size() > max_vertices) return false;
+    }
+    return true;
+  }
+
+ private:
+  static std::array<float, 3> Midpoint(const std::array<float, 3>& a,
+                                       const std::array<float, 3>& b) {
+    return {(a[0] + b[0]) * 0.5F, (a[1] + b[1]) * 0.5F, (a[2] + b[2]) * 0.5F};
+  }
+
+  bool TooLong(const std::array<float, 3>& a, const std::array<float, 3>& b) const {
+    const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    if (length <= near_edge_m_) return false;
+    const std::array<float, 3> middle = Midpoint(a, b);
+    double distance = boxes_[0].Distance(middle);
+    for (const Box& box : boxes_) distance = std::min(distance, box.Distance(middle));
+    return length > near_edge_m_ + growth_per_m_ * distance;
+  }
+
+  static std::uint32_t AddMidpoint(SurfaceMesh* surface, std::uint32_t a, std::uint32_t b) {
+    const auto index = static_cast<std::uint32_t>(surface->positions.size());
+    surface->positions.push_back(Midpoint(surface->positions[a], surface->positions[b]));
+    std::array<float, 3> normal = surface->normals[a];
+    const std::array<float, 3>& other = surface->normals[b];
+    if (normal != other) {
+      for (int i = 0; i < 3; ++i) normal[i] += other[i];
+      const float norm = std::hypot(normal[0], normal[1], normal[2]);
+      for (int i = 0; i < 3; ++i) normal[i] = norm > 1e-6F ? normal[i] / norm : other[i];
+    }
+    surface->normals.push_back(normal);
+    if (!surface->uvs.empty()) {
+      const auto& uv_a = surface->uvs[a];
+      const auto& uv_b = surface->uvs[b];
+      surface->uvs.push_back({(uv_a[0] + uv_b[0]) * 0.5F, (uv_a[1] + uv_b[1]) * 0.5F});
+    }
+    return index;
+  }
+
+  bool RefineOnce(SurfaceMesh* surface) const {
+    constexpr std::uint32_t kKeep = ~0U;
+    std::unordered_map<std::uint64_t, std::uint32_t> middles;
+    const auto middle_of = [&](std::uint32_t a, std::uint32_t b) {
+      const std::uint64_t key = (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
+      const auto found = middles.find(key);
+      if (found != middles.end()) return found->second;
+      const bool split = TooLong(surface->positions[a], surface->positions[b]);
+      const std::uint32_t middle = split ? AddMidpoint(surface, a, b) : kKeep;
+      middles.emplace(key, middle);
+      return middle;
+    };
+    std::vector<std::uint32_t> refined;
+    refined.reserve(surface->indices.size());
+    const auto emit = [&refined](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      refined.insert(refined.end(), {a, b, c});
+    };
+    bool changed = false;
+    for (std::size_t t = 0; t + 2 < surface->indices.size(); t += 3) {
+      std::array<std::uint32_t, 3> v{surface->indices[t], surface->indices[t + 1],
+                                     surface->indices[t + 2]};
+      std::array<std::uint32_t, 3> m{middle_of(v[0], v[1]), middle_of(v[1], v[2]),
+                                     middle_of(v[2], v[0])};
+      const int splits = (m[0] != kKeep) + (m[1] != kKeep) + (m[2] != kKeep);
+      changed = changed || splits > 0;
+      // Turn the corners so that a lone split lies on edge 0, a lone unsplit edge is edge 2.
+      while ((splits == 1 && m[0] == kKeep) || (splits == 2 && m[2] != kKeep)) {
+        std::rotate(v.begin(), v.begin() + 1, v.end());
+        std::rotate(m.begin(), m.begin() + 1, m.end());
+      }
+      switch (splits) {
+        case 0:
+          emit(v[0], v[1], v[2]);
+          break;
+        case 1:
+          emit(v[0], m[0], v[2]);
+          emit(m[0], v[1], v[2]);
+          break;
+        case 2:
+          emit(m[0], v[1], m[1]);
+          emit(v[0], m[0], m[1]);
+          emit(v[0], m[1], v[2]);
+          break;
+        default:
+          emit(v[0], m[0], m[2]);
+          emit(m[0], v[1], m[1]);
+          emit(m[2], m[1], v[2]);
+          emit(m[0], m[1], m[2]);
+      }
+    }
+    surface->indices = std::move(refined);
+    return changed;
+  }
+
+  std::vector<Box> boxes_;
+  double near_edge_m_;
+  double growth_per_m_;
+};
+
+std::size_t CountVertices(const std::vector<SurfaceMesh>& surfaces) {
+  std::size_t count = 0;
+  for (const SurfaceMesh& surface : surfaces) count += surface.positions.size();
+  return count;
+}
+
+}  // namespace
+
+void Tessellate(const TessellationOptions& options, std::vector<SurfaceMesh>* surfaces) {
+  if (CountVertices(*surfaces) >= options.max_vertices) return;
+  const std::vector<Box> boxes = ObjectBoxes(*surfaces);
+  for (double scale = 1.0; scale < 1e6; scale *= 1.5) {
+    const Refiner refiner(boxes, options.near_edge_m * scale, options.growth_per_m * scale);
+    std::vector<SurfaceMesh> refined = *surfaces;
+    bool fits = true;
+    std::size_t used = 0;
+    for (SurfaceMesh& surface : refined) {
+      fits = used < options.max_vertices && refiner.Refine(&surface, options.max_vertices - used);
+      if (!fits) break;
+      used += surface.positions.size();
+    }
+    if (fits) {
+      *surfaces = std::move(refined);
+      return;
+    }
+  }
+}
+
+}  // namespace pleinair::compositor
