@@ -1,5 +1,7 @@
 #pragma once
 
+// Internal: between the .cc files of this module; not installed.
+
 #include <opencv2/core.hpp>
 
 #include "devices/picture_file.h"

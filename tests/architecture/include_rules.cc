@@ -1,0 +1,170 @@
+#include "include_rules.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace pleinair::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string, std::less<>>;
+
+/// Who may include whom, besides itself; the order of the modules (docs/design: the house).
+const std::map<std::string, Names, std::less<>>& AllowedModules() {
+  static const std::map<std::string, Names, std::less<>> kAllowed = {
+      {"base", {}},
+      {"devices", {"base"}},
+      {"tracker", {"base"}},
+      {"sky", {"base"}},
+      {"gl", {"base"}},
+      {"shadows", {"base", "sky", "gl"}},
+      {"compositor", {"base", "sky", "gl", "shadows"}},
+      {"app", {"base", "devices", "tracker", "sky", "gl", "shadows", "compositor"}},
+  };
+  return kAllowed;
+}
+
+/// Libraries and how to know them by the beginning of an include.
+struct Library {
+  const char* name;
+  std::vector<const char*> beginnings;
+  Names forbidden_modules;           ///< May not include it at all.
+  bool forbidden_in_public_headers;  ///< Of any module but app, which has none.
+};
+
+const std::vector<Library>& Libraries() {
+  static const std::vector<Library> kLibraries = {
+      {"OpenCV", {"opencv2/", "opencv4/"}, {"base", "sky", "gl", "shadows", "compositor"}, true},
+      {"Ceres", {"ceres/"}, {"base", "sky", "gl", "shadows", "compositor", "devices"}, true},
+      {"Eigen", {"Eigen/", "eigen3/", "unsupported/Eigen"}, {"base", "sky"}, true},
+      {"OpenGL",
+       {"epoxy/", "GL/", "EGL/", "GLFW/"},
+       {"base", "devices", "tracker", "sky", "app"},
+       false},
+      {"CLI11",
+       {"CLI/"},
+       {"base", "devices", "tracker", "sky", "gl", "shadows", "compositor"},
+       true},
+      {"AprilTag", {"apriltag/"}, {"base", "devices", "sky", "gl", "shadows", "compositor"}, true},
+      {"a JSON, YAML or TOML library",
+       {"nlohmann/", "yaml-cpp/", "toml"},
+       {"base", "tracker", "sky", "gl", "shadows", "compositor"},
+       true},
+      {"Embree", {"embree"}, {"base", "devices", "tracker", "sky", "gl"}, true},
+  };
+  return kLibraries;
+}
+
+/// Headers that users of a library see: those directly in a module's folder. Helpers between the
+/// .cc files of one module may speak a library's types if they say so in their first lines:
+/// "// Internal: …".
+bool IsPublicHeader(const fs::path& file, std::string_view text) {
+  if (file.extension() != ".h") return false;
+  const std::size_t first_include = text.find("#include");
+  return text.substr(0, first_include).find("Internal:") == std::string_view::npos;
+}
+
+std::string ModuleOf(const fs::path& path) {
+  return path.begin() == path.end() ? std::string() : path.begin()->string();
+}
+
+std::string WithoutComments(std::string_view text) {
+  std::string code;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text.substr(i, 2) == "//") {
+      while (i < text.size() && text[i] != '\n') ++i;
+    } else if (text.substr(i, 2) == "/*") {
+      const std::size_t end = std::min(text.size(), text.find("*/", i + 2));
+      code += std::string(std::count(text.begin() + i, text.begin() + end, '\n'), '\n');
+      i = std::min(text.size(), end + 2);
+    } else {
+      code += text[i++];
+    }
+  }
+  return code;
+}
+
+std::vector<fs::path> SourcesBelow(const fs::path& root) {
+  std::vector<fs::path> files;
+  for (const auto& [module, allowed] : AllowedModules()) {
+    if (!fs::exists(root / module)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / module)) {
+      static const Names kEndings = {".h", ".cc", ".glsl", ".vert", ".frag", ".geom", ".comp"};
+      if (entry.is_regular_file() && kEndings.contains(entry.path().extension().string())) {
+        files.push_back(fs::relative(entry.path(), root));
+      }
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+std::vector<Include> ParseIncludes(std::string_view text) {
+  std::vector<Include> includes;
+  std::istringstream lines(WithoutComments(text));
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    std::size_t at = line.find_first_not_of(" \t");
+    if (at == std::string::npos || line[at] != '#') continue;
+    at = line.find_first_not_of(" \t", at + 1);
+    if (at == std::string::npos || line.compare(at, 7, "include") != 0) continue;
+    const std::size_t open = line.find_first_of("\"<", at);
+    if (open == std::string::npos) continue;
+    const std::size_t close = line.find_first_of("\">", open + 1);
+    if (close != std::string::npos) {
+      includes.push_back({number, line.substr(open + 1, close - open - 1)});
+    }
+  }
+  return includes;
+}
+
+std::vector<std::string> FindBreaches(const fs::path& file, std::string_view text) {
+  std::vector<std::string> breaches;
+  const std::string module = ModuleOf(file);
+  const auto rule = AllowedModules().find(module);
+  if (rule == AllowedModules().end()) return {file.string() + ": is in no module"};
+  for (const Include& include : ParseIncludes(text)) {
+    const std::string what =
+        file.string() + ":" + std::to_string(include.line) + ": includes " + include.path + ": ";
+    const std::string other = ModuleOf(include.path);
+    if (AllowedModules().contains(other) && other != module && !rule->second.contains(other)) {
+      breaches.push_back(what + module + " may not know " + other);
+    }
+    if (include.path.find("..") != std::string::npos) {
+      breaches.push_back(what + "paths are written from the root of the tree");
+    }
+    for (const Library& library : Libraries()) {
+      const bool is_it =
+          std::any_of(library.beginnings.begin(), library.beginnings.end(),
+                      [&](const char* beginning) { return include.path.starts_with(beginning); });
+      if (!is_it) continue;
+      if (library.forbidden_modules.contains(module)) {
+        breaches.push_back(what + module + " may not know " + library.name);
+      } else if (library.forbidden_in_public_headers && module != "app" &&
+                 IsPublicHeader(file, text)) {
+        breaches.push_back(what + "public headers may not show " + library.name);
+      }
+    }
+  }
+  return breaches;
+}
+
+std::vector<std::string> FindBreachesBelow(const fs::path& root) {
+  std::vector<std::string> breaches;
+  for (const fs::path& file : SourcesBelow(root)) {
+    std::ifstream in(root / file, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    const auto of_file = FindBreaches(file, text);
+    breaches.insert(breaches.end(), of_file.begin(), of_file.end());
+  }
+  return breaches;
+}
+
+std::size_t CountSources(const fs::path& root) { return SourcesBelow(root).size(); }
+
+}  // namespace pleinair::architecture

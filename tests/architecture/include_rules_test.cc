@@ -1,0 +1,80 @@
+#include "include_rules.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pleinair::architecture {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(IncludeRules, HoldInTheWholeSourceTree) {
+  EXPECT_GT(CountSources(PLEINAIR_SOURCE_DIR), 60U);
+  EXPECT_THAT(FindBreachesBelow(PLEINAIR_SOURCE_DIR), IsEmpty());
+}
+
+TEST(IncludeRules, CatchAnIncludeAgainstTheOrderOfModules) {
+  EXPECT_THAT(FindBreaches("tracker/pose.cc", "\n#include \"gl/texture.h\"\n"),
+              ElementsAre("tracker/pose.cc:2: includes gl/texture.h: tracker may not know gl"));
+  EXPECT_THAT(FindBreaches("sky/sun.cc", "#include \"devices/frame.h\""),
+              ElementsAre(HasSubstr("sky may not know devices")));
+  EXPECT_THAT(FindBreaches("base/image.h", "#include \"app/session.h\""),
+              ElementsAre(HasSubstr("base may not know app")));
+  EXPECT_THAT(FindBreaches("shadows/shaders/a.frag", "#include \"compositor/shaders/b.glsl\""),
+              ElementsAre(HasSubstr("shadows may not know compositor")));
+}
+
+TEST(IncludeRules, CatchOpenCvWhereABareMachineMustBuild) {
+  EXPECT_THAT(FindBreaches("compositor/model.cc", "#include <opencv2/core.hpp>"),
+              ElementsAre(HasSubstr("compositor may not know OpenCV")));
+}
+
+TEST(IncludeRules, CatchOpenGlInTheTracker) {
+  EXPECT_THAT(FindBreaches("tracker/pose.cc", "  #  include <epoxy/gl.h>"),
+              ElementsAre(HasSubstr("tracker may not know OpenGL")));
+}
+
+TEST(IncludeRules, CatchALibrarysTypesInAPublicHeader) {
+  EXPECT_THAT(FindBreaches("tracker/pose.h", "#include <Eigen/Core>"),
+              ElementsAre(HasSubstr("public headers may not show Eigen")));
+  EXPECT_THAT(FindBreaches("tracker/pose.cc", "#include <Eigen/Core>"), IsEmpty());
+  EXPECT_THAT(
+      FindBreaches("tracker/pose.h", "// Internal: between .cc files.\n#include <Eigen/Core>"),
+      IsEmpty());
+}
+
+TEST(IncludeRules, CatchPathsThatClimb) {
+  EXPECT_THAT(FindBreaches("sky/sun.cc", "#include \"../sky/sun.h\""),
+              ElementsAre(HasSubstr("from the root")));
+}
+
+TEST(IncludeRules, CatchAFileOutsideTheModules) {
+  EXPECT_THAT(FindBreaches("misc/tool.cc", ""), ElementsAre(HasSubstr("is in no module")));
+}
+
+TEST(IncludeRules, AllowWhatTheOrderAllows) {
+  EXPECT_THAT(FindBreaches("compositor/light.cc",
+                           "#include <vector>\n#include \"base/image.h\"\n#include \"sky/a.h\"\n"
+                           "#include \"shadows/b.h\"\n#include \"compositor/c.h\"\n"),
+              IsEmpty());
+}
+
+TEST(IncludeRules, IgnoreIncludesInComments) {
+  EXPECT_THAT(FindBreaches("sky/sun.cc", "// #include \"app/a.h\"\n/*\n#include \"app/b.h\"\n*/"),
+              IsEmpty());
+}
+
+TEST(ParseIncludes, GivesLinesAndPathsOfBothForms) {
+  const auto includes =
+      ParseIncludes("/* one\n two */\n#include <vector>\n#  include \"base/a.h\"");
+  ASSERT_EQ(includes.size(), 2U);
+  EXPECT_EQ(includes[0].line, 3);
+  EXPECT_EQ(includes[0].path, "vector");
+  EXPECT_EQ(includes[1].line, 4);
+  EXPECT_EQ(includes[1].path, "base/a.h");
+}
+
+}  // namespace
+}  // namespace pleinair::architecture
