@@ -1,0 +1,103 @@
+// Normalised estimation error squared (Bar-Shalom, Li & Kirubarajan 2001, section 5.4): where a
+// covariance P tells the truth, eᵀ P⁻¹ e has the mean 6 for a pose.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "tests/tracker/marker_rendering.h"
+#include "tracker/april_tag_detector.h"
+#include "tracker/planar_pose.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::tracker {
+namespace {
+
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+
+/// camera_from_marker(estimate) = (Exp(w) R_true, t_true + d): w and d in the camera frame.
+Eigen::Matrix<double, 6, 1> PoseError(const Transform<Camera, Marker>& estimate,
+                                      const Transform<Camera, Marker>& truth) {
+  const Eigen::Matrix3d difference =
+      Eigen::Map<const RowMajor3>(estimate.rotation.m.data()) *
+      Eigen::Map<const RowMajor3>(truth.rotation.m.data()).transpose();
+  const Eigen::AngleAxisd turn(difference);
+  const Vec3 d = estimate.translation_m - truth.translation_m;
+  Eigen::Matrix<double, 6, 1> error;
+  error << turn.angle() * turn.axis(), d.x, d.y, d.z;
+  return error;
+}
+
+double Nees(const PoseEstimate& estimate, const Transform<Camera, Marker>& truth) {
+  const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(
+      estimate.covariance.data());
+  EXPECT_LT((covariance - covariance.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  const Eigen::Matrix<double, 6, 1> error = PoseError(estimate.best.camera_from_marker, truth);
+  return error.dot(covariance.ldlt().solve(error));
+}
+
+/// Half width of the 95 % band of the mean of `count` draws of χ² with 6 degrees of freedom.
+double Band(int count) { return 1.96 * std::sqrt(2.0 * 6.0 / count); }
+
+TEST(PoseCovariance, TellsTheTruthForGaussianNoiseOnTheCorners) {
+  CameraModel camera{.width = 640, .height = 480, .fx = 600, .fy = 605, .cx = 322, .cy = 238};
+  camera.distortion = {-0.13, 0.045, 0.0006, -0.0004, 0, 0, 0, 0};
+  // Corners are never independent: what is true of one holds partly of its neighbours.
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Matrix8 mixing = 0.03 * Matrix8::Identity();
+  for (int i = 0; i < 64; ++i) mixing(i / 8, i % 8) += 0.02 * normal(random);
+  const Matrix8 covariance = mixing * mixing.transpose();
+  CornerCovariance corner_covariance;
+  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(corner_covariance.data()) = covariance;
+  for (const double tilt_deg : {20.0, 50.0, 70.0}) {
+    RenderedMarker marker;
+    marker.camera_from_marker = PoseSeenAt(camera, {400, 180}, 120, marker.size,
+                                           FromDegrees(tilt_deg), FromDegrees(100), FromDegrees(5));
+    const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
+    constexpr int kDraws = 1000;
+    double sum = 0.0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      Eigen::Matrix<double, 8, 1> white;
+      for (int i = 0; i < 8; ++i) white[i] = normal(random);
+      const Eigen::Matrix<double, 8, 1> noise = mixing * white;
+      std::array<Vec2, 4> corners = truth;
+      for (int i = 0; i < 4; ++i) corners[i] = corners[i] + Vec2{noise[2 * i], noise[2 * i + 1]};
+      const auto pose = EstimatePlanarPose(camera, corners, corner_covariance, marker.size);
+      ASSERT_TRUE(pose.has_value());
+      sum += Nees(*pose, marker.camera_from_marker);
+    }
+    EXPECT_NEAR(sum / kDraws, 6.0, Band(kDraws)) << tilt_deg << " degrees";
+  }
+}
+
+// From the picture's noise to the pose, through the whole tracker. The covariance knows the noise
+// from the residuals only, and holds a floor for what they do not tell (a hundredth of a pixel in
+// the corners): it may be somewhat too wide, never too narrow.
+TEST(PoseCovariance, IsNotTooNarrowForNoiseInThePicture) {
+  const CameraModel camera{.width = 112, .height = 96, .fx = 200, .fy = 200, .cx = 56, .cy = 47};
+  RenderedMarker marker;
+  marker.pattern = AprilTagPattern("tag36h11", 2);
+  const auto tracker = *Tracker::Create(camera, {.marker_size_m = marker.size.value()});
+  double sum = 0.0;
+  constexpr int kDraws = 150;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    marker.camera_from_marker =
+        PoseSeenAt(camera, {55.0 + 0.01 * draw, 48.0 - 0.02 * draw}, 56, marker.size,
+                   FromDegrees(40), FromDegrees(2.4 * draw), FromDegrees(3.7 * draw));
+    RenderingOptions options{.blur_px = 0.5, .noise_codes = 5.0, .light = {}};
+    options.seed = static_cast<std::uint32_t>(draw + 1);
+    const auto sightings = tracker->Track(RenderMarkers(camera, {marker}, options).view());
+    ASSERT_TRUE(sightings.has_value());
+    ASSERT_EQ(sightings->size(), 1U);
+    sum += Nees((*sightings)[0].pose, marker.camera_from_marker);
+  }
+  RecordProperty("mean_nees", std::to_string(sum / kDraws));
+  EXPECT_LT(sum / kDraws, 6.0 + Band(kDraws));
+  EXPECT_GT(sum / kDraws, 3.0);
+}
+
+}  // namespace
+}  // namespace pleinair::tracker

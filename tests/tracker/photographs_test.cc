@@ -1,0 +1,87 @@
+// Three real photographs; provenance and licence in data/nasa-apriltags/README.md.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+#include "base/pixel_origin.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::tracker {
+namespace {
+
+struct GoldenTag {
+  int id = 0;
+  std::array<Vec2, 4> corners_px;  ///< In our pixel origin; the order is the peer's own.
+};
+
+std::vector<GoldenTag> ReadGolden(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<GoldenTag> tags;
+  for (std::string line; std::getline(file, line);) {
+    GoldenTag tag;
+    auto& c = tag.corners_px;
+    if (std::sscanf(line.c_str(), "%d, (%lf %lf), (%lf %lf), (%lf %lf), (%lf %lf)", &tag.id,
+                    &c[0].x, &c[0].y, &c[1].x, &c[1].y, &c[2].x, &c[2].y, &c[3].x, &c[3].y) != 9) {
+      continue;
+    }
+    for (Vec2& corner : c) corner = PixelFromCornerOrigin(corner);
+    tags.push_back(tag);
+  }
+  return tags;
+}
+
+/// Farthest corner of the golden tag from its nearest corner of the sighting.
+double Distance(const GoldenTag& tag, const Sighting& sighting) {
+  double farthest = 0.0;
+  for (const Vec2 golden : tag.corners_px) {
+    double nearest = 1e9;
+    for (const Vec2 corner : sighting.detection.corners_px) {
+      nearest = std::min(nearest, Norm(corner - golden));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+class Photograph : public testing::TestWithParam<std::pair<const char*, std::size_t>> {};
+
+TEST_P(Photograph, ShowsEveryTagOfTheGoldenFileWithinOnePixel) {
+  const auto [name, count] = GetParam();
+  const std::string stem =
+      std::string(PLEINAIR_SOURCE_DIR "/tests/tracker/data/nasa-apriltags/") + name;
+  const std::vector<GoldenTag> golden = ReadGolden(stem + ".txt");
+  ASSERT_EQ(golden.size(), count);
+  const cv::Mat picture = cv::imread(stem + ".jpg", cv::IMREAD_GRAYSCALE);
+  ASSERT_FALSE(picture.empty());
+  // Nobody calibrated this camera: about the field of view of a normal lens.
+  const CameraModel camera{.width = picture.cols,
+                           .height = picture.rows,
+                           .fx = 800,
+                           .fy = 800,
+                           .cx = 0.5 * (picture.cols - 1),
+                           .cy = 0.5 * (picture.rows - 1)};
+  const auto tracker = *Tracker::Create(camera, {.marker_size_m = 0.05});
+  const auto sightings = tracker->Track(
+      {picture.data, picture.cols, picture.rows, 1, static_cast<std::ptrdiff_t>(picture.step)});
+  ASSERT_TRUE(sightings.has_value());
+  for (const GoldenTag& tag : golden) {
+    const bool found =
+        std::any_of(sightings->begin(), sightings->end(), [&](const Sighting& sighting) {
+          return sighting.detection.id == tag.id && Distance(tag, sighting) < 1.0;
+        });
+    EXPECT_TRUE(found) << "at " << tag.corners_px[0].x << ", " << tag.corners_px[0].y;
+  }
+  for (const Sighting& sighting : *sightings) EXPECT_EQ(sighting.detection.id, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(NasaSwarmathon, Photograph,
+                         testing::Values(std::pair{"33369213973_9d9bb4cc96_c", 12},
+                                         std::pair{"34085369442_304b6bafd9_c", 25},
+                                         std::pair{"34139872896_defdb2f8d9_c", 10}));
+
+}  // namespace
+}  // namespace pleinair::tracker

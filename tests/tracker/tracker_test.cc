@@ -1,0 +1,131 @@
+#include "tracker/tracker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/tracker/marker_rendering.h"
+#include "tracker/april_tag_detector.h"
+
+namespace pleinair::tracker {
+namespace {
+
+using testing::HasSubstr;
+
+CameraModel Camera320() {
+  return {.width = 320,
+          .height = 200,
+          .fx = 400,
+          .fy = 400,
+          .cx = 161,
+          .cy = 98,
+          .distortion = {-0.12, 0.04, 0.001, -0.0005, 0, 0, 0, 0}};
+}
+
+RenderedMarker MarkerAt(const CameraModel& camera, int id, Vec2 centre_px, double side_px) {
+  RenderedMarker marker;
+  marker.pattern = AprilTagPattern("tag36h11", id);
+  marker.camera_from_marker = PoseSeenAt(camera, centre_px, side_px, marker.size, FromDegrees(35),
+                                         FromDegrees(60), FromDegrees(20));
+  return marker;
+}
+
+std::unique_ptr<Tracker> MakeTracker(const CameraModel& camera) {
+  return *Tracker::Create(camera, {.marker_size_m = 0.1});
+}
+
+double RotationError_deg(const Mat3& a, const Mat3& b) {
+  const Mat3 difference = a * b.Transposed();
+  const double sine =
+      0.5 * Norm(Vec3{difference(2, 1) - difference(1, 2), difference(0, 2) - difference(2, 0),
+                      difference(1, 0) - difference(0, 1)});
+  return ToDegrees(Radians(std::asin(std::min(1.0, sine))));
+}
+
+TEST(Tracker, GivesThePosesOfTwoMarkersInOrderOfTheirNumbers) {
+  const CameraModel camera = Camera320();
+  const std::vector<RenderedMarker> markers{MarkerAt(camera, 9, {80, 100}, 80),
+                                            MarkerAt(camera, 4, {230, 95}, 70)};
+  const auto sightings = MakeTracker(camera)->Track(RenderMarkers(camera, markers, {}).view());
+  ASSERT_TRUE(sightings.has_value());
+  ASSERT_EQ(sightings->size(), 2U);
+  for (int i = 0; i < 2; ++i) {
+    const RenderedMarker& marker = markers[1 - i];
+    const Sighting& sighting = (*sightings)[i];
+    EXPECT_EQ(sighting.detection.id, i == 0 ? 4 : 9);
+    EXPECT_EQ(sighting.detection.family, "tag36h11");
+    EXPECT_GT(sighting.detection.visible_fraction, 0.95);
+    EXPECT_STREQ(PathName(sighting.detection.path), "fast");
+    const auto& pose = sighting.pose.best.camera_from_marker;
+    EXPECT_LT(Norm(pose.translation_m - marker.camera_from_marker.translation_m),
+              3e-4 * Norm(marker.camera_from_marker.translation_m));
+    EXPECT_LT(RotationError_deg(pose.rotation, marker.camera_from_marker.rotation), 0.03);
+    const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
+    for (int corner = 0; corner < 4; ++corner) {
+      EXPECT_LT(Norm(sighting.detection.corners_px[corner] - truth[corner]), 0.05);
+    }
+  }
+}
+
+TEST(Tracker, GivesTheSameBytesForTheSamePicture) {
+  const CameraModel camera = Camera320();
+  const GreyImage picture =
+      RenderMarkers(camera, {MarkerAt(camera, 1, {90, 90}, 60), MarkerAt(camera, 1, {220, 90}, 60)},
+                    {.noise_codes = 4.0, .light = {}});
+  const auto tracker = MakeTracker(camera);
+  const auto first = tracker->Track(picture.view());
+  ASSERT_EQ(first->size(), 2U);
+  EXPECT_LT((*first)[0].detection.corners_px[0].x, (*first)[1].detection.corners_px[0].x);
+  for (const auto& again :
+       {tracker->Track(picture.view()), MakeTracker(camera)->Track(picture.view())}) {
+    ASSERT_EQ(again->size(), first->size());
+    for (std::size_t i = 0; i < first->size(); ++i) {
+      EXPECT_EQ((*again)[i].detection.corners_px, (*first)[i].detection.corners_px);
+      EXPECT_EQ((*again)[i].pose.covariance, (*first)[i].pose.covariance);
+      EXPECT_EQ((*again)[i].pose.best.camera_from_marker.rotation,
+                (*first)[i].pose.best.camera_from_marker.rotation);
+    }
+  }
+}
+
+TEST(Tracker, FindsNothingInABlankPicture) {
+  const CameraModel camera = Camera320();
+  const auto sightings = MakeTracker(camera)->Track(GreyImage(320, 200).view());
+  ASSERT_TRUE(sightings.has_value());
+  EXPECT_TRUE(sightings->empty());
+}
+
+TEST(Tracker, TakesAPictureOfOnePixel) {
+  const CameraModel camera{.width = 1, .height = 1, .fx = 1, .fy = 1};
+  const auto sightings = MakeTracker(camera)->Track(GreyImage(1, 1).view());
+  ASSERT_TRUE(sightings.has_value());
+  EXPECT_TRUE(sightings->empty());
+}
+
+TEST(Tracker, RefusesAPictureOfAnotherSizeThanItsCamera) {
+  const auto sightings = MakeTracker(Camera320())->Track(GreyImage(640, 480).view());
+  ASSERT_FALSE(sightings.has_value());
+  EXPECT_THAT(sightings.error().Message(), HasSubstr("640x480"));
+  EXPECT_THAT(sightings.error().Message(), HasSubstr("320x200"));
+  EXPECT_FALSE(MakeTracker(Camera320())->Track({}).has_value());
+}
+
+TEST(Tracker, RefusesOptionsThatCannotBeMeant) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double size_m : {0.0, -0.1, nan}) {
+    EXPECT_FALSE(Tracker::Create(Camera320(), {.marker_size_m = size_m}).has_value());
+  }
+  EXPECT_FALSE(Tracker::Create(Camera320(), {.families = {}, .marker_size_m = 0.1}).has_value());
+  EXPECT_FALSE(
+      Tracker::Create(Camera320(), {.families = {"qr"}, .marker_size_m = 0.1}).has_value());
+  CameraModel camera = Camera320();
+  camera.fx = 0.0;
+  EXPECT_FALSE(Tracker::Create(camera, {.marker_size_m = 0.1}).has_value());
+  camera.fx = nan;
+  EXPECT_FALSE(Tracker::Create(camera, {.marker_size_m = 0.1}).has_value());
+}
+
+}  // namespace
+}  // namespace pleinair::tracker

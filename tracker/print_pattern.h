@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace pleinair::tracker {
+
+/// What is printed: a square of black and white modules, quiet zone included, as it is read.
+struct PrintPattern {
+  int modules = 0;       ///< Modules along each side, quiet zone included.
+  int edge_modules = 0;  ///< Modules along the side of the square whose corners are reported.
+  std::vector<std::uint8_t> white;  ///< 1 white, 0 black; row-major from the top-left.
+
+  /// Half the printed side in half edges: the print spans [-extent, extent] in both axes of the
+  /// coordinates in which the reported corners are (±1, ±1).
+  double Extent() const { return static_cast<double>(modules) / edge_modules; }
+};
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,105 @@
+#include "tracker/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "base/units.h"
+#include "tracker/april_tag_detector.h"
+#include "tracker/marker_detector.h"
+#include "tracker/planar_pose.h"
+#include "tracker/print_alignment.h"
+
+namespace pleinair::tracker {
+namespace {
+
+/// What AprilTag's corners are worth where the print's own pixels give none better: on sRGB grey
+/// its edges lie a third of a pixel inside the black square (tests/tracker/marker_bias_test.cc).
+constexpr double kRawCornerSigma_px = 0.4;
+
+class DetectingTracker final : public Tracker {
+ public:
+  DetectingTracker(const CameraModel& camera, Metres marker_size,
+                   std::vector<std::unique_ptr<MarkerDetector>> detectors)
+      : camera_(camera), marker_size_(marker_size), detectors_(std::move(detectors)) {}
+
+  Result<std::vector<Sighting>> Track(ImageView<const std::uint8_t> grey) override {
+    if (grey.width() != camera_.width || grey.height() != camera_.height) {
+      return InputError("",
+                        "the picture is " + SizeText(grey.width(), grey.height()) +
+                            " but its camera " + SizeText(camera_.width, camera_.height),
+                        "use the calibration of this camera at this resolution");
+    }
+    if (grey.channels() != 1) {
+      return InputError("", "the picture has " + std::to_string(grey.channels()) + " channels",
+                        "the tracker wants grey");
+    }
+    std::vector<Sighting> sightings;
+    for (const auto& detector : detectors_) {
+      for (Candidate& candidate : detector->Detect(grey)) {
+        std::optional<Sighting> sighting = Measure(grey, std::move(candidate));
+        if (sighting) sightings.push_back(std::move(*sighting));
+      }
+    }
+    std::stable_sort(sightings.begin(), sightings.end(), [](const Sighting& a, const Sighting& b) {
+      const auto key = [](const Sighting& s) {
+        const MarkerDetection& d = s.detection;
+        return std::make_tuple(std::cref(d.family), d.id, d.corners_px[0].x, d.corners_px[0].y);
+      };
+      return key(a) < key(b);
+    });
+    return sightings;
+  }
+
+ private:
+  static std::string SizeText(int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  }
+
+  std::optional<Sighting> Measure(ImageView<const std::uint8_t> grey, Candidate candidate) const {
+    Sighting sighting{std::move(candidate.detection), {}};
+    CornerCovariance covariance = IsotropicCornerCovariance(kRawCornerSigma_px);
+    const std::optional<PrintAlignment> alignment =
+        AlignPrint(camera_, *candidate.pattern, grey, sighting.detection.corners_px);
+    if (alignment) {
+      sighting.detection.corners_px = alignment->corners_px;
+      sighting.detection.visible_fraction = alignment->visible_fraction;
+      covariance = alignment->corner_covariance_px2;
+    }
+    const std::optional<PoseEstimate> pose =
+        EstimatePlanarPose(camera_, sighting.detection.corners_px, covariance, marker_size_);
+    if (!pose) return std::nullopt;
+    sighting.pose = *pose;
+    return sighting;
+  }
+
+  const CameraModel camera_;
+  const Metres marker_size_;
+  const std::vector<std::unique_ptr<MarkerDetector>> detectors_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
+                                                 const TrackerOptions& options) {
+  if (!(options.marker_size_m > 0.0) || !std::isfinite(options.marker_size_m)) {
+    return InputError("", "the marker's size must be positive",
+                      "give the edge of its outer black square");
+  }
+  if (camera.width <= 0 || camera.height <= 0 || !(camera.fx > 0.0) || !(camera.fy > 0.0) ||
+      !std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy)) {
+    return InputError("", "the camera has no usable size or focal length", "calibrate it");
+  }
+  if (options.families.empty()) {
+    return InputError("", "no marker family to look for", "name one, for example tag36h11");
+  }
+  std::vector<std::unique_ptr<MarkerDetector>> detectors;
+  PLEINAIR_ASSIGN_OR_RETURN(auto april_tags, CreateAprilTagDetector(options.families));
+  detectors.push_back(std::move(april_tags));
+  return std::unique_ptr<Tracker>(std::make_unique<DetectingTracker>(
+      camera, Metres(options.marker_size_m), std::move(detectors)));
+}
+
+}  // namespace pleinair::tracker
