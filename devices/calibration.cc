@@ -159,7 +159,10 @@ Result<void> SizeFromList(const JsonFields& fields, std::initializer_list<const 
                           Readings* readings) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::vector<double>> size, Matrix(fields, keys));
   if (!size) return {};
-  if (size->size() != 2 || std::fabs((*size)[0]) > 1e9 || std::fabs((*size)[1]) > 1e9) {
+  const bool whole = std::all_of(size->begin(), size->end(), [](double side) {
+    return std::trunc(side) == side && std::fabs(side) < 1e9;
+  });
+  if (size->size() != 2 || !whole) {
     return InputError(fields.name(), "has a picture size that is not [width, height]", kRemedy);
   }
   readings->width = static_cast<int>((*size)[0]);

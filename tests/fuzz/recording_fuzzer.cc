@@ -1,0 +1,30 @@
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "devices/euroc.h"
+#include "devices/picture_file.h"
+#include "devices/recording_manifest.h"
+#include "devices/scene_facts.h"
+
+// Every parser that a recording's folder passes through, on the same bytes: the formats refuse
+// each other early. What is accepted must hold what its header promises.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace pleinair::devices;  // NOLINT(google-build-using-namespace)
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  if (const auto manifest = ParseRecordingManifest(bytes, "recording.json")) {
+    if (manifest->frame_rate_hz && !(*manifest->frame_rate_hz > 0.0)) std::abort();
+  }
+  if (const auto facts = ParseScene(bytes, "scene")) {
+    const auto scene = CompleteScene(*facts, "scene");
+    if (scene && !(scene->marker.size_m > 0.0)) std::abort();
+  }
+  if (const auto frames = ParseEurocTable(bytes, "data.csv")) {
+    if (frames->empty()) std::abort();
+  }
+  if (const auto picture = InspectPicture(bytes, "picture")) {
+    if (picture->width < 1 || picture->width > kMaxPictureSide) std::abort();
+  }
+  return 0;
+}
