@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gl/glsl_as_cpp.h"
+
+namespace pleinair::shadows {
+namespace glsl {
+using namespace glm;  // NOLINT(google-build-using-namespace): what the shader language has built
+                      // in.
+#include "shadows/shaders/shadow_formulae.glsl"
+}  // namespace glsl
+
+namespace {
+
+TEST(StraightEdgeVisibility, IsTheSegmentOfADisc) {
+  EXPECT_NEAR(glsl::StraightEdgeVisibility(0.0F), 0.5F, 1e-6F);
+  EXPECT_NEAR(glsl::StraightEdgeVisibility(0.5F), 0.8045F, 5e-5F);
+  EXPECT_NEAR(glsl::StraightEdgeVisibility(0.8F), 0.9480F, 5e-5F);
+  EXPECT_NEAR(glsl::StraightEdgeVisibility(-0.5F), 1.0F - 0.8045F, 5e-5F);
+  EXPECT_EQ(glsl::StraightEdgeVisibility(3.0F), 1.0F);
+  EXPECT_EQ(glsl::StraightEdgeVisibility(-3.0F), 0.0F);
+}
+
+TEST(VogelDisc, SpreadsEvenlyOverTheDisc) {
+  constexpr int kPoints = 48;
+  glm::dvec2 mean(0.0), second(0.0);
+  for (int i = 0; i < kPoints; ++i) {
+    const glm::dvec2 p(glsl::VogelDisc(i, kPoints));
+    EXPECT_LT(glm::length(p), 1.0);
+    mean += p / static_cast<double>(kPoints);
+    second += p * p / static_cast<double>(kPoints);
+  }
+  EXPECT_LT(glm::length(mean), 0.02);
+  EXPECT_NEAR(second.x, 0.25, 0.01);  // Of a uniform disc: ρ²/4 an axis.
+  EXPECT_NEAR(second.y, 0.25, 0.01);
+}
+
+TEST(NormalCdf, IsWithinThePublishedErrorOfItsFit) {
+  for (double x = -6.0; x <= 6.0; x += 0.01) {
+    EXPECT_NEAR(glsl::NormalCdf(static_cast<float>(x)), 0.5 * std::erfc(-x / std::sqrt(2.0)),
+                1.5e-4)
+        << x;
+  }
+}
+
+TEST(GaussianVisibility, IsOneOnALitSurface) {
+  // The paper's 1 − Φ would give ½ here.
+  EXPECT_NEAR(glsl::GaussianVisibility(0.3F, 0.3F, 1e-6F), 1.0F, 1e-6F);
+  EXPECT_EQ(glsl::GaussianVisibility(0.2F, 0.3F, 1e-6F), 1.0F);
+  EXPECT_NEAR(glsl::GaussianVisibility(0.5F, 0.3F, 1e-4F), 0.0F, 1e-6F);
+}
+
+// Depths 0 (a share p of the kernel) and 1; receiver at 1. Truth 1 − p.
+TEST(MomentVisibility, OfTwoPlanesHasTheMeasuredErrors) {
+  for (const float p : {0.1F, 0.5F, 0.9F}) {
+    const float mean = 1.0F - p;
+    const float variance = p * (1.0F - p);
+    EXPECT_NEAR(glsl::VarianceVisibility(1.0F, mean, variance), 1.0F - p, 1e-6F);
+  }
+  // Penumbrae too dark: 0.739, 0.317, 0.003 in place of 0.9, 0.5, 0.1.
+  EXPECT_NEAR(glsl::GaussianVisibility(1.0F, 0.9F, 0.09F), 0.739F, 1e-3F);
+  EXPECT_NEAR(glsl::GaussianVisibility(1.0F, 0.5F, 0.25F), 0.317F, 1e-3F);
+  EXPECT_NEAR(glsl::GaussianVisibility(1.0F, 0.1F, 0.09F), 0.003F, 1e-3F);
+}
+
+}  // namespace
+}  // namespace pleinair::shadows

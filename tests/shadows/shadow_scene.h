@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <list>
+#include <string>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/vertex_array.h"
+#include "gl_fixture.h"
+#include "shadows/shadow_maps.h"
+
+namespace pleinair::shadows {
+
+/// A square patch of points, marker coordinates: origin + (column + ½) du + (row + ½) dv.
+struct ProbePlane {
+  glm::dvec3 origin{0.0};
+  glm::dvec3 du{0.0}, dv{0.0};
+  int width = 0, height = 0;
+  glm::dvec3 normal{0.0, 0.0, 1.0};
+
+  glm::dvec3 At(int x, int y) const { return origin + du * (x + 0.5) + dv * (y + 0.5); }
+};
+
+/// Scenes of axis-aligned boxes and parallelograms, with the visibility that the maps give and the
+/// true one, by rays to the sun's disc.
+class ShadowScene : public gl::GlTest {
+ protected:
+  /// Adds a solid box, or a parallelogram (never casts on itself).
+  void AddBox(const glm::dvec3& low, const glm::dvec3& high);
+  void AddQuad(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b);
+  std::vector<ShadowCaster> Casters() const;
+  Box Bounds() const;
+  void ClearScene() {
+    meshes_.clear();
+    triangles_.clear();
+  }
+
+  /// Visibility from the maps at each point of the plane.
+  std::vector<float> Visibility(const ShadowMaps& maps, const ProbePlane& plane);
+  /// The same by `rays` rays to a uniform disc.
+  std::vector<float> Truth(const ProbePlane& plane, const glm::dvec3& to_sun, int rays = 256) const;
+
+ private:
+  struct Mesh {
+    gl::GlBuffer positions, indices;
+    gl::GlVertexArray vertices;
+    ShadowCaster caster;
+  };
+  struct Triangle {
+    glm::dvec3 a, ab, ac;
+  };
+  void AddMesh(const std::vector<glm::vec3>& positions, const std::vector<unsigned>& indices);
+
+  std::list<Mesh> meshes_;
+  std::vector<Triangle> triangles_;
+};
+
+/// Towards the sun from its azimuth (from +y, towards +x) and elevation.
+glm::dvec3 SunAt(double azimuth_deg, double elevation_deg);
+Direction<Marker> AsDirection(const glm::dvec3& v);
+
+struct Errors {
+  double rmse = 0.0;           ///< Over all points.
+  double penumbra_rmse = 0.0;  ///< Where 0.01 < truth < 0.99.
+  double bias = 0.0;           ///< Mean of result − truth.
+  double leak = 0.0;           ///< Mean result where truth < 0.001.
+  double darkening = 0.0;      ///< Mean 1 − result where truth > 0.999.
+  int penumbra_points = 0;
+};
+Errors Compare(const std::vector<float>& result, const std::vector<float>& truth);
+
+}  // namespace pleinair::shadows

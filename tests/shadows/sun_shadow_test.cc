@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shadow_scene.h"
+
+namespace pleinair::shadows {
+namespace {
+
+double StraightEdge(double u) {
+  const double x = std::clamp(u, -1.0, 1.0);
+  return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
+}
+
+Box Around(const glm::dvec3& low, const glm::dvec3& high) {
+  Box box;
+  box.Include(low);
+  box.Include(high);
+  return box;
+}
+
+class SunShadow : public ShadowScene {
+ protected:
+  ShadowMaps Region(const glm::dvec3& to_sun, const Box& focus, ShadowMapOptions options = {}) {
+    auto maps = ShadowMaps::Create(options);
+    EXPECT_TRUE(maps.has_value()) << maps.error().Message();
+    const auto drawn = maps->UpdateForRegion(Casters(), AsDirection(to_sun), focus);
+    EXPECT_TRUE(drawn.has_value()) << drawn.error().Message();
+    return std::move(*maps);
+  }
+  void AddGround() { AddQuad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}); }
+};
+
+// 9.3 mm of penumbra a metre of height. Tolerance: 48 taps and the map's texels.
+TEST_F(SunShadow, OfAStraightEdgeIsTheClosedForm) {
+  for (const double height : {0.5, 1.0, 2.0, 5.0}) {
+    ClearScene();
+    AddGround();
+    AddQuad({-1, -1, height}, {1, 0, 0}, {0, 2, 0});  // Covers x < 0.
+    const ShadowMaps maps = Region({0, 0, 1}, Around({-0.5, -0.5, 0}, {0.5, 0.5, height}));
+    const double radius = height * std::tan(kSunAngularRadius.value());
+    ProbePlane plane;
+    plane.width = 400;
+    plane.height = 16;
+    plane.origin = {-2.0 * radius, -0.2, 0.0};
+    plane.du = {4.0 * radius / plane.width, 0.0, 0.0};
+    plane.dv = {0.0, 0.4 / plane.height, 0.0};
+    const std::vector<float> result = Visibility(maps, plane);
+    double sum = 0.0, worst = 0.0;
+    for (int y = 0; y < plane.height; ++y) {
+      for (int x = 0; x < plane.width; ++x) {
+        const double error = result[y * plane.width + x] - StraightEdge(plane.At(x, y).x / radius);
+        sum += error * error;
+        worst = std::max(worst, std::abs(error));
+      }
+    }
+    const double rmse = std::sqrt(sum / (plane.width * plane.height));
+    RecordProperty("rmse_mm" + std::to_string(static_cast<int>(height * 1000)),
+                   std::to_string(rmse));
+    EXPECT_LT(rmse, 0.025) << "height " << height;
+    EXPECT_LT(worst, 0.09) << "height " << height;
+  }
+}
+
+TEST_F(SunShadow, LeavesALitPlaneFullyLitByEveryMethod) {
+  AddGround();
+  for (const double elevation : {8.0, 20.0, 45.0, 80.0}) {
+    for (const VisibilityMethod method :
+         {VisibilityMethod::kSunDisc, VisibilityMethod::kGaussian, VisibilityMethod::kVariance}) {
+      ShadowMapOptions options;
+      options.method = method;
+      options.resolutions = {512, 512, 512, 512};
+      const ShadowMaps maps =
+          Region(SunAt(140, elevation), Around({-1, -1, 0}, {1, 1, 1}), options);
+      const ProbePlane plane{{-3, -3, 0}, {0.0301, 0, 0}, {0, 0.0301, 0}, 200, 200};
+      const std::vector<float> result = Visibility(maps, plane);
+      EXPECT_GT(*std::min_element(result.begin(), result.end()),
+                method == VisibilityMethod::kSunDisc ? 0.9999F : 0.98F)
+          << "elevation " << elevation << " method " << static_cast<int>(method);
+    }
+  }
+}
+
+TEST_F(SunShadow, HasNoAcneOnTheSunnySidesOfABox) {
+  AddGround();
+  AddBox({-0.2, -0.2, 0}, {0.2, 0.2, 0.5});
+  const glm::dvec3 to_sun = SunAt(200, 30);  // Low y and low x are the sunny sides.
+  const ShadowMaps maps = Region(to_sun, Around({-0.2, -0.2, 0}, {0.2, 0.2, 0.5}));
+  // A millimetre away from the foot, where the ground's texels meet the wall's.
+  const ProbePlane south{
+      {-0.199, -0.2, 0.005}, {0.00199, 0, 0}, {0, 0, 0.00247}, 200, 200, {0, -1, 0}};
+  const ProbePlane west{
+      {-0.2, -0.199, 0.005}, {0, 0.00199, 0}, {0, 0, 0.00247}, 200, 200, {-1, 0, 0}};
+  for (const ProbePlane& plane : {south, west}) {
+    const std::vector<float> result = Visibility(maps, plane);
+    EXPECT_EQ(*std::min_element(result.begin(), result.end()), 1.0F);
+  }
+  const ProbePlane north{
+      {-0.199, 0.2, 0.005}, {0.00199, 0, 0}, {0, 0, 0.00247}, 200, 200, {0, 1, 0}};
+  const std::vector<float> shaded = Visibility(maps, north);
+  EXPECT_EQ(*std::max_element(shaded.begin(), shaded.end()), 0.0F);
+}
+
+TEST_F(SunShadow, BeginsWithinTwoMillimetresOfTheContact) {
+  AddGround();
+  AddBox({-0.2, -0.2, 0}, {0.2, 0.2, 0.5});
+  for (const double elevation : {18.0, 43.0, 65.0}) {
+    const glm::dvec3 to_sun = SunAt(180, elevation);  // The shadow lies towards +y.
+    const ShadowMaps maps = Region(to_sun, Around({-0.2, -0.2, 0}, {0.2, 0.2, 0.5}));
+    const ProbePlane plane{{-0.15, 0.2, 0}, {0.003, 0, 0}, {0, 0.0001, 0}, 100, 100};
+    const std::vector<float> result = Visibility(maps, plane);
+    for (int x = 0; x < plane.width; ++x) {
+      int y = 0;
+      while (y < plane.height && result[y * plane.width + x] > 0.5F) ++y;
+      EXPECT_LT((plane.At(x, y) - plane.At(x, 0)).y, 0.002) << "elevation " << elevation;
+    }
+  }
+}
+
+TEST_F(SunShadow, EndsWhereTheGeometrySays) {
+  AddGround();
+  AddBox({-0.2, -0.2, 0}, {0.2, 0.2, 0.5});
+  for (const double elevation : {18.0, 43.0, 65.0}) {
+    const glm::dvec3 to_sun = SunAt(180, elevation);
+    const ShadowMaps maps = Region(to_sun, Around({-0.2, -0.2, 0}, {0.2, 0.2, 0.5}));
+    const double tip = 0.2 + 0.5 / std::tan(elevation * kRadiansPerDegree);
+    const ProbePlane plane{{-0.1, tip - 0.03, 0}, {0.002, 0, 0}, {0, 0.0001, 0}, 100, 600};
+    const std::vector<float> result = Visibility(maps, plane);
+    double mean_edge = 0.0;
+    for (int x = 0; x < plane.width; ++x) {
+      int y = 0;
+      while (y < plane.height && result[y * plane.width + x] < 0.5F) ++y;
+      mean_edge += plane.At(x, y).y / plane.width;
+    }
+    EXPECT_NEAR(mean_edge, tip, 0.002) << "elevation " << elevation;
+  }
+}
+
+// Where a lower occluder covers the receiver, a higher one must not let light in.
+TEST_F(SunShadow, DoesNotLeakBetweenTwoOccluders) {
+  AddGround();
+  AddQuad({-0.5, -0.5, 0.4}, {1, 0, 0}, {0, 1, 0});
+  AddQuad({-1.0, -0.03, 2.0}, {2, 0, 0}, {0, 0.06, 0});
+  const glm::dvec3 to_sun(0, 0, 1);
+  const Box focus = Around({-0.6, -0.6, 0}, {0.6, 0.6, 0.5});
+  const ProbePlane plane{{-0.3, -0.3, 0}, {0.003, 0, 0}, {0, 0.003, 0}, 200, 200};
+  const std::vector<float> ours = Visibility(Region(to_sun, focus), plane);
+  EXPECT_LT(*std::max_element(ours.begin(), ours.end()), 0.001F);
+  ShadowMapOptions options;
+  options.method = VisibilityMethod::kVariance;
+  const std::vector<float> variance = Visibility(Region(to_sun, focus, options), plane);
+  EXPECT_GT(*std::max_element(variance.begin(), variance.end()), 0.3F)
+      << "the scene no longer shows what it is for";
+}
+
+TEST_F(SunShadow, IsCloserToTheTruthThanThePapersGaussian) {
+  AddGround();
+  AddBox({-0.2, -0.2, 0.0}, {0.2, 0.2, 0.5});
+  AddBox({0.6, -0.05, 0.0}, {0.7, 0.05, 2.0});
+  AddQuad({-1.2, -0.4, 0.8}, {0.6, 0, 0}, {0, 0.6, 0});
+  const glm::dvec3 to_sun = SunAt(200, 43);
+  const ProbePlane plane{{-1.5, -0.6, 0}, {3.0 / 160, 0, 0}, {0, 2.4 / 128, 0}, 160, 128};
+  const std::vector<float> truth = Truth(plane, to_sun, 128);
+  const Box focus = Around({-1.2, -0.4, 0}, {0.7, 0.4, 2});
+  const Errors ours = Compare(Visibility(Region(to_sun, focus), plane), truth);
+  ShadowMapOptions options;
+  options.method = VisibilityMethod::kGaussian;
+  const Errors paper = Compare(Visibility(Region(to_sun, focus, options), plane), truth);
+  EXPECT_GT(ours.penumbra_points, 100);
+  EXPECT_LT(ours.penumbra_rmse, 0.06);
+  EXPECT_LT(ours.leak, 5e-4);
+  EXPECT_LT(ours.darkening, 5e-4);
+  EXPECT_LT(std::abs(ours.bias), 1e-3);
+  EXPECT_LT(ours.penumbra_rmse, 0.5 * paper.penumbra_rmse);
+}
+
+}  // namespace
+}  // namespace pleinair::shadows
