@@ -31,7 +31,8 @@ struct CameraModel {
   }
 };
 
-/// Distorts a normalised image point (X/Z, Y/Z). `T` is double or an automatic-differentiation type.
+/// Distorts a normalised image point (X/Z, Y/Z). `T` is double or an automatic-differentiation
+/// type.
 template <typename T>
 void DistortNormalized(const CameraModel& camera, const T& x, const T& y, T* x_distorted,
                        T* y_distorted) {

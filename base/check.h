@@ -4,15 +4,15 @@
 #include <iostream>
 
 /// Broken invariants of our own: print both operands and abort. Never for input from outside.
-#define PLEINAIR_CHECK_OP(a, op, b)                                                           \
-  do {                                                                                        \
-    const auto& check_a = (a);                                                                \
-    const auto& check_b = (b);                                                                \
-    if (!(check_a op check_b)) {                                                              \
-      std::cerr << __FILE__ << ":" << __LINE__ << ": CHECK failed: " #a " " #op " " #b " ("   \
-                << check_a << " vs. " << check_b << ")\n";                                    \
-      std::abort();                                                                           \
-    }                                                                                         \
+#define PLEINAIR_CHECK_OP(a, op, b)                                                         \
+  do {                                                                                      \
+    const auto& check_a = (a);                                                              \
+    const auto& check_b = (b);                                                              \
+    if (!(check_a op check_b)) {                                                            \
+      std::cerr << __FILE__ << ":" << __LINE__ << ": CHECK failed: " #a " " #op " " #b " (" \
+                << check_a << " vs. " << check_b << ")\n";                                  \
+      std::abort();                                                                         \
+    }                                                                                       \
   } while (false)
 
 #define CHECK_EQ(a, b) PLEINAIR_CHECK_OP(a, ==, b)

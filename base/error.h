@@ -53,14 +53,14 @@ inline tl::unexpected<Error> SystemError(std::string where, std::string what,
 /// Declares `lhs` from the value of a Result, or returns its error from the enclosing function.
 #define PLEINAIR_ASSIGN_OR_RETURN(lhs, expression) \
   PLEINAIR_ASSIGN_OR_RETURN_IMPL(PLEINAIR_CONCAT(result_, __LINE__), lhs, expression)
-#define PLEINAIR_ASSIGN_OR_RETURN_IMPL(result, lhs, expression)          \
-  auto result = (expression);                                            \
+#define PLEINAIR_ASSIGN_OR_RETURN_IMPL(result, lhs, expression)         \
+  auto result = (expression);                                           \
   if (!result) return ::tl::make_unexpected(std::move(result).error()); \
   lhs = *std::move(result)
 
 /// Returns the error of a Result<void> from the enclosing function.
-#define PLEINAIR_RETURN_IF_ERROR(expression)                                      \
-  do {                                                                            \
-    auto status = (expression);                                                   \
-    if (!status) return ::tl::make_unexpected(std::move(status).error());         \
+#define PLEINAIR_RETURN_IF_ERROR(expression)                              \
+  do {                                                                    \
+    auto status = (expression);                                           \
+    if (!status) return ::tl::make_unexpected(std::move(status).error()); \
   } while (false)

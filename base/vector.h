@@ -45,8 +45,7 @@ struct Mat3 {
     Mat3 product;
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) {
-        product(r, c) =
-            (*this)(r, 0) * o(0, c) + (*this)(r, 1) * o(1, c) + (*this)(r, 2) * o(2, c);
+        product(r, c) = (*this)(r, 0) * o(0, c) + (*this)(r, 1) * o(1, c) + (*this)(r, 2) * o(2, c);
       }
     }
     return product;

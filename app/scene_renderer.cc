@@ -1,0 +1,201 @@
+#include "app/scene_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "compositor/marker_print.h"
+#include "sky/daylight.h"
+
+namespace pleinair::app {
+namespace {
+
+// The sun moves its own width in about two minutes; the light is made anew after half of that.
+constexpr double kSunStep = 0.25 * kRadiansPerDegree;
+// Frames over which the exposure is a running median: long enough to still a flickering reading,
+// short enough to follow a camera's automatic exposure.
+constexpr std::size_t kGainWindow = 15;
+// Where no marker could be read, the gain is guessed so that white paper on the ground shows as
+// this display-linear value.
+constexpr double kGuessedWhite = 0.8;
+
+using Clock = std::chrono::steady_clock;
+
+double MillisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+sky::SkyCondition ConditionOf(devices::Cloudiness cloudiness) {
+  switch (cloudiness) {
+    case devices::Cloudiness::kClear:
+      return sky::SkyCondition::kClear;
+    case devices::Cloudiness::kHazy:
+      return sky::SkyCondition::kHazy;
+    case devices::Cloudiness::kPartlyCloudy:
+      return sky::SkyCondition::kPartlyCloudy;
+    case devices::Cloudiness::kOvercast:
+      return sky::SkyCondition::kOvercast;
+  }
+  return sky::SkyCondition::kClear;
+}
+
+compositor::NormalsMode NormalsOf(devices::Shading shading) {
+  switch (shading) {
+    case devices::Shading::kFromFile:
+      return compositor::NormalsMode::kFromFile;
+    case devices::Shading::kFlat:
+      return compositor::NormalsMode::kFlat;
+    case devices::Shading::kSmooth:
+      return compositor::NormalsMode::kSmooth;
+  }
+  return compositor::NormalsMode::kFromFile;
+}
+
+/// Rotation about x, then y, then z.
+Mat3 RotationXyz(Vec3 degrees) {
+  const auto about = [](int axis, double angle_deg) {
+    const double c = std::cos(angle_deg * kRadiansPerDegree);
+    const double s = std::sin(angle_deg * kRadiansPerDegree);
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    Mat3 rotation;
+    rotation(i, i) = c;
+    rotation(i, j) = -s;
+    rotation(j, i) = s;
+    rotation(j, j) = c;
+    return rotation;
+  };
+  return about(2, degrees.z) * about(1, degrees.y) * about(0, degrees.x);
+}
+
+Result<compositor::PlacedModel> Place(const devices::ModelReference& reference, bool is_phantom) {
+  PLEINAIR_ASSIGN_OR_RETURN(compositor::Model model,
+                            compositor::LoadModel(reference.file, {NormalsOf(reference.shading)}));
+  Mat3 linear = RotationXyz(reference.rotation_deg);
+  for (double& element : linear.m) element *= reference.scale;
+  return compositor::PlacedModel{std::make_shared<const compositor::Model>(std::move(model)),
+                                 linear, reference.translation_m, is_phantom};
+}
+
+/// The family's black band along the outer edge: one module of 8 in the AprilTag 36h11 family and
+/// the narrowest of the others.
+compositor::MarkerPrint PrintOf(const devices::MarkerDescription& marker) {
+  compositor::MarkerPrint print;
+  print.size_m = marker.size_m;
+  print.black_band_m = marker.size_m / 8;
+  print.board_size_m = marker.board_size_m > 0.0 ? marker.board_size_m : marker.size_m * 1.25;
+  print.albedo_black = marker.albedo_black;
+  print.albedo_white = marker.albedo_white;
+  return print;
+}
+
+double MedianOf(const std::deque<LinearRgb>& gains, double LinearRgb::*channel) {
+  std::vector<double> values;
+  for (const LinearRgb& gain : gains) values.push_back(gain.*channel);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+Mat3 MarkerFromWorld(const devices::MarkerDescription& marker) {
+  const double s = std::sin(marker.heading.value()), c = std::cos(marker.heading.value());
+  if (marker.upright) return {{c, -s, 0, 0, 0, 1, -s, -c, 0}};
+  return {{c, -s, 0, s, c, 0, 0, 0, 1}};
+}
+
+SceneRenderer::SceneRenderer(const CameraModel& camera, const devices::SceneDescription& scene)
+    : camera_(camera), scene_(scene) {}
+
+Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
+    const CameraModel& camera, const devices::SceneDescription& scene) {
+  std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
+  std::vector<compositor::PlacedModel> placed;
+  for (const devices::ModelReference& phantom : scene.phantoms) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto model, Place(phantom, true));
+    placed.push_back(std::move(model));
+  }
+  for (const devices::ModelReference& object : scene.objects) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto model, Place(object, false));
+    placed.push_back(std::move(model));
+  }
+  if (scene.objects.empty()) return renderer;
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_, compositor::Composer::Create(camera, placed, {}));
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->solver_,
+                            compositor::LightSolver::Create(std::move(placed), {}));
+  return renderer;
+}
+
+Result<void> SceneRenderer::UpdateLight(UtcTime time) {
+  const sky::Observer observer{FromDegrees(scene_.place_time.latitude_deg),
+                               FromDegrees(scene_.place_time.longitude_deg),
+                               Metres(scene_.place_time.height_m)};
+  summary_.sun = sky::ComputeSunPosition(observer, time);
+  const Vec3 to_sun = summary_.sun.ToSun().xyz;
+  if (lit_for_sun_ && Norm(*lit_for_sun_ - to_sun) < kSunStep) return {};
+  const auto daylight = sky::CreateDaylight(
+      summary_.sun, {ConditionOf(scene_.cloudiness), scene_.turbidity.value_or(0.0)});
+  const LinearRgb sun = daylight->SunNormalIrradiance();
+  const LinearRgb sky = daylight->SkyHorizontalIrradiance();
+  summary_.sun_normal_lux = Luminance(sun);
+  summary_.sky_horizontal_lux = Luminance(sky);
+  const LinearRgb ground = sky + sun * std::max(0.0, to_sun.z);
+  const double white = scene_.marker.albedo_white / std::numbers::pi;
+  guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
+  const Mat3 marker_from_world = MarkerFromWorld(scene_.marker);
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(solver_->Solve(*daylight, marker_from_world),
+                                               *daylight, marker_from_world));
+  meter_.emplace(PrintOf(scene_.marker), *solver_, *daylight, marker_from_world);
+  lit_for_sun_ = to_sun;
+  return {};
+}
+
+void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
+                               const Transform<Camera, Marker>& camera_from_marker) {
+  summary_.gain_is_guessed = false;
+  if (scene_.exposure_gain) {
+    summary_.gain = *scene_.exposure_gain;
+    return;
+  }
+  if (const auto reading = meter_->Measure(rgb, camera_, camera_from_marker)) {
+    recent_gains_.push_back(reading->gain);
+    if (recent_gains_.size() > kGainWindow) recent_gains_.pop_front();
+    summary_.gain_spread = reading->spread;
+    ++summary_.readings;
+  }
+  if (recent_gains_.empty()) {
+    summary_.gain = guessed_gain_;
+    summary_.gain_is_guessed = true;
+    return;
+  }
+  summary_.gain = {MedianOf(recent_gains_, &LinearRgb::r), MedianOf(recent_gains_, &LinearRgb::g),
+                   MedianOf(recent_gains_, &LinearRgb::b)};
+}
+
+Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
+                                       const Transform<Camera, Marker>& camera_from_marker,
+                                       UtcTime time) {
+  times_ = {};
+  if (!composer_) {
+    RgbImage copy(rgb.width(), rgb.height(), rgb.channels());
+    for (int y = 0; y < rgb.height(); ++y) {
+      std::copy_n(rgb.row(y), static_cast<std::size_t>(rgb.width()) * rgb.channels(),
+                  copy.view().row(y));
+    }
+    return copy;
+  }
+  auto start = Clock::now();
+  PLEINAIR_RETURN_IF_ERROR(UpdateLight(time));
+  times_.light_ms = MillisecondsSince(start);
+  start = Clock::now();
+  UpdateGain(rgb, camera_from_marker);
+  times_.meter_ms = MillisecondsSince(start);
+  start = Clock::now();
+  auto composed = composer_->Compose(rgb, camera_from_marker, summary_.gain);
+  times_.compose_ms = MillisecondsSince(start);
+  return composed;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/error.h"
+#include "base/frames.h"
+#include "base/image.h"
+#include "base/utc_time.h"
+#include "compositor/composer.h"
+#include "compositor/light_meter.h"
+#include "compositor/light_solver.h"
+#include "devices/scene_description.h"
+#include "sky/sun_position.h"
+
+namespace pleinair::app {
+
+/// What the report says of the light.
+struct LightSummary {
+  sky::SunPosition sun;
+  double sun_normal_lux = 0.0;
+  double sky_horizontal_lux = 0.0;
+  LinearRgb gain;                ///< Display-linear value per cd/m².
+  double gain_spread = 0.0;      ///< Relative; of the last frame that the marker could be read in.
+  int readings = 0;              ///< Frames in which the marker served as a light meter.
+  bool gain_is_guessed = false;  ///< No frame could be read and the scene gives no gain.
+};
+
+/// Milliseconds spent in the last Render(), by stage.
+struct RenderTimes {
+  double light_ms = 0.0;    ///< Sun, sky, light among surfaces; nearly always 0.
+  double meter_ms = 0.0;    ///< Reading the marker.
+  double compose_ms = 0.0;  ///< Drawing and compositing.
+};
+
+/// Everything that happens to a frame once the marker's pose is known: the day's light, the
+/// camera's exposure from the marker, the composite. Keeps what it learns for the next frame.
+class SceneRenderer {
+ public:
+  /// Loads the scene's models and prepares their light. Without virtual objects nothing is drawn
+  /// and no OpenGL is needed.
+  static Result<std::unique_ptr<SceneRenderer>> Create(const CameraModel& camera,
+                                                       const devices::SceneDescription& scene);
+
+  /// The frame with the virtual objects as they stand at `time`.
+  Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
+                          const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
+
+  const LightSummary& light() const { return summary_; }
+  const RenderTimes& times() const { return times_; }
+
+ private:
+  SceneRenderer(const CameraModel& camera, const devices::SceneDescription& scene);
+
+  Result<void> UpdateLight(UtcTime time);
+  void UpdateGain(ImageView<const std::uint8_t> rgb,
+                  const Transform<Camera, Marker>& camera_from_marker);
+
+  CameraModel camera_;
+  devices::SceneDescription scene_;
+  std::unique_ptr<compositor::LightSolver> solver_;
+  std::unique_ptr<compositor::Composer> composer_;
+  std::optional<compositor::LightMeter> meter_;
+  std::optional<Vec3> lit_for_sun_;     // World direction that the current light was made for.
+  std::deque<LinearRgb> recent_gains_;  // Of the last frames, for the running median.
+  LinearRgb guessed_gain_;
+  LightSummary summary_;
+  RenderTimes times_;
+};
+
+/// Marker coordinates from east-north-up, from the marker's stated heading (devices/
+/// scene_description.h).
+Mat3 MarkerFromWorld(const devices::MarkerDescription& marker);
+
+}  // namespace pleinair::app

@@ -1,0 +1,359 @@
+#include "compositor/composer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "compositor/embedded_shaders.h"
+#include "compositor/environment_map.h"
+#include "compositor/render_camera.h"
+#include "compositor/render_targets.h"
+#include "compositor/surface_buffers.h"
+#include "gl/egl_context.h"
+#include "gl/program.h"
+#include "shadows/shadow_maps.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr double kNearM = 0.02;
+constexpr double kWarpedSupersampling = 1.5;
+// Sets of shadow maps, as the shaders number them.
+constexpr int kPhantomsAlone = 0, kWithObjects = 1, kShadowSets = 2;
+
+glm::vec3 ToGlm(Vec3 v) { return {v.x, v.y, v.z}; }
+glm::vec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
+
+glm::dmat4 CameraFromMarkerMatrix(const Transform<Camera, Marker>& camera_from_marker) {
+  glm::dmat4 matrix(1.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      matrix[column][row] = camera_from_marker.rotation(row, column);
+    }
+  }
+  const Vec3 t = camera_from_marker.translation_m;
+  matrix[3] = glm::dvec4(t.x, t.y, t.z, 1.0);
+  return matrix;
+}
+
+/// OpenGL clip coordinates from camera coordinates (x right, y down, z forward). Row 0 of the
+/// render picture is its top, so that y is not turned over.
+glm::dmat4 ClipFromCamera(const RenderCamera& camera, double near_m, double far_m) {
+  glm::dmat4 matrix(0.0);
+  matrix[0][0] = 2.0 * camera.fx / camera.width;
+  matrix[1][1] = 2.0 * camera.fy / camera.height;
+  matrix[2][0] = 2.0 * (camera.cx + 0.5) / camera.width - 1.0;
+  matrix[2][1] = 2.0 * (camera.cy + 0.5) / camera.height - 1.0;
+  matrix[2][2] = (far_m + near_m) / (far_m - near_m);
+  matrix[2][3] = 1.0;
+  matrix[3][2] = -2.0 * far_m * near_m / (far_m - near_m);
+  return matrix;
+}
+
+/// Nearest and farthest depth at which something of the scene can lie.
+std::pair<double, double> DepthRange(const Transform<Camera, Marker>& camera_from_marker,
+                                     const shadows::Box& bounds) {
+  double nearest = 1e30, farthest = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Point<Marker> point{{(corner & 1) ? bounds.max.x : bounds.min.x,
+                               (corner & 2) ? bounds.max.y : bounds.min.y,
+                               (corner & 4) ? bounds.max.z : bounds.min.z}};
+    const double depth = (camera_from_marker * point).xyz.z;
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  const double near_m = std::max(nearest * 0.99, kNearM);
+  return {near_m, std::max(farthest * 1.01, 2 * near_m)};
+}
+
+shadows::View ViewOf(const RenderCamera& camera,
+                     const Transform<Camera, Marker>& camera_from_marker,
+                     const shadows::Box& bounds) {
+  const auto [near_m, far_m] = DepthRange(camera_from_marker, bounds);
+  shadows::View view;
+  view.camera_from_marker = CameraFromMarkerMatrix(camera_from_marker);
+  view.tan_left = (camera.cx + 0.5) / camera.fx;
+  view.tan_right = (camera.width - 0.5 - camera.cx) / camera.fx;
+  view.tan_up = (camera.cy + 0.5) / camera.fy;
+  view.tan_down = (camera.height - 0.5 - camera.cy) / camera.fy;
+  view.near_m = near_m;
+  view.far_m = far_m;
+  return view;
+}
+
+shadows::VisibilityMethod MethodOf(ShadowMethod method) {
+  switch (method) {
+    case ShadowMethod::kSunDisc:
+      return shadows::VisibilityMethod::kSunDisc;
+    case ShadowMethod::kGaussian:
+      return shadows::VisibilityMethod::kGaussian;
+    case ShadowMethod::kVariance:
+      return shadows::VisibilityMethod::kVariance;
+  }
+  return shadows::VisibilityMethod::kSunDisc;
+}
+
+/// Mean radiance that the phantoms send upwards, for reflections below the horizon.
+LinearRgb MeanGroundRadiance(const std::vector<LitMesh>& lit, const std::vector<PlacedModel>& scene,
+                             LinearRgb sun_normal, Vec3 to_sun) {
+  LinearRgb sum;
+  std::size_t count = 0;
+  for (const LitMesh& mesh : lit) {
+    if (!mesh.is_phantom) continue;
+    const auto& color = scene[mesh.placed_model].model->materials[mesh.material].base_color;
+    const LinearRgb albedo{color[0], color[1], color[2]};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const auto& n = mesh.normals[i];
+      if (n[2] < 0.5F) continue;
+      const auto& ambient = mesh.ambient_without[i];
+      const double cosine = std::max(0.0, n[0] * to_sun.x + n[1] * to_sun.y + n[2] * to_sun.z);
+      const LinearRgb light = LinearRgb{ambient[0], ambient[1], ambient[2]} + sun_normal * cosine;
+      sum = sum + albedo * light * std::numbers::inv_pi;
+      ++count;
+    }
+  }
+  return count > 0 ? sum * (1.0 / static_cast<double>(count)) : sum;
+}
+
+class GlComposer : public Composer {
+ public:
+  static Result<std::unique_ptr<Composer>> Make(const CameraModel& camera,
+                                                const std::vector<PlacedModel>& scene,
+                                                const ComposerOptions& options);
+
+  Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& day,
+                        const Mat3& marker_from_world) override;
+  Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
+                           const Transform<Camera, Marker>& camera_from_marker,
+                           LinearRgb gain) override;
+
+ private:
+  GlComposer(const CameraModel& camera, const std::vector<PlacedModel>& scene,
+             gl::EglContext context)
+      : context_(std::move(context)), camera_(camera), scene_(scene) {}
+
+  bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
+  Result<void> DrawShadowMaps(const Transform<Camera, Marker>& camera_from_marker);
+  void DrawScene(const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain);
+  void SetMaterial(const SurfaceBuffers& surface) const;
+
+  gl::EglContext context_;  // First: GL objects go before it.
+  CameraModel camera_;
+  std::vector<PlacedModel> scene_;
+  RenderCamera render_camera_;
+  RenderTargets targets_;
+  gl::GlTexture background_, positions_, output_, white_, environment_;
+  gl::GlFramebuffer output_framebuffer_;
+  gl::GlVertexArray no_attributes_;
+  gl::GlProgram phantom_program_, object_program_, composite_program_;
+  std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
+  std::vector<SurfaceBuffers> surfaces_;
+  std::vector<shadows::ShadowMaps> shadow_maps_;  // kShadowSets of them.
+  std::array<std::vector<shadows::ShadowCaster>, kShadowSets> casters_;
+  shadows::Box object_bounds_, scene_bounds_;
+  std::uint64_t revision_ = 0;  // Of the surfaces; the shadow maps follow it.
+  Vec3 to_sun_;
+  LinearRgb sun_normal_;
+};
+
+Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
+                                                   const std::vector<PlacedModel>& scene,
+                                                   const ComposerOptions& options) {
+  PLEINAIR_ASSIGN_OR_RETURN(gl::EglContext context, gl::EglContext::Create());
+  RegisterShaders();
+  std::unique_ptr<GlComposer> composer(new GlComposer(camera, scene, std::move(context)));
+  GlComposer& c = *composer;
+  const double supersampling = options.supersampling > 0.0 ? options.supersampling
+                               : camera.HasDistortion()    ? kWarpedSupersampling
+                                                           : 1.0;
+  c.render_camera_ = FitRenderCamera(camera, supersampling);
+  PLEINAIR_ASSIGN_OR_RETURN(c.targets_,
+                            RenderTargets::Create(c.render_camera_.width, c.render_camera_.height));
+  PLEINAIR_ASSIGN_OR_RETURN(c.background_,
+                            gl::GlTexture::Create2D(GL_RGBA8, camera.width, camera.height));
+  PLEINAIR_ASSIGN_OR_RETURN(c.output_,
+                            gl::GlTexture::Create2D(GL_RGBA8, camera.width, camera.height));
+  PLEINAIR_ASSIGN_OR_RETURN(c.positions_,
+                            gl::GlTexture::Create2D(GL_RG32F, camera.width, camera.height));
+  c.positions_.Upload(GL_RG, GL_FLOAT, RenderPositions(camera, c.render_camera_).data());
+  PLEINAIR_ASSIGN_OR_RETURN(c.output_framebuffer_, gl::GlFramebuffer::Create({{{&c.output_}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(c.white_, gl::GlTexture::Create2D(GL_RGBA8, 1, 1));
+  constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};
+  c.white_.Upload(GL_RGBA, GL_UNSIGNED_BYTE, kWhite.data());
+  PLEINAIR_ASSIGN_OR_RETURN(c.environment_, gl::GlTexture::Create2DArray(
+                                                GL_RGB32F, EnvironmentMap::kWidth,
+                                                EnvironmentMap::kHeight, EnvironmentMap::kLevels));
+  c.environment_.SetWrap(GL_REPEAT);
+  c.no_attributes_ = gl::GlVertexArray::Create();
+  shadows::ShadowMapOptions shadow_options;
+  shadow_options.method = MethodOf(options.shadow_method);
+  shadow_options.partitions = options.shadow_partitions;
+  for (int set = 0; set < kShadowSets; ++set) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::ShadowMaps::Create(shadow_options));
+    c.shadow_maps_.push_back(std::move(maps));
+  }
+  const std::vector<std::string> defines =
+      shadows::ShadowMaps::ShaderDefines(shadow_options, kShadowSets);
+  PLEINAIR_ASSIGN_OR_RETURN(
+      c.phantom_program_,
+      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                             .fragment = "compositor/shaders/phantom_ratio.frag",
+                             .defines = defines}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      c.object_program_,
+      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                             .fragment = "compositor/shaders/virtual_object.frag",
+                             .defines = defines}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      c.composite_program_,
+      gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
+                             .fragment = "compositor/shaders/composite.frag"}));
+  for (const PlacedModel& placed : scene) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto textures, UploadTextures(*placed.model));
+    c.model_textures_.push_back(std::move(textures));
+  }
+  return composer;
+}
+
+Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& day,
+                                  const Mat3& marker_from_world) {
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  to_sun_ = marker_from_world * day.ToSun().xyz;
+  sun_normal_ = day.SunNormalIrradiance();
+  surfaces_.clear();
+  surfaces_.reserve(lit.size());  // The casters point into it.
+  for (auto& casters : casters_) casters.clear();
+  object_bounds_ = scene_bounds_ = {};
+  ++revision_;
+  for (const LitMesh& mesh : lit) {
+    PLEINAIR_ASSIGN_OR_RETURN(SurfaceBuffers surface, SurfaceBuffers::Create(mesh));
+    surfaces_.push_back(std::move(surface));
+    shadows::ShadowCaster caster;
+    caster.vertices = &surfaces_.back().vertex_array();
+    caster.index_count = surfaces_.back().index_count();
+    caster.revision = revision_;
+    for (const auto& p : mesh.positions) caster.bounds.Include({p[0], p[1], p[2]});
+    scene_bounds_.Include(caster.bounds);
+    if (mesh.is_phantom) {
+      casters_[kPhantomsAlone].push_back(caster);
+    } else {
+      object_bounds_.Include(caster.bounds);
+    }
+    casters_[kWithObjects].push_back(caster);
+  }
+  const EnvironmentMap map = BuildEnvironmentMap(
+      day, marker_from_world, MeanGroundRadiance(lit, scene_, sun_normal_, to_sun_));
+  for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
+    environment_.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
+  }
+  return {};
+}
+
+Result<void> GlComposer::DrawShadowMaps(const Transform<Camera, Marker>& camera_from_marker) {
+  for (int set = 0; set < kShadowSets; ++set) {
+    shadows::ShadowMaps& maps = shadow_maps_[set];
+    if (maps.options().method == shadows::VisibilityMethod::kSunDisc) {
+      // Around the objects, whatever the camera does: drawn once a light.
+      PLEINAIR_RETURN_IF_ERROR(maps.UpdateForRegion(casters_[set], {to_sun_}, object_bounds_));
+    } else {
+      PLEINAIR_RETURN_IF_ERROR(maps.UpdateForView(
+          casters_[set], {to_sun_}, ViewOf(render_camera_, camera_from_marker, scene_bounds_)));
+    }
+    maps.Bind(set);
+  }
+  return {};
+}
+
+void GlComposer::SetMaterial(const SurfaceBuffers& surface) const {
+  const Model& model = *scene_[surface.placed_model()].model;
+  const Material& material = model.materials[surface.material()];
+  const gl::GlTexture& texture =
+      material.base_color_texture >= 0
+          ? model_textures_[surface.placed_model()][material.base_color_texture]
+          : white_;
+  texture.Bind(0);
+  object_program_.Set("u_base_color", glm::vec3(material.base_color[0], material.base_color[1],
+                                                material.base_color[2]));
+  object_program_.Set("u_metallic", material.metallic);
+  object_program_.Set("u_roughness", material.roughness);
+  object_program_.Set("u_dielectric_f0", material.specular_f0);
+  object_program_.Set("u_double_sided", material.double_sided ? 1.0F : 0.0F);
+}
+
+void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain) {
+  const auto [near_m, far_m] = DepthRange(camera_from_marker, scene_bounds_);
+  const auto clip_from_marker = glm::mat4(ClipFromCamera(render_camera_, near_m, far_m) *
+                                          CameraFromMarkerMatrix(camera_from_marker));
+  targets_.BeginDrawing();
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  for (const bool phantoms : {true, false}) {
+    const gl::GlProgram& program = phantoms ? phantom_program_ : object_program_;
+    program.Use();
+    program.Set("u_clip_from_marker", clip_from_marker);
+    // Without a sun no surface faces it, and the shaders leave the shadow maps alone.
+    program.Set("u_to_sun", HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
+    program.Set("u_sun_normal_lux", ToGlm(sun_normal_));
+    if (!phantoms) {
+      program.Set("u_eye_m", ToGlm(camera_from_marker.Inverse().translation_m));
+      program.Set("u_gain", ToGlm(gain));
+      environment_.Bind(1);
+    }
+    const GLboolean ratio = phantoms ? GL_TRUE : GL_FALSE;
+    const GLboolean objects = phantoms ? GL_FALSE : GL_TRUE;
+    glColorMaski(0, ratio, ratio, ratio, ratio);
+    glColorMaski(1, objects, objects, objects, objects);
+    for (const SurfaceBuffers& surface : surfaces_) {
+      if (surface.is_phantom() != phantoms) continue;
+      if (!phantoms) SetMaterial(surface);
+      surface.Draw();
+    }
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+  targets_.Resolve();
+}
+
+Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
+                                     const Transform<Camera, Marker>& camera_from_marker,
+                                     LinearRgb gain) {
+  CHECK_EQ(rgb.width(), camera_.width);
+  CHECK_EQ(rgb.height(), camera_.height);
+  CHECK_EQ(rgb.channels(), 3);
+  CHECK_EQ(rgb.stride(), static_cast<std::ptrdiff_t>(rgb.width()) * 3);
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  background_.Upload(GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+  // A sun below the horizon lights nothing and casts no shadow.
+  if (HasSun()) {
+    PLEINAIR_RETURN_IF_ERROR(DrawShadowMaps(camera_from_marker));
+  }
+  DrawScene(camera_from_marker, gain);
+  output_framebuffer_.Bind();
+  composite_program_.Use();
+  background_.Bind(0);
+  targets_.ratio().Bind(1);
+  targets_.objects().Bind(2);
+  positions_.Bind(3);
+  no_attributes_.Bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  RgbImage composed(rgb.width(), rgb.height(), 3);
+  output_framebuffer_.ReadPixels(0, GL_RGB, GL_UNSIGNED_BYTE, composed.data());
+  return composed;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Composer>> Composer::Create(const CameraModel& camera,
+                                                   const std::vector<PlacedModel>& scene,
+                                                   const ComposerOptions& options) {
+  return GlComposer::Make(camera, scene, options);
+}
+
+}  // namespace pleinair::compositor

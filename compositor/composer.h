@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/error.h"
+#include "base/frames.h"
+#include "base/image.h"
+#include "base/vector.h"
+#include "compositor/light_solver.h"
+#include "sky/daylight.h"
+
+namespace pleinair::compositor {
+
+/// How the virtual shadows' edges are made (shadows/shadow_maps.h).
+enum class ShadowMethod {
+  kSunDisc,   ///< The sun's disc past the blockers: penumbrae as wide as real ones.
+  kGaussian,  ///< The paper's Z-GaF: partitions by depth of view, blurred depth moments.
+  kVariance,  ///< Variance shadow maps on the same moments.
+};
+
+struct ComposerOptions {
+  /// Render pixels a camera pixel and side, on top of 4× multisampling. 0: 1 for a lens without
+  /// distortion, 1.5 for one that the picture must be warped to.
+  double supersampling = 0.0;
+  ShadowMethod shadow_method = ShadowMethod::kSunDisc;
+  int shadow_partitions = 2;  ///< Partitions of the shadow maps, 1…4.
+};
+
+/// Draws the virtual objects of a scene into camera pictures: hidden by phantoms, lit by sun and
+/// sky, casting shadows on themselves and on the real surfaces that phantoms stand for. OpenGL 4.5
+/// without a window; one thread at a time.
+class Composer {
+ public:
+  /// Errors: no OpenGL 4.5 (system), shaders that do not compile.
+  static Result<std::unique_ptr<Composer>> Create(const CameraModel& camera,
+                                                  const std::vector<PlacedModel>& scene,
+                                                  const ComposerOptions& options);
+  virtual ~Composer() = default;
+
+  /// The light from now on. `lit` is what a LightSolver made of the same scene and daylight.
+  virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& daylight,
+                                const Mat3& marker_from_world) = 0;
+
+  /// The picture with the virtual objects in it. `gain`: display-linear value per radiance and
+  /// channel (LightReading). Pixels that no virtual thing touches keep their bytes.
+  virtual Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
+                                   const Transform<Camera, Marker>& camera_from_marker,
+                                   LinearRgb gain) = 0;
+};
+
+}  // namespace pleinair::compositor

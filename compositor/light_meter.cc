@@ -1,0 +1,198 @@
+#include "compositor/light_meter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/srgb.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr int kPairsPerSide = 40;
+constexpr double kInSun = 0.98, kInShade = 0.02;  // Sun visibility beyond which no penumbra is.
+constexpr float kClipped = 0.978F;                // Linear value of the 8-bit code 252.
+constexpr float kBlackClipped = 0.9F;
+// A shadow's edge on the print: light on its two sides differs by more than this factor.
+constexpr double kShadowContrast = 1.6;
+constexpr double kShadowShare = 0.15;
+constexpr double kSmallestBandPx = 3.0;
+
+using Rgb = std::array<double, 3>;
+
+/// Linear light at a pixel position, bilinear; nothing outside the picture.
+std::optional<Rgb> SampleLinear(ImageView<const std::uint8_t> rgb, Vec2 at) {
+  const int x = static_cast<int>(std::floor(at.x));
+  const int y = static_cast<int>(std::floor(at.y));
+  if (!(at.x >= 0.0 && at.y >= 0.0) || x + 1 >= rgb.width() || y + 1 >= rgb.height()) {
+    return std::nullopt;
+  }
+  const double fx = at.x - x, fy = at.y - y;
+  const auto& linear = LinearFromSrgb8();
+  Rgb value{};
+  for (int c = 0; c < 3; ++c) {
+    const double top = linear[rgb(x, y, c)] * (1 - fx) + linear[rgb(x + 1, y, c)] * fx;
+    const double bottom = linear[rgb(x, y + 1, c)] * (1 - fx) + linear[rgb(x + 1, y + 1, c)] * fx;
+    value[c] = top * (1 - fy) + bottom * fy;
+  }
+  return value;
+}
+
+double Quantile(std::vector<double> values, double q) {
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(q * (values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+/// Where values fall apart into a darker and a brighter group that a shadow's edge would explain,
+/// the value between them; otherwise nothing. Two-means on logarithms.
+std::optional<double> ShadowThreshold(const std::vector<double>& values) {
+  double low = std::log(Quantile(values, 0.05)), high = std::log(Quantile(values, 0.95));
+  std::size_t dark = 0;
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    const double middle = (low + high) / 2;
+    double sum_low = 0.0, sum_high = 0.0;
+    dark = 0;
+    for (const double value : values) {
+      const double v = std::log(value);
+      if (v < middle) {
+        sum_low += v;
+        ++dark;
+      } else {
+        sum_high += v;
+      }
+    }
+    if (dark == 0 || dark == values.size()) return std::nullopt;
+    low = sum_low / static_cast<double>(dark);
+    high = sum_high / static_cast<double>(values.size() - dark);
+  }
+  const double dark_share = static_cast<double>(dark) / static_cast<double>(values.size());
+  if (high - low < std::log(kShadowContrast) || dark_share < kShadowShare ||
+      dark_share > 1 - kShadowShare) {
+    return std::nullopt;
+  }
+  return std::exp((low + high) / 2);
+}
+
+}  // namespace
+
+LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
+                       const sky::Daylight& day, const Mat3& marker_from_world)
+    : print_(print) {
+  const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
+  const Vec3 normal{0, 0, 1};
+  const LinearRgb sun = day.SunNormalIrradiance();
+  const double cosine = std::max(0.0, Dot(normal, to_sun));
+  const double half = print.size_m / 2;
+  // The middle of each band. Without a known board there is still a quiet zone around every print.
+  const double margin_m = (print.board_size_m - print.size_m) / 2;
+  const double white_m = (margin_m > 0.0 ? margin_m : print.black_band_m) / 2;
+  const double black_m = print.black_band_m / 2;
+  int lit = 0;
+  for (int side = 0; side < 4; ++side) {
+    const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
+    const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
+    const auto on_side = [&](double along, double outwards) {
+      const double x = along, y = half + outwards;
+      return Point<Marker>{{c * x - s * y, s * x + c * y, 0.0}};
+    };
+    // Away from the corners, where the neighbouring side's bands are near.
+    const double reach = half - print.black_band_m;
+    for (int i = 0; i < kPairsPerSide; ++i) {
+      const double along = reach * (2.0 * (i + 0.5) / kPairsPerSide - 1.0);
+      Pair pair{on_side(along, white_m), on_side(along, -black_m), {}, 0.0};
+      const double v_white = solver.SunVisibilityPhantomsOnly(pair.white, to_sun);
+      const double v_black = solver.SunVisibilityPhantomsOnly(pair.black, to_sun);
+      const bool in_sun = v_white > kInSun && v_black > kInSun;
+      if (!in_sun && !(v_white < kInShade && v_black < kInShade)) continue;
+      pair.sun_visibility = in_sun ? 1.0 : 0.0;
+      lit += in_sun;
+      const LinearRgb ambient =
+          solver.AmbientPhantomsOnly(on_side(along, 0.0), normal, day, marker_from_world);
+      pair.irradiance = ambient + sun * (cosine * pair.sun_visibility);
+      pairs_.push_back(pair);
+    }
+  }
+  lit_share_ = pairs_.empty() ? 0.0 : static_cast<double>(lit) / static_cast<double>(pairs_.size());
+}
+
+std::optional<LightReading> LightMeter::Measure(
+    ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+    const Transform<Camera, Marker>& camera_from_marker) const {
+  struct Sample {
+    Rgb white_gain, black_gain;  // NaN where clipped.
+    double level;                // Sum of the channels' scale, to tell sun from shadow.
+    bool in_sun;
+  };
+  std::vector<Sample> samples;
+  samples.reserve(pairs_.size());
+  const double albedo_step = print_.albedo_white - print_.albedo_black;
+  for (const Pair& pair : pairs_) {
+    const Point<Camera> white_in_camera = camera_from_marker * pair.white;
+    const Point<Camera> black_in_camera = camera_from_marker * pair.black;
+    if (white_in_camera.xyz.z <= 0.0 || black_in_camera.xyz.z <= 0.0) continue;
+    const Vec2 white_px = ProjectToPixel(camera, white_in_camera);
+    const Vec2 black_px = ProjectToPixel(camera, black_in_camera);
+    if (Norm(white_px - black_px) < kSmallestBandPx) continue;
+    const auto white = SampleLinear(rgb, white_px);
+    const auto black = SampleLinear(rgb, black_px);
+    if (!white || !black) continue;
+    const Rgb irradiance{pair.irradiance.r, pair.irradiance.g, pair.irradiance.b};
+    Sample sample{};
+    sample.in_sun = pair.sun_visibility > 0.5;
+    for (int c = 0; c < 3; ++c) {
+      const double per_albedo = irradiance[c] / std::numbers::pi;
+      const double difference = (*white)[c] - (*black)[c];
+      sample.white_gain[c] = (*white)[c] < kClipped && difference > 0.0
+                                 ? difference / (albedo_step * per_albedo)
+                                 : NAN;
+      sample.black_gain[c] = (*black)[c] < kBlackClipped && (*black)[c] > 0.0
+                                 ? (*black)[c] / (print_.albedo_black * per_albedo)
+                                 : NAN;
+      sample.level += (*white)[c] / per_albedo;
+    }
+    if (sample.level > 0.0) samples.push_back(sample);
+  }
+  // Where the sun reaches the print, the sunlit part alone counts: there the model's doubt about
+  // the sky's share matters least.
+  const auto lit = std::count_if(samples.begin(), samples.end(),
+                                 [](const Sample& sample) { return sample.in_sun; });
+  if (lit >= kMinimumPairs) {
+    std::erase_if(samples, [](const Sample& sample) { return !sample.in_sun; });
+    std::vector<double> levels;
+    for (const Sample& sample : samples) levels.push_back(sample.level);
+    if (const auto threshold = ShadowThreshold(levels)) {
+      std::erase_if(samples, [&](const Sample& sample) { return sample.level < *threshold; });
+    }
+  }
+  if (static_cast<int>(samples.size()) < kMinimumPairs) return std::nullopt;
+
+  LightReading reading;
+  reading.lit_share = lit_share_;
+  reading.pairs = static_cast<int>(samples.size());
+  Rgb gain{};
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> values;
+    for (const Sample& sample : samples) {
+      if (!std::isnan(sample.white_gain[c])) values.push_back(sample.white_gain[c]);
+    }
+    if (static_cast<int>(values.size()) < kMinimumPairs) {
+      // The white is clipped: the black alone is less certain, but not wrong.
+      values.clear();
+      for (const Sample& sample : samples) {
+        if (!std::isnan(sample.black_gain[c])) values.push_back(sample.black_gain[c]);
+      }
+    }
+    if (static_cast<int>(values.size()) < kMinimumPairs) return std::nullopt;
+    gain[c] = Quantile(values, 0.5);
+    if (!(gain[c] > 0.0) || !std::isfinite(gain[c])) return std::nullopt;
+    // Interquartile range of a normal distribution: 1.349 standard deviations.
+    const double spread = (Quantile(values, 0.75) - Quantile(values, 0.25)) / 1.349 / gain[c];
+    reading.spread = std::max(reading.spread, spread);
+  }
+  reading.gain = {gain[0], gain[1], gain[2]};
+  return reading;
+}
+
+}  // namespace pleinair::compositor

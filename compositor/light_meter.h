@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/frames.h"
+#include "base/image.h"
+#include "base/vector.h"
+#include "compositor/light_solver.h"
+#include "compositor/marker_print.h"
+#include "sky/daylight.h"
+
+namespace pleinair::compositor {
+
+/// What the marker in one frame says of the camera's exposure and white balance.
+struct LightReading {
+  /// Display-linear value per radiance (1 / (cd/m²)), each channel of linear Rec.709.
+  LinearRgb gain;
+  double spread = 0.0;     ///< Robust relative standard deviation over the pairs used.
+  int pairs = 0;           ///< White–black pairs used.
+  double lit_share = 0.0;  ///< Share of the print that the phantoms leave in the sun.
+};
+
+/// Uses the print as a light meter. Pairs of points on either side of the outer black edge have
+/// nearly the same light; the difference of their colours over the difference of their
+/// reflectances, divided by the light that the model predicts there, is the camera's scale. The
+/// difference cancels veiling glare that adds to both.
+///
+/// Pairs in a penumbra, clipped or too small are left out. Where part of the print that should be
+/// in the sun is much darker than the rest (a shadow of something that no phantom stands for),
+/// the brighter part counts.
+class LightMeter {
+ public:
+  /// Predicts the light on the print's sample points; they lie still in marker coordinates, so
+  /// this is done once a light.
+  LightMeter(const MarkerPrint& print, const LightSolver& solver, const sky::Daylight& day,
+             const Mat3& marker_from_world);
+
+  /// Nothing where fewer than `kMinimumPairs` pairs can be used.
+  std::optional<LightReading> Measure(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+                                      const Transform<Camera, Marker>& camera_from_marker) const;
+
+  static constexpr int kMinimumPairs = 12;
+
+ private:
+  struct Pair {
+    Point<Marker> white, black;
+    LinearRgb irradiance;  ///< Predicted at the edge between the two.
+    double sun_visibility = 0.0;
+  };
+
+  MarkerPrint print_;
+  std::vector<Pair> pairs_;
+  double lit_share_ = 0.0;
+};
+
+}  // namespace pleinair::compositor

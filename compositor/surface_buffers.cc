@@ -1,0 +1,74 @@
+#include "compositor/surface_buffers.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+namespace pleinair::compositor {
+namespace {
+
+struct Vertex {
+  std::array<float, 3> position;
+  std::array<float, 3> normal;
+  std::array<float, 2> uv;
+  std::array<float, 3> ambient_with;
+  std::array<float, 3> ambient_without;
+};
+
+}  // namespace
+
+Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
+  std::vector<Vertex> vertices(mesh.positions.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    vertices[i].position = mesh.positions[i];
+    vertices[i].normal = mesh.normals[i];
+    if (!mesh.uvs.empty()) vertices[i].uv = mesh.uvs[i];
+    vertices[i].ambient_with = mesh.ambient_with[i];
+    if (!mesh.ambient_without.empty()) vertices[i].ambient_without = mesh.ambient_without[i];
+  }
+  SurfaceBuffers surface;
+  surface.is_phantom_ = mesh.is_phantom;
+  surface.placed_model_ = mesh.placed_model;
+  surface.material_ = mesh.material;
+  surface.index_count_ = static_cast<int>(mesh.indices.size());
+  PLEINAIR_ASSIGN_OR_RETURN(surface.vertices_,
+                            gl::GlBuffer::FromSpan(std::span<const Vertex>(vertices)));
+  PLEINAIR_ASSIGN_OR_RETURN(surface.indices_,
+                            gl::GlBuffer::FromSpan(std::span<const std::uint32_t>(mesh.indices)));
+  surface.vertex_array_ = gl::GlVertexArray::Create();
+  gl::GlVertexArray& array = surface.vertex_array_;
+  constexpr int kStride = sizeof(Vertex);
+  array.SetFloatAttribute(0, 3, surface.vertices_, kStride, offsetof(Vertex, position));
+  array.SetFloatAttribute(1, 3, surface.vertices_, kStride, offsetof(Vertex, normal));
+  array.SetFloatAttribute(2, 2, surface.vertices_, kStride, offsetof(Vertex, uv));
+  array.SetFloatAttribute(3, 3, surface.vertices_, kStride, offsetof(Vertex, ambient_with));
+  array.SetFloatAttribute(4, 3, surface.vertices_, kStride, offsetof(Vertex, ambient_without));
+  array.SetElementBuffer(surface.indices_);
+  return surface;
+}
+
+void SurfaceBuffers::Draw() const {
+  vertex_array_.Bind();
+  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+Result<std::vector<gl::GlTexture>> UploadTextures(const Model& model) {
+  std::vector<gl::GlTexture> textures;
+  textures.reserve(model.textures.size());
+  for (const Image<std::uint8_t>& picture : model.textures) {
+    const auto longest = static_cast<unsigned>(std::max(picture.width(), picture.height()));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        gl::GlTexture texture,
+        gl::GlTexture::Create2D(GL_SRGB8_ALPHA8, picture.width(), picture.height(),
+                                static_cast<int>(std::bit_width(longest))));
+    texture.Upload(picture.channels() == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, picture.data());
+    texture.GenerateMipmaps();
+    texture.SetFilter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
+    texture.SetWrap(GL_REPEAT);
+    textures.push_back(std::move(texture));
+  }
+  return textures;
+}
+
+}  // namespace pleinair::compositor

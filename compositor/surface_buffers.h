@@ -1,0 +1,40 @@
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <vector>
+
+#include "base/error.h"
+#include "compositor/light_solver.h"
+#include "gl/buffer.h"
+#include "gl/texture.h"
+#include "gl/vertex_array.h"
+
+namespace pleinair::compositor {
+
+/// A lit mesh in the renderer's memory, for shaders/scene_surface.vert.
+class SurfaceBuffers {
+ public:
+  static Result<SurfaceBuffers> Create(const LitMesh& mesh);
+
+  void Draw() const;
+  bool is_phantom() const { return is_phantom_; }
+  int placed_model() const { return placed_model_; }
+  int material() const { return material_; }
+  const gl::GlVertexArray& vertex_array() const { return vertex_array_; }
+  int index_count() const { return index_count_; }
+
+ private:
+  bool is_phantom_ = false;
+  int placed_model_ = 0;
+  int material_ = 0;
+  int index_count_ = 0;
+  gl::GlBuffer vertices_;
+  gl::GlBuffer indices_;
+  gl::GlVertexArray vertex_array_;
+};
+
+/// A model's textures as the renderer samples them: sRGB decoded, mip-mapped, repeating.
+Result<std::vector<gl::GlTexture>> UploadTextures(const Model& model);
+
+}  // namespace pleinair::compositor

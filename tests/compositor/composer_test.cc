@@ -1,0 +1,209 @@
+// The renderer on small scenes whose light can be worked out by hand.
+
+#include "compositor/composer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "base/srgb.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr double kSkyLux = 20000, kSunLux = 80000;
+
+/// An even sky and a sun in the south, 45° high, or no sun at all.
+class SouthernSun : public sky::Daylight {
+ public:
+  explicit SouthernSun(double sun_lux = kSunLux) : sun_lux_(sun_lux) {}
+  LinearRgb SkyRadiance(Direction<World>) const override {
+    return LinearRgb{kSkyLux, kSkyLux, kSkyLux} * std::numbers::inv_pi;
+  }
+  LinearRgb SunNormalIrradiance() const override { return {sun_lux_, sun_lux_, sun_lux_}; }
+  LinearRgb SkyHorizontalIrradiance() const override { return {kSkyLux, kSkyLux, kSkyLux}; }
+  Direction<World> ToSun() const override {
+    return {{0, -std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2}};
+  }
+
+ private:
+  double sun_lux_;
+};
+
+/// An axis-aligned box, or with zero height an upward rectangle.
+Model MakeBox(Vec3 low, Vec3 high, float albedo) {
+  Model model;
+  Material material;
+  material.base_color = {albedo, albedo, albedo};
+  model.materials.push_back(material);
+  Mesh mesh;
+  const auto face = [&](Vec3 origin, Vec3 u, Vec3 v) {
+    const Vec3 normal = Normalized(Cross(u, v));
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3 p : {origin, origin + u, origin + u + v, origin + v}) {
+      mesh.positions.push_back(
+          {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+      mesh.normals.push_back({static_cast<float>(normal.x), static_cast<float>(normal.y),
+                              static_cast<float>(normal.z)});
+    }
+    for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + i);
+  };
+  const Vec3 dx{high.x - low.x, 0, 0}, dy{0, high.y - low.y, 0}, dz{0, 0, high.z - low.z};
+  face(low + dz, dx, dy);
+  if (dz.z > 0.0) {
+    face(low, dy, dx);
+    face(low, dx, dz);
+    face(low + dx, dy, dz);
+    face(low + dx + dy, dx * -1.0, dz);
+    face(low + dy, dy * -1.0, dz);
+  }
+  model.meshes.push_back(std::move(mesh));
+  return model;
+}
+
+PlacedModel Place(const Model& model, bool is_phantom) {
+  return {std::make_shared<const Model>(model), Mat3{}, {}, is_phantom};
+}
+
+const CameraModel kCamera{
+    .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 159.5, .cy = 119.5};
+// Three metres above the marker, looking straight down; picture up is the marker's +y (north).
+const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 3}};
+// Display-linear value per radiance: white ground in full light shows as 0.8.
+const double kGain = 0.8 * std::numbers::pi / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
+
+const PlacedModel kGround = Place(MakeBox({-4, -4, 0}, {4, 4, 0}, 0.3F), true);
+const PlacedModel kCube = Place(MakeBox({-0.15, -0.15, 0.001}, {0.15, 0.15, 0.3}, 0.5F), false);
+
+RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
+                 const CameraModel& camera = kCamera, double sun_lux = kSunLux,
+                 ComposerOptions options = {}) {
+  LightSolverOptions solver_options;
+  solver_options.rays_per_vertex = 64;
+  const auto solver = LightSolver::Create(scene, solver_options);
+  if (!solver) ADD_FAILURE() << solver.error().Message();
+  auto composer = Composer::Create(camera, scene, options);
+  if (!composer) ADD_FAILURE() << composer.error().Message();
+  const SouthernSun light(sun_lux);
+  const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{});
+  if (!set) ADD_FAILURE() << set.error().Message();
+  auto composed = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+  if (!composed) ADD_FAILURE() << composed.error().Message();
+  return *std::move(composed);
+}
+
+RgbImage EvenPicture(std::uint8_t code) {
+  RgbImage picture(kCamera.width, kCamera.height, 3);
+  std::fill_n(picture.data(), picture.size(), code);
+  return picture;
+}
+
+/// Linear value of the green channel where a point of the scene is seen.
+double SeenAt(const RgbImage& picture, Vec3 point, const CameraModel& camera = kCamera) {
+  const Vec2 pixel = ProjectToPixel(camera, kFromAbove * Point<Marker>{point});
+  return LinearFromSrgb8()[picture(static_cast<int>(std::lround(pixel.x)),
+                                   static_cast<int>(std::lround(pixel.y)), 1)];
+}
+
+TEST(Composer, KeepsTheBytesThatNoVirtualThingTouches) {
+  RgbImage noise(kCamera.width, kCamera.height, 3);
+  std::mt19937 random(7);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    noise.data()[i] = static_cast<std::uint8_t>(random() & 0xFFU);
+  }
+  // The cube without real surfaces: nothing but its own pixels can change.
+  const RgbImage composed = Compose({kCube}, noise);
+  int changed = 0;
+  for (int y = 0; y < noise.height(); ++y) {
+    for (int x = 0; x < noise.width(); ++x) {
+      const bool far = std::abs(x - 159.5) > 20 || std::abs(y - 119.5) > 20;
+      for (int c = 0; c < 3; ++c) {
+        if (far) {
+          ASSERT_EQ(composed(x, y, c), noise(x, y, c)) << x << ", " << y;
+        } else {
+          changed += composed(x, y, c) != noise(x, y, c);
+        }
+      }
+    }
+  }
+  EXPECT_GT(changed, 2000);
+}
+
+TEST(Composer, LightsALevelFaceWithTheWholeSkyAndTheSun) {
+  const RgbImage composed = Compose({kGround, kCube}, EvenPicture(128));
+  const double lux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
+  EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), kGain * 0.5 * lux / std::numbers::pi, 0.01);
+}
+
+TEST(Composer, CastsTheShadowAwayFromTheSunAndLeavesTheSkysShare) {
+  const RgbImage picture = EvenPicture(200);
+  const double before = LinearFromSrgb8()[200];
+  const RgbImage composed = Compose({kGround, kCube}, picture);
+  // The sun stands in the south: the shadow reaches 0.3 m to the north of the cube.
+  const double share = SeenAt(composed, {0, 0.30, 0}) / before;
+  const double sky_share = kSkyLux / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
+  EXPECT_LT(share, sky_share);
+  EXPECT_GT(share, 0.5 * sky_share);
+  // Just beyond the shadow's end and to the south there is but a little less sky.
+  EXPECT_NEAR(SeenAt(composed, {0, 0.60, 0}) / before, 1.0, 0.04);
+  EXPECT_NEAR(SeenAt(composed, {0.6, 0.3, 0}) / before, 1.0, 0.04);
+}
+
+TEST(Composer, NeverDarkensARealShadowTwice) {
+  // A real wall in the south keeps the sun from everything that the cube could shade.
+  const PlacedModel wall = Place(MakeBox({-3, -0.8, 0}, {3, -0.7, 2.5}, 0.3F), true);
+  const RgbImage picture = EvenPicture(120);
+  const double before = LinearFromSrgb8()[120];
+  const RgbImage composed = Compose({kGround, wall, kCube}, picture);
+  EXPECT_NEAR(SeenAt(composed, {0, 0.35, 0}) / before, 0.85, 0.15);
+  EXPECT_NEAR(SeenAt(composed, {0, 0.8, 0}) / before, 1.0, 0.04);
+}
+
+TEST(Composer, HidesTheObjectBehindAPhantom) {
+  const PlacedModel table = Place(MakeBox({-1, -1, 0.8}, {1, 1, 0.85}, 0.3F), true);
+  const RgbImage picture = EvenPicture(90);
+  const RgbImage composed = Compose({kGround, table, kCube}, picture);
+  EXPECT_EQ(SeenAt(composed, {0, 0, 0.3}), LinearFromSrgb8()[90]);
+}
+
+TEST(Composer, DrawsTheObjectWhereADistortedLensSeesIt) {
+  CameraModel camera = kCamera;
+  camera.distortion = {-0.3, 0.05, 0.001, -0.001, 0, 0, 0, 0};
+  const Vec3 corner{1.2, 0.8, 0.1};
+  const PlacedModel block = Place(
+      MakeBox({corner.x - 0.2, corner.y - 0.2, 0.0}, {corner.x + 0.2, corner.y + 0.2, 0.1}, 0.9F),
+      false);
+  const RgbImage composed = Compose({block}, EvenPicture(0), camera);
+  // Three millimetres of the scene are a third of a pixel: the edges must lie between 0.17 m and
+  // 0.23 m, about three pixels either way.
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_GT(SeenAt(composed, corner + Vec3{sign * 0.17, 0, 0}, camera), 0.2);
+    EXPECT_GT(SeenAt(composed, corner + Vec3{0, sign * 0.17, 0}, camera), 0.2);
+    EXPECT_EQ(SeenAt(composed, corner + Vec3{sign * 0.25, 0, 0}, camera), 0.0);
+    EXPECT_EQ(SeenAt(composed, corner + Vec3{0, sign * 0.25, 0}, camera), 0.0);
+  }
+}
+
+TEST(Composer, CastsNoShadowWithoutASun) {
+  const RgbImage picture = EvenPicture(200);
+  const double before = LinearFromSrgb8()[200];
+  const RgbImage composed = Compose({kGround, kCube}, picture, kCamera, 0.0);
+  EXPECT_NEAR(SeenAt(composed, {0, 0.30, 0}) / before, SeenAt(composed, {0, -0.30, 0}) / before,
+              0.03);
+  EXPECT_LT(SeenAt(composed, {0, 0.17, 0}) / before, 0.85);
+}
+
+TEST(Composer, CastsTheSameShadowByThePapersMethod) {
+  ComposerOptions options;
+  options.shadow_method = ShadowMethod::kGaussian;
+  const RgbImage picture = EvenPicture(200);
+  const RgbImage paper = Compose({kGround, kCube}, picture, kCamera, kSunLux, options);
+  const RgbImage ours = Compose({kGround, kCube}, picture);
+  EXPECT_NEAR(SeenAt(paper, {0, 0.28, 0}), SeenAt(ours, {0, 0.28, 0}), 0.06);
+  EXPECT_NEAR(SeenAt(paper, {0, 0.8, 0}), SeenAt(ours, {0, 0.8, 0}), 0.06);
+}
+
+}  // namespace
+}  // namespace pleinair::compositor

@@ -1,0 +1,127 @@
+#include "compositor/light_meter.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/srgb.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr double kAmbientLux = 12000, kSunLux = 80000;
+
+/// Light from straight above and an even sky.
+class OverheadSun : public sky::Daylight {
+ public:
+  LinearRgb SkyRadiance(Direction<World>) const override { return {1, 1, 1}; }
+  LinearRgb SunNormalIrradiance() const override { return {kSunLux, kSunLux, kSunLux}; }
+  LinearRgb SkyHorizontalIrradiance() const override {
+    return {kAmbientLux, kAmbientLux, kAmbientLux};
+  }
+  Direction<World> ToSun() const override { return {{0, 0, 1}}; }
+};
+
+/// Phantoms that leave half the print (x below `shadow_to_x_m`) in shadow.
+class HalfShadow : public LightSolver {
+ public:
+  explicit HalfShadow(double shadow_to_x_m) : shadow_to_x_m_(shadow_to_x_m) {}
+  std::vector<LitMesh> Solve(const sky::Daylight&, const Mat3&) const override { return {}; }
+  double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3) const override {
+    return point.xyz.x < shadow_to_x_m_ ? 0.0 : 1.0;
+  }
+  LinearRgb AmbientPhantomsOnly(Point<Marker>, Vec3, const sky::Daylight&,
+                                const Mat3&) const override {
+    return {kAmbientLux, kAmbientLux, kAmbientLux};
+  }
+
+ private:
+  double shadow_to_x_m_;
+};
+
+const MarkerPrint kPrint{.size_m = 0.4, .board_size_m = 0.5, .black_band_m = 0.05};
+const CameraModel kCamera{.width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};
+// One metre above the print, looking straight down.
+const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 1}};
+
+/// The print in the light of OverheadSun; left of `shadow_to_x_m` in shadow, and an even veil
+/// added.
+RgbImage Photograph(LinearRgb gain, double shadow_to_x_m, double veil = 0.0) {
+  RgbImage picture(kCamera.width, kCamera.height, 3);
+  for (int y = 0; y < kCamera.height; ++y) {
+    for (int x = 0; x < kCamera.width; ++x) {
+      const Vec2 ray = UndistortPixel(kCamera, {static_cast<double>(x), static_cast<double>(y)});
+      const double distance = std::max(std::fabs(ray.x), std::fabs(ray.y));
+      const double albedo =
+          distance < kPrint.size_m / 2 ? kPrint.albedo_black : kPrint.albedo_white;
+      const double lux = kAmbientLux + (ray.x < shadow_to_x_m ? 0.0 : kSunLux);
+      const double radiance = albedo * lux / std::numbers::pi;
+      picture(x, y, 0) = Srgb8FromLinear(gain.r * radiance + veil);
+      picture(x, y, 1) = Srgb8FromLinear(gain.g * radiance + veil);
+      picture(x, y, 2) = Srgb8FromLinear(gain.b * radiance + veil);
+    }
+  }
+  return picture;
+}
+
+LightMeter MeterFor(double predicted_shadow_to_x_m) {
+  return LightMeter(kPrint, HalfShadow(predicted_shadow_to_x_m), OverheadSun(), Mat3{});
+}
+
+const LinearRgb kGain{3.0e-5, 2.5e-5, 2.0e-5};
+
+void ExpectGain(const std::optional<LightReading>& reading, LinearRgb gain) {
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_NEAR(reading->gain.r / gain.r, 1.0, 0.02);
+  EXPECT_NEAR(reading->gain.g / gain.g, 1.0, 0.02);
+  EXPECT_NEAR(reading->gain.b / gain.b, 1.0, 0.02);
+}
+
+TEST(LightMeter, ReadsExposureAndWhiteBalanceOfASunlitPrint) {
+  const RgbImage picture = Photograph(kGain, -1.0);
+  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectGain(reading, kGain);
+  EXPECT_LT(reading->spread, 0.02);
+}
+
+TEST(LightMeter, KnowsWhichPartLiesInThePhantomsShadow) {
+  const RgbImage picture = Photograph(kGain, 0.05);
+  ExpectGain(MeterFor(0.05).Measure(picture.view(), kCamera, kFromAbove), kGain);
+}
+
+TEST(LightMeter, ReadsAPrintThatLiesWhollyInShadow) {
+  const RgbImage picture = Photograph(kGain * 5.0, 1.0);
+  ExpectGain(MeterFor(1.0).Measure(picture.view(), kCamera, kFromAbove), kGain * 5.0);
+}
+
+TEST(LightMeter, TakesTheSunlitPartWhenAnUnknownShadowCrossesThePrint) {
+  const RgbImage picture = Photograph(kGain, 0.05);
+  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
+}
+
+TEST(LightMeter, CancelsVeilingGlare) {
+  const RgbImage picture = Photograph(kGain, -1.0, 0.05);
+  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
+}
+
+TEST(LightMeter, FallsBackToTheBlackWhereTheWhiteIsClipped) {
+  const RgbImage picture = Photograph(kGain * 3.0, -1.0);
+  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain * 3.0);
+}
+
+TEST(LightMeter, SaysNothingOfAMarkerThatIsTooSmallOrOutOfThePicture) {
+  const RgbImage picture = Photograph(kGain, -1.0);
+  Transform<Camera, Marker> far = kFromAbove;
+  far.translation_m.z = 8.0;
+  EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, far).has_value());
+  Transform<Camera, Marker> aside = kFromAbove;
+  aside.translation_m.x = 3.0;
+  EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, aside).has_value());
+  Transform<Camera, Marker> behind = kFromAbove;
+  behind.translation_m.z = -1.0;
+  EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, behind).has_value());
+}
+
+}  // namespace
+}  // namespace pleinair::compositor
