@@ -157,8 +157,12 @@ Result<int> ShadowMaps::UpdateForRegion(std::span<const ShadowCaster> casters,
   for (const ShadowCaster& caster : casters) scene.Include(caster.bounds);
   if (scene.Empty()) scene.Include(glm::dvec3(0.0));
   const LightExtent extent = Project(axes, scene);
-  const double margin =
-      KernelReach(options_, extent.depth_max - extent.depth_min) + 2.0 * kDepthSlackM;
+  // Wide enough that Redraw finds the focus covered, and leaves it out of the coarser maps.
+  const glm::dvec2 scene_size = extent.window.max - extent.window.min;
+  const double coarsest_texel =
+      std::max(scene_size.x, scene_size.y) / options_.resolutions[options_.partitions - 1];
+  const double margin = KernelReach(options_, extent.depth_max - extent.depth_min) +
+                        2.0 * kDepthSlackM + 5.0 * coarsest_texel;
   return Redraw(casters, axes, FitWindowsToRegion(axes, focus, scene, options_.partitions, margin));
 }
 

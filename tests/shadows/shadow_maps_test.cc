@@ -85,7 +85,7 @@ TEST_F(ShadowMapsTest, OfSeveralPartitionsAgreeWhereTheyMeet) {
   const double offset = 1.0 / std::tan(50 * kRadiansPerDegree);
   const ProbePlane inside{{offset - 0.1, -1.5, 0}, {0.01, 0, 0}, {0, 0.01, 0}, 20, 500};
   const std::vector<float> dark = Visibility(*maps, inside);
-  EXPECT_EQ(*std::max_element(dark.begin(), dark.end()), 0.0F);
+  EXPECT_LT(*std::max_element(dark.begin(), dark.end()), 1e-6F);
   const ProbePlane outside{{offset + 0.65, -1.5, 0}, {0.01, 0, 0}, {0, 0.01, 0}, 20, 500};
   const std::vector<float> lit = Visibility(*maps, outside);
   EXPECT_EQ(*std::min_element(lit.begin(), lit.end()), 1.0F);
