@@ -35,8 +35,11 @@ constexpr int kMaxNodes = 6;
 /// Pixels near edges, and others, that are looked at; more cost time and gain nothing.
 constexpr std::size_t kMaxEdgePixels = 6000, kMaxFlatPixels = 2000;
 constexpr int kMaxIterations = 25;
-/// An edge of the square lies at most this far from where the detector saw it; more when blurred.
-constexpr double kEdgeMayMove_px = 0.58, kEdgeMayMovePerBlur = 0.6;
+/// An edge of the square lies at most this far from where the detector saw it, more when blurred;
+/// and more where the contrast is so many residuals that the prediction must be right. (A camera's
+/// sharpening leaves 10 to 20 of 255 codes unexplained.)
+constexpr double kEdgeMayMove_px = 0.58, kEdgeMayMoveAtMost_px = 2.0, kEdgeMayMovePerBlur = 0.6;
+constexpr double kModestContrast = 25.0;
 /// Residuals of neighbouring pixels go together (JPEG blocks, texture of the paper, edges of
 /// shadows); the covariance is scaled by what blocks of this side show.
 constexpr int kBlock_px = 8;
@@ -123,7 +126,7 @@ class PrintFit {
   double RobustScale(const State& state) const;
   PrintAlignment Result() const;
   double VisibleFraction() const;
-  static double MayMove_px(const PrintAlignment& alignment, int corner);
+  double MayMove_px(const PrintAlignment& alignment, int corner) const;
   bool Plausible(const PrintAlignment& alignment, const std::array<Vec2, 4>& corners_px) const;
 
   int Parameters() const { return kFirstLevel + 2 * nodes_ * nodes_; }
@@ -140,9 +143,10 @@ class PrintFit {
   State state_;
   int nodes_ = 2;
   double side_px_ = 0.0;
-  double contrast_ = 0.0;  ///< White less black in linear light, at the start.
-  double scale_codes_ = 0.0;
-  double seen_share_ = 1.0;  ///< Share of the print that lies inside the picture.
+  double contrast_ = 0.0;        ///< White less black in linear light, at the start.
+  double contrast_codes_ = 0.0;  ///< The same in codes.
+  double scale_codes_ = 0.0;     ///< Robust standard deviation of the residuals.
+  double seen_share_ = 1.0;      ///< Share of the print that lies inside the picture.
 };
 
 bool PrintFit::Begin(const std::array<Vec2, 4>& corners_px) {
@@ -248,6 +252,8 @@ bool PrintFit::InitialLevels() {
   contrast_ = (n * sum_ti - sum_t * sum_i) / determinant;
   const double black = (sum_i - contrast_ * sum_t) / n;
   if (!(contrast_ > 0.002)) return false;
+  contrast_codes_ =
+      Encode(std::max(black, 0.0) + contrast_).code - Encode(std::max(black, 0.0)).code;
   state_.levels.resize(2 * nodes_ * nodes_);
   for (int node = 0; node < nodes_ * nodes_; ++node) {
     state_.levels[LevelIndex(node, 0)] = std::max(black, 0.0005);
@@ -495,7 +501,7 @@ PrintAlignment PrintFit::Result() const {
   return alignment;
 }
 
-double PrintFit::MayMove_px(const PrintAlignment& alignment, int corner) {
+double PrintFit::MayMove_px(const PrintAlignment& alignment, int corner) const {
   // Where a detector sees the edges of an sRGB picture a third of a pixel, and more where it is
   // blurred, inside the square, the corner is off by that over the sine of its half angle.
   const Vec2 here = alignment.corners_px[corner];
@@ -503,8 +509,10 @@ double PrintFit::MayMove_px(const PrintAlignment& alignment, int corner) {
   const Vec2 b = alignment.corners_px[(corner + 3) % 4] - here;
   const double cosine = (a.x * b.x + a.y * b.y) / std::max(1e-12, Norm(a) * Norm(b));
   const double half_angle_sine = std::sqrt(std::max(0.02, 0.5 * (1.0 - cosine)));
-  const double edge_px =
-      kEdgeMayMove_px + kEdgeMayMovePerBlur * std::max(0.0, alignment.blur_px - kInitialBlur_px);
+  const double blurred_px =
+      kEdgeMayMovePerBlur * std::max(0.0, alignment.blur_px - kInitialBlur_px);
+  const double trust = std::max(1.0, contrast_codes_ / scale_codes_ / kModestContrast);
+  const double edge_px = std::min(kEdgeMayMoveAtMost_px, kEdgeMayMove_px * trust) + blurred_px;
   return edge_px / half_angle_sine;
 }
 

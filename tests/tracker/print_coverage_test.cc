@@ -58,9 +58,15 @@ TEST(PrintCoverage, DerivativesAreThoseOfFiniteDifferences) {
     const double by_u = (white(kStep, 0, 0) - white(-kStep, 0, 0)) / (2 * kStep);
     const double by_v = (white(0, kStep, 0) - white(0, -kStep, 0)) / (2 * kStep);
     const double by_blur = (white(0, 0, kStep) - white(0, 0, -kStep)) / (2 * kStep);
-    if (std::fabs(by_u) < 200) EXPECT_NEAR(coverage.d_u, by_u, 1e-4);
-    if (std::fabs(by_v) < 200) EXPECT_NEAR(coverage.d_v, by_v, 1e-4);
-    if (std::fabs(by_blur) < 50) EXPECT_NEAR(coverage.d_log_blur, by_blur, 1e-4);
+    if (std::fabs(by_u) < 200) {
+      EXPECT_NEAR(coverage.d_u, by_u, 1e-4);
+    }
+    if (std::fabs(by_v) < 200) {
+      EXPECT_NEAR(coverage.d_v, by_v, 1e-4);
+    }
+    if (std::fabs(by_blur) < 50) {
+      EXPECT_NEAR(coverage.d_log_blur, by_blur, 1e-4);
+    }
   }
 }
 
