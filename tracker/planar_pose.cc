@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <utility>
 #include <vector>
 
 #include "tracker/homography.h"
@@ -18,6 +19,8 @@ namespace {
 
 /// Two refined solutions closer than this are one.
 constexpr double kSameRotation_rad = 1e-3;
+/// Difference of χ² below which the corners do not decide between two poses.
+constexpr double kUndecided = 9.0;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
@@ -200,7 +203,7 @@ CornerCovariance IsotropicCornerCovariance(double sigma_px) {
 std::optional<PoseEstimate> EstimatePlanarPose(const CameraModel& camera,
                                                const std::array<Vec2, 4>& corners_px,
                                                const CornerCovariance& corner_covariance_px2,
-                                               Metres size) {
+                                               Metres size, const Mat3* likely_rotation) {
   const Eigen::LLT<Matrix8> cholesky(
       Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(corner_covariance_px2.data()));
   if (cholesky.info() != Eigen::Success) return std::nullopt;
@@ -213,6 +216,13 @@ std::optional<PoseEstimate> EstimatePlanarPose(const CameraModel& camera,
   if (solutions.empty()) return std::nullopt;
   std::stable_sort(solutions.begin(), solutions.end(),
                    [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
+  if (likely_rotation != nullptr && solutions.size() > 1 &&
+      solutions[1].cost - solutions[0].cost < kUndecided) {
+    const auto angle = [&](const Refined& refined) {
+      return AngleBetween(refined.solution.camera_from_marker.rotation, *likely_rotation);
+    };
+    if (angle(solutions[1]) < angle(solutions[0])) std::swap(solutions[0], solutions[1]);
+  }
   PoseEstimate estimate;
   estimate.best = solutions[0].solution;
   estimate.covariance = solutions[0].covariance;

@@ -21,9 +21,12 @@ constexpr double kRawCornerSigma_px = 0.4;
 
 class DetectingTracker final : public Tracker {
  public:
-  DetectingTracker(const CameraModel& camera, Metres marker_size,
+  DetectingTracker(const CameraModel& camera, const TrackerOptions& options,
                    std::vector<std::unique_ptr<MarkerDetector>> detectors)
-      : camera_(camera), marker_size_(marker_size), detectors_(std::move(detectors)) {}
+      : camera_(camera),
+        marker_size_(options.marker_size_m),
+        consecutive_frames_(options.consecutive_frames),
+        detectors_(std::move(detectors)) {}
 
   Result<std::vector<Sighting>> Track(ImageView<const std::uint8_t> grey) override {
     if (grey.width() != camera_.width || grey.height() != camera_.height) {
@@ -50,6 +53,7 @@ class DetectingTracker final : public Tracker {
       };
       return key(a) < key(b);
     });
+    if (consecutive_frames_) before_ = sightings;
     return sightings;
   }
 
@@ -68,16 +72,34 @@ class DetectingTracker final : public Tracker {
       sighting.detection.visible_fraction = alignment->visible_fraction;
       covariance = alignment->corner_covariance_px2;
     }
-    const std::optional<PoseEstimate> pose =
-        EstimatePlanarPose(camera_, sighting.detection.corners_px, covariance, marker_size_);
+    const Sighting* before = Before(sighting.detection);
+    const std::optional<PoseEstimate> pose = EstimatePlanarPose(
+        camera_, sighting.detection.corners_px, covariance, marker_size_,
+        before != nullptr ? &before->pose.best.camera_from_marker.rotation : nullptr);
     if (!pose) return std::nullopt;
     sighting.pose = *pose;
     return sighting;
   }
 
+  /// The nearest sighting of the same marker in the picture before; null where there is none.
+  const Sighting* Before(const MarkerDetection& detection) const {
+    const Sighting* nearest = nullptr;
+    for (const Sighting& sighting : before_) {
+      const MarkerDetection& other = sighting.detection;
+      if (other.family != detection.family || other.id != detection.id) continue;
+      const auto distance = [&](const Sighting& s) {
+        return Norm(s.detection.corners_px[0] - detection.corners_px[0]);
+      };
+      if (nearest == nullptr || distance(sighting) < distance(*nearest)) nearest = &sighting;
+    }
+    return nearest;
+  }
+
   const CameraModel camera_;
   const Metres marker_size_;
+  const bool consecutive_frames_;
   const std::vector<std::unique_ptr<MarkerDetector>> detectors_;
+  std::vector<Sighting> before_;
 };
 
 }  // namespace
@@ -98,8 +120,8 @@ Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
   std::vector<std::unique_ptr<MarkerDetector>> detectors;
   PLEINAIR_ASSIGN_OR_RETURN(auto april_tags, CreateAprilTagDetector(options.families));
   detectors.push_back(std::move(april_tags));
-  return std::unique_ptr<Tracker>(std::make_unique<DetectingTracker>(
-      camera, Metres(options.marker_size_m), std::move(detectors)));
+  return std::unique_ptr<Tracker>(
+      std::make_unique<DetectingTracker>(camera, options, std::move(detectors)));
 }
 
 }  // namespace pleinair::tracker

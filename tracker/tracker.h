@@ -15,6 +15,9 @@ namespace pleinair::tracker {
 struct TrackerOptions {
   std::vector<std::string> families{"tag36h11"};  ///< Which markers to look for.
   double marker_size_m = 0.0;                     ///< Edge of the outer black square.
+  /// The pictures come one after another from one camera: where a picture alone does not tell which
+  /// of the two planar poses is right, the one that goes on from the picture before is.
+  bool consecutive_frames = false;
 };
 
 /// Finds markers and their poses, frame after frame. One thread at a time.

@@ -80,6 +80,24 @@ TEST(PlanarPose, ReportsTheOtherSolutionWhereTheTargetIsSmallAndNearlyFrontal) {
   EXPECT_LT(nearer, 0.2);
 }
 
+TEST(PlanarPose, GoesOnFromTheRotationBeforeWhereTheCornersDoNotDecide) {
+  const CameraModel camera = Camera640();
+  const RenderedMarker marker = MarkerAt(camera, {330, 250}, 15, 20);
+  const std::array<Vec2, 4> corners = TrueCorners(camera, marker);
+  const CornerCovariance covariance = IsotropicCornerCovariance(0.2);
+  const auto alone = EstimatePlanarPose(camera, corners, covariance, marker.size);
+  ASSERT_TRUE(alone.has_value() && alone->alternative.has_value());
+  const Mat3& other = alone->alternative->camera_from_marker.rotation;
+  const auto turned = EstimatePlanarPose(camera, corners, covariance, marker.size, &other);
+  ASSERT_TRUE(turned.has_value());
+  EXPECT_EQ(turned->best.camera_from_marker.rotation, other);
+  // Sharp corners decide for themselves.
+  const auto sharp =
+      EstimatePlanarPose(camera, corners, IsotropicCornerCovariance(0.001), marker.size, &other);
+  ASSERT_TRUE(sharp.has_value());
+  EXPECT_LT(MaxDifference(sharp->best.camera_from_marker, marker.camera_from_marker), 1e-4);
+}
+
 TEST(PlanarPose, HasALowAmbiguityRatioWhereTheTargetIsLargeAndTilted) {
   const CameraModel camera = Camera640();
   const RenderedMarker marker = MarkerAt(camera, {330, 250}, 200, 45);

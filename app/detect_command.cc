@@ -1,0 +1,111 @@
+#include "app/detect_command.h"
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/pose_json.h"
+#include "devices/calibration.h"
+#include "devices/picture_file.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
+    "  pleinair detect frames/*.png --calibration camera.json --size-mm 480 --track\n"
+    "Prints one JSON object a picture: file, milliseconds, and markers with family, id, corners\n"
+    "(pixels, integer = pixel centre; top-left, then clockwise as the print is read),\n"
+    "camera_from_marker, covariance, visible_fraction, alternative and path.";
+
+Result<void> CheckFamilies(const std::vector<std::string>& families) {
+  for (const std::string& family : families) {
+    if (family == "sg") {
+      return InputError("--family", "this version does not have the family \"sg\" yet",
+                        "use an AprilTag family, for example tag36h11");
+    }
+  }
+  return {};
+}
+
+/// Says which argument an error without a place is about.
+tl::unexpected<Error> Located(Error error, const std::string& where) {
+  if (error.where.empty()) error.where = where;
+  return tl::make_unexpected(std::move(error));
+}
+
+Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
+                          const std::string& calibration) {
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::PictureSize size, devices::InspectPictureFile(picture));
+  if (size.width == camera.width && size.height == camera.height) return {};
+  const auto text = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  return InputError(picture,
+                    "the picture is " + text(size.width, size.height) + " but the calibration " +
+                        calibration + " is for " + text(camera.width, camera.height),
+                    "use the calibration of this camera at this resolution");
+}
+
+}  // namespace
+
+Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
+  if (!(arguments.size_mm > 0.0) || !std::isfinite(arguments.size_mm)) {
+    return InputError("--size-mm", "the marker's size must be positive",
+                      "give the edge of its outer black square in millimetres");
+  }
+  PLEINAIR_RETURN_IF_ERROR(CheckFamilies(arguments.families));
+  PLEINAIR_ASSIGN_OR_RETURN(const CameraModel camera,
+                            devices::ReadCalibration(arguments.calibration));
+  const tracker::TrackerOptions options{.families = arguments.families,
+                                        .marker_size_m = arguments.size_mm * 1e-3,
+                                        .consecutive_frames = arguments.track};
+  auto tracker = tracker::Tracker::Create(camera, options);
+  if (!tracker) return Located(std::move(tracker).error(), "--family");
+  for (const std::string& picture : arguments.pictures) {
+    PLEINAIR_RETURN_IF_ERROR(CheckPicture(picture, camera, arguments.calibration));
+  }
+  for (const std::string& picture : arguments.pictures) {
+    PLEINAIR_ASSIGN_OR_RETURN(const devices::Picture decoded, devices::DecodePictureFile(picture));
+    const auto start = std::chrono::steady_clock::now();
+    auto sightings = (*tracker)->Track(decoded.grey.view());
+    const std::chrono::duration<double, std::milli> elapsed =
+        std::chrono::steady_clock::now() - start;
+    if (!sightings) return Located(std::move(sightings).error(), picture);
+    out << "{\"file\":"
+        << nlohmann::json(picture).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+        << ",\"milliseconds\":" << nlohmann::json(std::round(elapsed.count() * 1e3) / 1e3).dump()
+        << ",\"markers\":" << MarkersJson(*sightings) << "}\n";
+  }
+  return {};
+}
+
+void AddDetectCommand(CLI::App& app, CommandResult& result) {
+  auto arguments = std::make_shared<DetectArguments>();
+  CLI::App* command = app.add_subcommand("detect", "Find markers and their poses in pictures");
+  command->footer(kExamples);
+  command->add_option("PICTURES", arguments->pictures, "PNG or JPEG pictures")->required();
+  command
+      ->add_option("--calibration", arguments->calibration,
+                   "Camera calibration (own JSON, OpenCV YAML, ROS camera_info, Kalibr)")
+      ->required();
+  command->add_option("--size-mm", arguments->size_mm, "Edge of the outer black square, mm")
+      ->required();
+  command->add_option("--family", arguments->families, "Marker families, comma-separated")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_flag("--track", arguments->track, "The pictures are consecutive frames");
+  // What `detect` prints is JSON in any case; the flag is there for scripts that pass it always.
+  command->add_flag("--json")->description("One JSON object a line (the only form)");
+  command->callback([arguments, &result] { result.status = RunDetect(*arguments, std::cout); });
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace pleinair::app {
+
+struct DetectArguments {
+  std::vector<std::string> pictures;
+  std::string calibration;
+  double size_mm = 0.0;                           ///< Edge of the outer black square.
+  std::vector<std::string> families{"tag36h11"};  ///< Which markers to look for.
+  bool track = false;                             ///< The pictures are consecutive frames.
+};
+
+/// Looks for markers in each picture and writes one JSON line a picture to `out`. Every picture is
+/// inspected before the first line is written, so that a wrong name costs no results.
+/// Errors: a picture or the calibration that cannot be read, a picture of another size than the
+/// calibration's, a size that is not positive, an unknown family.
+Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out);
+
+}  // namespace pleinair::app

@@ -1,0 +1,45 @@
+#include "app/pose_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace pleinair::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json PoseJson(const Transform<Camera, Marker>& pose) {
+  const Vec3 t = pose.translation_m;
+  return {{"rotation", pose.rotation.m}, {"translation_m", {t.x, t.y, t.z}}};
+}
+
+Json SightingJson(const tracker::Sighting& sighting) {
+  const tracker::MarkerDetection& detection = sighting.detection;
+  const tracker::PoseEstimate& pose = sighting.pose;
+  Json corners = Json::array();
+  for (const Vec2 corner : detection.corners_px) corners.push_back({corner.x, corner.y});
+  Json alternative = nullptr;
+  if (pose.alternative) {
+    alternative = {{"camera_from_marker", PoseJson(pose.alternative->camera_from_marker)},
+                   {"reprojection_rms_px", pose.alternative->reprojection_rms_px}};
+  }
+  return {{"family", detection.family},
+          {"id", detection.id},
+          {"corners", corners},
+          {"camera_from_marker", PoseJson(pose.best.camera_from_marker)},
+          {"covariance", pose.covariance},
+          {"reprojection_rms_px", pose.best.reprojection_rms_px},
+          {"ambiguity_ratio", pose.ambiguity_ratio},
+          {"visible_fraction", detection.visible_fraction},
+          {"alternative", alternative},
+          {"path", tracker::PathName(detection.path)}};
+}
+
+}  // namespace
+
+std::string MarkersJson(const std::vector<tracker::Sighting>& sightings) {
+  Json markers = Json::array();
+  for (const tracker::Sighting& sighting : sightings) markers.push_back(SightingJson(sighting));
+  return markers.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tracker/sighting.h"
+
+namespace pleinair::app {
+
+/// Sightings as a JSON array on one line, as `detect` and `detections.jsonl` have them: `family`,
+/// `id`, `corners` (pixels, integer = centre, top-left then clockwise), `camera_from_marker` with
+/// `rotation` (row-major) and `translation_m`, `covariance` (6×6 row-major, tracker/sighting.h),
+/// `reprojection_rms_px`, `ambiguity_ratio`, `visible_fraction`, `alternative` (null or a pose with
+/// its `reprojection_rms_px`) and `path`. Numbers are the shortest that read back the same.
+std::string MarkersJson(const std::vector<tracker::Sighting>& sightings);
+
+}  // namespace pleinair::app
