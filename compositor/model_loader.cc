@@ -1,6 +1,7 @@
 #include <new>
 #include <utility>
 
+#include "compositor/gltf_reader.h"
 #include "compositor/mesh_normals.h"
 #include "compositor/model.h"
 #include "compositor/model_files.h"
@@ -11,6 +12,7 @@ namespace pleinair::compositor {
 namespace {
 
 Result<Model> ParseByContent(const std::string& content, const std::filesystem::path& file) {
+  if (LooksLikeGltf(content)) return ParseGltf(content, file);
   return ParseObj(content, file, {ReadWholeFile, ReadTexture});
 }
 

@@ -1,0 +1,391 @@
+#include "compositor/gltf_reader.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "base/srgb.h"
+#include "base/vector.h"
+#include "compositor/gltf_accessor.h"
+#include "compositor/model_limits.h"
+#include "compositor/texture_decoder.h"
+
+namespace pleinair::compositor {
+namespace {
+
+/// Extensions that a file may require and that change nothing we read.
+const std::set<std::string>& KnownExtensions() {
+  static const std::set<std::string> known = {
+      "KHR_materials_specular",  "KHR_materials_ior",
+      "KHR_materials_clearcoat", "KHR_materials_sheen",
+      "KHR_materials_volume",    "KHR_materials_transmission",
+      "KHR_materials_unlit",     "KHR_materials_emissive_strength",
+      "KHR_mesh_quantization",   "KHR_lights_punctual"};
+  return known;
+}
+
+/// Affine map of a node.
+struct Placement {
+  Mat3 linear;
+  Vec3 translation_m;
+  Placement operator*(const Placement& inner) const {
+    return {linear * inner.linear, linear * inner.translation_m + translation_m};
+  }
+};
+
+// glTF's y-up, −z-forward axes to ours: z up.
+constexpr Placement kUpright{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {}};
+
+Mat3 RotationFromQuaternion(double x, double y, double z, double w) {
+  const double norm = std::sqrt(x * x + y * y + z * z + w * w);
+  if (!(norm > 0.0)) return {};
+  x /= norm, y /= norm, z /= norm, w /= norm;
+  return {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 2 * (x * y + z * w),
+           1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 2 * (x * z - y * w), 2 * (y * z + x * w),
+           1 - 2 * (x * x + y * y)}};
+}
+
+Placement PlacementOf(const tinygltf::Node& node) {
+  Placement placement;
+  if (const auto& m = node.matrix; m.size() == 16) {  // Column-major.
+    placement.linear = {{m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}};
+    placement.translation_m = {m[12], m[13], m[14]};
+    return placement;
+  }
+  if (const auto& q = node.rotation; q.size() == 4) {
+    placement.linear = RotationFromQuaternion(q[0], q[1], q[2], q[3]);
+  }
+  if (const auto& s = node.scale; s.size() == 3) {
+    placement.linear = placement.linear * Mat3{{s[0], 0, 0, 0, s[1], 0, 0, 0, s[2]}};
+  }
+  if (const auto& t = node.translation; t.size() == 3) {
+    placement.translation_m = {t[0], t[1], t[2]};
+  }
+  return placement;
+}
+
+bool IsFinite(const Placement& placement) {
+  const Vec3 t = placement.translation_m;
+  double sum = t.x + t.y + t.z;
+  for (const double value : placement.linear.m) sum += value;
+  return std::isfinite(sum);
+}
+
+/// Pictures that come as files or data URIs, still encoded, by index. Those in buffer views are
+/// read later: tinygltf does not check where they end.
+using EncodedImages = std::map<int, std::vector<unsigned char>>;
+
+bool KeepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, int, int,
+                 const unsigned char* bytes, int size, void* user) {
+  if (image->bufferView < 0 && size > 0) {
+    (*static_cast<EncodedImages*>(user))[index].assign(bytes, bytes + size);
+  }
+  return true;
+}
+
+class GltfReader {
+ public:
+  GltfReader(const std::string& content, const std::filesystem::path& file)
+      : content_(content), file_(file), where_(file.string()) {
+    model_.file = file;
+  }
+
+  Result<Model> Read() {
+    PLEINAIR_RETURN_IF_ERROR(Parse());
+    for (const std::string& extension : gltf_.extensionsRequired) {
+      if (!KnownExtensions().contains(extension)) {
+        return InputError(where_, "requires the glTF extension " + extension,
+                          "export the model without it");
+      }
+    }
+    for (const tinygltf::Material& material : gltf_.materials) {
+      PLEINAIR_RETURN_IF_ERROR(ReadMaterial(material));
+    }
+    model_.materials.push_back({});  // For primitives without one.
+    model_.materials.back().specular_f0 = kDielectricF0;
+    PLEINAIR_RETURN_IF_ERROR(ReadNodes());
+    if (model_.meshes.empty()) return Fail("its scene has no triangles");
+    return std::move(model_);
+  }
+
+ private:
+  // glTF 2.0, appendix B.2.2: dielectrics have an index of refraction of 1.5.
+  static constexpr float kDielectricF0 = 0.04F;
+
+  tl::unexpected<Error> Fail(std::string what) const {
+    return InputError(where_, std::move(what), "repair the model or export it again");
+  }
+
+  Result<void> Parse() {
+    tinygltf::TinyGLTF loader;
+    loader.SetImageLoader(KeepEncoded, &encoded_);
+    std::string error, warning;
+    const std::string folder = file_.parent_path().string();
+    const auto size = static_cast<unsigned>(std::min<std::size_t>(content_.size(), ~0U));
+    bool ok = false;
+    try {
+      ok =
+          content_.starts_with("glTF")
+              ? loader.LoadBinaryFromMemory(&gltf_, &error, &warning,
+                                            reinterpret_cast<const unsigned char*>(content_.data()),
+                                            size, folder)
+              : loader.LoadASCIIFromString(&gltf_, &error, &warning, content_.data(), size, folder);
+    } catch (const std::exception& exception) {
+      error = exception.what();
+    }
+    if (ok) return {};
+    std::string first = error.substr(0, error.find('\n'));
+    if (first.empty()) first = "unknown cause";
+    return Fail("is not a valid glTF 2.0 file: " + first.substr(0, 200));
+  }
+
+  static bool InRange(int index, std::size_t count) {
+    return index >= 0 && static_cast<std::size_t>(index) < count;
+  }
+
+  /// Index into the model's textures of a glTF texture's picture.
+  Result<int> Texture(int texture) {
+    if (!InRange(texture, gltf_.textures.size())) return Fail("refers to a texture out of range");
+    const int image = gltf_.textures[static_cast<std::size_t>(texture)].source;
+    if (!InRange(image, gltf_.images.size())) {
+      return Fail("texture " + std::to_string(texture) + " has no PNG or JPEG picture");
+    }
+    if (const auto known = textures_.find(image); known != textures_.end()) return known->second;
+    const tinygltf::Image& source = gltf_.images[static_cast<std::size_t>(image)];
+    const std::string name = where_ + ", image " + std::to_string(image);
+    std::span<const std::byte> bytes;
+    if (source.bufferView >= 0) {
+      PLEINAIR_ASSIGN_OR_RETURN(bytes, GltfViewBytes(gltf_, source.bufferView, name));
+    } else if (const auto found = encoded_.find(image); found != encoded_.end()) {
+      bytes = std::as_bytes(std::span(found->second));
+    } else {
+      return InputError((file_.parent_path() / source.uri).string(), "texture does not exist",
+                        "put it beside the model " + where_);
+    }
+    PLEINAIR_ASSIGN_OR_RETURN(auto pixels, DecodeTexture(bytes, name));
+    model_.textures.push_back(std::move(pixels));
+    const int index = static_cast<int>(model_.textures.size()) - 1;
+    textures_.emplace(image, index);
+    return index;
+  }
+
+  Result<void> ReadMaterial(const tinygltf::Material& source) {
+    Material material;
+    material.name = source.name;
+    material.double_sided = source.doubleSided;
+    material.specular_f0 = kDielectricF0;
+    const auto& pbr = source.pbrMetallicRoughness;
+    for (std::size_t c = 0; c < 3 && c < pbr.baseColorFactor.size(); ++c) {
+      material.base_color[c] = Clamped(pbr.baseColorFactor[c]);
+    }
+    material.metallic = Clamped(pbr.metallicFactor);
+    material.roughness = Clamped(pbr.roughnessFactor);
+    if (pbr.baseColorTexture.index >= 0) {
+      PLEINAIR_ASSIGN_OR_RETURN(material.base_color_texture, Texture(pbr.baseColorTexture.index));
+    }
+    uv_sets_.push_back(pbr.baseColorTexture.texCoord);
+    if (pbr.metallicRoughnessTexture.index >= 0) {
+      PLEINAIR_ASSIGN_OR_RETURN(const int texture, Texture(pbr.metallicRoughnessTexture.index));
+      // Green is roughness, blue metallic, both linear.
+      const Image<std::uint8_t>& image = model_.textures[static_cast<std::size_t>(texture)];
+      double roughness = 0.0, metallic = 0.0;
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+          roughness += image(x, y, 1);
+          metallic += image(x, y, 2);
+        }
+      }
+      const double scale = 1.0 / (255.0 * image.width() * image.height());
+      material.roughness *= static_cast<float>(roughness * scale);
+      material.metallic *= static_cast<float>(metallic * scale);
+    }
+    model_.materials.push_back(std::move(material));
+    return {};
+  }
+
+  static float Clamped(double value) {
+    return value > 0.0 ? static_cast<float>(std::min(value, 1.0)) : 0.0F;  // Also NaN.
+  }
+
+  /// Walks the default scene's nodes. glTF's nodes form trees: none has two parents.
+  Result<void> ReadNodes() {
+    struct Visit {
+      int node;
+      Placement placement;
+    };
+    std::vector<Visit> to_visit;
+    const int scene = gltf_.defaultScene >= 0 ? gltf_.defaultScene : 0;
+    if (InRange(scene, gltf_.scenes.size())) {
+      for (const int node : gltf_.scenes[static_cast<std::size_t>(scene)].nodes) {
+        to_visit.push_back({node, kUpright});
+      }
+    } else {
+      std::vector<bool> is_child(gltf_.nodes.size());
+      for (const tinygltf::Node& node : gltf_.nodes) {
+        for (const int child : node.children) {
+          if (InRange(child, gltf_.nodes.size())) is_child[static_cast<std::size_t>(child)] = true;
+        }
+      }
+      for (std::size_t i = 0; i < gltf_.nodes.size(); ++i) {
+        if (!is_child[i]) to_visit.push_back({static_cast<int>(i), kUpright});
+      }
+    }
+    std::reverse(to_visit.begin(), to_visit.end());
+    std::vector<bool> seen(gltf_.nodes.size());
+    while (!to_visit.empty()) {
+      const Visit visit = to_visit.back();
+      to_visit.pop_back();
+      if (!InRange(visit.node, gltf_.nodes.size())) return Fail("refers to a node out of range");
+      const auto index = static_cast<std::size_t>(visit.node);
+      if (seen[index]) {
+        return Fail("node " + std::to_string(index) + " has two parents or contains itself");
+      }
+      seen[index] = true;
+      const tinygltf::Node& node = gltf_.nodes[index];
+      const Placement placement = visit.placement * PlacementOf(node);
+      if (!IsFinite(placement)) {
+        return Fail("the placement of node " + std::to_string(index) + " is not finite");
+      }
+      if (node.mesh >= 0) PLEINAIR_RETURN_IF_ERROR(ReadMesh(node.mesh, placement));
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
+        to_visit.push_back({*child, placement});
+      }
+    }
+    return {};
+  }
+
+  Result<void> ReadMesh(int mesh, const Placement& placement) {
+    if (!InRange(mesh, gltf_.meshes.size())) return Fail("refers to a mesh out of range");
+    const tinygltf::Mesh& source = gltf_.meshes[static_cast<std::size_t>(mesh)];
+    for (const tinygltf::Primitive& primitive : source.primitives) {
+      PLEINAIR_RETURN_IF_ERROR(ReadPrimitive(source.name, primitive, placement));
+    }
+    return {};
+  }
+
+  Result<void> ReadPrimitive(const std::string& name, const tinygltf::Primitive& primitive,
+                             const Placement& placement) {
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    const auto position = primitive.attributes.find("POSITION");
+    if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) return {};
+    Mesh mesh;
+    mesh.name = name;
+    PLEINAIR_ASSIGN_OR_RETURN(mesh.positions, ReadGltfFloats<3>(gltf_, position->second, where_));
+    vertex_count_ += mesh.positions.size();
+    if (vertex_count_ > kMostVertices) return Fail("has more than 20 million vertices");
+    if (primitive.material >= 0 && !InRange(primitive.material, gltf_.materials.size())) {
+      return Fail("refers to a material out of range");
+    }
+    mesh.material = primitive.material >= 0 ? primitive.material
+                                            : static_cast<int>(model_.materials.size()) - 1;
+    if (const auto normal = primitive.attributes.find("NORMAL");
+        normal != primitive.attributes.end()) {
+      PLEINAIR_ASSIGN_OR_RETURN(mesh.normals, ReadGltfFloats<3>(gltf_, normal->second, where_));
+      if (mesh.normals.size() != mesh.positions.size()) {
+        return Fail("a mesh has more or fewer normals than positions");
+      }
+    }
+    const int uv_set =
+        primitive.material >= 0 ? uv_sets_[static_cast<std::size_t>(primitive.material)] : 0;
+    if (const auto uv = primitive.attributes.find("TEXCOORD_" + std::to_string(uv_set));
+        uv != primitive.attributes.end()) {
+      PLEINAIR_ASSIGN_OR_RETURN(mesh.uvs, ReadGltfFloats<2>(gltf_, uv->second, where_));
+      if (mesh.uvs.size() != mesh.positions.size()) {
+        return Fail("a mesh has more or fewer texture coordinates than positions");
+      }
+    }
+    PLEINAIR_RETURN_IF_ERROR(ReadTriangles(primitive, mode, &mesh));
+    PLEINAIR_RETURN_IF_ERROR(Place(placement, &mesh));
+    if (!mesh.indices.empty()) model_.meshes.push_back(std::move(mesh));
+    return {};
+  }
+
+  Result<void> ReadTriangles(const tinygltf::Primitive& primitive, int mode, Mesh* mesh) {
+    std::vector<std::uint32_t> order;
+    if (primitive.indices >= 0) {
+      PLEINAIR_ASSIGN_OR_RETURN(order, ReadGltfIndices(gltf_, primitive.indices, where_));
+    } else {
+      order.resize(mesh->positions.size());
+      for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+    }
+    for (const std::uint32_t index : order) {
+      if (index >= mesh->positions.size()) {
+        return Fail("a triangle of mesh \"" + mesh->name.substr(0, 64) + "\" refers to vertex " +
+                    std::to_string(index) + " of " + std::to_string(mesh->positions.size()));
+      }
+    }
+    triangle_count_ += order.size();
+    if (triangle_count_ > kMostTriangles) return Fail("has more than 40 million triangles");
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+      order.resize(order.size() / 3 * 3);
+      mesh->indices = std::move(order);
+      return {};
+    }
+    for (std::size_t i = 2; i < order.size(); ++i) {
+      const bool fan = mode == TINYGLTF_MODE_TRIANGLE_FAN;
+      std::array<std::uint32_t, 3> triangle{fan ? order[0] : order[i - 2], order[i - 1], order[i]};
+      if (!fan && i % 2 == 1) std::swap(triangle[0], triangle[1]);
+      mesh->indices.insert(mesh->indices.end(), triangle.begin(), triangle.end());
+    }
+    return {};
+  }
+
+  Result<void> Place(const Placement& placement, Mesh* mesh) const {
+    for (auto& p : mesh->positions) {
+      const Vec3 placed = placement.linear * Vec3{p[0], p[1], p[2]} + placement.translation_m;
+      if (!(std::fabs(placed.x) + std::fabs(placed.y) + std::fabs(placed.z) < 1e8)) {
+        return Fail("its nodes move a vertex beyond 1e8 metres");
+      }
+      p = {static_cast<float>(placed.x), static_cast<float>(placed.y),
+           static_cast<float>(placed.z)};
+    }
+    const auto& m = placement.linear.m;
+    const Vec3 column0{m[0], m[3], m[6]}, column1{m[1], m[4], m[7]}, column2{m[2], m[5], m[8]};
+    const bool mirrored = Dot(Cross(column0, column1), column2) < 0.0;
+    const double sign = mirrored ? -1.0 : 1.0;
+    for (auto& n : mesh->normals) {
+      const Vec3 placed = (Cross(column1, column2) * n[0] + Cross(column2, column0) * n[1] +
+                           Cross(column0, column1) * n[2]) *
+                          sign;
+      const double norm = Norm(placed);
+      const Vec3 unit = norm > 0.0 && std::isfinite(norm) ? placed * (1.0 / norm) : Vec3{};
+      n = {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)};
+    }
+    if (mirrored) {
+      for (std::size_t i = 0; i + 2 < mesh->indices.size(); i += 3) {
+        std::swap(mesh->indices[i + 1], mesh->indices[i + 2]);
+      }
+    }
+    return {};
+  }
+
+  const std::string& content_;
+  const std::filesystem::path& file_;
+  std::string where_;
+  tinygltf::Model gltf_;
+  EncodedImages encoded_;
+  Model model_;
+  std::map<int, int> textures_;  ///< Model's texture by glTF image.
+  std::vector<int> uv_sets_;     ///< By material, of the base colour texture.
+  std::size_t vertex_count_ = 0;
+  std::size_t triangle_count_ = 0;
+};
+
+}  // namespace
+
+bool LooksLikeGltf(std::string_view content) {
+  if (content.starts_with("glTF")) return true;
+  const std::size_t first = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return first != std::string_view::npos && content[first] == '{';
+}
+
+Result<Model> ParseGltf(const std::string& content, const std::filesystem::path& file) {
+  return GltfReader(content, file).Read();
+}
+
+}  // namespace pleinair::compositor

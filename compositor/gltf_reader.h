@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "compositor/model.h"
+
+namespace pleinair::compositor {
+
+/// Whether a file's content is glTF, text (JSON) or binary.
+bool LooksLikeGltf(std::string_view content);
+
+/// Parses glTF 2.0 (.gltf or .glb) with the buffers and pictures beside `file`. The nodes of the
+/// default scene are placed into one model. glTF is y-up; ours is the marker's frame, z-up:
+/// (x, y, z) becomes (x, −z, y). Metres stay metres. Base colour (factor and texture), metallic
+/// and roughness factors (times their texture's mean) and doubleSided are read; other extensions
+/// of materials, skins, animations and cameras are passed over.
+/// Errors: cut short, references out of range, nodes that contain themselves, values that are not
+/// finite, textures missing or too large, a required extension that is not known.
+Result<Model> ParseGltf(const std::string& content, const std::filesystem::path& file);
+
+}  // namespace pleinair::compositor
