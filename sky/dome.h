@@ -11,7 +11,7 @@ namespace pleinair::sky {
 /// Integral over the upper hemisphere of f(direction) · cos θ dω, for f a radiance: horizontal
 /// irradiance. Midpoint rule in cos²θ (64 rings of equal projected solid angle) and azimuth (128
 /// sectors), 8,192 directions: relative error below 3e-4 for the skies of this module
-/// (tests/sky/dome_test.cc). `Value` needs + and a product with double.
+/// (tests/sky/perez_test.cc). `Value` needs + and a product with double.
 template <typename Function>
 auto IntegrateProjectedDome(const Function& f) {
   constexpr int kRings = 64;

@@ -50,7 +50,7 @@ double TerrestrialMinusUtc(const UtcTime::Civil& utc, double day_fraction) {
 /// Bias, precession and nutation: celestial to true equator and equinox of date. IAU 2006
 /// precession with the nutation of IAU 2000B.
 // Deviation: eraPnm06a takes IAU 2000A with its 1,365 terms; 2000B (77 terms) differs by 1 mas =
-// 3e-7° and the whole position takes a third of the time (tests/sky/sun_position_benchmark.cc).
+// 3e-7° and the whole position takes a third of the time (tests/sky/sky_benchmark.cc).
 void BiasPrecessionNutation(double tt1, double tt2, double matrix[3][3]) {
   double gamma, phi, psi, epsilon, d_psi, d_epsilon;
   eraPfw06(tt1, tt2, &gamma, &phi, &psi, &epsilon);

@@ -1,0 +1,72 @@
+#include "sky/sun_events.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pleinair::sky {
+namespace {
+
+UtcTime At(const char* text) { return UtcTime::Parse(text).value(); }
+
+Observer Place(double latitude_deg, double longitude_deg) {
+  return {.latitude = FromDegrees(latitude_deg), .longitude = FromDegrees(longitude_deg)};
+}
+
+double SecondsBetween(UtcTime a, UtcTime b) {
+  return static_cast<double>(a.nanoseconds_since_1970() - b.nanoseconds_since_1970()) * 1e-9;
+}
+
+class SunEventsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!HasPreciseSun()) GTEST_SKIP() << "built without ERFA";
+  }
+};
+
+// Reda & Andreas 2004, Table A5.1: sunrise 6.212067 h, transit 11.768045 h, zone −7 h. (Their
+// sunset belongs to the neighbouring UT day.)
+TEST_F(SunEventsTest, GiveNrelsSunriseAndTransit) {
+  const SunEvents events =
+      ComputeSunEvents(Place(39.742476, -105.1786), At("2003-10-17T12:30:30-07:00"));
+  const UtcTime midnight = At("2003-10-17T00:00:00-07:00");
+  ASSERT_TRUE(events.sunrise && events.sunset);
+  EXPECT_NEAR(SecondsBetween(*events.sunrise, midnight), 6.212067 * 3600.0, 3.0);
+  EXPECT_NEAR(SecondsBetween(events.noon, midnight), 11.768045 * 3600.0, 1.0);
+}
+
+TEST_F(SunEventsTest, LieWhereTheSunIsOnTheHorizonAndOnTheMeridian) {
+  for (const double latitude : {-65.0, -33.0, 0.0, 15.0, 50.0, 66.0}) {
+    for (const double longitude : {-179.0, -70.0, 0.0, 14.0, 151.0}) {
+      const Observer place = Place(latitude, longitude);
+      const SunEvents events = ComputeSunEvents(place, At("2025-03-01T03:00:00Z"));
+      ASSERT_TRUE(events.sunrise && events.sunset);
+      EXPECT_LT(*events.sunrise, events.noon);
+      EXPECT_LT(events.noon, *events.sunset);
+      EXPECT_NEAR(ToDegrees(ComputeSunPosition(place, *events.sunrise).elevation), -0.8333, 1e-3);
+      EXPECT_NEAR(ToDegrees(ComputeSunPosition(place, *events.sunset).elevation), -0.8333, 1e-3);
+      EXPECT_NEAR(std::sin(ComputeSunPosition(place, events.noon).azimuth.value()), 0.0, 1e-4);
+    }
+  }
+}
+
+TEST_F(SunEventsTest, AreMissingInPolarDayAndNight) {
+  const Observer tromso = Place(69.65, 18.96);
+  for (const char* time : {"2025-12-21T12:00:00Z", "2025-06-21T12:00:00Z"}) {
+    const SunEvents events = ComputeSunEvents(tromso, At(time));
+    EXPECT_FALSE(events.sunrise) << time;
+    EXPECT_FALSE(events.sunset) << time;
+    EXPECT_NEAR(SecondsBetween(events.noon, At(time)), -4600.0, 600.0) << time;
+  }
+  const SunEvents autumn = ComputeSunEvents(tromso, At("2025-09-21T12:00:00Z"));
+  EXPECT_TRUE(autumn.sunrise && autumn.sunset);
+}
+
+TEST_F(SunEventsTest, BelongToTheLocalDay) {
+  // 23:30 UTC in Sydney is the next morning.
+  const SunEvents events = ComputeSunEvents(Place(-33.87, 151.21), At("2025-06-01T23:30:00Z"));
+  EXPECT_NEAR(SecondsBetween(events.noon, At("2025-06-02T01:53:00Z")), 0.0, 120.0);
+}
+
+}  // namespace
+}  // namespace pleinair::sky
