@@ -9,6 +9,10 @@ function(pleinair_configure_target target)
                          # GCC 12 sees overlaps in "literal" + std::string that are not there (PR 105651).
                          $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                          $<$<BOOL:${PLEINAIR_WERROR}>:-Werror>)
+  if(PLEINAIR_FUZZERS)
+    # Without this a fuzzer sees no coverage of the code that it is there for.
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
   if(PLEINAIR_SANITIZE)
     list(JOIN PLEINAIR_SANITIZE "," sanitizers)
     target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=${sanitizers}>

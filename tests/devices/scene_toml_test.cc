@@ -167,6 +167,14 @@ TEST(SceneToml, SyntaxErrorsSayTheirLine) {
   EXPECT_THAT(Refusal(std::string(kScene).substr(0, 250)), HasSubstr("is not TOML"));
 }
 
+// toml++ 3.3 had undefined behaviour here, which fuzzing found.
+TEST(SceneToml, LettersOutsideOfQuotesAreAnErrorAndInsideThemAName) {
+  EXPECT_THAT(Refusal(Replaced(kScene, "\"Hazy\"", "Größe")), HasSubstr("scene.toml:2"));
+  EXPECT_THAT(Refusal(Replaced(kScene, "turbidity = 3.5", "туман = 3.5")),
+              HasSubstr("scene.toml:3"));
+  EXPECT_EQ(Refusal(Replaced(kScene, "height_m = 220", "name = \"Хутор\"  # Größe")), "no error");
+}
+
 TEST(SceneToml, OneMarkerAnchorsTheScene) {
   EXPECT_EQ(Refusal(Replaced(kScene, "[marker]", "[[marker]]")), "no error");
   EXPECT_THAT(Refusal(Replaced(Replaced(kScene, "[marker]", "[[marker]]"), "[[phantom]]",
