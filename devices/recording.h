@@ -38,8 +38,8 @@ struct Recording {
 ///
 /// Errors, found before the first frame is asked for: what cannot be opened; JSON, TOML or YAML
 /// that is cut short or senseless; pictures that are missing from the numbering or from what was
-/// promised, cut short, or of another size than the calibration's. A video's missing frames show
-/// only when Next() gets there.
+/// promised, cut short, or of another size than the calibration's; an MP4, MOV or AVI that is cut
+/// short. Damage inside a video, and a cut in other containers, shows only when Next() gets there.
 Result<Recording> OpenRecording(const std::filesystem::path& path,
                                 const RecordingOptions& options = {});
 

@@ -1,5 +1,6 @@
 #include "devices/video_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -10,6 +11,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "devices/cv_picture.h"
+#include "devices/video_container.h"
 
 namespace pleinair::devices {
 namespace {
@@ -140,6 +142,7 @@ Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoFact
     return InputError(file.string(), "cannot be read: " + error.message(), "check the name");
   }
   if (bytes == 0) return InputError(file.string(), "is empty", kWholeCopy);
+  PLEINAIR_RETURN_IF_ERROR(CheckContainerIsWhole(file));
   try {
     return Open(file, facts);
   } catch (const std::exception& failure) {

@@ -26,7 +26,7 @@ struct OpenedVideo {
 
 /// Frames of a video file, decoded by FFmpeg through OpenCV; a turn said in the file (phones) is
 /// applied.
-/// Errors: no file, empty, no video FFmpeg knows, cut short before its index, another size, no
+/// Errors: no file, empty, no video FFmpeg knows, cut short (MP4, MOV, AVI), another size, no
 /// frame rate; and from Next() fewer frames than the file or `frame_count` promises.
 Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoFacts& facts);
 
