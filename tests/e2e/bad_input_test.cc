@@ -1,0 +1,203 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "run_program.h"
+
+namespace pleinair::e2e {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+void Replace(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string text = ReadFile(file);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from << " is not in " << file;
+  WriteFile(file, text.replace(at, from.size(), to));
+}
+
+/// A fault put into a good recording, and what the one line of error must name.
+struct Fault {
+  const char* name;
+  std::function<void(const fs::path& site)> plant;
+  std::string message;
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+
+class BadRecording : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(BadRecording, IsRefusedInOneLineAndLeavesNothing) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, true);
+  GetParam().plant(folder / "site");
+  const RunResult run = RunPleinair({"replay", folder / "site", "-o", folder / "a/out"});
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(GetParam().message)));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_THAT(run.out, IsEmpty());
+  EXPECT_FALSE(fs::exists(folder / "a"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Replay, BadRecording,
+    ::testing::Values(
+        Fault{"MissingFrame", [](const fs::path& site) { fs::remove(site / "frames/0001.jpg"); },
+              "frames"},
+        Fault{"FrameCutShort",
+              [](const fs::path& site) {
+                fs::remove(site / "frames/0001.jpg");
+                fs::copy_file(fs::path(PLEINAIR_SOURCE_DIR) /
+                                  "recordings/courtyard_midday/key/0036_background.png",
+                              site / "frames/0001.png");
+                fs::resize_file(site / "frames/0001.png", 20000);
+              },
+              "0001"},
+        Fault{"JsonCutShort",
+              [](const fs::path& site) { fs::resize_file(site / "recording.json", 200); },
+              "recording.json"},
+        Fault{"ModelNotThere", [](const fs::path& site) { fs::remove(site / "object.obj"); },
+              "object.obj"},
+        Fault{"NanFocalLength",
+              [](const fs::path& site) {
+                Replace(site / "recording.json", "\"fx\": 605", "\"fx\": NaN");
+              },
+              "recording.json"},
+        Fault{"ZeroFocalLength",
+              [](const fs::path& site) {
+                Replace(site / "recording.json", "\"fx\": 605", "\"fx\": 0");
+              },
+              "fx"},
+        Fault{"MarkerOfSizeZero",
+              [](const fs::path& site) {
+                Replace(site / "scene.toml", "\nsize_m = 0.48", "\nsize_m = 0");
+              },
+              "size_m"},
+        Fault{"TimeWithoutOffset",
+              [](const fs::path& site) { Replace(site / "scene.toml", ":00Z", ":00"); },
+              "2025-09-14"},
+        Fault{
+            "UnknownKey",
+            [](const fs::path& site) { Replace(site / "scene.toml", "cloudiness", "cloudyness"); },
+            "scene.toml:2"},
+        Fault{"ObjIndexOutOfRange",
+              [](const fs::path& site) {
+                WriteFile(site / "object.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+              },
+              "object.obj"},
+        Fault{"HugeTexture",
+              [](const fs::path& site) {
+                // A PNG header that promises 100000 x 100000 pixels.
+                std::string png(
+                    "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\x01\x86\xa0\0\x01\x86\xa0\x08\x02"
+                    "\0\0\0\x92\x35\x7f\x0b",
+                    33);
+                WriteFile(site / "huge.png", png);
+                WriteFile(site / "huge.mtl", "newmtl a\nmap_Kd huge.png\n");
+                WriteFile(site / "object.obj",
+                          "mtllib huge.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
+                          "vt 0 1\nf 1/1 2/2 3/3\n");
+              },
+              "huge.png"}),
+    [](const auto& fault) { return std::string(fault.param.name); });
+
+void ExpectRefusal(const RunResult& run, int exit_code, const std::string& message) {
+  EXPECT_EQ(run.exit_code, exit_code) << run.err;
+  EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(message)));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST(BadInput, AMissingRecordingIsNamed) {
+  const TemporaryFolder folder;
+  const RunResult run = RunPleinair({"replay", folder / "none", "-o", folder / "out"});
+  ExpectRefusal(run, 2, "none: does not exist");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(BadInput, AVideoCutShortIsRefused) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, false);
+  ASSERT_EQ(RunPleinair({"replay", folder / "site", "-o", folder / "video"}).exit_code, 0);
+  const fs::path video = folder / "video/composite.mp4";
+  fs::resize_file(video, fs::file_size(video) / 2);
+  const RunResult run =
+      RunPleinair({"replay", video, "--calibration", folder / "site/recording.json", "--scene",
+                   folder / "site/scene.toml", "-o", folder / "out"});
+  ExpectRefusal(run, 2, "composite.mp4");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(BadInput, UsageErrorsPointToTheHelp) {
+  ExpectRefusal(RunPleinair({"replay"}), 2, "pleinair replay --help");
+  ExpectRefusal(RunPleinair({"fly"}), 2, "pleinair --help");
+  ExpectRefusal(RunPleinair({"replay", "x", "-o", "y", "--size", "big"}), 2, "1280x720");
+}
+
+TEST(BadInput, TheRecordingIsNotOverwrittenByItsReplay) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, false);
+  const auto before = Listing(folder / "site");
+  ExpectRefusal(RunPleinair({"replay", folder / "site", "-o", folder / "site"}), 2,
+                "is the recording itself");
+  EXPECT_EQ(Listing(folder / "site"), before);
+}
+
+TEST(BadInput, AFolderWithoutWritePermissionIsRefused) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, false);
+  // /proc refuses new folders to everybody, also to root.
+  const RunResult run = RunPleinair({"replay", folder / "site", "-o", "/proc/pleinair"});
+  ExpectRefusal(run, 2, "cannot write");
+}
+
+TEST(BadInput, AFileInPlaceOfTheOutputFolderIsRefused) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, false);
+  WriteFile(folder / "out", "a file");
+  ExpectRefusal(RunPleinair({"replay", folder / "site", "-o", folder / "out"}), 2,
+                "is not a folder");
+}
+
+TEST(BadInput, AFileSizeLimitEndsTheReplayAndLeavesNothing) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, false);
+  for (const char* output : {"--frames", "--json"}) {  // Pictures first, or the video.
+    // 32 blocks of 512 or 1024 bytes: below a frame's PNG and the video.
+    const RunResult run =
+        RunPleinair({"replay", folder / "site", "-o", folder / "out", output}, "ulimit -f 32;");
+    ExpectRefusal(run, 1, "File too large");
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+}
+
+TEST(BadInput, AFullDiskEndsTheReplayAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const std::string disk = folder / "disk";
+  fs::create_directory(disk);
+  MakeShortRecording(folder / "site", 2, false);
+  const auto in_small_disk = [&](const std::string& command) {
+    return RunCommandLine({"unshare", "-rm", "sh", "-c",
+                           "mount -t tmpfs -o size=96k pleinair '" + disk + "' && " + command});
+  };
+  if (in_small_disk("true").exit_code != 0) {
+    GTEST_SKIP() << "this machine lets nobody mount a small disk";
+  }
+  for (const char* option : {"--frames", "--json"}) {
+    const RunResult run = in_small_disk(std::string(PLEINAIR_PROGRAM) + " replay '" +
+                                        std::string(folder / "site") + "' -o '" + disk + "/out' " +
+                                        option + "; code=$?; ls -A '" + disk + "'; exit $code");
+    ExpectRefusal(run, 1, "No space left on device");
+    EXPECT_THAT(run.err, HasSubstr(disk + "/out/"));
+    EXPECT_THAT(run.out, IsEmpty());  // Nothing left on the disk.
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::e2e

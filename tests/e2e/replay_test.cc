@@ -1,0 +1,219 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "run_program.h"
+
+namespace pleinair::e2e {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+struct TumPose {
+  double time_s = 0.0;
+  std::array<double, 3> position_m{};
+  std::array<double, 4> quaternion{};
+};
+
+std::vector<TumPose> ReadTum(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<TumPose> poses;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream fields(line);
+    TumPose pose;
+    fields >> pose.time_s;
+    for (double& value : pose.position_m) fields >> value;
+    for (double& value : pose.quaternion) fields >> value;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+double Median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+TEST(Replay, WritesEveryOutputOfACompositeWithItsObject) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, true);
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "-o", folder / "deep/out", "--frames", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(Listing(folder / "deep/out"),
+              ElementsAre("composite.mp4", "detections.jsonl", "frames", "frames/0000.png",
+                          "frames/0001.png", "poses", "poses/tag36h11_0.tum", "report.html",
+                          "report.json"));
+  const auto summary = nlohmann::json::parse(run.out);
+  EXPECT_EQ(summary["frames"], 2);
+  EXPECT_EQ(summary["frames_with_pose"], 2);
+  const auto report = nlohmann::json::parse(ReadFile(folder / "deep/out/report.json"));
+  EXPECT_NEAR(report["light"]["sun_elevation_deg"], 43.10, 0.01);
+  EXPECT_NEAR(report["light"]["sun_azimuth_deg"], 182.46, 0.05);
+  EXPECT_GT(report["timings"].size(), 4U);
+  const cv::Mat before = cv::imread(folder / "site/frames/0000.jpg");
+  const cv::Mat after = cv::imread(folder / "deep/out/frames/0000.png");
+  EXPECT_GT(cv::norm(before, after, cv::NORM_L1), 0.0);
+  const std::string page = ReadFile(folder / "deep/out/report.html");
+  EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64,"));
+  EXPECT_THAT(page, Not(HasSubstr("http://")));
+  EXPECT_THAT(page, Not(HasSubstr("https://")));
+}
+
+TEST(Replay, RecoversTheCamerasTruePathOfTheBundledRecording) {
+  const TemporaryFolder folder;
+  WriteFile(folder / "empty.toml", R"(time = "2025-09-14T11:05:00Z"
+[place]
+latitude_deg = 50.0875
+longitude_deg = 14.4213
+[marker]
+size_m = 0.48
+)");
+  const RunResult run = RunPleinair({"replay", BundledRecording(), "--scene", folder / "empty.toml",
+                                     "-o", folder / "out", "--no-video"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto truth = ReadTum(BundledRecording() / "truth.tum");
+  const auto found = ReadTum(folder / "out/poses/tag36h11_0.tum");
+  ASSERT_EQ(found.size(), truth.size());
+  std::vector<double> rotation_deg, translation_share;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_NEAR(found[i].time_s, truth[i].time_s, 1e-6);
+    double dot = 0.0, apart = 0.0, distance = 0.0;
+    for (int k = 0; k < 4; ++k) dot += found[i].quaternion[k] * truth[i].quaternion[k];
+    for (int k = 0; k < 3; ++k) {
+      apart += std::pow(found[i].position_m[k] - truth[i].position_m[k], 2);
+      distance += std::pow(truth[i].position_m[k], 2);
+    }
+    rotation_deg.push_back(2 * std::acos(std::min(1.0, std::abs(dot))) * 180 / M_PI);
+    translation_share.push_back(std::sqrt(apart / distance));
+  }
+  EXPECT_LT(Median(rotation_deg), 0.2);
+  EXPECT_LT(Median(translation_share), 0.002);
+}
+
+TEST(Replay, WithoutAVirtualObjectKeepsEveryPixel) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 3, false);
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--frames", "--no-video"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"0000", "0001", "0002"}) {
+    const cv::Mat before = cv::imread(folder / ("site/frames/" + std::string(name) + ".jpg"));
+    const cv::Mat after = cv::imread(folder / ("out/frames/" + std::string(name) + ".png"));
+    ASSERT_EQ(before.size(), after.size());
+    EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0.0) << name;
+  }
+  EXPECT_THAT(Listing(folder / "out"), Not(Contains("composite.mp4")));
+}
+
+TEST(Replay, GivesTheSameBytesTwice) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, true);
+  std::array<nlohmann::json, 2> reports;
+  for (int i = 0; i < 2; ++i) {
+    const std::string out = folder / ("out" + std::to_string(i));
+    // One run on one processor: threads must not show either.
+    const RunResult run = RunPleinair({"replay", folder / "site", "-o", out, "--frames"},
+                                      i == 0 ? "" : "taskset -c 0");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    reports[i] = nlohmann::json::parse(ReadFile(out + "/report.json"));
+    reports[i].erase("timings");
+    reports[i].erase("command");  // Names the folder, which differs here.
+  }
+  EXPECT_EQ(reports[0], reports[1]);
+  for (const std::string& name : Listing(folder / "out0")) {
+    if (name.starts_with("report") || std::filesystem::is_directory(folder / ("out0/" + name))) {
+      continue;
+    }
+    EXPECT_TRUE(ReadFile(folder / ("out0/" + name)) == ReadFile(folder / ("out1/" + name))) << name;
+  }
+}
+
+TEST(Replay, ReplacesTheOutputsOfAnEarlierReplayAndNothingElse) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, false);
+  ASSERT_EQ(RunPleinair({"replay", folder / "site", "-o", folder / "out", "--frames"}).exit_code,
+            0);
+  WriteFile(folder / "out/notes.txt", "mine");
+  WriteFile(folder / "out/frames/mine.png", "mine");
+  ASSERT_EQ(RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video"}).exit_code,
+            0);
+  EXPECT_THAT(Listing(folder / "out"),
+              ElementsAre("detections.jsonl", "frames", "frames/mine.png", "notes.txt", "poses",
+                          "poses/tag36h11_0.tum", "report.html", "report.json"));
+}
+
+TEST(Replay, LeavesFramesWithoutAMarkerAsTheyAreAndSaysSo) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, true);
+  const cv::Mat blank(480, 640, CV_8UC3, cv::Scalar(90, 120, 150));
+  cv::imwrite(folder / "site/frames/0001.jpg", blank);
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--frames", "--no-video"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("1 of 2 frames show no marker tag36h11_0"));
+  const cv::Mat before = cv::imread(folder / "site/frames/0001.jpg");
+  const cv::Mat after = cv::imread(folder / "out/frames/0001.png");
+  EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0.0);
+  std::istringstream lines(ReadFile(folder / "out/detections.jsonl"));
+  std::vector<std::size_t> markers;
+  for (std::string line; std::getline(lines, line);) {
+    markers.push_back(nlohmann::json::parse(line)["markers"].size());
+  }
+  EXPECT_THAT(markers, ElementsAre(1, 0));
+}
+
+TEST(Replay, ResizesTheOutput) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, true);
+  const RunResult run = RunPleinair(
+      {"replay", folder / "site", "-o", folder / "out", "--frames", "--size", "321x241"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(cv::imread(folder / "out/frames/0000.png").size(), cv::Size(321, 241));
+  EXPECT_THAT(run.err, HasSubstr("H.264 needs even sizes"));
+}
+
+TEST(Command, WithoutASubcommandPrintsItsHelpAndFails) {
+  const RunResult run = RunPleinair({});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("replay"));
+  EXPECT_THAT(run.err, HasSubstr("Examples:"));
+  EXPECT_THAT(run.out, IsEmpty());
+}
+
+TEST(Command, HelpOfEverySubcommandHasExamples) {
+  for (const char* subcommand : {"replay", "detect", "sun", "doctor"}) {
+    const RunResult run = RunPleinair({subcommand, "--help"});
+    EXPECT_EQ(run.exit_code, 0) << subcommand;
+    EXPECT_THAT(run.out, HasSubstr("pleinair " + std::string(subcommand))) << subcommand;
+  }
+}
+
+TEST(Command, SaysItsVersion) {
+  const RunResult run = RunPleinair({"--version"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, StartsWith("pleinair "));
+}
+
+TEST(Command, FailsWhereItsResultCannotBePrinted) {
+  const RunResult run =
+      RunCommandLine({"sh", "-c", std::string(PLEINAIR_PROGRAM) + " --help >/dev/full"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("No space left on device"));
+}
+
+}  // namespace
+}  // namespace pleinair::e2e
