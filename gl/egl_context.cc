@@ -4,7 +4,6 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include <map>
 #include <mutex>
 #include <utility>
 
@@ -14,29 +13,6 @@ namespace {
 constexpr const char* kRemedy =
     "install the Debian packages libegl1, libgl1 and libgl1-mesa-dri (Mesa's software renderer "
     "needs no GPU)";
-
-// Displays are one per platform in a process and eglTerminate ends them for everybody: count uses.
-class DisplayUses {
- public:
-  static DisplayUses& Instance() {
-    static DisplayUses instance;
-    return instance;
-  }
-  bool Acquire(EGLDisplay display) {
-    const std::lock_guard lock(mutex_);
-    if (uses_[display] == 0 && !eglInitialize(display, nullptr, nullptr)) return false;
-    ++uses_[display];
-    return true;
-  }
-  void Release(EGLDisplay display) {
-    const std::lock_guard lock(mutex_);
-    if (--uses_[display] == 0) eglTerminate(display);
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<EGLDisplay, int> uses_;
-};
 
 bool LibraryPresent(const char* name) {
   void* handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
@@ -72,6 +48,9 @@ struct Candidate {
   EGLContext context = EGL_NO_CONTEXT;
 };
 
+// Ends the context. The display stays initialised until the process ends: displays are one per
+// platform in a process, eglTerminate would end them for everybody, and drivers leak when they are
+// unloaded and loaded again.
 void Destroy(const Candidate& candidate) {
   if (candidate.context != EGL_NO_CONTEXT) {
     if (eglGetCurrentContext() == candidate.context) {
@@ -79,13 +58,12 @@ void Destroy(const Candidate& candidate) {
     }
     eglDestroyContext(candidate.display, candidate.context);
   }
-  if (candidate.display != EGL_NO_DISPLAY) DisplayUses::Instance().Release(candidate.display);
 }
 
 // Makes a 4.5 core context on the display current, or says why it cannot.
 Result<Candidate> TryDisplay(const std::string& platform, EGLDisplay display, bool debug) {
   if (display == EGL_NO_DISPLAY) return SystemError(platform, "no display");
-  if (!DisplayUses::Instance().Acquire(display)) {
+  if (!eglInitialize(display, nullptr, nullptr)) {
     return SystemError(platform, "eglInitialize: " + EglErrorName(eglGetError()));
   }
   Candidate candidate{platform, display, EGL_NO_CONTEXT};
