@@ -12,7 +12,7 @@ namespace pleinair::sky {
 /// The sun's disc is never in it.
 ///
 /// Ramamoorthi & Hanrahan 2001, "An efficient representation for irradiance environment maps". For
-/// skies the error is 0.4 to 1.4 % of the largest irradiance, 0.2 to 0.6 % rms.
+/// skies the error is 0.1 to 2 % of the largest irradiance, 0.1 to 0.7 % rms.
 struct SkyHarmonics {
   /// Radiance coefficients in their order: L00, L1−1, L10, L11, L2−2, L2−1, L20, L21, L22 with
   /// x east, y north, z up.

@@ -52,8 +52,8 @@ TEST(SkyHarmonics, GiveTheIrradianceOfEveryNormalToTwoPercent) {
         ++count;
       }
       // The lobe of a hemisphere cut at the horizon costs the most.
-      EXPECT_LT(worst / largest, 0.04) << elevation;
-      EXPECT_LT(std::sqrt(squares / count) / largest, 0.02) << elevation;
+      EXPECT_LT(worst / largest, 0.022) << elevation;
+      EXPECT_LT(std::sqrt(squares / count) / largest, 0.009) << elevation;
     }
   }
 }
