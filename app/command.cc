@@ -60,18 +60,10 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.set_version_flag("--version", "pleinair " PLEINAIR_VERSION);
     app.require_subcommand(0, 1);
     CommandResult result;
-#ifdef PLEINAIR_HAS_REPLAY
     AddReplayCommand(app, result);
-#endif
-#ifdef PLEINAIR_HAS_DETECT
     AddDetectCommand(app, result);
-#endif
-#ifdef PLEINAIR_HAS_SUN
     AddSunCommand(app, result);
-#endif
-#ifdef PLEINAIR_HAS_DOCTOR
     AddDoctorCommand(app, result);
-#endif
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version

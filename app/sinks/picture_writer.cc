@@ -65,7 +65,8 @@ Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::ui
   }
   if (good) return {};
   std::error_code ignored;
-  std::filesystem::remove(file, ignored);
+  // Never a device or a pipe that stands where a file was expected.
+  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
   return tl::make_unexpected(WriteError(file, error_number != 0 ? error_number : EIO));
 }
 
