@@ -157,7 +157,8 @@ TEST(Composer, NeverDarkensARealShadowTwice) {
   const RgbImage picture = EvenPicture(120);
   const double before = LinearFromSrgb8()[120];
   const RgbImage composed = Compose({kGround, wall, kCube}, picture);
-  EXPECT_NEAR(SeenAt(composed, {0, 0.35, 0}) / before, 0.85, 0.15);
+  // Darkened by a shadow of the cube's own it would keep a quarter.
+  EXPECT_NEAR(SeenAt(composed, {0, 0.35, 0}) / before, 0.95, 0.1);
   EXPECT_NEAR(SeenAt(composed, {0, 0.8, 0}) / before, 1.0, 0.04);
 }
 
