@@ -50,6 +50,7 @@ inline tl::unexpected<Error> SystemError(std::string where, std::string what,
 #define PLEINAIR_CONCAT_INNER(a, b) a##b
 #define PLEINAIR_CONCAT(a, b) PLEINAIR_CONCAT_INNER(a, b)
 
+// NOLINTBEGIN(bugprone-macro-parentheses): `lhs` may be a declaration.
 /// Declares `lhs` from the value of a Result, or returns its error from the enclosing function.
 #define PLEINAIR_ASSIGN_OR_RETURN(lhs, expression) \
   PLEINAIR_ASSIGN_OR_RETURN_IMPL(PLEINAIR_CONCAT(result_, __LINE__), lhs, expression)
@@ -57,6 +58,7 @@ inline tl::unexpected<Error> SystemError(std::string where, std::string what,
   auto result = (expression);                                           \
   if (!result) return ::tl::make_unexpected(std::move(result).error()); \
   lhs = *std::move(result)
+// NOLINTEND(bugprone-macro-parentheses)
 
 /// Returns the error of a Result<void> from the enclosing function.
 #define PLEINAIR_RETURN_IF_ERROR(expression)                              \

@@ -17,8 +17,7 @@ int main() {
   const auto no_tracker = tracker::Tracker::Create(CameraModel{}, {});
   if (no_camera || no_model || no_tracker) return 1;
   const sky::Observer courtyard{FromDegrees(50.0875), FromDegrees(14.4213), Metres(220)};
-  const auto sun =
-      sky::ComputeSunPosition(courtyard, *UtcTime::Parse("2025-09-14T11:05:00Z"));
+  const auto sun = sky::ComputeSunPosition(courtyard, *UtcTime::Parse("2025-09-14T11:05:00Z"));
   std::printf("%.3f\n", ToDegrees(sun.elevation));
   return std::abs(ToDegrees(sun.elevation) - 43.101) < 0.01 ? 0 : 1;
 }
