@@ -284,7 +284,6 @@ void GlComposer::SetMaterial(const SurfaceBuffers& surface) const {
   object_program_.Set("u_metallic", material.metallic);
   object_program_.Set("u_roughness", material.roughness);
   object_program_.Set("u_dielectric_f0", material.specular_f0);
-  object_program_.Set("u_double_sided", material.double_sided ? 1.0F : 0.0F);
 }
 
 void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain) {
@@ -294,6 +293,9 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
   targets_.BeginDrawing();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
+  // Open surfaces come as two, one a side. Clockwise, because the picture's rows go down.
+  glEnable(GL_CULL_FACE);
+  glFrontFace(GL_CW);
   for (const bool phantoms : {true, false}) {
     const gl::GlProgram& program = phantoms ? phantom_program_ : object_program_;
     program.Use();
@@ -317,6 +319,7 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
     }
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
   targets_.Resolve();
 }

@@ -18,7 +18,6 @@ uniform vec3 u_base_color;       // Linear reflectance.
 uniform float u_metallic;
 uniform float u_roughness;
 uniform float u_dielectric_f0;   // Normal reflectance of the coat; 0: purely diffuse.
-uniform float u_double_sided;    // 1: the back is lit as the front.
 
 layout(binding = 0) uniform sampler2D u_base_color_texture;
 layout(binding = 1) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
@@ -38,7 +37,6 @@ vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
 void main() {
   vec3 normal = normalize(v_normal);
   vec3 to_eye = normalize(u_eye_m - v_position_m);
-  if (u_double_sided > 0.5 && dot(normal, to_eye) < 0.0) normal = -normal;
   vec4 texel = texture(u_base_color_texture, v_uv);
   if (texel.a < 0.5) discard;  // Cut-out leaves and fences; blending needs an order.
   vec3 base_color = u_base_color * texel.rgb;
