@@ -42,8 +42,10 @@ void main() {
   vec3 base_color = u_base_color * texel.rgb;
 
   vec3 flat_normal = ShadowGeometricNormal(v_position_m, normal);
+  vec3 step_x = dFdx(v_position_m);
+  vec3 step_y = dFdy(v_position_m);
   float n_dot_l = max(dot(normal, u_to_sun), 0.0);
-  float visibility = n_dot_l > 0.0 ? ShadowVisibility(1, v_position_m, flat_normal) : 0.0;
+  float visibility = n_dot_l > 0.0 ? ShadowVisibility(1, v_position_m, flat_normal, step_x, step_y) : 0.0;
   vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);
 
   vec3 diffuse = base_color * (1.0 - u_metallic) * (1.0 - u_dielectric_f0);

@@ -10,6 +10,9 @@
 #define PLEINAIR_SHADOW_VISIBILITY
 #include "shadows/shaders/shadow_formulae.glsl"
 
+#if !defined(SHADOW_METHOD_GAUSSIAN) && !defined(SHADOW_METHOD_VARIANCE)
+#define SHADOW_METHOD_SUN_DISC
+#endif
 #ifndef SHADOW_SETS
 #define SHADOW_SETS 1
 #endif
@@ -54,6 +57,8 @@ struct ShadowReceiver {
   vec2 slope;   // Depth of the receiver's plane per texel, metres.
   float depth;  // Metres.
   float bias;   // Metres.
+  vec2 step_x;  // What one pixel of the picture covers, texels: the visibility is its mean.
+  vec2 step_y;
 };
 
 // What 2×2 texels hold against the receiver, in the order of textureGather: (0,1), (1,1), (1,0),
@@ -80,6 +85,13 @@ ShadowQuad ShadowFetch(int set, int slice, vec4 size, ShadowReceiver r, vec2 cor
 vec4 ShadowBlocks(ShadowQuad quad, float least_height) {
   return vec4(greaterThan(quad.excess, vec4(0.0))) *
          vec4(greaterThan(quad.height, vec4(least_height)));
+}
+
+// Point i of a sequence spread evenly over the pixel's footprint, texels from its middle. Roberts
+// 2018, "The unreasonable effectiveness of quasirandom sequences": R2, from the plastic number.
+vec2 ShadowFootprint(ShadowReceiver r, int i) {
+  vec2 in_pixel = fract(0.5 + float(i + 1) * vec2(0.7548776662, 0.5698402910)) - 0.5;
+  return in_pixel.x * r.step_x + in_pixel.y * r.step_y;
 }
 
 // Share of the 2×2 texels around `texel` that let light pass, weighted bilinearly.
@@ -119,10 +131,11 @@ vec3 ShadowBounds(int set, int slice, vec4 size, vec2 texel, float reach) {
 float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
   float texel_m = max(size.x, size.y);
   float slope_texel = length(r.slope);
+  float footprint = 0.5 * (length(r.step_x) + length(r.step_y));
   // Bounds: start with what anything up to the near plane could do, then tighten.
-  float reach = r.depth * tan_radius / min(size.x, size.y) + 1.0;
+  float reach = r.depth * tan_radius / min(size.x, size.y) + footprint + 1.0;
   vec3 bounds = ShadowBounds(set, slice, size, r.texel, reach);
-  reach = max(r.depth - bounds.x, 0.0) * tan_radius / min(size.x, size.y) + 1.0;
+  reach = max(r.depth - bounds.x, 0.0) * tan_radius / min(size.x, size.y) + footprint + 1.0;
   bounds = ShadowBounds(set, slice, size, r.texel, reach);
   float highest_m = max(r.depth - bounds.x, 0.0);
   float search_m = highest_m * tan_radius;
@@ -131,7 +144,10 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   // that the tap alone is soft enough.
   float tap_radius2_m = (2.0 / 3.0) * texel_m * texel_m;
   bool umbra = bounds.y < r.depth - slope_texel * bounds.z - r.bias;
-  bool soft = search_m * search_m > tap_radius2_m && !umbra;
+  // Nothing within reach rises above the receiver's plane.
+  bool lit = highest_m < slope_texel * bounds.z + r.bias;
+  bool soft = search_m * search_m > tap_radius2_m || (footprint > 1.0 && !lit);
+  soft = soft && !umbra;
 
   // Mean height of the blockers that the disc's rays can meet. Loops with a count of 0 instead of
   // branches: Mesa's software renderer runs both sides of an `if`, but leaves a loop.
@@ -153,17 +169,21 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   float filter_m = sqrt(max(disc_m * disc_m - tap_radius2_m, 0.0));
 
   float visible = 0.0;
-  int filter_count = soft && filter_m > 0.0 ? SHADOW_FILTER_SAMPLES : 0;
+  bool wide = filter_m > 0.0 || footprint > 1.0;
+  int filter_count = soft && wide ? SHADOW_FILTER_SAMPLES : 0;
   for (int i = 0; i < filter_count; ++i) {
     vec2 offset_m = filter_m * VogelDisc(i, SHADOW_FILTER_SAMPLES);
     float least_m = max((0.5 * length(offset_m) - texel_m) / tan_radius, 0.0);
-    visible += ShadowTap(set, slice, size, r, r.texel + offset_m / size.xy, least_m);
+    vec2 texel = r.texel + offset_m / size.xy + ShadowFootprint(r, i);
+    visible += ShadowTap(set, slice, size, r, texel, least_m);
   }
   if (filter_count > 0) return visible / float(SHADOW_FILTER_SAMPLES);
   return ShadowTap(set, slice, size, r, r.texel, -1e30);
 }
 
-float ShadowVisibility(int set, vec3 position, vec3 normal) {
+// Mean over the pixel: `step_x`, `step_y` are how far `position` moves to the next pixel (dFdx,
+// dFdy, taken where all pixels run).
+float ShadowVisibility(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
   vec3 to_sun = shadow_sets[set].to_sun.xyz;
   float facing = dot(normal, to_sun);
   int count = int(shadow_sets[set].settings.x);
@@ -185,8 +205,10 @@ float ShadowVisibility(int set, vec3 position, vec3 normal) {
   vec2 slope = vec2(dot(normal, shadow_sets[set].light_u.xyz),
                     dot(normal, shadow_sets[set].light_v.xyz)) / max(facing, 0.02);
   r.slope = slope * s.size.xy;
+  r.step_x = vec2(dot(s.u_from_marker.xyz, step_x), dot(s.v_from_marker.xyz, step_x));
+  r.step_y = vec2(dot(s.u_from_marker.xyz, step_y), dot(s.v_from_marker.xyz, step_y));
   r.bias = shadow_sets[set].settings.y + 0.05 * length(r.slope);
-#if defined(SHADOW_METHOD_GAUSSIAN) || defined(SHADOW_METHOD_VARIANCE)
+#ifndef SHADOW_METHOD_SUN_DISC
   vec2 map_texels = vec2(textureSize(shadow_maps[2 * set], 0).xy);
   vec2 moments =
       textureLod(shadow_maps[2 * set], vec3(r.texel / map_texels, float(chosen)), 0.0).rg;
@@ -205,6 +227,20 @@ float ShadowVisibility(int set, vec3 position, vec3 normal) {
   // Outside every window nothing casts; a surface turned away is in its own shade.
   visible = slice < 0 ? 1.0 : visible;
   return facing > 0.0 ? visible : 0.0;
+}
+
+// At the point alone.
+float ShadowVisibility(int set, vec3 position, vec3 normal) {
+  return ShadowVisibility(set, position, normal, vec3(0.0), vec3(0.0));
+}
+
+// Whether `position` lies in the finest partition of the set's maps. Outside it, maps fitted to a
+// region (ShadowMaps::UpdateForRegion) with and without the region's objects give the same.
+bool ShadowInFinestPartition(int set, vec3 position) {
+  ShadowSlice s = shadow_sets[set].slices[0];
+  vec2 texel = vec2(dot(s.u_from_marker.xyz, position) + s.u_from_marker.w,
+                    dot(s.v_from_marker.xyz, position) + s.v_from_marker.w);
+  return all(greaterThan(texel, vec2(0.0))) && all(lessThan(texel, vec2(s.size.z)));
 }
 
 #endif
