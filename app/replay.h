@@ -7,6 +7,7 @@
 #include "app/sinks/report.h"
 #include "base/camera_model.h"
 #include "base/error.h"
+#include "compositor/composer.h"
 
 namespace pleinair::app {
 
@@ -22,6 +23,7 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> calibration;  ///< Needed for a plain video.
   bool write_frames = false;
   bool write_video = true;
+  compositor::ComposerOptions composer;
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
   std::string command;              ///< For the report.
 };

@@ -1,15 +1,22 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "app/command.h"
 #include "app/replay.h"
 #include "app/sinks/report_json.h"
+#include "gl/shader_library.h"
 
 namespace pleinair::app {
 namespace {
+
+const std::map<std::string, compositor::ShadowMethod> kShadowMethods{
+    {"disc", compositor::ShadowMethod::kSunDisc},
+    {"gaussian", compositor::ShadowMethod::kGaussian},
+    {"variance", compositor::ShadowMethod::kVariance}};
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -22,7 +29,8 @@ constexpr const char* kExamples =
 /// As the parser filled it in.
 struct Arguments {
   ReplayOptions options;
-  std::string recording, output, scene, calibration, size;
+  std::string recording, output, scene, calibration, size, shader_directory;
+  std::string shadows = "disc";
   bool no_video = false;
   bool json = false;
 };
@@ -33,6 +41,7 @@ std::string CommandText(const Arguments& arguments) {
   if (!arguments.calibration.empty()) text += " --calibration " + arguments.calibration;
   if (arguments.options.write_frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
+  if (arguments.shadows != "disc") text += " --shadows " + arguments.shadows;
   if (arguments.no_video) text += " --no-video";
   return text;
 }
@@ -45,6 +54,10 @@ Result<void> Run(Arguments& arguments) {
   if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
   if (!arguments.size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize(arguments.size));
+  }
+  options.composer.shadow_method = kShadowMethods.at(arguments.shadows);
+  if (!arguments.shader_directory.empty()) {
+    gl::ShaderLibrary::SetOverrideDirectory(arguments.shader_directory);
   }
   options.write_video = !arguments.no_video;
   options.command = CommandText(arguments);
@@ -80,6 +93,21 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
   command->add_flag("--frames", arguments->options.write_frames,
                     "Also write every frame as a PNG picture");
   command->add_option("--size", arguments->size, "Size of the output, WIDTHxHEIGHT in pixels");
+  command
+      ->add_option("--shadows", arguments->shadows,
+                   "How shadows' edges are made: disc (the sun's own width), gaussian (the paper's "
+                   "Z-GaF) or variance")
+      ->check(CLI::IsMember({"disc", "gaussian", "variance"}))
+      ->capture_default_str();
+  command
+      ->add_option("--shadow-partitions", arguments->options.composer.shadow_partitions,
+                   "Partitions of the shadow maps")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  command
+      ->add_option("--shader-dir", arguments->shader_directory,
+                   "Folder with shaders to use instead of the built-in ones, for development")
+      ->check(CLI::ExistingDirectory);
   command->add_flag("--no-video", arguments->no_video, "Do not write composite.mp4");
   command->add_flag("--json", arguments->json, "Print a summary as one JSON object");
   command->callback([arguments, &result] {

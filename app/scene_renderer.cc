@@ -110,7 +110,8 @@ SceneRenderer::SceneRenderer(const CameraModel& camera, const devices::SceneDesc
     : camera_(camera), scene_(scene) {}
 
 Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
-    const CameraModel& camera, const devices::SceneDescription& scene) {
+    const CameraModel& camera, const devices::SceneDescription& scene,
+    const compositor::ComposerOptions& options) {
   std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
   std::vector<compositor::PlacedModel> placed;
   for (const devices::ModelReference& phantom : scene.phantoms) {
@@ -122,7 +123,8 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     placed.push_back(std::move(model));
   }
   if (scene.objects.empty()) return renderer;
-  PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_, compositor::Composer::Create(camera, placed, {}));
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
+                            compositor::Composer::Create(camera, placed, options));
   PLEINAIR_ASSIGN_OR_RETURN(renderer->solver_,
                             compositor::LightSolver::Create(std::move(placed), {}));
   return renderer;

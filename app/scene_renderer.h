@@ -45,7 +45,8 @@ class SceneRenderer {
   /// Loads the scene's models and prepares their light. Without virtual objects nothing is drawn
   /// and no OpenGL is needed.
   static Result<std::unique_ptr<SceneRenderer>> Create(const CameraModel& camera,
-                                                       const devices::SceneDescription& scene);
+                                                       const devices::SceneDescription& scene,
+                                                       const compositor::ComposerOptions& options);
 
   /// The frame with the virtual objects as they stand at `time`.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,

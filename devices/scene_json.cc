@@ -90,12 +90,13 @@ Result<void> ReadModel(const JsonFields& model, std::vector<ModelReference>* mod
   return {};
 }
 
-// What words are there of the weather. Of `sky` only the clouds: its amounts are ground truth.
+// What words are there of the weather ("CIE overcast" as a model says it too). The amounts in `sky`
+// are ground truth and are not read.
 std::optional<Cloudiness> SkyInWords(const JsonFields& fields) {
   std::string words = fields.TextOr("name");
   for (const char* key : {"cloudiness", "weather", "sky"}) words += "; " + fields.TextOr(key);
   for (const char* block : {"sky", "place_time"}) {
-    for (const char* key : {"clouds", "cloudiness", "condition", "weather"}) {
+    for (const char* key : {"clouds", "cloudiness", "condition", "weather", "model"}) {
       words += "; " + fields.Object(block).TextOr(key);
     }
   }
