@@ -23,7 +23,7 @@ inline double SrgbFromLinear(double linear) {
 
 /// Nearest 8-bit code of linear light.
 inline std::uint8_t Srgb8FromLinear(double linear) {
-  return static_cast<std::uint8_t>(SrgbFromLinear(linear) * 255.0 + 0.5);
+  return static_cast<std::uint8_t>(std::lround(SrgbFromLinear(linear) * 255.0));
 }
 
 /// Linear light of all 256 codes.
