@@ -1,0 +1,184 @@
+// The composite of the bundled recording against what a path tracer made of the same place with the
+// object standing in it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "base/srgb.h"
+#include "tests/accuracy/ciede2000.h"
+#include "tests/e2e/run_program.h"
+
+namespace pleinair::accuracy {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// The frames for which the recording has a true picture, and neighbours for the light meter.
+constexpr std::array<int, 2> kKeyFrames{36, 72};
+constexpr std::array<int, 6> kFrames{35, 36, 37, 71, 72, 73};
+
+/// The recording's frames `kFrames`, with what a person would know of the place and nothing else:
+/// no truth is there that the program could read.
+void MakeRecordingWithoutTruth(const fs::path& folder) {
+  const fs::path bundled = e2e::BundledRecording();
+  fs::create_directories(folder / "frames");
+  for (const char* name : {"phantom.obj", "phantom.mtl", "object.obj", "object.mtl"}) {
+    fs::copy_file(bundled / name, folder / name);
+  }
+  json recording = json::parse(e2e::ReadFile(bundled / "recording.json"));
+  json stamps = json::array();
+  for (std::size_t i = 0; i < kFrames.size(); ++i) {
+    fs::copy_file(bundled / fmt::format("frames/{:04}.jpg", kFrames[i]),
+                  folder / fmt::format("frames/{:04}.jpg", i));
+    stamps.push_back(recording["timestamps_s"][kFrames[i]]);
+  }
+  recording["timestamps_s"] = stamps;
+  recording["frame_count"] = kFrames.size();
+  recording.erase("truth");
+  e2e::WriteFile(folder / "recording.json", recording.dump());
+
+  const json all = json::parse(e2e::ReadFile(bundled / "scene.json"));
+  json scene;
+  for (const char* key : {"name", "format", "image", "intrinsics", "marker", "place_time"}) {
+    scene[key] = all.at(key);
+  }
+  scene["sky"]["clouds"] = all.at("sky").at("clouds");
+  scene["real_geometry"]["file"] = all.at("real_geometry").at("file");
+  scene["virtual_object"]["file"] = all.at("virtual_object").at("file");
+  scene["virtual_object"]["shading"] = all.at("virtual_object").at("shading");
+  e2e::WriteFile(folder / "scene.json", scene.dump());
+}
+
+struct KeyFrame {
+  cv::Mat background, truth, object_mask, shadow;
+};
+
+KeyFrame ReadKeyFrame(int frame) {
+  const auto read = [&](const char* what, int flags) {
+    return cv::imread(e2e::BundledRecording() / fmt::format("key/{:04}_{}.png", frame, what),
+                      flags);
+  };
+  return {read("background", cv::IMREAD_COLOR), read("truth", cv::IMREAD_COLOR),
+          read("objmask", cv::IMREAD_GRAYSCALE), read("shadow", cv::IMREAD_GRAYSCALE)};
+}
+
+/// Mean CIEDE2000 against the truth.
+struct Score {
+  double object = 0.0;  ///< Where the object covers more than half of a pixel.
+  double shadow = 0.0;  ///< Where it takes more than 4 % of the light, itself excluded.
+};
+
+Score Compare(const cv::Mat& picture, const KeyFrame& key) {
+  Score sum;
+  int object_pixels = 0, shadow_pixels = 0;
+  const auto lab = [](const cv::Vec3b& bgr) { return LabFromSrgb8({bgr[2], bgr[1], bgr[0]}); };
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const bool object = key.object_mask.at<std::uint8_t>(y, x) > 127;
+      const bool shadow = key.shadow.at<std::uint8_t>(y, x) > 0;
+      if (!object && !shadow) continue;
+      const double difference =
+          Ciede2000(lab(picture.at<cv::Vec3b>(y, x)), lab(key.truth.at<cv::Vec3b>(y, x)));
+      sum.object += object ? difference : 0.0;
+      sum.shadow += shadow ? difference : 0.0;
+      object_pixels += object;
+      shadow_pixels += shadow;
+    }
+  }
+  return {sum.object / object_pixels, sum.shadow / shadow_pixels};
+}
+
+/// The object in its own colour, as if light were everywhere the same.
+cv::Mat PastedUnlit(const KeyFrame& key) {
+  const json scene = json::parse(e2e::ReadFile(e2e::BundledRecording() / "scene.json"));
+  const json& albedo = scene["virtual_object"]["albedo_linear_rec709"];
+  cv::Mat pasted = key.background.clone();
+  for (int y = 0; y < pasted.rows; ++y) {
+    for (int x = 0; x < pasted.cols; ++x) {
+      const double share = key.object_mask.at<std::uint8_t>(y, x) / 255.0;
+      cv::Vec3b& pixel = pasted.at<cv::Vec3b>(y, x);
+      for (int c = 0; c < 3; ++c) {
+        const double paint = Srgb8FromLinear(albedo[2 - c].get<double>());
+        pixel[c] = cv::saturate_cast<std::uint8_t>(std::lerp(pixel[c], paint, share));
+      }
+    }
+  }
+  return pasted;
+}
+
+/// As good as any composite into the recording's JPEG frames can be.
+cv::Mat ThroughJpeg(const cv::Mat& picture) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 95});
+  return cv::imdecode(bytes, cv::IMREAD_COLOR);
+}
+
+struct Row {
+  std::string name;
+  std::vector<Score> scores;  ///< One a key frame.
+  Score Mean() const {
+    Score mean;
+    for (const Score& score : scores) {
+      mean.object += score.object / static_cast<double>(scores.size());
+      mean.shadow += score.shadow / static_cast<double>(scores.size());
+    }
+    return mean;
+  }
+};
+
+void Print(const std::vector<Row>& rows) {
+  fmt::print("\ncourtyard_midday, mean CIEDE2000 against the truth: object / shadow\n{:24}", "");
+  for (const int frame : kKeyFrames) fmt::print("   frame {:04}", frame);
+  fmt::print("         mean\n");
+  for (const Row& row : rows) {
+    fmt::print("{:24}", row.name);
+    for (const Score& score : row.scores)
+      fmt::print("{:5.2f} /{:5.2f} ", score.object, score.shadow);
+    fmt::print("{:5.2f} /{:5.2f}\n", row.Mean().object, row.Mean().shadow);
+  }
+  std::fflush(stdout);
+}
+
+TEST(CompositeOfCourtyardMidday, LooksLikeThePathTracedTruth) {
+  const e2e::TemporaryFolder folder;
+  MakeRecordingWithoutTruth(folder / "site");
+  const e2e::RunResult run =
+      e2e::RunPleinair({"replay", folder / "site", "-o", folder / "out", "--frames", "--no-video"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+
+  Row ours{"pleinair", {}}, untouched{"background untouched", {}};
+  Row unlit{"object pasted unlit", {}}, floor{"truth through JPEG", {}};
+  for (const int frame : kKeyFrames) {
+    const KeyFrame key = ReadKeyFrame(frame);
+    const auto index = std::find(kFrames.begin(), kFrames.end(), frame) - kFrames.begin();
+    const cv::Mat picture = cv::imread(folder / fmt::format("out/frames/{:04}.png", index));
+    ASSERT_EQ(picture.size(), key.truth.size());
+    ours.scores.push_back(Compare(picture, key));
+    untouched.scores.push_back(Compare(key.background, key));
+    unlit.scores.push_back(Compare(PastedUnlit(key), key));
+    floor.scores.push_back(Compare(ThroughJpeg(key.truth), key));
+  }
+  Print({ours, untouched, unlit, floor});
+  for (const Score& score : ours.scores) {
+    EXPECT_LE(score.object, 2.0);
+    EXPECT_LE(score.shadow, 2.6);
+  }
+  // The scale on which that is little.
+  EXPECT_GT(untouched.Mean().object, 10.0);
+  EXPECT_GT(untouched.Mean().shadow, 10.0);
+  EXPECT_GT(unlit.Mean().object, 10.0);
+  EXPECT_LT(floor.Mean().object, ours.Mean().object);
+}
+
+}  // namespace
+}  // namespace pleinair::accuracy
