@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "shadow_scene.h"
 
 namespace pleinair::shadows {
 namespace {
-
-double StraightEdge(double u) {
-  const double x = std::clamp(u, -1.0, 1.0);
-  return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
-}
 
 Box Around(const glm::dvec3& low, const glm::dvec3& high) {
   Box box;
@@ -32,37 +26,6 @@ class SunShadow : public ShadowScene {
   }
   void AddGround() { AddQuad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}); }
 };
-
-// 9.3 mm of penumbra a metre of height. Tolerance: 48 taps and the map's texels.
-TEST_F(SunShadow, OfAStraightEdgeIsTheClosedForm) {
-  for (const double height : {0.5, 1.0, 2.0, 5.0}) {
-    ClearScene();
-    AddGround();
-    AddQuad({-1, -1, height}, {1, 0, 0}, {0, 2, 0});  // Covers x < 0.
-    const ShadowMaps maps = Region({0, 0, 1}, Around({-0.5, -0.5, 0}, {0.5, 0.5, height}));
-    const double radius = height * std::tan(kSunAngularRadius.value());
-    ProbePlane plane;
-    plane.width = 400;
-    plane.height = 16;
-    plane.origin = {-2.0 * radius, -0.2, 0.0};
-    plane.du = {4.0 * radius / plane.width, 0.0, 0.0};
-    plane.dv = {0.0, 0.4 / plane.height, 0.0};
-    const std::vector<float> result = Visibility(maps, plane);
-    double sum = 0.0, worst = 0.0;
-    for (int y = 0; y < plane.height; ++y) {
-      for (int x = 0; x < plane.width; ++x) {
-        const double error = result[y * plane.width + x] - StraightEdge(plane.At(x, y).x / radius);
-        sum += error * error;
-        worst = std::max(worst, std::abs(error));
-      }
-    }
-    const double rmse = std::sqrt(sum / (plane.width * plane.height));
-    RecordProperty("rmse_mm" + std::to_string(static_cast<int>(height * 1000)),
-                   std::to_string(rmse));
-    EXPECT_LT(rmse, 0.025) << "height " << height;
-    EXPECT_LT(worst, 0.09) << "height " << height;
-  }
-}
 
 TEST_F(SunShadow, LeavesALitPlaneFullyLitByEveryMethod) {
   AddGround();
@@ -153,27 +116,6 @@ TEST_F(SunShadow, DoesNotLeakBetweenTwoOccluders) {
   const std::vector<float> variance = Visibility(Region(to_sun, focus, options), plane);
   EXPECT_GT(*std::max_element(variance.begin(), variance.end()), 0.3F)
       << "the scene no longer shows what it is for";
-}
-
-TEST_F(SunShadow, IsCloserToTheTruthThanThePapersGaussian) {
-  AddGround();
-  AddBox({-0.2, -0.2, 0.0}, {0.2, 0.2, 0.5});
-  AddBox({0.6, -0.05, 0.0}, {0.7, 0.05, 2.0});
-  AddQuad({-1.2, -0.4, 0.8}, {0.6, 0, 0}, {0, 0.6, 0});
-  const glm::dvec3 to_sun = SunAt(200, 43);
-  const ProbePlane plane{{-1.5, -0.6, 0}, {3.0 / 160, 0, 0}, {0, 2.4 / 128, 0}, 160, 128};
-  const std::vector<float> truth = Truth(plane, to_sun, 128);
-  const Box focus = Around({-1.2, -0.4, 0}, {0.7, 0.4, 2});
-  const Errors ours = Compare(Visibility(Region(to_sun, focus), plane), truth);
-  ShadowMapOptions options;
-  options.method = VisibilityMethod::kGaussian;
-  const Errors paper = Compare(Visibility(Region(to_sun, focus, options), plane), truth);
-  EXPECT_GT(ours.penumbra_points, 100);
-  EXPECT_LT(ours.penumbra_rmse, 0.06);
-  EXPECT_LT(ours.leak, 5e-4);
-  EXPECT_LT(ours.darkening, 5e-4);
-  EXPECT_LT(std::abs(ours.bias), 1e-3);
-  EXPECT_LT(ours.penumbra_rmse, 0.5 * paper.penumbra_rmse);
 }
 
 }  // namespace
