@@ -68,13 +68,17 @@ TEST_P(Photograph, ShowsEveryTagOfTheGoldenFileWithinOnePixel) {
   const auto sightings = tracker->Track(
       {picture.data, picture.cols, picture.rows, 1, static_cast<std::ptrdiff_t>(picture.step)});
   ASSERT_TRUE(sightings.has_value());
+  double farthest = 0.0;
   for (const GoldenTag& tag : golden) {
-    const bool found =
-        std::any_of(sightings->begin(), sightings->end(), [&](const Sighting& sighting) {
-          return sighting.detection.id == tag.id && Distance(tag, sighting) < 1.0;
-        });
-    EXPECT_TRUE(found) << "at " << tag.corners_px[0].x << ", " << tag.corners_px[0].y;
+    double distance = 1e9;
+    for (const Sighting& sighting : *sightings) {
+      if (sighting.detection.id == tag.id) distance = std::min(distance, Distance(tag, sighting));
+    }
+    EXPECT_LT(distance, 1.0) << "at " << tag.corners_px[0].x << ", " << tag.corners_px[0].y;
+    farthest = std::max(farthest, distance);
   }
+  std::printf("%s: %zu tags, farthest corner %.2f px from the golden file's\n", name, golden.size(),
+              farthest);
   for (const Sighting& sighting : *sightings) EXPECT_EQ(sighting.detection.id, 0);
 }
 

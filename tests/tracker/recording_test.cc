@@ -1,14 +1,18 @@
 // The bundled path-traced recording against its true camera poses.
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/units.h"
 #include "tracker/tracker.h"
@@ -36,9 +40,31 @@ std::vector<Transform<Marker, Camera>> ReadTruth() {
   return truth;
 }
 
+/// Between the two nearest values, linearly.
 double Percentile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], place - static_cast<double>(below));
+}
+
+double Mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// camera_from_marker(estimate) = (Exp(w) R_true, t_true + d): w (rad) and d (m), camera frame.
+Eigen::Matrix<double, 6, 1> PoseError(const Transform<Camera, Marker>& estimate,
+                                      const Transform<Camera, Marker>& truth) {
+  using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Eigen::Matrix3d difference =
+      Eigen::Map<const RowMajor3>(estimate.rotation.m.data()) *
+      Eigen::Map<const RowMajor3>(truth.rotation.m.data()).transpose();
+  const Eigen::AngleAxisd turn(difference);
+  const Vec3 d = estimate.translation_m - truth.translation_m;
+  Eigen::Matrix<double, 6, 1> error;
+  error << turn.angle() * turn.axis(), d.x, d.y, d.z;
+  return error;
 }
 
 TEST(CourtyardMidday, GivesEveryPoseWithinAThirtiethOfADegree) {
@@ -53,7 +79,7 @@ TEST(CourtyardMidday, GivesEveryPoseWithinAThirtiethOfADegree) {
   const std::vector<Transform<Marker, Camera>> truth = ReadTruth();
   ASSERT_EQ(truth.size(), 90U);
   const auto tracker = *Tracker::Create(camera, {.marker_size_m = description["marker"]["size_m"]});
-  std::vector<double> rotation_deg, translation_percent;
+  std::vector<double> rotation_deg, translation_percent, nees;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     char name[32];
     std::snprintf(name, sizeof name, "frames/%04zu.jpg", i);
@@ -63,17 +89,26 @@ TEST(CourtyardMidday, GivesEveryPoseWithinAThirtiethOfADegree) {
         {grey.data, grey.cols, grey.rows, 1, static_cast<std::ptrdiff_t>(grey.step)});
     ASSERT_TRUE(sightings.has_value());
     ASSERT_EQ(sightings->size(), 1U) << name;
-    const auto& estimate = (*sightings)[0].pose.best.camera_from_marker;
+    const PoseEstimate& pose = (*sightings)[0].pose;
     const Transform<Camera, Marker> expected = truth[i].Inverse();
-    const Mat3 difference = estimate.rotation * expected.rotation.Transposed();
-    const double sine =
-        0.5 * Norm(Vec3{difference(2, 1) - difference(1, 2), difference(0, 2) - difference(2, 0),
-                        difference(1, 0) - difference(0, 1)});
-    const double cosine = 0.5 * (difference(0, 0) + difference(1, 1) + difference(2, 2) - 1.0);
-    rotation_deg.push_back(ToDegrees(Radians(std::atan2(sine, cosine))));
-    translation_percent.push_back(100.0 * Norm(estimate.translation_m - expected.translation_m) /
-                                  Norm(expected.translation_m));
+    const Eigen::Matrix<double, 6, 1> error = PoseError(pose.best.camera_from_marker, expected);
+    rotation_deg.push_back(ToDegrees(Radians(error.head<3>().norm())));
+    translation_percent.push_back(100.0 * error.tail<3>().norm() / Norm(expected.translation_m));
+    const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(
+        pose.covariance.data());
+    nees.push_back(error.dot(covariance.ldlt().solve(error)));
   }
+  std::printf("\ncourtyard_midday, %zu of %zu frames | median | 95th percentile | largest\n",
+              nees.size(), truth.size());
+  for (const auto& [what, values] :
+       {std::pair{"rotation, degrees", &rotation_deg},
+        std::pair{"translation, % of the distance", &translation_percent},
+        std::pair{"NEES (6 is right)", &nees}}) {
+    std::printf("%-42s | %.4f | %.4f | %.4f\n", what, Percentile(*values, 0.5),
+                Percentile(*values, 0.95), Percentile(*values, 1.0));
+  }
+  std::printf("%-42s | %.1f\n", "mean NEES", Mean(nees));
+  std::fflush(stdout);
   EXPECT_LT(Percentile(rotation_deg, 0.5), 0.03);
   EXPECT_LT(Percentile(rotation_deg, 0.95), 0.1);
   EXPECT_LT(Percentile(translation_percent, 0.5), 0.02);
