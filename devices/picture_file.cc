@@ -1,5 +1,7 @@
 #include "devices/picture_file.h"
 
+#include <zlib.h>
+
 #include <cstdint>
 #include <exception>
 
@@ -56,15 +58,22 @@ Result<PictureSize> InspectPng(std::string_view bytes, const std::string& name) 
   if (bytes.substr(12, 4) != "IHDR") {
     return InputError(name, "is a PNG without a header", kWholeCopy);
   }
+  PLEINAIR_ASSIGN_OR_RETURN(const PictureSize size,
+                            Judge(FourBytesAt(bytes, 16), FourBytesAt(bytes, 20), name));
   std::size_t at = kPngSignature.size();
   while (true) {
     if (bytes.size() - at < 12) return CutShort(name);
     const std::size_t length = FourBytesAt(bytes, at);
     if (bytes.size() - at - 12 < length) return CutShort(name);
+    // The decoder would print its own line about damage; the checksum tells it before.
+    const auto* checked = reinterpret_cast<const unsigned char*>(bytes.data()) + at + 4;
+    if (crc32(0, checked, static_cast<uInt>(length + 4)) != FourBytesAt(bytes, at + 8 + length)) {
+      return InputError(name, "is damaged: a checksum does not match", kWholeCopy);
+    }
     if (bytes.substr(at + 4, 4) == "IEND") break;
     at += 12 + length;
   }
-  return Judge(FourBytesAt(bytes, 16), FourBytesAt(bytes, 20), name);
+  return size;
 }
 
 // Walks the marker segments (ITU-T T.81, B.1.1) to the scan; the frame header before it has the

@@ -1,5 +1,7 @@
 #include "devices/picture_file.h"
 
+#include <zlib.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -20,7 +22,12 @@ std::string PngOfSize(std::uint32_t width, std::uint32_t height) {
   for (const std::uint32_t side : {width, height}) {
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(side >> shift & 0xFF);
   }
-  bytes += std::string("\x08\x02\0\0\0CRC.", 9);
+  bytes += std::string("\x08\x02\0\0\0", 5);
+  const auto* header = reinterpret_cast<const unsigned char*>(bytes.data()) + 12;
+  const auto checksum = static_cast<std::uint32_t>(crc32(0, header, 17));
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    bytes += static_cast<char>(checksum >> shift & 0xFF);
+  }
   bytes += std::string("\0\0\0\0IEND\xae\x42\x60\x82", 12);
   return bytes;
 }
