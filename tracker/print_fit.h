@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tracker/print_noise.h"
+#include "tracker/print_pattern.h"
+#include "tracker/print_prediction.h"
+
+namespace pleinair::tracker {
+
+/// Fits a print's place, blur and light to pixels, robustly, by Levenberg–Marquardt.
+class PrintFit {
+ public:
+  /// All are kept by reference. `contrast` is white less black in linear light, roughly.
+  PrintFit(const PrintPattern& pattern, const std::vector<PrintPixel>& pixels, double contrast,
+           double side_px)
+      : pattern_(pattern), all_pixels_(pixels), contrast_(contrast), side_px_(side_px) {}
+
+  /// From `start` to the best state; false where the equations have no solution.
+  bool Run(const PrintState& start);
+
+  const PrintState& state() const { return state_; }
+  /// Robust standard deviation of the residuals, codes.
+  double ResidualCodes() const;
+  /// Share of the pixels that look as predicted.
+  double AgreeingShare() const;
+  /// Covariance of the homography's motion: rays_from_print (I + Δ), Δ's first eight entries by
+  /// row, but for translation before the linear part: (Δ02 Δ00 Δ01 Δ12 Δ10 Δ11 Δ20 Δ21).
+  Eigen::Matrix<double, 8, 8> MotionCovariance() const;
+
+ private:
+  struct NormalEquations {
+    Eigen::MatrixXd hessian;
+    Eigen::VectorXd gradient;
+    double cost = 0.0;  ///< Robust, in standard deviations, priors included.
+    std::vector<PrintResidual> residuals;
+  };
+  /// Sums of the gradient over blocks of pixels, with the block's place.
+  using BlockGradients = std::map<std::pair<int, int>, Eigen::VectorXd>;
+
+  bool Optimize(std::vector<PrintPixel> pixels);
+  void SetNoise(const PrintNoise& noise, const NormalEquations& equations);
+  NormalEquations Evaluate(const PrintState& state, BlockGradients* blocks) const;
+  void AddPriors(const PrintState& state, NormalEquations* equations) const;
+  static PrintState Moved(const PrintState& state, const Eigen::VectorXd& step);
+  static double CorrelationFactor(const BlockGradients& blocks, const Eigen::MatrixXd& covariance);
+
+  const PrintPattern& pattern_;
+  const std::vector<PrintPixel>& all_pixels_;
+  const double contrast_, side_px_;
+  std::vector<PrintPixel> pixels_;  ///< Those that are fitted now.
+  std::vector<double> variance_;    ///< … and the variance that each of them has.
+  PrintState state_;
+  PrintNoise noise_;
+};
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,58 @@
+#include "tracker/print_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pleinair::tracker {
+namespace {
+
+/// Rounding to 8 bits alone leaves 0.29 codes.
+constexpr double kMinResidual_codes = 0.3;
+/// Standard deviation of a Gaussian over its median absolute deviation.
+constexpr double kSigmaPerMedian = 1.4826;
+/// Fewer pixels than this do not tell the noise of their kind.
+constexpr std::size_t kEnough = 20;
+/// An edge pixel tells its own noise where this is worth many times the noise off the edges.
+constexpr double kEdgePixelGain_codes = 12.0;
+
+double Median(std::vector<double>* values) {
+  if (values->empty()) return 0.0;
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  return *middle;
+}
+
+}  // namespace
+
+double RobustScale(const std::vector<PrintResidual>& residuals) {
+  std::vector<double> sizes;
+  sizes.reserve(residuals.size());
+  for (const PrintResidual& residual : residuals) sizes.push_back(std::fabs(residual.codes));
+  return std::max(kMinResidual_codes, kSigmaPerMedian * Median(&sizes));
+}
+
+PrintNoise EstimatePrintNoise(const std::vector<PrintResidual>& residuals) {
+  std::vector<double> flat;
+  for (const PrintResidual& residual : residuals) {
+    if (residual.edge_gain < kEdgePixelGain_codes) flat.push_back(std::fabs(residual.codes));
+  }
+  PrintNoise noise;
+  noise.flat_codes = flat.size() < kEnough
+                         ? RobustScale(residuals)
+                         : std::max(kMinResidual_codes, kSigmaPerMedian * Median(&flat));
+  // Half of the edge pixels are to lie within the median of a Gaussian of variance flat² + share²
+  // gain²; each pixel says from which share² on it does.
+  std::vector<double> share_squared;
+  for (const PrintResidual& residual : residuals) {
+    if (residual.edge_gain < kEdgePixelGain_codes) continue;
+    const double sigma = kSigmaPerMedian * residual.codes;
+    share_squared.push_back((sigma * sigma - noise.flat_codes * noise.flat_codes) /
+                            (residual.edge_gain * residual.edge_gain));
+  }
+  if (share_squared.size() < kEnough) return noise;
+  noise.edge_share = std::sqrt(std::max(0.0, Median(&share_squared)));
+  return noise;
+}
+
+}  // namespace pleinair::tracker
