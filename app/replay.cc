@@ -69,7 +69,8 @@ class Replayer {
     report_.height = size.height;
     output_camera_ = ScaleCamera(recording.camera, size);
     // Models are loaded before a long search for markers begins: their errors come at once.
-    PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_, options_.composer));
+    PLEINAIR_ASSIGN_OR_RETURN(renderer_,
+                              SceneRenderer::Create(output_camera_, scene_, options_.composer));
     session_.emplace(scene_.marker);
     PLEINAIR_RETURN_IF_ERROR(FindMarkers(recording));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
