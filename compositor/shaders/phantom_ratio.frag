@@ -7,8 +7,8 @@
 
 in vec3 v_position_m;
 in vec3 v_normal;
-in vec3 v_ambient_with;
-in vec3 v_ambient_without;
+centroid in vec3 v_ambient_with;
+centroid in vec3 v_ambient_without;
 
 uniform vec3 u_to_sun;          // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;  // Linear Rec.709.

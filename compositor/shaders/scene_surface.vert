@@ -12,8 +12,10 @@ uniform mat4 u_clip_from_marker;
 out vec3 v_position_m;
 out vec3 v_normal;
 out vec2 v_uv;
-out vec3 v_ambient_with;
-out vec3 v_ambient_without;
+// At a silhouette a sample may be covered where the pixel's middle is not; light is not extrapolated
+// to there, where it could be anything, less than nothing included.
+centroid out vec3 v_ambient_with;
+centroid out vec3 v_ambient_without;
 
 void main() {
   v_position_m = in_position;

@@ -8,7 +8,7 @@
 in vec3 v_position_m;
 in vec3 v_normal;
 in vec2 v_uv;
-in vec3 v_ambient_with;
+centroid in vec3 v_ambient_with;
 
 uniform vec3 u_to_sun;           // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;   // Linear Rec.709.

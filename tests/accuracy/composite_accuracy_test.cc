@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,10 @@ constexpr std::array<int, 2> kKeyFrames{36, 72};
 constexpr const char* kJpegFrames = "frames/{:04}.jpg";
 constexpr const char* kLosslessFrames = "key/{:04}_background.png";
 
-/// The recording's frames `kKeyFrames`, with what a person would know of the place and nothing
+/// Some of the recording's frames, with what a person would know of the place and nothing
 /// else: no truth is there that the program could read.
-void MakeRecordingWithoutTruth(const fs::path& folder, const char* pictures) {
+void MakeRecordingWithoutTruth(const fs::path& folder, std::span<const int> frames,
+                               const char* pictures) {
   const fs::path bundled = e2e::BundledRecording();
   fs::create_directories(folder / "frames");
   for (const char* name : {"phantom.obj", "phantom.mtl", "object.obj", "object.mtl"}) {
@@ -39,13 +41,13 @@ void MakeRecordingWithoutTruth(const fs::path& folder, const char* pictures) {
   }
   json recording = json::parse(e2e::ReadFile(bundled / "recording.json"));
   json stamps = json::array();
-  for (std::size_t i = 0; i < kKeyFrames.size(); ++i) {
-    const fs::path from = bundled / fmt::format(fmt::runtime(pictures), kKeyFrames[i]);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const fs::path from = bundled / fmt::format(fmt::runtime(pictures), frames[i]);
     fs::copy_file(from, folder / fmt::format("frames/{:04}{}", i, from.extension().string()));
-    stamps.push_back(recording["timestamps_s"][kKeyFrames[i]]);
+    stamps.push_back(recording["timestamps_s"][frames[i]]);
   }
   recording["timestamps_s"] = stamps;
-  recording["frame_count"] = kKeyFrames.size();
+  recording["frame_count"] = frames.size();
   recording.erase("truth");
   e2e::WriteFile(folder / "recording.json", recording.dump());
 
@@ -156,7 +158,7 @@ class CompositeOfCourtyardMidday : public testing::Test {
   /// What the program makes of the key frames, scored; a failure leaves the row short.
   Row Replay(const std::string& name, const char* pictures) const {
     const e2e::TemporaryFolder folder;
-    MakeRecordingWithoutTruth(folder / "site", pictures);
+    MakeRecordingWithoutTruth(folder / "site", kKeyFrames, pictures);
     const e2e::RunResult run = e2e::RunPleinair(
         {"replay", folder / "site", "-o", folder / "out", "--frames", "--no-video"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -197,6 +199,21 @@ TEST_F(CompositeOfCourtyardMidday, LooksLikeThePathTracedTruth) {
   EXPECT_GT(untouched.Mean().object, 10.0);
   EXPECT_GT(untouched.Mean().shadow, 10.0);
   EXPECT_GT(unlit.Mean().object, 10.0);
+}
+
+// To the right of the object and its shadow stands a real pole, whose outline is where light could
+// go astray.
+TEST_F(CompositeOfCourtyardMidday, KeepsWhatStandsFarFromTheObject) {
+  const e2e::TemporaryFolder folder;
+  MakeRecordingWithoutTruth(folder / "site", std::array{0}, kJpegFrames);
+  const e2e::RunResult run =
+      e2e::RunPleinair({"replay", folder / "site", "-o", folder / "out", "--frames", "--no-video"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const cv::Mat before = cv::imread(folder / "site/frames/0000.jpg");
+  const cv::Mat after = cv::imread(folder / "out/frames/0000.png");
+  ASSERT_EQ(before.size(), after.size());
+  const cv::Range rows = cv::Range::all(), columns(500, before.cols);
+  EXPECT_LE(cv::norm(before(rows, columns), after(rows, columns), cv::NORM_INF), 8.0);
 }
 
 }  // namespace
