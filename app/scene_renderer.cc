@@ -12,7 +12,8 @@
 namespace pleinair::app {
 namespace {
 
-// The sun moves its own width in about two minutes; the light is made anew after half of that.
+// The sun moves its own width in about two minutes; the light among surfaces is made anew
+// after half of that, the sun itself moves in every frame.
 constexpr double kSunStep = 0.25 * kRadiansPerDegree;
 // Frames over which the exposure is a running median: long enough to still a flickering reading,
 // short enough to follow a camera's automatic exposure.
@@ -136,9 +137,13 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
                                Metres(scene_.place_time.height_m)};
   summary_.sun = sky::ComputeSunPosition(observer, time);
   const Vec3 to_sun = summary_.sun.ToSun().xyz;
-  if (lit_for_sun_ && Norm(*lit_for_sun_ - to_sun) < kSunStep) return {};
   const auto daylight = sky::CreateDaylight(
       summary_.sun, {ConditionOf(scene_.cloudiness), scene_.turbidity.value_or(0.0)});
+  const Mat3 marker_from_world = MarkerFromWorld(scene_.marker);
+  if (lit_for_sun_ && Norm(*lit_for_sun_ - to_sun) < kSunStep) {
+    composer_->SetSun(*daylight, marker_from_world);
+    return {};
+  }
   const LinearRgb sun = daylight->SunNormalIrradiance();
   const LinearRgb sky = daylight->SkyHorizontalIrradiance();
   summary_.sun_normal_lux = Luminance(sun);
@@ -146,7 +151,6 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   const LinearRgb ground = sky + sun * std::max(0.0, to_sun.z);
   const double white = scene_.marker.albedo_white / std::numbers::pi;
   guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
-  const Mat3 marker_from_world = MarkerFromWorld(scene_.marker);
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(solver_->Solve(*daylight, marker_from_world),
                                                *daylight, marker_from_world));
   meter_.emplace(PrintOf(scene_.marker), *solver_, *daylight, marker_from_world);

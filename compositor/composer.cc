@@ -130,6 +130,7 @@ class GlComposer : public Composer {
 
   Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& day,
                         const Mat3& marker_from_world) override;
+  void SetSun(const sky::Daylight& day, const Mat3& marker_from_world) override;
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
                            LinearRgb gain) override;
@@ -225,8 +226,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
 Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& day,
                                   const Mat3& marker_from_world) {
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  to_sun_ = marker_from_world * day.ToSun().xyz;
-  sun_normal_ = day.SunNormalIrradiance();
+  SetSun(day, marker_from_world);
   surfaces_.clear();
   surfaces_.reserve(lit.size());  // The casters point into it.
   for (auto& casters : casters_) casters.clear();
@@ -269,6 +269,11 @@ Result<void> GlComposer::DrawShadowMaps(const Transform<Camera, Marker>& camera_
     maps.Bind(set);
   }
   return {};
+}
+
+void GlComposer::SetSun(const sky::Daylight& day, const Mat3& marker_from_world) {
+  to_sun_ = marker_from_world * day.ToSun().xyz;
+  sun_normal_ = day.SunNormalIrradiance();
 }
 
 void GlComposer::SetMaterial(const SurfaceBuffers& surface) const {

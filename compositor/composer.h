@@ -44,6 +44,10 @@ class Composer {
   virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& daylight,
                                 const Mat3& marker_from_world) = 0;
 
+  /// Moves the sun itself, between two calls of SetLight: shadows follow it without jumps, while
+  /// the light among surfaces, which costs more, stays.
+  virtual void SetSun(const sky::Daylight& daylight, const Mat3& marker_from_world) = 0;
+
   /// The picture with the virtual objects in it. `gain`: display-linear value per radiance and
   /// channel (LightReading). Pixels that no virtual thing touches keep their bytes.
   virtual Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
