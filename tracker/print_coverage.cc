@@ -13,17 +13,55 @@ constexpr int kMaxModules = 24;       ///< Most columns that one blurred sample 
 constexpr std::array<double, 2> kComb_px{-0.25, 0.25};
 constexpr double kSubSquareVariance_px2 = 0.25 / 12.0;
 
+/// The normal distribution and its density from a table: cubic Hermite interpolation, right to 4e-9
+/// (step⁴/384 times the fourth derivative), in a fifth of the time of erfc() and exp().
+class NormalTable {
+ public:
+  NormalTable() {
+    for (int i = 0; i < kEntries; ++i) {
+      const double z = (i - kMiddle) / kEntriesPerSigma;
+      entries_[i].below = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+      entries_[i].density =
+          std::exp(-0.5 * z * z) * (0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2);
+      entries_[i].density_slope = -z * entries_[i].density;
+    }
+  }
+
+  /// |z| at most kReachSigmas, but for rounding.
+  void Look(double z, double* below, double* density) const {
+    const double at = std::clamp(z * kEntriesPerSigma + kMiddle, 0.0, kEntries - 1.0 - 1e-9);
+    const int i = static_cast<int>(at);
+    const Entry &a = entries_[i], &b = entries_[i + 1];
+    const double t = at - i, u = 1.0 - t;
+    const double h0 = u * u * (1.0 + 2.0 * t), h1 = t * t * (1.0 + 2.0 * u);
+    const double g0 = t * u * u / kEntriesPerSigma, g1 = -t * t * u / kEntriesPerSigma;
+    *below = h0 * a.below + h1 * b.below + g0 * a.density + g1 * b.density;
+    *density = h0 * a.density + h1 * b.density + g0 * a.density_slope + g1 * b.density_slope;
+  }
+
+ private:
+  struct Entry {
+    double below, density, density_slope;
+  };
+  static constexpr double kEntriesPerSigma = 32.0;
+  static constexpr int kMiddle = 32 * 4;  // ±4 standard deviations.
+  static constexpr int kEntries = 2 * kMiddle + 1;
+  std::array<Entry, kEntries> entries_;
+};
+
 /// Shares of a Gaussian that fall into the columns it reaches, with derivatives.
 struct Shares {
   int first = 0;
   int count = 0;
-  std::array<double, kMaxModules> share{};
-  std::array<double, kMaxModules> d_position{};
-  std::array<double, kMaxModules> d_log_sigma{};
+  // The first `count` are set. Clearing all of them for every pixel would take time.
+  std::array<double, kMaxModules> share;
+  std::array<double, kMaxModules> d_position;
+  std::array<double, kMaxModules> d_log_sigma;
 };
 
 /// `position` and `sigma` in modules from the first column's outer edge.
 void ComputeShares(double position, double sigma, int modules, Shares* shares) {
+  static const NormalTable table;
   const int low =
       std::clamp(static_cast<int>(std::floor(position - kReachSigmas * sigma)), 0, modules - 1);
   const int high = std::clamp(static_cast<int>(std::floor(position + kReachSigmas * sigma)), low,
@@ -35,9 +73,8 @@ void ComputeShares(double position, double sigma, int modules, Shares* shares) {
     double up_to = 1.0, d_up_to = 0.0, d_sigma_up_to = 0.0;
     if (column < high) {
       const double z = (column + 1 - position) / sigma;
-      const double density =
-          std::exp(-0.5 * z * z) * (0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2);
-      up_to = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+      double density;
+      table.Look(z, &up_to, &density);
       d_up_to = -density / sigma;
       d_sigma_up_to = -density * z;
     }

@@ -146,7 +146,9 @@ bool PrintFit::Run(const PrintState& start) {
     for (std::size_t i = 0; i < all_pixels_.size(); i += step) coarse.push_back(all_pixels_[i]);
     if (!Optimize(std::move(coarse))) return false;
   }
-  return Optimize(all_pixels_);
+  if (!Optimize(all_pixels_)) return false;
+  fitted_ = Evaluate(state_, &blocks_);
+  return true;
 }
 
 bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
@@ -193,10 +195,10 @@ bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
   return true;
 }
 
-double PrintFit::ResidualCodes() const { return RobustScale(Evaluate(state_, nullptr).residuals); }
+double PrintFit::ResidualCodes() const { return RobustScale(fitted_.residuals); }
 
 double PrintFit::AgreeingShare() const {
-  const std::vector<PrintResidual> residuals = Evaluate(state_, nullptr).residuals;
+  const std::vector<PrintResidual>& residuals = fitted_.residuals;
   std::size_t agreeing = 0;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     agreeing += std::fabs(residuals[i].codes) < std::max(12.0, kTukey * std::sqrt(variance_[i]));
@@ -219,12 +221,10 @@ double PrintFit::CorrelationFactor(const BlockGradients& blocks,
 }
 
 Eigen::Matrix<double, 8, 8> PrintFit::MotionCovariance() const {
-  BlockGradients blocks;
-  const NormalEquations equations = Evaluate(state_, &blocks);
-  const Eigen::Index parameters = equations.gradient.size();
-  Eigen::MatrixXd covariance =
-      equations.hessian.ldlt().solve(Eigen::MatrixXd::Identity(parameters, parameters));
-  return covariance.topLeftCorner<8, 8>() * CorrelationFactor(blocks, covariance);
+  const Eigen::Index parameters = fitted_.gradient.size();
+  const Eigen::MatrixXd covariance =
+      fitted_.hessian.ldlt().solve(Eigen::MatrixXd::Identity(parameters, parameters));
+  return covariance.topLeftCorner<8, 8>() * CorrelationFactor(blocks_, covariance);
 }
 
 }  // namespace pleinair::tracker

@@ -19,7 +19,8 @@ class PrintFit {
            double side_px)
       : pattern_(pattern), all_pixels_(pixels), contrast_(contrast), side_px_(side_px) {}
 
-  /// From `start` to the best state; false where the equations have no solution.
+  /// From `start` to the best state; false where the equations have no solution. What follows is
+  /// meant after it returned true.
   bool Run(const PrintState& start);
 
   const PrintState& state() const { return state_; }
@@ -55,6 +56,8 @@ class PrintFit {
   std::vector<double> variance_;    ///< … and the variance that each of them has.
   PrintState state_;
   PrintNoise noise_;
+  NormalEquations fitted_;  ///< At the best state, with all pixels,
+  BlockGradients blocks_;   ///< … and what blocks of pixels add to them.
 };
 
 }  // namespace pleinair::tracker
