@@ -109,10 +109,11 @@ TEST(CourtyardMidday, GivesEveryPoseWithinAThirtiethOfADegree) {
   }
   std::printf("%-42s | %.1f\n", "mean NEES", Mean(nees));
   std::fflush(stdout);
-  EXPECT_LT(Percentile(rotation_deg, 0.5), 0.03);
-  EXPECT_LT(Percentile(rotation_deg, 0.95), 0.1);
-  EXPECT_LT(Percentile(translation_percent, 0.5), 0.02);
-  EXPECT_LT(Percentile(translation_percent, 0.95), 0.1);
+  EXPECT_LT(Percentile(rotation_deg, 0.5), 0.015);
+  EXPECT_LT(Percentile(rotation_deg, 0.95), 0.04);
+  EXPECT_LT(Percentile(translation_percent, 0.5), 0.01);
+  EXPECT_LT(Percentile(translation_percent, 0.95), 0.04);
+  EXPECT_LT(Mean(nees), 9.0);
 }
 
 }  // namespace
