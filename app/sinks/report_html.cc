@@ -106,8 +106,7 @@ std::string Plots(const ReplayReport& report) {
     last_index = at.frame_index;
   }
   return LinePlotSvg("Camera position in the marker frame", "m", {x, y, z}) +
-         LinePlotSvg("Camera orientation: heading from the marker's y, tilt up, roll", "degrees",
-                     {heading, tilt, roll}) +
+         LinePlotSvg("Camera orientation in the marker frame", "degrees", {heading, tilt, roll}) +
          LinePlotSvg("Reprojection error of the marker's corners", "px rms", {error});
 }
 
@@ -192,8 +191,8 @@ std::string ReportHtml(const ReplayReport& report) {
     html += Card(fmt::format("{:.2f}…{:.2f} m", poses.distance_min_m, poses.distance_max_m),
                  "camera to marker");
     html += Card(
-        fmt::format("{:.2f} px", poses.reprojection_median_px),
-        fmt::format("reprojection error, median (95 %: {:.2f} px)", poses.reprojection_p95_px));
+        fmt::format("{:.3f} px", poses.reprojection_median_px),
+        fmt::format("reprojection error, median (95 %: {:.3f} px)", poses.reprojection_p95_px));
     html += Card(fmt::format("{:.2f} m", poses.path_length_m), "camera path");
   }
   html += "</div>\n";
