@@ -1,8 +1,11 @@
 #include "compositor/texture_decoder.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include "compositor/model_files.h"
 #include "compositor/model_limits.h"
@@ -29,6 +32,53 @@
 namespace pleinair::compositor {
 namespace {
 
+struct PictureSize {
+  std::int64_t width, height;
+};
+
+std::int64_t BigEndian(std::string_view bytes) {
+  std::int64_t value = 0;
+  for (const char c : bytes) value = value * 256 + static_cast<unsigned char>(c);
+  return value;
+}
+
+/// The size that a PNG's IHDR chunk states (PNG specification, 11.2.2).
+std::optional<PictureSize> PngSize(std::string_view content) {
+  if (content.size() < 24 || content.substr(12, 4) != "IHDR") return std::nullopt;
+  return PictureSize{BigEndian(content.substr(16, 4)), BigEndian(content.substr(20, 4))};
+}
+
+/// The size in a JPEG's frame header (ITU-T T.81, B.2.2), looked for segment by segment.
+std::optional<PictureSize> JpegSize(std::string_view content) {
+  std::size_t at = 2;
+  while (at + 4 <= content.size() && content[at] == '\xFF') {
+    const auto marker = static_cast<unsigned char>(content[at + 1]);
+    if (marker == 0xFF) {  // Fill byte.
+      ++at;
+      continue;
+    }
+    // SOF0…SOF15, among which DHT, JPG and DAC have their codes.
+    const bool is_frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (is_frame) {
+      if (at + 9 > content.size()) return std::nullopt;
+      return PictureSize{BigEndian(content.substr(at + 7, 2)),
+                         BigEndian(content.substr(at + 5, 2))};
+    }
+    at += 2 + static_cast<std::size_t>(BigEndian(content.substr(at + 2, 2)));
+  }
+  return std::nullopt;
+}
+
+/// The size in the picture's header, where one is found. The decoder says no more of a picture
+/// beyond its limit than that it does not know the format.
+std::optional<PictureSize> StatedSize(std::span<const std::byte> bytes) {
+  const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (content.starts_with("\x89PNG")) return PngSize(content);
+  if (content.starts_with("\xFF\xD8")) return JpegSize(content);
+  return std::nullopt;
+}
+
 constexpr const char* kConvert = "convert it to PNG or JPEG of at most 16384 × 16384 pixels";
 
 /// A PNG ends with its IEND chunk, a JPEG with the EOI marker: the decoder itself passes over a
@@ -47,22 +97,18 @@ Result<Image<std::uint8_t>> DecodeTexture(std::span<const std::byte> bytes,
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     return InputError(where, "the texture's file is too large", kConvert);
   }
+  if (const auto stated = StatedSize(bytes);
+      stated && std::max(stated->width, stated->height) > kMostTexturePixelsASide) {
+    return InputError(where,
+                      "the texture is " + std::to_string(stated->width) + " × " +
+                          std::to_string(stated->height) + " pixels",
+                      kConvert);
+  }
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
-    const std::string cause = stbi_failure_reason() != nullptr ? stbi_failure_reason() : "";
-    if (cause == "too large") {
-      return InputError(where, "the texture is larger than 16384 × 16384 pixels", kConvert);
-    }
     return InputError(where, "the texture is neither PNG nor JPEG, or damaged", kConvert);
-  }
-  if (width < 1 || height < 1 || width > kMostTexturePixelsASide ||
-      height > kMostTexturePixelsASide) {
-    return InputError(
-        where,
-        "the texture is " + std::to_string(width) + " × " + std::to_string(height) + " pixels",
-        kConvert);
   }
   if (IsCutShort(bytes)) return InputError(where, "the texture is cut short", "copy it again");
   const int wanted = channels == 2 || channels == 4 ? 4 : 3;

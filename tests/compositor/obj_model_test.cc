@@ -161,7 +161,27 @@ TEST(ObjModel, RefusesATextureOf100000Squared) {
       folder.Write("model.obj", std::string("mtllib m.mtl\n") + kSquare + "usemtl a\nf 1 2 3\n"));
   ASSERT_FALSE(model);
   EXPECT_THAT(model.error().Message(), HasSubstr("huge.png"));
-  EXPECT_THAT(model.error().Message(), HasSubstr("16384"));
+  EXPECT_THAT(model.error().Message(), HasSubstr("100000 × 100000"));
+}
+
+TEST(ObjModel, RefusesAJpegOf65535By20000) {
+  // An APP0 segment, a fill byte, then the frame header: 8 bits, 20000 lines of 65535 samples.
+  const std::string jpeg(
+      "\xFF\xD8\xFF\xE0\x00\x04\x00\x00\xFF\xFF\xC0\x00\x11\x08\x4E\x20\xFF\xFF\x03", 19);
+  const TemporaryFolder folder;
+  folder.Write("huge.jpg", jpeg);
+  folder.Write("m.mtl", "newmtl a\nmap_Kd huge.jpg\n");
+  const auto file =
+      folder.Write("model.obj", std::string("mtllib m.mtl\n") + kSquare + "usemtl a\nf 1 2 3\n");
+  const auto model = LoadModel(file);
+  ASSERT_FALSE(model);
+  EXPECT_THAT(model.error().Message(), HasSubstr("huge.jpg: the texture is 65535 × 20000 pixels"));
+  for (std::size_t length = 0; length < 18; ++length) {  // Cut short: no size, but an error.
+    folder.Write("huge.jpg", jpeg.substr(0, length));
+    const auto cut = LoadModel(file);
+    ASSERT_FALSE(cut);
+    EXPECT_THAT(cut.error().Message(), HasSubstr("huge.jpg"));
+  }
 }
 
 TEST(ObjModel, RefusesTexturesThatAreMissingCutShortOrOfAnotherFormat) {

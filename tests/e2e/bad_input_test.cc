@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "mtllib huge.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
                           "vt 0 1\nf 1/1 2/2 3/3\n");
               },
-              "huge.png"}),
+              "huge.png: the texture is 100000 × 100000 pixels"}),
     [](const auto& fault) { return std::string(fault.param.name); });
 
 void ExpectRefusal(const RunResult& run, int exit_code, const std::string& message) {
