@@ -95,6 +95,7 @@ LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
     const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
     const auto on_side = [&](double along, double outwards) {
       const double x = along, y = half + outwards;
+  std::vector<Point<Marker>> edges;
       return Point<Marker>{{c * x - s * y, s * x + c * y, 0.0}};
     };
     // Away from the corners, where the neighbouring side's bands are near.
@@ -108,9 +109,7 @@ LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
       if (!in_sun && !(v_white < kInShade && v_black < kInShade)) continue;
       pair.sun_visibility = in_sun ? 1.0 : 0.0;
       lit += in_sun;
-      const LinearRgb ambient =
-          solver.AmbientPhantomsOnly(on_side(along, 0.0), normal, day, marker_from_world);
-      pair.irradiance = ambient + sun * (cosine * pair.sun_visibility);
+      edges.push_back(on_side(along, 0.0));
       pairs_.push_back(pair);
     }
   }
@@ -119,6 +118,11 @@ LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
 
 std::optional<LightReading> LightMeter::Measure(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+  const std::vector<LinearRgb> ambient =
+      solver.AmbientPhantomsOnly(edges, normal, day, marker_from_world);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    pairs_[i].irradiance = ambient[i] + sun * (cosine * pairs_[i].sun_visibility);
+  }
     const Transform<Camera, Marker>& camera_from_marker) const {
   struct Sample {
     Rgb white_gain, black_gain;  // NaN where clipped.

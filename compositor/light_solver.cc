@@ -62,15 +62,27 @@ class EmbreeLightSolver : public LightSolver {
     return static_cast<double>(visible) / kSunRays;
   }
 
-  LinearRgb AmbientPhantomsOnly(Point<Marker> point, Vec3 normal, const sky::Daylight& day,
-                                const Mat3& marker_from_world) const override {
+  std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3 normal,
+                                             const sky::Daylight& day,
+                                             const Mat3& marker_from_world) const override {
     const SkyTable sky(day, marker_from_world, kLandAlbedo);
     const TangentFrame sun_frame(marker_from_world * day.ToSun().xyz);
-    const LinearRgb sun = day.SunNormalIrradiance();
     const TangentFrame frame(Normalized(normal));
+    std::vector<LinearRgb> ambient;
+    ambient.reserve(points.size());
+    for (const Point<Marker>& point : points) {
+      ambient.push_back(FollowPaths(point.xyz, frame, sky, sun_frame, day.SunNormalIrradiance()));
+    }
+    return ambient;
+  }
+
+ private:
+  /// Irradiance at a point whose surface has `frame`, by paths through the phantoms.
+  LinearRgb FollowPaths(Vec3 point, const TangentFrame& frame, const SkyTable& sky,
+                        const TangentFrame& sun_frame, LinearRgb sun) const {
     LinearRgb sum;
     for (std::uint32_t path = 0; path < kPaths; ++path) {
-      Vec3 origin = point.xyz + frame.normal * kRayOffsetM;
+      Vec3 origin = point + frame.normal * kRayOffsetM;
       Vec3 direction = CosineDirection(frame, ShiftedHammersley(path, kPaths, 0));
       LinearRgb throughput{1.0, 1.0, 1.0};
       for (int bounce = 0;; ++bounce) {
@@ -98,7 +110,6 @@ class EmbreeLightSolver : public LightSolver {
     return sum * (std::numbers::pi / kPaths);
   }
 
- private:
   static SamplePoint RandomPoint(std::uint32_t seed, std::uint32_t salt) {
     return {UnitFromHash(Hash(seed, salt)), UnitFromHash(Hash(seed, salt + 1))};
   }

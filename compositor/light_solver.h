@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,11 +70,12 @@ class LightSolver {
   /// Share of the sun's disc (0…1) that the phantoms alone leave visible from a point.
   virtual double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const = 0;
 
-  /// Sky and bounced light on a small surface at `point` facing `normal`, phantoms only: what
-  /// reaches the marker's print.
-  virtual LinearRgb AmbientPhantomsOnly(Point<Marker> point, Vec3 normal,
-                                        const sky::Daylight& daylight,
-                                        const Mat3& marker_from_world) const = 0;
+  /// Sky and bounced light on small surfaces at `points` that all face `normal`, phantoms only:
+  /// what reaches the marker's print. One value a point, in their order. Ask for many points at
+  /// once: the sky is tabulated anew for every call.
+  virtual std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points,
+                                                     Vec3 normal, const sky::Daylight& daylight,
+                                                     const Mat3& marker_from_world) const = 0;
 };
 
 }  // namespace pleinair::compositor

@@ -31,9 +31,9 @@ class HalfShadow : public LightSolver {
   double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3) const override {
     return point.xyz.x < shadow_to_x_m_ ? 0.0 : 1.0;
   }
-  LinearRgb AmbientPhantomsOnly(Point<Marker>, Vec3, const sky::Daylight&,
-                                const Mat3&) const override {
-    return {kAmbientLux, kAmbientLux, kAmbientLux};
+  std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3,
+                                             const sky::Daylight&, const Mat3&) const override {
+    return std::vector<LinearRgb>(points.size(), {kAmbientLux, kAmbientLux, kAmbientLux});
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -73,10 +74,9 @@ TEST(LightSolver, TurnsTheSkyWithTheMarker) {
   marker_from_world.m = {1, 0, 0, 0, 0, 1, 0, -1, 0};
   const auto solver = MakeSolver({Phantom(Ground(1.0, {0.0F, 0.0F, 0.0F}))});
   const UniformDay day({1.0, 1.0, 1.0});
-  const LinearRgb wall =
-      solver->AmbientPhantomsOnly({{0.0, 0.0, 5.0}}, {0, 0, 1}, day, marker_from_world);
-  const LinearRgb level =
-      solver->AmbientPhantomsOnly({{0.0, 0.0, 5.0}}, {0, 1, 0}, day, marker_from_world);
+  const std::array<Point<Marker>, 1> above{{{{0.0, 0.0, 5.0}}}};
+  const LinearRgb wall = solver->AmbientPhantomsOnly(above, {0, 0, 1}, day, marker_from_world)[0];
+  const LinearRgb level = solver->AmbientPhantomsOnly(above, {0, 1, 0}, day, marker_from_world)[0];
   EXPECT_NEAR(level.g, kPi, 0.01 * kPi);
   // Half the sky, and half the land: albedo 0.2 under the whole sky.
   EXPECT_NEAR(wall.g, 0.5 * kPi + 0.5 * 0.2 * kPi, 0.01 * kPi);
@@ -309,19 +309,24 @@ TEST(LightSolver, AgreesWithPathsFollowedOneByOne) {
     const FoundVertex vertex = Nearest(meshes, {x, 0.0, 0.0}, kUp);
     ASSERT_LT(vertex.distance_m, 0.2);
   }
-  int compared = 0;
+  std::vector<Point<Marker>> points;
+  std::vector<std::array<float, 3>> at_vertices;
   for (const LitMesh& mesh : meshes) {
     if (mesh.placed_model != 0 || mesh.normals[0][2] < 0.5F) continue;
     for (std::size_t i = 0; i < mesh.positions.size(); i += 7) {
       const auto& p = mesh.positions[i];
       if (std::fabs(p[1]) > 1.5F || p[0] > 0.45F || p[0] < -3.0F) continue;
-      const LinearRgb paths = solver->AmbientPhantomsOnly({{p[0], p[1], p[2]}}, kUp, day, Mat3{});
-      EXPECT_NEAR(mesh.ambient_without[i][0], paths.r, 0.03 * paths.r);
-      EXPECT_NEAR(mesh.ambient_without[i][2], paths.b, 0.03 * paths.b);
-      ++compared;
+      points.push_back({{p[0], p[1], p[2]}});
+      at_vertices.push_back(mesh.ambient_without[i]);
     }
   }
-  EXPECT_GT(compared, 3);
+  ASSERT_GT(points.size(), 3U);
+  const auto paths = solver->AmbientPhantomsOnly(points, kUp, day, Mat3{});
+  ASSERT_EQ(paths.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(at_vertices[i][0], paths[i].r, 0.03 * paths[i].r);
+    EXPECT_NEAR(at_vertices[i][2], paths[i].b, 0.03 * paths[i].b);
+  }
 }
 
 TEST(LightSolver, SoftensTheSunsEdgeOverItsDisc) {
