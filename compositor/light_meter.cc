@@ -14,6 +14,9 @@ constexpr int kPairsPerSide = 40;
 constexpr double kInSun = 0.98, kInShade = 0.02;  // Sun visibility beyond which no penumbra is.
 constexpr float kClipped = 0.978F;                // Linear value of the 8-bit code 252.
 constexpr float kBlackClipped = 0.9F;
+// White over black, at the least, where the print is the right way round. The reflectances'
+// ratio is 20; glare bright enough to bring it down to this leaves nothing to measure.
+constexpr double kClearlyBrighter = 1.25;
 // A shadow's edge on the print: light on its two sides differs by more than this factor.
 constexpr double kShadowContrast = 1.6;
 constexpr double kShadowShare = 0.15;
@@ -38,6 +41,8 @@ std::optional<Rgb> SampleLinear(ImageView<const std::uint8_t> rgb, Vec2 at) {
   }
   return value;
 }
+
+double Sum(const Rgb& value) { return value[0] + value[1] + value[2]; }
 
 double Quantile(std::vector<double> values, double q) {
   const auto nth = values.begin() + static_cast<std::ptrdiff_t>(q * (values.size() - 1));
@@ -90,12 +95,12 @@ LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
   const double white_m = (margin_m > 0.0 ? margin_m : print.black_band_m) / 2;
   const double black_m = print.black_band_m / 2;
   int lit = 0;
+  std::vector<Point<Marker>> edges;
   for (int side = 0; side < 4; ++side) {
     const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
     const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
     const auto on_side = [&](double along, double outwards) {
       const double x = along, y = half + outwards;
-  std::vector<Point<Marker>> edges;
       return Point<Marker>{{c * x - s * y, s * x + c * y, 0.0}};
     };
     // Away from the corners, where the neighbouring side's bands are near.
@@ -113,24 +118,25 @@ LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
       pairs_.push_back(pair);
     }
   }
-  lit_share_ = pairs_.empty() ? 0.0 : static_cast<double>(lit) / static_cast<double>(pairs_.size());
-}
-
-std::optional<LightReading> LightMeter::Measure(
-    ImageView<const std::uint8_t> rgb, const CameraModel& camera,
   const std::vector<LinearRgb> ambient =
       solver.AmbientPhantomsOnly(edges, normal, day, marker_from_world);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     pairs_[i].irradiance = ambient[i] + sun * (cosine * pairs_[i].sun_visibility);
   }
+  lit_share_ = pairs_.empty() ? 0.0 : static_cast<double>(lit) / static_cast<double>(pairs_.size());
+}
+
+std::optional<LightReading> LightMeter::Measure(
+    ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
   struct Sample {
-    Rgb white_gain, black_gain;  // NaN where clipped.
+    Rgb white_gain, black_gain;  // NaN where it cannot be used.
     double level;                // Sum of the channels' scale, to tell sun from shadow.
     bool in_sun;
   };
   std::vector<Sample> samples;
   samples.reserve(pairs_.size());
+  std::size_t contrary = 0;
   const double albedo_step = print_.albedo_white - print_.albedo_black;
   for (const Pair& pair : pairs_) {
     const Point<Camera> white_in_camera = camera_from_marker * pair.white;
@@ -143,21 +149,28 @@ std::optional<LightReading> LightMeter::Measure(
     const auto black = SampleLinear(rgb, black_px);
     if (!white || !black) continue;
     const Rgb irradiance{pair.irradiance.r, pair.irradiance.g, pair.irradiance.b};
+    if (Sum(*white) < kClearlyBrighter * Sum(*black) && Sum(*white) < 3 * kClipped) {
+      ++contrary;
+      continue;
+    }
     Sample sample{};
     sample.in_sun = pair.sun_visibility > 0.5;
     for (int c = 0; c < 3; ++c) {
       const double per_albedo = irradiance[c] / std::numbers::pi;
       const double difference = (*white)[c] - (*black)[c];
-      sample.white_gain[c] = (*white)[c] < kClipped && difference > 0.0
-                                 ? difference / (albedo_step * per_albedo)
-                                 : NAN;
-      sample.black_gain[c] = (*black)[c] < kBlackClipped && (*black)[c] > 0.0
+      const bool clipped = (*white)[c] >= kClipped;
+      sample.white_gain[c] =
+          !clipped && difference > 0.0 ? difference / (albedo_step * per_albedo) : NAN;
+      sample.black_gain[c] = clipped && (*black)[c] < kBlackClipped && (*black)[c] > 0.0
                                  ? (*black)[c] / (print_.albedo_black * per_albedo)
                                  : NAN;
       sample.level += (*white)[c] / per_albedo;
     }
     if (sample.level > 0.0) samples.push_back(sample);
   }
+  // A print the other way round, or not where it is thought to be: the gain of its white, taken
+  // for black, would be twenty times too high.
+  if (contrary > samples.size()) return std::nullopt;
   // Where the sun reaches the print, the sunlit part alone counts: there the model's doubt about
   // the sky's share matters least.
   const auto lit = std::count_if(samples.begin(), samples.end(),

@@ -38,7 +38,9 @@ class LightMeter {
   LightMeter(const MarkerPrint& print, const LightSolver& solver, const sky::Daylight& day,
              const Mat3& marker_from_world);
 
-  /// Nothing where fewer than `kMinimumPairs` pairs can be used.
+  /// Nothing where fewer than `kMinimumPairs` pairs can be used, or where most pairs are not
+  /// clearly brighter on the white side: a print the other way round, as of tag families whose
+  /// border is black outside and white inside.
   std::optional<LightReading> Measure(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                                       const Transform<Camera, Marker>& camera_from_marker) const;
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/srgb.h"
 
@@ -47,14 +48,14 @@ const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 
 
 /// The print in the light of OverheadSun; left of `shadow_to_x_m` in shadow, and an even veil
 /// added.
-RgbImage Photograph(LinearRgb gain, double shadow_to_x_m, double veil = 0.0) {
+RgbImage Photograph(LinearRgb gain, double shadow_to_x_m, double veil = 0.0,
+                    const MarkerPrint& print = kPrint) {
   RgbImage picture(kCamera.width, kCamera.height, 3);
   for (int y = 0; y < kCamera.height; ++y) {
     for (int x = 0; x < kCamera.width; ++x) {
       const Vec2 ray = UndistortPixel(kCamera, {static_cast<double>(x), static_cast<double>(y)});
       const double distance = std::max(std::fabs(ray.x), std::fabs(ray.y));
-      const double albedo =
-          distance < kPrint.size_m / 2 ? kPrint.albedo_black : kPrint.albedo_white;
+      const double albedo = distance < print.size_m / 2 ? print.albedo_black : print.albedo_white;
       const double lux = kAmbientLux + (ray.x < shadow_to_x_m ? 0.0 : kSunLux);
       const double radiance = albedo * lux / std::numbers::pi;
       picture(x, y, 0) = Srgb8FromLinear(gain.r * radiance + veil);
@@ -108,6 +109,35 @@ TEST(LightMeter, CancelsVeilingGlare) {
 TEST(LightMeter, FallsBackToTheBlackWhereTheWhiteIsClipped) {
   const RgbImage picture = Photograph(kGain * 3.0, -1.0);
   ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain * 3.0);
+}
+
+TEST(LightMeter, SaysNothingOfAPrintWithBlackOutsideAndWhiteInside) {
+  MarkerPrint reversed = kPrint;
+  std::swap(reversed.albedo_black, reversed.albedo_white);
+  // Dark, well exposed, and so bright that the white clips.
+  for (const double exposure : {0.2, 1.0, 1.3, 3.0}) {
+    const RgbImage picture = Photograph(kGain * exposure, -1.0, 0.0, reversed);
+    EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove).has_value())
+        << exposure;
+  }
+}
+
+TEST(LightMeter, SaysNothingOfAnEvenlyColouredSurface) {
+  MarkerPrint even = kPrint;
+  even.albedo_black = even.albedo_white;
+  const RgbImage picture = Photograph(kGain, -1.0, 0.0, even);
+  EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove).has_value());
+}
+
+TEST(LightMeter, ReadsThePartOfAPrintThatGlareLeaves) {
+  // A strip over the print's right side reflects the sun: there black looks like white.
+  RgbImage picture = Photograph(kGain, -1.0);
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 200; x < picture.width(); ++x) {
+      for (int c = 0; c < 3; ++c) picture(x, y, c) = 180;
+    }
+  }
+  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
 }
 
 TEST(LightMeter, SaysNothingOfAMarkerThatIsTooSmallOrOutOfThePicture) {
