@@ -53,7 +53,7 @@ std::array<float, 3> DiffuseAlbedo(const Model& model, int material_index) {
 }
 
 Result<void> CheckModel(const PlacedModel& placed) {
-  if (placed.model == nullptr) return InputError("", "a placed model is missing");
+  if (placed.model == nullptr) return InputError("scene", "a placed model is missing");
   const std::string file = placed.model->file.string();
   for (const double value : placed.linear.m) {
     if (!std::isfinite(value)) return InputError(file, "the model's placement is not finite");
@@ -68,6 +68,19 @@ Result<void> CheckModel(const PlacedModel& placed) {
     }
   }
   return {};
+}
+
+/// The file of the model with the most triangles, to be named when there are too many or none.
+std::string LargestModel(const std::vector<PlacedModel>& models) {
+  std::string file = "scene";
+  std::size_t most = 0;
+  for (const PlacedModel& placed : models) {
+    std::size_t size = 1;
+    for (const Mesh& mesh : placed.model->meshes) size += mesh.indices.size();
+    if (size > most) file = placed.model->file.string();
+    most = std::max(most, size);
+  }
+  return file;
 }
 
 SurfaceMesh OtherSide(const SurfaceMesh& mesh) {
@@ -152,7 +165,7 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
     }
   }
   if (surfaces.empty()) {
-    return InputError("", "the scene's models have no surface to light",
+    return InputError(LargestModel(models), "has no surface to light",
                       "give at least one phantom or object with triangles");
   }
   TessellationOptions tessellation;
@@ -178,10 +191,12 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
     }
   }
   if (scene.faces.size() >= kMostFaces) {
-    return InputError("", "the scene's models have more than 67 million triangles together",
+    return InputError(LargestModel(models),
+                      "with the scene's other models it has more than 67 million triangles, "
+                      "subdivided for the light",
                       "use simpler models");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(scene.rays, RayScene::Create(ray_meshes));
+  PLEINAIR_ASSIGN_OR_RETURN(scene.rays, RayScene::Create(ray_meshes, LargestModel(models)));
   return scene;
 }
 

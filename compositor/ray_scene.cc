@@ -96,12 +96,13 @@ class EmbreeScene : public RayScene {
 
 }  // namespace
 
-Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& meshes) {
+Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& meshes,
+                                                   const std::string& where) {
   // One build thread: the hierarchy, and with it the choice among surfaces at equal distance,
   // must not depend on the machine. 200,000 triangles take a quarter of a second.
   Device device(rtcNewDevice("threads=1,set_affinity=0"));
   if (device.get() == nullptr) {
-    return SystemError("", "Embree cannot start on this processor",
+    return SystemError("Embree", "cannot start on this processor",
                        "Embree 3 needs SSE2 or NEON instructions");
   }
   Scene everything(rtcNewScene(device.get()));
@@ -121,7 +122,7 @@ Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& m
         rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
     if (positions == nullptr || indices == nullptr) {
-      return SystemError("", "not enough memory for the models' ray queries",
+      return SystemError(where, "not enough memory for the models' ray queries",
                          "use models with fewer triangles");
     }
     std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * 3 * sizeof(float));
@@ -135,7 +136,7 @@ Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& m
   rtcCommitScene(everything.get());
   rtcCommitScene(phantoms.get());
   if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) {
-    return SystemError("", "Embree could not build the models' ray queries",
+    return SystemError(where, "Embree could not build the models' ray queries",
                        "use models with fewer triangles");
   }
   return std::make_unique<EmbreeScene>(std::move(device), std::move(everything),

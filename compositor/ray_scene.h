@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -33,8 +34,9 @@ enum class RayTargets { kEverything, kPhantoms };
 /// the same hit whatever the number of threads.
 class RayScene {
  public:
-  /// Errors: Embree cannot start or is out of memory.
-  static Result<std::unique_ptr<RayScene>> Create(const std::vector<RayMesh>& meshes);
+  /// `where` is the file that errors name. Errors: Embree cannot start or is out of memory.
+  static Result<std::unique_ptr<RayScene>> Create(const std::vector<RayMesh>& meshes,
+                                                  const std::string& where);
   virtual ~RayScene() = default;
 
   /// Nearest hit from `origin` along the unit vector `direction`; false: none.

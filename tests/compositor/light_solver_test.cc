@@ -356,9 +356,12 @@ TEST(LightSolver, AsksThePhantomsAloneForTheSun) {
 
 TEST(LightSolver, RefusesASceneWithoutSurface) {
   EXPECT_FALSE(LightSolver::Create({}, {}));
-  const auto empty = LightSolver::Create({Phantom(ModelOf(Mesh{}, {0.5F, 0.5F, 0.5F}))}, {});
+  const auto model = ModelOf(Mesh{}, {0.5F, 0.5F, 0.5F});
+  model->file = "phantoms/wall.obj";
+  const auto empty = LightSolver::Create({Phantom(model)}, {});
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(empty.error().where, "phantoms/wall.obj");
 }
 
 TEST(LightSolver, RefusesIndicesBeyondAModelsVertices) {
