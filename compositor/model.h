@@ -47,7 +47,14 @@ struct ModelOptions {
   NormalsMode normals = NormalsMode::kFromFile;  ///< kFromFile: flat where the file has none.
 };
 
-/// Loads OBJ (with its MTL) or glTF 2.0 (.gltf/.glb), by content. Limits keep hostile files from
+/// Loads OBJ (with its MTL) or glTF 2.0 (.gltf/.glb), by content.
+///
+/// Axes: OBJ states none and its coordinates are taken as they are, z up. glTF is y-up with the
+/// front towards +z; its axes are turned into ours, x to x, y to z and z to −y, so that what
+/// stands upright in a glTF file stands upright here and its front looks towards −y. Unplaced,
+/// x points to the marker's right, y to its upper edge and z out of the print. Both are in metres.
+///
+/// Limits keep hostile files from
 /// exhausting memory: 20 M vertices, textures of 16384 × 16384.
 /// Errors: missing or cut short, indices out of range, values not finite, textures missing,
 /// too large or unreadable: each names the file and, for text, the line.
