@@ -3,54 +3,23 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 #include <utility>
 
+#include "app/sinks/earlier_replay.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {
-namespace {
 
 namespace fs = std::filesystem;
-
-/// Names that a replay writes; only these are removed of an earlier one.
-bool IsReplayOutput(const fs::path& relative) {
-  const std::string folder = relative.parent_path().string();
-  const std::string name = relative.filename().string();
-  if (folder.empty()) {
-    return name == "composite.mp4" || name == "detections.jsonl" || name == "report.json" ||
-           name == "report.html";
-  }
-  if (folder == "poses") return relative.extension() == ".tum";
-  const std::string stem = relative.stem().string();
-  return folder == "frames" && relative.extension() == ".png" && stem.size() >= 4 &&
-         std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
-}
-
-void RemoveEarlierReplay(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder / "report.json", error)) return;
-  std::vector<fs::path> old_files;
-  for (const char* part : {"", "poses", "frames"}) {
-    for (fs::directory_iterator it(folder / part, error), end; !error && it != end;
-         it.increment(error)) {
-      if (IsReplayOutput(fs::path(part) / it->path().filename())) old_files.push_back(it->path());
-    }
-  }
-  for (const fs::path& file : old_files) fs::remove(file, error);
-  for (const char* part : {"poses", "frames"}) {
-    fs::remove(folder / part, error);  // Only if nothing else is in it.
-  }
-}
-
-}  // namespace
 
 Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
   OutputFolder folder;
   std::error_code error;
   folder.path_ = fs::absolute(path, error).lexically_normal();
   if (!folder.path_.has_filename()) folder.path_ = folder.path_.parent_path();
+  PLEINAIR_RETURN_IF_ERROR(CheckIsNoRecording(folder.path_));
+  PLEINAIR_RETURN_IF_ERROR(EarlierReplay::In(folder.path_).CheckNothingForeign());
   std::vector<fs::path> missing;
   for (fs::path at = folder.path_; !fs::exists(at, error) && at.has_relative_path();
        at = at.parent_path()) {
@@ -108,7 +77,14 @@ Result<void> OutputFolder::Commit() {
   }
   if (error) return tl::make_unexpected(WriteError(path_, error.value()));
   std::sort(files.begin(), files.end());
-  RemoveEarlierReplay(path_);
+  // Once more: the replay took its time, and somebody may have put a file there meanwhile.
+  const EarlierReplay earlier = EarlierReplay::In(path_);
+  for (const fs::path& file : files) {
+    if (fs::exists(path_ / file, error) && !earlier.Wrote(file)) {
+      return NotFromAReplay(path_ / file);
+    }
+  }
+  earlier.Remove();
   std::vector<fs::path> moved;
   const auto undo = [&](const fs::path& culprit) {
     const int error_number = error.value();

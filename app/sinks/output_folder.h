@@ -13,8 +13,9 @@ namespace pleinair::app {
 /// destructor removes the staging folder and every folder that Create() made.
 class OutputFolder {
  public:
-  /// Makes `path` and its parents where missing. Errors: no permission or not a folder (input),
-  /// disk full (system).
+  /// Makes `path` and its parents where missing. Errors (input): no permission, not a folder, a
+  /// recording or its frames, or a file there that has the name of a replay's output but is none
+  /// that an earlier replay's report.json lists; (system): disk full.
   static Result<OutputFolder> Create(const std::filesystem::path& path);
 
   OutputFolder(OutputFolder&& other) noexcept;
@@ -32,8 +33,9 @@ class OutputFolder {
   /// An error about a staged file told of the file that it was to become.
   Error InTermsOfTarget(Error error) const;
 
-  /// Replaces what an earlier replay left in the folder (known by its report.json) and moves the
-  /// staged files in; other files stay. On an error the files already moved are removed again.
+  /// Replaces what an earlier replay's report.json lists and moves the staged files in; other files
+  /// stay, and one in the way is an error (input). On an error the files already moved are removed
+  /// again.
   Result<void> Commit();
 
  private:

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <string>
 
 namespace pleinair::app {
@@ -19,7 +20,25 @@ class OutputFolderTest : public ::testing::Test {
   }
   ~OutputFolderTest() override { fs::remove_all(root_); }
 
-  static void Write(const fs::path& file) { std::ofstream(file) << "x"; }
+  static void Write(const fs::path& file) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << "x";
+  }
+
+  /// A replay's report in the folder, with these outputs as JSON.
+  void WriteReport(const std::string& outputs, int frames = 2) const {
+    std::ofstream(root_ / "report.json") << R"({"program": "pleinair", "frames": )" << frames
+                                         << R"(, "outputs": [)" << outputs << "]}";
+  }
+
+  /// Everything below the folder, relative.
+  std::set<std::string> Files() const {
+    std::set<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(root_)) {
+      if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), root_).string());
+    }
+    return files;
+  }
 
   fs::path root_;
 };
@@ -35,7 +54,7 @@ TEST_F(OutputFolderTest, WithoutCommitLeavesNoTraceOfFoldersItMade) {
 }
 
 TEST_F(OutputFolderTest, WithoutCommitKeepsAFolderThatWasThereAndItsFiles) {
-  Write(root_ / "report.json");
+  WriteReport(R"("report.json")");
   {
     auto folder = OutputFolder::Create(root_);
     ASSERT_TRUE(folder);
@@ -70,6 +89,81 @@ TEST_F(OutputFolderTest, AFileInTheWayIsAnInputError) {
   const auto folder = OutputFolder::Create(root_ / "file");
   ASSERT_FALSE(folder);
   EXPECT_EQ(folder.error().kind, ErrorKind::kInput);
+}
+
+TEST_F(OutputFolderTest, AFolderThatIsARecordingIsRefusedAndKept) {
+  for (const char* mark :
+       {"recording.json", "scene.json", "data.csv", "mav0/body.yaml", "cam0/data.csv"}) {
+    const fs::path site = root_ / fs::path(mark).stem() / "site";
+    Write(site / mark);
+    const auto folder = OutputFolder::Create(site);
+    ASSERT_FALSE(folder) << mark;
+    EXPECT_EQ(folder.error().kind, ErrorKind::kInput);
+    EXPECT_NE(folder.error().what.find("is a recording"), std::string::npos);
+    EXPECT_TRUE(fs::exists(site / mark));
+  }
+}
+
+TEST_F(OutputFolderTest, AFolderOfARecordingsFramesIsRefusedUnderAnyName) {
+  Write(root_ / "site/recording.json");
+  Write(root_ / "site/frames/0000.JPG");
+  fs::create_directory_symlink(root_ / "site/frames", root_ / "link");
+  for (const char* name : {"site/frames", "site/frames/", "site/frames/../frames", "link"}) {
+    const auto folder = OutputFolder::Create(root_ / name);
+    ASSERT_FALSE(folder) << name;
+    EXPECT_EQ(folder.error().kind, ErrorKind::kInput);
+  }
+  EXPECT_TRUE(OutputFolder::Create(root_ / "site/out"));
+}
+
+TEST_F(OutputFolderTest, AFileNamedLikeAnOutputThatNoReplayWroteIsRefused) {
+  for (const char* name : {"composite.mp4", "frames/0000.png", "poses/tag36h11_0.tum"}) {
+    WriteReport(R"("report.json")");
+    Write(root_ / name);
+    const auto folder = OutputFolder::Create(root_);
+    ASSERT_FALSE(folder) << name;
+    EXPECT_EQ(folder.error().kind, ErrorKind::kInput);
+    EXPECT_EQ(folder.error().where, (root_ / name).string());
+    fs::remove_all(root_ / fs::path(name).begin()->string());
+  }
+}
+
+TEST_F(OutputFolderTest, AReportThatIsNoReplaysIsRefused) {
+  for (const char* text : {"", "x", "[]", R"({"program": "other", "outputs": ["report.json"]})",
+                           R"({"program": "pleinair", "outputs": "report.json"})"}) {
+    std::ofstream(root_ / "report.json") << text;
+    const auto folder = OutputFolder::Create(root_);
+    ASSERT_FALSE(folder) << text;
+    EXPECT_EQ(folder.error().where, (root_ / "report.json").string());
+  }
+}
+
+TEST_F(OutputFolderTest, FramesAreRemovedOnlyAsFarAsTheReportCountsThem) {
+  WriteReport(R"("frames/%04d.png", "report.json")", 2);
+  for (const char* name : {"frames/0000.png", "frames/0001.png", "frames/mine.png"}) {
+    Write(root_ / name);
+  }
+  {
+    auto folder = OutputFolder::Create(root_);
+    ASSERT_TRUE(folder) << folder.error().Message();
+    Write(folder->staging() / "composite.mp4");
+    ASSERT_TRUE(folder->Commit());
+  }
+  EXPECT_EQ(Files(), (std::set<std::string>{"composite.mp4", "frames/mine.png"}));
+  WriteReport(R"("frames/%04d.png", "composite.mp4", "report.json")", 2);
+  Write(root_ / "frames/0002.png");
+  EXPECT_FALSE(OutputFolder::Create(root_));
+}
+
+TEST_F(OutputFolderTest, AFilePutInTheWayDuringTheReplayStays) {
+  auto folder = OutputFolder::Create(root_ / "out");
+  ASSERT_TRUE(folder);
+  Write(folder->staging() / "composite.mp4");
+  std::ofstream(root_ / "out/composite.mp4") << "mine";
+  const auto committed = folder->Commit();
+  ASSERT_FALSE(committed);
+  EXPECT_EQ(committed.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(fs::file_size(root_ / "out/composite.mp4"), 4U);
 }
 
 }  // namespace

@@ -1,0 +1,148 @@
+#include "app/sinks/earlier_replay.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* kFramesPattern = "frames/%04d.png";
+
+/// The number of "0012.png" as replay writes it.
+std::optional<std::int64_t> FrameNumber(const fs::path& name) {
+  const std::string stem = name.stem().string();
+  std::int64_t number = -1;
+  const auto parsed = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  const bool is_number = parsed.ec == std::errc() && parsed.ptr == stem.data() + stem.size();
+  if (name.extension() != ".png" || stem.size() < 4 || !is_number || number < 0) return {};
+  return number;
+}
+
+/// Names that a replay writes.
+bool IsNamedLikeOutput(const fs::path& relative) {
+  const std::string folder = relative.parent_path().string();
+  const std::string name = relative.filename().string();
+  if (folder.empty()) {
+    return name == "composite.mp4" || name == "detections.jsonl" || name == "report.json" ||
+           name == "report.html";
+  }
+  if (folder == "poses") return relative.extension() == ".tum";
+  return folder == "frames" && FrameNumber(relative.filename());
+}
+
+bool IsPicture(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+bool HoldsPictures(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (IsPicture(it->path())) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+EarlierReplay EarlierReplay::In(const fs::path& folder) {
+  EarlierReplay earlier;
+  earlier.folder_ = folder;
+  std::ifstream in(folder / "report.json", std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const Json report = Json::parse(text, nullptr, false);
+  const auto has = [&](const char* key) { return report.is_object() && report.contains(key); };
+  if (!has("program") || report["program"] != "pleinair") return earlier;
+  if (!has("outputs") || !report["outputs"].is_array()) return earlier;
+  for (const Json& output : report["outputs"]) {
+    if (output.is_string()) earlier.outputs_.insert(output.get<std::string>());
+  }
+  if (earlier.outputs_.contains(kFramesPattern) && has("frames") &&
+      report["frames"].is_number_integer()) {
+    earlier.frames_ = report["frames"].get<std::int64_t>();
+  }
+  return earlier;
+}
+
+bool EarlierReplay::Wrote(const fs::path& relative) const {
+  if (outputs_.contains(relative.generic_string())) return true;
+  if (relative.parent_path() != "frames") return false;
+  const std::optional<std::int64_t> number = FrameNumber(relative.filename());
+  return number && *number < frames_;
+}
+
+std::vector<fs::path> EarlierReplay::FilesNamedLikeOutputs() const {
+  std::vector<fs::path> files;
+  for (const char* part : {"", "poses", "frames"}) {
+    std::error_code error;
+    for (fs::directory_iterator it(folder_ / part, error), end; !error && it != end;
+         it.increment(error)) {
+      const fs::path relative = fs::path(part) / it->path().filename();
+      if (IsNamedLikeOutput(relative)) files.push_back(relative);
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Result<void> EarlierReplay::CheckNothingForeign() const {
+  for (const fs::path& file : FilesNamedLikeOutputs()) {
+    if (!Wrote(file)) return NotFromAReplay(folder_ / file);
+  }
+  return {};
+}
+
+void EarlierReplay::Remove() const {
+  std::error_code ignored;
+  for (const fs::path& file : FilesNamedLikeOutputs()) {
+    if (Wrote(file) && file != "report.json") fs::remove(folder_ / file, ignored);
+  }
+  for (const char* part : {"poses", "frames"}) {
+    // Only if nothing else is in it.
+    if (!outputs_.empty() && fs::is_directory(folder_ / part, ignored)) {
+      fs::remove(folder_ / part, ignored);
+    }
+  }
+  // Last: whoever is stopped on the way can still tell what is a replay's.
+  if (Wrote("report.json")) fs::remove(folder_ / "report.json", ignored);
+}
+
+tl::unexpected<Error> NotFromAReplay(const fs::path& file) {
+  return InputError(file.string(), "was not written by a replay and will not be overwritten",
+                    "name another folder with -o, or move the file away");
+}
+
+Result<void> CheckIsNoRecording(const fs::path& folder) {
+  std::error_code error;
+  const fs::path real = fs::canonical(folder, error);
+  if (error) return {};
+  const std::string remedy = "name another folder with -o";
+  for (const char* mark : {"recording.json", "scene.json", "mav0", "cam0", "data.csv"}) {
+    if (fs::exists(real / mark, error)) {
+      return InputError(folder.string(), std::string("is a recording: it has a ") + mark, remedy);
+    }
+  }
+  // A replay's own folder may lie in a recording's and hold pictures that somebody put there.
+  if (EarlierReplay::In(real).Wrote("report.json")) return {};
+  for (const char* mark : {"recording.json", "scene.json", "data.csv"}) {
+    if (fs::exists(real.parent_path() / mark, error) && HoldsPictures(real)) {
+      return InputError(
+          folder.string(),
+          std::string("holds the frames of a recording: a ") + mark + " lies beside it", remedy);
+    }
+  }
+  return {};
+}
+
+}  // namespace pleinair::app
