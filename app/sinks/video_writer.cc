@@ -9,8 +9,11 @@ extern "C" {
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -36,19 +39,29 @@ using AvPointer = std::unique_ptr<T, AvDeleter>;
 constexpr int kTicksPerFrame = 100;  // Resolution of irregular time stamps.
 constexpr int kEncoderThreads = 4;   // Fixed: x264's decisions depend on it.
 
-/// The rate as the fraction that is meant: 29.97 is 30000/1001.
+constexpr double kFastestNtsc_hz = 1000.0;
+
+/// The rate as the fraction that is meant: 29.97 is 30000/1001, a frame in five minutes 1/300.
 AVRational RateFraction(double rate_hz) {
   const double whole = std::round(rate_hz);
-  if (std::abs(rate_hz - whole) < 1e-3) return {static_cast<int>(whole), 1};
+  if (whole >= 1.0 && std::abs(rate_hz - whole) < 1e-3) return {static_cast<int>(whole), 1};
   const double ntsc = std::round(rate_hz * 1.001);
-  if (std::abs(rate_hz - ntsc / 1.001) < 5e-3) return {static_cast<int>(ntsc) * 1000, 1001};
-  return av_d2q(rate_hz, 10000);
+  if (ntsc >= 1.0 && ntsc <= kFastestNtsc_hz && std::abs(rate_hz - ntsc / 1.001) < 5e-3) {
+    return {static_cast<int>(ntsc) * 1000, 1001};
+  }
+  const AVRational fraction = av_d2q(rate_hz, 10000);
+  if (fraction.num > 0) return fraction;
+  constexpr double kLongestPeriod_s = std::numeric_limits<int>::max();
+  return {1, static_cast<int>(std::min(std::round(1.0 / rate_hz), kLongestPeriod_s))};
 }
 
-/// libav's error number as an Error about `file`.
+/// libav's error number as an Error about `file`. What the system says of files is told as such;
+/// EINVAL is libav's own word for a setting that it cannot work with.
 Error LibavError(const std::filesystem::path& file, int code) {
   const int error_number = AVUNERROR(code);
-  if (error_number > 0 && error_number < 4096) return WriteError(file, error_number);
+  if (error_number > 0 && error_number < 4096 && error_number != EINVAL) {
+    return WriteError(file, error_number);
+  }
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   av_strerror(code, text.data(), text.size());
   return {ErrorKind::kSystem, file.string(), std::string("cannot encode video: ") + text.data(),
@@ -192,8 +205,8 @@ class LibavVideoWriter final : public VideoWriter {
   }
 
   std::int64_t NextStamp(std::int64_t timestamp_ns) {
-    if (first_stamp_ns_ < 0) first_stamp_ns_ = timestamp_ns;
-    const double seconds = static_cast<double>(timestamp_ns - first_stamp_ns_) * 1e-9;
+    if (!first_stamp_ns_) first_stamp_ns_ = timestamp_ns;
+    const double seconds = static_cast<double>(timestamp_ns - *first_stamp_ns_) * 1e-9;
     std::int64_t tick = std::llround(seconds / av_q2d(codec_->time_base));
     const std::int64_t raster = (tick + kTicksPerFrame / 2) / kTicksPerFrame * kTicksPerFrame;
     if (std::abs(tick - raster) <= kTicksPerFrame / 50) tick = raster;
@@ -225,8 +238,8 @@ class LibavVideoWriter final : public VideoWriter {
   AvPointer<AVPacket> packet_;
   AVStream* stream_ = nullptr;  // The format's.
   std::vector<std::uint8_t> padded_;
-  std::int64_t first_stamp_ns_ = -1;
-  std::int64_t last_tick_ = -1;
+  std::optional<std::int64_t> first_stamp_ns_;
+  std::int64_t last_tick_ = -1;  // One before the first.
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/sinks/picture_writer.h"
+#include "devices/video_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -58,6 +59,44 @@ TEST_F(WriterTest, VideoOfTheSameFramesHasTheSameBytes) {
 
 TEST_F(WriterTest, VideoTakesOddSizes) {
   EXPECT_GT(Encode(root_ / "odd.mp4", 161, 97).size(), 1000U);
+}
+
+struct Timing {
+  double rate_hz;
+  std::int64_t period_ns;
+  std::int64_t first_ns;
+};
+
+TEST_F(WriterTest, VideoKeepsTheTimesOfSlowFramesAndOfStampsBeforeZero) {
+  for (const auto& [rate_hz, period_ns, first_ns] :
+       {Timing{1.0 / 300.0, 300'000'000'000, 0}, Timing{0.004, 250'000'000'000, 0},
+        Timing{0.5, 2'000'000'000, -5'000'000'000}}) {
+    const fs::path file = root_ / "slow.mp4";
+    auto writer = VideoWriter::Create(file, {64, 48, rate_hz});
+    ASSERT_TRUE(writer) << rate_hz << ": " << writer.error().Message();
+    for (int i = 0; i < 4; ++i) {
+      const auto added = (*writer)->Add(Gradient(64, 48, i).view(), first_ns + i * period_ns);
+      ASSERT_TRUE(added) << added.error().Message();
+    }
+    ASSERT_TRUE((*writer)->Finish());
+    const auto video = devices::OpenVideo(file, {{64, 48}, {}, {}, {}});
+    ASSERT_TRUE(video) << video.error().Message();
+    EXPECT_NEAR(video->frame_rate_hz / rate_hz, 1.0, 1e-3);
+    EXPECT_EQ(video->frames->FrameCount(), 4);
+  }
+}
+
+TEST_F(WriterTest, ARateThatCannotBeEncodedIsNoFaultOfTheFile) {
+  for (const double rate_hz : {1e-12, 1e5}) {
+    auto writer = VideoWriter::Create(root_ / "odd.mp4", {64, 48, rate_hz});
+    if (writer) {
+      for (int i = 0; i < 3; ++i) (void)(*writer)->Add(Gradient(64, 48, i).view(), i * 1000);
+      (void)(*writer)->Finish();
+      continue;
+    }
+    EXPECT_EQ(writer.error().kind, ErrorKind::kSystem);
+    EXPECT_NE(writer.error().what.find("cannot encode"), std::string::npos);
+  }
 }
 
 TEST_F(WriterTest, VideoIntoAMissingFolderIsAnInputErrorThatNamesTheFile) {
