@@ -2,8 +2,9 @@
 
 namespace pleinair::app {
 
-/// While one of these lives, the first Ctrl-C (SIGINT, SIGTERM) only sets a flag, so that the work
-/// can stop between two frames and clean up; the second one ends the program as usual.
+/// While one of these lives, Ctrl-C (SIGINT, SIGTERM) only sets a flag, so that the work can stop
+/// between two frames and clean up. The third one, or a later one, ends the program as usual once
+/// two seconds have passed since the first.
 class InterruptGuard {
  public:
   InterruptGuard();

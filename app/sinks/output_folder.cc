@@ -1,8 +1,12 @@
 #include "app/sinks/output_folder.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -10,8 +14,33 @@
 #include "base/atomic_file.h"
 
 namespace pleinair::app {
+namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kStagingPrefix = ".pleinair.part";  // The process's number follows.
+
+/// Staging folders of processes that were killed, or that had this one's number before it.
+void RemoveAbandonedStaging(const fs::path& folder) {
+  std::vector<fs::path> abandoned;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (!name.starts_with(kStagingPrefix)) continue;
+    const char* last = name.data() + name.size();
+    pid_t process = 0;
+    const auto parsed = std::from_chars(name.data() + kStagingPrefix.size(), last, process);
+    if (parsed.ec != std::errc() || parsed.ptr != last || process <= 0) continue;
+    const bool is_dead = kill(process, 0) != 0 && errno == ESRCH;
+    std::error_code ignored;
+    if ((is_dead || process == getpid()) && fs::is_directory(it->symlink_status(ignored))) {
+      abandoned.push_back(it->path());
+    }
+  }
+  for (const fs::path& staging : abandoned) fs::remove_all(staging, error);
+}
+
+}  // namespace
 
 Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
   OutputFolder folder;
@@ -34,7 +63,8 @@ Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
   if (!fs::is_directory(folder.path_, error)) {
     return InputError(path.string(), "is not a folder", "name another folder with -o");
   }
-  const fs::path staging = folder.path_ / (".pleinair.part" + std::to_string(getpid()));
+  RemoveAbandonedStaging(folder.path_);
+  const fs::path staging = folder.path_ / (std::string(kStagingPrefix) + std::to_string(getpid()));
   if (!fs::create_directory(staging, error)) {
     return tl::make_unexpected(WriteError(path, error ? error.value() : EEXIST));
   }

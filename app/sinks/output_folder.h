@@ -10,7 +10,8 @@ namespace pleinair::app {
 
 /// The folder that a replay writes to, all of it or nothing. Sinks write into staging(), a hidden
 /// folder inside the target; Commit() moves everything to its place. Without Commit() the
-/// destructor removes the staging folder and every folder that Create() made.
+/// destructor removes the staging folder and every folder that Create() made. Of a process that was
+/// killed the next Create() in the same folder removes what it left.
 class OutputFolder {
  public:
   /// Makes `path` and its parents where missing. Errors (input): no permission, not a folder, a

@@ -1,6 +1,8 @@
 #include "app/sinks/output_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -153,6 +155,27 @@ TEST_F(OutputFolderTest, FramesAreRemovedOnlyAsFarAsTheReportCountsThem) {
   WriteReport(R"("frames/%04d.png", "composite.mp4", "report.json")", 2);
   Write(root_ / "frames/0002.png");
   EXPECT_FALSE(OutputFolder::Create(root_));
+}
+
+TEST_F(OutputFolderTest, StagingOfDeadProcessesIsRemovedAndThatOfLivingOnesKept) {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);  // From here on nobody has this number.
+  const auto staging = [&](pid_t process) {
+    return root_ / (".pleinair.part" + std::to_string(process));
+  };
+  Write(staging(child) / "frames/0000.png");
+  Write(staging(getpid()) / "composite.mp4");
+  Write(staging(getppid()) / "composite.mp4");
+  Write(root_ / ".pleinair.partner/notes");
+  {
+    const auto folder = OutputFolder::Create(root_);
+    ASSERT_TRUE(folder) << folder.error().Message();
+    EXPECT_FALSE(fs::exists(staging(child)));
+    EXPECT_TRUE(fs::is_empty(folder->staging()));
+  }
+  EXPECT_TRUE(fs::exists(staging(getppid()) / "composite.mp4"));
+  EXPECT_TRUE(fs::exists(root_ / ".pleinair.partner/notes"));
 }
 
 TEST_F(OutputFolderTest, AFilePutInTheWayDuringTheReplayStays) {
