@@ -162,6 +162,8 @@ TEST(SceneToml, ModelThatIsNotThereIsNamedWithItsScene) {
 }
 
 TEST(SceneToml, SyntaxErrorsSayTheirLine) {
+  EXPECT_THAT(Refusal(Replaced(kScene, "2025-09-14T13:05:00+02:00", "2025-09-14Td:")),
+              HasSubstr("scene.toml:"));
   EXPECT_THAT(Refusal(Replaced(kScene, "height_m = 220", "height_m = ")),
               AllOf(HasSubstr("scene.toml:9"), HasSubstr("is not TOML")));
   EXPECT_THAT(Refusal(std::string(kScene).substr(0, 250)), HasSubstr("is not TOML"));
