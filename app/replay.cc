@@ -68,15 +68,26 @@ class Replayer {
     report_.width = size.width;
     report_.height = size.height;
     output_camera_ = ScaleCamera(recording.camera, size);
+    auto tracker =
+        tracker::Tracker::Create(recording.camera, {{scene_.marker.family}, scene_.marker.size_m});
+    if (!tracker) {
+      // What it refuses is what the scene says of the marker.
+      Error error = std::move(tracker).error();
+      if (error.where.empty()) error.where = scene_.file.string();
+      return tl::make_unexpected(std::move(error));
+    }
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
     // Models are loaded before a long search for markers begins: their errors come at once.
     PLEINAIR_ASSIGN_OR_RETURN(renderer_,
                               SceneRenderer::Create(output_camera_, scene_, options_.composer));
     session_.emplace(scene_.marker);
-    PLEINAIR_RETURN_IF_ERROR(FindMarkers(recording));
+    PLEINAIR_RETURN_IF_ERROR(FindMarkers(recording, **tracker));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
     PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
     PLEINAIR_RETURN_IF_ERROR(ComposeFrames(recording));
     PLEINAIR_RETURN_IF_ERROR(WriteReports());
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
     PLEINAIR_RETURN_IF_ERROR(folder_.Commit());
     return std::move(report_);
   }
@@ -85,26 +96,39 @@ class Replayer {
     return devices::OpenRecording(options_.recording, {options_.calibration, options_.scene});
   }
 
+  Result<void> CheckInterrupt() const {
+    if (!InterruptGuard::Interrupted()) return {};
+    return SystemError(options_.recording.string(), "interrupted", "nothing was written");
+  }
+
   /// The next frame, timed; nothing at the end.
   Result<std::optional<devices::Frame>> NextFrame(devices::Recording& recording) {
-    if (InterruptGuard::Interrupted()) {
-      return SystemError(options_.recording.string(), "interrupted", "nothing was written");
-    }
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
     return times_.Measure("read", [&] { return recording.frames->Next(); });
   }
 
-  Result<void> FindMarkers(devices::Recording& recording) {
-    PLEINAIR_ASSIGN_OR_RETURN(
-        auto tracker,
-        tracker::Tracker::Create(recording.camera, {{scene_.marker.family}, scene_.marker.size_m}));
+  /// A frame's moment must be one that UtcTime reaches; some videos' stamps run for centuries.
+  Result<void> CheckMoment(const devices::Frame& frame) const {
+    std::int64_t moment_ns = 0;
+    if (!__builtin_add_overflow(scene_.place_time.start.nanoseconds_since_1970(),
+                                frame.timestamp_ns, &moment_ns)) {
+      return {};
+    }
+    return InputError(options_.recording.string(),
+                      fmt::format("frame {} lies beyond the years 1678 to 2261", frame.index),
+                      "mend the scene's time, or the recording's frame rate or time stamps");
+  }
+
+  Result<void> FindMarkers(devices::Recording& recording, tracker::Tracker& tracker) {
     PLEINAIR_ASSIGN_OR_RETURN(auto detections,
                               DetectionsWriter::Create(folder_.staging() / "detections.jsonl"));
     ProgressBar bar("Finding markers", recording.frames->FrameCount());
     while (true) {
       PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(recording));
       if (!frame) break;
+      PLEINAIR_RETURN_IF_ERROR(CheckMoment(*frame));
       PLEINAIR_ASSIGN_OR_RETURN(auto sightings, times_.Measure("track", [&] {
-        return tracker->Track(frame->grey.view());
+        return tracker.Track(frame->grey.view());
       }));
       session_->AddFrame(frame->index, frame->timestamp_ns, sightings);
       PLEINAIR_RETURN_IF_ERROR(detections.Add(frame->index, frame->timestamp_ns, sightings));
@@ -176,6 +200,9 @@ class Replayer {
     }
     if (scene_.objects.empty()) {
       report_.warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
+    } else if (scene_.phantoms.empty()) {
+      report_.warnings.emplace_back(
+          "The scene has no phantom: the objects cast no shadow on real surfaces.");
     }
   }
 

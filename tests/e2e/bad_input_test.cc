@@ -80,6 +80,19 @@ INSTANTIATE_TEST_SUITE_P(
                 Replace(site / "scene.toml", "\nsize_m = 0.48", "\nsize_m = 0");
               },
               "size_m"},
+        Fault{"UnknownMarkerFamily",
+              [](const fs::path& site) {
+                Replace(site / "scene.toml", "\"tag36h11\"", "\"tag99h9\"");
+                fs::remove(site / "object.obj");  // The marker is looked at first.
+                WriteFile(site / "object.obj", "no model");
+              },
+              "scene.toml: unknown marker family \"tag99h9\"; known are tag36h11, "},
+        Fault{"FramesBeyondTheLastYear",
+              [](const fs::path& site) {
+                Replace(site / "scene.toml", "2025-09-14T11:05:00Z", "2261-12-31T23:59:50Z");
+                Replace(site / "recording.json", "0.066667", "20000000");
+              },
+              "frame 1 lies beyond the years 1678 to 2261"},
         Fault{"TimeWithoutOffset",
               [](const fs::path& site) { Replace(site / "scene.toml", ":00Z", ":00"); },
               "2025-09-14"},
@@ -147,6 +160,18 @@ TEST(BadInput, TheRecordingIsNotOverwrittenByItsReplay) {
   ExpectRefusal(RunPleinair({"replay", folder / "site", "-o", folder / "site"}), 2,
                 "is the recording itself");
   EXPECT_EQ(Listing(folder / "site"), before);
+}
+
+TEST(BadInput, AnotherRecordingIsNotOverwrittenEither) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, false);
+  MakeShortRecording(folder / "other", 2, false);
+  const auto before = Listing(folder / "other");
+  ExpectRefusal(RunPleinair({"replay", folder / "site", "-o", folder / "other", "--frames"}), 2,
+                "is a recording");
+  ExpectRefusal(RunPleinair({"replay", folder / "site", "-o", folder / "other/frames"}), 2,
+                "holds the frames of a recording");
+  EXPECT_EQ(Listing(folder / "other"), before);
 }
 
 TEST(BadInput, AFolderWithoutWritePermissionIsRefused) {
