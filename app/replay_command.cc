@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "app/command.h"
 #include "app/replay.h"
@@ -35,13 +36,39 @@ struct Arguments {
   bool json = false;
 };
 
+/// A word as a shell takes it.
+std::string Quoted(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// A line of messages stays one whatever a folder is called, and the terminal is left alone.
+std::string OneLine(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  return text;
+}
+
 std::string CommandText(const Arguments& arguments) {
-  std::string text = "pleinair replay " + arguments.recording + " -o " + arguments.output;
-  if (!arguments.scene.empty()) text += " --scene " + arguments.scene;
-  if (!arguments.calibration.empty()) text += " --calibration " + arguments.calibration;
+  std::string text =
+      "pleinair replay " + Quoted(arguments.recording) + " -o " + Quoted(arguments.output);
+  if (!arguments.scene.empty()) text += " --scene " + Quoted(arguments.scene);
+  if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
   if (arguments.options.write_frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
   if (arguments.shadows != "disc") text += " --shadows " + arguments.shadows;
+  const int partitions = arguments.options.composer.shadow_partitions;
+  if (partitions != compositor::ComposerOptions{}.shadow_partitions) {
+    text += " --shadow-partitions " + std::to_string(partitions);
+  }
+  if (!arguments.shader_directory.empty()) {
+    text += " --shader-dir " + Quoted(arguments.shader_directory);
+  }
   if (arguments.no_video) text += " --no-video";
   return text;
 }
@@ -67,10 +94,12 @@ Result<void> Run(Arguments& arguments) {
     return {};
   }
   std::cerr << report.path.size() << " of " << report.frames << " frames have a pose; ";
-  std::cerr << "results in " << arguments.output << ":";
+  std::cerr << "results in " << OneLine(arguments.output) << ":";
   for (const std::string& output : report.outputs) std::cerr << ' ' << output;
   std::cerr << '\n';
-  for (const std::string& warning : report.warnings) std::cerr << "warning: " << warning << '\n';
+  for (const std::string& warning : report.warnings) {
+    std::cerr << "warning: " << OneLine(warning) << '\n';
+  }
   return {};
 }
 

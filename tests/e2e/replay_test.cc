@@ -176,6 +176,33 @@ TEST(Replay, LeavesFramesWithoutAMarkerAsTheyAreAndSaysSo) {
   EXPECT_THAT(markers, ElementsAre(1, 0));
 }
 
+TEST(Replay, SaysThatWithoutPhantomsNothingTakesTheShadow) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, true);
+  std::string scene = ReadFile(folder / "site/scene.toml");
+  const std::string phantom = "[[phantom]]\nfile = \"phantom.obj\"\n";
+  WriteFile(folder / "site/scene.toml", scene.erase(scene.find(phantom), phantom.size()));
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("no phantom: the objects cast no shadow on real surfaces"));
+}
+
+TEST(Replay, NamesOddFoldersOnOneLineAndRepeatsItsCommandAsAShellTakesIt) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "my site", 1, false);
+  const RunResult run =
+      RunPleinair({"replay", folder / "my site", "-o", folder / "a\nb", "--no-video",
+                   "--shadow-partitions", "1", "--shader-dir", folder.path()});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("a b: detections.jsonl"));
+  const auto report = nlohmann::json::parse(ReadFile(folder / "a\nb/report.json"));
+  const std::string at = folder.path().string();
+  EXPECT_EQ(report["command"], "pleinair replay '" + at + "/my site' -o '" + at +
+                                   "/a\nb' --shadow-partitions 1 --shader-dir " + at +
+                                   " --no-video");
+}
+
 TEST(Replay, ResizesTheOutput) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
