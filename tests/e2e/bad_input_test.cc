@@ -202,6 +202,21 @@ TEST(BadInput, AFileSizeLimitEndsTheReplayAndLeavesNothing) {
   }
 }
 
+TEST(BadInput, AReplayInterruptedSeveralTimesLeavesNothing) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 5, false);
+  const std::string out = folder / "out";
+  // Once it has begun to write (or, should it never, after a while).
+  const RunResult run = RunCommandLine(
+      {"sh", "-c",
+       std::string(PLEINAIR_PROGRAM) + " replay '" + std::string(folder / "site") + "' -o '" + out +
+           "' & n=0; until ls -d '" + out +
+           "'/.pleinair.part* >/dev/null 2>&1 || [ $((n += 1)) -gt 5000 ]; do :; done; "
+           "kill -INT $!; kill -TERM $!; kill -INT $!; wait $!"});
+  ExpectRefusal(run, 1, "interrupted");
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST(BadInput, AFullDiskEndsTheReplayAndLeavesNothing) {
   const TemporaryFolder folder;
   const std::string disk = folder / "disk";
