@@ -1,6 +1,8 @@
 #include "compositor/texture_decoder.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -9,6 +11,15 @@
 
 #include "compositor/model_files.h"
 #include "compositor/model_limits.h"
+
+namespace {
+
+/// For an empty PNG chunk the decoder copies no bytes to a null pointer, which memcpy forbids.
+void* CopyBytes(void* to, const void* from, std::size_t size) {
+  return size == 0 ? to : std::memcpy(to, from, size);
+}
+
+}  // namespace
 
 // NOLINTBEGIN: another project's code.
 #if defined(__GNUC__)
@@ -23,7 +34,9 @@
 #define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
+#define memcpy CopyBytes
 #include <stb/stb_image.h>
+#undef memcpy
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif

@@ -153,6 +153,20 @@ TEST(ObjModel, ReadsATextureWithVCountedFromTheTop) {
   EXPECT_EQ(model->meshes[0].uvs[1], (std::array<float, 2>{1.0F, 0.75F}));
 }
 
+TEST(ObjModel, ReadsAPngWhoseFirstDataChunkIsEmpty) {
+  std::string png = MakePng(1, 1, {{10, 200, 30}});
+  std::string empty_chunk;
+  testing::AppendPngChunk("IDAT", "", &empty_chunk);
+  png.insert(png.find("IDAT") - 4, empty_chunk);
+  const TemporaryFolder folder;
+  folder.Write("a.png", png);
+  folder.Write("m.mtl", "newmtl a\nmap_Kd a.png\n");
+  const auto model = LoadModel(
+      folder.Write("model.obj", std::string("mtllib m.mtl\n") + kSquare + "usemtl a\nf 1 2 3\n"));
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(model->textures[0](0, 0, 1), 200);
+}
+
 TEST(ObjModel, RefusesATextureOf100000Squared) {
   const TemporaryFolder folder;
   folder.Write("huge.png", PngHeader(100'000, 100'000));

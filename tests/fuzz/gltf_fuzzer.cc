@@ -1,0 +1,31 @@
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "compositor/gltf_reader.h"
+#include "compositor/mesh_normals.h"
+
+// Any bytes are a glTF model, text or binary, or an error. Its folder does not exist, so that
+// buffers and pictures come from the file itself.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  namespace compositor = pleinair::compositor;
+  const std::string content(reinterpret_cast<const char*>(data), size);
+  const auto parsed = compositor::ParseGltf(content, "/does/not/exist/fuzz.glb");
+  if (!parsed) return 0;
+  for (const auto mode : {compositor::NormalsMode::kFromFile, compositor::NormalsMode::kFlat,
+                          compositor::NormalsMode::kSmooth}) {
+    compositor::Model model = *parsed;
+    compositor::ApplyNormals(mode, &model);
+    for (const auto& mesh : model.meshes) {
+      if (mesh.material < 0 || static_cast<std::size_t>(mesh.material) >= model.materials.size() ||
+          (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) ||
+          mesh.normals.size() != mesh.positions.size()) {
+        __builtin_trap();
+      }
+      for (const std::uint32_t index : mesh.indices) {
+        if (index >= mesh.positions.size()) __builtin_trap();
+      }
+    }
+  }
+  return 0;
+}
