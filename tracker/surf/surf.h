@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/image.h"
+#include "tracker/surf/surf_descriptor.h"
+#include "tracker/surf/surf_keypoint.h"
+
+namespace pleinair::tracker {
+
+struct SurfOptions {
+  /// Each octave has two scales in its middle: 15 and 21, 27 and 39, 51 and 75 px filters, ...
+  int octaves = 3;
+  /// Least response of a keypoint. 0.0002 finds a Gaussian blob of about 6 grey levels of 255.
+  float threshold = 0.0002f;
+  int max_keypoints = 500;
+  /// Angles are 0: for pictures whose roll is known.
+  bool upright = false;
+  /// One octave more, in front of the others, on a picture of twice the size.
+  bool double_size = false;
+  /// Samples of the first octave, every 1, 2 or 4 px (of its picture). The paper has 2.
+  int first_step = 1;
+  /// Strongest of each bucket kept in fair shares, so that a busy background does not use up the
+  /// keypoints; 0: the strongest of all.
+  int bucket_px = 80;
+  /// Edge of the window that is described, in scales. The paper has 20.
+  float descriptor_window_scales = 20;
+};
+
+/// Speeded-Up Robust Features (Bay, Ess, Tuytelaars, Van Gool, "Speeded-Up Robust Features (SURF)",
+/// Computer Vision and Image Understanding 110(3), 2008). Keeps its memory between calls: pictures
+/// of one size cost no allocation after the first few. One thread.
+class Surf {
+ public:
+  explicit Surf(SurfOptions options);
+  ~Surf();
+  Surf(Surf&&) noexcept;
+  Surf& operator=(Surf&&) noexcept;
+
+  /// Keypoints of a picture of one channel, strongest first; none in an empty one.
+  void Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints);
+
+  /// Fills the angles of keypoints in the picture of the last Detect (its own, or others), and
+  /// describes them; descriptors[i] belongs to keypoints[i].
+  void Describe(std::vector<SurfKeypoint>* keypoints, std::vector<SurfDescriptor>* descriptors);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pleinair::tracker

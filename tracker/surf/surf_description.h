@@ -1,0 +1,19 @@
+#pragma once
+// Internal: between the .cc files of this module; not installed.
+
+#include "tracker/surf/box_levels.h"
+#include "tracker/surf/surf_descriptor.h"
+#include "tracker/surf/surf_keypoint.h"
+
+namespace pleinair::tracker {
+
+/// The descriptor of a keypoint at its angle (Bay et al. 2008, section 4.2): 20 x 20 samples over a
+/// window of `window_scales` s (20 in the paper), Haar wavelets of 2 s weighted with a Gaussian of
+/// 3.3 s. With another window, samples, wavelets and Gaussian scale along.
+///
+/// Deviation: the paper takes upright wavelets and turns their responses; here a wavelet is made of
+/// four upright boxes of about s at corners that are turned, interpolated between pixels.
+SurfDescriptor DescribeKeypoint(BoxLevels* levels, const SurfKeypoint& keypoint,
+                                float window_scales);
+
+}  // namespace pleinair::tracker
