@@ -1,0 +1,92 @@
+#include "tracker/quads/dark_components.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace pleinair::tracker {
+
+int DarkComponents::Root(int component) {
+  while (components_[component].parent != component) {
+    const int parent = components_[component].parent;
+    components_[component].parent = components_[parent].parent;  // Halves the path.
+    component = parent;
+  }
+  return component;
+}
+
+void DarkComponents::Join(int run, int component) {
+  DarkComponent& c = components_[component];
+  const DarkRun& r = runs_[run];
+  c.min_x = std::min(c.min_x, r.begin);
+  c.max_x = std::max(c.max_x, r.end - 1);
+  c.max_y = r.y;  // Runs come row by row.
+  c.area += r.end - r.begin;
+  runs_[c.last_run].next = run;
+  c.last_run = run;
+}
+
+int DarkComponents::Melt(int a, int b) {
+  if (a == b) return a;
+  if (a > b) std::swap(a, b);
+  DarkComponent &keep = components_[a], &gone = components_[b];
+  gone.parent = a;
+  keep.min_x = std::min(keep.min_x, gone.min_x);
+  keep.max_x = std::max(keep.max_x, gone.max_x);
+  keep.min_y = std::min(keep.min_y, gone.min_y);
+  keep.max_y = std::max(keep.max_y, gone.max_y);
+  keep.area += gone.area;
+  runs_[keep.last_run].next = gone.first_run;
+  keep.last_run = gone.last_run;
+  return a;
+}
+
+void DarkComponents::Find(const BitMask& mask) {
+  runs_.clear();
+  component_of_run_.clear();
+  components_.clear();
+  int above = 0, above_end = 0;  // Runs of the row above.
+  for (int y = 0; y < mask.height; ++y) {
+    const int row_begin = static_cast<int>(runs_.size());
+    const std::uint64_t* words = mask.row(y);
+    std::uint64_t carry = 0;
+    int begin = -1;
+    const auto add_run = [&](int end) {
+      const int run = static_cast<int>(runs_.size());
+      runs_.push_back({y, begin, end, -1});
+      // Touching over a corner counts: one pixel of reach on either side.
+      while (above < above_end && runs_[above].end < begin) ++above;
+      int component = -1;
+      for (int i = above; i < above_end && runs_[i].begin <= end; ++i) {
+        const int other = Root(component_of_run_[i]);
+        component = component < 0 ? other : Melt(component, other);
+      }
+      if (component < 0) {
+        component = static_cast<int>(components_.size());
+        components_.push_back({component, begin, end - 1, y, y, end - begin, run, run});
+      } else {
+        Join(run, component);
+      }
+      component_of_run_.push_back(component);
+      begin = -1;
+    };
+    for (int w = 0; w < mask.words_per_row; ++w) {
+      const std::uint64_t word = words[w];
+      std::uint64_t changes = word ^ (word << 1 | carry);
+      carry = word >> 63;
+      while (changes != 0) {
+        const int x = 64 * w + std::countr_zero(changes);
+        changes &= changes - 1;
+        if (begin < 0) {
+          begin = x;
+        } else {
+          add_run(x);
+        }
+      }
+    }
+    if (begin >= 0) add_run(mask.width);
+    above = row_begin;
+    above_end = static_cast<int>(runs_.size());
+  }
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,104 @@
+#include "tracker/quads/quad_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "tracker/quads/dark_components.h"
+#include "tracker/quads/dark_mask.h"
+#include "tracker/quads/quad_edges.h"
+#include "tracker/quads/quad_outline.h"
+
+namespace pleinair::tracker {
+namespace {
+
+constexpr float kLeastContrast = 6.0F;  // Codes; 4 is what quantisation and noise leave in black.
+constexpr float kLeastSide = 0.12F;
+constexpr float kLeastShareDark = 0.7F;
+
+Vec2 Centre(const Quad& quad) {
+  return (quad.corners_px[0] + quad.corners_px[1] + quad.corners_px[2] + quad.corners_px[3]) * 0.25;
+}
+
+double Area(const Quad& quad) {
+  const Vec2 d = quad.corners_px[2] - quad.corners_px[0],
+             e = quad.corners_px[3] - quad.corners_px[1];
+  return 0.5 * (d.x * e.y - d.y * e.x);
+}
+
+/// The same square found twice.
+bool Same(const Quad& a, const Quad& b) {
+  const double area = std::min(Area(a), Area(b));
+  if (std::max(Area(a), Area(b)) > 1.3 * area) return false;
+  const Vec2 apart = Centre(a) - Centre(b);
+  return apart.x * apart.x + apart.y * apart.y < 0.01 * area;
+}
+
+}  // namespace
+
+struct QuadDetector::Work {
+  QuadDetectorOptions options;
+  DarkMaskBuffers buffers;
+  BitMask mask;
+  Image<std::uint8_t> half;
+  DarkComponents components;
+  QuadOutline outline;
+
+  void DetectAt(ImageView<const std::uint8_t> level, int scale, ImageView<const std::uint8_t> grey,
+                std::vector<Quad>* quads);
+};
+
+QuadDetector::QuadDetector(QuadDetectorOptions options) : work_(std::make_unique<Work>()) {
+  work_->options = options;
+}
+QuadDetector::~QuadDetector() = default;
+QuadDetector::QuadDetector(QuadDetector&&) noexcept = default;
+QuadDetector& QuadDetector::operator=(QuadDetector&&) noexcept = default;
+
+void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale,
+                                  ImageView<const std::uint8_t> grey, std::vector<Quad>* quads) {
+  ComputeDarkMask(level, SimdDarkMaskKernels(), &buffers, &mask);
+  components.Find(mask);
+  const std::vector<DarkComponent>& found = components.components();
+  const double least_side = std::max(options.least_side_px / scale, 6.0);
+  const int least_extent = static_cast<int>(std::floor(least_side));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const DarkComponent& c = found[i];
+    const int width = c.max_x - c.min_x + 1, height = c.max_y - c.min_y + 1;
+    // A closed rim has at least about as many pixels as its box is wide and high; and around a
+    // whole marker there is a quiet zone.
+    if (width < least_extent || height < least_extent || c.area < width + height ||
+        c.parent != static_cast<int>(i) || c.min_x == 0 || c.min_y == 0 ||
+        c.max_x == level.width() - 1 || c.max_y == level.height() - 1) {
+      continue;
+    }
+    const auto outline_found = outline.Fit(components.runs(), c, least_side);
+    if (!outline_found) continue;
+    Quad quad{*outline_found, 0.0F};
+    for (Vec2& corner : quad.corners_px) {
+      corner = corner * scale + Vec2{0.5 * (scale - 1), 0.5 * (scale - 1)};
+    }
+    if (!RefineQuad(grey, 3.0 * scale, &quad.corners_px)) continue;
+    const RimEvidence evidence = SampleRim(grey, quad.corners_px);
+    if (evidence.contrast < kLeastContrast || evidence.least_side < kLeastSide ||
+        evidence.share_dark < kLeastShareDark) {
+      continue;
+    }
+    quad.contrast = evidence.contrast;
+    if (std::none_of(quads->begin(), quads->end(),
+                     [&](const Quad& other) { return Same(quad, other); })) {
+      quads->push_back(quad);
+    }
+  }
+}
+
+void QuadDetector::Detect(ImageView<const std::uint8_t> grey, std::vector<Quad>* quads) {
+  CHECK_EQ(grey.channels(), 1);
+  quads->clear();
+  if (grey.width() < 8 || grey.height() < 8) return;
+  work_->DetectAt(grey, 1, grey, quads);
+  HalveImage(grey, SimdDarkMaskKernels(), &work_->half);
+  work_->DetectAt(work_->half.view(), 2, grey, quads);
+}
+
+}  // namespace pleinair::tracker

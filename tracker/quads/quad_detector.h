@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/image.h"
+#include "base/vector.h"
+
+namespace pleinair::tracker {
+
+/// A dark quadrilateral on lighter surroundings: where the outer square of a marker may be.
+struct Quad {
+  /// Clockwise in the picture, beginning anywhere; pixels, integers are centres; good to about one
+  /// pixel, meant for refinement by who reads the marker.
+  std::array<Vec2, 4> corners_px;
+  float contrast;  ///< Codes outside the sides less codes inside, along the rim.
+};
+
+struct QuadDetectorOptions {
+  double least_side_px = 8.0;  ///< Of any side in the picture, foreshortened ones too.
+};
+
+/// Finds the outer squares of markers: a closed black rim, white around it, each a tenth of the
+/// edge wide. First stage of the fast path; what it finds still has to be read.
+///
+/// Dark pixels beside their neighbourhood (dark_mask.h), at full and at half size: full for the
+/// thinnest rims, half because means of four pixels carry less noise and blur. Components of them;
+/// the quadrilateral in each convex hull; its sides moved to the steepest rise of light; kept when
+/// all four sides are darker inside than outside.
+///
+/// Not thread-safe: buffers are kept, so that pictures after the first do not allocate. The same
+/// picture gives the same quads in the same order.
+class QuadDetector {
+ public:
+  explicit QuadDetector(QuadDetectorOptions options = {});
+  ~QuadDetector();
+  QuadDetector(QuadDetector&&) noexcept;
+  QuadDetector& operator=(QuadDetector&&) noexcept;
+
+  /// One channel, any size; pictures too small to hold a quad give none.
+  void Detect(ImageView<const std::uint8_t> grey, std::vector<Quad>* quads);
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace pleinair::tracker

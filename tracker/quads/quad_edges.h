@@ -1,0 +1,30 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <array>
+#include <cstdint>
+
+#include "base/image.h"
+#include "base/vector.h"
+
+namespace pleinair::tracker {
+
+/// What a picture shows along the four sides of a quadrilateral.
+struct RimEvidence {
+  float contrast = 0.0F;  ///< Codes of the quiet zone less those of the rim, mean over all samples.
+  float least_side = 0.0F;  ///< The same for the weakest side, as a share of the side's brightness.
+  float share_dark = 0.0F;  ///< Samples whose rim is darker than their quiet zone by half of that.
+};
+
+/// Moves each side to where the picture's light rises most from inside to outside, within a few
+/// pixels: gradient-weighted mean positions along the normals of the side, a line through them, the
+/// corners where the lines meet (as Wang & Olson 2016, section III-C, refine the edges of a quad).
+/// In linear light, since in codes an edge lies up to 0.4 px too far on its dark side. False where
+/// no edge was found or what comes out is no convex quadrilateral in the picture.
+bool RefineQuad(ImageView<const std::uint8_t> grey, double reach_px, std::array<Vec2, 4>* corners);
+
+/// Samples both sides of the rim's outer edge.
+RimEvidence SampleRim(ImageView<const std::uint8_t> grey, const std::array<Vec2, 4>& corners);
+
+}  // namespace pleinair::tracker

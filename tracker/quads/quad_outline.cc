@@ -1,0 +1,117 @@
+#include "tracker/quads/quad_outline.h"
+
+#include <algorithm>
+#include <climits>
+#include <cmath>
+
+namespace pleinair::tracker {
+namespace {
+
+/// A quadrilateral inscribed in the hull of one seen with rounded corners loses this much at most.
+constexpr double kLeastShareOfHull = 0.78;
+/// Dark pixels in the hull. The rim alone is 0.36 of the square; at its smallest, when the bright
+/// surroundings have bled into the rim, half of that.
+constexpr double kLeastFill = 0.16;
+
+/// Twice the area of a triangle, positive where it runs clockwise in the picture.
+template <class P>
+auto Twice(const P& a, const P& b, const P& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Intersection of the lines a + s·u and b + t·v; nothing where they are parallel.
+std::optional<Vec2> Intersection(Vec2 a, Vec2 u, Vec2 b, Vec2 v) {
+  const double cross = u.x * v.y - u.y * v.x;
+  if (std::fabs(cross) < 1e-3 * Norm(u) * Norm(v)) return std::nullopt;
+  const double s = ((b.x - a.x) * v.y - (b.y - a.y) * v.x) / cross;
+  return a + u * s;
+}
+
+/// Moves the sides outwards by half a pixel: hull vertices are centres of pixels.
+std::optional<std::array<Vec2, 4>> Grown(const std::array<Vec2, 4>& quad) {
+  std::array<Vec2, 4> from, along;
+  for (int i = 0; i < 4; ++i) {
+    along[i] = quad[(i + 1) % 4] - quad[i];
+    const double length = Norm(along[i]);
+    from[i] = quad[i] + Vec2{along[i].y, -along[i].x} * (0.5 / length);
+  }
+  std::array<Vec2, 4> grown;
+  for (int i = 0; i < 4; ++i) {
+    const auto corner = Intersection(from[(i + 3) % 4], along[(i + 3) % 4], from[i], along[i]);
+    if (!corner) return std::nullopt;
+    grown[i] = *corner;
+  }
+  return grown;
+}
+
+}  // namespace
+
+void QuadOutline::BuildHull(const std::vector<DarkRun>& runs, const DarkComponent& component) {
+  const int rows = component.max_y - component.min_y + 1;
+  left_.assign(rows, INT_MAX);
+  right_.assign(rows, INT_MIN);
+  for (int i = component.first_run; i >= 0; i = runs[i].next) {
+    const DarkRun& run = runs[i];
+    const int row = run.y - component.min_y;
+    left_[row] = std::min(left_[row], run.begin);
+    right_[row] = std::max(right_[row], run.end - 1);
+  }
+  // Andrew's monotone chain, once down the right and once up the left: the rows are in order.
+  hull_.clear();
+  const auto extend = [&](std::size_t first, Vertex v) {
+    while (hull_.size() >= first + 2 && Twice(hull_[hull_.size() - 2], hull_.back(), v) <= 0) {
+      hull_.pop_back();
+    }
+    hull_.push_back(v);
+  };
+  for (int row = 0; row < rows; ++row) extend(0, {right_[row], row});
+  const std::size_t turn = hull_.size();
+  for (int row = rows - 1; row >= 0; --row) extend(turn, {left_[row], row});
+}
+
+std::optional<std::array<Vec2, 4>> QuadOutline::Fit(const std::vector<DarkRun>& runs,
+                                                    const DarkComponent& component,
+                                                    double least_side_px) {
+  BuildHull(runs, component);
+  if (hull_.size() < 4) return std::nullopt;
+  long twice_area = 0;
+  for (std::size_t i = 2; i < hull_.size(); ++i) {
+    twice_area += Twice(hull_[0], hull_[i - 1], hull_[i]);
+  }
+  const double hull_area = 0.5 * static_cast<double>(twice_area);
+  if (component.area < kLeastFill * hull_area) return std::nullopt;
+
+  // The vertex that cuts off least goes, until four are left.
+  while (hull_.size() > 4) {
+    const std::size_t n = hull_.size();
+    std::size_t least = 0;
+    int least_cut = INT_MAX;
+    for (std::size_t i = 0; i < n; ++i) {
+      const int cut = Twice(hull_[i == 0 ? n - 1 : i - 1], hull_[i], hull_[i + 1 == n ? 0 : i + 1]);
+      if (cut < least_cut) {
+        least_cut = cut;
+        least = i;
+      }
+    }
+    hull_.erase(hull_.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  const double quad_area =
+      0.5 * (Twice(hull_[0], hull_[1], hull_[2]) + Twice(hull_[0], hull_[2], hull_[3]));
+  if (quad_area < kLeastShareOfHull * hull_area) return std::nullopt;
+
+  std::array<Vec2, 4> quad;
+  for (int i = 0; i < 4; ++i) {
+    quad[i] = {static_cast<double>(hull_[i].x), static_cast<double>(hull_[i].y + component.min_y)};
+  }
+  for (int i = 0; i < 4; ++i) {
+    if (Norm(quad[(i + 1) % 4] - quad[i]) + 1.0 < least_side_px) return std::nullopt;
+    // A corner of a hull turns; nearly straight ones are no corners of a marker in view.
+    if (Twice(quad[(i + 3) % 4], quad[i], quad[(i + 1) % 4]) <
+        0.05 * Norm(quad[i] - quad[(i + 3) % 4]) * Norm(quad[(i + 1) % 4] - quad[i])) {
+      return std::nullopt;
+    }
+  }
+  return Grown(quad);
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,32 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/vector.h"
+#include "tracker/quads/dark_components.h"
+
+namespace pleinair::tracker {
+
+/// The quadrilateral that a component of dark pixels fills best.
+class QuadOutline {
+ public:
+  /// Corners clockwise in the picture, half a pixel outside the outermost pixel centres; nothing
+  /// where the convex hull of the component is no quadrilateral of at least `least_side_px`.
+  std::optional<std::array<Vec2, 4>> Fit(const std::vector<DarkRun>& runs,
+                                         const DarkComponent& component, double least_side_px);
+
+ private:
+  void BuildHull(const std::vector<DarkRun>& runs, const DarkComponent& component);
+
+  struct Vertex {
+    int x, y;
+  };
+  std::vector<int> left_, right_;  // Outermost dark pixels of the rows of the component.
+  std::vector<Vertex> hull_;       // Clockwise in the picture.
+};
+
+}  // namespace pleinair::tracker
