@@ -10,7 +10,7 @@ namespace {
 /// darkest exposures: quantisation alone makes two.
 constexpr int kLeastContrast = 8;
 /// Beyond this a marker of full contrast would be lost too.
-constexpr int kGreatestContrast = 64;
+constexpr int kGreatestContrast = 110;
 
 void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
                   std::uint8_t* tile_min, std::uint8_t* tile_max) {
@@ -32,8 +32,8 @@ void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
 std::uint8_t Mean(int a, int b) { return static_cast<std::uint8_t>((a + b + 1) / 2); }
 
 void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const max_rows[3],
-                int width, int contrast, std::uint8_t* /*column_min*/, std::uint8_t* /*column_max*/,
-                std::uint8_t* thresholds) {
+                int width, DarkContrast contrast, std::uint8_t* /*column_min*/,
+                std::uint8_t* /*column_max*/, std::uint8_t* thresholds) {
   for (int x = 0; x < width; ++x) {
     std::uint8_t least = 255, greatest = 0;
     for (int j = 0; j < 3; ++j) {
@@ -43,7 +43,9 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
       }
     }
     const int range = greatest - least;
-    const bool seen = range >= contrast && range >= Mean(Mean(greatest, 0), 0);
+    int share = greatest;
+    for (int i = 0; i < contrast.halvings; ++i) share = Mean(share, 0);
+    const bool seen = range >= contrast.codes && range >= share;
     thresholds[x] = seen ? Mean(least, greatest) : std::uint8_t{0};
   }
 }
@@ -93,8 +95,8 @@ const DarkMaskKernels& ScalarDarkMaskKernels() {
   return kKernels;
 }
 
-void ComputeDarkMask(ImageView<const std::uint8_t> grey, const DarkMaskKernels& kernels,
-                     DarkMaskBuffers* buffers, BitMask* mask) {
+void ComputeDarkMask(ImageView<const std::uint8_t> grey, int contrast_halvings,
+                     const DarkMaskKernels& kernels, DarkMaskBuffers* buffers, BitMask* mask) {
   const int width = grey.width() / kTile * kTile, tile_rows = grey.height() / kTile;
   mask->width = grey.width();
   mask->height = grey.height();
@@ -129,7 +131,8 @@ void ComputeDarkMask(ImageView<const std::uint8_t> grey, const DarkMaskKernels& 
   const int noise = TileNoise(*buffers, width, tile_rows, stride);
   // 3×3 tiles of noise alone span 5.3 standard deviations on average, one tile 3.5; the rest keeps
   // speckle off.
-  const int contrast = std::clamp(noise * 2, kLeastContrast, kGreatestContrast);
+  const DarkContrast contrast{std::clamp(noise * 2, kLeastContrast, kGreatestContrast),
+                              contrast_halvings};
 
   for (int row = 0; row < tile_rows; ++row) {
     const std::uint8_t *least[3], *greatest[3];

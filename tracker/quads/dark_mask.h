@@ -31,19 +31,25 @@ struct DarkMaskBuffers {
 
 inline constexpr int kTile = 4;  ///< Edge of a tile in pixels.
 
+/// How far apart least and greatest value of a neighbourhood must be.
+struct DarkContrast {
+  int codes = 0;     ///< At least so many.
+  int halvings = 2;  ///< And at least the greatest value halved so often.
+};
+
 /// What one row of tiles does; the SIMD version and its scalar reference agree bit for bit.
 struct DarkMaskKernels {
   /// Least and greatest value of each tile over four rows of `width` pixels (a multiple of kTile),
   /// written once for each column of the tile.
   void (*tile_extremes)(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
                         std::uint8_t* tile_min, std::uint8_t* tile_max);
-  /// Thresholds of one row of tiles from the extremes of 3×3 tiles: between the least and the
-  /// greatest value where they differ by `contrast` codes and by a quarter of the greatest, else 0.
+  /// Thresholds of one row of tiles from the extremes of 3×3 tiles: half way
+  /// between the least and the greatest value where they differ by `contrast`, else 0.
   /// The three rows hold a tile's width of padding before and behind. `column_*` is scratch of the
   /// same length as they.
   void (*thresholds)(const std::uint8_t* const min_rows[3], const std::uint8_t* const max_rows[3],
-                     int width, int contrast, std::uint8_t* column_min, std::uint8_t* column_max,
-                     std::uint8_t* thresholds);
+                     int width, DarkContrast contrast, std::uint8_t* column_min,
+                     std::uint8_t* column_max, std::uint8_t* thresholds);
   /// Bits of the pixels below their thresholds; `bits` has room for whole words.
   void (*compare)(const std::uint8_t* pixels, const std::uint8_t* thresholds, int width,
                   std::uint8_t* bits);
@@ -62,8 +68,8 @@ const DarkMaskKernels& SimdDarkMaskKernels();
 /// contrast hold no dark pixel. Deviations: little means little beside the noise of this picture
 /// (see TileNoise) and beside the neighbourhood's own brightness, so that dark exposures
 /// work. The up to three last columns and rows that fill no tile are never dark.
-void ComputeDarkMask(ImageView<const std::uint8_t> grey, const DarkMaskKernels& kernels,
-                     DarkMaskBuffers* buffers, BitMask* mask);
+void ComputeDarkMask(ImageView<const std::uint8_t> grey, int contrast_halvings,
+                     const DarkMaskKernels& kernels, DarkMaskBuffers* buffers, BitMask* mask);
 
 /// Half the size in both directions, means of 2×2 pixels; an odd last column or row is left out.
 void HalveImage(ImageView<const std::uint8_t> grey, const DarkMaskKernels& kernels,

@@ -19,8 +19,8 @@ void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
 }
 
 void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const max_rows[3],
-                int width, int contrast, std::uint8_t* column_min, std::uint8_t* column_max,
-                std::uint8_t* thresholds) {
+                int width, DarkContrast contrast, std::uint8_t* column_min,
+                std::uint8_t* column_max, std::uint8_t* thresholds) {
   ScalarDarkMaskKernels().thresholds(min_rows, max_rows, width, contrast, column_min, column_max,
                                      thresholds);
 }
@@ -66,8 +66,8 @@ void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
 }
 
 void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const max_rows[3],
-                int width, int contrast, std::uint8_t* column_min, std::uint8_t* column_max,
-                std::uint8_t* thresholds) {
+                int width, DarkContrast contrast, std::uint8_t* column_min,
+                std::uint8_t* column_max, std::uint8_t* thresholds) {
   const int lanes = static_cast<int>(hn::Lanes(kBytes));
   // First over the three rows, padding included, then over three tiles of the row.
   const int padded = width + 2 * kTile;
@@ -88,7 +88,7 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
     column_min[x] = HWY_MIN(min_rows[0][at], HWY_MIN(min_rows[1][at], min_rows[2][at]));
     column_max[x] = HWY_MAX(max_rows[0][at], HWY_MAX(max_rows[1][at], max_rows[2][at]));
   }
-  const auto enough = hn::Set(kBytes, static_cast<std::uint8_t>(contrast));
+  const auto enough = hn::Set(kBytes, static_cast<std::uint8_t>(contrast.codes));
   const auto zero = hn::Zero(kBytes);
   for (x = 0; x + lanes <= width; x += lanes) {
     const auto least = hn::Min(hn::LoadU(kBytes, column_min + x),
@@ -98,8 +98,9 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
                                   hn::Max(hn::LoadU(kBytes, column_max + x + kTile),
                                           hn::LoadU(kBytes, column_max + x + 2 * kTile)));
     const auto range = hn::Sub(greatest, least);
-    const auto quarter = hn::AverageRound(hn::AverageRound(greatest, zero), zero);
-    const auto seen = hn::Eq(hn::Max(range, hn::Max(quarter, enough)), range);
+    auto share = greatest;
+    for (int i = 0; i < contrast.halvings; ++i) share = hn::AverageRound(share, zero);
+    const auto seen = hn::Eq(hn::Max(range, hn::Max(share, enough)), range);
     hn::StoreU(hn::IfThenElseZero(seen, hn::AverageRound(least, greatest)), kBytes, thresholds + x);
   }
   const std::uint8_t *min_rest[3], *max_rest[3];
@@ -161,14 +162,16 @@ const DarkMaskKernels& SimdDarkMaskKernels() {
         HWY_DYNAMIC_DISPATCH(TileExtremes)(pixels, stride, width, tile_min, tile_max);
       },
       [](const std::uint8_t* const min_rows[3], const std::uint8_t* const max_rows[3], int width,
-         int contrast, std::uint8_t* column_min, std::uint8_t* column_max,
+         DarkContrast contrast, std::uint8_t* column_min, std::uint8_t* column_max,
          std::uint8_t* thresholds) {
         HWY_DYNAMIC_DISPATCH(Thresholds)
         (min_rows, max_rows, width, contrast, column_min, column_max, thresholds);
       },
       [](const std::uint8_t* pixels, const std::uint8_t* thresholds, int width,
-         std::uint8_t* bits) { HWY_DYNAMIC_DISPATCH(Compare)
-                               (pixels, thresholds, width, bits); },
+         std::uint8_t* bits) {
+        HWY_DYNAMIC_DISPATCH(Compare)
+        (pixels, thresholds, width, bits);
+      },
       [](const std::uint8_t* upper, const std::uint8_t* lower, int width, std::uint8_t* means) {
         HWY_DYNAMIC_DISPATCH(Halve)(upper, lower, width, means);
       }};

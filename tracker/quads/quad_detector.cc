@@ -12,9 +12,11 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr float kLeastContrast = 6.0F;  // Codes; 4 is what quantisation and noise leave in black.
+constexpr float kLeastContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
 constexpr float kLeastSide = 0.12F;
-constexpr float kLeastShareDark = 0.7F;
+/// Of the rim's share of the quiet zone's light plus half its spread. Prints reach it below 13 px,
+/// where rim and quiet zone blur into each other, or where noise is a third of their difference.
+constexpr float kGreatestDoubt = 0.8F;
 
 Vec2 Centre(const Quad& quad) {
   return (quad.corners_px[0] + quad.corners_px[1] + quad.corners_px[2] + quad.corners_px[3]) * 0.25;
@@ -24,6 +26,11 @@ double Area(const Quad& quad) {
   const Vec2 d = quad.corners_px[2] - quad.corners_px[0],
              e = quad.corners_px[3] - quad.corners_px[1];
   return 0.5 * (d.x * e.y - d.y * e.x);
+}
+
+bool Plausible(const RimEvidence& evidence, float greatest_doubt) {
+  return evidence.contrast >= kLeastContrast && evidence.least_side >= kLeastSide &&
+         evidence.ratio + 0.5F * evidence.spread <= greatest_doubt;
 }
 
 /// The same square found twice.
@@ -57,7 +64,7 @@ QuadDetector& QuadDetector::operator=(QuadDetector&&) noexcept = default;
 
 void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale,
                                   ImageView<const std::uint8_t> grey, std::vector<Quad>* quads) {
-  ComputeDarkMask(level, SimdDarkMaskKernels(), &buffers, &mask);
+  ComputeDarkMask(level, scale == 1 ? 1 : 2, SimdDarkMaskKernels(), &buffers, &mask);
   components.Find(mask);
   const std::vector<DarkComponent>& found = components.components();
   const double least_side = std::max(options.least_side_px / scale, 6.0);
@@ -78,17 +85,18 @@ void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale
     for (Vec2& corner : quad.corners_px) {
       corner = corner * scale + Vec2{0.5 * (scale - 1), 0.5 * (scale - 1)};
     }
-    if (!RefineQuad(grey, 3.0 * scale, &quad.corners_px)) continue;
-    const RimEvidence evidence = SampleRim(grey, quad.corners_px);
-    if (evidence.contrast < kLeastContrast || evidence.least_side < kLeastSide ||
-        evidence.share_dark < kLeastShareDark) {
+    const auto known = [&](const Quad& other) { return Same(quad, other); };
+    if (std::any_of(quads->begin(), quads->end(), known)) continue;
+    if (!RefineQuad(grey, 3.0 * scale, 12, &quad.corners_px) ||
+        !Plausible(SampleRim(grey, quad.corners_px), 1.2F * kGreatestDoubt)) {
       continue;
     }
+    // Few are left: now from nearby, at leisure.
+    if (!RefineQuad(grey, 6.0, 48, &quad.corners_px)) continue;
+    const RimEvidence evidence = SampleRim(grey, quad.corners_px);
+    if (!Plausible(evidence, kGreatestDoubt)) continue;
     quad.contrast = evidence.contrast;
-    if (std::none_of(quads->begin(), quads->end(),
-                     [&](const Quad& other) { return Same(quad, other); })) {
-      quads->push_back(quad);
-    }
+    if (std::none_of(quads->begin(), quads->end(), known)) quads->push_back(quad);
   }
 }
 

@@ -10,19 +10,21 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Bilinear samples; positions outside are moved to the border.
-template <class Table>
-float Sample(ImageView<const std::uint8_t> grey, float x, float y, const Table& table) {
+/// Code at a position, bilinear; positions outside are moved to the border.
+float Sample(ImageView<const std::uint8_t> grey, float x, float y) {
   x = std::clamp(x, 0.0F, static_cast<float>(grey.width()) - 1.001F);
   y = std::clamp(y, 0.0F, static_cast<float>(grey.height()) - 1.001F);
   const int column = static_cast<int>(x), row = static_cast<int>(y);
   const float fx = x - static_cast<float>(column), fy = y - static_cast<float>(row);
   const std::uint8_t* upper = grey.row(row) + column;
   const std::uint8_t* lower = upper + grey.stride();
-  const float above = table(upper[0]) + fx * (table(upper[1]) - table(upper[0]));
-  const float below = table(lower[0]) + fx * (table(lower[1]) - table(lower[0]));
+  const float above = static_cast<float>(upper[0]) + fx * static_cast<float>(upper[1] - upper[0]);
+  const float below = static_cast<float>(lower[0]) + fx * static_cast<float>(lower[1] - lower[0]);
   return above + fy * (below - above);
 }
+
+constexpr int kMostSteps = 12;     ///< Pixels to either side of a side, where edges are looked for.
+constexpr int kMostStretches = 8;  ///< Of a side, each with an edge of its own.
 
 struct Line {
   Vec2 point, direction;
@@ -63,45 +65,73 @@ bool ConvexInside(const std::array<Vec2, 4>& quad, int width, int height) {
   return true;
 }
 
+/// The line near from + t·along where light rises most to the left of `along`. Rows are walked
+/// where the side is upright, else columns: whole pixels, nothing to interpolate.
+std::optional<Line> SteepestLine(ImageView<const std::uint8_t> grey, Vec2 from, Vec2 along,
+                                 double reach_px, int most_samples) {
+  const std::array<float, 256>& light = LinearFromSrgb8();
+  const bool upright = std::fabs(along.y) > std::fabs(along.x);
+  // u runs along the side's greater coordinate, v across it.
+  const double from_u = upright ? from.y : from.x, from_v = upright ? from.x : from.y;
+  const double along_u = upright ? along.y : along.x, along_v = upright ? along.x : along.y;
+  const int size_u = upright ? grey.height() : grey.width();
+  const int size_v = upright ? grey.width() : grey.height();
+  const std::ptrdiff_t step_u = upright ? grey.stride() : 1, step_v = upright ? 1 : grey.stride();
+  const double slope = along_v / along_u;
+  // Outside is above a side that runs to the right, and right of one that runs down.
+  const bool outside_is_behind = upright ? along_u < 0.0 : along_u > 0.0;
+  const int steps =
+      std::clamp(static_cast<int>(std::lround(reach_px * std::hypot(1.0, slope))), 2, kMostSteps);
+
+  // Light is summed along stretches of the side before it is looked at across it, so that noise is
+  // small beside the edge: what is clipped below zero would draw the edge to the first guess.
+  const int samples = std::max(4, static_cast<int>(std::fabs(along_u)));
+  const int per_stretch = std::clamp((samples + 3) / 4, 1, most_samples / 4);
+  const int stretches = std::min(samples / per_stretch, kMostStretches);
+  LineFit fit;
+  for (int i = 0; i < stretches; ++i) {
+    std::array<float, 2 * kMostSteps + 1> profile{};
+    double mean_u = 0.0, mean_v = 0.0;
+    for (int j = 0; j < per_stretch; ++j) {
+      const double at = 0.08 + 0.84 * (i * per_stretch + j + 0.5) / (stretches * per_stretch);
+      const int u = std::clamp(static_cast<int>(std::lround(from_u + at * along_u)), 0, size_u - 1);
+      const int v = static_cast<int>(std::lround(from_v + (u - from_u) * slope));
+      const std::uint8_t* pixels = grey.data() + u * step_u;
+      for (int k = -steps; k <= steps; ++k) {
+        profile[k + steps] += light[pixels[std::clamp(v + k, 0, size_v - 1) * step_v]];
+      }
+      mean_u += u;
+      mean_v += v;
+    }
+    mean_u /= per_stretch;
+    mean_v /= per_stretch;
+    float moment = 0.0F, sum = 0.0F;
+    for (int k = 0; k < 2 * steps; ++k) {
+      const float change = profile[k + 1] - profile[k];
+      const float rise = std::max(outside_is_behind ? -change : change, 0.0F);
+      sum += rise;
+      moment += rise * static_cast<float>(k - steps);
+    }
+    if (sum <= 0.0F) continue;
+    const double edge = mean_v + 0.5 + moment / sum;
+    fit.Add(upright ? edge : mean_u, upright ? mean_u : edge, sum);
+  }
+  return fit.Fit();
+}
+
 }  // namespace
 
-bool RefineQuad(ImageView<const std::uint8_t> grey, double reach_px, std::array<Vec2, 4>* corners) {
-  const std::array<float, 256>& light = LinearFromSrgb8();
-  const auto linear = [&](std::uint8_t code) { return light[code]; };
+bool RefineQuad(ImageView<const std::uint8_t> grey, double reach_px, int samples,
+                std::array<Vec2, 4>* corners) {
   std::array<Vec2, 4>& quad = *corners;
   const double twice_area = Cross(quad[2] - quad[0], quad[3] - quad[1]);
   std::array<Line, 4> lines;
   for (int side = 0; side < 4; ++side) {
     const Vec2 from = quad[side], along = quad[(side + 1) % 4] - from;
-    const double length = Norm(along);
-    const Vec2 outward = Vec2{along.y, -along.x} * (1.0 / length);
     // The quiet zone and the rim are each a tenth of what lies across.
-    const double across = 0.5 * twice_area / length;
+    const double across = 0.5 * twice_area / Norm(along);
     const double reach = std::clamp(0.08 * across, 1.5, reach_px);
-    const int steps = static_cast<int>(std::lround(reach));
-    const int samples = std::clamp(static_cast<int>(length / 2.0), 6, 20);
-    LineFit fit;
-    for (int i = 0; i < samples; ++i) {
-      const double at = 0.08 + 0.84 * (i + 0.5) / samples;
-      const Vec2 middle = from + along * at;
-      float moment = 0.0F, sum = 0.0F;
-      const auto value = [&](double offset) {
-        return Sample(grey, static_cast<float>(middle.x + offset * outward.x),
-                      static_cast<float>(middle.y + offset * outward.y), linear);
-      };
-      float inner = value(-steps - 0.5);
-      for (int k = -steps; k <= steps; ++k) {
-        const float outer = value(k + 0.5);
-        const float rise = std::max(outer - inner, 0.0F);
-        sum += rise;
-        moment += rise * static_cast<float>(k);
-        inner = outer;
-      }
-      if (sum <= 0.0F) continue;
-      const double offset = moment / sum;
-      fit.Add(middle.x + offset * outward.x, middle.y + offset * outward.y, sum);
-    }
-    const auto line = fit.Fit();
+    const auto line = SteepestLine(grey, from, along, reach, samples);
     if (!line) return false;
     lines[side] = *line;
   }
@@ -121,19 +151,16 @@ bool RefineQuad(ImageView<const std::uint8_t> grey, double reach_px, std::array<
 RimEvidence SampleRim(ImageView<const std::uint8_t> grey, const std::array<Vec2, 4>& corners) {
   constexpr int kSamples = 12;
   constexpr double kMiddle = 0.1;  // Half of the rim's and the quiet zone's width, in half edges.
-  const auto code = [](std::uint8_t value) { return static_cast<float>(value); };
   const Mat3 picture_from_marker = HomographyToQuad(corners);
   const auto sample = [&](Vec2 at) {
     const Vec2 p = Apply(picture_from_marker, at);
-    return Sample(grey, static_cast<float>(p.x), static_cast<float>(p.y), code);
+    return Sample(grey, static_cast<float>(p.x), static_cast<float>(p.y));
   };
   RimEvidence evidence;
   evidence.least_side = 1.0F;
-  float sum = 0.0F;
-  int dark = 0;
+  float steps = 0.0F, ratios = 0.0F, squares = 0.0F;
   for (int side = 0; side < 4; ++side) {
-    std::array<float, kSamples> steps;
-    float outside = 0.0F, step_sum = 0.0F;
+    float side_whites = 0.0F, side_steps = 0.0F;
     for (int i = 0; i < kSamples; ++i) {
       const double t = -0.9 + 1.8 * (i + 0.5) / kSamples;
       const auto around = [&](double r) {
@@ -149,16 +176,20 @@ RimEvidence SampleRim(ImageView<const std::uint8_t> grey, const std::array<Vec2,
         }
       };
       const float white = sample(around(1.0 + kMiddle)), black = sample(around(1.0 - kMiddle));
-      steps[i] = white - black;
-      outside += white;
-      step_sum += steps[i];
+      side_whites += white;
+      side_steps += white - black;
+      const float ratio = black / std::max(white, 1.0F);
+      ratios += ratio;
+      squares += ratio * ratio;
     }
-    for (const float step : steps) dark += step > 0.5F * step_sum / kSamples ? 1 : 0;
-    evidence.least_side = std::min(evidence.least_side, step_sum / std::max(outside, 1.0F));
-    sum += step_sum;
+    steps += side_steps;
+    evidence.least_side = std::min(evidence.least_side, side_steps / std::max(side_whites, 1.0F));
   }
-  evidence.contrast = sum / (4.0F * kSamples);
-  evidence.share_dark = static_cast<float>(dark) / (4.0F * kSamples);
+  constexpr float kPairs = 4.0F * kSamples;
+  evidence.contrast = steps / kPairs;
+  evidence.ratio = ratios / kPairs;
+  const float variance = squares / kPairs - evidence.ratio * evidence.ratio;
+  evidence.spread = std::sqrt(std::max(variance, 0.0F)) / std::max(1.0F - evidence.ratio, 1e-3F);
   return evidence;
 }
 

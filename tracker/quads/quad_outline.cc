@@ -81,23 +81,25 @@ std::optional<std::array<Vec2, 4>> QuadOutline::Fit(const std::vector<DarkRun>& 
   const double hull_area = 0.5 * static_cast<double>(twice_area);
   if (component.area < kLeastFill * hull_area) return std::nullopt;
 
-  // The vertex that cuts off least goes, until four are left.
-  while (hull_.size() > 4) {
+  // The vertex that cuts off least goes, until four are left or too much is gone.
+  const auto cut_at = [&](std::size_t i) {
     const std::size_t n = hull_.size();
-    std::size_t least = 0;
-    int least_cut = INT_MAX;
-    for (std::size_t i = 0; i < n; ++i) {
-      const int cut = Twice(hull_[i == 0 ? n - 1 : i - 1], hull_[i], hull_[i + 1 == n ? 0 : i + 1]);
-      if (cut < least_cut) {
-        least_cut = cut;
-        least = i;
-      }
-    }
-    hull_.erase(hull_.begin() + static_cast<std::ptrdiff_t>(least));
+    return Twice(hull_[i == 0 ? n - 1 : i - 1], hull_[i], hull_[i + 1 == n ? 0 : i + 1]);
+  };
+  cuts_.resize(hull_.size());
+  for (std::size_t i = 0; i < hull_.size(); ++i) cuts_[i] = cut_at(i);
+  double may_go = (1.0 - kLeastShareOfHull) * static_cast<double>(twice_area);
+  while (hull_.size() > 4) {
+    const auto least = std::min_element(cuts_.begin(), cuts_.end());
+    may_go -= *least;
+    if (may_go < 0.0) return std::nullopt;
+    const std::ptrdiff_t i = least - cuts_.begin();
+    hull_.erase(hull_.begin() + i);
+    cuts_.erase(least);
+    const std::size_t n = hull_.size(), after = static_cast<std::size_t>(i) % n;
+    cuts_[after] = cut_at(after);
+    cuts_[(after + n - 1) % n] = cut_at((after + n - 1) % n);
   }
-  const double quad_area =
-      0.5 * (Twice(hull_[0], hull_[1], hull_[2]) + Twice(hull_[0], hull_[2], hull_[3]));
-  if (quad_area < kLeastShareOfHull * hull_area) return std::nullopt;
 
   std::array<Vec2, 4> quad;
   for (int i = 0; i < 4; ++i) {

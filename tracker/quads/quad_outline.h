@@ -27,6 +27,7 @@ class QuadOutline {
   };
   std::vector<int> left_, right_;  // Outermost dark pixels of the rows of the component.
   std::vector<Vertex> hull_;       // Clockwise in the picture.
+  std::vector<int> cuts_;          // What dropping each vertex of the hull would cut off.
 };
 
 }  // namespace pleinair::tracker
