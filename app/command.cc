@@ -17,6 +17,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  pleinair replay recordings/courtyard_midday -o out/demo\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
+    "  pleinair marker 17 -o marker.pdf\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair doctor\n"
     "'pleinair SUBCOMMAND --help' tells more. Exit codes: 0 done, 1 could not, 2 the input or\n"
@@ -62,6 +63,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     CommandResult result;
     AddReplayCommand(app, result);
     AddDetectCommand(app, result);
+    AddMarkerCommand(app, result);
+    AddBoardCommand(app, result);
     AddSunCommand(app, result);
     AddDoctorCommand(app, result);
     try {

@@ -22,6 +22,8 @@ struct CommandResult {
 // and throws nothing.
 void AddReplayCommand(CLI::App& app, CommandResult& result);
 void AddDetectCommand(CLI::App& app, CommandResult& result);
+void AddMarkerCommand(CLI::App& app, CommandResult& result);
+void AddBoardCommand(CLI::App& app, CommandResult& result);
 void AddSunCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);
 

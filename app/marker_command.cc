@@ -1,0 +1,238 @@
+#include "app/marker_command.h"
+
+#include <charconv>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/sheets/marker_sheet.h"
+#include "app/sheets/sheet.h"
+#include "app/sheets/sheet_file.h"
+#include "app/sheets/sheet_raster.h"
+#include "app/sheets/vector_page.h"
+#include "base/atomic_file.h"
+#include "tracker/golay/golay_code.h"
+#include "tracker/surf_golay/sg_layout.h"
+#include "tracker/surf_golay/sg_print.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+namespace sg = tracker::sg;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair marker 17 -o marker.pdf\n"
+    "      a sheet to print at 100 %, with the number, the size and a ruler\n"
+    "  pleinair marker 0-9 --size-mm 90 -o ten.pdf\n"
+    "      one file with ten pages\n"
+    "  pleinair marker 17 --size-mm 200 --page A3 -o marker.svg\n"
+    "  pleinair marker 0-49 --png --pixels 960 -o 'prints/{id}.png' --json\n"
+    "      the bare prints with their white margin, and where in each the black square lies\n"
+    "The size is the outer edge of the black square, not of the paper.\n";
+
+constexpr const char* kIdPattern = "{id}";
+// Fewer pixels than modules cannot show them; the upper end is 400 megapixels.
+constexpr int kFewestPixels = sg::kPrint;
+constexpr int kMostPixels = 20'000;
+
+struct Options {
+  std::vector<std::string> ids;
+  double size_mm = 140.0;
+  std::string page = "A4";
+  FormatFlags formats;
+  std::optional<int> pixels;
+  std::string output;
+  bool json = false;
+};
+
+std::optional<int> ParseNumber(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+tl::unexpected<Error> NotANumber(const std::string& word) {
+  return InputError("", "there is no marker \"" + word + "\"",
+                    "numbers go from 0 to " + std::to_string(tracker::kGolayNumbers - 1) +
+                        "; several as 3 5 8 or 0-9");
+}
+
+/// Which file each number goes to.
+Result<std::vector<fs::path>> NameFiles(const std::string& output, const std::vector<int>& numbers,
+                                        SheetFormat format) {
+  std::error_code error;
+  std::string pattern = output;
+  if (output.back() == '/' || fs::is_directory(output, error)) {
+    fs::create_directories(output, error);
+    if (error) return tl::make_unexpected(WriteError(output, error.value()));
+    pattern = (fs::path(output) / "sg-{id}.").string() + std::string(FormatName(format));
+  }
+  std::vector<fs::path> files;
+  const std::size_t at = pattern.find(kIdPattern);
+  for (const int number : numbers) {
+    std::string name = pattern;
+    if (at != std::string::npos) {
+      name.replace(at, std::string_view(kIdPattern).size(), std::to_string(number));
+    }
+    files.emplace_back(name);
+  }
+  return files;
+}
+
+nlohmann::json Describe(const fs::path& file, int number, double size_mm) {
+  return {{"file", file.string()},
+          {"family", "sg"},
+          {"version", sg::kVersion},
+          {"id", number},
+          {"size_mm", size_mm}};
+}
+
+void Print(const nlohmann::json& object) {
+  std::cout << object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+}
+
+Result<void> WriteBarePrint(const fs::path& file, int number, const Options& options) {
+  const int pixels = *options.pixels;
+  const double side_m = options.size_mm * 1e-3 * sg::kPrint / sg::kEdge;
+  Image<std::uint8_t> picture = RasterizePrint(tracker::SgPrint(number), pixels);
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string png, EncodeGrayPng(picture.view(), pixels / side_m));
+  PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(file, png));
+  if (options.json) {
+    nlohmann::json object = Describe(file, number, options.size_mm);
+    object["pixels"] = pixels;
+    object["edge_fraction"] = static_cast<double>(sg::kEdge) / sg::kPrint;
+    Print(object);
+  }
+  return {};
+}
+
+nlohmann::json DescribeSheet(const fs::path& file, int number, double size_mm, const Sheet& sheet) {
+  nlohmann::json object = Describe(file, number, size_mm);
+  object["page_mm"] = {sheet.page.width_mm, sheet.page.height_mm};
+  for (const Vec2 corner : FindCorners(sheet.prints.front())) {
+    object["corners_on_page_mm"].push_back({corner.x, corner.y});
+  }
+  return object;
+}
+
+Result<void> WriteSheets(const std::vector<int>& numbers, SheetFormat format, PageSize page,
+                         const Options& options) {
+  std::vector<Sheet> sheets;
+  for (const int number : numbers) {
+    PLEINAIR_ASSIGN_OR_RETURN(Sheet sheet, MarkerSheet(number, options.size_mm, page));
+    sheets.push_back(std::move(sheet));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files,
+                            NameFiles(options.output, numbers, format));
+  const bool one_file = numbers.size() > 1 && files[0] == files[1];
+  if (one_file) {
+    PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(files[0], WritePdf(sheets)));
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!one_file) {
+      PLEINAIR_ASSIGN_OR_RETURN(const std::string content, RenderSheet(sheets[i], format));
+      PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(files[i], content));
+    }
+    if (!options.json) continue;
+    nlohmann::json object = DescribeSheet(files[i], numbers[i], options.size_mm, sheets[i]);
+    object["page"] = one_file ? i + 1 : 1;
+    Print(object);
+  }
+  return {};
+}
+
+bool GivesOneName(const std::string& output) {
+  std::error_code ignored;
+  return output.find(kIdPattern) == std::string::npos && output.back() != '/' &&
+         !fs::is_directory(output, ignored);
+}
+
+Result<void> Run(const Options& options) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<int> numbers, ParseMarkerNumbers(options.ids));
+  if (options.output.empty()) {
+    return InputError("--output", "the name is empty", "name a file, for example marker.pdf");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const PageSize page, ParsePageSize(options.page));
+  std::error_code ignored;
+  const bool folder = options.output.back() == '/' || fs::is_directory(options.output, ignored);
+  PLEINAIR_ASSIGN_OR_RETURN(const SheetFormat format,
+                            ChooseFormat(options.formats, folder ? "" : options.output));
+  if (numbers.size() > 1 && GivesOneName(options.output) &&
+      (format != SheetFormat::kPdf || options.pixels)) {
+    return InputError(options.output, "is one file for several markers",
+                      "write {id} into the name, name a folder, or use .pdf for one file");
+  }
+  if (!options.pixels) return WriteSheets(numbers, format, page, options);
+  if (format != SheetFormat::kPng) {
+    return InputError("--pixels", "only PNG has pixels", "give --png or a name that ends in .png");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files,
+                            NameFiles(options.output, numbers, format));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    PLEINAIR_RETURN_IF_ERROR(WriteBarePrint(files[i], numbers[i], options));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<int>> ParseMarkerNumbers(const std::vector<std::string>& words) {
+  const auto exists = [](std::optional<int> number) {
+    return number && *number >= 0 && *number < tracker::kGolayNumbers;
+  };
+  std::vector<int> numbers;
+  for (const std::string& word : words) {
+    const std::size_t dash = word.find('-', 1);
+    const auto first = ParseNumber(std::string_view(word).substr(0, dash));
+    const auto last =
+        dash == std::string::npos ? first : ParseNumber(std::string_view(word).substr(dash + 1));
+    if (!exists(first) || !exists(last) || *last < *first) return NotANumber(word);
+    for (int number = *first; number <= *last; ++number) numbers.push_back(number);
+  }
+  return numbers;
+}
+
+void AddMarkerCommand(CLI::App& app, CommandResult& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("marker", "Make markers to print");
+  command->footer(kExamples);
+  command->add_option("ids", options->ids, "Numbers from 0 to 4095; 3 5 8 or 0-9")
+      ->type_name("ID")
+      ->required();
+  command->add_option("--size-mm", options->size_mm, "Outer edge of the black square")
+      ->type_name("MM")
+      ->check(CLI::Range(kSmallestMarker_mm, kLargestMarker_mm))
+      ->capture_default_str();
+  CLI::Option* page =
+      command
+          ->add_option("--page", options->page, "A5 to A0, letter, A4-landscape or 300x400 in mm")
+          ->type_name("PAGE")
+          ->capture_default_str();
+  AddFormatOptions(*command, options->formats);
+  command
+      ->add_option("--pixels", options->pixels,
+                   "The bare print with its white margin as a PNG of N x N pixels; multiples of 48 "
+                   "are sharpest")
+      ->type_name("N")
+      ->check(CLI::Range(kFewestPixels, kMostPixels))
+      ->excludes(page);
+  command
+      ->add_option("-o,--output", options->output,
+                   "File (.pdf, .svg, .png), name with {id}, or folder")
+      ->type_name("F")
+      ->required();
+  command->add_flag("--json", options->json, "One JSON object a marker on standard output");
+  command->callback([options, &result] { result.status = Run(*options); });
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/sheets/marker_sheet.h"
+
+namespace pleinair::app {
+
+/// The narrowest gap between markers of a board: one white margin, which both neighbours share.
+double SmallestGap_mm(double size_mm);
+
+/// A board as JSON (docs/markers.md): numbers and corners in metres, in the board's own frame
+/// (origin at its centre, x right, y up, z out of the print towards the viewer).
+std::string DescribeBoard(const Board& board);
+
+/// Whether a file is what DescribeBoard made.
+bool IsBoardDescription(const std::filesystem::path& file);
+
+}  // namespace pleinair::app
