@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/image.h"
+#include "base/vector.h"
+#include "tracker/alignment/lens_grid.h"
+#include "tracker/alignment/print_raster.h"
+#include "tracker/print_pattern.h"
+
+namespace pleinair::tracker {
+
+/// A square of the print, in which light is taken as even.
+struct PrintBlock {
+  double correlation = 0.0;  ///< Normalised, of what is predicted and what is seen: -1…1.
+  double gain = 0.0;         ///< Seen per share of white, in the picture's unit.
+  double offset = 0.0;       ///< What black gives.
+  double contrast = 0.0;     ///< Standard deviation of the predicted share of white.
+  double noise = 0.0;        ///< Standard deviation of what is left over, in the picture's unit.
+  double weight = 0.0;       ///< 0…1: how much the fit believes in it.
+  int pixels = 0;
+};
+
+/// Which pixels a fit looks at.
+enum class PrintPart {
+  kBorder,  ///< Not the content, which is not known yet.
+  kWhole,
+};
+
+/// The window of a picture that a fit compares with: its values and how sure each of them is.
+struct SeenWindow {
+  WindowRays rays;
+  std::vector<float> value;
+  std::vector<float> certainty;  ///< Inverse variance up to scale; 0: not to be used.
+};
+
+/// Takes a window out of a picture, in linear light; reduced pixels are means of squares of the
+/// picture's. Codes that are clipped are not to be used; the certainty is that of even noise in
+/// codes, which is how cameras' noise looks after the sRGB curve.
+void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
+                      const PixelWindow& window, SeenWindow* seen);
+
+/// Takes a window out of a reduced picture in its codes, all alike in certainty: enough to find a
+/// print, not to measure it.
+void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
+                    const PixelWindow& window, SeenWindow* seen);
+
+/// What a fit of a print to a picture varies.
+struct BlockFitState {
+  Mat3 modules_from_ideal;
+  double blur_px = 0.6;  ///< Standard deviation beyond the pixel's square, in the picture's pixels.
+};
+
+struct BlockFitOptions {
+  int steps = 4;
+  bool fit_blur = false;
+  bool fit_projection = true;  ///< False: only the affine part of the motion.
+  double robust_share = 0.35;  ///< Residual, in shares of white, at which a pixel loses half.
+  double done_px = 0.01;       ///< Stop when no corner moves farther, in the window's pixels.
+};
+
+/// Fits a print's homography to a picture by Gauss–Newton: the print's picture is predicted and
+/// moved until it correlates with what is seen, block by block, each block with a gain and an
+/// offset of its own, so that neither gradients nor edges of shadows across the print matter, and
+/// robustly, so that what covers the print does not. (Normalised correlation by blocks is the
+/// maximum-likelihood estimate when each block's light is unknown.)
+class BlockFit {
+ public:
+  /// Blocks along each side of the print for a side this long: at least about 14 px each.
+  static int BlocksAlong(double print_side_px);
+
+  /// False where the equations have no solution or the print leaves the window.
+  bool Run(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen, int blocks_along,
+           const BlockFitOptions& options, BlockFitState* state);
+
+  /// After Run, at the state it ended with: row by row from the top-left.
+  const std::vector<PrintBlock>& blocks() const { return blocks_; }
+  int blocks_along() const { return blocks_along_; }
+  const PrintMap& map() const { return map_; }
+  const PrintPicture& picture() const { return picture_; }
+  /// Gain and offset of the block of each pixel of the window; -1: not of the print.
+  const std::vector<std::int16_t>& block_of() const { return block_of_; }
+  /// How much the fit believes in a pixel of the window, 0…1.
+  float Belief(std::size_t pixel, const SeenWindow& seen) const {
+    return seen.certainty[pixel] > 0.0F ? weight_[pixel] / seen.certainty[pixel] : 0.0F;
+  }
+  /// Share-weighted correlation over all blocks that have contrast: 1 is perfect.
+  double Correlation() const;
+  /// Covariance of the eight motions (see .cc) from what is left over; row-major 8×8.
+  std::array<double, 64> MotionCovariance() const;
+
+  /// Predicts and compares without moving anything.
+  void Evaluate(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
+                int blocks_along, const BlockFitState& state);
+
+ private:
+  static constexpr int kMotions = 8;
+  static constexpr int kParameters = kMotions + 1;  // … and the variance of the blur.
+
+  struct Sums;
+  void AssignBlocks(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
+                    double blur_px);
+  void FitLevels(const SeenWindow& seen);
+  void WeighPixels(const SeenWindow& seen, double robust_share);
+  void AddUp(const SeenWindow& seen, const PrintPattern& pattern);
+
+  PrintRaster raster_;
+  PrintMap map_;
+  PrintPicture picture_;
+  int blocks_along_ = 0;
+  bool have_levels_ = false;
+  std::vector<PrintBlock> blocks_;
+  std::vector<std::int16_t> block_of_;
+  std::vector<float> weight_;
+  std::vector<double> sums_;
+  std::array<double, kParameters * kParameters> hessian_{};
+  std::array<double, kParameters> gradient_{};
+};
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,63 @@
+#include "tracker/alignment/lens_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pleinair::tracker {
+namespace {
+
+constexpr int kMostNodes = 60'000;
+/// Nodes outside the picture on each side: prints that a picture cuts are predicted beyond it.
+constexpr int kMarginNodes = 2;
+/// Rays flatter than this are none that a print could be seen along.
+constexpr double kFarthestTangent = 30.0;
+
+}  // namespace
+
+LensGrid::LensGrid(const CameraModel& camera) : camera_(camera), bends_(camera.HasDistortion()) {
+  if (!bends_) return;
+  while ((static_cast<double>(camera.width) / spacing_) * camera.height / spacing_ > kMostNodes) {
+    spacing_ *= 2;
+  }
+  columns_ = camera.width / spacing_ + 2 + 2 * kMarginNodes;
+  rows_ = camera.height / spacing_ + 2 + 2 * kMarginNodes;
+  nodes_.reserve(static_cast<std::size_t>(columns_) * rows_);
+  for (int j = 0; j < rows_; ++j) {
+    for (int i = 0; i < columns_; ++i) {
+      const Vec2 pixel{static_cast<double>((i - kMarginNodes) * spacing_),
+                       static_cast<double>((j - kMarginNodes) * spacing_)};
+      const Vec2 ray = UndistortPixel(camera, pixel);
+      // Beyond where a lens model folds back there is no ray; Newton's method ends anywhere.
+      Vec2 back;
+      DistortNormalized(camera, ray.x, ray.y, &back.x, &back.y);
+      const bool seen = Norm(ray) < kFarthestTangent &&
+                        std::fabs(back.x * camera.fx + camera.cx - pixel.x) < 1e-3 &&
+                        std::fabs(back.y * camera.fy + camera.cy - pixel.y) < 1e-3;
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+      nodes_.push_back(seen ? IdealOfRay(ray) : Vec2{kNone, kNone});
+    }
+  }
+}
+
+Vec2 LensGrid::Ideal(double x, double y) const {
+  if (!bends_) return {x, y};
+  const double gx = x / spacing_ + kMarginNodes, gy = y / spacing_ + kMarginNodes;
+  const int i = std::clamp(static_cast<int>(std::floor(gx)), 0, columns_ - 2);
+  const int j = std::clamp(static_cast<int>(std::floor(gy)), 0, rows_ - 2);
+  const double s = gx - i, t = gy - j;
+  const Vec2* node = &nodes_[static_cast<std::size_t>(j) * columns_ + i];
+  const Vec2 top = node[0] * (1.0 - s) + node[1] * s;
+  const Vec2 bottom = node[columns_] * (1.0 - s) + node[columns_ + 1] * s;
+  return top * (1.0 - t) + bottom * t;
+}
+
+Vec2 LensGrid::PixelOfIdeal(Vec2 ideal) const {
+  if (!bends_) return ideal;
+  const Vec2 ray = RayOfIdeal(ideal);
+  Vec2 bent;
+  DistortNormalized(camera_, ray.x, ray.y, &bent.x, &bent.y);
+  return {camera_.fx * bent.x + camera_.cx, camera_.fy * bent.y + camera_.cy};
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.h"
+#include "tracker/alignment/lens_grid.h"
+#include "tracker/print_pattern.h"
+
+namespace pleinair::tracker {
+
+/// A rectangle of the pixels of a picture reduced `2^level` times by averaging squares of pixels.
+/// A reduced pixel X has its centre at (X + ½) 2^level - ½ of the picture's own pixels.
+struct PixelWindow {
+  int level = 0;
+  int x0 = 0, y0 = 0, width = 0, height = 0;
+
+  bool empty() const { return width <= 0 || height <= 0; }
+  std::size_t size() const { return static_cast<std::size_t>(width) * height; }
+  double Scale() const { return static_cast<double>(1 << level); }
+  /// Pixel of the picture at the centre of a reduced pixel.
+  double Full(double reduced) const { return (reduced + 0.5) * Scale() - 0.5; }
+};
+
+/// Where on a print the pixels of a window look: modules from the print's top-left corner.
+struct PrintMap {
+  std::vector<float> column, row;         ///< At each pixel's centre.
+  std::vector<float> column_x, column_y;  ///< Derivatives by the (reduced) pixel's x and y.
+  std::vector<float> row_x, row_y;
+};
+
+/// Ideal pixels of a window's pixels, with a border of `kWindowBorder` more on each side.
+struct WindowRays {
+  PixelWindow window;
+  std::vector<float> x, y;
+};
+inline constexpr int kWindowBorder = 10;
+
+/// Fills `rays` for a window, without new memory once it was as large.
+void LookUpRays(const LensGrid& lens, const PixelWindow& window, WindowRays* rays);
+
+/// The picture that a print makes in a window: the share of white in each pixel's light, and how
+/// that changes by the pixel's place.
+struct PrintPicture {
+  std::vector<float> white, white_x, white_y;
+};
+
+/// Predicts pictures of prints. Buffers are kept, so that nothing is allocated after the largest
+/// window was seen.
+///
+/// Each pixel is sampled S×S times. A sample holds the print averaged over a box of the sample's
+/// footprint, exact for edges along the print's axes; the samples are then convolved with the
+/// pixel's square and the blur's Gaussian, both at once, separably along the picture's axes.
+class PrintRaster {
+ public:
+  /// `modules_from_ideal`: homography from ideal pixels to modules. `blur_px`: standard deviation
+  /// of the blur beyond the pixel's own square, in (reduced) pixels of the window.
+  void Render(const PrintPattern& pattern, const Mat3& modules_from_ideal, const WindowRays& rays,
+              double blur_px, PrintMap* map, PrintPicture* picture);
+
+ private:
+  void SampleRows(const PrintPattern& pattern, const Mat3& modules_from_ideal,
+                  const WindowRays& rays, int pad, int per_pixel);
+  void SetKernel(double blur_px, int per_pixel, int* pad);
+
+  std::vector<float> samples_, blurred_, blurred_x_;
+  std::vector<float> kernel_, kernel_slope_;
+  std::vector<std::uint8_t> corners_;  ///< Four modules around each node of the print, packed.
+};
+
+}  // namespace pleinair::tracker

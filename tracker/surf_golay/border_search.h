@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/image.h"
+#include "base/vector.h"
+#include "tracker/alignment/lens_grid.h"
+#include "tracker/surf/descriptor_matcher.h"
+#include "tracker/surf/surf.h"
+#include "tracker/surf_golay/border_templates.h"
+
+namespace pleinair::tracker {
+
+/// A place where a border may be, by its keypoints.
+struct BorderGuess {
+  Mat3 modules_from_ideal;
+  double votes = 0.0;  ///< How many matches agree, by their likeness.
+  int matches = 0;
+};
+
+struct BorderSearchOptions {
+  SurfOptions surf{.octaves = 3, .threshold = 0.0002F, .max_keypoints = 500};
+  int neighbours = 4;             ///< Candidates of each keypoint of the frame.
+  double rotation_bin_rad = 0.6;  ///< Width of the angle filter's bins, which overlap by half.
+  int most_guesses = 40;
+};
+
+/// Finds borders in a picture by SURF: matches of keypoints with templates seen from everywhere,
+/// the angle filter (Prochazka et al. 2012, §3.2), then agreement of the matches in where the
+/// print's centre would be and how large it would be seen, then a homography of those that agree.
+/// The cost does not depend on how many numbers are in use.
+class BorderSearch {
+ public:
+  BorderSearch(const LensGrid& lens, BorderTemplates templates,
+               const BorderSearchOptions& options = {});
+
+  /// Keypoints inside `taken` quadrilaterals (markers that are known) are left out.
+  void Find(ImageView<const std::uint8_t> grey, const std::vector<std::array<Vec2, 4>>& taken,
+            std::vector<BorderGuess>* guesses);
+
+  const std::vector<SurfKeypoint>& keypoints() const { return keypoints_; }
+
+ private:
+  /// A match and the affine picture of the print that it alone implies.
+  struct Vote {
+    int keypoint = 0, model = 0;
+    std::array<double, 6> from_modules{};
+    Vec2 centre;
+    double size_px = 0.0;  ///< Square root of the area of the print's square.
+    double rotation_rad = 0.0;
+    double weight = 0.0;
+  };
+  void CastVotes();
+  void Gather(std::vector<BorderGuess>* guesses);
+  bool Agrees(const Vote& hypothesis, const Vote& vote) const;
+  bool FitGuess(const std::vector<int>& members, const Vote& seed, BorderGuess* guess);
+
+  const LensGrid& lens_;
+  const BorderTemplates templates_;
+  const BorderSearchOptions options_;
+  Surf surf_;
+  DescriptorMatcher matcher_;
+  std::vector<SurfKeypoint> keypoints_;
+  std::vector<SurfDescriptor> descriptors_;
+  std::vector<QuantisedDescriptor> quantised_;
+  std::vector<DescriptorMatch> templates_of_frame_, frame_of_templates_;
+  std::vector<Vote> votes_;
+  std::vector<std::vector<int>> bins_;
+};
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,192 @@
+#include "tracker/surf_golay/border_templates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/srgb.h"
+#include "tracker/alignment/lens_grid.h"
+#include "tracker/alignment/print_raster.h"
+#include "tracker/golay/golay_code.h"
+#include "tracker/surf/surf.h"
+#include "tracker/surf_golay/sg_layout.h"
+#include "tracker/surf_golay/sg_print.h"
+
+namespace pleinair::tracker {
+namespace {
+
+/// Tilts (1 / cos of the angle) and how many directions of each.
+struct Tilt {
+  double tilt;
+  int directions;
+};
+constexpr std::array<Tilt, 6> kTilts{
+    {{1.0, 1}, {1.42, 4}, {2.0, 5}, {2.85, 7}, {4.0, 9}, {5.6, 10}}};
+/// Edge of the untilted square in px: near and far.
+constexpr std::array<double, 2> kEdges_px{150.0, 60.0};
+constexpr int kDraws = 4;            ///< Contents and surroundings that are tried,
+constexpr int kComesBack = 3;        ///< … of which a keypoint must be found in so many.
+constexpr double kMargin_px = 24.0;  ///< Of surroundings around the print.
+constexpr double kBlur_px = 0.7;
+constexpr double kInk = 0.04, kPaper = 0.8;
+constexpr int kMostKeypoints = 200;
+
+/// A small generator of its own: the templates must not depend on the standard library.
+class Draws {
+ public:
+  std::uint32_t Next() {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<std::uint32_t>(state_ >> 33);
+  }
+  double Uniform() { return Next() / 2147483648.0; }
+
+ private:
+  std::uint64_t state_ = 20121;
+};
+
+struct Seen {
+  SurfKeypoint keypoint;
+  SurfDescriptor descriptor;
+};
+
+struct Cluster {
+  std::vector<Seen> seen;
+};
+
+bool SameKeypoint(const SurfKeypoint& a, const SurfKeypoint& b) {
+  if (a.bright != b.bright) return false;
+  const float ratio = a.scale / b.scale;
+  if (ratio > 1.3F || ratio < 1.0F / 1.3F) return false;
+  if (std::hypot(a.x - b.x, a.y - b.y) > 0.7F * a.scale) return false;
+  return std::fabs(std::remainder(a.angle_rad - b.angle_rad, 2.0F * std::numbers::pi_v<float>)) <
+         0.35F;
+}
+
+class TemplateMaker {
+ public:
+  explicit TemplateMaker(float window_scales)
+      : surf_({.threshold = 0.0002F,
+               .max_keypoints = kMostKeypoints,
+               .bucket_px = 0,
+               .descriptor_window_scales = window_scales}) {}
+
+  BorderTemplates Make() {
+    for (const double edge : kEdges_px) {
+      for (const Tilt& tilt : kTilts) {
+        // Far and very flat, a border has no keypoints left.
+        if (edge < 100.0 && tilt.tilt > 3.0) continue;
+        for (int k = 0; k < tilt.directions; ++k) {
+          AddView(edge, tilt.tilt, std::numbers::pi * k / tilt.directions);
+        }
+      }
+    }
+    return std::move(templates_);
+  }
+
+ private:
+  void AddView(double edge_px, double tilt, double direction) {
+    // Compress across `direction`, about the print's centre.
+    const double c = std::cos(direction), s = std::sin(direction), k = 1.0 / tilt;
+    const double per_module = edge_px / sg::kEdge;
+    const double a = per_module * (c * c + k * s * s), b = per_module * (1.0 - k) * c * s;
+    const double e = per_module * (s * s + k * c * c);
+    const double half = 0.5 * sg::kPrint;
+    const double reach_x = half * (std::fabs(a) + std::fabs(b)) + kMargin_px;
+    const double reach_y = half * (std::fabs(b) + std::fabs(e)) + kMargin_px;
+    const int width = static_cast<int>(2.0 * reach_x), height = static_cast<int>(2.0 * reach_y);
+    const double x0 = 0.5 * (width - 1), y0 = 0.5 * (height - 1);
+    BorderTemplates::View view{{a, b, x0 - (a + b) * half, b, e, y0 - (b + e) * half}};
+    const double determinant = a * e - b * b;
+    const Mat3 modules_from_view{
+        {e / determinant, -b / determinant,
+         (b * view.from_modules[5] - e * view.from_modules[2]) / determinant, -b / determinant,
+         a / determinant, (b * view.from_modules[2] - a * view.from_modules[5]) / determinant, 0, 0,
+         1}};
+    CameraModel camera;
+    camera.width = width;
+    camera.height = height;
+    camera.fx = camera.fy = 1.0;
+    LookUpRays(LensGrid(camera), {0, 0, 0, width, height}, &rays_);
+
+    std::vector<Cluster> clusters;
+    GreyImage grey(width, height);
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const PrintPattern print = SgPrint(static_cast<int>(draws_.Next() % kGolayNumbers));
+      raster_.Render(print, modules_from_view, rays_, kBlur_px, &map_, &picture_);
+      const double around = kInk + (kPaper - kInk) * draws_.Uniform() * draws_.Uniform();
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          const std::size_t n = static_cast<std::size_t>(y) * width + x;
+          const bool inside = map_.column[n] > 0.0F && map_.column[n] < sg::kPrint &&
+                              map_.row[n] > 0.0F && map_.row[n] < sg::kPrint;
+          const double light = inside ? kInk + (kPaper - kInk) * picture_.white[n] : around;
+          grey(x, y) = Srgb8FromLinear(light);
+        }
+      }
+      surf_.Detect(grey.view(), &keypoints_);
+      surf_.Describe(&keypoints_, &descriptors_);
+      for (std::size_t i = 0; i < keypoints_.size(); ++i) {
+        const auto same = std::find_if(clusters.begin(), clusters.end(), [&](const Cluster& c0) {
+          return SameKeypoint(c0.seen.front().keypoint, keypoints_[i]);
+        });
+        if (same != clusters.end()) {
+          same->seen.push_back({keypoints_[i], descriptors_[i]});
+        } else if (draw + kComesBack <= kDraws) {
+          clusters.push_back({{{keypoints_[i], descriptors_[i]}}});
+        }
+      }
+    }
+    const int view_index = static_cast<int>(templates_.views.size());
+    templates_.views.push_back(view);
+    for (const Cluster& cluster : clusters) {
+      if (static_cast<int>(cluster.seen.size()) < kComesBack) continue;
+      AddKeypoint(cluster, modules_from_view, view_index);
+    }
+  }
+
+  void AddKeypoint(const Cluster& cluster, const Mat3& modules_from_view, int view_index) {
+    const double n = static_cast<double>(cluster.seen.size());
+    BorderTemplate keypoint;
+    keypoint.view_index = view_index;
+    SurfDescriptor mean{};
+    double cosine = 0.0, sine = 0.0;
+    for (const Seen& seen : cluster.seen) {
+      keypoint.view = keypoint.view + Vec2{seen.keypoint.x / n, seen.keypoint.y / n};
+      keypoint.scale += seen.keypoint.scale / n;
+      cosine += std::cos(seen.keypoint.angle_rad);
+      sine += std::sin(seen.keypoint.angle_rad);
+      for (std::size_t k = 0; k < mean.size(); ++k) {
+        mean[k] += seen.descriptor[k] / static_cast<float>(n);
+      }
+    }
+    keypoint.angle_rad = std::atan2(sine, cosine);
+    const Vec3 modules = modules_from_view * Vec3{keypoint.view.x, keypoint.view.y, 1.0};
+    keypoint.modules = {modules.x, modules.y};
+    // What lies off the print, or is drowned in the content, tells nothing.
+    if (keypoint.modules.x < 0 || keypoint.modules.x > sg::kPrint || keypoint.modules.y < 0 ||
+        keypoint.modules.y > sg::kPrint) {
+      return;
+    }
+    templates_.keypoints.push_back(keypoint);
+    templates_.descriptors.push_back(Quantise(mean, cluster.seen.front().keypoint.bright));
+  }
+
+  Surf surf_;
+  Draws draws_;
+  PrintRaster raster_;
+  WindowRays rays_;
+  PrintMap map_;
+  PrintPicture picture_;
+  std::vector<SurfKeypoint> keypoints_;
+  std::vector<SurfDescriptor> descriptors_;
+  BorderTemplates templates_;
+};
+
+}  // namespace
+
+BorderTemplates MakeBorderTemplates(float descriptor_window_scales) {
+  return TemplateMaker(descriptor_window_scales).Make();
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,183 @@
+#include "tracker/surf_golay/cell_light.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pleinair::tracker {
+namespace {
+
+constexpr float kWhiteShare = 0.85F, kBlackShare = 0.12F;
+constexpr float kDarkest = 2e-4F;  ///< Linear light: below an 8-bit code's first step.
+constexpr std::size_t kFewestSamples = 12, kMostSamples = 600;
+constexpr float kDoubtfulWeight = 0.25F;
+/// Scatter of log white that noise and texture alone may leave, above which an edge is looked for,
+/// and the share of it that an edge must explain.
+constexpr double kEdgeSpread = 0.12, kEdgeGain = 0.6;
+constexpr int kEdgeDirections = 24, kEdgeOffsets = 33;
+constexpr double kEdgeReach = 1.05;
+
+double MedianOf(std::vector<float>* values) {
+  const std::size_t middle = values->size() / 2;
+  std::nth_element(values->begin(), values->begin() + middle, values->end());
+  return (*values)[middle];
+}
+
+}  // namespace
+
+double PrintLight::White(double u, double v) const {
+  double log = log_white + slope_u * u + slope_v * v;
+  if (has_edge && edge_u * u + edge_v * v > edge_at) log += edge_log_step;
+  return std::exp(log);
+}
+
+double PrintLightMeter::Spread(const PrintLight& light) {
+  residuals_.clear();
+  for (const Sample& s : white_) {
+    residuals_.push_back(
+        static_cast<float>(std::fabs(s.log_value - std::log(light.White(s.u, s.v)))));
+  }
+  return 1.4826 * MedianOf(&residuals_);
+}
+
+void PrintLightMeter::FitPlane(PrintLight* light) {
+  residuals_.clear();
+  for (const Sample& s : white_) residuals_.push_back(s.log_value);
+  light->log_white = MedianOf(&residuals_);
+  double scale = 1.0;
+  for (int round = 0; round < 6; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const Sample& s : white_) {
+      const double side =
+          light->has_edge && light->edge_u * s.u + light->edge_v * s.v > light->edge_at
+              ? light->edge_log_step
+              : 0.0;
+      const double value = s.log_value - side;
+      const double left = value - light->log_white - light->slope_u * s.u - light->slope_v * s.v;
+      const double w = s.weight / (1.0 + left * left / (scale * scale));
+      const Eigen::Vector3d row(1.0, s.u, s.v);
+      normal += w * row * row.transpose();
+      right += w * value * row;
+    }
+    // A weak wish for even light keeps prints flat of which one side alone is seen.
+    const double wish = 0.02 * normal(0, 0);
+    normal(1, 1) += wish;
+    normal(2, 2) += wish;
+    const Eigen::Vector3d plane = normal.ldlt().solve(right);
+    if (!plane.allFinite()) return;
+    light->log_white = plane[0];
+    light->slope_u = plane[1];
+    light->slope_v = plane[2];
+    scale = std::max(0.05, 2.0 * Spread(*light));
+  }
+}
+
+bool PrintLightMeter::FitEdge(PrintLight* light) {
+  // Two levels on either side of a line: the split that leaves the least sum of squares. Prefix
+  // sums over offsets make a direction cost one pass.
+  struct Bin {
+    double w = 0, s = 0, ss = 0;
+  };
+  double best = 0.0, total_w = 0.0, total_s = 0.0, total_ss = 0.0;
+  for (const Sample& s : white_) {
+    total_w += s.weight;
+    total_s += s.weight * s.log_value;
+    total_ss += s.weight * s.log_value * s.log_value;
+  }
+  const double without = total_ss - total_s * total_s / total_w;
+  best = without;
+  for (int direction = 0; direction < kEdgeDirections; ++direction) {
+    const double angle = std::numbers::pi * direction / kEdgeDirections;
+    const double cu = std::cos(angle), cv = std::sin(angle);
+    std::array<Bin, kEdgeOffsets + 1> bins{};
+    for (const Sample& s : white_) {
+      const double at = (cu * s.u + cv * s.v) / (2.0 * kEdgeReach) + 0.5;
+      const int bin =
+          std::clamp(static_cast<int>(std::ceil(at * (kEdgeOffsets - 1))), 0, kEdgeOffsets);
+      bins[bin].w += s.weight;
+      bins[bin].s += s.weight * s.log_value;
+      bins[bin].ss += s.weight * s.log_value * s.log_value;
+    }
+    double w = 0, sum = 0;
+    for (int offset = 0; offset < kEdgeOffsets; ++offset) {
+      w += bins[offset].w;
+      sum += bins[offset].s;
+      const double other_w = total_w - w, other_sum = total_s - sum;
+      if (w < 0.04 * total_w || other_w < 0.04 * total_w) continue;
+      const double left = total_ss - sum * sum / w - other_sum * other_sum / other_w;
+      if (left < best) {
+        best = left;
+        light->edge_u = cu;
+        light->edge_v = cv;
+        light->edge_at =
+            (static_cast<double>(offset) / (kEdgeOffsets - 1) - 0.5) * 2.0 * kEdgeReach;
+        light->edge_log_step = other_sum / other_w - sum / w;
+      }
+    }
+  }
+  return best < kEdgeGain * without;
+}
+
+bool PrintLightMeter::FromBlocks(const BlockFit& fit, PrintLight* light) {
+  double weight = 0.0, white = 0.0, black = 0.0;
+  for (const PrintBlock& block : fit.blocks()) {
+    const double w = block.weight * block.pixels * block.contrast;
+    weight += w;
+    white += w * (block.gain + block.offset);
+    black += w * block.offset;
+  }
+  if (!(weight > 0.0) || !(white > 0.0)) return false;
+  light->log_white = std::log(white / weight);
+  light->black_share = std::clamp(black / white, 0.0, 0.9);
+  return true;
+}
+
+bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
+                              const SeenWindow& seen, PrintLight* light) {
+  white_.clear();
+  black_.clear();
+  const float middle = 0.5F * static_cast<float>(pattern.modules);
+  const float per_half = 2.0F / static_cast<float>(pattern.edge_modules);
+  std::size_t usable = 0;
+  for (std::size_t n = 0; n < seen.value.size(); ++n) usable += fit.block_of()[n] >= 0;
+  const std::size_t stride = std::max<std::size_t>(1, usable / (3 * kMostSamples));
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < seen.value.size(); ++n) {
+    if (fit.block_of()[n] < 0 || ++count % stride != 0) continue;
+    const float share = fit.picture().white[n];
+    const bool clipped = !(seen.certainty[n] > 0.0F);
+    const float belief =
+        clipped ? static_cast<float>(fit.blocks()[fit.block_of()[n]].weight) : fit.Belief(n, seen);
+    if (belief < kDoubtfulWeight) continue;
+    const float value = std::max(seen.value[n], kDarkest);
+    const Sample sample{(fit.map().column[n] - middle) * per_half,
+                        (fit.map().row[n] - middle) * per_half, std::log(value), belief};
+    if (share > kWhiteShare) white_.push_back(sample);
+    if (share < kBlackShare) black_.push_back(sample);
+  }
+  *light = PrintLight{};
+  if (white_.size() < kFewestSamples || black_.size() < kFewestSamples / 2) {
+    return FromBlocks(fit, light);
+  }
+  FitPlane(light);
+  light->spread = Spread(*light);
+  if (light->spread > kEdgeSpread) {
+    PrintLight with_edge;
+    if (FitEdge(&with_edge)) {
+      with_edge.has_edge = true;
+      FitPlane(&with_edge);
+      with_edge.spread = Spread(with_edge);
+      if (with_edge.spread < kEdgeGain * light->spread) *light = with_edge;
+    }
+  }
+  residuals_.clear();
+  for (const Sample& s : black_) {
+    residuals_.push_back(static_cast<float>(std::exp(s.log_value) / light->White(s.u, s.v)));
+  }
+  light->black_share = std::clamp(MedianOf(&residuals_), 0.0, 0.9);
+  return true;
+}
+
+}  // namespace pleinair::tracker

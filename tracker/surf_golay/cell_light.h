@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "tracker/alignment/block_fit.h"
+#include "tracker/print_pattern.h"
+
+namespace pleinair::tracker {
+
+/// How bright white and black are across a print, learned where the print is known. White's
+/// logarithm is a plane, or two planes of one slope on either side of a straight edge of shadow;
+/// black is a constant share of white.
+struct PrintLight {
+  // In units of the print: half edges from the centre, u right, v down.
+  double log_white = 0.0, slope_u = 0.0, slope_v = 0.0;
+  bool has_edge = false;
+  double edge_u = 1.0, edge_v = 0.0, edge_at = 0.0;  ///< Beyond edge_u u + edge_v v = edge_at …
+  double edge_log_step = 0.0;                        ///< … white's logarithm is this much higher.
+  double black_share = 0.05;
+  double spread = 0.0;  ///< Robust standard deviation of what is left over, in log white.
+
+  double White(double u, double v) const;
+};
+
+/// Learns the light of a print from the pixels that a fit of its border believes in. `seen` is what
+/// was fitted, but clipped pixels count as white at its brightest.
+class PrintLightMeter {
+ public:
+  /// False where too little of the border is seen.
+  bool Measure(const PrintPattern& pattern, const BlockFit& fit, const SeenWindow& seen,
+               PrintLight* light);
+
+ private:
+  struct Sample {
+    float u, v, log_value, weight;
+  };
+  /// Of prints too small for a pixel to be all white or all black: even light, from the blocks.
+  static bool FromBlocks(const BlockFit& fit, PrintLight* light);
+  void FitPlane(PrintLight* light);
+  bool FitEdge(PrintLight* light);
+  double Spread(const PrintLight& light);
+
+  std::vector<Sample> white_, black_;
+  std::vector<float> residuals_;
+};
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tracker/alignment/block_fit.h"
+#include "tracker/golay/soft_golay_decoder.h"
+#include "tracker/print_pattern.h"
+#include "tracker/surf_golay/cell_light.h"
+#include "tracker/surf_golay/sg_layout.h"
+
+namespace pleinair::tracker {
+
+/// What the code cells of a print look like.
+struct CellReading {
+  std::array<float, sg::kCodeCells> white{};      ///< Share of white: 0 black, 1 white.
+  std::array<float, sg::kCodeCells> deviation{};  ///< … and its standard deviation.
+  std::array<float, sg::kCodeCells> misfit{};     ///< Left-over inside each cell, in shares.
+  CellLikelihoods likelihoods{};
+};
+
+/// Reads the cells of a print whose border has been fitted. The picture is linear in the cells'
+/// shares of white, each blurred as the picture is, so that all 24 are solved for together: cells
+/// that are barely larger than a pixel, or than the blur, are read without taking their
+/// neighbours' light for their own. Cells that are covered, or drowned in glare, come out as
+/// neither black nor white, or uneven, or unseen: their likelihoods are near 0.
+class CellReader {
+ public:
+  /// `blank` is the print with all code cells black; `fit` has evaluated it on `seen` (in linear
+  /// light) at `state`.
+  void Read(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
+            const BlockFitState& state, const PrintLight& light, CellReading* reading);
+
+ private:
+  struct Pixel {
+    std::array<std::int8_t, 9> cell;
+    std::array<float, 9> share;
+    int cells = 0;
+    float value = 0.0F, weight = 0.0F;
+  };
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,201 @@
+#include "tracker/surf_golay/sg_reader.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "tracker/homography.h"
+#include "tracker/surf_golay/sg_layout.h"
+#include "tracker/surf_golay/sg_print.h"
+
+namespace pleinair::tracker {
+namespace {
+
+constexpr double kCoarseSide_px = 52.0;  ///< Longest side of a print that is fitted coarsely,
+constexpr double kFineSide_px = 190.0;   ///< … and finely.
+constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
+constexpr double kLeastSide_px = 6.0;
+constexpr double kVisibleCorrelation = 0.7;
+/// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
+constexpr double kSystematicCorner_px = 0.005;
+
+constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+
+Vec2 ModulesOfUnit(Vec2 unit) { return {kMiddle + kHalf * unit.x, kMiddle - kHalf * unit.y}; }
+
+}  // namespace
+
+void SgReader::SetPicture(ImageView<const std::uint8_t> grey) {
+  grey_ = grey;
+  reduced_.SetPicture(grey);
+  if (blank_.modules == 0) blank_ = SgPrintOfWord(0);
+}
+
+const PrintPattern& SgReader::Print(int number) {
+  if (number != print_number_) {
+    print_ = SgPrint(number);
+    print_number_ = number;
+  }
+  return print_;
+}
+
+double SgReader::SidePx(const Mat3& modules_from_ideal) const {
+  const Mat3 inverse = Adjugate(modules_from_ideal);
+  double longest = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const Vec2 a = Apply(inverse, ModulesOfUnit(kSquareCorners[i]));
+    const Vec2 b = Apply(inverse, ModulesOfUnit(kSquareCorners[(i + 1) % 4]));
+    const double side = Norm(a - b);
+    if (!std::isfinite(side)) return 0.0;
+    longest = std::max(longest, side);
+  }
+  return longest;
+}
+
+bool SgReader::Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const {
+  const Mat3 inverse = Adjugate(modules_from_ideal);
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+  double sign = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 corner{i & 1 ? static_cast<double>(sg::kPrint) : 0.0,
+                      i & 2 ? static_cast<double>(sg::kPrint) : 0.0, 1.0};
+    const Vec3 ideal = inverse * corner;
+    if (i > 0 && ideal.z * sign <= 0.0) return false;  // The horizon crosses the print.
+    sign = ideal.z;
+    const Vec2 pixel = lens_.PixelOfIdeal({ideal.x / ideal.z, ideal.y / ideal.z});
+    if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return false;
+    left = std::min(left, pixel.x);
+    right = std::max(right, pixel.x);
+    top = std::min(top, pixel.y);
+    bottom = std::max(bottom, pixel.y);
+  }
+  const double scale = 1 << level;
+  const int width = grey_.width() >> level, height = grey_.height() >> level;
+  const auto reduced = [&](double full) { return (full + 0.5) / scale - 0.5; };
+  const int x0 = static_cast<int>(std::clamp(std::floor(reduced(left)), 0.0, width * 1.0));
+  const int x1 = static_cast<int>(std::clamp(std::ceil(reduced(right)) + 1, 0.0, width * 1.0));
+  const int y0 = static_cast<int>(std::clamp(std::floor(reduced(top)), 0.0, height * 1.0));
+  const int y1 = static_cast<int>(std::clamp(std::ceil(reduced(bottom)) + 1, 0.0, height * 1.0));
+  *window = {level, x0, y0, x1 - x0, y1 - y0};
+  return window->width > 3 && window->height > 3 && window->size() < 400'000;
+}
+
+double SgReader::FitBorder(int steps, bool coarse, BlockFitState* state) {
+  const double side = SidePx(state->modules_from_ideal);
+  if (side < kLeastSide_px) return -1.0;
+  const double most = coarse ? kCoarseSide_px : kFineSide_px;
+  int level = 0;
+  while (side / (1 << level) > most && level + 1 < ReducedPictures::kLevels) ++level;
+  PixelWindow window;
+  if (!Window(state->modules_from_ideal, level, &window)) return -1.0;
+  const double scale = window.Scale();
+  if (coarse) {
+    TakeCodeWindow(lens_, reduced_.Level(level), window, &seen_);
+    state->blur_px = std::clamp(kCoarseBlurShare * side / scale, 0.7, kCoarseBlur_px) * scale;
+  } else {
+    TakeLinearWindow(lens_, grey_, window, &seen_);
+  }
+  const int blocks = BlockFit::BlocksAlong(1.2 * side / scale);
+  BlockFitOptions options;
+  options.steps = steps;
+  options.fit_blur = !coarse;
+  options.done_px = coarse ? 0.05 : 0.02;
+  if (!fit_.Run(blank_, PrintPart::kBorder, seen_, blocks, options, state)) return -1.0;
+  return fit_.Correlation();
+}
+
+std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
+  BlockFitState state = guess;
+  state.blur_px = kFirstBlur_px;
+  const double correlation = FitBorder(4, false, &state);
+  if (correlation < 0.2) return std::nullopt;
+  double visible = 0.0, border = 0.0;
+  for (const PrintBlock& block : fit_.blocks()) {
+    if (block.contrast < 0.04) continue;
+    border += block.pixels;
+    if (block.correlation > kVisibleCorrelation) visible += block.pixels;
+  }
+  PrintLight light;
+  if (!light_meter_.Measure(blank_, fit_, seen_, &light)) return std::nullopt;
+  CellReading cells;
+  cell_reader_.Read(blank_, fit_, seen_, state, light, &cells);
+  const SoftGolayDecoding decoding = decoder_.Decode(cells.likelihoods);
+  const BlockFitState border_state = state;
+  std::optional<SgReading> reading = Measure(decoding.number, border_state);
+  if (!reading) return std::nullopt;
+  reading->border_correlation = correlation;
+  reading->visible_border = border > 0.0 ? visible / border : 0.0;
+  reading->margin = decoding.margin;
+  if (!Verified(*reading)) return std::nullopt;
+  return reading;
+}
+
+bool SgReader::Verified(const SgReading& reading) const {
+  return reading.margin > 5.0F && reading.whole_correlation > 0.4;
+}
+
+std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess) {
+  const double side = SidePx(guess.modules_from_ideal);
+  if (side < kLeastSide_px) return std::nullopt;
+  int level = 0;
+  while (side / (1 << level) > kFineSide_px && level + 1 < ReducedPictures::kLevels) ++level;
+  PixelWindow window;
+  if (!Window(guess.modules_from_ideal, level, &window)) return std::nullopt;
+  TakeLinearWindow(lens_, grey_, window, &seen_);
+  BlockFitState state = guess;
+  BlockFitOptions options;
+  options.steps = 5;
+  options.fit_blur = true;
+  const int blocks = BlockFit::BlocksAlong(1.2 * side / window.Scale());
+  if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state)) {
+    return std::nullopt;
+  }
+  SgReading reading;
+  reading.number = number;
+  Finish(fit_, state, &reading);
+  return reading;
+}
+
+void SgReader::Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading) {
+  reading->modules_from_ideal = state.modules_from_ideal;
+  reading->blur_px = state.blur_px;
+  reading->whole_correlation = fit.Correlation();
+  reading->blocks_along = fit.blocks_along();
+  reading->visible.clear();
+  double seen = 0.0, all = 0.0;
+  for (const PrintBlock& block : fit.blocks()) {
+    const double visible = std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0);
+    reading->visible.push_back(static_cast<float>(visible));
+    seen += visible;
+    all += 1.0;
+  }
+  reading->visible_fraction = seen / all;
+  // The corners and how they follow the eight motions.
+  const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
+  const auto pixel_of = [&](Vec2 unit_down) {
+    return lens_.PixelOfIdeal(
+        Apply(ideal_from_modules, {kMiddle + kHalf * unit_down.x, kMiddle + kHalf * unit_down.y}));
+  };
+  Eigen::Matrix<double, 8, 8> corners_by_motion;
+  for (int i = 0; i < 4; ++i) {
+    const double u = kSquareCorners[i].x, v = -kSquareCorners[i].y;
+    reading->corners_px[i] = pixel_of({u, v});
+    constexpr double kStep = 1e-4;
+    const Vec2 by_u = (pixel_of({u + kStep, v}) - pixel_of({u - kStep, v})) * (0.5 / kStep);
+    const Vec2 by_v = (pixel_of({u, v + kStep}) - pixel_of({u, v - kStep})) * (0.5 / kStep);
+    const std::array<double, 8> flow_u{1, u, v, 0, 0, 0, -u * u, -u * v};
+    const std::array<double, 8> flow_v{0, 0, 0, 1, u, v, -u * v, -v * v};
+    for (int k = 0; k < 8; ++k) {
+      corners_by_motion(2 * i, k) = by_u.x * flow_u[k] + by_v.x * flow_v[k];
+      corners_by_motion(2 * i + 1, k) = by_u.y * flow_u[k] + by_v.y * flow_v[k];
+    }
+  }
+  const std::array<double, 64> motion = fit.MotionCovariance();
+  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(reading->corner_covariance_px2.data()) =
+      corners_by_motion *
+          Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(motion.data()) *
+          corners_by_motion.transpose() +
+      kSystematicCorner_px * kSystematicCorner_px * Eigen::Matrix<double, 8, 8>::Identity();
+}
+
+}  // namespace pleinair::tracker

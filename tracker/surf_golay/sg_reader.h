@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/error.h"
+#include "base/image.h"
+#include "base/vector.h"
+#include "tracker/alignment/block_fit.h"
+#include "tracker/alignment/lens_grid.h"
+#include "tracker/alignment/reduced_pictures.h"
+#include "tracker/golay/soft_golay_decoder.h"
+#include "tracker/surf_golay/cell_light.h"
+#include "tracker/surf_golay/cell_reader.h"
+
+namespace pleinair::tracker {
+
+/// An S-G marker that has been read, measured and verified.
+struct SgReading {
+  int number = 0;
+  Mat3 modules_from_ideal;         ///< Homography from ideal pixels to modules of the print.
+  double blur_px = 0.0;            ///< Standard deviation beyond the pixel's square.
+  std::array<Vec2, 4> corners_px;  ///< Top-left, then clockwise as the print is read.
+  std::array<double, 64> corner_covariance_px2{};
+  double visible_fraction = 0.0;  ///< Share of the print that looks as predicted.
+  double border_correlation = 0.0, whole_correlation = 0.0;
+  double visible_border = 0.0;  ///< Share of the border that looks as predicted.
+  float margin = 0.0F;          ///< Of the number over the next likely one (SoftGolayDecoding).
+  int blocks_along = 0;
+  std::vector<float> visible;  ///< 0…1 for each block of the print, row by row.
+};
+
+/// Reads the marker that may be seen at a guessed place: aligns the border, reads the cells,
+/// decodes the number, predicts the whole print and verifies it, then measures it to hundredths of
+/// a pixel. Keeps its buffers; one thread at a time.
+class SgReader {
+ public:
+  explicit SgReader(const LensGrid& lens) : lens_(lens) {}
+
+  Result<void> SetNumbersInUse(std::span<const int> numbers) {
+    return decoder_.SetNumbersInUse(numbers);
+  }
+
+  /// The picture that the following readings look at; kept by reference.
+  void SetPicture(ImageView<const std::uint8_t> grey);
+
+  /// How well a border fits at a guess, after some steps towards a better one: the correlation.
+  /// `steps` 0 only looks.
+  double FitBorder(int steps, bool coarse, BlockFitState* state);
+
+  /// Everything, from a guess that FitBorder has improved.
+  std::optional<SgReading> Read(const BlockFitState& guess);
+
+  /// Measures a print whose number is known from a guess that is right to about a pixel.
+  std::optional<SgReading> Measure(int number, const BlockFitState& guess);
+
+ private:
+  bool Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const;
+  double SidePx(const Mat3& modules_from_ideal) const;
+  const PrintPattern& Print(int number);
+  bool Verified(const SgReading& reading) const;
+  void Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading);
+
+  const LensGrid& lens_;
+  ImageView<const std::uint8_t> grey_;
+  ReducedPictures reduced_;
+  SoftGolayDecoder decoder_;
+  SeenWindow seen_;
+  BlockFit fit_;
+  PrintLightMeter light_meter_;
+  CellReader cell_reader_;
+  PrintPattern blank_;
+  PrintPattern print_;
+  int print_number_ = -1;
+};
+
+}  // namespace pleinair::tracker
