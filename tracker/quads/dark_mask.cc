@@ -9,8 +9,6 @@ namespace {
 /// Codes between the extremes of two tiles' neighbourhoods below which nothing is seen in the
 /// darkest exposures: quantisation alone makes two.
 constexpr int kLeastContrast = 8;
-/// Beyond this a marker of full contrast would be lost too.
-constexpr int kGreatestContrast = 110;
 
 void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
                   std::uint8_t* tile_min, std::uint8_t* tile_max) {
@@ -95,7 +93,7 @@ const DarkMaskKernels& ScalarDarkMaskKernels() {
   return kKernels;
 }
 
-void ComputeDarkMask(ImageView<const std::uint8_t> grey, int contrast_halvings,
+void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
                      const DarkMaskKernels& kernels, DarkMaskBuffers* buffers, BitMask* mask) {
   const int width = grey.width() / kTile * kTile, tile_rows = grey.height() / kTile;
   mask->width = grey.width();
@@ -131,8 +129,9 @@ void ComputeDarkMask(ImageView<const std::uint8_t> grey, int contrast_halvings,
   const int noise = TileNoise(*buffers, width, tile_rows, stride);
   // 3×3 tiles of noise alone span 5.3 standard deviations on average, one tile 3.5; the rest keeps
   // speckle off.
-  const DarkContrast contrast{std::clamp(noise * 2, kLeastContrast, kGreatestContrast),
-                              contrast_halvings};
+  const DarkContrast contrast{
+      std::clamp(noise * 5 / 2, kLeastContrast, std::max(most.codes, kLeastContrast)),
+      most.halvings};
 
   for (int row = 0; row < tile_rows; ++row) {
     const std::uint8_t *least[3], *greatest[3];

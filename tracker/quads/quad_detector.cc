@@ -12,6 +12,12 @@
 namespace pleinair::tracker {
 namespace {
 
+/// At full size, where only the thinnest rims are looked for and speckle costs most, a
+/// neighbourhood has to have half its brightness as contrast, and more than noise wherever there is
+/// any. Half size takes the dull prints and those in noise.
+constexpr DarkContrast kFullSizeContrast{150, 1};
+constexpr DarkContrast kHalfSizeContrast{64, 2};
+
 constexpr float kLeastContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
 constexpr float kLeastSide = 0.12F;
 /// Of the rim's share of the quiet zone's light plus half its spread. Prints reach it below 13 px,
@@ -64,7 +70,8 @@ QuadDetector& QuadDetector::operator=(QuadDetector&&) noexcept = default;
 
 void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale,
                                   ImageView<const std::uint8_t> grey, std::vector<Quad>* quads) {
-  ComputeDarkMask(level, scale == 1 ? 1 : 2, SimdDarkMaskKernels(), &buffers, &mask);
+  ComputeDarkMask(level, scale == 1 ? kFullSizeContrast : kHalfSizeContrast, SimdDarkMaskKernels(),
+                  &buffers, &mask);
   components.Find(mask);
   const std::vector<DarkComponent>& found = components.components();
   const double least_side = std::max(options.least_side_px / scale, 6.0);
