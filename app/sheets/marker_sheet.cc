@@ -165,8 +165,8 @@ Result<Sheet> MarkerSheet(int number, double size_mm, PageSize page) {
 }
 
 Vec2 Board::Centre_mm(int i) const {
-  const double pitch = size_mm + gap_mm;
-  return {pitch * (i % columns - 0.5 * (columns - 1)), pitch * (0.5 * (rows - 1) - i / columns)};
+  const int column = i % columns, row = i / columns;
+  return Vec2{column - 0.5 * (columns - 1), 0.5 * (rows - 1) - row} * (size_mm + gap_mm);
 }
 
 Result<Sheet> BoardSheet(const Board& board, PageSize page) {
