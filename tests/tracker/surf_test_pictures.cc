@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace pleinair::tracker {
@@ -42,16 +43,27 @@ TestTexture::TestTexture(unsigned seed, double half) {
   const int count = static_cast<int>(half * half / 60);
   for (int i = 0; i < count; ++i) {
     const double sign = uniform(0, 1) < 0.5 ? -1 : 1;
+    const double angle = uniform(0, 2 * std::numbers::pi);
+    const double along = 1 / uniform(4, 9);
+    const double across = 1 / uniform(1.5, 4);
     blobs_.push_back({.x = uniform(-half, half),
                       .y = uniform(-half, half),
-                      .sigma = uniform(2, 6),
+                      .along_x = along * std::cos(angle),
+                      .along_y = along * std::sin(angle),
+                      .across_x = -across * std::sin(angle),
+                      .across_y = across * std::cos(angle),
                       .contrast = sign * uniform(20, 60)});
   }
 }
 
 double TestTexture::operator()(double x, double y) const {
   double grey = 128;
-  for (const TestBlob& blob : blobs_) grey += BlobAt(blob, x, y);
+  for (const LongBlob& blob : blobs_) {
+    const double along = (x - blob.x) * blob.along_x + (y - blob.y) * blob.along_y;
+    const double across = (x - blob.x) * blob.across_x + (y - blob.y) * blob.across_y;
+    const double exponent = (along * along + across * across) / 2;
+    if (exponent < 20) grey += blob.contrast * std::exp(-exponent);
+  }
   return grey;
 }
 

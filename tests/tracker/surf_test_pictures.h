@@ -17,8 +17,8 @@ struct TestBlob {
 /// Sum of blobs on a ground of one grey level, rounded to 8 bits.
 GreyImage DrawBlobs(int width, int height, double ground, const std::vector<TestBlob>& blobs);
 
-/// A smooth texture without symmetries, a function of the point: many blobs of random place, size
-/// and sign within the square of +-`half` px around the origin, from one seed.
+/// A smooth texture without symmetries, a function of the point: many long blobs of random place,
+/// size, direction and sign within the square of +-`half` px around the origin, from one seed.
 class TestTexture {
  public:
   TestTexture(unsigned seed, double half);
@@ -29,7 +29,13 @@ class TestTexture {
   GreyImage Draw(int width, int height, double angle_rad, double zoom) const;
 
  private:
-  std::vector<TestBlob> blobs_;
+  struct LongBlob {
+    double x, y;
+    double along_x, along_y;    ///< Unit vector over sigma of the long axis, 1/px.
+    double across_x, across_y;  ///< The same of the short axis.
+    double contrast;
+  };
+  std::vector<LongBlob> blobs_;
 };
 
 /// Independent pixels, uniform in 0..255.

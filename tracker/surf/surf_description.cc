@@ -1,5 +1,6 @@
 #include "tracker/surf/surf_description.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -20,6 +21,14 @@ constexpr int kSamples = kCells * kCellSamples;  ///< In each direction.
 constexpr int kColumns = 24;                     ///< Of a row of boxes or samples in memory.
 constexpr int kBoxes = 512;  ///< (kSamples + 1) rows, and some to fill whole vectors.
 constexpr int kChannels = 4;
+constexpr int kReach = kCellSamples / 2;  ///< Samples that a cell reaches beyond its own.
+
+/// Weight of sample `i` of a row or column, counted from a cell's first, in that cell: 1 at its
+/// middle, 0 at the middle of the next.
+constexpr float CellWeight(int i) {
+  const int from_middle = i < kReach ? kReach - i : i - kReach;
+  return 1.0f - static_cast<float>(from_middle) / kCellSamples;
+}
 }  // namespace
 }  // namespace pleinair::tracker
 #endif
@@ -30,20 +39,24 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// sums[(band * 4 + channel) * kColumns + column] over the five rows of each band of cells.
+/// sums[(band * kColumns + column) * kChannels + channel], over the rows of samples that reach into
+/// each band of cells.
 void SumBands(const float* boxes, const float* weights, float* sums) {
   const hn::CappedTag<float, 8> df;
   for (int band = 0; band < kCells; ++band) {
+    const int first_row = HWY_MAX(0, band * kCellSamples - kReach);
+    const int last_row = HWY_MIN(kSamples, (band + 1) * kCellSamples + kReach) - 1;
     for (int column = 0; column < kColumns; column += static_cast<int>(hn::Lanes(df))) {
       auto sum_x = hn::Zero(df), sum_y = hn::Zero(df);
       auto sum_abs_x = hn::Zero(df), sum_abs_y = hn::Zero(df);
-      for (int row = 0; row < kCellSamples; ++row) {
-        const int i = (band * kCellSamples + row) * kColumns + column;
+      for (int row = first_row; row <= last_row; ++row) {
+        const int i = row * kColumns + column;
         const auto falling =
             hn::Sub(hn::LoadU(df, boxes + i + kColumns + 1), hn::LoadU(df, boxes + i));
         const auto rising =
             hn::Sub(hn::LoadU(df, boxes + i + 1), hn::LoadU(df, boxes + i + kColumns));
-        const auto weight = hn::LoadU(df, weights + i);
+        const auto weight =
+            hn::Mul(hn::LoadU(df, weights + i), hn::Set(df, CellWeight(row - band * kCellSamples)));
         const auto x = hn::Mul(hn::Add(falling, rising), weight);
         const auto y = hn::Mul(hn::Sub(falling, rising), weight);
         sum_x = hn::Add(sum_x, x);
@@ -51,11 +64,8 @@ void SumBands(const float* boxes, const float* weights, float* sums) {
         sum_abs_x = hn::Add(sum_abs_x, hn::Abs(x));
         sum_abs_y = hn::Add(sum_abs_y, hn::Abs(y));
       }
-      float* const out = sums + band * kChannels * kColumns + column;
-      hn::StoreU(sum_x, df, out);
-      hn::StoreU(sum_y, df, out + kColumns);
-      hn::StoreU(sum_abs_x, df, out + 2 * kColumns);
-      hn::StoreU(sum_abs_y, df, out + 3 * kColumns);
+      hn::StoreInterleaved4(sum_x, sum_y, sum_abs_x, sum_abs_y, df,
+                            sums + (band * kColumns + column) * kChannels);
     }
   }
 }
@@ -108,20 +118,23 @@ SurfDescriptor DescribeKeypoint(BoxLevels* levels, const SurfKeypoint& keypoint,
   alignas(64) float sums[kCells * kChannels * kColumns];
   HWY_DYNAMIC_DISPATCH(SumBands)(boxes, tables.weights.data(), sums);
 
-  SurfDescriptor descriptor;
-  float squared_length = 0;
+  SurfDescriptor descriptor = {};
   for (int band = 0; band < kCells; ++band) {
     for (int cell = 0; cell < kCells; ++cell) {
-      for (int channel = 0; channel < kChannels; ++channel) {
-        const float* const first =
-            sums + (band * kChannels + channel) * kColumns + cell * kCellSamples;
-        float sum = 0;
-        for (int k = 0; k < kCellSamples; ++k) sum += first[k];
-        descriptor[(band * kCells + cell) * kChannels + channel] = sum;
-        squared_length += sum * sum;
+      const int first = cell * kCellSamples;
+      const int begin = std::max(0, first - kReach);
+      const int end = std::min(kSamples, first + kCellSamples + kReach);
+      float* const values = descriptor.data() + (band * kCells + cell) * kChannels;
+      for (int column = begin; column < end; ++column) {
+        const float weight = CellWeight(column - first);
+        for (int channel = 0; channel < kChannels; ++channel) {
+          values[channel] += weight * sums[(band * kColumns + column) * kChannels + channel];
+        }
       }
     }
   }
+  float squared_length = 0;
+  for (const float value : descriptor) squared_length += value * value;
   const float per_length = squared_length > 0 ? 1 / std::sqrt(squared_length) : 0;
   for (float& value : descriptor) value *= per_length;
   return descriptor;

@@ -11,8 +11,10 @@ namespace pleinair::tracker {
 /// window of `window_scales` s (20 in the paper), Haar wavelets of 2 s weighted with a Gaussian of
 /// 3.3 s. With another window, samples, wavelets and Gaussian scale along.
 ///
-/// Deviation: the paper takes upright wavelets and turns their responses; here a wavelet is made of
-/// four upright boxes of about s at corners that are turned, interpolated between pixels.
+/// Deviations: the paper takes upright wavelets and turns their responses; here a wavelet is made
+/// of four upright boxes of about s at corners that are turned, interpolated between pixels. The
+/// paper gives a sample to one cell; here it is shared between the nearest cells by its distance
+/// from their middles, which gives 4 % more correct matches (docs/surf.md).
 SurfDescriptor DescribeKeypoint(BoxLevels* levels, const SurfKeypoint& keypoint,
                                 float window_scales);
 

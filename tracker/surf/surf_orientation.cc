@@ -20,8 +20,9 @@ constexpr int kRadius = 6;                            ///< In scales.
 constexpr int kColumns = 16;                          ///< Of a row of boxes or wavelets in memory.
 constexpr int kBoxes = (2 * kRadius + 3) * kColumns;  ///< One more than wavelets all round.
 constexpr int kWavelets = (2 * kRadius + 1) * kColumns;
+constexpr float kSigma = 2.5f;      ///< Of the weights, in scales.
 constexpr int kBins = 72;           ///< Of 5 degrees.
-constexpr int kWindow = kBins / 6;  ///< pi/3.
+constexpr int kWindow = kBins / 2;  ///< A half-turn.
 }  // namespace
 }  // namespace pleinair::tracker
 #endif
@@ -93,7 +94,7 @@ struct OrientationTables {
     for (int i = 0; i < kWavelets; ++i) {
       const int x = i % kColumns - kRadius;
       const int y = i / kColumns - kRadius;
-      weights[i] = std::exp(static_cast<float>(-(x * x + y * y)) / (2 * 2.0f * 2.0f));
+      weights[i] = std::exp(static_cast<float>(-(x * x + y * y)) / (2 * kSigma * kSigma));
       if (x * x + y * y <= kRadius * kRadius) in_circle[used++] = i;
     }
   }

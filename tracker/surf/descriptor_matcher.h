@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tracker/surf/quantised_descriptor.h"
+
+namespace pleinair::tracker {
+
+/// One of the nearest descriptors of the other side.
+struct DescriptorMatch {
+  static constexpr std::int32_t kNone = -1;
+
+  std::int32_t index = kNone;         ///< On the other side; kNone: there are not so many.
+  std::int32_t squared_distance = 0;  ///< Between quantised descriptors: 0..4 * 127^2 * 64.
+
+  bool operator==(const DescriptorMatch&) const = default;
+};
+
+/// Nearest neighbours in both directions between descriptors of templates, set once, and those of a
+/// frame: exhaustive and exact. Keeps its memory between calls.
+///
+/// Only descriptors with the same sign of the Laplacian are compared (Bay et al. 2008, section
+/// 4.3), which halves the work.
+class DescriptorMatcher {
+ public:
+  static constexpr int kMaxNeighbours = 8;
+
+  void SetTemplates(std::span<const QuantisedDescriptor> templates);
+  int template_count() const { return template_count_; }
+
+  /// The `k` (1..kMaxNeighbours) nearest templates of each descriptor of the frame, at
+  /// (*templates_of_frame)[frame * k ...], and the `k` nearest of the frame of each template, at
+  /// (*frame_of_templates)[template * k ...]; nearest first, of equals the lower index first.
+  void Match(std::span<const QuantisedDescriptor> frame, int k,
+             std::vector<DescriptorMatch>* templates_of_frame,
+             std::vector<DescriptorMatch>* frame_of_templates);
+
+ private:
+  /// Descriptors of one sign.
+  struct Templates {
+    std::vector<std::int32_t> indices;   ///< As given to SetTemplates.
+    std::vector<float> values;           ///< [block][dimension][template in the block]
+    std::vector<float> squared_lengths;  ///< Infinite for what fills the last block.
+  };
+  struct Frame {
+    std::vector<std::int32_t> indices;
+    std::vector<float> values;  ///< [descriptor][dimension]
+    std::vector<float> squared_lengths;
+    std::vector<float> worst;  ///< Of the k nearest so far.
+  };
+
+  int template_count_ = 0;
+  std::array<Templates, 2> templates_;  ///< Dark, bright.
+  std::array<Frame, 2> frame_;
+};
+
+}  // namespace pleinair::tracker
