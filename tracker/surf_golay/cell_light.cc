@@ -8,10 +8,15 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr float kWhiteShare = 0.85F, kBlackShare = 0.12F;
+constexpr float kWhiteShare = 0.75F, kBlackShare = 0.2F;
+/// Black over white of ordinary prints: enough to take the little black out of a white pixel.
+constexpr float kOrdinaryBlack = 0.06F;
 constexpr float kDarkest = 2e-4F;  ///< Linear light: below an 8-bit code's first step.
 constexpr std::size_t kFewestSamples = 12, kMostSamples = 600;
 constexpr float kDoubtfulWeight = 0.25F;
+constexpr double kLeastNoise = 0.006;
+/// Where so much of the white is clipped, the blocks' gains tell how bright it really is.
+constexpr double kClippedShare = 0.5;
 /// Scatter of log white that noise and texture alone may leave, above which an edge is looked for,
 /// and the share of it that an edge must explain.
 constexpr double kEdgeSpread = 0.12, kEdgeGain = 0.6;
@@ -143,7 +148,7 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
   std::size_t usable = 0;
   for (std::size_t n = 0; n < seen.value.size(); ++n) usable += fit.block_of()[n] >= 0;
   const std::size_t stride = std::max<std::size_t>(1, usable / (3 * kMostSamples));
-  std::size_t count = 0;
+  std::size_t count = 0, clipped_white = 0;
   for (std::size_t n = 0; n < seen.value.size(); ++n) {
     if (fit.block_of()[n] < 0 || ++count % stride != 0) continue;
     const float share = fit.picture().white[n];
@@ -152,14 +157,24 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
         clipped ? static_cast<float>(fit.blocks()[fit.block_of()[n]].weight) : fit.Belief(n, seen);
     if (belief < kDoubtfulWeight) continue;
     const float value = std::max(seen.value[n], kDarkest);
-    const Sample sample{(fit.map().column[n] - middle) * per_half,
-                        (fit.map().row[n] - middle) * per_half, std::log(value), belief};
-    if (share > kWhiteShare) white_.push_back(sample);
-    if (share < kBlackShare) black_.push_back(sample);
+    const float u = (fit.map().column[n] - middle) * per_half;
+    const float v = (fit.map().row[n] - middle) * per_half;
+    if (share > kWhiteShare) {
+      const float white = value / (share + kOrdinaryBlack * (1.0F - share));
+      white_.push_back({u, v, std::log(white), share, belief});
+      clipped_white += clipped;
+    }
+    if (share < kBlackShare) black_.push_back({u, v, std::log(value), share, belief});
   }
   *light = PrintLight{};
   if (white_.size() < kFewestSamples || black_.size() < kFewestSamples / 2) {
     return FromBlocks(fit, light);
+  }
+  if (clipped_white > kClippedShare * white_.size()) {
+    if (!FromBlocks(fit, light)) return false;
+    light->white_clips = true;
+    light->log_white = std::max(light->log_white, 0.0);
+    return true;
   }
   FitPlane(light);
   light->spread = Spread(*light);
@@ -174,9 +189,15 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
   }
   residuals_.clear();
   for (const Sample& s : black_) {
-    residuals_.push_back(static_cast<float>(std::exp(s.log_value) / light->White(s.u, s.v)));
+    residuals_.push_back(static_cast<float>(
+        (std::exp(s.log_value) / light->White(s.u, s.v) - s.share) / (1.0 - s.share)));
   }
   light->black_share = std::clamp(MedianOf(&residuals_), 0.0, 0.9);
+  for (float& residual : residuals_) {
+    residual = std::fabs(residual - static_cast<float>(light->black_share));
+  }
+  light->white_noise = std::clamp(light->spread, kLeastNoise, 1.0);
+  light->black_noise = std::clamp(1.4826 * MedianOf(&residuals_), kLeastNoise, 1.0);
   return true;
 }
 

@@ -18,6 +18,9 @@ struct PrintLight {
   double edge_log_step = 0.0;                        ///< … white's logarithm is this much higher.
   double black_share = 0.05;
   double spread = 0.0;  ///< Robust standard deviation of what is left over, in log white.
+  /// Standard deviation of a pixel's share of white, from noise and texture, on white and on black.
+  double white_noise = 0.02, black_noise = 0.01;
+  bool white_clips = false;  ///< White is brighter than the picture can hold.
 
   double White(double u, double v) const;
 };
@@ -32,7 +35,7 @@ class PrintLightMeter {
 
  private:
   struct Sample {
-    float u, v, log_value, weight;
+    float u, v, log_value, share, weight;
   };
   /// Of prints too small for a pixel to be all white or all black: even light, from the blocks.
   static bool FromBlocks(const BlockFit& fit, PrintLight* light);

@@ -9,15 +9,25 @@ namespace pleinair::tracker {
 namespace {
 
 /// Deviation of a cell's share that no noise tells: uneven light, ink, the blur's shape.
-constexpr double kSystematicShare = 0.07;
-/// Prior probability that a cell is covered, and density of what is then seen.
-constexpr double kCoveredPrior = 0.08, kCoveredDensity = 0.4;
-/// Left-over inside a cell, in shares, at which it is as likely covered as not.
-constexpr double kUnevenShare = 0.16;
-/// White brighter than this clips: a clipped pixel is white there, and glare elsewhere.
-constexpr double kWhiteClips = 0.8;
+constexpr double kSystematicShare = 0.025, kSystematicPerBlur = 0.05;
+/// Prior probability that a cell is covered: alone, and when all around it are.
+constexpr double kCoveredAlone = 0.03, kCoveredAmong = 0.6;
+/// Density of the share that is seen where a cell is covered.
+constexpr double kCoveredDensity = 0.5;
+/// Left-over inside a cell, in shares and beyond noise, that speaks for a cover.
+constexpr double kUnevenShare = 0.10;
 constexpr float kClippedValue = 0.975F;
+/// White brighter than this clips: a clipped pixel is white there, and glare elsewhere.
+constexpr double kWhiteClips = 0.93;
 constexpr double kRidge = 1e-4;
+constexpr double kLeastSeen_px = 0.3;
+/// A pixel that sees so much of one cell is a witness of its own; those of a cell together are
+/// worth a few independent ones, since what covers a cell covers neighbouring pixels alike.
+constexpr float kWholeShare = 0.85F;
+constexpr double kPixelCovered = 0.3, kWitnesses = 1.3, kFewestWitnesses = 6.0;
+/// How much less a partly covered cell says when all around it are covered.
+constexpr double kMimicry = 0.6;
+constexpr int kRoundsWhenClipped = 3;
 
 double NormalBelow(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
@@ -33,18 +43,13 @@ void ColumnShares(double at, double sigma, std::array<double, sg::kCells>* share
 
 }  // namespace
 
-void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-                      const BlockFitState& state, const PrintLight& light, CellReading* reading) {
-  using Matrix = Eigen::Matrix<double, sg::kCodeCells, sg::kCodeCells>;
-  using Vector = Eigen::Matrix<double, sg::kCodeCells, 1>;
-  *reading = CellReading{};
+void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
+                        const BlockFitState& state, const PrintLight& light) {
   pixels_.clear();
   const double blur = state.blur_px / seen.rays.window.Scale();
   const double variance_px2 = blur * blur + 1.0 / 12.0;
   const double middle = 0.5 * blank.modules, per_half = 2.0 / blank.edge_modules;
   const double reach_modules = 0.5 * sg::kCells * sg::kCell;
-  Matrix normal = Matrix::Zero();
-  Vector right = Vector::Zero();
   for (std::size_t n = 0; n < seen.value.size(); ++n) {
     const double c = fit.map().column[n], r = fit.map().row[n];
     const double sigma_c =
@@ -57,82 +62,156 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
     }
     const double u = (c - middle) * per_half, v = (r - middle) * per_half;
     const double white = light.White(u, v), black = light.black_share * white;
-    double value = seen.value[n];
-    if (value >= kClippedValue) {
-      if (white < kWhiteClips) continue;
-      value = white;
-    }
-    // Shot noise rises with light; the dark side of a shadow is the surer one.
-    const double noise = 0.01 * white + 0.003;
+    const bool clipped = seen.value[n] >= kClippedValue;
+    if (clipped && white < kWhiteClips) continue;
+    const double known = fit.picture().white[n];
+    const double share = (seen.value[n] - black) / (white - black);
     Pixel pixel;
-    pixel.value = static_cast<float>((value - black) / (white - black) - fit.picture().white[n]);
-    pixel.weight = static_cast<float>((white - black) * (white - black) / (noise * noise));
+    pixel.value = static_cast<float>((clipped ? 1.0 : share) - known);
+    if (clipped) pixel.least = static_cast<float>(std::min(share, 1.0) - known);
     std::array<double, sg::kCells> columns{}, rows{};
     ColumnShares(c, sigma_c, &columns);
     ColumnShares(r, sigma_r, &rows);
     for (int j = 0; j < sg::kCells; ++j) {
       if (rows[j] < 0.02) continue;
       for (int i = 0; i < sg::kCells; ++i) {
-        const double share = rows[j] * columns[i];
+        const double part = rows[j] * columns[i];
         const int cell = sg::CodeCell(i, j);
-        if (share < 0.02 || cell < 0 || pixel.cells == 9) continue;
+        if (part < 0.02 || cell < 0 || pixel.cells == 9) continue;
         pixel.cell[pixel.cells] = static_cast<std::int8_t>(cell);
-        pixel.share[pixel.cells++] = static_cast<float>(share);
+        pixel.share[pixel.cells++] = static_cast<float>(part);
       }
     }
-    if (pixel.cells == 0) continue;
-    for (int a = 0; a < pixel.cells; ++a) {
-      const double weighted = static_cast<double>(pixel.weight) * pixel.share[a];
-      right[pixel.cell[a]] += weighted * pixel.value;
-      for (int b = 0; b < pixel.cells; ++b) {
-        normal(pixel.cell[a], pixel.cell[b]) += weighted * pixel.share[b];
-      }
-    }
-    pixels_.push_back(pixel);
+    if (pixel.cells > 0) pixels_.push_back(pixel);
   }
+}
+
+void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
+                      const BlockFitState& state, const PrintLight& light, CellReading* reading) {
+  using Matrix = Eigen::Matrix<double, sg::kCodeCells, sg::kCodeCells>;
+  using Vector = Eigen::Matrix<double, sg::kCodeCells, 1>;
+  *reading = CellReading{};
+  Gather(blank, fit, seen, state, light);
   if (pixels_.empty()) return;
+  Matrix normal = Matrix::Zero();
+  bool clipped = false;
+  for (const Pixel& pixel : pixels_) {
+    clipped |= pixel.least >= 0.0F;
+    for (int a = 0; a < pixel.cells; ++a) {
+      for (int b = 0; b < pixel.cells; ++b) {
+        normal(pixel.cell[a], pixel.cell[b]) += pixel.share[a] * pixel.share[b];
+      }
+    }
+  }
   const double ridge = kRidge * normal.trace() / sg::kCodeCells + 1e-9;
   normal.diagonal().array() += ridge;
-  right.array() += 0.5 * ridge;
   const auto factors = normal.ldlt();
-  const Vector white = factors.solve(right);
+  Vector white = Vector::Constant(0.5);
+  for (int round = 0; round < (clipped ? kRoundsWhenClipped : 1); ++round) {
+    Vector right = Vector::Constant(0.5 * ridge);
+    for (Pixel& pixel : pixels_) {
+      if (round > 0 && pixel.least >= 0.0F) {
+        // What a clipped pixel would show: what the cells found so far predict, if that clips.
+        float predicted = 0.0F;
+        for (int a = 0; a < pixel.cells; ++a) {
+          predicted += pixel.share[a] * static_cast<float>(white[pixel.cell[a]]);
+        }
+        pixel.value = std::max(pixel.least, predicted);
+      }
+      for (int a = 0; a < pixel.cells; ++a) {
+        right[pixel.cell[a]] += pixel.share[a] * pixel.value;
+      }
+    }
+    white = factors.solve(right);
+    if (!white.allFinite()) return;
+  }
   const Matrix inverse = factors.solve(Matrix::Identity());
-  if (!white.allFinite()) return;
 
-  // What is left over, cell by cell, against the ideal of a cell that is black or white.
-  std::array<double, sg::kCodeCells> left{}, seen_share{};
-  double noise = 0.0, count = 0.0;
+  // A pixel's noise depends on whether it sees black or white.
+  const double white_noise2 = light.white_noise * light.white_noise;
+  const double black_noise2 = light.black_noise * light.black_noise;
+  const double cell_px =
+      sg::kCell / std::max(1e-6F, std::hypot(fit.map().column_x[seen.value.size() / 2],
+                                             fit.map().column_y[seen.value.size() / 2]));
+  const double systematic =
+      kSystematicShare + kSystematicPerBlur * state.blur_px / seen.rays.window.Scale() / cell_px;
+  std::array<double, sg::kCodeCells> left{}, seen_share{}, whole{}, witness{};
   for (const Pixel& pixel : pixels_) {
     double predicted = 0.0;
     for (int a = 0; a < pixel.cells; ++a) predicted += pixel.share[a] * white[pixel.cell[a]];
     const double error = pixel.value - predicted;
-    noise += pixel.weight * error * error;
-    count += 1.0;
     for (int a = 0; a < pixel.cells; ++a) {
-      left[pixel.cell[a]] += pixel.share[a] * error * error;
-      seen_share[pixel.cell[a]] += pixel.share[a];
+      const int k = pixel.cell[a];
+      left[k] += pixel.share[a] * error * error;
+      seen_share[k] += pixel.share[a];
+      if (pixel.share[a] < kWholeShare) continue;
+      const double share = white[k] + error / pixel.share[a];
+      const auto density = [&](double ideal, double noise2) {
+        const double sigma2 = noise2 + systematic * systematic;
+        return (1.0 - kPixelCovered) * std::exp(-0.5 * (share - ideal) * (share - ideal) / sigma2) /
+                   std::sqrt(2.0 * std::numbers::pi * sigma2) +
+               kPixelCovered * kCoveredDensity;
+      };
+      whole[k] += 1.0;
+      witness[k] += std::log(density(1.0, white_noise2) / density(0.0, black_noise2));
     }
   }
-  noise /= count;
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    const double w = white[k];
-    const double variance = inverse(k, k) * std::max(1.0, noise);
-    reading->white[k] = static_cast<float>(w);
-    reading->deviation[k] = static_cast<float>(std::sqrt(variance));
-    if (!(seen_share[k] > 0.05)) continue;
-    const double misfit = std::sqrt(left[k] / seen_share[k]);
-    reading->misfit[k] = static_cast<float>(misfit);
+    const double on_white = std::clamp(white[k], 0.0, 1.0);
+    const double noise2 = on_white * white_noise2 + (1.0 - on_white) * black_noise2;
+    reading->white[k] = static_cast<float>(white[k]);
+    reading->deviation[k] = static_cast<float>(std::sqrt(std::max(0.0, inverse(k, k) * noise2)));
+    reading->seen[k] = seen_share[k] > kLeastSeen_px;
+    if (!reading->seen[k]) continue;
     // Noise that is everywhere is no sign of a cover.
-    const double expected = kUnevenShare * kUnevenShare;
-    const double uneven = misfit * misfit / expected;
-    const double covered = std::min(0.95, kCoveredPrior * std::exp(2.5 * uneven));
-    const double sigma2 = kSystematicShare * kSystematicShare + variance;
-    const auto density = [&](double ideal) {
-      const double z2 = (w - ideal) * (w - ideal) / sigma2;
-      return (1.0 - covered) * std::exp(-0.5 * z2) / std::sqrt(2.0 * std::numbers::pi * sigma2) +
-             covered * kCoveredDensity;
-    };
-    reading->likelihoods[k] = static_cast<float>(std::log(density(1.0) / density(0.0)));
+    const double beyond = left[k] / seen_share[k] - 1.5 * noise2;
+    reading->misfit[k] = static_cast<float>(std::sqrt(std::max(0.0, beyond)));
+    if (whole[k] >= kFewestWitnesses) {
+      reading->witness[k] = static_cast<float>(kWitnesses * witness[k] / whole[k]);
+    }
+  }
+  Judge(systematic, reading);
+}
+
+void CellReader::Judge(double systematic, CellReading* reading) {
+  std::array<double, sg::kCodeCells> sigma2{}, evidence{}, covered{};
+  const auto density = [&](int k, double ideal) {
+    const double z2 = (reading->white[k] - ideal) * (reading->white[k] - ideal) / sigma2[k];
+    return std::exp(-0.5 * z2) / std::sqrt(2.0 * std::numbers::pi * sigma2[k]);
+  };
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    if (!reading->seen[k]) {
+      covered[k] = 1.0;
+      continue;
+    }
+    sigma2[k] = systematic * systematic + reading->deviation[k] * reading->deviation[k];
+    // How much likelier the cell's looks are when something covers it.
+    const double uneven = reading->misfit[k] / kUnevenShare;
+    evidence[k] = std::exp(std::min(20.0, 2.0 * uneven * uneven)) * kCoveredDensity;
+    const double clean = 0.5 * (density(k, 0.0) + density(k, 1.0));
+    covered[k] =
+        kCoveredAlone * evidence[k] / (kCoveredAlone * evidence[k] + (1.0 - kCoveredAlone) * clean);
+  }
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    if (!reading->seen[k]) continue;
+    // What covers a cell mostly covers some of its neighbours too.
+    double around = 0.0, neighbours = 0.0;
+    for (int other = 0; other < sg::kCodeCells; ++other) {
+      const int dx = std::abs(sg::CodeCellColumn(other) - sg::CodeCellColumn(k));
+      const int dy = std::abs(sg::CodeCellRow(other) - sg::CodeCellRow(k));
+      if (other == k || dx > 1 || dy > 1) continue;
+      const double weight = dx + dy == 1 ? 1.0 : 0.5;
+      around += weight * covered[other];
+      neighbours += weight;
+    }
+    const double prior = kCoveredAlone + (kCoveredAmong - kCoveredAlone) * around / neighbours;
+    const double spoiled = prior * evidence[k];
+    const float mean = static_cast<float>(std::log((density(k, 1.0) * (1.0 - prior) + spoiled) /
+                                                   (density(k, 0.0) * (1.0 - prior) + spoiled)));
+    // Of a cell that is partly covered the pixels that are as white as white can be still tell.
+    const float part =
+        reading->witness[k] * static_cast<float>(1.0 - kMimicry * around / neighbours);
+    reading->likelihoods[k] = std::fabs(part) > std::fabs(mean) ? part : mean;
   }
 }
 

@@ -15,7 +15,9 @@ namespace pleinair::tracker {
 struct CellReading {
   std::array<float, sg::kCodeCells> white{};      ///< Share of white: 0 black, 1 white.
   std::array<float, sg::kCodeCells> deviation{};  ///< … and its standard deviation.
-  std::array<float, sg::kCodeCells> misfit{};     ///< Left-over inside each cell, in shares.
+  std::array<float, sg::kCodeCells> misfit{};     ///< Left-over inside a cell beyond noise.
+  std::array<float, sg::kCodeCells> witness{};    ///< Log-likelihood ratio by single pixels.
+  std::array<bool, sg::kCodeCells> seen{};        ///< Any pixel tells of it.
   CellLikelihoods likelihoods{};
 };
 
@@ -36,8 +38,14 @@ class CellReader {
     std::array<std::int8_t, 9> cell;
     std::array<float, 9> share;
     int cells = 0;
-    float value = 0.0F, weight = 0.0F;
+    float value = 0.0F;
+    float least = -1.0F;  ///< Of a clipped pixel on clipping white: its share is at least this.
   };
+  void Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
+              const BlockFitState& state, const PrintLight& light);
+  /// How likely each cell is black, white or covered, given what the cells around it look like.
+  static void Judge(double systematic, CellReading* reading);
+
   std::vector<Pixel> pixels_;
 };
 

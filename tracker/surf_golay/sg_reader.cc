@@ -16,6 +16,13 @@ constexpr double kFineSide_px = 190.0;   ///< … and finely.
 constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
+/// What makes a reading a marker: how much of the print looks as predicted, and by how much the
+/// number is likelier than the next (in nats). Measured on pictures without markers:
+/// docs/tracker.md.
+constexpr double kWellVisible = 0.3, kBarelyVisible = 0.1;
+constexpr float kLeastMargin = 11.0F, kSafeMargin = 25.0F, kMarginPerDisagreement = 4.0F;
+constexpr int kMostDisagreements = 2;
+constexpr float kPlain = 2.0F;  ///< A cell's likelihood that is no accident of noise.
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.005;
 
@@ -121,17 +128,30 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   cell_reader_.Read(blank_, fit_, seen_, state, light, &cells);
   const SoftGolayDecoding decoding = decoder_.Decode(cells.likelihoods);
   const BlockFitState border_state = state;
+  int plain = 0;
+  const GolayWord word = PrintedWord(decoding.number);
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    const float likelihood = cells.likelihoods[k];
+    plain += std::fabs(likelihood) > kPlain && (likelihood > 0.0F) != ((word >> k & 1U) != 0);
+  }
   std::optional<SgReading> reading = Measure(decoding.number, border_state);
   if (!reading) return std::nullopt;
   reading->border_correlation = correlation;
   reading->visible_border = border > 0.0 ? visible / border : 0.0;
   reading->margin = decoding.margin;
+  reading->disagreements = plain;
   if (!Verified(*reading)) return std::nullopt;
   return reading;
 }
 
 bool SgReader::Verified(const SgReading& reading) const {
-  return reading.margin > 5.0F && reading.whole_correlation > 0.4;
+  // Cells that plainly contradict the number are covered by something that looks like a print; more
+  // than three of them would look like another number.
+  if (reading.disagreements > kMostDisagreements) return false;
+  const float margin =
+      kLeastMargin + kMarginPerDisagreement * static_cast<float>(reading.disagreements);
+  return (reading.visible_fraction >= kWellVisible && reading.margin >= margin) ||
+         (reading.visible_fraction >= kBarelyVisible && reading.margin >= kSafeMargin);
 }
 
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess) {

@@ -29,6 +29,7 @@ struct SgReading {
   double border_correlation = 0.0, whole_correlation = 0.0;
   double visible_border = 0.0;  ///< Share of the border that looks as predicted.
   float margin = 0.0F;          ///< Of the number over the next likely one (SoftGolayDecoding).
+  int disagreements = 0;        ///< Cells that plainly look like the other colour.
   int blocks_along = 0;
   std::vector<float> visible;  ///< 0…1 for each block of the print, row by row.
 };
