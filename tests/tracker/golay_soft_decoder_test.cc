@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <array>
@@ -65,7 +66,20 @@ GolayWord RandomPattern(std::mt19937& random, int weight) {
   return pattern;
 }
 
-TEST(GolayScores, EqualTheScalarSumsOfEveryWord) {
+/// Each instruction set that this machine has.
+class GolayScoresOnEveryTarget : public ::testing::TestWithParam<std::int64_t> {
+ protected:
+  void SetUp() override {
+    hwy::SetSupportedTargetsForTest(GetParam());
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+  void TearDown() override {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+TEST_P(GolayScoresOnEveryTarget, EqualTheScalarSumsOfEveryWord) {
   std::mt19937 random(2);
   std::uniform_int_distribution<std::int32_t> weight(-65'536'000, 65'536'000);
   for (int round = 0; round < 20; ++round) {
@@ -86,6 +100,12 @@ TEST(GolayScores, EqualTheScalarSumsOfEveryWord) {
     EXPECT_EQ(FindTopTwo(scores).second, expected[1]);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Targets, GolayScoresOnEveryTarget,
+                         ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
+                         [](const auto& target) {
+                           return std::string(hwy::TargetName(target.param));
+                         });
 
 TEST(SoftGolayDecoder, ReadsEveryCleanPrint) {
   const SoftGolayDecoder decoder;
