@@ -29,6 +29,17 @@ constexpr double kPixelCovered = 0.3, kWitnesses = 1.3, kFewestWitnesses = 6.0;
 constexpr double kMimicry = 0.6;
 constexpr int kRoundsWhenClipped = 3;
 
+/// Glare is told at nodes half a cell apart, from half a cell before the content to half beyond.
+constexpr int kGlareNodes = 2 * sg::kCells + 3;
+constexpr std::array<int, 4> kNodeSteps{0, 1, kGlareNodes, kGlareNodes + 1};
+constexpr double kGlaring = 1.12;  ///< Share of white of a cell that glares,
+constexpr int kFewestGlaring = 2;  ///< … and how many must.
+constexpr double kGlareBend = 0.03, kGlareSize = 0.0005;
+
+double GlareNode(double module) {
+  return (module - (sg::kQuiet + sg::kContent - 0.5 * sg::kCell)) / (0.5 * sg::kCell);
+}
+
 double NormalBelow(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 /// Shares of a blurred pixel along one axis that fall into each of the cells' columns.
@@ -82,50 +93,108 @@ void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const Se
         pixel.share[pixel.cells++] = static_cast<float>(part);
       }
     }
-    if (pixel.cells > 0) pixels_.push_back(pixel);
+    if (pixel.cells == 0) continue;
+    const double gx = GlareNode(c), gy = GlareNode(r);
+    const int nx = std::clamp(static_cast<int>(gx), 0, kGlareNodes - 2);
+    const int ny = std::clamp(static_cast<int>(gy), 0, kGlareNodes - 2);
+    pixel.node = static_cast<std::int16_t>(ny * kGlareNodes + nx);
+    const float fx = static_cast<float>(gx - nx), fy = static_cast<float>(gy - ny);
+    pixel.node_share = {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy};
+    pixels_.push_back(pixel);
   }
 }
 
-void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-                      const BlockFitState& state, const PrintLight& light, CellReading* reading) {
-  using Matrix = Eigen::Matrix<double, sg::kCodeCells, sg::kCodeCells>;
-  using Vector = Eigen::Matrix<double, sg::kCodeCells, 1>;
-  *reading = CellReading{};
-  Gather(blank, fit, seen, state, light);
-  if (pixels_.empty()) return;
-  Matrix normal = Matrix::Zero();
+double CellReader::GlareAt(const Pixel& pixel, const Eigen::VectorXd& found) {
+  double glare = 0.0;
+  for (int a = 0; a < 4; ++a) {
+    glare += pixel.node_share[a] * found[sg::kCodeCells + pixel.node + kNodeSteps[a]];
+  }
+  return glare;
+}
+
+bool CellReader::Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd* inverse) {
+  const int unknowns = sg::kCodeCells + (with_glare ? kGlareNodes * kGlareNodes : 0);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
   bool clipped = false;
+  std::array<int, 13> index{};
+  std::array<double, 13> share{};
   for (const Pixel& pixel : pixels_) {
     clipped |= pixel.least >= 0.0F;
-    for (int a = 0; a < pixel.cells; ++a) {
-      for (int b = 0; b < pixel.cells; ++b) {
-        normal(pixel.cell[a], pixel.cell[b]) += pixel.share[a] * pixel.share[b];
+    int terms = 0;
+    for (; terms < pixel.cells; ++terms) {
+      index[terms] = pixel.cell[terms];
+      share[terms] = pixel.share[terms];
+    }
+    for (int a = 0; with_glare && a < 4; ++a, ++terms) {
+      index[terms] = sg::kCodeCells + pixel.node + kNodeSteps[a];
+      share[terms] = pixel.node_share[a];
+    }
+    for (int a = 0; a < terms; ++a) {
+      for (int b = 0; b < terms; ++b) normal(index[a], index[b]) += share[a] * share[b];
+    }
+  }
+  const double pixels_a_cell =
+      normal.topLeftCorner(sg::kCodeCells, sg::kCodeCells).trace() / sg::kCodeCells;
+  const double ridge = kRidge * pixels_a_cell + 1e-9;
+  normal.diagonal().head(sg::kCodeCells).array() += ridge;
+  if (with_glare) {
+    // Glare is smooth: its second differences are small; and it is mostly not there.
+    const double bend = kGlareBend * pixels_a_cell, size = kGlareSize * pixels_a_cell;
+    const auto node = [](int x, int y) { return sg::kCodeCells + y * kGlareNodes + x; };
+    const auto bends = [&](int a, int b, int c) {
+      const std::array<int, 3> at{a, b, c};
+      constexpr std::array<double, 3> kSecond{1.0, -2.0, 1.0};
+      for (int p = 0; p < 3; ++p) {
+        for (int q = 0; q < 3; ++q) normal(at[p], at[q]) += bend * kSecond[p] * kSecond[q];
+      }
+    };
+    for (int y = 0; y < kGlareNodes; ++y) {
+      for (int x = 0; x < kGlareNodes; ++x) {
+        normal(node(x, y), node(x, y)) += size;
+        if (x > 0 && x + 1 < kGlareNodes) bends(node(x - 1, y), node(x, y), node(x + 1, y));
+        if (y > 0 && y + 1 < kGlareNodes) bends(node(x, y - 1), node(x, y), node(x, y + 1));
       }
     }
   }
-  const double ridge = kRidge * normal.trace() / sg::kCodeCells + 1e-9;
-  normal.diagonal().array() += ridge;
   const auto factors = normal.ldlt();
-  Vector white = Vector::Constant(0.5);
   for (int round = 0; round < (clipped ? kRoundsWhenClipped : 1); ++round) {
-    Vector right = Vector::Constant(0.5 * ridge);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+    right.head(sg::kCodeCells).setConstant(0.5 * ridge);
     for (Pixel& pixel : pixels_) {
       if (round > 0 && pixel.least >= 0.0F) {
         // What a clipped pixel would show: what the cells found so far predict, if that clips.
         float predicted = 0.0F;
         for (int a = 0; a < pixel.cells; ++a) {
-          predicted += pixel.share[a] * static_cast<float>(white[pixel.cell[a]]);
+          predicted += pixel.share[a] * static_cast<float>((*found)[pixel.cell[a]]);
         }
         pixel.value = std::max(pixel.least, predicted);
       }
-      for (int a = 0; a < pixel.cells; ++a) {
-        right[pixel.cell[a]] += pixel.share[a] * pixel.value;
+      for (int a = 0; a < pixel.cells; ++a) right[pixel.cell[a]] += pixel.share[a] * pixel.value;
+      for (int a = 0; with_glare && a < 4; ++a) {
+        right[sg::kCodeCells + pixel.node + kNodeSteps[a]] += pixel.node_share[a] * pixel.value;
       }
     }
-    white = factors.solve(right);
-    if (!white.allFinite()) return;
+    *found = factors.solve(right);
+    if (!found->allFinite()) return false;
   }
-  const Matrix inverse = factors.solve(Matrix::Identity());
+  *inverse = factors.solve(Eigen::MatrixXd::Identity(unknowns, unknowns))
+                 .topLeftCorner(sg::kCodeCells, sg::kCodeCells);
+  return inverse->allFinite();
+}
+
+void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
+                      const BlockFitState& state, const PrintLight& light, bool with_glare,
+                      CellReading* reading) {
+  *reading = CellReading{};
+  Gather(blank, fit, seen, state, light);
+  if (pixels_.empty()) return;
+  Eigen::VectorXd found;
+  Eigen::MatrixXd inverse;
+  if (!Solve(with_glare, &found, &inverse)) return;
+  int glaring = 0;
+  for (int k = 0; k < sg::kCodeCells; ++k) glaring += found[k] > kGlaring;
+  reading->glaring = !light.white_clips && glaring >= kFewestGlaring;
+  const Eigen::VectorXd& white = found;
 
   // A pixel's noise depends on whether it sees black or white.
   const double white_noise2 = light.white_noise * light.white_noise;
@@ -137,7 +206,7 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
       kSystematicShare + kSystematicPerBlur * state.blur_px / seen.rays.window.Scale() / cell_px;
   std::array<double, sg::kCodeCells> left{}, seen_share{}, whole{}, witness{};
   for (const Pixel& pixel : pixels_) {
-    double predicted = 0.0;
+    double predicted = with_glare ? GlareAt(pixel, found) : 0.0;
     for (int a = 0; a < pixel.cells; ++a) predicted += pixel.share[a] * white[pixel.cell[a]];
     const double error = pixel.value - predicted;
     for (int a = 0; a < pixel.cells; ++a) {

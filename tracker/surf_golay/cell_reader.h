@@ -1,5 +1,9 @@
 #pragma once
 
+// Internal: between the .cc files of this module; not installed.
+
+#include <Eigen/Core>
+
 #include <array>
 #include <vector>
 
@@ -19,6 +23,8 @@ struct CellReading {
   std::array<float, sg::kCodeCells> witness{};    ///< Log-likelihood ratio by single pixels.
   std::array<bool, sg::kCodeCells> seen{};        ///< Any pixel tells of it.
   CellLikelihoods likelihoods{};
+  bool glaring =
+      false;  ///< Some cells are whiter than white: light that a shiny print throws back.
 };
 
 /// Reads the cells of a print whose border has been fitted. The picture is linear in the cells'
@@ -29,9 +35,10 @@ struct CellReading {
 class CellReader {
  public:
   /// `blank` is the print with all code cells black; `fit` has evaluated it on `seen` (in linear
-  /// light) at `state`.
+  /// light) at `state`. With glare, smooth light on top of what is printed is solved for as well.
   void Read(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-            const BlockFitState& state, const PrintLight& light, CellReading* reading);
+            const BlockFitState& state, const PrintLight& light, bool with_glare,
+            CellReading* reading);
 
  private:
   struct Pixel {
@@ -39,10 +46,15 @@ class CellReader {
     std::array<float, 9> share;
     int cells = 0;
     float value = 0.0F;
+    std::int16_t node = 0;  ///< First of the four nodes of glare around it.
+    std::array<float, 4> node_share{};
     float least = -1.0F;  ///< Of a clipped pixel on clipping white: its share is at least this.
   };
   void Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
               const BlockFitState& state, const PrintLight& light);
+  /// Least squares of the cells' shares, and of smooth glare on top where asked.
+  bool Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd* inverse);
+  static double GlareAt(const Pixel& pixel, const Eigen::VectorXd& found);
   /// How likely each cell is black, white or covered, given what the cells around it look like.
   static void Judge(double systematic, CellReading* reading);
 

@@ -14,11 +14,15 @@ namespace {
 constexpr double kCoarseSide_px = 52.0;  ///< Longest side of a print that is fitted coarsely,
 constexpr double kFineSide_px = 190.0;   ///< … and finely.
 constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
+constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
 /// What makes a reading a marker: how much of the print looks as predicted, and by how much the
 /// number is likelier than the next (in nats). Measured on pictures without markers:
 /// docs/tracker.md.
+constexpr double kLeastContrast = 0.04;  ///< Of a block's predicted shares of white.
+constexpr double kLeastTelling = 0.3;    ///< Blocks that count at least, as a share of all.
+constexpr double kLeastVisibleBorder = 0.06;
 constexpr double kWellVisible = 0.3, kBarelyVisible = 0.1;
 constexpr float kLeastMargin = 11.0F, kSafeMargin = 25.0F, kMarginPerDisagreement = 4.0F;
 constexpr int kMostDisagreements = 2;
@@ -102,7 +106,8 @@ double SgReader::FitBorder(int steps, bool coarse, BlockFitState* state) {
   } else {
     TakeLinearWindow(lens_, grey_, window, &seen_);
   }
-  const int blocks = BlockFit::BlocksAlong(1.2 * side / scale);
+  const int blocks =
+      BlockFit::BlocksAlong(1.2 * side / scale, coarse ? kCoarseBlock_px : kFineBlock_px);
   BlockFitOptions options;
   options.steps = steps;
   options.fit_blur = !coarse;
@@ -115,18 +120,27 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
   const double correlation = FitBorder(4, false, &state);
-  if (correlation < 0.2) return std::nullopt;
   double visible = 0.0, border = 0.0;
   for (const PrintBlock& block : fit_.blocks()) {
-    if (block.contrast < 0.04) continue;
+    if (block.contrast < kLeastContrast) continue;
     border += block.pixels;
     if (block.correlation > kVisibleCorrelation) visible += block.pixels;
   }
+  if (!(visible > kLeastVisibleBorder * border)) return std::nullopt;
   PrintLight light;
   if (!light_meter_.Measure(blank_, fit_, seen_, &light)) return std::nullopt;
   CellReading cells;
-  cell_reader_.Read(blank_, fit_, seen_, state, light, &cells);
-  const SoftGolayDecoding decoding = decoder_.Decode(cells.likelihoods);
+  cell_reader_.Read(blank_, fit_, seen_, state, light, false, &cells);
+  SoftGolayDecoding decoding = decoder_.Decode(cells.likelihoods);
+  if (cells.glaring) {
+    CellReading without_glare;
+    cell_reader_.Read(blank_, fit_, seen_, state, light, true, &without_glare);
+    const SoftGolayDecoding other = decoder_.Decode(without_glare.likelihoods);
+    if (other.margin > decoding.margin) {
+      cells = without_glare;
+      decoding = other;
+    }
+  }
   const BlockFitState border_state = state;
   int plain = 0;
   const GolayWord word = PrintedWord(decoding.number);
@@ -166,7 +180,7 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   BlockFitOptions options;
   options.steps = 5;
   options.fit_blur = true;
-  const int blocks = BlockFit::BlocksAlong(1.2 * side / window.Scale());
+  const int blocks = BlockFit::BlocksAlong(1.2 * side / window.Scale(), kFineBlock_px);
   if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state)) {
     return std::nullopt;
   }
@@ -184,12 +198,15 @@ void SgReader::Finish(const BlockFit& fit, const BlockFitState& state, SgReading
   reading->visible.clear();
   double seen = 0.0, all = 0.0;
   for (const PrintBlock& block : fit.blocks()) {
-    const double visible = std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0);
+    // Blocks that clip all over, or lie outside the picture, tell nothing.
+    const bool tells = block.contrast > kLeastContrast;
+    const double visible = tells ? std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0) : 0.0;
     reading->visible.push_back(static_cast<float>(visible));
     seen += visible;
-    all += 1.0;
+    all += tells ? 1.0 : 0.0;
   }
-  reading->visible_fraction = seen / all;
+  const double blocks = static_cast<double>(fit.blocks().size());
+  reading->visible_fraction = seen / std::max(all, kLeastTelling * blocks);
   // The corners and how they follow the eight motions.
   const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
   const auto pixel_of = [&](Vec2 unit_down) {

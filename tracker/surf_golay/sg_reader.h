@@ -1,5 +1,7 @@
 #pragma once
 
+// Internal: between the .cc files of this module; not installed.
+
 #include <array>
 #include <cstdint>
 #include <optional>
