@@ -41,32 +41,35 @@ int DarkComponents::Melt(int a, int b) {
 }
 
 void DarkComponents::Find(const BitMask& mask) {
-  runs_.clear();
-  component_of_run_.clear();
+  count_ = 0;
   components_.clear();
   int above = 0, above_end = 0;  // Runs of the row above.
   for (int y = 0; y < mask.height; ++y) {
-    const int row_begin = static_cast<int>(runs_.size());
+    const int row_begin = count_;
+    // A row has at most one run for two pixels: room for them once, not run by run.
+    const std::size_t room = static_cast<std::size_t>(count_) + mask.width / 2 + 1;
+    if (runs_.size() < room) runs_.resize(room + room / 2);
+    DarkRun* const runs = runs_.data();
     const std::uint64_t* words = mask.row(y);
     std::uint64_t carry = 0;
     int begin = -1;
     const auto add_run = [&](int end) {
-      const int run = static_cast<int>(runs_.size());
-      runs_.push_back({y, begin, end, -1});
+      const int run = count_++;
       // Touching over a corner counts: one pixel of reach on either side.
-      while (above < above_end && runs_[above].end < begin) ++above;
+      while (above < above_end && runs[above].end < begin) ++above;
       int component = -1;
-      for (int i = above; i < above_end && runs_[i].begin <= end; ++i) {
-        const int other = Root(component_of_run_[i]);
+      for (int i = above; i < above_end && runs[i].begin <= end; ++i) {
+        const int other = Root(runs[i].component);
         component = component < 0 ? other : Melt(component, other);
       }
-      if (component < 0) {
-        component = static_cast<int>(components_.size());
+      const bool first = component < 0;
+      if (first) component = static_cast<int>(components_.size());
+      runs[run] = {y, begin, end, -1, component};
+      if (first) {
         components_.push_back({component, begin, end - 1, y, y, end - begin, run, run});
       } else {
         Join(run, component);
       }
-      component_of_run_.push_back(component);
       begin = -1;
     };
     for (int w = 0; w < mask.words_per_row; ++w) {
@@ -85,7 +88,7 @@ void DarkComponents::Find(const BitMask& mask) {
     }
     if (begin >= 0) add_run(mask.width);
     above = row_begin;
-    above_end = static_cast<int>(runs_.size());
+    above_end = count_;
   }
 }
 

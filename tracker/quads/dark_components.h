@@ -2,6 +2,8 @@
 
 // Internal: between the .cc files of this module; not installed.
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "tracker/quads/dark_mask.h"
@@ -12,6 +14,7 @@ namespace pleinair::tracker {
 struct DarkRun {
   int y, begin, end;
   int next;
+  int component;  ///< When it was found; may have melted into another since.
 };
 
 /// Dark pixels that hang together over edges and corners.
@@ -33,15 +36,15 @@ class DarkComponents {
 
   /// In order of their first pixels; those with parent != own number are none any more.
   const std::vector<DarkComponent>& components() const { return components_; }
-  const std::vector<DarkRun>& runs() const { return runs_; }
+  std::span<const DarkRun> runs() const { return {runs_.data(), static_cast<std::size_t>(count_)}; }
 
  private:
   int Root(int component);
   void Join(int run, int component);
   int Melt(int a, int b);
 
-  std::vector<DarkRun> runs_;
-  std::vector<int> component_of_run_;
+  std::vector<DarkRun> runs_;  // The first count_ of them.
+  int count_ = 0;
   std::vector<DarkComponent> components_;
 };
 

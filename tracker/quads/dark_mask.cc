@@ -44,7 +44,9 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
     int share = greatest;
     for (int i = 0; i < contrast.halvings; ++i) share = Mean(share, 0);
     const bool seen = range >= contrast.codes && range >= share;
-    thresholds[x] = seen ? Mean(least, greatest) : std::uint8_t{0};
+    std::uint8_t threshold = greatest;
+    for (int i = 0; i < contrast.depth; ++i) threshold = Mean(least, threshold);
+    thresholds[x] = seen ? threshold : std::uint8_t{0};
   }
 }
 
@@ -131,7 +133,7 @@ void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
   // speckle off.
   const DarkContrast contrast{
       std::clamp(noise * 5 / 2, kLeastContrast, std::max(most.codes, kLeastContrast)),
-      most.halvings};
+      most.halvings, most.depth};
 
   for (int row = 0; row < tile_rows; ++row) {
     const std::uint8_t *least[3], *greatest[3];

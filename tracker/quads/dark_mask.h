@@ -31,10 +31,12 @@ struct DarkMaskBuffers {
 
 inline constexpr int kTile = 4;  ///< Edge of a tile in pixels.
 
-/// How far apart least and greatest value of a neighbourhood must be.
+/// How far apart least and greatest value of a neighbourhood must be, and what is dark between
+/// them.
 struct DarkContrast {
   int codes = 0;     ///< At least so many.
   int halvings = 2;  ///< And at least the greatest value halved so often.
+  int depth = 1;     ///< Dark is what lies below the range halved so often, above the least value.
 };
 
 /// What one row of tiles does; the SIMD version and its scalar reference agree bit for bit.
@@ -43,8 +45,8 @@ struct DarkMaskKernels {
   /// written once for each column of the tile.
   void (*tile_extremes)(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
                         std::uint8_t* tile_min, std::uint8_t* tile_max);
-  /// Thresholds of one row of tiles from the extremes of 3×3 tiles: half way between the least and
-  /// the greatest value where they differ by `contrast`, else 0.
+  /// Thresholds of one row of tiles from the extremes of 3×3 tiles where they differ by
+  /// `contrast`, else 0.
   /// The three rows hold a tile's width of padding before and behind. `column_*` is scratch of the
   /// same length as they.
   void (*thresholds)(const std::uint8_t* const min_rows[3], const std::uint8_t* const max_rows[3],
@@ -64,11 +66,11 @@ const DarkMaskKernels& SimdDarkMaskKernels();
 
 /// Marks pixels that are dark beside what lies around them, as AprilTag 3 does (Wang & Olson,
 /// "AprilTag 2: Efficient and robust fiducial detection", IROS 2016, section III-A: extremes of 4×4
-/// tiles, spread to the neighbours, threshold half way). Tiles whose neighbourhood has little
-/// contrast hold no dark pixel. Deviation: little is not a fixed number of codes but little beside
-/// the noise of this picture (up to `most.codes`) and beside the neighbourhood's own brightness, so
-/// that dark exposures work and noise makes no speckle. The up to three last columns and rows that
-/// fill no tile are never dark.
+/// tiles, spread to the neighbours, threshold half way at depth 1). Tiles whose neighbourhood has
+/// little contrast hold no dark pixel. Deviation: little is not a fixed number of codes but little
+/// beside the noise of this picture (up to `most.codes`) and beside the neighbourhood's own
+/// brightness, so that dark exposures work and noise makes no speckle. The up to three last columns
+/// and rows that fill no tile are never dark.
 void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
                      const DarkMaskKernels& kernels, DarkMaskBuffers* buffers, BitMask* mask);
 

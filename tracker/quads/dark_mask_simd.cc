@@ -101,7 +101,9 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
     auto share = greatest;
     for (int i = 0; i < contrast.halvings; ++i) share = hn::AverageRound(share, zero);
     const auto seen = hn::Eq(hn::Max(range, hn::Max(share, enough)), range);
-    hn::StoreU(hn::IfThenElseZero(seen, hn::AverageRound(least, greatest)), kBytes, thresholds + x);
+    auto threshold = greatest;
+    for (int i = 0; i < contrast.depth; ++i) threshold = hn::AverageRound(least, threshold);
+    hn::StoreU(hn::IfThenElseZero(seen, threshold), kBytes, thresholds + x);
   }
   const std::uint8_t *min_rest[3], *max_rest[3];
   for (int j = 0; j < 3; ++j) {

@@ -14,14 +14,18 @@ namespace {
 
 /// At full size, where only the thinnest rims are looked for and speckle costs most, a
 /// neighbourhood has to have half its brightness as contrast, and more than noise wherever there is
-/// any. Half size takes the dull prints and those in noise.
-constexpr DarkContrast kFullSizeContrast{150, 1};
-constexpr DarkContrast kHalfSizeContrast{64, 2};
+/// any.
+constexpr DarkContrast kFullSize{.codes = 150, .halvings = 1, .depth = 1};
+/// Half size takes the dull prints and those in noise and blur.
+constexpr DarkContrast kHalfSize{.codes = 64, .halvings = 2, .depth = 1};
+/// Where the edge of a shadow crosses a print, the quiet zone in the shade is below half way to the
+/// quiet zone in the light, and melts with the rim. A quarter of the way, edges to 16:1 are passed.
+constexpr DarkContrast kShadowEdges{.codes = 150, .halvings = 1, .depth = 2};
 
 constexpr float kLeastContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
 constexpr float kLeastSide = 0.12F;
-/// Of the rim's share of the quiet zone's light plus half its spread. Prints reach it below 13 px,
-/// where rim and quiet zone blur into each other, or where noise is a third of their difference.
+/// Prints reach it below 13 px, where rim and quiet zone blur into each other, or where noise is a
+/// third of their difference.
 constexpr float kGreatestDoubt = 0.8F;
 
 Vec2 Centre(const Quad& quad) {
@@ -36,7 +40,7 @@ double Area(const Quad& quad) {
 
 bool Plausible(const RimEvidence& evidence, float greatest_doubt) {
   return evidence.contrast >= kLeastContrast && evidence.least_side >= kLeastSide &&
-         evidence.ratio + 0.5F * evidence.spread <= greatest_doubt;
+         evidence.Doubt() <= greatest_doubt;
 }
 
 /// The same square found twice.
@@ -57,8 +61,8 @@ struct QuadDetector::Work {
   DarkComponents components;
   QuadOutline outline;
 
-  void DetectAt(ImageView<const std::uint8_t> level, int scale, ImageView<const std::uint8_t> grey,
-                std::vector<Quad>* quads);
+  void DetectAt(ImageView<const std::uint8_t> level, int scale, DarkContrast contrast,
+                ImageView<const std::uint8_t> grey, std::vector<Quad>* quads);
 };
 
 QuadDetector::QuadDetector(QuadDetectorOptions options) : work_(std::make_unique<Work>()) {
@@ -69,9 +73,9 @@ QuadDetector::QuadDetector(QuadDetector&&) noexcept = default;
 QuadDetector& QuadDetector::operator=(QuadDetector&&) noexcept = default;
 
 void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale,
-                                  ImageView<const std::uint8_t> grey, std::vector<Quad>* quads) {
-  ComputeDarkMask(level, scale == 1 ? kFullSizeContrast : kHalfSizeContrast, SimdDarkMaskKernels(),
-                  &buffers, &mask);
+                                  DarkContrast contrast, ImageView<const std::uint8_t> grey,
+                                  std::vector<Quad>* quads) {
+  ComputeDarkMask(level, contrast, SimdDarkMaskKernels(), &buffers, &mask);
   components.Find(mask);
   const std::vector<DarkComponent>& found = components.components();
   const double least_side = std::max(options.least_side_px / scale, 6.0);
@@ -111,9 +115,10 @@ void QuadDetector::Detect(ImageView<const std::uint8_t> grey, std::vector<Quad>*
   CHECK_EQ(grey.channels(), 1);
   quads->clear();
   if (grey.width() < 8 || grey.height() < 8) return;
-  work_->DetectAt(grey, 1, grey, quads);
+  work_->DetectAt(grey, 1, kFullSize, grey, quads);
   HalveImage(grey, SimdDarkMaskKernels(), &work_->half);
-  work_->DetectAt(work_->half.view(), 2, grey, quads);
+  work_->DetectAt(work_->half.view(), 2, kHalfSize, grey, quads);
+  work_->DetectAt(work_->half.view(), 2, kShadowEdges, grey, quads);
 }
 
 }  // namespace pleinair::tracker

@@ -25,10 +25,11 @@ struct QuadDetectorOptions {
 /// Finds the outer squares of markers: a closed black rim, white around it, each a tenth of the
 /// edge wide. First stage of the fast path; what it finds still has to be read.
 ///
-/// Dark pixels beside their neighbourhood (dark_mask.h), at full and at half size: full for the
-/// thinnest rims, half because means of four pixels carry less noise and blur. Components of them;
-/// the quadrilateral in each convex hull; its sides moved to the steepest rise of light; kept when
-/// all four sides are darker inside than outside.
+/// Dark pixels beside their neighbourhood (dark_mask.h), three times: at full size for the thinnest
+/// rims, at half size because means of four pixels carry less noise and blur, and at half size with
+/// a lower threshold for prints crossed by the edge of a shadow. Components of them; the
+/// quadrilateral in each convex hull; its sides moved to the steepest rise of light; kept when all
+/// four sides are darker inside than outside by much the same factor.
 ///
 /// Not thread-safe: buffers are kept, so that pictures after the first do not allocate. The same
 /// picture gives the same quads in the same order.

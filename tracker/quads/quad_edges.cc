@@ -26,6 +26,12 @@ float Sample(ImageView<const std::uint8_t> grey, float x, float y) {
 constexpr int kMostSteps = 12;     ///< Pixels to either side of a side, where edges are looked for.
 constexpr int kMostStretches = 8;  ///< Of a side, each with an edge of its own.
 
+/// Nearest pixel; std::lround is a call for each. Beside the picture it need only stay beside it.
+int Nearest(double position) {
+  const double above = position + 0.5;
+  return static_cast<int>(above);
+}
+
 struct Line {
   Vec2 point, direction;
 };
@@ -94,11 +100,17 @@ std::optional<Line> SteepestLine(ImageView<const std::uint8_t> grey, Vec2 from, 
     double mean_u = 0.0, mean_v = 0.0;
     for (int j = 0; j < per_stretch; ++j) {
       const double at = 0.08 + 0.84 * (i * per_stretch + j + 0.5) / (stretches * per_stretch);
-      const int u = std::clamp(static_cast<int>(std::lround(from_u + at * along_u)), 0, size_u - 1);
-      const int v = static_cast<int>(std::lround(from_v + (u - from_u) * slope));
+      const int u = std::clamp(Nearest(from_u + at * along_u), 0, size_u - 1);
+      const int v = Nearest(from_v + (u - from_u) * slope);
+      // Rows or columns beyond the picture repeat its last.
       const std::uint8_t* pixels = grey.data() + u * step_u;
-      for (int k = -steps; k <= steps; ++k) {
-        profile[k + steps] += light[pixels[std::clamp(v + k, 0, size_v - 1) * step_v]];
+      if (v >= steps && v + steps < size_v) {
+        const std::uint8_t* pixel = pixels + (v - steps) * step_v;
+        for (int k = 0; k <= 2 * steps; ++k, pixel += step_v) profile[k] += light[*pixel];
+      } else {
+        for (int k = -steps; k <= steps; ++k) {
+          profile[k + steps] += light[pixels[std::clamp(v + k, 0, size_v - 1) * step_v]];
+        }
       }
       mean_u += u;
       mean_v += v;

@@ -19,6 +19,9 @@ struct RimEvidence {
   /// share of its white.
   float ratio = 0.0F;
   float spread = 0.0F;  ///< Standard deviation of rim/quiet zone as a share of 1 - ratio.
+
+  /// Small where the rim is much darker than the quiet zone, and equally so all round.
+  float Doubt() const { return ratio + 0.5F * spread; }
 };
 
 /// Moves each side to where the picture's light rises most from inside to outside, within a few

@@ -46,7 +46,7 @@ std::optional<std::array<Vec2, 4>> Grown(const std::array<Vec2, 4>& quad) {
 
 }  // namespace
 
-void QuadOutline::BuildHull(const std::vector<DarkRun>& runs, const DarkComponent& component) {
+void QuadOutline::BuildHull(std::span<const DarkRun> runs, const DarkComponent& component) {
   const int rows = component.max_y - component.min_y + 1;
   left_.assign(rows, INT_MAX);
   right_.assign(rows, INT_MIN);
@@ -69,7 +69,7 @@ void QuadOutline::BuildHull(const std::vector<DarkRun>& runs, const DarkComponen
   for (int row = rows - 1; row >= 0; --row) extend(turn, {left_[row], row});
 }
 
-std::optional<std::array<Vec2, 4>> QuadOutline::Fit(const std::vector<DarkRun>& runs,
+std::optional<std::array<Vec2, 4>> QuadOutline::Fit(std::span<const DarkRun> runs,
                                                     const DarkComponent& component,
                                                     double least_side_px) {
   BuildHull(runs, component);

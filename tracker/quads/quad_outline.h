@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/vector.h"
@@ -16,11 +17,11 @@ class QuadOutline {
  public:
   /// Corners clockwise in the picture, half a pixel outside the outermost pixel centres; nothing
   /// where the convex hull of the component is no quadrilateral of at least `least_side_px`.
-  std::optional<std::array<Vec2, 4>> Fit(const std::vector<DarkRun>& runs,
+  std::optional<std::array<Vec2, 4>> Fit(std::span<const DarkRun> runs,
                                          const DarkComponent& component, double least_side_px);
 
  private:
-  void BuildHull(const std::vector<DarkRun>& runs, const DarkComponent& component);
+  void BuildHull(std::span<const DarkRun> runs, const DarkComponent& component);
 
   struct Vertex {
     int x, y;
