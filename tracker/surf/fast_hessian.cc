@@ -83,9 +83,8 @@ void FastHessian::DetectOctave(const IntegralImage& integral, int octave, int st
   const int columns = (integral.width() + step - 1) / step;
   const int rows = (integral.height() + step - 1) / step;
   for (std::vector<float>& row : ring_) {
-    if (row.size() < static_cast<std::size_t>(kRowFront + columns + kRowPadding)) {
-      row.resize(kRowFront + columns + kRowPadding);
-    }
+    const std::size_t needed = std::size_t{kRowFront} + columns + kRowPadding;
+    if (row.size() < needed) row.resize(needed);
   }
   candidates_.resize(columns + kRowPadding);
   // The next octave has every sample of this one, or every second in both directions.

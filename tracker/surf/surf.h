@@ -13,14 +13,17 @@ namespace pleinair::tracker {
 struct SurfOptions {
   /// Each octave has two scales in its middle: 15 and 21, 27 and 39, 51 and 75 px filters, ...
   int octaves = 3;
-  /// Least response of a keypoint. 0.0002 finds a Gaussian blob of about 6 grey levels of 255.
+  /// Least response of a keypoint. 0.0002 finds a Gaussian blob of 21 grey levels of 255; the
+  /// response goes with the square of the contrast.
   float threshold = 0.0002f;
   int max_keypoints = 500;
   /// Angles are 0: for pictures whose roll is known.
   bool upright = false;
-  /// One octave more, in front of the others, on a picture of twice the size.
+  /// One octave more, in front of the others, on a picture of twice the size: for blobs from a
+  /// sigma of 1.2 px on, where without it they begin at 2.5 px.
   bool double_size = false;
-  /// Samples of the first octave, every 1, 2 or 4 px (of its picture). The paper has 2.
+  /// Samples of the first octave (and of the doubled one), every 1, 2 or 4 px of the picture. The
+  /// paper has 2.
   int first_step = 1;
   /// Strongest of each bucket kept in fair shares, so that a busy background does not use up the
   /// keypoints; 0: the strongest of all.

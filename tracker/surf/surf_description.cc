@@ -89,7 +89,8 @@ struct DescriptorTables {
     constexpr float kMiddle = kSamples / 2.0f;
     for (int i = 0; i < kBoxes; ++i) {
       columns[i] = static_cast<float>(i % kColumns) - kMiddle;
-      rows[i] = static_cast<float>(i / kColumns) - kMiddle;
+      const int row = i / kColumns;
+      rows[i] = static_cast<float>(row) - kMiddle;
     }
     constexpr float kSigma = 3.3f;  // Section 4.2, in scales.
     for (int row = 0; row < kSamples; ++row) {

@@ -88,7 +88,8 @@ struct OrientationTables {
   OrientationTables() {
     for (int i = 0; i < kBoxes; ++i) {
       columns[i] = static_cast<float>(i % kColumns - kRadius - 1);
-      rows[i] = static_cast<float>(i / kColumns - kRadius - 1);
+      const int row = i / kColumns;
+      rows[i] = static_cast<float>(row - kRadius - 1);
     }
     int used = 0;
     for (int i = 0; i < kWavelets; ++i) {
@@ -112,26 +113,25 @@ float DominantDirection(BoxLevels* levels, float x, float y, float scale) {
   alignas(64) std::int32_t bins[kWavelets];
   HWY_DYNAMIC_DISPATCH(Wavelets)(boxes, tables.weights.data(), dx, dy, bins);
 
-  float sum_x[kBins + kWindow] = {};
-  float sum_y[kBins + kWindow] = {};
+  // Sums up to each bin, over one turn and a window more: a window is a difference of two.
+  float bin_x[kBins] = {};
+  float bin_y[kBins] = {};
   for (const std::int32_t i : tables.in_circle) {
-    sum_x[bins[i]] += dx[i];
-    sum_y[bins[i]] += dy[i];
+    bin_x[bins[i]] += dx[i];
+    bin_y[bins[i]] += dy[i];
   }
-  for (int k = 0; k < kWindow; ++k) {
-    sum_x[kBins + k] = sum_x[k];
-    sum_y[kBins + k] = sum_y[k];
+  float sum_x[kBins + kWindow + 1] = {};
+  float sum_y[kBins + kWindow + 1] = {};
+  for (int k = 0; k < kBins + kWindow; ++k) {
+    sum_x[k + 1] = sum_x[k] + bin_x[k % kBins];
+    sum_y[k + 1] = sum_y[k] + bin_y[k % kBins];
   }
   float longest = 0;
   float direction_x = 0;
   float direction_y = 0;
   for (int first = 0; first < kBins; ++first) {
-    float window_x = 0;
-    float window_y = 0;
-    for (int k = 0; k < kWindow; ++k) {
-      window_x += sum_x[first + k];
-      window_y += sum_y[first + k];
-    }
+    const float window_x = sum_x[first + kWindow] - sum_x[first];
+    const float window_y = sum_y[first + kWindow] - sum_y[first];
     const float length = window_x * window_x + window_y * window_y;
     if (length > longest) {
       longest = length;
