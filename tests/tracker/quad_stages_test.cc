@@ -43,7 +43,7 @@ class DarkMaskVectors : public testing::TestWithParam<std::int64_t> {
 TEST_P(DarkMaskVectors, GiveWhatTheScalarReferenceGives) {
   for (const int width : {4, 15, 16, 31, 60, 64, 66, 127, 128, 200, 321}) {
     for (const DarkContrast contrast :
-         {DarkContrast{64, 1, 1}, DarkContrast{64, 2, 1}, DarkContrast{30, 1, 2}}) {
+         {DarkContrast{64, 1, 5}, DarkContrast{64, 2, 4}, DarkContrast{30, 1, 2}}) {
       const GreyImage picture = UnevenNoise(width, 37, width);
       DarkMaskBuffers buffers, scalar_buffers;
       BitMask mask, scalar_mask;
@@ -71,13 +71,13 @@ TEST(DarkMask, ThresholdsHalfWayBetweenTheExtremesOfNineTiles) {
   }
   DarkMaskBuffers buffers;
   BitMask mask;
-  ComputeDarkMask(picture.view(), {64, 2, 1}, ScalarDarkMaskKernels(), &buffers, &mask);
+  ComputeDarkMask(picture.view(), {64, 2, 4}, ScalarDarkMaskKernels(), &buffers, &mask);
   for (int x = 0; x < 32; ++x) {
     // Left of 12 a tile has no bright neighbour, hence no contrast.
     EXPECT_EQ(mask(x, 5), x >= 12 && x < 16) << x;
   }
   for (int y = 0; y < 12; ++y) picture(16, y) = 109;
-  ComputeDarkMask(picture.view(), {64, 2, 1}, ScalarDarkMaskKernels(), &buffers, &mask);
+  ComputeDarkMask(picture.view(), {64, 2, 4}, ScalarDarkMaskKernels(), &buffers, &mask);
   EXPECT_TRUE(mask(16, 5));
   // A quarter of the way is 65.
   for (const int value : {64, 66}) {
@@ -97,7 +97,7 @@ TEST(DarkMask, HasNoSpeckleWhereThereIsOnlyNoise) {
     }
     DarkMaskBuffers buffers;
     BitMask mask;
-    ComputeDarkMask(picture.view(), {150, 2, 1}, SimdDarkMaskKernels(), &buffers, &mask);
+    ComputeDarkMask(picture.view(), {150, 2, 4}, SimdDarkMaskKernels(), &buffers, &mask);
     DarkComponents components;
     components.Find(mask);
     EXPECT_LT(components.runs().size(), 1000U)

@@ -44,8 +44,10 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
     int share = greatest;
     for (int i = 0; i < contrast.halvings; ++i) share = Mean(share, 0);
     const bool seen = range >= contrast.codes && range >= share;
-    std::uint8_t threshold = greatest;
-    for (int i = 0; i < contrast.depth; ++i) threshold = Mean(least, threshold);
+    std::uint8_t threshold = least;  // A binary fraction of the way, its lowest digit first.
+    for (int digit = 1; digit < 8; digit *= 2) {
+      threshold = Mean(threshold, (contrast.eighths & digit) != 0 ? greatest : least);
+    }
     thresholds[x] = seen ? threshold : std::uint8_t{0};
   }
 }
@@ -133,7 +135,7 @@ void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
   // speckle off.
   const DarkContrast contrast{
       std::clamp(noise * 5 / 2, kLeastContrast, std::max(most.codes, kLeastContrast)),
-      most.halvings, most.depth};
+      most.halvings, most.eighths};
 
   for (int row = 0; row < tile_rows; ++row) {
     const std::uint8_t *least[3], *greatest[3];

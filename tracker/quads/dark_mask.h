@@ -36,7 +36,7 @@ inline constexpr int kTile = 4;  ///< Edge of a tile in pixels.
 struct DarkContrast {
   int codes = 0;     ///< At least so many.
   int halvings = 2;  ///< And at least the greatest value halved so often.
-  int depth = 1;     ///< Dark is what lies below the range halved so often, above the least value.
+  int eighths = 4;   ///< Dark is what lies less than so many eighths of the way above the least.
 };
 
 /// What one row of tiles does; the SIMD version and its scalar reference agree bit for bit.
@@ -66,11 +66,11 @@ const DarkMaskKernels& SimdDarkMaskKernels();
 
 /// Marks pixels that are dark beside what lies around them, as AprilTag 3 does (Wang & Olson,
 /// "AprilTag 2: Efficient and robust fiducial detection", IROS 2016, section III-A: extremes of 4×4
-/// tiles, spread to the neighbours, threshold half way at depth 1). Tiles whose neighbourhood has
-/// little contrast hold no dark pixel. Deviation: little is not a fixed number of codes but little
-/// beside the noise of this picture (up to `most.codes`) and beside the neighbourhood's own
-/// brightness, so that dark exposures work and noise makes no speckle. The up to three last columns
-/// and rows that fill no tile are never dark.
+/// tiles, spread to the neighbours, threshold half way). Tiles whose neighbourhood has little
+/// contrast hold no dark pixel. Deviations: the threshold need not be half way, and little is not a
+/// fixed number of codes but little beside the noise of this picture (up to `most.codes`) and
+/// beside the neighbourhood's own brightness, so that dark exposures work and noise makes no
+/// speckle. The up to three last columns and rows that fill no tile are never dark.
 void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
                      const DarkMaskKernels& kernels, DarkMaskBuffers* buffers, BitMask* mask);
 

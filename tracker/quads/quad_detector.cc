@@ -15,12 +15,12 @@ namespace {
 /// At full size, where only the thinnest rims are looked for and speckle costs most, a
 /// neighbourhood has to have half its brightness as contrast, and more than noise wherever there is
 /// any.
-constexpr DarkContrast kFullSize{.codes = 150, .halvings = 1, .depth = 1};
+constexpr DarkContrast kFullSize{.codes = 150, .halvings = 1, .eighths = 5};
 /// Half size takes the dull prints and those in noise and blur.
-constexpr DarkContrast kHalfSize{.codes = 64, .halvings = 2, .depth = 1};
+constexpr DarkContrast kHalfSize{.codes = 64, .halvings = 2, .eighths = 4};
 /// Where the edge of a shadow crosses a print, the quiet zone in the shade is below half way to the
 /// quiet zone in the light, and melts with the rim. A quarter of the way, edges to 16:1 are passed.
-constexpr DarkContrast kShadowEdges{.codes = 150, .halvings = 1, .depth = 2};
+constexpr DarkContrast kShadowEdges{.codes = 150, .halvings = 1, .eighths = 2};
 
 constexpr float kLeastContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
 constexpr float kLeastSide = 0.12F;
