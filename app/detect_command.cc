@@ -1,5 +1,6 @@
 #include "app/detect_command.h"
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -22,18 +23,41 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
     "  pleinair detect frames/*.png --calibration camera.json --size-mm 480 --track\n"
+    "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140 --family sg --numbers "
+    "0-49\n"
     "Prints one JSON object a picture: file, milliseconds, and markers with family, id, corners\n"
     "(pixels, integer = pixel centre; top-left, then clockwise as the print is read),\n"
-    "camera_from_marker, covariance, visible_fraction, alternative and path.";
+    "camera_from_marker, covariance, visible_fraction, visibility (of S-G markers, by squares of\n"
+    "the print), alternative and path; with --track also lost: markers that are no longer seen.";
 
-Result<void> CheckFamilies(const std::vector<std::string>& families) {
-  for (const std::string& family : families) {
-    if (family == "sg") {
-      return InputError("--family", "this version does not have the family \"sg\" yet",
-                        "use an AprilTag family, for example tag36h11");
+Result<tracker::SgStrategy> StrategyOf(const std::string& name) {
+  if (name == "hybrid") return tracker::SgStrategy::kHybrid;
+  if (name == "fast") return tracker::SgStrategy::kFast;
+  if (name == "surf-golay") return tracker::SgStrategy::kSurfGolay;
+  return InputError("--strategy", "\"" + name + "\" is no strategy",
+                    "use hybrid, fast or surf-golay");
+}
+
+/// Numbers and ranges of them: "17", "0-49".
+Result<std::vector<int>> NumbersOf(const std::vector<std::string>& texts) {
+  std::vector<int> numbers;
+  for (const std::string& text : texts) {
+    int first = -1, last = -1;
+    const char* end = text.data() + text.size();
+    auto [at, status] = std::from_chars(text.data(), end, first);
+    last = first;
+    if (status == std::errc() && at != end && *at == '-') {
+      const auto second = std::from_chars(at + 1, end, last);
+      at = second.ptr;
+      status = second.ec;
     }
+    if (status != std::errc() || at != end || first < 0 || last < first || last > 4095) {
+      return InputError("--numbers", "\"" + text + "\" is no number or range within 0-4095",
+                        "write for example 17 or 0-49");
+    }
+    for (int number = first; number <= last; ++number) numbers.push_back(number);
   }
-  return {};
+  return numbers;
 }
 
 /// Says which argument an error without a place is about.
@@ -62,12 +86,14 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
     return InputError("--size-mm", "the marker's size must be positive",
                       "give the edge of its outer black square in millimetres");
   }
-  PLEINAIR_RETURN_IF_ERROR(CheckFamilies(arguments.families));
+  PLEINAIR_ASSIGN_OR_RETURN(const tracker::SgStrategy strategy, StrategyOf(arguments.strategy));
+  PLEINAIR_ASSIGN_OR_RETURN(std::vector<int> numbers, NumbersOf(arguments.numbers));
   PLEINAIR_ASSIGN_OR_RETURN(const CameraModel camera,
                             devices::ReadCalibration(arguments.calibration));
   const tracker::TrackerOptions options{.families = arguments.families,
                                         .marker_size_m = arguments.size_mm * 1e-3,
-                                        .consecutive_frames = arguments.track};
+                                        .consecutive_frames = arguments.track,
+                                        .sg = {strategy, std::move(numbers)}};
   auto tracker = tracker::Tracker::Create(camera, options);
   if (!tracker) return Located(std::move(tracker).error(), "--family");
   for (const std::string& picture : arguments.pictures) {
@@ -83,7 +109,12 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
     out << "{\"file\":"
         << nlohmann::json(picture).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
         << ",\"milliseconds\":" << nlohmann::json(std::round(elapsed.count() * 1e3) / 1e3).dump()
-        << ",\"markers\":" << MarkersJson(*sightings) << "}\n";
+        << ",\"markers\":" << MarkersJson(*sightings);
+    if (arguments.track) out << ",\"lost\":" << LostJson((*tracker)->Lost());
+    out << "}\n";
+    for (const std::string& warning : (*tracker)->Warnings()) {
+      std::cerr << "pleinair detect: " << picture << ": " << warning << "\n";
+    }
   }
   return {};
 }
@@ -103,6 +134,15 @@ void AddDetectCommand(CLI::App& app, CommandResult& result) {
       ->delimiter(',')
       ->capture_default_str();
   command->add_flag("--track", arguments->track, "The pictures are consecutive frames");
+  command
+      ->add_option("--strategy", arguments->strategy,
+                   "How S-G markers are found: hybrid, fast (whole edge seen) or surf-golay")
+      ->capture_default_str();
+  command
+      ->add_option("--numbers", arguments->numbers,
+                   "S-G numbers in use, such as 17 or 0-49, comma-separated (default: all 4,096); "
+                   "others are not reported, and more of these may be covered")
+      ->delimiter(',');
   // What `detect` prints is JSON in any case; the flag is there for scripts that pass it always.
   command->add_flag("--json")->description("One JSON object a line (the only form)");
   command->callback([arguments, &result] { result.status = RunDetect(*arguments, std::cout); });

@@ -11,9 +11,11 @@ namespace pleinair::app {
 struct DetectArguments {
   std::vector<std::string> pictures;
   std::string calibration;
-  double size_mm = 0.0;                           ///< Edge of the outer black square.
-  std::vector<std::string> families{"tag36h11"};  ///< Which markers to look for.
-  bool track = false;                             ///< The pictures are consecutive frames.
+  double size_mm = 0.0;                                 ///< Edge of the outer black square.
+  std::vector<std::string> families{"sg", "tag36h11"};  ///< Which markers to look for.
+  bool track = false;                                   ///< The pictures are consecutive frames.
+  std::string strategy = "hybrid";   ///< For S-G markers: hybrid, fast or surf-golay.
+  std::vector<std::string> numbers;  ///< S-G numbers in use ("17", "0-49"); none: all.
 };
 
 /// Looks for markers in each picture and writes one JSON line a picture to `out`. Every picture is

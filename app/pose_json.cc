@@ -1,5 +1,7 @@
 #include "app/pose_json.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 namespace pleinair::app {
@@ -22,6 +24,12 @@ Json SightingJson(const tracker::Sighting& sighting) {
     alternative = {{"camera_from_marker", PoseJson(pose.alternative->camera_from_marker)},
                    {"reprojection_rms_px", pose.alternative->reprojection_rms_px}};
   }
+  Json visibility = nullptr;
+  if (detection.visibility_side > 0) {
+    Json values = Json::array();
+    for (const float value : detection.visibility) values.push_back(std::round(value * 100) / 100);
+    visibility = {{"side", detection.visibility_side}, {"values", std::move(values)}};
+  }
   return {{"family", detection.family},
           {"id", detection.id},
           {"corners", corners},
@@ -30,6 +38,7 @@ Json SightingJson(const tracker::Sighting& sighting) {
           {"reprojection_rms_px", pose.best.reprojection_rms_px},
           {"ambiguity_ratio", pose.ambiguity_ratio},
           {"visible_fraction", detection.visible_fraction},
+          {"visibility", std::move(visibility)},
           {"alternative", alternative},
           {"path", tracker::PathName(detection.path)}};
 }
@@ -39,6 +48,14 @@ Json SightingJson(const tracker::Sighting& sighting) {
 std::string MarkersJson(const std::vector<tracker::Sighting>& sightings) {
   Json markers = Json::array();
   for (const tracker::Sighting& sighting : sightings) markers.push_back(SightingJson(sighting));
+  return markers.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string LostJson(const std::vector<tracker::LostMarker>& lost) {
+  Json markers = Json::array();
+  for (const tracker::LostMarker& marker : lost) {
+    markers.push_back({{"family", marker.family}, {"id", marker.id}, {"frames", marker.frames}});
+  }
   return markers.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

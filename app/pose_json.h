@@ -14,4 +14,7 @@ namespace pleinair::app {
 /// its `reprojection_rms_px`) and `path`. Numbers are the shortest that read back the same.
 std::string MarkersJson(const std::vector<tracker::Sighting>& sightings);
 
+/// Markers that are no longer seen as a JSON array: family, id and since how many frames.
+std::string LostJson(const std::vector<tracker::LostMarker>& lost);
+
 }  // namespace pleinair::app

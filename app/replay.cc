@@ -68,8 +68,11 @@ class Replayer {
     report_.width = size.width;
     report_.height = size.height;
     output_camera_ = ScaleCamera(recording.camera, size);
-    auto tracker =
-        tracker::Tracker::Create(recording.camera, {{scene_.marker.family}, scene_.marker.size_m});
+    tracker::TrackerOptions tracking;
+    tracking.families = {scene_.marker.family};
+    tracking.marker_size_m = scene_.marker.size_m;
+    tracking.consecutive_frames = true;
+    auto tracker = tracker::Tracker::Create(recording.camera, tracking);
     if (!tracker) {
       // What it refuses is what the scene says of the marker.
       Error error = std::move(tracker).error();

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/image.h"
@@ -14,6 +17,9 @@ namespace pleinair::tracker {
 struct Candidate {
   MarkerDetection detection;
   std::shared_ptr<const PrintPattern> pattern;  ///< The print that carries this number.
+  /// Where the detector has measured the corners itself: their covariance (x before y, corner after
+  /// corner; px²); the pattern is then not needed.
+  std::optional<std::array<double, 64>> corner_covariance_px2;
 };
 
 /// One way to find markers. One thread at a time.
@@ -24,6 +30,11 @@ class MarkerDetector {
   /// Markers in one sRGB-encoded grey picture of any size, in no particular order; the same
   /// picture gives the same list.
   virtual std::vector<Candidate> Detect(ImageView<const std::uint8_t> grey) = 0;
+
+  /// Markers of the frames before that the last picture did not show, of detectors that follow.
+  virtual std::vector<LostMarker> Lost() const { return {}; }
+  /// What the user should know about the last picture, in words.
+  virtual std::vector<std::string> Warnings() const { return {}; }
 };
 
 }  // namespace pleinair::tracker

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/frames.h"
 #include "base/vector.h"
@@ -24,6 +25,17 @@ struct MarkerDetection {
   std::array<Vec2, 4> corners_px;
   double visible_fraction = 1.0;  ///< Share of the print that is seen, 0…1.
   DetectionPath path = DetectionPath::kFast;
+  /// Which part of the print is seen: `visibility_side`² squares of the print, quiet zone included,
+  /// row by row from the top-left as it is read, 0 covered … 1 as predicted. Empty where unknown.
+  int visibility_side = 0;
+  std::vector<float> visibility;
+};
+
+/// A marker that was followed and is not seen now.
+struct LostMarker {
+  std::string family;
+  int id = 0;
+  int frames = 0;  ///< Since how many frames.
 };
 
 /// Order of the 6×6 covariance: rotation vector (rad), then translation (m), both in the camera

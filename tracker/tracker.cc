@@ -11,6 +11,7 @@
 #include "tracker/marker_detector.h"
 #include "tracker/planar_pose.h"
 #include "tracker/print_alignment.h"
+#include "tracker/surf_golay/sg_detector.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -57,6 +58,22 @@ class DetectingTracker final : public Tracker {
     return sightings;
   }
 
+  std::vector<LostMarker> Lost() const override {
+    std::vector<LostMarker> lost;
+    for (const auto& detector : detectors_) {
+      for (LostMarker& marker : detector->Lost()) lost.push_back(std::move(marker));
+    }
+    return lost;
+  }
+
+  std::vector<std::string> Warnings() const override {
+    std::vector<std::string> warnings;
+    for (const auto& detector : detectors_) {
+      for (std::string& warning : detector->Warnings()) warnings.push_back(std::move(warning));
+    }
+    return warnings;
+  }
+
  private:
   static std::string SizeText(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
@@ -65,8 +82,12 @@ class DetectingTracker final : public Tracker {
   std::optional<Sighting> Measure(ImageView<const std::uint8_t> grey, Candidate candidate) const {
     Sighting sighting{std::move(candidate.detection), {}};
     CornerCovariance covariance = IsotropicCornerCovariance(kRawCornerSigma_px);
-    const std::optional<PrintAlignment> alignment =
-        AlignPrint(camera_, *candidate.pattern, grey, sighting.detection.corners_px);
+    std::optional<PrintAlignment> alignment;
+    if (candidate.corner_covariance_px2) {
+      covariance = *candidate.corner_covariance_px2;
+    } else {
+      alignment = AlignPrint(camera_, *candidate.pattern, grey, sighting.detection.corners_px);
+    }
     if (alignment) {
       sighting.detection.corners_px = alignment->corners_px;
       sighting.detection.visible_fraction = alignment->visible_fraction;
@@ -118,8 +139,19 @@ Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
     return InputError("", "no marker family to look for", "name one, for example tag36h11");
   }
   std::vector<std::unique_ptr<MarkerDetector>> detectors;
-  PLEINAIR_ASSIGN_OR_RETURN(auto april_tags, CreateAprilTagDetector(options.families));
-  detectors.push_back(std::move(april_tags));
+  std::vector<std::string> tag_families;
+  for (const std::string& family : options.families) {
+    if (family != "sg") tag_families.push_back(family);
+  }
+  if (tag_families.size() < options.families.size()) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto sg,
+                              SgDetector::Create(camera, options.sg, options.consecutive_frames));
+    detectors.push_back(std::move(sg));
+  }
+  if (!tag_families.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto april_tags, CreateAprilTagDetector(tag_families));
+    detectors.push_back(std::move(april_tags));
+  }
   return std::unique_ptr<Tracker>(
       std::make_unique<DetectingTracker>(camera, options, std::move(detectors)));
 }

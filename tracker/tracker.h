@@ -12,12 +12,27 @@
 
 namespace pleinair::tracker {
 
+/// How S-G markers are looked for.
+enum class SgStrategy {
+  kHybrid,     ///< Quadrilaterals first; keypoints of the border for what they miss.
+  kFast,       ///< Quadrilaterals alone: the whole outer edge must be seen.
+  kSurfGolay,  ///< Keypoints of the border alone.
+};
+
+struct SgOptions {
+  SgStrategy strategy = SgStrategy::kHybrid;
+  /// Numbers that are in use, if they are known: others are not reported, and more cells of these
+  /// may be covered. None given: all 4,096.
+  std::vector<int> numbers_in_use;
+};
+
 struct TrackerOptions {
   std::vector<std::string> families{"tag36h11"};  ///< Which markers to look for.
   double marker_size_m = 0.0;                     ///< Edge of the outer black square.
   /// The pictures come one after another from one camera: where a picture alone does not tell which
   /// of the two planar poses is right, the one that goes on from the picture before is.
   bool consecutive_frames = false;
+  SgOptions sg{};  ///< For the family "sg".
 };
 
 /// Finds markers and their poses, frame after frame. One thread at a time.
@@ -30,6 +45,11 @@ class Tracker {
   /// Markers in one sRGB-encoded grey picture of the camera's size; none is an empty list.
   /// Ordered by family, id, then the first corner's x: the same picture gives the same list.
   virtual Result<std::vector<Sighting>> Track(ImageView<const std::uint8_t> grey) = 0;
+
+  /// Markers of the frames before that the last one did not show (consecutive frames, family "sg").
+  virtual std::vector<LostMarker> Lost() const = 0;
+  /// What the user should know about the last picture, such as prints that are mirrored.
+  virtual std::vector<std::string> Warnings() const = 0;
 };
 
 }  // namespace pleinair::tracker

@@ -13,7 +13,6 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kBlockSide_px = 14.0;
 constexpr int kMostBlocksAlong = 8;
 constexpr double kLeastBlockContrast = 0.04;  ///< Standard deviation of the share of white.
 constexpr double kLeastWeight = 0.02;
@@ -79,8 +78,8 @@ void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
   }
 }
 
-int BlockFit::BlocksAlong(double print_side_px) {
-  return std::clamp(static_cast<int>(print_side_px / kBlockSide_px), 1, kMostBlocksAlong);
+int BlockFit::BlocksAlong(double print_side_px, double block_px) {
+  return std::clamp(static_cast<int>(print_side_px / block_px), 1, kMostBlocksAlong);
 }
 
 /// Weighted sums over one block's pixels; J are the derivatives of the share of white.

@@ -68,8 +68,8 @@ struct BlockFitOptions {
 /// maximum-likelihood estimate when each block's light is unknown.)
 class BlockFit {
  public:
-  /// Blocks along each side of the print for a side this long: at least about 14 px each.
-  static int BlocksAlong(double print_side_px);
+  /// Blocks along each side of the print for a side this long: at least `block_px` each.
+  static int BlocksAlong(double print_side_px, double block_px);
 
   /// False where the equations have no solution or the print leaves the window.
   bool Run(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen, int blocks_along,

@@ -52,6 +52,35 @@ Vec2 LensGrid::Ideal(double x, double y) const {
   return top * (1.0 - t) + bottom * t;
 }
 
+void LensGrid::IdealRow(double x0, double step, int count, double y, float* ideal_x,
+                        float* ideal_y) const {
+  if (!bends_) {
+    for (int k = 0; k < count; ++k) {
+      ideal_x[k] = static_cast<float>(x0 + step * k);
+      ideal_y[k] = static_cast<float>(y);
+    }
+    return;
+  }
+  const double gy = y / spacing_ + kMarginNodes;
+  const int j = std::clamp(static_cast<int>(std::floor(gy)), 0, rows_ - 2);
+  const double t = gy - j, per_spacing = 1.0 / spacing_;
+  const Vec2* nodes = &nodes_[static_cast<std::size_t>(j) * columns_];
+  int between = -1;
+  Vec2 left, by_node;
+  for (int k = 0; k < count; ++k) {
+    const double gx = (x0 + step * k) * per_spacing + kMarginNodes;
+    const int i = gx > 0.0 ? std::min(static_cast<int>(gx), columns_ - 2) : 0;
+    if (i != between) {
+      between = i;
+      left = nodes[i] * (1.0 - t) + nodes[i + columns_] * t;
+      by_node = nodes[i + 1] * (1.0 - t) + nodes[i + 1 + columns_] * t - left;
+    }
+    const double s = gx - i;
+    ideal_x[k] = static_cast<float>(left.x + by_node.x * s);
+    ideal_y[k] = static_cast<float>(left.y + by_node.y * s);
+  }
+}
+
 Vec2 LensGrid::PixelOfIdeal(Vec2 ideal) const {
   if (!bends_) return ideal;
   const Vec2 ray = RayOfIdeal(ideal);

@@ -19,6 +19,9 @@ class LensGrid {
   /// ordinary lenses. Not finite where the lens sees nothing.
   Vec2 Ideal(double x, double y) const;
 
+  /// The same for `count` pixels of a row, `step` apart from `x0` on.
+  void IdealRow(double x0, double step, int count, double y, float* ideal_x, float* ideal_y) const;
+
   /// Ideal pixel of a ray (X/Z, Y/Z), and back.
   Vec2 IdealOfRay(Vec2 ray) const {
     return {camera_.fx * ray.x + camera_.cx, camera_.fy * ray.y + camera_.cy};

@@ -1,14 +1,23 @@
 #include "tracker/alignment/print_raster.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+
+#include "tracker/alignment/raster_kernels.h"
 
 namespace pleinair::tracker {
 namespace {
 
 constexpr double kKernelSigmas = 3.0;
 constexpr double kSharpestBlur_px = 0.12;
+/// From this blur on one sample a pixel is enough where modules are no smaller than pixels.
+constexpr double kSmoothBlur_px = 0.9;
+/// Pixels around the print that are predicted as well, for the differences of neighbours.
+constexpr float kAroundPrint_px = 2.0F;
+constexpr int kProbes = 12;  ///< Along each side of the window.
 
 /// ∫ of the normal distribution function Φ(x/σ) up to x.
 double PrimitiveOfNormal(double x, double sigma) {
@@ -30,18 +39,16 @@ double BlurredBox(double x, double sigma) {
 void LookUpRays(const LensGrid& lens, const PixelWindow& window, WindowRays* rays) {
   rays->window = window;
   const int width = window.width + 2 * kWindowBorder, height = window.height + 2 * kWindowBorder;
-  rays->x.resize(static_cast<std::size_t>(width) * height);
+  rays->x.resize(static_cast<std::size_t>(width) * height + kRowSlack);
   rays->y.resize(rays->x.size());
-  std::size_t at = 0;
   for (int j = 0; j < height; ++j) {
-    const double y = window.Full(window.y0 + j - kWindowBorder);
-    for (int i = 0; i < width; ++i, ++at) {
-      const Vec2 ideal = lens.Ideal(window.Full(window.x0 + i - kWindowBorder), y);
-      rays->x[at] = static_cast<float>(ideal.x);
-      rays->y[at] = static_cast<float>(ideal.y);
-    }
+    const std::size_t at = static_cast<std::size_t>(j) * width;
+    lens.IdealRow(window.Full(window.x0 - kWindowBorder), window.Scale(), width,
+                  window.Full(window.y0 + j - kWindowBorder), &rays->x[at], &rays->y[at]);
   }
 }
+
+PrintRaster::PrintRaster() : kernels_(&SimdRasterKernels()) {}
 
 void PrintRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   // The box of each sample and the bins of the kernel blur as well: their variances are taken off.
@@ -69,165 +76,202 @@ void PrintRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   for (float& weight : kernel_) weight = static_cast<float>(weight / sum);
 }
 
-void PrintRaster::SampleRows(const PrintPattern& pattern, const Mat3& m, const WindowRays& rays,
-                             int pad, int per_pixel) {
-  const PixelWindow& window = rays.window;
-  const int nodes = pattern.modules + 1;
-  corners_.resize(static_cast<std::size_t>(nodes) * nodes);
+void PrintRaster::SetNodes(const PrintPattern& pattern) {
+  if (nodes_of_ == pattern.white) return;
+  nodes_of_ = pattern.white;
+  const int last = pattern.modules - 1, nodes = pattern.modules + 1;
+  nodes_.resize(static_cast<std::size_t>(nodes) * nodes);
   for (int j = 0; j < nodes; ++j) {
     for (int i = 0; i < nodes; ++i) {
-      const int left = std::max(i - 1, 0), right = std::min(i, pattern.modules - 1);
-      const int top = std::max(j - 1, 0), bottom = std::min(j, pattern.modules - 1);
-      const auto white = [&](int x, int y) { return pattern.white[y * pattern.modules + x]; };
-      corners_[j * nodes + i] =
-          static_cast<std::uint8_t>(white(left, top) | white(right, top) << 1 |
-                                    white(left, bottom) << 2 | white(right, bottom) << 3);
-    }
-  }
-  const int stride = window.width + 2 * kWindowBorder;
-  const int width = (window.width + 2 * pad) * per_pixel;
-  samples_.resize(static_cast<std::size_t>(width) * (window.height + 2 * pad) * per_pixel);
-  const float bin = 1.0F / static_cast<float>(per_pixel);
-  const float last = static_cast<float>(nodes - 1);
-  const float m0 = static_cast<float>(m.m[0]), m1 = static_cast<float>(m.m[1]),
-              m2 = static_cast<float>(m.m[2]), m3 = static_cast<float>(m.m[3]),
-              m4 = static_cast<float>(m.m[4]), m5 = static_cast<float>(m.m[5]),
-              m6 = static_cast<float>(m.m[6]), m7 = static_cast<float>(m.m[7]),
-              m8 = static_cast<float>(m.m[8]);
-  for (int y = -pad; y < window.height + pad; ++y) {
-    const std::size_t from = static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder;
-    for (int x = -pad; x < window.width + pad; ++x) {
-      const std::size_t at = from + x;
-      const float qx = rays.x[at], qy = rays.y[at];
-      const float w = 1.0F / (m6 * qx + m7 * qy + m8);
-      const float column = (m0 * qx + m1 * qy + m2) * w;
-      const float row = (m3 * qx + m4 * qy + m5) * w;
-      // Derivatives by the ideal pixel, then by the window's.
-      const float cx = (m0 - m6 * column) * w, cy = (m1 - m7 * column) * w;
-      const float rx = (m3 - m6 * row) * w, ry = (m4 - m7 * row) * w;
-      const float qx_x = 0.5F * (rays.x[at + 1] - rays.x[at - 1]);
-      const float qy_x = 0.5F * (rays.y[at + 1] - rays.y[at - 1]);
-      const float qx_y = 0.5F * (rays.x[at + stride] - rays.x[at - stride]);
-      const float qy_y = 0.5F * (rays.y[at + stride] - rays.y[at - stride]);
-      const float column_x = cx * qx_x + cy * qy_x, column_y = cx * qx_y + cy * qy_y;
-      const float row_x = rx * qx_x + ry * qy_x, row_y = rx * qx_y + ry * qy_y;
-      // The sample's footprint is a parallelogram; a box of the same variance along each axis.
-      const float box_c =
-          std::max(1e-3F, std::sqrt(column_x * column_x + column_y * column_y) * bin);
-      const float box_r = std::max(1e-3F, std::sqrt(row_x * row_x + row_y * row_y) * bin);
-      const float inverse_c = 1.0F / box_c, inverse_r = 1.0F / box_r;
-      float* out = &samples_[static_cast<std::size_t>(y + pad) * per_pixel * width +
-                             static_cast<std::size_t>(x + pad) * per_pixel];
-      for (int j = 0; j < per_pixel; ++j, out += width) {
-        const float dy = (static_cast<float>(j) + 0.5F) * bin - 0.5F;
-        for (int i = 0; i < per_pixel; ++i) {
-          const float dx = (static_cast<float>(i) + 0.5F) * bin - 0.5F;
-          float c = column + column_x * dx + column_y * dy;
-          float r = row + row_x * dx + row_y * dy;
-          // Beyond the print its outermost modules go on; so do pixels that see nothing (not a
-          // number: the comparisons then choose 0).
-          c = c > 0.0F ? (c < last ? c : last) : 0.0F;
-          r = r > 0.0F ? (r < last ? r : last) : 0.0F;
-          const int ci = static_cast<int>(c + 0.5F), ri = static_cast<int>(r + 0.5F);
-          const unsigned around = corners_[ri * nodes + ci];
-          if (around == 0U || around == 15U) {
-            out[i] = around == 0U ? 0.0F : 1.0F;
-            continue;
-          }
-          const float s = std::clamp((c - static_cast<float>(ci)) * inverse_c + 0.5F, 0.0F, 1.0F);
-          const float t = std::clamp((r - static_cast<float>(ri)) * inverse_r + 0.5F, 0.0F, 1.0F);
-          const float tl = static_cast<float>(around & 1U),
-                      tr = static_cast<float>(around >> 1 & 1U);
-          const float bl = static_cast<float>(around >> 2 & 1U),
-                      br = static_cast<float>(around >> 3);
-          const float top = tl + (tr - tl) * s, bottom = bl + (br - bl) * s;
-          out[i] = top + (bottom - top) * t;
-        }
+      std::uint32_t around = 0;
+      for (int bit = 0; bit < 16; ++bit) {
+        const int x = std::clamp(i - 2 + bit % 4, 0, last),
+                  y = std::clamp(j - 2 + bit / 4, 0, last);
+        around |= static_cast<std::uint32_t>(pattern.white[y * pattern.modules + x]) << bit;
       }
+      nodes_[j * nodes + i] = around;
     }
   }
+}
+
+int PrintRaster::SamplesPerPixel(const PrintPattern& pattern, const Mat3& modules_from_ideal,
+                                 const WindowRays& rays, double blur_px) const {
+  const PixelWindow& window = rays.window;
+  const int stride = window.width + 2 * kWindowBorder;
+  const Mat3& m = modules_from_ideal;
+  double finest = 0.0;  // Modules per pixel, the most there are.
+  for (int j = 0; j <= kProbes; ++j) {
+    for (int i = 0; i <= kProbes; ++i) {
+      const int x = (window.width - 1) * i / kProbes, y = (window.height - 1) * j / kProbes;
+      const std::size_t at =
+          static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder + x;
+      const Vec3 point = m * Vec3{rays.x[at], rays.y[at], 1.0};
+      const double w = 1.0 / point.z, column = point.x * w, row = point.y * w;
+      if (!(column > 0 && column < pattern.modules && row > 0 && row < pattern.modules)) continue;
+      const double cx = (m.m[0] - m.m[6] * column) * w, cy = (m.m[1] - m.m[7] * column) * w;
+      const double rx = (m.m[3] - m.m[6] * row) * w, ry = (m.m[4] - m.m[7] * row) * w;
+      finest = std::max(finest, std::max(cx * cx + cy * cy, rx * rx + ry * ry));
+    }
+  }
+  // The lens's local scale is left out: what is near enough to 1 for choosing a number of samples.
+  finest = std::sqrt(finest) * window.Scale();
+  if (finest <= 1.0 && blur_px >= kSmoothBlur_px) return 1;
+  return static_cast<int>(std::ceil(std::clamp(finest, 2.0, 6.0)));
 }
 
 void PrintRaster::Render(const PrintPattern& pattern, const Mat3& modules_from_ideal,
                          const WindowRays& rays, double blur_px, PrintMap* map,
                          PrintPicture* picture) {
+  RenderRows(pattern, modules_from_ideal, rays, blur_px, true, map, picture, &all_);
+}
+
+void PrintRaster::RenderPrint(const PrintPattern& pattern, const Mat3& modules_from_ideal,
+                              const WindowRays& rays, double blur_px, PrintMap* map,
+                              PrintPicture* picture, std::vector<RowRange>* ranges) {
+  RenderRows(pattern, modules_from_ideal, rays, blur_px, false, map, picture, ranges);
+}
+
+void PrintRaster::RenderRows(const PrintPattern& pattern, const Mat3& modules_from_ideal,
+                             const WindowRays& rays, double blur_px, bool everywhere, PrintMap* map,
+                             PrintPicture* picture, std::vector<RowRange>* ranges) {
   const PixelWindow& window = rays.window;
   const std::size_t pixels = window.size();
   for (auto* values : {&map->column, &map->row, &map->column_x, &map->column_y, &map->row_x,
                        &map->row_y, &picture->white, &picture->white_x, &picture->white_y}) {
     values->resize(pixels);
   }
-  const int stride = window.width + 2 * kWindowBorder;
-  const Mat3& m = modules_from_ideal;
-  float finest = 1.0F;  // Modules per pixel, the most there are.
-  for (int y = 0; y < window.height; ++y) {
-    const std::size_t from = static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder;
-    for (int x = 0; x < window.width; ++x) {
-      const std::size_t at = from + x, to = static_cast<std::size_t>(y) * window.width + x;
-      const double qx = rays.x[at], qy = rays.y[at];
-      const double w = 1.0 / (m.m[6] * qx + m.m[7] * qy + m.m[8]);
-      const double column = (m.m[0] * qx + m.m[1] * qy + m.m[2]) * w;
-      const double row = (m.m[3] * qx + m.m[4] * qy + m.m[5]) * w;
-      const double cx = (m.m[0] - m.m[6] * column) * w, cy = (m.m[1] - m.m[7] * column) * w;
-      const double rx = (m.m[3] - m.m[6] * row) * w, ry = (m.m[4] - m.m[7] * row) * w;
-      const double qx_x = 0.5 * (rays.x[at + 1] - rays.x[at - 1]);
-      const double qy_x = 0.5 * (rays.y[at + 1] - rays.y[at - 1]);
-      const double qx_y = 0.5 * (rays.x[at + stride] - rays.x[at - stride]);
-      const double qy_y = 0.5 * (rays.y[at + stride] - rays.y[at - stride]);
-      map->column[to] = static_cast<float>(column);
-      map->row[to] = static_cast<float>(row);
-      map->column_x[to] = static_cast<float>(cx * qx_x + cy * qy_x);
-      map->column_y[to] = static_cast<float>(cx * qx_y + cy * qy_y);
-      map->row_x[to] = static_cast<float>(rx * qx_x + ry * qy_x);
-      map->row_y[to] = static_cast<float>(rx * qx_y + ry * qy_y);
-      if (column > 0 && column < pattern.modules && row > 0 && row < pattern.modules) {
-        finest = std::max(finest, std::max(std::hypot(map->column_x[to], map->column_y[to]),
-                                           std::hypot(map->row_x[to], map->row_y[to])));
-      }
-    }
-  }
-  const int per_pixel = std::clamp(static_cast<int>(std::ceil(finest)), 2, 6);
+  ranges->resize(static_cast<std::size_t>(std::max(window.height, 0)));
+  if (window.empty()) return;
+  SetNodes(pattern);
+  const int per_pixel = SamplesPerPixel(pattern, modules_from_ideal, rays, blur_px);
   int pad = 0;
   SetKernel(blur_px, per_pixel, &pad);
-  SampleRows(pattern, modules_from_ideal, rays, pad, per_pixel);
+  const BlurTaps taps{kernel_.data(), kernel_slope_.data(), per_pixel, 2 * pad + 1};
+  const int all_taps = taps.pixels * per_pixel;
 
-  const int taps = static_cast<int>(kernel_.size());
-  const int rows = (window.height + 2 * pad) * per_pixel;
-  const int width = (window.width + 2 * pad) * per_pixel;
-  blurred_.resize(static_cast<std::size_t>(rows) * window.width);
+  // Rows as long as vectors like them; the blurred ones are a ring of as many as there are taps.
+  const int count = window.width + 2 * pad;
+  const int row = (count + 2 * kRowSlack - 1) / kRowSlack * kRowSlack;
+  map_rows_.resize(static_cast<std::size_t>(6) * row);
+  samples_.resize(static_cast<std::size_t>(per_pixel) * per_pixel * row);
+  blurred_.resize(static_cast<std::size_t>(all_taps) * row);
   blurred_x_.resize(blurred_.size());
-  for (int j = 0; j < rows; ++j) {
-    const float* line = &samples_[static_cast<std::size_t>(j) * width];
-    for (int x = 0; x < window.width; ++x) {
-      const float* in = line + static_cast<std::size_t>(x) * per_pixel;
-      float sum = 0.0F, slope = 0.0F;
-      for (int k = 0; k < taps; ++k) {
-        sum += kernel_[k] * in[k];
-        slope += kernel_slope_[k] * in[k];
-      }
-      blurred_[static_cast<std::size_t>(j) * window.width + x] = sum;
-      blurred_x_[static_cast<std::size_t>(j) * window.width + x] = slope;
+  rows_.resize(all_taps);
+  rows_x_.resize(all_taps);
+  float* scratch = map_rows_.data();
+  const MapRow here{scratch,           scratch + row,     scratch + 2 * row,
+                    scratch + 3 * row, scratch + 4 * row, scratch + 5 * row};
+
+  // Single precision is enough with the window's middle as the origin.
+  const int stride = window.width + 2 * kWindowBorder;
+  const std::size_t middle =
+      (static_cast<std::size_t>(window.height) / 2 + kWindowBorder) * stride + stride / 2;
+  const bool has_origin = std::isfinite(rays.x[middle]) && std::isfinite(rays.y[middle]);
+  const float origin_x = has_origin ? rays.x[middle] : 0.0F;
+  const float origin_y = has_origin ? rays.y[middle] : 0.0F;
+  const Mat3 from_origin = modules_from_ideal * Mat3{{1, 0, origin_x, 0, 1, origin_y, 0, 0, 1}};
+  std::array<float, 9> homography{};
+  for (int i = 0; i < 9; ++i)
+    homography[i] = static_cast<float>(from_origin.m[i] / from_origin.m[8]);
+  const NodeTable table{nodes_.data(), pattern.modules + 1};
+  const float modules = static_cast<float>(pattern.modules);
+
+  for (int y = -pad; y < window.height + pad; ++y) {
+    const std::size_t from =
+        static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder - pad;
+    kernels_->map({&rays.x[from], &rays.y[from], stride, origin_x, origin_y}, homography.data(),
+                  count, here);
+    RowRange sampled{0, count};
+    if (!everywhere) {
+      sampled =
+          kernels_->range(here, modules, static_cast<float>(pad) + kAroundPrint_px + 1.0F, count);
     }
-  }
-  for (int y = 0; y < window.height; ++y) {
-    float* white = &picture->white[static_cast<std::size_t>(y) * window.width];
-    float* white_x = &picture->white_x[static_cast<std::size_t>(y) * window.width];
-    float* white_y = &picture->white_y[static_cast<std::size_t>(y) * window.width];
-    std::fill(white, white + window.width, 0.0F);
-    std::fill(white_x, white_x + window.width, 0.0F);
-    std::fill(white_y, white_y + window.width, 0.0F);
-    for (int k = 0; k < taps; ++k) {
-      const std::size_t from = static_cast<std::size_t>(y * per_pixel + k) * window.width;
-      const float weight = kernel_[k], slope = kernel_slope_[k];
-      const float* in = &blurred_[from];
-      const float* in_x = &blurred_x_[from];
-      for (int x = 0; x < window.width; ++x) {
-        white[x] += weight * in[x];
-        white_x[x] += weight * in_x[x];
-        white_y[x] += slope * in[x];
+    if (y >= 0 && y < window.height) {
+      const std::size_t to = static_cast<std::size_t>(y) * window.width;
+      const std::size_t bytes = static_cast<std::size_t>(window.width) * sizeof(float);
+      std::memcpy(&map->column[to], here.column + pad, bytes);
+      std::memcpy(&map->row[to], here.row + pad, bytes);
+      std::memcpy(&map->column_x[to], here.column_x + pad, bytes);
+      std::memcpy(&map->column_y[to], here.column_y + pad, bytes);
+      std::memcpy(&map->row_x[to], here.row_x + pad, bytes);
+      std::memcpy(&map->row_y[to], here.row_y + pad, bytes);
+      RowRange& range = (*ranges)[y];
+      range = {0, window.width};
+      if (!everywhere) {
+        range = kernels_->range(here, modules, kAroundPrint_px, count);
+        range.begin = std::clamp(range.begin - pad, 0, window.width);
+        range.end = std::clamp(range.end - pad, range.begin, window.width);
       }
     }
+    SampleRow(here, table, taps, sampled, count, row, y + pad);
+    if (y < pad) continue;
+    const int out = y - pad;
+    for (int k = 0; k < all_taps; ++k) {
+      const std::size_t at = static_cast<std::size_t>((out * per_pixel + k) % all_taps) * row;
+      rows_[k] = &blurred_[at];
+      rows_x_[k] = &blurred_x_[at];
+    }
+    WriteRow(taps, (*ranges)[out], window.width, static_cast<std::size_t>(out) * window.width,
+             picture);
   }
+}
+
+void PrintRaster::SampleRow(const MapRow& map, const NodeTable& table, const BlurTaps& taps,
+                            RowRange sampled, int count, int row, int index) {
+  const int per_pixel = taps.per_pixel, pad = taps.pixels / 2;
+  const int width = count - 2 * pad, all_taps = taps.pixels * per_pixel;
+  // Whole vectors, and white where nothing is sampled.
+  const int begin = sampled.begin / kRowSlack * kRowSlack, end = sampled.end;
+  const int drawn = std::max(0, end - begin);
+  if (drawn > 0) {
+    kernels_->sample({map.column + begin, map.row + begin, map.column_x + begin,
+                      map.column_y + begin, map.row_x + begin, map.row_y + begin},
+                     table, per_pixel, drawn, row, &samples_[begin]);
+  }
+  for (int s = 0; s < per_pixel * per_pixel; ++s) {
+    float* samples = &samples_[static_cast<std::size_t>(s) * row];
+    std::fill(samples, samples + (drawn > 0 ? begin : count), 1.0F);
+    std::fill(samples + (drawn > 0 ? end : 0), samples + count, 1.0F);
+  }
+  for (int j = 0; j < per_pixel; ++j) {
+    const std::size_t at = static_cast<std::size_t>((index * per_pixel + j) % all_taps) * row;
+    if (drawn == 0) {
+      std::fill_n(&blurred_[at], width, 1.0F);
+      std::fill_n(&blurred_x_[at], width, 0.0F);
+      continue;
+    }
+    const int first = std::max(0, begin - 2 * pad), last = std::min(width, end);
+    std::fill_n(&blurred_[at], first, 1.0F);
+    std::fill_n(&blurred_x_[at], first, 0.0F);
+    kernels_->along_row(&samples_[static_cast<std::size_t>(j) * per_pixel * row + first], row, taps,
+                        last - first, &blurred_[at + first], &blurred_x_[at + first]);
+    std::fill(&blurred_[at + last], &blurred_[at] + width, 1.0F);
+    std::fill(&blurred_x_[at + last], &blurred_x_[at] + width, 0.0F);
+  }
+}
+
+void PrintRaster::WriteRow(const BlurTaps& taps, RowRange range, int width, std::size_t at,
+                           PrintPicture* picture) {
+  // Wide enough for a whole vector, if the window is.
+  if (range.end > range.begin) {
+    range.end = std::min(width, std::max(range.end, range.begin + kRowSlack));
+    range.begin = std::max(0, std::min(range.begin, range.end - kRowSlack));
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      rows_[k] += range.begin;
+      rows_x_[k] += range.begin;
+    }
+    kernels_->along_column(rows_.data(), rows_x_.data(), taps, range.end - range.begin,
+                           &picture->white[at + range.begin], &picture->white_x[at + range.begin],
+                           &picture->white_y[at + range.begin]);
+  }
+  const auto fill = [&](std::vector<float>* values, float value) {
+    std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(at), range.begin, value);
+    std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(at) + range.end, width - range.end,
+                value);
+  };
+  fill(&picture->white, 1.0F);
+  fill(&picture->white_x, 0.0F);
+  fill(&picture->white_y, 0.0F);
 }
 
 }  // namespace pleinair::tracker

@@ -29,7 +29,8 @@ struct PrintMap {
   std::vector<float> row_x, row_y;
 };
 
-/// Ideal pixels of a window's pixels, with a border of `kWindowBorder` more on each side.
+/// Ideal pixels of a window's pixels, with a border of `kWindowBorder` more on each side, row by
+/// row, and a few unused ones behind the last.
 struct WindowRays {
   PixelWindow window;
   std::vector<float> x, y;
@@ -45,6 +46,16 @@ struct PrintPicture {
   std::vector<float> white, white_x, white_y;
 };
 
+/// Columns [begin, end) of a row.
+struct RowRange {
+  int begin = 0, end = 0;
+};
+
+struct BlurTaps;
+struct MapRow;
+struct NodeTable;
+struct RasterKernels;
+
 /// Predicts pictures of prints. Buffers are kept, so that nothing is allocated after the largest
 /// window was seen.
 ///
@@ -53,19 +64,44 @@ struct PrintPicture {
 /// pixel's square and the blur's Gaussian, both at once, separably along the picture's axes.
 class PrintRaster {
  public:
+  PrintRaster();
+  /// With the kernels to work with, for tests.
+  explicit PrintRaster(const RasterKernels& kernels) : kernels_(&kernels) {}
+
   /// `modules_from_ideal`: homography from ideal pixels to modules. `blur_px`: standard deviation
-  /// of the blur beyond the pixel's own square, in (reduced) pixels of the window.
+  /// of the blur beyond the pixel's own square, in (reduced) pixels of the window. Beyond the print
+  /// its outermost modules go on.
   void Render(const PrintPattern& pattern, const Mat3& modules_from_ideal, const WindowRays& rays,
               double blur_px, PrintMap* map, PrintPicture* picture);
 
- private:
-  void SampleRows(const PrintPattern& pattern, const Mat3& modules_from_ideal,
-                  const WindowRays& rays, int pad, int per_pixel);
-  void SetKernel(double blur_px, int per_pixel, int* pad);
+  /// The same, but the picture only where the print is and to a pixel around it: `ranges` says
+  /// where, for each of the window's rows; elsewhere it is white.
+  void RenderPrint(const PrintPattern& pattern, const Mat3& modules_from_ideal,
+                   const WindowRays& rays, double blur_px, PrintMap* map, PrintPicture* picture,
+                   std::vector<RowRange>* ranges);
 
-  std::vector<float> samples_, blurred_, blurred_x_;
+ private:
+  void RenderRows(const PrintPattern& pattern, const Mat3& modules_from_ideal,
+                  const WindowRays& rays, double blur_px, bool everywhere, PrintMap* map,
+                  PrintPicture* picture, std::vector<RowRange>* ranges);
+  /// Samples and blurs along the row; `index` counts rows from the first one of the border.
+  void SampleRow(const MapRow& map, const NodeTable& table, const BlurTaps& taps, RowRange sampled,
+                 int count, int row, int index);
+  void WriteRow(const BlurTaps& taps, RowRange range, int width, std::size_t at,
+                PrintPicture* picture);
+  void SetKernel(double blur_px, int per_pixel, int* pad);
+  void SetNodes(const PrintPattern& pattern);
+  int SamplesPerPixel(const PrintPattern& pattern, const Mat3& modules_from_ideal,
+                      const WindowRays& rays, double blur_px) const;
+
+  const RasterKernels* kernels_;
+  std::vector<float> map_rows_, samples_, blurred_, blurred_x_;
   std::vector<float> kernel_, kernel_slope_;
-  std::vector<std::uint8_t> corners_;  ///< Four modules around each node of the print, packed.
+  std::vector<const float*> rows_, rows_x_;
+  std::vector<RowRange> all_;
+  /// The print whose nodes these are.
+  std::vector<std::uint8_t> nodes_of_;
+  std::vector<std::uint32_t> nodes_;
 };
 
 }  // namespace pleinair::tracker

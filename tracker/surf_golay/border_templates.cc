@@ -65,8 +65,9 @@ bool SameKeypoint(const SurfKeypoint& a, const SurfKeypoint& b) {
 
 class TemplateMaker {
  public:
-  explicit TemplateMaker(float window_scales)
-      : surf_({.threshold = 0.0002F,
+  TemplateMaker(float window_scales, const sg::Border& border)
+      : border_(border),
+        surf_({.threshold = 0.0002F,
                .max_keypoints = kMostKeypoints,
                .bucket_px = 0,
                .descriptor_window_scales = window_scales}) {}
@@ -112,7 +113,8 @@ class TemplateMaker {
     std::vector<Cluster> clusters;
     GreyImage grey(width, height);
     for (int draw = 0; draw < kDraws; ++draw) {
-      const PrintPattern print = SgPrint(static_cast<int>(draws_.Next() % kGolayNumbers));
+      const PrintPattern print =
+          SgPrintOfWord(PrintedWord(static_cast<int>(draws_.Next() % kGolayNumbers)), border_);
       raster_.Render(print, modules_from_view, rays_, kBlur_px, &map_, &picture_);
       const double around = kInk + (kPaper - kInk) * draws_.Uniform() * draws_.Uniform();
       for (int y = 0; y < height; ++y) {
@@ -172,6 +174,7 @@ class TemplateMaker {
     templates_.descriptors.push_back(Quantise(mean, cluster.seen.front().keypoint.bright));
   }
 
+  const sg::Border& border_;
   Surf surf_;
   Draws draws_;
   PrintRaster raster_;
@@ -185,8 +188,8 @@ class TemplateMaker {
 
 }  // namespace
 
-BorderTemplates MakeBorderTemplates(float descriptor_window_scales) {
-  return TemplateMaker(descriptor_window_scales).Make();
+BorderTemplates MakeBorderTemplates(float descriptor_window_scales, const sg::Border& border) {
+  return TemplateMaker(descriptor_window_scales, border).Make();
 }
 
 }  // namespace pleinair::tracker

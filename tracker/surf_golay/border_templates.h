@@ -4,6 +4,7 @@
 
 #include "base/vector.h"
 #include "tracker/surf/quantised_descriptor.h"
+#include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {
 
@@ -31,6 +32,7 @@ struct BorderTemplates {
 };
 
 /// Those of the S-G marker's border. Takes a fraction of a second.
-BorderTemplates MakeBorderTemplates(float descriptor_window_scales);
+BorderTemplates MakeBorderTemplates(float descriptor_window_scales,
+                                    const sg::Border& border = sg::kBorder);
 
 }  // namespace pleinair::tracker

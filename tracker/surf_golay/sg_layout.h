@@ -35,9 +35,13 @@ constexpr int CodeCell(int column, int row) {
 constexpr int CodeCellColumn(int code_cell) { return (code_cell + (code_cell >= 12)) % kCells; }
 constexpr int CodeCellRow(int code_cell) { return (code_cell + (code_cell >= 12)) / kCells; }
 
-/// The border of version 1, row by row from the top-left: '#' black, '.' white. Found by
+/// The black square row by row from the top-left: '#' black, '.' white. What it has where the
+/// content lies is not looked at.
+using Border = std::array<std::string_view, kEdge>;
+
+/// The border of version 1. Found by
 /// `tools/marker_search`; frozen, since prints of it hang on walls.
-inline constexpr std::array<std::string_view, kEdge> kBorder = {
+inline constexpr Border kBorder = {
     "########################################", "########################################",
     "########################################", "########################################",
     "###########...#####...####...##.....####", "###########...#...#...####...##.....####",

@@ -2,20 +2,19 @@
 
 #include "base/check.h"
 #include "tracker/golay/golay_code.h"
-#include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {
 
 PrintPattern SgPrint(int number) { return SgPrintOfWord(PrintedWord(number)); }
 
-PrintPattern SgPrintOfWord(std::uint32_t word) {
+PrintPattern SgPrintOfWord(std::uint32_t word, const sg::Border& border) {
   PrintPattern pattern;
   pattern.modules = sg::kPrint;
   pattern.edge_modules = sg::kEdge;
   pattern.white.assign(static_cast<std::size_t>(sg::kPrint) * sg::kPrint, 1);
   for (int y = 0; y < sg::kEdge; ++y) {
     for (int x = 0; x < sg::kEdge; ++x) {
-      bool white = sg::kBorder[y][x] == '.';
+      bool white = border[y][x] == '.';
       const int column = sg::CellIndex(x), row = sg::CellIndex(y);
       if (column >= 0 && row >= 0) {
         const int cell = sg::CodeCell(column, row);

@@ -3,13 +3,15 @@
 #include <cstdint>
 
 #include "tracker/print_pattern.h"
+#include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {
 
 /// What the print of an S-G marker looks like, quiet zone included. `number` is 0…4095.
 PrintPattern SgPrint(int number);
 
-/// The same for a printed word: bit i (from the least significant) is code cell i, 1 white.
-PrintPattern SgPrintOfWord(std::uint32_t word);
+/// The same for a printed word: bit i (from the least significant) is code cell i, 1 white. Another
+/// `border` than that of this version is for tools that look for one.
+PrintPattern SgPrintOfWord(std::uint32_t word, const sg::Border& border = sg::kBorder);
 
 }  // namespace pleinair::tracker

@@ -22,6 +22,10 @@ constexpr double kVisibleCorrelation = 0.7;
 /// docs/tracker.md.
 constexpr double kLeastContrast = 0.04;  ///< Of a block's predicted shares of white.
 constexpr double kLeastTelling = 0.3;    ///< Blocks that count at least, as a share of all.
+constexpr int kFollowSteps = 4;
+constexpr double kFollowBlur_px = 0.9;
+/// Mean correlation of the content's blocks that makes a followed marker's number sure.
+constexpr double kContentRight = 0.4;
 constexpr double kLeastVisibleBorder = 0.06;
 constexpr double kWellVisible = 0.3, kBarelyVisible = 0.1;
 constexpr float kLeastMargin = 11.0F, kSafeMargin = 25.0F, kMarginPerDisagreement = 4.0F;
@@ -116,17 +120,64 @@ double SgReader::FitBorder(int steps, bool coarse, BlockFitState* state) {
   return fit_.Correlation();
 }
 
-std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
-  BlockFitState state = guess;
-  state.blur_px = kFirstBlur_px;
-  const double correlation = FitBorder(4, false, &state);
+double SgReader::VisibleBorder() const {
   double visible = 0.0, border = 0.0;
   for (const PrintBlock& block : fit_.blocks()) {
     if (block.contrast < kLeastContrast) continue;
     border += block.pixels;
     if (block.correlation > kVisibleCorrelation) visible += block.pixels;
   }
-  if (!(visible > kLeastVisibleBorder * border)) return std::nullopt;
+  return border > 0.0 ? visible / border : 0.0;
+}
+
+std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess) {
+  BlockFitState state = guess;
+  const double side = SidePx(state.modules_from_ideal);
+  if (side < kLeastSide_px) return std::nullopt;
+  int level = 0;
+  while (side / (1 << level) > kCoarseSide_px && level + 1 < ReducedPictures::kLevels) ++level;
+  PixelWindow window;
+  if (!Window(state.modules_from_ideal, level, &window)) return std::nullopt;
+  TakeCodeWindow(lens_, reduced_.Level(level), window, &seen_);
+  const double scale = window.Scale();
+  state.blur_px = std::max(guess.blur_px, kFollowBlur_px * scale);
+  BlockFitOptions options;
+  options.steps = kFollowSteps;
+  options.done_px = 0.1;
+  if (!fit_.Run(Print(number), PrintPart::kWhole, seen_,
+                BlockFit::BlocksAlong(1.2 * side / scale, kCoarseBlock_px), options, &state)) {
+    return std::nullopt;
+  }
+  state.blur_px = guess.blur_px;
+  std::optional<SgReading> reading = Measure(number, state);
+  if (!reading || reading->visible_fraction < kBarelyVisible) return std::nullopt;
+  // By the code: where the content is seen it must be this number's.
+  double right = 0.0, seen = 0.0;
+  const int along = fit_.blocks_along();
+  for (int row = 0; row < along; ++row) {
+    for (int column = 0; column < along; ++column) {
+      const PrintBlock& block = fit_.blocks()[row * along + column];
+      const auto central = [&](int at) {
+        const double middle = (at + 0.5) / along * sg::kPrint - kMiddle;
+        return std::fabs(middle) < 0.5 * sg::kCells * sg::kCell;
+      };
+      if (!central(column) || !central(row) || block.contrast < kLeastContrast) continue;
+      seen += block.pixels;
+      right += block.pixels * std::clamp(block.correlation, 0.0, 1.0);
+    }
+  }
+  reading->margin = kSafeMargin;
+  const bool content_right = seen > 0.0 && right > kContentRight * seen;
+  if (!content_right && reading->visible_fraction < kWellVisible) return std::nullopt;
+  return reading;
+}
+
+std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
+  BlockFitState state = guess;
+  state.blur_px = kFirstBlur_px;
+  const double correlation = FitBorder(4, false, &state);
+  const double visible_border = VisibleBorder();
+  if (visible_border < kLeastVisibleBorder) return std::nullopt;
   PrintLight light;
   if (!light_meter_.Measure(blank_, fit_, seen_, &light)) return std::nullopt;
   CellReading cells;
@@ -151,7 +202,7 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   std::optional<SgReading> reading = Measure(decoding.number, border_state);
   if (!reading) return std::nullopt;
   reading->border_correlation = correlation;
-  reading->visible_border = border > 0.0 ? visible / border : 0.0;
+  reading->visible_border = visible_border;
   reading->margin = decoding.margin;
   reading->disagreements = plain;
   if (!Verified(*reading)) return std::nullopt;

@@ -54,6 +54,12 @@ class SgReader {
   /// `steps` 0 only looks.
   double FitBorder(int steps, bool coarse, BlockFitState* state);
 
+  /// Share of the border that looked as predicted in the last fit.
+  double VisibleBorder() const;
+
+  /// Finds and measures a marker of the frame before near a guess that may be some pixels off.
+  std::optional<SgReading> Follow(int number, const BlockFitState& guess);
+
   /// Everything, from a guess that FitBorder has improved.
   std::optional<SgReading> Read(const BlockFitState& guess);
 

@@ -1,0 +1,282 @@
+#include "tracker/surf_golay/sg_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracker/homography.h"
+#include "tracker/surf_golay/sg_layout.h"
+
+namespace pleinair::tracker {
+namespace {
+
+constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+/// Correlation of a quadrilateral with the border that makes it worth a fit, by single pixels and
+/// after one.
+constexpr double kProbedCorrelation = 0.35, kRivalCorrelation = 0.12, kFittedCorrelation = 0.45;
+constexpr int kQuadSteps = 4, kGuessSteps = 8;
+constexpr double kProbeSide_px = 70.0;
+/// Guesses of the S-G search that may fail in a row before it is given up.
+constexpr int kMostFailures = 14;
+constexpr double kSamePlace = 0.04;  ///< Of the side: two fits that ended here are one.
+/// Between two searches for markers that are new: quadrilaterals, borders.
+constexpr int kFastEvery = 3, kSearchEvery = 15;
+/// A marker that was not seen for so many frames is forgotten; a search for its border is tried in
+/// each of the first few and then now and then.
+constexpr int kForgetAfter = 90, kSearchAtOnce = 5;
+constexpr double kTrackedVisible = 0.12;
+/// Share of the border that must look right after a guess was fitted coarsely.
+constexpr double kGuessedVisible = 0.06;
+
+std::array<Vec2, 4> CornersIdeal(const Mat3& modules_from_ideal) {
+  const Mat3 inverse = Adjugate(modules_from_ideal);
+  std::array<Vec2, 4> corners;
+  for (int i = 0; i < 4; ++i) {
+    corners[i] = Apply(
+        inverse, {kMiddle + kHalf * kSquareCorners[i].x, kMiddle - kHalf * kSquareCorners[i].y});
+  }
+  return corners;
+}
+
+Mat3 ModulesFromCorners(const std::array<Vec2, 4>& corners_ideal) {
+  constexpr Mat3 kModulesFromUnit{{kHalf, 0, kMiddle, 0, -kHalf, kMiddle, 0, 0, 1}};
+  return kModulesFromUnit * Adjugate(HomographyToQuad(corners_ideal));
+}
+
+double SideOf(const std::array<Vec2, 4>& corners) {
+  double longest = 0.0;
+  for (int i = 0; i < 4; ++i) longest = std::max(longest, Norm(corners[i] - corners[(i + 1) % 4]));
+  return longest;
+}
+
+double Apart(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b) {
+  double farthest = 0.0;
+  for (int i = 0; i < 4; ++i) farthest = std::max(farthest, Norm(a[i] - b[i]));
+  return farthest;
+}
+
+bool Inside(const std::array<Vec2, 4>& quad, Vec2 point) {
+  int sides = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Vec2 along = quad[(i + 1) % 4] - quad[i], to = point - quad[i];
+    sides += along.x * to.y - along.y * to.x > 0.0 ? 1 : -1;
+  }
+  return sides == 4 || sides == -4;
+}
+
+Vec2 CentreOf(const std::array<Vec2, 4>& quad) {
+  return (quad[0] + quad[1] + quad[2] + quad[3]) * 0.25;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SgDetector>> SgDetector::Create(const CameraModel& camera,
+                                                       const SgOptions& options,
+                                                       bool consecutive_frames) {
+  std::unique_ptr<SgDetector> detector(new SgDetector(camera, options, consecutive_frames));
+  PLEINAIR_RETURN_IF_ERROR(detector->reader_.SetNumbersInUse(options.numbers_in_use));
+  return detector;
+}
+
+SgDetector::SgDetector(const CameraModel& camera, const SgOptions& options, bool consecutive_frames)
+    : lens_(camera), options_(options), consecutive_frames_(consecutive_frames), reader_(lens_) {}
+
+std::vector<LostMarker> SgDetector::Lost() const {
+  std::vector<LostMarker> lost;
+  for (const Known& known : known_) {
+    if (known.frames_unseen > 0) lost.push_back({"sg", known.number, known.frames_unseen});
+  }
+  return lost;
+}
+
+std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
+  grey_ = grey;
+  found_.clear();
+  warnings_.clear();
+  reader_.SetPicture(grey);
+  reduced_.SetPicture(grey);
+  if (!grey.empty()) {
+    const bool fast = options_.strategy != SgStrategy::kSurfGolay;
+    const bool search = options_.strategy != SgStrategy::kFast;
+    if (!consecutive_frames_) {
+      if (fast) FindFast();
+      if (search) FindBySurf();
+    } else {
+      Track();
+      const auto missing = [&](bool at_once) {
+        return std::any_of(known_.begin(), known_.end(), [&](const Known& known) {
+          return (!at_once || known.frames_unseen < kSearchAtOnce) &&
+                 std::none_of(found_.begin(), found_.end(), [&](const Found& found) {
+                   return found.reading.number == known.number;
+                 });
+        });
+      };
+      if (fast && (known_.empty() || missing(false) || frame_ % kFastEvery == 0)) FindFast();
+      if (search && (missing(true) || frame_ % kSearchEvery == 0)) FindBySurf();
+      Remember();
+    }
+  }
+  ++frame_;
+  std::vector<Candidate> candidates;
+  for (const Found& found : found_) {
+    const SgReading& reading = found.reading;
+    Candidate candidate;
+    candidate.detection.family = "sg";
+    candidate.detection.id = reading.number;
+    candidate.detection.corners_px = reading.corners_px;
+    candidate.detection.visible_fraction = reading.visible_fraction;
+    candidate.detection.path = found.path;
+    candidate.detection.visibility_side = reading.blocks_along;
+    candidate.detection.visibility = reading.visible;
+    candidate.corner_covariance_px2 = reading.corner_covariance_px2;
+    candidates.push_back(std::move(candidate));
+  }
+  return candidates;
+}
+
+bool SgDetector::Taken(const Mat3& modules_from_ideal) const {
+  const std::array<Vec2, 4> corners = CornersIdeal(modules_from_ideal);
+  const Vec2 centre = CentreOf(corners);
+  return std::any_of(found_.begin(), found_.end(), [&](const Found& found) {
+    const std::array<Vec2, 4> other = CornersIdeal(found.reading.modules_from_ideal);
+    return Inside(other, centre) || Inside(corners, CentreOf(other));
+  });
+}
+
+bool SgDetector::Add(const SgReading& reading, DetectionPath path) {
+  // Two prints cannot lie in one place: the one of which more is seen is there.
+  const std::array<Vec2, 4> corners = CornersIdeal(reading.modules_from_ideal);
+  for (Found& found : found_) {
+    const std::array<Vec2, 4> other = CornersIdeal(found.reading.modules_from_ideal);
+    if (!Inside(other, CentreOf(corners)) && !Inside(corners, CentreOf(other))) continue;
+    if (reading.margin * reading.visible_fraction >
+        found.reading.margin * found.reading.visible_fraction) {
+      found = {reading, path};
+      return true;
+    }
+    return false;
+  }
+  found_.push_back({reading, path});
+  return true;
+}
+
+void SgDetector::TryQuad(const Quad& quad) {
+  double side = SideOf(quad.corners_px);
+  int level = 0;
+  while (side > kProbeSide_px && level + 1 < ReducedPictures::kLevels) {
+    side *= 0.5;
+    ++level;
+  }
+  const double scale = 1 << level;
+  std::array<Vec2, 4> probed = quad.corners_px;
+  for (Vec2& corner : probed) {
+    corner = {(corner.x + 0.5) / scale - 0.5, (corner.y + 0.5) / scale - 0.5};
+  }
+  const auto orientations = probe_.Look(reduced_.Level(level), probed);
+  for (std::size_t i = 0; i < orientations.size(); ++i) {
+    const ProbedOrientation& orientation = orientations[i];
+    if (orientation.correlation < kProbedCorrelation ||
+        orientation.correlation < orientations[0].correlation - kRivalCorrelation) {
+      return;
+    }
+    std::array<Vec2, 4> corners;
+    for (int k = 0; k < 4; ++k) {
+      const int at = orientation.mirrored ? (orientation.first_corner + 4 - k) % 4
+                                          : (orientation.first_corner + k) % 4;
+      const Vec2 corner = quad.corners_px[at];
+      corners[k] = lens_.Ideal(corner.x, corner.y);
+    }
+    BlockFitState state;
+    state.modules_from_ideal = ModulesFromCorners(corners);
+    if (!orientation.mirrored && Taken(state.modules_from_ideal)) return;
+    if (reader_.FitBorder(kQuadSteps, true, &state) < kFittedCorrelation) continue;
+    const std::optional<SgReading> reading = reader_.Read(state);
+    if (!reading) continue;
+    if (orientation.mirrored) {
+      warnings_.push_back("a marker that looks like number " + std::to_string(reading->number) +
+                          " is printed mirrored; print it again without mirroring");
+    } else {
+      Add(*reading, DetectionPath::kFast);
+    }
+    return;
+  }
+}
+
+void SgDetector::FindFast() {
+  quads_.Detect(grey_, &seen_quads_);
+  for (const Quad& quad : seen_quads_) TryQuad(quad);
+}
+
+void SgDetector::FindBySurf() {
+  if (search_ == nullptr) {
+    const BorderSearchOptions options;
+    search_ = std::make_unique<BorderSearch>(
+        lens_, MakeBorderTemplates(options.surf.descriptor_window_scales), options);
+  }
+  taken_.clear();
+  for (const Found& found : found_) taken_.push_back(found.reading.corners_px);
+  search_->Find(grey_, taken_, &guesses_);
+  tried_.clear();
+  int failures = 0;
+  for (const BorderGuess& guess : guesses_) {
+    if (failures > kMostFailures) break;
+    if (Taken(guess.modules_from_ideal)) continue;
+    BlockFitState state;
+    state.modules_from_ideal = guess.modules_from_ideal;
+    reader_.FitBorder(kGuessSteps, true, &state);
+    const std::array<Vec2, 4> corners = CornersIdeal(state.modules_from_ideal);
+    const bool again = std::any_of(tried_.begin(), tried_.end(), [&](const Mat3& tried) {
+      return Apart(CornersIdeal(tried), corners) < kSamePlace * SideOf(corners);
+    });
+    if (again) continue;
+    tried_.push_back(state.modules_from_ideal);
+    ++failures;
+    if (reader_.VisibleBorder() < kGuessedVisible || Taken(state.modules_from_ideal)) continue;
+    const std::optional<SgReading> reading = reader_.Read(state);
+    if (reading && Add(*reading, DetectionPath::kSurfGolay)) failures = 0;
+  }
+}
+
+void SgDetector::Track() {
+  for (const Known& known : known_) {
+    std::array<Vec2, 4> corners = known.corners_ideal;
+    if (known.has_velocity && known.frames_unseen == 0) {
+      for (int i = 0; i < 4; ++i) corners[i] = corners[i] + known.velocity[i];
+    }
+    BlockFitState state;
+    state.modules_from_ideal = ModulesFromCorners(corners);
+    state.blur_px = known.blur_px;
+    const std::optional<SgReading> reading = reader_.Follow(known.number, state);
+    if (reading && reading->visible_fraction >= kTrackedVisible) {
+      Add(*reading, DetectionPath::kTracked);
+    }
+  }
+}
+
+void SgDetector::Remember() {
+  for (Known& known : known_) ++known.frames_unseen;
+  for (const Found& found : found_) {
+    const SgReading& reading = found.reading;
+    const std::array<Vec2, 4> corners = CornersIdeal(reading.modules_from_ideal);
+    // The nearest of its number: a number may hang in two places.
+    Known* same = nullptr;
+    for (Known& known : known_) {
+      if (known.number != reading.number || known.frames_unseen == 0) continue;
+      if (same == nullptr ||
+          Apart(known.corners_ideal, corners) < Apart(same->corners_ideal, corners)) {
+        same = &known;
+      }
+    }
+    if (same == nullptr) {
+      known_.push_back({reading.number, corners, {}, false, reading.blur_px, 0});
+      continue;
+    }
+    same->has_velocity = same->frames_unseen == 1;
+    for (int i = 0; i < 4; ++i) same->velocity[i] = corners[i] - same->corners_ideal[i];
+    same->corners_ideal = corners;
+    same->blur_px = reading.blur_px;
+    same->frames_unseen = 0;
+  }
+  std::erase_if(known_, [](const Known& known) { return known.frames_unseen > kForgetAfter; });
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,82 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/image.h"
+#include "tracker/alignment/lens_grid.h"
+#include "tracker/marker_detector.h"
+#include "tracker/quads/quad_detector.h"
+#include "tracker/surf_golay/border_probe.h"
+#include "tracker/surf_golay/border_search.h"
+#include "tracker/surf_golay/sg_reader.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::tracker {
+
+/// Finds S-G markers, by the strategy of Prochazka et al. 2012, §5, with tracking between: in
+/// consecutive frames a marker is looked for where it should be by now; what that does not find is
+/// looked for as a quadrilateral (fast), and by the keypoints of its border (S-G) when a marker of
+/// the frame before is missing, and every few frames for markers that are new and partly covered. A
+/// single picture is searched in both ways.
+class SgDetector final : public MarkerDetector {
+ public:
+  static Result<std::unique_ptr<SgDetector>> Create(const CameraModel& camera,
+                                                    const SgOptions& options,
+                                                    bool consecutive_frames);
+
+  std::vector<Candidate> Detect(ImageView<const std::uint8_t> grey) override;
+  std::vector<LostMarker> Lost() const override;
+  std::vector<std::string> Warnings() const override { return warnings_; }
+
+ private:
+  SgDetector(const CameraModel& camera, const SgOptions& options, bool consecutive_frames);
+
+  struct Found {
+    SgReading reading;
+    DetectionPath path = DetectionPath::kFast;
+  };
+  /// A marker of the frames before.
+  struct Known {
+    int number = 0;
+    std::array<Vec2, 4> corners_ideal;  ///< In the last frame that saw it,
+    std::array<Vec2, 4> velocity;       ///< … and their motion, per frame.
+    bool has_velocity = false;
+    double blur_px = 0.7;
+    int frames_unseen = 0;
+  };
+
+  void Track();
+  void FindFast();
+  void FindBySurf();
+  bool Add(const SgReading& reading, DetectionPath path);
+  bool Taken(const Mat3& modules_from_ideal) const;
+  void TryQuad(const Quad& quad);
+  void Remember();
+
+  const LensGrid lens_;
+  const SgOptions options_;
+  const bool consecutive_frames_;
+  SgReader reader_;
+  QuadDetector quads_;
+  BorderProbe probe_;
+  std::unique_ptr<BorderSearch> search_;  ///< Made when first needed.
+  ReducedPictures reduced_;
+  ImageView<const std::uint8_t> grey_;
+  std::vector<Quad> seen_quads_;
+  std::vector<BorderGuess> guesses_;
+  std::vector<Mat3> tried_;
+  std::vector<Found> found_;
+  std::vector<Known> known_;
+  std::vector<std::string> warnings_;
+  std::vector<std::array<Vec2, 4>> taken_;
+  int frame_ = 0;
+};
+
+}  // namespace pleinair::tracker
