@@ -1,0 +1,147 @@
+#include "tools/marker_search/border_shapes.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace pleinair::marker_search {
+namespace {
+
+constexpr int kMost = BorderShape::kMost;
+/// Squares of 2×2 modules lie at so many places along a side.
+constexpr int kPlaces = kMost - 1;
+/// A large shape fills at least so much of its bounding box: slender ones have no blob in them.
+constexpr double kCompact = 0.55;
+
+constexpr std::uint32_t Square(int x, int y) { return 0b1100011U << (kMost * y + x); }
+
+BorderShape ToTopLeft(BorderShape shape) {
+  while (shape.modules != 0 && (shape.modules & 0x1FU) == 0) shape.modules >>= kMost;
+  constexpr std::uint32_t kFirstColumn = 0x108421U;
+  while (shape.modules != 0 && (shape.modules & kFirstColumn) == 0) shape.modules >>= 1;
+  return shape;
+}
+
+/// How many of the `count` bits reached from the lowest one, where Neighbours(bits) adds those
+/// beside `bits`.
+template <typename Neighbours>
+std::uint32_t Spread(std::uint32_t from, std::uint32_t within, Neighbours neighbours) {
+  std::uint32_t reached = from & within;
+  while (true) {
+    const std::uint32_t more = (reached | neighbours(reached)) & within;
+    if (more == reached) return reached;
+    reached = more;
+  }
+}
+
+/// Bits beside bits of a grid `side` wide.
+std::uint32_t Beside(std::uint32_t bits, int side) {
+  std::uint32_t beside = bits << side | bits >> side;
+  for (int i = 0; i < side * side; ++i) {
+    if ((bits >> i & 1U) == 0) continue;
+    if (i % side > 0) beside |= 1U << (i - 1);
+    if (i % side < side - 1) beside |= 1U << (i + 1);
+  }
+  return beside;
+}
+
+}  // namespace
+
+int BorderShape::Width() const {
+  int width = 0;
+  for (int i = 0; i < kMost * kMost; ++i) {
+    if (Has(i % kMost, i / kMost)) width = std::max(width, i % kMost + 1);
+  }
+  return width;
+}
+
+int BorderShape::Height() const { return (std::bit_width(modules) + kMost - 1) / kMost; }
+
+int BorderShape::Area() const { return std::popcount(modules); }
+
+BorderShape BorderShape::Mirrored() const {
+  BorderShape mirrored;
+  for (int i = 0; i < kMost * kMost; ++i) {
+    const int x = i % kMost, y = i / kMost;
+    if (Has(x, y)) mirrored.modules |= 1U << (kMost * y + kMost - 1 - x);
+  }
+  return ToTopLeft(mirrored);
+}
+
+BorderShape BorderShape::Turned() const {
+  BorderShape turned;
+  for (int i = 0; i < kMost * kMost; ++i) {
+    const int x = i % kMost, y = i / kMost;
+    if (Has(x, y)) turned.modules |= 1U << (kMost * x + kMost - 1 - y);
+  }
+  return ToTopLeft(turned);
+}
+
+bool BorderShape::IsThick() const {
+  std::uint32_t places = 0;
+  for (int y = 0; y < kPlaces; ++y) {
+    for (int x = 0; x < kPlaces; ++x) {
+      if ((modules & Square(x, y)) == Square(x, y)) places |= 1U << (kPlaces * y + x);
+    }
+  }
+  if (places == 0) return false;
+  const std::uint32_t reached =
+      Spread(places & (~places + 1U), places, [](std::uint32_t b) { return Beside(b, kPlaces); });
+  if (reached != places) return false;
+  std::uint32_t covered = 0;
+  for (int y = 0; y < kPlaces; ++y) {
+    for (int x = 0; x < kPlaces; ++x) {
+      if ((places >> (kPlaces * y + x) & 1U) != 0) covered |= Square(x, y);
+    }
+  }
+  return covered == modules;
+}
+
+bool BorderShape::HasHole() const {
+  constexpr int kWide = kMost;
+  constexpr std::uint32_t kAll = (1U << (kWide * kWide)) - 1U;
+  std::uint32_t edge = 0;
+  for (int i = 0; i < kWide * kWide; ++i) {
+    const int x = i % kWide, y = i / kWide;
+    if (x == 0 || y == 0 || x == kWide - 1 || y == kWide - 1) edge |= 1U << i;
+  }
+  const std::uint32_t black = kAll & ~modules;
+  return Spread(edge, black, [](std::uint32_t b) { return Beside(b, kWide); }) != black;
+}
+
+bool BorderShape::IsAsymmetric() const {
+  BorderShape turned = *this;
+  for (int i = 0; i < 4; ++i) {
+    if ((i > 0 && turned == *this) || turned.Mirrored() == *this) return false;
+    turned = turned.Turned();
+  }
+  return true;
+}
+
+ShapeLibrary MakeShapeLibrary() {
+  ShapeLibrary library;
+  std::vector<std::uint32_t> seen;
+  for (std::uint32_t places = 1; places < 1U << (kPlaces * kPlaces); ++places) {
+    std::uint32_t modules = 0;
+    for (int i = 0; i < kPlaces * kPlaces; ++i) {
+      if ((places >> i & 1U) != 0) modules |= Square(i % kPlaces, i / kPlaces);
+    }
+    const BorderShape shape{modules};
+    if (ToTopLeft(shape) == shape) seen.push_back(modules);
+  }
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  for (const std::uint32_t modules : seen) {
+    const BorderShape shape{modules};
+    if (!shape.IsThick() || shape.HasHole()) continue;
+    const int width = shape.Width(), height = shape.Height();
+    if (std::max(width, height) <= 3) {
+      library.small.push_back(shape);
+    } else if (std::min(width, height) >= 4 && shape.Area() >= kCompact * width * height &&
+               shape.IsAsymmetric()) {
+      library.large.push_back(shape);
+    }
+  }
+  return library;
+}
+
+}  // namespace pleinair::marker_search

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "tracker/print_pattern.h"
+#include "tracker/surf_golay/sg_layout.h"
+
+namespace pleinair::marker_search {
+
+/// A print as a drawing, one unit a module.
+std::string DrawSvg(const tracker::PrintPattern& print);
+
+/// A border as the rows of the array in sg_layout.h.
+std::string WriteRows(const tracker::sg::Border& border);
+
+}  // namespace pleinair::marker_search
