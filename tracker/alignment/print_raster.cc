@@ -14,7 +14,7 @@ namespace {
 constexpr double kKernelSigmas = 3.0;
 constexpr double kSharpestBlur_px = 0.12;
 /// From this blur on one sample a pixel is enough where modules are no smaller than pixels.
-constexpr double kSmoothBlur_px = 0.9;
+constexpr double kSmoothBlur_px = 1.15;
 /// Pixels around the print that are predicted as well, for the differences of neighbours.
 constexpr float kAroundPrint_px = 2.0F;
 constexpr int kProbes = 12;  ///< Along each side of the window.

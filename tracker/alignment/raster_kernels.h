@@ -1,0 +1,64 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "tracker/alignment/print_raster.h"
+
+namespace pleinair::tracker {
+
+/// Rows of floats that kernels work on may be read and written so far beyond their ends.
+inline constexpr int kRowSlack = 16;
+
+/// Where a row of pixels looks on the print; see PrintMap.
+struct MapRow {
+  float *column, *row, *column_x, *column_y, *row_x, *row_y;
+};
+
+/// Rays of a row of pixels, relative to an origin near them: single precision is enough then.
+struct RayRow {
+  const float *x, *y;
+  std::ptrdiff_t stride;  ///< To the rays of the rows above and below.
+  float origin_x, origin_y;
+};
+
+/// The modules around each node (corner of modules) of a print: bit 4 j + i is the module i - 2
+/// columns and j - 2 rows from the node.
+struct NodeTable {
+  const std::uint32_t* around;
+  int nodes;  ///< Along each side.
+};
+
+/// Taps for `per_pixel` samples a pixel over `pixels` pixels, and those of the slope.
+struct BlurTaps {
+  const float *weight, *slope;
+  int per_pixel, pixels;
+};
+
+/// What PrintRaster does to a row of pixels; the SIMD version and its scalar reference agree to
+/// single precision.
+struct RasterKernels {
+  void (*map)(const RayRow& rays, const float homography[9], int count, const MapRow& out);
+  /// The pixels less than `reach_px` from a print of `modules`: the shortest range that holds them.
+  RowRange (*range)(const MapRow& map, float modules, float reach_px, int count);
+  /// Samples `per_pixel`² times in each pixel: out[j][i][x], j from the top, rows `stride` apart.
+  void (*sample)(const MapRow& map, const NodeTable& table, int per_pixel, int count,
+                 std::ptrdiff_t stride, float* out);
+  /// Blurs one row of samples in[i][x]; `blurred[x]` is that of the pixel in the taps' middle.
+  void (*along_row)(const float* in, std::ptrdiff_t stride, const BlurTaps& taps, int count,
+                    float* blurred, float* blurred_x);
+  /// Blurs along columns: rows[k] belongs to tap k. The results have no slack.
+  void (*along_column)(const float* const* rows, const float* const* rows_x, const BlurTaps& taps,
+                       int count, float* white, float* white_x, float* white_y);
+};
+const RasterKernels& ScalarRasterKernels();
+const RasterKernels& SimdRasterKernels();
+
+/// Samples farther than this from a pixel's centre, in modules, are looked up by themselves.
+inline constexpr int kMostSamplesNearCentre = 2;
+inline constexpr float kNarrowestBox2_modules2 = 1e-6F;
+inline constexpr float kFarthestModule = 1e6F;
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,244 @@
+#include "tracker/alignment/raster_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tracker/alignment/raster_kernels_simd.cc"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+// The same arithmetic as the scalar reference in raster_kernels.cc, whole vectors at a time.
+HWY_BEFORE_NAMESPACE();
+namespace pleinair::tracker {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+const hn::CappedTag<float, kRowSlack> kFloats;
+const hn::Rebind<std::int32_t, decltype(kFloats)> kInts;
+using Floats = hn::Vec<decltype(kFloats)>;
+using Ints = hn::Vec<decltype(kInts)>;
+
+void Map(const RayRow& rays, const float m[9], int count, const MapRow& out) {
+  const int lanes = static_cast<int>(hn::Lanes(kFloats));
+  const auto load = [](const float* from) { return hn::LoadU(kFloats, from); };
+  const Floats m0 = hn::Set(kFloats, m[0]), m1 = hn::Set(kFloats, m[1]);
+  const Floats m3 = hn::Set(kFloats, m[3]), m4 = hn::Set(kFloats, m[4]);
+  const Floats m6 = hn::Set(kFloats, m[6]), m7 = hn::Set(kFloats, m[7]);
+  const Floats one = hn::Set(kFloats, 1.0F), half = hn::Set(kFloats, 0.5F);
+  const Floats origin_x = hn::Set(kFloats, rays.origin_x);
+  const Floats origin_y = hn::Set(kFloats, rays.origin_y);
+  for (int x = 0; x < count; x += lanes) {
+    const float *qx = rays.x + x, *qy = rays.y + x;
+    const Floats ix = hn::Sub(load(qx), origin_x), iy = hn::Sub(load(qy), origin_y);
+    const auto form = [&](Floats a, Floats b, float c) {
+      return hn::MulAdd(a, ix, hn::MulAdd(b, iy, hn::Set(kFloats, c)));
+    };
+    const Floats w = hn::Div(one, form(m6, m7, m[8]));
+    const Floats column = hn::Mul(form(m0, m1, m[2]), w), row = hn::Mul(form(m3, m4, m[5]), w);
+    const Floats half_w = hn::Mul(half, w);
+    const Floats cx = hn::Mul(hn::NegMulAdd(m6, column, m0), half_w);
+    const Floats cy = hn::Mul(hn::NegMulAdd(m7, column, m1), half_w);
+    const Floats rx = hn::Mul(hn::NegMulAdd(m6, row, m3), half_w);
+    const Floats ry = hn::Mul(hn::NegMulAdd(m7, row, m4), half_w);
+    const Floats x_x = hn::Sub(load(qx + 1), load(qx - 1));
+    const Floats y_x = hn::Sub(load(qy + 1), load(qy - 1));
+    const Floats x_y = hn::Sub(load(qx + rays.stride), load(qx - rays.stride));
+    const Floats y_y = hn::Sub(load(qy + rays.stride), load(qy - rays.stride));
+    hn::StoreU(column, kFloats, out.column + x);
+    hn::StoreU(row, kFloats, out.row + x);
+    hn::StoreU(hn::MulAdd(cx, x_x, hn::Mul(cy, y_x)), kFloats, out.column_x + x);
+    hn::StoreU(hn::MulAdd(cx, x_y, hn::Mul(cy, y_y)), kFloats, out.column_y + x);
+    hn::StoreU(hn::MulAdd(rx, x_x, hn::Mul(ry, y_x)), kFloats, out.row_x + x);
+    hn::StoreU(hn::MulAdd(rx, x_y, hn::Mul(ry, y_y)), kFloats, out.row_y + x);
+  }
+}
+
+RowRange Range(const MapRow& map, float modules, float reach_px, int count) {
+  const int lanes = static_cast<int>(hn::Lanes(kFloats));
+  const Floats reach = hn::Set(kFloats, reach_px), all = hn::Set(kFloats, modules);
+  const auto near = [&](const float* at, const float* at_x, const float* at_y) {
+    const Floats value = hn::LoadU(kFloats, at);
+    const Floats far = hn::Mul(
+        reach, hn::Add(hn::Abs(hn::LoadU(kFloats, at_x)), hn::Abs(hn::LoadU(kFloats, at_y))));
+    return hn::And(hn::Gt(value, hn::Neg(far)), hn::Lt(value, hn::Add(all, far)));
+  };
+  RowRange range{count, 0};
+  for (int x = 0; x < count; x += lanes) {
+    const auto mask = hn::And(hn::And(near(map.column + x, map.column_x + x, map.column_y + x),
+                                      near(map.row + x, map.row_x + x, map.row_y + x)),
+                              hn::FirstN(kFloats, static_cast<std::size_t>(count - x)));
+    if (hn::AllFalse(kFloats, mask)) continue;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(kFloats, mask, bits);
+    const unsigned set = bits[0] | static_cast<unsigned>(bits[1]) << 8;
+    if (range.end == 0) range.begin = x + __builtin_ctz(set);
+    range.end = x + 32 - __builtin_clz(set);
+  }
+  return range.end > 0 ? range : RowRange{};
+}
+
+/// Modules around a node → the share of white in a box, `s` and `t` of which lie right of and
+/// below the node. The four modules are bits 0, 1, 4, 5.
+HWY_INLINE Floats Blend(Ints around, Floats s, Floats t) {
+  const Floats zero = hn::Zero(kFloats), rest = hn::Sub(hn::Set(kFloats, 1.0F), s);
+  const auto if_bit = [&](Ints at_sign, Floats value) {
+    return hn::IfNegativeThenElse(hn::BitCast(kFloats, at_sign), value, zero);
+  };
+  const Floats top =
+      hn::Add(if_bit(hn::ShiftLeft<31>(around), rest), if_bit(hn::ShiftLeft<30>(around), s));
+  const Floats bottom =
+      hn::Add(if_bit(hn::ShiftLeft<27>(around), rest), if_bit(hn::ShiftLeft<26>(around), s));
+  return hn::MulAdd(hn::Sub(bottom, top), t, top);
+}
+
+void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
+            std::ptrdiff_t stride, float* out) {
+  const int lanes = static_cast<int>(hn::Lanes(kFloats));
+  const float bin = 1.0F / static_cast<float>(per_pixel);
+  const Floats zero = hn::Zero(kFloats), one = hn::Set(kFloats, 1.0F);
+  const Floats half = hn::Set(kFloats, 0.5F), three_halves = hn::Set(kFloats, 1.5F);
+  const Floats last = hn::Set(kFloats, static_cast<float>(table.nodes - 1));
+  const Floats bin2 = hn::Set(kFloats, bin * bin);
+  const Floats narrowest = hn::Set(kFloats, kNarrowestBox2_modules2);
+  const Floats farthest = hn::Set(kFloats, kFarthestModule);
+  const Ints nodes = hn::Set(kInts, table.nodes);
+  const Ints minus_one = hn::Set(kInts, -1), plus_one = hn::Set(kInts, 1);
+  const Ints five = hn::Set(kInts, 5);
+  const auto* around = reinterpret_cast<const std::int32_t*>(table.around);
+  const auto finite = [&](const float* from) {
+    const Floats value = hn::LoadU(kFloats, from);
+    return hn::IfThenElseZero(hn::Lt(hn::Abs(value), farthest), value);
+  };
+  const auto clamped = [&](Floats value) { return hn::Min(hn::Max(value, zero), last); };
+  const auto node = [&](Floats at) { return hn::ConvertTo(kInts, hn::Add(at, half)); };
+  const auto inverse_root = [&](Floats a, Floats b) {
+    const Floats square = hn::Max(hn::Mul(hn::MulAdd(a, a, hn::Mul(b, b)), bin2), narrowest);
+    // One step of Newton's method makes the estimate good to single precision.
+    const Floats root = hn::ApproximateReciprocalSqrt(square);
+    return hn::Mul(root, hn::NegMulAdd(hn::Mul(hn::Mul(half, square), root), root, three_halves));
+  };
+  for (int x = 0; x < count; x += lanes) {
+    const Floats column = finite(map.column + x), row = finite(map.row + x);
+    const Floats column_x = finite(map.column_x + x), column_y = finite(map.column_y + x);
+    const Floats row_x = finite(map.row_x + x), row_y = finite(map.row_y + x);
+    const Floats inverse_c = inverse_root(column_x, column_y);
+    const Floats inverse_r = inverse_root(row_x, row_y);
+    const auto share = [&](Floats at, Ints nearest, Floats inverse) {
+      const Floats from_node = hn::Sub(at, hn::ConvertTo(kFloats, nearest));
+      return hn::Min(hn::Max(hn::MulAdd(from_node, inverse, half), zero), one);
+    };
+    const bool near_centre = per_pixel <= kMostSamplesNearCentre;
+    Ints centre_c = hn::Zero(kInts), centre_r = centre_c, centre = centre_c;
+    if (near_centre) {
+      centre_c = node(clamped(column));
+      centre_r = node(clamped(row));
+      centre = hn::GatherIndex(kInts, around, hn::Add(hn::Mul(centre_r, nodes), centre_c));
+    }
+    float* to = out + x;
+    for (int j = 0; j < per_pixel; ++j) {
+      const Floats dy = hn::Set(kFloats, (static_cast<float>(j) + 0.5F) * bin - 0.5F);
+      const Floats c_row = hn::MulAdd(column_y, dy, column), r_row = hn::MulAdd(row_y, dy, row);
+      for (int i = 0; i < per_pixel; ++i, to += stride) {
+        const Floats dx = hn::Set(kFloats, (static_cast<float>(i) + 0.5F) * bin - 0.5F);
+        const Floats c = clamped(hn::MulAdd(column_x, dx, c_row));
+        const Floats r = clamped(hn::MulAdd(row_x, dx, r_row));
+        Ints ci = node(c), ri = node(r), modules;
+        if (near_centre) {
+          // The centre's modules hold those of the nodes beside it.
+          const Ints right = hn::Min(hn::Max(hn::Sub(ci, centre_c), minus_one), plus_one);
+          const Ints down = hn::Min(hn::Max(hn::Sub(ri, centre_r), minus_one), plus_one);
+          ci = hn::Add(centre_c, right);
+          ri = hn::Add(centre_r, down);
+          modules = hn::Shr(centre, hn::Add(hn::Add(hn::ShiftLeft<2>(down), right), five));
+        } else {
+          modules =
+              hn::ShiftRight<5>(hn::GatherIndex(kInts, around, hn::Add(hn::Mul(ri, nodes), ci)));
+        }
+        hn::StoreU(Blend(modules, share(c, ci, inverse_c), share(r, ri, inverse_r)), kFloats, to);
+      }
+    }
+  }
+}
+
+void AlongRow(const float* in, std::ptrdiff_t stride, const BlurTaps& taps, int count,
+              float* blurred, float* blurred_x) {
+  const int lanes = static_cast<int>(hn::Lanes(kFloats));
+  for (int x = 0; x < count; x += lanes) {
+    Floats sum = hn::Zero(kFloats), slope = sum;
+    for (int i = 0; i < taps.per_pixel; ++i) {
+      const float* from = in + i * stride + x;
+      const float *weight = taps.weight + i, *weight_x = taps.slope + i;
+      for (int p = 0; p < taps.pixels; ++p) {
+        const Floats value = hn::LoadU(kFloats, from + p);
+        sum = hn::MulAdd(hn::Set(kFloats, *weight), value, sum);
+        slope = hn::MulAdd(hn::Set(kFloats, *weight_x), value, slope);
+        weight += taps.per_pixel;
+        weight_x += taps.per_pixel;
+      }
+    }
+    hn::StoreU(sum, kFloats, blurred + x);
+    hn::StoreU(slope, kFloats, blurred_x + x);
+  }
+}
+
+void AlongColumn(const float* const* rows, const float* const* rows_x, const BlurTaps& taps,
+                 int count, float* white, float* white_x, float* white_y) {
+  const int lanes = static_cast<int>(hn::Lanes(kFloats));
+  if (count < lanes) {
+    ScalarRasterKernels().along_column(rows, rows_x, taps, count, white, white_x, white_y);
+    return;
+  }
+  const int all = taps.pixels * taps.per_pixel;
+  for (int from = 0; from < count; from += lanes) {
+    const int x = HWY_MIN(from, count - lanes);
+    Floats sum = hn::Zero(kFloats), sum_x = sum, sum_y = sum;
+    for (int k = 0; k < all; ++k) {
+      const Floats weight = hn::Set(kFloats, taps.weight[k]);
+      const Floats value = hn::LoadU(kFloats, rows[k] + x);
+      sum = hn::MulAdd(weight, value, sum);
+      sum_x = hn::MulAdd(weight, hn::LoadU(kFloats, rows_x[k] + x), sum_x);
+      sum_y = hn::MulAdd(hn::Set(kFloats, taps.slope[k]), value, sum_y);
+    }
+    hn::StoreU(sum, kFloats, white + x);
+    hn::StoreU(sum_x, kFloats, white_x + x);
+    hn::StoreU(sum_y, kFloats, white_y + x);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pleinair::tracker
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pleinair::tracker {
+HWY_EXPORT(Map);
+HWY_EXPORT(Range);
+HWY_EXPORT(Sample);
+HWY_EXPORT(AlongRow);
+HWY_EXPORT(AlongColumn);
+
+const RasterKernels& SimdRasterKernels() {
+  static const RasterKernels kKernels{
+      [](const RayRow& rays, const float homography[9], int count, const MapRow& out) {
+        HWY_DYNAMIC_DISPATCH(Map)(rays, homography, count, out);
+      },
+      [](const MapRow& map, float modules, float reach_px, int count) {
+        return HWY_DYNAMIC_DISPATCH(Range)(map, modules, reach_px, count);
+      },
+      [](const MapRow& map, const NodeTable& table, int per_pixel, int count, std::ptrdiff_t stride,
+         float* out) { HWY_DYNAMIC_DISPATCH(Sample)
+                       (map, table, per_pixel, count, stride, out); },
+      [](const float* in, std::ptrdiff_t stride, const BlurTaps& taps, int count, float* blurred,
+         float* blurred_x) {
+        HWY_DYNAMIC_DISPATCH(AlongRow)(in, stride, taps, count, blurred, blurred_x);
+      },
+      [](const float* const* rows, const float* const* rows_x, const BlurTaps& taps, int count,
+         float* white, float* white_x, float* white_y) {
+        HWY_DYNAMIC_DISPATCH(AlongColumn)
+        (rows, rows_x, taps, count, white, white_x, white_y);
+      }};
+  return kKernels;
+}
+
+}  // namespace pleinair::tracker
+#endif  // HWY_ONCE
