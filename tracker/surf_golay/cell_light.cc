@@ -13,7 +13,8 @@ constexpr float kWhiteShare = 0.75F, kBlackShare = 0.2F;
 constexpr float kOrdinaryBlack = 0.06F;
 constexpr float kDarkest = 2e-4F;  ///< Linear light: below an 8-bit code's first step.
 constexpr std::size_t kFewestSamples = 12, kMostSamples = 600;
-constexpr float kDoubtfulWeight = 0.25F;
+constexpr double kDoubtfulBlock = 0.55, kRightBlock = 0.9;  ///< Correlations.
+constexpr float kDoubtfulWeight = 0.2F;
 constexpr double kLeastNoise = 0.006;
 /// Where so much of the white is clipped, the blocks' gains tell how bright it really is.
 constexpr double kClippedShare = 0.5;
@@ -153,8 +154,13 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
     if (fit.block_of()[n] < 0 || ++count % stride != 0) continue;
     const float share = fit.picture().white[n];
     const bool clipped = !(seen.certainty[n] > 0.0F);
-    const float belief =
-        clipped ? static_cast<float>(fit.blocks()[fit.block_of()[n]].weight) : fit.Belief(n, seen);
+    // A block that is part paper, part cover has levels of its own: only those count that look
+    // right as a whole.
+    const PrintBlock& block = fit.blocks()[fit.block_of()[n]];
+    const float right = std::clamp(
+        static_cast<float>((block.correlation - kDoubtfulBlock) / (kRightBlock - kDoubtfulBlock)),
+        0.0F, 1.0F);
+    const float belief = clipped ? static_cast<float>(block.weight) : right * fit.Belief(n, seen);
     if (belief < kDoubtfulWeight) continue;
     const float value = std::max(seen.value[n], kDarkest);
     const float u = (fit.map().column[n] - middle) * per_half;

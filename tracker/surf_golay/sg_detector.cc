@@ -16,7 +16,7 @@ constexpr double kProbedCorrelation = 0.35, kRivalCorrelation = 0.12, kFittedCor
 constexpr int kQuadSteps = 4, kGuessSteps = 8;
 constexpr double kProbeSide_px = 70.0;
 /// Guesses of the S-G search that may fail in a row before it is given up.
-constexpr int kMostFailures = 14;
+constexpr int kMostFailures = 8;
 constexpr double kSamePlace = 0.04;  ///< Of the side: two fits that ended here are one.
 /// Between two searches for markers that are new: quadrilaterals, borders.
 constexpr int kFastEvery = 3, kSearchEvery = 15;
