@@ -28,12 +28,12 @@ constexpr double kSameScale = 1.6, kSameTurn_rad = 0.45;
 constexpr double kOtherPlace = 4.0;  ///< Modules: certainly another one.
 constexpr double kFarthest = 0.75;   ///< Descriptors farther apart are not compared.
 /// The difference of distances at which right and wrong compete.
-constexpr double kConfusion = 0.06;
+constexpr double kConfusion = 0.05;
 constexpr double kWeakResponse = 0.0005;
 /// Of a keypoint must be uncovered to be described: the Gaussian over its descriptor is 3.3 wide.
-constexpr double kClearScales = 3.0;
+constexpr double kClearScales = 4.5;
 /// Keypoints' worths that make a half of the border found half the time.
-constexpr double kEnough = 1.2;
+constexpr double kEnough = 2.0;
 constexpr int kHalves = 8;
 /// Few: what is near to some texture is near to many.
 constexpr int kPerTexture = 60;

@@ -23,7 +23,7 @@ struct Options {
   int number = 17;
   std::string start = "random", svg, layout;
   bool score_only = false;
-  float window_scales = tracker::SurfOptions().descriptor_window_scales;
+  float window_scales = tracker::BorderSearchOptions().surf.descriptor_window_scales;
   std::vector<std::string> photographs;
 };
 
@@ -174,7 +174,8 @@ int main(int argc, char** argv) {
   app.add_option("--start", options.start, "where the search begins; default random")
       ->check(CLI::IsMember({"random", "current"}));
   app.add_option("--layout", options.layout, "file with 40 rows of # and . to begin with");
-  app.add_option("--window", options.window_scales, "of descriptors, in scales; default 20")
+  app.add_option("--window", options.window_scales,
+                 "of descriptors, in scales; default as the detector has it")
       ->check(CLI::PositiveNumber);
   app.add_option("--scenes", options.scenes,
                  "measure how often half covered markers are guessed in so many scenes");
