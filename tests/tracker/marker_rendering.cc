@@ -42,6 +42,10 @@ class PrintUnderRays {
     const PrintPattern& pattern = *marker_.pattern;
     const double extent = pattern.Extent();
     if (!(std::fabs(at.x) < extent && std::fabs(at.y) < extent)) return -1.0;
+    if (marker_.cover) {
+      const double cover = marker_.cover(at);
+      if (cover >= 0.0) return cover;
+    }
     const double modules_per_unit = pattern.modules / (2.0 * extent);
     const int column =
         std::min(pattern.modules - 1, static_cast<int>((at.x + extent) * modules_per_unit));
@@ -54,6 +58,35 @@ class PrintUnderRays {
   const RenderedMarker& marker_;
   Mat3 print_from_rays_;
 };
+
+/// Pixels that may see a print.
+struct PixelBox {
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+
+  bool Holds(int x, int y) const { return x >= left && x <= right && y >= top && y <= bottom; }
+};
+
+PixelBox BoxOf(const CameraModel& camera, const RenderedMarker& marker) {
+  constexpr int kSteps = 16;          // Along a side, since lenses bend sides.
+  constexpr double kMargin_px = 3.0;  // A pixel's own width, and what bends between two steps.
+  constexpr double kAll = 1e9;
+  const double half = 0.5 * marker.size.value() * marker.pattern->Extent();
+  PixelBox box;
+  for (int side = 0; side < 4; ++side) {
+    for (int step = 0; step < kSteps; ++step) {
+      const double along = step / static_cast<double>(kSteps);
+      const Vec2 from = kSquareCorners[side], to = kSquareCorners[(side + 1) % 4];
+      const Vec2 at = (from * (1.0 - along) + to * along) * half;
+      const Point<Camera> point = marker.camera_from_marker * Point<Marker>{{at.x, at.y, 0.0}};
+      // Partly behind the camera: it may be seen anywhere.
+      if (point.xyz.z < 1e-6) return {-kAll, kAll, -kAll, kAll};
+      const Vec2 pixel = ProjectToPixel(camera, point);
+      box = {std::min(box.left, pixel.x - kMargin_px), std::max(box.right, pixel.x + kMargin_px),
+             std::min(box.top, pixel.y - kMargin_px), std::max(box.bottom, pixel.y + kMargin_px)};
+    }
+  }
+  return box;
+}
 
 Image<double> Blurred(const Image<double>& sharp, double sigma_px) {
   const int radius = static_cast<int>(std::ceil(4.0 * sigma_px));
@@ -86,9 +119,20 @@ Image<double> Blurred(const Image<double>& sharp, double sigma_px) {
 GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMarker>& markers,
                         const RenderingOptions& options) {
   std::vector<PrintUnderRays> prints(markers.begin(), markers.end());
+  std::vector<PixelBox> boxes;
+  for (const RenderedMarker& marker : markers) boxes.push_back(BoxOf(camera, marker));
+  std::vector<const PrintUnderRays*> near;
   Image<double> light(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
+      near.clear();
+      for (std::size_t i = 0; i < prints.size(); ++i) {
+        if (boxes[i].Holds(x, y)) near.push_back(&prints[i]);
+      }
+      if (near.empty() && !options.light && !options.glare) {
+        light(x, y) = options.background;
+        continue;
+      }
       const Vec2 ray = UndistortPixel(camera, {1.0 * x, 1.0 * y});
       const Vec2 d_x =
           UndistortPixel(camera, {x + 0.5, 1.0 * y}) - UndistortPixel(camera, {x - 0.5, 1.0 * y});
@@ -99,11 +143,12 @@ GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMar
         for (int i = 0; i < kSamples; ++i) {
           const double at_x = (i + 0.5) / kSamples - 0.5, at_y = (j + 0.5) / kSamples - 0.5;
           double value = options.background;
-          for (const PrintUnderRays& print : prints) {
-            const double printed = print(ray + d_x * at_x + d_y * at_y);
+          for (const PrintUnderRays* print : near) {
+            const double printed = (*print)(ray + d_x * at_x + d_y * at_y);
             if (printed >= 0.0) value = printed;
           }
           if (options.light) value *= options.light({x + at_x, y + at_y});
+          if (options.glare) value += options.glare({x + at_x, y + at_y});
           sum += value;
         }
       }

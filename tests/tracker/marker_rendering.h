@@ -20,6 +20,9 @@ struct RenderedMarker {
   Metres size{0.1};  ///< Edge of the square whose corners are reported.
   Transform<Camera, Marker> camera_from_marker;
   double black = 0.04, white = 0.8;  ///< Linear light.
+  /// Light of what lies on the print at a point of it (half edges, x right, y up); negative where
+  /// nothing does; nothing does where not given.
+  std::function<double(Vec2 at)> cover{};
 };
 
 struct RenderingOptions {
@@ -28,7 +31,9 @@ struct RenderingOptions {
   double noise_codes = 0.0;  ///< Standard deviation of the noise added to the codes.
   std::uint32_t seed = 1;
   /// Light that falls on what a pixel sees; 1 where not given.
-  std::function<double(Vec2 pixel)> light;
+  std::function<double(Vec2 pixel)> light{};
+  /// Light thrown back on top of that; none where not given.
+  std::function<double(Vec2 pixel)> glare{};
 };
 
 /// Renders prints as a perfect camera with square pixels would see them: 12×12 samples a pixel

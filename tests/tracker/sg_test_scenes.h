@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "tests/tracker/marker_rendering.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::tracker {
+
+/// A pinhole camera with its axis in the picture's middle.
+CameraModel SgCamera(int width = 320, int height = 240, double focal_px = 400.0);
+
+/// Marker `number`, with its edge `side_px` long were it frontal, as PoseSeenAt says.
+RenderedMarker SgMarkerAt(const CameraModel& camera, int number, Vec2 centre_px, double side_px,
+                          double tilt_deg = 0.0, double axis_deg = 0.0, double roll_deg = 0.0);
+
+struct SgTrackerOptions {
+  SgStrategy strategy = SgStrategy::kHybrid;
+  std::vector<int> numbers_in_use{};
+  bool consecutive_frames = false;
+};
+
+/// A tracker of S-G markers of the size that SgMarkerAt gives them.
+std::unique_ptr<Tracker> MakeSgTracker(const CameraModel& camera,
+                                       const SgTrackerOptions& options = {});
+
+/// What the tracker sees in a picture; the test fails where that is an error.
+std::vector<Sighting> Track(Tracker* tracker, const GreyImage& picture);
+
+/// RMS distance of a detection's corners from the truth, px.
+double CornerRms(const Sighting& sighting, const std::array<Vec2, 4>& truth);
+
+/// Angle between two rotations.
+double RotationApart_deg(const Mat3& a, const Mat3& b);
+
+/// "[17 surf-golay at 81,70 60 %]": what a failed test shows of a list of sightings.
+std::string Summary(const std::vector<Sighting>& sightings);
+
+/// A point of the print (half edges, y up) in modules of the black square, from its top-left.
+Vec2 ModulesOf(Vec2 at);
+
+}  // namespace pleinair::tracker

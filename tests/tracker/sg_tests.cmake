@@ -1,0 +1,10 @@
+# Tests of tracker/surf_golay/, mostly through tracker/tracker.h.
+add_library(pleinair_sg_test_scenes STATIC sg_test_scenes.cc)
+target_link_libraries(pleinair_sg_test_scenes PUBLIC pleinair_marker_rendering GTest::gtest)
+pleinair_configure_target(pleinair_sg_test_scenes)
+pleinair_test(sg_detection_test
+  SOURCES sg_detection_test.cc
+  LIBS pleinair_sg_test_scenes)
+pleinair_test(sg_occlusion_test
+  SOURCES sg_occlusion_test.cc
+  LIBS pleinair_sg_test_scenes)
