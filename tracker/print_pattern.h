@@ -10,6 +10,8 @@ struct PrintPattern {
   int modules = 0;       ///< Modules along each side, quiet zone included.
   int edge_modules = 0;  ///< Modules along the side of the square whose corners are reported.
   std::vector<std::uint8_t> white;  ///< 1 white, 0 black; row-major from the top-left.
+  /// A square of modules that differ from print to print: its first row and column, and its side.
+  int unknown_first = 0, unknown_modules = 0;
 
   /// Half the printed side in half edges: the print spans [-extent, extent] in both axes of the
   /// coordinates in which the reported corners are (±1, ±1).

@@ -2,12 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "base/image.h"
 #include "base/vector.h"
 #include "tracker/alignment/lens_grid.h"
 #include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/seen_window.h"
 #include "tracker/print_pattern.h"
 
 namespace pleinair::tracker {
@@ -25,27 +26,9 @@ struct PrintBlock {
 
 /// Which pixels a fit looks at.
 enum class PrintPart {
-  kBorder,  ///< Not the content, which is not known yet.
+  kBorder,  ///< Not the pattern's unknown modules.
   kWhole,
 };
-
-/// The window of a picture that a fit compares with: its values and how sure each of them is.
-struct SeenWindow {
-  WindowRays rays;
-  std::vector<float> value;
-  std::vector<float> certainty;  ///< Inverse variance up to scale; 0: not to be used.
-};
-
-/// Takes a window out of a picture, in linear light; reduced pixels are means of squares of the
-/// picture's. Codes that are clipped are not to be used; the certainty is that of even noise in
-/// codes, which is how cameras' noise looks after the sRGB curve.
-void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
-                      const PixelWindow& window, SeenWindow* seen);
-
-/// Takes a window out of a reduced picture in its codes, all alike in certainty: enough to find a
-/// print, not to measure it.
-void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
-                    const PixelWindow& window, SeenWindow* seen);
 
 /// What a fit of a print to a picture varies.
 struct BlockFitState {
@@ -68,6 +51,11 @@ struct BlockFitOptions {
 /// maximum-likelihood estimate when each block's light is unknown.)
 class BlockFit {
  public:
+  BlockFit();
+  ~BlockFit();
+  BlockFit(BlockFit&&) noexcept;
+  BlockFit& operator=(BlockFit&&) noexcept;
+
   /// Blocks along each side of the print for a side this long: at least `block_px` each.
   static int BlocksAlong(double print_side_px, double block_px);
 
@@ -75,12 +63,14 @@ class BlockFit {
   bool Run(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen, int blocks_along,
            const BlockFitOptions& options, BlockFitState* state);
 
-  /// After Run, at the state it ended with: row by row from the top-left.
+  /// After Run, at the state it ended with or, where it stopped because nothing moved any more,
+  /// less than `done_px` from there: row by row from the top-left.
   const std::vector<PrintBlock>& blocks() const { return blocks_; }
   int blocks_along() const { return blocks_along_; }
   const PrintMap& map() const { return map_; }
   const PrintPicture& picture() const { return picture_; }
-  /// Gain and offset of the block of each pixel of the window; -1: not of the print.
+  /// Block of each pixel of the window; -1: not of what is known of the print. A block's pixels
+  /// come in squares of 2×2 or 4×4.
   const std::vector<std::int16_t>& block_of() const { return block_of_; }
   /// How much the fit believes in a pixel of the window, 0…1.
   float Belief(std::size_t pixel, const SeenWindow& seen) const {
@@ -99,22 +89,23 @@ class BlockFit {
   static constexpr int kMotions = 8;
   static constexpr int kParameters = kMotions + 1;  // … and the variance of the blur.
 
-  struct Sums;
-  void AssignBlocks(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
-                    double blur_px);
-  void FitLevels(const SeenWindow& seen);
-  void WeighPixels(const SeenWindow& seen, double robust_share);
-  void AddUp(const SeenWindow& seen, const PrintPattern& pattern);
+  struct Sums;  // What block_sums.h adds up.
+  void Predict(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
+               const BlockFitState& state);
+  void FitLevels(const SeenWindow& seen, double robust_share);
+  void AddUp(const SeenWindow& seen, bool blur);
+  bool Move(const PrintPattern& pattern, const BlockFitOptions& options, double scale,
+            BlockFitState* state, bool* done, bool* still);
 
   PrintRaster raster_;
   PrintMap map_;
   PrintPicture picture_;
   int blocks_along_ = 0;
-  bool have_levels_ = false;
+  int tile_ = 4;
   std::vector<PrintBlock> blocks_;
   std::vector<std::int16_t> block_of_;
   std::vector<float> weight_;
-  std::vector<double> sums_;
+  std::unique_ptr<Sums> sums_;
   std::array<double, kParameters * kParameters> hessian_{};
   std::array<double, kParameters> gradient_{};
 };

@@ -226,8 +226,10 @@ const RasterKernels& SimdRasterKernels() {
         return HWY_DYNAMIC_DISPATCH(Range)(map, modules, reach_px, count);
       },
       [](const MapRow& map, const NodeTable& table, int per_pixel, int count, std::ptrdiff_t stride,
-         float* out) { HWY_DYNAMIC_DISPATCH(Sample)
-                       (map, table, per_pixel, count, stride, out); },
+         float* out) {
+        HWY_DYNAMIC_DISPATCH(Sample)
+        (map, table, per_pixel, count, stride, out);
+      },
       [](const float* in, std::ptrdiff_t stride, const BlurTaps& taps, int count, float* blurred,
          float* blurred_x) {
         HWY_DYNAMIC_DISPATCH(AlongRow)(in, stride, taps, count, blurred, blurred_x);

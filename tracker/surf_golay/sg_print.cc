@@ -11,6 +11,8 @@ PrintPattern SgPrintOfWord(std::uint32_t word, const sg::Border& border) {
   PrintPattern pattern;
   pattern.modules = sg::kPrint;
   pattern.edge_modules = sg::kEdge;
+  pattern.unknown_first = sg::kQuiet + sg::kContent;
+  pattern.unknown_modules = sg::kCells * sg::kCell;
   pattern.white.assign(static_cast<std::size_t>(sg::kPrint) * sg::kPrint, 1);
   for (int y = 0; y < sg::kEdge; ++y) {
     for (int x = 0; x < sg::kEdge; ++x) {

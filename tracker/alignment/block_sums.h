@@ -1,0 +1,77 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <cstdint>
+#include <vector>
+
+#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/seen_window.h"
+#include "tracker/alignment/tile_kernels.h"
+#include "tracker/print_pattern.h"
+
+namespace pleinair::tracker {
+
+/// Sums over a block's pixels that say what light falls on it: see kLevelSums.
+struct LevelSums {
+  double pixels, w, wp, wi, wpp, wpi, wii, r, rp, ri, rpp, rpi;
+};
+
+/// The light on a block as a fit takes it.
+struct BlockLight {
+  float gain = 0.0F, offset = 0.0F;
+  float inverse = 0.0F;  ///< 1 / (gain × robust share); 0: unknown, no residual counts.
+  float belief = 0.0F;
+};
+
+/// Adds up pixels for each block of a print: first by tiles of 2×2 or 4×4 pixels, which belong to
+/// the block their middle lies in. Within a tile the place on the print and the map's derivatives
+/// are taken as one, so that only slopes are summed pixel by pixel.
+class BlockSums {
+ public:
+  BlockSums();
+  /// With the kernels to work with, for tests.
+  explicit BlockSums(const TileKernels& kernels) : kernels_(&kernels) {}
+
+  /// Cuts the window into tiles and tells which pixels are usable. `ranges` as from
+  /// PrintRaster::RenderPrint.
+  void Lay(const PrintPattern& pattern, const KnownPart& known, const SeenWindow& seen,
+           const PrintMap& map, const std::vector<RowRange>& ranges, int tile, int blocks_along);
+
+  /// One sum for each block, with the light of the blocks for the robust weights.
+  void Levels(const SeenWindow& seen, const PrintPicture& picture,
+              const std::vector<BlockLight>& lights, std::vector<LevelSums>* sums);
+
+  /// Products of the derivatives over all pixels and sums by blocks; each pixel's weight.
+  void Motions(const SeenWindow& seen, const PrintPicture& picture,
+               const std::vector<BlockLight>& lights, bool blur, std::vector<float>* weight,
+               FitProducts* products, std::vector<BlockMotions>* blocks);
+
+  /// Block of each pixel of the window; -1: not of what is known of the print, and weighs nothing.
+  void WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of,
+                   std::vector<float>* weight) const;
+
+ private:
+  struct TileRow {
+    int y, rows, begin, count, first_tile, tiles;
+  };
+  void LayTile(const PrintPattern& pattern, const PrintMap& map, std::size_t pixel,
+               int blocks_along, std::size_t tile);
+  /// Writes out the light of the blocks by columns.
+  LightOfColumns Light(const TileRow& row, const std::vector<BlockLight>& lights);
+  PixelRows Rows(const TileRow& row, const SeenWindow& seen, const PrintPicture& picture) const;
+  /// Column sums to tile sums, `sums` of them, from `to` on.
+  void Reduce(const TileRow& row, int sums, float* to, std::ptrdiff_t to_stride);
+
+  const TileKernels* kernels_;
+  int tile_ = 4;
+  std::size_t tiles_ = 0, capacity_ = 0;
+  std::ptrdiff_t column_stride_ = 0;
+  std::vector<TileRow> rows_;
+  std::vector<float> usable_;
+  std::vector<unsigned char> block_;
+  std::vector<float> u_, v_, u_x_, u_y_, v_x_, v_y_, gain_;
+  std::vector<float> tile_sums_, column_sums_, column_light_;
+};
+
+}  // namespace pleinair::tracker

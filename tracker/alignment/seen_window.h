@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/image.h"
+#include "tracker/alignment/lens_grid.h"
+#include "tracker/alignment/print_raster.h"
+
+namespace pleinair::tracker {
+
+/// The window of a picture that a fit compares with: its values and how sure each of them is.
+struct SeenWindow {
+  WindowRays rays;
+  std::vector<float> value;
+  std::vector<float> certainty;  ///< Inverse variance up to scale; 0: not to be used.
+};
+
+/// Takes a window out of a picture, in linear light; reduced pixels are means of squares of the
+/// picture's. Codes that are clipped are not to be used; the certainty is that of even noise in
+/// codes, which is how cameras' noise looks after the sRGB curve.
+void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
+                      const PixelWindow& window, SeenWindow* seen);
+
+/// Takes a window out of a reduced picture in its codes, all alike in certainty: enough to find a
+/// print, not to measure it.
+void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
+                    const PixelWindow& window, SeenWindow* seen);
+
+}  // namespace pleinair::tracker
