@@ -8,3 +8,9 @@ pleinair_test(sg_detection_test
 pleinair_test(sg_occlusion_test
   SOURCES sg_occlusion_test.cc
   LIBS pleinair_sg_test_scenes)
+pleinair_test(sg_negative_test
+  SOURCES sg_negative_test.cc
+  LIBS pleinair_sg_test_scenes)
+pleinair_test(sg_tracking_test
+  SOURCES sg_memory_test.cc sg_tracking_test.cc
+  LIBS pleinair_sg_test_scenes Eigen3::Eigen)

@@ -1,0 +1,212 @@
+// Pictures that hold no S-G marker, and pictures that are hardly pictures.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <random>
+
+#include "tests/tracker/sg_test_scenes.h"
+#include "tracker/april_tag_detector.h"
+#include "tracker/golay/golay_code.h"
+#include "tracker/surf_golay/sg_print.h"
+
+namespace pleinair::tracker {
+namespace {
+
+using testing::IsEmpty;
+
+void ExpectNothing(Tracker* tracker, const GreyImage& picture) {
+  const auto found = Track(tracker, picture);
+  EXPECT_TRUE(found.empty()) << Summary(found);
+}
+
+GreyImage Filled(const CameraModel& camera, std::uint8_t code) {
+  GreyImage picture(camera.width, camera.height);
+  std::fill_n(picture.data(), picture.size(), code);
+  return picture;
+}
+
+GreyImage Noise(const CameraModel& camera, unsigned seed, double deviation, int grain_px) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(128.0, deviation);
+  GreyImage picture(camera.width, camera.height);
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      picture(x, y) = x % grain_px != 0 ? picture(x - 1, y)
+                      : y % grain_px != 0
+                          ? picture(x, y - 1)
+                          : static_cast<std::uint8_t>(std::clamp(noise(random), 0.0, 255.0));
+    }
+  }
+  return picture;
+}
+
+TEST(SgDetection, SeesNothingInBlankAndNoisyPictures) {
+  const CameraModel camera = SgCamera(200, 150);
+  for (const bool consecutive : {false, true}) {
+    const auto tracker = MakeSgTracker(camera, {.consecutive_frames = consecutive});
+    for (const std::uint8_t code : {0, 1, 128, 254, 255}) {
+      SCOPED_TRACE(testing::Message() << "all of code " << static_cast<int>(code));
+      ExpectNothing(tracker.get(), Filled(camera, code));
+    }
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+      SCOPED_TRACE(testing::Message() << "noise of seed " << seed);
+      ExpectNothing(tracker.get(), Noise(camera, seed, 15.0 * seed, 1 + seed % 6));
+    }
+    EXPECT_THAT(tracker->Warnings(), IsEmpty());
+    EXPECT_THAT(tracker->Lost(), IsEmpty());
+  }
+}
+
+TEST(SgDetection, TakesPicturesOfEveryShape) {
+  for (const auto& [width, height] :
+       {std::pair{1, 1}, {1, 200}, {200, 1}, {2, 2}, {3, 7}, {16, 16}, {17, 40}, {641, 33}}) {
+    const CameraModel camera = SgCamera(width, height);
+    for (const bool consecutive : {false, true}) {
+      SCOPED_TRACE(testing::Message() << width << "x" << height);
+      const auto tracker = MakeSgTracker(
+          camera, {.strategy = width == 16 ? SgStrategy::kSurfGolay : SgStrategy::kHybrid,
+                   .consecutive_frames = consecutive});
+      ExpectNothing(tracker.get(), Filled(camera, 200));
+      ExpectNothing(tracker.get(), Noise(camera, 1, 60.0, 1));
+    }
+  }
+}
+
+TEST(SgDetection, RefusesPicturesThatAreNotItsCameras) {
+  const auto tracker = MakeSgTracker(SgCamera(64, 48));
+  EXPECT_FALSE(tracker->Track(ImageView<const std::uint8_t>()).has_value());
+  EXPECT_FALSE(tracker->Track(GreyImage(48, 64).view()).has_value());
+  EXPECT_FALSE(tracker->Track(RgbImage(64, 48, 3).view()).has_value());
+  ExpectNothing(tracker.get(), GreyImage(64, 48));
+  for (const auto& [width, height] : {std::pair{0, 0}, {0, 5}, {5, 0}, {-1, 5}}) {
+    EXPECT_FALSE(Tracker::Create(SgCamera(width, height), {.families = {"sg"}, .marker_size_m = 1})
+                     .has_value());
+  }
+}
+
+/// Random modules; with the three eyes of a QR code where asked. Quiet zone as the marker's.
+std::shared_ptr<const PrintPattern> RandomGrid(unsigned seed, int side, bool eyes) {
+  std::mt19937 random(seed);
+  PrintPattern grid;
+  grid.modules = side + 8;
+  grid.edge_modules = side;
+  grid.white.assign(static_cast<std::size_t>(grid.modules) * grid.modules, 1);
+  const auto eye = [&](int x, int y) {
+    const int ring = std::max(std::abs(x - 3), std::abs(y - 3));
+    return ring == 2 || ring > 3;
+  };
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      bool white = (random() & 1U) != 0;
+      if (eyes && x < 8 && y < 8) white = eye(x, y);
+      if (eyes && side - 1 - x < 8 && y < 8) white = eye(side - 1 - x, y);
+      if (eyes && x < 8 && side - 1 - y < 8) white = eye(x, side - 1 - y);
+      grid.white[(y + 4) * grid.modules + x + 4] = white ? 1 : 0;
+    }
+  }
+  return std::make_shared<PrintPattern>(grid);
+}
+
+std::shared_ptr<const PrintPattern> Chequers(int side) {
+  PrintPattern grid;
+  grid.modules = side + 2;
+  grid.edge_modules = side;
+  grid.white.assign(static_cast<std::size_t>(grid.modules) * grid.modules, 1);
+  for (int y = 1; y <= side; ++y) {
+    for (int x = 1; x <= side; ++x) grid.white[y * grid.modules + x] = (x + y) & 1;
+  }
+  return std::make_shared<PrintPattern>(grid);
+}
+
+/// The rim of a marker, its border's colours drawn at random, and cells that are half wrong.
+std::shared_ptr<const PrintPattern> ForgedBorder(unsigned seed) {
+  std::mt19937 random(seed);
+  PrintPattern print = SgPrintOfWord(PrintedWord(17) ^ 0x0F0F0F);
+  for (int y = 4; y < 36; y += 2) {
+    for (int x = 4; x < 36; x += 2) {
+      if (x >= 8 && x < 32 && y >= 8 && y < 32) continue;
+      const std::uint8_t white = random() & 1U;
+      for (const int at : {0, 1, print.modules, print.modules + 1}) {
+        print.white[(y + 4) * print.modules + x + 4 + at] = white;
+      }
+    }
+  }
+  return std::make_shared<PrintPattern>(print);
+}
+
+TEST(SgDetection, SeesNoMarkerInOtherPrints) {
+  const CameraModel camera = SgCamera();
+  std::vector<std::pair<std::string, std::shared_ptr<const PrintPattern>>> prints;
+  for (const int side : {3, 5, 8, 11, 40}) {
+    prints.emplace_back("chequers " + std::to_string(side), Chequers(side));
+  }
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    prints.emplace_back("QR code " + std::to_string(seed), RandomGrid(seed, 21 + 4 * seed, true));
+    prints.emplace_back("grid " + std::to_string(seed), RandomGrid(seed, 10 * seed, false));
+    prints.emplace_back("forged border " + std::to_string(seed), ForgedBorder(seed));
+    prints.emplace_back("AprilTag " + std::to_string(seed), AprilTagPattern("tag36h11", seed));
+  }
+  const auto tracker = MakeSgTracker(camera);
+  // With one number in use there is no other that could be likelier.
+  const auto one = MakeSgTracker(camera, {.numbers_in_use = {17}});
+  std::uint32_t seed = 1;
+  for (const auto& [name, print] : prints) {
+    SCOPED_TRACE(name);
+    RenderedMarker marker = SgMarkerAt(camera, 0, {161, 118}, 120, 25, 30.0 * seed, 20.0 * seed);
+    marker.pattern = print;
+    const GreyImage picture =
+        RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++});
+    ExpectNothing(tracker.get(), picture);
+    ExpectNothing(one.get(), picture);
+    EXPECT_THAT(tracker->Warnings(), IsEmpty());
+  }
+}
+
+TEST(SgDetection, GivesNoNumberToCellsThatAreNoNumbers) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  const auto one = MakeSgTracker(camera, {.numbers_in_use = {17}});
+  // All black and all white lie four cells from the nearest number (golay_code.h), as does what is
+  // four cells from 17; the last two are half wrong.
+  const GolayWord near = PrintedWord(17);
+  std::uint32_t seed = 1;
+  for (const GolayWord word : {0U, 0xFFFFFFU, near ^ 0xFU, near ^ 0x208041U, near ^ 0x700001U,
+                               near ^ 0xFFF000U, near ^ 0xA5A5A5U}) {
+    SCOPED_TRACE(testing::Message() << "word " << std::hex << word);
+    for (const double side_px : {130.0, 44.0}) {
+      RenderedMarker marker = SgMarkerAt(camera, 0, {161, 118}, side_px, 25, 30.0 * seed, 10);
+      marker.pattern = std::make_shared<PrintPattern>(SgPrintOfWord(word));
+      const GreyImage picture =
+          RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++});
+      if (!DecodePrintedWord(word)) ExpectNothing(tracker.get(), picture);
+      if (std::popcount(word ^ near) > 4) ExpectNothing(one.get(), picture);
+    }
+  }
+}
+
+TEST(SgDetection, GivesMirroredPrintsNoNumberFromAnywhere) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  const auto keypoints = MakeSgTracker(camera, {.strategy = SgStrategy::kSurfGolay});
+  for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    RenderedMarker marker = SgMarkerAt(camera, 400 * seed, {161, 118}, 40.0 + 12 * seed, 8.0 * seed,
+                                       50.0 * seed, 45.0 * seed);
+    PrintPattern mirrored = *marker.pattern;
+    for (int row = 0; row < mirrored.modules; ++row) {
+      std::reverse(mirrored.white.begin() + row * mirrored.modules,
+                   mirrored.white.begin() + (row + 1) * mirrored.modules);
+    }
+    marker.pattern = std::make_shared<PrintPattern>(mirrored);
+    const GreyImage picture =
+        RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed});
+    ExpectNothing(tracker.get(), picture);
+    ExpectNothing(keypoints.get(), picture);
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::tracker
