@@ -97,10 +97,8 @@ void BorderSearch::CastVotes() {
 bool BorderSearch::Agrees(const Vote& hypothesis, const Vote& vote) const {
   const double ratio = vote.size_px / hypothesis.size_px;
   if (ratio > kScaleTolerance || ratio < 1.0 / kScaleTolerance) return false;
-  if (std::fabs(std::remainder(vote.rotation_rad - hypothesis.rotation_rad,
-                               2.0 * std::numbers::pi)) > kTurnTolerance_rad) {
-    return false;
-  }
+  const double turn = std::fabs(vote.rotation_rad - hypothesis.rotation_rad);
+  if (std::min(turn, 2.0 * std::numbers::pi - turn) > kTurnTolerance_rad) return false;
   const SurfKeypoint& k = keypoints_[vote.keypoint];
   const Vec2 expected =
       ApplyAffine(hypothesis.from_modules, templates_.keypoints[vote.model].modules);

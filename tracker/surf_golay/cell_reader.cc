@@ -9,14 +9,13 @@ namespace pleinair::tracker {
 namespace {
 
 /// Deviation of a cell's share that no noise tells: uneven light, ink, the blur's shape.
-constexpr double kSystematicShare = 0.025, kSystematicPerBlur = 0.05;
+constexpr double kSystematicShare = 0.025, kMostEven = 0.008, kSystematicPerBlur = 0.05;
 /// Prior probability that a cell is covered: alone, and when all around it are.
 constexpr double kCoveredAlone = 0.03, kCoveredAmong = 0.6;
 /// Density of the share that is seen where a cell is covered.
 constexpr double kCoveredDensity = 0.5;
 /// Left-over inside a cell, in shares and beyond noise, that speaks for a cover.
 constexpr double kUnevenShare = 0.10;
-constexpr float kClippedValue = 0.975F;
 /// White brighter than this clips: a clipped pixel is white there, and glare elsewhere.
 constexpr double kWhiteClips = 0.93;
 constexpr double kRidge = 1e-4;
@@ -73,7 +72,7 @@ void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const Se
     }
     const double u = (c - middle) * per_half, v = (r - middle) * per_half;
     const double white = light.White(u, v), black = light.black_share * white;
-    const bool clipped = seen.value[n] >= kClippedValue;
+    const bool clipped = !(seen.certainty[n] > 0.0F);
     if (clipped && white < kWhiteClips) continue;
     const double known = fit.picture().white[n];
     const double share = (seen.value[n] - black) / (white - black);
@@ -202,8 +201,12 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
   const double cell_px =
       sg::kCell / std::max(1e-6F, std::hypot(fit.map().column_x[seen.value.size() / 2],
                                              fit.map().column_y[seen.value.size() / 2]));
-  const double systematic =
-      kSystematicShare + kSystematicPerBlur * state.blur_px / seen.rays.window.Scale() / cell_px;
+  // Where the border is even, so must the cells be.
+  const double by_blur = kSystematicPerBlur * state.blur_px / seen.rays.window.Scale() / cell_px;
+  const Unevenness systematic{
+      std::clamp(light.black_noise, kMostEven, kSystematicShare) + by_blur,
+      std::clamp(light.white_noise, 1.5 * kMostEven, kSystematicShare) + by_blur};
+
   std::array<double, sg::kCodeCells> left{}, seen_share{}, whole{}, witness{};
   for (const Pixel& pixel : pixels_) {
     double predicted = with_glare ? GlareAt(pixel, found) : 0.0;
@@ -216,7 +219,8 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
       if (pixel.share[a] < kWholeShare) continue;
       const double share = white[k] + error / pixel.share[a];
       const auto density = [&](double ideal, double noise2) {
-        const double sigma2 = noise2 + systematic * systematic;
+        const double even = ideal > 0.5 ? systematic.white : systematic.black;
+        const double sigma2 = noise2 + even * even;
         return (1.0 - kPixelCovered) * std::exp(-0.5 * (share - ideal) * (share - ideal) / sigma2) /
                    std::sqrt(2.0 * std::numbers::pi * sigma2) +
                kPixelCovered * kCoveredDensity;
@@ -242,18 +246,17 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
   Judge(systematic, reading);
 }
 
-void CellReader::Judge(double systematic, CellReading* reading) {
-  std::array<double, sg::kCodeCells> sigma2{}, evidence{}, covered{};
+void CellReader::Judge(const Unevenness& systematic, CellReading* reading) {
+  std::array<double, sg::kCodeCells> evidence{}, covered{};
   const auto density = [&](int k, double ideal) {
-    const double z2 = (reading->white[k] - ideal) * (reading->white[k] - ideal) / sigma2[k];
-    return std::exp(-0.5 * z2) / std::sqrt(2.0 * std::numbers::pi * sigma2[k]);
+    const double off = reading->white[k] - ideal;
+    const double even = ideal > 0.5 ? systematic.white : systematic.black;
+    const double sigma2 = even * even + reading->deviation[k] * reading->deviation[k];
+    return std::exp(-0.5 * off * off / sigma2) / std::sqrt(2.0 * std::numbers::pi * sigma2);
   };
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    if (!reading->seen[k]) {
-      covered[k] = 1.0;
-      continue;
-    }
-    sigma2[k] = systematic * systematic + reading->deviation[k] * reading->deviation[k];
+    // What no pixel tells of is drowned in light, or outside the picture; nothing lies on it.
+    if (!reading->seen[k]) continue;
     // How much likelier the cell's looks are when something covers it.
     const double uneven = reading->misfit[k] / kUnevenShare;
     evidence[k] = std::exp(std::min(20.0, 2.0 * uneven * uneven)) * kCoveredDensity;

@@ -56,7 +56,11 @@ class CellReader {
   bool Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd* inverse);
   static double GlareAt(const Pixel& pixel, const Eigen::VectorXd& found);
   /// How likely each cell is black, white or covered, given what the cells around it look like.
-  static void Judge(double systematic, CellReading* reading);
+  /// Deviation of a cell's share of white that no noise tells.
+  struct Unevenness {
+    double black, white;
+  };
+  static void Judge(const Unevenness& systematic, CellReading* reading);
 
   std::vector<Pixel> pixels_;
 };

@@ -159,6 +159,24 @@ bool SgDetector::Add(const SgReading& reading, DetectionPath path) {
   return true;
 }
 
+bool SgDetector::RightWayRound(const SgReading& reading) {
+  // Rim and margin look the same from all sides, and a turned content reads as some other word: the
+  // border's shapes must fit better this way round than any other.
+  double scale = 1.0;
+  int level = 0;
+  while (SideOf(reading.corners_px) / scale > kProbeSide_px &&
+         level + 1 < ReducedPictures::kLevels) {
+    scale *= 2.0;
+    ++level;
+  }
+  std::array<Vec2, 4> corners = reading.corners_px;
+  for (Vec2& corner : corners) {
+    corner = {(corner.x + 0.5) / scale - 0.5, (corner.y + 0.5) / scale - 0.5};
+  }
+  const ProbedOrientation best = probe_.Look(reduced_.Level(level), corners)[0];
+  return best.first_corner == 0 && !best.mirrored;
+}
+
 void SgDetector::TryQuad(const Quad& quad) {
   double side = SideOf(quad.corners_px);
   int level = 0;
@@ -232,7 +250,8 @@ void SgDetector::FindBySurf() {
     ++failures;
     if (reader_.VisibleBorder() < kGuessedVisible || Taken(state.modules_from_ideal)) continue;
     const std::optional<SgReading> reading = reader_.Read(state);
-    if (reading && Add(*reading, DetectionPath::kSurfGolay)) failures = 0;
+    if (reading && RightWayRound(*reading) && Add(*reading, DetectionPath::kSurfGolay))
+      failures = 0;
   }
 }
 

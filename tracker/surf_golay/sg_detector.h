@@ -57,6 +57,7 @@ class SgDetector final : public MarkerDetector {
   void FindBySurf();
   bool Add(const SgReading& reading, DetectionPath path);
   bool Taken(const Mat3& modules_from_ideal) const;
+  bool RightWayRound(const SgReading& reading);
   void TryQuad(const Quad& quad);
   void Remember();
 

@@ -12,29 +12,61 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr double kCoarseSide_px = 52.0;  ///< Longest side of a print that is fitted coarsely,
-constexpr double kFineSide_px = 190.0;   ///< … and finely.
+constexpr double kFineSide_px = 100.0;   ///< … and finely.
 constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
+constexpr double kMostClipped = 0.08;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
 /// What makes a reading a marker: how much of the print looks as predicted, and by how much the
 /// number is likelier than the next (in nats). Measured on pictures without markers:
 /// docs/tracker.md.
 constexpr double kLeastContrast = 0.04;  ///< Of a block's predicted shares of white.
-constexpr double kLeastTelling = 0.3;    ///< Blocks that count at least, as a share of all.
+constexpr double kLeastTelling = 0.15;   ///< Blocks that count at least, as a share of all.
+/// A print of which less is seen is also measured from its content; and in so many steps.
+constexpr double kWholeEnough = 0.93;
+constexpr int kContentSteps = 4;
 constexpr int kFollowSteps = 4;
 constexpr double kFollowBlur_px = 0.9;
 /// Mean correlation of the content's blocks that makes a followed marker's number sure.
 constexpr double kContentRight = 0.4;
 constexpr double kLeastVisibleBorder = 0.06;
-constexpr double kWellVisible = 0.3, kBarelyVisible = 0.1;
+constexpr double kWhollyVisible = 0.8, kWellVisible = 0.3, kBarelyVisible = 0.1;
+constexpr float kModestMargin = 8.0F;
 constexpr float kLeastMargin = 11.0F, kSafeMargin = 25.0F, kMarginPerDisagreement = 4.0F;
-constexpr int kMostDisagreements = 2;
+constexpr int kMostDisagreements = 3;
 constexpr float kPlain = 2.0F;  ///< A cell's likelihood that is no accident of noise.
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.005;
 
 constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+
+struct Contradiction {
+  int cells = 0;          ///< Cells that plainly look like the other colour than the number has.
+  bool one_cover = true;  ///< One thing could cover them: one colour, in one row or column.
+};
+
+Contradiction Contradict(const CellLikelihoods& likelihoods, int number) {
+  const GolayWord word = PrintedWord(number);
+  Contradiction contradiction;
+  int white = 0, left = sg::kCells, right = -1, top = sg::kCells, bottom = -1;
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    const bool looks_white = likelihoods[k] > 0.0F;
+    if (std::fabs(likelihoods[k]) < kPlain || looks_white == ((word >> k & 1U) != 0)) continue;
+    ++contradiction.cells;
+    white += looks_white;
+    left = std::min(left, sg::CodeCellColumn(k));
+    right = std::max(right, sg::CodeCellColumn(k));
+    top = std::min(top, sg::CodeCellRow(k));
+    bottom = std::max(bottom, sg::CodeCellRow(k));
+  }
+  if (contradiction.cells >= 2) {
+    const bool one_colour = white == 0 || white == contradiction.cells;
+    contradiction.one_cover = one_colour && std::min(right - left, bottom - top) <= 1 &&
+                              (contradiction.cells < 3 || right == left || bottom == top);
+  }
+  return contradiction;
+}
 
 Vec2 ModulesOfUnit(Vec2 unit) { return {kMiddle + kHalf * unit.x, kMiddle - kHalf * unit.y}; }
 
@@ -98,20 +130,16 @@ bool SgReader::Window(const Mat3& modules_from_ideal, int level, PixelWindow* wi
 double SgReader::FitBorder(int steps, bool coarse, BlockFitState* state) {
   const double side = SidePx(state->modules_from_ideal);
   if (side < kLeastSide_px) return -1.0;
-  const double most = coarse ? kCoarseSide_px : kFineSide_px;
-  int level = 0;
-  while (side / (1 << level) > most && level + 1 < ReducedPictures::kLevels) ++level;
   PixelWindow window;
-  if (!Window(state->modules_from_ideal, level, &window)) return -1.0;
-  const double scale = window.Scale();
   if (coarse) {
-    TakeCodeWindow(lens_, reduced_.Level(level), window, &seen_);
-    state->blur_px = std::clamp(kCoarseBlurShare * side / scale, 0.7, kCoarseBlur_px) * scale;
-  } else {
-    TakeLinearWindow(lens_, grey_, window, &seen_);
+    if (!TakeCoarseWindow(state->modules_from_ideal, &window)) return -1.0;
+    state->blur_px =
+        std::clamp(kCoarseBlurShare * side / window.Scale(), 0.7, kCoarseBlur_px) * window.Scale();
+  } else if (!TakeFineWindow(state->modules_from_ideal, &window)) {
+    return -1.0;
   }
   const int blocks =
-      BlockFit::BlocksAlong(1.2 * side / scale, coarse ? kCoarseBlock_px : kFineBlock_px);
+      BlockFit::BlocksAlong(1.2 * side / window.Scale(), coarse ? kCoarseBlock_px : kFineBlock_px);
   BlockFitOptions options;
   options.steps = steps;
   options.fit_blur = !coarse;
@@ -134,11 +162,8 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
   BlockFitState state = guess;
   const double side = SidePx(state.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
-  int level = 0;
-  while (side / (1 << level) > kCoarseSide_px && level + 1 < ReducedPictures::kLevels) ++level;
   PixelWindow window;
-  if (!Window(state.modules_from_ideal, level, &window)) return std::nullopt;
-  TakeCodeWindow(lens_, reduced_.Level(level), window, &seen_);
+  if (!TakeCoarseWindow(state.modules_from_ideal, &window)) return std::nullopt;
   const double scale = window.Scale();
   state.blur_px = std::max(guess.blur_px, kFollowBlur_px * scale);
   BlockFitOptions options;
@@ -193,40 +218,94 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
     }
   }
   const BlockFitState border_state = state;
-  int plain = 0;
-  const GolayWord word = PrintedWord(decoding.number);
-  for (int k = 0; k < sg::kCodeCells; ++k) {
-    const float likelihood = cells.likelihoods[k];
-    plain += std::fabs(likelihood) > kPlain && (likelihood > 0.0F) != ((word >> k & 1U) != 0);
-  }
+  const Contradiction contradiction = Contradict(cells.likelihoods, decoding.number);
   std::optional<SgReading> reading = Measure(decoding.number, border_state);
   if (!reading) return std::nullopt;
+  if (reading->visible_fraction < kWholeEnough) {
+    // What covers the border has edges of its own, which can pass for the print's; the content,
+    // known by now, pulls the fit away from them if that explains more.
+    BlockFitState by_content = border_state;
+    if (FitContent(decoding.number, &by_content)) {
+      std::optional<SgReading> other = Measure(decoding.number, by_content);
+      if (other && other->visible_fraction > reading->visible_fraction) reading = std::move(other);
+    }
+  }
   reading->border_correlation = correlation;
   reading->visible_border = visible_border;
-  reading->margin = decoding.margin;
-  reading->disagreements = plain;
+  // A number in use must not be one that many others would beat.
+  reading->margin = decoding.margin - decoding.shortfall;
+  reading->disagreements = contradiction.cells;
+  reading->one_cover = contradiction.one_cover;
   if (!Verified(*reading)) return std::nullopt;
   return reading;
+}
+
+bool SgReader::FitContent(int number, BlockFitState* state) {
+  PixelWindow window;
+  if (!TakeFineWindow(state->modules_from_ideal, &window)) return false;
+  const int stride = window.width + 2 * kWindowBorder;
+  for (int y = 0; y < window.height; ++y) {
+    for (int x = 0; x < window.width; ++x) {
+      const std::size_t ray =
+          static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder + x;
+      const Vec2 modules = Apply(state->modules_from_ideal, {seen_.rays.x[ray], seen_.rays.y[ray]});
+      constexpr double kReach = 0.5 * sg::kCells * sg::kCell + 1.0;
+      if (!(std::fabs(modules.x - kMiddle) < kReach && std::fabs(modules.y - kMiddle) < kReach)) {
+        seen_.certainty[static_cast<std::size_t>(y) * window.width + x] = 0.0F;
+      }
+    }
+  }
+  BlockFitOptions options;
+  options.steps = kContentSteps;
+  const double side = SidePx(state->modules_from_ideal);
+  return fit_.Run(Print(number), PrintPart::kWhole, seen_,
+                  BlockFit::BlocksAlong(1.2 * side / window.Scale(), kCoarseBlock_px), options,
+                  state);
 }
 
 bool SgReader::Verified(const SgReading& reading) const {
   // Cells that plainly contradict the number are covered by something that looks like a print; more
   // than three of them would look like another number.
-  if (reading.disagreements > kMostDisagreements) return false;
+  if (reading.disagreements > kMostDisagreements || !reading.one_cover) return false;
   const float margin =
       kLeastMargin + kMarginPerDisagreement * static_cast<float>(reading.disagreements);
+  if (reading.visible_fraction >= kWhollyVisible && reading.disagreements == 0 &&
+      reading.margin >= kModestMargin) {
+    return true;
+  }
   return (reading.visible_fraction >= kWellVisible && reading.margin >= margin) ||
          (reading.visible_fraction >= kBarelyVisible && reading.margin >= kSafeMargin);
+}
+
+bool SgReader::TakeCoarseWindow(const Mat3& modules_from_ideal, PixelWindow* window) {
+  const double side = SidePx(modules_from_ideal);
+  int level = 0;
+  while (side / (1 << level) > kCoarseSide_px && level + 1 < ReducedPictures::kLevels) ++level;
+  if (!Window(modules_from_ideal, level, window)) return false;
+  TakeCodeWindow(lens_, reduced_.Level(level), *window, &seen_);
+  return true;
+}
+
+bool SgReader::TakeFineWindow(const Mat3& modules_from_ideal, PixelWindow* window) {
+  const double side = SidePx(modules_from_ideal);
+  int level = 0;
+  while (side / (1 << level) > kFineSide_px && level + 1 < ReducedPictures::kLevels) ++level;
+  for (;; --level) {
+    if (!Window(modules_from_ideal, level, window)) return false;
+    TakeLinearWindow(lens_, grey_, *window, &seen_);
+    if (level == 0) return true;
+    // A reduced pixel is lost when one of its pixels is clipped: where many are, the picture's own
+    // tell more.
+    const auto clipped = std::count(seen_.certainty.begin(), seen_.certainty.end(), 0.0F);
+    if (clipped < kMostClipped * static_cast<double>(window->size())) return true;
+  }
 }
 
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess) {
   const double side = SidePx(guess.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
-  int level = 0;
-  while (side / (1 << level) > kFineSide_px && level + 1 < ReducedPictures::kLevels) ++level;
   PixelWindow window;
-  if (!Window(guess.modules_from_ideal, level, &window)) return std::nullopt;
-  TakeLinearWindow(lens_, grey_, window, &seen_);
+  if (!TakeFineWindow(guess.modules_from_ideal, &window)) return std::nullopt;
   BlockFitState state = guess;
   BlockFitOptions options;
   options.steps = 5;

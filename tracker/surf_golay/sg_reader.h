@@ -32,6 +32,7 @@ struct SgReading {
   double visible_border = 0.0;  ///< Share of the border that looks as predicted.
   float margin = 0.0F;          ///< Of the number over the next likely one (SoftGolayDecoding).
   int disagreements = 0;        ///< Cells that plainly look like the other colour.
+  bool one_cover = true;        ///< One thing could cover all of these.
   int blocks_along = 0;
   std::vector<float> visible;  ///< 0…1 for each block of the print, row by row.
 };
@@ -68,7 +69,12 @@ class SgReader {
 
  private:
   bool Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const;
+  /// Takes the window of a print for finding it, or for measuring; false where it has none.
+  bool TakeCoarseWindow(const Mat3& modules_from_ideal, PixelWindow* window);
+  bool TakeFineWindow(const Mat3& modules_from_ideal, PixelWindow* window);
   double SidePx(const Mat3& modules_from_ideal) const;
+  /// Moves a state to where the content alone fits best.
+  bool FitContent(int number, BlockFitState* state);
   const PrintPattern& Print(int number);
   bool Verified(const SgReading& reading) const;
   void Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading);
