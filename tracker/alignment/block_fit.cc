@@ -20,7 +20,7 @@ constexpr double kLeastBlur_px = 0.25, kMostBlur_px = 6.0;
 /// Change of the blur that is none, in pixels.
 constexpr double kStillBlur_px = 0.02;
 /// Tiles of 4×4 pixels where blocks and the print itself are so many pixels wide at least.
-constexpr double kLeastBlockOfTiles_px = 12.0, kLeastPrintOfTiles_px = 40.0;
+constexpr double kLeastBlockOfTiles_px = 7.0, kLeastPrintOfTiles_px = 24.0;
 
 /// Lengths of the print's square's sides, in ideal pixels.
 struct Sides {
@@ -166,8 +166,8 @@ void BlockFit::AddUp(const SeenWindow& seen, bool blur) {
   }
 }
 
-void BlockFit::Evaluate(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
-                        int blocks_along, const BlockFitState& state) {
+void BlockFit::Start(const PrintPattern& pattern, const SeenWindow& seen, int blocks_along,
+                     const BlockFitState& state) {
   blocks_along_ = std::clamp(blocks_along, 1, kMostBlocksAlong);
   const std::size_t blocks = static_cast<std::size_t>(blocks_along_) * blocks_along_;
   blocks_.resize(blocks);
@@ -178,9 +178,14 @@ void BlockFit::Evaluate(const PrintPattern& pattern, PrintPart part, const SeenW
   const double shortest = sides.shortest / seen.rays.window.Scale();
   const double block_px = shortest * pattern.modules / pattern.edge_modules / blocks_along_;
   tile_ = shortest >= kLeastPrintOfTiles_px && block_px >= kLeastBlockOfTiles_px ? 4 : 2;
+}
+
+void BlockFit::Evaluate(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
+                        int blocks_along, const BlockFitState& state) {
+  Start(pattern, seen, blocks_along, state);
   Predict(pattern, part, seen, state);
   FitLevels(seen, BlockFitOptions{}.robust_share);
-  sums_->blocks.WriteBlocks(seen, &block_of_, &weight_);
+  sums_->blocks.WriteBlocks(seen, &block_of_);
 }
 
 bool BlockFit::Move(const PrintPattern& pattern, const BlockFitOptions& options, double scale,
@@ -246,12 +251,10 @@ bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow
                    int blocks_along, const BlockFitOptions& options, BlockFitState* state) {
   const double scale = seen.rays.window.Scale();
   bool solved = true;
+  Start(pattern, seen, blocks_along, *state);
   for (int step = 0;; ++step) {
-    if (step == 0) {
-      Evaluate(pattern, part, seen, blocks_along, *state);
-    } else {
-      Predict(pattern, part, seen, *state);
-    }
+    Predict(pattern, part, seen, *state);
+    if (step == 0) FitLevels(seen, options.robust_share);
     // The light of the step before, or without weights, tells what fits; and that the light.
     FitLevels(seen, options.robust_share);
     AddUp(seen, options.fit_blur);
@@ -263,7 +266,7 @@ bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow
     if (!solved || still) break;
     if (done) step = options.steps - 1;
   }
-  sums_->blocks.WriteBlocks(seen, &block_of_, &weight_);
+  sums_->blocks.WriteBlocks(seen, &block_of_);
   return solved;
 }
 

@@ -72,7 +72,7 @@ class BlockFit {
   /// Block of each pixel of the window; -1: not of what is known of the print. A block's pixels
   /// come in squares of 2×2 or 4×4.
   const std::vector<std::int16_t>& block_of() const { return block_of_; }
-  /// How much the fit believes in a pixel of the window, 0…1.
+  /// How much the fit believes in a pixel of the window that has a block, 0…1.
   float Belief(std::size_t pixel, const SeenWindow& seen) const {
     return seen.certainty[pixel] > 0.0F ? weight_[pixel] / seen.certainty[pixel] : 0.0F;
   }
@@ -90,6 +90,8 @@ class BlockFit {
   static constexpr int kParameters = kMotions + 1;  // … and the variance of the blur.
 
   struct Sums;  // What block_sums.h adds up.
+  void Start(const PrintPattern& pattern, const SeenWindow& seen, int blocks_along,
+             const BlockFitState& state);
   void Predict(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
                const BlockFitState& state);
   void FitLevels(const SeenWindow& seen, double robust_share);

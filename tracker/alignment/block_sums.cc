@@ -87,20 +87,24 @@ void BlockSums::LayTile(const PrintPattern& pattern, const PrintMap& map, std::s
   v_y_[tile] = column_x * inverse;
 }
 
-LightOfColumns BlockSums::Light(const TileRow& row, const std::vector<BlockLight>& lights) {
+template <int kTile>
+LightOfColumns BlockSums::LightOfTiles(const TileRow& row, const std::vector<BlockLight>& lights) {
   float* gain = column_light_.data();
   float *offset = gain + column_stride_, *inverse = offset + column_stride_;
   float* belief = inverse + column_stride_;
-  for (int t = 0, x = 0; t < row.tiles; ++t) {
-    const BlockLight& light = lights[block_[row.first_tile + t]];
-    for (const int end = x + tile_; x < end; ++x) {
-      gain[x] = light.gain;
-      offset[x] = light.offset;
-      inverse[x] = light.inverse;
-      belief[x] = light.belief;
-    }
+  const unsigned char* block = &block_[row.first_tile];
+  for (int t = 0; t < row.tiles; ++t) {
+    const BlockLight light = lights[block[t]];
+    for (int x = t * kTile; x < (t + 1) * kTile; ++x) gain[x] = light.gain;
+    for (int x = t * kTile; x < (t + 1) * kTile; ++x) offset[x] = light.offset;
+    for (int x = t * kTile; x < (t + 1) * kTile; ++x) inverse[x] = light.inverse;
+    for (int x = t * kTile; x < (t + 1) * kTile; ++x) belief[x] = light.belief;
   }
   return {gain, offset, inverse};
+}
+
+LightOfColumns BlockSums::Light(const TileRow& row, const std::vector<BlockLight>& lights) {
+  return tile_ == 4 ? LightOfTiles<4>(row, lights) : LightOfTiles<2>(row, lights);
 }
 
 PixelRows BlockSums::Rows(const TileRow& row, const SeenWindow& seen,
@@ -113,9 +117,9 @@ PixelRows BlockSums::Rows(const TileRow& row, const SeenWindow& seen,
 void BlockSums::Reduce(const TileRow& row, int sums, float* to, std::ptrdiff_t to_stride) {
   for (int q = 0; q < sums; ++q) {
     float* columns = &column_sums_[static_cast<std::size_t>(q * column_stride_)];
-    std::fill(columns + row.count, columns + row.tiles * tile_, 0.0F);
-    kernels_->reduce(columns, tile_, row.tiles, to + q * to_stride);
+    for (int x = row.count; x < row.tiles * tile_; ++x) columns[x] = 0.0F;
   }
+  kernels_->reduce(column_sums_.data(), column_stride_, sums, tile_, row.tiles, to, to_stride);
 }
 
 void BlockSums::Levels(const SeenWindow& seen, const PrintPicture& picture,
@@ -170,23 +174,19 @@ void BlockSums::Motions(const SeenWindow& seen, const PrintPicture& picture,
       products, blocks->data());
 }
 
-void BlockSums::WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of,
-                            std::vector<float>* weight) const {
-  const int width = seen.rays.window.width;
+void BlockSums::WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of) const {
+  const int width = seen.rays.window.width, shift = tile_ == 4 ? 2 : 1;
   std::fill(block_of->begin(), block_of->end(), static_cast<std::int16_t>(-1));
   for (const TileRow& row : rows_) {
+    const unsigned char* block = &block_[row.first_tile];
     for (int j = 0; j < row.rows; ++j) {
       const std::size_t at = static_cast<std::size_t>(row.y + j) * width + row.begin;
-      const unsigned char* block = &block_[row.first_tile];
+      const float* usable = &usable_[at];
+      std::int16_t* of = &(*block_of)[at];
       for (int x = 0; x < row.count; ++x) {
-        const bool known = usable_[at + x] >= 0.0F;
-        (*block_of)[at + x] =
-            known ? static_cast<std::int16_t>(block[x / tile_]) : static_cast<std::int16_t>(-1);
+        if (usable[x] >= 0.0F) of[x] = static_cast<std::int16_t>(block[x >> shift]);
       }
     }
-  }
-  for (std::size_t n = 0; n < block_of->size(); ++n) {
-    if ((*block_of)[n] < 0) (*weight)[n] = 0.0F;
   }
 }
 

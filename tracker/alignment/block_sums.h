@@ -47,9 +47,8 @@ class BlockSums {
                const std::vector<BlockLight>& lights, bool blur, std::vector<float>* weight,
                FitProducts* products, std::vector<BlockMotions>* blocks);
 
-  /// Block of each pixel of the window; -1: not of what is known of the print, and weighs nothing.
-  void WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of,
-                   std::vector<float>* weight) const;
+  /// Block of each pixel of the window; -1: not of what is known of the print.
+  void WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of) const;
 
  private:
   struct TileRow {
@@ -58,6 +57,8 @@ class BlockSums {
   void LayTile(const PrintPattern& pattern, const PrintMap& map, std::size_t pixel,
                int blocks_along, std::size_t tile);
   /// Writes out the light of the blocks by columns.
+  template <int kTile>
+  LightOfColumns LightOfTiles(const TileRow& row, const std::vector<BlockLight>& lights);
   LightOfColumns Light(const TileRow& row, const std::vector<BlockLight>& lights);
   PixelRows Rows(const TileRow& row, const SeenWindow& seen, const PrintPicture& picture) const;
   /// Column sums to tile sums, `sums` of them, from `to` on.

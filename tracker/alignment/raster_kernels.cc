@@ -45,40 +45,56 @@ RowRange Range(const MapRow& map, float modules, float reach_px, int count) {
 }
 
 /// Pixels that see nothing look at the print's first corner.
-float Finite(float value) { return std::fabs(value) < kFarthestModule ? value : 0.0F; }
+float Finite(float value) { return value == value ? value : 0.0F; }
 
 void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
             std::ptrdiff_t stride, float* out) {
   const float bin = 1.0F / static_cast<float>(per_pixel);
   const float last = static_cast<float>(table.nodes - 1);
+  const bool near_centre = per_pixel <= kMostSamplesNearCentre;
+  const float steepest = near_centre ? kSteepestNearCentre : kFarthestModule;
+  const auto slope = [&](float value) { return std::clamp(Finite(value), -steepest, steepest); };
   for (int x = 0; x < count; ++x) {
-    const float column = Finite(map.column[x]), row = Finite(map.row[x]);
-    const float column_x = Finite(map.column_x[x]), column_y = Finite(map.column_y[x]);
-    const float row_x = Finite(map.row_x[x]), row_y = Finite(map.row_y[x]);
+    // Beyond the print its outermost modules go on.
+    const float column = std::clamp(Finite(map.column[x]), 0.0F, last);
+    const float row = std::clamp(Finite(map.row[x]), 0.0F, last);
+    const float column_x = slope(map.column_x[x]), column_y = slope(map.column_y[x]);
+    const float row_x = slope(map.row_x[x]), row_y = slope(map.row_y[x]);
     // The sample's footprint is a parallelogram; a box of the same variance along each axis.
     const float inverse_c =
         1.0F / std::sqrt(std::max((column_x * column_x + column_y * column_y) * bin * bin,
                                   kNarrowestBox2_modules2));
     const float inverse_r = 1.0F / std::sqrt(std::max((row_x * row_x + row_y * row_y) * bin * bin,
                                                       kNarrowestBox2_modules2));
-    const auto node = [&](float at) { return static_cast<int>(std::clamp(at, 0.0F, last) + 0.5F); };
+    const float centre_c = std::nearbyint(column), centre_r = std::nearbyint(row);
     for (int j = 0; j < per_pixel; ++j) {
       const float dy = (static_cast<float>(j) + 0.5F) * bin - 0.5F;
       for (int i = 0; i < per_pixel; ++i) {
         const float dx = (static_cast<float>(i) + 0.5F) * bin - 0.5F;
-        // Beyond the print its outermost modules go on.
-        const float c = std::clamp(column + column_x * dx + column_y * dy, 0.0F, last);
-        const float r = std::clamp(row + row_x * dx + row_y * dy, 0.0F, last);
-        const int ci = node(c), ri = node(r);
-        int near_c = ci, near_r = ri;
-        if (per_pixel <= kMostSamplesNearCentre) {
-          near_c = std::clamp(ci, node(column) - 1, node(column) + 1);
-          near_r = std::clamp(ri, node(row) - 1, node(row) + 1);
+        // From the node nearest to the pixel's centre; its modules hold those of the nodes beside.
+        float c = column - centre_c + column_x * dx + column_y * dy;
+        float r = row - centre_r + row_x * dx + row_y * dy;
+        float node_c = centre_c, node_r = centre_r;
+        int shift = 5;
+        if (near_centre) {
+          const float right = std::nearbyint(c), down = std::nearbyint(r);
+          shift += 4 * static_cast<int>(down) + static_cast<int>(right);
+          c -= right;
+          r -= down;
+        } else {
+          c = std::clamp(c + centre_c, 0.0F, last);
+          r = std::clamp(r + centre_r, 0.0F, last);
+          node_c = std::nearbyint(c);
+          node_r = std::nearbyint(r);
+          c -= node_c;
+          r -= node_r;
         }
-        const std::uint32_t around = table.around[near_r * table.nodes + near_c] >> 5;
+        const std::uint32_t around =
+            table.around[static_cast<int>(node_r) * table.nodes + static_cast<int>(node_c)] >>
+            shift;
         const auto module = [&](int bit) { return static_cast<float>(around >> bit & 1U); };
-        const float s = std::clamp((c - static_cast<float>(near_c)) * inverse_c + 0.5F, 0.0F, 1.0F);
-        const float t = std::clamp((r - static_cast<float>(near_r)) * inverse_r + 0.5F, 0.0F, 1.0F);
+        const float s = std::clamp(c * inverse_c + 0.5F, 0.0F, 1.0F);
+        const float t = std::clamp(r * inverse_r + 0.5F, 0.0F, 1.0F);
         const float top = module(0) * (1.0F - s) + module(1) * s;
         const float bottom = module(4) * (1.0F - s) + module(5) * s;
         out[(j * per_pixel + i) * stride + x] = top + (bottom - top) * t;

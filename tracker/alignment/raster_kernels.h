@@ -56,8 +56,10 @@ struct RasterKernels {
 const RasterKernels& ScalarRasterKernels();
 const RasterKernels& SimdRasterKernels();
 
-/// Samples farther than this from a pixel's centre, in modules, are looked up by themselves.
+/// Up to so many samples along a pixel they lie beside the node nearest to its centre, if a pixel
+/// is no more modules than this along either axis.
 inline constexpr int kMostSamplesNearCentre = 2;
+inline constexpr float kSteepestNearCentre = 1.98F;
 inline constexpr float kNarrowestBox2_modules2 = 1e-6F;
 inline constexpr float kFarthestModule = 1e6F;
 

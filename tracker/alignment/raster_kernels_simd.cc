@@ -80,15 +80,28 @@ RowRange Range(const MapRow& map, float modules, float reach_px, int count) {
 /// Modules around a node → the share of white in a box, `s` and `t` of which lie right of and
 /// below the node. The four modules are bits 0, 1, 4, 5.
 HWY_INLINE Floats Blend(Ints around, Floats s, Floats t) {
-  const Floats zero = hn::Zero(kFloats), rest = hn::Sub(hn::Set(kFloats, 1.0F), s);
-  const auto if_bit = [&](Ints at_sign, Floats value) {
-    return hn::IfNegativeThenElse(hn::BitCast(kFloats, at_sign), value, zero);
+  const Floats rest = hn::Sub(hn::Set(kFloats, 1.0F), s);
+  const auto if_bit = [&](std::int32_t bit, Floats value) {
+    const auto is_white = hn::TestBit(around, hn::Set(kInts, bit));
+    return hn::IfThenElseZero(hn::RebindMask(kFloats, is_white), value);
   };
-  const Floats top =
-      hn::Add(if_bit(hn::ShiftLeft<31>(around), rest), if_bit(hn::ShiftLeft<30>(around), s));
-  const Floats bottom =
-      hn::Add(if_bit(hn::ShiftLeft<27>(around), rest), if_bit(hn::ShiftLeft<26>(around), s));
+  const Floats top = hn::Add(if_bit(1, rest), if_bit(2, s));
+  const Floats bottom = hn::Add(if_bit(16, rest), if_bit(32, s));
   return hn::MulAdd(hn::Sub(bottom, top), t, top);
+}
+
+HWY_INLINE Floats Clamp(Floats value, Floats least, Floats most) {
+  return hn::Min(hn::Max(value, least), most);
+}
+
+/// 1 over the length of (a, b) times `bin2`'s root.
+HWY_INLINE Floats InverseLength(Floats a, Floats b, Floats bin2) {
+  const Floats square = hn::Max(hn::Mul(hn::MulAdd(a, a, hn::Mul(b, b)), bin2),
+                                hn::Set(kFloats, kNarrowestBox2_modules2));
+  // One step of Newton's method makes the estimate good to single precision.
+  const Floats root = hn::ApproximateReciprocalSqrt(square);
+  const Floats half_square = hn::Mul(hn::Set(kFloats, 0.5F), square);
+  return hn::Mul(root, hn::NegMulAdd(hn::Mul(half_square, root), root, hn::Set(kFloats, 1.5F)));
 }
 
 void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
@@ -96,65 +109,61 @@ void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
   const int lanes = static_cast<int>(hn::Lanes(kFloats));
   const float bin = 1.0F / static_cast<float>(per_pixel);
   const Floats zero = hn::Zero(kFloats), one = hn::Set(kFloats, 1.0F);
-  const Floats half = hn::Set(kFloats, 0.5F), three_halves = hn::Set(kFloats, 1.5F);
+  const Floats half = hn::Set(kFloats, 0.5F), four = hn::Set(kFloats, 4.0F);
+  const Floats five = hn::Set(kFloats, 5.0F);
   const Floats last = hn::Set(kFloats, static_cast<float>(table.nodes - 1));
+  const Floats nodes = hn::Set(kFloats, static_cast<float>(table.nodes));
   const Floats bin2 = hn::Set(kFloats, bin * bin);
-  const Floats narrowest = hn::Set(kFloats, kNarrowestBox2_modules2);
-  const Floats farthest = hn::Set(kFloats, kFarthestModule);
-  const Ints nodes = hn::Set(kInts, table.nodes);
-  const Ints minus_one = hn::Set(kInts, -1), plus_one = hn::Set(kInts, 1);
-  const Ints five = hn::Set(kInts, 5);
+  const bool near_centre = per_pixel <= kMostSamplesNearCentre;
+  const Floats steepest = hn::Set(kFloats, near_centre ? kSteepestNearCentre : kFarthestModule);
+  const Floats downhill = hn::Neg(steepest);
   const auto* around = reinterpret_cast<const std::int32_t*>(table.around);
   const auto finite = [&](const float* from) {
     const Floats value = hn::LoadU(kFloats, from);
-    return hn::IfThenElseZero(hn::Lt(hn::Abs(value), farthest), value);
+    return hn::IfThenElseZero(hn::Eq(value, value), value);
   };
-  const auto clamped = [&](Floats value) { return hn::Min(hn::Max(value, zero), last); };
-  const auto node = [&](Floats at) { return hn::ConvertTo(kInts, hn::Add(at, half)); };
-  const auto inverse_root = [&](Floats a, Floats b) {
-    const Floats square = hn::Max(hn::Mul(hn::MulAdd(a, a, hn::Mul(b, b)), bin2), narrowest);
-    // One step of Newton's method makes the estimate good to single precision.
-    const Floats root = hn::ApproximateReciprocalSqrt(square);
-    return hn::Mul(root, hn::NegMulAdd(hn::Mul(hn::Mul(half, square), root), root, three_halves));
+  const auto lookup = [&](Floats row, Floats column) {
+    return hn::GatherIndex(kInts, around, hn::ConvertTo(kInts, hn::MulAdd(row, nodes, column)));
   };
   for (int x = 0; x < count; x += lanes) {
-    const Floats column = finite(map.column + x), row = finite(map.row + x);
-    const Floats column_x = finite(map.column_x + x), column_y = finite(map.column_y + x);
-    const Floats row_x = finite(map.row_x + x), row_y = finite(map.row_y + x);
-    const Floats inverse_c = inverse_root(column_x, column_y);
-    const Floats inverse_r = inverse_root(row_x, row_y);
-    const auto share = [&](Floats at, Ints nearest, Floats inverse) {
-      const Floats from_node = hn::Sub(at, hn::ConvertTo(kFloats, nearest));
-      return hn::Min(hn::Max(hn::MulAdd(from_node, inverse, half), zero), one);
+    const Floats column = Clamp(finite(map.column + x), zero, last);
+    const Floats row = Clamp(finite(map.row + x), zero, last);
+    const Floats column_x = Clamp(finite(map.column_x + x), downhill, steepest);
+    const Floats column_y = Clamp(finite(map.column_y + x), downhill, steepest);
+    const Floats row_x = Clamp(finite(map.row_x + x), downhill, steepest);
+    const Floats row_y = Clamp(finite(map.row_y + x), downhill, steepest);
+    const Floats inverse_c = InverseLength(column_x, column_y, bin2);
+    const Floats inverse_r = InverseLength(row_x, row_y, bin2);
+    // From the node nearest to the pixel's centre; its modules hold those of the nodes beside it.
+    const Floats centre_c = hn::Round(column), centre_r = hn::Round(row);
+    const Floats from_c = hn::Sub(column, centre_c), from_r = hn::Sub(row, centre_r);
+    const Ints centre = lookup(centre_r, centre_c);
+    const auto share = [&](Floats from_node, Floats inverse) {
+      return Clamp(hn::MulAdd(from_node, inverse, half), zero, one);
     };
-    const bool near_centre = per_pixel <= kMostSamplesNearCentre;
-    Ints centre_c = hn::Zero(kInts), centre_r = centre_c, centre = centre_c;
-    if (near_centre) {
-      centre_c = node(clamped(column));
-      centre_r = node(clamped(row));
-      centre = hn::GatherIndex(kInts, around, hn::Add(hn::Mul(centre_r, nodes), centre_c));
-    }
     float* to = out + x;
     for (int j = 0; j < per_pixel; ++j) {
       const Floats dy = hn::Set(kFloats, (static_cast<float>(j) + 0.5F) * bin - 0.5F);
-      const Floats c_row = hn::MulAdd(column_y, dy, column), r_row = hn::MulAdd(row_y, dy, row);
+      const Floats c_row = hn::MulAdd(column_y, dy, from_c), r_row = hn::MulAdd(row_y, dy, from_r);
       for (int i = 0; i < per_pixel; ++i, to += stride) {
         const Floats dx = hn::Set(kFloats, (static_cast<float>(i) + 0.5F) * bin - 0.5F);
-        const Floats c = clamped(hn::MulAdd(column_x, dx, c_row));
-        const Floats r = clamped(hn::MulAdd(row_x, dx, r_row));
-        Ints ci = node(c), ri = node(r), modules;
+        Floats c = hn::MulAdd(column_x, dx, c_row), r = hn::MulAdd(row_x, dx, r_row);
+        Ints modules;
         if (near_centre) {
-          // The centre's modules hold those of the nodes beside it.
-          const Ints right = hn::Min(hn::Max(hn::Sub(ci, centre_c), minus_one), plus_one);
-          const Ints down = hn::Min(hn::Max(hn::Sub(ri, centre_r), minus_one), plus_one);
-          ci = hn::Add(centre_c, right);
-          ri = hn::Add(centre_r, down);
-          modules = hn::Shr(centre, hn::Add(hn::Add(hn::ShiftLeft<2>(down), right), five));
+          const Floats right = hn::Round(c), down = hn::Round(r);
+          const Floats shift = hn::MulAdd(down, four, hn::Add(right, five));
+          modules = hn::Shr(centre, hn::ConvertTo(kInts, shift));
+          c = hn::Sub(c, right);
+          r = hn::Sub(r, down);
         } else {
-          modules =
-              hn::ShiftRight<5>(hn::GatherIndex(kInts, around, hn::Add(hn::Mul(ri, nodes), ci)));
+          const Floats at_c = Clamp(hn::Add(c, centre_c), zero, last);
+          const Floats at_r = Clamp(hn::Add(r, centre_r), zero, last);
+          const Floats node_c = hn::Round(at_c), node_r = hn::Round(at_r);
+          modules = hn::ShiftRight<5>(lookup(node_r, node_c));
+          c = hn::Sub(at_c, node_c);
+          r = hn::Sub(at_r, node_r);
         }
-        hn::StoreU(Blend(modules, share(c, ci, inverse_c), share(r, ri, inverse_r)), kFloats, to);
+        hn::StoreU(Blend(modules, share(c, inverse_c), share(r, inverse_r)), kFloats, to);
       }
     }
   }

@@ -79,11 +79,15 @@ void Motions(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumn
   }
 }
 
-void Reduce(const float* sums, int tile, int tiles, float* tile_sums) {
-  for (int t = 0; t < tiles; ++t) {
-    float sum = 0.0F;
-    for (int x = 0; x < tile; ++x) sum += sums[t * tile + x];
-    tile_sums[t] = sum;
+void Reduce(const float* sums, std::ptrdiff_t sums_stride, int count, int tile, int tiles,
+            float* tile_sums, std::ptrdiff_t tile_stride) {
+  for (int q = 0; q < count; ++q) {
+    for (int t = 0; t < tiles; ++t) {
+      const float* columns = sums + q * sums_stride + t * tile;
+      float sum = 0.0F;
+      for (int x = 0; x < tile; ++x) sum += columns[x];
+      tile_sums[q * tile_stride + t] = sum;
+    }
   }
 }
 

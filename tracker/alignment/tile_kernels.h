@@ -91,8 +91,9 @@ struct TileKernels {
   /// `belief` is each column's block's weight; `weight` becomes that of each pixel.
   void (*motions)(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumns& light,
                   const float* belief, float* weight, std::ptrdiff_t sums_stride, float* sums);
-  /// Adds up `tile` (2 or 4) columns each.
-  void (*reduce)(const float* sums, int tile, int tiles, float* tile_sums);
+  /// Adds up `tile` (2 or 4) columns each of `count` sums.
+  void (*reduce)(const float* sums, std::ptrdiff_t sums_stride, int count, int tile, int tiles,
+                 float* tile_sums, std::ptrdiff_t tile_stride);
   void (*products)(const Tiles& tiles, FitProducts* products, BlockMotions* blocks);
 };
 const TileKernels& ScalarTileKernels();

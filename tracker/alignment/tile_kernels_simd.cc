@@ -181,18 +181,20 @@ void Motions(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumn
   }
 }
 
-void Reduce(const float* sums, int tile, int tiles, float* tile_sums) {
+void Reduce(const float* sums, std::ptrdiff_t sums_stride, int count, int tile, int tiles,
+            float* tile_sums, std::ptrdiff_t tile_stride) {
   const int lanes = static_cast<int>(hn::Lanes(kFloats));
-  for (int t = 0; t < tiles; t += lanes) {
-    Floats a, b;
-    hn::LoadInterleaved2(kFloats, sums + t * tile, a, b);
-    Floats sum = hn::Add(a, b);
-    if (tile == 4) {
-      Floats c, d;
-      hn::LoadInterleaved4(kFloats, sums + t * tile, a, b, c, d);
-      sum = hn::Add(hn::Add(hn::Add(a, b), c), d);
+  for (int q = 0; q < count; ++q, sums += sums_stride, tile_sums += tile_stride) {
+    for (int t = 0; t < tiles; t += lanes) {
+      Floats a, b, c, d;
+      if (tile == 2) {
+        hn::LoadInterleaved2(kFloats, sums + t * 2, a, b);
+        hn::StoreU(hn::Add(a, b), kFloats, tile_sums + t);
+      } else {
+        hn::LoadInterleaved4(kFloats, sums + t * 4, a, b, c, d);
+        hn::StoreU(hn::Add(hn::Add(hn::Add(a, b), c), d), kFloats, tile_sums + t);
+      }
     }
-    hn::StoreU(sum, kFloats, tile_sums + t);
   }
 }
 
@@ -329,8 +331,10 @@ const TileKernels& SimdTileKernels() {
         HWY_DYNAMIC_DISPATCH(Motions)
         (rows, slopes, light, belief, weight, sums_stride, sums);
       },
-      [](const float* sums, int tile, int tiles, float* tile_sums) {
-        HWY_DYNAMIC_DISPATCH(Reduce)(sums, tile, tiles, tile_sums);
+      [](const float* sums, std::ptrdiff_t sums_stride, int count, int tile, int tiles,
+         float* tile_sums, std::ptrdiff_t tile_stride) {
+        HWY_DYNAMIC_DISPATCH(Reduce)
+        (sums, sums_stride, count, tile, tiles, tile_sums, tile_stride);
       },
       [](const Tiles& tiles, FitProducts* products, BlockMotions* blocks) {
         HWY_DYNAMIC_DISPATCH(Products)(tiles, products, blocks);
