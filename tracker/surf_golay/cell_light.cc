@@ -11,6 +11,7 @@ namespace {
 constexpr float kWhiteShare = 0.75F, kBlackShare = 0.2F;
 /// Black over white of ordinary prints: enough to take the little black out of a white pixel.
 constexpr float kOrdinaryBlack = 0.06F;
+constexpr double kBrightestQuantile = 0.9, kNarrowScale = 0.06;
 constexpr float kDarkest = 2e-4F;  ///< Linear light: below an 8-bit code's first step.
 constexpr std::size_t kFewestSamples = 12, kMostSamples = 600;
 constexpr double kDoubtfulBlock = 0.55, kRightBlock = 0.9;  ///< Correlations.
@@ -24,11 +25,13 @@ constexpr double kEdgeSpread = 0.12, kEdgeGain = 0.6;
 constexpr int kEdgeDirections = 24, kEdgeOffsets = 33;
 constexpr double kEdgeReach = 1.05;
 
-double MedianOf(std::vector<float>* values) {
-  const std::size_t middle = values->size() / 2;
-  std::nth_element(values->begin(), values->begin() + middle, values->end());
-  return (*values)[middle];
+double QuantileOf(double quantile, std::vector<float>* values) {
+  const auto at = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values->size() - 1));
+  std::nth_element(values->begin(), values->begin() + at, values->end());
+  return (*values)[static_cast<std::size_t>(at)];
 }
+
+double MedianOf(std::vector<float>* values) { return QuantileOf(0.5, values); }
 
 }  // namespace
 
@@ -47,11 +50,11 @@ double PrintLightMeter::Spread(const PrintLight& light) {
   return 1.4826 * MedianOf(&residuals_);
 }
 
-void PrintLightMeter::FitPlane(PrintLight* light) {
+void PrintLightMeter::FitPlane(bool brightest, PrintLight* light) {
   residuals_.clear();
   for (const Sample& s : white_) residuals_.push_back(s.log_value);
-  light->log_white = MedianOf(&residuals_);
-  double scale = 1.0;
+  light->log_white = QuantileOf(brightest ? kBrightestQuantile : 0.5, &residuals_);
+  double scale = brightest ? kNarrowScale : 1.0;
   for (int round = 0; round < 6; ++round) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -76,7 +79,7 @@ void PrintLightMeter::FitPlane(PrintLight* light) {
     light->log_white = plane[0];
     light->slope_u = plane[1];
     light->slope_v = plane[2];
-    scale = std::max(0.05, 2.0 * Spread(*light));
+    scale = brightest ? kNarrowScale : std::max(0.05, 2.0 * Spread(*light));
   }
 }
 
@@ -141,7 +144,7 @@ bool PrintLightMeter::FromBlocks(const BlockFit& fit, PrintLight* light) {
 }
 
 bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
-                              const SeenWindow& seen, PrintLight* light) {
+                              const SeenWindow& seen, bool brightest, PrintLight* light) {
   white_.clear();
   black_.clear();
   const float middle = 0.5F * static_cast<float>(pattern.modules);
@@ -182,13 +185,14 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
     light->log_white = std::max(light->log_white, 0.0);
     return true;
   }
-  FitPlane(light);
+  FitPlane(brightest, light);
   light->spread = Spread(*light);
-  if (light->spread > kEdgeSpread) {
+  if (brightest) light->spread = std::min(light->spread, kNarrowScale);
+  if (!brightest && light->spread > kEdgeSpread) {
     PrintLight with_edge;
     if (FitEdge(&with_edge)) {
       with_edge.has_edge = true;
-      FitPlane(&with_edge);
+      FitPlane(false, &with_edge);
       with_edge.spread = Spread(with_edge);
       if (with_edge.spread < kEdgeGain * light->spread) *light = with_edge;
     }

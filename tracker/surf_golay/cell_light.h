@@ -29,9 +29,10 @@ struct PrintLight {
 /// was fitted, but clipped pixels count as white at its brightest.
 class PrintLightMeter {
  public:
-  /// False where too little of the border is seen.
+  /// False where too little of the border is seen. `brightest`: what most pixels agree on may be a
+  /// cover; the brightest of them is taken for paper.
   bool Measure(const PrintPattern& pattern, const BlockFit& fit, const SeenWindow& seen,
-               PrintLight* light);
+               bool brightest, PrintLight* light);
 
  private:
   struct Sample {
@@ -39,7 +40,7 @@ class PrintLightMeter {
   };
   /// Of prints too small for a pixel to be all white or all black: even light, from the blocks.
   static bool FromBlocks(const BlockFit& fit, PrintLight* light);
-  void FitPlane(PrintLight* light);
+  void FitPlane(bool brightest, PrintLight* light);
   bool FitEdge(PrintLight* light);
   double Spread(const PrintLight& light);
 

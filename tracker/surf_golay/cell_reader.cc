@@ -9,7 +9,8 @@ namespace pleinair::tracker {
 namespace {
 
 /// Deviation of a cell's share that no noise tells: uneven light, ink, the blur's shape.
-constexpr double kSystematicShare = 0.025, kMostEven = 0.008, kSystematicPerBlur = 0.05;
+constexpr double kSystematicShare = 0.025, kMostEven = 0.008, kSystematicGlare = 0.03,
+                 kSystematicPerBlur = 0.05;
 /// Prior probability that a cell is covered: alone, and when all around it are.
 constexpr double kCoveredAlone = 0.03, kCoveredAmong = 0.6;
 /// Density of the share that is seen where a cell is covered.
@@ -203,9 +204,11 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
                                              fit.map().column_y[seen.value.size() / 2]));
   // Where the border is even, so must the cells be.
   const double by_blur = kSystematicPerBlur * state.blur_px / seen.rays.window.Scale() / cell_px;
+  // Glare is only roughly told apart from what it lies on.
+  const double rough = by_blur + (with_glare ? kSystematicGlare : 0.0);
   const Unevenness systematic{
-      std::clamp(light.black_noise, kMostEven, kSystematicShare) + by_blur,
-      std::clamp(light.white_noise, 1.5 * kMostEven, kSystematicShare) + by_blur};
+      std::clamp(light.black_noise, kMostEven, kSystematicShare) + rough,
+      std::clamp(light.white_noise, 1.5 * kMostEven, kSystematicShare) + rough};
 
   std::array<double, sg::kCodeCells> left{}, seen_share{}, whole{}, witness{};
   for (const Pixel& pixel : pixels_) {

@@ -203,28 +203,36 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   const double correlation = FitBorder(4, false, &state);
   const double visible_border = VisibleBorder();
   if (visible_border < kLeastVisibleBorder) return std::nullopt;
-  PrintLight light;
-  if (!light_meter_.Measure(blank_, fit_, seen_, &light)) return std::nullopt;
   CellReading cells;
-  cell_reader_.Read(blank_, fit_, seen_, state, light, false, &cells);
-  SoftGolayDecoding decoding = decoder_.Decode(cells.likelihoods);
-  if (cells.glaring) {
-    CellReading without_glare;
-    cell_reader_.Read(blank_, fit_, seen_, state, light, true, &without_glare);
-    const SoftGolayDecoding other = decoder_.Decode(without_glare.likelihoods);
-    if (other.margin > decoding.margin) {
-      cells = without_glare;
+  SoftGolayDecoding decoding;
+  bool read = false;
+  const auto consider = [&](const PrintLight& light, bool with_glare) {
+    CellReading other_cells;
+    cell_reader_.Read(blank_, fit_, seen_, state, light, with_glare, &other_cells);
+    const SoftGolayDecoding other = decoder_.Decode(other_cells.likelihoods);
+    if (!read || other.margin > decoding.margin) {
+      cells = other_cells;
       decoding = other;
     }
+    read = true;
+    return other_cells.glaring;
+  };
+  // Several explanations of the light; the one that makes the number surest is taken.
+  for (const bool brightest : {false, true}) {
+    PrintLight light;
+    if (!light_meter_.Measure(blank_, fit_, seen_, brightest, &light)) break;
+    if (consider(light, false)) consider(light, true);
+    if (decoding.margin > kSafeMargin) break;
   }
-  const BlockFitState border_state = state;
+  if (!read) return std::nullopt;
   const Contradiction contradiction = Contradict(cells.likelihoods, decoding.number);
-  std::optional<SgReading> reading = Measure(decoding.number, border_state);
+  if (decoding.margin - decoding.shortfall < kModestMargin) return std::nullopt;
+  std::optional<SgReading> reading = Measure(decoding.number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kWholeEnough) {
     // What covers the border has edges of its own, which can pass for the print's; the content,
     // known by now, pulls the fit away from them if that explains more.
-    BlockFitState by_content = border_state;
+    BlockFitState by_content = state;
     if (FitContent(decoding.number, &by_content)) {
       std::optional<SgReading> other = Measure(decoding.number, by_content);
       if (other && other->visible_fraction > reading->visible_fraction) reading = std::move(other);
