@@ -21,8 +21,7 @@ BorderShape ToTopLeft(BorderShape shape) {
   return shape;
 }
 
-/// How many of the `count` bits reached from the lowest one, where Neighbours(bits) adds those
-/// beside `bits`.
+/// Bits of `within` that are reached from those of `from`, step by step through `neighbours`.
 template <typename Neighbours>
 std::uint32_t Spread(std::uint32_t from, std::uint32_t within, Neighbours neighbours) {
   std::uint32_t reached = from & within;
@@ -97,15 +96,14 @@ bool BorderShape::IsThick() const {
 }
 
 bool BorderShape::HasHole() const {
-  constexpr int kWide = kMost;
-  constexpr std::uint32_t kAll = (1U << (kWide * kWide)) - 1U;
+  constexpr std::uint32_t kAll = (1U << (kMost * kMost)) - 1U;
   std::uint32_t edge = 0;
-  for (int i = 0; i < kWide * kWide; ++i) {
-    const int x = i % kWide, y = i / kWide;
-    if (x == 0 || y == 0 || x == kWide - 1 || y == kWide - 1) edge |= 1U << i;
+  for (int i = 0; i < kMost * kMost; ++i) {
+    const int x = i % kMost, y = i / kMost;
+    if (x == 0 || y == 0 || x == kMost - 1 || y == kMost - 1) edge |= 1U << i;
   }
   const std::uint32_t black = kAll & ~modules;
-  return Spread(edge, black, [](std::uint32_t b) { return Beside(b, kWide); }) != black;
+  return Spread(edge, black, [](std::uint32_t b) { return Beside(b, kMost); }) != black;
 }
 
 bool BorderShape::IsAsymmetric() const {

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/marker_search/border_layout.h"
 #include "tools/marker_search/layout_score.h"

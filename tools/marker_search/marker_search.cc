@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdio>
+#include <exception>
 #include <fstream>
 
 #include "tools/marker_search/guess_rate.h"
@@ -161,7 +163,7 @@ int Run(const Options& options) {
 }  // namespace
 }  // namespace pleinair::marker_search
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   pleinair::marker_search::Options options;
   CLI::App app("Looks for the border of the S-G marker and compares it with the current one.");
   app.add_option("--seconds", options.seconds, "about how long to search; default 600")
@@ -187,4 +189,9 @@ int main(int argc, char** argv) {
   app.add_option("photographs", options.photographs, "pictures to use as surroundings too");
   CLI11_PARSE(app, argc, argv);
   return pleinair::marker_search::Run(options);
+} catch (const std::exception& error) {
+  std::fputs("marker_search: ", stderr);
+  std::fputs(error.what(), stderr);
+  std::fputs("\n", stderr);
+  return 1;
 }

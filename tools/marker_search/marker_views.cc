@@ -83,13 +83,13 @@ void ViewRenderer::Render(const MarkerView& view, const tracker::sg::Border& bor
       float grey = 128.0F;
       if (map_.column[n] > 0.0F && map_.column[n] < kPrint && map_.row[n] > 0.0F &&
           map_.row[n] < kPrint) {
-        const int step = static_cast<int>(ink + white * print_.white[n] + 0.5F);
-        grey = encoded_[std::clamp(step, 0, kLightSteps)];
+        const long step = std::lround(ink + white * print_.white[n]);
+        grey = encoded_[std::clamp<long>(step, 0, kLightSteps)];
       } else if (view.texture >= 0) {
         grey = textures_[view.texture]((x + view.texture_x) & kMask, (y + view.texture_y) & kMask);
       }
       grey += noise * noise_[(view.noise_begin + n) % kNoiseValues];
-      picture->data()[n] = static_cast<std::uint8_t>(std::clamp(grey + 0.5F, 0.0F, 255.0F));
+      picture->data()[n] = static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0F, 255.0F)));
     }
   }
 }

@@ -92,6 +92,7 @@ GreyImage Polygons(RandomDraws* draws) {
 
 std::vector<GreyImage> MakeTextures(int count, RandomDraws* draws) {
   std::vector<GreyImage> textures;
+  textures.reserve(count);
   for (int i = 0; i < count; ++i) {
     textures.push_back(i % 2 == 0 ? Noise(draws->Uniform(0.45, 0.8), draws) : Polygons(draws));
   }
