@@ -18,11 +18,9 @@ constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kMostClipped = 0.08;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
-/// What makes a reading a marker: how much of the print looks as predicted, and by how much the
-/// number is likelier than the next (in nats). Measured on pictures without markers:
-/// docs/tracker.md.
 constexpr double kLeastContrast = 0.04;  ///< Of a block's predicted shares of white.
 constexpr double kLeastTelling = 0.15;   ///< Blocks that count at least, as a share of all.
+constexpr double kLeastVisibleBorder = 0.06;
 /// A print of which less is seen is also measured from its content; and in so many steps.
 constexpr double kWholeEnough = 0.93;
 constexpr int kContentSteps = 4;
@@ -30,10 +28,16 @@ constexpr int kFollowSteps = 4;
 constexpr double kFollowBlur_px = 0.9;
 /// Mean correlation of the content's blocks that makes a followed marker's number sure.
 constexpr double kContentRight = 0.4;
-constexpr double kLeastVisibleBorder = 0.06;
-constexpr double kWhollyVisible = 0.8, kWellVisible = 0.3, kBarelyVisible = 0.1;
-constexpr float kModestMargin = 8.0F;
-constexpr float kLeastMargin = 11.0F, kSafeMargin = 25.0F, kMarginPerDisagreement = 4.0F;
+/// What makes a reading a marker: the less of the print looks as predicted, the more (in nats) must
+/// its number be likelier than the next. Chosen on pictures without markers and with covered ones.
+struct Proof {
+  double visible;
+  float margin;
+};
+constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F, kMarginPerDisagreement = 4.0F;
+constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
+constexpr std::array<Proof, 4> kProofs{
+    {{0.8, kLeastMargin}, {0.55, 12.0F}, {0.25, 18.0F}, {kBarelyVisible, kSafeMargin}}};
 constexpr int kMostDisagreements = 3;
 constexpr float kPlain = 2.0F;  ///< A cell's likelihood that is no accident of noise.
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
@@ -226,7 +230,7 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   }
   if (!read) return std::nullopt;
   const Contradiction contradiction = Contradict(cells.likelihoods, decoding.number);
-  if (decoding.margin - decoding.shortfall < kModestMargin) return std::nullopt;
+  if (decoding.margin - decoding.shortfall < kLeastMargin) return std::nullopt;
   std::optional<SgReading> reading = Measure(decoding.number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kWholeEnough) {
@@ -275,14 +279,10 @@ bool SgReader::Verified(const SgReading& reading) const {
   // Cells that plainly contradict the number are covered by something that looks like a print; more
   // than three of them would look like another number.
   if (reading.disagreements > kMostDisagreements || !reading.one_cover) return false;
-  const float margin =
-      kLeastMargin + kMarginPerDisagreement * static_cast<float>(reading.disagreements);
-  if (reading.visible_fraction >= kWhollyVisible && reading.disagreements == 0 &&
-      reading.margin >= kModestMargin) {
-    return true;
-  }
-  return (reading.visible_fraction >= kWellVisible && reading.margin >= margin) ||
-         (reading.visible_fraction >= kBarelyVisible && reading.margin >= kSafeMargin);
+  const float doubt = kMarginPerDisagreement * static_cast<float>(reading.disagreements);
+  return std::any_of(kProofs.begin(), kProofs.end(), [&](const Proof& proof) {
+    return reading.visible_fraction >= proof.visible && reading.margin >= proof.margin + doubt;
+  });
 }
 
 bool SgReader::TakeCoarseWindow(const Mat3& modules_from_ideal, PixelWindow* window) {
