@@ -7,7 +7,7 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kMostNodes = 60'000;
+constexpr int kMostNodes = 80'000;
 /// Nodes outside the picture on each side: prints that a picture cuts are predicted beyond it.
 constexpr int kMarginNodes = 2;
 /// Rays flatter than this are none that a print could be seen along.
