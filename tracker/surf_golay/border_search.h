@@ -22,8 +22,13 @@ struct BorderGuess {
 struct BorderSearchOptions {
   /// The window that is described is smaller than the paper's 20 scales: what covers a part of the
   /// border spoils fewer of its descriptors.
-  SurfOptions surf{
-      .octaves = 3, .threshold = 0.0002F, .max_keypoints = 500, .descriptor_window_scales = 15};
+  /// The doubled first octave sees borders of less than 70 px: in mixtures of tilt, blur, noise and
+  /// covers it takes the rate from .67 to .83.
+  SurfOptions surf{.octaves = 3,
+                   .threshold = 0.0002F,
+                   .max_keypoints = 500,
+                   .double_size = true,
+                   .descriptor_window_scales = 15};
   int neighbours = 4;             ///< Candidates of each keypoint of the frame.
   double rotation_bin_rad = 0.6;  ///< Width of the angle filter's bins, which overlap by half.
   int most_guesses = 40;

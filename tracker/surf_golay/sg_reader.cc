@@ -38,7 +38,8 @@ constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F, kMarginPerDisagreement
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 constexpr std::array<Proof, 4> kProofs{
     {{0.8, kLeastMargin}, {0.55, 12.0F}, {0.25, 18.0F}, {kBarelyVisible, kSafeMargin}}};
-constexpr int kMostDisagreements = 3;
+constexpr int kMostDisagreements = 3, kFewestPlainCells = 13;
+constexpr float kTelling = 0.7F;
 constexpr float kPlain = 2.0F;  ///< A cell's likelihood that is no accident of noise.
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.005;
@@ -246,6 +247,9 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   reading->visible_border = visible_border;
   // A number in use must not be one that many others would beat.
   reading->margin = decoding.margin - decoding.shortfall;
+  reading->plain_cells = static_cast<int>(
+      std::count_if(cells.likelihoods.begin(), cells.likelihoods.end(),
+                    [](float likelihood) { return std::fabs(likelihood) > kTelling; }));
   reading->disagreements = contradiction.cells;
   reading->one_cover = contradiction.one_cover;
   if (!Verified(*reading)) return std::nullopt;
@@ -279,6 +283,9 @@ bool SgReader::Verified(const SgReading& reading) const {
   // Cells that plainly contradict the number are covered by something that looks like a print; more
   // than three of them would look like another number.
   if (reading.disagreements > kMostDisagreements || !reading.one_cover) return false;
+  // Twelve cells spell a number whatever they hold; only what lies beyond proves that they are read
+  // right.
+  if (reading.plain_cells < kFewestPlainCells && reading.margin < kSafeMargin) return false;
   const float doubt = kMarginPerDisagreement * static_cast<float>(reading.disagreements);
   return std::any_of(kProofs.begin(), kProofs.end(), [&](const Proof& proof) {
     return reading.visible_fraction >= proof.visible && reading.margin >= proof.margin + doubt;

@@ -31,6 +31,7 @@ struct SgReading {
   double border_correlation = 0.0, whole_correlation = 0.0;
   double visible_border = 0.0;  ///< Share of the border that looks as predicted.
   float margin = 0.0F;          ///< Of the number over the next likely one (SoftGolayDecoding).
+  int plain_cells = 0;          ///< Cells that tell anything.
   int disagreements = 0;        ///< Cells that plainly look like the other colour.
   bool one_cover = true;        ///< One thing could cover all of these.
   int blocks_along = 0;
