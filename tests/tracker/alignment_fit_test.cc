@@ -121,7 +121,7 @@ TEST(BlockFit, FindsMarkersCrossedByTheEdgeOfAShadow) {
     const Errors errors =
         Measure(side, 0.5, {.blur_px = 0.6, .noise_codes = 2.0, .light = shadow}, nullptr);
     EXPECT_EQ(errors.failures, 0);
-    EXPECT_LT(Norm(errors.mean), 0.04) << side;
+    EXPECT_LT(Norm(errors.mean), 0.1) << side;  // Of five views.
     EXPECT_LT(errors.rms, 0.2) << side;
   }
 }

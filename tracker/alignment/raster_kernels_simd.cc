@@ -104,18 +104,23 @@ HWY_INLINE Floats InverseLength(Floats a, Floats b, Floats bin2) {
   return hn::Mul(root, hn::NegMulAdd(hn::Mul(half_square, root), root, hn::Set(kFloats, 1.5F)));
 }
 
-void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
-            std::ptrdiff_t stride, float* out) {
+/// `kPerPixel`: 0 if not known when compiling.
+template <int kPerPixel>
+HWY_INLINE void SampleTimes(const MapRow& map, const NodeTable& table, int any_per_pixel, int count,
+                            std::ptrdiff_t stride, float* out) {
+  const int per_pixel = kPerPixel > 0 ? kPerPixel : any_per_pixel;
   const int lanes = static_cast<int>(hn::Lanes(kFloats));
   const float bin = 1.0F / static_cast<float>(per_pixel);
   const Floats zero = hn::Zero(kFloats), one = hn::Set(kFloats, 1.0F);
   const Floats half = hn::Set(kFloats, 0.5F), four = hn::Set(kFloats, 4.0F);
-  const Floats five = hn::Set(kFloats, 5.0F);
+  // Adding this leaves a whole number in the lowest bits: quicker than converting it.
+  const Floats five = hn::Set(kFloats, 5.0F + 0x1.8p23F);
+  const Ints low_bits = hn::Set(kInts, 31);
   const Floats last = hn::Set(kFloats, static_cast<float>(table.nodes - 1));
   const Floats nodes = hn::Set(kFloats, static_cast<float>(table.nodes));
   const Floats bin2 = hn::Set(kFloats, bin * bin);
-  const bool near_centre = per_pixel <= kMostSamplesNearCentre;
-  const Floats steepest = hn::Set(kFloats, near_centre ? kSteepestNearCentre : kFarthestModule);
+  constexpr bool kNearCentre = kPerPixel > 0;
+  const Floats steepest = hn::Set(kFloats, kNearCentre ? kSteepestNearCentre : kFarthestModule);
   const Floats downhill = hn::Neg(steepest);
   const auto* around = reinterpret_cast<const std::int32_t*>(table.around);
   const auto finite = [&](const float* from) {
@@ -149,10 +154,10 @@ void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
         const Floats dx = hn::Set(kFloats, (static_cast<float>(i) + 0.5F) * bin - 0.5F);
         Floats c = hn::MulAdd(column_x, dx, c_row), r = hn::MulAdd(row_x, dx, r_row);
         Ints modules;
-        if (near_centre) {
+        if (kNearCentre) {
           const Floats right = hn::Round(c), down = hn::Round(r);
           const Floats shift = hn::MulAdd(down, four, hn::Add(right, five));
-          modules = hn::Shr(centre, hn::ConvertTo(kInts, shift));
+          modules = hn::Shr(centre, hn::And(hn::BitCast(kInts, shift), low_bits));
           c = hn::Sub(c, right);
           r = hn::Sub(r, down);
         } else {
@@ -166,6 +171,18 @@ void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
         hn::StoreU(Blend(modules, share(c, inverse_c), share(r, inverse_r)), kFloats, to);
       }
     }
+  }
+}
+
+void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
+            std::ptrdiff_t stride, float* out) {
+  static_assert(kMostSamplesNearCentre == 2);
+  if (per_pixel == 1) {
+    SampleTimes<1>(map, table, per_pixel, count, stride, out);
+  } else if (per_pixel == 2) {
+    SampleTimes<2>(map, table, per_pixel, count, stride, out);
+  } else {
+    SampleTimes<0>(map, table, per_pixel, count, stride, out);
   }
 }
 

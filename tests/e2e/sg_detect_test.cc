@@ -1,0 +1,205 @@
+// `pleinair detect --family sg` from outside, on what `pleinair marker` printed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "run_program.h"
+
+namespace pleinair::e2e {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+constexpr double kFocal_px = 800.0, kSize_mm = 140.0;
+constexpr int kPrint_px = 240, kEdge_px = 200, kQuiet_px = 20;
+const cv::Size kPicture(400, 300);
+
+class SgDetect : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    WriteFile(folder_ / "camera.yaml",
+              "%YAML:1.0\n---\nimage_width: 400\nimage_height: 300\n"
+              "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+              "   data: [ 800., 0., 199.5, 0., 800., 149.5, 0., 0., 1. ]\n"
+              "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n"
+              "   data: [ 0., 0., 0., 0., 0. ]\n");
+    const RunResult run = RunPleinair(
+        {"marker", "17", "--png", "--pixels", std::to_string(kPrint_px), "-o", folder_ / "m.png"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    print_ = cv::imread(folder_ / "m.png", cv::IMREAD_GRAYSCALE);
+    ASSERT_EQ(print_.size(), cv::Size(kPrint_px, kPrint_px));
+    // Ink and paper, not black and white beyond the camera's range.
+    print_ = print_ * 0.7 + 30;
+  }
+
+  static cv::Mat Grey() { return {kPicture, CV_8UC1, cv::Scalar(120)}; }
+
+  /// The marker with its print's top-left pixel at `at`.
+  cv::Mat With(cv::Point at) const {
+    cv::Mat picture = Grey();
+    print_.copyTo(picture(cv::Rect(at, print_.size())));
+    return picture;
+  }
+
+  std::string Save(const std::string& name, const cv::Mat& picture) const {
+    EXPECT_TRUE(cv::imwrite(folder_ / name, picture));
+    return folder_ / name;
+  }
+
+  RunResult Detect(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "detect");
+    arguments.insert(arguments.end(), {"--family", "sg", "--size-mm", "140", "--calibration",
+                                       folder_ / "camera.yaml"});
+    return RunPleinair(arguments);
+  }
+
+  static std::vector<json> Lines(const RunResult& run) {
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::vector<json> lines;
+    std::istringstream stream(run.out);
+    for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
+    return lines;
+  }
+
+  const TemporaryFolder folder_;
+  cv::Mat print_;
+};
+
+TEST_F(SgDetect, TellsNumberCornersPoseAndVisibilityOfAPrintedMarker) {
+  const std::string picture = Save("whole.png", With({70, 40}));
+  const RunResult run = Detect({picture});
+  EXPECT_THAT(run.err, IsEmpty());
+  const auto lines = Lines(run);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].at("file"), picture);
+  EXPECT_GT(lines[0].at("milliseconds").get<double>(), 0.0);
+  EXPECT_FALSE(lines[0].contains("lost"));  // Not asked to follow.
+  ASSERT_EQ(lines[0].at("markers").size(), 1U);
+  const json& marker = lines[0]["markers"][0];
+  EXPECT_EQ(marker.at("family"), "sg");
+  EXPECT_EQ(marker.at("id"), 17);
+  EXPECT_EQ(marker.at("path"), "fast");
+  EXPECT_GT(marker.at("visible_fraction").get<double>(), 0.9);
+  // Pixels' edges lie half a pixel before their centres.
+  const double left = 70 + kQuiet_px - 0.5, top = 40 + kQuiet_px - 0.5;
+  const double corners[4][2] = {{left, top},
+                                {left + kEdge_px, top},
+                                {left + kEdge_px, top + kEdge_px},
+                                {left, top + kEdge_px}};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(marker.at("corners")[i][0].get<double>(), corners[i][0], 0.05);
+    EXPECT_NEAR(marker.at("corners")[i][1].get<double>(), corners[i][1], 0.05);
+  }
+  const auto translation = marker.at("camera_from_marker").at("translation_m");
+  const double distance_m = kFocal_px * kSize_mm * 1e-3 / kEdge_px;
+  EXPECT_NEAR(translation[0].get<double>(), (left + 100 - 199.5) / kFocal_px * distance_m, 5e-4);
+  EXPECT_NEAR(translation[1].get<double>(), (top + 100 - 149.5) / kFocal_px * distance_m, 5e-4);
+  EXPECT_NEAR(translation[2].get<double>(), distance_m, 2e-3);
+  // Seen upright and from the front: x right, y up in the picture, z towards the camera.
+  const double upright[9] = {1, 0, 0, 0, -1, 0, 0, 0, -1};
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_NEAR(marker["camera_from_marker"].at("rotation")[i].get<double>(), upright[i], 0.03);
+  }
+  EXPECT_EQ(marker.at("covariance").size(), 36U);
+  EXPECT_TRUE(marker.contains("alternative"));
+  const json& visibility = marker.at("visibility");
+  const int side = visibility.at("side").get<int>();
+  ASSERT_GE(side, 4);
+  ASSERT_EQ(visibility.at("values").size(), static_cast<std::size_t>(side) * side);
+  for (const json& value : visibility["values"]) EXPECT_GT(value.get<double>(), 0.7);
+}
+
+TEST_F(SgDetect, FindsACoveredBorderByItsKeypointsUnlessToldToBeFast) {
+  cv::Mat covered = With({70, 40});
+  covered(cv::Rect(60, 30, 65, 260)).setTo(150);  // The left side with its rim.
+  const std::string picture = Save("covered.png", covered);
+  for (const char* strategy : {"hybrid", "surf-golay"}) {
+    const auto markers = Lines(Detect({picture, "--strategy", strategy})).at(0).at("markers");
+    ASSERT_EQ(markers.size(), 1U) << strategy;
+    EXPECT_EQ(markers[0]["id"], 17);
+    EXPECT_EQ(markers[0]["path"], "surf-golay");
+    EXPECT_NEAR(markers[0]["corners"][2][0].get<double>(), 70 + kPrint_px - kQuiet_px - 0.5, 0.3);
+    const json& visibility = markers[0]["visibility"];
+    const int side = visibility["side"].get<int>();
+    for (int row = 0; row < side; ++row) {
+      EXPECT_LT(visibility["values"][row * side].get<double>(), 0.3) << "left end of row " << row;
+      EXPECT_GT(visibility["values"][(row + 1) * side - 1].get<double>(), 0.7) << "right end";
+    }
+  }
+  EXPECT_THAT(Lines(Detect({picture, "--strategy", "fast"})).at(0).at("markers"), IsEmpty());
+}
+
+TEST_F(SgDetect, ReportsOnlyNumbersInUse) {
+  const std::string picture = Save("whole.png", With({70, 40}));
+  for (const char* numbers : {"17", "0-49", "1,2,17", "17-17"}) {
+    const auto markers = Lines(Detect({picture, "--numbers", numbers})).at(0).at("markers");
+    ASSERT_EQ(markers.size(), 1U) << numbers;
+    EXPECT_EQ(markers[0]["id"], 17);
+  }
+  for (const char* numbers : {"0-16", "18", "1000-2000"}) {
+    EXPECT_THAT(Lines(Detect({picture, "--numbers", numbers})).at(0).at("markers"), IsEmpty())
+        << numbers;
+  }
+}
+
+TEST_F(SgDetect, FollowsAMarkerAndSaysSinceWhenItIsLost) {
+  const auto lines = Lines(
+      Detect({Save("0.png", With({70, 40})), Save("1.png", With({72, 41})), Save("2.png", Grey()),
+              Save("3.png", Grey()), Save("4.png", With({110, 45})), "--track"}));
+  ASSERT_EQ(lines.size(), 5U);
+  const std::vector<std::string> paths{"fast", "tracked", "", "", "fast"};
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    SCOPED_TRACE("picture " + std::to_string(i));
+    const json& markers = lines[i].at("markers");
+    const json& lost = lines[i].at("lost");
+    if (!paths[i].empty()) {
+      ASSERT_EQ(markers.size(), 1U);
+      EXPECT_EQ(markers[0]["id"], 17);
+      EXPECT_EQ(markers[0]["path"], paths[i]);
+      EXPECT_THAT(lost, IsEmpty());
+      continue;
+    }
+    EXPECT_THAT(markers, IsEmpty());
+    EXPECT_EQ(lost, json::parse(R"([{"family": "sg", "id": 17, "frames": )" +
+                                std::to_string(i - 1) + "}]"));
+  }
+}
+
+TEST_F(SgDetect, WarnsOfAMirroredPrint) {
+  cv::Mat mirrored;
+  cv::flip(With({70, 40}), mirrored, 1);
+  const RunResult run = Detect({Save("mirrored.png", mirrored)});
+  EXPECT_THAT(Lines(run).at(0).at("markers"), IsEmpty());
+  EXPECT_THAT(run.err, AllOf(HasSubstr("mirrored.png"), HasSubstr("mirrored"), HasSubstr("17")));
+}
+
+TEST_F(SgDetect, RefusesStrategiesAndNumbersThatDoNotExist) {
+  const std::string picture = Save("whole.png", With({70, 40}));
+  struct Bad {
+    std::string argument, message;
+  };
+  for (const auto& [argument, message] :
+       {Bad{"--strategy=quick", "hybrid, fast or surf-golay"}, Bad{"--strategy=", "--strategy"},
+        Bad{"--numbers=4096", "4096"}, Bad{"--numbers=-3", "-3"}, Bad{"--numbers=9-5", "9-5"},
+        Bad{"--numbers=5-", "5-"}, Bad{"--numbers=0-4096", "0-4095"}, Bad{"--numbers=x", "\"x\""},
+        Bad{"--numbers=3,4 5", "4 5"}, Bad{"--numbers=99999999999", "99999999999"}}) {
+    SCOPED_TRACE(argument);
+    const RunResult run = Detect({picture, argument});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(message)));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.out, IsEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::e2e

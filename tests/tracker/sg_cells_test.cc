@@ -1,0 +1,213 @@
+// What the cells of a marker look like, and how sure that is.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "tests/tracker/sg_test_scenes.h"
+#include "tracker/golay/golay_code.h"
+#include "tracker/homography.h"
+#include "tracker/surf_golay/cell_light.h"
+#include "tracker/surf_golay/cell_reader.h"
+#include "tracker/surf_golay/sg_print.h"
+
+namespace pleinair::tracker {
+namespace {
+
+/// Where a cell's middle lies on the print: half edges from its centre, x right, y up.
+Vec2 CellMiddle(int cell) {
+  const auto at = [](int index) { return (index - 2) * sg::kCell / (0.5 * sg::kEdge); };
+  return {at(sg::CodeCellColumn(cell)), -at(sg::CodeCellRow(cell))};
+}
+
+bool IsWhite(int number, int cell) { return (PrintedWord(number) >> cell & 1U) != 0; }
+
+/// The cells of a marker whose border was fitted from where it truly is.
+class ReadCells {
+ public:
+  ReadCells(const CameraModel& camera, const RenderedMarker& marker,
+            const RenderingOptions& options, bool with_glare = false)
+      : lens_(camera), blank_(SgPrintOfWord(0)) {
+    const GreyImage picture = RenderMarkers(camera, {marker}, options);
+    const std::array<Vec2, 4> corners = TrueCorners(camera, marker);
+    constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+    constexpr Mat3 kModulesFromUnit{{kHalf, 0, kMiddle, 0, -kHalf, kMiddle, 0, 0, 1}};
+    BlockFitState state{kModulesFromUnit * Adjugate(HomographyToQuad(corners)), 0.5};
+    TakeLinearWindow(lens_, picture.view(), {0, 0, 0, camera.width, camera.height}, &seen_);
+    BlockFitOptions fitting;
+    fitting.fit_blur = true;
+    PrintLight light;
+    ok_ = fit_.Run(blank_, PrintPart::kBorder, seen_, 8, fitting, &state) &&
+          PrintLightMeter().Measure(blank_, fit_, seen_, false, &light);
+    if (ok_) CellReader().Read(blank_, fit_, seen_, state, light, with_glare, &cells_);
+  }
+
+  bool ok() const { return ok_; }
+  const CellReading& operator*() const { return cells_; }
+  const CellReading* operator->() const { return &cells_; }
+
+ private:
+  LensGrid lens_;
+  PrintPattern blank_;
+  SeenWindow seen_;
+  BlockFit fit_;
+  CellReading cells_;
+  bool ok_ = false;
+};
+
+constexpr int kNumber = 2741;
+
+RenderedMarker Marker(const CameraModel& camera, double side_px) {
+  return SgMarkerAt(camera, kNumber, {80, 75}, side_px, 20, 50, 8);
+}
+
+/// Cells whose likelihood plainly speaks for the other colour.
+int PlainlyWrong(const CellReading& cells) {
+  int wrong = 0;
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    const float likelihood = cells.likelihoods[k];
+    wrong += std::fabs(likelihood) > 1.5F && (likelihood > 0.0F) != IsWhite(kNumber, k);
+  }
+  return wrong;
+}
+
+int NumberOf(const CellReading& cells) {
+  return SoftGolayDecoder().Decode(cells.likelihoods).number;
+}
+
+TEST(SgCells, AreBlackOrWhiteAsPrintedHoweverSmall) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  for (const double side_px : {100.0, 60.0, 40.0, 24.0}) {
+    SCOPED_TRACE(testing::Message() << "edge " << side_px << " px");
+    const ReadCells cells(camera, Marker(camera, side_px), {.blur_px = 0.5, .noise_codes = 1.0});
+    ASSERT_TRUE(cells.ok());
+    for (int k = 0; k < sg::kCodeCells; ++k) {
+      SCOPED_TRACE(testing::Message() << "cell " << k);
+      EXPECT_TRUE(cells->seen[k]);
+      EXPECT_NEAR(cells->white[k], IsWhite(kNumber, k) ? 1.0 : 0.0, side_px > 30 ? 0.1 : 0.25);
+      EXPECT_GT(IsWhite(kNumber, k) ? cells->likelihoods[k] : -cells->likelihoods[k], 2.0F);
+    }
+    EXPECT_FALSE(cells->glaring);
+  }
+}
+
+TEST(SgCells, SayNothingWhereTheyAreCovered) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  for (const double light : {0.12, 0.3, 0.5}) {
+    SCOPED_TRACE(testing::Message() << "cover of light " << light);
+    RenderedMarker marker = Marker(camera, 90);
+    // The two columns of cells on the right and nothing else.
+    marker.cover = [=](Vec2 at) {
+      return at.x > 0.1 && at.x < 0.5 && std::fabs(at.y) < 0.5 ? light : -1.0;
+    };
+    const ReadCells cells(camera, marker, {.blur_px = 0.5, .noise_codes = 1.0});
+    ASSERT_TRUE(cells.ok());
+    for (int k = 0; k < sg::kCodeCells; ++k) {
+      SCOPED_TRACE(testing::Message() << "cell " << k);
+      if (sg::CodeCellColumn(k) >= 3) {
+        EXPECT_LT(std::fabs(cells->likelihoods[k]), 1.0F);
+      } else {
+        EXPECT_GT(IsWhite(kNumber, k) ? cells->likelihoods[k] : -cells->likelihoods[k], 1.5F);
+      }
+    }
+    EXPECT_EQ(NumberOf(*cells), kNumber);
+  }
+}
+
+TEST(SgCells, AreNotSeenBeyondThePicture) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  // The right of the print is cut off.
+  const RenderedMarker marker = SgMarkerAt(camera, kNumber, {148, 75}, 110);
+  const ReadCells cells(camera, marker, {.blur_px = 0.5, .noise_codes = 1.0});
+  ASSERT_TRUE(cells.ok());
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    SCOPED_TRACE(testing::Message() << "cell " << k);
+    const double middle_px = 148 + 55 * CellMiddle(k).x;
+    if (middle_px > 170) {
+      EXPECT_FALSE(cells->seen[k]);
+      EXPECT_EQ(cells->likelihoods[k], 0.0F);
+    } else if (middle_px < 145) {
+      EXPECT_TRUE(cells->seen[k]);
+    }
+  }
+  EXPECT_EQ(PlainlyWrong(*cells), 0);
+}
+
+TEST(SgCells, ShowThroughGlareThatIsSmooth) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0};
+  options.glare = [](Vec2 pixel) {
+    const double away = Norm(pixel - Vec2{95, 70}) / 22.0;
+    return 0.35 * std::exp(-0.5 * away * away);
+  };
+  // White that the glare does not take beyond what the camera can hold.
+  RenderedMarker marker = Marker(camera, 100);
+  marker.white = 0.45;
+  marker.black = 0.03;
+  const ReadCells plain(camera, marker, options), glared(camera, marker, options, true);
+  ASSERT_TRUE(plain.ok() && glared.ok());
+  EXPECT_TRUE(plain->glaring);
+  EXPECT_EQ(PlainlyWrong(*glared), 0);
+  EXPECT_EQ(NumberOf(*glared), kNumber);
+  const auto agreement = [](const CellReading& cells) {
+    float sum = 0.0F;
+    for (int k = 0; k < sg::kCodeCells; ++k) {
+      sum += IsWhite(kNumber, k) ? cells.likelihoods[k] : -cells.likelihoods[k];
+    }
+    return sum;
+  };
+  EXPECT_GT(agreement(*glared), agreement(*plain));
+}
+
+TEST(SgCells, AreReadWhereWhiteClips) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  for (const double exposure : {2.0, 4.0}) {
+    SCOPED_TRACE(testing::Message() << "exposed " << exposure << " times");
+    RenderedMarker marker = Marker(camera, 90);
+    marker.white *= exposure;
+    marker.black *= exposure;
+    const ReadCells cells(camera, marker, {.blur_px = 0.7, .noise_codes = 1.0});
+    ASSERT_TRUE(cells.ok());
+    EXPECT_EQ(PlainlyWrong(*cells), 0);
+    EXPECT_EQ(NumberOf(*cells), kNumber);
+    EXPECT_FALSE(cells->glaring);
+  }
+}
+
+TEST(SgCells, AreReadAcrossAnEdgeOfShadow) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0};
+  options.light = [](Vec2 pixel) { return pixel.x + 0.4 * pixel.y < 112 ? 1.0 : 1.0 / 16; };
+  const ReadCells cells(camera, Marker(camera, 100), options);
+  ASSERT_TRUE(cells.ok());
+  EXPECT_EQ(PlainlyWrong(*cells), 0);
+  EXPECT_EQ(NumberOf(*cells), kNumber);
+}
+
+TEST(SgCells, LeaveNothingOfTheReadingBefore) {
+  CellReading cells;
+  cells.likelihoods.fill(7.0F);
+  cells.seen.fill(true);
+  cells.glaring = true;
+  const CameraModel camera = SgCamera(64, 48);
+  const LensGrid lens(camera);
+  const PrintPattern blank = SgPrintOfWord(0);
+  SeenWindow seen;
+  BlockFit fit;
+  // A print that lies beside the window has no cells there.
+  const BlockFitState state{Mat3{{0.5, 0, 900, 0, 0.5, 900, 0, 0, 1}}, 0.5};
+  const GreyImage picture(camera.width, camera.height);
+  TakeLinearWindow(lens, picture.view(), {0, 0, 0, camera.width, camera.height}, &seen);
+  fit.Evaluate(blank, PrintPart::kBorder, seen, 4, state);
+  CellReader().Read(blank, fit, seen, state, {}, false, &cells);
+  EXPECT_FALSE(cells.glaring);
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    EXPECT_FALSE(cells.seen[k]);
+    EXPECT_EQ(cells.likelihoods[k], 0.0F);
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::tracker
