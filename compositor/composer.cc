@@ -128,9 +128,9 @@ class GlComposer : public Composer {
                                                 const std::vector<PlacedModel>& scene,
                                                 const ComposerOptions& options);
 
-  Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& day,
+  Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
                         const Mat3& marker_from_world) override;
-  void SetSun(const sky::Daylight& day, const Mat3& marker_from_world) override;
+  void SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) override;
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
                            LinearRgb gain) override;
@@ -223,7 +223,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   return composer;
 }
 
-Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& day,
+Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
                                   const Mat3& marker_from_world) {
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   SetSun(day, marker_from_world);
@@ -271,7 +271,7 @@ Result<void> GlComposer::DrawShadowMaps(const Transform<Camera, Marker>& camera_
   return {};
 }
 
-void GlComposer::SetSun(const sky::Daylight& day, const Mat3& marker_from_world) {
+void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
   to_sun_ = marker_from_world * day.ToSun().xyz;
   sun_normal_ = day.SunNormalIrradiance();
 }

@@ -10,7 +10,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/light_solver.h"
-#include "sky/daylight.h"
+#include "sky/sky_model.h"
 
 namespace pleinair::compositor {
 
@@ -41,12 +41,12 @@ class Composer {
   virtual ~Composer() = default;
 
   /// The light from now on. `lit` is what a LightSolver made of the same scene and daylight.
-  virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::Daylight& daylight,
+  virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& daylight,
                                 const Mat3& marker_from_world) = 0;
 
   /// Moves the sun itself, between two calls of SetLight: shadows follow it without jumps, while
   /// the light among surfaces, which costs more, stays.
-  virtual void SetSun(const sky::Daylight& daylight, const Mat3& marker_from_world) = 0;
+  virtual void SetSun(const sky::SkyModel& daylight, const Mat3& marker_from_world) = 0;
 
   /// The picture with the virtual objects in it. `gain`: display-linear value per radiance and
   /// channel (LightReading). Pixels that no virtual thing touches keep their bytes.

@@ -30,7 +30,7 @@ double RadicalInverse(std::uint32_t bits) {
 
 }  // namespace
 
-EnvironmentMap BuildEnvironmentMap(const sky::Daylight& day, const Mat3& marker_from_world,
+EnvironmentMap BuildEnvironmentMap(const sky::SkyModel& day, const Mat3& marker_from_world,
                                    LinearRgb ground_radiance) {
   const Mat3 world_from_marker = marker_from_world.Transposed();
   const auto radiance = [&](Vec3 direction_in_marker) {

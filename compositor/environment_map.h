@@ -4,7 +4,7 @@
 
 #include "base/image.h"
 #include "base/vector.h"
-#include "sky/daylight.h"
+#include "sky/sky_model.h"
 
 namespace pleinair::compositor {
 
@@ -21,7 +21,7 @@ struct EnvironmentMap {
 
 /// Prefilters by importance sampling of the GGX distribution with view = normal = reflection
 /// (Karis 2013, "Real Shading in Unreal Engine 4", split-sum approximation, first sum).
-EnvironmentMap BuildEnvironmentMap(const sky::Daylight& day, const Mat3& marker_from_world,
+EnvironmentMap BuildEnvironmentMap(const sky::SkyModel& day, const Mat3& marker_from_world,
                                    LinearRgb ground_radiance);
 
 }  // namespace pleinair::compositor

@@ -83,7 +83,7 @@ std::optional<double> ShadowThreshold(const std::vector<double>& values) {
 }  // namespace
 
 LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
-                       const sky::Daylight& day, const Mat3& marker_from_world)
+                       const sky::SkyModel& day, const Mat3& marker_from_world)
     : print_(print) {
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
   const Vec3 normal{0, 0, 1};

@@ -10,7 +10,7 @@
 #include "base/vector.h"
 #include "compositor/light_solver.h"
 #include "compositor/marker_print.h"
-#include "sky/daylight.h"
+#include "sky/sky_model.h"
 
 namespace pleinair::compositor {
 
@@ -35,7 +35,7 @@ class LightMeter {
  public:
   /// Predicts the light on the print's sample points; they lie still in marker coordinates, so
   /// this is done once a light.
-  LightMeter(const MarkerPrint& print, const LightSolver& solver, const sky::Daylight& day,
+  LightMeter(const MarkerPrint& print, const LightSolver& solver, const sky::SkyModel& day,
              const Mat3& marker_from_world);
 
   /// Nothing where fewer than `kMinimumPairs` pairs can be used, or where most pairs are not

@@ -27,7 +27,7 @@ class EmbreeLightSolver : public LightSolver {
   EmbreeLightSolver(LightScene scene, const LightSolverOptions& options)
       : scene_(std::move(scene)), options_(options) {}
 
-  std::vector<LitMesh> Solve(const sky::Daylight& day,
+  std::vector<LitMesh> Solve(const sky::SkyModel& day,
                              const Mat3& marker_from_world) const override {
     const SkyTable sky(day, marker_from_world, kLandAlbedo);
     const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
@@ -63,7 +63,7 @@ class EmbreeLightSolver : public LightSolver {
   }
 
   std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3 normal,
-                                             const sky::Daylight& day,
+                                             const sky::SkyModel& day,
                                              const Mat3& marker_from_world) const override {
     const SkyTable sky(day, marker_from_world, kLandAlbedo);
     const TangentFrame sun_frame(marker_from_world * day.ToSun().xyz);

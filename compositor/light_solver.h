@@ -11,7 +11,7 @@
 #include "base/frames.h"
 #include "base/vector.h"
 #include "compositor/model.h"
-#include "sky/daylight.h"
+#include "sky/sky_model.h"
 
 namespace pleinair::compositor {
 
@@ -64,7 +64,7 @@ class LightSolver {
   /// Light on every vertex for this daylight. Deterministic whatever the number of threads. Rays
   /// with and without the virtual objects are the same, so that their ratio has no noise where
   /// the objects change nothing.
-  virtual std::vector<LitMesh> Solve(const sky::Daylight& daylight,
+  virtual std::vector<LitMesh> Solve(const sky::SkyModel& daylight,
                                      const Mat3& marker_from_world) const = 0;
 
   /// Share of the sun's disc (0…1) that the phantoms alone leave visible from a point.
@@ -74,7 +74,7 @@ class LightSolver {
   /// what reaches the marker's print. One value a point, in their order. Ask for many points at
   /// once: the sky is tabulated anew for every call.
   virtual std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points,
-                                                     Vec3 normal, const sky::Daylight& daylight,
+                                                     Vec3 normal, const sky::SkyModel& daylight,
                                                      const Mat3& marker_from_world) const = 0;
 };
 

@@ -17,7 +17,7 @@ std::array<float, 3> ToFloats(LinearRgb c) {
 
 }  // namespace
 
-SkyTable::SkyTable(const sky::Daylight& day, const Mat3& marker_from_world, double land_albedo)
+SkyTable::SkyTable(const sky::SkyModel& day, const Mat3& marker_from_world, double land_albedo)
     : world_from_marker_(marker_from_world.Transposed()),
       up_(marker_from_world * Vec3{0.0, 0.0, 1.0}),
       nodes_(static_cast<std::size_t>(kSide) * kSide) {

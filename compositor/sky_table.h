@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "sky/daylight.h"
+#include "sky/sky_model.h"
 
 namespace pleinair::compositor {
 
@@ -15,7 +15,7 @@ class SkyTable {
  public:
   /// `land_albedo`: diffuse reflectance of the land beyond the phantoms, which lies in full sun
   /// and under the whole sky.
-  SkyTable(const sky::Daylight& day, const Mat3& marker_from_world, double land_albedo);
+  SkyTable(const sky::SkyModel& day, const Mat3& marker_from_world, double land_albedo);
 
   /// cd/m², linear Rec.709, from a unit direction in marker coordinates.
   std::array<float, 3> Radiance(Vec3 direction_in_marker) const;

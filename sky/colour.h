@@ -17,6 +17,24 @@ constexpr LinearRgb RgbFromXyz(double x, double y, double z) {
           0.0557 * x - 0.2040 * y + 1.0570 * z};
 }
 
+/// Linear Rec.709 primaries, D65, to CIE XYZ (IEC 61966-2-1, Annex F), in {x, y, z}.
+constexpr Vec3 XyzFromRgb(LinearRgb c) {
+  return {0.4124 * c.r + 0.3576 * c.g + 0.1805 * c.b, Luminance(c),
+          0.0193 * c.r + 0.1192 * c.g + 0.9505 * c.b};
+}
+
+/// Chromaticity and luminance of XYZ; D65's chromaticity for black.
+constexpr XyY XyYFromXyz(Vec3 xyz) {
+  const double sum = xyz.x + xyz.y + xyz.z;
+  if (sum <= 0.0) return {0.3127, 0.3290, 0.0};
+  return {xyz.x / sum, xyz.y / sum, xyz.y};
+}
+constexpr Vec3 XyzFromXyY(const XyY& c) {
+  if (c.y <= 0.0) return {};
+  return {c.luminance * c.x / c.y, c.luminance, c.luminance * (1.0 - c.x - c.y) / c.y};
+}
+constexpr XyY XyYFromRgb(LinearRgb colour) { return XyYFromXyz(XyzFromRgb(colour)); }
+
 /// Brings a colour outside Rec.709's gamut into it: no negative channel, and the luminance stays.
 inline LinearRgb ClipToGamut(LinearRgb colour) {
   const double luminance = Luminance(colour);

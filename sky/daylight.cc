@@ -19,7 +19,7 @@ LinearRgb WithLuminance(LinearRgb colour, Lux luminance) {
 }
 
 /// Clear, hazy or partly cloudy: a scaled PerezSky, an even veil of clouds, the sun.
-class PerezDaylight : public Daylight {
+class PerezDaylight : public SkyModel {
  public:
   PerezDaylight(const SunPosition& sun, SkyCondition condition, double turbidity)
       : to_sun_(sun.ToSun()), perez_(turbidity, to_sun_) {
@@ -60,7 +60,7 @@ class PerezDaylight : public Daylight {
   LinearRgb sky_horizontal_;
 };
 
-class OvercastDaylight : public Daylight {
+class OvercastDaylight : public SkyModel {
  public:
   explicit OvercastDaylight(const SunPosition& sun) : to_sun_(sun.ToSun()) {
     horizontal_lux_ = ComputeStandardIlluminance(SkyCondition::kOvercast, 0.0,
@@ -95,7 +95,7 @@ class OvercastDaylight : public Daylight {
 
 }  // namespace
 
-std::unique_ptr<Daylight> CreateDaylight(const SunPosition& sun, const DaylightOptions& options) {
+std::unique_ptr<SkyModel> CreateDaylight(const SunPosition& sun, const DaylightOptions& options) {
   if (options.condition == SkyCondition::kOvercast) return std::make_unique<OvercastDaylight>(sun);
   const double turbidity =
       options.turbidity == 0.0 ? DefaultTurbidity(options.condition) : options.turbidity;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "sky/dome.h"
+#include "sky/sun_direction.h"
 
 namespace pleinair::sky {
 namespace {
@@ -54,14 +55,6 @@ double ZenithLuminance(double turbidity, double theta) {
   return 1000.0 * ((4.0453 * turbidity - 4.9710) * std::tan(chi) - 0.2155 * turbidity + 2.4192);
 }
 
-/// The sun, or the point of the horizon above it.
-Vec3 LiftedToHorizon(Vec3 to_sun) {
-  if (to_sun.z >= 0.0) return to_sun;
-  const double horizontal = std::hypot(to_sun.x, to_sun.y);
-  if (horizontal == 0.0) return {0.0, 1.0, 0.0};  // At the nadir any azimuth is as good.
-  return {to_sun.x / horizontal, to_sun.y / horizontal, 0.0};
-}
-
 double ClampedTurbidity(double turbidity) {
   if (std::isnan(turbidity)) return PerezSky::kLowestTurbidity;
   return std::clamp(turbidity, PerezSky::kLowestTurbidity, PerezSky::kHighestTurbidity);
@@ -100,8 +93,7 @@ XyY PerezSky::At(Direction<World> from) const {
   if (from.xyz.z < 0.0) return {};
   const double cos_theta = std::max(from.xyz.z, kSmallestCosine);
   const double cos_gamma = std::clamp(Dot(from.xyz, to_sun_), -1.0, 1.0);
-  // From the chord, which unlike acos keeps its digits close to the sun.
-  const double gamma = 2.0 * std::asin(std::min(1.0, 0.5 * Norm(from.xyz - to_sun_)));
+  const double gamma = AngleBetween(from.xyz, to_sun_);
   return {x_.At(cos_theta, gamma, cos_gamma), y_.At(cos_theta, gamma, cos_gamma),
           luminance_.At(cos_theta, gamma, cos_gamma)};
 }

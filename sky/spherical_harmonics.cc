@@ -31,7 +31,7 @@ constexpr std::array<double, 9> kCosineLobe = {kBand0, kBand1, kBand1, kBand1, k
 
 }  // namespace
 
-SkyHarmonics ProjectSky(const Daylight& daylight) {
+SkyHarmonics ProjectSky(const SkyModel& model) {
   constexpr int kRings = 64;
   constexpr int kSectors = 128;
   SkyHarmonics sky;
@@ -41,7 +41,7 @@ SkyHarmonics ProjectSky(const Daylight& daylight) {
     for (int sector = 0; sector < kSectors; ++sector) {
       const double azimuth = 2.0 * pi * (sector + 0.5) / kSectors;
       const Vec3 direction{horizontal * std::sin(azimuth), horizontal * std::cos(azimuth), up};
-      const LinearRgb radiance = daylight.SkyRadiance({direction});
+      const LinearRgb radiance = model.SkyRadiance({direction});
       const std::array<double, 9> basis = Basis(direction);
       for (std::size_t i = 0; i < basis.size(); ++i) {
         sky.radiance[i] = sky.radiance[i] + radiance * basis[i];

@@ -4,7 +4,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "sky/daylight.h"
+#include "sky/sky_model.h"
 
 namespace pleinair::sky {
 
@@ -25,6 +25,6 @@ struct SkyHarmonics {
 
 /// Projects the upper hemisphere of the sky (black below): their Eq. (10), by a midpoint rule of 64
 /// rings and 128 sectors.
-SkyHarmonics ProjectSky(const Daylight& daylight);
+SkyHarmonics ProjectSky(const SkyModel& model);
 
 }  // namespace pleinair::sky

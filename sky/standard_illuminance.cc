@@ -6,6 +6,7 @@
 
 #include "sky/air_mass.h"
 #include "sky/perez.h"
+#include "sky/solar_disc.h"
 #include "sky/sunlight_spectrum.h"
 
 namespace pleinair::sky {
@@ -26,13 +27,6 @@ double IesAirMass(Radians apparent_elevation) {
   const double share = SmoothStep(6.0, 10.0, ToDegrees(apparent_elevation));
   if (share == 0.0) return kasten_young;
   return kasten_young + share * (1.0 / std::sin(apparent_elevation.value()) - kasten_young);
-}
-
-/// Share of the sun's disc above a level horizon.
-double DiscShare(Radians apparent_elevation) {
-  const double radius_rad = 959.63 / 3600.0 * kRadiansPerDegree;
-  const double height = std::clamp(apparent_elevation.value() / radius_rad, -1.0, 1.0);
-  return 0.5 + (height * std::sqrt(1.0 - height * height) + std::asin(height)) / std::numbers::pi;
 }
 
 }  // namespace
@@ -56,7 +50,8 @@ StandardIlluminance ComputeStandardIlluminance(SkyCondition condition, double tu
   const double twilight = TwilightShare(apparent_elevation);
   const auto sun = [&](double extinction) {
     return kExtraterrestrialLux / (distance_au * distance_au) *
-           std::exp(-extinction * IesAirMass(apparent_elevation)) * DiscShare(apparent_elevation);
+           std::exp(-extinction * IesAirMass(apparent_elevation)) *
+           DiscShareAboveHorizon(apparent_elevation);
   };
   switch (condition) {
     case SkyCondition::kOvercast:

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "base/units.h"
-#include "sky/daylight.h"
 
 namespace pleinair::sky {
+
+/// How clear the sky is; decides the default turbidity and the sun's and sky's illuminance.
+enum class SkyCondition { kClear, kHazy, kPartlyCloudy, kOvercast };
 
 /// What falls on a surface that faces the sun, and from the sky on level ground.
 struct StandardIlluminance {

@@ -16,7 +16,7 @@ namespace {
 constexpr double kSkyLux = 20000, kSunLux = 80000;
 
 /// An even sky and a sun in the south, 45° high, or no sun at all.
-class SouthernSun : public sky::Daylight {
+class SouthernSun : public sky::SkyModel {
  public:
   explicit SouthernSun(double sun_lux = kSunLux) : sun_lux_(sun_lux) {}
   LinearRgb SkyRadiance(Direction<World>) const override {

@@ -5,7 +5,7 @@
 namespace pleinair::compositor {
 namespace {
 
-class EvenSky : public sky::Daylight {
+class EvenSky : public sky::SkyModel {
  public:
   LinearRgb SkyRadiance(Direction<World>) const override { return {2, 3, 4}; }
   LinearRgb SunNormalIrradiance() const override { return {}; }

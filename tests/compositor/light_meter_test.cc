@@ -14,7 +14,7 @@ namespace {
 constexpr double kAmbientLux = 12000, kSunLux = 80000;
 
 /// Light from straight above and an even sky.
-class OverheadSun : public sky::Daylight {
+class OverheadSun : public sky::SkyModel {
  public:
   LinearRgb SkyRadiance(Direction<World>) const override { return {1, 1, 1}; }
   LinearRgb SunNormalIrradiance() const override { return {kSunLux, kSunLux, kSunLux}; }
@@ -28,12 +28,12 @@ class OverheadSun : public sky::Daylight {
 class HalfShadow : public LightSolver {
  public:
   explicit HalfShadow(double shadow_to_x_m) : shadow_to_x_m_(shadow_to_x_m) {}
-  std::vector<LitMesh> Solve(const sky::Daylight&, const Mat3&) const override { return {}; }
+  std::vector<LitMesh> Solve(const sky::SkyModel&, const Mat3&) const override { return {}; }
   double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3) const override {
     return point.xyz.x < shadow_to_x_m_ ? 0.0 : 1.0;
   }
   std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3,
-                                             const sky::Daylight&, const Mat3&) const override {
+                                             const sky::SkyModel&, const Mat3&) const override {
     return std::vector<LinearRgb>(points.size(), {kAmbientLux, kAmbientLux, kAmbientLux});
   }
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "compositor/light_solver.h"
-#include "sky/daylight.h"
+#include "sky/sky_model.h"
 
 namespace pleinair::compositor::testing {
 
 /// A sky of one radiance everywhere, and a sun where the test wants it.
-class UniformDay : public sky::Daylight {
+class UniformDay : public sky::SkyModel {
  public:
   explicit UniformDay(LinearRgb radiance, LinearRgb sun = {}, Vec3 to_sun = {0.0, 0.0, 1.0})
       : radiance_(radiance), sun_(sun), to_sun_(Normalized(to_sun)) {}

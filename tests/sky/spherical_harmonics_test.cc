@@ -6,17 +6,19 @@
 #include <cmath>
 #include <memory>
 
+#include "sky/daylight.h"
+
 namespace pleinair::sky {
 namespace {
 
-std::unique_ptr<Daylight> Light(double elevation_deg, SkyCondition condition) {
+std::unique_ptr<SkyModel> Light(double elevation_deg, SkyCondition condition) {
   return CreateDaylight(
       {FromDegrees(200.0), FromDegrees(elevation_deg), FromDegrees(elevation_deg), 1.0},
       {condition, 0.0});
 }
 
 /// Irradiance by a fine sum over the hemisphere.
-LinearRgb Integrate(const Daylight& light, Vec3 normal) {
+LinearRgb Integrate(const SkyModel& light, Vec3 normal) {
   constexpr int kRings = 100, kSectors = 200;
   LinearRgb sum;
   for (int i = 0; i < kRings; ++i) {

@@ -1,0 +1,65 @@
+#include "sky/cie_sky.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/check.h"
+#include "sky/dome.h"
+#include "sky/sun_direction.h"
+
+namespace pleinair::sky {
+namespace {
+
+constexpr std::array<CieParameters, CieSky::kTypes> kTable = {{
+    {4.0, -0.70, 0.0, -1.0, 0.00},    // 1 overcast, steep gradation
+    {4.0, -0.70, 2.0, -1.5, 0.15},    // 2 overcast, steep, brighter towards the sun
+    {1.1, -0.80, 0.0, -1.0, 0.00},    // 3 overcast, moderate gradation
+    {1.1, -0.80, 2.0, -1.5, 0.15},    // 4 overcast, moderate, brighter towards the sun
+    {0.0, -1.00, 0.0, -1.0, 0.00},    // 5 uniform
+    {0.0, -1.00, 2.0, -1.5, 0.15},    // 6 partly cloudy, slightly brighter towards the sun
+    {0.0, -1.00, 5.0, -2.5, 0.30},    // 7 partly cloudy, brighter circumsolar region
+    {0.0, -1.00, 10.0, -3.0, 0.45},   // 8 partly cloudy, distinct corona
+    {-1.0, -0.55, 2.0, -1.5, 0.15},   // 9 partly cloudy, obscured sun
+    {-1.0, -0.55, 5.0, -2.5, 0.30},   // 10 partly cloudy, brighter circumsolar region
+    {-1.0, -0.55, 10.0, -3.0, 0.45},  // 11 white-blue, distinct corona
+    {-1.0, -0.32, 10.0, -3.0, 0.45},  // 12 clear, low turbidity
+    {-1.0, -0.32, 16.0, -3.0, 0.30},  // 13 clear, polluted
+    {-1.0, -0.15, 16.0, -3.0, 0.30},  // 14 cloudless turbid, broad corona
+    {-1.0, -0.15, 24.0, -2.8, 0.15},  // 15 white-blue turbid, broad corona
+}};
+
+// The horizon's cosine; every b is negative, so that e^(b / cos Z) has vanished long before it.
+constexpr double kSmallestCosine = 1e-3;
+
+}  // namespace
+
+CieParameters CieParametersOfType(int type) {
+  CHECK_GE(type, 1);
+  CHECK_LE(type, CieSky::kTypes);
+  return kTable[static_cast<std::size_t>(type) - 1];
+}
+
+CieSky::CieSky(int type, Direction<World> to_sun)
+    : p_(CieParametersOfType(type)),
+      to_sun_(LiftedToHorizon(to_sun.xyz)),
+      horizon_term_(1.0 - p_.c * std::exp(p_.d * std::numbers::pi / 2.0)) {
+  const double zenith_distance = AngleBetween(to_sun_, {0.0, 0.0, 1.0});
+  scale_ = 1.0 / (Indicatrix(zenith_distance, to_sun_.z) * (1.0 + p_.a * std::exp(p_.b)));
+  illuminance_over_zenith_ =
+      IntegrateProjectedDome([this](Direction<World> from) { return RelativeLuminance(from); });
+}
+
+double CieSky::Indicatrix(double chi, double cos_chi) const {
+  return horizon_term_ + p_.c * std::exp(p_.d * chi) + p_.e * cos_chi * cos_chi;
+}
+
+double CieSky::RelativeLuminance(Direction<World> from) const {
+  if (from.xyz.z < 0.0) return 0.0;
+  const double gradation = 1.0 + p_.a * std::exp(p_.b / std::max(from.xyz.z, kSmallestCosine));
+  const double cos_chi = std::clamp(Dot(from.xyz, to_sun_), -1.0, 1.0);
+  return scale_ * gradation * Indicatrix(AngleBetween(from.xyz, to_sun_), cos_chi);
+}
+
+}  // namespace pleinair::sky
