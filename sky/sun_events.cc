@@ -1,61 +1,64 @@
 #include "sky/sun_events.h"
 
 #include <cmath>
-#include <functional>
+#include <cstdint>
+#include <numbers>
+
+#include "sky/sun_clock.h"
 
 namespace pleinair::sky {
 namespace {
 
-constexpr double kRiseElevationDeg = -0.8333;  // 34′ of refraction and 16′ of disc.
-constexpr double kStepSeconds = 600.0;
-constexpr double kToleranceSeconds = 0.05;
+constexpr double kDaySeconds = 86'400.0;
 
-using Function = std::function<double(double)>;
-
-/// Where `f` passes zero between `low` and `high`, seconds; one of them has the other sign.
-double Bisect(const Function& f, double low, double high) {
-  const bool low_is_positive = f(low) > 0.0;
-  while (std::fabs(high - low) > kToleranceSeconds) {
-    const double middle = 0.5 * (low + high);
-    ((f(middle) > 0.0) == low_is_positive ? low : high) = middle;
+/// Where the hour angle, counted from `target`, passes zero nearest to `guess`: it grows by 15° an
+/// hour but for some seconds a day, so that Newton's steps with that slope halve the error over and
+/// over.
+UtcTime FindTransit(const Observer& observer, UtcTime guess, double target_rad, SunModel model) {
+  constexpr double kSecondsPerRadian = 0.5 * kDaySeconds / std::numbers::pi;
+  constexpr double kToleranceSeconds = 0.001;
+  constexpr int kMostSteps = 12;  // Each gains three digits; the jumps of `paper` cost some.
+  UtcTime time = guess;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double off_rad = std::remainder(HourAngle(observer, time, model).value() - target_rad,
+                                          2.0 * std::numbers::pi);
+    time = time.PlusSeconds(-off_rad * kSecondsPerRadian);
+    if (std::fabs(off_rad) * kSecondsPerRadian < kToleranceSeconds) break;
   }
-  return 0.5 * (low + high);
+  return time;
 }
 
 }  // namespace
 
-SunEvents ComputeSunEvents(const Observer& observer, UtcTime time, SunModel model) {
-  // Local mean noon of the day of `time`, and how far true noon is from it: within 17 minutes.
-  constexpr double kDaySeconds = 86'400.0;
-  const double seconds = static_cast<double>(time.nanoseconds_since_1970()) * 1e-9;
-  const double local_offset = ToDegrees(observer.longitude) * 240.0;
-  const double midnight =
-      std::floor((seconds + local_offset) / kDaySeconds) * kDaySeconds - local_offset;
-  const auto at = [](double s) {
-    return UtcTime(static_cast<std::int64_t>(std::llround(s * 1e3)) * 1'000'000);
-  };
-  const auto sun_at = [&](double s) { return ComputeSunPosition(observer, at(s), model); };
-
-  const auto east = [&](double s) {
-    const SunPosition sun = sun_at(s);
-    return std::cos(sun.elevation.value()) * std::sin(sun.azimuth.value());
-  };
-  const double mean_noon = midnight + 0.5 * kDaySeconds;
-  const double noon = Bisect(east, mean_noon - 3600.0, mean_noon + 3600.0);
-
-  const auto above = [&](double s) { return ToDegrees(sun_at(s).elevation) - kRiseElevationDeg; };
+SunEvents ComputeSunEventsNear(const Observer& observer, UtcTime middle, SunModel model) {
   SunEvents events;
-  events.noon = at(noon);
-  if (above(noon) <= 0.0) return events;
-  const auto crossing = [&](double step) -> std::optional<UtcTime> {
-    for (double s = noon; std::fabs(s - noon) < 0.5 * kDaySeconds; s += step) {
-      if (above(s + step) <= 0.0) return at(Bisect(above, s, s + step));
+  events.noon = FindTransit(observer, middle, 0.0, model);
+  const UtcTime begin =
+      FindTransit(observer, events.noon.PlusSeconds(-0.5 * kDaySeconds), std::numbers::pi, model);
+  const UtcTime end =
+      FindTransit(observer, events.noon.PlusSeconds(0.5 * kDaySeconds), std::numbers::pi, model);
+  const SunDay day = ComputeSunDay(observer, begin, end, model);
+  for (std::size_t h = 0; h < kSunHorizons; ++h) {
+    for (const UtcTime rise : day.passages[h].rises) {
+      if (rise <= events.noon || !events.dawns[h]) events.dawns[h] = rise;
     }
-    return std::nullopt;
-  };
-  events.sunrise = crossing(-kStepSeconds);
-  events.sunset = crossing(kStepSeconds);
+    for (const UtcTime set : day.passages[h].sets) {
+      if (!events.dusks[h] || *events.dusks[h] < events.noon) events.dusks[h] = set;
+    }
+  }
+  events.sunrise = events.Dawn(SunHorizon::kSunrise);
+  events.sunset = events.Dusk(SunHorizon::kSunrise);
+  const HorizonPassages& horizon = day.At(SunHorizon::kSunrise);
+  if (horizon.Always()) events.presence = SunPresence::kStaysUp;
+  if (horizon.Never()) events.presence = SunPresence::kStaysDown;
   return events;
+}
+
+SunEvents ComputeSunEvents(const Observer& observer, UtcTime time, SunModel model) {
+  const double local_offset_s = ToDegrees(observer.longitude) * 240.0;
+  const double local_s = static_cast<double>(time.nanoseconds_since_1970()) * 1e-9 + local_offset_s;
+  const double into_day_s = local_s - std::floor(local_s / kDaySeconds) * kDaySeconds;
+  return ComputeSunEventsNear(observer, time.PlusSeconds(0.5 * kDaySeconds - into_day_s), model);
 }
 
 }  // namespace pleinair::sky

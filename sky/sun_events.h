@@ -1,24 +1,44 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "base/utc_time.h"
+#include "sky/sun_day.h"
 #include "sky/sun_position.h"
 
 namespace pleinair::sky {
 
-/// The sun's day.
+/// Whether the sun passes the horizon in its day.
+enum class SunPresence {
+  kRisesOrSets,  ///< One of the two at least.
+  kStaysUp,      ///< Polar day: no sunrise and no sunset because the sun does not set.
+  kStaysDown,    ///< Polar night: the sun does not rise.
+};
+
+/// The sun's day: from one lower transit ("midnight") over the noon between to the next.
 struct SunEvents {
-  /// Upper limb on the sea's horizon (airless elevation −0.8333° of the centre, as in the
-  /// almanacs); nothing in polar day and night.
+  /// Upper limb on the sea's horizon (SunHorizon::kSunrise); nothing in polar day and night.
   std::optional<UtcTime> sunrise;
   UtcTime noon;  ///< Upper transit: the sun crosses the meridian from east to west.
   std::optional<UtcTime> sunset;
+  /// By SunHorizon: when the sun climbs through that elevation before noon and sinks through it
+  /// after (for kSunrise the sunrise and sunset). Nothing where it does not.
+  std::array<std::optional<UtcTime>, kSunHorizons> dawns, dusks;
+  SunPresence presence = SunPresence::kRisesOrSets;
+
+  std::optional<UtcTime> Dawn(SunHorizon h) const { return dawns[static_cast<std::size_t>(h)]; }
+  std::optional<UtcTime> Dusk(SunHorizon h) const { return dusks[static_cast<std::size_t>(h)]; }
 };
 
-/// Noon of the local mean solar day in which `time` lies, the sunrise in the twelve hours before
-/// and the sunset in the twelve hours after it. To 0.1 s of the model.
+/// Of the noon nearest to the middle of the local mean solar day in which `time` lies. To 0.1 s of
+/// the model.
 SunEvents ComputeSunEvents(const Observer& observer, UtcTime time,
                            SunModel model = SunModel::kPrecise);
+
+/// Of the noon nearest to `middle`: the middle of the day that is meant.
+SunEvents ComputeSunEventsNear(const Observer& observer, UtcTime middle,
+                               SunModel model = SunModel::kPrecise);
 
 }  // namespace pleinair::sky

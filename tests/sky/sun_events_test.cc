@@ -62,6 +62,55 @@ TEST_F(SunEventsTest, AreMissingInPolarDayAndNight) {
   EXPECT_TRUE(autumn.sunrise && autumn.sunset);
 }
 
+TEST_F(SunEventsTest, SayWhyTheyAreMissing) {
+  const auto presence = [](const char* time) {
+    return ComputeSunEvents(Place(69.65, 18.96), At(time)).presence;
+  };
+  EXPECT_EQ(presence("2025-06-21T12:00:00Z"), SunPresence::kStaysUp);
+  EXPECT_EQ(presence("2025-12-21T12:00:00Z"), SunPresence::kStaysDown);
+  EXPECT_EQ(presence("2025-09-21T12:00:00Z"), SunPresence::kRisesOrSets);
+}
+
+TEST_F(SunEventsTest, HaveTheirTwilightsAroundThem) {
+  const SunEvents events = ComputeSunEvents(Place(40.0, -75.0), At("2025-03-10T17:00:00Z"));
+  for (std::size_t h = 0; h + 1 < kSunHorizons; ++h) {
+    ASSERT_TRUE(events.dawns[h] && events.dawns[h + 1] && events.dusks[h] && events.dusks[h + 1]);
+    EXPECT_GT(*events.dawns[h], *events.dawns[h + 1]);
+    EXPECT_LT(*events.dusks[h], *events.dusks[h + 1]);
+  }
+  // In the polar night there is a civil twilight without a sunrise.
+  const SunEvents night = ComputeSunEvents(Place(69.65, 18.96), At("2025-12-21T12:00:00Z"));
+  EXPECT_TRUE(night.Dawn(SunHorizon::kCivil) && night.Dusk(SunHorizon::kCivil));
+  EXPECT_FALSE(night.sunrise);
+}
+
+// Between midnight sun and ordinary days the sunset falls after midnight: it belongs to the noon
+// before it all the same.
+TEST_F(SunEventsTest, PairASunsetAfterMidnightWithTheNoonBefore) {
+  const Observer fairbanks = Place(64.84, -147.72);
+  const SunEvents events = ComputeSunEvents(fairbanks, At("2025-06-10T22:00:00Z"));
+  ASSERT_TRUE(events.sunrise && events.sunset);
+  EXPECT_LT(*events.sunrise, events.noon);
+  EXPECT_LT(events.noon, *events.sunset);
+  EXPECT_LT(SecondsBetween(*events.sunset, *events.sunrise), 24 * 3600.0);
+  EXPECT_GT(SecondsBetween(*events.sunset, *events.sunrise), 21 * 3600.0);
+}
+
+// A sun that dips under the horizon for minutes at midnight: each such dip ends one day's light and
+// begins the next one's, and none is lost between the days.
+TEST_F(SunEventsTest, LoseNoPassageBetweenTheDays) {
+  const Observer place = Place(65.73, 25.0);
+  for (int day = 0; day < 20; ++day) {
+    const UtcTime noon = At("2025-06-11T10:20:00Z").PlusSeconds(86'400.0 * day);
+    const SunEvents today = ComputeSunEvents(place, noon);
+    const SunEvents tomorrow = ComputeSunEvents(place, noon.PlusSeconds(86'400.0));
+    EXPECT_EQ(today.sunset.has_value(), tomorrow.sunrise.has_value()) << day;
+    if (!today.sunset || !tomorrow.sunrise) continue;
+    EXPECT_GT(SecondsBetween(*tomorrow.sunrise, *today.sunset), 0.0);
+    EXPECT_LT(SecondsBetween(*tomorrow.sunrise, *today.sunset), 5400.0);
+  }
+}
+
 TEST_F(SunEventsTest, BelongToTheLocalDay) {
   // 23:30 UTC in Sydney is the next morning.
   const SunEvents events = ComputeSunEvents(Place(-33.87, 151.21), At("2025-06-01T23:30:00Z"));

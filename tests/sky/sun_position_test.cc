@@ -57,6 +57,60 @@ TEST_F(PreciseSun, AgreesWithAnotherAstronomyLibrary) {
   }
 }
 
+struct ReferencePosition {
+  const char* time;
+  double latitude_deg, longitude_deg, height_m;
+  double azimuth_deg, elevation_deg;
+};
+
+// Another library with another ephemeris (astronomy-engine 2.1.19: VSOP87 cut short, apparent,
+// airless, topocentric) at random places and times, some of them at the poles, the equator, a
+// tropic and a polar circle.
+constexpr ReferencePosition kReferencePositions[] = {
+    {"2045-07-03T17:29:47Z", 90, 55.8555, 1219, 317.19612, 22.87399},
+    {"2051-08-23T02:23:20Z", -90, 178.5172, 2718, 326.34666, -11.48561},
+    {"2056-10-18T13:36:18Z", 89.999, -117.8287, 3533, 90.00050, -10.00810},
+    {"2000-12-31T03:10:08Z", -89.999, 117.9124, 2958, 15.30530, 23.07885},
+    {"2037-07-24T01:50:15Z", 0, 105.8026, 769, 64.23309, 38.76507},
+    {"2068-12-03T06:06:35Z", 23.4, -95.8457, 836, 307.22394, -88.04049},
+    {"1966-10-24T13:08:08Z", -66.56, 133.6703, 3376, 205.17291, -9.54139},
+    {"1992-03-05T21:43:56Z", -3.3953, 83.2799, 1464, 100.95381, -42.75694},
+    {"2013-04-23T12:31:41Z", -15.2772, 150.7408, 3483, 265.35244, -69.55964},
+    {"1973-11-27T04:24:22Z", -8.2035, 115.095, 691, 197.39325, 76.45503},
+    {"2096-12-01T11:29:12Z", -21.362, -44.2876, 2018, 100.34644, 44.38252},
+    {"2015-11-03T05:44:56Z", -3.7229, 91.2626, 901, 187.91089, 78.64965},
+    {"2030-11-27T07:15:31Z", 48.3203, 114.8172, 1231, 223.50027, 8.92049},
+    {"2038-12-23T03:47:41Z", 43.8795, 72.0797, 444, 134.13970, 8.22804},
+    {"2055-08-25T16:06:58Z", -54.6616, 68.7391, 1598, 241.52859, -31.00533},
+    {"2013-02-23T01:46:50Z", -29.4535, -42.3825, 1602, 207.89276, -46.66286},
+    {"1988-01-12T20:02:45Z", 62.6479, -25.0096, 91, 262.78194, -20.79719},
+    {"1993-03-23T20:18:42Z", -47.239, 60.0723, 22, 175.65163, -43.95897},
+    {"2071-04-19T21:55:28Z", -26.0309, -29.5934, 872, 267.74809, -31.40242},
+    {"2042-08-11T11:15:41Z", -2.3642, 13.7669, 3392, 355.57805, 72.43766},
+    {"2017-10-01T16:39:03Z", 23.5018, -172.5098, 2216, 89.13107, -10.66264},
+    {"2023-09-11T08:58:23Z", 1.2452, 58.9183, 1167, 283.47770, 75.30881},
+    {"2086-11-05T03:27:49Z", 65.2915, -107.4456, 2077, 299.87808, -29.88565},
+    {"2047-12-27T09:50:28Z", 12.6568, -174.8933, 2559, 243.90314, -61.82343},
+    {"1992-09-07T06:01:20Z", -11.6526, 109.6831, 2742, 309.73728, 63.03692},
+    {"1978-09-26T06:43:37Z", 35.8356, 178.3463, 1971, 275.79860, -9.86952},
+    {"2036-05-29T02:25:53Z", 7.9271, 62.281, 3450, 69.37208, 11.59430},
+    {"1963-03-17T09:53:25Z", 22.7108, -148.9579, 3737, 352.39975, -68.67692},
+};
+
+TEST_F(PreciseSun, IsRightToAThousandthOfADegreeFrom1950To2100AtEveryLatitude) {
+  for (const ReferencePosition& row : kReferencePositions) {
+    const SunPosition sun =
+        ComputeSunPosition(Place(row.latitude_deg, row.longitude_deg, row.height_m), At(row.time));
+    const double e = FromDegrees(row.elevation_deg).value();
+    const double a = FromDegrees(row.azimuth_deg).value();
+    const Vec3 reference{std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)};
+    SunPosition airless = sun;
+    airless.elevation_refracted = sun.elevation;
+    EXPECT_LT(Norm(airless.ToSun().xyz - reference) / kRadiansPerDegree, 0.001)
+        << row.time << " " << row.latitude_deg << "," << row.longitude_deg;
+  }
+}
+
 // Meeus 1998, "Astronomical Algorithms", Example 25.b (VSOP87): 1992 October 13, 0h TD, apparent
 // declination −7°47′01.74″, distance 0.99760775 au.
 TEST_F(PreciseSun, StandsAtThePoleAsHighAsItsDeclination) {
