@@ -74,6 +74,10 @@ Result<void> SoftGolayDecoder::SetNumbersInUse(std::span<const int> numbers) {
   return {};
 }
 
+int SoftGolayDecoder::NumbersInUse() const {
+  return numbers_in_use_.empty() ? kGolayNumbers : static_cast<int>(numbers_in_use_.size());
+}
+
 SoftGolayDecoding SoftGolayDecoder::Decode(const CellLikelihoods& cells) const {
   SoftGolayDecoding decoding;
   std::array<std::int32_t, kGolayBits> weights;  // Of the codeword's bits, before whitening.

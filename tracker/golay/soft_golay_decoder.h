@@ -47,6 +47,9 @@ class SoftGolayDecoder {
   /// the numbers in use then stay as they were.
   Result<void> SetNumbersInUse(std::span<const int> numbers);
 
+  /// How many different numbers are in use: 1…4096.
+  int NumbersInUse() const;
+
   SoftGolayDecoding Decode(const CellLikelihoods& cells) const;
 
  private:

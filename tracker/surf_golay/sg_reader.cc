@@ -28,49 +28,33 @@ constexpr int kFollowSteps = 4;
 constexpr double kFollowBlur_px = 0.9;
 /// Mean correlation of the content's blocks that makes a followed marker's number sure.
 constexpr double kContentRight = 0.4;
-/// What makes a reading a marker: the less of the print looks as predicted, the more (in nats) must
-/// its number be likelier than the next. Chosen on pictures without markers and with covered ones.
+/// What makes a reading a marker: the less of the print looks as predicted, the more bits must its
+/// cells tell beyond those that pick one of the numbers in use. Chosen on pictures without markers,
+/// with markers of another border and with covered ones.
 struct Proof {
   double visible;
-  float margin;
+  double bits;
 };
-constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F, kMarginPerDisagreement = 4.0F;
+constexpr std::array<Proof, 6> kProofs{
+    {{0.8, 0.7}, {0.7, 1.5}, {0.6, 2.5}, {0.4, 5.0}, {0.3, 5.5}, {0.1, 10.0}}};
+/// … and how much likelier than the next its number must be, in nats.
+constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F;
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
-constexpr std::array<Proof, 4> kProofs{
-    {{0.8, kLeastMargin}, {0.55, 12.0F}, {0.25, 18.0F}, {kBarelyVisible, kSafeMargin}}};
-constexpr int kMostDisagreements = 3, kFewestPlainCells = 13;
-constexpr float kTelling = 0.7F;
-constexpr float kPlain = 2.0F;  ///< A cell's likelihood that is no accident of noise.
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.005;
 
 constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
 
-struct Contradiction {
-  int cells = 0;          ///< Cells that plainly look like the other colour than the number has.
-  bool one_cover = true;  ///< One thing could cover them: one colour, in one row or column.
-};
-
-Contradiction Contradict(const CellLikelihoods& likelihoods, int number) {
+/// How many bits the cells tell for a number over cells that are drawn at random: one each where
+/// all are plain and right, much less than none where one is plainly wrong.
+double EvidenceBits(const CellLikelihoods& likelihoods, int number) {
   const GolayWord word = PrintedWord(number);
-  Contradiction contradiction;
-  int white = 0, left = sg::kCells, right = -1, top = sg::kCells, bottom = -1;
+  double bits = 0.0;
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    const bool looks_white = likelihoods[k] > 0.0F;
-    if (std::fabs(likelihoods[k]) < kPlain || looks_white == ((word >> k & 1U) != 0)) continue;
-    ++contradiction.cells;
-    white += looks_white;
-    left = std::min(left, sg::CodeCellColumn(k));
-    right = std::max(right, sg::CodeCellColumn(k));
-    top = std::min(top, sg::CodeCellRow(k));
-    bottom = std::max(bottom, sg::CodeCellRow(k));
+    const double right = (word >> k & 1U) != 0 ? likelihoods[k] : -likelihoods[k];
+    bits += 1.0 - std::log2(1.0 + std::exp(-right));
   }
-  if (contradiction.cells >= 2) {
-    const bool one_colour = white == 0 || white == contradiction.cells;
-    contradiction.one_cover = one_colour && std::min(right - left, bottom - top) <= 1 &&
-                              (contradiction.cells < 3 || right == left || bottom == top);
-  }
-  return contradiction;
+  return bits;
 }
 
 Vec2 ModulesOfUnit(Vec2 unit) { return {kMiddle + kHalf * unit.x, kMiddle - kHalf * unit.y}; }
@@ -230,7 +214,7 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
     if (decoding.margin > kSafeMargin) break;
   }
   if (!read) return std::nullopt;
-  const Contradiction contradiction = Contradict(cells.likelihoods, decoding.number);
+  // A number in use must not be one that many others would beat.
   if (decoding.margin - decoding.shortfall < kLeastMargin) return std::nullopt;
   std::optional<SgReading> reading = Measure(decoding.number, state);
   if (!reading) return std::nullopt;
@@ -245,13 +229,9 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   }
   reading->border_correlation = correlation;
   reading->visible_border = visible_border;
-  // A number in use must not be one that many others would beat.
   reading->margin = decoding.margin - decoding.shortfall;
-  reading->plain_cells = static_cast<int>(
-      std::count_if(cells.likelihoods.begin(), cells.likelihoods.end(),
-                    [](float likelihood) { return std::fabs(likelihood) > kTelling; }));
-  reading->disagreements = contradiction.cells;
-  reading->one_cover = contradiction.one_cover;
+  reading->proof_bits = EvidenceBits(cells.likelihoods, decoding.number) -
+                        std::log2(static_cast<double>(decoder_.NumbersInUse()));
   if (!Verified(*reading)) return std::nullopt;
   return reading;
 }
@@ -279,16 +259,9 @@ bool SgReader::FitContent(int number, BlockFitState* state) {
                   state);
 }
 
-bool SgReader::Verified(const SgReading& reading) const {
-  // Cells that plainly contradict the number are covered by something that looks like a print; more
-  // than three of them would look like another number.
-  if (reading.disagreements > kMostDisagreements || !reading.one_cover) return false;
-  // Twelve cells spell a number whatever they hold; only what lies beyond proves that they are read
-  // right.
-  if (reading.plain_cells < kFewestPlainCells && reading.margin < kSafeMargin) return false;
-  const float doubt = kMarginPerDisagreement * static_cast<float>(reading.disagreements);
+bool SgReader::Verified(const SgReading& reading) {
   return std::any_of(kProofs.begin(), kProofs.end(), [&](const Proof& proof) {
-    return reading.visible_fraction >= proof.visible && reading.margin >= proof.margin + doubt;
+    return reading.visible_fraction >= proof.visible && reading.proof_bits >= proof.bits;
   });
 }
 

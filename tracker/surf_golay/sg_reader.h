@@ -31,9 +31,7 @@ struct SgReading {
   double border_correlation = 0.0, whole_correlation = 0.0;
   double visible_border = 0.0;  ///< Share of the border that looks as predicted.
   float margin = 0.0F;          ///< Of the number over the next likely one (SoftGolayDecoding).
-  int plain_cells = 0;          ///< Cells that tell anything.
-  int disagreements = 0;        ///< Cells that plainly look like the other colour.
-  bool one_cover = true;        ///< One thing could cover all of these.
+  double proof_bits = 0.0;      ///< What the cells tell beyond picking one of the numbers in use.
   int blocks_along = 0;
   std::vector<float> visible;  ///< 0…1 for each block of the print, row by row.
 };
@@ -77,7 +75,7 @@ class SgReader {
   /// Moves a state to where the content alone fits best.
   bool FitContent(int number, BlockFitState* state);
   const PrintPattern& Print(int number);
-  bool Verified(const SgReading& reading) const;
+  static bool Verified(const SgReading& reading);
   void Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading);
 
   const LensGrid& lens_;
