@@ -12,6 +12,8 @@
 
 #include "app/interrupt.h"
 #include "app/progress_bar.h"
+#include "app/replay_warnings.h"
+#include "app/scene_marker.h"
 #include "app/scene_renderer.h"
 #include "app/session.h"
 #include "app/sinks/detections_writer.h"
@@ -68,10 +70,7 @@ class Replayer {
     report_.width = size.width;
     report_.height = size.height;
     output_camera_ = ScaleCamera(recording.camera, size);
-    tracker::TrackerOptions tracking;
-    tracking.families = {scene_.marker.family};
-    tracking.marker_size_m = scene_.marker.size_m;
-    tracking.consecutive_frames = true;
+    PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(scene_));
     auto tracker = tracker::Tracker::Create(recording.camera, tracking);
     if (!tracker) {
       // What it refuses is what the scene says of the marker.
@@ -134,7 +133,9 @@ class Replayer {
         return tracker.Track(frame->grey.view());
       }));
       session_->AddFrame(frame->index, frame->timestamp_ns, sightings);
-      PLEINAIR_RETURN_IF_ERROR(detections.Add(frame->index, frame->timestamp_ns, sightings));
+      PLEINAIR_RETURN_IF_ERROR(
+          detections.Add(frame->index, frame->timestamp_ns, sightings, tracker.Lost()));
+      tracker_warnings_.Add(frame->index, tracker.Warnings());
       lost_frames_ += frame->lost_before;
       bar.Advance();
     }
@@ -149,7 +150,10 @@ class Replayer {
 
   Result<void> ChooseAnchor() {
     report_.anchor = session_->Anchor();
-    if (report_.anchor) report_.path = session_->Path(*report_.anchor);
+    if (report_.anchor) {
+      report_.path = session_->Path(*report_.anchor);
+      renderer_->SetMarkerPrint(PrintOf(scene_.marker, *report_.anchor));
+    }
     PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
     for (const auto& [marker, path] : session_->paths()) {
       report_.markers.push_back(marker);
@@ -171,35 +175,13 @@ class Replayer {
   }
 
   void Warn() {
-    const auto missing = report_.frames - static_cast<std::int64_t>(report_.path.size());
-    const devices::MarkerDescription& marker = scene_.marker;
-    if (!report_.anchor) {
-      std::string seen;
-      for (const MarkerName& other : report_.markers) seen += " " + other.ToString();
-      report_.warnings.push_back(fmt::format(
-          "The scene's marker ({}{}) was seen in no frame, so nothing was drawn. Seen:{}.",
-          marker.family, marker.id ? "_" + std::to_string(*marker.id) : "",
-          seen.empty() ? " no other either" : seen));
-    } else if (missing > 0) {
-      report_.warnings.push_back(
-          fmt::format("{} of {} frames show no marker {}: they are left as they were recorded.",
-                      missing, report_.frames, report_.anchor->ToString()));
+    report_.warnings = MarkerWarnings(report_, *session_, scene_);
+    for (std::string& sentence : tracker_warnings_.Sentences()) {
+      report_.warnings.push_back(std::move(sentence));
     }
     if (lost_frames_ > 0) {
       report_.warnings.push_back(
           fmt::format("{} frames were lost when this was recorded.", lost_frames_));
-    }
-    if (session_->frames_with_duplicates() > 0) {
-      report_.warnings.push_back(fmt::format(
-          "{} frames show a marker of the same number twice: the one nearest to its last place "
-          "counts.",
-          session_->frames_with_duplicates()));
-    }
-    const std::int64_t ambiguous = SummarizePath(report_.path).ambiguous_frames;
-    if (ambiguous > 0) {
-      report_.warnings.push_back(fmt::format(
-          "In {} frames the marker is too small or too frontal to tell its tilt for certain.",
-          ambiguous));
     }
     if (scene_.objects.empty()) {
       report_.warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
@@ -301,6 +283,7 @@ class Replayer {
   CameraModel output_camera_;
   std::unique_ptr<SceneRenderer> renderer_;
   std::optional<Session> session_;
+  FrameWarnings tracker_warnings_;
   std::set<std::int64_t> pictured_;
   std::int64_t lost_frames_ = 0;
   StageTimes times_;

@@ -93,7 +93,9 @@ Result<void> Run(Arguments& arguments) {
     std::cout << SummaryJson(report, options.output) << '\n';
     return {};
   }
-  std::cerr << report.path.size() << " of " << report.frames << " frames have a pose; ";
+  std::cerr << report.path.size() << " of " << report.frames << " frames have a pose";
+  if (report.anchor) std::cerr << " (marker " << report.anchor->ToString() << ")";
+  std::cerr << "; ";
   std::cerr << "results in " << OneLine(arguments.output) << ":";
   for (const std::string& output : report.outputs) std::cerr << ' ' << output;
   std::cerr << '\n';

@@ -79,18 +79,6 @@ Result<compositor::PlacedModel> Place(const devices::ModelReference& reference, 
                                  linear, reference.translation_m, is_phantom};
 }
 
-/// The family's black band along the outer edge: one module of 8 in the AprilTag 36h11 family and
-/// the narrowest of the others.
-compositor::MarkerPrint PrintOf(const devices::MarkerDescription& marker) {
-  compositor::MarkerPrint print;
-  print.size_m = marker.size_m;
-  print.black_band_m = marker.size_m / 8;
-  print.board_size_m = marker.board_size_m > 0.0 ? marker.board_size_m : marker.size_m * 1.25;
-  print.albedo_black = marker.albedo_black;
-  print.albedo_white = marker.albedo_white;
-  return print;
-}
-
 double MedianOf(const std::deque<LinearRgb>& gains, double LinearRgb::*channel) {
   std::vector<double> values;
   for (const LinearRgb& gain : gains) values.push_back(gain.*channel);
@@ -131,6 +119,8 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   return renderer;
 }
 
+void SceneRenderer::SetMarkerPrint(const compositor::MarkerPrint& print) { print_ = print; }
+
 Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   const sky::Observer observer{FromDegrees(scene_.place_time.latitude_deg),
                                FromDegrees(scene_.place_time.longitude_deg),
@@ -153,7 +143,7 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(solver_->Solve(*daylight, marker_from_world),
                                                *daylight, marker_from_world));
-  meter_.emplace(PrintOf(scene_.marker), *solver_, *daylight, marker_from_world);
+  meter_.emplace(print_, *solver_, *daylight, marker_from_world);
   lit_for_sun_ = to_sun;
   return {};
 }

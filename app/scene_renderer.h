@@ -48,6 +48,9 @@ class SceneRenderer {
                                                        const devices::SceneDescription& scene,
                                                        const compositor::ComposerOptions& options);
 
+  /// Which print the frames show, before the first is rendered: it is the light meter.
+  void SetMarkerPrint(const compositor::MarkerPrint& print);
+
   /// The frame with the virtual objects as they stand at `time`.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
                           const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
@@ -64,6 +67,7 @@ class SceneRenderer {
 
   CameraModel camera_;
   devices::SceneDescription scene_;
+  compositor::MarkerPrint print_;
   std::unique_ptr<compositor::LightSolver> solver_;
   std::unique_ptr<compositor::Composer> composer_;
   std::optional<compositor::LightMeter> meter_;

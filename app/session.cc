@@ -38,12 +38,13 @@ void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
         candidates[{sighting.detection.family, sighting.detection.id}];
     duplicates = duplicates || !of_marker.empty();
     const tracker::PoseEstimate& pose = sighting.pose;
-    of_marker.push_back({frame_index, timestamp_ns, pose.best.camera_from_marker,
-                         pose.best.reprojection_rms_px, pose.ambiguity_ratio});
-    if (pose.alternative && pose.ambiguity_ratio > kAmbiguousRatio) {
-      of_marker.push_back({frame_index, timestamp_ns, pose.alternative->camera_from_marker,
-                           pose.alternative->reprojection_rms_px, pose.ambiguity_ratio});
-    }
+    const auto add = [&](const tracker::PoseSolution& solution) {
+      of_marker.push_back({frame_index, timestamp_ns, solution.camera_from_marker,
+                           solution.reprojection_rms_px, pose.ambiguity_ratio,
+                           sighting.detection.visible_fraction, sighting.detection.path});
+    };
+    add(pose.best);
+    if (pose.alternative && pose.ambiguity_ratio > kAmbiguousRatio) add(*pose.alternative);
   }
   if (duplicates) ++frames_with_duplicates_;
   for (const auto& [marker, options] : candidates) {
@@ -60,18 +61,15 @@ void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
 }
 
 std::optional<MarkerName> Session::Anchor() const {
-  if (declared_.id) {
-    const MarkerName declared{declared_.family, *declared_.id};
-    if (paths_.contains(declared)) return declared;
-    return std::nullopt;
-  }
   std::optional<MarkerName> most;
   std::size_t sightings = 0;
   for (const auto& [marker, path] : paths_) {
-    if (marker.family == declared_.family && path.size() > sightings) {
-      most = marker;
-      sightings = path.size();
+    if (marker.family != declared_.family.value_or(marker.family) ||
+        marker.id != declared_.id.value_or(marker.id) || path.size() <= sightings) {
+      continue;
     }
+    most = marker;
+    sightings = path.size();
   }
   return most;
 }

@@ -27,7 +27,9 @@ struct Observation {
   std::int64_t timestamp_ns = 0;  ///< Since the recording's start.
   Transform<Camera, Marker> camera_from_marker;
   double reprojection_rms_px = 0.0;
-  double ambiguity_ratio = 0.0;  ///< Near 1: the planar pose has two equally good solutions.
+  double ambiguity_ratio = 0.0;   ///< Near 1: the planar pose has two equally good solutions.
+  double visible_fraction = 1.0;  ///< Share of the print that was seen, 0…1.
+  tracker::DetectionPath path = tracker::DetectionPath::kFast;  ///< How it was found.
 };
 
 /// What is known of a recording's markers across its frames: which one anchors the scene and where
@@ -41,8 +43,9 @@ class Session {
   void AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
                 const std::vector<tracker::Sighting>& sightings);
 
-  /// The marker that the scene declares, else the one of its family that is seen most (the lower
-  /// number of equals); nothing where it is never seen.
+  /// Of the markers that have the family and the number that the scene declares, or any where it
+  /// does not say, the one that is seen most (the first by name of equals); nothing where there is
+  /// none.
   std::optional<MarkerName> Anchor() const;
 
   /// All that was seen of a marker, in order of frames.

@@ -25,9 +25,10 @@ struct PlaceTime {
 
 /// The printed marker that anchors the scene.
 struct MarkerDescription {
-  std::string family = "tag36h11";
-  std::optional<int> id;  ///< Unset: the one marker of the family that is seen most.
-  double size_m = 0.0;    ///< Edge of the outer black square, metres; never the paper's.
+  std::optional<std::string> family;  ///< "sg", "tag36h11", …; unset: nobody said.
+  std::optional<int> id;              ///< Unset: the one marker that is seen most.
+  std::optional<int> version;         ///< Of the print, where the family has versions ("sg").
+  double size_m = 0.0;  ///< Edge of the outer black square, metres; never the paper's.
   /// Azimuth, clockwise from true north, of the marker's +y axis; of its -z axis (into the wall)
   /// where the marker is `upright`.
   Radians heading;

@@ -36,8 +36,9 @@ Result<MarkerDescription> CompleteMarker(const SceneFacts& facts, const std::str
     return InputError(name, "has a marker heading outside -360 to 360 degrees",
                       "marker.heading_deg is clockwise from true north");
   }
-  marker.family = facts.marker_family.value_or(marker.family);
+  marker.family = facts.marker_family;
   marker.id = facts.marker_id;
+  marker.version = facts.marker_version;
   if (marker.id && *marker.id < 0) {
     return InputError(name, "has a marker id below zero", "ids count from 0");
   }
@@ -138,6 +139,7 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
     Fill(facts.marker_board_size_m, fallback.marker_board_size_m);
     Fill(facts.marker_family, fallback.marker_family);
     Fill(facts.marker_id, fallback.marker_id);
+    Fill(facts.marker_version, fallback.marker_version);
     Fill(facts.albedo_black, fallback.albedo_black);
     Fill(facts.albedo_white, fallback.albedo_white);
   }

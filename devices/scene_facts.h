@@ -17,7 +17,7 @@ struct SceneFacts {
   std::optional<double> latitude_deg, longitude_deg, height_m;
   std::optional<UtcTime> start;
   std::optional<std::string> marker_family;
-  std::optional<int> marker_id;
+  std::optional<int> marker_id, marker_version;
   std::optional<double> marker_size_m, marker_heading_deg, marker_board_size_m;
   std::optional<double> albedo_black, albedo_white;
   std::optional<bool> marker_upright;

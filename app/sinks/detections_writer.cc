@@ -19,10 +19,11 @@ Result<DetectionsWriter> DetectionsWriter::Create(const std::filesystem::path& f
 }
 
 Result<void> DetectionsWriter::Add(std::int64_t frame_index, std::int64_t timestamp_ns,
-                                   const std::vector<tracker::Sighting>& sightings) {
-  const std::string line =
-      fmt::format("{{\"frame\":{},\"timestamp_s\":{:.9g},\"markers\":{}}}\n", frame_index,
-                  static_cast<double>(timestamp_ns) * 1e-9, MarkersJson(sightings));
+                                   const std::vector<tracker::Sighting>& sightings,
+                                   const std::vector<tracker::LostMarker>& lost) {
+  const std::string line = fmt::format(
+      "{{\"frame\":{},\"timestamp_s\":{:.9g},\"markers\":{},\"lost\":{}}}\n", frame_index,
+      static_cast<double>(timestamp_ns) * 1e-9, MarkersJson(sightings), LostJson(lost));
   if (std::fwrite(line.data(), 1, line.size(), out_.get()) != line.size()) {
     return tl::make_unexpected(WriteError(file_, errno));
   }

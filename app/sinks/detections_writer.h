@@ -12,14 +12,15 @@
 namespace pleinair::app {
 
 /// detections.jsonl: a line a frame, also where nothing was seen:
-/// {"frame":0,"timestamp_s":0.0,"markers":[…]}, the markers as `pleinair detect` prints them.
+/// {"frame":0,"timestamp_s":0.0,"markers":[…],"lost":[…]}, as `pleinair detect` prints them.
 /// Holds no milliseconds, so that two replays give the same bytes.
 class DetectionsWriter {
  public:
   static Result<DetectionsWriter> Create(const std::filesystem::path& file);
 
   Result<void> Add(std::int64_t frame_index, std::int64_t timestamp_ns,
-                   const std::vector<tracker::Sighting>& sightings);
+                   const std::vector<tracker::Sighting>& sightings,
+                   const std::vector<tracker::LostMarker>& lost);
   Result<void> Finish();
 
  private:

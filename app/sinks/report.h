@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,10 +50,21 @@ struct PoseStatistics {
   double step_rotation_p95_deg = 0.0;  ///< Between neighbouring frames.
   double step_translation_p95_m = 0.0;
   double reprojection_median_px = 0.0, reprojection_p95_px = 0.0;
-  std::int64_t ambiguous_frames = 0;  ///< Ambiguity ratio above 0.8.
+  std::int64_t ambiguous_frames = 0;               ///< Ambiguity ratio above 0.8.
+  double visible_min = 0.0, visible_median = 0.0;  ///< Share of the print that was seen.
+  std::array<std::int64_t, 3> found_by{};          ///< Frames by tracker::DetectionPath.
 };
 
 PoseStatistics SummarizePath(const std::vector<Observation>& path);
+
+/// Frames after the first sighting in which the marker was not seen.
+struct LostFrames {
+  std::int64_t frames = 0;
+  std::int64_t longest = 0;  ///< In a row.
+};
+
+/// Of a path through a recording of so many frames.
+LostFrames CountLostFrames(const std::vector<Observation>& path, std::int64_t frames);
 
 /// "clear", "hazy", "partly cloudy", "overcast".
 const char* CloudinessName(devices::Cloudiness cloudiness);

@@ -74,7 +74,7 @@ std::string Pictures(const ReplayReport& report) {
 std::string Plots(const ReplayReport& report) {
   PlotLine x{"x", {}, {}}, y{"y", {}, {}}, z{"z", {}, {}};
   PlotLine heading{"heading", {}, {}}, tilt{"tilt", {}, {}}, roll{"roll", {}, {}};
-  PlotLine error{"", {}, {}};
+  PlotLine error{"", {}, {}}, visible{"", {}, {}};
   const auto add = [](PlotLine& line, double at_s, double value) {
     line.x.push_back(at_s);
     line.y.push_back(value);
@@ -85,7 +85,9 @@ std::string Plots(const ReplayReport& report) {
   for (const Observation& at : report.path) {
     const double t_s = static_cast<double>(at.timestamp_ns) * 1e-9;
     if (last_index >= 0 && at.frame_index != last_index + 1) {
-      for (PlotLine* line : {&x, &y, &z, &heading, &tilt, &roll, &error}) add(*line, t_s, kGap);
+      for (PlotLine* line : {&x, &y, &z, &heading, &tilt, &roll, &error, &visible}) {
+        add(*line, t_s, kGap);
+      }
     }
     const auto marker_from_camera = at.camera_from_marker.Inverse();
     const Mat3& r = marker_from_camera.rotation;
@@ -103,11 +105,13 @@ std::string Plots(const ReplayReport& report) {
     add(tilt, t_s, std::asin(std::fmax(-1.0, std::fmin(1.0, r(2, 2)))) * degree);
     add(roll, t_s, std::atan2(-r(2, 0), -r(2, 1)) * degree);
     add(error, t_s, at.reprojection_rms_px);
+    add(visible, t_s, at.visible_fraction * 100);
     last_index = at.frame_index;
   }
   return LinePlotSvg("Camera position in the marker frame", "m", {x, y, z}) +
          LinePlotSvg("Camera orientation in the marker frame", "degrees", {heading, tilt, roll}) +
-         LinePlotSvg("Reprojection error of the marker's corners", "px rms", {error});
+         LinePlotSvg("Reprojection error of the marker's corners", "px rms", {error}) +
+         LinePlotSvg("Part of the marker that was seen", "%", {visible});
 }
 
 std::string Light(const ReplayReport& report) {
@@ -194,6 +198,13 @@ std::string ReportHtml(const ReplayReport& report) {
         fmt::format("{:.3f} px", poses.reprojection_median_px),
         fmt::format("reprojection error, median (95 %: {:.3f} px)", poses.reprojection_p95_px));
     html += Card(fmt::format("{:.2f} m", poses.path_length_m), "camera path");
+    html +=
+        Card(fmt::format("{} / {} / {}", poses.found_by[0], poses.found_by[1], poses.found_by[2]),
+             "frames: marker found fast / by S-G / tracked");
+    html += Card(fmt::format("{:.0f} %", poses.visible_min * 100), "of the marker seen, at least");
+    const LostFrames lost = CountLostFrames(report.path, report.frames);
+    html += Card(fmt::format("{}", lost.frames),
+                 fmt::format("frames in which it was lost (longest: {})", lost.longest));
   }
   html += "</div>\n";
   if (!report.warnings.empty()) {

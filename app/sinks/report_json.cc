@@ -34,6 +34,12 @@ Json LightJson(const LightSummary& light) {
 
 Json PosesJson(const ReplayReport& report) {
   const PoseStatistics s = SummarizePath(report.path);
+  const LostFrames lost = CountLostFrames(report.path, report.frames);
+  Json found_by;
+  for (const auto path : {tracker::DetectionPath::kFast, tracker::DetectionPath::kSurfGolay,
+                          tracker::DetectionPath::kTracked}) {
+    found_by[tracker::PathName(path)] = s.found_by[static_cast<std::size_t>(path)];
+  }
   return {
       {"distance_m",
        {{"min", Rounded(s.distance_min_m)},
@@ -44,7 +50,11 @@ Json PosesJson(const ReplayReport& report) {
       {"step_translation_p95_m", Rounded(s.step_translation_p95_m)},
       {"reprojection_rms_px",
        {{"median", Rounded(s.reprojection_median_px)}, {"p95", Rounded(s.reprojection_p95_px)}}},
-      {"ambiguous_frames", s.ambiguous_frames}};
+      {"ambiguous_frames", s.ambiguous_frames},
+      {"found_by", found_by},
+      {"visible_fraction",
+       {{"min", Rounded(s.visible_min)}, {"median", Rounded(s.visible_median)}}},
+      {"lost", {{"frames", lost.frames}, {"longest", lost.longest}}}};
 }
 
 }  // namespace

@@ -73,6 +73,22 @@ TEST(ReportJson, StatesThePathAndTheTimings) {
   EXPECT_TRUE(json["light"].is_null());
 }
 
+TEST(ReportJson, StatesHowTheMarkerWasFoundAndWhenItWasLost) {
+  ReplayReport report = Example();
+  report.frames = 9;
+  report.path = {At(1, 0.0), At(2, 0.1), At(4, 0.2)};
+  report.path[1].path = tracker::DetectionPath::kTracked;
+  report.path[2].path = tracker::DetectionPath::kSurfGolay;
+  report.path[2].visible_fraction = 0.4;
+  const auto poses = nlohmann::json::parse(ReportJson(report))["poses"];
+  EXPECT_EQ(poses["found_by"], nlohmann::json::parse(R"({"fast":1,"surf-golay":1,"tracked":1})"));
+  EXPECT_EQ(poses["visible_fraction"]["min"], 0.4);
+  EXPECT_EQ(poses["visible_fraction"]["median"], 1.0);
+  // Frame 3, and 5 to 8; before frame 1 there was nothing to lose.
+  EXPECT_EQ(poses["lost"], nlohmann::json::parse(R"({"frames":5,"longest":4})"));
+  EXPECT_THAT(ReportHtml(report), HasSubstr("frames in which it was lost (longest: 4)"));
+}
+
 TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
   ReplayReport report = Example();
   report.recording = "caf\xe9";

@@ -16,8 +16,10 @@ tracker::Sighting Seen(int id, double x_m, const std::string& family = "tag36h11
   return sighting;
 }
 
-devices::MarkerDescription Declared(std::optional<int> id) {
+devices::MarkerDescription Declared(std::optional<int> id,
+                                    std::optional<std::string> family = "tag36h11") {
   devices::MarkerDescription marker;
+  marker.family = std::move(family);
   marker.id = id;
   return marker;
 }
@@ -42,6 +44,28 @@ TEST(Session, AnchorsOnTheMarkerOfTheFamilySeenMost) {
   session.AddFrame(2, 2, {Seen(9, 0, "sg")});
   EXPECT_EQ(session.Anchor()->ToString(), "tag36h11_5");
   EXPECT_EQ(session.frames(), 3);
+}
+
+TEST(Session, AnchorsOnTheMarkerSeenMostWhereNoFamilyIsDeclared) {
+  const std::vector<tracker::Sighting> frame{Seen(5, 1), Seen(3, 0), Seen(9, 0, "sg")};
+  Session any(Declared(std::nullopt, std::nullopt)), five(Declared(5, std::nullopt));
+  for (Session* session : {&any, &five}) {
+    session->AddFrame(0, 0, frame);
+    session->AddFrame(1, 1, {Seen(9, 0, "sg")});
+  }
+  EXPECT_EQ(any.Anchor()->ToString(), "sg_9");
+  EXPECT_EQ(five.Anchor()->ToString(), "tag36h11_5");
+}
+
+TEST(Session, KeepsHowMuchOfTheMarkerWasSeenAndHowItWasFound) {
+  tracker::Sighting half = Seen(9, 0, "sg");
+  half.detection.visible_fraction = 0.5;
+  half.detection.path = tracker::DetectionPath::kSurfGolay;
+  Session session(Declared(std::nullopt, std::nullopt));
+  session.AddFrame(0, 0, {half});
+  const Observation& kept = session.Path({"sg", 9}).at(0);
+  EXPECT_EQ(kept.visible_fraction, 0.5);
+  EXPECT_EQ(kept.path, tracker::DetectionPath::kSurfGolay);
 }
 
 TEST(Session, HasNoAnchorWhereTheDeclaredMarkerIsNeverSeen) {

@@ -43,7 +43,7 @@ TEST(SceneJson, BundledSceneIsRead) {
   EXPECT_EQ(scene->objects[0].shading, Shading::kFlat);
 }
 
-TEST(SceneJson, MarkerIsWhatItsWordsSayElseTheDefault) {
+TEST(SceneJson, MarkerIsWhatItsWordsSayElseUnknown) {
   const Result<SceneFacts> named = ParseSceneJson(kScene, "scene.json");
   ASSERT_TRUE(named) << named.error().Message();
   EXPECT_EQ(named->marker_family, "tag25h9");
@@ -54,8 +54,22 @@ TEST(SceneJson, MarkerIsWhatItsWordsSayElseTheDefault) {
   ASSERT_TRUE(unnamed);
   const Result<SceneDescription> scene = CompleteScene(*unnamed, "scene.json");
   ASSERT_TRUE(scene) << scene.error().Message();
-  EXPECT_EQ(scene->marker.family, "tag36h11");
+  EXPECT_FALSE(scene->marker.family);
   EXPECT_FALSE(scene->marker.id);
+  EXPECT_FALSE(scene->marker.version);
+}
+
+TEST(SceneJson, MarkerMayBeNamedWithItsVersion) {
+  const Result<SceneFacts> facts =
+      ParseSceneJson(Replaced(kScene, "\"what\": \"AprilTag tag25h9 id 12, white\"",
+                              R"("family": "sg", "id": 17, "version": 1, "what": "S-G id 3")"),
+                     "scene.json");
+  ASSERT_TRUE(facts) << facts.error().Message();
+  EXPECT_EQ(facts->marker_family, "sg");
+  EXPECT_EQ(facts->marker_id, 17);
+  EXPECT_EQ(facts->marker_version, 1);
+  EXPECT_THAT(Refusal(Replaced(kScene, "\"what\"", "\"version\": \"one\", \"what\"")),
+              HasSubstr("\"marker.version\" is not a number"));
 }
 
 TEST(SceneJson, SkyIsFoundInItsWordsWherever) {

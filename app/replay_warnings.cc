@@ -1,0 +1,88 @@
+#include "app/replay_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pleinair::app {
+namespace {
+
+// A reading that comes out differently in every frame should not fill the report.
+constexpr std::size_t kMostKinds = 8;
+
+/// The scene's marker in words: "sg_17", "tag36h11", "number 5", "no family or number named".
+std::string Described(const devices::MarkerDescription& marker) {
+  if (marker.family) {
+    return *marker.family + (marker.id ? "_" + std::to_string(*marker.id) : "");
+  }
+  return marker.id ? fmt::format("number {} of sg or tag36h11", *marker.id) : "sg or tag36h11";
+}
+
+std::string NeverSeen(const ReplayReport& report, const devices::MarkerDescription& marker) {
+  std::string seen;
+  for (const MarkerName& other : report.markers) seen += " " + other.ToString();
+  std::string sentence =
+      fmt::format("The scene's marker ({}) was seen in no frame, so nothing was drawn. Seen:{}.",
+                  Described(marker), seen.empty() ? " no other either" : seen);
+  if (marker.id && marker.family.value_or("sg") == "sg") {
+    sentence += fmt::format(
+        " Of S-G markers only number {} was looked for: without the id in the scene all are.",
+        *marker.id);
+  }
+  return sentence;
+}
+
+}  // namespace
+
+void FrameWarnings::Add(std::int64_t frame_index, const std::vector<std::string>& warnings) {
+  for (const std::string& text : warnings) {
+    auto entry = std::find_if(entries_.begin(), entries_.end(),
+                              [&](const Entry& other) { return other.text == text; });
+    if (entry == entries_.end()) {
+      if (entries_.size() == kMostKinds) continue;
+      entry = entries_.insert(entries_.end(), Entry{text, frame_index, frame_index, 1});
+    } else if (entry->last_frame != frame_index) {
+      entry->last_frame = frame_index;
+      ++entry->frames;
+    }
+  }
+}
+
+std::vector<std::string> FrameWarnings::Sentences() const {
+  std::vector<std::string> sentences;
+  for (const Entry& entry : entries_) {
+    sentences.push_back(entry.frames == 1
+                            ? fmt::format("In frame {} {}.", entry.first_frame, entry.text)
+                            : fmt::format("In {} frames, the first being {}, {}.", entry.frames,
+                                          entry.first_frame, entry.text));
+  }
+  return sentences;
+}
+
+std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Session& session,
+                                        const devices::SceneDescription& scene) {
+  std::vector<std::string> warnings;
+  const auto missing = report.frames - static_cast<std::int64_t>(report.path.size());
+  if (!report.anchor) {
+    warnings.push_back(NeverSeen(report, scene.marker));
+  } else if (missing > 0) {
+    warnings.push_back(
+        fmt::format("{} of {} frames show no marker {}: they are left as they were recorded.",
+                    missing, report.frames, report.anchor->ToString()));
+  }
+  if (session.frames_with_duplicates() > 0) {
+    warnings.push_back(fmt::format(
+        "{} frames show a marker of the same number twice: the one nearest to its last place "
+        "counts.",
+        session.frames_with_duplicates()));
+  }
+  const std::int64_t ambiguous = SummarizePath(report.path).ambiguous_frames;
+  if (ambiguous > 0) {
+    warnings.push_back(fmt::format(
+        "In {} frames the marker is too small or too frontal to tell its tilt for certain.",
+        ambiguous));
+  }
+  return warnings;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,81 @@
+#include "app/scene_marker.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tracker/april_tag_detector.h"
+#include "tracker/golay/golay_code.h"
+#include "tracker/surf_golay/sg_layout.h"
+#include "tracker/surf_golay/sg_print.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kSgFamily = "sg";
+/// What a marker is that nobody has named: one of ours, or the tag that most people have at hand.
+constexpr const char* kUsualTagFamily = "tag36h11";
+
+/// Edge of the white board where nobody measured it, over the black square's.
+constexpr double kUsualBoard = 1.25;
+
+/// How many of the outermost rings of the square whose corners are reported are black all round.
+int BlackRings(const tracker::PrintPattern& pattern) {
+  const int first = (pattern.modules - pattern.edge_modules) / 2;
+  const auto is_black = [&](int ring) {
+    const int low = first + ring, high = first + pattern.edge_modules - 1 - ring;
+    for (int i = low; i <= high; ++i) {
+      for (const auto& [x, y] : {std::pair{i, low}, {i, high}, {low, i}, {high, i}}) {
+        if (pattern.white[static_cast<std::size_t>(y) * pattern.modules + x] != 0) return false;
+      }
+    }
+    return true;
+  };
+  int rings = 0;
+  while (2 * rings < pattern.edge_modules && is_black(rings)) ++rings;
+  return rings;
+}
+
+}  // namespace
+
+Result<tracker::TrackerOptions> TrackingOf(const devices::SceneDescription& scene) {
+  const devices::MarkerDescription& marker = scene.marker;
+  const bool may_be_sg = marker.family.value_or(kSgFamily) == kSgFamily;
+  if (may_be_sg && marker.version && *marker.version != tracker::sg::kVersion) {
+    return InputError(scene.file.string(),
+                      "has an S-G marker of version " + std::to_string(*marker.version),
+                      "this program reads version " + std::to_string(tracker::sg::kVersion));
+  }
+  tracker::TrackerOptions options;
+  options.families = marker.family ? std::vector<std::string>{*marker.family}
+                                   : std::vector<std::string>{kSgFamily, kUsualTagFamily};
+  options.marker_size_m = marker.size_m;
+  options.consecutive_frames = true;
+  if (may_be_sg && marker.id) options.sg.numbers_in_use = {*marker.id};
+  return options;
+}
+
+std::shared_ptr<const tracker::PrintPattern> PatternOf(const MarkerName& marker) {
+  if (marker.family != kSgFamily) return tracker::AprilTagPattern(marker.family, marker.id);
+  if (marker.id < 0 || marker.id >= tracker::kGolayNumbers) return nullptr;
+  return std::make_shared<const tracker::PrintPattern>(tracker::SgPrint(marker.id));
+}
+
+compositor::MarkerPrint PrintOf(const devices::MarkerDescription& described,
+                                const MarkerName& marker) {
+  compositor::MarkerPrint print;
+  print.size_m = described.size_m;
+  print.board_size_m =
+      described.board_size_m > 0.0 ? described.board_size_m : described.size_m * kUsualBoard;
+  print.albedo_black = described.albedo_black;
+  print.albedo_white = described.albedo_white;
+  if (const auto pattern = PatternOf(marker)) {
+    // Families whose square is white outside have no ring; the meter sees that for itself.
+    print.black_band_m =
+        described.size_m * std::max(1, BlackRings(*pattern)) / pattern->edge_modules;
+  }
+  return print;
+}
+
+}  // namespace pleinair::app

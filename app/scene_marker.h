@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+
+#include "app/session.h"
+#include "base/error.h"
+#include "compositor/marker_print.h"
+#include "devices/scene_description.h"
+#include "tracker/print_pattern.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::app {
+
+/// How to look for the marker that a scene describes in consecutive frames. Where it names no
+/// family, S-G markers and AprilTag's tag36h11 are looked for; a number that it names is the only
+/// one in use. Errors: a version of the print that this program does not know.
+Result<tracker::TrackerOptions> TrackingOf(const devices::SceneDescription& scene);
+
+/// What the print of a marker looks like; null where the family is not one of ours.
+std::shared_ptr<const tracker::PrintPattern> PatternOf(const MarkerName& marker);
+
+/// The print as a light meter wants to know it: sizes and reflectances as the scene states them,
+/// and the black band as wide as it is in this marker's print.
+compositor::MarkerPrint PrintOf(const devices::MarkerDescription& described,
+                                const MarkerName& marker);
+
+}  // namespace pleinair::app

@@ -1,0 +1,53 @@
+#include "app/replay_warnings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pleinair::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+TEST(FrameWarnings, SayEachThingOnceWithItsFrames) {
+  FrameWarnings warnings;
+  EXPECT_THAT(warnings.Sentences(), IsEmpty());
+  warnings.Add(2, {"a marker is mirrored"});
+  warnings.Add(3, {"a marker is mirrored", "a marker is mirrored", "another is torn"});
+  warnings.Add(9, {"a marker is mirrored"});
+  EXPECT_THAT(warnings.Sentences(),
+              ElementsAre("In 3 frames, the first being 2, a marker is mirrored.",
+                          "In frame 3 another is torn."));
+}
+
+TEST(FrameWarnings, StayFewWhereEachFrameSaysSomethingElse) {
+  FrameWarnings warnings;
+  for (int i = 0; i < 1000; ++i) warnings.Add(i, {"number " + std::to_string(i)});
+  EXPECT_THAT(warnings.Sentences(), SizeIs(8));
+}
+
+std::string WhereNothingWasSeen(std::optional<std::string> family, std::optional<int> id) {
+  devices::SceneDescription scene;
+  scene.marker.family = std::move(family);
+  scene.marker.id = id;
+  ReplayReport report;
+  report.frames = 3;
+  report.markers = {{"tag36h11", 4}};
+  const auto warnings = MarkerWarnings(report, Session(scene.marker), scene);
+  EXPECT_THAT(warnings, SizeIs(1));
+  return warnings.empty() ? "" : warnings[0];
+}
+
+TEST(MarkerWarnings, SayWhatWasLookedForInVain) {
+  EXPECT_THAT(WhereNothingWasSeen("tag25h9", 2), HasSubstr("(tag25h9_2) was seen in no frame"));
+  EXPECT_THAT(WhereNothingWasSeen("tag25h9", 2), Not(HasSubstr("S-G")));
+  EXPECT_THAT(WhereNothingWasSeen("sg", 17), HasSubstr("only number 17 was looked for"));
+  EXPECT_THAT(WhereNothingWasSeen({}, {}), HasSubstr("(sg or tag36h11) was seen in no frame"));
+  EXPECT_THAT(WhereNothingWasSeen({}, {}), HasSubstr("Seen: tag36h11_4."));
+}
+
+}  // namespace
+}  // namespace pleinair::app
