@@ -13,9 +13,10 @@ constexpr int kBarWidth = 30;
 constexpr std::chrono::milliseconds kRedraw{100};
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, std::optional<std::int64_t> total)
+ProgressBar::ProgressBar(std::string label, std::optional<std::int64_t> total, std::string unit)
     : label_(std::move(label)),
       total_(total),
+      unit_(std::move(unit)),
       on_terminal_(isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
       last_drawn_(start_) {}
@@ -30,17 +31,19 @@ void ProgressBar::Advance() {
   if (!on_terminal_ || now - last_drawn_ < kRedraw) return;
   last_drawn_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  std::cerr << "\r\033[K" << Line(label_, done_, total_, elapsed_s) << std::flush;
+  std::cerr << "\r\033[K" << Line(label_, done_, total_, elapsed_s, unit_) << std::flush;
 }
 
 std::string ProgressBar::Line(const std::string& label, std::int64_t done,
-                              std::optional<std::int64_t> total, double elapsed_s) {
-  if (!total || *total <= 0) return label + " " + std::to_string(done) + " frames";
+                              std::optional<std::int64_t> total, double elapsed_s,
+                              const std::string& unit) {
+  if (!total || *total <= 0) return label + " " + std::to_string(done) + " " + unit;
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total));
   const int filled = static_cast<int>(share * kBarWidth);
-  std::string line =
-      label + " [" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "] " +
-      std::to_string(static_cast<int>(share * 100)) + " % of " + std::to_string(*total) + " frames";
+  std::string line = label + " [" + std::string(filled, '#') +
+                     std::string(kBarWidth - filled, '.') + "] " +
+                     std::to_string(static_cast<int>(share * 100)) + " % of " +
+                     std::to_string(*total) + " " + unit;
   if (share > 0.0 && share < 1.0) {
     line += ", " + std::to_string(std::lround(elapsed_s / share * (1.0 - share))) + " s to go";
   }

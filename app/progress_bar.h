@@ -11,7 +11,8 @@ namespace pleinair::app {
 /// wiped when it goes.
 class ProgressBar {
  public:
-  ProgressBar(std::string label, std::optional<std::int64_t> total);
+  /// `unit`: what is counted, in the plural.
+  ProgressBar(std::string label, std::optional<std::int64_t> total, std::string unit = "frames");
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -20,12 +21,14 @@ class ProgressBar {
 
   /// The line as it is drawn: for a total, a bar with the share done and the seconds still to go.
   static std::string Line(const std::string& label, std::int64_t done,
-                          std::optional<std::int64_t> total, double elapsed_s);
+                          std::optional<std::int64_t> total, double elapsed_s,
+                          const std::string& unit = "frames");
 
  private:
   using Clock = std::chrono::steady_clock;
   std::string label_;
   std::optional<std::int64_t> total_;
+  std::string unit_;
   std::int64_t done_ = 0;
   bool on_terminal_;
   Clock::time_point start_;

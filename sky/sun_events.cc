@@ -39,26 +39,31 @@ SunEvents ComputeSunEventsNear(const Observer& observer, UtcTime middle, SunMode
       FindTransit(observer, events.noon.PlusSeconds(0.5 * kDaySeconds), std::numbers::pi, model);
   const SunDay day = ComputeSunDay(observer, begin, end, model);
   for (std::size_t h = 0; h < kSunHorizons; ++h) {
-    for (const UtcTime rise : day.passages[h].rises) {
+    const HorizonPassages& passages = day.passages[h];
+    if (passages.Always()) events.presences[h] = SunPresence::kStaysUp;
+    if (passages.Never()) events.presences[h] = SunPresence::kStaysDown;
+    for (const UtcTime rise : passages.rises) {
       if (rise <= events.noon || !events.dawns[h]) events.dawns[h] = rise;
     }
-    for (const UtcTime set : day.passages[h].sets) {
+    for (const UtcTime set : passages.sets) {
       if (!events.dusks[h] || *events.dusks[h] < events.noon) events.dusks[h] = set;
     }
   }
   events.sunrise = events.Dawn(SunHorizon::kSunrise);
   events.sunset = events.Dusk(SunHorizon::kSunrise);
-  const HorizonPassages& horizon = day.At(SunHorizon::kSunrise);
-  if (horizon.Always()) events.presence = SunPresence::kStaysUp;
-  if (horizon.Never()) events.presence = SunPresence::kStaysDown;
   return events;
 }
 
-SunEvents ComputeSunEvents(const Observer& observer, UtcTime time, SunModel model) {
-  const double local_offset_s = ToDegrees(observer.longitude) * 240.0;
-  const double local_s = static_cast<double>(time.nanoseconds_since_1970()) * 1e-9 + local_offset_s;
+UtcTime MiddleOfDay(UtcTime time, double offset_s) {
+  const double local_s = static_cast<double>(time.nanoseconds_since_1970()) * 1e-9 + offset_s;
   const double into_day_s = local_s - std::floor(local_s / kDaySeconds) * kDaySeconds;
-  return ComputeSunEventsNear(observer, time.PlusSeconds(0.5 * kDaySeconds - into_day_s), model);
+  return time.PlusSeconds(0.5 * kDaySeconds - into_day_s);
+}
+
+SunEvents ComputeSunEvents(const Observer& observer, UtcTime time, SunModel model) {
+  constexpr double kSecondsPerDegree = 240.0;
+  const double mean_solar_offset_s = ToDegrees(observer.longitude) * kSecondsPerDegree;
+  return ComputeSunEventsNear(observer, MiddleOfDay(time, mean_solar_offset_s), model);
 }
 
 }  // namespace pleinair::sky

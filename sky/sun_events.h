@@ -10,11 +10,11 @@
 
 namespace pleinair::sky {
 
-/// Whether the sun passes the horizon in its day.
+/// Whether the sun passes an elevation in its day.
 enum class SunPresence {
-  kRisesOrSets,  ///< One of the two at least.
-  kStaysUp,      ///< Polar day: no sunrise and no sunset because the sun does not set.
-  kStaysDown,    ///< Polar night: the sun does not rise.
+  kPasses,     ///< Upwards or downwards, once at least.
+  kStaysUp,    ///< It stays above: of the horizon, polar day.
+  kStaysDown,  ///< It stays below: of the horizon, polar night.
 };
 
 /// The sun's day: from one lower transit ("midnight") over the noon between to the next.
@@ -26,16 +26,20 @@ struct SunEvents {
   /// By SunHorizon: when the sun climbs through that elevation before noon and sinks through it
   /// after (for kSunrise the sunrise and sunset). Nothing where it does not.
   std::array<std::optional<UtcTime>, kSunHorizons> dawns, dusks;
-  SunPresence presence = SunPresence::kRisesOrSets;
+  std::array<SunPresence, kSunHorizons> presences{};
 
   std::optional<UtcTime> Dawn(SunHorizon h) const { return dawns[static_cast<std::size_t>(h)]; }
   std::optional<UtcTime> Dusk(SunHorizon h) const { return dusks[static_cast<std::size_t>(h)]; }
+  SunPresence Presence(SunHorizon h) const { return presences[static_cast<std::size_t>(h)]; }
 };
 
 /// Of the noon nearest to the middle of the local mean solar day in which `time` lies. To 0.1 s of
 /// the model.
 SunEvents ComputeSunEvents(const Observer& observer, UtcTime time,
                            SunModel model = SunModel::kPrecise);
+
+/// The middle of the day in which `time` lies on a clock that shows UTC + `offset_s`.
+UtcTime MiddleOfDay(UtcTime time, double offset_s);
 
 /// Of the noon nearest to `middle`: the middle of the day that is meant.
 SunEvents ComputeSunEventsNear(const Observer& observer, UtcTime middle,

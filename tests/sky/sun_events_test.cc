@@ -64,11 +64,11 @@ TEST_F(SunEventsTest, AreMissingInPolarDayAndNight) {
 
 TEST_F(SunEventsTest, SayWhyTheyAreMissing) {
   const auto presence = [](const char* time) {
-    return ComputeSunEvents(Place(69.65, 18.96), At(time)).presence;
+    return ComputeSunEvents(Place(69.65, 18.96), At(time)).Presence(SunHorizon::kSunrise);
   };
   EXPECT_EQ(presence("2025-06-21T12:00:00Z"), SunPresence::kStaysUp);
   EXPECT_EQ(presence("2025-12-21T12:00:00Z"), SunPresence::kStaysDown);
-  EXPECT_EQ(presence("2025-09-21T12:00:00Z"), SunPresence::kRisesOrSets);
+  EXPECT_EQ(presence("2025-09-21T12:00:00Z"), SunPresence::kPasses);
 }
 
 TEST_F(SunEventsTest, HaveTheirTwilightsAroundThem) {

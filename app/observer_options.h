@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "base/error.h"
+#include "sky/sun_position.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace pleinair::app {
+
+/// The observer as a command line describes him.
+struct ObserverOptions {
+  std::string at;
+  double height_m = 0.0;
+  double pressure_mbar = 1010.0;
+  double temperature_c = 10.0;
+  double ut1_minus_utc_s = 0.0;
+};
+
+/// Adds --at, --height, --pressure, --temperature and --dut1; gives --at. `options` must outlive
+/// the command.
+CLI::Option* AddObserverOptions(CLI::App& command, ObserverOptions& options);
+
+/// All but the place: what rows of a table start from.
+sky::Observer ObserverWithoutPlace(const ObserverOptions& options);
+
+/// Errors (input): --at is not "LAT,LON" in degrees, or not on Earth.
+Result<sky::Observer> MakeObserver(const ObserverOptions& options);
+
+}  // namespace pleinair::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+
+namespace pleinair::app {
+
+/// A whole text file; "-" is standard input.
+Result<std::string> ReadTextFile(const std::string& path);
+
+/// How an error names that file.
+std::string TextFileName(const std::string& path);
+
+/// Standard output, or a file that appears under its name only when it is complete; left
+/// unfinished, it leaves nothing.
+class ResultFile {
+ public:
+  /// An empty path is standard output. Errors as WriteError.
+  static Result<ResultFile> Open(const std::string& path);
+  ~ResultFile();
+  ResultFile(ResultFile&&) = default;
+  ResultFile& operator=(ResultFile&&) = delete;
+
+  std::ostream& stream() { return file_ ? *file_ : std::cout; }
+
+  Result<void> Finish();
+
+ private:
+  ResultFile() = default;
+  void RemoveTemporary() const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;  ///< Empty for a device or pipe, which is written to as it is.
+  std::unique_ptr<std::ofstream> file_;
+};
+
+}  // namespace pleinair::app

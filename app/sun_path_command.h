@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/local_time.h"
+#include "base/error.h"
+#include "base/utc_time.h"
+#include "sky/sun_position.h"
+
+namespace pleinair::app {
+
+constexpr int kSmallestSunPath_px = 200;
+constexpr int kLargestSunPath_px = 8'000;
+
+/// The picture that `pleinair sun --path` writes.
+struct SunPathOptions {
+  std::string file;  ///< Its ending says the format: .svg or .png.
+  int year = 0;
+  UtcOffset offset;
+  sky::SunModel model = sky::SunModel::kPrecise;
+  std::optional<UtcTime> moment;
+  int size_px = 1200;
+  bool json = false;  ///< Says on standard output what was drawn.
+};
+
+/// Writes the diagram of app/sun_path_diagram.h under a temporary name and renames it. Errors
+/// (input): another ending; as WriteError.
+Result<void> WriteSunPath(const sky::Observer& observer, const SunPathOptions& options);
+
+}  // namespace pleinair::app
