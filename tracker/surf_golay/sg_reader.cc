@@ -24,10 +24,12 @@ constexpr double kLeastVisibleBorder = 0.06;
 /// A print of which less is seen is also measured from its content; and in so many steps.
 constexpr double kWholeEnough = 0.93;
 constexpr int kContentSteps = 4;
+/// Corners that far apart put a cell's middle where it was: cells need not be read again.
+constexpr double kSameCells_modules = 0.5;
 constexpr int kFollowSteps = 4;
 constexpr double kFollowBlur_px = 0.9;
-/// Mean correlation of the content's blocks that makes a followed marker's number sure.
-constexpr double kContentRight = 0.4;
+/// Mean correlation of the content's blocks that makes a followed marker's number sure, and likely.
+constexpr double kContentSure = 0.9, kContentRight = 0.4;
 /// What makes a reading a marker: the less of the print looks as predicted, the more bits must its
 /// cells tell beyond those that pick one of the numbers in use. Chosen on pictures without markers,
 /// with markers of another border and with covered ones.
@@ -58,6 +60,17 @@ double EvidenceBits(const CellLikelihoods& likelihoods, int number) {
 }
 
 Vec2 ModulesOfUnit(Vec2 unit) { return {kMiddle + kHalf * unit.x, kMiddle - kHalf * unit.y}; }
+
+/// How far apart two homographies put the corners of a print, in modules.
+double ModulesApart(const Mat3& modules_from_ideal, const Mat3& other_modules_from_ideal) {
+  const Mat3 other = modules_from_ideal * Adjugate(other_modules_from_ideal);
+  double farthest = 0.0;
+  for (const Vec2& corner : kSquareCorners) {
+    const Vec2 modules = ModulesOfUnit(corner);
+    farthest = std::max(farthest, Norm(Apply(other, modules) - modules));
+  }
+  return farthest;
+}
 
 }  // namespace
 
@@ -181,9 +194,41 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
     }
   }
   reading->margin = kSafeMargin;
+  if (seen > 0.0 && right > kContentSure * seen) return reading;
+  // Something covers the content, unless it is that of another print: numbers share up to two
+  // thirds of their cells.
+  const std::optional<SgReading> other = Read({reading->modules_from_ideal, reading->blur_px});
+  if (other && other->number != number) return std::nullopt;
   const bool content_right = seen > 0.0 && right > kContentRight * seen;
-  if (!content_right && reading->visible_fraction < kWellVisible) return std::nullopt;
+  if (!content_right && !other && reading->visible_fraction < kWellVisible) return std::nullopt;
   return reading;
+}
+
+bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
+  bool read = false;
+  const auto consider = [&](const PrintLight& light, bool with_glare) {
+    CellReading cells;
+    cell_reader_.Read(blank_, fit_, seen_, state, light, with_glare, &cells);
+    const SoftGolayDecoding decoding = decoder_.Decode(cells.likelihoods);
+    // A number in use must not be one that many others would beat.
+    const float margin = decoding.margin - decoding.shortfall;
+    if (!read || margin > reading->margin) {
+      reading->number = decoding.number;
+      reading->margin = margin;
+      reading->proof_bits = EvidenceBits(cells.likelihoods, decoding.number) -
+                            std::log2(static_cast<double>(decoder_.NumbersInUse()));
+    }
+    read = true;
+    return cells.glaring;
+  };
+  // Several explanations of the light; the one that makes the number surest is taken.
+  for (const bool brightest : {false, true}) {
+    PrintLight light;
+    if (!light_meter_.Measure(blank_, fit_, seen_, brightest, &light)) break;
+    if (consider(light, false)) consider(light, true);
+    if (reading->margin > kSafeMargin) break;
+  }
+  return read && reading->margin >= kLeastMargin;
 }
 
 std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
@@ -191,47 +236,30 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   state.blur_px = kFirstBlur_px;
   const double correlation = FitBorder(4, false, &state);
   const double visible_border = VisibleBorder();
-  if (visible_border < kLeastVisibleBorder) return std::nullopt;
-  CellReading cells;
-  SoftGolayDecoding decoding;
-  bool read = false;
-  const auto consider = [&](const PrintLight& light, bool with_glare) {
-    CellReading other_cells;
-    cell_reader_.Read(blank_, fit_, seen_, state, light, with_glare, &other_cells);
-    const SoftGolayDecoding other = decoder_.Decode(other_cells.likelihoods);
-    if (!read || other.margin > decoding.margin) {
-      cells = other_cells;
-      decoding = other;
-    }
-    read = true;
-    return other_cells.glaring;
-  };
-  // Several explanations of the light; the one that makes the number surest is taken.
-  for (const bool brightest : {false, true}) {
-    PrintLight light;
-    if (!light_meter_.Measure(blank_, fit_, seen_, brightest, &light)) break;
-    if (consider(light, false)) consider(light, true);
-    if (decoding.margin > kSafeMargin) break;
-  }
-  if (!read) return std::nullopt;
-  // A number in use must not be one that many others would beat.
-  if (decoding.margin - decoding.shortfall < kLeastMargin) return std::nullopt;
-  std::optional<SgReading> reading = Measure(decoding.number, state);
+  SgReading number;
+  if (visible_border < kLeastVisibleBorder || !ReadNumber(state, &number)) return std::nullopt;
+  std::optional<SgReading> reading = Measure(number.number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kWholeEnough) {
     // What covers the border has edges of its own, which can pass for the print's; the content,
     // known by now, pulls the fit away from them if that explains more.
     BlockFitState by_content = state;
-    if (FitContent(decoding.number, &by_content)) {
-      std::optional<SgReading> other = Measure(decoding.number, by_content);
+    if (FitContent(number.number, &by_content)) {
+      std::optional<SgReading> other = Measure(number.number, by_content);
       if (other && other->visible_fraction > reading->visible_fraction) reading = std::move(other);
     }
   }
+  if (ModulesApart(state.modules_from_ideal, reading->modules_from_ideal) > kSameCells_modules) {
+    // Where the print turned out to lie its cells must still tell the same.
+    BlockFitState measured{reading->modules_from_ideal, reading->blur_px};
+    const int read_first = number.number;
+    FitBorder(0, false, &measured);
+    if (!ReadNumber(measured, &number) || number.number != read_first) return std::nullopt;
+  }
   reading->border_correlation = correlation;
   reading->visible_border = visible_border;
-  reading->margin = decoding.margin - decoding.shortfall;
-  reading->proof_bits = EvidenceBits(cells.likelihoods, decoding.number) -
-                        std::log2(static_cast<double>(decoder_.NumbersInUse()));
+  reading->margin = number.margin;
+  reading->proof_bits = number.proof_bits;
   if (!Verified(*reading)) return std::nullopt;
   return reading;
 }

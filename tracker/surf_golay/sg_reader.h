@@ -72,6 +72,9 @@ class SgReader {
   bool TakeCoarseWindow(const Mat3& modules_from_ideal, PixelWindow* window);
   bool TakeFineWindow(const Mat3& modules_from_ideal, PixelWindow* window);
   double SidePx(const Mat3& modules_from_ideal) const;
+  /// Reads the cells of a print whose border was fitted last: number, margin and proof. False where
+  /// they tell no number.
+  bool ReadNumber(const BlockFitState& state, SgReading* reading);
   /// Moves a state to where the content alone fits best.
   bool FitContent(int number, BlockFitState* state);
   const PrintPattern& Print(int number);
