@@ -30,9 +30,10 @@ std::string Refusal(const std::string& json) {
 TEST(SceneJson, BundledSceneIsRead) {
   const Result<SceneDescription> scene = ReadSceneDescription(Courtyard() / "scene.json");
   ASSERT_TRUE(scene) << scene.error().Message();
-  EXPECT_EQ(scene->marker.family, "tag36h11");
-  EXPECT_EQ(scene->marker.id, 0);
-  EXPECT_EQ(scene->marker.size_m, 0.48);
+  EXPECT_EQ(scene->marker.family, "sg");
+  EXPECT_EQ(scene->marker.id, 17);
+  EXPECT_EQ(scene->marker.version, 1);
+  EXPECT_EQ(scene->marker.size_m, 0.5);
   EXPECT_EQ(scene->marker.board_size_m, 0.6);
   EXPECT_EQ(scene->place_time.height_m, 220);
   EXPECT_EQ(scene->place_time.start.ToString(), "2025-09-14T11:05:00Z");

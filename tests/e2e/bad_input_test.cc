@@ -77,16 +77,26 @@ INSTANTIATE_TEST_SUITE_P(
               "fx"},
         Fault{"MarkerOfSizeZero",
               [](const fs::path& site) {
-                Replace(site / "scene.toml", "\nsize_m = 0.48", "\nsize_m = 0");
+                Replace(site / "scene.toml", "\nsize_m = 0.5", "\nsize_m = 0");
               },
               "size_m"},
         Fault{"UnknownMarkerFamily",
               [](const fs::path& site) {
-                Replace(site / "scene.toml", "\"tag36h11\"", "\"tag99h9\"");
+                Replace(site / "scene.toml", "\"sg\"", "\"tag99h9\"");
                 fs::remove(site / "object.obj");  // The marker is looked at first.
                 WriteFile(site / "object.obj", "no model");
               },
               "scene.toml: unknown marker family \"tag99h9\"; known are tag36h11, "},
+        Fault{"MarkerNumberThatDoesNotExist",
+              [](const fs::path& site) {
+                Replace(site / "scene.toml", "\"sg\"", "\"sg\"\nid = 4096");
+              },
+              "scene.toml: there is no marker number 4096; use numbers from 0 to 4095"},
+        Fault{"MarkerVersionOfTheFuture",
+              [](const fs::path& site) {
+                Replace(site / "scene.toml", "\"sg\"", "\"sg\"\nversion = 2");
+              },
+              "scene.toml: has an S-G marker of version 2; this program reads version 1"},
         Fault{"FramesBeyondTheLastYear",
               [](const fs::path& site) {
                 Replace(site / "scene.toml", "2025-09-14T11:05:00Z", "2261-12-31T23:59:50Z");

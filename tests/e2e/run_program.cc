@@ -93,7 +93,7 @@ void MakeShortRecording(const fs::path& folder, int frames, bool with_object) {
  "calibration": {{"image_width": 640, "image_height": 480, "model": "opencv-radtan", "fx": 605,
   "fy": 605, "cx": 319.5, "cy": 239.5, "distortion_k1_k2_p1_p2_k3": [0, 0, 0, 0, 0]}},
  "latitude_deg": 50.0875, "longitude_deg": 14.4213, "utc": "2025-09-14T11:05:00Z",
- "marker": {{"size_m": 0.48, "heading_deg": 342}}}})",
+ "marker": {{"size_m": 0.5, "heading_deg": 342}}}})",
                   frames, stamps));
   WriteFile(folder / "scene.toml", std::string(R"(time = "2025-09-14T11:05:00Z"
 cloudiness = "clear"
@@ -102,8 +102,8 @@ latitude_deg = 50.0875
 longitude_deg = 14.4213
 height_m = 220
 [marker]
-family = "tag36h11"
-size_m = 0.48
+family = "sg"
+size_m = 0.5
 board_size_m = 0.6
 heading_deg = 342
 [[phantom]]
