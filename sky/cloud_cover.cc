@@ -39,6 +39,7 @@ class CloudySky : public SkyModel {
         upper_(blend_.upper, clear_->ToSun()) {
     const double sine = std::clamp(clear_->ToSun().xyz.z, -1.0, 1.0);
     const CloudTransmission passed = TransmissionOfClouds(cover, Radians(std::asin(sine)));
+    global_ = passed.global;
     clear_share_ = passed.clear_sky;
     sun_normal_ = clear_->SunNormalIrradiance() * passed.sun;
     const LinearRgb blue = clear_->SkyHorizontalIrradiance();
@@ -62,6 +63,12 @@ class CloudySky : public SkyModel {
   LinearRgb SunNormalIrradiance() const override { return sun_normal_; }
   LinearRgb SkyHorizontalIrradiance() const override { return sky_horizontal_; }
   Direction<World> ToSun() const override { return clear_->ToSun(); }
+  AirBetween AirTo(Direction<World> towards, Metres distance) const override {
+    // The same air, lit by what the clouds leave of the light on level ground.
+    AirBetween air = clear_->AirTo(towards, distance);
+    air.inscattered = air.inscattered * global_;
+    return air;
+  }
   std::vector<std::string> Notes() const override { return clear_->Notes(); }
 
  private:
@@ -73,6 +80,7 @@ class CloudySky : public SkyModel {
   std::unique_ptr<SkyModel> clear_;
   PatternBlend blend_;
   CieSky lower_, upper_;
+  double global_ = 1.0;  ///< Of the clear light on level ground.
   double clear_share_ = 1.0;
   double cloud_lux_ = 0.0;
   double lower_scale_ = 0.0, upper_scale_ = 0.0;  ///< Zenith luminances, cd/m².
@@ -97,7 +105,7 @@ class CloudySource : public SkySource {
 
 CloudTransmission TransmissionOfClouds(double cover, Radians apparent_sun_elevation) {
   const double c = std::clamp(cover, 0.0, 1.0);
-  const double beam_share = std::pow(1.0 - std::pow(c, 1.5), 0.55);  // e^(−τ).
+  const double beam_share = 1.0 - std::pow(c, 2.5);  // e^(−τ).
   return {1.0 - 0.75 * std::pow(c, 3.4),
           std::pow(beam_share, RelativeAirMass(apparent_sun_elevation)), 1.0 - c};
 }

@@ -12,8 +12,8 @@ namespace pleinair::sky {
 ///   Czeplak 1980, "Solar and terrestrial radiation dependent on the amount and type of cloud",
 ///   Solar Energy 24, Eq. (2)).
 /// - The sun: e^(−τ m) of the clear sky's, with the air mass m and the clouds' mean optical depth
-///   τ = −0.55 ln(1 − cover^1.5), which at a sun of 30° gives the diffuse share of Kasten &
-///   Czeplak's Eq. (4), 0.3 + 0.7 cover², within 0.07 from cover 0.25 on.
+///   τ = −ln(1 − cover^2.5), which at a sun of 30° gives the diffuse share of Kasten &
+///   Czeplak's Eq. (4), 0.3 + 0.7 cover², within 0.08 from cover 0.25 on.
 /// - What the sun does not bring comes from the sky: (1 − cover) of the clear sky, the rest
 ///   from clouds, white (D65), in patterns of the CIE standard general skies that pass from one
 ///   into the next: type 11 (white-blue, distinct corona) at cover 0, 8 (partly cloudy, distinct

@@ -116,8 +116,8 @@ Result<std::shared_ptr<const SkySource>> SkySource::Create(SkyModelName name,
       source = internal::MakeCieSource(name.cie_type, conditions);
       break;
     case SkyModelKind::kAtmosphere:
-      return SystemError({}, "the model atmosphere is not part of this build",
-                         "use perez or cie:N");
+      source = internal::MakeAtmosphereSource(conditions);
+      break;
   }
   if (conditions.cloud_cover > 0.0) {
     source = internal::MakeCloudySource(std::move(source), conditions.cloud_cover);

@@ -40,6 +40,14 @@ class SkyModel {
   /// To the sun as seen through the air.
   virtual Direction<World> ToSun() const = 0;
 
+  /// What the air between the eye and a thing does to the thing's light: see
+  /// sky/aerial_perspective.h. Nothing, with the models that have no air (kPerez, kCie).
+  struct AirBetween {
+    LinearRgb transmittance{1.0, 1.0, 1.0};
+    LinearRgb inscattered;  ///< cd/m².
+  };
+  virtual AirBetween AirTo(Direction<World> /*towards*/, Metres /*distance*/) const { return {}; }
+
   /// What was asked for and could not be had as such, for people: "turbidity 1.5 is outside …".
   virtual std::vector<std::string> Notes() const { return {}; }
 };
@@ -63,11 +71,14 @@ std::string ToString(SkyModelName name);
 
 inline constexpr double kLowestTurbidity = 1.0;    ///< Air without any aerosol.
 inline constexpr double kHighestTurbidity = 30.0;  ///< Thick haze, 3 km of sight.
+/// An ordinary clear day: with it the diffuse share of the light on level ground under kAtmosphere
+/// is within 5 % of IES' clear-sky share for suns of 10° to 70° (tests/sky/atmosphere_test.cc).
+inline constexpr double kDefaultTurbidity = 1.85;
 
 /// The air and the clouds; everything but the sun.
 struct SkyConditions {
   /// kLowestTurbidity…kHighestTurbidity; a model with a narrower range clamps and says so in
-  /// Notes(). Default: DefaultTurbidity(). Without effect on kCie's pattern.
+  /// Notes(). Default: kDefaultTurbidity, 2.5 for kPerez. Without effect on kCie.
   std::optional<double> turbidity;
   /// The aerosol itself, in place of the one that `turbidity` stands for; kAtmosphere only.
   std::optional<Aerosol> aerosol;

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "sky/aerosol.h"
+#include "sky/spectral_bands.h"
+
+namespace pleinair::sky {
+
+/// The air as a medium for light: a shell of three gases and dusts about a sphere. Lengths in
+/// metres, coefficients in 1/m. Bruneton 2017, "A Qualitative and Quantitative Evaluation of 8
+/// Clear Sky Models", §3, and the constants of his published implementation.
+struct AirMedium {
+  static constexpr double kGroundRadius = 6'360'000.0;
+  static constexpr double kTopRadius = 6'460'000.0;
+  static constexpr double kTopHeight = kTopRadius - kGroundRadius;
+  static constexpr double kMoleculeScaleHeight = 8'000.0;
+  /// The eye's height above the ground.
+  static constexpr double kEyeHeight = 2.0;
+
+  /// Amounts at a height as a share of the greatest: molecules, aerosol, ozone.
+  struct Densities {
+    float molecules = 0.0F, aerosol = 0.0F, ozone = 0.0F;
+  };
+
+  Aerosol aerosol;
+  double ground_albedo = 0.0;
+  Spectrum molecules;           ///< Scattering at the ground; they absorb nothing.
+  Spectrum aerosol_extinction;  ///< At the ground.
+  Spectrum aerosol_scattering;  ///< At the ground.
+  Spectrum ozone;               ///< Absorption at 25 km.
+
+  AirMedium(const Aerosol& haze, double albedo);
+
+  Densities DensitiesAt(double height_m) const;
+
+  Spectrum Extinction(const Densities& d) const {
+    Spectrum s = molecules * d.molecules;
+    s.AddScaled(aerosol_extinction, d.aerosol);
+    s.AddScaled(ozone, d.ozone);
+    return s;
+  }
+};
+
+// Coefficients at any wavelength, 1/m.
+double MoleculeScattering(double wavelength_nm);
+double AerosolExtinction(const Aerosol& aerosol, double wavelength_nm);
+double OzoneAbsorption(double wavelength_nm);
+/// Share of the greatest density of ozone, at 25 km; none below 10 km and above 40 km.
+double OzoneDensity(double height_m);
+
+/// Scattered share per steradian at an angle of given cosine; the integral over the sphere is 1.
+double MoleculePhase(double cosine);
+/// Henyey & Greenstein 1941, Eq. (2).
+double AerosolPhase(double asymmetry, double cosine);
+
+}  // namespace pleinair::sky

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.h"
+#include "sky/aerosol.h"
+#include "sky/colour.h"
+
+namespace pleinair::sky::reference {
+
+/// The air, the ground and the sun of a path-traced sky.
+struct Scene {
+  Aerosol aerosol;
+  double ground_albedo = 0.15;
+  double sun_elevation_deg = 30.0;
+};
+
+/// A sky by Monte Carlo: paths followed backwards from an eye 2 m above a spherical ground through
+/// concentric shells, any number of scatterings, ground reflections included. Shares with the
+/// product the optical constants of sky/air_medium.h and nothing else: wavelength by wavelength,
+/// no tables, no approximation but the shells (400 of them, each of even density).
+class PathTracedSky {
+ public:
+  explicit PathTracedSky(const Scene& scene);
+
+  /// Luminance and chromaticity from an elevation and an azimuth counted from the sun's, degrees.
+  /// `paths` a wavelength. Deterministic in `seed`. With a wall, black and seen only by the eye:
+  /// the light that the air in front of it sends.
+  XyY At(double elevation_deg, double azimuth_from_sun_deg, int paths, std::uint64_t seed,
+         double wall_m = 1e300) const;
+
+  /// The sun's illuminance on a surface facing it, lux, its disc taken as a point.
+  double SunNormalLux() const;
+
+  /// 400…700 nm in steps of 20.
+  static constexpr int kWavelengths = 16;
+  static double Wavelength(int i) { return 400.0 + 20.0 * i; }
+
+ private:
+  struct Shell {
+    double outer_radius;
+    double molecules, aerosol, ozone;  ///< Mean densities.
+  };
+  struct Coefficients {
+    double molecules, aerosol, aerosol_scattering, ozone;
+  };
+  struct Walk;
+
+  /// Radiance over the sun's irradiance, one path.
+  double Trace(Vec3 direction, const Coefficients& c, double wall_m, Walk* walk) const;
+  double OpticalDepthToSun(Vec3 position, const Coefficients& c) const;
+  int ShellAt(double radius) const;
+
+  Scene scene_;
+  Vec3 to_sun_;
+  std::vector<Shell> shells_;
+  std::array<Coefficients, kWavelengths> coefficients_;
+};
+
+}  // namespace pleinair::sky::reference
