@@ -19,6 +19,7 @@ constexpr const char* kExamples =
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
     "  pleinair marker 17 -o marker.pdf\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
+    "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
     "  pleinair doctor\n"
     "'pleinair SUBCOMMAND --help' tells more. Exit codes: 0 done, 1 could not, 2 the input or\n"
     "the usage is wrong.";
@@ -66,6 +67,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddMarkerCommand(app, result);
     AddBoardCommand(app, result);
     AddSunCommand(app, result);
+    AddSkyCommand(app, result);
     AddDoctorCommand(app, result);
     try {
       app.parse(argc, argv);

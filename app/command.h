@@ -25,6 +25,7 @@ void AddDetectCommand(CLI::App& app, CommandResult& result);
 void AddMarkerCommand(CLI::App& app, CommandResult& result);
 void AddBoardCommand(CLI::App& app, CommandResult& result);
 void AddSunCommand(CLI::App& app, CommandResult& result);
+void AddSkyCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);
 
 /// Parses the command line, runs the subcommand and gives the exit code. An error is one line on

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/number_range.h"
 #include "app/sun_table.h"
 
 namespace pleinair::app {
@@ -13,20 +14,20 @@ CLI::Option* AddObserverOptions(CLI::App& command, ObserverOptions& options) {
                         ->type_name("LAT,LON");
   command.add_option("--height", options.height_m, "Metres above the sea")
       ->type_name("M")
-      ->check(CLI::Range(kObserverFields[2].lowest, kObserverFields[2].highest))
+      ->check(NumberRange(kObserverFields[2].lowest, kObserverFields[2].highest))
       ->capture_default_str();
   command.add_option("--pressure", options.pressure_mbar, "Air pressure in mbar, for refraction")
       ->type_name("P")
-      ->check(CLI::Range(kObserverFields[3].lowest, kObserverFields[3].highest))
+      ->check(NumberRange(kObserverFields[3].lowest, kObserverFields[3].highest))
       ->capture_default_str();
   command.add_option("--temperature", options.temperature_c, "Air temperature in Celsius")
       ->type_name("C")
-      ->check(CLI::Range(kObserverFields[4].lowest, kObserverFields[4].highest))
+      ->check(NumberRange(kObserverFields[4].lowest, kObserverFields[4].highest))
       ->capture_default_str();
   command
       .add_option("--dut1", options.ut1_minus_utc_s, "UT1 - UTC in seconds, as IERS publishes it")
       ->type_name("S")
-      ->check(CLI::Range(-1.0, 1.0))
+      ->check(NumberRange(-1.0, 1.0))
       ->capture_default_str();
   return at;
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "app/csv_records.h"
+
+namespace pleinair::app {
+
+/// A check of an option: a finite number within [low, high]. CLI11's own Range lets NaN pass.
+inline CLI::Validator NumberRange(double low, double high) {
+  const std::string range =
+      "[" + CLI::detail::to_string(low) + " - " + CLI::detail::to_string(high) + "]";
+  return CLI::Validator(
+      [low, high, range](std::string& input) {
+        const std::optional<double> value = ParseNumber(input);
+        if (value && *value >= low && *value <= high) return std::string();
+        return "\"" + input + "\" is not a number in " + range;
+      },
+      range);
+}
+
+}  // namespace pleinair::app
