@@ -18,6 +18,7 @@ constexpr const char* kExamples =
     "  pleinair replay recordings/courtyard_midday -o out/demo\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
     "  pleinair marker 17 -o marker.pdf\n"
+    "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
     "  pleinair doctor\n"
@@ -65,6 +66,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddReplayCommand(app, result);
     AddDetectCommand(app, result);
     AddMarkerCommand(app, result);
+    AddTargetCommand(app, result);
     AddBoardCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);

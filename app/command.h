@@ -23,6 +23,7 @@ struct CommandResult {
 void AddReplayCommand(CLI::App& app, CommandResult& result);
 void AddDetectCommand(CLI::App& app, CommandResult& result);
 void AddMarkerCommand(CLI::App& app, CommandResult& result);
+void AddTargetCommand(CLI::App& app, CommandResult& result);
 void AddBoardCommand(CLI::App& app, CommandResult& result);
 void AddSunCommand(CLI::App& app, CommandResult& result);
 void AddSkyCommand(CLI::App& app, CommandResult& result);

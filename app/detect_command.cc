@@ -14,6 +14,7 @@
 #include "app/pose_json.h"
 #include "devices/calibration.h"
 #include "devices/picture_file.h"
+#include "tracker/picture_target/target_file.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {
@@ -25,10 +26,13 @@ constexpr const char* kExamples =
     "  pleinair detect frames/*.png --calibration camera.json --size-mm 480 --track\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140 --family sg --numbers "
     "0-49\n"
+    "  pleinair detect frames/*.png --calibration camera.json --target poster.target --track\n"
     "Prints one JSON object a picture: file, milliseconds, and markers with family, id, corners\n"
     "(pixels, integer = pixel centre; top-left, then clockwise as the print is read),\n"
-    "camera_from_marker, covariance, visible_fraction, visibility (of S-G markers, by squares of\n"
-    "the print), alternative and path; with --track also lost: markers that are no longer seen.";
+    "camera_from_marker, covariance, visible_fraction, visibility (of S-G markers and targets,\n"
+    "by parts of the print), name (of targets, whose family is picture), alternative and path;\n"
+    "with --track also lost: markers that are no longer seen. Without --size-mm only the targets\n"
+    "are looked for.";
 
 Result<tracker::SgStrategy> StrategyOf(const std::string& name) {
   if (name == "hybrid") return tracker::SgStrategy::kHybrid;
@@ -82,18 +86,25 @@ Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
 }  // namespace
 
 Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
-  if (!(arguments.size_mm > 0.0) || !std::isfinite(arguments.size_mm)) {
+  // Targets know their size; markers are looked for beside them when theirs is given.
+  const bool only_targets = !arguments.targets.empty() && arguments.size_mm == 0.0;
+  if (!only_targets && (!(arguments.size_mm > 0.0) || !std::isfinite(arguments.size_mm))) {
     return InputError("--size-mm", "the marker's size must be positive",
-                      "give the edge of its outer black square in millimetres");
+                      "give the edge of its outer black square in millimetres with --size-mm");
   }
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::SgStrategy strategy, StrategyOf(arguments.strategy));
   PLEINAIR_ASSIGN_OR_RETURN(std::vector<int> numbers, NumbersOf(arguments.numbers));
   PLEINAIR_ASSIGN_OR_RETURN(const CameraModel camera,
                             devices::ReadCalibration(arguments.calibration));
-  const tracker::TrackerOptions options{.families = arguments.families,
-                                        .marker_size_m = arguments.size_mm * 1e-3,
-                                        .consecutive_frames = arguments.track,
-                                        .sg = {strategy, std::move(numbers)}};
+  tracker::TrackerOptions options{.families = arguments.families,
+                                  .marker_size_m = arguments.size_mm * 1e-3,
+                                  .consecutive_frames = arguments.track,
+                                  .sg = {strategy, std::move(numbers)}};
+  if (only_targets) options.families.clear();
+  for (const std::string& file : arguments.targets) {
+    PLEINAIR_ASSIGN_OR_RETURN(tracker::PictureTarget target, tracker::ReadTargetFile(file));
+    options.targets.push_back(std::make_shared<const tracker::PictureTarget>(std::move(target)));
+  }
   auto tracker = tracker::Tracker::Create(camera, options);
   if (!tracker) return Located(std::move(tracker).error(), "--family");
   for (const std::string& picture : arguments.pictures) {
@@ -128,10 +139,17 @@ void AddDetectCommand(CLI::App& app, CommandResult& result) {
       ->add_option("--calibration", arguments->calibration,
                    "Camera calibration (own JSON, OpenCV YAML, ROS camera_info, Kalibr)")
       ->required();
-  command->add_option("--size-mm", arguments->size_mm, "Edge of the outer black square, mm")
-      ->required();
+  CLI::Option* size =
+      command->add_option("--size-mm", arguments->size_mm,
+                          "Edge of the outer black square, mm; not needed for targets alone");
+  command
+      ->add_option("--target", arguments->targets,
+                   "Target file that 'pleinair target' made; again for more")
+      ->type_name("F")
+      ->allow_extra_args(false);
   command->add_option("--family", arguments->families, "Marker families, comma-separated")
       ->delimiter(',')
+      ->needs(size)
       ->capture_default_str();
   command->add_flag("--track", arguments->track, "The pictures are consecutive frames");
   command
@@ -142,7 +160,8 @@ void AddDetectCommand(CLI::App& app, CommandResult& result) {
       ->add_option("--numbers", arguments->numbers,
                    "S-G numbers in use, such as 17 or 0-49, comma-separated (default: all 4,096); "
                    "others are not reported, and more of these may be covered")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->needs(size);
   // What `detect` prints is JSON in any case; the flag is there for scripts that pass it always.
   command->add_flag("--json")->description("One JSON object a line (the only form)");
   command->callback([arguments, &result] { result.status = RunDetect(*arguments, std::cout); });

@@ -30,17 +30,18 @@ Json SightingJson(const tracker::Sighting& sighting) {
     for (const float value : detection.visibility) values.push_back(std::round(value * 100) / 100);
     visibility = {{"side", detection.visibility_side}, {"values", std::move(values)}};
   }
-  return {{"family", detection.family},
-          {"id", detection.id},
-          {"corners", corners},
-          {"camera_from_marker", PoseJson(pose.best.camera_from_marker)},
-          {"covariance", pose.covariance},
-          {"reprojection_rms_px", pose.best.reprojection_rms_px},
-          {"ambiguity_ratio", pose.ambiguity_ratio},
-          {"visible_fraction", detection.visible_fraction},
-          {"visibility", std::move(visibility)},
-          {"alternative", alternative},
-          {"path", tracker::PathName(detection.path)}};
+  Json marker{{"family", detection.family}, {"id", detection.id}};
+  if (!detection.name.empty()) marker["name"] = detection.name;
+  marker.update(Json{{"corners", corners},
+                     {"camera_from_marker", PoseJson(pose.best.camera_from_marker)},
+                     {"covariance", pose.covariance},
+                     {"reprojection_rms_px", pose.best.reprojection_rms_px},
+                     {"ambiguity_ratio", pose.ambiguity_ratio},
+                     {"visible_fraction", detection.visible_fraction},
+                     {"visibility", std::move(visibility)},
+                     {"alternative", alternative},
+                     {"path", tracker::PathName(detection.path)}});
+  return marker;
 }
 
 }  // namespace
@@ -51,10 +52,13 @@ std::string MarkersJson(const std::vector<tracker::Sighting>& sightings) {
   return markers.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string LostJson(const std::vector<tracker::LostMarker>& lost) {
+std::string LostJson(const std::vector<tracker::LostMarker>& lost_markers) {
   Json markers = Json::array();
-  for (const tracker::LostMarker& marker : lost) {
-    markers.push_back({{"family", marker.family}, {"id", marker.id}, {"frames", marker.frames}});
+  for (const tracker::LostMarker& marker : lost_markers) {
+    Json lost{{"family", marker.family}, {"id", marker.id}};
+    if (!marker.name.empty()) lost["name"] = marker.name;
+    lost["frames"] = marker.frames;
+    markers.push_back(std::move(lost));
   }
   return markers.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

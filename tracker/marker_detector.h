@@ -8,10 +8,18 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/units.h"
 #include "tracker/print_pattern.h"
 #include "tracker/sighting.h"
 
 namespace pleinair::tracker {
+
+/// A square of a marker's plane about its middle, its sides along the marker's axes.
+struct PoseSquare {
+  Metres edge{0.0};
+  std::array<Vec2, 4> corners_px;  ///< Top-left, then clockwise as the print is read.
+  std::array<double, 64> corner_covariance_px2{};
+};
 
 /// A marker whose number has been read and whose corners are known to about half a pixel.
 struct Candidate {
@@ -20,6 +28,8 @@ struct Candidate {
   /// Where the detector has measured the corners itself: their covariance (x before y, corner after
   /// corner; px²); the pattern is then not needed.
   std::optional<std::array<double, 64>> corner_covariance_px2;
+  /// What the pose is taken from where the marker itself is no square of the tracker's marker size.
+  std::optional<PoseSquare> pose_square;
 };
 
 /// One way to find markers. One thread at a time.

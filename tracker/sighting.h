@@ -18,10 +18,11 @@ const char* PathName(DetectionPath path);
 
 /// A marker found in a picture, before its pose is known.
 struct MarkerDetection {
-  std::string family;  ///< "tag36h11", "sg", …
+  std::string family;  ///< "tag36h11", "sg", "picture", …
   int id = 0;
-  /// Corners of the outer black square in pixels (integer = pixel centre), top-left, then
-  /// clockwise, of the marker as its print is read.
+  std::string name;  ///< Of a target; empty where a number says it all.
+  /// Corners of the outer black square, or of a target's picture, in pixels (integer = pixel
+  /// centre), top-left, then clockwise, of the marker as its print is read.
   std::array<Vec2, 4> corners_px;
   double visible_fraction = 1.0;  ///< Share of the print that is seen, 0…1.
   DetectionPath path = DetectionPath::kFast;
@@ -35,7 +36,8 @@ struct MarkerDetection {
 struct LostMarker {
   std::string family;
   int id = 0;
-  int frames = 0;  ///< Since how many frames.
+  int frames = 0;      ///< Since how many frames.
+  std::string name{};  ///< Of a target.
 };
 
 /// Order of the 6×6 covariance: rotation vector (rad), then translation (m), both in the camera

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "tracker/april_tag_detector.h"
 #include "tracker/marker_detector.h"
+#include "tracker/picture_target/picture_detector.h"
 #include "tracker/planar_pose.h"
 #include "tracker/print_alignment.h"
 #include "tracker/surf_golay/sg_detector.h"
@@ -94,8 +95,15 @@ class DetectingTracker final : public Tracker {
       covariance = alignment->corner_covariance_px2;
     }
     const Sighting* before = Before(sighting.detection);
+    std::array<Vec2, 4> corners_px = sighting.detection.corners_px;
+    Metres size = marker_size_;
+    if (candidate.pose_square) {
+      corners_px = candidate.pose_square->corners_px;
+      covariance = candidate.pose_square->corner_covariance_px2;
+      size = candidate.pose_square->edge;
+    }
     const std::optional<PoseEstimate> pose = EstimatePlanarPose(
-        camera_, sighting.detection.corners_px, covariance, marker_size_,
+        camera_, corners_px, covariance, size,
         before != nullptr ? &before->pose.best.camera_from_marker.rotation : nullptr);
     if (!pose) return std::nullopt;
     sighting.pose = *pose;
@@ -127,7 +135,8 @@ class DetectingTracker final : public Tracker {
 
 Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
                                                  const TrackerOptions& options) {
-  if (!(options.marker_size_m > 0.0) || !std::isfinite(options.marker_size_m)) {
+  if (!options.families.empty() &&
+      (!(options.marker_size_m > 0.0) || !std::isfinite(options.marker_size_m))) {
     return InputError("", "the marker's size must be positive",
                       "give the edge of its outer black square");
   }
@@ -135,7 +144,7 @@ Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
       !std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy)) {
     return InputError("", "the camera has no usable size or focal length", "calibrate it");
   }
-  if (options.families.empty()) {
+  if (options.families.empty() && options.targets.empty()) {
     return InputError("", "no marker family to look for", "name one, for example tag36h11");
   }
   std::vector<std::unique_ptr<MarkerDetector>> detectors;
@@ -151,6 +160,10 @@ Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
   if (!tag_families.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(auto april_tags, CreateAprilTagDetector(tag_families));
     detectors.push_back(std::move(april_tags));
+  }
+  if (!options.targets.empty()) {
+    detectors.push_back(
+        std::make_unique<PictureDetector>(camera, options.targets, options.consecutive_frames));
   }
   return std::unique_ptr<Tracker>(
       std::make_unique<DetectingTracker>(camera, options, std::move(detectors)));

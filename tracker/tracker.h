@@ -26,13 +26,18 @@ struct SgOptions {
   std::vector<int> numbers_in_use;
 };
 
+struct PictureTarget;
+
 struct TrackerOptions {
   std::vector<std::string> families{"tag36h11"};  ///< Which markers to look for.
-  double marker_size_m = 0.0;                     ///< Edge of the outer black square.
+  double marker_size_m = 0.0;  ///< Edge of the outer black square of markers of these families.
   /// The pictures come one after another from one camera: where a picture alone does not tell which
   /// of the two planar poses is right, the one that goes on from the picture before is.
   bool consecutive_frames = false;
   SgOptions sg{};  ///< For the family "sg".
+  /// Pictures to look for (picture_target/picture_target.h), each of which hangs in one place. They
+  /// are sighted as family "picture" with their place in this list as id.
+  std::vector<std::shared_ptr<const PictureTarget>> targets{};
 };
 
 /// Finds markers and their poses, frame after frame. One thread at a time.
@@ -46,7 +51,8 @@ class Tracker {
   /// Ordered by family, id, then the first corner's x: the same picture gives the same list.
   virtual Result<std::vector<Sighting>> Track(ImageView<const std::uint8_t> grey) = 0;
 
-  /// Markers of the frames before that the last one did not show (consecutive frames, family "sg").
+  /// Markers of the frames before that the last one did not show (consecutive frames, families "sg"
+  /// and "picture").
   virtual std::vector<LostMarker> Lost() const = 0;
   /// What the user should know about the last picture, such as prints that are mirrored.
   virtual std::vector<std::string> Warnings() const = 0;

@@ -1,0 +1,175 @@
+#include "app/target_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/sinks/picture_writer.h"
+#include "base/atomic_file.h"
+#include "base/units.h"
+#include "devices/picture_file.h"
+#include "tracker/picture_target/target_file.h"
+#include "tracker/picture_target/target_making.h"
+#include "tracker/picture_target/target_quality.h"
+#include "tracker/picture_target/target_views.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
+    "  pleinair target poster.jpg --width-mm 420 -o poster.target --preview features.png --json\n"
+    "  pleinair detect photo.jpg --calibration camera.yaml --target poster.target\n"
+    "The width is that of the printed picture, without the paper's margin. Crop the picture to\n"
+    "what is printed; it must lie flat. docs/targets.md tells which pictures are good.\n";
+
+/// Says which argument an error without a place is about.
+tl::unexpected<Error> Located(Error error, const std::string& where) {
+  if (error.where.empty()) error.where = where;
+  return tl::make_unexpected(std::move(error));
+}
+
+const char* Word(int score) { return score >= 60 ? "good" : score >= 30 ? "fair" : "poor"; }
+
+std::string Describe(const tracker::PictureTarget& target, const tracker::TargetQuality& quality,
+                     const TargetArguments& arguments) {
+  if (arguments.json) {
+    nlohmann::ordered_json object{{"file", arguments.output},
+                                  {"name", target.name},
+                                  {"width_mm", target.width_m * 1e3},
+                                  {"height_mm", target.height_m * 1e3},
+                                  {"score", quality.score},
+                                  {"rating", Word(quality.score)},
+                                  {"features", quality.features},
+                                  {"coverage", quality.coverage},
+                                  {"contrast", quality.contrast},
+                                  {"repetition", quality.repetition},
+                                  {"turned_likeness", quality.turned_likeness},
+                                  {"advice", quality.advice}};
+    return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  }
+  std::string text = fmt::format(
+      "{}: \"{}\", {:.1f} x {:.1f} mm, {} of 100 ({})\n"
+      "  {} features over {:.0f} % of the picture, {:.0f} % of them repeat; contrast in {:.0f} %\n",
+      arguments.output, target.name, target.width_m * 1e3, target.height_m * 1e3, quality.score,
+      Word(quality.score), quality.features, 100.0 * quality.coverage, 100.0 * quality.repetition,
+      100.0 * quality.contrast);
+  for (const std::string& advice : quality.advice) text += "  " + advice + "\n";
+  return text;
+}
+
+void Paint(int x, int y, RgbImage* picture) {
+  if (x < 0 || y < 0 || x >= picture->width() || y >= picture->height()) return;
+  constexpr std::uint8_t kGreen[3] = {0, 230, 60};
+  for (int channel = 0; channel < 3; ++channel) (*picture)(x, y, channel) = kGreen[channel];
+}
+
+}  // namespace
+
+RgbImage DrawTargetFeatures(const tracker::PictureTarget& target) {
+  const int width = target.picture.width(), height = target.picture.height();
+  RgbImage picture(width, height, 3);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int channel = 0; channel < 3; ++channel) {
+        picture(x, y, channel) = target.picture(x, y);
+      }
+    }
+  }
+  const double view_px = tracker::kTargetSide * target.views[tracker::kFrontalView].from_target[0];
+  const double per_view = width / view_px;  // Pixels of the picture to one of the view.
+  for (const tracker::TargetKeypoint& keypoint : target.keypoints) {
+    if (keypoint.view != tracker::kFrontalView) continue;
+    const Vec2 place = tracker::PlaceOnTarget(target, keypoint);
+    const double x = place.x / tracker::kTargetSide * width - 0.5;
+    const double y = place.y / tracker::kTargetSide * height - 0.5;
+    // The blob that a keypoint is has about twice its scale for a radius.
+    const double radius = std::max(2.0, 2.0 * keypoint.scale * per_view);
+    const int steps = static_cast<int>(8.0 * radius) + 8;
+    for (int step = 0; step < steps; ++step) {
+      const double angle = 2.0 * std::numbers::pi * step / steps;
+      Paint(static_cast<int>(std::lround(x + radius * std::cos(angle))),
+            static_cast<int>(std::lround(y + radius * std::sin(angle))), &picture);
+    }
+  }
+  return picture;
+}
+
+Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
+  if (!(arguments.width_mm > 0.0) || !std::isfinite(arguments.width_mm)) {
+    return InputError("--width-mm", "the width must be positive",
+                      "give the width of the printed picture in millimetres");
+  }
+  if (arguments.output.empty()) {
+    return InputError("--output", "the name is empty", "name a file, for example poster.target");
+  }
+  const std::string name =
+      arguments.name ? *arguments.name : fs::path(arguments.picture).stem().string();
+  if (!tracker::IsTargetName(name)) {
+    return InputError("--name", "the name is empty, too long or no plain UTF-8",
+                      fmt::format("give one of 1 to {} bytes", tracker::kMostTargetName));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::Picture decoded,
+                            devices::DecodePictureFile(arguments.picture));
+  auto target =
+      tracker::MakePictureTarget(decoded.grey.view(), Metres(arguments.width_mm * 1e-3), name);
+  if (!target) return Located(std::move(target).error(), arguments.picture);
+  const tracker::TargetQuality quality = tracker::RateTarget(*target);
+  // What can fail comes first: either both files are there in the end, or neither is new.
+  const fs::path preview(arguments.preview.value_or(""));
+  const fs::path temporary = TemporarySibling(preview);
+  if (arguments.preview) {
+    auto drawn = WritePng(temporary, DrawTargetFeatures(*target).view());
+    if (!drawn) {
+      Error error = std::move(drawn).error();
+      error.where = preview.string();
+      return tl::make_unexpected(std::move(error));
+    }
+  }
+  auto written = tracker::WriteTargetFile(*target, arguments.output);
+  if (arguments.preview && written) written = CommitFile(temporary, preview);
+  if (!written) {
+    std::error_code ignored;
+    if (arguments.preview) fs::remove(temporary, ignored);
+    return written;
+  }
+  out << Describe(*target, quality, arguments);
+  return {};
+}
+
+void AddTargetCommand(CLI::App& app, CommandResult& result) {
+  auto arguments = std::make_shared<TargetArguments>();
+  CLI::App* command =
+      app.add_subcommand("target", "Make a target of a picture, to be found by its texture");
+  command->footer(kExamples);
+  command->add_option("PICTURE", arguments->picture, "PNG or JPEG, cropped to what is printed")
+      ->required();
+  command->add_option("--width-mm", arguments->width_mm, "Width of the printed picture")
+      ->type_name("MM")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "Target file to write")
+      ->type_name("F")
+      ->required();
+  command
+      ->add_option("--name", arguments->name,
+                   "What detections call it (default: the picture's name without its ending)")
+      ->type_name("NAME");
+  command->add_option("--preview", arguments->preview, "PNG to write that shows the features found")
+      ->type_name("F.png");
+  command->add_flag("--json", arguments->json, "One JSON object on standard output");
+  command->callback([arguments, &result] { result.status = RunTarget(*arguments, std::cout); });
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,10 @@
+# Tests of tracker/picture_target/, mostly through tracker/tracker.h.
+add_library(pleinair_picture_target_scenes STATIC picture_target_scenes.cc)
+target_link_libraries(pleinair_picture_target_scenes PUBLIC pleinair_sg_test_scenes)
+pleinair_configure_target(pleinair_picture_target_scenes)
+pleinair_test(picture_target_file_test
+  SOURCES picture_target_file_test.cc
+  LIBS pleinair::tracker)
+pleinair_test(picture_target_making_test
+  SOURCES picture_target_making_test.cc
+  LIBS pleinair_picture_target_scenes)

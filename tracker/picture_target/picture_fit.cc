@@ -1,0 +1,345 @@
+#include "tracker/picture_target/picture_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "tracker/alignment/block_sums.h"
+#include "tracker/homography.h"
+#include "tracker/picture_target/picture_target.h"
+
+namespace pleinair::tracker {
+namespace {
+
+// The motions, on the target's square with corners (±1, ±1), y down: x' = (I + M) x with
+// M = (m1 m2 m0; m4 m5 m3; m6 m7 0).
+
+constexpr int kLeastBlocksAlong = 3, kMostBlocksAlong = 12;
+constexpr int kLeastBlockPixels = 6;
+constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
+constexpr float kMostReach = 3.2F;  ///< Of small targets too little would be left otherwise.
+constexpr double kLeastBlur_px = 0.25, kMostBlur_px = 6.0;
+constexpr double kStillBlur_px = 0.02;  ///< Change of the blur that is none.
+/// Residual at which a pixel keeps a quarter of its weight: so many times what is usually left over
+/// of blocks that fit, but no more and no less than so many standard deviations of the predicted
+/// light, and no less than what noise does.
+constexpr double kRobustShareOfRest = 3.0, kMostRobustShare = 1.2, kLeastRobustShare = 0.15;
+constexpr double kLeastRobust = 0.03;
+/// Tiles of 4×4 pixels where blocks and the target itself are so many pixels wide at least.
+constexpr double kLeastBlockOfTiles_px = 7.0, kLeastTargetOfTiles_px = 24.0;
+constexpr double kDamping = 1e-5;
+/// The prediction is good for a fraction of the target's side, in one step.
+constexpr double kFarthestStep = 0.06;
+
+constexpr double kHalf = 0.5 * kTargetSide;
+constexpr Mat3 kTargetFromUnit{{kHalf, 0, kHalf, 0, kHalf, kHalf, 0, 0, 1}};
+constexpr Mat3 kUnitFromTarget{{1 / kHalf, 0, -1, 0, 1 / kHalf, -1, 0, 0, 1}};
+
+/// Lengths of the target's sides, in ideal pixels.
+struct Sides {
+  double mean = 0.0, shortest = 1e9;
+};
+
+Sides SidesOf(const Mat3& target_from_ideal) {
+  const Mat3 ideal_from_unit = Adjugate(kUnitFromTarget * target_from_ideal);
+  Sides sides;
+  for (int i = 0; i < 4; ++i) {
+    const double side = Norm(Apply(ideal_from_unit, kSquareCorners[i]) -
+                             Apply(ideal_from_unit, kSquareCorners[(i + 1) % 4]));
+    sides.mean += 0.25 * side;
+    sides.shortest = std::min(sides.shortest, side);
+  }
+  return sides;
+}
+
+/// What BlockSums wants to know of a print: its side.
+const PrintPattern& SidePattern() {
+  static const PrintPattern kPattern{.modules = static_cast<int>(kTargetSide),
+                                     .edge_modules = static_cast<int>(kTargetSide),
+                                     .white = {}};
+  return kPattern;
+}
+
+/// What a change of a block's gain and offset could do as well as the parameters.
+struct Elimination {
+  bool with_gain = false, possible = false;
+  double w = 0.0, p = 0.0, pp = 0.0, determinant = 0.0;
+
+  explicit Elimination(const BlockMotions& sums) : w(sums.w), p(sums.p), pp(sums.pp) {
+    determinant = w * pp - p * p;
+    possible = w > 0.0;
+    with_gain = determinant > 1e-9 * w * w;
+  }
+  /// How much of something, its sums with 1 and p, is like the picture …
+  double OnPicture(double sum, double sum_p) const {
+    return with_gain ? (w * sum_p - p * sum) / determinant : 0.0;
+  }
+  /// … and how much like a constant.
+  double OnOne(double sum, double sum_p) const {
+    return with_gain ? (pp * sum - p * sum_p) / determinant : sum / w;
+  }
+};
+
+}  // namespace
+
+struct PictureFit::Sums {
+  BlockSums blocks;
+  std::vector<RowRange> ranges;
+  std::vector<BlockLight> lights;
+  std::vector<LevelSums> levels;
+  std::vector<BlockMotions> motions;
+  FitProducts products;
+};
+
+PictureFit::PictureFit() : sums_(std::make_unique<Sums>()) {}
+PictureFit::~PictureFit() = default;
+PictureFit::PictureFit(PictureFit&&) noexcept = default;
+PictureFit& PictureFit::operator=(PictureFit&&) noexcept = default;
+
+int PictureFit::BlocksAlong(double area_px, double block_px) {
+  return static_cast<int>(
+      std::clamp(std::sqrt(area_px) / block_px, 1.0 * kLeastBlocksAlong, 1.0 * kMostBlocksAlong));
+}
+
+void PictureFit::Predict(const PicturePyramid& pyramid, const SeenWindow& seen,
+                         const PictureFitState& state) {
+  const double blur = state.blur_px / seen.rays.window.Scale();
+  raster_.Render(pyramid, state.target_from_ideal, seen.rays, blur, &map_, &picture_,
+                 &sums_->ranges);
+  KnownPart known{};
+  known.modules = static_cast<float>(kTargetSide);
+  known.reach_px = static_cast<float>(0.5 + 1.3 * blur);
+  known.most_reach_modules = kMostReach;
+  known.unknown_half = -known.modules;  // All is known.
+  sums_->blocks.Lay(SidePattern(), known, seen, map_, sums_->ranges, tile_, blocks_along_);
+}
+
+void PictureFit::FitLevels(const SeenWindow& seen, double least_weight) {
+  sums_->blocks.Levels(seen, picture_, sums_->lights, &sums_->levels);
+  rests_.clear();
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const LevelSums& sum = sums_->levels[k];
+    TargetBlock& block = blocks_[k];
+    block = TargetBlock{};
+    sums_->lights[k] = BlockLight{};
+    block.pixels = static_cast<int>(sum.pixels + 0.5);
+    if (block.pixels < kLeastBlockPixels || !(sum.w > 0.0)) continue;
+    const double p = sum.wp / sum.w, i = sum.wi / sum.w;
+    const double vp = sum.wpp / sum.w - p * p, vi = sum.wii / sum.w - i * i;
+    const double vpi = sum.wpi / sum.w - p * i;
+    block.mean = p;
+    block.seen = i;
+    block.contrast = std::sqrt(std::max(0.0, vp));
+    if (block.contrast < kLeastContrast || !(vi > 1e-12)) continue;
+    block.correlation = vpi / std::sqrt(vp * vi);
+    if (!(sum.r > 0.0)) continue;
+    const double rp = sum.rp / sum.r;
+    const double rvp = sum.rpp / sum.r - rp * rp, rvpi = sum.rpi / sum.r - rp * (sum.ri / sum.r);
+    if (!(rvp > 0.05 * vp)) continue;
+    block.gain = rvpi / rvp;
+    block.offset = (sum.ri - block.gain * sum.rp) / sum.r;
+    if (!(block.gain > 0.0)) continue;
+    block.weight = std::clamp(
+        (block.correlation - kDoubtfulCorrelation) / (kCredibleCorrelation - kDoubtfulCorrelation),
+        least_weight, 1.0);
+    if (block.correlation > kDoubtfulCorrelation) {
+      rests_.push_back(std::sqrt(1.0 - std::min(1.0, block.correlation * block.correlation)));
+    }
+  }
+  double rest = 1.0;
+  if (!rests_.empty()) {
+    const auto middle = rests_.begin() + static_cast<std::ptrdiff_t>(rests_.size() / 2);
+    std::nth_element(rests_.begin(), middle, rests_.end());
+    rest = *middle;
+  }
+  const double share = std::clamp(kRobustShareOfRest * rest, kLeastRobustShare, kMostRobustShare);
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const TargetBlock& block = blocks_[k];
+    if (!(block.gain > 0.0)) continue;
+    const double robust = std::max(share * block.contrast, kLeastRobust);
+    sums_->lights[k] = {static_cast<float>(block.gain), static_cast<float>(block.offset),
+                        static_cast<float>(1.0 / (block.gain * robust)),
+                        static_cast<float>(block.weight)};
+  }
+}
+
+void PictureFit::AddUp(const SeenWindow& seen, bool blur) {
+  sums_->blocks.Motions(seen, picture_, sums_->lights, blur, &weight_, &sums_->products,
+                        &sums_->motions);
+  gradient_ = sums_->products.jr;
+  for (int a = 0, at = 0; a < kParameters; ++a) {
+    for (int b = 0; b <= a; ++b) hessian_[a * kParameters + b] = sums_->products.jj[at++];
+  }
+  // Gain and offset of each block are eliminated (Schur's complement): J loses what a change of
+  // them could do as well.
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const BlockMotions& sum = sums_->motions[k];
+    const Elimination eliminate(sum);
+    if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
+    const double gain = blocks_[k].gain;
+    for (int a = 0; a < kParameters; ++a) {
+      const double on_picture = eliminate.OnPicture(sum.j[a], sum.pj[a]);
+      const double on_one = eliminate.OnOne(sum.j[a], sum.pj[a]);
+      gradient_[a] -= gain * (on_picture * sum.rp + on_one * sum.r);
+      for (int b = 0; b <= a; ++b) {
+        hessian_[a * kParameters + b] -= gain * gain * (on_picture * sum.pj[b] + on_one * sum.j[b]);
+      }
+    }
+  }
+  for (int a = 0; a < kParameters; ++a) {
+    for (int b = 0; b < a; ++b) hessian_[b * kParameters + a] = hessian_[a * kParameters + b];
+  }
+}
+
+bool PictureFit::Move(const PictureFitOptions& options, double scale, PictureFitState* state,
+                      bool* still) {
+  Eigen::Matrix<double, kParameters, kParameters> hessian =
+      Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>>(hessian_.data());
+  Eigen::Matrix<double, kParameters, 1> gradient =
+      Eigen::Map<Eigen::Matrix<double, kParameters, 1>>(gradient_.data());
+  const double size = hessian.topLeftCorner<kMotions, kMotions>().trace() / kMotions;
+  if (!(size > 0.0)) return false;
+  hessian.diagonal().head<kMotions>().array() += kDamping * size;
+  const auto hold = [&](int parameter) {
+    hessian.row(parameter).setZero();
+    hessian.col(parameter).setZero();
+    hessian(parameter, parameter) = 1.0;
+    gradient[parameter] = 0.0;
+  };
+  if (!options.fit_projection) {
+    hold(6);
+    hold(7);
+  }
+  if (!options.fit_blur) {
+    hold(kMotions);
+  } else {
+    hessian(kMotions, kMotions) = 1.05 * hessian(kMotions, kMotions) + 1e-12;
+  }
+  Eigen::Matrix<double, kParameters, 1> move = hessian.ldlt().solve(gradient);
+  if (!move.allFinite()) return false;
+  // How far the corners go, in the window's pixels.
+  const double side_px = SidesOf(state->target_from_ideal).mean / scale;
+  double moved_px = 0.0;
+  for (const Vec2& corner : kSquareCorners) {
+    const double u = corner.x, v = corner.y, projective = move[6] * u + move[7] * v;
+    moved_px = std::max(moved_px, std::hypot(move[0] + move[1] * u + move[2] * v - projective * u,
+                                             move[3] + move[4] * u + move[5] * v - projective * v) *
+                                      0.5 * side_px);
+  }
+  const double farthest = std::max(1.0, kFarthestStep * side_px);
+  if (!std::isfinite(moved_px)) return false;
+  if (moved_px > farthest) move.head<kMotions>() *= farthest / moved_px;
+  const Mat3 motion{
+      {1.0 + move[1], move[2], move[0], move[4], 1.0 + move[5], move[3], move[6], move[7], 1.0}};
+  Mat3 moved = kTargetFromUnit * (Adjugate(motion) * (kUnitFromTarget * state->target_from_ideal));
+  for (double& entry : moved.m) entry /= moved.m[8];
+  for (const double entry : moved.m) {
+    if (!std::isfinite(entry)) return false;
+  }
+  state->target_from_ideal = moved;
+  *still = moved_px < options.done_px;
+  if (options.fit_blur) {
+    const double blur = state->blur_px / scale;
+    const double change = std::clamp(move[kMotions], -0.5 * blur * blur - 0.05, blur * blur + 0.3);
+    const double fitted =
+        std::clamp(std::sqrt(std::max(0.0, blur * blur + change)), kLeastBlur_px, kMostBlur_px);
+    *still = *still && std::fabs(fitted - blur) < kStillBlur_px;
+    state->blur_px = fitted * scale;
+  }
+  return true;
+}
+
+bool PictureFit::Run(const PicturePyramid& pyramid, const SeenWindow& seen, int blocks_along,
+                     const PictureFitOptions& options, PictureFitState* state) {
+  const double scale = seen.rays.window.Scale();
+  blocks_along_ = std::clamp(blocks_along, 1, kMostBlocksAlong);
+  const std::size_t blocks = static_cast<std::size_t>(blocks_along_) * blocks_along_;
+  blocks_.resize(blocks);
+  sums_->lights.assign(blocks, BlockLight{});
+  weight_ = seen.certainty;
+  const double shortest = SidesOf(state->target_from_ideal).shortest / scale;
+  tile_ = shortest >= kLeastTargetOfTiles_px && shortest / blocks_along_ >= kLeastBlockOfTiles_px
+              ? 4
+              : 2;
+  for (int step = 0;; ++step) {
+    Predict(pyramid, seen, *state);
+    if (step == 0) FitLevels(seen, options.least_weight);
+    // The light of the step before, or without weights, tells what fits; and that the light.
+    FitLevels(seen, options.least_weight);
+    AddUp(seen, options.fit_blur);
+    if (step >= options.steps) return true;
+    bool still = false;
+    if (!Move(options, scale, state, &still)) return false;
+    if (still) return true;
+  }
+}
+
+void PictureFit::Compare(const SeenWindow& seen) {
+  block_of_.resize(seen.value.size());
+  sums_->blocks.WriteBlocks(seen, &block_of_);
+  details_.assign(blocks_.size(), {});
+  const PixelWindow& window = seen.rays.window;
+  for (int y = 0; y < window.height; ++y) {
+    for (int x = 0; x < window.width; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y) * window.width + x;
+      if (block_of_[at] < 0 || !(seen.certainty[at] > 0.0F)) continue;
+      // The lower triangle of v vᵀ, row by row.
+      const std::array<double, 5> v{1.0, 1.0 * x, 1.0 * y, picture_.white[at], seen.value[at]};
+      auto& sums = details_[block_of_[at]];
+      for (int a = 0, k = 0; a < 5; ++a) {
+        for (int b = 0; b <= a; ++b, ++k) sums[k] += v[a] * v[b];
+      }
+    }
+  }
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    TargetBlock& block = blocks_[k];
+    block.detail_correlation = block.detail_contrast = 0.0;
+    const double count = details_[k][0];
+    if (count < kLeastBlockPixels) continue;
+    Eigen::Matrix<double, 5, 5> products;
+    for (int a = 0, at = 0; a < 5; ++a) {
+      for (int b = 0; b <= a; ++b, ++at) products(a, b) = products(b, a) = details_[k][at];
+    }
+    // Partial correlation: what is left of the last two when the first three have explained theirs.
+    const Eigen::Matrix<double, 2, 2> rest =
+        products.bottomRightCorner<2, 2>() -
+        products.bottomLeftCorner<2, 3>() *
+            products.topLeftCorner<3, 3>().ldlt().solve(products.topRightCorner<3, 2>());
+    if (!(rest(0, 0) > 1e-12 * count) || !(rest(1, 1) > 1e-14 * count)) continue;
+    block.detail_contrast = std::sqrt(rest(0, 0) / count);
+    block.detail_correlation = rest(0, 1) / std::sqrt(rest(0, 0) * rest(1, 1));
+  }
+}
+
+double PictureFit::Correlation() const {
+  double sum = 0.0, share = 0.0;
+  for (const TargetBlock& block : blocks_) {
+    if (block.contrast < kLeastContrast) continue;
+    const double weight = block.pixels * block.contrast;
+    sum += weight * block.correlation;
+    share += weight;
+  }
+  return share > 0.0 ? sum / share : 0.0;
+}
+
+std::array<double, 64> PictureFit::MotionCovariance() const {
+  double residual = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const BlockMotions& sum = sums_->motions[k];
+    const Elimination eliminate(sum);
+    if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
+    residual += std::max(0.0, sum.rr - eliminate.OnPicture(sum.r, sum.rp) * sum.rp -
+                                  eliminate.OnOne(sum.r, sum.rp) * sum.r);
+    count += blocks_[k].pixels * blocks_[k].weight;
+  }
+  Eigen::Matrix<double, kMotions, kMotions> hessian =
+      Eigen::Map<const Eigen::Matrix<double, kParameters, kParameters>>(hessian_.data())
+          .topLeftCorner<kMotions, kMotions>();
+  const double variance = residual / std::max(1.0, count - kParameters);
+  std::array<double, 64> covariance{};
+  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>> out(covariance.data());
+  out = hessian.ldlt().solve(Eigen::Matrix<double, kMotions, kMotions>::Identity()) * variance;
+  return covariance;
+}
+
+}  // namespace pleinair::tracker

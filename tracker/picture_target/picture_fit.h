@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/vector.h"
+#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/seen_window.h"
+#include "tracker/picture_target/picture_pyramid.h"
+#include "tracker/picture_target/picture_raster.h"
+
+namespace pleinair::tracker {
+
+/// A rectangle of the target, in which light is taken as even.
+struct TargetBlock {
+  double correlation = 0.0;  ///< Normalised, of what is predicted and what is seen: -1…1.
+  double gain = 0.0;         ///< Linear light seen per light of the picture.
+  double offset = 0.0;       ///< What black gives.
+  double mean = 0.0;         ///< Predicted light, and what is seen, on average.
+  double seen = 0.0;
+  double contrast = 0.0;  ///< Standard deviation of the predicted light.
+  double weight = 0.0;    ///< 0…1: how much the fit believes in it.
+  int pixels = 0;
+  /// After Compare: correlation and standard deviation of what no even slope explains.
+  double detail_correlation = 0.0, detail_contrast = 0.0;
+};
+
+/// What a fit varies.
+struct PictureFitState {
+  Mat3 target_from_ideal;
+  double blur_px = 0.7;  ///< Standard deviation beyond the pixel's square, in the picture's pixels.
+};
+
+struct PictureFitOptions {
+  int steps = 5;
+  bool fit_blur = false;
+  bool fit_projection = true;  ///< False: only the affine part of the motion.
+  /// Of a block that does not look as predicted: more than 0 where it may come to by moving.
+  double least_weight = 0.0;
+  double done_px = 0.02;  ///< Stop when no corner moves farther, in the window's pixels.
+};
+
+/// Fits a target's homography to a picture by Gauss–Newton, as BlockFit does for prints of modules:
+/// the target's picture is predicted in linear light and moved until it correlates with what is
+/// seen, each block with a gain and an offset of its own, so that neither gradients nor edges of
+/// shadows across the target matter, and robustly, so that what covers it does not. What a pixel
+/// may be off before it loses weight goes with the contrast of its block: pictures have weak parts.
+class PictureFit {
+ public:
+  PictureFit();
+  ~PictureFit();
+  PictureFit(PictureFit&&) noexcept;
+  PictureFit& operator=(PictureFit&&) noexcept;
+
+  /// Blocks along each side of a target that covers so many pixels: of `block_px`² at least.
+  static int BlocksAlong(double area_px, double block_px);
+
+  /// False where the equations have no solution or the target leaves the window.
+  bool Run(const PicturePyramid& pyramid, const SeenWindow& seen, int blocks_along,
+           const PictureFitOptions& options, PictureFitState* state);
+
+  /// Compares the details of each block after Run. Any two smooth blocks correlate once one has
+  /// been moved to where they do: what is like a plane is taken off both before.
+  void Compare(const SeenWindow& seen);
+
+  /// After Run, at the state it ended with or less than `done_px` from there: row by row from the
+  /// top-left.
+  const std::vector<TargetBlock>& blocks() const { return blocks_; }
+  int blocks_along() const { return blocks_along_; }
+  /// Of all blocks that have contrast, weighted by it: 1 is perfect.
+  double Correlation() const;
+  /// Covariance of the eight motions (see .cc) from what is left over; row-major 8×8.
+  std::array<double, 64> MotionCovariance() const;
+
+  /// Least standard deviation of a block's predicted light for it to tell anything.
+  static constexpr double kLeastContrast = 0.02;
+
+ private:
+  static constexpr int kMotions = 8;
+  static constexpr int kParameters = kMotions + 1;  // … and the variance of the blur.
+
+  struct Sums;
+  void Predict(const PicturePyramid& pyramid, const SeenWindow& seen, const PictureFitState& state);
+  void FitLevels(const SeenWindow& seen, double least_weight);
+  void AddUp(const SeenWindow& seen, bool blur);
+  bool Move(const PictureFitOptions& options, double scale, PictureFitState* state, bool* still);
+
+  PictureRaster raster_;
+  PrintMap map_;
+  PrintPicture picture_;
+  int blocks_along_ = 0;
+  int tile_ = 4;
+  std::vector<TargetBlock> blocks_;
+  std::vector<float> weight_;
+  std::vector<std::int16_t> block_of_;
+  std::vector<std::array<double, 15>> details_;
+  std::vector<double> rests_;  ///< What is left over of each block that fits, of its contrast.
+  std::unique_ptr<Sums> sums_;
+  std::array<double, kParameters * kParameters> hessian_{};
+  std::array<double, kParameters> gradient_{};
+};
+
+}  // namespace pleinair::tracker

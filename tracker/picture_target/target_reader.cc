@@ -1,0 +1,260 @@
+#include "tracker/picture_target/target_reader.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "tracker/homography.h"
+#include "tracker/picture_target/picture_target.h"
+
+namespace pleinair::tracker {
+namespace {
+
+/// Longest side of a target that is fitted coarsely, in between, and finely.
+constexpr double kCoarseSide_px = 64.0, kMiddleSide_px = 160.0, kFineSide_px = 340.0;
+constexpr int kMostLevel = 5;
+constexpr double kCoarseBlock_px = 9.0, kFineBlock_px = 12.0;
+constexpr PictureFitOptions kCoarseFit{
+    .steps = 8, .fit_projection = false, .least_weight = 0.02, .done_px = 0.1};
+constexpr PictureFitOptions kMiddleFit{.steps = 8, .least_weight = 0.01, .done_px = 0.05};
+constexpr PictureFitOptions kFineFit{.steps = 6, .fit_blur = true};
+/// Blur that is taken for certain in reduced pictures, in their pixels.
+constexpr double kReducedBlur_px = 1.0;
+constexpr double kLeastSide_px = 16.0;  ///< Of the longer side; and of the shorter:
+constexpr double kLeastShort_px = 7.0;
+constexpr std::size_t kMostWindow = 400'000;
+/// Fits in between by which less of the target looks as predicted are not looked at finely; from
+/// the second on nothing better is tried.
+constexpr double kHopeless = 0.08, kGoodEnough = 0.9;
+/// A block is hidden up to the first correlation and seen from the second on; it tells something
+/// from so much contrast of its details on.
+constexpr double kHidden = 0.4, kSeen = 0.8;
+constexpr double kLeastDetail = 0.01;
+/// What makes it the target: so much of it looks right, and that times the evidence is so much.
+/// Photographs without the target reach 12, but for slivers that no camera sees
+/// (picture_detector.cc refuses those); with it 30 is little, of a target of 40 pixels
+/// (docs/targets.md).
+constexpr double kLeastVisible = 0.15, kLeastProof = 15.0;
+constexpr double kSurest = 0.995;       ///< Correlation that is as good as 1.
+constexpr double kLeastTelling = 0.15;  ///< Blocks that count at least, as a share of all.
+/// What no residual tells: flatness of the print, its edges, calibration.
+constexpr double kSystematicCorner_px = 0.02;
+constexpr double kHalf = 0.5 * kTargetSide;
+
+/// Longest and shortest side and area in ideal pixels; nothing where the horizon crosses the
+/// target.
+struct Extent {
+  double longest = 0.0, shortest = 1e9;
+  double area = 0.0;
+};
+
+std::optional<Extent> ExtentOf(const Mat3& target_from_ideal) {
+  const Mat3 inverse = Adjugate(target_from_ideal);
+  std::array<Vec2, 4> corners;
+  double sign = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 corner = inverse * Vec3{kHalf + kHalf * kSquareCorners[i].x,
+                                       kHalf - kHalf * kSquareCorners[i].y, 1.0};
+    if (!(corner.z * sign > 0.0) && i > 0) return std::nullopt;
+    sign = corner.z;
+    corners[i] = {corner.x / corner.z, corner.y / corner.z};
+  }
+  Extent extent;
+  for (int i = 0; i < 4; ++i) {
+    const double side = Norm(corners[i] - corners[(i + 1) % 4]);
+    if (!std::isfinite(side)) return std::nullopt;
+    extent.longest = std::max(extent.longest, side);
+    extent.shortest = std::min(extent.shortest, side);
+    const Vec2 a = corners[i], b = corners[(i + 1) % 4];
+    extent.area += 0.5 * (a.x * b.y - a.y * b.x);
+  }
+  extent.area = std::fabs(extent.area);
+  if (extent.longest < kLeastSide_px || extent.shortest < kLeastShort_px) return std::nullopt;
+  return extent;
+}
+
+double VisibleOf(double correlation) {
+  return std::clamp((correlation - kHidden) / (kSeen - kHidden), 0.0, 1.0);
+}
+
+/// Blocks that tell nothing are as visible as those around them that do.
+void FillIn(int along, std::vector<char>* known, std::vector<float>* visible) {
+  for (bool missing = true, found = true; missing && found;) {
+    missing = found = false;
+    const std::vector<char> before = *known;
+    for (int at = 0; at < along * along; ++at) {
+      if (before[at] != 0) continue;
+      missing = true;
+      float sum = 0.0F, count = 0.0F;
+      for (int y = std::max(0, at / along - 1); y <= std::min(along - 1, at / along + 1); ++y) {
+        for (int x = std::max(0, at % along - 1); x <= std::min(along - 1, at % along + 1); ++x) {
+          if (before[y * along + x] == 0) continue;
+          sum += (*visible)[y * along + x];
+          count += 1.0F;
+        }
+      }
+      if (count == 0.0F) continue;
+      (*visible)[at] = sum / count;
+      (*known)[at] = 1;
+      found = true;
+    }
+  }
+}
+
+}  // namespace
+
+bool TargetReader::TakeWindow(const Mat3& target_from_ideal, double most_px,
+                              SeenWindow* seen) const {
+  const std::optional<Extent> extent = ExtentOf(target_from_ideal);
+  if (!extent) return false;
+  int level = 0;
+  while (level < kMostLevel && extent->longest / (1 << level) > most_px &&
+         extent->shortest / (1 << (level + 1)) > kLeastShort_px) {
+    ++level;
+  }
+  const Mat3 inverse = Adjugate(target_from_ideal);
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+  constexpr int kSteps = 4;  // Along a side, since lenses bend sides.
+  for (int side = 0; side < 4; ++side) {
+    for (int step = 0; step < kSteps; ++step) {
+      const double share = static_cast<double>(step) / kSteps;
+      const Vec2 unit =
+          kSquareCorners[side] * (1.0 - share) + kSquareCorners[(side + 1) % 4] * share;
+      const Vec2 pixel =
+          lens_.PixelOfIdeal(Apply(inverse, {kHalf + kHalf * unit.x, kHalf - kHalf * unit.y}));
+      if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return false;
+      left = std::min(left, pixel.x);
+      right = std::max(right, pixel.x);
+      top = std::min(top, pixel.y);
+      bottom = std::max(bottom, pixel.y);
+    }
+  }
+  const double scale = 1 << level;
+  const int width = grey_.width() >> level, height = grey_.height() >> level;
+  const auto within = [&](double full, int add, int most) {
+    return static_cast<int>(
+        std::clamp(std::floor((full + 0.5) / scale - 0.5) + add, 0.0, 1.0 * most));
+  };
+  const int x0 = within(left, -1, width), x1 = within(right, 3, width);
+  const int y0 = within(top, -1, height), y1 = within(bottom, 3, height);
+  const PixelWindow window{level, x0, y0, x1 - x0, y1 - y0};
+  if (window.width <= 3 || window.height <= 3 || window.size() > kMostWindow) return false;
+  TakeLinearWindow(lens_, grey_, window, seen);
+  return true;
+}
+
+double TargetReader::Fit(const PicturePyramid& pyramid, double most_px,
+                         const PictureFitOptions& options, PictureFitState* state) {
+  if (!TakeWindow(state->target_from_ideal, most_px, &seen_)) return 0.0;
+  const double scale = seen_.rays.window.Scale();
+  const std::optional<Extent> extent = ExtentOf(state->target_from_ideal);
+  const double blur_px = state->blur_px;
+  state->blur_px = std::max(blur_px, kReducedBlur_px * scale);
+  const int blocks = PictureFit::BlocksAlong(extent->area / (scale * scale), kCoarseBlock_px);
+  const bool fitted = fit_.Run(pyramid, seen_, blocks, options, state);
+  state->blur_px = blur_px;
+  if (!fitted) return 0.0;
+  double visible = 0.0, all = 0.0;
+  for (const TargetBlock& block : fit_.blocks()) {
+    if (block.contrast < PictureFit::kLeastContrast) continue;
+    visible += block.gain > 0.0 ? VisibleOf(block.correlation) : 0.0;
+    all += 1.0;
+  }
+  return visible / std::max(all, kLeastTelling * static_cast<double>(fit_.blocks().size()));
+}
+
+std::optional<TargetReading> TargetReader::Read(const PicturePyramid& pyramid,
+                                                const PictureFitState& guess) {
+  PictureFitState state = guess;
+  double visible = Fit(pyramid, kMiddleSide_px, kMiddleFit, &state);
+  if (visible < kGoodEnough) {
+    // Too far off for that, or something lies in front: the coarser picture brings some closer and
+    // misleads others.
+    PictureFitState other = guess;
+    Fit(pyramid, kCoarseSide_px, kCoarseFit, &other);
+    const double other_visible = Fit(pyramid, kMiddleSide_px, kMiddleFit, &other);
+    if (other_visible > visible) {
+      visible = other_visible;
+      state = other;
+    }
+  }
+  if (visible < kHopeless) return std::nullopt;
+  return Measure(pyramid, state);
+}
+
+std::optional<TargetReading> TargetReader::Measure(const PicturePyramid& pyramid,
+                                                   const PictureFitState& guess) {
+  PictureFitState state = guess;
+  if (!TakeWindow(state.target_from_ideal, kFineSide_px, &seen_)) return std::nullopt;
+  const double scale = seen_.rays.window.Scale();
+  state.blur_px = std::max(state.blur_px, 0.5 * scale);
+  const std::optional<Extent> extent = ExtentOf(state.target_from_ideal);
+  const int blocks = PictureFit::BlocksAlong(extent->area / (scale * scale), kFineBlock_px);
+  if (!fit_.Run(pyramid, seen_, blocks, kFineFit, &state)) return std::nullopt;
+  if (!ExtentOf(state.target_from_ideal)) return std::nullopt;
+  fit_.Compare(seen_);
+  TargetReading reading;
+  reading.target_from_ideal = state.target_from_ideal;
+  reading.blur_px = state.blur_px;
+  reading.correlation = fit_.Correlation();
+  reading.blocks_along = fit_.blocks_along();
+  std::vector<char> known;
+  double seen = 0.0, all = 0.0;
+  for (const TargetBlock& block : fit_.blocks()) {
+    // Blocks that are even, clip all over, or lie outside the picture tell nothing.
+    const bool tells = block.detail_contrast >= kLeastDetail;
+    const double correlation = tells && block.gain > 0.0 ? block.detail_correlation : 0.0;
+    const double visible = VisibleOf(correlation);
+    reading.visible.push_back(static_cast<float>(visible));
+    // What independent normal variables would need luck for, in nats a sample: -½ ln(1 - r²).
+    const double sure = std::clamp(correlation, 0.0, kSurest);
+    reading.evidence -= std::log(1.0 - sure * sure);
+    // What lies outside the picture is not seen, and not known by its neighbours either.
+    known.push_back(tells || block.pixels == 0 ? 1 : 0);
+    seen += visible;
+    all += tells ? 1.0 : 0.0;
+  }
+  const double count = static_cast<double>(fit_.blocks().size());
+  reading.visible_fraction = seen / std::max(all, kLeastTelling * count);
+  FillIn(reading.blocks_along, &known, &reading.visible);
+  if (!Verified(reading)) return std::nullopt;
+  motion_covariance_ = fit_.MotionCovariance();
+  return reading;
+}
+
+bool TargetReader::Verified(const TargetReading& reading) {
+  return reading.visible_fraction >= kLeastVisible &&
+         reading.visible_fraction * reading.evidence >= kLeastProof;
+}
+
+void TargetReader::Corners(const TargetReading& reading, double half_u, double half_v,
+                           std::array<Vec2, 4>* corners_px,
+                           CornerCovariance* covariance_px2) const {
+  const Mat3 ideal_from_target = Adjugate(reading.target_from_ideal);
+  const auto pixel_of = [&](double u, double v) {
+    return lens_.PixelOfIdeal(Apply(ideal_from_target, {kHalf + kHalf * u, kHalf + kHalf * v}));
+  };
+  // How the corners follow the eight motions.
+  Eigen::Matrix<double, 8, 8> corners_by_motion;
+  for (int i = 0; i < 4; ++i) {
+    const double u = half_u * kSquareCorners[i].x, v = -half_v * kSquareCorners[i].y;
+    (*corners_px)[i] = pixel_of(u, v);
+    constexpr double kStep = 1e-4;
+    const Vec2 by_u = (pixel_of(u + kStep, v) - pixel_of(u - kStep, v)) * (0.5 / kStep);
+    const Vec2 by_v = (pixel_of(u, v + kStep) - pixel_of(u, v - kStep)) * (0.5 / kStep);
+    const std::array<double, 8> flow_u{1, u, v, 0, 0, 0, -u * u, -u * v};
+    const std::array<double, 8> flow_v{0, 0, 0, 1, u, v, -u * v, -v * v};
+    for (int k = 0; k < 8; ++k) {
+      corners_by_motion(2 * i, k) = by_u.x * flow_u[k] + by_v.x * flow_v[k];
+      corners_by_motion(2 * i + 1, k) = by_u.y * flow_u[k] + by_v.y * flow_v[k];
+    }
+  }
+  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(covariance_px2->data()) =
+      corners_by_motion *
+          Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(
+              motion_covariance_.data()) *
+          corners_by_motion.transpose() +
+      kSystematicCorner_px * kSystematicCorner_px * Eigen::Matrix<double, 8, 8>::Identity();
+}
+
+}  // namespace pleinair::tracker
