@@ -13,7 +13,9 @@ namespace pleinair::app {
 namespace {
 
 constexpr double kSaturation = 1.2;  // Luminance · t / (N² ) constant of ISO 12232 at EV 0.
-constexpr double kWhite = 16.0;
+constexpr double kWhite = 8.0;
+// The key is meant for the whole of a scene, land and shadows included; the sky is its bright part.
+constexpr double kSkyInScene = 0.7;
 constexpr double kDarkest_cd_m2 = 1e-4;  // Starlight; below it nothing is made brighter.
 
 /// Codes of linear values in steps fine enough for eight bits.
@@ -43,7 +45,7 @@ SkyExposure ExposureOf(double ev100) { return {1.0 / (kSaturation * std::exp2(ev
 SkyExposure AutomaticExposure(Lux sky_horizontal) {
   const double mean = std::max(sky_horizontal.value() / std::numbers::pi, kDarkest_cd_m2);
   const double key = 1.03 - 2.0 / (2.0 + std::log10(mean + 1.0));
-  return {key / mean};
+  return {kSkyInScene * key / mean};
 }
 
 RgbImage ToneMap(const LightImage& light, SkyExposure exposure) {

@@ -22,13 +22,13 @@ SkyExposure ExposureOf(double ev100);
 
 /// As an eye would adapt to a sky of this illuminance on level ground: the mean luminance
 /// L = E / π is shown at the key of Krawczyk, Myszkowski & Seidel 2005, "Perceptual effects in
-/// real-time tone mapping", α = 1.03 − 2 / (2 + log10(L + 1)), gain = α / L: by night darker than
-/// by day.
+/// real-time tone mapping", α = 1.03 − 2 / (2 + log10(L + 1)), gain = 0.7 α / L: by night darker
+/// than by day, and darker than a whole scene would be shown, whose bright part the sky is.
 SkyExposure AutomaticExposure(Lux sky_horizontal);
 
 /// The picture for a screen, sRGB. Luminance goes through the curve of Reinhard et al. 2002,
-/// "Photographic tone reproduction for digital images", Eq. (4), with white at 16 times the gain's
-/// reciprocal: v = gain · L, shown v (1 + v / 16²) / (1 + v). The colour stays, and is drawn
+/// "Photographic tone reproduction for digital images", Eq. (4), with white at 8 times the gain's
+/// reciprocal: v = gain · L, shown v (1 + v / 8²) / (1 + v). The colour stays, and is drawn
 /// towards white only as far as a channel would leave the screen's range.
 RgbImage ToneMap(const LightImage& light, SkyExposure exposure);
 
