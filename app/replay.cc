@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/interrupt.h"
+#include "app/print_measurer.h"
 #include "app/progress_bar.h"
 #include "app/replay_warnings.h"
 #include "app/scene_marker.h"
@@ -124,6 +125,7 @@ class Replayer {
   Result<void> FindMarkers(devices::Recording& recording, tracker::Tracker& tracker) {
     PLEINAIR_ASSIGN_OR_RETURN(auto detections,
                               DetectionsWriter::Create(folder_.staging() / "detections.jsonl"));
+    PrintMeasurer measurer(recording.camera, scene_.marker.size_m);
     ProgressBar bar("Finding markers", recording.frames->FrameCount());
     while (true) {
       PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(recording));
@@ -132,6 +134,8 @@ class Replayer {
       PLEINAIR_ASSIGN_OR_RETURN(auto sightings, times_.Measure("track", [&] {
         return tracker.Track(frame->grey.view());
       }));
+      sightings = times_.Measure(
+          "measure", [&] { return measurer.Measure(frame->grey.view(), std::move(sightings)); });
       session_->AddFrame(frame->index, frame->timestamp_ns, sightings);
       PLEINAIR_RETURN_IF_ERROR(
           detections.Add(frame->index, frame->timestamp_ns, sightings, tracker.Lost()));

@@ -13,7 +13,6 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kSgFamily = "sg";
 /// What a marker is that nobody has named: one of ours, or the tag that most people have at hand.
 constexpr const char* kUsualTagFamily = "tag36h11";
 

@@ -11,6 +11,9 @@
 
 namespace pleinair::app {
 
+/// Family of the S-G markers.
+inline constexpr const char* kSgFamily = "sg";
+
 /// How to look for the marker that a scene describes in consecutive frames. Where it names no
 /// family, S-G markers and AprilTag's tag36h11 are looked for; a number that it names is the only
 /// one in use. Errors: a version of the print that this program does not know.

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/srgb.h"
-#include "tests/accuracy/ciede2000.h"
+#include "tests/accuracy/key_frame.h"
 #include "tests/e2e/run_program.h"
 
 namespace pleinair::accuracy {
@@ -61,45 +61,6 @@ void MakeRecordingWithoutTruth(const fs::path& folder, std::span<const int> fram
   scene["virtual_object"]["file"] = all.at("virtual_object").at("file");
   scene["virtual_object"]["shading"] = all.at("virtual_object").at("shading");
   e2e::WriteFile(folder / "scene.json", scene.dump());
-}
-
-struct KeyFrame {
-  cv::Mat background, truth, object_mask, shadow;
-};
-
-KeyFrame ReadKeyFrame(int frame) {
-  const auto read = [&](const char* what, int flags) {
-    return cv::imread(e2e::BundledRecording() / fmt::format("key/{:04}_{}.png", frame, what),
-                      flags);
-  };
-  return {read("background", cv::IMREAD_COLOR), read("truth", cv::IMREAD_COLOR),
-          read("objmask", cv::IMREAD_GRAYSCALE), read("shadow", cv::IMREAD_GRAYSCALE)};
-}
-
-/// Mean CIEDE2000 against the truth.
-struct Score {
-  double object = 0.0;  ///< Where the object covers more than half of a pixel.
-  double shadow = 0.0;  ///< Where it takes more than 4 % of the light, itself excluded.
-};
-
-Score Compare(const cv::Mat& picture, const KeyFrame& key) {
-  Score sum;
-  int object_pixels = 0, shadow_pixels = 0;
-  const auto lab = [](const cv::Vec3b& bgr) { return LabFromSrgb8({bgr[2], bgr[1], bgr[0]}); };
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) {
-      const bool object = key.object_mask.at<std::uint8_t>(y, x) > 127;
-      const bool shadow = key.shadow.at<std::uint8_t>(y, x) > 0;
-      if (!object && !shadow) continue;
-      const double difference =
-          Ciede2000(lab(picture.at<cv::Vec3b>(y, x)), lab(key.truth.at<cv::Vec3b>(y, x)));
-      sum.object += object ? difference : 0.0;
-      sum.shadow += shadow ? difference : 0.0;
-      object_pixels += object;
-      shadow_pixels += shadow;
-    }
-  }
-  return {sum.object / object_pixels, sum.shadow / shadow_pixels};
 }
 
 /// The object in its own colour, as if light were everywhere the same.

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
+#include <utility>
 
 #include "run_program.h"
 #include "tum_file.h"
@@ -68,8 +70,16 @@ size_m = 0.5
     rotation_deg.push_back(error.rotation_deg);
     position_share.push_back(error.position_share);
   }
-  EXPECT_LT(Percentile(rotation_deg, 1.0), 0.1);
-  EXPECT_LT(Percentile(position_share, 1.0), 0.002);
+  for (const auto& [what, values] : {std::pair{"rotation, degrees", rotation_deg},
+                                     {"position, share of the distance", position_share}}) {
+    std::printf("%-32s median %.5f, 95 %% %.5f, largest %.5f\n", what, Percentile(values, 0.5),
+                Percentile(values, 0.95), Percentile(values, 1.0));
+  }
+  // As good as with an AprilTag in the same place, or better (docs/accuracy.md).
+  EXPECT_LT(Percentile(rotation_deg, 0.5), 0.012);
+  EXPECT_LT(Percentile(rotation_deg, 1.0), 0.04);
+  EXPECT_LT(Percentile(position_share, 0.5), 0.0002);
+  EXPECT_LT(Percentile(position_share, 1.0), 0.0008);
 }
 
 TEST(Replay, WithoutAVirtualObjectKeepsEveryPixel) {

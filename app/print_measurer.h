@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "app/session.h"
+#include "base/camera_model.h"
+#include "base/image.h"
+#include "tracker/print_pattern.h"
+#include "tracker/sighting.h"
+
+namespace pleinair::app {
+
+/// Measures S-G markers once more, from every pixel of their prints at once (tracker/
+/// print_alignment.h). That takes some 20 ms a marker, which a recording has and a camera has not,
+/// and leaves a third of the error that the tracker's own fit by blocks has. AprilTags have been
+/// measured so already.
+class PrintMeasurer {
+ public:
+  PrintMeasurer(const CameraModel& camera, double marker_size_m)
+      : camera_(camera), marker_size_m_(marker_size_m) {}
+
+  /// What the tracker saw in a frame, with better corners and poses; frames come in order. Where a
+  /// print does not bear out the alignment, since too little of it is seen, its sighting stays as
+  /// it is.
+  std::vector<tracker::Sighting> Measure(ImageView<const std::uint8_t> grey,
+                                         std::vector<tracker::Sighting> sightings);
+
+ private:
+  void MeasureOne(ImageView<const std::uint8_t> grey, tracker::Sighting* sighting);
+
+  struct Marker {
+    std::shared_ptr<const tracker::PrintPattern> pattern;
+    Mat3 last_rotation;
+    bool seen = false;
+  };
+
+  const CameraModel camera_;
+  const double marker_size_m_;
+  std::map<MarkerName, Marker> markers_;
+};
+
+}  // namespace pleinair::app
