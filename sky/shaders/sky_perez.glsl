@@ -9,10 +9,12 @@
 #ifndef PLEINAIR_SKY_PEREZ_GLSL
 #define PLEINAIR_SKY_PEREZ_GLSL
 
+#include "sky/shaders/sky_angles.glsl"
+#include "sky/shaders/sky_colour.glsl"
+
 const float kPerezLowestTurbidity = 2.0f;
 const float kPerezHighestTurbidity = 10.0f;
 const float kPerezSmallestCosine = 1e-3f;
-const float kPerezPi = 3.14159265f;
 
 // Perez' five coefficients for chromaticity x, y and luminance Y at once.
 struct PerezSky {
@@ -57,14 +59,7 @@ float PerezTwilightShare(float elevation_deg) {
   } else if (e < 0.0f) {
     log10_lux = PerezTwilightSegment(e, -1.0f, 2.61f, 1.0f, 2.88f);
   }
-  return pow(10.0f, log10_lux - 2.88f);
-}
-
-vec3 PerezLiftedToHorizon(vec3 to_sun) {
-  if (to_sun.z >= 0.0f) return to_sun;
-  float horizontal = sqrt(to_sun.x * to_sun.x + to_sun.y * to_sun.y);
-  if (horizontal == 0.0f) return vec3(0.0f, 1.0f, 0.0f);
-  return vec3(to_sun.x / horizontal, to_sun.y / horizontal, 0.0f);
+  return exp((log10_lux - 2.88f) * 2.30258509f);
 }
 
 // Turbidity outside 2 to 10 is clamped.
@@ -76,11 +71,10 @@ PerezSky PerezSkyCreate(float turbidity, vec3 to_sun) {
   sky.c = vec3(-0.0004f, -0.0079f, -0.0227f) * t + vec3(0.2125f, 0.2102f, 5.3251f);
   sky.d = vec3(-0.0641f, -0.0441f, 0.1206f) * t + vec3(-0.8989f, -1.6537f, -2.5771f);
   sky.e = vec3(-0.0033f, -0.0109f, -0.0670f) * t + vec3(0.0452f, 0.0529f, 0.3703f);
-  sky.to_sun = PerezLiftedToHorizon(to_sun);
+  sky.to_sun = SkyLiftedToHorizon(to_sun);
 
   float cos_sun = min(sky.to_sun.z, 1.0f);
-  // atan2 keeps its digits near the zenith, where acos loses them.
-  float theta = atan(sqrt(sky.to_sun.x * sky.to_sun.x + sky.to_sun.y * sky.to_sun.y), cos_sun);
+  float theta = 0.5f * kSkyPi - SkyElevation(sky.to_sun);
   float theta2 = theta * theta;
   float theta3 = theta2 * theta;
   float zenith_x = (0.00166f * theta3 - 0.00375f * theta2 + 0.00209f * theta) * t * t +
@@ -89,10 +83,10 @@ PerezSky PerezSkyCreate(float turbidity, vec3 to_sun) {
   float zenith_y = (0.00275f * theta3 - 0.00610f * theta2 + 0.00317f * theta) * t * t +
                    (-0.04214f * theta3 + 0.08970f * theta2 - 0.04153f * theta + 0.00516f) * t +
                    (0.15346f * theta3 - 0.26756f * theta2 + 0.06670f * theta + 0.26688f);
-  float chi = (4.0f / 9.0f - t / 120.0f) * (kPerezPi - 2.0f * theta);
+  float chi = (4.0f / 9.0f - t / 120.0f) * (kSkyPi - 2.0f * theta);
   float zenith_luminance =
       1000.0f * ((4.0453f * t - 4.9710f) * tan(chi) - 0.2155f * t + 2.4192f);
-  float elevation_deg = asin(clamp(to_sun.z, -1.0f, 1.0f)) * (180.0f / kPerezPi);
+  float elevation_deg = SkyElevation(to_sun) * (180.0f / kSkyPi);
   vec3 zenith =
       vec3(zenith_x, zenith_y, zenith_luminance * PerezTwilightShare(elevation_deg));
   sky.zenith_over_f = zenith / PerezDistribution(sky, 1.0f, theta, cos_sun);
@@ -104,25 +98,13 @@ vec3 PerezSkyXyY(PerezSky sky, vec3 direction) {
   if (direction.z < 0.0f) return vec3(0.0f);
   float cos_theta = max(direction.z, kPerezSmallestCosine);
   float cos_gamma = clamp(dot(direction, sky.to_sun), -1.0f, 1.0f);
-  // From the chord, which unlike acos keeps its digits close to the sun.
-  float gamma = 2.0f * asin(min(1.0f, 0.5f * length(direction - sky.to_sun)));
+  float gamma = SkyAngleBetween(direction, sky.to_sun);
   return sky.zenith_over_f * PerezDistribution(sky, cos_theta, gamma, cos_gamma);
 }
 
-float PerezLuminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
-
-// Linear Rec.709 in cd/m2, no channel negative, PerezLuminance() of it is the sky's luminance.
+// Linear Rec.709 in cd/m2, no channel negative; its luminance is the sky's.
 vec3 PerezSkyRadiance(PerezSky sky, vec3 direction) {
-  vec3 colour = PerezSkyXyY(sky, direction);
-  if (colour.z <= 0.0f || colour.y <= 0.0f) return vec3(0.0f);
-  float x = colour.x / colour.y;
-  float z = (1.0f - colour.x - colour.y) / colour.y;
-  vec3 rgb = max(vec3(3.2406f * x - 1.5372f - 0.4986f * z, -0.9689f * x + 1.8758f + 0.0415f * z,
-                      0.0557f * x - 0.2040f + 1.0570f * z),
-                 vec3(0.0f));
-  float luminance = PerezLuminance(rgb);
-  if (luminance <= 0.0f) return vec3(0.0f);
-  return rgb * (colour.z / luminance);
+  return SkyRgbFromXyY(PerezSkyXyY(sky, direction));
 }
 
 #endif
