@@ -16,7 +16,7 @@ constexpr double kSaturation = 1.2;  // Luminance · t / (N² ) constant of ISO 
 constexpr double kWhite = 8.0;
 // The key is meant for the whole of a scene, land and shadows included; the sky is its bright part.
 constexpr double kSkyInScene = 0.7;
-constexpr double kDarkest_cd_m2 = 1e-4;  // Starlight; below it nothing is made brighter.
+constexpr double kDarkest_cd_m2 = 0.005;  // Where cones stop seeing (CIE 191:2010).
 
 /// Codes of linear values in steps fine enough for eight bits.
 class SrgbTable {

@@ -23,7 +23,8 @@ SkyExposure ExposureOf(double ev100);
 /// As an eye would adapt to a sky of this illuminance on level ground: the mean luminance
 /// L = E / π is shown at the key of Krawczyk, Myszkowski & Seidel 2005, "Perceptual effects in
 /// real-time tone mapping", α = 1.03 − 2 / (2 + log10(L + 1)), gain = 0.7 α / L: by night darker
-/// than by day, and darker than a whole scene would be shown, whose bright part the sky is.
+/// than by day, and darker than a whole scene would be shown, whose bright part the sky is. Below
+/// 0.005 cd/m² the gain grows no more: a moonless night is black but for its outlines.
 SkyExposure AutomaticExposure(Lux sky_horizontal);
 
 /// The picture for a screen, sRGB. Luminance goes through the curve of Reinhard et al. 2002,
