@@ -182,6 +182,13 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
   if (clipped_white > kClippedShare * white_.size()) {
     if (!FromBlocks(fit, light)) return false;
     light->white_clips = true;
+    if (brightest) {
+      // The few pixels at edges that do not clip tell the white badly; the black tells it as well
+      // as the print's ink is ordinary.
+      const double black = light->black_share * std::exp(light->log_white);
+      light->log_white = std::log(black / kOrdinaryBlack);
+      light->black_share = kOrdinaryBlack;
+    }
     light->log_white = std::max(light->log_white, 0.0);
     return true;
   }

@@ -177,8 +177,8 @@ bool CellReader::Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd*
     *found = factors.solve(right);
     if (!found->allFinite()) return false;
   }
-  *inverse = factors.solve(Eigen::MatrixXd::Identity(unknowns, unknowns))
-                 .topLeftCorner(sg::kCodeCells, sg::kCodeCells);
+  *inverse =
+      factors.solve(Eigen::MatrixXd::Identity(unknowns, sg::kCodeCells)).topRows(sg::kCodeCells);
   return inverse->allFinite();
 }
 

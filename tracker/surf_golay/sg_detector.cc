@@ -13,10 +13,11 @@ constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
 /// Correlation of a quadrilateral with the border that makes it worth a fit, by single pixels and
 /// after one.
 constexpr double kProbedCorrelation = 0.35, kRivalCorrelation = 0.12, kFittedCorrelation = 0.45;
-constexpr int kQuadSteps = 4, kGuessSteps = 8;
+constexpr int kQuadSteps = 4, kFirstSteps = 3, kGuessSteps = 5;
 constexpr double kProbeSide_px = 70.0;
-/// Guesses of the S-G search that may fail in a row before it is given up.
-constexpr int kMostFailures = 8;
+/// Guesses of the S-G search that are looked at together, and of which so many may turn out not to
+/// be readable before the others are given up.
+constexpr int kGuessesAtOnce = 20, kMostFailures = 5;
 constexpr double kSamePlace = 0.04;  ///< Of the side: two fits that ended here are one.
 /// Between two searches for markers that are new: quadrilaterals, borders.
 constexpr int kFastEvery = 3, kSearchEvery = 15;
@@ -25,7 +26,7 @@ constexpr int kFastEvery = 3, kSearchEvery = 15;
 constexpr int kForgetAfter = 90, kSearchAtOnce = 5;
 constexpr double kTrackedVisible = 0.12;
 /// Share of the border that must look right after a guess was fitted coarsely.
-constexpr double kGuessedVisible = 0.06;
+constexpr double kGuessedVisible = 0.15;
 
 std::array<Vec2, 4> CornersIdeal(const Mat3& modules_from_ideal) {
   const Mat3 inverse = Adjugate(modules_from_ideal);
@@ -234,25 +235,47 @@ void SgDetector::FindBySurf() {
   for (const Found& found : found_) taken_.push_back(found.reading.corners_px);
   search_->Find(grey_, taken_, &guesses_);
   tried_.clear();
-  int failures = 0;
-  for (const BorderGuess& guess : guesses_) {
-    if (failures > kMostFailures) break;
+  // As long as guesses turn out to be markers, more of them may.
+  for (std::size_t first = 0; first < guesses_.size(); first += kGuessesAtOnce) {
+    const std::size_t count = std::min<std::size_t>(kGuessesAtOnce, guesses_.size() - first);
+    if (!TryGuesses(std::span(guesses_).subspan(first, count))) return;
+  }
+}
+
+bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
+  // A few steps of the fit tell most wrong guesses from those that are worth more.
+  hopes_.clear();
+  for (const BorderGuess& guess : guesses) {
     if (Taken(guess.modules_from_ideal)) continue;
-    BlockFitState state;
-    state.modules_from_ideal = guess.modules_from_ideal;
-    reader_.FitBorder(kGuessSteps, true, &state);
-    const std::array<Vec2, 4> corners = CornersIdeal(state.modules_from_ideal);
+    Hope hope;
+    hope.state.modules_from_ideal = guess.modules_from_ideal;
+    const double correlation = reader_.FitBorder(kFirstSteps, true, &hope.state);
+    hope.worth = guess.votes * (correlation + reader_.VisibleBorder());
+    if (hope.worth > 0.0) hopes_.push_back(hope);
+  }
+  std::stable_sort(hopes_.begin(), hopes_.end(),
+                   [](const Hope& a, const Hope& b) { return a.worth > b.worth; });
+  bool any = false;
+  int failures = 0;
+  for (Hope& hope : hopes_) {
+    if (failures >= kMostFailures) break;
+    if (Taken(hope.state.modules_from_ideal)) continue;
+    reader_.FitBorder(kGuessSteps, true, &hope.state);
+    const std::array<Vec2, 4> corners = CornersIdeal(hope.state.modules_from_ideal);
     const bool again = std::any_of(tried_.begin(), tried_.end(), [&](const Mat3& tried) {
       return Apart(CornersIdeal(tried), corners) < kSamePlace * SideOf(corners);
     });
     if (again) continue;
-    tried_.push_back(state.modules_from_ideal);
+    tried_.push_back(hope.state.modules_from_ideal);
+    if (reader_.VisibleBorder() < kGuessedVisible || Taken(hope.state.modules_from_ideal)) continue;
     ++failures;
-    if (reader_.VisibleBorder() < kGuessedVisible || Taken(state.modules_from_ideal)) continue;
-    const std::optional<SgReading> reading = reader_.Read(state);
-    if (reading && RightWayRound(*reading) && Add(*reading, DetectionPath::kSurfGolay))
+    const std::optional<SgReading> reading = reader_.Read(hope.state);
+    if (reading && RightWayRound(*reading) && Add(*reading, DetectionPath::kSurfGolay)) {
       failures = 0;
+      any = true;
+    }
   }
+  return any;
 }
 
 void SgDetector::Track() {

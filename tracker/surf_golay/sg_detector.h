@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,9 +53,17 @@ class SgDetector final : public MarkerDetector {
     int frames_unseen = 0;
   };
 
+  /// A guess after the first steps of its fit.
+  struct Hope {
+    BlockFitState state;
+    double worth = 0.0;
+  };
+
   void Track();
   void FindFast();
   void FindBySurf();
+  /// Fits and reads guesses, the best first; whether any was a marker.
+  bool TryGuesses(std::span<const BorderGuess> guesses);
   bool Add(const SgReading& reading, DetectionPath path);
   bool Taken(const Mat3& modules_from_ideal) const;
   bool RightWayRound(const SgReading& reading);
@@ -71,6 +80,7 @@ class SgDetector final : public MarkerDetector {
   ReducedPictures reduced_;
   ImageView<const std::uint8_t> grey_;
   std::vector<Quad> seen_quads_;
+  std::vector<Hope> hopes_;
   std::vector<BorderGuess> guesses_;
   std::vector<Mat3> tried_;
   std::vector<Found> found_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tracker/homography.h"
+#include "tracker/surf_golay/cell_split.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
 
@@ -41,6 +42,13 @@ constexpr std::array<Proof, 6> kProofs{
     {{0.8, 0.7}, {0.7, 1.5}, {0.6, 2.5}, {0.4, 5.0}, {0.3, 5.5}, {0.1, 10.0}}};
 /// … and how much likelier than the next its number must be, in nats.
 constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F;
+/// Share of the border that tells the light over the whole print; and what it takes off a proof
+/// that the cells themselves had to tell it.
+constexpr double kTellsLight = 0.8, kSplitDoubt_bits = 2.0;
+/// With few numbers in use as much proof is asked for as with so many: a picture holds many places
+/// where one may be seen by chance.
+constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
+constexpr int kFewestNumbers = 64;
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.005;
@@ -205,30 +213,40 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
 }
 
 bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
+  const double border_visible = VisibleBorder();
   bool read = false;
-  const auto consider = [&](const PrintLight& light, bool with_glare) {
-    CellReading cells;
-    cell_reader_.Read(blank_, fit_, seen_, state, light, with_glare, &cells);
-    const SoftGolayDecoding decoding = decoder_.Decode(cells.likelihoods);
+  const auto decode = [&](const CellLikelihoods& likelihoods, double doubt_bits) {
+    const SoftGolayDecoding decoding = decoder_.Decode(likelihoods);
     // A number in use must not be one that many others would beat.
     const float margin = decoding.margin - decoding.shortfall;
-    if (!read || margin > reading->margin) {
-      reading->number = decoding.number;
-      reading->margin = margin;
-      reading->proof_bits = EvidenceBits(cells.likelihoods, decoding.number) -
-                            std::log2(static_cast<double>(decoder_.NumbersInUse()));
-    }
+    if (margin < kLeastMargin) return;
+    const double bits = EvidenceBits(likelihoods, decoding.number) -
+                        std::log2(std::max(kFewestNumbers, decoder_.NumbersInUse())) - doubt_bits;
+    if (read && bits <= reading->proof_bits) return;
     read = true;
-    return cells.glaring;
+    reading->number = decoding.number;
+    reading->margin = margin;
+    reading->proof_bits = bits;
   };
-  // Several explanations of the light; the one that makes the number surest is taken.
+  // Several explanations of the light; the one that proves its number best is taken.
   for (const bool brightest : {false, true}) {
     PrintLight light;
     if (!light_meter_.Measure(blank_, fit_, seen_, brightest, &light)) break;
-    if (consider(light, false)) consider(light, true);
-    if (reading->margin > kSafeMargin) break;
+    CellReading cells;
+    cell_reader_.Read(blank_, fit_, seen_, state, light, false, &cells);
+    decode(cells.likelihoods, 0.0);
+    if (read && reading->margin > kSafeMargin) break;
+    // Where the border shows the light well, a cell that is neither black nor white is covered.
+    if (border_visible < kTellsLight || light.white_clips || light.has_edge) {
+      const CellSplits splits = SplitCells(cells);
+      for (int i = 0; i < splits.count; ++i) decode(splits.likelihoods[i], kSplitDoubt_bits);
+    }
+    if (!cells.glaring || border_visible < kShowsGlare) continue;
+    if (read && reading->margin > kSafeMargin) break;
+    cell_reader_.Read(blank_, fit_, seen_, state, light, true, &cells);
+    decode(cells.likelihoods, 0.0);
   }
-  return read && reading->margin >= kLeastMargin;
+  return read;
 }
 
 std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {

@@ -1,0 +1,59 @@
+#include "tracker/surf_golay/cell_split.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pleinair::tracker {
+namespace {
+
+constexpr int kFewestOfAColour = 4;
+/// Added to a share before its logarithm is taken: black is nowhere quite black.
+constexpr double kFloor = 0.04;
+constexpr double kLeastGap = 0.5, kPlainGap = 1.1;  ///< Natural logarithms of ratios.
+constexpr double kPlain = 5.0;                      ///< Log-likelihood ratio of a plain cell.
+/// Left-over inside a cell, as a share of the light at the gap, that leaves it as likely as not.
+constexpr double kUneven = 0.5;
+
+}  // namespace
+
+CellSplits SplitCells(const CellReading& cells) {
+  std::array<int, sg::kCodeCells> order{};
+  std::array<double, sg::kCodeCells> level{};
+  int seen = 0;
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    if (!cells.seen[k]) continue;
+    level[k] = std::log(std::max(0.0, static_cast<double>(cells.white[k])) + kFloor);
+    order[seen++] = k;
+  }
+  std::sort(order.begin(), order.begin() + seen,
+            [&](int a, int b) { return level[a] != level[b] ? level[a] < level[b] : a < b; });
+  struct Gap {
+    double size, middle;
+  };
+  std::array<Gap, sg::kCodeCells> gaps{};
+  int count = 0;
+  for (int i = kFewestOfAColour; i <= seen - kFewestOfAColour; ++i) {
+    const double below = level[order[i - 1]], above = level[order[i]];
+    if (above - below > kLeastGap) gaps[count++] = {above - below, 0.5 * (below + above)};
+  }
+  std::stable_sort(gaps.begin(), gaps.begin() + count,
+                   [](const Gap& a, const Gap& b) { return a.size > b.size; });
+  CellSplits splits;
+  splits.count = std::min(count, CellSplits::kMost);
+  for (int i = 0; i < splits.count; ++i) {
+    const double plain = kPlain * std::min(1.0, gaps[i].size / kPlainGap);
+    const double at_gap = std::exp(gaps[i].middle);
+    for (int n = 0; n < seen; ++n) {
+      const int k = order[n];
+      const bool white = level[k] > gaps[i].middle;
+      // What covers a part of a cell, or a shadow's edge across it, shows as unevenness.
+      const double light = white ? std::exp(level[k]) : at_gap;
+      const double uneven = cells.misfit[k] / (kUneven * light);
+      const double likelihood = plain / (1.0 + uneven * uneven * uneven * uneven);
+      splits.likelihoods[i][k] = static_cast<float>(white ? likelihood : -likelihood);
+    }
+  }
+  return splits;
+}
+
+}  // namespace pleinair::tracker
