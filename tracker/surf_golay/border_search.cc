@@ -106,6 +106,26 @@ bool BorderSearch::Agrees(const Vote& hypothesis, const Vote& vote) const {
   return std::fabs(expected.x - k.x) < reach && std::fabs(expected.y - k.y) < reach;
 }
 
+double BorderSearch::Supporters(const std::vector<int>& bin, int at,
+                                std::vector<int>* members) const {
+  const Vote& seed = votes_[bin[at]];
+  double sum = 0.0;
+  int last_keypoint = -1;
+  const double reach = 0.5 * seed.size_px;
+  const auto visit = [&](int j) {
+    const Vote& vote = votes_[bin[j]];
+    if (std::fabs(vote.centre.y - seed.centre.y) > reach || !Agrees(seed, vote)) return;
+    if (members != nullptr) members->push_back(bin[j]);
+    // Several templates of one keypoint are one witness.
+    if (vote.keypoint != last_keypoint) sum += vote.weight;
+    last_keypoint = vote.keypoint;
+  };
+  const int size = static_cast<int>(bin.size());
+  for (int j = at; j < size && votes_[bin[j]].centre.x <= seed.centre.x + reach; ++j) visit(j);
+  for (int j = at; j-- > 0 && votes_[bin[j]].centre.x >= seed.centre.x - reach;) visit(j);
+  return sum;
+}
+
 void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
   // The angle filter: bins of the turn between template and frame, each overlapping its neighbours
   // by half, so that every pair of matches of one marker meets in some bin.
@@ -119,52 +139,30 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
     bins_[bin].push_back(static_cast<int>(v));
     bins_[(bin + 1) % bins].push_back(static_cast<int>(v));
   }
-  struct Ranked {
-    int seed;
-    double votes;
-    std::vector<int> members;
-  };
-  std::vector<Ranked> ranked;
-  std::vector<int> members;
-  for (auto& bin : bins_) {
-    std::sort(bin.begin(), bin.end(), [&](int a, int b) {
+  ranked_.clear();
+  for (int bin = 0; bin < bins; ++bin) {
+    std::sort(bins_[bin].begin(), bins_[bin].end(), [&](int a, int b) {
       return votes_[a].centre.x < votes_[b].centre.x ||
              (votes_[a].centre.x == votes_[b].centre.x && a < b);
     });
-    for (std::size_t i = 0; i < bin.size(); ++i) {
-      const Vote& seed = votes_[bin[i]];
-      members.clear();
-      double sum = 0.0;
-      int last_keypoint = -1;
-      const double reach = 0.5 * seed.size_px;
-      const auto visit = [&](std::size_t j) {
-        const Vote& vote = votes_[bin[j]];
-        if (std::fabs(vote.centre.y - seed.centre.y) > reach || !Agrees(seed, vote)) return;
-        members.push_back(bin[j]);
-        // Several templates of one keypoint are one witness.
-        if (vote.keypoint != last_keypoint) sum += vote.weight;
-        last_keypoint = vote.keypoint;
-      };
-      for (std::size_t j = i; j < bin.size() && votes_[bin[j]].centre.x <= seed.centre.x + reach;
-           ++j) {
-        visit(j);
-      }
-      for (std::size_t j = i; j-- > 0 && votes_[bin[j]].centre.x >= seed.centre.x - reach;) {
-        visit(j);
-      }
-      ranked.push_back({bin[i], sum, members});
+    for (int i = 0; i < static_cast<int>(bins_[bin].size()); ++i) {
+      ranked_.push_back({bin, i, Supporters(bins_[bin], i, nullptr)});
     }
   }
-  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    return a.votes > b.votes || (a.votes == b.votes && a.seed < b.seed);
+  std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
+    if (a.votes != b.votes) return a.votes > b.votes;
+    return a.bin < b.bin || (a.bin == b.bin && a.at < b.at);
   });
-  for (const Ranked& candidate : ranked) {
+  for (const Ranked& candidate : ranked_) {
     if (static_cast<int>(guesses->size()) >= options_.most_guesses) break;
-    const Vote& seed = votes_[candidate.seed];
+    const std::vector<int>& bin = bins_[candidate.bin];
+    const Vote& seed = votes_[bin[candidate.at]];
+    members_.clear();
+    Supporters(bin, candidate.at, &members_);
     BorderGuess guess;
     guess.votes = candidate.votes;
-    guess.matches = static_cast<int>(candidate.members.size());
-    if (!FitGuess(candidate.members, seed, &guess)) continue;
+    guess.matches = static_cast<int>(members_.size());
+    if (!FitGuess(members_, seed, &guess)) continue;
     const Mat3 inverse = Adjugate(guess.modules_from_ideal);
     const bool known = std::any_of(guesses->begin(), guesses->end(), [&](const BorderGuess& other) {
       const Mat3 other_inverse = Adjugate(other.modules_from_ideal);

@@ -60,6 +60,13 @@ class BorderSearch {
     double weight = 0.0;
   };
   void CastVotes();
+  /// A vote as the seed of a guess: where it stands in its bin, and what agrees with it.
+  struct Ranked {
+    int bin, at;
+    double votes;
+  };
+  /// The summed likeness of the votes of a bin, sorted by their centres, that agree with one.
+  double Supporters(const std::vector<int>& bin, int at, std::vector<int>* members) const;
   void Gather(std::vector<BorderGuess>* guesses);
   bool Agrees(const Vote& hypothesis, const Vote& vote) const;
   bool FitGuess(const std::vector<int>& members, const Vote& seed, BorderGuess* guess);
@@ -74,6 +81,8 @@ class BorderSearch {
   std::vector<QuantisedDescriptor> quantised_;
   std::vector<DescriptorMatch> templates_of_frame_, frame_of_templates_;
   std::vector<Vote> votes_;
+  std::vector<Ranked> ranked_;
+  std::vector<int> members_;
   std::vector<std::vector<int>> bins_;
 };
 

@@ -13,11 +13,14 @@ constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
 /// Correlation of a quadrilateral with the border that makes it worth a fit, by single pixels and
 /// after one.
 constexpr double kProbedCorrelation = 0.35, kRivalCorrelation = 0.12, kFittedCorrelation = 0.45;
-constexpr int kQuadSteps = 4, kFirstSteps = 3, kGuessSteps = 5;
+constexpr int kQuadSteps = 4, kFirstSteps = 2, kGuessSteps = 5;
 constexpr double kProbeSide_px = 70.0;
-/// Guesses of the S-G search that are looked at together, and of which so many may turn out not to
-/// be readable before the others are given up.
-constexpr int kGuessesAtOnce = 20, kMostFailures = 5;
+/// Guesses of the S-G search that are looked at together; of which so many are fitted, and so many
+/// may turn out not to be readable, before the others are given up.
+constexpr int kGuessesAtOnce = 20, kMostFits = 9, kMostFailures = 4;
+/// Votes of a guess that is worth a glance, and votes times fit that make it worth more. In
+/// pictures without a marker a quarter of the 20 best guesses is.
+constexpr double kFewestVotes = 3.0, kLeastWorth = 1.2;
 constexpr double kSamePlace = 0.04;  ///< Of the side: two fits that ended here are one.
 /// Between two searches for markers that are new: quadrilaterals, borders.
 constexpr int kFastEvery = 3, kSearchEvery = 15;
@@ -207,7 +210,8 @@ void SgDetector::TryQuad(const Quad& quad) {
     BlockFitState state;
     state.modules_from_ideal = ModulesFromCorners(corners);
     if (!orientation.mirrored && Taken(state.modules_from_ideal)) return;
-    if (reader_.FitBorder(kQuadSteps, true, &state) < kFittedCorrelation) continue;
+    if (reader_.FitBorder(kQuadSteps, SgReader::Detail::kCoarse, &state) < kFittedCorrelation)
+      continue;
     const std::optional<SgReading> reading = reader_.Read(state);
     if (!reading) continue;
     if (orientation.mirrored) {
@@ -246,21 +250,23 @@ bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
   // A few steps of the fit tell most wrong guesses from those that are worth more.
   hopes_.clear();
   for (const BorderGuess& guess : guesses) {
-    if (Taken(guess.modules_from_ideal)) continue;
+    if (guess.votes < kFewestVotes || Taken(guess.modules_from_ideal)) continue;
     Hope hope;
     hope.state.modules_from_ideal = guess.modules_from_ideal;
-    const double correlation = reader_.FitBorder(kFirstSteps, true, &hope.state);
+    const double correlation =
+        reader_.FitBorder(kFirstSteps, SgReader::Detail::kGlance, &hope.state);
     hope.worth = guess.votes * (correlation + reader_.VisibleBorder());
-    if (hope.worth > 0.0) hopes_.push_back(hope);
+    if (hope.worth > kLeastWorth) hopes_.push_back(hope);
   }
   std::stable_sort(hopes_.begin(), hopes_.end(),
                    [](const Hope& a, const Hope& b) { return a.worth > b.worth; });
   bool any = false;
-  int failures = 0;
+  int failures = 0, fits = 0;
   for (Hope& hope : hopes_) {
-    if (failures >= kMostFailures) break;
+    if (failures >= kMostFailures || fits >= kMostFits) break;
     if (Taken(hope.state.modules_from_ideal)) continue;
-    reader_.FitBorder(kGuessSteps, true, &hope.state);
+    ++fits;
+    reader_.FitBorder(kGuessSteps, SgReader::Detail::kCoarse, &hope.state);
     const std::array<Vec2, 4> corners = CornersIdeal(hope.state.modules_from_ideal);
     const bool again = std::any_of(tried_.begin(), tried_.end(), [&](const Mat3& tried) {
       return Apart(CornersIdeal(tried), corners) < kSamePlace * SideOf(corners);
@@ -271,7 +277,7 @@ bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
     ++failures;
     const std::optional<SgReading> reading = reader_.Read(hope.state);
     if (reading && RightWayRound(*reading) && Add(*reading, DetectionPath::kSurfGolay)) {
-      failures = 0;
+      failures = fits = 0;
       any = true;
     }
   }

@@ -12,7 +12,8 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kCoarseSide_px = 52.0;  ///< Longest side of a print that is fitted coarsely,
+constexpr double kGlanceSide_px = 36.0;  ///< Longest side of a print that is only glanced at,
+constexpr double kCoarseSide_px = 52.0;  ///< … that is fitted coarsely,
 constexpr double kFineSide_px = 100.0;   ///< … and finely.
 constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
@@ -137,12 +138,14 @@ bool SgReader::Window(const Mat3& modules_from_ideal, int level, PixelWindow* wi
   return window->width > 3 && window->height > 3 && window->size() < 400'000;
 }
 
-double SgReader::FitBorder(int steps, bool coarse, BlockFitState* state) {
+double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
+  const bool coarse = detail != Detail::kFine;
   const double side = SidePx(state->modules_from_ideal);
   if (side < kLeastSide_px) return -1.0;
   PixelWindow window;
   if (coarse) {
-    if (!TakeCoarseWindow(state->modules_from_ideal, &window)) return -1.0;
+    const double most_side = detail == Detail::kGlance ? kGlanceSide_px : kCoarseSide_px;
+    if (!TakeCoarseWindow(state->modules_from_ideal, most_side, &window)) return -1.0;
     state->blur_px =
         std::clamp(kCoarseBlurShare * side / window.Scale(), 0.7, kCoarseBlur_px) * window.Scale();
   } else if (!TakeFineWindow(state->modules_from_ideal, &window)) {
@@ -173,7 +176,7 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
   const double side = SidePx(state.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
   PixelWindow window;
-  if (!TakeCoarseWindow(state.modules_from_ideal, &window)) return std::nullopt;
+  if (!TakeCoarseWindow(state.modules_from_ideal, kCoarseSide_px, &window)) return std::nullopt;
   const double scale = window.Scale();
   state.blur_px = std::max(guess.blur_px, kFollowBlur_px * scale);
   BlockFitOptions options;
@@ -252,7 +255,7 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
 std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
-  const double correlation = FitBorder(4, false, &state);
+  const double correlation = FitBorder(4, Detail::kFine, &state);
   const double visible_border = VisibleBorder();
   SgReading number;
   if (visible_border < kLeastVisibleBorder || !ReadNumber(state, &number)) return std::nullopt;
@@ -271,7 +274,7 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
     // Where the print turned out to lie its cells must still tell the same.
     BlockFitState measured{reading->modules_from_ideal, reading->blur_px};
     const int read_first = number.number;
-    FitBorder(0, false, &measured);
+    FitBorder(0, Detail::kFine, &measured);
     if (!ReadNumber(measured, &number) || number.number != read_first) return std::nullopt;
   }
   reading->border_correlation = correlation;
@@ -311,10 +314,11 @@ bool SgReader::Verified(const SgReading& reading) {
   });
 }
 
-bool SgReader::TakeCoarseWindow(const Mat3& modules_from_ideal, PixelWindow* window) {
+bool SgReader::TakeCoarseWindow(const Mat3& modules_from_ideal, double most_side_px,
+                                PixelWindow* window) {
   const double side = SidePx(modules_from_ideal);
   int level = 0;
-  while (side / (1 << level) > kCoarseSide_px && level + 1 < ReducedPictures::kLevels) ++level;
+  while (side / (1 << level) > most_side_px && level + 1 < ReducedPictures::kLevels) ++level;
   if (!Window(modules_from_ideal, level, window)) return false;
   TakeCodeWindow(lens_, reduced_.Level(level), *window, &seen_);
   return true;

@@ -50,9 +50,12 @@ class SgReader {
   /// The picture that the following readings look at; kept by reference.
   void SetPicture(ImageView<const std::uint8_t> grey);
 
+  /// Of what resolution the picture is that a print is fitted to: its longest side in pixels.
+  enum class Detail { kGlance, kCoarse, kFine };
+
   /// How well a border fits at a guess, after some steps towards a better one: the correlation.
   /// `steps` 0 only looks.
-  double FitBorder(int steps, bool coarse, BlockFitState* state);
+  double FitBorder(int steps, Detail detail, BlockFitState* state);
 
   /// Share of the border that looked as predicted in the last fit.
   double VisibleBorder() const;
@@ -69,7 +72,7 @@ class SgReader {
  private:
   bool Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const;
   /// Takes the window of a print for finding it, or for measuring; false where it has none.
-  bool TakeCoarseWindow(const Mat3& modules_from_ideal, PixelWindow* window);
+  bool TakeCoarseWindow(const Mat3& modules_from_ideal, double most_side_px, PixelWindow* window);
   bool TakeFineWindow(const Mat3& modules_from_ideal, PixelWindow* window);
   double SidePx(const Mat3& modules_from_ideal) const;
   /// Reads the cells of a print whose border was fitted last: number, margin and proof. False where
