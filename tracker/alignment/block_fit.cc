@@ -14,6 +14,7 @@ constexpr int kMostBlocksAlong = 8;
 constexpr double kLeastBlockContrast = 0.04;  ///< Standard deviation of the share of white.
 constexpr int kLeastBlockPixels = 6;
 constexpr double kLeastWeight = 0.02;
+constexpr double kRobustNoises = 1.0;  ///< Of a block, beyond which a pixel loses half.
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
 constexpr float kMostReach_modules = 2.4F;
 constexpr double kLeastBlur_px = 0.25, kMostBlur_px = 6.0;
@@ -132,9 +133,10 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
     block.weight = std::clamp(
         (block.correlation - kDoubtfulCorrelation) / (kCredibleCorrelation - kDoubtfulCorrelation),
         kLeastWeight, 1.0);
+    // Noise is no outlier.
+    const double robust = std::max(block.gain * robust_share, kRobustNoises * block.noise);
     light = {static_cast<float>(block.gain), static_cast<float>(block.offset),
-             static_cast<float>(1.0 / (block.gain * robust_share)),
-             static_cast<float>(block.weight)};
+             static_cast<float>(1.0 / robust), static_cast<float>(block.weight)};
   }
 }
 
