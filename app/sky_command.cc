@@ -154,11 +154,8 @@ Result<SkyFileOptions> ChosenFile(const Options& options, bool many) {
       !options.projection.empty() ? options.projection : (light ? "latlong" : "fisheye");
   const bool fisheye = projection == "fisheye";
   file.picture.projection = fisheye ? SkyProjection::kFisheye : SkyProjection::kLatLong;
-  constexpr int kVideo_px = 720;
-  file.picture.width_px = options.size_px.value_or((video     ? kVideo_px
-                                                    : fisheye ? 1024
-                                                              : 1024) *
-                                                   (fisheye ? 1 : 2));
+  const int height_px = video ? 720 : 1024;
+  file.picture.width_px = options.size_px.value_or(fisheye ? height_px : 2 * height_px);
   if (!fisheye && file.picture.width_px % 2 != 0) {
     return InputError("--size", "a latitude-longitude map is twice as wide as high",
                       "give an even number");

@@ -28,7 +28,7 @@ class SrgbTable {
   }
   std::uint8_t operator()(double linear) const {
     const double at = std::clamp(linear, 0.0, 1.0) * static_cast<double>(codes_.size() - 1);
-    return codes_[static_cast<std::size_t>(at + 0.5)];
+    return codes_[static_cast<std::size_t>(std::lround(at))];
   }
 
  private:

@@ -93,7 +93,8 @@ void AddDisc(const sky::SkyModel& sky, const SkyPictureOptions& options, LightIm
       if (x < 0 || x >= options.width_px) continue;
       double mean = 0.0;
       for (int i = 0; i < kGrid * kGrid; ++i) {
-        const Vec2 place{x + (i % kGrid + 0.5) / kGrid, y + (i / kGrid + 0.5) / kGrid};
+        const int row = i / kGrid, column = i % kGrid;
+        const Vec2 place{x + (column + 0.5) / kGrid, y + (row + 0.5) / kGrid};
         const auto direction = DirectionInPicture(options, place);
         if (!direction || direction->xyz.z < 0.0) continue;
         const double angle = sky::AngleBetween(direction->xyz, to_sun);
