@@ -1,6 +1,7 @@
 #include "app/target_command.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -120,6 +121,14 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
   if (!tracker::IsTargetName(name)) {
     return InputError("--name", "the name is empty, too long or no plain UTF-8",
                       fmt::format("give one of 1 to {} bytes", tracker::kMostTargetName));
+  }
+  // A slip in a name should not cost the seconds that making a target takes.
+  for (const fs::path& file :
+       {fs::path(arguments.output), fs::path(arguments.preview.value_or(""))}) {
+    std::error_code ignored;
+    if (file.has_parent_path() && !fs::is_directory(file.parent_path(), ignored)) {
+      return tl::make_unexpected(WriteError(file, ENOENT));
+    }
   }
   PLEINAIR_ASSIGN_OR_RETURN(const devices::Picture decoded,
                             devices::DecodePictureFile(arguments.picture));

@@ -8,3 +8,9 @@ pleinair_test(picture_target_file_test
 pleinair_test(picture_target_making_test
   SOURCES picture_target_making_test.cc
   LIBS pleinair_picture_target_scenes)
+pleinair_test(picture_target_detection_test
+  SOURCES picture_target_detection_test.cc
+  LIBS pleinair_picture_target_scenes Eigen3::Eigen opencv_core opencv_imgcodecs)
+pleinair_test(picture_target_tracking_test
+  SOURCES picture_target_tracking_test.cc
+  LIBS pleinair_picture_target_scenes)

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tracker/alignment/block_sums.h"
 #include "tracker/homography.h"
@@ -25,9 +26,11 @@ constexpr double kStillBlur_px = 0.02;  ///< Change of the blur that is none.
 /// light, and no less than what noise does.
 constexpr double kRobustShareOfRest = 3.0, kMostRobustShare = 1.2, kLeastRobustShare = 0.15;
 constexpr double kLeastRobust = 0.03;
+/// A block tells something from so much of its details on, in deviations of the noise.
+constexpr double kTellingOverNoise = 1.5;
 /// Tiles of 4×4 pixels where blocks and the target itself are so many pixels wide at least.
 constexpr double kLeastBlockOfTiles_px = 7.0, kLeastTargetOfTiles_px = 24.0;
-constexpr double kDamping = 1e-5;
+constexpr double kDamping = 1e-7;
 /// The prediction is good for a fraction of the target's side, in one step.
 constexpr double kFarthestStep = 0.06;
 
@@ -285,20 +288,28 @@ void PictureFit::Compare(const SeenWindow& seen) {
       if (block_of_[at] < 0 || !(seen.certainty[at] > 0.0F)) continue;
       // The lower triangle of v vᵀ, row by row.
       const std::array<double, 5> v{1.0, 1.0 * x, 1.0 * y, picture_.white[at], seen.value[at]};
-      auto& sums = details_[block_of_[at]];
+      Detail& detail = details_[block_of_[at]];
+      const double slope_x = picture_.white_x[at], slope_y = picture_.white_y[at];
+      detail.slope_x += slope_x;
+      detail.slope_y += slope_y;
+      detail.slope2 += slope_x * slope_x + slope_y * slope_y;
+      detail.certainty += seen.certainty[at];
       for (int a = 0, k = 0; a < 5; ++a) {
-        for (int b = 0; b <= a; ++b, ++k) sums[k] += v[a] * v[b];
+        for (int b = 0; b <= a; ++b, ++k) detail.products[k] += v[a] * v[b];
       }
     }
   }
+  rests_.clear();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     TargetBlock& block = blocks_[k];
-    block.detail_correlation = block.detail_contrast = 0.0;
-    const double count = details_[k][0];
-    if (count < kLeastBlockPixels) continue;
+    Detail& detail = details_[k];
+    block.detail_correlation = 0.0;
+    block.tells = false;
+    const double count = detail.products[0];
+    if (count < kLeastBlockPixels || !(block.mean > 0.0)) continue;
     Eigen::Matrix<double, 5, 5> products;
     for (int a = 0, at = 0; a < 5; ++a) {
-      for (int b = 0; b <= a; ++b, ++at) products(a, b) = products(b, a) = details_[k][at];
+      for (int b = 0; b <= a; ++b, ++at) products(a, b) = products(b, a) = detail.products[at];
     }
     // Partial correlation: what is left of the last two when the first three have explained theirs.
     const Eigen::Matrix<double, 2, 2> rest =
@@ -306,8 +317,27 @@ void PictureFit::Compare(const SeenWindow& seen) {
         products.bottomLeftCorner<2, 3>() *
             products.topLeftCorner<3, 3>().ldlt().solve(products.topRightCorner<3, 2>());
     if (!(rest(0, 0) > 1e-12 * count) || !(rest(1, 1) > 1e-14 * count)) continue;
-    block.detail_contrast = std::sqrt(rest(0, 0) / count);
     block.detail_correlation = rest(0, 1) / std::sqrt(rest(0, 0) * rest(1, 1));
+    const double contrast = std::sqrt(rest(0, 0) / count);
+    block.tells = contrast >= kLeastContrast;
+    // The mean square of the spatial frequency says how far apart samples are independent.
+    const double slope2 =
+        detail.slope2 - (detail.slope_x * detail.slope_x + detail.slope_y * detail.slope_y) / count;
+    block.samples = count * std::max(0.0, slope2) / rest(0, 0) / (4.0 * std::numbers::pi);
+    const double codes = 255.0 * std::sqrt(detail.certainty / count);
+    // The light on the block is about what is seen of what should be: that holds if covered, too.
+    detail.contrast_codes = codes * contrast * block.seen / block.mean;
+    detail.rest_codes =
+        codes * std::sqrt(rest(1, 1) / count *
+                          std::max(0.0, 1.0 - block.detail_correlation * block.detail_correlation));
+    rests_.push_back(detail.rest_codes);
+  }
+  if (rests_.empty()) return;
+  // What covers blocks leaves much, what is noise the same everywhere.
+  const auto low = rests_.begin() + static_cast<std::ptrdiff_t>(rests_.size() / 4);
+  std::nth_element(rests_.begin(), low, rests_.end());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    blocks_[k].tells = blocks_[k].tells && details_[k].contrast_codes >= kTellingOverNoise * *low;
   }
 }
 

@@ -23,8 +23,12 @@ struct TargetBlock {
   double contrast = 0.0;  ///< Standard deviation of the predicted light.
   double weight = 0.0;    ///< 0…1: how much the fit believes in it.
   int pixels = 0;
-  /// After Compare: correlation and standard deviation of what no even slope explains.
-  double detail_correlation = 0.0, detail_contrast = 0.0;
+  /// After Compare: correlation of what no even slope explains, and whether there is enough of it
+  /// to stand out from noise.
+  double detail_correlation = 0.0;
+  bool tells = false;
+  /// Independent samples that there are of it, about: even blocks that are smooth agree by chance.
+  double samples = 0.0;
 };
 
 /// What a fit varies.
@@ -75,7 +79,7 @@ class PictureFit {
   std::array<double, 64> MotionCovariance() const;
 
   /// Least standard deviation of a block's predicted light for it to tell anything.
-  static constexpr double kLeastContrast = 0.02;
+  static constexpr double kLeastContrast = 0.01;
 
  private:
   static constexpr int kMotions = 8;
@@ -95,7 +99,13 @@ class PictureFit {
   std::vector<TargetBlock> blocks_;
   std::vector<float> weight_;
   std::vector<std::int16_t> block_of_;
-  std::vector<std::array<double, 15>> details_;
+  /// Of each block: sums of products, slopes, certainty; then how far details stand out from noise.
+  struct Detail {
+    std::array<double, 15> products{};
+    double slope_x = 0.0, slope_y = 0.0, slope2 = 0.0;
+    double certainty = 0.0, contrast_codes = 0.0, rest_codes = 0.0;
+  };
+  std::vector<Detail> details_;
   std::vector<double> rests_;  ///< What is left over of each block that fits, of its contrast.
   std::unique_ptr<Sums> sums_;
   std::array<double, kParameters * kParameters> hessian_{};

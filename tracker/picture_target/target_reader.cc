@@ -17,7 +17,7 @@ constexpr double kCoarseBlock_px = 9.0, kFineBlock_px = 12.0;
 constexpr PictureFitOptions kCoarseFit{
     .steps = 8, .fit_projection = false, .least_weight = 0.02, .done_px = 0.1};
 constexpr PictureFitOptions kMiddleFit{.steps = 8, .least_weight = 0.01, .done_px = 0.05};
-constexpr PictureFitOptions kFineFit{.steps = 6, .fit_blur = true};
+constexpr PictureFitOptions kFineFit{.steps = 20, .fit_blur = true};
 /// Blur that is taken for certain in reduced pictures, in their pixels.
 constexpr double kReducedBlur_px = 1.0;
 constexpr double kLeastSide_px = 16.0;  ///< Of the longer side; and of the shorter:
@@ -26,15 +26,15 @@ constexpr std::size_t kMostWindow = 400'000;
 /// Fits in between by which less of the target looks as predicted are not looked at finely; from
 /// the second on nothing better is tried.
 constexpr double kHopeless = 0.08, kGoodEnough = 0.9;
-/// A block is hidden up to the first correlation and seen from the second on; it tells something
-/// from so much contrast of its details on.
+/// A block is hidden up to the first correlation and seen from the second on.
 constexpr double kHidden = 0.4, kSeen = 0.8;
-constexpr double kLeastDetail = 0.01;
 /// What makes it the target: so much of it looks right, and that times the evidence is so much.
-/// Photographs without the target reach 12, but for slivers that no camera sees
-/// (picture_detector.cc refuses those); with it 30 is little, of a target of 40 pixels
-/// (docs/targets.md).
+/// Photographs without the target reach 9, and with it 30 is little, of a target of 40 pixels or
+/// with 60 % covered (docs/targets.md).
 constexpr double kLeastVisible = 0.15, kLeastProof = 15.0;
+/// Independent samples of a block that moving and lighting it fits anyhow, and those beyond that
+/// make it tell all it can.
+constexpr double kFittedSamples = 3.0, kEnoughSamples = 8.0;
 constexpr double kSurest = 0.995;       ///< Correlation that is as good as 1.
 constexpr double kLeastTelling = 0.15;  ///< Blocks that count at least, as a share of all.
 /// What no residual tells: flatness of the print, its edges, calibration.
@@ -202,17 +202,18 @@ std::optional<TargetReading> TargetReader::Measure(const PicturePyramid& pyramid
   double seen = 0.0, all = 0.0;
   for (const TargetBlock& block : fit_.blocks()) {
     // Blocks that are even, clip all over, or lie outside the picture tell nothing.
-    const bool tells = block.detail_contrast >= kLeastDetail;
-    const double correlation = tells && block.gain > 0.0 ? block.detail_correlation : 0.0;
+    const double correlation = block.tells && block.gain > 0.0 ? block.detail_correlation : 0.0;
     const double visible = VisibleOf(correlation);
     reading.visible.push_back(static_cast<float>(visible));
-    // What independent normal variables would need luck for, in nats a sample: -½ ln(1 - r²).
+    // What luck unrelated samples would need, in nats a pair: -½ ln(1 - r²).
     const double sure = std::clamp(correlation, 0.0, kSurest);
-    reading.evidence -= std::log(1.0 - sure * sure);
+    const double independent =
+        std::clamp((block.samples - kFittedSamples) / kEnoughSamples, 0.0, 1.0);
+    reading.evidence -= independent * std::log(1.0 - sure * sure);
     // What lies outside the picture is not seen, and not known by its neighbours either.
-    known.push_back(tells || block.pixels == 0 ? 1 : 0);
+    known.push_back(block.tells || block.pixels == 0 ? 1 : 0);
     seen += visible;
-    all += tells ? 1.0 : 0.0;
+    all += block.tells ? 1.0 : 0.0;
   }
   const double count = static_cast<double>(fit_.blocks().size());
   reading.visible_fraction = seen / std::max(all, kLeastTelling * count);

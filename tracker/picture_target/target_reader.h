@@ -20,7 +20,8 @@ struct TargetReading {
   double blur_px = 0.0;    ///< Standard deviation beyond the pixel's square.
   double correlation = 0.0;
   double visible_fraction = 0.0;  ///< Share of the target that looks as predicted.
-  double evidence = 0.0;          ///< Of all blocks' details: Σ -ln(1 - correlation²).
+  double evidence =
+      0.0;  ///< Of its details: Σ -ln(1 - correlation²) of blocks that are not smooth.
   int blocks_along = 0;
   std::vector<float> visible;  ///< 0…1 for each block, row by row.
 };

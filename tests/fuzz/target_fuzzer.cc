@@ -1,0 +1,91 @@
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "tracker/picture_target/target_file.h"
+#include "tracker/picture_target/target_quality.h"
+#include "tracker/tracker.h"
+
+namespace {
+
+using pleinair::CameraModel;
+using pleinair::GreyImage;
+using pleinair::Vec2;
+namespace tracker = pleinair::tracker;
+
+constexpr std::size_t kLengthAt = 12, kChecksumAt = 16, kHeader = 20;
+
+/// With the header that belongs to the content, so that what lies behind it is reached.
+std::string Sealed(std::string bytes) {
+  if (bytes.size() < kHeader) return bytes;
+  const auto length = static_cast<std::uint32_t>(bytes.size() - kHeader);
+  const std::uint32_t checksum = tracker::Crc32(std::string_view(bytes).substr(kHeader));
+  bytes.replace(0, 12, std::string("PLEINTGT\1\0\0\0", 12));
+  std::memcpy(bytes.data() + kLengthAt, &length, sizeof(length));
+  std::memcpy(bytes.data() + kChecksumAt, &checksum, sizeof(checksum));
+  return bytes;
+}
+
+/// Looks for a target in its own picture and in what the bytes paint, as frames one after another.
+void LookFor(tracker::PictureTarget target, const std::string& bytes) {
+  const int width = target.picture.width(), height = target.picture.height();
+  const CameraModel camera{.width = width,
+                           .height = height,
+                           .fx = 1.0 * width,
+                           .fy = 1.0 * width,
+                           .cx = 0.5 * (width - 1),
+                           .cy = 0.5 * (height - 1)};
+  const GreyImage own = target.picture;
+  GreyImage painted(width, height);
+  for (std::size_t i = 0; i < painted.size(); ++i) {
+    painted.data()[i] = static_cast<std::uint8_t>(bytes[i % bytes.size()]);
+  }
+  auto following = tracker::Tracker::Create(
+      camera, {.families = {},
+               .consecutive_frames = true,
+               .targets = {std::make_shared<const tracker::PictureTarget>(std::move(target))}});
+  if (!following) std::abort();
+  for (const GreyImage* frame : {&own, &own, &painted, &own}) {
+    const auto sightings = (*following)->Track(frame->view());
+    if (!sightings || sightings->size() > 1) std::abort();
+    for (const tracker::Sighting& sighting : *sightings) {
+      const tracker::MarkerDetection& seen = sighting.detection;
+      if (seen.family != "picture" || seen.id != 0 || seen.name.empty()) std::abort();
+      if (!(seen.visible_fraction >= 0.0 && seen.visible_fraction <= 1.0)) std::abort();
+      for (const float visible : seen.visibility) {
+        if (!(visible >= 0.0F && visible <= 1.0F)) std::abort();
+      }
+      for (const Vec2 corner : seen.corners_px) {
+        if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) std::abort();
+      }
+      for (const double value : sighting.pose.covariance) {
+        if (!std::isfinite(value)) std::abort();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+// Any bytes give a target that can be rated, written again and looked for, or an error; as they
+// are, and with the length and checksum that belong to them.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  for (const std::string& tried : {bytes, Sealed(bytes)}) {
+    auto target = tracker::ParseTarget(tried, "target");
+    if (!target) {
+      if (target.error().what.empty() || target.error().where != "target") std::abort();
+      continue;
+    }
+    if (tracker::SerializeTarget(*target) != tried) std::abort();
+    const tracker::TargetQuality quality = tracker::RateTarget(*target);
+    if (quality.score < 0 || quality.score > 100) std::abort();
+    LookFor(*std::move(target), tried);
+  }
+  return 0;
+}
