@@ -14,3 +14,6 @@ pleinair_test(picture_target_detection_test
 pleinair_test(picture_target_tracking_test
   SOURCES picture_target_tracking_test.cc
   LIBS pleinair_picture_target_scenes)
+pleinair_test(picture_target_fit_test
+  SOURCES picture_target_fit_test.cc
+  LIBS pleinair_picture_target_scenes)
