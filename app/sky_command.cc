@@ -39,7 +39,7 @@ constexpr const char* kExamples =
     "Light: linear Rec.709, cd/m2 and lux.\n";
 
 constexpr int kSmallest_px = 16;
-constexpr int kLargest_px = 16'384;
+constexpr int kLargest_px = 8192;
 constexpr double kDaySeconds = 86'400.0;
 
 struct AerosolOptions {

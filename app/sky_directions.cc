@@ -25,16 +25,6 @@ struct AngleColumn {
 constexpr AngleColumn kAzimuth{"azimuth_deg", -360.0, 360.0};
 constexpr AngleColumn kElevation{"elevation_deg", -90.0, 90.0};
 
-struct DirectionRow {
-  double azimuth_deg = 0.0, elevation_deg = 0.0;
-  std::string_view text;  // Into the file's.
-};
-
-struct DirectionTable {
-  std::string_view header;
-  std::vector<DirectionRow> rows;
-};
-
 Result<std::size_t> RequireColumn(const CsvRecords& header, const AngleColumn& column) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::size_t> found, header.FindColumn(column.name));
   if (found) return *found;
@@ -51,11 +41,13 @@ Result<double> ReadAngle(const CsvRecords& record, std::size_t at, const AngleCo
                     fmt::format("give degrees from {:g} to {:g}", column.lowest, column.highest));
 }
 
-Result<DirectionTable> ParseDirections(std::string_view text, const std::string& name) {
+}  // namespace
+
+Result<SkyDirectionTable> ParseSkyDirections(std::string_view text, const std::string& name) {
   CsvRecords records(text, name);
   PLEINAIR_ASSIGN_OR_RETURN(const bool has_header, records.Next());
   if (!has_header) return InputError(name, "is empty", std::string(kHeaderHelp));
-  DirectionTable table;
+  SkyDirectionTable table;
   table.header = records.record();
   const std::size_t columns = records.fields().size();
   PLEINAIR_ASSIGN_OR_RETURN(const std::size_t azimuth, RequireColumn(records, kAzimuth));
@@ -64,7 +56,7 @@ Result<DirectionTable> ParseDirections(std::string_view text, const std::string&
     PLEINAIR_ASSIGN_OR_RETURN(const bool more, records.Next());
     if (!more) return table;
     PLEINAIR_RETURN_IF_ERROR(records.CheckFieldCount(columns));
-    DirectionRow row;
+    SkyDirectionRow row;
     row.text = records.record();
     PLEINAIR_ASSIGN_OR_RETURN(row.azimuth_deg, ReadAngle(records, azimuth, kAzimuth));
     PLEINAIR_ASSIGN_OR_RETURN(row.elevation_deg, ReadAngle(records, elevation, kElevation));
@@ -72,17 +64,16 @@ Result<DirectionTable> ParseDirections(std::string_view text, const std::string&
   }
 }
 
-}  // namespace
-
 Result<void> WriteSkyDirections(const sky::SkyModel& sky, double ground_albedo,
                                 const std::string& csv, const std::string& output, bool json) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::string text, ReadTextFile(csv));
-  PLEINAIR_ASSIGN_OR_RETURN(const DirectionTable table, ParseDirections(text, TextFileName(csv)));
+  PLEINAIR_ASSIGN_OR_RETURN(const SkyDirectionTable table,
+                            ParseSkyDirections(text, TextFileName(csv)));
   PLEINAIR_ASSIGN_OR_RETURN(ResultFile file, ResultFile::Open(output));
   std::ostream& out = file.stream();
   if (!json) out << table.header << ",luminance_cd_m2,x,y,r,g,b\n";
   const LinearRgb ground = GroundRadiance(sky, ground_albedo);
-  for (const DirectionRow& row : table.rows) {
+  for (const SkyDirectionRow& row : table.rows) {
     const double azimuth = FromDegrees(row.azimuth_deg).value();
     const double elevation = FromDegrees(row.elevation_deg).value();
     const Direction<World> direction{{std::cos(elevation) * std::sin(azimuth),

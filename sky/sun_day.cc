@@ -12,7 +12,8 @@ namespace {
 constexpr double kStepSeconds = 900.0;
 constexpr double kTransitStepSeconds = 10'800.0;  // The hour angle grows evenly.
 constexpr double kRootToleranceSeconds = 0.05;
-// The elevation at an extremum changes by less than 1e-9° a second around it.
+// So near to an extremum the elevation is within 4e-8° of it: its second derivative is at most the
+// square of the Earth's turn, 3e-7° / s².
 constexpr double kExtremumToleranceSeconds = 0.5;
 
 struct Sample {

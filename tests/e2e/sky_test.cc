@@ -565,6 +565,23 @@ TEST(Sky, NamesTheLineOfABrokenTableAndWritesNothing) {
       HasSubstr("in.csv:1: the column elevation_deg is missing"));
 }
 
+TEST(Sky, LeavesNothingOfAnInterruptedFilm) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "a.mp4";
+  // Once it has begun to write (or, should it never, after a while).
+  const RunResult run = RunCommandLine(
+      {"sh", "-c",
+       std::string(PLEINAIR_PROGRAM) +
+           " sky --at 50,14 --day 2025-06-21 --utc-offset Z --step 60 --size 256 --model perez -o "
+           "'" +
+           out + "' & n=0; until ls '" + folder.path().string() +
+           "'/.a.part* >/dev/null 2>&1 || [ $((n += 1)) -gt 5000 ]; do :; done; kill -INT $!; "
+           "wait $!"});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr("a.mp4: interrupted")));
+  EXPECT_THAT(Listing(folder.path()), IsEmpty());
+}
+
 TEST(Sky, ReportsAFullDisk) {
   for (const char* name : {"a.exr", "a.hdr", "a.png", "a.mp4"}) {
     const TemporaryFolder folder;

@@ -333,7 +333,7 @@ TEST_F(SunDayTest, HasItsNoonWhenTheEquationOfTimeSays) {
   }
 }
 
-TEST(SunClock, HasAnHourAngleThatGrowsEvenlyAtEveryLatitude) {
+TEST_F(SunDayTest, HasAnHourAngleThatGrowsEvenlyAtEveryLatitude) {
   for (const double latitude : {-90.0, -89.99, -23.0, 0.0, 23.4, 66.0, 90.0}) {
     const Observer place = Place(latitude, 30.0);
     const UtcTime time = At("2025-06-21T03:00:00Z");

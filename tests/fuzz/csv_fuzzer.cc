@@ -1,0 +1,37 @@
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "app/sky_directions.h"
+#include "app/sun_table.h"
+
+// Any bytes give a table of what can be computed, or an error; never a crash. Rows point into the
+// text.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto within = [&](std::string_view part) {
+    return part.data() >= text.data() && part.data() + part.size() <= text.data() + text.size();
+  };
+  if (const auto table = pleinair::app::ParseSunTable(text, "table", {})) {
+    for (const auto& row : table->rows) {
+      if (!within(row.text)) std::abort();
+      if (!(std::fabs(ToDegrees(row.observer.latitude)) <= 90.0)) std::abort();
+      if (!std::isfinite(row.observer.pressure_mbar)) std::abort();
+    }
+  } else if (table.error().what.empty()) {
+    std::abort();
+  }
+  if (const auto table = pleinair::app::ParseSkyDirections(text, "table")) {
+    for (const auto& row : table->rows) {
+      if (!within(row.text)) std::abort();
+      if (!(std::fabs(row.azimuth_deg) <= 360.0 && std::fabs(row.elevation_deg) <= 90.0)) {
+        std::abort();
+      }
+    }
+  } else if (table.error().what.empty()) {
+    std::abort();
+  }
+  return 0;
+}
