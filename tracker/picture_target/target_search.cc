@@ -23,7 +23,7 @@ constexpr double kSmallest_px = 20.0, kLargestShare = 3.0;  ///< Of the picture'
 /// Two matches agree when each is seen where the other expects it, in shares of the target's size.
 constexpr double kPlaceTolerance = 0.12, kScaleTolerance = 1.6, kTurnTolerance_rad = 0.6;
 constexpr double kBin_rad = 0.6;  ///< Width of the angle filter's bins, which overlap by half.
-constexpr int kBins = 21;         ///< ⌈2π / (kBin_rad / 2)⌉.
+constexpr int kBins = static_cast<int>(2.0 * std::numbers::pi / (0.5 * kBin_rad)) + 1;
 constexpr std::size_t kSeedsOfBin = 60;
 constexpr std::size_t kMostGuesses = 12;
 constexpr int kMostFits = 30;
@@ -88,7 +88,6 @@ TargetSearch::TargetSearch(const LensGrid& lens,
 
 void TargetSearch::Find(ImageView<const std::uint8_t> grey, const std::vector<bool>& wanted,
                         std::vector<TargetGuess>* guesses) {
-  width_ = grey.width();
   surf_.Detect(grey, &keypoints_);
   surf_.Describe(&keypoints_, &descriptors_);
   Quantise(keypoints_, descriptors_, &quantised_);
@@ -254,7 +253,6 @@ void TargetSearch::Gather(bool mirrored, std::vector<TargetGuess>* guesses) {
       return farthest < kSamePlace * seed.size_px;
     });
     if (again) continue;
-    guess.mirrored = mirrored;
     guesses->push_back(guess);
   }
   if (!mirrored) return;

@@ -19,7 +19,6 @@ struct TargetGuess {
   Mat3 target_from_ideal;
   double votes = 0.0;  ///< How many matches agree, by their likeness.
   int keypoints = 0;   ///< How many keypoints of the frame do.
-  bool mirrored = false;
 };
 
 /// Finds targets in a picture by SURF: matches of keypoints with all the targets' views, several
@@ -79,7 +78,6 @@ class TargetSearch {
   std::vector<Model> models_;
   Surf surf_;
   DescriptorMatcher matcher_;
-  int width_ = 0;
   std::vector<SurfKeypoint> keypoints_;
   std::vector<SurfDescriptor> descriptors_;
   std::vector<QuantisedDescriptor> quantised_, flipped_;
