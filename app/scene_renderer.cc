@@ -112,6 +112,8 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     placed.push_back(std::move(model));
   }
   if (scene.objects.empty()) return renderer;
+  renderer->skies_ =
+      sky::CreateDaylight({ConditionOf(scene.cloudiness), scene.turbidity.value_or(0.0)});
   PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
                             compositor::Composer::Create(camera, placed, options));
   PLEINAIR_ASSIGN_OR_RETURN(renderer->solver_,
@@ -127,8 +129,7 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
                                Metres(scene_.place_time.height_m)};
   summary_.sun = sky::ComputeSunPosition(observer, time);
   const Vec3 to_sun = summary_.sun.ToSun().xyz;
-  const auto daylight = sky::CreateDaylight(
-      summary_.sun, {ConditionOf(scene_.cloudiness), scene_.turbidity.value_or(0.0)});
+  const auto daylight = skies_->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);
   const Mat3 marker_from_world = MarkerFromWorld(scene_.marker);
   if (lit_for_sun_ && Norm(*lit_for_sun_ - to_sun) < kSunStep) {
     composer_->SetSun(*daylight, marker_from_world);

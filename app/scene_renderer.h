@@ -16,6 +16,7 @@
 #include "compositor/light_meter.h"
 #include "compositor/light_solver.h"
 #include "devices/scene_description.h"
+#include "sky/sky_model.h"
 #include "sky/sun_position.h"
 
 namespace pleinair::app {
@@ -68,6 +69,7 @@ class SceneRenderer {
   CameraModel camera_;
   devices::SceneDescription scene_;
   compositor::MarkerPrint print_;
+  std::shared_ptr<const sky::SkySource> skies_;  // Of the scene's day, for any place of the sun.
   std::unique_ptr<compositor::LightSolver> solver_;
   std::unique_ptr<compositor::Composer> composer_;
   std::optional<compositor::LightMeter> meter_;

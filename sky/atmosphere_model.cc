@@ -16,9 +16,11 @@ class AtmosphereModel : public SkyModel {
       : tables_(std::move(tables)),
         to_sun_(to_sun),
         distance_au_(distance_au),
-        sun_normal_(RgbFromXyY(XyYFromXyz(SunXyz(*tables_, to_sun, distance_au)))) {}
+        sun_normal_(RgbInGamut(SunXyz(*tables_, to_sun, distance_au))) {}
 
-  LinearRgb SkyRadiance(Direction<World> from) const override { return RgbFromXyY(At(from)); }
+  LinearRgb SkyRadiance(Direction<World> from) const override {
+    return RgbInGamut(Sky().Xyz(from));
+  }
   XyY At(Direction<World> from) const override { return XyYFromXyz(Sky().Xyz(from)); }
   LinearRgb SunNormalIrradiance() const override { return sun_normal_; }
   LinearRgb SkyHorizontalIrradiance() const override {
@@ -37,7 +39,7 @@ class AtmosphereModel : public SkyModel {
     std::call_once(sky_made_, [this] {
       sky_.emplace(tables_, to_sun_, distance_au_);
       sky_horizontal_ = IntegrateProjectedDome(
-          [this](Direction<World> from) { return RgbFromXyY(XyYFromXyz(sky_->Xyz(from))); });
+          [this](Direction<World> from) { return RgbInGamut(sky_->Xyz(from)); });
     });
     return *sky_;
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "sky/cie_sky.h"
+#include "sky/perez.h"
 #include "sky/sky_sources.h"
 #include "sky/standard_illuminance.h"
 #include "sky/sunlight_spectrum.h"
@@ -25,15 +26,13 @@ class CieModel : public SkyModel {
       : to_sun_(to_sun), cie_(type, to_sun) {
     const Radians elevation(std::asin(std::clamp(to_sun.xyz.z, -1.0, 1.0)));
     const SkyCondition condition = ConditionOfType(type);
-    const double turbidity = DefaultTurbidity(SkyCondition::kClear);
-    const StandardIlluminance ies =
-        ComputeStandardIlluminance(condition, turbidity, elevation, distance_au);
+    const StandardIlluminance ies = ComputeStandardIlluminance(condition, elevation, distance_au);
     zenith_cd_m2_ =
         conditions.zenith_luminance
             ? conditions.zenith_luminance->value()
             : conditions.sky_horizontal_illuminance.value_or(ies.sky_horizontal).value() /
                   cie_.IlluminanceOverZenith();
-    const LinearRgb sun = DirectSunIrradiance(turbidity, elevation, distance_au);
+    const LinearRgb sun = DirectSunIrradiance(PerezSky::kDefaultTurbidity, elevation, distance_au);
     if (const double luminance = Luminance(sun); luminance > 0.0) {
       sun_normal_ = sun * (ies.sun_normal.value() / luminance);
     }

@@ -44,6 +44,15 @@ inline LinearRgb ClipToGamut(LinearRgb colour) {
   return clipped * (luminance / Luminance(clipped));
 }
 
+/// The same of CIE XYZ: linear Rec.709 without a negative channel whose Luminance() is Y.
+inline LinearRgb RgbInGamut(Vec3 xyz) {
+  if (xyz.y <= 0.0) return {};
+  const LinearRgb c = RgbFromXyz(xyz.x, xyz.y, xyz.z);
+  const LinearRgb clipped{std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)};
+  const double luminance = Luminance(clipped);
+  return luminance > 0.0 ? clipped * (xyz.y / luminance) : LinearRgb{};
+}
+
 /// Linear Rec.709 whose Luminance() is exactly `colour.luminance`.
 inline LinearRgb RgbFromXyY(const XyY& colour) {
   if (colour.luminance <= 0.0 || colour.y <= 0.0) return {};

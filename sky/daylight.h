@@ -4,23 +4,22 @@
 
 #include "sky/sky_model.h"
 #include "sky/standard_illuminance.h"
-#include "sky/sun_position.h"
 
 namespace pleinair::sky {
 
+/// A day as people describe it.
 struct DaylightOptions {
   SkyCondition condition = SkyCondition::kClear;
-  /// 0: the condition's default. Otherwise clamped to what PerezSky allows; without effect under
-  /// an overcast sky.
+  /// 0: the condition's default. Otherwise clamped to kLowestTurbidity…kHighestTurbidity; hardly
+  /// matters under an overcast sky.
   double turbidity = 0.0;
 };
 
-/// The light of a moment, continuous from noon to night.
-/// - Clear and hazy: pattern and colours of PerezSky, colour of DirectSunIrradiance, both scaled to
-///   ComputeStandardIlluminance.
-/// - Partly cloudy: half the light of a clear sky (at dusk half of what there is), the rest from
-///   clouds: even and neutral; the sun's colour is that of the clear air, its strength IES'.
-/// - Overcast: no sun; CIE standard general sky type 1 (ISO 15469:2004), neutral (D65).
-std::unique_ptr<SkyModel> CreateDaylight(const SunPosition& sun, const DaylightOptions& options);
+/// The skies of such a day, of kAtmosphere:
+/// - clear: kDefaultTurbidity;
+/// - hazy: turbidity 3.2, which at a sun of 30° has a diffuse share of 0.40;
+/// - partly cloudy: cloud cover 0.6;
+/// - overcast: cloud cover 1, no sun.
+std::shared_ptr<const SkySource> CreateDaylight(const DaylightOptions& options);
 
 }  // namespace pleinair::sky

@@ -24,12 +24,14 @@ namespace pleinair::sky {
 /// lowest. A sun below the horizon is put on it and the light falls with TwilightShare().
 ///
 /// Luminances are the model's own, 1.1 to 3.9 times those of measured and simulated clear skies;
-/// sky/daylight.h takes the pattern and the colours and sets the scale by other means.
+/// sky/atmosphere.h has better ones.
 class PerezSky {
  public:
   /// Below 2, zenith normaliser and horizon turn negative; above 10, the zenith at low suns.
   static constexpr double kLowestTurbidity = 2.0;
   static constexpr double kHighestTurbidity = 10.0;
+  /// A clear day (Preetham et al. 1999, Fig. 3: 2 very clear, 3 clear, 6 hazy to the eye).
+  static constexpr double kDefaultTurbidity = 2.5;
 
   /// `to_sun`: unit vector, east, north, up.
   PerezSky(double turbidity, Direction<World> to_sun);

@@ -4,7 +4,6 @@
 #include "sky/perez.h"
 #include "sky/sky_sources.h"
 #include "sky/solar_disc.h"
-#include "sky/standard_illuminance.h"
 #include "sky/sunlight_spectrum.h"
 
 namespace pleinair::sky::internal {
@@ -67,8 +66,7 @@ class PerezSource : public SkySource {
 }  // namespace
 
 std::shared_ptr<const SkySource> MakePerezSource(const SkyConditions& conditions) {
-  return std::make_shared<PerezSource>(
-      conditions.turbidity.value_or(DefaultTurbidity(SkyCondition::kClear)));
+  return std::make_shared<PerezSource>(conditions.turbidity.value_or(PerezSky::kDefaultTurbidity));
 }
 
 }  // namespace pleinair::sky::internal

@@ -4,7 +4,7 @@
 
 namespace pleinair::sky {
 
-/// How clear the sky is; decides the default turbidity and the sun's and sky's illuminance.
+/// How clear the sky is.
 enum class SkyCondition { kClear, kHazy, kPartlyCloudy, kOvercast };
 
 /// What falls on a surface that faces the sun, and from the sky on level ground.
@@ -24,16 +24,8 @@ struct StandardIlluminance {
 /// sun's share falls to nothing as its disc sinks below the horizon, the sky's with
 /// TwilightShare().
 ///
-/// IES has no figure for haze and knows no turbidity. Clear and hazy skies of another turbidity
-/// than the clear sky's default follow from the clear figures: the sun's is multiplied by the
-/// ratio of LuminousTransmittance(); of the light that the beam loses (or wins), 0.756 = 0.9 · 0.84
-/// goes to the sky: share scattered and not absorbed, and share of that which goes forward (Iqbal
-/// 1983, model C).
-StandardIlluminance ComputeStandardIlluminance(SkyCondition condition, double turbidity,
-                                               Radians apparent_elevation, double distance_au);
-
-/// 2.5 for a clear sky, 4 for a hazy one (diffuse share 0.39 at 30°), 3 between the clouds of a
-/// partly cloudy one. (Preetham et al. 1999, Fig. 3: 2 very clear, 3 clear, 6 hazy to the eye.)
-double DefaultTurbidity(SkyCondition condition);
+/// IES has no figure for haze: kHazy has those of kClear.
+StandardIlluminance ComputeStandardIlluminance(SkyCondition condition, Radians apparent_elevation,
+                                               double distance_au);
 
 }  // namespace pleinair::sky

@@ -66,14 +66,4 @@ LinearRgb DirectSunIrradiance(double turbidity, Radians apparent_elevation, doub
   return ClipToGamut(RgbFromXyz(x, y, z) * (kLumensPerWatt * kObserverStepNm));
 }
 
-double LuminousTransmittance(double turbidity, Radians apparent_elevation) {
-  const double air_mass = RelativeAirMass(apparent_elevation);
-  double passed = 0.0, all = 0.0;
-  for (std::size_t i = 0; i < kBands.size(); ++i) {
-    passed += kCie1931[i].y * kBands[i].solar * TransmittanceOf(i, turbidity, air_mass);
-    all += kCie1931[i].y * kBands[i].solar;
-  }
-  return passed / all;
-}
-
 }  // namespace pleinair::sky

@@ -15,7 +15,4 @@ namespace pleinair::sky {
 /// one.
 LinearRgb DirectSunIrradiance(double turbidity, Radians apparent_elevation, double distance_au);
 
-/// Share of the sun's illuminance that the air lets through, 0…1.
-double LuminousTransmittance(double turbidity, Radians apparent_elevation);
-
 }  // namespace pleinair::sky

@@ -1,8 +1,10 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <memory>
 
-#include "sky/daylight.h"
+#include "sky/atmosphere.h"
+#include "sky/sky_model.h"
 #include "sky/spherical_harmonics.h"
 #include "sky/sun_position.h"
 
@@ -22,31 +24,82 @@ void ComputeSun(benchmark::State& state, SunModel model) {
 BENCHMARK_CAPTURE(ComputeSun, precise, SunModel::kPrecise);
 BENCHMARK_CAPTURE(ComputeSun, paper, SunModel::kPaper);
 
-const SunPosition kSun{FromDegrees(180.0), FromDegrees(40.0), FromDegrees(40.0), 1.0};
+constexpr SkyModelName kPerez{SkyModelKind::kPerez, 0}, kCie12{SkyModelKind::kCie, 12},
+    kAtmosphere{SkyModelKind::kAtmosphere, 0};
 
-void CreateLight(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(CreateDaylight(kSun, {}));
+Direction<World> SunAt(double elevation_deg) {
+  const double elevation = elevation_deg * kRadiansPerDegree;
+  return {{0.0, std::cos(elevation), std::sin(elevation)}};
 }
-BENCHMARK(CreateLight);
 
-void EvaluateSky(benchmark::State& state, SkyCondition condition) {
-  const auto light = CreateDaylight(kSun, {condition, 0.0});
-  double azimuth = 0.0;
-  for (auto _ : state) {
-    azimuth += 0.1;
-    benchmark::DoNotOptimize(
-        light->SkyRadiance({{0.6 * std::sin(azimuth), 0.6 * std::cos(azimuth), 0.8}}));
+std::unique_ptr<SkyModel> Sky(SkyModelName name) {
+  return *CreateSkyModel(name, {}, SunAt(40.0), 1.0);
+}
+
+/// Radiance in directions that walk over the whole dome.
+void LookUpRadiance(benchmark::State& state, SkyModelName name) {
+  const auto sky = Sky(name);
+  benchmark::DoNotOptimize(sky->SkyHorizontalIrradiance());
+  std::array<Direction<World>, 256> directions;
+  for (int i = 0; i < 256; ++i) {
+    const double up = (i + 0.5) / 256, level = std::sqrt(1.0 - up * up), turn = i * 2.39996323;
+    directions[i] = {{level * std::cos(turn), level * std::sin(turn), up}};
   }
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(sky->SkyRadiance(directions[++i % 256]));
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK_CAPTURE(EvaluateSky, clear, SkyCondition::kClear);
-BENCHMARK_CAPTURE(EvaluateSky, overcast, SkyCondition::kOvercast);
+BENCHMARK_CAPTURE(LookUpRadiance, perez, kPerez);
+BENCHMARK_CAPTURE(LookUpRadiance, cie12, kCie12);
+BENCHMARK_CAPTURE(LookUpRadiance, atmosphere, kAtmosphere);
+
+/// Everything that depends on the air alone.
+void BuildTables(benchmark::State& state) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(AtmosphereTables(AerosolOfTurbidity(kDefaultTurbidity), 0.15));
+  }
+}
+BENCHMARK(BuildTables)->Unit(benchmark::kMillisecond);
+
+/// The sky-view table after the sun has moved.
+void MoveSun(benchmark::State& state) {
+  const auto tables =
+      std::make_shared<const AtmosphereTables>(AerosolOfTurbidity(kDefaultTurbidity), 0.15);
+  double elevation = 5.0;
+  for (auto _ : state) {
+    elevation = elevation < 60.0 ? elevation + 0.1 : 5.0;
+    benchmark::DoNotOptimize(AtmosphereSky(tables, SunAt(elevation), 1.0));
+  }
+}
+BENCHMARK(MoveSun)->Unit(benchmark::kMillisecond);
+
+/// The sun's light alone, as a moving shadow needs it in every frame.
+void MoveSunAlone(benchmark::State& state) {
+  const auto source = *SkySource::Create(kAtmosphere, {});
+  double elevation = 5.0;
+  for (auto _ : state) {
+    elevation = elevation < 60.0 ? elevation + 0.1 : 5.0;
+    benchmark::DoNotOptimize(source->ForSun(SunAt(elevation), 1.0)->SunNormalIrradiance());
+  }
+}
+BENCHMARK(MoveSunAlone);
+
+void SeeThroughAir(benchmark::State& state) {
+  const AtmosphereTables tables(AerosolOfTurbidity(kDefaultTurbidity), 0.15);
+  const AerialPerspective air(tables, SunAt(40.0), 1.0);
+  double distance = 1.0;
+  for (auto _ : state) {
+    distance = distance < 1e4 ? distance * 1.01 : 1.0;
+    benchmark::DoNotOptimize(air.Inscattered({{0.6, 0.8, 0.0}}, Metres(distance)));
+  }
+}
+BENCHMARK(SeeThroughAir);
 
 void ProjectHarmonics(benchmark::State& state) {
-  const auto light = CreateDaylight(kSun, {});
-  for (auto _ : state) benchmark::DoNotOptimize(ProjectSky(*light));
+  const auto sky = Sky(kAtmosphere);
+  for (auto _ : state) benchmark::DoNotOptimize(ProjectSky(*sky));
 }
-BENCHMARK(ProjectHarmonics);
+BENCHMARK(ProjectHarmonics)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace pleinair::sky
