@@ -1,4 +1,4 @@
-#include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -13,6 +13,7 @@
 #include "app/local_time.h"
 #include "app/number_range.h"
 #include "app/observer_options.h"
+#include "app/progress_bar.h"
 #include "app/result_file.h"
 #include "app/sky_directions.h"
 #include "app/sky_files.h"
@@ -197,10 +198,12 @@ Result<void> RunSeries(const Options& options, const sky::SkySource& source,
                        const std::vector<SkyMoment>& moments) {
   PLEINAIR_ASSIGN_OR_RETURN(ResultFile output, ResultFile::Open(options.output));
   if (!options.json) output.stream() << kSkyLightColumns << '\n';
+  ProgressBar bar("sky", static_cast<std::int64_t>(moments.size()), "moments");
   for (const SkyMoment& moment : moments) {
     const auto sky = source.ForSun(moment.ToSun(), moment.sun_distance_au);
     const SkyLight light = MeasureSky(*sky, moment);
     output.stream() << (options.json ? "{" + SkyLightJson(light) + "}\n" : SkyLightCsv(light));
+    bar.Advance();
   }
   return output.Finish();
 }
@@ -208,8 +211,13 @@ Result<void> RunSeries(const Options& options, const sky::SkySource& source,
 Result<void> RunMoment(const Options& options, const sky::SkySource& source, sky::SkyModelName name,
                        const SkyMoment& moment) {
   std::optional<SkyFileOptions> file;
-  if (!options.output.empty() && options.csv.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(file, ChosenFile(options, false));
+  if (options.csv.empty()) {
+    if (!options.output.empty()) {
+      PLEINAIR_ASSIGN_OR_RETURN(file, ChosenFile(options, false));
+    }
+  } else if (SkyFileKindOf(options.output)) {
+    return InputError(options.output, "is the name of a picture, but --csv gives a table",
+                      "name a table (.csv), or leave --csv out");
   }
   const auto sky = source.ForSun(moment.ToSun(), moment.sun_distance_au);
   for (const std::string& note : sky->Notes()) std::cerr << "pleinair: " << note << '\n';
