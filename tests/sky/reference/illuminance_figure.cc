@@ -41,7 +41,8 @@ double X(double hour) { return kLeft + kWidth * (hour - kFirstHour) / (kLastHour
 void DrawPanel(double top, const char* title, double highest, double tick,
                const std::vector<Curve>& curves, const std::function<double(const Light&)>& value) {
   std::printf("<text x=\"%g\" y=\"%g\">%s</text>\n", kLeft, top - 8.0, title);
-  for (double v = 0.0; v <= highest * 1.0001; v += tick) {
+  for (int i = 0; i <= std::lround(highest / tick); ++i) {
+    const double v = tick * i;
     const double y = top + kHeight * (1.0 - v / highest);
     std::printf(
         "<path d=\"M%g %.1fh%g\" stroke=\"#ddd\"/>"
@@ -76,7 +77,8 @@ int Draw() {
                                {"atmosphere", "stroke=\"#06c\" stroke-width=\"2\"", {}}};
   // 2025-06-21T00:00:00Z.
   constexpr std::int64_t kMidnight = 1'750'464'000;
-  for (double hour = kFirstHour; hour < kLastHour; hour += kStepHours) {
+  for (int step = 0; kFirstHour + step * kStepHours < kLastHour; ++step) {
+    const double hour = kFirstHour + step * kStepHours;
     const UtcTime time((kMidnight + std::llround(hour * 3600.0)) * 1'000'000'000);
     const SunPosition sun = ComputeSunPosition(prague, time);
     const double up = sun.ToSun().xyz.z;

@@ -53,7 +53,9 @@ Comparison Best(const std::vector<Sample>& dome, const std::vector<XyY>& truth, 
                 double high, const SkyOfTurbidity& sky) {
   Comparison best;
   best.rmse = 1e9;
-  for (double turbidity = low; turbidity <= high; turbidity *= 1.07) {
+  constexpr int kSteps = 50;
+  for (int step = 0; step <= kSteps; ++step) {
+    const double turbidity = low * std::pow(high / low, static_cast<double>(step) / kSteps);
     const Comparison now = Compare(dome, truth, sky(turbidity));
     if (now.rmse < best.rmse) best = now;
   }
