@@ -18,6 +18,7 @@ using pleinair::GreyImage;
 using pleinair::Vec2;
 namespace tracker = pleinair::tracker;
 
+constexpr std::uint32_t kLookForOneOf = 32;
 constexpr std::size_t kLengthAt = 12, kChecksumAt = 16, kHeader = 20;
 
 /// With the header that belongs to the content, so that what lies behind it is reached.
@@ -40,7 +41,7 @@ void LookFor(tracker::PictureTarget target, const std::string& bytes) {
                            .fy = 1.0 * width,
                            .cx = 0.5 * (width - 1),
                            .cy = 0.5 * (height - 1)};
-  const GreyImage own = target.picture;
+  GreyImage own = target.picture;
   GreyImage painted(width, height);
   for (std::size_t i = 0; i < painted.size(); ++i) {
     painted.data()[i] = static_cast<std::uint8_t>(bytes[i % bytes.size()]);
@@ -85,7 +86,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (tracker::SerializeTarget(*target) != tried) std::abort();
     const tracker::TargetQuality quality = tracker::RateTarget(*target);
     if (quality.score < 0 || quality.score > 100) std::abort();
-    LookFor(*std::move(target), tried);
+    // Looking takes a hundred times as long as reading.
+    if (tracker::Crc32(tried) % kLookForOneOf == 0) LookFor(*std::move(target), tried);
   }
   return 0;
 }

@@ -125,7 +125,7 @@ void PictureFit::FitLevels(const SeenWindow& seen, double least_weight) {
     TargetBlock& block = blocks_[k];
     block = TargetBlock{};
     sums_->lights[k] = BlockLight{};
-    block.pixels = static_cast<int>(sum.pixels + 0.5);
+    block.pixels = static_cast<int>(std::lround(sum.pixels));
     if (block.pixels < kLeastBlockPixels || !(sum.w > 0.0)) continue;
     const double p = sum.wp / sum.w, i = sum.wi / sum.w;
     const double vp = sum.wpp / sum.w - p * p, vi = sum.wii / sum.w - i * i;

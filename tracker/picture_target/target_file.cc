@@ -130,7 +130,7 @@ Fault ReadKeypoints(Reader* reader, PictureTarget* target) {
       reader->left() < keypoints * kKeypointBytes) {
     return "it tells of " + std::to_string(keypoints) + " features and does not hold them";
   }
-  const Fault fault = "one of its features is none";
+  Fault fault = "one of its features is none";
   for (std::uint32_t i = 0; i < keypoints; ++i) {
     TargetKeypoint keypoint;
     QuantisedDescriptor descriptor;
