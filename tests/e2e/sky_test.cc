@@ -52,13 +52,13 @@ std::vector<double> Numbers(const std::string& line) {
 /// A picture of light: blue, green, red floats.
 cv::Mat ReadLight(const fs::path& file) {
   setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);  // OpenCV asks for it before it reads OpenEXR.
-  const cv::Mat picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  cv::Mat picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   EXPECT_EQ(picture.type(), CV_32FC3) << file;
   return picture;
 }
 
 double LuminanceAt(const cv::Mat& picture, int row, int column) {
-  const cv::Vec3f bgr = picture.at<cv::Vec3f>(row, column);
+  const auto& bgr = picture.at<cv::Vec3f>(row, column);
   return 0.0722 * bgr[0] + 0.7152 * bgr[1] + 0.2126 * bgr[2];
 }
 
