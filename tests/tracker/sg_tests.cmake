@@ -17,3 +17,10 @@ pleinair_test(sg_tracking_test
 pleinair_test(sg_cells_test
   SOURCES sg_cells_test.cc
   LIBS pleinair_sg_test_scenes Eigen3::Eigen)
+if(PLEINAIR_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+  add_executable(detection_benchmark detection_benchmark.cc)
+  target_link_libraries(detection_benchmark
+    PRIVATE pleinair_marker_rendering pleinair_april_tag benchmark::benchmark)
+  pleinair_configure_target(detection_benchmark)
+endif()

@@ -286,26 +286,44 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
 }
 
 bool SgReader::FitContent(int number, BlockFitState* state) {
-  PixelWindow window;
-  if (!TakeFineWindow(state->modules_from_ideal, &window)) return false;
+  // Coarsely first: a fit that a cover has drawn away may be half a cell off.
+  for (const Detail detail : {Detail::kCoarse, Detail::kFine}) {
+    PixelWindow window;
+    const bool taken = detail == Detail::kCoarse
+                           ? TakeCoarseWindow(state->modules_from_ideal, kCoarseSide_px, &window)
+                           : TakeFineWindow(state->modules_from_ideal, &window);
+    if (!taken) return false;
+    KeepContent(window, state->modules_from_ideal);
+    const double side = SidePx(state->modules_from_ideal);
+    BlockFitOptions options;
+    options.steps = kContentSteps;
+    BlockFitState fitted = *state;
+    if (detail == Detail::kCoarse) {
+      fitted.blur_px = std::max(fitted.blur_px, kCoarseBlur_px * window.Scale());
+    }
+    if (!fit_.Run(Print(number), PrintPart::kWhole, seen_,
+                  BlockFit::BlocksAlong(1.2 * side / window.Scale(), kCoarseBlock_px), options,
+                  &fitted)) {
+      return false;
+    }
+    state->modules_from_ideal = fitted.modules_from_ideal;
+  }
+  return true;
+}
+
+void SgReader::KeepContent(const PixelWindow& window, const Mat3& modules_from_ideal) {
+  constexpr double kReach = 0.5 * sg::kCells * sg::kCell + 1.0;
   const int stride = window.width + 2 * kWindowBorder;
   for (int y = 0; y < window.height; ++y) {
     for (int x = 0; x < window.width; ++x) {
       const std::size_t ray =
           static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder + x;
-      const Vec2 modules = Apply(state->modules_from_ideal, {seen_.rays.x[ray], seen_.rays.y[ray]});
-      constexpr double kReach = 0.5 * sg::kCells * sg::kCell + 1.0;
+      const Vec2 modules = Apply(modules_from_ideal, {seen_.rays.x[ray], seen_.rays.y[ray]});
       if (!(std::fabs(modules.x - kMiddle) < kReach && std::fabs(modules.y - kMiddle) < kReach)) {
         seen_.certainty[static_cast<std::size_t>(y) * window.width + x] = 0.0F;
       }
     }
   }
-  BlockFitOptions options;
-  options.steps = kContentSteps;
-  const double side = SidePx(state->modules_from_ideal);
-  return fit_.Run(Print(number), PrintPart::kWhole, seen_,
-                  BlockFit::BlocksAlong(1.2 * side / window.Scale(), kCoarseBlock_px), options,
-                  state);
 }
 
 bool SgReader::Verified(const SgReading& reading) {

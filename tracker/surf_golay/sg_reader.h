@@ -80,6 +80,8 @@ class SgReader {
   bool ReadNumber(const BlockFitState& state, SgReading* reading);
   /// Moves a state to where the content alone fits best.
   bool FitContent(int number, BlockFitState* state);
+  /// Makes the pixels of the window that do not show the content count for nothing.
+  void KeepContent(const PixelWindow& window, const Mat3& modules_from_ideal);
   const PrintPattern& Print(int number);
   static bool Verified(const SgReading& reading);
   void Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading);
