@@ -23,7 +23,8 @@ void PrintMeasurer::MeasureOne(ImageView<const std::uint8_t> grey, tracker::Sigh
   Marker& marker = markers_[name];
   if (!marker.pattern) marker.pattern = PatternOf(name);
   const std::optional<tracker::PrintAlignment> alignment =
-      tracker::AlignPrint(camera_, *marker.pattern, grey, detection.corners_px);
+      tracker::AlignPrint(camera_, *marker.pattern, grey, detection.corners_px,
+                          {detection.visibility_side, detection.visibility});
   if (alignment) {
     const std::optional<tracker::PoseEstimate> pose = tracker::EstimatePlanarPose(
         camera_, alignment->corners_px, alignment->corner_covariance_px2, Metres(marker_size_m_),

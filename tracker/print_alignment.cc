@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/srgb.h"
 #include "tracker/homography.h"
@@ -102,12 +103,40 @@ double MayMove_px(const PrintAlignment& alignment, double contrast_codes, int co
   return edge_px / half_angle_sine;
 }
 
+/// Share of a square that must look right for its pixels to be fitted. In a square that is touched
+/// by what covers the print, that is what bends the fit.
+constexpr float kSeen = 0.95F;
+/// Where part of the print is covered, the corners come from what was misled by that: they may move
+/// so many times as far.
+constexpr double kCoveredMayMoveTimes = 4.0;
+
+/// Leaves out the pixels of covered squares; the share that stays.
+double LeaveOutCovered(const PrintPattern& pattern, const Mat3& rays_from_print,
+                       const PrintVisibility& visibility, std::vector<PrintPixel>* pixels) {
+  if (visibility.side <= 0 || pixels->empty()) return 1.0;
+  const Mat3 print_from_rays = Adjugate(rays_from_print);
+  const double extent = pattern.Extent();
+  const auto square = [&](double from_edge) {
+    const double at = from_edge / (2.0 * extent) * visibility.side;
+    return static_cast<std::size_t>(std::clamp(at, 0.0, visibility.side - 0.5));
+  };
+  const std::size_t before = pixels->size();
+  std::erase_if(*pixels, [&](const PrintPixel& pixel) {
+    const Vec2 print = Apply(print_from_rays, pixel.ray);
+    const std::size_t row = square(extent - print.y), column = square(print.x + extent);
+    return visibility.values[row * visibility.side + column] < kSeen;
+  });
+  return static_cast<double>(pixels->size()) / static_cast<double>(before);
+}
+
 bool Plausible(const PrintAlignment& alignment, double contrast_codes,
-               const std::array<Vec2, 4>& corners_px) {
+               const std::array<Vec2, 4>& corners_px, double may_move_times) {
   for (int i = 0; i < 4; ++i) {
     const Vec2 corner = alignment.corners_px[i];
     if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return false;
-    if (Norm(corner - corners_px[i]) > MayMove_px(alignment, contrast_codes, i)) return false;
+    if (Norm(corner - corners_px[i]) > may_move_times * MayMove_px(alignment, contrast_codes, i)) {
+      return false;
+    }
     const double variance = std::max(alignment.corner_covariance_px2[(2 * i) * 8 + 2 * i],
                                      alignment.corner_covariance_px2[(2 * i + 1) * 8 + 2 * i + 1]);
     if (!(variance >= 0.0 && variance < 0.3 * 0.3)) return false;
@@ -119,7 +148,8 @@ bool Plausible(const PrintAlignment& alignment, double contrast_codes,
 
 std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintPattern& pattern,
                                          ImageView<const std::uint8_t> grey,
-                                         const std::array<Vec2, 4>& corners_px) {
+                                         const std::array<Vec2, 4>& corners_px,
+                                         const PrintVisibility& visibility) {
   std::array<Vec2, 4> rays;
   double perimeter_px = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -132,7 +162,8 @@ std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintP
   for (const double value : start.rays_from_print.m) {
     if (!std::isfinite(value)) return std::nullopt;
   }
-  const PrintPixels gathered = GatherPrintPixels(camera, pattern, grey, start.rays_from_print);
+  PrintPixels gathered = GatherPrintPixels(camera, pattern, grey, start.rays_from_print);
+  const double kept = LeaveOutCovered(pattern, start.rays_from_print, visibility, &gathered.pixels);
   if (gathered.pixels.size() < 40) return std::nullopt;
   const std::optional<Levels> levels = FitLevels(pattern, start.rays_from_print, gathered.pixels);
   if (!levels) return std::nullopt;
@@ -153,7 +184,11 @@ std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintP
   alignment.residual_codes = fit.ResidualCodes();
   alignment.visible_fraction = gathered.seen_share * fit.AgreeingShare();
   FillCorners(camera, fit, &alignment);
-  if (!Plausible(alignment, levels->ContrastCodes(), corners_px)) return std::nullopt;
+  const double may_move_times = kept < 1.0 ? kCoveredMayMoveTimes : 1.0;
+  if (!Plausible(alignment, levels->ContrastCodes(), corners_px, may_move_times)) {
+    return std::nullopt;
+  }
+  alignment.visible_fraction *= kept;
   return alignment;
 }
 

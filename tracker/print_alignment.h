@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "base/camera_model.h"
 #include "base/image.h"
@@ -21,6 +22,14 @@ struct PrintAlignment {
   double visible_fraction = 1.0;  ///< Share of the print that looks as predicted, 0…1.
 };
 
+/// Which part of a print is seen, as far as that is known: `side`² squares of it, quiet zone
+/// included, row by row from the top-left as it is read, 0 covered … 1 as predicted. Nothing known:
+/// side 0.
+struct PrintVisibility {
+  int side = 0;
+  std::span<const float> values;
+};
+
 /// Refines the corners of a print by predicting its picture: light is linear, so that a pixel holds
 /// `black + (white - black) × coverage`; that is encoded with the sRGB curve and compared with the
 /// picture's codes, where noise and quantisation are about even. A homography of undistorted rays
@@ -30,8 +39,12 @@ struct PrintAlignment {
 /// `corners_px` must be right to about a pixel or a quarter of a module. Nothing is returned when
 /// the picture does not bear the prediction out: the fit wanders off, the contrast drowns in the
 /// residuals, or too little of the print is seen.
+///
+/// Squares that `visibility` says are covered are left out. The robust fit alone stands up to some
+/// covered pixels; from about a third of them on what they hold counts as the noise of the others.
 std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintPattern& pattern,
                                          ImageView<const std::uint8_t> grey,
-                                         const std::array<Vec2, 4>& corners_px);
+                                         const std::array<Vec2, 4>& corners_px,
+                                         const PrintVisibility& visibility = {});
 
 }  // namespace pleinair::tracker

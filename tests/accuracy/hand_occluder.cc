@@ -134,9 +134,9 @@ HandPlace PassingHand(double share, Vec2 middle_px, double side_px) {
   };
   constexpr std::array<Key, 6> kKeys{{{0.00, 2.9, 2.2, -1.0, 0.2},
                                       {0.25, 0.75, 0.75, -0.75, 0.8},
-                                      {0.45, 0.40, 0.40, -0.40, 1.0},
-                                      {0.60, 0.00, 0.55, -0.10, 0.6},
-                                      {0.75, -0.55, 0.75, 0.25, 0.3},
+                                      {0.45, 0.58, 0.35, -0.55, 0.9},
+                                      {0.60, 0.10, 0.72, -0.10, 0.6},
+                                      {0.75, -0.65, 0.70, 0.25, 0.3},
                                       {1.00, -1.4, 3.2, 0.35, 0.1}}};
   std::size_t next = 1;
   while (next + 1 < kKeys.size() && share > kKeys[next].share) ++next;
@@ -144,7 +144,7 @@ HandPlace PassingHand(double share, Vec2 middle_px, double side_px) {
   const double t = Smooth(a.share, b.share, share);
   const auto mix = [t](double from, double to) { return std::lerp(from, to, t); };
   return {{middle_px.x + side_px * mix(a.x, b.x), middle_px.y + side_px * mix(a.y, b.y)},
-          0.55 * side_px,
+          0.70 * side_px,
           mix(a.turn, b.turn),
           mix(a.spread, b.spread)};
 }

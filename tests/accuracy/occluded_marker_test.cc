@@ -162,7 +162,7 @@ TEST_F(OccludedMarker, KeepsTheVirtualObjectInPlace) {
   }
   const auto touched = std::count_if(covered_.begin(), covered_.end(),
                                      [](const Covered& c) { return c.border > 0.1; });
-  EXPECT_GT(border, 0.33);
+  EXPECT_GT(border, 0.45);
   EXPECT_GT(content, 0.6);
   EXPECT_GE(touched, 45);
 

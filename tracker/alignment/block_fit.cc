@@ -14,7 +14,7 @@ constexpr int kMostBlocksAlong = 8;
 constexpr double kLeastBlockContrast = 0.04;  ///< Standard deviation of the share of white.
 constexpr int kLeastBlockPixels = 6;
 constexpr double kLeastWeight = 0.02;
-constexpr double kRobustNoises = 1.0;  ///< Of a block, beyond which a pixel loses half.
+constexpr double kRobustNoises = 1.0;  ///< Standard deviations at which a pixel loses half.
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
 constexpr float kMostReach_modules = 2.4F;
 constexpr double kLeastBlur_px = 0.25, kMostBlur_px = 6.0;
@@ -108,6 +108,7 @@ void BlockFit::Predict(const PrintPattern& pattern, PrintPart part, const SeenWi
 
 void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
   sums_->blocks.Levels(seen, picture_, sums_->lights, &sums_->levels);
+  noise_shares_.clear();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const LevelSums& sum = sums_->levels[k];
     PrintBlock& block = blocks_[k];
@@ -133,10 +134,20 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
     block.weight = std::clamp(
         (block.correlation - kDoubtfulCorrelation) / (kCredibleCorrelation - kDoubtfulCorrelation),
         kLeastWeight, 1.0);
-    // Noise is no outlier.
-    const double robust = std::max(block.gain * robust_share, kRobustNoises * block.noise);
-    light = {static_cast<float>(block.gain), static_cast<float>(block.offset),
-             static_cast<float>(1.0 / robust), static_cast<float>(block.weight)};
+    noise_shares_.push_back(block.noise / block.gain);
+    light = {static_cast<float>(block.gain), static_cast<float>(block.offset), 0.0F,
+             static_cast<float>(block.weight)};
+  }
+  // Noise is no outlier; what lies on the print is, and makes some blocks look noisier than others.
+  double share = robust_share;
+  if (!noise_shares_.empty()) {
+    const auto quartile =
+        noise_shares_.begin() + static_cast<std::ptrdiff_t>(noise_shares_.size() / 4);
+    std::nth_element(noise_shares_.begin(), quartile, noise_shares_.end());
+    share = std::max(share, kRobustNoises * *quartile);
+  }
+  for (BlockLight& light : sums_->lights) {
+    if (light.gain > 0.0F) light.inverse = static_cast<float>(1.0 / (light.gain * share));
   }
 }
 

@@ -105,6 +105,7 @@ class BlockFit {
   int blocks_along_ = 0;
   int tile_ = 4;
   std::vector<PrintBlock> blocks_;
+  std::vector<double> noise_shares_;
   std::vector<std::int16_t> block_of_;
   std::vector<float> weight_;
   std::unique_ptr<Sums> sums_;
