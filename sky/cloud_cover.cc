@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 #include "sky/air_mass.h"
@@ -30,62 +32,74 @@ PatternBlend BlendAt(double cover) {
   return {low.cie_type, high.cie_type, (cover - low.cover) / (high.cover - low.cover)};
 }
 
+/// The clouds' own light.
+struct Clouds {
+  CieSky lower, upper;
+  double lower_zenith_cd_m2 = 0.0, upper_zenith_cd_m2 = 0.0;
+  LinearRgb sky_horizontal = {};  ///< With what is left of the clear sky.
+
+  double Luminance(Direction<World> from) const {
+    return lower_zenith_cd_m2 * lower.RelativeLuminance(from) +
+           upper_zenith_cd_m2 * upper.RelativeLuminance(from);
+  }
+};
+
 class CloudySky : public SkyModel {
  public:
   CloudySky(std::unique_ptr<SkyModel> clear, double cover)
       : clear_(std::move(clear)),
-        blend_(BlendAt(cover)),
-        lower_(blend_.lower, clear_->ToSun()),
-        upper_(blend_.upper, clear_->ToSun()) {
-    const double sine = std::clamp(clear_->ToSun().xyz.z, -1.0, 1.0);
-    const CloudTransmission passed = TransmissionOfClouds(cover, Radians(std::asin(sine)));
-    global_ = passed.global;
-    clear_share_ = passed.clear_sky;
-    sun_normal_ = clear_->SunNormalIrradiance() * passed.sun;
-    const LinearRgb blue = clear_->SkyHorizontalIrradiance();
-    const double clear_sun = Luminance(clear_->SunNormalIrradiance()) * std::max(0.0, sine);
-    const double diffuse = passed.global * (clear_sun + Luminance(blue)) - passed.sun * clear_sun;
-    cloud_lux_ = std::max(0.0, diffuse - clear_share_ * Luminance(blue));
-    lower_scale_ = cloud_lux_ * (1.0 - blend_.upper_share) / lower_.IlluminanceOverZenith();
-    upper_scale_ = cloud_lux_ * blend_.upper_share / upper_.IlluminanceOverZenith();
-    sky_horizontal_ = blue * clear_share_ + LinearRgb{cloud_lux_, cloud_lux_, cloud_lux_};
-  }
+        cover_(cover),
+        sine_(std::clamp(clear_->ToSun().xyz.z, -1.0, 1.0)),
+        passed_(TransmissionOfClouds(cover, Radians(std::asin(sine_)))) {}
 
   LinearRgb SkyRadiance(Direction<World> from) const override {
-    const double cloud = CloudLuminance(from);
-    return clear_->SkyRadiance(from) * clear_share_ + LinearRgb{cloud, cloud, cloud};
+    const double cloud = Made().Luminance(from);
+    return clear_->SkyRadiance(from) * passed_.clear_sky + LinearRgb{cloud, cloud, cloud};
   }
   XyY At(Direction<World> from) const override {
-    const double cloud = CloudLuminance(from);
-    const Vec3 blue = XyzFromXyY(clear_->At(from)) * clear_share_;
+    const double cloud = Made().Luminance(from);
+    const Vec3 blue = XyzFromXyY(clear_->At(from)) * passed_.clear_sky;
     return XyYFromXyz(blue + XyzFromRgb({cloud, cloud, cloud}));
   }
-  LinearRgb SunNormalIrradiance() const override { return sun_normal_; }
-  LinearRgb SkyHorizontalIrradiance() const override { return sky_horizontal_; }
+  LinearRgb SunNormalIrradiance() const override {
+    return clear_->SunNormalIrradiance() * passed_.sun;
+  }
+  LinearRgb SkyHorizontalIrradiance() const override { return Made().sky_horizontal; }
   Direction<World> ToSun() const override { return clear_->ToSun(); }
   AirBetween AirTo(Direction<World> towards, Metres distance) const override {
     // The same air, lit by what the clouds leave of the light on level ground.
     AirBetween air = clear_->AirTo(towards, distance);
-    air.inscattered = air.inscattered * global_;
+    air.inscattered = air.inscattered * passed_.global;
     return air;
   }
   std::vector<std::string> Notes() const override { return clear_->Notes(); }
 
  private:
-  double CloudLuminance(Direction<World> from) const {
-    return lower_scale_ * lower_.RelativeLuminance(from) +
-           upper_scale_ * upper_.RelativeLuminance(from);
+  /// Made when first asked for: who follows the sun alone does without.
+  const Clouds& Made() const {
+    std::call_once(made_, [this] {
+      const PatternBlend blend = BlendAt(cover_);
+      Clouds& clouds =
+          clouds_.emplace(Clouds{CieSky(blend.lower, ToSun()), CieSky(blend.upper, ToSun())});
+      const LinearRgb blue = clear_->SkyHorizontalIrradiance();
+      const double clear_sun = Luminance(clear_->SunNormalIrradiance()) * std::max(0.0, sine_);
+      const double diffuse =
+          passed_.global * (clear_sun + Luminance(blue)) - passed_.sun * clear_sun;
+      const double lux = std::max(0.0, diffuse - passed_.clear_sky * Luminance(blue));
+      clouds.lower_zenith_cd_m2 =
+          lux * (1.0 - blend.upper_share) / clouds.lower.IlluminanceOverZenith();
+      clouds.upper_zenith_cd_m2 = lux * blend.upper_share / clouds.upper.IlluminanceOverZenith();
+      clouds.sky_horizontal = blue * passed_.clear_sky + LinearRgb{lux, lux, lux};
+    });
+    return *clouds_;
   }
 
   std::unique_ptr<SkyModel> clear_;
-  PatternBlend blend_;
-  CieSky lower_, upper_;
-  double global_ = 1.0;  ///< Of the clear light on level ground.
-  double clear_share_ = 1.0;
-  double cloud_lux_ = 0.0;
-  double lower_scale_ = 0.0, upper_scale_ = 0.0;  ///< Zenith luminances, cd/m².
-  LinearRgb sun_normal_;
-  LinearRgb sky_horizontal_;
+  double cover_;
+  double sine_;  ///< Of the sun's elevation.
+  CloudTransmission passed_;
+  mutable std::once_flag made_;
+  mutable std::optional<Clouds> clouds_;
 };
 
 class CloudySource : public SkySource {
