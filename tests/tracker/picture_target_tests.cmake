@@ -17,3 +17,9 @@ pleinair_test(picture_target_tracking_test
 pleinair_test(picture_target_fit_test
   SOURCES picture_target_fit_test.cc
   LIBS pleinair_picture_target_scenes)
+if(PLEINAIR_BENCHMARKS)
+  add_executable(picture_target_evaluation picture_target_evaluation.cc)
+  target_link_libraries(picture_target_evaluation
+    PRIVATE pleinair_picture_target_scenes opencv_core opencv_imgcodecs opencv_imgproc)
+  pleinair_configure_target(picture_target_evaluation)
+endif()
