@@ -51,7 +51,7 @@ void Surf::Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>*
       keypoint.scale /= 2;
     }
   }
-  s.hessian.Detect(s.integral, s.options.octaves, (s.options.double_size?2:1)*s.options.first_step, s.options.threshold,
+  s.hessian.Detect(s.integral, s.options.octaves, s.options.first_step, s.options.threshold,
                    keypoints);
   s.selection.KeepFairShares(grey.width(), grey.height(), s.options.bucket_px,
                              s.options.max_keypoints, keypoints);
