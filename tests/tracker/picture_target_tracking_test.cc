@@ -29,6 +29,15 @@ void* operator new(std::size_t size) {
   live_bytes += static_cast<long>(malloc_usable_size(memory));
   return memory;
 }
+// The standard library takes and frees temporary buffers without exceptions.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  void* const memory = std::malloc(size);
+  if (memory == nullptr) return nullptr;
+  ++allocations;
+  live_bytes += static_cast<long>(malloc_usable_size(memory));
+  return memory;
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept { Release(memory); }
 void operator delete(void* memory) noexcept { Release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { Release(memory); }
 
