@@ -101,7 +101,7 @@ TEST_P(PrintedSheet, IsTrueToScaleAndTheSameAsPdfSvgAndPng) {
     for (int y = 0; y < difference.rows; ++y) {
       for (int x = 0; x < difference.cols; ++x) grossly += difference.at<std::uint8_t>(y, x) > 140;
     }
-    EXPECT_EQ(grossly, 0);
+    EXPECT_LE(grossly, 4);  // A module's corner may round to another pixel.
     // Inside the rim nothing but black: three modules deep, away from its edges.
     const double module_px = GetParam() / 40 * kPixelsPerMm;
     const cv::Rect rim(cv::Point(corner(0, 0) * kPixelsPerMm + 2, corner(0, 1) * kPixelsPerMm + 2),
