@@ -260,6 +260,10 @@ Result<void> Run(const Options& options) {
   const std::string ending =
       options.output.size() < 4 ? "" : options.output.substr(options.output.size() - 4);
   if (options.output.empty() || ending == ".csv") return RunSeries(options, *source, moments);
+  if (moments.size() < 2) {
+    return InputError(options.output, "is a video of one moment",
+                      "give a smaller --step or a later --until");
+  }
   return RunVideo(options, *source, name, moments);
 }
 

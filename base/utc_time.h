@@ -33,8 +33,9 @@ class UtcTime {
   std::string ToString() const;
 
   /// Parses RFC 3339 ("2025-09-14T11:05:00Z", "…+02:00", a space for the T). A time without `Z`
-  /// or offset is an error: nobody can know which zone it means. A leap second (":60") is taken
-  /// as the first second of the next minute.
+  /// or offset is an error: nobody can know which zone it means. A leap second (":60"), which the
+  /// end of June or December may have, is taken as the first second of the next day; any other
+  /// second 60 is an error.
   static Result<UtcTime> Parse(std::string_view text);
 
  private:
@@ -178,7 +179,15 @@ inline Result<UtcTime> UtcTime::Parse(std::string_view text) {
   if (hour > 23 || minute > 59 || second > 60) return fail("names an hour that does not exist");
   const std::int64_t seconds = internal::DaysFromCivil(year, month, day) * 86'400 + hour * 3600 +
                                minute * 60 + second - offset_minutes * 60;
-  return UtcTime(seconds * internal::kNanosecondsPerSecond + fraction_ns);
+  const UtcTime time(seconds * internal::kNanosecondsPerSecond + fraction_ns);
+  if (second == 60) {
+    const Civil next = UtcTime(seconds * internal::kNanosecondsPerSecond).ToCivil();
+    const bool half_year = (next.month == 1 || next.month == 7) && next.day == 1;
+    if (!half_year || next.hour != 0 || next.minute != 0) {
+      return fail("names a second 60 that is no leap second");
+    }
+  }
+  return time;
 }
 
 }  // namespace pleinair

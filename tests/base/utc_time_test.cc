@@ -30,6 +30,10 @@ TEST(UtcTime, ReadsTheExamplesOfRfc3339) {
   EXPECT_EQ(Rewritten("1996-12-19T16:39:57-08:00"), "1996-12-20T00:39:57Z");
   EXPECT_EQ(Rewritten("1990-12-31T23:59:60Z"), "1991-01-01T00:00:00Z");
   EXPECT_EQ(Rewritten("1990-12-31T15:59:60-08:00"), "1991-01-01T00:00:00Z");
+  for (const char* none : {"2025-01-01T12:00:60Z", "2025-03-10T12:34:60Z",
+                           "2024-12-31T23:59:60-08:00", "2024-03-31T23:59:60Z"}) {
+    EXPECT_FALSE(UtcTime::Parse(none).has_value()) << none;
+  }
   EXPECT_EQ(Rewritten("1937-01-01T12:00:27.87+00:20"), "1937-01-01T11:40:27.87Z");
 }
 

@@ -47,8 +47,7 @@ TEST(CieSky, HasThePublishedZenithOverIlluminanceToOnePerMille) {
     for (int i = 0; i < 4; ++i) {
       const CieSky sky(type, Towards(200.0, kElevations[i]));
       const double expected = kZenithOverIlluminance[type - 1][i];
-      // The table has four digits: half of the last one is added.
-      EXPECT_NEAR(1.0 / sky.IlluminanceOverZenith(), expected, 1e-3 * expected + 5e-5)
+      EXPECT_NEAR(1.0 / sky.IlluminanceOverZenith(), expected, 1e-3 * expected)
           << "type " << type << ", sun " << kElevations[i];
     }
   }
