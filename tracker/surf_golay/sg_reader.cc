@@ -15,6 +15,9 @@ namespace {
 constexpr double kGlanceSide_px = 36.0;  ///< Longest side of a print that is only glanced at,
 constexpr double kCoarseSide_px = 52.0;  ///< … that is fitted coarsely,
 constexpr double kFineSide_px = 100.0;   ///< … and finely.
+/// Blur of a reduced picture below which its edges tell their places no more: a pixel then sees
+/// much the same wherever in it the edge lies.
+constexpr double kSharpestReduced_px = 0.2;
 constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kMostClipped = 0.08;
@@ -79,6 +82,30 @@ double ModulesApart(const Mat3& modules_from_ideal, const Mat3& other_modules_fr
     farthest = std::max(farthest, Norm(Apply(other, modules) - modules));
   }
   return farthest;
+}
+
+/// Blocks where the print is plain tell nothing by themselves: they take the mean of those around
+/// them that tell something.
+void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
+  const std::vector<PrintBlock>& blocks = fit.blocks();
+  const int side = fit.blocks_along();
+  const auto most = std::ranges::max_element(blocks, {}, &PrintBlock::pixels);
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const PrintBlock& block = blocks[row * side + column];
+      if (block.contrast > kLeastContrast || 2 * block.pixels < most->pixels) continue;
+      float sum = 0.0F;
+      int count = 0;
+      for (int y = std::max(0, row - 1); y <= std::min(side - 1, row + 1); ++y) {
+        for (int x = std::max(0, column - 1); x <= std::min(side - 1, column + 1); ++x) {
+          if (blocks[y * side + x].contrast <= kLeastContrast) continue;
+          sum += (*visible)[y * side + x];
+          ++count;
+        }
+      }
+      if (count > 0) (*visible)[row * side + column] = sum / static_cast<float>(count);
+    }
+  }
 }
 
 }  // namespace
@@ -148,7 +175,7 @@ double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
     if (!TakeCoarseWindow(state->modules_from_ideal, most_side, &window)) return -1.0;
     state->blur_px =
         std::clamp(kCoarseBlurShare * side / window.Scale(), 0.7, kCoarseBlur_px) * window.Scale();
-  } else if (!TakeFineWindow(state->modules_from_ideal, &window)) {
+  } else if (!TakeFineWindow(*state, &window)) {
     return -1.0;
   }
   const int blocks =
@@ -291,7 +318,7 @@ bool SgReader::FitContent(int number, BlockFitState* state) {
     PixelWindow window;
     const bool taken = detail == Detail::kCoarse
                            ? TakeCoarseWindow(state->modules_from_ideal, kCoarseSide_px, &window)
-                           : TakeFineWindow(state->modules_from_ideal, &window);
+                           : TakeFineWindow(*state, &window);
     if (!taken) return false;
     KeepContent(window, state->modules_from_ideal);
     const double side = SidePx(state->modules_from_ideal);
@@ -342,18 +369,27 @@ bool SgReader::TakeCoarseWindow(const Mat3& modules_from_ideal, double most_side
   return true;
 }
 
-bool SgReader::TakeFineWindow(const Mat3& modules_from_ideal, PixelWindow* window) {
-  const double side = SidePx(modules_from_ideal);
+bool SgReader::TakeFineWindow(const BlockFitState& state, PixelWindow* window) {
+  const double side = SidePx(state.modules_from_ideal);
   int level = 0;
-  while (side / (1 << level) > kFineSide_px && level + 1 < ReducedPictures::kLevels) ++level;
+  while (side / (1 << level) > kFineSide_px && state.blur_px / (2 << level) > kSharpestReduced_px &&
+         level + 1 < ReducedPictures::kLevels) {
+    ++level;
+  }
+  // The largest prints take more pixels than there is room for.
+  while (!Window(state.modules_from_ideal, level, window)) {
+    if (++level >= ReducedPictures::kLevels) return false;
+  }
   for (;; --level) {
-    if (!Window(modules_from_ideal, level, window)) return false;
     TakeLinearWindow(lens_, grey_, *window, &seen_);
     if (level == 0) return true;
     // A reduced pixel is lost when one of its pixels is clipped: where many are, the picture's own
     // tell more.
     const auto clipped = std::count(seen_.certainty.begin(), seen_.certainty.end(), 0.0F);
     if (clipped < kMostClipped * static_cast<double>(window->size())) return true;
+    PixelWindow finer;
+    if (!Window(state.modules_from_ideal, level - 1, &finer)) return true;
+    *window = finer;
   }
 }
 
@@ -361,7 +397,7 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   const double side = SidePx(guess.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
   PixelWindow window;
-  if (!TakeFineWindow(guess.modules_from_ideal, &window)) return std::nullopt;
+  if (!TakeFineWindow(guess, &window)) return std::nullopt;
   BlockFitState state = guess;
   BlockFitOptions options;
   options.steps = 5;
@@ -393,6 +429,7 @@ void SgReader::Finish(const BlockFit& fit, const BlockFitState& state, SgReading
   }
   const double blocks = static_cast<double>(fit.blocks().size());
   reading->visible_fraction = seen / std::max(all, kLeastTelling * blocks);
+  JudgePlainBlocks(fit, &reading->visible);
   // The corners and how they follow the eight motions.
   const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
   const auto pixel_of = [&](Vec2 unit_down) {

@@ -73,7 +73,7 @@ class SgReader {
   bool Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const;
   /// Takes the window of a print for finding it, or for measuring; false where it has none.
   bool TakeCoarseWindow(const Mat3& modules_from_ideal, double most_side_px, PixelWindow* window);
-  bool TakeFineWindow(const Mat3& modules_from_ideal, PixelWindow* window);
+  bool TakeFineWindow(const BlockFitState& state, PixelWindow* window);
   double SidePx(const Mat3& modules_from_ideal) const;
   /// Reads the cells of a print whose border was fitted last: number, margin and proof. False where
   /// they tell no number.
