@@ -21,6 +21,7 @@ constexpr const char* kExamples =
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
+    "  pleinair devices\n"
     "  pleinair doctor\n"
     "'pleinair SUBCOMMAND --help' tells more. Exit codes: 0 done, 1 could not, 2 the input or\n"
     "the usage is wrong.";
@@ -70,6 +71,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddBoardCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
+    AddDevicesCommand(app, result);
     AddDoctorCommand(app, result);
     try {
       app.parse(argc, argv);

@@ -27,6 +27,7 @@ void AddTargetCommand(CLI::App& app, CommandResult& result);
 void AddBoardCommand(CLI::App& app, CommandResult& result);
 void AddSunCommand(CLI::App& app, CommandResult& result);
 void AddSkyCommand(CLI::App& app, CommandResult& result);
+void AddDevicesCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);
 
 /// Parses the command line, runs the subcommand and gives the exit code. An error is one line on

@@ -45,7 +45,8 @@ pleinair_pkg_config(gl "OpenGL without a window" "epoxy egl" "-ldl")
 pleinair_pkg_config(shadows "the sun's shadow maps" "pleinair-gl" "")
 pleinair_pkg_config(compositor "virtual objects in camera pictures"
   "pleinair-shadows pleinair-sky" "-ltinygltf -lembree3 -pthread")
-pleinair_pkg_config(devices "recordings, calibrations and scenes" "opencv4 yaml-cpp" "")
+pleinair_pkg_config(devices "cameras, recordings, calibrations and scenes" "opencv4 yaml-cpp libjpeg"
+  "-pthread")
 pleinair_pkg_config(tracker "markers and their poses" "opencv4 libhwy"
   "-lapriltag -lapriltag-utils -lceres -lglog -lgflags -lspqr -lcholmod -lcxsparse -llapack -lblas")
 

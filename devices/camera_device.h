@@ -1,0 +1,56 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <chrono>
+#include <memory>
+
+#include "devices/camera.h"
+#include "devices/camera_uri.h"
+#include "devices/frame.h"
+#include "devices/live_camera.h"
+
+namespace pleinair::devices {
+
+/// What a backend hands on: the bytes and what the driver says of them. Reused from picture to
+/// picture.
+struct CapturedPicture {
+  RawPicture raw;
+  std::int64_t number = 0;        ///< The driver's; gaps are losses.
+  std::int64_t timestamp_ns = 0;  ///< Steady clock.
+  std::int64_t arrival_ns = 0;    ///< Steady clock.
+  StampMeaning stamp_meaning = StampMeaning::kUnknown;
+  std::optional<std::int64_t> device_timestamp_ns;
+  std::optional<double> exposure_s;
+  std::optional<double> gain;
+  std::optional<double> white_balance_k;
+  bool damaged = false;  ///< The driver's word; `raw` may be short.
+};
+
+enum class WaitOutcome {
+  kPicture,
+  kNothing,  ///< Time is over or Wake() was called.
+  kGone,     ///< The device left or answers no more; only closing it helps.
+};
+
+/// One opened, streaming device of a backend. Wake() may be called from any thread, the rest from
+/// one. Destruction stops the stream and gives everything back in bounded time.
+class CameraDevice {
+ public:
+  virtual ~CameraDevice() = default;
+
+  virtual WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) = 0;
+  virtual void Wake() = 0;
+  /// Why Wait() gave kGone.
+  virtual std::string Words() const = 0;
+
+  virtual const PictureAgreement& agreement() const = 0;
+  /// Stable name, to find it by after a replug.
+  virtual CameraUri identity() const = 0;
+
+  virtual std::optional<TransportCounts> Transport() { return std::nullopt; }
+  virtual std::vector<ControlRange> Controls() = 0;
+  virtual std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) = 0;
+};
+
+}  // namespace pleinair::devices

@@ -1,0 +1,89 @@
+#include "devices/jpeg_decoder.h"
+
+#include <csetjmp>
+#include <cstdio>
+#include <string>
+
+// After <cstdio>: it uses FILE without declaring it.
+#include <jpeglib.h>
+// After <jpeglib.h>: the codes of its messages.
+#include <jerror.h>
+
+namespace pleinair::devices {
+namespace {
+
+/// libjpeg reports by calling back and never returns from an error: it jumps.
+struct Reporter {
+  jpeg_error_mgr manager;
+  std::jmp_buf back;
+  char message[JMSG_LENGTH_MAX];
+};
+
+void Keep(j_common_ptr common) {
+  auto* reporter = reinterpret_cast<Reporter*>(common->err);
+  (*reporter->manager.format_message)(common, reporter->message);
+}
+
+[[noreturn]] void LeaveOnError(j_common_ptr common) {
+  Keep(common);
+  std::longjmp(reinterpret_cast<Reporter*>(common->err)->back, 1);
+}
+
+// The first warning is where the damage is; what follows it is noise. Only bytes between the last
+// block and the end marker are no damage: many cameras pad there.
+void OnMessage(j_common_ptr common, int level) {
+  constexpr int kEndOfImage = 0xD9;  // ITU-T T.81, Table B.1.
+  if (level >= 0) return;
+  const bool padded =
+      common->err->msg_code == JWRN_EXTRANEOUS_DATA && common->err->msg_parm.i[1] == kEndOfImage;
+  if (!padded) LeaveOnError(common);
+}
+
+/// Gives false where the decoder gave up, and the reason in `reporter`. No object with a destructor
+/// lives in here, because of the jump.
+bool Decode(const std::uint8_t* bytes, std::size_t size, std::uint8_t* rgb, int width, int height,
+            Reporter* reporter) {
+  jpeg_decompress_struct decoder;
+  decoder.err = jpeg_std_error(&reporter->manager);
+  reporter->manager.error_exit = LeaveOnError;
+  reporter->manager.emit_message = OnMessage;
+  reporter->message[0] = '\0';
+  jpeg_create_decompress(&decoder);
+  if (setjmp(reporter->back) != 0) {
+    jpeg_destroy_decompress(&decoder);
+    return false;
+  }
+  jpeg_mem_src(&decoder, bytes, size);
+  jpeg_read_header(&decoder, TRUE);
+  if (static_cast<int>(decoder.image_width) != width ||
+      static_cast<int>(decoder.image_height) != height) {
+    std::snprintf(reporter->message, sizeof reporter->message, "its size is %ux%u, not %dx%d",
+                  decoder.image_width, decoder.image_height, width, height);
+    jpeg_destroy_decompress(&decoder);
+    return false;
+  }
+  decoder.out_color_space = JCS_RGB;
+  jpeg_start_decompress(&decoder);
+  while (decoder.output_scanline < decoder.output_height) {
+    JSAMPROW row =
+        rgb + static_cast<std::size_t>(decoder.output_scanline) * 3 * decoder.output_width;
+    jpeg_read_scanlines(&decoder, &row, 1);
+  }
+  jpeg_finish_decompress(&decoder);
+  jpeg_destroy_decompress(&decoder);
+  return true;
+}
+
+}  // namespace
+
+Result<void> DecodeJpeg(const std::vector<std::uint8_t>& bytes, RgbImage* rgb) {
+  Reporter reporter;
+  if (!bytes.empty() &&
+      Decode(bytes.data(), bytes.size(), rgb->data(), rgb->width(), rgb->height(), &reporter)) {
+    return {};
+  }
+  const std::string why = bytes.empty() ? "it is empty" : reporter.message;
+  return InputError("", "the picture is damaged: " + why);
+}
+
+}  // namespace pleinair::devices

@@ -1,0 +1,19 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include "devices/camera.h"
+#include "devices/raw_picture.h"
+#include "devices/v4l2/v4l2_node.h"
+
+namespace pleinair::devices {
+
+struct V4l2Agreement {
+  PictureAgreement said;  ///< What was agreed, and each difference from the wish.
+  RawPicture layout;      ///< The same as a picture without bytes.
+};
+
+/// Sets format, size and rate as near to the wish as the device goes and reads back what it took.
+Result<V4l2Agreement> AgreeOnPictures(const V4l2Node& node, const PictureWish& wish);
+
+}  // namespace pleinair::devices

@@ -1,0 +1,138 @@
+#include "devices/v4l2/v4l2_controls.h"
+
+#include <linux/videodev2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "devices/v4l2/v4l2_words.h"
+
+namespace pleinair::devices {
+namespace {
+
+/// How V4L2 names one of our controls.
+struct Mapping {
+  CameraControl control;
+  __u32 value_id;
+  __u32 auto_id;
+  double unit;  ///< Ours per step of the device's.
+};
+
+// V4L2_CID_EXPOSURE_ABSOLUTE counts in 100 microseconds, WHITE_BALANCE_TEMPERATURE in kelvins.
+constexpr Mapping kMappings[] = {
+    {CameraControl::kExposure, V4L2_CID_EXPOSURE_ABSOLUTE, V4L2_CID_EXPOSURE_AUTO, 1e-4},
+    {CameraControl::kGain, V4L2_CID_GAIN, V4L2_CID_AUTOGAIN, 1.0},
+    {CameraControl::kWhiteBalance, V4L2_CID_WHITE_BALANCE_TEMPERATURE, V4L2_CID_AUTO_WHITE_BALANCE,
+     1.0},
+    {CameraControl::kFocus, V4L2_CID_FOCUS_ABSOLUTE, V4L2_CID_FOCUS_AUTO, 1.0}};
+
+const Mapping& MappingOf(CameraControl control) {
+  return *std::find_if(std::begin(kMappings), std::end(kMappings),
+                       [&](const Mapping& mapping) { return mapping.control == control; });
+}
+
+bool Query(const V4l2Node& node, __u32 id, v4l2_queryctrl* query) {
+  *query = {};
+  query->id = id;
+  return node.Control(VIDIOC_QUERYCTRL, query) >= 0 &&
+         (query->flags & V4L2_CTRL_FLAG_DISABLED) == 0;
+}
+
+std::optional<int> Get(const V4l2Node& node, __u32 id) {
+  v4l2_control control{};
+  control.id = id;
+  if (node.Control(VIDIOC_G_CTRL, &control) < 0) return std::nullopt;
+  return control.value;
+}
+
+int Set(const V4l2Node& node, __u32 id, int value) {
+  v4l2_control control{};
+  control.id = id;
+  control.value = value;
+  return node.Control(VIDIOC_S_CTRL, &control);
+}
+
+/// Exposure is a menu with two ways to leave the time alone; the others are switches.
+bool MeansAuto(const Mapping& mapping, int value) {
+  if (mapping.control != CameraControl::kExposure) return value != 0;
+  return value == V4L2_EXPOSURE_AUTO || value == V4L2_EXPOSURE_APERTURE_PRIORITY;
+}
+
+int ValueForManual(const Mapping& mapping) {
+  return mapping.control == CameraControl::kExposure ? V4L2_EXPOSURE_MANUAL : 0;
+}
+
+ControlAnswer Fulfil(const V4l2Node& node, const ControlWish& wish) {
+  const Mapping& mapping = MappingOf(wish.control);
+  const std::string name(NameOf(wish.control));
+  ControlAnswer answer;
+  answer.control = wish.control;
+  v4l2_queryctrl range{}, automatic{};
+  if (!Query(node, mapping.value_id, &range)) {
+    answer.words = "the camera has no control of its " + name;
+    return answer;
+  }
+  // Read before the automatism goes off: what it had found is what is to be held.
+  const std::optional<int> found = Get(node, mapping.value_id);
+  bool is_auto = false;
+  if (Query(node, mapping.auto_id, &automatic)) {
+    const int failed = Set(node, mapping.auto_id, ValueForManual(mapping));
+    if (failed < 0) {
+      answer.words = V4l2Error(node.path(), name + " cannot be held", -failed).Message();
+    }
+    const std::optional<int> now = Get(node, mapping.auto_id);
+    is_auto = now && MeansAuto(mapping, *now);
+  }
+  std::optional<int> wanted = found;
+  if (wish.value) {
+    const double steps = std::round(*wish.value / mapping.unit);
+    wanted = static_cast<int>(
+        std::clamp(steps, static_cast<double>(range.minimum), static_cast<double>(range.maximum)));
+    if (*wanted != steps) {
+      answer.words = name + " goes from " + std::to_string(range.minimum * mapping.unit) + " to " +
+                     std::to_string(range.maximum * mapping.unit);
+    }
+  }
+  if (wanted && !is_auto) {
+    const int failed = Set(node, mapping.value_id, *wanted);
+    if (failed < 0) {
+      answer.words = V4l2Error(node.path(), name + " cannot be set", -failed).Message();
+    }
+  }
+  if (const std::optional<int> now = Get(node, mapping.value_id)) {
+    answer.value = *now * mapping.unit;
+  }
+  answer.held = !is_auto;
+  if (is_auto && answer.words.empty()) answer.words = name + " goes on changing by itself";
+  return answer;
+}
+
+}  // namespace
+
+std::vector<ControlRange> V4l2Controls(const V4l2Node& node) {
+  std::vector<ControlRange> controls;
+  for (const Mapping& mapping : kMappings) {
+    v4l2_queryctrl query{};
+    if (!Query(node, mapping.value_id, &query)) continue;
+    ControlRange range;
+    range.control = mapping.control;
+    range.lowest = query.minimum * mapping.unit;
+    range.highest = query.maximum * mapping.unit;
+    range.value = Get(node, mapping.value_id).value_or(query.default_value) * mapping.unit;
+    range.has_auto = Query(node, mapping.auto_id, &query);
+    const std::optional<int> automatic = Get(node, mapping.auto_id);
+    range.is_auto = range.has_auto && automatic && MeansAuto(mapping, *automatic);
+    controls.push_back(range);
+  }
+  return controls;
+}
+
+std::vector<ControlAnswer> HoldV4l2Controls(const V4l2Node& node,
+                                            const std::vector<ControlWish>& wishes) {
+  std::vector<ControlAnswer> answers;
+  for (const ControlWish& wish : wishes) answers.push_back(Fulfil(node, wish));
+  return answers;
+}
+
+}  // namespace pleinair::devices

@@ -1,0 +1,201 @@
+#include "devices/v4l2/v4l2_device.h"
+
+#include <linux/videodev2.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <utility>
+
+#include "devices/v4l2/v4l2_agreement.h"
+#include "devices/v4l2/v4l2_controls.h"
+#include "devices/v4l2/v4l2_node.h"
+#include "devices/v4l2/v4l2_words.h"
+
+namespace pleinair::devices {
+namespace {
+
+// Enough for a thread that is held up for a hundred milliseconds at 30 Hz; drivers may give more.
+constexpr __u32 kBuffers = 4;
+
+std::int64_t SteadyNow_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+class V4l2Device : public CameraDevice {
+ public:
+  V4l2Device(V4l2Node node, V4l2Agreement agreement, CameraUri identity)
+      : node_(std::move(node)),
+        agreement_(std::move(agreement)),
+        identity_(std::move(identity)),
+        wake_fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
+
+  ~V4l2Device() override {
+    int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    if (streaming_) node_.Control(VIDIOC_STREAMOFF, &type);
+    for (const Buffer& buffer : buffers_) node_.io().Unmap(buffer.address, buffer.length);
+    if (wake_fd_ >= 0) close(wake_fd_);
+  }
+
+  Result<void> Start() {
+    const auto fail = [&](const char* doing, int result) {
+      return tl::make_unexpected(V4l2Error(node_.path(), doing, -result));
+    };
+    v4l2_requestbuffers request{};
+    request.count = kBuffers;
+    request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    request.memory = V4L2_MEMORY_MMAP;
+    int result = node_.Control(VIDIOC_REQBUFS, &request);
+    if (result < 0) return fail("cannot get buffers", result);
+    for (__u32 i = 0; i < request.count; ++i) {
+      v4l2_buffer buffer = BufferNumber(i);
+      result = node_.Control(VIDIOC_QUERYBUF, &buffer);
+      if (result < 0) return fail("cannot ask for a buffer", result);
+      void* address = node_.io().Map(node_.fd(), buffer.length, buffer.m.offset);
+      if (address == nullptr) return fail("cannot map a buffer", -ENOMEM);
+      buffers_.push_back({static_cast<std::uint8_t*>(address), buffer.length});
+      result = node_.Control(VIDIOC_QBUF, &buffer);
+      if (result < 0) return fail("cannot queue a buffer", result);
+    }
+    int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    result = node_.Control(VIDIOC_STREAMON, &type);
+    if (result < 0) return fail("cannot start the stream", result);
+    streaming_ = true;
+    RememberHeldControls();
+    return {};
+  }
+
+  WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) override {
+    const int events = node_.io().Poll(node_.fd(), wake_fd_, static_cast<int>(limit.count()));
+    if (events == 0) return WaitOutcome::kNothing;
+    if (events < 0) return Gone(-events);
+    v4l2_buffer buffer = BufferNumber(0);
+    const int result = node_.Control(VIDIOC_DQBUF, &buffer);
+    // POLLERR alone may be a spurious wake; POLLHUP is final, whatever the call gives.
+    if (result == -EAGAIN && (events & (POLLHUP | POLLNVAL | POLLERR)) == 0) {
+      return WaitOutcome::kNothing;
+    }
+    if (result < 0) return Gone(result == -EAGAIN ? ENODEV : -result);
+    if (buffer.index >= buffers_.size()) return Gone(EIO);
+    Take(buffer, picture);
+    const int queued = node_.Control(VIDIOC_QBUF, &buffer);
+    if (queued < 0) return Gone(-queued);
+    return WaitOutcome::kPicture;
+  }
+
+  void Wake() override {
+    const std::uint64_t one = 1;
+    // A full counter wakes as well.
+    if (write(wake_fd_, &one, sizeof one) < 0) return;
+  }
+
+  std::string Words() const override { return words_; }
+  const PictureAgreement& agreement() const override { return agreement_.said; }
+  CameraUri identity() const override { return identity_; }
+  std::vector<ControlRange> Controls() override { return V4l2Controls(node_); }
+
+  std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) override {
+    auto answers = HoldV4l2Controls(node_, wishes);
+    RememberHeldControls();
+    return answers;
+  }
+
+ private:
+  struct Buffer {
+    std::uint8_t* address;
+    std::size_t length;
+  };
+
+  static v4l2_buffer BufferNumber(__u32 index) {
+    v4l2_buffer buffer{};
+    buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    buffer.memory = V4L2_MEMORY_MMAP;
+    buffer.index = index;
+    return buffer;
+  }
+
+  WaitOutcome Gone(int error_number) {
+    words_ = V4l2Error(node_.path(), "the stream ended", error_number).what;
+    return WaitOutcome::kGone;
+  }
+
+  // Only what is held is known for every frame; asking for what changes by itself costs a USB
+  // transfer each time.
+  void RememberHeldControls() {
+    held_ = {};
+    bool exposure_is_auto = false;
+    for (const ControlRange& range : Controls()) {
+      if (range.control == CameraControl::kExposure) exposure_is_auto = range.is_auto;
+      if (range.is_auto) continue;
+      if (range.control == CameraControl::kExposure) held_.exposure_s = range.value;
+      // USB cameras have no switch for it of its own: it may follow the exposure.
+      if (range.control == CameraControl::kGain && !exposure_is_auto) held_.gain = range.value;
+      if (range.control == CameraControl::kWhiteBalance) held_.white_balance_k = range.value;
+    }
+  }
+
+  void Take(const v4l2_buffer& buffer, CapturedPicture* picture) {
+    picture->arrival_ns = SteadyNow_ns();
+    // The driver's number has 32 bits.
+    if (last_number_ >= 0) {
+      last_number_ += static_cast<std::int32_t>(buffer.sequence -
+                                                static_cast<__u32>(last_number_ & 0xFFFFFFFF));
+    } else {
+      last_number_ = buffer.sequence;
+    }
+    picture->number = last_number_;
+    const std::int64_t stamp_ns =
+        buffer.timestamp.tv_sec * std::int64_t{1'000'000'000} + buffer.timestamp.tv_usec * 1000L;
+    // CLOCK_MONOTONIC is what std::chrono::steady_clock reads on Linux; any other clock is not.
+    const bool steady =
+        (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+    const bool start =
+        (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+    picture->timestamp_ns = steady ? stamp_ns : picture->arrival_ns;
+    picture->stamp_meaning = !steady ? StampMeaning::kArrival
+                             : start ? StampMeaning::kExposureStart
+                                     : StampMeaning::kExposureEnd;
+    picture->device_timestamp_ns = stamp_ns;
+    picture->exposure_s = held_.exposure_s;
+    picture->gain = held_.gain;
+    picture->white_balance_k = held_.white_balance_k;
+    picture->damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
+    const Buffer& from = buffers_[buffer.index];
+    const std::size_t used = std::min<std::size_t>(buffer.bytesused, from.length);
+    std::vector<std::uint8_t> bytes = std::move(picture->raw.bytes);
+    bytes.assign(from.address, from.address + used);
+    picture->raw = agreement_.layout;
+    picture->raw.bytes = std::move(bytes);
+  }
+
+  V4l2Node node_;
+  V4l2Agreement agreement_;
+  CameraUri identity_;
+  int wake_fd_;
+  std::vector<Buffer> buffers_;
+  bool streaming_ = false;
+  std::int64_t last_number_ = -1;
+  CapturedPicture held_;
+  std::string words_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<CameraDevice>> OpenV4l2Device(const std::shared_ptr<V4l2Io>& io,
+                                                     const CameraUri& uri,
+                                                     const PictureWish& wish) {
+  PLEINAIR_ASSIGN_OR_RETURN(const V4l2Io::Node found, FindV4l2Node(io, uri));
+  PLEINAIR_ASSIGN_OR_RETURN(V4l2Node node, V4l2Node::Open(io, found.path));
+  PLEINAIR_ASSIGN_OR_RETURN(V4l2Agreement agreement, AgreeOnPictures(node, wish));
+  CameraUri identity = V4l2Identity(io, node);
+  auto device = std::make_unique<V4l2Device>(std::move(node), std::move(agreement), identity);
+  PLEINAIR_RETURN_IF_ERROR(device->Start());
+  return std::unique_ptr<CameraDevice>(std::move(device));
+}
+
+}  // namespace pleinair::devices

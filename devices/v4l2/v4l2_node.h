@@ -1,0 +1,58 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/camera.h"
+#include "devices/camera_uri.h"
+#include "devices/v4l2/v4l2_io.h"
+
+namespace pleinair::devices {
+
+/// An opened node that can capture; closes itself.
+class V4l2Node {
+ public:
+  /// Errors in words: not there, no permission, no camera (an output, a metadata node, one that
+  /// only speaks the multi-planar interface).
+  static Result<V4l2Node> Open(std::shared_ptr<V4l2Io> io, const std::string& path);
+  V4l2Node(V4l2Node&& other) noexcept;
+  V4l2Node& operator=(V4l2Node&& other) noexcept;
+  ~V4l2Node();
+
+  /// As ioctl(); negative errno on failure.
+  int Control(unsigned long request, void* argument) const {
+    return io_->Ioctl(fd_, request, argument);
+  }
+  int fd() const { return fd_; }
+  V4l2Io& io() const { return *io_; }
+  const std::string& path() const { return path_; }
+  const std::string& name() const { return name_; }
+  const std::string& driver() const { return driver_; }
+  const std::string& bus() const { return bus_; }
+
+  std::vector<FormatDescription> Formats() const;
+
+ private:
+  V4l2Node() = default;
+
+  std::shared_ptr<V4l2Io> io_;
+  int fd_ = -1;
+  std::string path_, name_, driver_, bus_;
+};
+
+/// Gives the node that a URI means now: the first that can capture, which leaves out the metadata
+/// nodes that USB cameras have too. Error: none is there.
+Result<V4l2Io::Node> FindV4l2Node(const std::shared_ptr<V4l2Io>& io, const CameraUri& uri);
+
+/// By serial number where it has one, else by where it is plugged in. Two cameras with one serial
+/// number (cheap ones all say "0001") go by where they are.
+CameraUri V4l2Identity(const std::shared_ptr<V4l2Io>& io, const V4l2Node& node);
+
+std::vector<CameraDescription> ListV4l2Cameras(const std::shared_ptr<V4l2Io>& io);
+
+}  // namespace pleinair::devices

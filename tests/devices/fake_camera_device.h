@@ -1,0 +1,134 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "devices/camera_device.h"
+
+namespace pleinair::devices {
+
+/// What a test does to a camera that is none: plug, unplug, send. Any thread.
+class FakeCamera {
+ public:
+  static constexpr int kWidth = 4, kHeight = 2;
+  static constexpr std::int64_t kPeriod_ns = 33'333'333;
+
+  void Plug() {
+    Change([this] { plugged_ = true; });
+  }
+  void Unplug() {
+    Change([this] {
+      plugged_ = false;
+      pictures_.clear();
+    });
+  }
+  /// A grey picture whose every pixel is `level`, with this number and stamp.
+  void Send(std::int64_t number, std::uint8_t level, bool damaged = false) {
+    SendAt(number, number * kPeriod_ns, level, damaged);
+  }
+  void SendAt(std::int64_t number, std::int64_t stamp_ns, std::uint8_t level, bool damaged) {
+    CapturedPicture picture;
+    picture.raw.format = PixelFormat::kGrey8;
+    picture.raw.width = kWidth;
+    picture.raw.height = kHeight;
+    picture.raw.stride = kWidth;
+    picture.raw.full_range = true;
+    picture.raw.bytes.assign(kWidth * kHeight, level);
+    picture.number = number;
+    picture.timestamp_ns = stamp_ns;
+    picture.stamp_meaning = StampMeaning::kExposureStart;
+    picture.damaged = damaged;
+    Change([&] { pictures_.push_back(std::move(picture)); });
+  }
+  /// Waits until everything that was sent has been taken from the "driver".
+  void WaitUntilEmpty() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return pictures_.empty() && waiting_; });
+  }
+  int opened() const { return opened_; }
+  std::vector<ControlWish> held() {
+    const std::lock_guard lock(mutex_);
+    return held_;
+  }
+
+  Result<std::unique_ptr<CameraDevice>> Open(const CameraUri& uri, const PictureWish&) {
+    const std::lock_guard lock(mutex_);
+    if (!plugged_) return InputError(uri.ToString(), "there is no such camera", "plug it in");
+    ++opened_;
+    asked_for_ = uri.ToString();
+    return std::unique_ptr<CameraDevice>(new Device(this));
+  }
+  std::string asked_for() {
+    const std::lock_guard lock(mutex_);
+    return asked_for_;
+  }
+
+ private:
+  class Device : public CameraDevice {
+   public:
+    explicit Device(FakeCamera* camera) : camera_(camera) {
+      agreement_.format = PixelFormat::kGrey8;
+      agreement_.size = {kWidth, kHeight};
+    }
+    WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) override {
+      std::unique_lock lock(camera_->mutex_);
+      camera_->waiting_ = true;
+      camera_->changed_.notify_all();
+      camera_->changed_.wait_for(lock, limit, [this] {
+        return !camera_->pictures_.empty() || !camera_->plugged_ || woken_;
+      });
+      camera_->waiting_ = false;
+      woken_ = false;
+      if (!camera_->plugged_) return WaitOutcome::kGone;
+      if (camera_->pictures_.empty()) return WaitOutcome::kNothing;
+      *picture = std::move(camera_->pictures_.front());
+      camera_->pictures_.pop_front();
+      return WaitOutcome::kPicture;
+    }
+    void Wake() override {
+      camera_->Change([this] { woken_ = true; });
+    }
+    std::string Words() const override { return "the stream ended"; }
+    const PictureAgreement& agreement() const override { return agreement_; }
+    CameraUri identity() const override {
+      return {CameraUri::Backend::kV4l2, CameraUri::Key::kSerial, "0001"};
+    }
+    std::vector<ControlRange> Controls() override { return {}; }
+    std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) override {
+      const std::lock_guard lock(camera_->mutex_);
+      camera_->held_ = wishes;
+      std::vector<ControlAnswer> answers;
+      for (const ControlWish& wish : wishes)
+        answers.push_back({wish.control, wish.value, true, ""});
+      return answers;
+    }
+
+   private:
+    FakeCamera* camera_;
+    PictureAgreement agreement_;
+    bool woken_ = false;
+  };
+
+  template <typename Action>
+  void Change(Action action) {
+    const std::lock_guard lock(mutex_);
+    action();
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool plugged_ = true;
+  bool waiting_ = false;
+  std::deque<CapturedPicture> pictures_;
+  std::atomic<int> opened_{0};
+  std::vector<ControlWish> held_;
+  std::string asked_for_;
+};
+
+}  // namespace pleinair::devices

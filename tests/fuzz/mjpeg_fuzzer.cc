@@ -1,0 +1,16 @@
+// A camera's JPEG, damaged in any way: refused or decoded, never more.
+#include <cstddef>
+#include <cstdint>
+
+#include "devices/raw_picture.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static pleinair::devices::Picture picture;
+  pleinair::devices::RawPicture raw;
+  raw.format = pleinair::devices::PixelFormat::kMjpeg;
+  raw.width = 32;
+  raw.height = 24;
+  raw.bytes.assign(data, data + size);
+  static_cast<void>(pleinair::devices::ConvertRawPicture(raw, &picture));
+  return 0;
+}
