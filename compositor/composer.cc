@@ -88,16 +88,16 @@ shadows::View ViewOf(const RenderCamera& camera,
   return view;
 }
 
-shadows::VisibilityMethod MethodOf(ShadowMethod method) {
+shadows::ShadowMethod MethodOf(ShadowMethod method) {
   switch (method) {
     case ShadowMethod::kSunDisc:
-      return shadows::VisibilityMethod::kSunDisc;
+      return shadows::ShadowMethod::kSunDisc;
     case ShadowMethod::kGaussian:
-      return shadows::VisibilityMethod::kGaussian;
+      return shadows::ShadowMethod::kGaussian;
     case ShadowMethod::kVariance:
-      return shadows::VisibilityMethod::kVariance;
+      return shadows::ShadowMethod::kVariance;
   }
-  return shadows::VisibilityMethod::kSunDisc;
+  return shadows::ShadowMethod::kSunDisc;
 }
 
 /// Mean radiance that the phantoms send upwards, for reflections below the horizon.
@@ -259,7 +259,7 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
 Result<void> GlComposer::DrawShadowMaps(const Transform<Camera, Marker>& camera_from_marker) {
   for (int set = 0; set < kShadowSets; ++set) {
     shadows::ShadowMaps& maps = shadow_maps_[set];
-    if (maps.options().method == shadows::VisibilityMethod::kSunDisc) {
+    if (maps.options().method == shadows::ShadowMethod::kSunDisc) {
       // Around the objects, whatever the camera does: drawn once a light.
       PLEINAIR_RETURN_IF_ERROR(maps.UpdateForRegion(casters_[set], {to_sun_}, object_bounds_));
     } else {

@@ -55,13 +55,35 @@ Result<void> CheckOptions(const ShadowMapOptions& options) {
   return {};
 }
 
+// Levels of the pyramid of a map, from half its size down to 2 texels.
+int PyramidLevels(int resolution) {
+  return std::countr_zero(static_cast<unsigned>(resolution)) - 1;
+}
+
+Result<gl::GlProgram> FullscreenProgram(const std::string& fragment,
+                                        const std::vector<std::string>& defines) {
+  return gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
+                                .fragment = fragment,
+                                .defines = defines});
+}
+
 }  // namespace
 
+ShadowMapOptions CommonOptions(ShadowMethod method, int resolution) {
+  const ShadowMethodTraits& traits = TraitsOf(method);
+  ShadowMapOptions options;
+  options.method = method;
+  options.partitions = traits.partitions;
+  options.resolutions.fill(resolution);
+  if (traits.falling_resolution) {
+    options.resolutions = {resolution, resolution / 2, resolution / 2, resolution / 4};
+  }
+  return options;
+}
+
 std::vector<std::string> ShadowMaps::ShaderDefines(const ShadowMapOptions& options, int sets) {
-  std::vector<std::string> defines{"SHADOW_SETS " + std::to_string(sets)};
-  if (options.method == VisibilityMethod::kGaussian) defines.emplace_back("SHADOW_METHOD_GAUSSIAN");
-  if (options.method == VisibilityMethod::kVariance) defines.emplace_back("SHADOW_METHOD_VARIANCE");
-  return defines;
+  return {"SHADOW_SETS " + std::to_string(sets),
+          std::string(TraitsOf(options.method).shader_define)};
 }
 
 Result<ShadowMaps> ShadowMaps::Create(const ShadowMapOptions& options) {
@@ -80,54 +102,62 @@ Result<ShadowMaps> ShadowMaps::Create(const ShadowMapOptions& options) {
       maps.depth_program_,
       gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_depth.vert",
                              .fragment = "shadows/shaders/shadow_depth.frag"}));
-  const std::string pass = maps.UsesMoments() ? "shadows/shaders/shadow_moments.frag"
-                                              : "shadows/shaders/shadow_bounds.frag";
-  PLEINAIR_ASSIGN_OR_RETURN(
-      maps.first_program_,
-      gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
-                             .fragment = pass,
-                             .defines = {"FROM_DEPTH"}}));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      maps.second_program_,
-      gl::GlProgram::Create(
-          {.vertex = "shadows/shaders/shadow_fullscreen.vert", .fragment = pass}));
-
-  if (maps.UsesMoments()) {
-    PLEINAIR_ASSIGN_OR_RETURN(
-        maps.moments_, gl::GlTexture::Create2DArray(GL_RG32F, size, size, options.partitions));
-    PLEINAIR_ASSIGN_OR_RETURN(maps.blur_, gl::GlTexture::Create2DArray(GL_RG32F, size, size, 1));
-    PLEINAIR_ASSIGN_OR_RETURN(
-        maps.blur_target_,
-        gl::GlFramebuffer::Create({.colors = {{.texture = &maps.blur_, .layer = 0}}}));
-  } else {
-    const int levels = std::countr_zero(static_cast<unsigned>(size)) - 1;
-    PLEINAIR_ASSIGN_OR_RETURN(
-        maps.bounds_,
-        gl::GlTexture::Create2DArray(GL_RG32F, size / 2, size / 2, options.partitions, levels));
-    maps.bounds_.SetFilter(GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST);
-  }
   for (int i = 0; i < options.partitions; ++i) {
     Slice slice;
     PLEINAIR_ASSIGN_OR_RETURN(
         slice.depth_target,
         gl::GlFramebuffer::Create({.depth = {.texture = &maps.depth_, .layer = i}}));
-    if (maps.UsesMoments()) {
-      PLEINAIR_ASSIGN_OR_RETURN(
-          slice.moments_target,
-          gl::GlFramebuffer::Create({.colors = {{.texture = &maps.moments_, .layer = i}}}));
-    } else {
-      const int levels = std::countr_zero(static_cast<unsigned>(options.resolutions[i])) - 1;
-      for (int level = 0; level < levels; ++level) {
-        PLEINAIR_ASSIGN_OR_RETURN(
-            gl::GlFramebuffer target,
-            gl::GlFramebuffer::Create(
-                {.colors = {{.texture = &maps.bounds_, .level = level, .layer = i}}}));
-        slice.bounds_targets.push_back(std::move(target));
-      }
-    }
     maps.slices_.push_back(std::move(slice));
   }
+  if (maps.UsesMoments()) {
+    PLEINAIR_RETURN_IF_ERROR(maps.CreateMoments(size));
+  } else if (maps.Content() == MapContent::kDepthBounds) {
+    PLEINAIR_RETURN_IF_ERROR(maps.CreateBounds(size));
+  }
   return maps;
+}
+
+Result<void> ShadowMaps::CreateMoments(int size) {
+  const bool warped = Content() == MapContent::kWarpedMoments;
+  std::vector<std::string> defines{"FROM_DEPTH"};
+  if (warped) defines.emplace_back("WARPED");
+  PLEINAIR_ASSIGN_OR_RETURN(first_program_,
+                            FullscreenProgram("shadows/shaders/shadow_moments.frag", defines));
+  PLEINAIR_ASSIGN_OR_RETURN(second_program_,
+                            FullscreenProgram("shadows/shaders/shadow_moments.frag", {}));
+  const GLenum format = warped ? GL_RGBA32F : GL_RG32F;
+  PLEINAIR_ASSIGN_OR_RETURN(moments_,
+                            gl::GlTexture::Create2DArray(format, size, size, options_.partitions));
+  PLEINAIR_ASSIGN_OR_RETURN(blur_, gl::GlTexture::Create2DArray(format, size, size, 1));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      blur_target_, gl::GlFramebuffer::Create({.colors = {{.texture = &blur_, .layer = 0}}}));
+  for (int i = 0; i < options_.partitions; ++i) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        slices_[i].moments_target,
+        gl::GlFramebuffer::Create({.colors = {{.texture = &moments_, .layer = i}}}));
+  }
+  return {};
+}
+
+Result<void> ShadowMaps::CreateBounds(int size) {
+  PLEINAIR_ASSIGN_OR_RETURN(
+      first_program_, FullscreenProgram("shadows/shaders/shadow_bounds.frag", {"FROM_DEPTH"}));
+  PLEINAIR_ASSIGN_OR_RETURN(second_program_,
+                            FullscreenProgram("shadows/shaders/shadow_bounds.frag", {}));
+  const int levels = PyramidLevels(size);
+  PLEINAIR_ASSIGN_OR_RETURN(bounds_, gl::GlTexture::Create2DArray(GL_RG32F, size / 2, size / 2,
+                                                                  options_.partitions, levels));
+  bounds_.SetFilter(GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST);
+  for (int i = 0; i < options_.partitions; ++i) {
+    for (int level = 0; level < PyramidLevels(options_.resolutions[i]); ++level) {
+      PLEINAIR_ASSIGN_OR_RETURN(
+          gl::GlFramebuffer target,
+          gl::GlFramebuffer::Create(
+              {.colors = {{.texture = &bounds_, .level = level, .layer = i}}}));
+      slices_[i].bounds_targets.push_back(std::move(target));
+    }
+  }
+  return {};
 }
 
 LightAxes ShadowMaps::SteppedAxes(Direction<Marker> to_sun) {
@@ -146,7 +176,8 @@ Result<int> ShadowMaps::UpdateForView(std::span<const ShadowCaster> casters,
   const LightAxes axes = SteppedAxes(to_sun);
   return Redraw(casters, axes,
                 FitWindowsToView(axes, view, options_.partitions, options_.split_weight,
-                                 options_.resolutions));
+                                 options_.resolutions),
+                options_.blend_band);
 }
 
 Result<int> ShadowMaps::UpdateForRegion(std::span<const ShadowCaster> casters,
@@ -163,11 +194,13 @@ Result<int> ShadowMaps::UpdateForRegion(std::span<const ShadowCaster> casters,
       std::max(scene_size.x, scene_size.y) / options_.resolutions[options_.partitions - 1];
   const double margin = KernelReach(options_, extent.depth_max - extent.depth_min) +
                         2.0 * kDepthSlackM + 5.0 * coarsest_texel;
-  return Redraw(casters, axes, FitWindowsToRegion(axes, focus, scene, options_.partitions, margin));
+  // No band: whatever the objects shade lies far from the finest map's border.
+  return Redraw(casters, axes, FitWindowsToRegion(axes, focus, scene, options_.partitions, margin),
+                0.0);
 }
 
 Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const LightAxes& axes,
-                               const std::vector<LightWindow>& windows) {
+                               const std::vector<LightWindow>& windows, double blend_band) {
   double depth_min = 1e300;
   double depth_max = -1e300;
   for (const ShadowCaster& caster : casters) {
@@ -196,8 +229,9 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
       for (int finer = 0; finer < i && !covered; ++finer) {
         LightWindow inner = windows[finer];
         const glm::dvec2 border =
-            reach + 4.0 * glm::max(texel, (inner.max - inner.min) /
-                                              static_cast<double>(options_.resolutions[finer]));
+            reach + blend_band * (inner.max - inner.min) +
+            4.0 * glm::max(texel, (inner.max - inner.min) /
+                                      static_cast<double>(options_.resolutions[finer]));
         inner.min += border;
         inner.max -= border;
         covered = inner.Contains(footprint);
@@ -217,18 +251,16 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
     if (key == slices_[i].drawn) continue;
     slices_[i].drawn = std::move(key);
     DrawDepth(i, axes);
-    if (UsesMoments()) {
-      DrawMoments(i);
-    } else {
-      DrawBounds(i);
-    }
+    if (UsesMoments()) DrawMoments(i);
+    if (Content() == MapContent::kDepthBounds) DrawBounds(i);
     ++redrawn;
   }
   uniforms_.light_u = glm::vec4(axes.u, 0.0);
   uniforms_.light_v = glm::vec4(axes.v, 0.0);
   uniforms_.to_sun = glm::vec4(axes.to_sun, std::tan(options_.sun_angular_radius.value()));
   // Least deviation of the moment methods: 2·10⁻⁴ of the range, the noise of 32-bit moments.
-  uniforms_.settings = glm::vec4(options_.partitions, options_.bias.value(), 2e-4 * range, 0.0);
+  uniforms_.settings =
+      glm::vec4(options_.partitions, options_.bias.value(), 2e-4 * range, blend_band);
   uniform_buffer_.Update(&uniforms_, sizeof uniforms_);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return redrawn;
@@ -301,8 +333,9 @@ void ShadowMaps::DrawMoments(int slice) {
     program.Set("slice", source_slice);
     program.Set("resolution", resolution);
     program.Set("axis", glm::ivec2(along_u ? 1 : 0, along_u ? 0 : 1));
-    program.Set("sigma_texels",
-                static_cast<float>(std::max(sigma_m / (along_u ? texel.x : texel.y), 0.01)));
+    program.Set("sigma_texels", static_cast<float>(std::clamp(
+                                    sigma_m / (along_u ? texel.x : texel.y),
+                                    options_.least_blur_texels, options_.most_blur_texels)));
     glDrawArrays(GL_TRIANGLES, 0, 3);
   };
   pass(first_program_, blur_target_, depth_, slice, true);
@@ -314,7 +347,8 @@ void ShadowMaps::Bind(int set) const {
   CHECK_GE(set, 0);
   uniform_buffer_.BindBase(GL_UNIFORM_BUFFER, kUniformBlockBinding + set);
   (UsesMoments() ? moments_ : depth_).Bind(kTextureUnit + 2 * set);
-  (UsesMoments() ? moments_ : bounds_).Bind(kTextureUnit + 2 * set + 1);
+  const bool bounds = Content() == MapContent::kDepthBounds;
+  (bounds ? bounds_ : UsesMoments() ? moments_ : depth_).Bind(kTextureUnit + 2 * set + 1);
 }
 
 }  // namespace pleinair::shadows

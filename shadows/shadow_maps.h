@@ -16,33 +16,36 @@
 #include "gl/texture.h"
 #include "gl/vertex_array.h"
 #include "shadows/light_window.h"
+#include "shadows/shadow_method.h"
 #include "shadows/shadow_uniforms.h"
 
 namespace pleinair::shadows {
-
-/// How visibility is taken from the depths in the map. docs/shadows.md has the measured errors.
-enum class VisibilityMethod {
-  kSunDisc,   ///< The sun's disc seen past the blockers (ours, the default): right width anywhere.
-  kGaussian,  ///< The paper's: Gaussian of blurred depth moments, one blur width everywhere.
-  kVariance,  ///< Variance shadow maps on the same moments, to compare with.
-};
 
 /// Angular radius of the sun's disc at its mean distance: half of 0.533°.
 constexpr Radians kSunAngularRadius = FromDegrees(0.2665);
 
 struct ShadowMapOptions {
-  VisibilityMethod method = VisibilityMethod::kSunDisc;
+  ShadowMethod method = ShadowMethod::kSunDisc;
   int partitions = 2;                                                   ///< 1 to 4.
   double split_weight = 0.5;                                            ///< λ of Eq. 11.
   std::array<int, kMaxPartitions> resolutions{2048, 2048, 1024, 1024};  ///< Powers of two, 16…8192.
   Radians sun_angular_radius = kSunAngularRadius;
   /// Moment methods: distance of the blocker at which the blur has the disc's width.
   Metres blur_blocker_distance{1.0};
+  /// Moment methods: standard deviation of the blur where that would be less than this many texels
+  /// (a blur below a texel smooths nothing) or more (it would cost too much).
+  double least_blur_texels = 1.0, most_blur_texels = 4.0;
   /// How far a surface may lie above another before it shades it, along the ray.
   Metres bias{0.0005};
+  /// Maps fitted to the view: share of a partition's side over which it fades into the next.
+  double blend_band = 0.05;
   /// The maps follow the sun in steps of this size, so that its motion does not make them crawl.
   Radians sun_step = FromDegrees(0.02);
 };
+
+/// The options with which a method is commonly used: its partitions, each of `resolution` texels a
+/// side or falling with distance.
+ShadowMapOptions CommonOptions(ShadowMethod method, int resolution);
 
 /// Something that casts shadows: indexed triangles with positions (vec3) at input 0 and 32-bit
 /// indices. Every receiver must be a caster too, phantoms included.
@@ -114,10 +117,15 @@ class ShadowMaps {
   };
 
   ShadowMaps() = default;
-  bool UsesMoments() const { return options_.method != VisibilityMethod::kSunDisc; }
+  MapContent Content() const { return TraitsOf(options_.method).content; }
+  bool UsesMoments() const {
+    return Content() == MapContent::kMoments || Content() == MapContent::kWarpedMoments;
+  }
+  Result<void> CreateMoments(int size);
+  Result<void> CreateBounds(int size);
   LightAxes SteppedAxes(Direction<Marker> to_sun);
   Result<int> Redraw(std::span<const ShadowCaster> casters, const LightAxes& axes,
-                     const std::vector<LightWindow>& windows);
+                     const std::vector<LightWindow>& windows, double blend_band);
   void DrawDepth(int slice, const LightAxes& axes);
   void DrawBounds(int slice);
   void DrawMoments(int slice);
@@ -126,7 +134,7 @@ class ShadowMaps {
   ShadowUniforms uniforms_{};
   gl::GlBuffer uniform_buffer_;
   gl::GlTexture depth_;    // Array of partitions, 0…1 over the depth range.
-  gl::GlTexture bounds_;   // kSunDisc: nearest and farthest depth, mip maps from half size on.
+  gl::GlTexture bounds_;   // Pyramid of nearest and farthest depth, from half size on.
   gl::GlTexture moments_;  // Moment methods.
   gl::GlTexture blur_;     // Moment methods: between the two passes.
   gl::GlFramebuffer blur_target_;

@@ -42,4 +42,19 @@ float VarianceVisibility(float depth, float mean, float variance) {
   return variance / (variance + d * d);
 }
 
+// Takes the tail below `amount` for a leak and cuts it off: Lauritzen 2007, "Summed-Area Variance
+// Shadow Maps", GPU Gems 3, §8.4.3.
+float ReduceBleeding(float visibility, float amount) {
+  return clamp((visibility - amount) / (1.0f - amount), 0.0f, 1.0f);
+}
+
+// Exponent of the warps over depths −1…1: e^2c must stay below the largest 32-bit float, c < 44.
+const float kShadowWarp = 40.0f;
+
+// Lauritzen & McCool 2008, "Layered Variance Shadow Maps", §4: depths −½…½ warped so that what lies
+// near the receiver stands apart from what lies far in front (x) or far behind (y).
+vec2 ShadowWarp(float depth) {
+  return vec2(exp(2.0f * kShadowWarp * depth), -exp(-2.0f * kShadowWarp * depth));
+}
+
 #endif

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gl/glsl_as_cpp.h"
@@ -62,6 +63,33 @@ TEST(MomentVisibility, OfTwoPlanesHasTheMeasuredErrors) {
   EXPECT_NEAR(glsl::GaussianVisibility(1.0F, 0.9F, 0.09F), 0.739F, 1e-3F);
   EXPECT_NEAR(glsl::GaussianVisibility(1.0F, 0.5F, 0.25F), 0.317F, 1e-3F);
   EXPECT_NEAR(glsl::GaussianVisibility(1.0F, 0.1F, 0.09F), 0.003F, 1e-3F);
+}
+
+// Lauritzen's linear step: nothing below the amount, full light kept.
+TEST(ReduceBleeding, CutsTheTailAndKeepsFullLight) {
+  EXPECT_EQ(glsl::ReduceBleeding(0.25F, 0.25F), 0.0F);
+  EXPECT_EQ(glsl::ReduceBleeding(0.1F, 0.25F), 0.0F);
+  EXPECT_EQ(glsl::ReduceBleeding(1.0F, 0.25F), 1.0F);
+  EXPECT_NEAR(glsl::ReduceBleeding(0.625F, 0.25F), 0.5F, 1e-6F);
+  EXPECT_EQ(glsl::ReduceBleeding(0.3F, 0.0F), 0.3F);
+}
+
+// A covered receiver at b beneath occluders at 0 and a in equal shares: where the variance map
+// leaks 1/(1 + ((2b − a)/a)²), the warp over the range [0, 3a] leaves next to nothing.
+TEST(ShadowWarp, StopsTheLeakOfStackedOccluders) {
+  const float a = 1.0F / 3.0F, b = 1.25F * a;
+  const float mean = 0.5F * a, variance = 0.25F * a * a;
+  EXPECT_NEAR(glsl::VarianceVisibility(b, mean, variance), 0.308F, 1e-3F);
+  const glm::dvec2 top(glsl::ShadowWarp(-0.5F)), low(glsl::ShadowWarp(a - 0.5F));
+  const glm::dvec2 receiver(glsl::ShadowWarp(b - 0.5F));
+  const glm::dvec2 warped_mean = 0.5 * (top + low);
+  const glm::dvec2 warped_variance = 0.25 * (top - low) * (top - low);
+  const auto leak = [&](int i) {
+    return glsl::VarianceVisibility(static_cast<float>(receiver[i]),
+                                    static_cast<float>(warped_mean[i]),
+                                    static_cast<float>(warped_variance[i]));
+  };
+  EXPECT_LT(std::min(leak(0), leak(1)), 2e-3F);
 }
 
 }  // namespace

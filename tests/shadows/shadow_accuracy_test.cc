@@ -17,18 +17,6 @@ double StraightEdge(double u) {
   return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-const char* NameOf(VisibilityMethod method) {
-  switch (method) {
-    case VisibilityMethod::kSunDisc:
-      return "sun disc";
-    case VisibilityMethod::kGaussian:
-      return "gaussian";
-    case VisibilityMethod::kVariance:
-      return "variance";
-  }
-  return "";
-}
-
 class ShadowAccuracy : public ShadowScene {
  protected:
   ShadowMaps Region(const glm::dvec3& to_sun, const Box& focus, const ShadowMapOptions& options) {
@@ -85,15 +73,15 @@ TEST_F(ShadowAccuracy, OfTheSunsDiscIsBetterThanThatOfMoments) {
   focus.Include({0.7, 0.4, 2});
   const ProbePlane plane{{-1.5, -0.6, 0}, {3.0 / 240, 0, 0}, {0, 2.4 / 192, 0}, 240, 192};
   struct Variant {
-    VisibilityMethod method;
+    ShadowMethod method;
     int resolution;
     double most_in_penumbra, most_leak, most_darkening;
   };
   constexpr Variant kVariants[] = {
-      {VisibilityMethod::kSunDisc, 2048, 0.07, 2e-3, 5e-4},
-      {VisibilityMethod::kSunDisc, 1024, 0.11, 5e-3, 1e-3},
-      {VisibilityMethod::kGaussian, 2048, 0.25, 1e-2, 5e-3},
-      {VisibilityMethod::kVariance, 2048, 0.20, 2e-2, 5e-3},
+      {ShadowMethod::kSunDisc, 2048, 0.07, 2e-3, 5e-4},
+      {ShadowMethod::kSunDisc, 1024, 0.11, 5e-3, 1e-3},
+      {ShadowMethod::kGaussian, 2048, 0.25, 1e-2, 5e-3},
+      {ShadowMethod::kVariance, 2048, 0.20, 2e-2, 5e-3},
   };
   std::printf(
       "\nblock, post and board, 128 rays a point\n| sun's elevation | method | map | texel | "
@@ -108,7 +96,7 @@ TEST_F(ShadowAccuracy, OfTheSunsDiscIsBetterThanThatOfMoments) {
       options.resolutions.fill(variant.resolution);
       const ShadowMaps maps = Region(to_sun, focus, options);
       const Errors errors = Compare(Visibility(maps, plane), truth);
-      const char* name = NameOf(variant.method);
+      const char* name = TraitsOf(variant.method).title.data();
       std::printf("| %.0f° | %s | %d | %.1f mm | %.3f | %.3f | %.4f | %.4f |\n", elevation, name,
                   variant.resolution, 1e3 * maps.uniforms().slices[0].size.x, errors.penumbra_rmse,
                   errors.rmse, errors.leak, errors.darkening);
@@ -116,7 +104,7 @@ TEST_F(ShadowAccuracy, OfTheSunsDiscIsBetterThanThatOfMoments) {
       EXPECT_LT(errors.penumbra_rmse, variant.most_in_penumbra) << name << ' ' << elevation;
       EXPECT_LT(errors.leak, variant.most_leak) << name << ' ' << elevation;
       EXPECT_LT(errors.darkening, variant.most_darkening) << name << ' ' << elevation;
-      if (variant.method != VisibilityMethod::kSunDisc) {
+      if (variant.method != ShadowMethod::kSunDisc) {
         EXPECT_LT(of_sun_disc.penumbra_rmse, 0.7 * errors.penumbra_rmse)
             << name << ' ' << elevation;
         EXPECT_LT(of_sun_disc.leak, 0.5 * errors.leak) << name << ' ' << elevation;

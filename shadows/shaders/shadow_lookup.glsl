@@ -1,0 +1,74 @@
+// How the methods of shadow_visibility.glsl read their maps.
+#ifndef PLEINAIR_SHADOW_LOOKUP
+#define PLEINAIR_SHADOW_LOOKUP
+
+#ifndef SHADOW_SETS
+#define SHADOW_SETS 1
+#endif
+#define SHADOW_MAX_SLICES 4
+
+// Mirrors ShadowSliceUniforms in shadows/shadow_uniforms.h.
+struct ShadowSlice {
+  vec4 u_from_marker;      // Texel coordinates: dot(xyz, position) + w.
+  vec4 v_from_marker;
+  vec4 depth_from_marker;  // Metres from the near plane, away from the sun.
+  vec4 size;               // Texel in metres along u and v, texels a side, depth range in metres.
+};
+
+layout(std140, binding = 8) uniform ShadowBlock {
+  ShadowSlice slices[SHADOW_MAX_SLICES];
+  vec4 light_u;  // Axes of light space, marker coordinates.
+  vec4 light_v;
+  vec4 to_sun;   // w: tangent of the disc's angular radius.
+  // Number of slices, bias in metres, minimum standard deviation in metres, blend band's share.
+  vec4 settings;
+} shadow_sets[SHADOW_SETS];
+
+// Two a set: depth (or moments), bounds of depth.
+layout(binding = 8) uniform sampler2DArray shadow_maps[2 * SHADOW_SETS];
+
+struct ShadowReceiver {
+  vec2 texel;   // Position in the slice's map, texels.
+  vec2 slope;   // Depth of the receiver's plane per texel, metres.
+  float depth;  // Metres.
+  float bias;   // Metres.
+  vec2 step_x;  // What one pixel of the picture covers, texels: the visibility is its mean.
+  vec2 step_y;
+};
+
+// What 2×2 texels hold against the receiver, in the order of textureGather: (0,1), (1,1), (1,0),
+// (0,0) from the lower left.
+struct ShadowQuad {
+  vec4 height;  // Metres towards the sun from the receiver's point.
+  vec4 excess;  // Metres towards the sun from the receiver's plane at the texel, less the bias.
+};
+
+ShadowQuad ShadowFetch(int set, int slice, vec4 size, ShadowReceiver r, vec2 corner) {
+  vec2 map_texels = vec2(textureSize(shadow_maps[2 * set], 0).xy);
+  vec4 depth =
+      textureGather(shadow_maps[2 * set], vec3((corner + 1.0) / map_texels, float(slice)), 0);
+  // Where nothing was drawn nothing blocks, however deep the receiver lies.
+  depth = depth * size.w + 1e6 * vec4(greaterThanEqual(depth, vec4(1.0)));
+  vec2 offset = corner + 0.5 - r.texel;
+  float plane = dot(r.slope, offset) - r.bias;
+  ShadowQuad quad;
+  quad.height = r.depth - depth;
+  quad.excess = quad.height + plane + vec4(r.slope.y, r.slope.x + r.slope.y, r.slope.x, 0.0);
+  return quad;
+}
+
+vec4 ShadowBlocks(ShadowQuad quad, float least_height) {
+  return vec4(greaterThan(quad.excess, vec4(0.0))) *
+         vec4(greaterThan(quad.height, vec4(least_height)));
+}
+
+// Share of the 2×2 texels around `texel` that let light pass, weighted bilinearly.
+float ShadowTap(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel, float least_height) {
+  vec2 corner = floor(texel - 0.5);
+  vec2 f = texel - 0.5 - corner;
+  vec4 blocks = ShadowBlocks(ShadowFetch(set, slice, size, r, corner), least_height);
+  vec4 weights = vec4((1.0 - f.x) * f.y, f.x * f.y, f.x * (1.0 - f.y), (1.0 - f.x) * (1.0 - f.y));
+  return 1.0 - dot(blocks, weights);
+}
+
+#endif

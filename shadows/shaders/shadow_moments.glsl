@@ -1,0 +1,32 @@
+// The methods that take visibility from blurred moments of depth.
+#ifndef PLEINAIR_SHADOW_MOMENTS
+#define PLEINAIR_SHADOW_MOMENTS
+#include "shadows/shaders/shadow_formulae.glsl"
+#include "shadows/shaders/shadow_lookup.glsl"
+
+float ShadowFromMoments(int set, int slice, vec4 size, ShadowReceiver r, float least_sigma_m) {
+  vec2 map_texels = vec2(textureSize(shadow_maps[2 * set], 0).xy);
+  // The border's texels are the slice's own: beyond them another size's map may lie.
+  vec2 texel = clamp(r.texel, vec2(0.5), vec2(size.z - 0.5));
+  vec4 moments = textureLod(shadow_maps[2 * set], vec3(texel / map_texels, float(slice)), 0.0);
+  float sigma = (least_sigma_m + length(r.slope)) / size.w;
+  float depth = (r.depth - r.bias) / size.w - 0.5;
+#ifdef SHADOW_METHOD_EXPONENTIAL
+  vec2 warped = ShadowWarp(depth);
+  // A deviation of depth, carried through the warp: its derivative is c times the warp itself.
+  vec2 least = 2.0 * kShadowWarp * warped * sigma;
+  vec2 mean = moments.xz;
+  vec2 variance = max(moments.yw - mean * mean, least * least);
+  return min(VarianceVisibility(warped.x, mean.x, variance.x),
+             VarianceVisibility(warped.y, mean.y, variance.y));
+#else
+  float variance = max(moments.y - moments.x * moments.x, sigma * sigma);
+#ifdef SHADOW_METHOD_GAUSSIAN
+  return GaussianVisibility(depth, moments.x, variance);
+#else
+  return ReduceBleeding(VarianceVisibility(depth, moments.x, variance), SHADOW_METHOD_VARIANCE);
+#endif
+#endif
+}
+
+#endif
