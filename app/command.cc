@@ -72,6 +72,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
     AddDevicesCommand(app, result);
+    AddBenchCommand(app, result);
     AddDoctorCommand(app, result);
     try {
       app.parse(argc, argv);

@@ -28,6 +28,7 @@ void AddBoardCommand(CLI::App& app, CommandResult& result);
 void AddSunCommand(CLI::App& app, CommandResult& result);
 void AddSkyCommand(CLI::App& app, CommandResult& result);
 void AddDevicesCommand(CLI::App& app, CommandResult& result);
+void AddBenchCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);
 
 /// Parses the command line, runs the subcommand and gives the exit code. An error is one line on

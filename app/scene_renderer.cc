@@ -70,15 +70,6 @@ Mat3 RotationXyz(Vec3 degrees) {
   return about(2, degrees.z) * about(1, degrees.y) * about(0, degrees.x);
 }
 
-Result<compositor::PlacedModel> Place(const devices::ModelReference& reference, bool is_phantom) {
-  PLEINAIR_ASSIGN_OR_RETURN(compositor::Model model,
-                            compositor::LoadModel(reference.file, {NormalsOf(reference.shading)}));
-  Mat3 linear = RotationXyz(reference.rotation_deg);
-  for (double& element : linear.m) element *= reference.scale;
-  return compositor::PlacedModel{std::make_shared<const compositor::Model>(std::move(model)),
-                                 linear, reference.translation_m, is_phantom};
-}
-
 double MedianOf(const std::deque<LinearRgb>& gains, double LinearRgb::*channel) {
   std::vector<double> values;
   for (const LinearRgb& gain : gains) values.push_back(gain.*channel);
@@ -88,6 +79,16 @@ double MedianOf(const std::deque<LinearRgb>& gains, double LinearRgb::*channel) 
 }
 
 }  // namespace
+
+Result<compositor::PlacedModel> PlaceModel(const devices::ModelReference& reference,
+                                           bool is_phantom) {
+  PLEINAIR_ASSIGN_OR_RETURN(compositor::Model model,
+                            compositor::LoadModel(reference.file, {NormalsOf(reference.shading)}));
+  Mat3 linear = RotationXyz(reference.rotation_deg);
+  for (double& element : linear.m) element *= reference.scale;
+  return compositor::PlacedModel{std::make_shared<const compositor::Model>(std::move(model)),
+                                 linear, reference.translation_m, is_phantom};
+}
 
 Mat3 MarkerFromWorld(const devices::MarkerDescription& marker) {
   const double s = std::sin(marker.heading.value()), c = std::cos(marker.heading.value());
@@ -104,11 +105,11 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
   std::vector<compositor::PlacedModel> placed;
   for (const devices::ModelReference& phantom : scene.phantoms) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto model, Place(phantom, true));
+    PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(phantom, true));
     placed.push_back(std::move(model));
   }
   for (const devices::ModelReference& object : scene.objects) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto model, Place(object, false));
+    PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(object, false));
     placed.push_back(std::move(model));
   }
   if (scene.objects.empty()) return renderer;

@@ -80,6 +80,10 @@ class SceneRenderer {
   RenderTimes times_;
 };
 
+/// A scene's model, loaded and placed in marker coordinates. Errors as compositor::LoadModel.
+Result<compositor::PlacedModel> PlaceModel(const devices::ModelReference& reference,
+                                           bool is_phantom);
+
 /// Marker coordinates from east-north-up, from the marker's stated heading (devices/
 /// scene_description.h).
 Mat3 MarkerFromWorld(const devices::MarkerDescription& marker);

@@ -15,29 +15,24 @@ LightWindow Widened(LightWindow window, double margin) {
   return window;
 }
 
-struct Sphere {
-  glm::dvec3 center;
-  double radius;
-};
-
-// Sphere around the slice of the view between two depths, marker coordinates. Its size depends on
-// the intrinsics and depths alone, so the window keeps its size while the camera turns.
-Sphere SliceSphere(const View& view, double near_m, double far_m) {
+// What the view shows between two depths, seen along the rays: the box of its eight corners.
+LightExtent SliceExtent(const LightAxes& axes, const View& view, double near_m, double far_m) {
   const glm::dmat4 marker_from_camera = glm::inverse(view.camera_from_marker);
-  std::array<glm::dvec3, 8> corners;
-  std::size_t count = 0;
+  LightExtent extent{{glm::dvec2(1e300), glm::dvec2(-1e300)}, 1e300, -1e300};
   for (const double depth : {near_m, far_m}) {
     for (const double x : {-view.tan_left, view.tan_right}) {
       for (const double y : {-view.tan_up, view.tan_down}) {
-        corners[count++] = glm::dvec3(x * depth, y * depth, depth);
+        extent.Include(
+            axes, glm::dvec3(marker_from_camera * glm::dvec4(x * depth, y * depth, depth, 1.0)));
       }
     }
   }
-  glm::dvec3 center(0.0);
-  for (const glm::dvec3& corner : corners) center += corner / 8.0;
-  double radius = 0.0;
-  for (const glm::dvec3& corner : corners) radius = std::max(radius, glm::distance(center, corner));
-  return {glm::dvec3(marker_from_camera * glm::dvec4(center, 1.0)), radius};
+  return extent;
+}
+
+// The least power of 2^¼ that holds a length.
+double SteppedSide(double length) {
+  return std::exp2(std::ceil(4.0 * std::log2(std::max(length, 1e-6))) / 4.0);
 }
 
 }  // namespace
@@ -50,37 +45,63 @@ LightAxes LightAxes::FromSun(const glm::dvec3& to_sun) {
   return {u, glm::cross(w, u), w};
 }
 
+void LightExtent::Include(const LightAxes& axes, const glm::dvec3& p) {
+  const glm::dvec2 across(glm::dot(p, axes.u), glm::dot(p, axes.v));
+  const double depth = -glm::dot(p, axes.to_sun);
+  window.min = glm::min(window.min, across);
+  window.max = glm::max(window.max, across);
+  depth_min = std::min(depth_min, depth);
+  depth_max = std::max(depth_max, depth);
+}
+
+glm::dmat4 View::ClipFromMarker() const {
+  glm::dmat4 clip_from_camera(0.0);
+  clip_from_camera[0][0] = 2.0 / (tan_left + tan_right);
+  clip_from_camera[1][1] = 2.0 / (tan_up + tan_down);
+  clip_from_camera[2][0] = (tan_left - tan_right) / (tan_left + tan_right);
+  clip_from_camera[2][1] = (tan_up - tan_down) / (tan_up + tan_down);
+  clip_from_camera[2][2] = (far_m + near_m) / (far_m - near_m);
+  clip_from_camera[2][3] = 1.0;
+  clip_from_camera[3][2] = -2.0 * far_m * near_m / (far_m - near_m);
+  return clip_from_camera * camera_from_marker;
+}
+
 LightExtent Project(const LightAxes& axes, const Box& box) {
   LightExtent extent{{glm::dvec2(1e300), glm::dvec2(-1e300)}, 1e300, -1e300};
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 p((corner & 1) != 0 ? box.max.x : box.min.x,
                        (corner & 2) != 0 ? box.max.y : box.min.y,
                        (corner & 4) != 0 ? box.max.z : box.min.z);
-    const glm::dvec2 across(glm::dot(p, axes.u), glm::dot(p, axes.v));
-    const double depth = -glm::dot(p, axes.to_sun);
-    extent.window.min = glm::min(extent.window.min, across);
-    extent.window.max = glm::max(extent.window.max, across);
-    extent.depth_min = std::min(extent.depth_min, depth);
-    extent.depth_max = std::max(extent.depth_max, depth);
+    extent.Include(axes, p);
   }
   return extent;
 }
 
 std::vector<LightWindow> FitWindowsToView(const LightAxes& axes, const View& view, int partitions,
-                                          double split_weight, std::span<const int> resolutions) {
+                                          double split_weight, std::span<const int> resolutions,
+                                          const LightExtent& scene, double margin_m) {
   const std::vector<double> splits =
       PracticalSplits(view.near_m, view.far_m, partitions, split_weight);
   std::vector<LightWindow> windows;
   for (int i = 0; i < partitions; ++i) {
-    const Sphere sphere = SliceSphere(view, splits[i], splits[i + 1]);
-    // One texel of slack at each side for the snapping; kernels that reach outside the window see
-    // the clamped edge, which the sphere's slack around the frustum keeps out of the picture.
-    const double texel = 2.0 * sphere.radius / (resolutions[i] - 2);
-    const glm::dvec2 corner =
-        glm::dvec2(glm::dot(sphere.center, axes.u), glm::dot(sphere.center, axes.v)) -
-        sphere.radius;
-    const glm::dvec2 snapped = glm::floor(corner / texel) * texel;
-    windows.push_back({snapped, snapped + texel * resolutions[i]});
+    const LightExtent seen = SliceExtent(axes, view, splits[i], splits[i + 1]);
+    // Of the view, what the scene can fill; a slice beside the scene keeps a point of it.
+    const glm::dvec2 low = glm::clamp(seen.window.min, scene.window.min, scene.window.max);
+    const glm::dvec2 high = glm::clamp(seen.window.max, scene.window.min, scene.window.max);
+    LightWindow window;
+    for (int axis = 0; axis < 2; ++axis) {
+      const double side = SteppedSide(high[axis] - low[axis] + 2.0 * margin_m);
+      // One texel of slack at each side for the snapping.
+      const double texel = side / (resolutions[i] - 2);
+      const double corner = 0.5 * (low[axis] + high[axis] - side);
+      window.min[axis] = std::floor(corner / texel) * texel;
+      window.max[axis] = window.min[axis] + texel * resolutions[i];
+    }
+    // Depths move in steps too: a map whose window stays need not be drawn again.
+    const double step = SteppedSide(seen.depth_max - seen.depth_min) / 16.0;
+    window.receivers_min = std::floor(seen.depth_min / step) * step;
+    window.receivers_max = std::ceil(seen.depth_max / step) * step;
+    windows.push_back(window);
   }
   return windows;
 }

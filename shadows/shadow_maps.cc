@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "base/check.h"
 #include "shadows/embedded_shaders.h"
 
 namespace pleinair::shadows {
 namespace {
+
+// Texels along a border that nothing is looked up in: kShadowBorder in shadow_visibility.glsl.
+constexpr double kShadowBorder = 4.0;
 
 // Depth beyond the casters' own bounds, so that none is cut at the ends of the range.
 constexpr double kDepthSlackM = 0.01;
@@ -174,9 +178,14 @@ Result<int> ShadowMaps::UpdateForView(std::span<const ShadowCaster> casters,
     return InputError("shadows", "the view's near depth is not below its far depth");
   }
   const LightAxes axes = SteppedAxes(to_sun);
+  Box scene;
+  for (const ShadowCaster& caster : casters) scene.Include(caster.bounds);
+  if (scene.Empty()) scene.Include(glm::dvec3(0.0));
+  const LightExtent extent = Project(axes, scene);
+  const double margin = KernelReach(options_, extent.depth_max - extent.depth_min);
   return Redraw(casters, axes,
                 FitWindowsToView(axes, view, options_.partitions, options_.split_weight,
-                                 options_.resolutions),
+                                 options_.resolutions, extent, margin),
                 options_.blend_band);
 }
 
@@ -193,48 +202,61 @@ Result<int> ShadowMaps::UpdateForRegion(std::span<const ShadowCaster> casters,
   const double coarsest_texel =
       std::max(scene_size.x, scene_size.y) / options_.resolutions[options_.partitions - 1];
   const double margin = KernelReach(options_, extent.depth_max - extent.depth_min) +
-                        2.0 * kDepthSlackM + 5.0 * coarsest_texel;
+                        2.0 * kDepthSlackM + (kShadowBorder + 2.0) * coarsest_texel;
   // No band: whatever the objects shade lies far from the finest map's border.
   return Redraw(casters, axes, FitWindowsToRegion(axes, focus, scene, options_.partitions, margin),
                 0.0);
 }
 
+std::pair<double, double> ShadowMaps::DepthRange(const LightWindow& window,
+                                                 const LightExtent& scene) const {
+  double low = scene.depth_min, high = scene.depth_max;
+  if (UsesMoments()) {
+    // Moments need a short range. What lies nearer to the sun is flattened onto its near end (depth
+    // clamp), which methods that measure the distance of blockers cannot have; what lies deeper
+    // than any receiver shades nothing.
+    high = std::min(high, window.receivers_max);
+    low = std::min(std::max(low, window.receivers_min), high);
+  }
+  return {low - kDepthSlackM, high + kDepthSlackM};
+}
+
 Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const LightAxes& axes,
                                const std::vector<LightWindow>& windows, double blend_band) {
-  double depth_min = 1e300;
-  double depth_max = -1e300;
-  for (const ShadowCaster& caster : casters) {
-    const LightExtent extent = Project(axes, caster.bounds);
-    depth_min = std::min(depth_min, extent.depth_min);
-    depth_max = std::max(depth_max, extent.depth_max);
+  LightExtent all{{}, 0.0, 0.0};
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    const LightExtent extent = Project(axes, casters[i].bounds);
+    all.depth_min = i == 0 ? extent.depth_min : std::min(all.depth_min, extent.depth_min);
+    all.depth_max = i == 0 ? extent.depth_max : std::max(all.depth_max, extent.depth_max);
   }
-  if (casters.empty()) depth_min = depth_max = 0.0;
-  depth_min -= kDepthSlackM;
-  depth_max += kDepthSlackM;
-  const double range = depth_max - depth_min;
-  const double reach = KernelReach(options_, range);
+  const double reach = KernelReach(options_, all.depth_max - all.depth_min + 2.0 * kDepthSlackM);
 
   int redrawn = 0;
   for (int i = 0; i < options_.partitions; ++i) {
     const LightWindow& window = windows[i];
     const glm::dvec2 texel =
         (window.max - window.min) / static_cast<double>(options_.resolutions[i]);
+    const auto [depth_min, depth_max] = DepthRange(window, all);
+    const double range = depth_max - depth_min;
     SliceKey key{window, depth_min, depth_max, axes.to_sun, {}};
     for (const ShadowCaster& caster : casters) {
       const LightWindow footprint = Project(axes, caster.bounds).window;
       if (!footprint.Overlaps(window)) continue;
-      // Eq. 14: what a finer window holds whole, with all that its kernels touch, need not be drawn
-      // again. Points are looked up in the finest window that holds them, so this loses nothing.
+      // Eq. 14: what a finer window holds whole, with all that its kernels touch and at every depth
+      // that this one looks up, need not be drawn again. Points are looked up in the finest window
+      // that holds them, so this loses nothing.
       bool covered = false;
       for (int finer = 0; finer < i && !covered; ++finer) {
         LightWindow inner = windows[finer];
+        const auto [finer_min, finer_max] = DepthRange(inner, all);
         const glm::dvec2 border =
             reach + blend_band * (inner.max - inner.min) +
-            4.0 * glm::max(texel, (inner.max - inner.min) /
-                                      static_cast<double>(options_.resolutions[finer]));
+            (kShadowBorder + 1.0) *
+                glm::max(texel, (inner.max - inner.min) /
+                                    static_cast<double>(options_.resolutions[finer]));
         inner.min += border;
         inner.max -= border;
-        covered = inner.Contains(footprint);
+        covered = inner.Contains(footprint) && finer_min <= depth_min && finer_max >= depth_max;
       }
       if (covered) continue;
       key.casters.push_back(
@@ -258,9 +280,8 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
   uniforms_.light_u = glm::vec4(axes.u, 0.0);
   uniforms_.light_v = glm::vec4(axes.v, 0.0);
   uniforms_.to_sun = glm::vec4(axes.to_sun, std::tan(options_.sun_angular_radius.value()));
-  // Least deviation of the moment methods: 2·10⁻⁴ of the range, the noise of 32-bit moments.
-  uniforms_.settings =
-      glm::vec4(options_.partitions, options_.bias.value(), 2e-4 * range, blend_band);
+  // Least deviation of the moment methods, a share of the range: the noise of 32-bit moments.
+  uniforms_.settings = glm::vec4(options_.partitions, options_.bias.value(), 2e-4, blend_band);
   uniform_buffer_.Update(&uniforms_, sizeof uniforms_);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return redrawn;

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -83,6 +84,11 @@ class ShadowMaps {
   Result<int> UpdateForRegion(std::span<const ShadowCaster> casters, Direction<Marker> to_sun,
                               const Box& focus);
 
+  /// Draws all maps anew at the next update (measurements).
+  void Invalidate() {
+    for (Slice& slice : slices_) slice.drawn = {};
+  }
+
   /// Makes the maps set number `set` of shadow_visibility.glsl: uniform block
   /// kUniformBlockBinding + set, texture units kTextureUnit + 2 set and the next.
   void Bind(int set) const;
@@ -126,6 +132,8 @@ class ShadowMaps {
   LightAxes SteppedAxes(Direction<Marker> to_sun);
   Result<int> Redraw(std::span<const ShadowCaster> casters, const LightAxes& axes,
                      const std::vector<LightWindow>& windows, double blend_band);
+  /// Nearest and farthest depth of a map.
+  std::pair<double, double> DepthRange(const LightWindow& window, const LightExtent& scene) const;
   void DrawDepth(int slice, const LightAxes& axes);
   void DrawBounds(int slice);
   void DrawMoments(int slice);

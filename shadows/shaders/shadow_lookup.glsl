@@ -20,7 +20,8 @@ layout(std140, binding = 8) uniform ShadowBlock {
   vec4 light_u;  // Axes of light space, marker coordinates.
   vec4 light_v;
   vec4 to_sun;   // w: tangent of the disc's angular radius.
-  // Number of slices, bias in metres, minimum standard deviation in metres, blend band's share.
+  // Number of slices, bias in metres, least standard deviation over the depth range, blend band's
+  // share of a side.
   vec4 settings;
 } shadow_sets[SHADOW_SETS];
 

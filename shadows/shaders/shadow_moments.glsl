@@ -4,12 +4,12 @@
 #include "shadows/shaders/shadow_formulae.glsl"
 #include "shadows/shaders/shadow_lookup.glsl"
 
-float ShadowFromMoments(int set, int slice, vec4 size, ShadowReceiver r, float least_sigma_m) {
+float ShadowFromMoments(int set, int slice, vec4 size, ShadowReceiver r, float least_sigma) {
   vec2 map_texels = vec2(textureSize(shadow_maps[2 * set], 0).xy);
   // The border's texels are the slice's own: beyond them another size's map may lie.
   vec2 texel = clamp(r.texel, vec2(0.5), vec2(size.z - 0.5));
   vec4 moments = textureLod(shadow_maps[2 * set], vec3(texel / map_texels, float(slice)), 0.0);
-  float sigma = (least_sigma_m + length(r.slope)) / size.w;
+  float sigma = least_sigma + length(r.slope) / size.w;
   float depth = (r.depth - r.bias) / size.w - 0.5;
 #ifdef SHADOW_METHOD_EXPONENTIAL
   vec2 warped = ShadowWarp(depth);

@@ -41,14 +41,14 @@ vec2 ShadowTexel(ShadowSlice s, vec3 position) {
 // Texels along a map's border that nothing is looked up in: half the widest box of comparisons.
 const float kShadowBorder = 4.0;
 
-// The finest slice whose window holds the point; -1: none.
-int ShadowFinestSlice(int set, vec3 position) {
+// The finest slice from `first` on whose window and depths hold the point; -1: none.
+int ShadowFinestSlice(int set, vec3 position, int first) {
   int slice = -1;
-  for (int i = int(shadow_sets[set].settings.x) - 1; i >= 0; --i) {
+  for (int i = int(shadow_sets[set].settings.x) - 1; i >= first; --i) {
     ShadowSlice s = shadow_sets[set].slices[i];
-    vec2 texel = ShadowTexel(s, position);
-    vec2 inside = 0.5 * s.size.z - kShadowBorder - abs(texel - 0.5 * s.size.z);
-    if (min(inside.x, inside.y) > 0.0) slice = i;
+    vec2 inside = 0.5 * s.size.z - kShadowBorder - abs(ShadowTexel(s, position) - 0.5 * s.size.z);
+    float depth = dot(s.depth_from_marker.xyz, position) + s.depth_from_marker.w;
+    if (min(min(inside.x, inside.y), min(depth, s.size.w - depth)) > 0.0) slice = i;
   }
   return slice;
 }
@@ -91,9 +91,9 @@ float ShadowBand(int set, int slice, vec3 position) {
 // Mean over the pixel: `step_x`, `step_y` are how far `position` moves to the next pixel (dFdx,
 // dFdy, taken where all pixels run).
 float ShadowVisibility(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
-  int slice = ShadowFinestSlice(set, position);
-  int last = int(shadow_sets[set].settings.x) - 1;
-  float coarser = slice >= 0 && slice < last ? ShadowBand(set, slice, position) : 0.0;
+  int slice = ShadowFinestSlice(set, position, 0);
+  int next = ShadowFinestSlice(set, position, slice + 1);
+  float coarser = slice >= 0 && next >= 0 ? ShadowBand(set, slice, position) : 0.0;
   // Outside every window nothing casts; a surface turned away is in its own shade. Loops that may
   // not run in place of branches: Mesa's software renderer runs both sides of an `if`.
   bool facing = dot(normal, shadow_sets[set].to_sun.xyz) > 0.0;
@@ -101,7 +101,7 @@ float ShadowVisibility(int set, vec3 position, vec3 normal, vec3 step_x, vec3 st
   float visible = slice < 0 && facing ? 1.0 : 0.0;
   for (int i = 0; i < count; ++i) {
     visible += (i == 0 ? 1.0 - coarser : coarser) *
-               ShadowInSlice(set, slice + i, position, normal, step_x, step_y);
+               ShadowInSlice(set, i == 0 ? slice : next, position, normal, step_x, step_y);
   }
   return visible;
 }

@@ -1,0 +1,269 @@
+#include "app/bench/shadow_bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "app/bench/recording_scene.h"
+#include "app/bench/shadow_truth.h"
+#include "gl/egl_context.h"
+
+namespace pleinair::app {
+namespace {
+
+using shadows::BenchRenderer;
+using shadows::BenchScene;
+using shadows::View;
+using shadows::VisibilityPicture;
+
+constexpr double kCreepPxAFrame = 0.1;
+
+Result<BenchScene> MakeScene(const std::string& name, const ShadowBenchOptions& options) {
+  const double aspect = static_cast<double>(options.width) / options.height;
+  if (name == "pole_and_box") return shadows::PoleAndBoxScene(aspect);
+  if (name == "trees") return shadows::TreesScene(aspect);
+  if (name == "wide_field") return shadows::WideFieldScene(aspect);
+  if (name == "courtyard") return RecordingScene(options.recording, aspect);
+  return InputError("--scenes", "there is no scene '" + name + "'",
+                    "choose among pole_and_box, courtyard, trees and wide_field");
+}
+
+// The camera moved sideways so that what lies `depth_m` away moves by `pixels` in the picture.
+View Crept(const View& view, double pixels, double depth_m, int width) {
+  View moved = view;
+  const double shift = pixels * depth_m * (view.tan_left + view.tan_right) / width;
+  moved.camera_from_marker[3].x -= shift;
+  return moved;
+}
+
+struct TrackedPoint {
+  glm::dvec3 point{0.0};
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+};
+
+// A creeping camera looks at points that stand still: how much their visibility trembles.
+class ShimmerMeter {
+ public:
+  ShimmerMeter(const View& view, const VisibilityPicture& truth, PixelWindow window) {
+    const glm::dmat4 marker_from_camera = glm::inverse(view.camera_from_marker);
+    const int width = truth.depth_m.width(), height = truth.depth_m.height();
+    for (int y = window.y; y < window.y + window.height; ++y) {
+      for (int x = window.x; x < window.x + window.width; ++x) {
+        const double depth = truth.depth_m(x, y);
+        if (depth <= 0.0) continue;
+        const double px = -view.tan_left + (view.tan_left + view.tan_right) * (x + 0.5) / width;
+        const double py = -view.tan_up + (view.tan_up + view.tan_down) * (y + 0.5) / height;
+        points_.push_back(
+            {glm::dvec3(marker_from_camera * glm::dvec4(px * depth, py * depth, depth, 1.0))});
+      }
+    }
+  }
+
+  void Add(const View& view, const VisibilityPicture& picture) {
+    const int width = picture.depth_m.width(), height = picture.depth_m.height();
+    for (TrackedPoint& tracked : points_) {
+      const glm::dvec3 p(view.camera_from_marker * glm::dvec4(tracked.point, 1.0));
+      const double x = (p.x / p.z + view.tan_left) / (view.tan_left + view.tan_right) * width - 0.5;
+      const double y = (p.y / p.z + view.tan_up) / (view.tan_up + view.tan_down) * height - 0.5;
+      const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+      if (x0 < 0 || y0 < 0 || x0 + 1 >= width || y0 + 1 >= height) continue;
+      double value = 0.0;
+      bool seen = true;
+      for (int i = 0; i < 4; ++i) {
+        const int cx = x0 + (i & 1), cy = y0 + (i >> 1);
+        seen = seen && std::abs(picture.depth_m(cx, cy) - p.z) < 0.02 * p.z;
+        value += picture.visibility(cx, cy) * ((i & 1) != 0 ? x - x0 : 1.0 - (x - x0)) *
+                 ((i >> 1) != 0 ? y - y0 : 1.0 - (y - y0));
+      }
+      if (!seen) continue;
+      tracked.sum += value;
+      tracked.squares += value * value;
+      ++tracked.count;
+    }
+  }
+
+  /// Mean over the points seen in all frames.
+  double Shimmer(int frames) const {
+    double sum = 0.0;
+    int count = 0;
+    for (const TrackedPoint& p : points_) {
+      if (p.count != frames) continue;
+      const double mean = p.sum / frames;
+      sum += std::sqrt(std::max(p.squares / frames - mean * mean, 0.0));
+      ++count;
+    }
+    return count > 0 ? sum / count : 0.0;
+  }
+
+ private:
+  std::vector<TrackedPoint> points_;
+};
+
+// One scene with its truth and the renderer that all methods share.
+class SceneRun {
+ public:
+  static Result<SceneRun> Create(BenchScene scene, const ShadowBenchOptions& options) {
+    PLEINAIR_ASSIGN_OR_RETURN(ShadowTruth truth, ShadowTruth::Create(scene, options.rays));
+    PLEINAIR_ASSIGN_OR_RETURN(BenchRenderer renderer,
+                              BenchRenderer::Create(scene, options.width, options.height));
+    SceneRun run(std::move(scene), std::move(truth), std::move(renderer), options);
+    PLEINAIR_RETURN_IF_ERROR(run.TraceTruth());
+    return run;
+  }
+
+  Result<ShadowBenchRow> Measure(shadows::ShadowMethod method, int resolution) {
+    ShadowBenchRow row;
+    row.scene = scene_.name;
+    row.method = method;
+    row.resolution = resolution;
+    PLEINAIR_RETURN_IF_ERROR(renderer_.SetMethod(shadows::CommonOptions(method, resolution)));
+    PLEINAIR_ASSIGN_OR_RETURN(picture_, renderer_.Draw(view_));
+    row.errors = CompareVisibility(picture_, truth_picture_);
+    if (!scene_.edges.empty()) {
+      PLEINAIR_ASSIGN_OR_RETURN(row.closed_form, MeasureClosedForms(scene_, renderer_));
+      const glm::dvec3 at(view_.camera_from_marker *
+                          glm::dvec4(scene_.contacts.front().middle, 1.0));
+      row.pixel_m = at.z * (view_.tan_left + view_.tan_right) / options_.width;
+    }
+    PLEINAIR_ASSIGN_OR_RETURN(row.time, renderer_.Time(view_, options_.timed_frames));
+    row.truth_shimmer = truth_shimmer_;
+    ShimmerMeter meter(view_, truth_picture_, window_);
+    for (int frame = 0; frame < options_.creep_frames; ++frame) {
+      int redrawn = 0;
+      const View view = CreptView(frame);
+      PLEINAIR_ASSIGN_OR_RETURN(const View tight, renderer_.Tightened(view));
+      PLEINAIR_ASSIGN_OR_RETURN(const VisibilityPicture drawn, renderer_.Draw(tight, &redrawn));
+      meter.Add(view, drawn);
+      if (frame > 0) row.creep_redraws += redrawn;
+    }
+    row.shimmer = meter.Shimmer(options_.creep_frames);
+    return row;
+  }
+
+  /// Largest difference of the rays from the closed form over twice the penumbrae.
+  std::optional<double> TruthError() const {
+    if (scene_.edges.empty()) return {};
+    double worst = 0.0;
+    for (const shadows::StraightEdge& edge : scene_.edges) {
+      const double x = edge.middle.x - edge.middle.z * scene_.to_sun.x / scene_.to_sun.z;
+      for (int i = -50; i <= 50; ++i) {
+        const double y =
+            EdgeShadowY(edge, scene_.to_sun) + i / 25.0 * EdgeHalfWidth(edge, scene_.to_sun);
+        worst = std::max(worst, std::abs(truth_.At({x, y, 0.0}, {0.0, 0.0, 1.0}) -
+                                         StraightEdgeTruth(edge, scene_.to_sun, y)));
+      }
+    }
+    return worst;
+  }
+
+  const VisibilityPicture& picture() const { return picture_; }
+  const VisibilityPicture& truth_picture() const { return truth_picture_; }
+  const BenchScene& scene() const { return scene_; }
+
+ private:
+  SceneRun(BenchScene scene, ShadowTruth truth, BenchRenderer renderer,
+           const ShadowBenchOptions& options)
+      : scene_(std::move(scene)),
+        truth_(std::move(truth)),
+        renderer_(std::move(renderer)),
+        options_(options) {}
+
+  View CreptView(int frame) const {
+    return Crept(scene_.view, kCreepPxAFrame * frame, middle_depth_m_, options_.width);
+  }
+
+  Result<void> TraceTruth() {
+    PLEINAIR_ASSIGN_OR_RETURN(view_, renderer_.Tightened(scene_.view));
+    const int w = options_.width, h = options_.height;
+    truth_picture_ = truth_.Render(view_, w, h, {0, 0, w, h});
+    window_ = MostShadedWindow();
+    middle_depth_m_ =
+        truth_picture_.depth_m(window_.x + window_.width / 2, window_.y + window_.height / 2);
+    // A border of two pixels for what creeps out of the window and for the interpolation.
+    const PixelWindow traced{std::max(window_.x - 3, 0), std::max(window_.y - 1, 0),
+                             std::min(window_.width + 6, w - std::max(window_.x - 3, 0)),
+                             std::min(window_.height + 2, h - std::max(window_.y - 1, 0))};
+    ShimmerMeter meter(view_, truth_picture_, window_);
+    for (int frame = 0; frame < options_.creep_frames; ++frame) {
+      const View view = CreptView(frame);
+      meter.Add(view, truth_.Render(view, w, h, traced));
+    }
+    truth_shimmer_ = meter.Shimmer(options_.creep_frames);
+    return {};
+  }
+
+  // A fifth of the picture a side, there where most pixels are penumbra.
+  PixelWindow MostShadedWindow() const {
+    PixelWindow best{0, 0, options_.width / 5, options_.height / 5};
+    int most = -1;
+    for (int j = 0; j < 9; ++j) {
+      for (int i = 0; i < 9; ++i) {
+        PixelWindow window = best;
+        window.x = i * (options_.width - window.width) / 8;
+        window.y = j * (options_.height - window.height) / 8;
+        int count = 0;
+        for (int y = window.y; y < window.y + window.height; ++y) {
+          for (int x = window.x; x < window.x + window.width; ++x) {
+            const float v = truth_picture_.visibility(x, y);
+            if (truth_picture_.depth_m(x, y) > 0.0F && v > 0.01F && v < 0.99F) ++count;
+          }
+        }
+        if (count > most) {
+          most = count;
+          best = window;
+        }
+      }
+    }
+    return best;
+  }
+
+  BenchScene scene_;
+  ShadowTruth truth_;
+  BenchRenderer renderer_;
+  ShadowBenchOptions options_;
+  View view_;
+  VisibilityPicture truth_picture_, picture_;
+  PixelWindow window_;
+  double middle_depth_m_ = 1.0, truth_shimmer_ = 0.0;
+};
+
+}  // namespace
+
+Result<ShadowBenchResult> RunShadowBench(const ShadowBenchOptions& options,
+                                         const std::function<void()>& advance,
+                                         const std::function<void(const ShadowBenchRow&)>& on_row) {
+  PLEINAIR_ASSIGN_OR_RETURN(const gl::EglContext context, gl::EglContext::Create());
+  ShadowBenchResult result;
+  result.renderer = context.info().renderer;
+  std::vector<shadows::ShadowMethod> methods = options.methods;
+  if (methods.empty()) {
+    for (const auto& traits : shadows::ShadowMethods()) methods.push_back(traits.method);
+  }
+  const int middle = options.resolutions[options.resolutions.size() / 2];
+  for (const std::string& name : options.scenes) {
+    PLEINAIR_ASSIGN_OR_RETURN(BenchScene scene, MakeScene(name, options));
+    PLEINAIR_ASSIGN_OR_RETURN(SceneRun run, SceneRun::Create(std::move(scene), options));
+    if (const auto error = run.TruthError()) result.truth_error = error;
+    advance();
+    ShadowBenchPictures& pictures = result.pictures.emplace_back();
+    pictures.scene = run.scene();
+    pictures.truth = run.truth_picture();
+    for (const int resolution : options.resolutions) {
+      double plain_ms = 0.0;
+      for (const shadows::ShadowMethod method : methods) {
+        PLEINAIR_ASSIGN_OR_RETURN(ShadowBenchRow row, run.Measure(method, resolution));
+        if (method == shadows::ShadowMethod::kPlain) plain_ms = row.time.total_ms();
+        if (plain_ms > 0.0) row.ratio_to_plain = row.time.total_ms() / plain_ms;
+        if (resolution == middle) pictures.methods.push_back(run.picture());
+        on_row(row);
+        result.rows.push_back(std::move(row));
+        advance();
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/bench/shadow_metrics.h"
+#include "base/error.h"
+#include "shadows/bench/bench_renderer.h"
+#include "shadows/shadow_method.h"
+
+namespace pleinair::app {
+
+struct ShadowBenchOptions {
+  std::vector<std::string> scenes{"pole_and_box", "courtyard", "trees", "wide_field"};
+  std::vector<shadows::ShadowMethod> methods;  ///< Empty: all.
+  std::vector<int> resolutions{512, 1024, 2048};
+  std::filesystem::path recording = "recordings/courtyard_midday";
+  int width = 480, height = 270;
+  int rays = 256;         ///< A pixel of the truth.
+  int timed_frames = 5;   ///< The least time of these counts.
+  int creep_frames = 11;  ///< Of the creeping camera, 0.1 px a frame.
+};
+
+/// One method at one resolution in one scene.
+struct ShadowBenchRow {
+  std::string scene;
+  shadows::ShadowMethod method = shadows::ShadowMethod::kSunDisc;
+  int resolution = 0;
+  ShadowErrors errors;
+  std::optional<ClosedFormErrors> closed_form;  ///< Where the scene has closed forms.
+  double pixel_m = 0.0;                         ///< Of the picture, at the closed forms' distance.
+  shadows::FrameTime time;
+  double ratio_to_plain =
+      0.0;               ///< Total time over the plain map's of the same resolution; 0: unknown.
+  double shimmer = 0.0;  ///< Mean standard deviation of V at a point, the camera creeping.
+  double truth_shimmer = 0.0;
+  int creep_redraws = 0;  ///< Maps redrawn in the creep's frames after the first.
+};
+
+/// What a scene's run leaves for pictures.
+struct ShadowBenchPictures {
+  shadows::BenchScene scene;
+  shadows::VisibilityPicture truth;
+  std::vector<shadows::VisibilityPicture> methods;  ///< At the middle resolution.
+};
+
+struct ShadowBenchResult {
+  std::string renderer;  ///< GL_RENDERER.
+  std::vector<ShadowBenchRow> rows;
+  std::vector<ShadowBenchPictures> pictures;  ///< One a scene.
+  /// Largest difference of the traced truth from the closed form (pole_and_box).
+  std::optional<double> truth_error;
+};
+
+/// Runs the bench; `advance` is called after every truth and every row, `on_row` with each row.
+/// Errors: no OpenGL 4.5 (system), a recording that cannot be read (input).
+Result<ShadowBenchResult> RunShadowBench(const ShadowBenchOptions& options,
+                                         const std::function<void()>& advance,
+                                         const std::function<void(const ShadowBenchRow&)>& on_row);
+
+}  // namespace pleinair::app

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/bench/shadow_bench.h"
+#include "app/command.h"
+#include "app/progress_bar.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair bench shadows\n"
+    "  pleinair bench shadows --json > shadows.jsonl\n"
+    "  pleinair bench shadows --scenes trees --methods ours,pcf5,zgaf --sizes 1024 -o out/shadows\n"
+    "  pleinair bench shadows --quick";
+
+struct Options {
+  ShadowBenchOptions bench;
+  std::vector<std::string> methods;
+  std::string recording;
+  std::string output;
+  bool quick = false;
+  bool json = false;
+};
+
+nlohmann::json RowJson(const ShadowBenchRow& row, const std::string& renderer) {
+  const shadows::ShadowMethodTraits& traits = shadows::TraitsOf(row.method);
+  nlohmann::json object = {{"scene", row.scene},
+                           {"method", traits.name},
+                           {"title", traits.title},
+                           {"resolution", row.resolution},
+                           {"penumbra_rmse", row.errors.penumbra_rmse},
+                           {"rmse", row.errors.rmse},
+                           {"bias", row.errors.bias},
+                           {"leak_mean", row.errors.leak_mean},
+                           {"leak_p99", row.errors.leak_p99},
+                           {"over_darkening", row.errors.over_darkening},
+                           {"pixels", row.errors.pixels},
+                           {"penumbra_pixels", row.errors.penumbra_pixels},
+                           {"shimmer", row.shimmer},
+                           {"truth_shimmer", row.truth_shimmer},
+                           {"maps_ms", row.time.maps_ms},
+                           {"scene_ms", row.time.scene_ms},
+                           {"ms", row.time.total_ms()},
+                           {"maps_redrawn_while_creeping", row.creep_redraws}};
+  if (!renderer.empty()) object["renderer"] = renderer;
+  if (row.ratio_to_plain > 0.0) object["ratio_to_plain"] = row.ratio_to_plain;
+  if (row.closed_form) {
+    const ClosedFormErrors& closed = *row.closed_form;
+    object["penumbra_width_slope"] = closed.width_slope;
+    object["contact_gap_mm"] = 1e3 * closed.contact_gap_m;
+    object["contact_gap_px"] = closed.contact_gap_m / row.pixel_m;
+    for (const EdgeProfile& edge : closed.edges) {
+      object["edges"].push_back({{"height_m", edge.height_m},
+                                 {"width_ratio", edge.width_ratio},
+                                 {"offset_mm", 1e3 * edge.offset_m},
+                                 {"offset_px", edge.offset_m / row.pixel_m},
+                                 {"rmse", edge.rmse},
+                                 {"worst", edge.worst}});
+    }
+  }
+  return object;
+}
+
+std::string RowText(const ShadowBenchRow& row) {
+  const shadows::ShadowMethodTraits& traits = shadows::TraitsOf(row.method);
+  return fmt::format(
+      "{:<13}{:<12}{:>5}{:>10.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>8.1f}{:>8.1f}"
+      "{:>7.2f}\n",
+      row.scene, traits.name, row.resolution, row.errors.penumbra_rmse, row.errors.rmse,
+      row.errors.bias, row.errors.leak_mean, row.errors.leak_p99, row.errors.over_darkening,
+      row.shimmer - row.truth_shimmer, row.time.maps_ms, row.time.scene_ms, row.ratio_to_plain);
+}
+
+constexpr const char* kHead =
+    "scene        method      size  penumbra     rmse     bias     leak leak p99   darker  shimmer"
+    " maps ms scene ms / plain\n";
+
+Result<void> CheckOptions(Options& options) {
+  ShadowBenchOptions& bench = options.bench;
+  if (options.quick) {
+    bench.width = 192;
+    bench.height = 108;
+    bench.rays = 64;
+    bench.timed_frames = 1;
+    bench.creep_frames = 3;
+    bench.resolutions = {256};
+  }
+  if (!options.recording.empty()) bench.recording = options.recording;
+  for (const std::string& name : options.methods) {
+    const shadows::ShadowMethodTraits* traits = shadows::FindShadowMethod(name);
+    if (traits == nullptr) {
+      std::string known;
+      for (const auto& method : shadows::ShadowMethods()) {
+        known += (known.empty() ? "" : ", ") + std::string(method.name);
+      }
+      return InputError("--methods", "there is no method '" + name + "'", "choose among " + known);
+    }
+    bench.methods.push_back(traits->method);
+  }
+  return {};
+}
+
+Result<void> Run(Options& options) {
+  PLEINAIR_RETURN_IF_ERROR(CheckOptions(options));
+  const ShadowBenchOptions& bench = options.bench;
+  const std::size_t methods =
+      bench.methods.empty() ? shadows::ShadowMethods().size() : bench.methods.size();
+  ProgressBar bar(
+      "bench",
+      static_cast<std::int64_t>(bench.scenes.size() * (1 + methods * bench.resolutions.size())),
+      "rows");
+  if (!options.json) std::cout << kHead << std::flush;
+  PLEINAIR_ASSIGN_OR_RETURN(const ShadowBenchResult result, RunShadowBench(
+                                                                bench, [&] { bar.Advance(); },
+                                                                [&](const ShadowBenchRow& row) {
+                                                                  if (!options.json)
+                                                                    std::cout << RowText(row)
+                                                                              << std::flush;
+                                                                }));
+  if (options.json) {
+    for (const ShadowBenchRow& row : result.rows) {
+      std::cout << RowJson(row, result.renderer).dump() << '\n';
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void AddBenchCommand(CLI::App& app, CommandResult& result) {
+  CLI::App* bench =
+      app.add_subcommand("bench", "Measures parts of pleinair against references and rivals");
+  bench->require_subcommand(1);
+  auto options = std::make_shared<Options>();
+  CLI::App* command = bench->add_subcommand(
+      "shadows", "Every shadow method against rays to the sun's disc: errors and milliseconds");
+  command->footer(kExamples);
+  command->add_option("--scenes", options->bench.scenes, "Which scenes")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"pole_and_box", "courtyard", "trees", "wide_field"}))
+      ->type_name("NAME,...");
+  command->add_option("--methods", options->methods, "Which methods; all by default")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  CLI::Option* sizes =
+      command->add_option("--sizes", options->bench.resolutions, "Texels of a map's side")
+          ->delimiter(',')
+          ->check(CLI::IsMember({128, 256, 512, 1024, 2048, 4096}))
+          ->type_name("N,...");
+  command
+      ->add_option("--recording", options->recording,
+                   "Recording whose models the courtyard is; recordings/courtyard_midday")
+      ->type_name("FOLDER");
+  command->add_option("--rays", options->bench.rays, "Rays a pixel of the truth")
+      ->check(CLI::IsMember({64, 256, 1024}))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "Folder for pictures, charts and the page")
+      ->type_name("DIR");
+  command->add_flag("--quick", options->quick, "Small pictures, few rays, maps of 256")
+      ->excludes(sizes);
+  command->add_flag("--json", options->json, "One JSON object a row");
+  command->callback([options, &result] { result.status = Run(*options); });
+}
+
+}  // namespace pleinair::app

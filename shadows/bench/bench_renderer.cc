@@ -1,0 +1,195 @@
+#include "shadows/bench/bench_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "shadows/embedded_shaders.h"
+
+namespace pleinair::shadows {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double MillisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// 2^(k/8) at or below (−1) or at or above (+1) a depth.
+double Stepped(double depth_m, int direction) {
+  const double steps = 8.0 * std::log2(depth_m);
+  return std::exp2((direction < 0 ? std::floor(steps) : std::ceil(steps)) / 8.0);
+}
+
+}  // namespace
+
+Result<BenchRenderer> BenchRenderer::Create(const BenchScene& scene, int width, int height) {
+  RegisterShaders();
+  BenchRenderer renderer;
+  renderer.width_ = width;
+  renderer.height_ = height;
+  renderer.to_sun_ = scene.to_sun;
+  for (const BenchMesh& mesh : scene.meshes) {
+    Surface& surface = renderer.surfaces_.emplace_back();
+    PLEINAIR_ASSIGN_OR_RETURN(surface.positions, gl::GlBuffer::FromSpan(std::span(mesh.positions)));
+    PLEINAIR_ASSIGN_OR_RETURN(surface.indices, gl::GlBuffer::FromSpan(std::span(mesh.indices)));
+    surface.vertices = gl::GlVertexArray::Create();
+    surface.vertices.SetFloatAttribute(0, 3, surface.positions, sizeof(glm::vec3));
+    surface.vertices.SetElementBuffer(surface.indices);
+    surface.index_count = static_cast<int>(mesh.indices.size());
+    ShadowCaster caster;
+    caster.vertices = &surface.vertices;
+    caster.index_count = surface.index_count;
+    for (const glm::vec3& p : mesh.positions) caster.bounds.Include(glm::dvec3(p));
+    renderer.casters_.push_back(caster);
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      renderer.depth_program_,
+      gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_view.vert",
+                             .fragment = "shadows/shaders/shadow_depth.frag"}));
+  PLEINAIR_ASSIGN_OR_RETURN(renderer.picture_, gl::GlTexture::Create2D(GL_RG32F, width, height));
+  PLEINAIR_ASSIGN_OR_RETURN(renderer.depth_,
+                            gl::GlTexture::Create2D(GL_DEPTH_COMPONENT32F, width, height));
+  PLEINAIR_ASSIGN_OR_RETURN(renderer.target_,
+                            gl::GlFramebuffer::Create({.colors = {{.texture = &renderer.picture_}},
+                                                       .depth = {.texture = &renderer.depth_}}));
+  renderer.no_vertices_ = gl::GlVertexArray::Create();
+  return renderer;
+}
+
+Result<void> BenchRenderer::SetMethod(const ShadowMapOptions& options) {
+  maps_.clear();
+  PLEINAIR_ASSIGN_OR_RETURN(ShadowMaps maps, ShadowMaps::Create(options));
+  const std::vector<std::string> defines = ShadowMaps::ShaderDefines(options, 1);
+  PLEINAIR_ASSIGN_OR_RETURN(view_program_,
+                            gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_view.vert",
+                                                   .fragment = "shadows/shaders/shadow_view.frag",
+                                                   .defines = defines}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      probe_program_, gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
+                                             .fragment = "shadows/shaders/shadow_probe.frag",
+                                             .defines = defines}));
+  maps_.push_back(std::move(maps));
+  return {};
+}
+
+Result<View> BenchRenderer::Tightened(const View& view) {
+  DrawDepth(view);
+  std::vector<float> depths(static_cast<std::size_t>(width_) * height_);
+  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  float least = 1.0F, most = 0.0F;
+  for (const float depth : depths) {
+    if (depth >= 1.0F) continue;
+    least = std::min(least, depth);
+    most = std::max(most, depth);
+  }
+  if (least > most)
+    return InputError("the view", "shows no surface", "turn the camera to the scene");
+  const auto metres = [&](double depth) {
+    return 2.0 * view.near_m * view.far_m /
+           (view.far_m + view.near_m - (2.0 * depth - 1.0) * (view.far_m - view.near_m));
+  };
+  View tightened = view;
+  tightened.near_m = Stepped(metres(least), -1);
+  tightened.far_m = Stepped(metres(most) * 1.001, 1);
+  return tightened;
+}
+
+Result<int> BenchRenderer::UpdateMaps(const View& view) {
+  return maps_.front().UpdateForView(casters_, {{to_sun_.x, to_sun_.y, to_sun_.z}}, view);
+}
+
+void BenchRenderer::DrawSurfaces(const gl::GlProgram& program, const View& view) {
+  program.Use();
+  program.Set("clip_from_marker", glm::mat4(view.ClipFromMarker()));
+  for (const Surface& surface : surfaces_) {
+    surface.vertices.Bind();
+    glDrawElements(GL_TRIANGLES, surface.index_count, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+void BenchRenderer::DrawDepth(const View& view) {
+  target_.Bind();
+  target_.ClearColor(0, 1, 0, 0, 0);
+  target_.ClearDepth(1.0F);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_CULL_FACE);
+  DrawSurfaces(depth_program_, view);
+}
+
+void BenchRenderer::DrawVisibility(const View& view) {
+  glDepthFunc(GL_EQUAL);
+  glDepthMask(GL_FALSE);
+  maps_.front().Bind(0);
+  view_program_.Set("eye", glm::vec3(glm::inverse(view.camera_from_marker)[3]));
+  view_program_.Set("depth_from_marker", glm::vec4(glm::transpose(view.camera_from_marker)[2]));
+  DrawSurfaces(view_program_, view);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+}
+
+VisibilityPicture BenchRenderer::Read() const {
+  Image<float> both(width_, height_, 2);
+  target_.ReadPixels(0, GL_RG, GL_FLOAT, both.data());
+  VisibilityPicture picture{Image<float>(width_, height_), Image<float>(width_, height_)};
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      picture.visibility(x, y) = both(x, y, 0);
+      picture.depth_m(x, y) = both(x, y, 1);
+    }
+  }
+  return picture;
+}
+
+Result<VisibilityPicture> BenchRenderer::Draw(const View& view, int* redrawn) {
+  PLEINAIR_ASSIGN_OR_RETURN(const int count, UpdateMaps(view));
+  if (redrawn != nullptr) *redrawn = count;
+  DrawDepth(view);
+  DrawVisibility(view);
+  return Read();
+}
+
+Result<FrameTime> BenchRenderer::Time(const View& view, int frames) {
+  FrameTime least{1e30, 1e30};
+  for (int i = 0; i < frames; ++i) {
+    maps_.front().Invalidate();
+    glFinish();
+    auto start = Clock::now();
+    PLEINAIR_RETURN_IF_ERROR(UpdateMaps(view));
+    glFinish();
+    least.maps_ms = std::min(least.maps_ms, MillisecondsSince(start));
+    start = Clock::now();
+    DrawDepth(view);
+    DrawVisibility(view);
+    glFinish();
+    least.scene_ms = std::min(least.scene_ms, MillisecondsSince(start));
+  }
+  return least;
+}
+
+Result<std::vector<float>> BenchRenderer::Probe(const ProbeGrid& grid) {
+  PLEINAIR_ASSIGN_OR_RETURN(const gl::GlTexture picture,
+                            gl::GlTexture::Create2D(GL_R32F, grid.width, grid.height));
+  PLEINAIR_ASSIGN_OR_RETURN(const gl::GlFramebuffer target,
+                            gl::GlFramebuffer::Create({.colors = {{.texture = &picture}}}));
+  target.Bind();
+  glDisable(GL_DEPTH_TEST);
+  probe_program_.Use();
+  probe_program_.Set("origin", glm::vec3(grid.origin));
+  probe_program_.Set("du", glm::vec3(grid.du));
+  probe_program_.Set("dv", glm::vec3(grid.dv));
+  probe_program_.Set("normal", glm::vec3(grid.normal));
+  maps_.front().Bind(0);
+  no_vertices_.Bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  std::vector<float> values(static_cast<std::size_t>(grid.width) * grid.height);
+  target.ReadPixels(0, GL_RED, GL_FLOAT, values.data());
+  glEnable(GL_DEPTH_TEST);
+  return values;
+}
+
+}  // namespace pleinair::shadows
