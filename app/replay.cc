@@ -36,6 +36,10 @@ namespace fs = std::filesystem;
 constexpr std::size_t kReportPictures = 4;
 constexpr int kReportPictureWidth_px = 800;
 constexpr int kReportJpegQuality = 85;
+// The light is read from so many frames; more hardly show other surfaces.
+constexpr std::size_t kLightFrames = 8;
+// Within half a minute about the middle the sun moves an eighth of a degree.
+constexpr std::int64_t kOneSunNs = 30'000'000'000;
 
 /// One replay from opening to report; its members are what the two passes share.
 class Replayer {
@@ -81,12 +85,13 @@ class Replayer {
     }
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
     // Models are loaded before a long search for markers begins: their errors come at once.
-    PLEINAIR_ASSIGN_OR_RETURN(renderer_,
-                              SceneRenderer::Create(output_camera_, scene_, options_.composer));
+    PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_,
+                                                               options_.composer, options_.light));
     session_.emplace(scene_.marker);
     PLEINAIR_RETURN_IF_ERROR(FindMarkers(recording, **tracker));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
+    PLEINAIR_RETURN_IF_ERROR(LookAtLight());
     PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
     PLEINAIR_RETURN_IF_ERROR(ComposeFrames(recording));
     PLEINAIR_RETURN_IF_ERROR(WriteReports());
@@ -178,6 +183,59 @@ class Replayer {
     return {};
   }
 
+  /// Indices into the path of the frames that the light is read from: spread evenly over as much
+  /// of its middle as one place of the sun serves.
+  std::vector<std::size_t> LightFrames() const {
+    const auto& path = report_.path;
+    if (path.empty()) return {};
+    const std::int64_t middle_ns = path[path.size() / 2].timestamp_ns;
+    std::vector<std::size_t> near;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      if (std::abs(path[i].timestamp_ns - middle_ns) <= kOneSunNs) near.push_back(i);
+    }
+    std::vector<std::size_t> chosen;
+    const std::size_t count = std::min(kLightFrames, near.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      chosen.push_back(near[(2 * i + 1) * near.size() / (2 * count)]);
+    }
+    return chosen;
+  }
+
+  Result<void> LookAtLight() {
+    const std::vector<std::size_t> chosen = LightFrames();
+    if (chosen.empty() || !renderer_->CanMeasureLight()) return {};
+    PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenRecording());
+    ProgressBar bar("Reading the light", static_cast<std::int64_t>(chosen.size()));
+    for (auto next = chosen.begin(); next != chosen.end();) {
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(recording));
+      if (!frame) break;
+      const Observation& at = report_.path[*next];
+      if (frame->index != at.frame_index) continue;
+      ++next;
+      Resize(*frame);
+      times_.Measure("look at light", [&] {
+        renderer_->LookAtLight(frame->rgb.view(), at.camera_from_marker, MomentOf(*frame));
+        return 0;
+      });
+      bar.Advance();
+    }
+    times_.Measure("settle light", [&] {
+      renderer_->SettleLight();
+      return 0;
+    });
+    return {};
+  }
+
+  void Resize(devices::Frame& frame) {
+    if (frame.rgb.width() == report_.width && frame.rgb.height() == report_.height) return;
+    frame.rgb = times_.Measure(
+        "resize", [&] { return ResizeRgb(frame.rgb.view(), report_.width, report_.height); });
+  }
+
+  UtcTime MomentOf(const devices::Frame& frame) const {
+    return UtcTime(scene_.place_time.start.nanoseconds_since_1970() + frame.timestamp_ns);
+  }
+
   void Warn() {
     report_.warnings = MarkerWarnings(report_, *session_, scene_);
     for (std::string& sentence : tracker_warnings_.Sentences()) {
@@ -221,10 +279,7 @@ class Replayer {
                           "replay it again when nothing writes to it");
       }
       if (!frame) break;
-      if (frame->rgb.width() != report_.width || frame->rgb.height() != report_.height) {
-        frame->rgb = times_.Measure(
-            "resize", [&] { return ResizeRgb(frame->rgb.view(), report_.width, report_.height); });
-      }
+      Resize(*frame);
       while (pose != report_.path.end() && pose->frame_index < frame->index) ++pose;
       std::optional<RgbImage> composed;
       if (pose != report_.path.end() && pose->frame_index == frame->index) {
@@ -239,8 +294,7 @@ class Replayer {
 
   Result<RgbImage> Render(const devices::Frame& frame,
                           const Transform<Camera, Marker>& camera_from_marker) {
-    const UtcTime time(scene_.place_time.start.nanoseconds_since_1970() + frame.timestamp_ns);
-    auto composed = renderer_->Render(frame.rgb.view(), camera_from_marker, time);
+    auto composed = renderer_->Render(frame.rgb.view(), camera_from_marker, MomentOf(frame));
     if (scene_.objects.empty()) return composed;
     const RenderTimes& times = renderer_->times();
     if (times.light_ms > 1.0) times_.Add("light", times.light_ms);
@@ -271,6 +325,11 @@ class Replayer {
       report_.warnings.emplace_back(
           "The marker could not be read as a light meter in any frame: the camera's gain is a "
           "guess. Set it in the scene if the brightness is wrong.");
+    }
+    if (report_.light) {
+      for (std::string& sentence : LightWarnings(report_.light->measured)) {
+        report_.warnings.push_back(std::move(sentence));
+      }
     }
     report_.outputs.emplace_back("report.json");
     report_.outputs.emplace_back("report.html");

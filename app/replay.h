@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/measured_sky.h"
 #include "app/sinks/report.h"
 #include "base/camera_model.h"
 #include "base/error.h"
@@ -24,13 +25,14 @@ struct ReplayOptions {
   bool write_frames = false;
   bool write_video = true;
   compositor::ComposerOptions composer;
+  LightOverrides light;
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
   std::string command;              ///< For the report.
 };
 
 /// Composes a recording into a folder: composite.mp4, frames/, poses/, detections.jsonl,
-/// report.json and report.html. Reads the recording twice (markers first, then pictures), one
-/// frame in memory at a time. All outputs appear at the end; on an error nothing is left.
+/// report.json and report.html. Reads the recording thrice (markers, light, pictures), one frame
+/// in memory at a time. All outputs appear at the end; on an error nothing is left.
 Result<ReplayReport> Replay(const ReplayOptions& options);
 
 /// The lens as it looks after resizing its pictures to `size`.

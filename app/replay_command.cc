@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -7,6 +9,7 @@
 #include <string_view>
 
 #include "app/command.h"
+#include "app/number_range.h"
 #include "app/replay.h"
 #include "app/sinks/report_json.h"
 #include "gl/shader_library.h"
@@ -23,6 +26,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  pleinair replay recordings/courtyard_midday -o out/demo\n"
     "  pleinair replay site/ -o out/site --frames --size 1280x720\n"
+    "  pleinair replay site/ -o out/site --sun-to-sky 0   (no sun shone)\n"
     "  pleinair replay walk.mp4 --calibration phone.yaml --scene site/scene.toml -o out/walk\n"
     "Writes composite.mp4, poses/MARKER.tum, detections.jsonl, report.json, report.html and, with\n"
     "--frames, frames/0000.png and so on. docs/formats.md describes recordings and scenes.";
@@ -31,7 +35,7 @@ constexpr const char* kExamples =
 struct Arguments {
   ReplayOptions options;
   std::string recording, output, scene, calibration, size, shader_directory;
-  std::string shadows = "disc";
+  std::string shadows = "disc", light = "measured";
   bool no_video = false;
   bool json = false;
 };
@@ -61,6 +65,10 @@ std::string CommandText(const Arguments& arguments) {
   if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
   if (arguments.options.write_frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
+  if (arguments.light != "measured") text += " --light " + arguments.light;
+  const LightOverrides& light = arguments.options.light;
+  if (light.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *light.sun_to_sky);
+  if (light.heading_deg) text += fmt::format(" --heading {}", *light.heading_deg);
   if (arguments.shadows != "disc") text += " --shadows " + arguments.shadows;
   const int partitions = arguments.options.composer.shadow_partitions;
   if (partitions != compositor::ComposerOptions{}.shadow_partitions) {
@@ -82,6 +90,7 @@ Result<void> Run(Arguments& arguments) {
   if (!arguments.size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize(arguments.size));
   }
+  options.light.as_stated = arguments.light == "stated";
   options.composer.shadow_method = kShadowMethods.at(arguments.shadows);
   if (!arguments.shader_directory.empty()) {
     gl::ShaderLibrary::SetOverrideDirectory(arguments.shader_directory);
@@ -124,6 +133,21 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
   command->add_flag("--frames", arguments->options.write_frames,
                     "Also write every frame as a PNG picture");
   command->add_option("--size", arguments->size, "Size of the output, WIDTHxHEIGHT in pixels");
+  command
+      ->add_option("--light", arguments->light,
+                   "measured: sun, sky and heading from the shadows that phantoms cast in the "
+                   "frames; stated: as the scene says")
+      ->check(CLI::IsMember({"measured", "stated"}))
+      ->capture_default_str();
+  command
+      ->add_option("--sun-to-sky", arguments->options.light.sun_to_sky,
+                   "The sun's light on level ground over the sky's, instead of measuring it: 4 on "
+                   "a clear noon, 0.5 in thick haze, 0 where no sun shines")
+      ->check(NumberRange(0.0, kHighestSunToSky));
+  command
+      ->add_option("--heading", arguments->options.light.heading_deg,
+                   "Heading of the marker in degrees, instead of the scene's, and not refined")
+      ->check(NumberRange(-360.0, 360.0));
   command
       ->add_option("--shadows", arguments->shadows,
                    "How shadows' edges are made: disc (the sun's own width), gaussian (the paper's "

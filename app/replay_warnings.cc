@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pleinair::app {
 namespace {
 
 // A reading that comes out differently in every frame should not fill the report.
 constexpr std::size_t kMostKinds = 8;
+// Sun over sky on level ground below which nobody speaks of a sun.
+constexpr double kNoticeableSun = 0.1;
+constexpr double kNoticeableTurnDeg = 1.0;
 
 /// The scene's marker in words: "sg_17", "tag36h11", "number 5", "no family or number named".
 std::string Described(const devices::MarkerDescription& marker) {
@@ -81,6 +85,31 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Sessio
     warnings.push_back(fmt::format(
         "In {} frames the marker is too small or too frontal to tell its tilt for certain.",
         ambiguous));
+  }
+  return warnings;
+}
+
+std::vector<std::string> LightWarnings(const MeasuredLight& light) {
+  std::vector<std::string> warnings;
+  const bool measured = light.sun_source == MeasuredLight::Source::kMeasured;
+  if (measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun) {
+    warnings.push_back(fmt::format(
+        "No shadow lies where the phantoms would cast one ({} places looked at): the sky is taken "
+        "as overcast. If the sun shone, check place, time and heading, or give --sun-to-sky.",
+        light.edges));
+  }
+  if (measured && light.sun_shines && light.sun_to_sky_stated <= kNoticeableSun) {
+    warnings.push_back(
+        fmt::format("The phantoms' shadows are seen ({} places): the sun is taken to shine, though "
+                    "the scene says otherwise.",
+                    light.edges_agreeing));
+  }
+  const double turn_deg = ToDegrees(light.heading_offset);
+  if (std::abs(turn_deg) > kNoticeableTurnDeg) {
+    warnings.push_back(
+        fmt::format("Shadows lie where they would if the marker's heading were {:+.1f} degrees "
+                    "more: that is used. Put it into the scene if it is right.",
+                    turn_deg));
   }
   return warnings;
 }

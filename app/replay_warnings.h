@@ -31,4 +31,7 @@ class FrameWarnings {
 std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Session& session,
                                         const devices::SceneDescription& scene);
 
+/// Where the light that was measured is far from what the scene says.
+std::vector<std::string> LightWarnings(const MeasuredLight& light);
+
 }  // namespace pleinair::app

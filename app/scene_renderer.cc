@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "compositor/marker_print.h"
-#include "sky/daylight.h"
+#include "compositor/scaled_daylight.h"
+#include "compositor/shadow_contrast.h"
+#include "compositor/shadow_heading.h"
 
 namespace pleinair::app {
 namespace {
@@ -26,20 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-sky::SkyCondition ConditionOf(devices::Cloudiness cloudiness) {
-  switch (cloudiness) {
-    case devices::Cloudiness::kClear:
-      return sky::SkyCondition::kClear;
-    case devices::Cloudiness::kHazy:
-      return sky::SkyCondition::kHazy;
-    case devices::Cloudiness::kPartlyCloudy:
-      return sky::SkyCondition::kPartlyCloudy;
-    case devices::Cloudiness::kOvercast:
-      return sky::SkyCondition::kOvercast;
-  }
-  return sky::SkyCondition::kClear;
 }
 
 compositor::NormalsMode NormalsOf(devices::Shading shading) {
@@ -90,6 +78,15 @@ Result<compositor::PlacedModel> PlaceModel(const devices::ModelReference& refere
                                  linear, reference.translation_m, is_phantom};
 }
 
+/// What the frames looked at have shown so far.
+struct SceneRenderer::Look {
+  sky::SunPosition sun;
+  std::unique_ptr<sky::SkyModel> day;  ///< With a sun, whatever the scene says.
+  compositor::SurfaceSamples samples;
+  compositor::LightMeter meter;
+  LinearRgb gain{1.0, 1.0, 1.0};  ///< Of the last frame that could be metered.
+};
+
 Mat3 MarkerFromWorld(const devices::MarkerDescription& marker) {
   const double s = std::sin(marker.heading.value()), c = std::cos(marker.heading.value());
   if (marker.upright) return {{c, -s, 0, 0, 0, 1, -s, -c, 0}};
@@ -99,10 +96,14 @@ Mat3 MarkerFromWorld(const devices::MarkerDescription& marker) {
 SceneRenderer::SceneRenderer(const CameraModel& camera, const devices::SceneDescription& scene)
     : camera_(camera), scene_(scene) {}
 
+SceneRenderer::~SceneRenderer() = default;
+
 Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     const CameraModel& camera, const devices::SceneDescription& scene,
-    const compositor::ComposerOptions& options) {
+    const compositor::ComposerOptions& options, const LightOverrides& overrides) {
   std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
+  renderer->overrides_ = overrides;
+  if (overrides.heading_deg) renderer->scene_.marker.heading = FromDegrees(*overrides.heading_deg);
   std::vector<compositor::PlacedModel> placed;
   for (const devices::ModelReference& phantom : scene.phantoms) {
     PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(phantom, true));
@@ -113,8 +114,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     placed.push_back(std::move(model));
   }
   if (scene.objects.empty()) return renderer;
-  renderer->skies_ =
-      sky::CreateDaylight({ConditionOf(scene.cloudiness), scene.turbidity.value_or(0.0)});
+  renderer->skies_ = StatedSky(scene);
   PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
                             compositor::Composer::Create(camera, placed, options));
   PLEINAIR_ASSIGN_OR_RETURN(renderer->solver_,
@@ -124,28 +124,120 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
 
 void SceneRenderer::SetMarkerPrint(const compositor::MarkerPrint& print) { print_ = print; }
 
-Result<void> SceneRenderer::UpdateLight(UtcTime time) {
+sky::SunPosition SceneRenderer::SunAt(UtcTime time) const {
   const sky::Observer observer{FromDegrees(scene_.place_time.latitude_deg),
                                FromDegrees(scene_.place_time.longitude_deg),
                                Metres(scene_.place_time.height_m)};
-  summary_.sun = sky::ComputeSunPosition(observer, time);
+  return sky::ComputeSunPosition(observer, time);
+}
+
+bool SceneRenderer::CanMeasureLight() const {
+  return composer_ && !overrides_.as_stated && !scene_.phantoms.empty() &&
+         !(overrides_.sun_to_sky && overrides_.heading_deg);
+}
+
+void SceneRenderer::LookAtLight(ImageView<const std::uint8_t> rgb,
+                                const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
+  if (!look_) {
+    const sky::SunPosition sun = SunAt(time);
+    auto day = SunlitSky(scene_)->ForSun(sun.ToSun(), sun.distance_au);
+    compositor::LightMeter meter(print_, *solver_, *day, MarkerFromWorld(scene_.marker));
+    look_.reset(new Look{sun, std::move(day), {*solver_, camera_, print_}, std::move(meter), {}});
+    look_->gain = {1.0, 1.0, 1.0};
+  }
+  if (const auto reading = look_->meter.Measure(rgb, camera_, camera_from_marker)) {
+    look_->gain = reading->gain;
+  }
+  look_->samples.AddFrame(rgb, camera_from_marker, look_->gain);
+}
+
+void SceneRenderer::SettleLight() {
+  if (!look_) return;
+  const std::unique_ptr<Look> look = std::move(look_);
+  MeasuredLight& light = summary_.measured;
+  light.frames = look->samples.frames();
+  Mat3 marker_from_world = MarkerFromWorld(scene_.marker);
+  const Vec3 to_sun = marker_from_world * look->day->ToSun().xyz;
+  const Vec3 up = marker_from_world * Vec3{0.0, 0.0, 1.0};
+  const double stated_heading = scene_.marker.heading.value();
+  if (!overrides_.heading_deg) {
+    if (const auto heading = compositor::ReadHeading(*solver_, look->samples, up, to_sun)) {
+      WeighHeading(*heading, &light);
+      scene_.marker.heading = Radians(stated_heading + light.heading_offset.value());
+      marker_from_world = MarkerFromWorld(scene_.marker);
+    }
+  }
+  const compositor::SunSkyReading reading = compositor::ReadSunAndSky(
+      compositor::FindShadowEdges(*solver_, look->samples, *look->day, marker_from_world));
+  light.edges = reading.edges;
+  light.edges_agreeing = reading.agreeing;
+  using Sun = compositor::SunSkyReading::Sun;
+  if (reading.sun != Sun::kShines && light.heading_source == MeasuredLight::Source::kMeasured) {
+    // Without a sun it was not shadows that the heading was read from.
+    scene_.marker.heading = Radians(stated_heading);
+    light.heading_offset = light.heading_error = {};
+    light.heading_source = MeasuredLight::Source::kStated;
+  }
+  if (overrides_.sun_to_sky || reading.sun == Sun::kUnknown) return;
+  light.sun_source = MeasuredLight::Source::kMeasured;
+  if (reading.sun == Sun::kHidden) {
+    skies_ = OvercastSky();
+    return;
+  }
+  const LinearRgb scale = WeighedScale(reading, scene_.cloudiness, &light.sun_to_sky_error);
+  const LinearRgb share =
+      look->day->SkyHorizontalIrradiance() / look->day->SunNormalIrradiance() * scale;
+  const MeasuredSky measured = SkyWithShare(share, look->day->ToSun(), look->sun.distance_au);
+  skies_ = measured.skies;
+  sky_scale_ = measured.sky_scale;
+}
+
+/// What the user says counts, for the first sun that is rendered.
+void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
+  MeasuredLight& light = summary_.measured;
+  light.sun_to_sky_stated = SunToSky(*StatedSky(scene_)->ForSun(sun.ToSun(), sun.distance_au));
+  if (overrides_.heading_deg) {
+    light.heading_source = MeasuredLight::Source::kOverride;
+  }
+  if (!overrides_.sun_to_sky) return;
+  light.sun_source = MeasuredLight::Source::kOverride;
+  const double wanted = *overrides_.sun_to_sky;
+  const Vec3 to_sun = sun.ToSun().xyz;
+  if (wanted <= 0.0 || to_sun.z <= 0.0) {
+    skies_ = OvercastSky();
+    return;
+  }
+  const auto day = SunlitSky(scene_)->ForSun(sun.ToSun(), sun.distance_au);
+  const LinearRgb share = day->SkyHorizontalIrradiance() / day->SunNormalIrradiance();
+  const MeasuredSky measured =
+      SkyWithShare(share * (SunToSky(*day) / wanted), sun.ToSun(), sun.distance_au);
+  skies_ = measured.skies;
+  sky_scale_ = measured.sky_scale;
+}
+
+Result<void> SceneRenderer::UpdateLight(UtcTime time) {
+  summary_.sun = SunAt(time);
   const Vec3 to_sun = summary_.sun.ToSun().xyz;
-  const auto daylight = skies_->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);
+  if (!lit_for_sun_) OverrideLight(summary_.sun);
+  const auto model = skies_->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);
+  const compositor::ScaledDaylight daylight(*model, sky_scale_, {1.0, 1.0, 1.0});
   const Mat3 marker_from_world = MarkerFromWorld(scene_.marker);
   if (lit_for_sun_ && Norm(*lit_for_sun_ - to_sun) < kSunStep) {
-    composer_->SetSun(*daylight, marker_from_world);
+    composer_->SetSun(daylight, marker_from_world);
     return {};
   }
-  const LinearRgb sun = daylight->SunNormalIrradiance();
-  const LinearRgb sky = daylight->SkyHorizontalIrradiance();
+  const LinearRgb sun = daylight.SunNormalIrradiance();
+  const LinearRgb sky = daylight.SkyHorizontalIrradiance();
   summary_.sun_normal_lux = Luminance(sun);
   summary_.sky_horizontal_lux = Luminance(sky);
+  summary_.measured.sun_to_sky = SunToSky(daylight);
+  summary_.measured.sun_shines = Luminance(sun) > 0.0;
   const LinearRgb ground = sky + sun * std::max(0.0, to_sun.z);
   const double white = scene_.marker.albedo_white / std::numbers::pi;
   guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
-  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(solver_->Solve(*daylight, marker_from_world),
-                                               *daylight, marker_from_world));
-  meter_.emplace(print_, *solver_, *daylight, marker_from_world);
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(solver_->Solve(daylight, marker_from_world),
+                                               daylight, marker_from_world));
+  meter_.emplace(print_, *solver_, daylight, marker_from_world);
   lit_for_sun_ = to_sun;
   return {};
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/measured_sky.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/frames.h"
@@ -15,6 +16,7 @@
 #include "compositor/composer.h"
 #include "compositor/light_meter.h"
 #include "compositor/light_solver.h"
+#include "compositor/surface_samples.h"
 #include "devices/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun_position.h"
@@ -30,6 +32,7 @@ struct LightSummary {
   double gain_spread = 0.0;      ///< Relative; of the last frame that the marker could be read in.
   int readings = 0;              ///< Frames in which the marker served as a light meter.
   bool gain_is_guessed = false;  ///< No frame could be read and the scene gives no gain.
+  MeasuredLight measured;        ///< Sun, sky and heading.
 };
 
 /// Milliseconds spent in the last Render(), by stage.
@@ -43,14 +46,28 @@ struct RenderTimes {
 /// camera's exposure from the marker, the composite. Keeps what it learns for the next frame.
 class SceneRenderer {
  public:
+  ~SceneRenderer();
+
   /// Loads the scene's models and prepares their light. Without virtual objects nothing is drawn
   /// and no OpenGL is needed.
   static Result<std::unique_ptr<SceneRenderer>> Create(const CameraModel& camera,
                                                        const devices::SceneDescription& scene,
-                                                       const compositor::ComposerOptions& options);
+                                                       const compositor::ComposerOptions& options,
+                                                       const LightOverrides& overrides = {});
 
   /// Which print the frames show, before the first is rendered: it is the light meter.
   void SetMarkerPrint(const compositor::MarkerPrint& print);
+
+  /// Whether frames can tell more of the light than the scene and the user do.
+  bool CanMeasureLight() const;
+
+  /// Looks at a frame for the phantoms' own shadows, before the first is rendered. All the frames
+  /// that are looked at share one sun: that of `time` of the first.
+  void LookAtLight(ImageView<const std::uint8_t> rgb,
+                   const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
+
+  /// Draws conclusions from the frames looked at: heading, sun and sky from now on.
+  void SettleLight();
 
   /// The frame with the virtual objects as they stand at `time`.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
@@ -62,6 +79,8 @@ class SceneRenderer {
  private:
   SceneRenderer(const CameraModel& camera, const devices::SceneDescription& scene);
 
+  sky::SunPosition SunAt(UtcTime time) const;
+  void OverrideLight(const sky::SunPosition& sun);
   Result<void> UpdateLight(UtcTime time);
   void UpdateGain(ImageView<const std::uint8_t> rgb,
                   const Transform<Camera, Marker>& camera_from_marker);
@@ -69,7 +88,11 @@ class SceneRenderer {
   CameraModel camera_;
   devices::SceneDescription scene_;
   compositor::MarkerPrint print_;
+  LightOverrides overrides_;
   std::shared_ptr<const sky::SkySource> skies_;  // Of the scene's day, for any place of the sun.
+  LinearRgb sky_scale_{1.0, 1.0, 1.0};
+  struct Look;  // What was seen of the light so far.
+  std::unique_ptr<Look> look_;
   std::unique_ptr<compositor::LightSolver> solver_;
   std::unique_ptr<compositor::Composer> composer_;
   std::optional<compositor::LightMeter> meter_;

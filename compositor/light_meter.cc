@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/srgb.h"
+#include "compositor/linear_sample.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -23,24 +23,6 @@ constexpr double kShadowShare = 0.15;
 constexpr double kSmallestBandPx = 3.0;
 
 using Rgb = std::array<double, 3>;
-
-/// Linear light at a pixel position, bilinear; nothing outside the picture.
-std::optional<Rgb> SampleLinear(ImageView<const std::uint8_t> rgb, Vec2 at) {
-  const int x = static_cast<int>(std::floor(at.x));
-  const int y = static_cast<int>(std::floor(at.y));
-  if (!(at.x >= 0.0 && at.y >= 0.0) || x + 1 >= rgb.width() || y + 1 >= rgb.height()) {
-    return std::nullopt;
-  }
-  const double fx = at.x - x, fy = at.y - y;
-  const auto& linear = LinearFromSrgb8();
-  Rgb value{};
-  for (int c = 0; c < 3; ++c) {
-    const double top = linear[rgb(x, y, c)] * (1 - fx) + linear[rgb(x + 1, y, c)] * fx;
-    const double bottom = linear[rgb(x, y + 1, c)] * (1 - fx) + linear[rgb(x + 1, y + 1, c)] * fx;
-    value[c] = top * (1 - fy) + bottom * fy;
-  }
-  return value;
-}
 
 double Sum(const Rgb& value) { return value[0] + value[1] + value[2]; }
 

@@ -7,6 +7,7 @@
 #include "compositor/light_gather.h"
 #include "compositor/light_samples.h"
 #include "compositor/light_scene.h"
+#include "compositor/parallel_for.h"
 #include "compositor/sky_table.h"
 
 namespace pleinair::compositor {
@@ -20,7 +21,6 @@ constexpr std::uint32_t kFewestRays = 32;
 constexpr double kLandAlbedo = 0.2;
 
 constexpr std::uint32_t kSunRays = 256;
-constexpr std::uint32_t kPaths = 2048;
 
 class EmbreeLightSolver : public LightSolver {
  public:
@@ -62,28 +62,44 @@ class EmbreeLightSolver : public LightSolver {
     return static_cast<double>(visible) / kSunRays;
   }
 
+  bool ReachesPhantomsOnly(Point<Marker> point, Vec3 direction) const override {
+    return !scene_.rays->Occluded(RayTargets::kPhantoms, point.xyz + direction * kRayOffsetM,
+                                  direction);
+  }
+
+  std::optional<PhantomSurface> FirstPhantom(Point<Marker> eye, Vec3 direction) const override {
+    RayHit hit;
+    if (!scene_.rays->Intersect(RayTargets::kPhantoms, eye.xyz, direction, &hit)) return {};
+    const LightScene::Face& face = scene_.FaceOf(hit);
+    const int side = hit.back ? 1 : 0;
+    return PhantomSurface{{eye.xyz + direction * hit.distance_m},
+                          hit.back ? -face.normal : face.normal,
+                          static_cast<int>(face.sheet) * 2 + side};
+  }
+
   std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3 normal,
                                              const sky::SkyModel& day,
-                                             const Mat3& marker_from_world) const override {
+                                             const Mat3& marker_from_world,
+                                             std::uint32_t paths) const override {
     const SkyTable sky(day, marker_from_world, kLandAlbedo);
     const TangentFrame sun_frame(marker_from_world * day.ToSun().xyz);
     const TangentFrame frame(Normalized(normal));
-    std::vector<LinearRgb> ambient;
-    ambient.reserve(points.size());
-    for (const Point<Marker>& point : points) {
-      ambient.push_back(FollowPaths(point.xyz, frame, sky, sun_frame, day.SunNormalIrradiance()));
-    }
+    const LinearRgb sun = day.SunNormalIrradiance();
+    std::vector<LinearRgb> ambient(points.size());
+    ParallelFor(points.size(), options_.threads, [&](std::size_t i) {
+      ambient[i] = FollowPaths(points[i].xyz, frame, sky, sun_frame, sun, paths);
+    });
     return ambient;
   }
 
  private:
   /// Irradiance at a point whose surface has `frame`, by paths through the phantoms.
   LinearRgb FollowPaths(Vec3 point, const TangentFrame& frame, const SkyTable& sky,
-                        const TangentFrame& sun_frame, LinearRgb sun) const {
+                        const TangentFrame& sun_frame, LinearRgb sun, std::uint32_t paths) const {
     LinearRgb sum;
-    for (std::uint32_t path = 0; path < kPaths; ++path) {
+    for (std::uint32_t path = 0; path < paths; ++path) {
       Vec3 origin = point + frame.normal * kRayOffsetM;
-      Vec3 direction = CosineDirection(frame, ShiftedHammersley(path, kPaths, 0));
+      Vec3 direction = CosineDirection(frame, ShiftedHammersley(path, paths, 0));
       LinearRgb throughput{1.0, 1.0, 1.0};
       for (int bounce = 0;; ++bounce) {
         RayHit hit;
@@ -107,7 +123,7 @@ class EmbreeLightSolver : public LightSolver {
         direction = CosineDirection(at_hit, RandomPoint(seed, 3));
       }
     }
-    return sum * (std::numbers::pi / kPaths);
+    return sum * (std::numbers::pi / paths);
   }
 
   static SamplePoint RandomPoint(std::uint32_t seed, std::uint32_t salt) {

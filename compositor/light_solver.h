@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,6 +53,13 @@ struct LightSolverOptions {
   int threads = 0;             ///< 0: as many as there are processors.
 };
 
+/// Where a line of sight meets a real surface.
+struct PhantomSurface {
+  Point<Marker> point;
+  Vec3 normal;      ///< Unit, towards the eye.
+  int surface = 0;  ///< Equal for points of one side of one surface of one material.
+};
+
 /// Computes where the day's light goes among phantoms and virtual objects (Embree). Keeps the ray
 /// scene, so that the sun's visibility at any point can be asked later.
 class LightSolver {
@@ -70,12 +78,21 @@ class LightSolver {
   /// Share of the sun's disc (0…1) that the phantoms alone leave visible from a point.
   virtual double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const = 0;
 
+  /// Whether nothing of the phantoms lies between a point and one point of the sky.
+  virtual bool ReachesPhantomsOnly(Point<Marker> point, Vec3 direction) const = 0;
+
+  /// The phantom that a line of sight meets first; nothing where it meets none. `direction` unit.
+  virtual std::optional<PhantomSurface> FirstPhantom(Point<Marker> eye, Vec3 direction) const = 0;
+
   /// Sky and bounced light on small surfaces at `points` that all face `normal`, phantoms only:
-  /// what reaches the marker's print. One value a point, in their order. Ask for many points at
-  /// once: the sky is tabulated anew for every call.
+  /// what reaches the marker's print. One value a point, in their order; `paths` are followed for
+  /// each. Ask for many points at once: the sky is tabulated anew for every call.
   virtual std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points,
                                                      Vec3 normal, const sky::SkyModel& daylight,
-                                                     const Mat3& marker_from_world) const = 0;
+                                                     const Mat3& marker_from_world,
+                                                     std::uint32_t paths = kMeterPaths) const = 0;
+
+  static constexpr std::uint32_t kMeterPaths = 2048;
 };
 
 }  // namespace pleinair::compositor

@@ -114,6 +114,28 @@ std::string Plots(const ReplayReport& report) {
          LinePlotSvg("Part of the marker that was seen", "%", {visible});
 }
 
+std::string MeasuredCards(const MeasuredLight& light) {
+  using Source = MeasuredLight::Source;
+  const std::string sun = light.sun_shines ? fmt::format("{:.2f}", light.sun_to_sky) : "no sun";
+  std::string from = "sun over sky on level ground, as the scene says";
+  if (light.sun_source == Source::kOverride)
+    from = "sun over sky on level ground, as the user says";
+  if (light.sun_source == Source::kMeasured) {
+    from = fmt::format("{}: {} of {} shadow edges agree, in {} frames; the scene says {:.2f}",
+                       light.sun_shines ? fmt::format("sun over sky on level ground, ± {:.0f} %",
+                                                      light.sun_to_sky_error * 100)
+                                        : "where phantoms would cast shadows",
+                       light.edges_agreeing, light.edges, light.frames, light.sun_to_sky_stated);
+  }
+  std::string html = Card(sun, from);
+  if (light.heading_source == Source::kMeasured) {
+    html += Card(fmt::format("{:+.2f}° ± {:.2f}°", ToDegrees(light.heading_offset),
+                             ToDegrees(light.heading_error)),
+                 "added to the marker's heading, from where shadows lie");
+  }
+  return html;
+}
+
 std::string Light(const ReplayReport& report) {
   const devices::PlaceTime& place = report.place_time;
   std::string html = Card(fmt::format("{:.4f}°, {:.4f}°", place.latitude_deg, place.longitude_deg),
@@ -127,6 +149,7 @@ std::string Light(const ReplayReport& report) {
                "sun: azimuth / elevation");
   html += Card(fmt::format("{:.1f} klx", light.sun_normal_lux / 1000), "sun, facing it");
   html += Card(fmt::format("{:.1f} klx", light.sky_horizontal_lux / 1000), "sky, on level ground");
+  html += MeasuredCards(light.measured);
   html += Card(fmt::format("{:.3g} {:.3g} {:.3g}", light.gain.r, light.gain.g, light.gain.b),
                light.gain_is_guessed
                    ? "camera gain (r g b per cd/m²), guessed"

@@ -20,6 +20,32 @@ std::string Dump(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+const char* SourceName(MeasuredLight::Source source) {
+  switch (source) {
+    case MeasuredLight::Source::kStated:
+      return "stated";
+    case MeasuredLight::Source::kMeasured:
+      return "measured";
+    case MeasuredLight::Source::kOverride:
+      return "option";
+  }
+  return "stated";
+}
+
+Json MeasuredJson(const MeasuredLight& light) {
+  return {{"sun_shines", light.sun_shines},
+          {"sun_to_sky", Rounded(light.sun_to_sky)},
+          {"sun_to_sky_relative_error", Rounded(light.sun_to_sky_error)},
+          {"sun_to_sky_stated", Rounded(light.sun_to_sky_stated)},
+          {"sun_from", SourceName(light.sun_source)},
+          {"heading_offset_deg", Rounded(ToDegrees(light.heading_offset))},
+          {"heading_error_deg", Rounded(ToDegrees(light.heading_error))},
+          {"heading_from", SourceName(light.heading_source)},
+          {"frames", light.frames},
+          {"shadow_edges", light.edges},
+          {"shadow_edges_agreeing", light.edges_agreeing}};
+}
+
 Json LightJson(const LightSummary& light) {
   return {{"sun_azimuth_deg", Rounded(ToDegrees(light.sun.azimuth))},
           {"sun_elevation_deg", Rounded(ToDegrees(light.sun.elevation))},
@@ -29,7 +55,8 @@ Json LightJson(const LightSummary& light) {
           {"gain_rgb", {Rounded(light.gain.r), Rounded(light.gain.g), Rounded(light.gain.b)}},
           {"gain_relative_spread", Rounded(light.gain_spread)},
           {"gain_readings", light.readings},
-          {"gain_is_guessed", light.gain_is_guessed}};
+          {"gain_is_guessed", light.gain_is_guessed},
+          {"measured", MeasuredJson(light.measured)}};
 }
 
 Json PosesJson(const ReplayReport& report) {

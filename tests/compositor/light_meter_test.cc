@@ -32,8 +32,11 @@ class HalfShadow : public LightSolver {
   double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3) const override {
     return point.xyz.x < shadow_to_x_m_ ? 0.0 : 1.0;
   }
+  bool ReachesPhantomsOnly(Point<Marker>, Vec3) const override { return true; }
+  std::optional<PhantomSurface> FirstPhantom(Point<Marker>, Vec3) const override { return {}; }
   std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3,
-                                             const sky::SkyModel&, const Mat3&) const override {
+                                             const sky::SkyModel&, const Mat3&,
+                                             std::uint32_t) const override {
     return std::vector<LinearRgb>(points.size(), {kAmbientLux, kAmbientLux, kAmbientLux});
   }
 

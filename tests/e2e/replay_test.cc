@@ -48,6 +48,40 @@ TEST(Replay, WritesEveryOutputOfACompositeWithItsObject) {
   EXPECT_THAT(page, Not(HasSubstr("https://")));
 }
 
+TEST(Replay, FindsTheHeadingThatTheSceneStatesWrongly) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, true);
+  std::string scene = ReadFile(folder / "site/scene.toml");
+  const std::size_t at = scene.find("heading_deg = 342");
+  ASSERT_NE(at, std::string::npos);
+  WriteFile(folder / "site/scene.toml", scene.replace(at, 17, "heading_deg = 345"));
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("heading"));
+  const auto report = nlohmann::json::parse(ReadFile(folder / "out/report.json"));
+  const auto& light = report["light"]["measured"];
+  EXPECT_NEAR(light["heading_offset_deg"], -3.0, 0.3);
+  EXPECT_EQ(light["sun_shines"], true);
+  // Its sky's share of the light on level ground is 0.1752.
+  EXPECT_NEAR(light["sun_to_sky"].get<double>() / (1 / 0.1752 - 1), 1.0, 0.15);
+}
+
+TEST(Replay, TakesTheLightThatTheUserGives) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, true);
+  const RunResult run = RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video",
+                                     "--sun-to-sky", "0", "--heading", "10"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto report = nlohmann::json::parse(ReadFile(folder / "out/report.json"));
+  EXPECT_EQ(report["light"]["sun_normal_lux"], 0.0);
+  EXPECT_EQ(report["light"]["measured"]["sun_from"], "option");
+  EXPECT_EQ(report["light"]["measured"]["heading_from"], "option");
+  EXPECT_EQ(RunPleinair({"replay", folder / "site", "-o", folder / "out2", "--sun-to-sky", "-1"})
+                .exit_code,
+            2);
+}
+
 TEST(Replay, RecoversTheCamerasTruePathOfTheBundledRecording) {
   const TemporaryFolder folder;
   WriteFile(folder / "empty.toml", R"(time = "2025-09-14T11:05:00Z"

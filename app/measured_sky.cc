@@ -1,0 +1,134 @@
+#include "app/measured_sky.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "sky/daylight.h"
+
+namespace pleinair::app {
+namespace {
+
+// Haze as thick as this veils a sun; beyond it, clouds do.
+constexpr double kClearest = 1.2, kHaziest = 6.0;
+constexpr double kCloudyTurbidity = 3.2;
+constexpr double kThickestCover = 0.98;
+constexpr int kHalvings = 7;
+// How far a compass and a person may be off.
+constexpr double kHeadingDoubtDeg = 4.0;
+// Doubt of the colour of a sky beside its sun, logarithmic: of the model, of the measurement.
+constexpr double kModelColorDoubt = 0.10, kMeasuredColorDoubt = 0.08;
+
+sky::SkyCondition ConditionOf(devices::Cloudiness cloudiness) {
+  switch (cloudiness) {
+    case devices::Cloudiness::kClear:
+      return sky::SkyCondition::kClear;
+    case devices::Cloudiness::kHazy:
+      return sky::SkyCondition::kHazy;
+    case devices::Cloudiness::kPartlyCloudy:
+      return sky::SkyCondition::kPartlyCloudy;
+    case devices::Cloudiness::kOvercast:
+      return sky::SkyCondition::kOvercast;
+  }
+  return sky::SkyCondition::kClear;
+}
+
+/// Doubt of the sky's strength beside the sun that words leave, logarithmic.
+double DoubtOf(devices::Cloudiness stated) {
+  switch (stated) {
+    case devices::Cloudiness::kClear:
+      return 0.35;
+    case devices::Cloudiness::kHazy:
+      return 0.6;
+    case devices::Cloudiness::kPartlyCloudy:
+    case devices::Cloudiness::kOvercast:
+      return 1.2;
+  }
+  return 1.2;
+}
+
+std::shared_ptr<const sky::SkySource> Make(double turbidity, double cover) {
+  sky::SkyConditions conditions;
+  conditions.turbidity = turbidity;
+  conditions.cloud_cover = cover;
+  auto source = sky::SkySource::Create({sky::SkyModelKind::kAtmosphere, 0}, conditions);
+  CHECK_EQ(source.has_value(), true);
+  return *std::move(source);
+}
+
+}  // namespace
+
+std::shared_ptr<const sky::SkySource> StatedSky(const devices::SceneDescription& scene) {
+  return sky::CreateDaylight({ConditionOf(scene.cloudiness), scene.turbidity.value_or(0.0)});
+}
+
+std::shared_ptr<const sky::SkySource> SunlitSky(const devices::SceneDescription& scene) {
+  const bool veiled = scene.cloudiness == devices::Cloudiness::kPartlyCloudy ||
+                      scene.cloudiness == devices::Cloudiness::kOvercast;
+  return veiled ? sky::CreateDaylight({sky::SkyCondition::kClear, 0.0}) : StatedSky(scene);
+}
+
+std::shared_ptr<const sky::SkySource> OvercastSky() {
+  return sky::CreateDaylight({sky::SkyCondition::kOvercast, 0.0});
+}
+
+double SunToSky(const sky::SkyModel& day) {
+  const double sky = Luminance(day.SkyHorizontalIrradiance());
+  const double sun = Luminance(day.SunNormalIrradiance()) * std::max(0.0, day.ToSun().xyz.z);
+  return sky > 0.0 ? sun / sky : 0.0;
+}
+
+MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au) {
+  const double wanted = Luminance(sky_over_sun);
+  const auto share = [&](const sky::SkySource& source) {
+    const auto day = source.ForSun(to_sun, sun_distance_au);
+    return Luminance(day->SkyHorizontalIrradiance()) / Luminance(day->SunNormalIrradiance());
+  };
+  MeasuredSky measured;
+  if (share(*Make(kHaziest, 0.0)) >= wanted) {
+    double low = std::log(kClearest), high = std::log(kHaziest);
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = (low + high) / 2;
+      (share(*Make(std::exp(middle), 0.0)) < wanted ? low : high) = middle;
+    }
+    measured.skies = Make(std::exp((low + high) / 2), 0.0);
+  } else {
+    double low = 0.0, high = kThickestCover;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = (low + high) / 2;
+      (share(*Make(kCloudyTurbidity, middle)) < wanted ? low : high) = middle;
+    }
+    measured.skies = Make(kCloudyTurbidity, (low + high) / 2);
+  }
+  const auto day = measured.skies->ForSun(to_sun, sun_distance_au);
+  measured.sky_scale = sky_over_sun * day->SunNormalIrradiance() / day->SkyHorizontalIrradiance();
+  return measured;
+}
+
+LinearRgb WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated,
+                       double* relative_error) {
+  const LinearRgb& s = reading.sky_scale;
+  const double log_r = std::log(s.r), log_g = std::log(s.g), log_b = std::log(s.b);
+  // Rec.709's weights, as everywhere for luminance.
+  const double log_mean = Luminance({log_r, log_g, log_b});
+  const auto share = [](double prior, double measured) {
+    return prior * prior / (prior * prior + measured * measured);
+  };
+  const double doubt = DoubtOf(stated);
+  const double mean = log_mean * share(doubt, reading.log_uncertainty);
+  const double color = share(kModelColorDoubt, kMeasuredColorDoubt);
+  *relative_error = reading.log_uncertainty * std::sqrt(share(doubt, reading.log_uncertainty));
+  return {std::exp(mean + color * (log_r - log_mean)), std::exp(mean + color * (log_g - log_mean)),
+          std::exp(mean + color * (log_b - log_mean))};
+}
+
+void WeighHeading(const compositor::HeadingReading& reading, MeasuredLight* light) {
+  const double measured = ToDegrees(reading.uncertainty);
+  const double trust = kHeadingDoubtDeg * kHeadingDoubtDeg /
+                       (kHeadingDoubtDeg * kHeadingDoubtDeg + measured * measured);
+  light->heading_offset = FromDegrees(ToDegrees(reading.offset) * trust);
+  light->heading_error = FromDegrees(measured * std::sqrt(trust));
+  light->heading_source = MeasuredLight::Source::kMeasured;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/units.h"
+#include "base/vector.h"
+#include "compositor/shadow_contrast.h"
+#include "compositor/shadow_heading.h"
+#include "devices/scene_description.h"
+#include "sky/sky_model.h"
+
+namespace pleinair::app {
+
+/// Of a sun in the blackest sky that there is: high mountains have 10.
+inline constexpr double kHighestSunToSky = 20.0;
+
+/// What the user says of the light, in place of what the frames show.
+struct LightOverrides {
+  bool as_stated = false;            ///< Measure nothing but the gain: believe the scene.
+  std::optional<double> sun_to_sky;  ///< Sun's illuminance of level ground over the sky's; 0: none.
+  std::optional<double> heading_deg;  ///< Of the marker, as in the scene.
+};
+
+/// The light of a recording's day: which sky, how strong beside the sun, and why we think so.
+struct MeasuredLight {
+  enum class Source { kStated, kMeasured, kOverride };
+  Source sun_source = Source::kStated;
+  Source heading_source = Source::kStated;
+  bool sun_shines = true;
+  double sun_to_sky = 0.0;         ///< Sun's illuminance of level ground over the sky's.
+  double sun_to_sky_stated = 0.0;  ///< The same as the scene's words have it.
+  double sun_to_sky_error = 0.0;   ///< Relative, one standard deviation; 0 of an override.
+  Radians heading_offset;          ///< Added to the stated heading.
+  Radians heading_error;           ///< One standard deviation.
+  int frames = 0;                  ///< Looked at.
+  int edges = 0, edges_agreeing = 0;
+};
+
+/// The skies of a day whose light was measured.
+struct MeasuredSky {
+  std::shared_ptr<const sky::SkySource> skies;
+  LinearRgb sky_scale{1.0, 1.0, 1.0};  ///< To multiply the sky with, the sun stays.
+};
+
+/// The skies that the scene's words stand for.
+std::shared_ptr<const sky::SkySource> StatedSky(const devices::SceneDescription& scene);
+/// The same with a sun, whatever the words: what a shadow's edge is measured against.
+std::shared_ptr<const sky::SkySource> SunlitSky(const devices::SceneDescription& scene);
+std::shared_ptr<const sky::SkySource> OvercastSky();
+
+/// The sky whose light on level ground, a channel, is `sky_over_sun` times the sun's light on a
+/// surface facing it: haze and then clouds are added until the luminances agree, so that the shape
+/// of the sky follows; what a channel still lacks goes into `sky_scale`.
+MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au);
+
+/// A measured scale of the sky's light beside the sun, weighed against how sure the scene's words
+/// are.
+LinearRgb WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated,
+                       double* relative_error);
+
+/// A measured turn of the heading, weighed against a compass.
+void WeighHeading(const compositor::HeadingReading& reading, MeasuredLight* light);
+
+/// Sun on level ground over sky.
+double SunToSky(const sky::SkyModel& day);
+
+}  // namespace pleinair::app

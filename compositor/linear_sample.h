@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "base/image.h"
+#include "base/srgb.h"
+#include "base/vector.h"
+
+namespace pleinair::compositor {
+
+/// Linear light of an sRGB picture at a pixel position, bilinear between the four pixels around
+/// it; nothing outside the picture.
+inline std::optional<std::array<double, 3>> SampleLinear(ImageView<const std::uint8_t> rgb,
+                                                         Vec2 at) {
+  const int x = static_cast<int>(std::floor(at.x));
+  const int y = static_cast<int>(std::floor(at.y));
+  if (!(at.x >= 0.0 && at.y >= 0.0) || x + 1 >= rgb.width() || y + 1 >= rgb.height()) {
+    return std::nullopt;
+  }
+  const double fx = at.x - x, fy = at.y - y;
+  const auto& linear = LinearFromSrgb8();
+  std::array<double, 3> value{};
+  for (int c = 0; c < 3; ++c) {
+    const double top = linear[rgb(x, y, c)] * (1 - fx) + linear[rgb(x + 1, y, c)] * fx;
+    const double bottom = linear[rgb(x, y + 1, c)] * (1 - fx) + linear[rgb(x + 1, y + 1, c)] * fx;
+    value[c] = top * (1 - fy) + bottom * fy;
+  }
+  return value;
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,323 @@
+#include "compositor/shadow_contrast.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "compositor/light_samples.h"
+#include "compositor/parallel_for.h"
+#include "compositor/scaled_daylight.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr double kGrazing = 0.1;
+constexpr int kDiscDirections = 8;  // Round the rim of the sun's disc, besides its centre.
+constexpr double kBlurPx = 1.5;     // Spots nearer to an edge than this mix both sides.
+constexpr int kFewestSpots = 5;     // A side.
+constexpr std::size_t kMostEdges = 120;
+constexpr std::uint32_t kPaths = 384;
+// What a material's own pattern adds to the doubt of one edge, however many spots there are.
+constexpr double kPatternNoise = 0.05;
+// Doubt about what phantoms leave out (leaves, small things) and about their colours.
+constexpr double kModelNoise = 0.10;
+// Edges whose model says that they are weaker than this tell nothing.
+constexpr double kSmallestStep = 0.25;
+// A step counts from a quarter of the predicted on, against noise from three standard deviations.
+constexpr double kStepShare = 0.25, kStepSigmas = 2.5;
+// By weight, edges with a step that there must be for a sun, and that a hidden sun may leave.
+constexpr double kSunShare = 0.30, kNoSunShare = 0.12;
+constexpr int kFewestForSun = 3, kFewestForNoSun = 6;
+constexpr double kAgreement = 0.35;
+// How much more than the others an edge may change colour, logarithmic.
+constexpr double kLargestColorOff = 0.12;
+constexpr int kGroups = 8;
+
+using Rgb = std::array<double, 3>;
+Rgb ToArray(LinearRgb c) { return {c.r, c.g, c.b}; }
+
+enum class Side : std::uint8_t { kLit, kShaded, kNeither };
+
+/// Clear of every edge by the sun's width and the picture's blur?
+Side SideOf(const LightSolver& solver, const SurfaceSample& sample, const TangentFrame& sun) {
+  const bool lit = solver.ReachesPhantomsOnly(sample.point, sun.normal);
+  constexpr double kRim = 0.98;
+  for (int i = 0; i < kDiscDirections; ++i) {
+    const Vec3 direction =
+        SunDiscDirection(sun, {kRim * kRim, static_cast<double>(i) / kDiscDirections});
+    if (solver.ReachesPhantomsOnly(sample.point, direction) != lit) return Side::kNeither;
+  }
+  const TangentFrame around(sample.normal);
+  const double step = kBlurPx * sample.footprint_m;
+  for (const Vec3 aside : {around.tangent, -around.tangent, around.bitangent, -around.bitangent}) {
+    const Point<Marker> beside{sample.point.xyz + aside * step};
+    if (solver.ReachesPhantomsOnly(beside, sun.normal) != lit) return Side::kNeither;
+  }
+  return lit ? Side::kLit : Side::kShaded;
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Median over spots and the variance of that median; a channel, or (−1) the channels' mean.
+std::pair<double, double> MedianBrightness(const SurfaceSamples& samples,
+                                           const std::vector<std::uint32_t>& spots, int channel) {
+  std::vector<double> values;
+  for (const std::uint32_t spot : spots) {
+    const Rgb& log_rgb = samples.samples()[spot].log_rgb;
+    values.push_back(channel >= 0 ? log_rgb[channel] : (log_rgb[0] + log_rgb[1] + log_rgb[2]) / 3);
+  }
+  const double median = Median(values);
+  for (double& value : values) value = std::fabs(value - median);
+  // 1.4826: median deviation of a normal distribution; π/2: variance of a median over a mean's.
+  const double sigma = 1.4826 * Median(values);
+  return {median, 1.571 * sigma * sigma / static_cast<double>(values.size())};
+}
+
+/// The spot nearest to the middle of some.
+Point<Marker> Middle(const SurfaceSamples& samples, const std::vector<std::uint32_t>& spots) {
+  Vec3 mean;
+  for (const std::uint32_t spot : spots) mean = mean + samples.samples()[spot].point.xyz;
+  mean = mean * (1.0 / static_cast<double>(spots.size()));
+  const auto nearest = std::min_element(spots.begin(), spots.end(), [&](auto a, auto b) {
+    return Norm(samples.samples()[a].point.xyz - mean) <
+           Norm(samples.samples()[b].point.xyz - mean);
+  });
+  return samples.samples()[*nearest].point;
+}
+
+struct Candidate {
+  std::vector<std::uint32_t> lit, shaded;
+  std::size_t Size() const { return std::min(lit.size(), shaded.size()); }
+};
+
+std::vector<Candidate> Candidates(const LightSolver& solver, const SurfaceSamples& samples,
+                                  const TangentFrame& sun) {
+  const auto& all = samples.samples();
+  std::vector<Side> sides(all.size(), Side::kNeither);
+  // Cells that no edge crosses need not be looked at closely.
+  std::vector<std::uint8_t> seen(samples.cells());
+  std::vector<std::uint8_t> reached(all.size());
+  ParallelFor(all.size(), 0, [&](std::size_t i) {
+    reached[i] = solver.ReachesPhantomsOnly(all[i].point, sun.normal) ? 1 : 2;
+  });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].frames > 0) seen[all[i].cell] |= reached[i];
+  }
+  ParallelFor(all.size(), 0, [&](std::size_t i) {
+    if (seen[all[i].cell] == 3 && all[i].frames > 0 && Dot(all[i].normal, sun.normal) >= kGrazing) {
+      sides[i] = SideOf(solver, all[i], sun);
+    }
+  });
+  std::vector<Candidate> cells(samples.cells());
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (sides[i] == Side::kLit) cells[all[i].cell].lit.push_back(i);
+    if (sides[i] == Side::kShaded) cells[all[i].cell].shaded.push_back(i);
+  }
+  std::erase_if(cells, [](const Candidate& cell) { return cell.Size() < kFewestSpots; });
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.Size() > b.Size(); });
+  if (cells.size() > kMostEdges) cells.resize(kMostEdges);
+  return cells;
+}
+
+double Mean(LinearRgb c) { return (c.r + c.g + c.b) / 3; }
+
+/// How far an edge's colours are from what the model says, red and blue against green.
+std::array<double, 2> ColorOff(const ShadowEdge& edge) {
+  const LinearRgb predicted = edge.Predicted({1, 1, 1});
+  return {edge.contrast.r - edge.contrast.g - (predicted.r - predicted.g),
+          edge.contrast.b - edge.contrast.g - (predicted.b - predicted.g)};
+}
+
+/// Edges on either side of which the same material lies: a joint of mortar along an edge, say,
+/// changes the colour otherwise than all the other edges do.
+std::vector<std::uint8_t> OfOneMaterial(const std::vector<ShadowEdge>& edges,
+                                        const std::vector<std::uint8_t>& telling) {
+  std::array<std::vector<double>, 2> off;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (telling[i] == 0) continue;
+    for (const int k : {0, 1}) off[k].push_back(ColorOff(edges[i])[k]);
+  }
+  std::vector<std::uint8_t> good = telling;
+  if (off[0].empty()) return good;
+  const std::array<double, 2> usual{Median(off[0]), Median(off[1])};
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (const int k : {0, 1}) {
+      const double limit = kLargestColorOff + edges[i].uncertainty;
+      if (std::fabs(ColorOff(edges[i])[k] - usual[k]) > limit) good[i] = 0;
+    }
+  }
+  return good;
+}
+
+/// Where `sky_scale` minimises the weighted absolute difference of measured and predicted
+/// contrast over some edges, a channel; golden ratios apart on a fixed grid, so that it cannot
+/// end in a wrong valley.
+double FitScale(const std::vector<ShadowEdge>& edges, const std::vector<std::uint8_t>& used,
+                int channel) {
+  double best_log = 0.0, least = 1e300;
+  const auto cost_at = [&](double log_scale) {
+    const double scale = std::exp(log_scale);
+    double cost = 0.0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (used[i] == 0) continue;
+      const double difference = ToArray(edges[i].contrast)[channel] -
+                                ToArray(edges[i].Predicted({scale, scale, scale}))[channel];
+      // Huber's: quadratic where noise explains it, else linear.
+      const double sigma = std::hypot(edges[i].uncertainty, kModelNoise);
+      const double t = std::fabs(difference) / sigma;
+      cost += t < 1.0 ? 0.5 * t * t : t - 0.5;
+    }
+    return cost;
+  };
+  const auto search = [&](double from, double to, double step) {
+    for (double log_scale = from; log_scale <= to + 1e-9; log_scale += step) {
+      const double cost = cost_at(log_scale);
+      if (cost < least) {
+        least = cost;
+        best_log = log_scale;
+      }
+    }
+  };
+  search(-2.0, 3.5, 0.1);
+  const double about = best_log;
+  search(about - 0.1, about + 0.1, 0.005);
+  return best_log;
+}
+
+}  // namespace
+
+LinearRgb ShadowEdge::Predicted(LinearRgb sky_scale) const {
+  const LinearRgb lit = sky_lit * sky_scale + reflected_lit + sun;
+  const LinearRgb shaded = sky_shaded * sky_scale + reflected_shaded;
+  return {std::log(lit.r / shaded.r), std::log(lit.g / shaded.g), std::log(lit.b / shaded.b)};
+}
+
+std::vector<ShadowEdge> FindShadowEdges(const LightSolver& solver, const SurfaceSamples& samples,
+                                        const sky::SkyModel& day, const Mat3& marker_from_world) {
+  const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
+  if (day.ToSun().xyz.z <= 0.0) return {};
+  const std::vector<Candidate> candidates =
+      Candidates(solver, samples, TangentFrame(Normalized(to_sun)));
+  std::vector<ShadowEdge> edges(candidates.size());
+  // By plane, since that is how ambient light is asked for.
+  std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Vec3 n = samples.samples()[candidates[i].lit.front()].normal;
+    by_normal[{n.x, n.y, n.z}].push_back(i);
+    Rgb contrast{};
+    for (int c = 0; c < 3; ++c) {
+      contrast[c] = MedianBrightness(samples, candidates[i].lit, c).first -
+                    MedianBrightness(samples, candidates[i].shaded, c).first;
+    }
+    edges[i].contrast = {contrast[0], contrast[1], contrast[2]};
+    edges[i].uncertainty = std::sqrt(MedianBrightness(samples, candidates[i].lit, -1).second +
+                                     MedianBrightness(samples, candidates[i].shaded, -1).second +
+                                     kPatternNoise * kPatternNoise);
+  }
+  const ScaledDaylight sky_alone(day, {1, 1, 1}, {});
+  const ScaledDaylight sun_alone(day, {}, {1, 1, 1});
+  for (const auto& [n, members] : by_normal) {
+    const Vec3 normal{n[0], n[1], n[2]};
+    std::vector<Point<Marker>> points;
+    for (const std::size_t i : members) {
+      points.push_back(Middle(samples, candidates[i].lit));
+      points.push_back(Middle(samples, candidates[i].shaded));
+    }
+    const auto sky =
+        solver.AmbientPhantomsOnly(points, normal, sky_alone, marker_from_world, kPaths);
+    const auto reflected =
+        solver.AmbientPhantomsOnly(points, normal, sun_alone, marker_from_world, kPaths);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      ShadowEdge& edge = edges[members[k]];
+      edge.sky_lit = sky[2 * k];
+      edge.sky_shaded = sky[2 * k + 1];
+      edge.reflected_lit = reflected[2 * k];
+      edge.reflected_shaded = reflected[2 * k + 1];
+      edge.sun = day.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun));
+    }
+  }
+  std::erase_if(edges, [](const ShadowEdge& edge) {
+    const LinearRgb dark = edge.sky_shaded;
+    return !(dark.r > 0.0 && dark.g > 0.0 && dark.b > 0.0);
+  });
+  return edges;
+}
+
+SunSkyReading ReadSunAndSky(const std::vector<ShadowEdge>& edges) {
+  SunSkyReading reading;
+  // A sky so strong that the sun counts for nothing: what is left are the corners' own shades.
+  constexpr LinearRgb kSkyAlone{1e6, 1e6, 1e6};
+  std::vector<double> without_sun(edges.size()), predicted(edges.size());
+  std::vector<std::uint8_t> steps(edges.size()), telling(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    without_sun[i] = Mean(edges[i].Predicted(kSkyAlone));
+    predicted[i] = Mean(edges[i].Predicted({1, 1, 1})) - without_sun[i];
+    telling[i] = predicted[i] >= kSmallestStep ? 1 : 0;
+  }
+  telling = OfOneMaterial(edges, telling);
+  double all = 0.0, with = 0.0, against = 0.0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (telling[i] == 0) continue;
+    const double sigma = std::hypot(edges[i].uncertainty, kModelNoise);
+    const double weight = 1.0 / (sigma * sigma);
+    const double step = Mean(edges[i].contrast) - without_sun[i];
+    const double threshold =
+        std::max(kStepShare * predicted[i], kStepSigmas * edges[i].uncertainty);
+    steps[i] = step > threshold ? 1 : 0;
+    ++reading.edges;
+    all += weight;
+    with += step > threshold ? weight : 0.0;
+    against += step < -threshold ? weight : 0.0;
+  }
+  if (reading.edges == 0) return reading;
+  reading.share_with_contrast = (with - against) / all;
+  const auto stepping = std::count(steps.begin(), steps.end(), 1);
+  if (reading.share_with_contrast < kNoSunShare && reading.edges >= kFewestForNoSun) {
+    reading.sun = SunSkyReading::Sun::kHidden;
+    reading.agreeing = reading.edges - static_cast<int>(stepping);
+    return reading;
+  }
+  if (reading.share_with_contrast < kSunShare || stepping < kFewestForSun) return reading;
+
+  // Edges without a step lie in some other thing's shadow. Of the others, those count that the
+  // scale most of them agree on explains.
+  const double log_about = FitScale(edges, steps, 1);
+  const double about = std::exp(log_about);
+  std::vector<std::uint8_t> used(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const double off = edges[i].contrast.g - edges[i].Predicted({about, about, about}).g;
+    used[i] = steps[i] != 0 && std::fabs(off) < kAgreement + edges[i].uncertainty ? 1 : 0;
+  }
+  reading.agreeing = static_cast<int>(std::count(used.begin(), used.end(), 1));
+  if (reading.agreeing < kFewestForSun) return reading;
+  reading.sun = SunSkyReading::Sun::kShines;
+  reading.sky_scale = {std::exp(FitScale(edges, used, 0)), std::exp(FitScale(edges, used, 1)),
+                       std::exp(FitScale(edges, used, 2))};
+  // Jackknife over an eighth of the edges each.
+  std::array<double, kGroups> logs{};
+  double sum = 0.0;
+  for (int g = 0; g < kGroups; ++g) {
+    std::vector<std::uint8_t> left = used;
+    for (std::size_t i = g; i < left.size(); i += kGroups) left[i] = 0;
+    const bool empty = std::find(left.begin(), left.end(), 1) == left.end();
+    logs[g] = empty ? std::log(reading.sky_scale.g) : FitScale(edges, left, 1);
+    sum += logs[g];
+  }
+  double spread = 0.0;
+  for (const double value : logs) spread += std::pow(value - sum / kGroups, 2);
+  // What all edges have wrong together does not show in their spread.
+  constexpr double kCommonDoubt = 0.05;
+  reading.log_uncertainty =
+      std::sqrt(spread * (kGroups - 1.0) / kGroups + kCommonDoubt * kCommonDoubt);
+  return reading;
+}
+
+}  // namespace pleinair::compositor

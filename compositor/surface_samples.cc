@@ -1,0 +1,134 @@
+#include "compositor/surface_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compositor/linear_sample.h"
+
+namespace pleinair::compositor {
+namespace {
+
+// A new spot every few pixels: about so many a frame.
+constexpr double kSpotsPerFrame = 32000.0;
+constexpr std::size_t kMostSamples = 150'000;
+// A cell spans about so many pixels: wide enough for both sides of a soft edge, so narrow that
+// little but the light changes across it.
+constexpr double kCellPx = 32.0;
+constexpr double kSmallestCellM = 0.02;
+constexpr double kNormalSteps = 16.0;
+// Linear light of the 8-bit codes 250 and 5: beyond them a value is clipped or mostly noise.
+constexpr double kClipped = 0.955, kDark = 0.0015;
+constexpr double kBoardMarginM = 0.02;
+constexpr int kPrintSurface = -1;
+constexpr int kPrintSpots = 96;  // A side of the board.
+
+}  // namespace
+
+SurfaceSamples::SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
+                               const MarkerPrint& print)
+    : solver_(solver), camera_(camera), print_(print) {}
+
+bool SurfaceSamples::IsOnBoard(Point<Marker> point) const {
+  const double half = print_.board_size_m / 2 + kBoardMarginM;
+  return std::fabs(point.xyz.x) < half && std::fabs(point.xyz.y) < half &&
+         std::fabs(point.xyz.z) < half / 4;
+}
+
+bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
+                             const Transform<Camera, Marker>& pose, LinearRgb gain,
+                             SurfaceSample* sample, Vec2* pixel) const {
+  const Point<Camera> in_camera = pose * sample->point;
+  const Vec3 eye = pose.Inverse().translation_m;
+  const Vec3 to_eye = eye - sample->point.xyz;
+  const double distance = Norm(to_eye);
+  if (in_camera.xyz.z <= 0.0 || Dot(sample->normal, to_eye) < 0.1 * distance) return false;
+  *pixel = ProjectToPixel(camera_, in_camera);
+  const auto linear = SampleLinear(rgb, *pixel);
+  if (!linear) return false;
+  const auto seen = solver_.FirstPhantom({eye}, to_eye * (-1.0 / distance));
+  if (seen && Norm(seen->point.xyz - eye) < distance - 3 * sample->footprint_m - 0.01) return false;
+  const std::array<double, 3> scale{gain.r, gain.g, gain.b};
+  for (const double value : *linear) {
+    if (value >= kClipped || value <= kDark) return true;
+  }
+  ++sample->frames;
+  for (int c = 0; c < 3; ++c) {
+    sample->log_rgb[c] += (std::log((*linear)[c] / scale[c]) - sample->log_rgb[c]) / sample->frames;
+  }
+  return true;
+}
+
+void SurfaceSamples::AddSpot(Point<Marker> point, Vec3 normal, int surface, double distance_m) {
+  SurfaceSample sample;
+  sample.point = point;
+  sample.normal = normal;
+  sample.footprint_m = distance_m / std::max(1.0, std::min(camera_.fx, camera_.fy));
+  const int level = static_cast<int>(
+      std::lround(std::log2(std::max(kCellPx * sample.footprint_m, kSmallestCellM))));
+  const double size_m = std::exp2(level);
+  const auto step = [](double value, double size) {
+    return static_cast<int>(std::floor(value / size + 0.5));
+  };
+  const CellKey key{surface,
+                    level,
+                    step(normal.x, 1 / kNormalSteps),
+                    step(normal.y, 1 / kNormalSteps),
+                    step(normal.z, 1 / kNormalSteps),
+                    step(point.xyz.x, size_m),
+                    step(point.xyz.y, size_m),
+                    step(point.xyz.z, size_m)};
+  sample.cell = cells_.try_emplace(key, cells()).first->second;
+  samples_.push_back(sample);
+}
+
+void SurfaceSamples::AddPrint(double distance_m) {
+  // The middle half of the white around the square.
+  const double half = print_.size_m / 2;
+  const double margin_m = (print_.board_size_m - print_.size_m) / 2;
+  if (margin_m <= 0.0) return;
+  for (int side = 0; side < 4; ++side) {
+    const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
+    const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
+    for (int i = 0; i < kPrintSpots; ++i) {
+      const double x = half * (2.0 * (i + 0.5) / kPrintSpots - 1.0);
+      for (const double outwards : {0.3, 0.5, 0.7}) {
+        const double y = half + outwards * margin_m;
+        AddSpot({{c * x - s * y, s * x + c * y, 0.0}}, {0, 0, 1}, kPrintSurface - side, distance_m);
+      }
+    }
+  }
+}
+
+void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
+                              const Transform<Camera, Marker>& pose, LinearRgb gain) {
+  const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(rgb.width()) *
+                                                          rgb.height() / kSpotsPerFrame)));
+  if (frames_++ == 0) AddPrint(Norm(pose.translation_m));
+  const int columns = rgb.width() / step, rows = rgb.height() / step;
+  std::vector<std::uint8_t> taken(static_cast<std::size_t>(columns) * rows);
+  const auto take = [&](Vec2 pixel) {
+    const int x = static_cast<int>(pixel.x) / step, y = static_cast<int>(pixel.y) / step;
+    if (x < columns && y < rows) taken[static_cast<std::size_t>(y) * columns + x] = 1;
+  };
+  Vec2 pixel;
+  for (SurfaceSample& sample : samples_) {
+    if (Observe(rgb, pose, gain, &sample, &pixel)) take(pixel);
+  }
+  const auto marker_from_camera = pose.Inverse();
+  const Point<Marker> eye{marker_from_camera.translation_m};
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      if (taken[static_cast<std::size_t>(row) * columns + column] != 0) continue;
+      if (samples_.size() >= kMostSamples) return;
+      const Vec2 ray =
+          UndistortPixel(camera_, {column * step + step / 2.0, row * step + step / 2.0});
+      const Vec3 direction = Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1.0});
+      const auto seen = solver_.FirstPhantom(eye, direction);
+      if (!seen || IsOnBoard(seen->point)) continue;
+      AddSpot(seen->point, seen->normal, seen->surface, Norm(seen->point.xyz - eye.xyz));
+      Observe(rgb, pose, gain, &samples_.back(), &pixel);
+    }
+  }
+}
+
+}  // namespace pleinair::compositor

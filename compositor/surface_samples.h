@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/frames.h"
+#include "base/image.h"
+#include "base/vector.h"
+#include "compositor/light_solver.h"
+#include "compositor/marker_print.h"
+
+namespace pleinair::compositor {
+
+/// A spot of a real surface with its brightness, averaged over the frames that show it.
+struct SurfaceSample {
+  Point<Marker> point;
+  Vec3 normal;
+  double footprint_m = 0.0;         ///< Edge of a pixel where it was first seen.
+  std::array<double, 3> log_rgb{};  ///< Mean logarithm of linear light over the frame's gain.
+  std::uint32_t cell = 0;           ///< Spots of one cell: neighbours on one material and plane.
+  int frames = 0;                   ///< That show it unclipped.
+};
+
+/// What frames show of the phantoms' surfaces and of the print's white, spread over the surfaces
+/// themselves, so that several frames of a moving camera add up. Sun and weather must be the same
+/// in all of them.
+class SurfaceSamples {
+ public:
+  /// `solver` must live as long.
+  SurfaceSamples(const LightSolver& solver, const CameraModel& camera, const MarkerPrint& print);
+
+  /// `gain`: the camera's scale in this frame, of which only the change from frame to frame counts.
+  void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+                LinearRgb gain);
+
+  const std::vector<SurfaceSample>& samples() const { return samples_; }
+  std::uint32_t cells() const { return static_cast<std::uint32_t>(cells_.size()); }
+  int frames() const { return frames_; }
+
+ private:
+  using CellKey = std::array<int, 8>;
+
+  /// Whether a sample shows at a pixel of a frame; adds its brightness there.
+  bool Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+               LinearRgb gain, SurfaceSample* sample, Vec2* pixel) const;
+  void AddSpot(Point<Marker> point, Vec3 normal, int surface, double distance_m);
+  void AddPrint(double distance_m);
+  bool IsOnBoard(Point<Marker> point) const;
+
+  const LightSolver& solver_;
+  CameraModel camera_;
+  MarkerPrint print_;
+  std::vector<SurfaceSample> samples_;
+  std::map<CellKey, std::uint32_t> cells_;
+  int frames_ = 0;
+};
+
+}  // namespace pleinair::compositor
