@@ -131,6 +131,7 @@ std::vector<ControlRange> V4l2Controls(const V4l2Node& node) {
 std::vector<ControlAnswer> HoldV4l2Controls(const V4l2Node& node,
                                             const std::vector<ControlWish>& wishes) {
   std::vector<ControlAnswer> answers;
+  answers.reserve(wishes.size());
   for (const ControlWish& wish : wishes) answers.push_back(Fulfil(node, wish));
   return answers;
 }
