@@ -14,9 +14,9 @@ namespace pleinair::tracker {
 
 /// How S-G markers are looked for.
 enum class SgStrategy {
-  kHybrid,     ///< Quadrilaterals first; keypoints of the border for what they miss.
+  kHybrid,     ///< Quadrilaterals first; keypoints and cells for what they miss.
   kFast,       ///< Quadrilaterals alone: the whole outer edge must be seen.
-  kSurfGolay,  ///< Keypoints of the border alone.
+  kSurfGolay,  ///< Keypoints of the border, and corners of cells where these find nothing.
 };
 
 struct SgOptions {

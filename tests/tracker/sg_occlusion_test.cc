@@ -88,6 +88,43 @@ TEST(SgOcclusion, FindsBordersThatAreAThirdToAHalfCoveredByTheirKeypoints) {
   }
 }
 
+/// Hands that leave little more than the cells to be seen.
+constexpr CoveredBorder kHiddenBorders[] = {
+    {"a cross is seen",
+     [](Vec2 p) {
+       return Inwards(p.x) < 15 && Inwards(p.y) < 15 && (Inwards(p.x) < 10 || Inwards(p.y) < 10);
+     }},
+    {"the upper middle is seen",
+     [](Vec2 p) { return (Inwards(p.x) < 9.5 || p.y > 30.5) || (p.y < 9.5 && p.x < 14); }},
+    {"two corners are seen",
+     [](Vec2 p) {
+       const bool border = Inwards(p.x) < 9.5 || Inwards(p.y) < 9.5;
+       return border && std::fabs(p.x - p.y) < 24;
+     }},
+};
+
+TEST(SgOcclusion, FindsBordersThatAreMostlyCoveredByTheCornersOfTheCells) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  std::uint32_t seed = 1;
+  for (const auto& [name, cover] : kHiddenBorders) {
+    for (const int number : {169, 2032, 3814}) {
+      SCOPED_TRACE(testing::Message() << name << ", " << number);
+      ASSERT_GT(BorderShare(cover), 0.6);
+      RenderedMarker marker = SgMarkerAt(camera, number, {161, 118}, 130, 20, 30.0 * seed, 15);
+      Lay(cover, &marker);
+      const auto found = Track(
+          tracker.get(),
+          RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found[0].detection.id, number);
+      EXPECT_EQ(found[0].detection.path, DetectionPath::kSurfGolay);
+      // A hundredth of the edge: the corners are twice as far out as what is seen.
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 1.3);
+    }
+  }
+}
+
 struct CoveredContent {
   const char* name;
   bool (*cover)(Vec2);

@@ -8,6 +8,9 @@ pleinair_test(sg_detection_test
 pleinair_test(sg_occlusion_test
   SOURCES sg_occlusion_test.cc
   LIBS pleinair_sg_test_scenes)
+pleinair_test(cell_lattice_test
+  SOURCES cell_lattice_test.cc
+  LIBS pleinair_sg_test_scenes)
 pleinair_test(sg_negative_test
   SOURCES sg_negative_test.cc
   LIBS pleinair_sg_test_scenes)

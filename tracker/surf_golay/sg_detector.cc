@@ -21,6 +21,11 @@ constexpr int kGuessesAtOnce = 20, kMostFits = 9, kMostFailures = 4;
 /// Votes of a guess that is worth a glance, and votes times fit that make it worth more. In
 /// pictures without a marker a quarter of the 20 best guesses is.
 constexpr double kFewestVotes = 3.0, kLeastWorth = 1.2;
+/// The corners of cells are looked for in a picture of at most this width.
+constexpr int kMostLatticeWidth_px = 900;
+/// Correlation with the border of which little is seen; placements that are read.
+constexpr double kCoveredCorrelation = 0.1;
+constexpr std::size_t kMostPlacements = 6;
 constexpr double kSamePlace = 0.04;  ///< Of the side: two fits that ended here are one.
 /// Between two searches for markers that are new: quadrilaterals, borders.
 constexpr int kFastEvery = 3, kSearchEvery = 15;
@@ -82,7 +87,11 @@ Result<std::unique_ptr<SgDetector>> SgDetector::Create(const CameraModel& camera
 }
 
 SgDetector::SgDetector(const CameraModel& camera, const SgOptions& options, bool consecutive_frames)
-    : lens_(camera), options_(options), consecutive_frames_(consecutive_frames), reader_(lens_) {}
+    : lens_(camera),
+      options_(options),
+      consecutive_frames_(consecutive_frames),
+      reader_(lens_),
+      lattice_(lens_) {}
 
 std::vector<LostMarker> SgDetector::Lost() const {
   std::vector<LostMarker> lost;
@@ -104,6 +113,7 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
     if (!consecutive_frames_) {
       if (fast) FindFast();
       if (search) FindBySurf();
+      if (search && found_.empty()) FindByCells();
     } else {
       Track();
       const auto missing = [&](bool at_once) {
@@ -116,6 +126,7 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
       };
       if (fast && (known_.empty() || missing(false) || frame_ % kFastEvery == 0)) FindFast();
       if (search && (missing(true) || frame_ % kSearchEvery == 0)) FindBySurf();
+      if (search && missing(true)) FindByCells();
       Remember();
     }
   }
@@ -163,37 +174,29 @@ bool SgDetector::Add(const SgReading& reading, DetectionPath path) {
   return true;
 }
 
-bool SgDetector::RightWayRound(const SgReading& reading) {
-  // Rim and margin look the same from all sides, and a turned content reads as some other word: the
-  // border's shapes must fit better this way round than any other.
-  double scale = 1.0;
+std::array<ProbedOrientation, 2> SgDetector::Probe(std::array<Vec2, 4> corners_px) {
+  double side = SideOf(corners_px), scale = 1.0;
   int level = 0;
-  while (SideOf(reading.corners_px) / scale > kProbeSide_px &&
-         level + 1 < ReducedPictures::kLevels) {
+  while (side > kProbeSide_px && level + 1 < ReducedPictures::kLevels) {
+    side *= 0.5;
     scale *= 2.0;
     ++level;
   }
-  std::array<Vec2, 4> corners = reading.corners_px;
-  for (Vec2& corner : corners) {
+  for (Vec2& corner : corners_px) {
     corner = {(corner.x + 0.5) / scale - 0.5, (corner.y + 0.5) / scale - 0.5};
   }
-  const ProbedOrientation best = probe_.Look(reduced_.Level(level), corners)[0];
+  return probe_.Look(reduced_.Level(level), corners_px);
+}
+
+bool SgDetector::RightWayRound(const SgReading& reading) {
+  // Rim and margin look the same from all sides, and a turned content reads as some other word: the
+  // border's shapes must fit better this way round than any other.
+  const ProbedOrientation best = Probe(reading.corners_px)[0];
   return best.first_corner == 0 && !best.mirrored;
 }
 
 void SgDetector::TryQuad(const Quad& quad) {
-  double side = SideOf(quad.corners_px);
-  int level = 0;
-  while (side > kProbeSide_px && level + 1 < ReducedPictures::kLevels) {
-    side *= 0.5;
-    ++level;
-  }
-  const double scale = 1 << level;
-  std::array<Vec2, 4> probed = quad.corners_px;
-  for (Vec2& corner : probed) {
-    corner = {(corner.x + 0.5) / scale - 0.5, (corner.y + 0.5) / scale - 0.5};
-  }
-  const auto orientations = probe_.Look(reduced_.Level(level), probed);
+  const auto orientations = Probe(quad.corners_px);
   for (std::size_t i = 0; i < orientations.size(); ++i) {
     const ProbedOrientation& orientation = orientations[i];
     if (orientation.correlation < kProbedCorrelation ||
@@ -243,6 +246,43 @@ void SgDetector::FindBySurf() {
   for (std::size_t first = 0; first < guesses_.size(); first += kGuessesAtOnce) {
     const std::size_t count = std::min<std::size_t>(kGuessesAtOnce, guesses_.size() - first);
     if (!TryGuesses(std::span(guesses_).subspan(first, count))) return;
+  }
+}
+
+void SgDetector::FindByCells() {
+  int level = 0;
+  while (grey_.width() >> level > kMostLatticeWidth_px && level + 1 < ReducedPictures::kLevels) {
+    ++level;
+  }
+  lattice_.Find(reduced_.Level(level), 1 << level, &lattices_);
+  placements_.clear();
+  for (const LatticeGuess& guess : lattices_) {
+    // A row of cells without a corner may be at either end: also one cell to each side.
+    for (int shift = 0; shift < 9; ++shift) {
+      Mat3 by;
+      by(0, 2) = sg::kCell * (shift % 3 - 1);
+      by(1, 2) = sg::kCell * (shift / 3 - 1);
+      const std::array<Vec2, 4> ideal = CornersIdeal(by * guess.modules_from_ideal);
+      if (Taken(by * guess.modules_from_ideal)) continue;
+      std::array<Vec2, 4> corners_px;
+      for (int i = 0; i < 4; ++i) corners_px[i] = lens_.PixelOfIdeal(ideal[i]);
+      for (const ProbedOrientation& orientation : Probe(corners_px)) {
+        if (orientation.mirrored || orientation.correlation < kCoveredCorrelation) continue;
+        std::array<Vec2, 4> turned;
+        for (int k = 0; k < 4; ++k) turned[k] = ideal[(orientation.first_corner + k) % 4];
+        Placement placement;
+        placement.state.modules_from_ideal = ModulesFromCorners(turned);
+        placement.correlation = orientation.correlation;
+        placements_.push_back(placement);
+      }
+    }
+  }
+  std::ranges::stable_sort(placements_, std::ranges::greater{}, &Placement::correlation);
+  if (placements_.size() > kMostPlacements) placements_.resize(kMostPlacements);
+  for (const Placement& placement : placements_) {
+    if (Taken(placement.state.modules_from_ideal)) continue;
+    const std::optional<SgReading> reading = reader_.ReadAsGuessed(placement.state);
+    if (reading && RightWayRound(*reading)) Add(*reading, DetectionPath::kSurfGolay);
   }
 }
 

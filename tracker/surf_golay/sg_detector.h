@@ -16,6 +16,7 @@
 #include "tracker/quads/quad_detector.h"
 #include "tracker/surf_golay/border_probe.h"
 #include "tracker/surf_golay/border_search.h"
+#include "tracker/surf_golay/cell_lattice.h"
 #include "tracker/surf_golay/sg_reader.h"
 #include "tracker/tracker.h"
 
@@ -24,8 +25,9 @@ namespace pleinair::tracker {
 /// Finds S-G markers, by the strategy of Prochazka et al. 2012, §5, with tracking between: in
 /// consecutive frames a marker is looked for where it should be by now; what that does not find is
 /// looked for as a quadrilateral (fast), and by the keypoints of its border (S-G) when a marker of
-/// the frame before is missing, and every few frames for markers that are new and partly covered. A
-/// single picture is searched in both ways.
+/// the frame before is missing, and every few frames for markers that are new and partly covered.
+/// Where the border's keypoints find nothing the corners of the cells may. A single picture is
+/// searched in all ways.
 class SgDetector final : public MarkerDetector {
  public:
   static Result<std::unique_ptr<SgDetector>> Create(const CameraModel& camera,
@@ -59,9 +61,18 @@ class SgDetector final : public MarkerDetector {
     double worth = 0.0;
   };
 
+  /// Where the cells of a print may lie, and which way round.
+  struct Placement {
+    BlockFitState state;
+    double correlation = 0.0;  ///< Of the border.
+  };
+
+  /// The best ways round for a print whose square has these corners, clockwise; by pixels alone.
+  std::array<ProbedOrientation, 2> Probe(std::array<Vec2, 4> corners_px);
   void Track();
   void FindFast();
   void FindBySurf();
+  void FindByCells();
   /// Fits and reads guesses, the best first; whether any was a marker.
   bool TryGuesses(std::span<const BorderGuess> guesses);
   bool Add(const SgReading& reading, DetectionPath path);
@@ -80,6 +91,9 @@ class SgDetector final : public MarkerDetector {
   ReducedPictures reduced_;
   ImageView<const std::uint8_t> grey_;
   std::vector<Quad> seen_quads_;
+  CellLattice lattice_;
+  std::vector<LatticeGuess> lattices_;
+  std::vector<Placement> placements_;
   std::vector<Hope> hopes_;
   std::vector<BorderGuess> guesses_;
   std::vector<Mat3> tried_;

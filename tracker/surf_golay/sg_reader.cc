@@ -279,10 +279,10 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
   return read;
 }
 
-std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
+std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_steps) {
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
-  const double correlation = FitBorder(4, Detail::kFine, &state);
+  const double correlation = FitBorder(border_steps, Detail::kFine, &state);
   const double visible_border = VisibleBorder();
   SgReading number;
   if (visible_border < kLeastVisibleBorder || !ReadNumber(state, &number)) return std::nullopt;

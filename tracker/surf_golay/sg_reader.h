@@ -64,12 +64,18 @@ class SgReader {
   std::optional<SgReading> Follow(int number, const BlockFitState& guess);
 
   /// Everything, from a guess that FitBorder has improved.
-  std::optional<SgReading> Read(const BlockFitState& guess);
+  std::optional<SgReading> Read(const BlockFitState& guess) { return Read(guess, kReadSteps); }
+
+  /// The same from a guess of another origin that is good already, where a fit of a border that is
+  /// covered nearly everywhere could only go wrong.
+  std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess) { return Read(guess, 0); }
 
   /// Measures a print whose number is known from a guess that is right to about a pixel.
   std::optional<SgReading> Measure(int number, const BlockFitState& guess);
 
  private:
+  static constexpr int kReadSteps = 4;
+  std::optional<SgReading> Read(const BlockFitState& guess, int border_steps);
   bool Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const;
   /// Takes the window of a print for finding it, or for measuring; false where it has none.
   bool TakeCoarseWindow(const Mat3& modules_from_ideal, double most_side_px, PixelWindow* window);
