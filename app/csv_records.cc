@@ -32,11 +32,17 @@ CsvRecords::CsvRecords(std::string_view text, std::string name)
 }
 
 Result<bool> CsvRecords::Next() {
-  do {
-    if (at_ >= text_.size()) return false;
+  int blank_line = 0;
+  while (at_ < text_.size()) {
     PLEINAIR_RETURN_IF_ERROR(ReadRecord());
-  } while (Trimmed(record_).empty());
-  return true;
+    if (!Trimmed(record_).empty()) {
+      if (blank_line == 0) return true;
+      line_ = blank_line;
+      return InputError(Where(), "the line is blank", "delete it, or write what it lacks");
+    }
+    if (blank_line == 0) blank_line = line_;
+  }
+  return false;
 }
 
 Result<std::optional<std::size_t>> CsvRecords::FindColumn(std::string_view name) const {

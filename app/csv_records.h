@@ -16,14 +16,15 @@ std::string_view Trimmed(std::string_view text);
 /// A whole decimal number, finite; nothing otherwise.
 std::optional<double> ParseNumber(std::string_view text);
 
-/// Splits CSV records (RFC 4180) one by one: a byte order mark, CRLF, quoted fields and blank lines
-/// are understood. `text` must outlive it.
+/// Splits CSV records (RFC 4180) one by one: a byte order mark, CRLF and quoted fields are
+/// understood. Blank lines may end the text; before a record they are an error, since something is
+/// missing there. `text` must outlive it.
 class CsvRecords {
  public:
   /// `name` is the file's, for errors, which say the line.
   CsvRecords(std::string_view text, std::string name);
 
-  /// Reads the next record that is not blank; false at the end.
+  /// Reads the next record; false at the end. Errors: a blank line before it, an open quote.
   Result<bool> Next();
 
   /// The record's own text without its line end, and its fields unquoted.

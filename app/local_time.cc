@@ -70,7 +70,8 @@ UtcOffset NauticalOffset(double longitude_deg) {
   return {60 * static_cast<int>(std::lround(east / 15.0))};
 }
 
-Result<UtcTime> ParseDay(std::string_view date, UtcOffset offset, const std::string& option) {
+Result<UtcTime> ParseDay(std::string_view date, std::optional<UtcOffset> offset,
+                         const std::string& option) {
   constexpr std::string_view kForm = "2025-06-21";
   if (date.size() != kForm.size()) {
     return InputError(option, "\"" + std::string(date.substr(0, 40)) + "\" is not a date",
@@ -83,7 +84,11 @@ Result<UtcTime> ParseDay(std::string_view date, UtcOffset offset, const std::str
     error.remedy = "write it as " + std::string(kForm);
     return tl::make_unexpected(std::move(error));
   }
-  return midnight->PlusSeconds(-offset.seconds());
+  if (!offset) {
+    return InputError(option, "whose clock is meant is not said",
+                      "give --utc-offset too, for example --utc-offset +02:00");
+  }
+  return midnight->PlusSeconds(-offset->seconds());
 }
 
 std::string FormatLocal(UtcTime time, UtcOffset offset) {

@@ -31,8 +31,10 @@ std::optional<UtcOffset> OffsetOf(std::string_view rfc3339);
 /// The whole hour nearest to local mean solar time.
 UtcOffset NauticalOffset(double longitude_deg);
 
-/// Midnight at which the calendar day "2025-06-21" begins. Errors (input): no such day.
-Result<UtcTime> ParseDay(std::string_view date, UtcOffset offset, const std::string& option);
+/// Midnight at which the calendar day "2025-06-21" begins on the clock of `offset`. Errors (input):
+/// no such day; no offset, since nobody can know whose day is meant.
+Result<UtcTime> ParseDay(std::string_view date, std::optional<UtcOffset> offset,
+                         const std::string& option);
 
 /// The time on a local clock, to the nearest second: "2025-06-21T04:52:10+02:00".
 std::string FormatLocal(UtcTime time, UtcOffset offset);

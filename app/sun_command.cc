@@ -7,6 +7,7 @@
 #include "app/command.h"
 #include "app/local_time.h"
 #include "app/observer_options.h"
+#include "app/option_use.h"
 #include "app/sun_day_table.h"
 #include "app/sun_path_command.h"
 #include "app/sun_rows.h"
@@ -62,11 +63,7 @@ Result<std::optional<UtcOffset>> ChosenOffset(const Options& options) {
 
 Result<void> RunDay(const Options& options, const sky::Observer& observer,
                     std::optional<UtcOffset> offset, const SunDayOptions& writing) {
-  if (!offset) {
-    return InputError("--day", "whose clock is meant is not said",
-                      "give --utc-offset too, for example --utc-offset +02:00");
-  }
-  PLEINAIR_ASSIGN_OR_RETURN(const UtcTime midnight, ParseDay(options.day, *offset, "--day"));
+  PLEINAIR_ASSIGN_OR_RETURN(const UtcTime midnight, ParseDay(options.day, offset, "--day"));
   if (options.days == 0) return WriteSunDay(observer, midnight, *offset, writing);
   return WriteSunAlmanac(observer, midnight, *offset, options.days, writing);
 }
@@ -91,7 +88,10 @@ Result<void> RunPath(const Options& options, const sky::Observer& observer,
   return WriteSunPath(observer, path);
 }
 
-Result<void> Run(const Options& options) {
+Result<void> Run(const CLI::App& command, const Options& options) {
+  PLEINAIR_RETURN_IF_ERROR(RefuseUnusedOptions(
+      command,
+      {{"--utc-offset", options.until.empty(), "days and pictures; a span is told in UTC"}}));
   const sky::SunModel model =
       options.model == "paper" ? sky::SunModel::kPaper : sky::SunModel::kPrecise;
   const SunRowsOptions rows{model, options.json, options.output};
@@ -180,7 +180,7 @@ void AddSunCommand(CLI::App& app, CommandResult& result) {
   command->add_option("-o,--output", options->output, "File instead of standard output")
       ->type_name("FILE")
       ->excludes(path);
-  command->callback([options, &result] { result.status = Run(*options); });
+  command->callback([command, options, &result] { result.status = Run(*command, *options); });
 }
 
 }  // namespace pleinair::app

@@ -150,6 +150,12 @@ inline Result<UtcTime> UtcTime::Parse(std::string_view text) {
   expect(":");
   const int second = digits(2);
   if (!well_formed) return fail("is not a date and time");
+  // What is impossible in any zone comes before the zone.
+  if (year < 1678 || year > 2261) return fail("lies outside the years 1678 to 2261");
+  if (month < 1 || month > 12 || day < 1 || day > internal::DaysInMonth(year, month)) {
+    return fail("names a day that does not exist");
+  }
+  if (hour > 23 || minute > 59 || second > 60) return fail("names an hour that does not exist");
   std::int64_t fraction_ns = 0;
   if (at < text.size() && text[at] == '.') {
     std::int64_t place_ns = internal::kNanosecondsPerSecond / 10;
@@ -172,11 +178,6 @@ inline Result<UtcTime> UtcTime::Parse(std::string_view text) {
     return fail("has neither Z nor an offset, so its zone is unknown");
   }
   if (at != text.size()) return fail("goes on after its offset");
-  if (year < 1678 || year > 2261) return fail("lies outside the years 1678 to 2261");
-  if (month < 1 || month > 12 || day < 1 || day > internal::DaysInMonth(year, month)) {
-    return fail("names a day that does not exist");
-  }
-  if (hour > 23 || minute > 59 || second > 60) return fail("names an hour that does not exist");
   const std::int64_t seconds = internal::DaysFromCivil(year, month, day) * 86'400 + hour * 3600 +
                                minute * 60 + second - offset_minutes * 60;
   const UtcTime time(seconds * internal::kNanosecondsPerSecond + fraction_ns);

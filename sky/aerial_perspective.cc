@@ -6,6 +6,7 @@
 
 #include "sky/atmosphere.h"
 #include "sky/colour.h"
+#include "sky/twilight.h"
 
 namespace pleinair::sky {
 namespace {
@@ -42,11 +43,13 @@ AerialPerspective::AerialPerspective(const AtmosphereTables& tables, Direction<W
     : nodes_(static_cast<std::size_t>(kRows) * kSectors) {
   static_assert(kRows == ScatteredLight::kViews, "one row an elevation of view");
   const AirMedium& medium = tables.medium;
-  const double closeness = 1.0 / (sun_distance_au * sun_distance_au);
-  const double sun_up = std::clamp(to_sun.xyz.z, -1.0, 1.0);
+  const ComputedTwilight twilight =
+      TwilightToCompute(std::asin(std::clamp(to_sun.xyz.z, -1.0, 1.0)));
+  const double closeness = twilight.share / (sun_distance_au * sun_distance_au);
+  const double sun_up = std::sin(twilight.sun_elevation);
   const double sun_level = std::sqrt(1.0 - sun_up * sun_up);
   const Spectrum sunlight = tables.depths.SunTransmittance(AirMedium::kEyeHeight, sun_up);
-  const auto place = ScatteredLight::PlaceOfSun(std::asin(sun_up) / kRadiansPerDegree);
+  const auto place = ScatteredLight::PlaceOfSun(twilight.sun_elevation / kRadiansPerDegree);
   for (int row = 0; row < kRows; ++row) {
     const double view_deg = -90.0 + 180.0 * row / (kRows - 1);
     const double view_up = std::sin(view_deg * kRadiansPerDegree);

@@ -8,6 +8,7 @@
 
 #include "sky/solar_disc.h"
 #include "sky/sun_direction.h"
+#include "sky/twilight.h"
 
 namespace pleinair::sky {
 namespace {
@@ -18,14 +19,6 @@ constexpr double kGround = AirMedium::kGroundRadius;
 // The darkest night: starlight and airglow, cd/m² in all directions; horizontal illuminance
 // 6.5e-4 lx (Seidelmann 1992, Table 8.2, sun at −18°).
 constexpr float kNightLuminance = 2.06e-4F;
-
-// Elevations e are taken as √(e² + s²): in clean air and with the sun near the horizon the lowest
-// degree of the sky brightens upwards by up to 12 % in 0.1° (a path tracer agrees), which no real
-// horizon shows, with its 0.6° of refraction and its hills. s is 0.9°, and more in twilight, when
-// the earth's shadow steepens it. Above 3° this moves the sky by less than 0.14° by day.
-double SoftHorizon(double sun_elevation) {
-  return 0.9 * kRadiansPerDegree + 0.2 * std::clamp(-sun_elevation, 0.0, 0.15);
-}
 
 // Shells that a line of sight is cut at, metres: 1 + i^… from the eye to space.
 constexpr int kShells = 44;
@@ -70,6 +63,11 @@ Vec3 SunXyz(const AtmosphereTables& tables, Direction<World> to_sun, double sun_
   return XyzOfSolarRatio(passed) * (1.0 / (sun_distance_au * sun_distance_au));
 }
 
+double AtmosphereSky::SoftenedElevation(double elevation, double sun_elevation) {
+  const double b = 2.9 * kRadiansPerDegree + 0.54 * std::clamp(-sun_elevation, 0.0, 0.15);
+  return elevation < b ? b * std::exp(elevation / b - 1.0) : elevation;
+}
+
 AtmosphereSky::AtmosphereSky(std::shared_ptr<const AtmosphereTables> tables,
                              Direction<World> to_sun, double sun_distance_au)
     : tables_(std::move(tables)),
@@ -81,8 +79,11 @@ AtmosphereSky::AtmosphereSky(std::shared_ptr<const AtmosphereTables> tables,
 
 void AtmosphereSky::FillRing(int ring) {
   const double t = static_cast<double>(ring) / (kRings - 1);
-  const double sun = std::asin(std::clamp(to_sun_.xyz.z, -1.0, 1.0));
-  const double view = std::min(0.5 * pi, std::hypot(0.5 * pi * t * t, SoftHorizon(sun)));
+  const ComputedTwilight twilight =
+      TwilightToCompute(std::asin(std::clamp(to_sun_.xyz.z, -1.0, 1.0)));
+  const double sun = twilight.sun_elevation;
+  const double light = closeness_ * twilight.share;
+  const double view = SoftenedElevation(0.5 * pi * t * t, sun);
   const double view_up = std::sin(view), view_level = std::cos(view);
   const double sun_up = std::sin(sun), sun_level = std::cos(sun);
   const double eye = kGround + AirMedium::kEyeHeight;
@@ -176,8 +177,8 @@ void AtmosphereSky::FillRing(int ring) {
     sum.scattered.AddScaled(sum.molecules, static_cast<float>(MoleculePhase(cosines[sector])));
     for (float& value : sum.scattered.v) value = std::max(value, 0.0F);
     Node& node = nodes_[static_cast<std::size_t>(ring) * kSectors + sector];
-    node.scattered = ToFloats(XyzOfSolarRatio(sum.scattered) * closeness_ + night);
-    node.aerosol = ToFloats(XyzOfSolarRatio(sum.aerosol) * closeness_);
+    node.scattered = ToFloats(XyzOfSolarRatio(sum.scattered) * light + night);
+    node.aerosol = ToFloats(XyzOfSolarRatio(sum.aerosol) * light);
   }
 }
 

@@ -33,7 +33,7 @@ class CieSky {
   /// the fifteen is 0.81.
   double RelativeLuminance(Direction<World> from) const;
 
-  /// Horizontal illuminance of a sky whose zenith has 1 cd/m², lux; by IntegrateProjectedDome.
+  /// Horizontal illuminance of a sky whose zenith has 1 cd/m², lux; to 6e-5.
   double IlluminanceOverZenith() const { return illuminance_over_zenith_; }
 
  private:
@@ -43,7 +43,9 @@ class CieSky {
   double scale_ = 1.0;         ///< 1 / (f(Z_sun) g(0)).
   double illuminance_over_zenith_ = 0.0;
 
+  double Gradation(double up) const;
   double Indicatrix(double chi, double cos_chi) const;
+  double IntegrateIlluminance(double sun_zenith_distance) const;
 };
 
 }  // namespace pleinair::sky

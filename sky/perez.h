@@ -21,7 +21,8 @@ namespace pleinair::sky {
 /// 8–9 forget that) and zenith values, all functions of turbidity and the sun's height.
 ///
 /// Turbidity is clamped to the range in which the model is finite and positive; NaN gives the
-/// lowest. A sun below the horizon is put on it and the light falls with TwilightShare().
+/// lowest. A sun below the horizon is put on it and the light falls with TwilightShare()
+/// (sky/twilight.h).
 ///
 /// Luminances are the model's own, 1.1 to 3.9 times those of measured and simulated clear skies;
 /// sky/atmosphere.h has better ones.
@@ -61,11 +62,5 @@ class PerezSky {
   Vec3 to_sun_;  ///< On the horizon when the sun is below it.
   Distribution luminance_, x_, y_;
 };
-
-/// Share of the horizon-sun's skylight that is left when the sun stands below the horizon: 1 at 0°,
-/// 0.004 at −6°, about 1e-6 at −18° and lower. Interpolated in the logarithm of the clear sky's
-/// illuminance in Seidelmann (ed.) 1992, "Explanatory Supplement to the Astronomical Almanac",
-/// Table 8.2.
-double TwilightShare(Radians apparent_elevation);
 
 }  // namespace pleinair::sky

@@ -1,11 +1,15 @@
 #include "app/local_time.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 
 namespace pleinair::app {
 namespace {
+
+using ::testing::HasSubstr;
 
 UtcTime At(const std::string& text) { return UtcTime::Parse(text).value(); }
 
@@ -53,13 +57,16 @@ TEST(UtcOffset, OfASailorIsTheNearestHour) {
 }
 
 TEST(LocalDay, BeginsAtTheClocksMidnight) {
-  EXPECT_EQ(ParseDay("2025-06-21", {120}, "--day").value(), At("2025-06-20T22:00:00Z"));
-  EXPECT_EQ(ParseDay("2011-12-31", {840}, "--day").value(), At("2011-12-30T10:00:00Z"));
-  EXPECT_EQ(ParseDay("2024-02-29", {-570}, "--day").value(), At("2024-02-29T09:30:00Z"));
+  EXPECT_EQ(ParseDay("2025-06-21", UtcOffset{120}, "--day").value(), At("2025-06-20T22:00:00Z"));
+  EXPECT_EQ(ParseDay("2011-12-31", UtcOffset{840}, "--day").value(), At("2011-12-30T10:00:00Z"));
+  EXPECT_EQ(ParseDay("2024-02-29", UtcOffset{-570}, "--day").value(), At("2024-02-29T09:30:00Z"));
   for (const char* date :
        {"2025-02-29", "2025-6-21", "21.06.2025", "2025-13-01", "1500-01-01", "2025-06-211", ""}) {
-    EXPECT_FALSE(ParseDay(date, {}, "--day")) << date;
+    EXPECT_FALSE(ParseDay(date, UtcOffset{}, "--day")) << date;
   }
+  // Which day is wrong comes before whose.
+  EXPECT_THAT(ParseDay("2025-02-30", std::nullopt, "--day").error().what, HasSubstr("not a day"));
+  EXPECT_THAT(ParseDay("2025-02-28", std::nullopt, "--day").error().what, HasSubstr("whose clock"));
 }
 
 TEST(LocalTime, IsWrittenToTheNearestSecond) {

@@ -61,6 +61,7 @@ TEST(UtcTime, RefusesDaysAndHoursThatDoNotExist) {
   EXPECT_THAT(Refusal("1900-02-29T00:00:00Z"), HasSubstr("a day that does not exist"));
   EXPECT_THAT(Refusal("2025-13-01T00:00:00Z"), HasSubstr("a day that does not exist"));
   EXPECT_THAT(Refusal("2025-01-01T24:00:00Z"), HasSubstr("an hour that does not exist"));
+  EXPECT_THAT(Refusal("2025-02-30T12:00:00"), HasSubstr("a day that does not exist"));
   EXPECT_THAT(Refusal("2025-01-01T00:00:00+24:00"), HasSubstr("bad offset"));
   EXPECT_EQ(Rewritten("2000-02-29T00:00:00Z"), "2000-02-29T00:00:00Z");
 }

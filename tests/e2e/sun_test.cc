@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "command_output.h"
+#include "refusal.h"
 #include "run_program.h"
 
 namespace pleinair::e2e {
@@ -25,28 +27,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-json RunJson(std::vector<std::string> arguments) {
-  arguments.emplace_back("--json");
-  const RunResult run = RunPleinair(arguments);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1) << run.out;
-  return json::parse(run.out, nullptr, false);
-}
-
-std::vector<std::string> Lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
-std::vector<std::string> Fields(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream in(line);
-  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
-  return fields;
-}
 
 // Reda & Andreas 2004, Table A5.1.
 TEST(Sun, GivesNrelsWorkedExample) {
@@ -235,33 +215,9 @@ TEST(Sun, HasAHelpWithExamples) {
               AllOf(HasSubstr("Examples:"), HasSubstr("--utc-offset"), HasSubstr("--path")));
 }
 
-/// A command line that cannot be carried out, and what the one line of error must name.
-struct Refusal {
-  const char* name;
-  std::vector<std::string> arguments;
-  std::string message;
-};
-
-void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; }
-
 class SunRefusal : public ::testing::TestWithParam<Refusal> {};
 
-TEST_P(SunRefusal, IsOneLineAndLeavesNothing) {
-  const TemporaryFolder folder;
-  fs::create_directory(folder / "out");
-  std::vector<std::string> arguments = {"sun"};
-  for (std::string word : GetParam().arguments) {
-    const std::size_t at = word.find("OUT");
-    if (at != std::string::npos) word.replace(at, 3, (folder / "out").string());
-    arguments.push_back(word);
-  }
-  const RunResult run = RunPleinair(arguments);
-  EXPECT_EQ(run.exit_code, 2) << run.err;
-  EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(GetParam().message)));
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  EXPECT_THAT(run.out, IsEmpty());
-  EXPECT_THAT(Listing(folder / "out"), IsEmpty());
-}
+TEST_P(SunRefusal, IsOneLineAndLeavesNothing) { ExpectRefusal("sun", GetParam()); }
 
 const std::string kNoon = "2025-09-14T11:05:00Z";
 
@@ -281,6 +237,16 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"ImpossibleDay",
                 {"--at", "50,14", "--day", "2025-06-31", "--utc-offset", "+1", "-o", "OUT/a"},
                 "--day: \"2025-06-31\" is not a day"},
+        Refusal{"ImpossibleDayWithoutClock",
+                {"--at", "50,14", "--day", "2025-02-30"},
+                "--day: \"2025-02-30\" is not a day"},
+        Refusal{"ImpossibleDayWithoutZone",
+                {"--at", "50,14", "--time", "2025-02-30T12:00:00"},
+                "names a day that does not exist"},
+        Refusal{"ClockOfASpan",
+                {"--at", "50,14", "--from", kNoon, "--to", "2025-09-15T00:00:00Z", "--utc-offset",
+                 "+02:00"},
+                "--utc-offset: has no effect here"},
         Refusal{"DayWithoutClock", {"--at", "50,14", "--day", "2025-06-30"}, "--utc-offset"},
         Refusal{"BadOffset",
                 {"--at", "50,14", "--day", "2025-06-30", "--utc-offset", "+25:00"},
@@ -310,21 +276,11 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& refusal) { return std::string(refusal.param.name); });
 
 TEST(Sun, NamesTheLineOfABrokenTableAndWritesNothing) {
-  const TemporaryFolder folder;
-  const std::string good = "utc,lat,lon\n2025-01-01T00:00:00Z,1,2\n";
   for (const std::string broken :
        {"2025-01-01T00:00:00Z,91,2\n", "2025-01-01T00:00:00Z,1\n", "2025-13-01T00:00:00Z,1,2\n",
-        "2025-01-01T00:00:00Z,one,2\n", "2025-01-01T00:00:00Z,\"1,2\n"}) {
-    WriteFile(folder / "in.csv", good + broken + "2025-01-01T00:00:00Z,3,4\n");
-    for (const bool to_file : {false, true}) {
-      std::vector<std::string> arguments = {"sun", "--csv", folder / "in.csv"};
-      if (to_file) arguments.insert(arguments.end(), {"-o", folder / "out.csv"});
-      const RunResult run = RunPleinair(arguments);
-      EXPECT_EQ(run.exit_code, 2) << broken;
-      EXPECT_THAT(run.err, HasSubstr("in.csv:3: ")) << broken;
-      EXPECT_THAT(run.out, IsEmpty()) << broken;
-      EXPECT_THAT(Listing(folder.path()), ElementsAre("in.csv"));
-    }
+        "2025-01-01T00:00:00Z,one,2\n", "2025-01-01T00:00:00Z,\"1,2\n", "\n"}) {
+    ExpectBrokenLineIsNamed({"sun"}, "utc,lat,lon\n2025-01-01T00:00:00Z,1,2\n", broken,
+                            "2025-01-01T00:00:00Z,3,4\n");
   }
 }
 

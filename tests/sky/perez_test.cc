@@ -113,15 +113,6 @@ TEST(PerezSky, TakesASunAtTheNadir) {
   EXPECT_GT(zenith.b, 0.0);
 }
 
-// Seidelmann 1992, Table 8.2: 759 lx at 0°, 3.4 lx at the end of civil twilight.
-TEST(TwilightShare, FallsAsTheAlmanacSays) {
-  EXPECT_EQ(TwilightShare(FromDegrees(1.0)), 1.0);
-  EXPECT_EQ(TwilightShare(FromDegrees(0.0)), 1.0);
-  EXPECT_NEAR(759.0 * TwilightShare(FromDegrees(-6.0)), 3.4, 0.1);
-  EXPECT_NEAR(759.0 * TwilightShare(FromDegrees(-12.0)), 0.0081, 0.0005);
-  EXPECT_EQ(TwilightShare(FromDegrees(-18.0)), TwilightShare(FromDegrees(-60.0)));
-}
-
 TEST(DomeIntegral, OfAnEvenSkyIsPi) {
   EXPECT_NEAR(IntegrateProjectedDome([](Direction<World>) { return 1.0; }), M_PI, 1e-12);
 }

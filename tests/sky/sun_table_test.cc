@@ -38,9 +38,9 @@ TEST(SunTable, KeepsOtherColumnsWithTheirQuotes) {
   EXPECT_NEAR(ToDegrees(table->rows[0].observer.latitude), 1.5, 1e-12);
 }
 
-TEST(SunTable, UnderstandsByteOrderMarkCrlfBlankLinesAndNoLastLineEnd) {
+TEST(SunTable, UnderstandsByteOrderMarkCrlfAndNoLastLineEnd) {
   const std::string text =
-      "\xEF\xBB\xBFutc,lat,lon\r\n\r\n2025-01-01T00:00:00Z,1,2\r\n2025-01-01T00:00:00Z,3,4";
+      "\xEF\xBB\xBFutc,lat,lon\r\n2025-01-01T00:00:00Z,1,2\r\n2025-01-01T00:00:00Z,3,4";
   const Result<SunTable> table = Parse(text);
   ASSERT_TRUE(table) << table.error().Message();
   EXPECT_EQ(table->header, "utc,lat,lon");
@@ -61,6 +61,12 @@ TEST(SunTable, TakesDefaultsForWhatARowLeavesEmpty) {
   EXPECT_EQ(table->rows[0].observer.temperature_c, -5.0);
 }
 
+TEST(SunTable, MayEndInBlankLines) {
+  const Result<SunTable> table = Parse("utc,lat,lon\n2025-01-01T00:00:00Z,1,2\n\r\n \t\n\n");
+  ASSERT_TRUE(table) << table.error().Message();
+  EXPECT_EQ(table->rows.size(), 1u);
+}
+
 TEST(SunTable, MayHaveNoRows) {
   const Result<SunTable> table = Parse("utc,lat,lon\n");
   ASSERT_TRUE(table);
@@ -75,7 +81,12 @@ TEST(SunTable, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_EQ(ErrorOf("lat,lon\n").find("points.csv:1: the column utc is missing"), 0u);
   EXPECT_EQ(ErrorOf("utc,lat,lon,lat\n").find("points.csv:1: two columns are called lat"), 0u);
   EXPECT_EQ(ErrorOf(good + "2025-01-01T00:00:00Z,1\n").find("points.csv:3: has 2 fields"), 0u);
-  EXPECT_EQ(ErrorOf(good + "\n2025-01-01T00:00:00,1,2\n").find("points.csv:4: time"), 0u);
+  EXPECT_EQ(ErrorOf(good + "2025-01-01T00:00:00,1,2\n").find("points.csv:3: time"), 0u);
+  EXPECT_EQ(ErrorOf(good + "\n2025-01-01T00:00:00Z,1,2\n").find("points.csv:3: the line is blank"),
+            0u);
+  EXPECT_EQ(ErrorOf(good + " \r\n\n2025-01-01T00:00:00Z,1,2").find("points.csv:3: the line is bl"),
+            0u);
+  EXPECT_EQ(ErrorOf("\n" + good).find("points.csv:1: the line is blank"), 0u);
   EXPECT_EQ(ErrorOf(good + "2025-01-01T00:00:00Z,90.01,2\n").find("points.csv:3: lat"), 0u);
   EXPECT_EQ(ErrorOf(good + "2025-01-01T00:00:00Z,nan,2\n").find("points.csv:3: lat"), 0u);
   EXPECT_EQ(ErrorOf(good + "2025-01-01T00:00:00Z,1,1e400\n").find("points.csv:3: lon"), 0u);

@@ -1,0 +1,264 @@
+#include "app/sky_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/local_time.h"
+#include "app/number_range.h"
+#include "app/option_use.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr int kSmallest_px = 16;
+constexpr int kLargest_px = 8192;
+constexpr double kDaySeconds = 86'400.0;
+
+/// The aerosol of the turbidity, with what was given instead; nothing where nothing was.
+std::optional<sky::Aerosol> ChosenAerosol(const SkyOptions& options) {
+  const SkyOptions::Aerosol& given = options.aerosol;
+  if (!given.beta && !given.alpha && !given.scale_height_m && !given.single_scattering_albedo &&
+      !given.asymmetry) {
+    return std::nullopt;
+  }
+  sky::Aerosol aerosol;
+  if (options.conditions.turbidity) {
+    aerosol = sky::AerosolOfTurbidity(*options.conditions.turbidity);
+  }
+  aerosol.beta = given.beta.value_or(aerosol.beta);
+  aerosol.alpha = given.alpha.value_or(aerosol.alpha);
+  aerosol.scale_height_m = given.scale_height_m.value_or(aerosol.scale_height_m);
+  aerosol.single_scattering_albedo =
+      given.single_scattering_albedo.value_or(aerosol.single_scattering_albedo);
+  aerosol.asymmetry = given.asymmetry.value_or(aerosol.asymmetry);
+  return aerosol;
+}
+
+}  // namespace
+
+bool SkyOptions::IsPicture() const {
+  return csv.empty() && !output.empty() && !(Many() && output.ends_with(".csv"));
+}
+
+sky::SkyConditions ChosenConditions(const SkyOptions& options) {
+  sky::SkyConditions conditions = options.conditions;
+  conditions.aerosol = ChosenAerosol(options);
+  if (options.zenith_luminance_cd_m2) {
+    conditions.zenith_luminance = CandelaPerM2(*options.zenith_luminance_cd_m2);
+  }
+  if (options.sky_illuminance_lx) {
+    conditions.sky_horizontal_illuminance = Lux(*options.sky_illuminance_lx);
+  }
+  return conditions;
+}
+
+Result<std::vector<SkyMoment>> ChosenMoments(const SkyOptions& options) {
+  if (!options.sun.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(SkyMoment moment, ParseSunOption(options.sun));
+    return std::vector<SkyMoment>{moment};
+  }
+  if (options.observer.at.empty() || (options.time.empty() && options.day.empty())) {
+    return InputError("", "pleinair sky needs a place and a time, or a sun",
+                      "give --at LAT,LON and --time T or --day DATE, or --sun AZ,EL; see pleinair "
+                      "sky --help");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const sky::Observer observer, MakeObserver(options.observer));
+  UtcTime from, until;
+  if (!options.day.empty()) {
+    std::optional<UtcOffset> offset;
+    if (!options.utc_offset.empty()) {
+      PLEINAIR_ASSIGN_OR_RETURN(offset, ParseUtcOffset(options.utc_offset, "--utc-offset"));
+    }
+    PLEINAIR_ASSIGN_OR_RETURN(from, ParseDay(options.day, offset, "--day"));
+    until = from.PlusSeconds(kDaySeconds);
+  } else {
+    PLEINAIR_ASSIGN_OR_RETURN(from, ParseTimeOption("--time", options.time));
+    until = from;
+    if (!options.until.empty()) {
+      PLEINAIR_ASSIGN_OR_RETURN(until, ParseTimeOption("--until", options.until));
+    }
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<UtcTime> times, Moments(from, until, options.step_s));
+  std::vector<SkyMoment> moments;
+  moments.reserve(times.size());
+  for (const UtcTime time : times) {
+    moments.push_back(MomentAt(observer, time, sky::SunModel::kPrecise));
+  }
+  return moments;
+}
+
+Result<SkyFileOptions> ChosenFile(const SkyOptions& options) {
+  SkyFileOptions file;
+  file.file = options.output;
+  PLEINAIR_ASSIGN_OR_RETURN(file.kind, SkyFileKindOf(options.output));
+  const bool video = file.kind == SkyFileKind::kMp4;
+  if (options.Many() && !video) {
+    return InputError(options.output, "is one picture for many moments",
+                      "name a video (.mp4), or give one --time");
+  }
+  if (!options.Many() && video) {
+    return InputError(options.output, "is a video of one moment",
+                      "give --until or --day, or name a picture");
+  }
+  const bool light = file.kind == SkyFileKind::kExr || file.kind == SkyFileKind::kHdr;
+  const std::string projection =
+      !options.projection.empty() ? options.projection : (light ? "latlong" : "fisheye");
+  const bool fisheye = projection == "fisheye";
+  file.picture.projection = fisheye ? SkyProjection::kFisheye : SkyProjection::kLatLong;
+  const int height_px = video ? 720 : 1024;
+  file.picture.width_px = options.size_px.value_or(fisheye ? height_px : 2 * height_px);
+  if (!fisheye && file.picture.width_px % 2 != 0) {
+    return InputError("--size", "a latitude-longitude map is twice as wide as high",
+                      "give an even number");
+  }
+  file.picture.centre_azimuth_deg = options.centre_azimuth_deg;
+  file.picture.ground_albedo = options.conditions.ground_albedo;
+  // On a screen the sun is a white spot; in light for a scene it is a choice.
+  file.picture.disc = options.disc || (!light && !options.no_disc);
+  if (options.ev100) file.exposure = ExposureOf(*options.ev100);
+  file.scale = options.scale;
+  file.frames_per_second = options.frames_per_second;
+  return file;
+}
+
+Result<void> CheckUseOfSkyOptions(const CLI::App& command, const SkyOptions& options,
+                                  sky::SkyModelName name) {
+  std::optional<SkyFileOptions> file;
+  if (options.IsPicture()) {
+    PLEINAIR_ASSIGN_OR_RETURN(file, ChosenFile(options));
+  }
+  const bool video = file && file->kind == SkyFileKind::kMp4;
+  const bool screen = video || (file && file->kind == SkyFileKind::kPng);
+  const bool map = file && file->picture.projection == SkyProjection::kLatLong;
+  const bool place = options.sun.empty();
+  const bool cie = name.kind == sky::SkyModelKind::kCie;
+  // The ground lights the sky of the atmosphere alone, but every map and table shows it.
+  const bool ground = name.kind == sky::SkyModelKind::kAtmosphere || map || !options.csv.empty();
+  const std::string picture = "a picture or video, with -o";
+  return RefuseUnusedOptions(
+      command,
+      {{"--height", place, "a place, with --at"},
+       {"--pressure", place, "a place, with --at"},
+       {"--temperature", place, "a place, with --at"},
+       {"--dut1", place, "a place, with --at"},
+       {"--step", options.Many(), "a span or a day, with --until or --day"},
+       {"--turbidity", !cie, "the models atmosphere and perez"},
+       {"--cloud-cover", !cie,
+        "the models atmosphere and perez; cie:N says its clouds by its type"},
+       {"--albedo", ground, "the model atmosphere, and to maps and tables, which show the land"},
+       {"--projection", file.has_value(), picture},
+       {"--size", file.has_value(), picture},
+       {"--disc", file.has_value(), picture},
+       {"--no-disc", file.has_value(), picture},
+       {"--centre-azimuth", map, "a latitude-longitude map"},
+       {"--exposure", screen, "a PNG or video"},
+       {"--scale", file && !screen, "an .exr or .hdr"},
+       {"--fps", video, "a video"}});
+}
+
+void AddSkyOptions(CLI::App& command, SkyOptions& options) {
+  CLI::Option* at = AddObserverOptions(command, options.observer);
+  CLI::Option* time =
+      command.add_option("--time,--from", options.time, "Moment, RFC 3339 with Z or an offset")
+          ->type_name("T");
+  CLI::Option* until = command
+                           .add_option("--until,--to", options.until,
+                                       "Last moment of a table or video from --time on")
+                           ->type_name("T")
+                           ->needs(time);
+  CLI::Option* day = command
+                         .add_option("--day", options.day,
+                                     "A whole day instead, as 2025-06-21, of the clock at "
+                                     "--utc-offset")
+                         ->type_name("DATE")
+                         ->excludes(time);
+  CLI::Option* offset =
+      command.add_option("--utc-offset", options.utc_offset, "Local time minus UTC, as +02:00")
+          ->type_name("OFFSET")
+          ->needs(day);
+  CLI::Option* step = command.add_option("--step", options.step_s, "Seconds between moments")
+                          ->type_name("S")
+                          ->capture_default_str();
+  CLI::Option* sun =
+      command
+          .add_option("--sun", options.sun, "The sun itself: azimuth,elevation in degrees, as seen")
+          ->type_name("AZ,EL");
+  for (CLI::Option* other : {at, time, until, day, offset, step}) sun->excludes(other);
+  command
+      .add_option("--model", options.model,
+                  "atmosphere (physically based), perez (Preetham 1999), cie:1 to cie:15")
+      ->capture_default_str();
+  command
+      .add_option("--turbidity", options.conditions.turbidity,
+                  "Haze: 2 very clear, 3 clear, 6 hazy; without it an ordinary clear day")
+      ->type_name("T");
+  command
+      .add_option("--albedo", options.conditions.ground_albedo,
+                  "Diffuse reflectance of the land, 0 to 1")
+      ->type_name("A")
+      ->capture_default_str();
+  command
+      .add_option("--cloud-cover,--clouds", options.conditions.cloud_cover,
+                  "0 clear to 1 overcast; not with cie:N")
+      ->type_name("C")
+      ->capture_default_str();
+  command
+      .add_option("--zenith-luminance", options.zenith_luminance_cd_m2,
+                  "cd/m2, the scale of a cie:N sky")
+      ->type_name("L");
+  command
+      .add_option("--sky-illuminance", options.sky_illuminance_lx,
+                  "Lux of the sky on level ground, the scale of a cie:N sky")
+      ->type_name("E");
+  const auto add_aerosol = [&](const char* name, std::optional<double>& value, const char* what) {
+    command.add_option(name, value, what)->type_name("X")->group("Aerosol of the atmosphere");
+  };
+  add_aerosol("--aerosol-beta", options.aerosol.beta,
+              "Angstrom's coefficient: optical depth at 1 micrometre");
+  add_aerosol("--aerosol-alpha", options.aerosol.alpha, "Angstrom's exponent");
+  add_aerosol("--aerosol-height", options.aerosol.scale_height_m, "Scale height in metres");
+  add_aerosol("--aerosol-albedo", options.aerosol.single_scattering_albedo,
+              "Single-scattering albedo");
+  add_aerosol("--aerosol-asymmetry", options.aerosol.asymmetry, "Asymmetry g");
+  command
+      .add_option("--projection", options.projection,
+                  "fisheye or latlong; without it latlong for .exr and .hdr, else fisheye")
+      ->check(CLI::IsMember({"fisheye", "latlong"}));
+  command
+      .add_option("--size", options.size_px,
+                  "Width in pixels; a fisheye is as high, a latlong half as high")
+      ->type_name("N")
+      ->check(CLI::Range(kSmallest_px, kLargest_px));
+  command
+      .add_option("--centre-azimuth,--center-azimuth", options.centre_azimuth_deg,
+                  "In the middle of a latlong; 90 for Blender and three.js")
+      ->type_name("AZ")
+      ->check(NumberRange(-360.0, 360.0))
+      ->capture_default_str();
+  CLI::Option* disc = command.add_flag(
+      "--disc", options.disc, "Draw the sun's disc (PNG and video do without being asked)");
+  command.add_flag("--no-disc", options.no_disc, "Leave it out")->excludes(disc);
+  command
+      .add_option("--exposure", options.ev100,
+                  "EV at ISO 100 of a PNG or video; without it as an eye adapts")
+      ->type_name("EV")
+      ->check(NumberRange(-20.0, 30.0));
+  command.add_option("--scale", options.scale, "Value per cd/m2 of .exr and .hdr")
+      ->type_name("K")
+      ->check(NumberRange(1e-12, 1e12))
+      ->capture_default_str();
+  command.add_option("--fps", options.frames_per_second, "Frames a second of a video")
+      ->type_name("N")
+      ->check(NumberRange(1.0, 120.0))
+      ->capture_default_str();
+  command.add_option("--csv", options.csv, "Table of directions; - for standard input")
+      ->type_name("FILE")
+      ->excludes(until)
+      ->excludes(day);
+  command.add_flag("--json", options.json, "One JSON object a line");
+  command
+      .add_option("-o,--output", options.output,
+                  "Picture (.png, .exr, .hdr), video (.mp4) or table")
+      ->type_name("FILE");
+}
+
+}  // namespace pleinair::app

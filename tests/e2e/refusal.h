@@ -1,0 +1,27 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace pleinair::e2e {
+
+/// A command line that cannot be carried out, and what the one line of error must name. OUT in an
+/// argument is an empty folder, in which nothing may be left.
+struct Refusal {
+  const char* name;
+  std::vector<std::string> arguments;  ///< Behind the subcommand.
+  std::string message;
+};
+inline void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; }
+
+/// Exit code 2, one line that names what is wrong, nothing on standard output, nothing written.
+void ExpectRefusal(const std::string& subcommand, const Refusal& refusal);
+
+/// The same for `--csv` of a table whose third line is `broken`, to standard output and to a file:
+/// the error names that line.
+void ExpectBrokenLineIsNamed(const std::vector<std::string>& command,
+                             const std::string& header_and_row, const std::string& broken,
+                             const std::string& row_after);
+
+}  // namespace pleinair::e2e
