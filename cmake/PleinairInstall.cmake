@@ -45,7 +45,11 @@ pleinair_pkg_config(gl "OpenGL without a window" "epoxy egl" "-ldl")
 pleinair_pkg_config(shadows "the sun's shadow maps" "pleinair-gl" "")
 pleinair_pkg_config(compositor "virtual objects in camera pictures"
   "pleinair-shadows pleinair-sky" "-ltinygltf -lembree3 -pthread")
-pleinair_pkg_config(devices "cameras, recordings, calibrations and scenes" "opencv4 yaml-cpp libjpeg"
+set(devices_requires "opencv4 yaml-cpp libjpeg zlib")
+if(ARAVIS_FOUND)
+  string(APPEND devices_requires " aravis-0.8")
+endif()
+pleinair_pkg_config(devices "cameras, recordings, calibrations and scenes" "${devices_requires}"
   "-pthread")
 pleinair_pkg_config(tracker "markers and their poses" "opencv4 libhwy"
   "-lapriltag -lapriltag-utils -lceres -lglog -lgflags -lspqr -lcholmod -lcxsparse -llapack -lblas")

@@ -12,6 +12,13 @@
 
 namespace pleinair::devices {
 
+/// Now, on the clock of frames' stamps.
+inline std::int64_t SteadyNow_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
 /// What a backend hands on: the bytes and what the driver says of them. Reused from picture to
 /// picture.
 struct CapturedPicture {

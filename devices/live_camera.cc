@@ -19,10 +19,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kTick{100};           // How long the device is waited for at a time.
 constexpr milliseconds kTryAgainEvery{300};  // A camera that is not there.
 
-std::int64_t Nanoseconds(Clock::time_point time) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
-}
-
 }  // namespace
 
 /// The capturing thread and what it shares with others.
@@ -239,7 +235,7 @@ class LiveCamera::Worker {
     constexpr std::size_t kMost = 1000;
     const std::lock_guard lock(mutex_);
     if (events_.size() >= kMost) events_.erase(events_.begin());
-    events_.push_back({kind, Nanoseconds(Clock::now()), std::move(words)});
+    events_.push_back({kind, SteadyNow_ns(), std::move(words)});
   }
 
   LiveCameraOptions options_;  // controls: under the mutex.

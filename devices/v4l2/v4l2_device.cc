@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <utility>
 
 #include "devices/v4l2/v4l2_agreement.h"
@@ -20,12 +19,6 @@ namespace {
 
 // Enough for a thread that is held up for a hundred milliseconds at 30 Hz; drivers may give more.
 constexpr __u32 kBuffers = 4;
-
-std::int64_t SteadyNow_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 class V4l2Device : public CameraDevice {
  public:

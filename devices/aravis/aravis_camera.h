@@ -1,0 +1,25 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <vector>
+
+#include "devices/aravis/aravis_handles.h"
+#include "devices/camera.h"
+
+namespace pleinair::devices {
+
+/// GenICam's name of a pixel format and ours.
+struct AravisFormat {
+  ArvPixelFormat theirs;
+  PixelFormat ours;
+};
+std::optional<AravisFormat> AravisFormatOf(ArvPixelFormat theirs);
+std::optional<AravisFormat> AravisFormatOf(PixelFormat ours);
+
+std::vector<FormatDescription> AravisFormats(ArvCamera* camera);
+std::vector<ControlRange> AravisControls(ArvCamera* camera);
+std::vector<ControlAnswer> HoldAravisControls(ArvCamera* camera,
+                                              const std::vector<ControlWish>& wishes);
+
+}  // namespace pleinair::devices

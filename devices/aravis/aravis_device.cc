@@ -1,0 +1,244 @@
+#include "devices/aravis/aravis_device.h"
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+#include <utility>
+
+#include "devices/aravis/aravis_camera.h"
+#include "devices/aravis/aravis_handles.h"
+#include "devices/picture_choice.h"
+
+namespace pleinair::devices {
+namespace {
+
+constexpr int kBuffers = 8;
+
+Error NotThere(const std::string& where) {
+  return {ErrorKind::kInput, where, "there is no such camera (any more)",
+          "plug it in; 'pleinair devices --network' lists what answers"};
+}
+
+Error Taken(const std::string& where, const std::string& doing) {
+  return {ErrorKind::kInput, where, doing + ": another program controls the camera",
+          "close that program"};
+}
+
+Error AravisError(const std::string& where, const std::string& doing, const GErrorSlot& error) {
+  if (error.Is(ARV_DEVICE_ERROR_NOT_FOUND)) return NotThere(where);
+  if (error.Is(ARV_DEVICE_ERROR_NOT_CONTROLLER)) return Taken(where, doing);
+  return {ErrorKind::kSystem, where, doing + ": " + error.words(),
+          "see whether the camera and this machine are in one network"};
+}
+
+class AravisDevice : public CameraDevice {
+ public:
+  AravisDevice(GObjectPtr<ArvCamera> camera, CameraUri identity)
+      : camera_(std::move(camera)), identity_(std::move(identity)) {}
+
+  // Where the camera has left, stopping waits for answers that never come: 2.5 to 3 s.
+  ~AravisDevice() override {
+    g_signal_handlers_disconnect_by_data(arv_camera_get_device(camera_.get()), this);
+    GErrorSlot error;
+    if (started_) arv_camera_stop_acquisition(camera_.get(), error.Fresh());
+  }
+
+  Result<void> Agree(const PictureWish& wish) {
+    const std::string where = identity_.ToString();
+    PLEINAIR_ASSIGN_OR_RETURN(const PictureChoice choice,
+                              ChoosePictures(AravisFormats(camera_.get()), wish, where));
+    GErrorSlot error;
+    arv_camera_set_pixel_format(camera_.get(), AravisFormatOf(choice.format)->theirs,
+                                error.Fresh());
+    if (error.failed()) {
+      return tl::make_unexpected(AravisError(where, "cannot set the pixel format", error));
+    }
+    if (wish.size) {
+      arv_camera_set_region(camera_.get(), 0, 0, wish.size->width, wish.size->height,
+                            error.Fresh());
+    }
+    if (wish.rate_hz) arv_camera_set_frame_rate(camera_.get(), *wish.rate_hz, error.Fresh());
+    gint x = 0, y = 0;
+    arv_camera_get_region(camera_.get(), &x, &y, &agreement_.size.width, &agreement_.size.height,
+                          error.Fresh());
+    const double rate_hz = arv_camera_get_frame_rate(camera_.get(), error.Fresh());
+    if (!error.failed() && rate_hz > 0.0) agreement_.rate_hz = rate_hz;
+    agreement_.format = choice.format;
+    agreement_.words = Differences(wish, agreement_);
+    return {};
+  }
+
+  Result<void> Start() {
+    const std::string where = identity_.ToString();
+    GErrorSlot error;
+    if (arv_camera_is_gv_device(camera_.get()) != FALSE) {
+      // Too large a packet is dropped by the network without a word.
+      arv_camera_gv_auto_packet_size(camera_.get(), error.Fresh());
+      transport_.packet_size =
+          static_cast<int>(arv_camera_gv_get_packet_size(camera_.get(), error.Fresh()));
+    }
+    stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, error.Fresh()));
+    if (!stream_) return tl::make_unexpected(AravisError(where, "cannot open a stream", error));
+    const guint payload = arv_camera_get_payload(camera_.get(), error.Fresh());
+    if (error.failed()) {
+      return tl::make_unexpected(AravisError(where, "cannot ask for a picture's size", error));
+    }
+    for (int i = 0; i < kBuffers; ++i) {
+      arv_stream_push_buffer(stream_.get(), arv_buffer_new_allocate(payload));
+    }
+    g_signal_connect(arv_camera_get_device(camera_.get()), "control-lost",
+                     G_CALLBACK(&AravisDevice::OnControlLost), this);
+    RememberControls();
+    arv_camera_start_acquisition(camera_.get(), error.Fresh());
+    if (error.failed()) return tl::make_unexpected(AravisError(where, "cannot start", error));
+    started_ = true;
+    return {};
+  }
+
+  WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) override {
+    if (control_lost_) return WaitOutcome::kGone;
+    ArvBuffer* buffer = arv_stream_timeout_pop_buffer(
+        stream_.get(), static_cast<guint64>(std::chrono::microseconds(limit).count()));
+    if (buffer == nullptr) return control_lost_ ? WaitOutcome::kGone : WaitOutcome::kNothing;
+    Take(buffer, picture);
+    arv_stream_push_buffer(stream_.get(), buffer);
+    return WaitOutcome::kPicture;
+  }
+
+  // Waits are short, and Aravis has no way to cut one shorter.
+  void Wake() override {}
+
+  std::string Words() const override { return "the camera answers no more"; }
+  const PictureAgreement& agreement() const override { return agreement_; }
+  CameraUri identity() const override { return identity_; }
+
+  std::optional<TransportCounts> Transport() override {
+    guint64 completed = 0, failures = 0, underruns = 0, resent = 0, missing = 0;
+    arv_stream_get_statistics(stream_.get(), &completed, &failures, &underruns);
+    if (ARV_IS_GV_STREAM(stream_.get())) {
+      arv_gv_stream_get_statistics(ARV_GV_STREAM(stream_.get()), &resent, &missing);
+    }
+    transport_.completed = static_cast<std::int64_t>(completed);
+    transport_.damaged = static_cast<std::int64_t>(failures);
+    transport_.underruns = static_cast<std::int64_t>(underruns);
+    transport_.resent_packets = static_cast<std::int64_t>(resent);
+    transport_.missing_packets = static_cast<std::int64_t>(missing);
+    return transport_;
+  }
+
+  std::vector<ControlRange> Controls() override { return AravisControls(camera_.get()); }
+  std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) override {
+    auto answers = HoldAravisControls(camera_.get(), wishes);
+    RememberControls();
+    return answers;
+  }
+
+ private:
+  static void OnControlLost(ArvDevice*, AravisDevice* self) { self->control_lost_ = true; }
+
+  void RememberControls() {
+    exposure_s_.reset();
+    gain_.reset();
+    for (const ControlRange& range : Controls()) {
+      if (range.is_auto) continue;
+      (range.control == CameraControl::kExposure ? exposure_s_ : gain_) = range.value;
+    }
+  }
+
+  void Take(ArvBuffer* buffer, CapturedPicture* picture) {
+    picture->arrival_ns = SteadyNow_ns();
+    // GigE Vision numbers frames from 1 to 65535 and leaves 0 out.
+    const auto id = static_cast<std::int64_t>(arv_buffer_get_frame_id(buffer));
+    constexpr std::int64_t kNumbers = 65535;
+    const bool wrapped = id < last_id_ && last_id_ <= kNumbers && last_id_ - id > kNumbers / 2;
+    number_ += last_id_ < 0 ? 0 : wrapped ? id - last_id_ + kNumbers : id - last_id_;
+    last_id_ = id;
+    picture->number = number_;
+    // Aravis' own stamp is on the wall clock: brought over by the clocks' difference now.
+    const std::int64_t wall_ns = g_get_real_time() * 1000;
+    const auto stamp_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
+    picture->timestamp_ns = stamp_ns - wall_ns + picture->arrival_ns;
+    picture->stamp_meaning = StampMeaning::kArrival;
+    picture->device_timestamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
+    picture->exposure_s = exposure_s_;
+    picture->gain = gain_;
+    picture->white_balance_k.reset();
+    picture->damaged = arv_buffer_get_status(buffer) != ARV_BUFFER_STATUS_SUCCESS;
+    picture->raw.bytes.clear();
+    if (picture->damaged) return;
+    const auto format = AravisFormatOf(arv_buffer_get_image_pixel_format(buffer));
+    std::size_t size = 0;
+    const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer, &size));
+    gint x_padding = 0, y_padding = 0;
+    arv_buffer_get_image_padding(buffer, &x_padding, &y_padding);
+    picture->raw.format = format ? format->ours : agreement_.format;
+    picture->raw.width = arv_buffer_get_image_width(buffer);
+    picture->raw.height = arv_buffer_get_image_height(buffer);
+    picture->raw.stride = TightStride(picture->raw.format, picture->raw.width) +
+                          static_cast<std::size_t>(std::max(x_padding, 0));
+    picture->raw.full_range = true;
+    picture->raw.bytes.assign(data, data + size);
+    picture->damaged = !format;
+  }
+
+  GObjectPtr<ArvCamera> camera_;
+  GObjectPtr<ArvStream> stream_;
+  CameraUri identity_;
+  PictureAgreement agreement_;
+  TransportCounts transport_;
+  bool started_ = false;
+  std::atomic<bool> control_lost_ = false;
+  std::int64_t last_id_ = -1;
+  std::int64_t number_ = 0;
+  std::optional<double> exposure_s_;
+  std::optional<double> gain_;
+};
+
+std::string Text(const char* text) { return text == nullptr ? "" : text; }
+
+}  // namespace
+
+Result<std::unique_ptr<CameraDevice>> OpenAravisDevice(const CameraUri& uri,
+                                                       const PictureWish& wish) {
+  GErrorSlot error;
+  arv_update_device_list();
+  GObjectPtr<ArvCamera> camera(arv_camera_new(uri.value.c_str(), error.Fresh()));
+  if (!camera) {
+    return tl::make_unexpected(error.failed() ? AravisError(uri.ToString(), "cannot open", error)
+                                              : NotThere(uri.ToString()));
+  }
+  ArvDevice* opened = arv_camera_get_device(camera.get());
+  if (ARV_IS_GV_DEVICE(opened) && arv_gv_device_is_controller(ARV_GV_DEVICE(opened)) == FALSE) {
+    return tl::make_unexpected(Taken(uri.ToString(), "cannot open"));
+  }
+  auto device = std::make_unique<AravisDevice>(std::move(camera), uri);
+  PLEINAIR_RETURN_IF_ERROR(device->Agree(wish));
+  PLEINAIR_RETURN_IF_ERROR(device->Start());
+  return std::unique_ptr<CameraDevice>(std::move(device));
+}
+
+Result<std::vector<CameraDescription>> ListAravisCameras() {
+  arv_update_device_list();
+  std::vector<CameraDescription> cameras;
+  for (guint i = 0; i < arv_get_n_devices(); ++i) {
+    CameraDescription description;
+    const std::string id = Text(arv_get_device_id(i));
+    description.uri = description.node = "aravis:" + id;
+    description.name = Text(arv_get_device_vendor(i)) + " " + Text(arv_get_device_model(i));
+    description.driver = "aravis";
+    description.bus = Text(arv_get_device_protocol(i)) + " " + Text(arv_get_device_address(i));
+    description.serial = Text(arv_get_device_serial_nbr(i));
+    GErrorSlot error;
+    const GObjectPtr<ArvCamera> camera(arv_camera_new(id.c_str(), error.Fresh()));
+    if (camera) {
+      description.formats = AravisFormats(camera.get());
+      description.controls = AravisControls(camera.get());
+    } else {
+      description.trouble = error.words();
+    }
+    cameras.push_back(std::move(description));
+  }
+  return cameras;
+}
+
+}  // namespace pleinair::devices

@@ -1,0 +1,144 @@
+// Runs beside GigE Vision cameras in software, in a network namespace that has only loopback.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <sstream>
+#include <thread>
+
+#include "devices/camera_list.h"
+#include "devices/live_camera.h"
+
+namespace pleinair::vm {
+namespace {
+
+using devices::CameraEvent;
+using devices::LiveCamera;
+using devices::LiveCameraOptions;
+using devices::PixelFormat;
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+using Kind = CameraEvent::Kind;
+
+constexpr milliseconds kLong{30000};  // Only ever waited out by a failing test.
+constexpr const char* kWhole = "aravis:Aravis-Fake-WHOLE";
+constexpr const char* kLossy = "aravis:Aravis-Fake-LOSSY";
+
+LiveCameraOptions Options(const char* uri) {
+  LiveCameraOptions options;
+  options.uri = *devices::ParseCameraUri(uri);
+  options.pictures.format = PixelFormat::kGrey8;
+  options.stall_limit = milliseconds(1000);
+  return options;
+}
+
+int CameraPid(int which) {
+  const char* pids = std::getenv("ARV_CAM_PIDS");
+  std::istringstream words(pids == nullptr ? "" : pids);
+  int pid = 0;
+  for (int i = 0; i <= which; ++i) words >> pid;
+  return pid;
+}
+
+std::optional<CameraEvent> WaitFor(LiveCamera* camera, Kind kind) {
+  for (const auto end = Clock::now() + kLong; Clock::now() < end;) {
+    for (const CameraEvent& event : camera->TakeEvents()) {
+      if (event.kind == kind) return event;
+    }
+    camera->NextWithin(milliseconds(10));
+  }
+  return std::nullopt;
+}
+
+TEST(GigE, CamerasAreListedWithFormatsAndControls) {
+  int found = 0;
+  for (const devices::CameraDescription& camera : devices::ListCameras(true).cameras) {
+    if (camera.uri != kWhole) continue;
+    ++found;
+    EXPECT_EQ(camera.serial, "WHOLE");
+    EXPECT_FALSE(camera.formats.empty());
+    EXPECT_FALSE(camera.controls.empty());
+  }
+  EXPECT_EQ(found, 1);
+}
+
+TEST(GigE, StampsAreBroughtFromTheWallClockToTheSteadyOne) {
+  const auto camera = LiveCamera::Open(Options(kWhole));
+  ASSERT_TRUE(camera);
+  for (int i = 0; i < 5; ++i) {
+    const auto frame = (*camera)->NextWithin(kLong);
+    ASSERT_TRUE(frame);
+    EXPECT_LT(std::abs(frame->timestamp_ns - *frame->arrival_ns), 50'000'000);
+    EXPECT_FALSE(frame->grey.empty());
+  }
+}
+
+TEST(GigE, ExposureAndGainAreHeldAndWhatIsLackingIsSaid) {
+  LiveCameraOptions options = Options(kWhole);
+  options.controls = {{devices::CameraControl::kExposure, 0.005},
+                      {devices::CameraControl::kGain, 2.0},
+                      {devices::CameraControl::kWhiteBalance, {}}};
+  const auto camera = LiveCamera::Open(options);
+  ASSERT_TRUE((*camera)->NextWithin(kLong));
+  const auto answers = (*camera)->Answers();
+  ASSERT_EQ(answers.size(), 3U);
+  EXPECT_NEAR(answers[0].value.value_or(0.0), 0.005, 1e-6);
+  EXPECT_NEAR(answers[1].value.value_or(0.0), 2.0, 1e-6);
+  EXPECT_THAT(answers[2].words, HasSubstr("no control of its white balance"));
+}
+
+TEST(GigE, LostPacketsAreSeenAndNoDamagedFrameIsDelivered) {
+  const auto opened = LiveCamera::Open(Options(kLossy));
+  ASSERT_TRUE(opened);
+  LiveCamera& camera = **opened;
+  for (int i = 0; i < 40; ++i) {
+    const auto frame = camera.NextWithin(kLong);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->grey.width(), camera.agreement()->size.width);
+  }
+  const auto transport = camera.transport();
+  ASSERT_TRUE(transport);
+  EXPECT_GT(transport->packet_size, 500);
+  EXPECT_GT(transport->resent_packets + transport->missing_packets + transport->damaged, 0);
+  EXPECT_EQ(camera.counts().loss.damaged, transport->damaged);
+}
+
+TEST(GigE, ASecondClientIsToldThatTheCameraIsTaken) {
+  const auto first = LiveCamera::Open(Options(kWhole));
+  ASSERT_TRUE((*first)->NextWithin(kLong));
+  LiveCameraOptions options = Options(kWhole);
+  options.wait_for_camera = false;
+  const auto second = LiveCamera::Open(options);
+  ASSERT_FALSE(second);
+  EXPECT_THAT(second.error().Message(), HasSubstr("another program"));
+}
+
+TEST(GigE, AFrozenCameraIsToldAndItsRecoveryToo) {
+  const auto camera = LiveCamera::Open(Options(kWhole));
+  ASSERT_TRUE((*camera)->NextWithin(kLong));
+  kill(CameraPid(0), SIGSTOP);
+  EXPECT_TRUE(WaitFor(camera->get(), Kind::kStalled));
+  kill(CameraPid(0), SIGCONT);
+  EXPECT_TRUE(WaitFor(camera->get(), Kind::kRecovered));
+}
+
+TEST(GigE, StartsAndStopsLeaveNothingBehind) {
+  for (int round = 0; round < 5; ++round) {
+    const auto camera = LiveCamera::Open(Options(kWhole));
+    ASSERT_TRUE(camera);
+    EXPECT_TRUE((*camera)->NextWithin(kLong));
+  }
+}
+
+// Last: the camera does not come back.
+TEST(GigE, ZzzACameraThatIsSwitchedOffIsTold) {
+  const auto camera = LiveCamera::Open(Options(kLossy));
+  ASSERT_TRUE((*camera)->NextWithin(kLong));
+  kill(CameraPid(1), SIGKILL);
+  EXPECT_TRUE(WaitFor(camera->get(), Kind::kGone));
+}
+
+}  // namespace
+}  // namespace pleinair::vm
