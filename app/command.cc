@@ -16,6 +16,7 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  pleinair replay recordings/courtyard_midday -o out/demo\n"
+    "  pleinair compare out/demo recordings/courtyard_midday\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
     "  pleinair marker 17 -o marker.pdf\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
@@ -65,6 +66,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.require_subcommand(0, 1);
     CommandResult result;
     AddReplayCommand(app, result);
+    AddCompareCommand(app, result);
     AddDetectCommand(app, result);
     AddMarkerCommand(app, result);
     AddTargetCommand(app, result);

@@ -21,6 +21,7 @@ struct CommandResult {
 // callback. A callback writes results to standard output and everything else to standard error,
 // and throws nothing.
 void AddReplayCommand(CLI::App& app, CommandResult& result);
+void AddCompareCommand(CLI::App& app, CommandResult& result);
 void AddDetectCommand(CLI::App& app, CommandResult& result);
 void AddMarkerCommand(CLI::App& app, CommandResult& result);
 void AddTargetCommand(CLI::App& app, CommandResult& result);

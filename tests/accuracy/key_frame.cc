@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/accuracy/ciede2000.h"
+#include "app/ciede2000.h"
 #include "tests/e2e/run_program.h"
 
 namespace pleinair::accuracy {
@@ -22,7 +22,7 @@ KeyFrame ReadKeyFrame(int frame) {
 Score Compare(const cv::Mat& picture, const KeyFrame& key, const cv::Mat& leave_out) {
   Score sum;
   int object_pixels = 0, shadow_pixels = 0;
-  const auto lab = [](const cv::Vec3b& bgr) { return LabFromSrgb8({bgr[2], bgr[1], bgr[0]}); };
+  const auto lab = [](const cv::Vec3b& bgr) { return app::LabFromSrgb8({bgr[2], bgr[1], bgr[0]}); };
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
       const bool object = key.object_mask.at<std::uint8_t>(y, x) > 127;
@@ -30,7 +30,7 @@ Score Compare(const cv::Mat& picture, const KeyFrame& key, const cv::Mat& leave_
       if (!object && !shadow) continue;
       if (!leave_out.empty() && leave_out.at<std::uint8_t>(y, x) != 0) continue;
       const double difference =
-          Ciede2000(lab(picture.at<cv::Vec3b>(y, x)), lab(key.truth.at<cv::Vec3b>(y, x)));
+          app::Ciede2000(lab(picture.at<cv::Vec3b>(y, x)), lab(key.truth.at<cv::Vec3b>(y, x)));
       sum.object += object ? difference : 0.0;
       sum.shadow += shadow ? difference : 0.0;
       object_pixels += object;

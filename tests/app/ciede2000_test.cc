@@ -1,8 +1,8 @@
-#include "tests/accuracy/ciede2000.h"
+#include "app/ciede2000.h"
 
 #include <gtest/gtest.h>
 
-namespace pleinair::accuracy {
+namespace pleinair::app {
 namespace {
 
 struct Pair {
@@ -71,4 +71,4 @@ TEST(LabFromSrgb8, HasThePublishedPrimaries) {
 }
 
 }  // namespace
-}  // namespace pleinair::accuracy
+}  // namespace pleinair::app

@@ -1,11 +1,11 @@
-#include "tests/accuracy/ciede2000.h"
+#include "app/ciede2000.h"
 
 #include <cmath>
 
 #include "base/srgb.h"
 #include "base/units.h"
 
-namespace pleinair::accuracy {
+namespace pleinair::app {
 namespace {
 
 double Cosine(double degrees) { return std::cos(degrees * kRadiansPerDegree); }
@@ -83,4 +83,4 @@ double Ciede2000(const Lab& first, const Lab& second) {
   return std::sqrt(l * l + c * c + h * h + rotation * c * h);
 }
 
-}  // namespace pleinair::accuracy
+}  // namespace pleinair::app

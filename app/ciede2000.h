@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace pleinair::accuracy {
+namespace pleinair::app {
 
 /// CIE 1976 L*a*b*.
 struct Lab {
@@ -21,4 +21,4 @@ Lab LabFromSrgb8(const std::array<std::uint8_t, 3>& rgb);
 /// 2005.
 double Ciede2000(const Lab& first, const Lab& second);
 
-}  // namespace pleinair::accuracy
+}  // namespace pleinair::app

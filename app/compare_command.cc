@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/picture_scores.h"
+#include "app/progress_bar.h"
+#include "app/sinks/compare_html.h"
+#include "app/sinks/picture_writer.h"
+#include "app/true_pictures.h"
+#include "base/atomic_file.h"
+#include "devices/picture_file.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair replay recordings/courtyard_midday -o out/demo --frames\n"
+    "  pleinair compare out/demo recordings/courtyard_midday --report out/compare.html\n"
+    "  pleinair compare ours/ truth/ --json\n"
+    "DIR: what replay --frames wrote, or a folder of NNNN.png. TRUTH: a recording whose "
+    "scene.json\n"
+    "lists key_frames with true pictures and regions, or a folder of NNNN.png. Prints a line a\n"
+    "picture: PSNR (dB), SSIM, and mean CIEDE2000 over the object, its shadow, both with 25 "
+    "pixels\n"
+    "around them, and everything.";
+
+constexpr int kReportWidth_px = 640;
+constexpr int kReportJpegQuality = 88;
+
+struct Options {
+  std::string pictures, truth, report;
+  bool glossy = false, json = false;
+};
+
+Result<RgbImage> ReadPicture(const std::filesystem::path& file) {
+  PLEINAIR_ASSIGN_OR_RETURN(devices::Picture picture, devices::DecodePictureFile(file));
+  return std::move(picture.rgb);
+}
+
+Result<Image<std::uint8_t>> ReadRegion(const std::filesystem::path& file, const RgbImage& truth) {
+  if (file.empty()) return Image<std::uint8_t>();
+  PLEINAIR_ASSIGN_OR_RETURN(devices::Picture picture, devices::DecodePictureFile(file));
+  if (picture.grey.width() != truth.width() || picture.grey.height() != truth.height()) {
+    return InputError(file.string(), "is not of the true picture's size", "fetch it again");
+  }
+  return std::move(picture.grey);
+}
+
+Result<ComparedPicture> CompareOne(const Options& options, const TruePicture& of) {
+  PLEINAIR_ASSIGN_OR_RETURN(const auto file, FindPicture(options.pictures, of.name));
+  PLEINAIR_ASSIGN_OR_RETURN(const RgbImage picture, ReadPicture(file));
+  PLEINAIR_ASSIGN_OR_RETURN(const RgbImage truth, ReadPicture(of.truth));
+  if (picture.width() != truth.width() || picture.height() != truth.height()) {
+    return InputError(file.string(),
+                      fmt::format("has {}x{} pixels, the true picture {}x{}", picture.width(),
+                                  picture.height(), truth.width(), truth.height()),
+                      "replay without --size");
+  }
+  PictureRegions regions;
+  PLEINAIR_ASSIGN_OR_RETURN(regions.object, ReadRegion(of.object, truth));
+  PLEINAIR_ASSIGN_OR_RETURN(regions.shadow, ReadRegion(of.shadow, truth));
+  ComparedPicture compared;
+  compared.name = of.name;
+  compared.scores = ScorePicture(picture.view(), truth.view(), regions);
+  if (!options.report.empty()) {
+    const auto encode = [](const RgbImage& image) {
+      return EncodeJpeg(image.view(), kReportWidth_px, kReportJpegQuality);
+    };
+    compared.truth_jpeg = encode(truth);
+    compared.picture_jpeg = encode(picture);
+    compared.difference_jpeg = encode(DifferencePicture(picture.view(), truth.view()));
+  }
+  return compared;
+}
+
+nlohmann::ordered_json ScoresJson(const PictureScores& scores) {
+  nlohmann::ordered_json json;
+  const auto values = scores.Values();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    json[kPictureScoreNames[i]] =
+        std::isnan(values[i]) ? nlohmann::ordered_json() : nlohmann::ordered_json(values[i]);
+  }
+  return json;
+}
+
+void PrintRow(const std::string& name, const PictureScores& scores) {
+  std::cout << fmt::format("{:<8}", name);
+  for (const double value : scores.Values()) {
+    std::cout << (std::isnan(value) ? fmt::format("{:>11}", "-") : fmt::format("{:11.3f}", value));
+  }
+  std::cout << '\n';
+}
+
+void Print(const Options& options, const Comparison& comparison) {
+  if (options.json) {
+    nlohmann::ordered_json json;
+    for (const ComparedPicture& picture : comparison.compared) {
+      json["pictures"][picture.name] = ScoresJson(picture.scores);
+    }
+    json["mean"] = ScoresJson(comparison.mean);
+    std::cout << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    return;
+  }
+  std::cout << fmt::format("{:<8}", "picture");
+  for (const char* name : kPictureScoreNames) std::cout << fmt::format("{:>11}", name);
+  std::cout << '\n';
+  for (const ComparedPicture& picture : comparison.compared) {
+    PrintRow(picture.name, picture.scores);
+  }
+  PrintRow("mean", comparison.mean);
+}
+
+Result<void> Run(const Options& options) {
+  PLEINAIR_ASSIGN_OR_RETURN(const auto truths, FindTruePictures(options.truth, options.glossy));
+  Comparison comparison;
+  comparison.command = "pleinair compare " + options.pictures + " " + options.truth;
+  if (options.glossy) comparison.command += " --glossy";
+  comparison.pictures = options.pictures;
+  comparison.truth = options.truth;
+  std::vector<PictureScores> scores;
+  {
+    ProgressBar bar("Comparing", static_cast<std::int64_t>(truths.size()), "pictures");
+    for (const TruePicture& truth : truths) {
+      PLEINAIR_ASSIGN_OR_RETURN(ComparedPicture compared, CompareOne(options, truth));
+      scores.push_back(compared.scores);
+      comparison.compared.push_back(std::move(compared));
+      bar.Advance();
+    }
+  }
+  comparison.mean = MeanOf(scores.data(), scores.size());
+  if (!options.report.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(options.report, CompareHtml(comparison)));
+  }
+  Print(options, comparison);
+  return {};
+}
+
+}  // namespace
+
+void AddCompareCommand(CLI::App& app, CommandResult& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("compare", "Score composed pictures against true ones");
+  command->footer(kExamples);
+  command->add_option("DIR", options->pictures, "Folder with the composed pictures")->required();
+  command->add_option("TRUTH", options->truth, "Recording with true pictures, or a folder of them")
+      ->required();
+  command->add_option("--report", options->report,
+                      "Page with scores, truth, composed picture and difference (HTML)");
+  command->add_flag("--glossy", options->glossy, "Against the glossy variant of the object");
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->callback([options, &result] {
+    try {
+      result.status = Run(*options);
+    } catch (const std::exception& error) {
+      result.status = SystemError("", std::string("compare failed: ") + error.what(),
+                                  "please report it with the pictures");
+    }
+  });
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace pleinair::app {
+
+/// One picture that there is a truth for.
+struct TruePicture {
+  std::string name;                      ///< "0036".
+  std::filesystem::path truth;           ///< The picture with the object really there.
+  std::filesystem::path object, shadow;  ///< Regions (PictureRegions); empty: nobody knows.
+};
+
+/// What a recording with ground truth (a folder whose scene.json lists `key_frames`), or a folder
+/// of pictures NNNN.png, has true pictures of. `glossy`: of the glossy variant of the object.
+/// Errors (input): no such folder, nothing true in it, a file that it names is missing.
+Result<std::vector<TruePicture>> FindTruePictures(const std::filesystem::path& folder, bool glossy);
+
+/// Where a replay's output, or a folder of pictures, has the picture of that name. Errors (input):
+/// nowhere.
+Result<std::filesystem::path> FindPicture(const std::filesystem::path& folder,
+                                          const std::string& name);
+
+}  // namespace pleinair::app
