@@ -1,60 +1,34 @@
 #include "sky/cloud_cover.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "sky/air_mass.h"
-#include "sky/cie_sky.h"
 #include "sky/sky_sources.h"
 
 namespace pleinair::sky {
 namespace {
 
-struct Pattern {
-  double cover;
-  int cie_type;
-};
-constexpr Pattern kPatterns[] = {{0.0, 11}, {1.0 / 3.0, 8}, {2.0 / 3.0, 4}, {1.0, 1}};
+// At covers of 0, 1/3, 2/3 and 1.
+constexpr std::array<int, 4> kCieTypes = {11, 8, 4, 1};
 
-/// The pattern below `cover`, the one above it, and the latter's share.
-struct PatternBlend {
-  int lower = 0, upper = 0;
-  double upper_share = 0.0;
-};
-PatternBlend BlendAt(double cover) {
-  std::size_t i = 0;
-  while (i + 2 < std::size(kPatterns) && cover > kPatterns[i + 1].cover) ++i;
-  const Pattern& low = kPatterns[i];
-  const Pattern& high = kPatterns[i + 1];
-  return {low.cie_type, high.cie_type, (cover - low.cover) / (high.cover - low.cover)};
+Radians ElevationOf(Direction<World> to) {
+  return Radians(std::asin(std::clamp(to.xyz.z, -1.0, 1.0)));
 }
-
-/// The clouds' own light.
-struct Clouds {
-  CieSky lower, upper;
-  double lower_zenith_cd_m2 = 0.0, upper_zenith_cd_m2 = 0.0;
-  LinearRgb sky_horizontal = {};  ///< With what is left of the clear sky.
-
-  double Luminance(Direction<World> from) const {
-    return lower_zenith_cd_m2 * lower.RelativeLuminance(from) +
-           upper_zenith_cd_m2 * upper.RelativeLuminance(from);
-  }
-};
 
 class CloudySky : public SkyModel {
  public:
   CloudySky(std::unique_ptr<SkyModel> clear, double cover)
       : clear_(std::move(clear)),
         cover_(cover),
-        sine_(std::clamp(clear_->ToSun().xyz.z, -1.0, 1.0)),
-        passed_(TransmissionOfClouds(cover, Radians(std::asin(sine_)))) {}
+        passed_(TransmissionOfClouds(cover, ElevationOf(clear_->ToSun()))) {}
 
   LinearRgb SkyRadiance(Direction<World> from) const override {
-    const double cloud = Made().Luminance(from);
-    return clear_->SkyRadiance(from) * passed_.clear_sky + LinearRgb{cloud, cloud, cloud};
+    return Made().Radiance(from, clear_->SkyRadiance(from));
   }
   XyY At(Direction<World> from) const override {
     const double cloud = Made().Luminance(from);
@@ -64,7 +38,7 @@ class CloudySky : public SkyModel {
   LinearRgb SunNormalIrradiance() const override {
     return clear_->SunNormalIrradiance() * passed_.sun;
   }
-  LinearRgb SkyHorizontalIrradiance() const override { return Made().sky_horizontal; }
+  LinearRgb SkyHorizontalIrradiance() const override { return Made().SkyHorizontalIrradiance(); }
   Direction<World> ToSun() const override { return clear_->ToSun(); }
   AirBetween AirTo(Direction<World> towards, Metres distance) const override {
     // The same air, lit by what the clouds leave of the light on level ground.
@@ -78,25 +52,14 @@ class CloudySky : public SkyModel {
   /// Made when first asked for: who follows the sun alone does without.
   const Clouds& Made() const {
     std::call_once(made_, [this] {
-      const PatternBlend blend = BlendAt(cover_);
-      Clouds& clouds =
-          clouds_.emplace(Clouds{CieSky(blend.lower, ToSun()), CieSky(blend.upper, ToSun())});
-      const LinearRgb blue = clear_->SkyHorizontalIrradiance();
-      const double clear_sun = Luminance(clear_->SunNormalIrradiance()) * std::max(0.0, sine_);
-      const double diffuse =
-          passed_.global * (clear_sun + Luminance(blue)) - passed_.sun * clear_sun;
-      const double lux = std::max(0.0, diffuse - passed_.clear_sky * Luminance(blue));
-      clouds.lower_zenith_cd_m2 =
-          lux * (1.0 - blend.upper_share) / clouds.lower.IlluminanceOverZenith();
-      clouds.upper_zenith_cd_m2 = lux * blend.upper_share / clouds.upper.IlluminanceOverZenith();
-      clouds.sky_horizontal = blue * passed_.clear_sky + LinearRgb{lux, lux, lux};
+      clouds_.emplace(cover_, ToSun(), clear_->SkyHorizontalIrradiance(),
+                      clear_->SunNormalIrradiance());
     });
     return *clouds_;
   }
 
   std::unique_ptr<SkyModel> clear_;
   double cover_;
-  double sine_;  ///< Of the sun's elevation.
   CloudTransmission passed_;
   mutable std::once_flag made_;
   mutable std::optional<Clouds> clouds_;
@@ -122,6 +85,29 @@ CloudTransmission TransmissionOfClouds(double cover, Radians apparent_sun_elevat
   const double beam_share = 1.0 - std::pow(c, 2.5);  // e^(−τ).
   return {1.0 - 0.75 * std::pow(c, 3.4),
           std::pow(beam_share, RelativeAirMass(apparent_sun_elevation)), 1.0 - c};
+}
+
+CloudPatterns PatternsOfClouds(double cover) {
+  // As the shader does it, so that both take the same two at 1/3 and 2/3.
+  const double place = 3.0 * std::clamp(cover, 0.0, 1.0);
+  const int lower = std::min(static_cast<int>(place), 2);
+  return {kCieTypes[lower], kCieTypes[lower + 1], place - lower};
+}
+
+Clouds::Clouds(double cover, Direction<World> to_sun, const LinearRgb& clear_sky,
+               const LinearRgb& clear_sun)
+    : lower_(PatternsOfClouds(cover).lower, to_sun), upper_(PatternsOfClouds(cover).upper, to_sun) {
+  const CloudTransmission passed = TransmissionOfClouds(cover, ElevationOf(to_sun));
+  clear_share_ = passed.clear_sky;
+  // On level ground: all that comes through, less what the sun and the clear sky bring of it.
+  const double sun = pleinair::Luminance(clear_sun) * std::max(0.0, to_sun.xyz.z);
+  const double lux =
+      std::max(0.0, (passed.global - passed.clear_sky) * pleinair::Luminance(clear_sky) +
+                        (passed.global - passed.sun) * sun);
+  const double upper_share = PatternsOfClouds(cover).upper_share;
+  lower_zenith_cd_m2_ = lux * (1.0 - upper_share) / lower_.IlluminanceOverZenith();
+  upper_zenith_cd_m2_ = lux * upper_share / upper_.IlluminanceOverZenith();
+  sky_horizontal_ = clear_sky * passed.clear_sky + LinearRgb{lux, lux, lux};
 }
 
 std::shared_ptr<const SkySource> internal::MakeCloudySource(std::shared_ptr<const SkySource> clear,

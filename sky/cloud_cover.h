@@ -1,6 +1,9 @@
 #pragma once
 
+#include "base/frames.h"
 #include "base/units.h"
+#include "base/vector.h"
+#include "sky/cie_sky.h"
 
 namespace pleinair::sky {
 
@@ -25,5 +28,46 @@ struct CloudTransmission {
 };
 
 CloudTransmission TransmissionOfClouds(double cover, Radians apparent_sun_elevation);
+
+/// The CIE types that a cover lies between, and the share of the upper one.
+struct CloudPatterns {
+  int lower = 0, upper = 0;
+  double upper_share = 0.0;
+};
+CloudPatterns PatternsOfClouds(double cover);
+
+/// Clouds before a clear sky, for one place of the sun: the blend described above. Its shader twin:
+/// sky/shaders/sky_clouds.glsl.
+class Clouds {
+ public:
+  /// `to_sun` apparent, a unit vector east, north, up; of the clear sky: its light on level ground
+  /// (`clear_sky`) and the sun's on a surface facing it, lux.
+  Clouds(double cover, Direction<World> to_sun, const LinearRgb& clear_sky,
+         const LinearRgb& clear_sun);
+
+  const CieSky& lower() const { return lower_; }
+  const CieSky& upper() const { return upper_; }
+
+  /// The clouds' own luminance in a direction, cd/m².
+  double Luminance(Direction<World> from) const {
+    return lower_zenith_cd_m2_ * lower_.RelativeLuminance(from) +
+           upper_zenith_cd_m2_ * upper_.RelativeLuminance(from);
+  }
+
+  /// Clouds and what is left of the clear sky, whose radiance in that direction is `clear`.
+  LinearRgb Radiance(Direction<World> from, const LinearRgb& clear) const {
+    const double cloud = Luminance(from);
+    return clear * clear_share_ + LinearRgb{cloud, cloud, cloud};
+  }
+
+  /// Of both on level ground, lux.
+  LinearRgb SkyHorizontalIrradiance() const { return sky_horizontal_; }
+
+ private:
+  CieSky lower_, upper_;
+  double clear_share_ = 1.0;
+  double lower_zenith_cd_m2_ = 0.0, upper_zenith_cd_m2_ = 0.0;
+  LinearRgb sky_horizontal_;
+};
 
 }  // namespace pleinair::sky

@@ -26,6 +26,7 @@ inline vec3 AerialAerosol(int node) { return ToVec3(aerial_nodes[node].aerosol);
 
 #include "sky/shaders/sky_atmosphere.glsl"
 #include "sky/shaders/sky_cie.glsl"
+#include "sky/shaders/sky_clouds.glsl"
 #include "sky/shaders/sky_perez.glsl"
 
 inline AerialConstants ToGlsl(const AerialPerspective::Constants& c) {

@@ -116,6 +116,29 @@ TEST(SkyAtmosphereGlsl, HasTheAirOfTheCppWithinOneInTenThousand) {
   }
 }
 
+TEST(SkyCloudsGlsl, EqualTheCppWithinOneInTenThousand) {
+  std::mt19937_64 random(15);
+  for (int i = 0; i < 300; ++i) {
+    const CloudCase c = RandomCloudCase(random, i);
+    const Clouds clouds = c.Create();
+    const glm::vec3 to_sun = glsl::ToVec3(c.to_sun);
+    const glsl::SkyClouds twin = glsl::SkyCloudsCreate(
+        static_cast<float>(c.cover), to_sun, glm::vec2(c.clear_sky.g, c.clear_sun.g),
+        glm::vec2(clouds.lower().IlluminanceOverZenith(), clouds.upper().IlluminanceOverZenith()));
+    const CloudTransmission passed = TransmissionOfClouds(c.cover, Radians(std::asin(c.to_sun.z)));
+    ASSERT_NEAR(twin.passed.sun, passed.sun, 1e-5) << c.cover << " sun z " << c.to_sun.z;
+    ASSERT_NEAR(twin.passed.global, passed.global, 1e-6) << c.cover;
+    for (const Vec3& direction : DirectionsAbout(c.to_sun, 50, random)) {
+      const LinearRgb clear = ClearBehindClouds(direction);
+      ASSERT_LT(Difference(clouds.Radiance({direction}, clear),
+                           glsl::SkyCloudsRadiance(twin, glm::vec3(clear.r, clear.g, clear.b),
+                                                   glsl::ToVec3(direction))),
+                1e-4)
+          << "cover " << c.cover << " sun z " << c.to_sun.z << " view z " << direction.z;
+    }
+  }
+}
+
 TEST(SkyGlsl, IsBlackBelowTheHorizon) {
   const glm::vec3 down(0.6F, 0.0F, -0.8F), to_sun(0.0F, 0.6F, 0.8F);
   EXPECT_EQ(glsl::PerezSkyRadiance(glsl::PerezSkyCreate(2.5F, to_sun), down), glm::vec3(0.0F));

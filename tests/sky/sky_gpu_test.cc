@@ -41,10 +41,11 @@ class SkyOnTheGpu : public gl::GlTest {
  protected:
   void SetUp() override {
     GlTest::SetUp();
-    static const std::array<std::string, 6> kNames = {
+    static const std::array<std::string, 7> kNames = {
         "tests/sky/sky_twins.comp",        "sky/shaders/sky_angles.glsl",
         "sky/shaders/sky_colour.glsl",     "sky/shaders/sky_perez.glsl",
-        "sky/shaders/sky_atmosphere.glsl", "sky/shaders/sky_cie.glsl"};
+        "sky/shaders/sky_atmosphere.glsl", "sky/shaders/sky_cie.glsl",
+        "sky/shaders/sky_clouds.glsl"};
     static const auto kTexts = [] {
       std::array<std::string, kNames.size()> texts;
       for (std::size_t i = 0; i < kNames.size(); ++i) texts[i] = ReadSource(kNames[i]);
@@ -183,6 +184,25 @@ TEST_F(SkyOnTheGpu, EqualsTheAirWithinOneInTenThousand) {
                   1e-4)
             << distance << " m, sun z " << to_sun.z << " view z " << directions[j].z;
       }
+    }
+  }
+}
+
+TEST_F(SkyOnTheGpu, EqualsTheCloudsWithinOneInTenThousand) {
+  std::mt19937_64 random(25);
+  for (int i = 0; i < 60; ++i) {
+    const CloudCase c = RandomCloudCase(random, i);
+    const Clouds clouds = c.Create();
+    program_.Set("cover", static_cast<float>(c.cover));
+    program_.Set("clear_lux", glm::vec2(c.clear_sky.g, c.clear_sun.g));
+    program_.Set("illuminance_over_zenith", glm::vec2(clouds.lower().IlluminanceOverZenith(),
+                                                      clouds.upper().IlluminanceOverZenith()));
+    const std::vector<Vec3> directions = DirectionsAbout(c.to_sun, 200, random);
+    const std::vector<Vec4> got = Ask(18, c.to_sun, directions);
+    for (std::size_t j = 0; j < got.size(); ++j) {
+      const LinearRgb expected = clouds.Radiance({directions[j]}, ClearBehindClouds(directions[j]));
+      ASSERT_LT(RelativeDifference(expected, got[j][0], got[j][1], got[j][2]), 1e-4)
+          << "cover " << c.cover << " sun z " << c.to_sun.z << " view z " << directions[j].z;
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
+#include "sky/cloud_cover.h"
 
 namespace pleinair::sky {
 
@@ -43,6 +44,32 @@ inline double RelativeDifference(LinearRgb expected, double r, double g, double 
   const double worst =
       std::max({std::fabs(r - expected.r), std::fabs(g - expected.g), std::fabs(b - expected.b)});
   return scale > 0.0 ? worst / scale : worst;
+}
+
+/// A cloudy sky as both languages get it: numbers that floats hold.
+struct CloudCase {
+  double cover;
+  Vec3 to_sun;
+  LinearRgb clear_sky, clear_sun;  ///< Lux.
+
+  Clouds Create() const { return {cover, {to_sun}, clear_sky, clear_sun}; }
+};
+
+inline CloudCase RandomCloudCase(std::mt19937_64& random, int i) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double sky = static_cast<float>(20'000.0 * unit(random));
+  const double sun = static_cast<float>(100'000.0 * unit(random));
+  // The edges of the patterns among them.
+  const double cover = i % 5 == 0 ? (i / 5 % 4) / 3.0 : unit(random);
+  return {static_cast<float>(cover),
+          RoundedToFloat(RandomDirection(random, -0.1)),
+          {sky, sky, sky},
+          {sun, sun, sun}};
+}
+
+/// The clear sky's radiance in a direction, for the clouds to lie before.
+inline LinearRgb ClearBehindClouds(Vec3 direction) {
+  return {1'500.0, 2'000.0, static_cast<float>(3'000.0 + 4'000.0 * direction.z)};
 }
 
 }  // namespace pleinair::sky

@@ -19,12 +19,16 @@ vec3 AerialAerosol(int node) { return aerial_nodes[2 * node + 1].xyz; }
 
 #include "sky/shaders/sky_atmosphere.glsl"
 #include "sky/shaders/sky_cie.glsl"
+#include "sky/shaders/sky_clouds.glsl"
 #include "sky/shaders/sky_perez.glsl"
 
 uniform int count;
-uniform int model;  // 0 perez, 1 to 15 CIE, 16 atmosphere, 17 its aerial perspective.
+uniform int model;  // 0 perez, 1 to 15 CIE, 16 atmosphere, 17 its aerial perspective, 18 clouds.
 uniform vec3 to_sun;
 uniform float turbidity;
+uniform float cover;
+uniform vec2 clear_lux;
+uniform vec2 illuminance_over_zenith;
 uniform float asymmetry;
 uniform vec3 sun_on_aerosol;
 uniform vec3 molecule_extinction;
@@ -42,6 +46,11 @@ void main() {
     answer = vec3(CieSkyRelativeLuminance(CieSkyCreate(model, to_sun), direction));
   } else if (model == 16) {
     answer = AtmosphereSkyRadiance(to_sun, asymmetry, direction);
+  } else if (model == 18) {
+    // Behind them ClearBehindClouds() of tests/sky/sky_twin_cases.h.
+    SkyClouds clouds = SkyCloudsCreate(cover, to_sun, clear_lux, illuminance_over_zenith);
+    vec3 clear = vec3(1500.0, 2000.0, 3000.0 + 4000.0 * direction.z);
+    answer = SkyCloudsRadiance(clouds, clear, direction);
   } else {
     AerialConstants air;
     air.sun_on_aerosol = sun_on_aerosol;
