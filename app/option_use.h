@@ -22,4 +22,8 @@ struct OptionUse {
 /// is not used.
 Result<void> RefuseUnusedOptions(const CLI::App& command, std::initializer_list<OptionUse> uses);
 
+/// No option of `command` takes an empty text, as an unset variable of a shell gives it: the parser
+/// then refuses it. Call it when all options are there.
+void RefuseEmptyValues(CLI::App& command);
+
 }  // namespace pleinair::app

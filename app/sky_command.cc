@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
+#include "app/option_use.h"
 #include "app/progress_bar.h"
 #include "app/result_file.h"
 #include "app/sky_directions.h"
@@ -138,6 +139,7 @@ void AddSkyCommand(CLI::App& app, CommandResult& result) {
       app.add_subcommand("sky", "The sky's light: illuminances, pictures, directions, a video");
   command->footer(kExamples);
   AddSkyOptions(*command, *options);
+  RefuseEmptyValues(*command);
   command->callback([command, options, &result] { result.status = Run(*command, *options); });
 }
 

@@ -180,6 +180,7 @@ void AddSunCommand(CLI::App& app, CommandResult& result) {
   command->add_option("-o,--output", options->output, "File instead of standard output")
       ->type_name("FILE")
       ->excludes(path);
+  RefuseEmptyValues(*command);
   command->callback([command, options, &result] { result.status = Run(*command, *options); });
 }
 

@@ -107,6 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NoStep",
                 {"--at", kPlace, "--from", kNoon, "--to", kNoon, "--step", "0", "-o", "OUT/a.mp4"},
                 "--step"},
+        Refusal{"NoName", {"--sun", "180,30", "-o", ""}, "--output: is given without a value"},
         Refusal{"TurbidityWithCie",
                 {"--sun", "180,30", "--model", "cie:12", "--turbidity", "8", "-o", "OUT/a.png"},
                 "--turbidity: has no effect here"},
