@@ -1,5 +1,4 @@
-#include <algorithm>
-#include <functional>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -10,8 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench/shadow_bench.h"
+#include "app/bench/shadow_pictures.h"
 #include "app/command.h"
 #include "app/progress_bar.h"
+#include "base/atomic_file.h"
+#include "gl/shader_library.h"
 
 namespace pleinair::app {
 namespace {
@@ -28,6 +30,7 @@ struct Options {
   std::vector<std::string> methods;
   std::string recording;
   std::string output;
+  std::string shader_directory;
   bool quick = false;
   bool json = false;
 };
@@ -51,6 +54,7 @@ nlohmann::json RowJson(const ShadowBenchRow& row, const std::string& renderer) {
                            {"maps_ms", row.time.maps_ms},
                            {"scene_ms", row.time.scene_ms},
                            {"ms", row.time.total_ms()},
+                           {"cpu_ms", row.time.cpu_ms},
                            {"maps_redrawn_while_creeping", row.creep_redraws}};
   if (!renderer.empty()) object["renderer"] = renderer;
   if (row.ratio_to_plain > 0.0) object["ratio_to_plain"] = row.ratio_to_plain;
@@ -75,15 +79,16 @@ std::string RowText(const ShadowBenchRow& row) {
   const shadows::ShadowMethodTraits& traits = shadows::TraitsOf(row.method);
   return fmt::format(
       "{:<13}{:<12}{:>5}{:>10.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>8.1f}{:>8.1f}"
-      "{:>7.2f}\n",
+      "{:>8.1f}{:>7.2f}\n",
       row.scene, traits.name, row.resolution, row.errors.penumbra_rmse, row.errors.rmse,
       row.errors.bias, row.errors.leak_mean, row.errors.leak_p99, row.errors.over_darkening,
-      row.shimmer - row.truth_shimmer, row.time.maps_ms, row.time.scene_ms, row.ratio_to_plain);
+      row.shimmer - row.truth_shimmer, row.time.maps_ms, row.time.scene_ms, row.time.cpu_ms,
+      row.ratio_to_plain);
 }
 
 constexpr const char* kHead =
     "scene        method      size  penumbra     rmse     bias     leak leak p99   darker  shimmer"
-    " maps ms scene ms / plain\n";
+    " maps ms scene ms cpu ms / plain\n";
 
 Result<void> CheckOptions(Options& options) {
   ShadowBenchOptions& bench = options.bench;
@@ -91,10 +96,10 @@ Result<void> CheckOptions(Options& options) {
     bench.width = 192;
     bench.height = 108;
     bench.rays = 64;
-    bench.timed_frames = 1;
     bench.creep_frames = 3;
     bench.resolutions = {256};
   }
+  bench.pictures = !options.output.empty();
   if (!options.recording.empty()) bench.recording = options.recording;
   for (const std::string& name : options.methods) {
     const shadows::ShadowMethodTraits* traits = shadows::FindShadowMethod(name);
@@ -110,8 +115,24 @@ Result<void> CheckOptions(Options& options) {
   return {};
 }
 
+Result<void> WriteResults(const ShadowBenchResult& result, const std::filesystem::path& folder) {
+  std::string lines;
+  for (const ShadowBenchRow& row : result.rows)
+    lines += RowJson(row, result.renderer).dump() + "\n";
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder / "shadows.jsonl", lines));
+  PLEINAIR_RETURN_IF_ERROR(WriteShadowPictures(result, folder));
+  return WriteShadowCharts(result, folder);
+}
+
 Result<void> Run(Options& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckOptions(options));
+  if (!options.output.empty()) {
+    // Before the minutes of measuring.
+    std::error_code error;
+    std::filesystem::create_directories(options.output, error);
+    if (error) return tl::make_unexpected(WriteError(options.output, error.value()));
+  }
+  gl::ShaderLibrary::SetOverrideDirectory(options.shader_directory);
   const ShadowBenchOptions& bench = options.bench;
   const std::size_t methods =
       bench.methods.empty() ? shadows::ShadowMethods().size() : bench.methods.size();
@@ -127,6 +148,7 @@ Result<void> Run(Options& options) {
                                                                     std::cout << RowText(row)
                                                                               << std::flush;
                                                                 }));
+  if (!options.output.empty()) PLEINAIR_RETURN_IF_ERROR(WriteResults(result, options.output));
   if (options.json) {
     for (const ShadowBenchRow& row : result.rows) {
       std::cout << RowJson(row, result.renderer).dump() << '\n';
@@ -164,7 +186,14 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--rays", options->bench.rays, "Rays a pixel of the truth")
       ->check(CLI::IsMember({64, 256, 1024}))
       ->capture_default_str();
+  command->add_option("--frames", options->bench.timed_frames, "Frames timed; the least counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command->add_option("-o,--output", options->output, "Folder for pictures, charts and the page")
+      ->type_name("DIR");
+  command
+      ->add_option("--shader-dir", options->shader_directory,
+                   "Shaders of this folder replace those built in")
       ->type_name("DIR");
   command->add_flag("--quick", options->quick, "Small pictures, few rays, maps of 256")
       ->excludes(sizes);

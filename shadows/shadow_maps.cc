@@ -59,9 +59,10 @@ Result<void> CheckOptions(const ShadowMapOptions& options) {
   return {};
 }
 
-// Levels of the pyramid of a map, from half its size down to 2 texels.
+// Levels of the pyramid of a map: from a quarter of its size down to 2 texels, or to blocks of 256
+// texels, beyond which no penumbra reaches.
 int PyramidLevels(int resolution) {
-  return std::countr_zero(static_cast<unsigned>(resolution)) - 1;
+  return std::min(std::countr_zero(static_cast<unsigned>(resolution)) - 2, 7);
 }
 
 Result<gl::GlProgram> FullscreenProgram(const std::string& fragment,
@@ -78,6 +79,8 @@ ShadowMapOptions CommonOptions(ShadowMethod method, int resolution) {
   ShadowMapOptions options;
   options.method = method;
   options.partitions = traits.partitions;
+  options.split_weight = traits.split_weight;
+
   options.resolutions.fill(resolution);
   if (traits.falling_resolution) {
     options.resolutions = {resolution, resolution / 2, resolution / 2, resolution / 4};
@@ -87,6 +90,7 @@ ShadowMapOptions CommonOptions(ShadowMethod method, int resolution) {
 
 std::vector<std::string> ShadowMaps::ShaderDefines(const ShadowMapOptions& options, int sets) {
   return {"SHADOW_SETS " + std::to_string(sets),
+          "SHADOW_PARTITIONS " + std::to_string(options.partitions),
           std::string(TraitsOf(options.method).shader_define)};
 }
 
@@ -149,7 +153,7 @@ Result<void> ShadowMaps::CreateBounds(int size) {
   PLEINAIR_ASSIGN_OR_RETURN(second_program_,
                             FullscreenProgram("shadows/shaders/shadow_bounds.frag", {}));
   const int levels = PyramidLevels(size);
-  PLEINAIR_ASSIGN_OR_RETURN(bounds_, gl::GlTexture::Create2DArray(GL_RG32F, size / 2, size / 2,
+  PLEINAIR_ASSIGN_OR_RETURN(bounds_, gl::GlTexture::Create2DArray(GL_RG32F, size / 4, size / 4,
                                                                   options_.partitions, levels));
   bounds_.SetFilter(GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST);
   for (int i = 0; i < options_.partitions; ++i) {
@@ -318,7 +322,7 @@ void ShadowMaps::DrawBounds(int slice) {
   const std::vector<gl::GlFramebuffer>& targets = slices_[slice].bounds_targets;
   for (int level = 0; level < static_cast<int>(targets.size()); ++level) {
     targets[level].Bind();
-    const int side = options_.resolutions[slice] >> (level + 1);
+    const int side = options_.resolutions[slice] >> (level + 2);
     glViewport(0, 0, side, side);
     if (level == 1) {
       bounds_.Bind(0);
@@ -362,6 +366,15 @@ void ShadowMaps::DrawMoments(int slice) {
   pass(first_program_, blur_target_, depth_, slice, true);
   pass(second_program_, slices_[slice].moments_target, blur_, 0, false);
   glEnable(GL_DEPTH_TEST);
+}
+
+Image<float> ShadowMaps::ReadDepth(int partition) const {
+  CHECK_LT(partition, options_.partitions);
+  const int side = options_.resolutions[partition];
+  Image<float> depths(side, side);
+  glGetTextureSubImage(depth_.id(), 0, 0, 0, partition, side, side, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                       static_cast<GLsizei>(depths.size() * sizeof(float)), depths.data());
+  return depths;
 }
 
 void ShadowMaps::Bind(int set) const {

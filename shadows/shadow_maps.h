@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/frames.h"
+#include "base/image.h"
 #include "base/units.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
@@ -96,6 +97,10 @@ class ShadowMaps {
   /// What a shader must define for `sets` sets of maps made with these options.
   static std::vector<std::string> ShaderDefines(const ShadowMapOptions& options, int sets);
 
+  /// One partition's depths, 0 nearest to the sun, 1 where nothing was drawn; row 0 at the lowest v
+  /// (debug views). Waits for the renderer.
+  Image<float> ReadDepth(int partition) const;
+
   const ShadowMapOptions& options() const { return options_; }
   const ShadowUniforms& uniforms() const { return uniforms_; }
 
@@ -142,7 +147,7 @@ class ShadowMaps {
   ShadowUniforms uniforms_{};
   gl::GlBuffer uniform_buffer_;
   gl::GlTexture depth_;    // Array of partitions, 0…1 over the depth range.
-  gl::GlTexture bounds_;   // Pyramid of nearest and farthest depth, from half size on.
+  gl::GlTexture bounds_;   // Pyramid of nearest and farthest depth, from a quarter of the size on.
   gl::GlTexture moments_;  // Moment methods.
   gl::GlTexture blur_;     // Moment methods: between the two passes.
   gl::GlFramebuffer blur_target_;

@@ -10,22 +10,25 @@ using enum ShadowMethod;
 using enum MapContent;
 
 // Bleed reduction 0.25: the penumbra's error of the paper's step at a smaller leak (docs).
-constexpr std::array<ShadowMethodTraits, 12> kMethods{{
-    {kPlain, "plain", "plain map", "SHADOW_METHOD_PLAIN", kDepth, 1, false},
-    {kPcf3, "pcf3", "PCF 3×3", "SHADOW_METHOD_PCF 3", kDepth, 1, false},
-    {kPcf5, "pcf5", "PCF 5×5", "SHADOW_METHOD_PCF 5", kDepth, 1, false},
-    {kPcf7, "pcf7", "PCF 7×7", "SHADOW_METHOD_PCF 7", kDepth, 1, false},
-    {kCascadesPcf, "csm-pcf5", "cascades + PCF 5×5", "SHADOW_METHOD_PCF 5", kDepth, 4, false},
-    {kVariance, "vsm", "variance", "SHADOW_METHOD_VARIANCE 0.0", kMoments, 1, false},
+// λ: the paper's ½ for the paper's method; 0.9, near the logarithm, serves the wide field best.
+constexpr std::array<ShadowMethodTraits, 13> kMethods{{
+    {kPlain, "plain", "plain map", "SHADOW_METHOD_PLAIN", kDepth, 1, false, 0.5},
+    {kPcf3, "pcf3", "PCF 3×3", "SHADOW_METHOD_PCF 3", kDepth, 1, false, 0.5},
+    {kPcf5, "pcf5", "PCF 5×5", "SHADOW_METHOD_PCF 5", kDepth, 1, false, 0.5},
+    {kPcf7, "pcf7", "PCF 7×7", "SHADOW_METHOD_PCF 7", kDepth, 1, false, 0.5},
+    {kCascadesPcf, "csm-pcf5", "cascades + PCF 5×5", "SHADOW_METHOD_PCF 5", kDepth, 4, false, 0.9},
+    {kVariance, "vsm", "variance", "SHADOW_METHOD_VARIANCE 0.0", kMoments, 1, false, 0.5},
     {kVarianceReduced, "vsm-reduced", "variance, bleed reduced", "SHADOW_METHOD_VARIANCE 0.25",
-     kMoments, 1, false},
+     kMoments, 1, false, 0.5},
     {kCascadesVariance, "csm-vsm", "cascades + variance", "SHADOW_METHOD_VARIANCE 0.25", kMoments,
-     4, false},
+     4, false, 0.9},
     {kExponentialVariance, "evsm", "exponential variance", "SHADOW_METHOD_EXPONENTIAL",
-     kWarpedMoments, 1, false},
-    {kPercentageCloserSoft, "pcss", "PCSS", "SHADOW_METHOD_PCSS", kDepth, 1, false},
-    {kGaussian, "zgaf", "Z-GaF (paper)", "SHADOW_METHOD_GAUSSIAN", kMoments, 4, true},
-    {kSunDisc, "ours", "sun disc (ours)", "SHADOW_METHOD_SUN_DISC", kDepthBounds, 4, true},
+     kWarpedMoments, 1, false, 0.5},
+    {kPercentageCloserSoft, "pcss", "PCSS", "SHADOW_METHOD_PCSS", kDepth, 1, false, 0.5},
+    {kGaussian, "zgaf", "Z-GaF (paper)", "SHADOW_METHOD_GAUSSIAN", kMoments, 4, true, 0.5},
+    {kSunDiscFast, "ours-fast", "sun disc, 4×4 texels (ours)", "SHADOW_METHOD_SUN_DISC_FAST",
+     kDepth, 4, true, 0.9},
+    {kSunDisc, "ours", "sun disc (ours)", "SHADOW_METHOD_SUN_DISC", kDepthBounds, 4, true, 0.9},
 }};
 
 }  // namespace

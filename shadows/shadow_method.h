@@ -21,6 +21,7 @@ enum class ShadowMethod {
   kExponentialVariance,   ///< Moments of two exponential warps (Lauritzen & McCool 2008).
   kPercentageCloserSoft,  ///< Blocker search, then a filter of that width (Fernando 2005).
   kGaussian,              ///< The paper's Z-GaF: a Gaussian of blurred depth moments.
+  kSunDiscFast,           ///< Ours with penumbrae of at most 3 texels: no search, no pyramid.
   kSunDisc,               ///< Ours, the default: the sun's disc seen past the blockers.
 };
 
@@ -40,6 +41,7 @@ struct ShadowMethodTraits {
   MapContent content;
   int partitions;           ///< As the method is commonly used.
   bool falling_resolution;  ///< Maps of N, N/2, N/2, N/4 in place of N each.
+  double split_weight;      ///< λ of Eq. 11.
 };
 
 /// All methods, in the order of the enumeration.

@@ -158,9 +158,26 @@ class SceneRun {
     return worst;
   }
 
-  const VisibilityPicture& picture() const { return picture_; }
-  const VisibilityPicture& truth_picture() const { return truth_picture_; }
-  const BenchScene& scene() const { return scene_; }
+  ShadowBenchPictures Pictures() const {
+    return {scene_.name,
+            truth_.Surfaces(view_, options_.width, options_.height),
+            truth_picture_,
+            window_,
+            {},
+            0};
+  }
+
+  /// Of the method measured last.
+  Result<ShadowBenchPictures::OfMethod> PicturesOf(shadows::ShadowMethod method) {
+    ShadowBenchPictures::OfMethod pictures;
+    pictures.method = method;
+    pictures.visibility = picture_;
+    PLEINAIR_ASSIGN_OR_RETURN(pictures.partitions, renderer_.DrawPartitions(view_));
+    for (int i = 0; i < renderer_.maps().options().partitions; ++i) {
+      pictures.maps.push_back(renderer_.maps().ReadDepth(i));
+    }
+    return pictures;
+  }
 
  private:
   SceneRun(BenchScene scene, ShadowTruth truth, BenchRenderer renderer,
@@ -247,16 +264,20 @@ Result<ShadowBenchResult> RunShadowBench(const ShadowBenchOptions& options,
     PLEINAIR_ASSIGN_OR_RETURN(SceneRun run, SceneRun::Create(std::move(scene), options));
     if (const auto error = run.TruthError()) result.truth_error = error;
     advance();
-    ShadowBenchPictures& pictures = result.pictures.emplace_back();
-    pictures.scene = run.scene();
-    pictures.truth = run.truth_picture();
+    if (options.pictures) {
+      result.pictures.push_back(run.Pictures());
+      result.pictures.back().resolution = middle;
+    }
     for (const int resolution : options.resolutions) {
       double plain_ms = 0.0;
       for (const shadows::ShadowMethod method : methods) {
         PLEINAIR_ASSIGN_OR_RETURN(ShadowBenchRow row, run.Measure(method, resolution));
         if (method == shadows::ShadowMethod::kPlain) plain_ms = row.time.total_ms();
         if (plain_ms > 0.0) row.ratio_to_plain = row.time.total_ms() / plain_ms;
-        if (resolution == middle) pictures.methods.push_back(run.picture());
+        if (options.pictures && resolution == middle) {
+          PLEINAIR_ASSIGN_OR_RETURN(auto pictures, run.PicturesOf(method));
+          result.pictures.back().methods.push_back(std::move(pictures));
+        }
         on_row(row);
         result.rows.push_back(std::move(row));
         advance();

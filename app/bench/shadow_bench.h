@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/bench/shadow_metrics.h"
+#include "app/bench/shadow_truth.h"
 #include "base/error.h"
 #include "shadows/bench/bench_renderer.h"
 #include "shadows/shadow_method.h"
@@ -22,6 +23,7 @@ struct ShadowBenchOptions {
   int rays = 256;         ///< A pixel of the truth.
   int timed_frames = 5;   ///< The least time of these counts.
   int creep_frames = 11;  ///< Of the creeping camera, 0.1 px a frame.
+  bool pictures = false;  ///< Keep them.
 };
 
 /// One method at one resolution in one scene.
@@ -42,9 +44,17 @@ struct ShadowBenchRow {
 
 /// What a scene's run leaves for pictures.
 struct ShadowBenchPictures {
-  shadows::BenchScene scene;
+  std::string scene;
+  SurfacePicture surfaces;
   shadows::VisibilityPicture truth;
-  std::vector<shadows::VisibilityPicture> methods;  ///< At the middle resolution.
+  PixelWindow window;  ///< Where most pixels are penumbra.
+  struct OfMethod {
+    shadows::ShadowMethod method = shadows::ShadowMethod::kSunDisc;
+    shadows::VisibilityPicture visibility, partitions;
+    std::vector<Image<float>> maps;  ///< Depths of each partition.
+  };
+  std::vector<OfMethod> methods;  ///< At the middle resolution.
+  int resolution = 0;
 };
 
 struct ShadowBenchResult {

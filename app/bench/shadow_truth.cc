@@ -24,6 +24,7 @@ Result<ShadowTruth> ShadowTruth::Create(const shadows::BenchScene& scene, int ra
     compositor::RayMesh& ray_mesh = meshes.emplace_back();
     for (const glm::vec3& p : mesh.positions) ray_mesh.positions.push_back({p.x, p.y, p.z});
     ray_mesh.indices = mesh.indices;
+    truth.albedos_.push_back(mesh.albedo);
     std::vector<glm::dvec3>& normals = truth.triangle_normals_.emplace_back();
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       const glm::dvec3 a(mesh.positions[mesh.indices[i]]);
@@ -61,6 +62,7 @@ ShadowTruth::Hit ShadowTruth::Trace(const shadows::View& view, const glm::dvec3&
                               &ray_hit)) {
     return hit;
   }
+  hit.mesh = ray_hit.mesh;
   hit.point = eye + ray_hit.distance_m * direction;
   hit.depth_m = ray_hit.distance_m / glm::length(in_camera);
   hit.normal = triangle_normals_[ray_hit.mesh][ray_hit.triangle];
@@ -78,6 +80,20 @@ double ShadowTruth::FreeShare(const glm::dvec3& point, const glm::dvec3& normal,
     if (!rays_scene_->Occluded(compositor::RayTargets::kEverything, origin, directions_[i])) ++free;
   }
   return static_cast<double>(free) / count;
+}
+
+SurfacePicture ShadowTruth::Surfaces(const shadows::View& view, int width, int height) const {
+  SurfacePicture picture{Image<float>(width, height, 3), Image<float>(width, height)};
+  const glm::dvec3 eye(glm::inverse(view.camera_from_marker)[3]);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Hit hit = Trace(view, eye, x + 0.5, y + 0.5, width, height);
+      if (hit.depth_m <= 0.0) continue;
+      for (int c = 0; c < 3; ++c) picture.albedo(x, y, c) = albedos_[hit.mesh][c];
+      picture.cosine(x, y) = static_cast<float>(std::max(glm::dot(hit.normal, to_sun_), 0.0));
+    }
+  }
+  return picture;
 }
 
 double ShadowTruth::At(const glm::dvec3& point, const glm::dvec3& normal) const {

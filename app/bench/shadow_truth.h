@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct PixelWindow {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// What is seen through each pixel's centre, to shade pictures with.
+struct SurfacePicture {
+  Image<float> albedo;  ///< Linear, three channels; black where nothing is seen.
+  Image<float> cosine;  ///< Of the angle between sun and surface; 0 where it is turned away.
+};
+
 /// The visibility that shadow methods are measured against: rays (Embree) to a uniform disc of
 /// 0.533°. Renders the same picture for any number of threads.
 class ShadowTruth {
@@ -29,6 +36,8 @@ class ShadowTruth {
   shadows::VisibilityPicture Render(const shadows::View& view, int width, int height,
                                     PixelWindow window) const;
 
+  SurfacePicture Surfaces(const shadows::View& view, int width, int height) const;
+
   /// At a point of a surface with that unit normal.
   double At(const glm::dvec3& point, const glm::dvec3& normal) const;
 
@@ -36,6 +45,7 @@ class ShadowTruth {
   struct Hit {
     glm::dvec3 point{0.0}, normal{0.0};
     double depth_m = 0.0;  ///< 0: nothing hit.
+    std::uint32_t mesh = 0;
   };
   ShadowTruth() = default;
   Hit Trace(const shadows::View& view, const glm::dvec3& eye, double x, double y, int width,
@@ -45,6 +55,7 @@ class ShadowTruth {
 
   std::shared_ptr<const compositor::RayScene> rays_scene_;
   std::vector<std::vector<glm::dvec3>> triangle_normals_;  // A list a mesh.
+  std::vector<glm::vec3> albedos_;                         // One a mesh.
   std::vector<Vec3> directions_;                           // Over the disc.
   glm::dvec3 to_sun_{0.0};
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <span>
 #include <utility>
 
@@ -62,7 +63,7 @@ Result<BenchRenderer> BenchRenderer::Create(const BenchScene& scene, int width, 
 Result<void> BenchRenderer::SetMethod(const ShadowMapOptions& options) {
   maps_.clear();
   PLEINAIR_ASSIGN_OR_RETURN(ShadowMaps maps, ShadowMaps::Create(options));
-  const std::vector<std::string> defines = ShadowMaps::ShaderDefines(options, 1);
+  std::vector<std::string> defines = ShadowMaps::ShaderDefines(options, 1);
   PLEINAIR_ASSIGN_OR_RETURN(view_program_,
                             gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_view.vert",
                                                    .fragment = "shadows/shaders/shadow_view.frag",
@@ -71,6 +72,11 @@ Result<void> BenchRenderer::SetMethod(const ShadowMapOptions& options) {
       probe_program_, gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
                                              .fragment = "shadows/shaders/shadow_probe.frag",
                                              .defines = defines}));
+  defines.emplace_back("SHOW_PARTITIONS");
+  PLEINAIR_ASSIGN_OR_RETURN(partitions_program_,
+                            gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_view.vert",
+                                                   .fragment = "shadows/shaders/shadow_view.frag",
+                                                   .defines = defines}));
   maps_.push_back(std::move(maps));
   return {};
 }
@@ -121,13 +127,13 @@ void BenchRenderer::DrawDepth(const View& view) {
   DrawSurfaces(depth_program_, view);
 }
 
-void BenchRenderer::DrawVisibility(const View& view) {
+void BenchRenderer::DrawVisible(const gl::GlProgram& program, const View& view) {
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   maps_.front().Bind(0);
-  view_program_.Set("eye", glm::vec3(glm::inverse(view.camera_from_marker)[3]));
-  view_program_.Set("depth_from_marker", glm::vec4(glm::transpose(view.camera_from_marker)[2]));
-  DrawSurfaces(view_program_, view);
+  program.Set("eye", glm::vec3(glm::inverse(view.camera_from_marker)[3]));
+  program.Set("depth_from_marker", glm::vec4(glm::transpose(view.camera_from_marker)[2]));
+  DrawSurfaces(program, view);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
 }
@@ -149,24 +155,34 @@ Result<VisibilityPicture> BenchRenderer::Draw(const View& view, int* redrawn) {
   PLEINAIR_ASSIGN_OR_RETURN(const int count, UpdateMaps(view));
   if (redrawn != nullptr) *redrawn = count;
   DrawDepth(view);
-  DrawVisibility(view);
+  DrawVisible(view_program_, view);
+  return Read();
+}
+
+Result<VisibilityPicture> BenchRenderer::DrawPartitions(const View& view) {
+  PLEINAIR_RETURN_IF_ERROR(UpdateMaps(view));
+  DrawDepth(view);
+  DrawVisible(partitions_program_, view);
   return Read();
 }
 
 Result<FrameTime> BenchRenderer::Time(const View& view, int frames) {
-  FrameTime least{1e30, 1e30};
+  FrameTime least{1e30, 1e30, 1e30};
   for (int i = 0; i < frames; ++i) {
     maps_.front().Invalidate();
     glFinish();
+    const std::clock_t cpu_start = std::clock();
     auto start = Clock::now();
     PLEINAIR_RETURN_IF_ERROR(UpdateMaps(view));
     glFinish();
     least.maps_ms = std::min(least.maps_ms, MillisecondsSince(start));
     start = Clock::now();
     DrawDepth(view);
-    DrawVisibility(view);
+    DrawVisible(view_program_, view);
     glFinish();
     least.scene_ms = std::min(least.scene_ms, MillisecondsSince(start));
+    least.cpu_ms = std::min(least.cpu_ms,
+                            1e3 * static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC);
   }
   return least;
 }

@@ -26,6 +26,8 @@ struct VisibilityPicture {
 struct FrameTime {
   double maps_ms = 0.0;   ///< All maps drawn anew.
   double scene_ms = 0.0;  ///< Depth first, then the visibility of what is seen.
+  double cpu_ms = 0.0;    ///< Processor time of both, all threads: what a software renderer costs
+                          ///< whatever else the machine does.
   double total_ms() const { return maps_ms + scene_ms; }
 };
 
@@ -52,6 +54,10 @@ class BenchRenderer {
   /// Draws a view; maps are redrawn where they must be. `redrawn`, where given, counts them.
   Result<VisibilityPicture> Draw(const View& view, int* redrawn = nullptr);
 
+  /// In place of visibility, the number of the partition that a point is looked up in (between two
+  /// where they fade into one another), −1 for none.
+  Result<VisibilityPicture> DrawPartitions(const View& view);
+
   /// Times `frames` frames of a view.
   Result<FrameTime> Time(const View& view, int frames);
 
@@ -71,7 +77,7 @@ class BenchRenderer {
   Result<int> UpdateMaps(const View& view);
   void DrawSurfaces(const gl::GlProgram& program, const View& view);
   void DrawDepth(const View& view);
-  void DrawVisibility(const View& view);
+  void DrawVisible(const gl::GlProgram& program, const View& view);
   VisibilityPicture Read() const;
 
   int width_ = 0, height_ = 0;
@@ -79,7 +85,7 @@ class BenchRenderer {
   std::list<Surface> surfaces_;
   std::vector<ShadowCaster> casters_;
   std::vector<ShadowMaps> maps_;  // One; none before SetMethod.
-  gl::GlProgram depth_program_, view_program_, probe_program_;
+  gl::GlProgram depth_program_, view_program_, partitions_program_, probe_program_;
   gl::GlTexture picture_, depth_;
   gl::GlFramebuffer target_;
   gl::GlVertexArray no_vertices_;

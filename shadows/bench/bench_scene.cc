@@ -72,7 +72,7 @@ BenchScene PoleAndBoxScene(double aspect) {
 }
 
 BenchScene TreesScene(double aspect) {
-  BenchScene scene{"trees", "trees, a body and a wall", {}, ToSun(215, 42), {}, {}, {}};
+  BenchScene scene{"trees", "trees, a body and a wall", {}, ToSun(215, 32), {}, {}, {}};
   AddGround(scene, 14.0, 4);
   AddTree(scene,
           {.foot = {-2.2, -1.6, 0.0}, .height = 4.6, .crown = 1.5, .leaves = 2600, .seed = 1});
@@ -92,9 +92,11 @@ BenchScene TreesScene(double aspect) {
 BenchScene WideFieldScene(double aspect) {
   BenchScene scene{"wide_field", "a field: 1 m, 10 m, 200 m", {}, ToSun(230, 33), {}, {}, {}};
   AddGround(scene, 300.0, 8);
-  // At 1 m: a block with a stick.
-  scene.meshes.push_back(Cuboid({-0.35, 1.0, 0}, {-0.1, 1.25, 0.3}, kStone));
-  scene.meshes.push_back(Cuboid({0.2, 1.1, 0}, {0.23, 1.13, 0.6}, kWood));
+  // At 1 m: a pillar with a stick on top, and a rail.
+  scene.meshes.push_back(Cuboid({-0.5, 0.5, 0}, {-0.1, 0.9, 1.25}, kStone));
+  scene.meshes.push_back(Cuboid({-0.4, 0.58, 1.25}, {-0.385, 0.595, 1.55}, kWood));
+  scene.meshes.push_back(Cuboid({0.25, 0.6, 0}, {0.28, 0.63, 1.2}, kWood));
+  scene.meshes.push_back(Cuboid({0.25, 0.57, 1.2}, {0.8, 0.66, 1.23}, kWood));
   // At 10 m: a hut, a post and a tree.
   scene.meshes.push_back(Cuboid({-4.0, 9.5, 0}, {-1.5, 11.5, 2.2}, kStone));
   scene.meshes.push_back(Cuboid({1.0, 9.0, 0}, {1.1, 9.1, 3.0}, kWood));

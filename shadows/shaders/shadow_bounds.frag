@@ -1,21 +1,30 @@
 #version 450 core
-// One level of the pyramid of nearest and farthest depth: each texel bounds 2×2 of the level below.
+// One level of the pyramid of nearest and farthest depth. FROM_DEPTH: each texel bounds 4×4 of the
+// map (finer levels would cost more than they spare); otherwise 2×2 of the level below.
 layout(binding = 0) uniform sampler2DArray finer;  // Its base level is the level to read.
 uniform int slice;
 layout(location = 0) out vec2 bounds;
 
-vec2 Fetch(ivec2 texel) {
-  vec2 value = texelFetch(finer, ivec3(texel, slice), 0).rg;
-#ifdef FROM_DEPTH
-  // Where nothing was drawn the ground is for ever away.
-  value = vec2(value.r < 1.0 ? value.r : 1e6);
-#endif
-  return value;
+void Include(vec4 low, vec4 high) {
+  low.xy = min(low.xy, low.zw);
+  high.xy = max(high.xy, high.zw);
+  bounds = vec2(min(bounds.x, min(low.x, low.y)), max(bounds.y, max(high.x, high.y)));
 }
 
 void main() {
-  ivec2 corner = ivec2(gl_FragCoord.xy) * 2;
-  vec2 a = Fetch(corner), b = Fetch(corner + ivec2(1, 0));
-  vec2 c = Fetch(corner + ivec2(0, 1)), d = Fetch(corner + ivec2(1, 1));
-  bounds = vec2(min(min(a.x, b.x), min(c.x, d.x)), max(max(a.y, b.y), max(c.y, d.y)));
+  bounds = vec2(1e30, -1e30);
+  vec2 texels = vec2(textureSize(finer, 0).xy);
+#ifdef FROM_DEPTH
+  vec2 corner = floor(gl_FragCoord.xy) * 4.0 + 1.0;
+  for (int i = 0; i < 4; ++i) {
+    vec4 depth =
+        textureGather(finer, vec3((corner + 2.0 * vec2(i & 1, i >> 1)) / texels, float(slice)), 0);
+    // Where nothing was drawn the ground is for ever away.
+    depth += 1e6 * vec4(greaterThanEqual(depth, vec4(1.0)));
+    Include(depth, depth);
+  }
+#else
+  vec3 at = vec3((floor(gl_FragCoord.xy) * 2.0 + 1.0) / texels, float(slice));
+  Include(textureGather(finer, at, 0), textureGather(finer, at, 1));
+#endif
 }

@@ -6,6 +6,9 @@
 #define SHADOW_SETS 1
 #endif
 #define SHADOW_MAX_SLICES 4
+#ifndef SHADOW_PARTITIONS
+#define SHADOW_PARTITIONS SHADOW_MAX_SLICES
+#endif
 
 // Mirrors ShadowSliceUniforms in shadows/shadow_uniforms.h.
 struct ShadowSlice {

@@ -8,7 +8,7 @@
 #define SHADOW_SEARCH_SAMPLES 24
 #endif
 #ifndef SHADOW_FILTER_SAMPLES
-#define SHADOW_FILTER_SAMPLES 48
+#define SHADOW_FILTER_SAMPLES 96
 #endif
 
 // Point i of a sequence spread evenly over the pixel's footprint, texels from its middle. Roberts
@@ -21,9 +21,10 @@ vec2 ShadowFootprint(ShadowReceiver r, int i) {
 // Nearest and farthest depth in a block of the pyramid that covers `reach` texels around, and the
 // block's farthest corner from the receiver in texels (z).
 vec3 ShadowBounds(int set, int slice, vec4 size, vec2 texel, float reach) {
-  // Level 0 of the pyramid bounds 2×2 texels; a block is 2×2 of the level's texels.
-  int level = clamp(int(ceil(log2(max(reach, 1.0)))), 0, int(size.z) > 2 ? findMSB(int(size.z)) - 2 : 0);
-  float side = exp2(float(level + 1));
+  // Level 0 of the pyramid bounds 4×4 texels; a block is 2×2 of the level's texels.
+  int top = max(min(findMSB(int(size.z)) - 3, 6), 0);
+  int level = clamp(int(ceil(log2(max(reach, 1.0)))) - 1, 0, top);
+  float side = exp2(float(level + 2));
   ivec2 first = ivec2(floor((texel - reach) / side));
   ivec2 last = ivec2(floor(size.z / side)) - 1;
   vec2 bounds = vec2(1e30, -1e30);
@@ -35,6 +36,49 @@ vec3 ShadowBounds(int set, int slice, vec4 size, vec2 texel, float reach) {
   vec2 low = vec2(first) * side - texel;
   vec2 far = max(abs(low), abs(low + 2.0 * side));
   return vec3(bounds * size.w, length(far));
+}
+
+// Points of a disc of that radius in texels: `a_texel` a square texel of it (a tap sees four), from
+// `least` to `most`.
+int ShadowCount(float radius_texels, float a_texel, int least, int most) {
+  return clamp(least + int(a_texel * radius_texels * radius_texels), least, most);
+}
+
+// VogelDisc's turn from point to point, 2.39996 rad: spares a sine and a cosine a point.
+const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
+
+// Share that a box of ±k texels around the middle of 4×4 texels gives to each of the four along an
+// axis; f: the point's offset from the second one's centre. ±½ is the bilinear filter.
+vec4 ShadowBoxWeights(float f, float k) {
+  const vec4 kStart = vec4(-0.5, 0.5, 1.5, 2.5);
+  return (clamp(1.0 + f + k - kStart, 0.0, 1.0) - clamp(1.0 + f - k - kStart, 0.0, 1.0)) /
+         (2.0 * k);
+}
+
+// Where 4×4 texels hold all that the disc and the pixel can see: their blockers' mean height, and
+// a box as wide as it asks.
+float ShadowNarrow(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
+  vec2 corner = floor(r.texel - 0.5) - 1.0;
+  vec2 f = r.texel - 1.5 - corner;
+  vec4 blocks[4];
+  float height_sum = 0.0;
+  float blockers = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ShadowQuad quad =
+        ShadowFetch(set, slice, size, r, corner + vec2(2.0 * float(i & 1), 2.0 * float(i >> 1)));
+    blocks[i] = vec4(greaterThan(quad.excess, vec4(0.0)));
+    height_sum += dot(blocks[i], quad.height);
+    blockers += dot(blocks[i], vec4(1.0));
+  }
+  // A disc of radius ρ is as wide, in standard deviations, as a box of ±ρ√¾; a pixel is a box.
+  vec2 disc = max(height_sum / max(blockers, 1.0), 0.0) * tan_radius / size.xy;
+  vec2 pixel = 0.5 * (abs(r.step_x) + abs(r.step_y));
+  vec2 k = clamp(sqrt(0.75 * disc * disc + pixel * pixel), vec2(0.5), vec2(1.5));
+  vec4 x = ShadowBoxWeights(f.x, k.x), y = ShadowBoxWeights(f.y, k.y);
+  // In the order of a quad: (0,1), (1,1), (1,0), (0,0).
+  float blocked = dot(blocks[0], x.xyyx * y.yyxx) + dot(blocks[1], x.zwwz * y.yyxx) +
+                  dot(blocks[2], x.xyyx * y.wwzz) + dot(blocks[3], x.zwwz * y.wwzz);
+  return 1.0 - blocked;
 }
 
 // Visibility of the sun's disc by percentage-closer soft shadows (Fernando 2005) with the sun's own
@@ -53,7 +97,8 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   reach = max(r.depth - bounds.x, 0.0) * tan_radius / min(size.x, size.y) + footprint + 1.0;
   bounds = ShadowBounds(set, slice, size, r.texel, reach);
   float highest_m = max(r.depth - bounds.x, 0.0);
-  float search_m = highest_m * tan_radius;
+  // At most what the pyramid's widest blocks cover.
+  float search_m = min(highest_m * tan_radius, 128.0 * min(size.x, size.y));
 
   // The bilinear tap is a tent of variance 1/6 texel² a axis; a disc of radius ρ has ρ²/4: below
   // that the tap alone is soft enough.
@@ -61,16 +106,21 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   bool umbra = bounds.y < r.depth - slope_texel * bounds.z - r.bias;
   // Nothing within reach rises above the receiver's plane.
   bool lit = highest_m < slope_texel * bounds.z + r.bias;
-  bool soft = search_m * search_m > tap_radius2_m || (footprint > 1.0 && !lit);
-  soft = soft && !umbra;
+  // Boxes of more than ±1½ texels do not fit into 4×4 texels.
+  vec2 pixel = 0.5 * (abs(r.step_x) + abs(r.step_y));
+  vec2 widest = 0.75 * search_m * search_m / (size.xy * size.xy) + pixel * pixel;
+  bool soft = max(widest.x, widest.y) > 2.25 && !lit && !umbra;
 
   // Mean height of the blockers that the disc's rays can meet. Loops with a count of 0 instead of
   // branches: Mesa's software renderer runs both sides of an `if`, but leaves a loop.
   float height_sum = 0.0;
   float blockers = 0.0;
-  int search_count = soft ? SHADOW_SEARCH_SAMPLES : 0;
-  for (int i = 0; i < search_count; ++i) {
-    vec2 offset_m = search_m * VogelDisc(i, SHADOW_SEARCH_SAMPLES);
+  int search_count = soft ? ShadowCount(search_m / texel_m, 0.6, 6, SHADOW_SEARCH_SAMPLES) : 0;
+  vec2 spoke = vec2(1.0, 0.0);
+  int i = 0;
+  do {
+    vec2 offset_m = search_m * sqrt((float(i) + 0.5) / float(search_count)) * spoke;
+    spoke = kGoldenTurn * spoke;
     vec2 corner = floor(r.texel + offset_m / size.xy - 0.5);
     ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
     // A ray that passes at this distance is already higher than a blocker below this.
@@ -78,22 +128,26 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
     vec4 blocks = ShadowBlocks(quad, least_m);
     height_sum += dot(blocks, quad.height);
     blockers += dot(blocks, vec4(1.0));
-  }
+  } while (++i < search_count);
   float mean_height_m = height_sum / max(blockers, 1.0);
   float disc_m = mean_height_m * tan_radius;
   float filter_m = sqrt(max(disc_m * disc_m - tap_radius2_m, 0.0));
 
   float visible = 0.0;
-  bool wide = filter_m > 0.0 || footprint > 1.0;
-  int filter_count = soft && wide ? SHADOW_FILTER_SAMPLES : 0;
-  for (int i = 0; i < filter_count; ++i) {
-    vec2 offset_m = filter_m * VogelDisc(i, SHADOW_FILTER_SAMPLES);
+  int filter_count = soft ? ShadowCount(filter_m / texel_m + 0.5 * footprint, 1.5, 16,
+                                        SHADOW_FILTER_SAMPLES)
+                          : 0;
+  spoke = vec2(1.0, 0.0);
+  i = 0;
+  do {
+    vec2 offset_m = filter_m * sqrt((float(i) + 0.5) / float(filter_count)) * spoke;
+    spoke = kGoldenTurn * spoke;
     float least_m = max((0.5 * length(offset_m) - texel_m) / tan_radius, 0.0);
     vec2 texel = r.texel + offset_m / size.xy + ShadowFootprint(r, i);
     visible += ShadowTap(set, slice, size, r, texel, least_m);
-  }
-  if (filter_count > 0) return visible / float(SHADOW_FILTER_SAMPLES);
-  return ShadowTap(set, slice, size, r, r.texel, -1e30);
+  } while (++i < filter_count);
+  float narrow = ShadowNarrow(set, slice, size, r, tan_radius);
+  return soft ? visible / float(filter_count) : narrow;
 }
 
 #endif

@@ -1,5 +1,6 @@
 #version 450 core
-// Visibility of the sun and depth of view at a surface.
+// Visibility of the sun and depth of view at a surface; SHOW_PARTITIONS: the number of the partition
+// that it is looked up in, between two of them where they fade into one another.
 #include "shadows/shaders/shadow_visibility.glsl"
 in vec3 v_position;
 uniform vec3 eye;
@@ -8,8 +9,12 @@ layout(location = 0) out vec2 visibility_and_depth;
 
 void main() {
   vec3 normal = ShadowGeometricNormal(v_position, eye - v_position);
+#ifdef SHOW_PARTITIONS
+  float visible = ShadowPartition(SHADOW_SETS - 1, v_position);
+#else
   float visible =
       ShadowVisibility(SHADOW_SETS - 1, v_position, normal, dFdx(v_position), dFdy(v_position));
+#endif
   visibility_and_depth =
       vec2(visible, dot(depth_from_marker.xyz, v_position) + depth_from_marker.w);
 }

@@ -18,7 +18,7 @@
 #elif defined(SHADOW_METHOD_PLAIN) || defined(SHADOW_METHOD_PCF) || defined(SHADOW_METHOD_PCSS)
 #include "shadows/shaders/shadow_filters.glsl"
 #else
-#ifndef SHADOW_METHOD_SUN_DISC
+#if !defined(SHADOW_METHOD_SUN_DISC) && !defined(SHADOW_METHOD_SUN_DISC_FAST)
 #define SHADOW_METHOD_SUN_DISC
 #endif
 #include "shadows/shaders/shadow_sun_disc.glsl"
@@ -41,69 +41,105 @@ vec2 ShadowTexel(ShadowSlice s, vec3 position) {
 // Texels along a map's border that nothing is looked up in: half the widest box of comparisons.
 const float kShadowBorder = 4.0;
 
-// The finest slice from `first` on whose window and depths hold the point; -1: none.
-int ShadowFinestSlice(int set, vec3 position, int first) {
-  int slice = -1;
-  for (int i = int(shadow_sets[set].settings.x) - 1; i >= first; --i) {
-    ShadowSlice s = shadow_sets[set].slices[i];
-    vec2 inside = 0.5 * s.size.z - kShadowBorder - abs(ShadowTexel(s, position) - 0.5 * s.size.z);
-    float depth = dot(s.depth_from_marker.xyz, position) + s.depth_from_marker.w;
-    if (min(min(inside.x, inside.y), min(depth, s.size.w - depth)) > 0.0) slice = i;
+// Where a point lies in a slice.
+struct ShadowPlace {
+  int slice;     // -1: in none.
+  vec2 texel;
+  float depth;   // Metres.
+  vec4 size;     // As ShadowSlice.
+  float inside;  // Texels to the border beyond which nothing is looked up.
+};
+
+// The finest slice whose window and depths hold the point, and the next one that does. The number of
+// slices is a constant and they are picked by selection: Mesa's software renderer would fetch a
+// slice chosen by index float by float.
+void ShadowPlaces(int set, vec3 position, out ShadowPlace finest, out ShadowPlace next) {
+  finest = next = ShadowPlace(-1, vec2(0.0), 0.0, vec4(1.0), 0.0);
+  for (int i = SHADOW_PARTITIONS - 1; i >= 0; --i) {
+    ShadowPlace p;
+    p.slice = i;
+    p.size = shadow_sets[set].slices[i].size;
+    p.texel = ShadowTexel(shadow_sets[set].slices[i], position);
+    p.depth = dot(shadow_sets[set].slices[i].depth_from_marker, vec4(position, 1.0));
+    vec2 border = 0.5 * p.size.z - kShadowBorder - abs(p.texel - 0.5 * p.size.z);
+    p.inside = min(border.x, border.y);
+    bool holds = min(p.inside, min(p.depth, p.size.w - p.depth)) > 0.0;
+    next.slice = holds ? finest.slice : next.slice;
+    next.texel = holds ? finest.texel : next.texel;
+    next.depth = holds ? finest.depth : next.depth;
+    next.size = holds ? finest.size : next.size;
+    finest.slice = holds ? p.slice : finest.slice;
+    finest.texel = holds ? p.texel : finest.texel;
+    finest.depth = holds ? p.depth : finest.depth;
+    finest.size = holds ? p.size : finest.size;
+    finest.inside = holds ? p.inside : finest.inside;
   }
-  return slice;
 }
 
 // What one slice says of a point.
-float ShadowInSlice(int set, int slice, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
+float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 step_y) {
+  vec3 light_u = shadow_sets[set].light_u.xyz, light_v = shadow_sets[set].light_v.xyz;
   float facing = dot(normal, shadow_sets[set].to_sun.xyz);
-  ShadowSlice s = shadow_sets[set].slices[slice];
   ShadowReceiver r;
-  r.texel = ShadowTexel(s, position);
-  r.depth = dot(s.depth_from_marker.xyz, position) + s.depth_from_marker.w;
+  r.texel = place.texel;
+  r.depth = place.depth;
   // Plane n·Δ = 0 with Δ = a u + b v − Δdepth to_sun.
-  vec2 slope = vec2(dot(normal, shadow_sets[set].light_u.xyz),
-                    dot(normal, shadow_sets[set].light_v.xyz)) / max(facing, 0.02);
-  r.slope = slope * s.size.xy;
-  r.step_x = vec2(dot(s.u_from_marker.xyz, step_x), dot(s.v_from_marker.xyz, step_x));
-  r.step_y = vec2(dot(s.u_from_marker.xyz, step_y), dot(s.v_from_marker.xyz, step_y));
+  vec2 slope = vec2(dot(normal, light_u), dot(normal, light_v)) / max(facing, 0.02);
+  r.slope = slope * place.size.xy;
+  r.step_x = vec2(dot(light_u, step_x), dot(light_v, step_x)) / place.size.xy;
+  r.step_y = vec2(dot(light_u, step_y), dot(light_v, step_y)) / place.size.xy;
   r.bias = shadow_sets[set].settings.y + 0.05 * length(r.slope);
 #if defined(SHADOW_METHOD_SUN_DISC)
-  return ShadowDiscVisibility(set, slice, s.size, r, shadow_sets[set].to_sun.w);
+  return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
+#elif defined(SHADOW_METHOD_SUN_DISC_FAST)
+  return ShadowNarrow(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
 #elif defined(SHADOW_METHOD_PLAIN)
-  return ShadowNearest(set, slice, s.size, r);
+  return ShadowNearest(set, place.slice, place.size, r);
 #elif defined(SHADOW_METHOD_PCF)
-  return ShadowBox(set, slice, s.size, r, SHADOW_METHOD_PCF);
+  return ShadowBox(set, place.slice, place.size, r, SHADOW_METHOD_PCF);
 #elif defined(SHADOW_METHOD_PCSS)
-  return ShadowSoftBox(set, slice, s.size, r, shadow_sets[set].to_sun.w);
+  return ShadowSoftBox(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
 #else
-  return ShadowFromMoments(set, slice, s.size, r, shadow_sets[set].settings.z);
+  return ShadowFromMoments(set, place.slice, place.size, r, shadow_sets[set].settings.z);
 #endif
 }
 
-// Share of the way from a slice's inner edge of its blend band to its border, 0…1.
-float ShadowBand(int set, int slice, vec3 position) {
-  ShadowSlice s = shadow_sets[set].slices[slice];
-  vec2 to_border = 0.5 * s.size.z - abs(ShadowTexel(s, position) - 0.5 * s.size.z);
-  float band = shadow_sets[set].settings.w * s.size.z;
-  return clamp(1.0 - (min(to_border.x, to_border.y) - kShadowBorder) / max(band, 1e-6), 0.0, 1.0);
+// Share of the way through the finest slice's blend band, 1 at its border.
+float ShadowCoarser(int set, ShadowPlace finest, ShadowPlace next) {
+  float band = max(shadow_sets[set].settings.w * finest.size.z, 1e-6);
+  return next.slice >= 0 ? clamp(1.0 - finest.inside / band, 0.0, 1.0) : 0.0;
+}
+
+// Number of the partition that a point is looked up in, −1 for none (debug views).
+float ShadowPartition(int set, vec3 position) {
+  ShadowPlace finest, next;
+  ShadowPlaces(set, position, finest, next);
+  return mix(float(finest.slice), float(next.slice), ShadowCoarser(set, finest, next));
 }
 
 // Mean over the pixel: `step_x`, `step_y` are how far `position` moves to the next pixel (dFdx,
 // dFdy, taken where all pixels run).
 float ShadowVisibility(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
-  int slice = ShadowFinestSlice(set, position, 0);
-  int next = ShadowFinestSlice(set, position, slice + 1);
-  float coarser = slice >= 0 && next >= 0 ? ShadowBand(set, slice, position) : 0.0;
-  // Outside every window nothing casts; a surface turned away is in its own shade. Loops that may
-  // not run in place of branches: Mesa's software renderer runs both sides of an `if`.
+  ShadowPlace finest, next;
+  ShadowPlaces(set, position, finest, next);
+  int finest_slice = finest.slice;
+  float coarser = ShadowCoarser(set, finest, next);
+  // Outside every window nothing casts; a surface turned away is in its own shade.
   bool facing = dot(normal, shadow_sets[set].to_sun.xyz) > 0.0;
-  int count = slice < 0 || !facing ? 0 : (coarser > 0.0 ? 2 : 1);
-  float visible = slice < 0 && facing ? 1.0 : 0.0;
-  for (int i = 0; i < count; ++i) {
-    visible += (i == 0 ? 1.0 - coarser : coarser) *
-               ShadowInSlice(set, i == 0 ? slice : next, position, normal, step_x, step_y);
-  }
-  return visible;
+  bool again = coarser > 0.0 && facing;
+  float visible = 0.0;
+  float weight = 1.0 - coarser;
+  // Tested at its end: Mesa's software renderer runs a loop's body once more after a test at its
+  // beginning fails, and both sides of every `if`.
+  bool more;
+  do {
+    visible += weight * ShadowInSlice(set, finest, normal, step_x, step_y);
+    more = again;
+    again = false;
+    finest = next;
+    weight = coarser;
+  } while (more);
+  return !facing ? 0.0 : (finest_slice < 0 ? 1.0 : visible);
 }
 
 // At the point alone.

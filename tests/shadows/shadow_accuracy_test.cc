@@ -58,8 +58,8 @@ TEST_F(ShadowAccuracy, OfAStraightEdgeIsCloseToTheClosedForm) {
     }
     const double rmse = std::sqrt(sum / (plane.width * plane.height));
     std::printf("| %.1f m | %.3f | %.3f |\n", height, rmse, worst);
-    EXPECT_LT(rmse, 0.025) << "height " << height;
-    EXPECT_LT(worst, 0.09) << "height " << height;
+    EXPECT_LT(rmse, 0.01) << "height " << height;
+    EXPECT_LT(worst, 0.03) << "height " << height;
   }
 }
 
