@@ -87,6 +87,7 @@ class Replayer {
     // Models are loaded before a long search for markers begins: their errors come at once.
     PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_,
                                                                options_.composer, options_.light));
+    if (!options_.light_cache.empty()) renderer_->KeepLightIn(options_.light_cache);
     session_.emplace(scene_.marker);
     PLEINAIR_RETURN_IF_ERROR(FindMarkers(recording, **tracker));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());

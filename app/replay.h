@@ -26,6 +26,7 @@ struct ReplayOptions {
   bool write_video = true;
   compositor::ComposerOptions composer;
   LightOverrides light;
+  std::filesystem::path light_cache;  ///< Folder for daylight coefficients; empty: without.
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
   std::string command;              ///< For the report.
 };

@@ -65,6 +65,9 @@ std::string CommandText(const Arguments& arguments) {
   if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
   if (arguments.options.write_frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
+  if (!arguments.options.light_cache.empty()) {
+    text += " --light-cache " + Quoted(arguments.options.light_cache.string());
+  }
   if (arguments.light != "measured") text += " --light " + arguments.light;
   const LightOverrides& light = arguments.options.light;
   if (light.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *light.sun_to_sky);
@@ -139,6 +142,10 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
                    "frames; stated: as the scene says")
       ->check(CLI::IsMember({"measured", "stated"}))
       ->capture_default_str();
+  command->add_option(
+      "--light-cache", arguments->options.light_cache,
+      "Folder for daylight coefficients: traced once for a scene, then any moment's "
+      "light takes milliseconds; for long days and for trying out");
   command
       ->add_option("--sun-to-sky", arguments->options.light.sun_to_sky,
                    "The sun's light on level ground over the sky's, instead of measuring it: 4 on "

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/progress_bar.h"
 #include "compositor/marker_print.h"
 #include "compositor/scaled_daylight.h"
 #include "compositor/shadow_contrast.h"
@@ -215,6 +216,24 @@ void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
   sky_scale_ = measured.sky_scale;
 }
 
+std::vector<compositor::LitMesh> SceneRenderer::LightAmongSurfaces(const sky::SkyModel& daylight,
+                                                                   const Mat3& marker_from_world) {
+  if (light_cache_.empty()) return solver_->Solve(daylight, marker_from_world);
+  if (!coefficients_) {
+    constexpr int kSteps = 100;
+    ProgressBar bar("Tracing light", kSteps, "%");
+    int done = 0;
+    const auto advance = [&](double share) {
+      for (; done < static_cast<int>(share * kSteps); ++done) bar.Advance();
+    };
+    compositor::CoefficientOptions options;
+    options.cache = light_cache_;
+    coefficients_ =
+        solver_->Coefficients(marker_from_world * Vec3{0.0, 0.0, 1.0}, options, advance);
+  }
+  return solver_->Relight(*coefficients_, daylight, marker_from_world);
+}
+
 Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   summary_.sun = SunAt(time);
   const Vec3 to_sun = summary_.sun.ToSun().xyz;
@@ -235,7 +254,7 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   const LinearRgb ground = sky + sun * std::max(0.0, to_sun.z);
   const double white = scene_.marker.albedo_white / std::numbers::pi;
   guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
-  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(solver_->Solve(daylight, marker_from_world),
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(LightAmongSurfaces(daylight, marker_from_world),
                                                daylight, marker_from_world));
   meter_.emplace(print_, *solver_, daylight, marker_from_world);
   lit_for_sun_ = to_sun;

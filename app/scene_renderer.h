@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "base/image.h"
 #include "base/utc_time.h"
 #include "compositor/composer.h"
+#include "compositor/daylight_coefficients.h"
 #include "compositor/light_meter.h"
 #include "compositor/light_solver.h"
 #include "compositor/surface_samples.h"
@@ -55,6 +57,10 @@ class SceneRenderer {
                                                        const compositor::ComposerOptions& options,
                                                        const LightOverrides& overrides = {});
 
+  /// From now on the light among surfaces comes from daylight coefficients that are kept in a
+  /// folder: slow once, then some milliseconds for any moment. Shows a bar while it computes.
+  void KeepLightIn(const std::filesystem::path& folder) { light_cache_ = folder; }
+
   /// Which print the frames show, before the first is rendered: it is the light meter.
   void SetMarkerPrint(const compositor::MarkerPrint& print);
 
@@ -81,6 +87,8 @@ class SceneRenderer {
 
   sky::SunPosition SunAt(UtcTime time) const;
   void OverrideLight(const sky::SunPosition& sun);
+  std::vector<compositor::LitMesh> LightAmongSurfaces(const sky::SkyModel& daylight,
+                                                      const Mat3& marker_from_world);
   Result<void> UpdateLight(UtcTime time);
   void UpdateGain(ImageView<const std::uint8_t> rgb,
                   const Transform<Camera, Marker>& camera_from_marker);
@@ -91,6 +99,8 @@ class SceneRenderer {
   LightOverrides overrides_;
   std::shared_ptr<const sky::SkySource> skies_;  // Of the scene's day, for any place of the sun.
   LinearRgb sky_scale_{1.0, 1.0, 1.0};
+  std::filesystem::path light_cache_;  // Empty: rays are traced for every place of the sun.
+  std::optional<compositor::DaylightCoefficients> coefficients_;
   struct Look;  // What was seen of the light so far.
   std::unique_ptr<Look> look_;
   std::unique_ptr<compositor::LightSolver> solver_;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "compositor/light_inside.h"
 #include "compositor/light_samples.h"
 #include "compositor/parallel_for.h"
 
@@ -15,21 +17,20 @@ using Hit = GatheredLight::Hit;
 // Real ground comes in layers (a lawn's sheet over paving); what lies between them is not seen.
 constexpr double kLayerGapM = 0.02;
 
-/// Above this share of rays that meet the inside of bodies a vertex is itself inside: from outside
-/// the share is 0 but for rays that slip through an edge, from inside a half or more.
-constexpr double kInsideShare = 0.25;
-
 class Gatherer {
  public:
-  Gatherer(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays)
-      : scene_(scene), sky_(sky), sun_frame_(to_sun), rays_(rays) {
+  /// Without `sky` rays are told by `patches`, without `to_sun` no sun is asked for.
+  Gatherer(const LightScene& scene, const SkyTable* sky, const SkyPatches* patches,
+           std::optional<Vec3> to_sun, int rays)
+      : scene_(scene), sky_(sky), patches_(patches), rays_(rays) {
+    if (to_sun) sun_frame_.emplace(*to_sun);
     for (const LightScene::Sheet& sheet : scene.sheets) {
       for (const auto& normal : sheet.mesh.normals) normals_.push_back(normal);
       is_phantom_.insert(is_phantom_.end(), sheet.mesh.normals.size(), sheet.mesh.is_phantom);
     }
   }
 
-  GatheredLight::Vertex GatherVertex(std::uint32_t vertex, std::vector<Hit>* hits) const {
+  GatheredLight::Vertex GatherVertex(std::uint32_t vertex, GatheredLight::Block* block) const {
     GatheredLight::Vertex light;
     const auto& n = normals_[vertex];
     const TangentFrame frame(Normalized({n[0], n[1], n[2]}));
@@ -42,25 +43,38 @@ class Gatherer {
       const std::uint32_t seed = Hash(vertex, ray);
       RayHit hit;
       if (!scene_.rays->Intersect(RayTargets::kEverything, origin, direction, &hit)) {
-        AddSky(direction, true, phantom, &light);
+        AddSky(direction, true, phantom, &light, block);
         continue;
       }
       const bool phantom_hit = scene_.sheets[scene_.FaceOf(hit).sheet].mesh.is_phantom;
-      AddHit(hit, origin, direction, seed, true, phantom && phantom_hit, &light, hits);
+      AddHit(hit, origin, direction, seed, true, phantom && phantom_hit, &light, &block->hits);
       if (!phantom || phantom_hit) continue;
       if (scene_.rays->Intersect(RayTargets::kPhantoms, origin, direction, &hit)) {
-        AddHit(hit, origin, direction, seed, false, true, &light, hits);
+        AddHit(hit, origin, direction, seed, false, true, &light, &block->hits);
       } else {
-        AddSky(direction, false, true, &light);
+        AddSky(direction, false, true, &light, block);
       }
     }
     return light;
   }
 
  private:
-  void AddSky(Vec3 direction, bool with, bool without, GatheredLight::Vertex* light) const {
-    const std::array<float, 3> radiance = sky_.Radiance(direction);
-    const bool above = sky_.SineElevation(direction) > 0.0;
+  void AddSky(Vec3 direction, bool with, bool without, GatheredLight::Vertex* light,
+              GatheredLight::Block* block) const {
+    bool above = false;
+    std::array<float, 3> radiance{};
+    if (sky_ != nullptr) {
+      radiance = sky_->Radiance(direction);
+      above = sky_->SineElevation(direction) > 0.0;
+    } else {
+      const int patch = patches_->At(direction);
+      above = patch != patches_->land();
+      GatheredLight::Escape escape{};
+      escape.patch = static_cast<std::uint16_t>(patch) & ((1U << 14) - 1);
+      escape.with = with;
+      escape.without = without;
+      block->escapes.push_back(escape);
+    }
     for (const int k : {0, 1}) {
       if (!(k == 0 ? with : without)) continue;
       for (int c = 0; c < 3; ++c) light->sky[k][c] += radiance[c];
@@ -87,9 +101,9 @@ class Gatherer {
     record.u = Quantized(hit.u);
     record.v = Quantized(hit.v);
     const Vec3 normal = hit.back ? -face.normal : face.normal;
-    if (Dot(normal, sun_frame_.normal) > 0.0) {
+    if (sun_frame_ && Dot(normal, sun_frame_->normal) > 0.0) {
       const Vec3 to_sun =
-          SunDiscDirection(sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
+          SunDiscDirection(*sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
       const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffsetM;
       const bool lit = !scene_.rays->Occluded(RayTargets::kEverything, point, to_sun);
       record.sun_with = lit;
@@ -104,8 +118,9 @@ class Gatherer {
   }
 
   const LightScene& scene_;
-  const SkyTable& sky_;
-  TangentFrame sun_frame_;
+  const SkyTable* sky_;
+  const SkyPatches* patches_;
+  std::optional<TangentFrame> sun_frame_;
   int rays_;
   std::vector<std::array<float, 3>> normals_;
   std::vector<std::uint8_t> is_phantom_;
@@ -115,121 +130,39 @@ std::size_t BlockCount(std::uint32_t vertices) {
   return (vertices + GatheredLight::kBlockSize - 1) / GatheredLight::kBlockSize;
 }
 
-/// Calls visit(vertex, first_hit, last_hit) for each vertex of a block.
-template <typename Visit>
-void ForEachVertex(const GatheredLight& gathered, std::size_t block_index, const Visit& visit) {
-  const GatheredLight::Block& block = gathered.blocks[block_index];
-  const Hit* first = block.hits.data();
-  auto vertex = static_cast<std::uint32_t>(block_index) * GatheredLight::kBlockSize;
-  for (const std::uint32_t end : block.ends) {
-    const Hit* last = block.hits.data() + end;
-    visit(vertex++, first, last);
-    first = last;
-  }
-}
-
-/// Sides of phantoms that look into the earth: they see neither sky nor, mostly, anything else.
-std::vector<std::uint8_t> EarthwardVertices(const LightScene& scene,
-                                            const GatheredLight& gathered) {
-  std::vector<std::uint8_t> earthward(scene.vertex_count);
-  const double rays = gathered.rays_per_vertex;
-  for (const LightScene::Sheet& sheet : scene.sheets) {
-    if (sheet.twin < 0 || !sheet.mesh.is_phantom) continue;
-    for (std::uint32_t i = 0; i < sheet.mesh.positions.size(); ++i) {
-      const GatheredLight::Vertex& light = gathered.vertices[sheet.first_vertex + i];
-      earthward[sheet.first_vertex + i] =
-          light.sky_rays[1] < 0.02 * rays && light.hit_rays[1] < 0.3 * rays;
+GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int rays_per_vertex,
+                         int threads) {
+  GatheredLight gathered;
+  gathered.rays_per_vertex = rays_per_vertex;
+  gathered.vertices.resize(scene.vertex_count);
+  gathered.blocks.resize(BlockCount(scene.vertex_count));
+  ParallelFor(gathered.blocks.size(), threads, [&](std::size_t index) {
+    GatheredLight::Block& block = gathered.blocks[index];
+    const auto first = static_cast<std::uint32_t>(index) * GatheredLight::kBlockSize;
+    const std::uint32_t last = std::min(first + GatheredLight::kBlockSize, scene.vertex_count);
+    for (std::uint32_t vertex = first; vertex < last; ++vertex) {
+      gathered.vertices[vertex] = gatherer.GatherVertex(vertex, &block);
+      block.ends.push_back(static_cast<std::uint32_t>(block.hits.size()));
+      block.escape_ends.push_back(static_cast<std::uint32_t>(block.escapes.size()));
     }
-  }
-  return earthward;
-}
-
-std::array<std::uint32_t, 3> CornersOf(const LightScene::Face& face, const Hit& hit) {
-  std::array<std::uint32_t, 3> corners = face.vertices;
-  if (hit.back != 0) {
-    for (std::uint32_t& corner : corners) corner += face.back_offset;
-  }
-  return corners;
-}
-
-/// Vertices that lie inside a body or in the earth, by case.
-std::array<std::vector<std::uint8_t>, 2> InsideVertices(const LightScene& scene,
-                                                        const GatheredLight& gathered,
-                                                        int threads) {
-  const std::vector<std::uint8_t> earthward = EarthwardVertices(scene, gathered);
-  std::array<std::vector<std::uint8_t>, 2> inside;
-  for (auto& flags : inside) flags.resize(scene.vertex_count);
-  ParallelFor(gathered.blocks.size(), threads, [&](std::size_t block) {
-    ForEachVertex(gathered, block, [&](std::uint32_t vertex, const Hit* first, const Hit* last) {
-      std::array<std::uint32_t, 2> count = gathered.vertices[vertex].inside_rays;
-      for (const Hit* hit = first; hit != last; ++hit) {
-        if (hit->back == 0 && hit->close == 0) continue;
-        const auto corners = CornersOf(scene.faces[hit->face], *hit);
-        const bool buried =
-            hit->close != 0 || (earthward[corners[0]] != 0 && earthward[corners[1]] != 0 &&
-                                earthward[corners[2]] != 0);
-        if (!buried) continue;
-        count[0] += hit->with;
-        count[1] += hit->without;
-      }
-      for (const int k : {0, 1}) {
-        inside[k][vertex] = count[k] > kInsideShare * gathered.rays_per_vertex;
-      }
-    });
+    block.hits.shrink_to_fit();
+    block.escapes.shrink_to_fit();
   });
-  return inside;
-}
-
-/// Gives vertices inside bodies the mean of their neighbours outside, ring after ring.
-void FillFromNeighbours(const LightScene& scene, const std::vector<std::uint8_t>& inside,
-                        std::vector<std::array<float, 3>>* values) {
-  for (const LightScene::Sheet& sheet : scene.sheets) {
-    const std::uint32_t base = sheet.first_vertex;
-    const std::size_t size = sheet.mesh.positions.size();
-    std::vector<std::uint8_t> missing(inside.begin() + base, inside.begin() + base + size);
-    std::vector<std::array<float, 4>> sums(size);
-    for (bool progress = std::find(missing.begin(), missing.end(), 1) != missing.end(); progress;) {
-      std::fill(sums.begin(), sums.end(), std::array<float, 4>{});
-      for (std::size_t i = 0; i + 2 < sheet.mesh.indices.size(); i += 3) {
-        for (int e = 0; e < 6; ++e) {
-          const std::uint32_t from = sheet.mesh.indices[i + e % 3];
-          const std::uint32_t to = sheet.mesh.indices[i + (e + (e < 3 ? 1 : 2)) % 3];
-          if (missing[from] != 0 || missing[to] == 0) continue;
-          for (int c = 0; c < 3; ++c) sums[to][c] += (*values)[base + from][c];
-          ++sums[to][3];
-        }
-      }
-      progress = false;
-      for (std::size_t v = 0; v < size; ++v) {
-        if (missing[v] == 0 || sums[v][3] == 0.0F) continue;
-        for (int c = 0; c < 3; ++c) (*values)[base + v][c] = sums[v][c] / sums[v][3];
-        missing[v] = 0;
-        progress = true;
-      }
-    }
-  }
+  return gathered;
 }
 
 }  // namespace
 
 GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays_per_vertex,
                      int threads) {
-  GatheredLight gathered;
-  gathered.rays_per_vertex = rays_per_vertex;
-  gathered.vertices.resize(scene.vertex_count);
-  gathered.blocks.resize(BlockCount(scene.vertex_count));
-  const Gatherer gatherer(scene, sky, to_sun, rays_per_vertex);
-  ParallelFor(gathered.blocks.size(), threads, [&](std::size_t index) {
-    GatheredLight::Block& block = gathered.blocks[index];
-    const auto first = static_cast<std::uint32_t>(index) * GatheredLight::kBlockSize;
-    const std::uint32_t last = std::min(first + GatheredLight::kBlockSize, scene.vertex_count);
-    for (std::uint32_t vertex = first; vertex < last; ++vertex) {
-      gathered.vertices[vertex] = gatherer.GatherVertex(vertex, &block.hits);
-      block.ends.push_back(static_cast<std::uint32_t>(block.hits.size()));
-    }
-    block.hits.shrink_to_fit();
-  });
-  return gathered;
+  return GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, rays_per_vertex), rays_per_vertex,
+                    threads);
+}
+
+GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays_per_vertex,
+                            int threads) {
+  return GatherWith(scene, Gatherer(scene, nullptr, &patches, std::nullopt, rays_per_vertex),
+                    rays_per_vertex, threads);
 }
 
 VertexLight Reflect(const LightScene& scene, const GatheredLight& gathered,

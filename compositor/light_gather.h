@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compositor/light_scene.h"
+#include "compositor/sky_patches.h"
 #include "compositor/sky_table.h"
 
 namespace pleinair::compositor {
@@ -32,9 +33,18 @@ struct GatheredLight {
     std::array<std::uint32_t, 2> hit_rays{};
   };
 
+  /// A ray that left for the sky, where it is told by patches.
+  struct Escape {
+    std::uint16_t patch : 14;
+    std::uint16_t with : 1, without : 1;
+  };
+  static_assert(sizeof(Escape) == 2);
+
   struct Block {
     std::vector<Hit> hits;
     std::vector<std::uint32_t> ends;  ///< One past each vertex's last hit.
+    std::vector<Escape> escapes;      ///< Of GatherPatches() alone.
+    std::vector<std::uint32_t> escape_ends;
   };
 
   static constexpr std::uint32_t kBlockSize = 256;  ///< Vertices a block.
@@ -47,6 +57,11 @@ struct GatheredLight {
 /// a phantom's serves both cases, so that they differ by what the objects change and not by noise.
 GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays_per_vertex,
                      int threads);
+
+/// The same for whatever sky: rays that leave are told by the patch that they leave through, and no
+/// sun is asked for.
+GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays_per_vertex,
+                            int threads);
 
 /// Irradiance on every vertex after `bounces` reflections; [0]: with the virtual objects, [1]:
 /// phantoms alone (meaningless for vertices of objects). Vertices that lie inside a body, such as

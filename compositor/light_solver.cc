@@ -21,6 +21,7 @@ constexpr std::uint32_t kFewestRays = 32;
 constexpr double kLandAlbedo = 0.2;
 
 constexpr std::uint32_t kSunRays = 256;
+constexpr std::size_t kSkySeenVertices = 64;
 
 class EmbreeLightSolver : public LightSolver {
  public:
@@ -37,18 +38,49 @@ class EmbreeLightSolver : public LightSolver {
         Reflect(scene_, gathered,
                 {static_cast<float>(sun.r), static_cast<float>(sun.g), static_cast<float>(sun.b)},
                 to_sun, options_.bounces, options_.threads);
-    std::vector<LitMesh> meshes;
-    for (std::size_t i = 0; i < scene_.sheets.size(); ++i) {
-      const int twin = scene_.sheets[i].twin;
-      if (twin >= 0 && static_cast<std::size_t>(twin) < i) continue;
-      meshes.push_back(MakeLitMesh(scene_.sheets[i], light));
-      if (twin < 0) continue;
-      meshes.push_back(MakeLitMesh(scene_.sheets[twin], light));
-      if (SkySeen(scene_.sheets[twin], gathered) > SkySeen(scene_.sheets[i], gathered)) {
-        std::swap(meshes.back(), meshes[meshes.size() - 2]);
+    return MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
+      double rays = 0.0;
+      for (std::size_t i = 0; i < sheet.mesh.positions.size(); ++i) {
+        rays += gathered.vertices[sheet.first_vertex + i].sky_rays[0];
       }
+      return rays;
+    });
+  }
+
+  DaylightCoefficients Coefficients(Vec3 up, const CoefficientOptions& options,
+                                    const CoefficientProgress& progress) const override {
+    const std::uint64_t hash = GeometryHash(scene_, up, options);
+    if (!options.cache.empty()) {
+      auto found = ReadCoefficients(options.cache, hash);
+      if (found && found->with.vertices() == scene_.vertex_count) return *std::move(found);
     }
-    return meshes;
+    DaylightCoefficients computed = ComputeCoefficients(scene_, up, options, progress);
+    if (!options.cache.empty()) WriteCoefficients(options.cache, hash, computed);
+    return computed;
+  }
+
+  std::vector<LitMesh> Relight(const DaylightCoefficients& coefficients, const sky::SkyModel& day,
+                               const Mat3& marker_from_world) const override {
+    const SkyPatches patches = coefficients.Patches();
+    const auto sky = patches.Radiances(day, marker_from_world, kLandAlbedo);
+    const auto sun = patches.Sun(day, marker_from_world);
+    VertexLight light;
+    for (const int k : {0, 1}) {
+      light.irradiance[k].resize(scene_.vertex_count);
+      (k == 0 ? coefficients.with : coefficients.without).Multiply(sky, sun, light.irradiance[k]);
+    }
+    return MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
+      // Some vertices of a sheet tell which side of it looks to the sky.
+      const std::size_t size = sheet.mesh.positions.size();
+      const std::size_t step = std::max<std::size_t>(1, size / kSkySeenVertices);
+      double straight = 0.0;
+      for (std::size_t i = 0; i < size; i += step) {
+        for (int patch = 0; patch < patches.count(); ++patch) {
+          straight += coefficients.with.At(sheet.first_vertex + i, patch, 0);
+        }
+      }
+      return straight;
+    });
   }
 
   double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const override {
@@ -136,6 +168,23 @@ class EmbreeLightSolver : public LightSolver {
     return static_cast<int>(std::min(wanted, std::max(kFewestRays, affordable)));
   }
 
+  /// Of an open surface's two sides, that of which `sky_seen` says more comes first.
+  template <typename SkySeen>
+  std::vector<LitMesh> MakeLitMeshes(const VertexLight& light, const SkySeen& sky_seen) const {
+    std::vector<LitMesh> meshes;
+    for (std::size_t i = 0; i < scene_.sheets.size(); ++i) {
+      const int twin = scene_.sheets[i].twin;
+      if (twin >= 0 && static_cast<std::size_t>(twin) < i) continue;
+      meshes.push_back(MakeLitMesh(scene_.sheets[i], light));
+      if (twin < 0) continue;
+      meshes.push_back(MakeLitMesh(scene_.sheets[twin], light));
+      if (sky_seen(scene_.sheets[twin]) > sky_seen(scene_.sheets[i])) {
+        std::swap(meshes.back(), meshes[meshes.size() - 2]);
+      }
+    }
+    return meshes;
+  }
+
   static LitMesh MakeLitMesh(const LightScene::Sheet& sheet, const VertexLight& light) {
     LitMesh mesh;
     mesh.is_phantom = sheet.mesh.is_phantom;
@@ -153,14 +202,6 @@ class EmbreeLightSolver : public LightSolver {
     mesh.ambient_with = slice(0);
     if (mesh.is_phantom) mesh.ambient_without = slice(1);
     return mesh;
-  }
-
-  static std::uint64_t SkySeen(const LightScene::Sheet& sheet, const GatheredLight& gathered) {
-    std::uint64_t rays = 0;
-    for (std::size_t i = 0; i < sheet.mesh.positions.size(); ++i) {
-      rays += gathered.vertices[sheet.first_vertex + i].sky_rays[0];
-    }
-    return rays;
   }
 
   LightScene scene_;

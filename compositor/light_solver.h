@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/vector.h"
+#include "compositor/daylight_coefficients.h"
 #include "compositor/model.h"
 #include "sky/sky_model.h"
 
@@ -74,6 +75,18 @@ class LightSolver {
   /// the objects change nothing.
   virtual std::vector<LitMesh> Solve(const sky::SkyModel& daylight,
                                      const Mat3& marker_from_world) const = 0;
+
+  /// The scene's daylight coefficients, with which Relight() gives the light of any day: from the
+  /// cache where it has them, otherwise computed and put there. Several seconds; may run beside
+  /// everything else. `up`: unit, marker coordinates.
+  virtual DaylightCoefficients Coefficients(Vec3 up, const CoefficientOptions& options,
+                                            const CoefficientProgress& progress) const = 0;
+
+  /// As Solve(), by one product with the coefficients. The sun's reflected light comes from the
+  /// patches around it, so that the shadows it draws on what reflects are some degrees soft.
+  virtual std::vector<LitMesh> Relight(const DaylightCoefficients& coefficients,
+                                       const sky::SkyModel& daylight,
+                                       const Mat3& marker_from_world) const = 0;
 
   /// Share of the sun's disc (0…1) that the phantoms alone leave visible from a point.
   virtual double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const = 0;

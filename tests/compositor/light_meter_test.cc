@@ -29,6 +29,14 @@ class HalfShadow : public LightSolver {
  public:
   explicit HalfShadow(double shadow_to_x_m) : shadow_to_x_m_(shadow_to_x_m) {}
   std::vector<LitMesh> Solve(const sky::SkyModel&, const Mat3&) const override { return {}; }
+  DaylightCoefficients Coefficients(Vec3, const CoefficientOptions&,
+                                    const CoefficientProgress&) const override {
+    return {};
+  }
+  std::vector<LitMesh> Relight(const DaylightCoefficients&, const sky::SkyModel&,
+                               const Mat3&) const override {
+    return {};
+  }
   double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3) const override {
     return point.xyz.x < shadow_to_x_m_ ? 0.0 : 1.0;
   }

@@ -70,11 +70,13 @@ TEST(Replay, FindsTheHeadingThatTheSceneStatesWrongly) {
 TEST(Replay, TakesTheLightThatTheUserGives) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
-  const RunResult run = RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video",
-                                     "--sun-to-sky", "0", "--heading", "10"});
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video", "--sun-to-sky",
+                   "0", "--heading", "10", "--light-cache", folder / "cache"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto report = nlohmann::json::parse(ReadFile(folder / "out/report.json"));
   EXPECT_EQ(report["light"]["sun_normal_lux"], 0.0);
+  EXPECT_EQ(Listing(folder / "cache").size(), 1U);
   EXPECT_EQ(report["light"]["measured"]["sun_from"], "option");
   EXPECT_EQ(report["light"]["measured"]["heading_from"], "option");
   EXPECT_EQ(RunPleinair({"replay", folder / "site", "-o", folder / "out2", "--sun-to-sky", "-1"})

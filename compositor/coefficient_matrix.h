@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace pleinair::compositor {
+
+/// Irradiance per radiance from every patch of the sky to every vertex, in four planes: what comes
+/// straight (the same in all channels) and what comes after reflections in red, green and blue.
+///
+/// Eight bits each against the largest of 16 patches in a plane: a hundred thousand vertices take
+/// 80 MB, and reading them is what a product costs. An entry is right to 1/510 of the largest of
+/// its 16, their sum to 0.1 % (tests/compositor/daylight_coefficients_test.cc).
+class CoefficientMatrix {
+ public:
+  static constexpr int kPatches = 16;  ///< A chunk of columns, with scales of its own.
+  static constexpr int kLanes = 16;    ///< Vertices that lie interleaved.
+  static constexpr int kPlanes = 4;
+
+  CoefficientMatrix() = default;
+  CoefficientMatrix(std::size_t vertices, int patches);
+
+  std::size_t vertices() const { return vertices_; }
+  int patches() const { return patches_; }
+  int chunks() const { return (patches_ + kPatches - 1) / kPatches; }
+
+  /// Sets the entries of one vertex in one chunk and plane.
+  void Set(std::size_t vertex, int chunk, int plane, std::span<const float, kPatches> values);
+  float At(std::size_t vertex, int patch, int plane) const;
+
+  /// The light of a sky on every vertex: straight and reflected of `sky`, reflected of `sun`, whose
+  /// straight light is the shadow maps' to give. Lengths: patches(), vertices().
+  void Multiply(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
+                std::span<std::array<float, 3>> irradiance) const;
+  /// The same, one number after the other.
+  void MultiplyScalar(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
+                      std::span<std::array<float, 3>> irradiance) const;
+
+  // As they lie in memory and on disk.
+  std::vector<std::uint8_t>& codes() { return codes_; }
+  const std::vector<std::uint8_t>& codes() const { return codes_; }
+  std::vector<float>& scales() { return scales_; }
+  const std::vector<float>& scales() const { return scales_; }
+
+ private:
+  std::size_t blocks() const { return (vertices_ + kLanes - 1) / kLanes; }
+  /// Of the chunk of 16 × 16 codes, and of its 16 scales.
+  std::size_t Tile(std::size_t block, int chunk, int plane) const {
+    return (block * static_cast<std::size_t>(chunks()) + static_cast<std::size_t>(chunk)) *
+               kPlanes +
+           static_cast<std::size_t>(plane);
+  }
+
+  std::size_t vertices_ = 0;
+  int patches_ = 0;
+  std::vector<std::uint8_t> codes_;  ///< [block][chunk][plane][patch][lane].
+  std::vector<float> scales_;        ///< [block][chunk][plane][lane].
+};
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "compositor/coefficient_matrix.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "compositor/coefficient_product.cc"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace pleinair::compositor {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr int kP = CoefficientMatrix::kPatches, kL = CoefficientMatrix::kLanes;
+
+/// One block of vertices. `weights`: a chunk after the other, a plane after the other, the patches'
+/// radiances; the straight plane has three, one a channel.
+void MultiplyBlock(const std::uint8_t* codes, const float* scales, const float* weights, int chunks,
+                   float* out) {
+  const hn::CappedTag<float, CoefficientMatrix::kLanes> floats;
+  const hn::Rebind<std::int32_t, decltype(floats)> ints;
+  const hn::Rebind<std::uint8_t, decltype(floats)> bytes;
+  const int lanes = static_cast<int>(hn::Lanes(floats));
+  for (int lane = 0; lane < kL; lane += lanes) {
+    const auto load = [&](const std::uint8_t* tile, int patch) {
+      return hn::ConvertTo(floats, hn::PromoteTo(ints, hn::LoadU(bytes, tile + patch * kL + lane)));
+    };
+    auto red = hn::Zero(floats), green = hn::Zero(floats), blue = hn::Zero(floats);
+    const std::uint8_t* tile = codes;
+    const float* scale = scales + lane;
+    const float* weight = weights;
+    for (int chunk = 0; chunk < chunks; ++chunk) {
+      auto r = hn::Zero(floats), g = r, b = r;
+      for (int patch = 0; patch < kP; ++patch) {
+        const auto value = load(tile, patch);
+        r = hn::MulAdd(value, hn::Set(floats, weight[patch]), r);
+        g = hn::MulAdd(value, hn::Set(floats, weight[kP + patch]), g);
+        b = hn::MulAdd(value, hn::Set(floats, weight[2 * kP + patch]), b);
+      }
+      const auto straight = hn::LoadU(floats, scale);
+      red = hn::MulAdd(r, straight, red);
+      green = hn::MulAdd(g, straight, green);
+      blue = hn::MulAdd(b, straight, blue);
+      const auto reflected = [&](int plane) {
+        const std::uint8_t* at = tile + plane * kP * kL;
+        const float* w = weight + (2 + plane) * kP;
+        auto even = hn::Zero(floats), odd = even;
+        for (int patch = 0; patch < kP; patch += 2) {
+          even = hn::MulAdd(load(at, patch), hn::Set(floats, w[patch]), even);
+          odd = hn::MulAdd(load(at, patch + 1), hn::Set(floats, w[patch + 1]), odd);
+        }
+        return hn::Mul(hn::Add(even, odd), hn::LoadU(floats, scale + plane * kL));
+      };
+      red = hn::Add(red, reflected(1));
+      green = hn::Add(green, reflected(2));
+      blue = hn::Add(blue, reflected(3));
+      tile += CoefficientMatrix::kPlanes * kP * kL;
+      scale += CoefficientMatrix::kPlanes * kL;
+      weight += 6 * kP;
+    }
+    hn::StoreU(red, floats, out + lane);
+    hn::StoreU(green, floats, out + kL + lane);
+    hn::StoreU(blue, floats, out + 2 * kL + lane);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pleinair::compositor
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pleinair::compositor {
+namespace {
+
+constexpr int kWeightPlanes = 6;
+
+/// The radiances in the order in which the product wants them: straight red, green, blue of the
+/// sky, then reflected red, green, blue of sky and sun.
+std::vector<float> Weights(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
+                           int chunks) {
+  constexpr int kP = CoefficientMatrix::kPatches;
+  std::vector<float> weights(static_cast<std::size_t>(chunks) * kWeightPlanes * kP);
+  for (std::size_t i = 0; i < sky.size(); ++i) {
+    float* at = weights.data() + i / kP * kWeightPlanes * kP + i % kP;
+    const LinearRgb both = sky[i] + sun[i];
+    const double values[] = {sky[i].r, sky[i].g, sky[i].b, both.r, both.g, both.b};
+    for (int plane = 0; plane < kWeightPlanes; ++plane) {
+      at[plane * kP] = static_cast<float>(values[plane]);
+    }
+  }
+  return weights;
+}
+
+}  // namespace
+
+HWY_EXPORT(MultiplyBlock);
+
+CoefficientMatrix::CoefficientMatrix(std::size_t vertices, int patches)
+    : vertices_(vertices), patches_(patches) {
+  const std::size_t tiles = blocks() * static_cast<std::size_t>(chunks()) * kPlanes;
+  codes_.resize(tiles * kPatches * kLanes);
+  scales_.resize(tiles * kLanes);
+}
+
+void CoefficientMatrix::Set(std::size_t vertex, int chunk, int plane,
+                            std::span<const float, kPatches> values) {
+  const std::size_t tile = Tile(vertex / kLanes, chunk, plane), lane = vertex % kLanes;
+  const float largest = *std::max_element(values.begin(), values.end());
+  const float scale = largest / 255.0F;
+  scales_[tile * kLanes + lane] = scale;
+  for (int i = 0; i < kPatches; ++i) {
+    codes_[(tile * kPatches + static_cast<std::size_t>(i)) * kLanes + lane] =
+        scale > 0.0F ? static_cast<std::uint8_t>(std::lround(std::max(0.0F, values[i]) / scale))
+                     : std::uint8_t{0};
+  }
+}
+
+float CoefficientMatrix::At(std::size_t vertex, int patch, int plane) const {
+  const std::size_t tile = Tile(vertex / kLanes, patch / kPatches, plane);
+  const std::size_t lane = vertex % kLanes;
+  const auto row = static_cast<std::size_t>(patch % kPatches);
+  return scales_[tile * kLanes + lane] * codes_[(tile * kPatches + row) * kLanes + lane];
+}
+
+void CoefficientMatrix::Multiply(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
+                                 std::span<std::array<float, 3>> irradiance) const {
+  CHECK_EQ(sky.size(), static_cast<std::size_t>(patches_));
+  CHECK_EQ(sun.size(), sky.size());
+  CHECK_EQ(irradiance.size(), vertices_);
+  const std::vector<float> weights = Weights(sky, sun, chunks());
+  std::array<float, 3 * kLanes> sums;
+  for (std::size_t block = 0; block < blocks(); ++block) {
+    const std::size_t tile = Tile(block, 0, 0);
+    HWY_DYNAMIC_DISPATCH(MultiplyBlock)
+    (codes_.data() + tile * kPatches * kLanes, scales_.data() + tile * kLanes, weights.data(),
+     chunks(), sums.data());
+    const std::size_t first = block * kLanes;
+    const std::size_t count = std::min<std::size_t>(kLanes, vertices_ - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      irradiance[first + i] = {sums[i], sums[kLanes + i], sums[2 * kLanes + i]};
+    }
+  }
+}
+
+void CoefficientMatrix::MultiplyScalar(std::span<const LinearRgb> sky,
+                                       std::span<const LinearRgb> sun,
+                                       std::span<std::array<float, 3>> irradiance) const {
+  for (std::size_t vertex = 0; vertex < vertices_; ++vertex) {
+    LinearRgb sum;
+    for (int patch = 0; patch < patches_; ++patch) {
+      const auto index = static_cast<std::size_t>(patch);
+      const LinearRgb reflected{At(vertex, patch, 1), At(vertex, patch, 2), At(vertex, patch, 3)};
+      sum = sum + sky[index] * At(vertex, patch, 0) + (sky[index] + sun[index]) * reflected;
+    }
+    irradiance[vertex] = {static_cast<float>(sum.r), static_cast<float>(sum.g),
+                          static_cast<float>(sum.b)};
+  }
+}
+
+}  // namespace pleinair::compositor
+#endif  // HWY_ONCE

@@ -1,0 +1,200 @@
+#include "compositor/daylight_coefficients.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "compositor/light_gather.h"
+#include "compositor/light_inside.h"
+#include "compositor/light_scene.h"
+#include "compositor/parallel_for.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr int kP = CoefficientMatrix::kPatches;
+constexpr int kMostReflections = 24;
+// About ten seconds of two processors.
+constexpr std::uint32_t kRayBudget = 25'000'000;
+constexpr std::uint32_t kFewestRays = 32;
+constexpr double kShareOfRays = 0.35;  // Of the time, for the progress.
+
+/// Reflected light of 16 patches on a vertex: red of all, green of all, blue of all.
+using Reflected = std::array<float, 3 * kP>;
+using Straight = std::array<float, kP>;
+
+class Transfer {
+ public:
+  Transfer(const LightScene& scene, const GatheredLight& gathered, int threads)
+      : scene_(scene),
+        gathered_(gathered),
+        threads_(threads),
+        inside_(InsideVertices(scene, gathered, threads)),
+        weight_(std::numbers::pi_v<float> / static_cast<float>(gathered.rays_per_vertex)) {}
+
+  /// One chunk of patches in one case (0: with the objects, 1: without); how many reflections.
+  int Follow(int chunk, int k, double convergence, CoefficientMatrix* matrix) {
+    std::vector<Straight> straight = StraightLight(chunk, k);
+    FillFromNeighbours(scene_, inside_[k], &straight);
+    // First what the straight light gives after one reflection, then what that gives.
+    std::vector<Reflected> arriving(straight.size()), sum(straight.size());
+    for (std::size_t v = 0; v < straight.size(); ++v) {
+      for (int c = 0; c < 3; ++c) {
+        std::copy(straight[v].begin(), straight[v].end(), arriving[v].begin() + c * kP);
+      }
+    }
+    double all = Total(arriving);
+    int reflections = 0;
+    while (reflections < kMostReflections) {
+      arriving = Reflect(arriving, k);
+      FillFromNeighbours(scene_, inside_[k], &arriving);
+      ++reflections;
+      for (std::size_t v = 0; v < sum.size(); ++v) {
+        for (std::size_t i = 0; i < arriving[v].size(); ++i) sum[v][i] += arriving[v][i];
+      }
+      const double added = Total(arriving);
+      all += added;
+      if (added <= convergence * all) break;
+    }
+    for (std::size_t v = 0; v < straight.size(); ++v) {
+      matrix->Set(v, chunk, 0, straight[v]);
+      for (int c = 0; c < 3; ++c) {
+        matrix->Set(v, chunk, 1 + c, std::span<const float, kP>(sum[v].data() + c * kP, kP));
+      }
+    }
+    return reflections;
+  }
+
+ private:
+  static double Total(const std::vector<Reflected>& light) {
+    double total = 0.0;
+    for (const Reflected& values : light) {
+      for (const float value : values) total += value;
+    }
+    return total;
+  }
+
+  std::vector<Straight> StraightLight(int chunk, int k) const {
+    std::vector<Straight> straight(scene_.vertex_count);
+    ParallelFor(gathered_.blocks.size(), threads_, [&](std::size_t index) {
+      const GatheredLight::Block& block = gathered_.blocks[index];
+      std::uint32_t at = 0;
+      for (std::size_t i = 0; i < block.escape_ends.size(); ++i) {
+        Straight& light = straight[index * GatheredLight::kBlockSize + i];
+        for (; at < block.escape_ends[i]; ++at) {
+          const GatheredLight::Escape& escape = block.escapes[at];
+          if (escape.patch / kP != chunk || (k == 0 ? escape.with : escape.without) == 0) continue;
+          light[escape.patch % kP] += weight_;
+        }
+      }
+    });
+    return straight;
+  }
+
+  std::vector<Reflected> Reflect(const std::vector<Reflected>& arriving, int k) const {
+    constexpr float kInvPi = std::numbers::inv_pi_v<float>;
+    std::vector<Reflected> reflected(arriving.size());
+    ParallelFor(gathered_.blocks.size(), threads_, [&](std::size_t index) {
+      ForEachVertex(
+          gathered_, index,
+          [&](std::uint32_t vertex, const GatheredLight::Hit* first,
+              const GatheredLight::Hit* last) {
+            Reflected& sum = reflected[vertex];
+            for (const GatheredLight::Hit* hit = first; hit != last; ++hit) {
+              if ((k == 0 ? hit->with : hit->without) == 0) continue;
+              const LightScene::Face& face = scene_.faces[hit->face];
+              const auto corners = CornersOf(face, *hit);
+              const float u = static_cast<float>(hit->u) / 65535.0F;
+              const float v = static_cast<float>(hit->v) / 65535.0F;
+              const float* a = arriving[corners[0]].data();
+              const float* b = arriving[corners[1]].data();
+              const float* d = arriving[corners[2]].data();
+              for (int c = 0; c < 3; ++c) {
+                const float factor = scene_.sheets[face.sheet].albedo[c] * kInvPi * weight_;
+                const float wa = (1.0F - u - v) * factor, wb = u * factor, wd = v * factor;
+                for (int i = c * kP; i < (c + 1) * kP; ++i) {
+                  sum[i] += wa * a[i] + wb * b[i] + wd * d[i];
+                }
+              }
+            }
+          });
+    });
+    return reflected;
+  }
+
+  const LightScene& scene_;
+  const GatheredLight& gathered_;
+  int threads_;
+  std::array<std::vector<std::uint8_t>, 2> inside_;
+  float weight_;
+};
+
+}  // namespace
+
+DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
+                                         const CoefficientOptions& options,
+                                         const CoefficientProgress& progress) {
+  const auto report = [&](double share) {
+    if (progress) progress(share);
+  };
+  report(0.0);
+  DaylightCoefficients coefficients;
+  coefficients.division = options.division;
+  coefficients.up = up;
+  const SkyPatches patches = coefficients.Patches();
+  const std::uint32_t affordable = kRayBudget / std::max(1U, scene.vertex_count);
+  const int rays = static_cast<int>(std::min(static_cast<std::uint32_t>(options.rays_per_vertex),
+                                             std::max(kFewestRays, affordable)));
+  const GatheredLight gathered = GatherPatches(scene, patches, rays, options.threads);
+  report(kShareOfRays);
+  Transfer transfer(scene, gathered, options.threads);
+  coefficients.with = CoefficientMatrix(scene.vertex_count, patches.total());
+  coefficients.without = CoefficientMatrix(scene.vertex_count, patches.total());
+  const int chunks = coefficients.with.chunks();
+  for (int chunk = 0; chunk < chunks; ++chunk) {
+    for (const int k : {0, 1}) {
+      CoefficientMatrix* matrix = k == 0 ? &coefficients.with : &coefficients.without;
+      coefficients.reflections = std::max(coefficients.reflections,
+                                          transfer.Follow(chunk, k, options.convergence, matrix));
+    }
+    report(kShareOfRays + (1 - kShareOfRays) * (chunk + 1) / chunks);
+  }
+  return coefficients;
+}
+
+std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOptions& options) {
+  // Fowler, Noll & Vo, FNV-1a; the prefix changes with the form of the file.
+  std::uint64_t hash = 0xCBF29CE484222325ULL ^ 1U;
+  const auto add = [&](const void* bytes, std::size_t size) {
+    const auto* at = static_cast<const unsigned char*>(bytes);
+    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ at[i]) * 0x100000001B3ULL;
+  };
+  const auto add_all = [&](const auto& values) {
+    const std::uint64_t count = values.size();
+    add(&count, sizeof count);
+    add(values.data(), values.size() * sizeof(values[0]));
+  };
+  const double numbers[] = {up.x,
+                            up.y,
+                            up.z,
+                            options.convergence,
+                            static_cast<double>(options.division),
+                            static_cast<double>(options.rays_per_vertex)};
+  add(numbers, sizeof numbers);
+  for (const LightScene::Sheet& sheet : scene.sheets) {
+    add_all(sheet.mesh.positions);
+    add_all(sheet.mesh.normals);
+    add_all(sheet.mesh.indices);
+    add_all(sheet.albedo);
+    const std::int32_t flags[] = {sheet.mesh.is_phantom, sheet.mesh.closed, sheet.twin};
+    add(flags, sizeof flags);
+  }
+  return hash;
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "base/vector.h"
+#include "sky/sky_model.h"
+
+namespace pleinair::compositor {
+
+/// The hemisphere in patches of nearly equal solid angle, after Tregenza 1987, "Subdivision of the
+/// sky hemisphere for luminance measurements": seven bands of 12° with 30, 30, 24, 24, 18, 12 and 6
+/// patches, and a cap of 6°. With `division` m every patch of a band becomes m × m (Reinhart's
+/// finer division): 144 m² + 1. The land below the horizon is one more, the last.
+class SkyPatches {
+ public:
+  /// `up`: unit, marker coordinates. `division` 1…4.
+  SkyPatches(Vec3 up, int division);
+
+  int count() const { return count_; }  ///< Of the sky, without the land.
+  int land() const { return count_; }   ///< Index of the land.
+  int total() const { return count_ + 1; }
+  int division() const { return division_; }
+
+  /// The patch that a unit direction (marker coordinates) lies in.
+  int At(Vec3 direction) const;
+  double SolidAngle(int patch) const;
+
+  /// Mean radiance of every patch, and of the land lying in sun and sky, cd/m².
+  std::vector<LinearRgb> Radiances(const sky::SkyModel& day, const Mat3& marker_from_world,
+                                   double land_albedo) const;
+
+  /// The sun as patches: what radiance they would need to give the sun's irradiance together. It is
+  /// shared among the four patches whose centres lie around it, so that it moves without jumps.
+  std::vector<LinearRgb> Sun(const sky::SkyModel& day, const Mat3& marker_from_world) const;
+
+ private:
+  struct Band {
+    double low = 0.0, high = 0.0;  ///< Elevations.
+    int first = 0, patches = 0;
+  };
+  /// Elevation, and azimuth in 0…1 from a fixed direction of the horizon.
+  std::pair<double, double> Angles(Vec3 direction) const;
+  Vec3 Direction(double elevation, double turn) const;
+  int BandAt(double elevation) const;
+
+  Vec3 up_, east_, north_;
+  int division_ = 1;
+  std::vector<Band> bands_;
+  int count_ = 0;
+};
+
+}  // namespace pleinair::compositor
