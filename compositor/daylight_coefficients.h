@@ -21,7 +21,7 @@ struct CoefficientOptions {
   /// Reflections are followed until the last adds less than this share of all the light. The
   /// paper's convergence rate.
   double convergence = 0.01;
-  int threads = 0;              ///< 0: as many as there are processors.
+  int threads = 0;                   ///< 0: as many as there are processors.
   std::filesystem::path cache = {};  ///< Folder; empty: nothing is kept.
 };
 

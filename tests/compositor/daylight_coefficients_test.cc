@@ -218,7 +218,8 @@ class Yard : public ::testing::Test {
 };
 
 TEST_F(Yard, IsRelitAsItIsSolved) {
-  auto solver = LightSolver::Create(Models(), {.rays_per_vertex = 256, .bounces = 5, .near_edge_m = 0.08});
+  auto solver =
+      LightSolver::Create(Models(), {.rays_per_vertex = 256, .bounces = 5, .near_edge_m = 0.08});
   ASSERT_TRUE(solver);
   CoefficientOptions options;
   options.rays_per_vertex = 256;
