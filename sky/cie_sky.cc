@@ -55,7 +55,8 @@ double CieSky::IntegrateIlluminance(double sun_zenith_distance) const {
   constexpr int kNodes = 64;
   const auto node = [](int i) {
     const double within = i % 2 == 0 ? 0.5 - std::sqrt(1.0 / 12.0) : 0.5 + std::sqrt(1.0 / 12.0);
-    return (i / 2 + within) * 2.0 / kNodes;
+    const int interval = i / 2;
+    return (interval + within) * 2.0 / kNodes;
   };
   std::array<double, kNodes> cosines{}, weights{};
   for (int i = 0; i < kNodes; ++i) {

@@ -82,6 +82,7 @@ class SkyOnTheGpu : public gl::GlTest {
   std::vector<Vec4> Ask(int model, Vec3 to_sun, const std::vector<Vec3>& directions,
                         float distance = 0.0F) {
     std::vector<Vec4> queries;
+    queries.reserve(directions.size());
     for (const Vec3& d : directions) {
       queries.push_back(
           {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), distance});

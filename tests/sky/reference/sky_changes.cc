@@ -63,12 +63,16 @@ void Sweep(const AtmosphereSky& sky, double sun, Changes* changes) {
     changes->colour.Offer({ColourChange(a, b), sun, azimuth, elevation});
   };
   for (const double azimuth : {0.0, 0.5, 1.0, 2.0, 5.0, 15.0, 40.0, 90.0, 130.0, 180.0}) {
-    for (double e = 0.0; e <= 90.0 - kStepDeg; e += e < 15.0 ? 0.05 : 0.1) {
-      look(azimuth, e, azimuth, e + kStepDeg);
+    // Steps of 0.05° below 15°, of 0.1° above.
+    for (int i = 0; i < 1050; ++i) {
+      const double e = i < 300 ? 0.05 * i : 15.0 + 0.1 * (i - 300);
+      look(azimuth, e, azimuth, std::min(e + kStepDeg, 90.0));
     }
   }
   for (const double elevation : {0.0, 0.5, 1.0, 2.0, 5.0, 20.0, 45.0, 80.0, 89.8}) {
-    for (double a = 0.0; a < 180.0; a += a < 20.0 || elevation > 70.0 ? 0.1 : 1.0) {
+    for (int i = 0; i < 1800; ++i) {
+      const double a = 0.1 * i;
+      if (a > 20.0 && elevation < 70.0 && i % 10 != 0) continue;
       look(a, elevation, a + kStepDeg, elevation);
     }
   }
