@@ -122,7 +122,7 @@ GuessRate MeasureGuessRate(const tracker::sg::Border& border,
             textures[cover.texture]((x + cover.texture_x) & kMask, (y + cover.texture_y) & kMask);
       }
     }
-    search.Find(picture.view(), {}, &guesses);
+    search.Find(picture.view(), {}, tracker::BorderSearch::Sizes::kAll, &guesses);
     if (guesses.size() > kFirstGuesses) guesses.resize(kFirstGuesses);
     const double right =
         std::any_of(guesses.begin(), guesses.end(),

@@ -136,7 +136,7 @@ int Run(const Options& options) {
     }
   }
   if (options.scenes > 0) {
-    tracker::BorderSearchOptions search;
+    tracker::BorderSearchOptions search{.fewest_votes = 0.0};  // Every guess counts here.
     search.surf.descriptor_window_scales = options.window_scales;
     PrintRate("current", MeasureGuessRate(tracker::sg::kBorder, textures, options.scenes,
                                           options.scene_seed, search));

@@ -19,21 +19,6 @@ constexpr double kSmoothBlur_px = 1.15;
 constexpr float kAroundPrint_px = 2.0F;
 constexpr int kProbes = 12;  ///< Along each side of the window.
 
-/// ∫ of the normal distribution function Φ(x/σ) up to x.
-double PrimitiveOfNormal(double x, double sigma) {
-  const double z = x / sigma;
-  const double below = 0.5 * std::erfc(-z / std::numbers::sqrt2);
-  const double density =
-      std::exp(-0.5 * z * z) * (0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2);
-  return x * below + sigma * density;
-}
-
-/// A pixel's square, one wide, blurred by a Gaussian.
-double BlurredBox(double x, double sigma) {
-  const double scale = 1.0 / (sigma * std::numbers::sqrt2);
-  return 0.5 * (std::erfc(-(x + 0.5) * scale) - std::erfc(-(x - 0.5) * scale));
-}
-
 }  // namespace
 
 void LookUpRays(const LensGrid& lens, const PixelWindow& window, WindowRays* rays) {
@@ -60,17 +45,26 @@ void PrintRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   const int taps = (2 * *pad + 1) * per_pixel;
   kernel_.resize(taps);
   kernel_slope_.resize(taps);
+  // A pixel's box blurred, and averaged over each bin, is a second difference of ∫Φ(x/σ): one pixel
+  // apart, since bins divide pixels, and one bin.
+  const int edges = taps + per_pixel + 1;
+  below_.resize(edges);
+  primitive_.resize(edges);
+  for (int k = 0; k < edges; ++k) {
+    const double z = (k * bin - 1.0 - *pad) / sigma;
+    const double density =
+        std::exp(-0.5 * z * z) * (0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2);
+    below_[k] = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+    primitive_[k] = sigma * (z * below_[k] + density);
+  }
   double sum = 0.0;
   for (int k = 0; k < taps; ++k) {
-    // From the pixel's centre to the sample's.
-    const double t = (k + 0.5) * bin - 0.5 - *pad;
-    const double low = t - 0.5 * bin, high = t + 0.5 * bin;
-    const double weight = PrimitiveOfNormal(high + 0.5, sigma) -
-                          PrimitiveOfNormal(high - 0.5, sigma) -
-                          PrimitiveOfNormal(low + 0.5, sigma) + PrimitiveOfNormal(low - 0.5, sigma);
+    const double weight = primitive_[k + 1 + per_pixel] - primitive_[k + 1] -
+                          primitive_[k + per_pixel] + primitive_[k];
     kernel_[k] = static_cast<float>(weight);
     // The picture is ∫ print(p + t) K(t) dt, so that its slope is -∫ print(p + t) K'(t) dt.
-    kernel_slope_[k] = static_cast<float>(BlurredBox(low, sigma) - BlurredBox(high, sigma));
+    kernel_slope_[k] = static_cast<float>(below_[k + per_pixel] - below_[k] -
+                                          below_[k + 1 + per_pixel] + below_[k + 1]);
     sum += weight;
   }
   for (float& weight : kernel_) weight = static_cast<float>(weight / sum);
@@ -81,15 +75,25 @@ void PrintRaster::SetNodes(const PrintPattern& pattern) {
   nodes_of_ = pattern.white;
   const int last = pattern.modules - 1, nodes = pattern.modules + 1;
   nodes_.resize(static_cast<std::size_t>(nodes) * nodes);
-  for (int j = 0; j < nodes; ++j) {
+  // Four modules of each row at a time, then four rows.
+  row_nodes_.resize(static_cast<std::size_t>(pattern.modules) * nodes);
+  for (int y = 0; y < pattern.modules; ++y) {
+    const auto* row = &pattern.white[static_cast<std::size_t>(y) * pattern.modules];
     for (int i = 0; i < nodes; ++i) {
       std::uint32_t around = 0;
-      for (int bit = 0; bit < 16; ++bit) {
-        const int x = std::clamp(i - 2 + bit % 4, 0, last),
-                  y = std::clamp(j - 2 + bit / 4, 0, last);
-        around |= static_cast<std::uint32_t>(pattern.white[y * pattern.modules + x]) << bit;
+      for (int bit = 0; bit < 4; ++bit) {
+        around |= static_cast<std::uint32_t>(row[std::clamp(i - 2 + bit, 0, last)]) << bit;
       }
-      nodes_[j * nodes + i] = around;
+      row_nodes_[static_cast<std::size_t>(y) * nodes + i] = around;
+    }
+  }
+  for (int j = 0; j < nodes; ++j) {
+    const std::uint32_t* rows[4];
+    for (int k = 0; k < 4; ++k) {
+      rows[k] = &row_nodes_[static_cast<std::size_t>(std::clamp(j - 2 + k, 0, last)) * nodes];
+    }
+    for (int i = 0; i < nodes; ++i) {
+      nodes_[j * nodes + i] = rows[0][i] | rows[1][i] << 4 | rows[2][i] << 8 | rows[3][i] << 12;
     }
   }
 }

@@ -97,11 +97,13 @@ class PrintRaster {
   const RasterKernels* kernels_;
   std::vector<float> map_rows_, samples_, blurred_, blurred_x_;
   std::vector<float> kernel_, kernel_slope_;
+  std::vector<double> below_, primitive_;  ///< Φ(x/σ) and its integral at the kernel's bins' edges.
   std::vector<const float*> rows_, rows_x_;
   std::vector<RowRange> all_;
   /// The print whose nodes these are.
   std::vector<std::uint8_t> nodes_of_;
   std::vector<std::uint32_t> nodes_;
+  std::vector<std::uint32_t> row_nodes_;  ///< The same of single rows.
 };
 
 }  // namespace pleinair::tracker

@@ -33,12 +33,13 @@ Surf::~Surf() = default;
 Surf::Surf(Surf&&) noexcept = default;
 Surf& Surf::operator=(Surf&&) noexcept = default;
 
-void Surf::Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints) {
+void Surf::Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints,
+                  bool double_size) {
   State& s = *state_;
   keypoints->clear();
   s.integral.Compute(grey);
   s.levels.Reset(&s.integral);
-  if (s.options.double_size) {
+  if (s.options.double_size && double_size) {
     DoubleSize(grey, &s.doubled);
     s.doubled_integral.Compute(s.doubled.view());
     // As far apart in the given picture as there: twice as dense costs 3 ms more (640x480) and

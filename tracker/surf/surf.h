@@ -42,8 +42,10 @@ class Surf {
   Surf(Surf&&) noexcept;
   Surf& operator=(Surf&&) noexcept;
 
-  /// Keypoints of a picture of one channel, strongest first; none in an empty one.
-  void Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints);
+  /// Keypoints of a picture of one channel, strongest first; none in an empty one. `double_size`
+  /// false leaves out the doubled picture that the options ask for.
+  void Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints,
+              bool double_size = true);
 
   /// Fills the angles of keypoints in the picture of the last Detect (its own, or others), and
   /// describes them; descriptors[i] belongs to keypoints[i].

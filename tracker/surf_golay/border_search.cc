@@ -16,7 +16,7 @@ constexpr double kMiddle = 0.5 * sg::kPrint;
 constexpr double kFarthest = 0.75;
 constexpr double kSmallest_px = 14.0, kLargestShare = 1.6;  ///< Of the picture's height.
 /// Two matches agree when each is seen where the other expects it, in shares of the print's size.
-constexpr double kPlaceTolerance = 0.13, kScaleTolerance = 1.6, kTurnTolerance_rad = 0.6;
+constexpr float kPlaceTolerance = 0.13F, kScaleTolerance = 1.6F, kTurnTolerance_rad = 0.6F;
 constexpr double kSamePlace = 0.12;  ///< Guesses closer than this, in shares of size, are one.
 
 Vec2 ApplyAffine(const std::array<double, 6>& m, Vec2 p) {
@@ -41,10 +41,10 @@ BorderSearch::BorderSearch(const LensGrid& lens, BorderTemplates templates,
 }
 
 void BorderSearch::Find(ImageView<const std::uint8_t> grey,
-                        const std::vector<std::array<Vec2, 4>>& taken,
+                        const std::vector<std::array<Vec2, 4>>& taken, Sizes sizes,
                         std::vector<BorderGuess>* guesses) {
   guesses->clear();
-  surf_.Detect(grey, &keypoints_);
+  surf_.Detect(grey, &keypoints_, sizes == Sizes::kAll);
   std::erase_if(keypoints_, [&](const SurfKeypoint& k) {
     return std::any_of(taken.begin(), taken.end(),
                        [&](const auto& quad) { return Inside(quad, k.x, k.y); });
@@ -94,35 +94,63 @@ void BorderSearch::CastVotes() {
   }
 }
 
-bool BorderSearch::Agrees(const Vote& hypothesis, const Vote& vote) const {
-  const double ratio = vote.size_px / hypothesis.size_px;
-  if (ratio > kScaleTolerance || ratio < 1.0 / kScaleTolerance) return false;
-  const double turn = std::fabs(vote.rotation_rad - hypothesis.rotation_rad);
-  if (std::min(turn, 2.0 * std::numbers::pi - turn) > kTurnTolerance_rad) return false;
-  const SurfKeypoint& k = keypoints_[vote.keypoint];
-  const Vec2 expected =
-      ApplyAffine(hypothesis.from_modules, templates_.keypoints[vote.model].modules);
-  const double reach = kPlaceTolerance * hypothesis.size_px;
-  return std::fabs(expected.x - k.x) < reach && std::fabs(expected.y - k.y) < reach;
+void BorderSearch::CallWitnesses(const std::vector<int>& bin) {
+  Witnesses& w = witnesses_;
+  for (auto* values : {&w.centre_x, &w.centre_y, &w.size_px, &w.rotation_rad, &w.keypoint_x,
+                       &w.keypoint_y, &w.modules_x, &w.modules_y}) {
+    values->resize(bin.size());
+  }
+  w.agrees.resize(bin.size());
+  for (std::size_t i = 0; i < bin.size(); ++i) {
+    const Vote& vote = votes_[bin[i]];
+    const Vec2 modules = templates_.keypoints[vote.model].modules;
+    w.centre_x[i] = static_cast<float>(vote.centre.x);
+    w.centre_y[i] = static_cast<float>(vote.centre.y);
+    w.size_px[i] = static_cast<float>(vote.size_px);
+    w.rotation_rad[i] = static_cast<float>(vote.rotation_rad);
+    w.keypoint_x[i] = keypoints_[vote.keypoint].x;
+    w.keypoint_y[i] = keypoints_[vote.keypoint].y;
+    w.modules_x[i] = static_cast<float>(modules.x);
+    w.modules_y[i] = static_cast<float>(modules.y);
+  }
 }
 
-double BorderSearch::Supporters(const std::vector<int>& bin, int at,
-                                std::vector<int>* members) const {
+double BorderSearch::Supporters(const std::vector<int>& bin, int at, std::vector<int>* members) {
+  Witnesses& w = witnesses_;
   const Vote& seed = votes_[bin[at]];
+  std::array<float, 6> m;
+  std::ranges::copy(seed.from_modules, m.begin());
+  const float size = w.size_px[at], centre_y = w.centre_y[at], rotation = w.rotation_rad[at];
+  const float far = 0.5F * size, near = kPlaceTolerance * size;
+  const float largest = kScaleTolerance * size, smallest = size / kScaleTolerance;
+  constexpr float kWholeTurn = 2.0F * std::numbers::pi_v<float>;
+  const auto x = w.centre_x.begin();
+  const auto first = static_cast<int>(std::lower_bound(x, x + at, w.centre_x[at] - far) - x);
+  const auto last =
+      static_cast<int>(std::upper_bound(x + at, w.centre_x.end(), w.centre_x[at] + far) - x);
+  // Without branches, so that the compiler takes several at a time.
+  std::int32_t* agrees = w.agrees.data();
+  for (int j = first; j < last; ++j) {
+    const float turn = std::fabs(w.rotation_rad[j] - rotation);
+    const float off_x = m[0] * w.modules_x[j] + m[1] * w.modules_y[j] + m[2] - w.keypoint_x[j];
+    const float off_y = m[3] * w.modules_x[j] + m[4] * w.modules_y[j] + m[5] - w.keypoint_y[j];
+    agrees[j] = (std::fabs(w.centre_y[j] - centre_y) <= far) & (w.size_px[j] <= largest) &
+                (w.size_px[j] >= smallest) &
+                (std::min(turn, kWholeTurn - turn) <= kTurnTolerance_rad) &
+                (std::fabs(off_x) < near) & (std::fabs(off_y) < near);
+  }
   double sum = 0.0;
   int last_keypoint = -1;
-  const double reach = 0.5 * seed.size_px;
-  const auto visit = [&](int j) {
+  const auto count = [&](int j) {
+    if (agrees[j] == 0) return;
     const Vote& vote = votes_[bin[j]];
-    if (std::fabs(vote.centre.y - seed.centre.y) > reach || !Agrees(seed, vote)) return;
     if (members != nullptr) members->push_back(bin[j]);
     // Several templates of one keypoint are one witness.
     if (vote.keypoint != last_keypoint) sum += vote.weight;
     last_keypoint = vote.keypoint;
   };
-  const int size = static_cast<int>(bin.size());
-  for (int j = at; j < size && votes_[bin[j]].centre.x <= seed.centre.x + reach; ++j) visit(j);
-  for (int j = at; j-- > 0 && votes_[bin[j]].centre.x >= seed.centre.x - reach;) visit(j);
+  for (int j = at; j < last; ++j) count(j);
+  for (int j = at; j-- > first;) count(j);
   return sum;
 }
 
@@ -145,8 +173,10 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
       return votes_[a].centre.x < votes_[b].centre.x ||
              (votes_[a].centre.x == votes_[b].centre.x && a < b);
     });
+    CallWitnesses(bins_[bin]);
     for (int i = 0; i < static_cast<int>(bins_[bin].size()); ++i) {
-      ranked_.push_back({bin, i, Supporters(bins_[bin], i, nullptr)});
+      const double votes = Supporters(bins_[bin], i, nullptr);
+      if (votes >= options_.fewest_votes) ranked_.push_back({bin, i, votes});
     }
   }
   std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
@@ -158,6 +188,7 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
     const std::vector<int>& bin = bins_[candidate.bin];
     const Vote& seed = votes_[bin[candidate.at]];
     members_.clear();
+    CallWitnesses(bin);
     Supporters(bin, candidate.at, &members_);
     BorderGuess guess;
     guess.votes = candidate.votes;

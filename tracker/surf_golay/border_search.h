@@ -31,6 +31,7 @@ struct BorderSearchOptions {
                    .descriptor_window_scales = 15};
   int neighbours = 4;             ///< Candidates of each keypoint of the frame.
   double rotation_bin_rad = 0.6;  ///< Width of the angle filter's bins, which overlap by half.
+  double fewest_votes = 3.0;      ///< Of a guess that is worth a look.
   int most_guesses = 40;
 };
 
@@ -43,9 +44,13 @@ class BorderSearch {
   BorderSearch(const LensGrid& lens, BorderTemplates templates,
                const BorderSearchOptions& options = {});
 
+  /// Borders of 70 px and more are seen in the picture itself, at two thirds of the cost; smaller
+  /// ones when it is doubled as well.
+  enum class Sizes { kLarge, kAll };
+
   /// Keypoints inside `taken` quadrilaterals (markers that are known) are left out.
   void Find(ImageView<const std::uint8_t> grey, const std::vector<std::array<Vec2, 4>>& taken,
-            std::vector<BorderGuess>* guesses);
+            Sizes sizes, std::vector<BorderGuess>* guesses);
 
   const std::vector<SurfKeypoint>& keypoints() const { return keypoints_; }
 
@@ -65,10 +70,18 @@ class BorderSearch {
     int bin, at;
     double votes;
   };
-  /// The summed likeness of the votes of a bin, sorted by their centres, that agree with one.
-  double Supporters(const std::vector<int>& bin, int at, std::vector<int>* members) const;
+  /// What of the votes of a bin tells whether they agree, array by array: every pair of neighbours
+  /// is looked at, several at a time.
+  struct Witnesses {
+    std::vector<float> centre_x, centre_y, size_px, rotation_rad;
+    std::vector<float> keypoint_x, keypoint_y, modules_x, modules_y;
+    std::vector<std::int32_t> agrees;
+  };
+  /// Brings the votes of a bin, sorted by their centres, into witnesses_.
+  void CallWitnesses(const std::vector<int>& bin);
+  /// The summed likeness of the votes of the bin that agree with one.
+  double Supporters(const std::vector<int>& bin, int at, std::vector<int>* members);
   void Gather(std::vector<BorderGuess>* guesses);
-  bool Agrees(const Vote& hypothesis, const Vote& vote) const;
   bool FitGuess(const std::vector<int>& members, const Vote& seed, BorderGuess* guess);
 
   const LensGrid& lens_;
@@ -82,6 +95,7 @@ class BorderSearch {
   std::vector<DescriptorMatch> templates_of_frame_, frame_of_templates_;
   std::vector<Vote> votes_;
   std::vector<Ranked> ranked_;
+  Witnesses witnesses_;
   std::vector<int> members_;
   std::vector<std::vector<int>> bins_;
 };

@@ -11,6 +11,8 @@ namespace {
 constexpr float kWhiteShare = 0.75F, kBlackShare = 0.2F;
 /// Black over white of ordinary prints: enough to take the little black out of a white pixel.
 constexpr float kOrdinaryBlack = 0.06F;
+/// Change of the plane of log-light that is none: a fifth of a per cent.
+constexpr double kStillLogLight = 0.002;
 constexpr double kBrightestQuantile = 0.9, kNarrowScale = 0.06;
 constexpr float kDarkest = 2e-4F;  ///< Linear light: below an 8-bit code's first step.
 constexpr std::size_t kFewestSamples = 12, kMostSamples = 600;
@@ -35,17 +37,17 @@ double MedianOf(std::vector<float>* values) { return QuantileOf(0.5, values); }
 
 }  // namespace
 
-double PrintLight::White(double u, double v) const {
-  double log = log_white + slope_u * u + slope_v * v;
-  if (has_edge && edge_u * u + edge_v * v > edge_at) log += edge_log_step;
-  return std::exp(log);
+double PrintLight::LogWhite(double u, double v) const {
+  const double log = log_white + slope_u * u + slope_v * v;
+  return has_edge && edge_u * u + edge_v * v > edge_at ? log + edge_log_step : log;
 }
+
+double PrintLight::White(double u, double v) const { return std::exp(LogWhite(u, v)); }
 
 double PrintLightMeter::Spread(const PrintLight& light) {
   residuals_.clear();
   for (const Sample& s : white_) {
-    residuals_.push_back(
-        static_cast<float>(std::fabs(s.log_value - std::log(light.White(s.u, s.v)))));
+    residuals_.push_back(static_cast<float>(std::fabs(s.log_value - light.LogWhite(s.u, s.v))));
   }
   return 1.4826 * MedianOf(&residuals_);
 }
@@ -76,9 +78,13 @@ void PrintLightMeter::FitPlane(bool brightest, PrintLight* light) {
     normal(2, 2) += wish;
     const Eigen::Vector3d plane = normal.ldlt().solve(right);
     if (!plane.allFinite()) return;
+    const bool still = std::fabs(plane[0] - light->log_white) < kStillLogLight &&
+                       std::fabs(plane[1] - light->slope_u) < kStillLogLight &&
+                       std::fabs(plane[2] - light->slope_v) < kStillLogLight;
     light->log_white = plane[0];
     light->slope_u = plane[1];
     light->slope_v = plane[2];
+    if (still) return;
     scale = brightest ? kNarrowScale : std::max(0.05, 2.0 * Spread(*light));
   }
 }

@@ -23,6 +23,7 @@ struct PrintLight {
   bool white_clips = false;  ///< White is brighter than the picture can hold.
 
   double White(double u, double v) const;
+  double LogWhite(double u, double v) const;
 };
 
 /// Learns the light of a print from the pixels that a fit of its border believes in. `seen` is what

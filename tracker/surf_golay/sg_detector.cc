@@ -17,10 +17,10 @@ constexpr int kQuadSteps = 4, kFirstSteps = 2, kGuessSteps = 5;
 constexpr double kProbeSide_px = 70.0;
 /// Guesses of the S-G search that are looked at together; of which so many are fitted, and so many
 /// may turn out not to be readable, before the others are given up.
-constexpr int kGuessesAtOnce = 20, kMostFits = 9, kMostFailures = 4;
-/// Votes of a guess that is worth a glance, and votes times fit that make it worth more. In
-/// pictures without a marker a quarter of the 20 best guesses is.
-constexpr double kFewestVotes = 3.0, kLeastWorth = 1.2;
+constexpr int kGuessesAtOnce = 14, kMostFits = 9, kMostFailures = 4;
+/// Votes times fit that make a guess worth more than a glance. In pictures without a marker a
+/// quarter of the best guesses is.
+constexpr double kLeastWorth = 1.2;
 /// The corners of cells are looked for in a picture of at most this width.
 constexpr int kMostLatticeWidth_px = 900;
 /// Correlation with the border of which little is seen; placements that are read.
@@ -112,8 +112,7 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
     const bool search = options_.strategy != SgStrategy::kFast;
     if (!consecutive_frames_) {
       if (fast) FindFast();
-      if (search) FindBySurf();
-      if (search && found_.empty()) FindByCells();
+      if (search) SearchPicture();
     } else {
       Track();
       const auto missing = [&](bool at_once) {
@@ -125,8 +124,13 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
         });
       };
       if (fast && (known_.empty() || missing(false) || frame_ % kFastEvery == 0)) FindFast();
-      if (search && (missing(true) || frame_ % kSearchEvery == 0)) FindBySurf();
-      if (search && missing(true)) FindByCells();
+      if (search && missing(true)) {
+        FindBySurf(BorderSearch::Sizes::kLarge);
+        if (missing(true)) FindBySurf(BorderSearch::Sizes::kAll);
+        if (missing(true)) FindByCells();
+      } else if (search && frame_ % kSearchEvery == 0) {
+        SearchPicture();
+      }
       Remember();
     }
   }
@@ -232,7 +236,15 @@ void SgDetector::FindFast() {
   for (const Quad& quad : seen_quads_) TryQuad(quad);
 }
 
-void SgDetector::FindBySurf() {
+void SgDetector::SearchPicture() {
+  if (!found_.empty()) {
+    FindBySurf(BorderSearch::Sizes::kAll);
+  } else if (!FindBySurf(BorderSearch::Sizes::kLarge) && !FindBySurf(BorderSearch::Sizes::kAll)) {
+    FindByCells();
+  }
+}
+
+bool SgDetector::FindBySurf(BorderSearch::Sizes sizes) {
   if (search_ == nullptr) {
     const BorderSearchOptions options;
     search_ = std::make_unique<BorderSearch>(
@@ -240,13 +252,16 @@ void SgDetector::FindBySurf() {
   }
   taken_.clear();
   for (const Found& found : found_) taken_.push_back(found.reading.corners_px);
-  search_->Find(grey_, taken_, &guesses_);
+  search_->Find(grey_, taken_, sizes, &guesses_);
   tried_.clear();
+  bool any = false;
   // As long as guesses turn out to be markers, more of them may.
   for (std::size_t first = 0; first < guesses_.size(); first += kGuessesAtOnce) {
     const std::size_t count = std::min<std::size_t>(kGuessesAtOnce, guesses_.size() - first);
-    if (!TryGuesses(std::span(guesses_).subspan(first, count))) return;
+    if (!TryGuesses(std::span(guesses_).subspan(first, count))) break;
+    any = true;
   }
+  return any;
 }
 
 void SgDetector::FindByCells() {
@@ -290,7 +305,7 @@ bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
   // A few steps of the fit tell most wrong guesses from those that are worth more.
   hopes_.clear();
   for (const BorderGuess& guess : guesses) {
-    if (guess.votes < kFewestVotes || Taken(guess.modules_from_ideal)) continue;
+    if (Taken(guess.modules_from_ideal)) continue;
     Hope hope;
     hope.state.modules_from_ideal = guess.modules_from_ideal;
     const double correlation =

@@ -71,7 +71,11 @@ class SgDetector final : public MarkerDetector {
   std::array<ProbedOrientation, 2> Probe(std::array<Vec2, 4> corners_px);
   void Track();
   void FindFast();
-  void FindBySurf();
+  /// By the border and the cells: all that is there beside what was found; where nothing was, the
+  /// dearer ways only as long as the cheaper ones find nothing.
+  void SearchPicture();
+  /// Whether it found any.
+  bool FindBySurf(BorderSearch::Sizes sizes);
   void FindByCells();
   /// Fits and reads guesses, the best first; whether any was a marker.
   bool TryGuesses(std::span<const BorderGuess> guesses);
