@@ -88,7 +88,8 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
   r.slope = slope * place.size.xy;
   r.step_x = vec2(dot(light_u, step_x), dot(light_v, step_x)) / place.size.xy;
   r.step_y = vec2(dot(light_u, step_y), dot(light_v, step_y)) / place.size.xy;
-  r.bias = shadow_sets[set].settings.y + 0.05 * length(r.slope);
+  // Half a texel of slope: the next facet of a curved surface lies that far off this one's plane.
+  r.bias = shadow_sets[set].settings.y + 0.5 * length(r.slope);
 #if defined(SHADOW_METHOD_SUN_DISC)
   return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
 #elif defined(SHADOW_METHOD_SUN_DISC_FAST)

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+// As libepoxy has them.
+bool epoxy_has_egl_extension(EGLDisplay display, const char* extension);
+extern PFNEGLGETPLATFORMDISPLAYEXTPROC pleinair_eglGetPlatformDisplayEXT;
+extern PFNEGLQUERYDEVICESEXTPROC pleinair_eglQueryDevicesEXT;
+extern PFNEGLQUERYDEVICESTRINGEXTPROC pleinair_eglQueryDeviceStringEXT;
+#define eglGetPlatformDisplayEXT pleinair_eglGetPlatformDisplayEXT
+#define eglQueryDevicesEXT pleinair_eglQueryDevicesEXT
+#define eglQueryDeviceStringEXT pleinair_eglQueryDeviceStringEXT

@@ -1,0 +1,169 @@
+#pragma once
+
+// Stands in for libepoxy where only EGL is installed: the OpenGL functions that the renderer calls,
+// fetched by eglGetProcAddress before main (bare_gl.cc).
+
+#include <GL/glcorearb.h>
+
+#define GLAPIENTRY APIENTRY
+
+#define PLEINAIR_GL_FUNCTIONS(X)                                           \
+  X(PFNGLATTACHSHADERPROC, glAttachShader)                                 \
+  X(PFNGLBINDBUFFERBASEPROC, glBindBufferBase)                             \
+  X(PFNGLBINDFRAMEBUFFERPROC, glBindFramebuffer)                           \
+  X(PFNGLBINDTEXTUREUNITPROC, glBindTextureUnit)                           \
+  X(PFNGLBINDVERTEXARRAYPROC, glBindVertexArray)                           \
+  X(PFNGLBLITNAMEDFRAMEBUFFERPROC, glBlitNamedFramebuffer)                 \
+  X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, glCheckNamedFramebufferStatus)   \
+  X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, glClearNamedFramebufferfv)           \
+  X(PFNGLCOMPILESHADERPROC, glCompileShader)                               \
+  X(PFNGLCREATEBUFFERSPROC, glCreateBuffers)                               \
+  X(PFNGLCREATEFRAMEBUFFERSPROC, glCreateFramebuffers)                     \
+  X(PFNGLCREATEPROGRAMPROC, glCreateProgram)                               \
+  X(PFNGLCREATESHADERPROC, glCreateShader)                                 \
+  X(PFNGLCREATETEXTURESPROC, glCreateTextures)                             \
+  X(PFNGLCREATEVERTEXARRAYSPROC, glCreateVertexArrays)                     \
+  X(PFNGLDEBUGMESSAGECALLBACKPROC, glDebugMessageCallback)                 \
+  X(PFNGLDELETEBUFFERSPROC, glDeleteBuffers)                               \
+  X(PFNGLDELETEFRAMEBUFFERSPROC, glDeleteFramebuffers)                     \
+  X(PFNGLDELETEPROGRAMPROC, glDeleteProgram)                               \
+  X(PFNGLDELETESHADERPROC, glDeleteShader)                                 \
+  X(PFNGLDELETETEXTURESPROC, glDeleteTextures)                             \
+  X(PFNGLDELETEVERTEXARRAYSPROC, glDeleteVertexArrays)                     \
+  X(PFNGLDEPTHFUNCPROC, glDepthFunc)                                       \
+  X(PFNGLDEPTHMASKPROC, glDepthMask)                                       \
+  X(PFNGLDETACHSHADERPROC, glDetachShader)                                 \
+  X(PFNGLDISABLEPROC, glDisable)                                           \
+  X(PFNGLDRAWARRAYSPROC, glDrawArrays)                                     \
+  X(PFNGLDRAWELEMENTSPROC, glDrawElements)                                 \
+  X(PFNGLENABLEPROC, glEnable)                                             \
+  X(PFNGLENABLEVERTEXARRAYATTRIBPROC, glEnableVertexArrayAttrib)           \
+  X(PFNGLFINISHPROC, glFinish)                                             \
+  X(PFNGLGENERATETEXTUREMIPMAPPROC, glGenerateTextureMipmap)               \
+  X(PFNGLGETERRORPROC, glGetError)                                         \
+  X(PFNGLGETINTEGERVPROC, glGetIntegerv)                                   \
+  X(PFNGLGETINTERNALFORMATIVPROC, glGetInternalformativ)                   \
+  X(PFNGLGETNAMEDBUFFERSUBDATAPROC, glGetNamedBufferSubData)               \
+  X(PFNGLGETPROGRAMINFOLOGPROC, glGetProgramInfoLog)                       \
+  X(PFNGLGETPROGRAMIVPROC, glGetProgramiv)                                 \
+  X(PFNGLGETSHADERINFOLOGPROC, glGetShaderInfoLog)                         \
+  X(PFNGLGETSHADERIVPROC, glGetShaderiv)                                   \
+  X(PFNGLGETSTRINGPROC, glGetString)                                       \
+  X(PFNGLGETTEXTUREIMAGEPROC, glGetTextureImage)                           \
+  X(PFNGLGETTEXTURESUBIMAGEPROC, glGetTextureSubImage)                     \
+  X(PFNGLGETUNIFORMLOCATIONPROC, glGetUniformLocation)                     \
+  X(PFNGLLINKPROGRAMPROC, glLinkProgram)                                   \
+  X(PFNGLNAMEDBUFFERSTORAGEPROC, glNamedBufferStorage)                     \
+  X(PFNGLNAMEDBUFFERSUBDATAPROC, glNamedBufferSubData)                     \
+  X(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERSPROC, glNamedFramebufferDrawBuffers)   \
+  X(PFNGLNAMEDFRAMEBUFFERREADBUFFERPROC, glNamedFramebufferReadBuffer)     \
+  X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, glNamedFramebufferTexture)           \
+  X(PFNGLNAMEDFRAMEBUFFERTEXTURELAYERPROC, glNamedFramebufferTextureLayer) \
+  X(PFNGLPIXELSTOREIPROC, glPixelStorei)                                   \
+  X(PFNGLPROGRAMUNIFORM1FPROC, glProgramUniform1f)                         \
+  X(PFNGLPROGRAMUNIFORM1FVPROC, glProgramUniform1fv)                       \
+  X(PFNGLPROGRAMUNIFORM1IPROC, glProgramUniform1i)                         \
+  X(PFNGLPROGRAMUNIFORM2FVPROC, glProgramUniform2fv)                       \
+  X(PFNGLPROGRAMUNIFORM2IVPROC, glProgramUniform2iv)                       \
+  X(PFNGLPROGRAMUNIFORM3FVPROC, glProgramUniform3fv)                       \
+  X(PFNGLPROGRAMUNIFORM4FVPROC, glProgramUniform4fv)                       \
+  X(PFNGLPROGRAMUNIFORMMATRIX3FVPROC, glProgramUniformMatrix3fv)           \
+  X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, glProgramUniformMatrix4fv)           \
+  X(PFNGLREADPIXELSPROC, glReadPixels)                                     \
+  X(PFNGLSHADERSOURCEPROC, glShaderSource)                                 \
+  X(PFNGLTEXTUREPARAMETERFVPROC, glTextureParameterfv)                     \
+  X(PFNGLTEXTUREPARAMETERIPROC, glTextureParameteri)                       \
+  X(PFNGLTEXTURESTORAGE2DPROC, glTextureStorage2D)                         \
+  X(PFNGLTEXTURESTORAGE2DMULTISAMPLEPROC, glTextureStorage2DMultisample)   \
+  X(PFNGLTEXTURESTORAGE3DPROC, glTextureStorage3D)                         \
+  X(PFNGLTEXTURESUBIMAGE2DPROC, glTextureSubImage2D)                       \
+  X(PFNGLTEXTURESUBIMAGE3DPROC, glTextureSubImage3D)                       \
+  X(PFNGLUSEPROGRAMPROC, glUseProgram)                                     \
+  X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, glVertexArrayAttribBinding)         \
+  X(PFNGLVERTEXARRAYATTRIBFORMATPROC, glVertexArrayAttribFormat)           \
+  X(PFNGLVERTEXARRAYBINDINGDIVISORPROC, glVertexArrayBindingDivisor)       \
+  X(PFNGLVERTEXARRAYELEMENTBUFFERPROC, glVertexArrayElementBuffer)         \
+  X(PFNGLVERTEXARRAYVERTEXBUFFERPROC, glVertexArrayVertexBuffer)           \
+  X(PFNGLVIEWPORTPROC, glViewport)
+
+#define PLEINAIR_DECLARE_GL(type, name) extern type pleinair_##name;
+PLEINAIR_GL_FUNCTIONS(PLEINAIR_DECLARE_GL)
+#undef PLEINAIR_DECLARE_GL
+
+#define glAttachShader pleinair_glAttachShader
+#define glBindBufferBase pleinair_glBindBufferBase
+#define glBindFramebuffer pleinair_glBindFramebuffer
+#define glBindTextureUnit pleinair_glBindTextureUnit
+#define glBindVertexArray pleinair_glBindVertexArray
+#define glBlitNamedFramebuffer pleinair_glBlitNamedFramebuffer
+#define glCheckNamedFramebufferStatus pleinair_glCheckNamedFramebufferStatus
+#define glClearNamedFramebufferfv pleinair_glClearNamedFramebufferfv
+#define glCompileShader pleinair_glCompileShader
+#define glCreateBuffers pleinair_glCreateBuffers
+#define glCreateFramebuffers pleinair_glCreateFramebuffers
+#define glCreateProgram pleinair_glCreateProgram
+#define glCreateShader pleinair_glCreateShader
+#define glCreateTextures pleinair_glCreateTextures
+#define glCreateVertexArrays pleinair_glCreateVertexArrays
+#define glDebugMessageCallback pleinair_glDebugMessageCallback
+#define glDeleteBuffers pleinair_glDeleteBuffers
+#define glDeleteFramebuffers pleinair_glDeleteFramebuffers
+#define glDeleteProgram pleinair_glDeleteProgram
+#define glDeleteShader pleinair_glDeleteShader
+#define glDeleteTextures pleinair_glDeleteTextures
+#define glDeleteVertexArrays pleinair_glDeleteVertexArrays
+#define glDepthFunc pleinair_glDepthFunc
+#define glDepthMask pleinair_glDepthMask
+#define glDetachShader pleinair_glDetachShader
+#define glDisable pleinair_glDisable
+#define glDrawArrays pleinair_glDrawArrays
+#define glDrawElements pleinair_glDrawElements
+#define glEnable pleinair_glEnable
+#define glEnableVertexArrayAttrib pleinair_glEnableVertexArrayAttrib
+#define glFinish pleinair_glFinish
+#define glGenerateTextureMipmap pleinair_glGenerateTextureMipmap
+#define glGetError pleinair_glGetError
+#define glGetIntegerv pleinair_glGetIntegerv
+#define glGetInternalformativ pleinair_glGetInternalformativ
+#define glGetNamedBufferSubData pleinair_glGetNamedBufferSubData
+#define glGetProgramInfoLog pleinair_glGetProgramInfoLog
+#define glGetProgramiv pleinair_glGetProgramiv
+#define glGetShaderInfoLog pleinair_glGetShaderInfoLog
+#define glGetShaderiv pleinair_glGetShaderiv
+#define glGetString pleinair_glGetString
+#define glGetTextureImage pleinair_glGetTextureImage
+#define glGetTextureSubImage pleinair_glGetTextureSubImage
+#define glGetUniformLocation pleinair_glGetUniformLocation
+#define glLinkProgram pleinair_glLinkProgram
+#define glNamedBufferStorage pleinair_glNamedBufferStorage
+#define glNamedBufferSubData pleinair_glNamedBufferSubData
+#define glNamedFramebufferDrawBuffers pleinair_glNamedFramebufferDrawBuffers
+#define glNamedFramebufferReadBuffer pleinair_glNamedFramebufferReadBuffer
+#define glNamedFramebufferTexture pleinair_glNamedFramebufferTexture
+#define glNamedFramebufferTextureLayer pleinair_glNamedFramebufferTextureLayer
+#define glPixelStorei pleinair_glPixelStorei
+#define glProgramUniform1f pleinair_glProgramUniform1f
+#define glProgramUniform1fv pleinair_glProgramUniform1fv
+#define glProgramUniform1i pleinair_glProgramUniform1i
+#define glProgramUniform2fv pleinair_glProgramUniform2fv
+#define glProgramUniform2iv pleinair_glProgramUniform2iv
+#define glProgramUniform3fv pleinair_glProgramUniform3fv
+#define glProgramUniform4fv pleinair_glProgramUniform4fv
+#define glProgramUniformMatrix3fv pleinair_glProgramUniformMatrix3fv
+#define glProgramUniformMatrix4fv pleinair_glProgramUniformMatrix4fv
+#define glReadPixels pleinair_glReadPixels
+#define glShaderSource pleinair_glShaderSource
+#define glTextureParameterfv pleinair_glTextureParameterfv
+#define glTextureParameteri pleinair_glTextureParameteri
+#define glTextureStorage2D pleinair_glTextureStorage2D
+#define glTextureStorage2DMultisample pleinair_glTextureStorage2DMultisample
+#define glTextureStorage3D pleinair_glTextureStorage3D
+#define glTextureSubImage2D pleinair_glTextureSubImage2D
+#define glTextureSubImage3D pleinair_glTextureSubImage3D
+#define glUseProgram pleinair_glUseProgram
+#define glVertexArrayAttribBinding pleinair_glVertexArrayAttribBinding
+#define glVertexArrayAttribFormat pleinair_glVertexArrayAttribFormat
+#define glVertexArrayBindingDivisor pleinair_glVertexArrayBindingDivisor
+#define glVertexArrayElementBuffer pleinair_glVertexArrayElementBuffer
+#define glVertexArrayVertexBuffer pleinair_glVertexArrayVertexBuffer
+#define glViewport pleinair_glViewport

@@ -1,0 +1,19 @@
+#pragma once
+
+// Stands in for tl::expected where only a compiler is installed: the standard's own (C++23).
+
+#include <expected>
+#include <type_traits>
+#include <utility>
+
+namespace tl {
+
+using std::expected;
+using std::unexpected;
+
+template <typename E>
+std::unexpected<std::decay_t<E>> make_unexpected(E&& error) {
+  return std::unexpected<std::decay_t<E>>(std::forward<E>(error));
+}
+
+}  // namespace tl
