@@ -41,9 +41,9 @@ struct Axis {
 };
 
 void AddGrid(const Axis& axis, bool along_x, LineDrawing* drawing) {
-  for (double decade = 1e-4; decade < 1e5; decade *= 10.0) {
+  for (int decade = -4; decade <= 4; ++decade) {
     for (const double factor : {1.0, 2.0, 5.0}) {
-      const double value = factor * decade;
+      const double value = factor * std::pow(10.0, decade);
       if (value < axis.low || value > axis.high) continue;
       const double at = axis.At(value);
       const std::string text = fmt::format("{:g}", value);
