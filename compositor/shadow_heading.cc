@@ -80,6 +80,7 @@ class Search {
 
   Fits FitAll(const std::vector<Cell>& cells, const std::vector<double>& headings_deg) const {
     std::vector<Vec3> suns;
+    suns.reserve(headings_deg.size());
     for (const double heading : headings_deg) {
       suns.push_back(Turned(to_sun_, up_, FromDegrees(heading)));
     }
