@@ -22,6 +22,7 @@ constexpr const char* kExamples =
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
+    "  pleinair live --camera file:recordings/courtyard_midday --headless\n"
     "  pleinair devices\n"
     "  pleinair doctor\n"
     "'pleinair SUBCOMMAND --help' tells more. Exit codes: 0 done, 1 could not, 2 the input or\n"
@@ -67,6 +68,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     CommandResult result;
     AddReplayCommand(app, result);
     AddCompareCommand(app, result);
+    AddLiveCommand(app, result);
     AddDetectCommand(app, result);
     AddMarkerCommand(app, result);
     AddTargetCommand(app, result);

@@ -22,6 +22,7 @@ struct CommandResult {
 // and throws nothing.
 void AddReplayCommand(CLI::App& app, CommandResult& result);
 void AddCompareCommand(CLI::App& app, CommandResult& result);
+void AddLiveCommand(CLI::App& app, CommandResult& result);
 void AddDetectCommand(CLI::App& app, CommandResult& result);
 void AddMarkerCommand(CLI::App& app, CommandResult& result);
 void AddTargetCommand(CLI::App& app, CommandResult& result);

@@ -123,7 +123,18 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   return renderer;
 }
 
-void SceneRenderer::SetMarkerPrint(const compositor::MarkerPrint& print) { print_ = print; }
+struct SceneRenderer::Light {
+  sky::SunPosition sun;
+  std::shared_ptr<const sky::SkyModel> model;
+  compositor::ScaledDaylight daylight;
+  std::vector<compositor::LitMesh> meshes;
+};
+
+void SceneRenderer::SetMarkerPrint(const compositor::MarkerPrint& print) {
+  print_ = print;
+  if (!lit_) return;
+  meter_.emplace(print_, *solver_, lit_->daylight, MarkerFromWorld(scene_.marker));
+}
 
 sky::SunPosition SceneRenderer::SunAt(UtcTime time) const {
   const sky::Observer observer{FromDegrees(scene_.place_time.latitude_deg),
@@ -216,48 +227,79 @@ void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
   sky_scale_ = measured.sky_scale;
 }
 
-std::vector<compositor::LitMesh> SceneRenderer::LightAmongSurfaces(const sky::SkyModel& daylight,
-                                                                   const Mat3& marker_from_world) {
-  if (light_cache_.empty()) return solver_->Solve(daylight, marker_from_world);
-  if (!coefficients_) {
-    constexpr int kSteps = 100;
-    ProgressBar bar("Tracing light", kSteps, "%");
-    int done = 0;
-    const auto advance = [&](double share) {
-      for (; done < static_cast<int>(share * kSteps); ++done) bar.Advance();
-    };
-    compositor::CoefficientOptions options;
-    options.cache = light_cache_;
-    coefficients_ =
-        solver_->Coefficients(marker_from_world * Vec3{0.0, 0.0, 1.0}, options, advance);
-  }
+/// Traces where each surface's light comes from, once for all skies, where that is to be kept.
+void SceneRenderer::TraceLight() {
+  if (light_cache_.empty() || coefficients_) return;
+  constexpr int kSteps = 100;
+  ProgressBar bar("Tracing light", kSteps, "%");
+  int done = 0;
+  const auto advance = [&](double share) {
+    for (; done < static_cast<int>(share * kSteps); ++done) bar.Advance();
+  };
+  compositor::CoefficientOptions options;
+  options.cache = light_cache_;
+  coefficients_ =
+      solver_->Coefficients(MarkerFromWorld(scene_.marker) * Vec3{0.0, 0.0, 1.0}, options, advance);
+}
+
+std::vector<compositor::LitMesh> SceneRenderer::LightAmongSurfaces(
+    const sky::SkyModel& daylight, const Mat3& marker_from_world) const {
+  if (!coefficients_) return solver_->Solve(daylight, marker_from_world);
   return solver_->Relight(*coefficients_, daylight, marker_from_world);
 }
 
-Result<void> SceneRenderer::UpdateLight(UtcTime time) {
-  summary_.sun = SunAt(time);
-  const Vec3 to_sun = summary_.sun.ToSun().xyz;
-  if (!lit_for_sun_) OverrideLight(summary_.sun);
-  const auto model = skies_->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);
+bool SceneRenderer::NeedsLight(UtcTime made, UtcTime now) const {
+  return composer_ && Norm(SunAt(made).ToSun().xyz - SunAt(now).ToSun().xyz) >= kSunStep;
+}
+
+std::shared_ptr<const SceneRenderer::Light> SceneRenderer::PrepareLight(UtcTime time) const {
+  if (!composer_) return nullptr;
+  const sky::SunPosition sun = SunAt(time);
+  std::shared_ptr<const sky::SkyModel> model = skies_->ForSun(sun.ToSun(), sun.distance_au);
   const compositor::ScaledDaylight daylight(*model, sky_scale_, {1.0, 1.0, 1.0});
+  return std::shared_ptr<const Light>(new Light{
+      sun, model, daylight, LightAmongSurfaces(daylight, MarkerFromWorld(scene_.marker))});
+}
+
+Result<void> SceneRenderer::TakeLight(std::shared_ptr<const Light> light) {
+  const compositor::ScaledDaylight& daylight = light->daylight;
   const Mat3 marker_from_world = MarkerFromWorld(scene_.marker);
-  if (lit_for_sun_ && Norm(*lit_for_sun_ - to_sun) < kSunStep) {
-    composer_->SetSun(daylight, marker_from_world);
-    return {};
-  }
   const LinearRgb sun = daylight.SunNormalIrradiance();
   const LinearRgb sky = daylight.SkyHorizontalIrradiance();
   summary_.sun_normal_lux = Luminance(sun);
   summary_.sky_horizontal_lux = Luminance(sky);
   summary_.measured.sun_to_sky = SunToSky(daylight);
   summary_.measured.sun_shines = Luminance(sun) > 0.0;
-  const LinearRgb ground = sky + sun * std::max(0.0, to_sun.z);
+  const LinearRgb ground = sky + sun * std::max(0.0, light->sun.ToSun().xyz.z);
   const double white = scene_.marker.albedo_white / std::numbers::pi;
   guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
-  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(LightAmongSurfaces(daylight, marker_from_world),
-                                               daylight, marker_from_world));
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(light->meshes, daylight, marker_from_world));
   meter_.emplace(print_, *solver_, daylight, marker_from_world);
-  lit_for_sun_ = to_sun;
+  lit_ = std::move(light);
+  return {};
+}
+
+Result<void> SceneRenderer::UseLight(std::shared_ptr<const Light> light) {
+  light_from_outside_ = true;
+  return light && composer_ ? TakeLight(std::move(light)) : Result<void>();
+}
+
+Result<void> SceneRenderer::LightUp(UtcTime time) {
+  light_from_outside_ = true;
+  return composer_ ? UpdateLight(time) : Result<void>();
+}
+
+Result<void> SceneRenderer::UpdateLight(UtcTime time) {
+  summary_.sun = SunAt(time);
+  if (!lit_) OverrideLight(summary_.sun);
+  const bool near = lit_ && Norm(lit_->sun.ToSun().xyz - summary_.sun.ToSun().xyz) < kSunStep;
+  if (!near && !(lit_ && light_from_outside_)) {
+    TraceLight();
+    return TakeLight(PrepareLight(time));
+  }
+  const auto model = skies_->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);
+  composer_->SetSun(compositor::ScaledDaylight(*model, sky_scale_, {1.0, 1.0, 1.0}),
+                    MarkerFromWorld(scene_.marker));
   return {};
 }
 

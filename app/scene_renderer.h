@@ -75,6 +75,22 @@ class SceneRenderer {
   /// Draws conclusions from the frames looked at: heading, sun and sky from now on.
   void SettleLight();
 
+  /// Sun, sky and the light among surfaces at one moment.
+  struct Light;
+
+  /// Whether the sun has moved so far between two moments that the light should be made anew.
+  bool NeedsLight(UtcTime made, UtcTime now) const;
+
+  /// Works out the light of a moment; another thread may do so while frames are rendered, once the
+  /// first has been or LightUp() was called.
+  std::shared_ptr<const Light> PrepareLight(UtcTime time) const;
+
+  /// Takes a light over; from then on Render() only moves the sun and leaves new light to others.
+  Result<void> UseLight(std::shared_ptr<const Light> light);
+
+  /// Makes the first light before the first frame is there, and UseLight() hold from now on.
+  Result<void> LightUp(UtcTime time);
+
   /// The frame with the virtual objects as they stand at `time`.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
                           const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
@@ -87,8 +103,10 @@ class SceneRenderer {
 
   sky::SunPosition SunAt(UtcTime time) const;
   void OverrideLight(const sky::SunPosition& sun);
+  void TraceLight();
   std::vector<compositor::LitMesh> LightAmongSurfaces(const sky::SkyModel& daylight,
-                                                      const Mat3& marker_from_world);
+                                                      const Mat3& marker_from_world) const;
+  Result<void> TakeLight(std::shared_ptr<const Light> light);
   Result<void> UpdateLight(UtcTime time);
   void UpdateGain(ImageView<const std::uint8_t> rgb,
                   const Transform<Camera, Marker>& camera_from_marker);
@@ -106,7 +124,8 @@ class SceneRenderer {
   std::unique_ptr<compositor::LightSolver> solver_;
   std::unique_ptr<compositor::Composer> composer_;
   std::optional<compositor::LightMeter> meter_;
-  std::optional<Vec3> lit_for_sun_;     // World direction that the current light was made for.
+  std::shared_ptr<const Light> lit_;  // The light in use.
+  bool light_from_outside_ = false;
   std::deque<LinearRgb> recent_gains_;  // Of the last frames, for the running median.
   LinearRgb guessed_gain_;
   LightSummary summary_;

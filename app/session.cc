@@ -60,6 +60,14 @@ void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
   }
 }
 
+void Session::ForgetAllBut(std::size_t observations) {
+  for (auto& [marker, path] : paths_) {
+    if (path.size() > observations) {
+      path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(observations));
+    }
+  }
+}
+
 std::optional<MarkerName> Session::Anchor() const {
   std::optional<MarkerName> most;
   std::size_t sightings = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -42,6 +43,9 @@ class Session {
   /// or its planar pose is ambiguous, what lies nearest to its last pose counts.
   void AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
                 const std::vector<tracker::Sighting>& sightings);
+
+  /// Forgets all but the last `observations` of each marker: for sessions without an end.
+  void ForgetAllBut(std::size_t observations);
 
   /// Of the markers that have the family and the number that the scene declares, or any where it
   /// does not say, the one that is seen most (the first by name of equals); nothing where there is

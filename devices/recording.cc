@@ -8,6 +8,7 @@
 
 #include "devices/calibration.h"
 #include "devices/euroc.h"
+#include "devices/frame_pack.h"
 #include "devices/picture_sequence.h"
 #include "devices/recording_manifest.h"
 #include "devices/scene_facts.h"
@@ -143,6 +144,15 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
   PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneOf(own, options));
   const PictureSize size{recording.camera.width, recording.camera.height};
   const fs::path frames = FramesOf(manifest, folder);
+  if (IsFile(frames) && IsFramePack(frames)) {
+    PLEINAIR_ASSIGN_OR_RETURN(OpenedFramePack pack, OpenFramePack(frames, size));
+    constexpr double kUsualRate_hz = 30.0;  // Of a single frame: only a video's header shows it.
+    const double stated_hz = manifest.frame_rate_hz.value_or(kUsualRate_hz);
+    recording.frame_rate_hz = pack.frame_rate_hz > 0.0 ? pack.frame_rate_hz : stated_hz;
+    recording.dropped_bytes = pack.dropped_bytes;
+    recording.frames = std::move(pack.frames);
+    return recording;
+  }
   if (IsFile(frames)) {
     PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video,
                               OpenVideo(frames, {size, manifest.frame_count, manifest.frame_rate_hz,

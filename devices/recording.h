@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -25,6 +26,8 @@ struct Recording {
   CameraModel camera;
   std::optional<SceneDescription> scene;
   double frame_rate_hz = 0.0;
+  /// Bytes after the last whole frame of a live recording: it was cut there, by a power cut say.
+  std::int64_t dropped_bytes = 0;
   std::unique_ptr<FrameSource> frames;
 };
 

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace pleinair::app {
+
+/// What a giver does when the taker has not kept up.
+enum class WhenFull {
+  kReplaceOldest,  ///< Live: the newest counts.
+  kWait,           ///< Replay: nothing may be lost.
+  kRefuse,         ///< Recording: what is there already is as good.
+};
+
+/// A bounded queue between two threads.
+template <typename T>
+class HandOver {
+ public:
+  HandOver(std::size_t capacity, WhenFull when_full) : capacity_(capacity), when_full_(when_full) {}
+
+  /// False where it was closed or, with kRefuse, full.
+  bool Give(T item) {
+    std::unique_lock lock(mutex_);
+    if (when_full_ == WhenFull::kWait) {
+      changed_.wait(lock, [this] { return items_.size() < capacity_ || closed_; });
+    }
+    if (closed_) return false;
+    if (items_.size() >= capacity_) {
+      ++dropped_;
+      if (when_full_ == WhenFull::kRefuse) return false;
+      items_.pop_front();
+    }
+    items_.push_back(std::move(item));
+    changed_.notify_all();
+    return true;
+  }
+
+  /// The next item; nothing when it is closed and empty.
+  std::optional<T> Take() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !items_.empty() || closed_; });
+    return Pop();
+  }
+
+  /// The same, or nothing when `limit` is over.
+  std::optional<T> TakeWithin(std::chrono::milliseconds limit) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, limit, [this] { return !items_.empty() || closed_; });
+    return Pop();
+  }
+
+  /// No more is taken in; what is there can still be taken out.
+  void Close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+
+  /// Closed and empty.
+  bool finished() const {
+    const std::lock_guard lock(mutex_);
+    return closed_ && items_.empty();
+  }
+
+  /// Items replaced or refused since the start.
+  std::int64_t dropped() const {
+    const std::lock_guard lock(mutex_);
+    return dropped_;
+  }
+
+ private:
+  std::optional<T> Pop() {
+    if (items_.empty()) return std::nullopt;
+    T item = std::move(items_.front());
+    items_.pop_front();
+    changed_.notify_all();
+    return item;
+  }
+
+  const std::size_t capacity_;
+  const WhenFull when_full_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<T> items_;
+  bool closed_ = false;
+  std::int64_t dropped_ = 0;
+};
+
+}  // namespace pleinair::app

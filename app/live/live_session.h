@@ -1,0 +1,138 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/live/hand_over.h"
+#include "app/live/latency_meter.h"
+#include "app/live/live_recorder.h"
+#include "app/measured_sky.h"
+#include "app/print_measurer.h"
+#include "app/scene_renderer.h"
+#include "app/session.h"
+#include "base/camera_model.h"
+#include "compositor/composer.h"
+#include "devices/frame_source.h"
+#include "devices/scene_description.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::app {
+
+struct LiveOptions {
+  CameraModel camera;
+  devices::SceneDescription scene;
+  compositor::ComposerOptions composer;
+  LightOverrides light;
+  /// UTC of the first frame; nothing: the clock's when it comes.
+  std::optional<UtcTime> start;
+  /// Every frame is tracked and drawn, in order, however long it takes, and measured as replay
+  /// does; else the newest counts and late ones are left out.
+  bool lossless = false;
+  std::optional<std::filesystem::path> record;      ///< Folder of a new recording.
+  std::optional<std::filesystem::path> detections;  ///< File for what was seen, a line a frame.
+  /// Ends the source's waiting; called from another thread.
+  std::function<void()> stop_source;
+};
+
+/// A frame as it is shown.
+struct DrawnFrame {
+  std::shared_ptr<const devices::Frame> frame;
+  std::optional<Transform<Camera, Marker>> camera_from_marker;
+  RgbImage picture;  ///< With the virtual objects; the camera's own where no marker is seen.
+  std::optional<double> latency_ms;  ///< From the stamp to now; nothing in a lossless replay.
+};
+
+struct LiveStatistics {
+  std::int64_t captured = 0;
+  std::int64_t tracked = 0;
+  std::int64_t with_pose = 0;
+  std::int64_t drawn = 0;
+  std::int64_t late_for_tracking = 0;  ///< Replaced by a newer frame before it was tracked.
+  std::int64_t late_for_drawing = 0;   ///< Tracked, and replaced before it was drawn.
+  devices::FrameLoss loss;             ///< Before we got them.
+  std::int64_t recorded = 0;
+  std::int64_t left_out_of_recording = 0;
+  LatencyMeter::Summary latency;
+  double track_ms = 0.0;  ///< Of the last frame.
+  double draw_ms = 0.0;
+};
+
+/// Capturing, tracking, light and recording on threads of their own, handing frames on through
+/// bounded queues; drawing happens on the thread that made the session. No frame ever waits for a
+/// slower stage (unless `lossless`).
+class LiveSession {
+ public:
+  /// Loads the scene and prepares its first light. Errors: models, OpenGL, the marker, and a
+  /// recording or detections that cannot be written.
+  static Result<std::unique_ptr<LiveSession>> Create(std::unique_ptr<devices::FrameSource> source,
+                                                     LiveOptions options);
+  ~LiveSession();
+
+  /// Draws the newest frame that was tracked; nothing when there is none within `limit`.
+  /// Errors: the source's, the tracker's, drawing.
+  Result<std::optional<DrawnFrame>> Draw(std::chrono::milliseconds limit);
+
+  /// The source is at its end and every frame has been drawn.
+  bool finished() const { return tracked_.finished(); }
+
+  /// Ends all threads; frames on their way are drawn no more.
+  void Stop();
+
+  LiveStatistics statistics() const;
+  /// Why recording ended before its time.
+  std::optional<Error> recording_trouble() const;
+  const LightSummary& light() const { return renderer_->light(); }
+
+ private:
+  using FramePtr = std::shared_ptr<const devices::Frame>;
+  struct Tracked {
+    FramePtr frame;
+    std::optional<Transform<Camera, Marker>> camera_from_marker;
+    std::optional<MarkerName> anchor;
+  };
+
+  LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptions options);
+  Result<void> Prepare();
+  void Capture();
+  void Track();
+  Result<Tracked> TrackOne(FramePtr frame);
+  void MakeLight();
+  void Record(const FramePtr& frame);
+  void Fail(Error error);
+  UtcTime MomentOf(const devices::Frame& frame) const;
+
+  LiveOptions options_;
+  std::unique_ptr<devices::FrameSource> source_;
+  std::unique_ptr<tracker::Tracker> tracker_;
+  std::unique_ptr<SceneRenderer> renderer_;
+  std::optional<PrintMeasurer> measurer_;
+  class Detections;
+  std::unique_ptr<Detections> detections_;
+  Session session_;
+
+  HandOver<FramePtr> captured_;
+  HandOver<Tracked> tracked_;
+  HandOver<std::shared_ptr<const SceneRenderer::Light>> light_{1, WhenFull::kReplaceOldest};
+  std::unique_ptr<LiveRecorder> recorder_;  // Made with the first frame, under the mutex.
+
+  std::atomic<bool> stop_ = false;
+  std::optional<MarkerName> shown_anchor_;
+  mutable std::mutex mutex_;
+  std::optional<std::int64_t> first_stamp_ns_;
+  UtcTime first_moment_;
+  std::optional<Error> error_;
+  std::optional<Error> recording_trouble_;
+  LiveStatistics statistics_;
+  LatencyMeter latency_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <string_view>
+#include <system_error>
+
+#include "app/live/live_recorder.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// TOML's basic string: quotes, backslashes and control characters escaped (TOML 1.0, "String").
+std::string Quoted(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+      quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+const char* Word(devices::Cloudiness cloudiness) {
+  switch (cloudiness) {
+    case devices::Cloudiness::kClear:
+      return "clear";
+    case devices::Cloudiness::kHazy:
+      return "hazy";
+    case devices::Cloudiness::kPartlyCloudy:
+      return "partly cloudy";
+    case devices::Cloudiness::kOvercast:
+      return "overcast";
+  }
+  return "clear";
+}
+
+const char* Word(devices::Shading shading) {
+  switch (shading) {
+    case devices::Shading::kFromFile:
+      return "file";
+    case devices::Shading::kFlat:
+      return "flat";
+    case devices::Shading::kSmooth:
+      return "smooth";
+  }
+  return "file";
+}
+
+std::string Vector(Vec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+void AddModel(const char* table, const devices::ModelReference& model, const fs::path& folder,
+              std::string* text) {
+  std::error_code error;
+  fs::path file = fs::proximate(model.file, folder, error);
+  if (error) file = fs::absolute(model.file, error);
+  *text += fmt::format(
+      "\n[[{}]]\nfile = {}\nshading = \"{}\"\ntranslation_m = {}\nrotation_deg = {}\nscale = {}\n",
+      table, Quoted(file.string()), Word(model.shading), Vector(model.translation_m),
+      Vector(model.rotation_deg), model.scale);
+}
+
+}  // namespace
+
+std::string SceneToml(const devices::SceneDescription& scene, UtcTime start,
+                      const fs::path& folder) {
+  const devices::MarkerDescription& marker = scene.marker;
+  std::string text =
+      fmt::format("time = {}\ncloudiness = \"{}\"\n", start.ToString(), Word(scene.cloudiness));
+  if (scene.turbidity) text += fmt::format("turbidity = {}\n", *scene.turbidity);
+  if (scene.exposure_gain) {
+    text += fmt::format("exposure_gain = [{}, {}, {}]\n", scene.exposure_gain->r,
+                        scene.exposure_gain->g, scene.exposure_gain->b);
+  }
+  text += fmt::format("\n[place]\nlatitude_deg = {}\nlongitude_deg = {}\nheight_m = {}\n",
+                      scene.place_time.latitude_deg, scene.place_time.longitude_deg,
+                      scene.place_time.height_m);
+  text += "\n[marker]\n";
+  if (marker.family) text += fmt::format("family = {}\n", Quoted(*marker.family));
+  if (marker.id) text += fmt::format("id = {}\n", *marker.id);
+  if (marker.version) text += fmt::format("version = {}\n", *marker.version);
+  text += fmt::format("size_m = {}\n", marker.size_m);
+  if (marker.board_size_m > 0.0) text += fmt::format("board_size_m = {}\n", marker.board_size_m);
+  text += fmt::format("heading_deg = {}\nupright = {}\nalbedo_black = {}\nalbedo_white = {}\n",
+                      marker.heading.value() / kRadiansPerDegree, marker.upright,
+                      marker.albedo_black, marker.albedo_white);
+  for (const auto& phantom : scene.phantoms) AddModel("phantom", phantom, folder, &text);
+  for (const auto& object : scene.objects) AddModel("object", object, folder, &text);
+  return text;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,291 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/interrupt.h"
+#include "app/live/live_session.h"
+#include "app/live/paced_recording.h"
+#include "app/number_range.h"
+#include "app/sinks/picture_writer.h"
+#include "devices/calibration.h"
+#include "devices/live_camera.h"
+#include "devices/recording.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair live --camera v4l2:/dev/video0 --calibration camera.json --scene site/scene.toml "
+    "--headless --seconds 60\n"
+    "  pleinair live --camera v4l2:serial=0001 --calibration camera.json --scene site/scene.toml\n"
+    "      --hold-exposure 0.008 --record out/walk --headless\n"
+    "  pleinair live --camera file:recordings/courtyard_midday --headless --lossless\n"
+    "'pleinair devices' lists cameras. A camera that is not there is waited for; one that is "
+    "pulled\n"
+    "out is taken up again when it comes back. Ctrl-C ends. docs/cameras.md tells more.";
+
+struct Arguments {
+  std::string camera, scene, calibration, time, record, detections, screenshot, pixel_format;
+  std::optional<double> seconds, rate_hz, exposure_s, gain, white_balance_k, focus;
+  bool headless = false, lossless = false, json = false, lock = false;
+};
+
+/// Where frames come from, and what else is known with them.
+struct Source {
+  std::unique_ptr<devices::FrameSource> frames;
+  devices::LiveCamera* camera = nullptr;  ///< Null for a recording.
+  CameraModel lens;
+  std::optional<devices::SceneDescription> scene;
+};
+
+std::vector<devices::ControlWish> ControlsOf(const Arguments& arguments) {
+  std::vector<devices::ControlWish> wishes;
+  const auto add = [&](devices::CameraControl control, const std::optional<double>& value) {
+    if (value || arguments.lock) wishes.push_back({control, value});
+  };
+  add(devices::CameraControl::kExposure, arguments.exposure_s);
+  add(devices::CameraControl::kGain, arguments.gain);
+  add(devices::CameraControl::kWhiteBalance, arguments.white_balance_k);
+  add(devices::CameraControl::kFocus, arguments.focus);
+  return wishes;
+}
+
+Result<Source> OpenFile(const devices::CameraUri& uri, const Arguments& arguments) {
+  devices::RecordingOptions options;
+  if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
+  if (!arguments.scene.empty()) options.scene = arguments.scene;
+  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording,
+                            devices::OpenRecording(uri.value, options));
+  Source source{std::move(recording.frames), nullptr, recording.camera, recording.scene};
+  if (!arguments.lossless) {
+    source.frames = std::make_unique<PacedRecording>(std::move(source.frames));
+  }
+  return source;
+}
+
+Result<Source> OpenCamera(const devices::CameraUri& uri, const Arguments& arguments) {
+  if (arguments.lossless) {
+    return InputError("--lossless", "is for recordings: a camera does not wait", "leave it out");
+  }
+  if (arguments.calibration.empty()) {
+    return InputError("--calibration", "is missing: a camera says nothing of its lens",
+                      "calibrate it once and name the file");
+  }
+  Source source;
+  PLEINAIR_ASSIGN_OR_RETURN(source.lens, devices::ReadCalibration(arguments.calibration));
+  if (!arguments.scene.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(source.scene, devices::ReadSceneDescription(arguments.scene));
+  }
+  devices::LiveCameraOptions options;
+  options.uri = uri;
+  options.pictures.size = devices::PictureSize{source.lens.width, source.lens.height};
+  options.pictures.rate_hz = arguments.rate_hz;
+  if (!arguments.pixel_format.empty()) {
+    options.pictures.format = devices::PixelFormatByName(arguments.pixel_format);
+    if (!options.pictures.format) {
+      return InputError("--format", "\"" + arguments.pixel_format + "\" is not read here",
+                        "'pleinair devices' lists what the camera sends");
+    }
+  }
+  options.controls = ControlsOf(arguments);
+  PLEINAIR_ASSIGN_OR_RETURN(auto camera, devices::LiveCamera::Open(std::move(options)));
+  source.camera = camera.get();
+  source.frames = std::move(camera);
+  return source;
+}
+
+const char* Word(devices::CameraEvent::Kind kind) {
+  switch (kind) {
+    case devices::CameraEvent::Kind::kConnected:
+      return "connected";
+    case devices::CameraEvent::Kind::kGone:
+      return "gone";
+    case devices::CameraEvent::Kind::kWaiting:
+      return "waiting";
+    case devices::CameraEvent::Kind::kStalled:
+      return "stalled";
+    case devices::CameraEvent::Kind::kRecovered:
+      return "recovered";
+  }
+  return "";
+}
+
+void TellEvents(devices::LiveCamera* camera, bool json) {
+  if (camera == nullptr) return;
+  for (const devices::CameraEvent& event : camera->TakeEvents()) {
+    if (json) {
+      std::cout << nlohmann::json{{"camera", Word(event.kind)}, {"words", event.words}}.dump(
+                       -1, ' ', false, nlohmann::json::error_handler_t::replace)
+                << std::endl;
+    } else {
+      std::cerr << "camera " << Word(event.kind) << (event.words.empty() ? "" : ": ") << event.words
+                << '\n';
+    }
+  }
+}
+
+void TellControls(const devices::LiveCamera* camera) {
+  if (camera == nullptr) return;
+  for (const devices::ControlAnswer& answer : camera->Answers()) {
+    if (!answer.words.empty()) std::cerr << "camera: " << answer.words << '\n';
+  }
+}
+
+nlohmann::json Json(const LiveStatistics& s) {
+  return {{"captured", s.captured},
+          {"tracked", s.tracked},
+          {"with_pose", s.with_pose},
+          {"drawn", s.drawn},
+          {"late_for_tracking", s.late_for_tracking},
+          {"late_for_drawing", s.late_for_drawing},
+          {"lost",
+           {{"by_number", s.loss.by_number},
+            {"by_time", s.loss.by_time},
+            {"damaged", s.loss.damaged},
+            {"not_taken", s.loss.not_taken}}},
+          {"recorded", s.recorded},
+          {"left_out_of_recording", s.left_out_of_recording},
+          {"latency_ms",
+           {{"median", s.latency.median_ms},
+            {"p95", s.latency.p95_ms},
+            {"worst", s.latency.worst_ms}}}};
+}
+
+void Tell(const LiveStatistics& s, bool json) {
+  if (json) {
+    std::cout << Json(s).dump() << '\n';
+    return;
+  }
+  std::cerr << fmt::format(
+      "{} frames captured, {} tracked, {} with a pose, {} drawn; {} late for tracking, {} late for "
+      "drawing, {} lost before\n",
+      s.captured, s.tracked, s.with_pose, s.drawn, s.late_for_tracking, s.late_for_drawing,
+      s.loss.Total());
+  if (s.latency.worst_ms > 0.0) {
+    std::cerr << fmt::format("exposure to picture: {:.0f} ms (95 %: {:.0f}, worst {:.0f})\n",
+                             s.latency.median_ms, s.latency.p95_ms, s.latency.worst_ms);
+  }
+  if (s.recorded > 0) {
+    std::cerr << fmt::format("{} frames recorded, {} left out because the disk was late\n",
+                             s.recorded, s.left_out_of_recording);
+  }
+}
+
+Result<std::optional<UtcTime>> StartOf(const Arguments& arguments, const Source& source) {
+  if (arguments.time == "now") return std::nullopt;
+  if (!arguments.time.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(const UtcTime time, UtcTime::Parse(arguments.time));
+    return time;
+  }
+  // A recording was made in its own day; in front of a camera it is now.
+  if (source.camera != nullptr) return std::nullopt;
+  return source.scene->place_time.start;
+}
+
+/// Draws until the end, the time or Ctrl-C; gives the last picture.
+Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Arguments& arguments) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  RgbImage last;
+  while (!session.finished() && !InterruptGuard::Interrupted()) {
+    if (arguments.seconds &&
+        std::chrono::duration<double>(Clock::now() - start).count() >= *arguments.seconds) {
+      break;
+    }
+    TellEvents(source.camera, arguments.json);
+    PLEINAIR_ASSIGN_OR_RETURN(auto drawn, session.Draw(std::chrono::milliseconds(50)));
+    if (drawn) last = std::move(drawn->picture);
+  }
+  return last;
+}
+
+Result<void> Run(const Arguments& arguments) {
+  if (!arguments.headless) {
+    return InputError("live", "has no window yet", "give --headless");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::CameraUri uri,
+                            devices::ParseCameraUri(arguments.camera));
+  const bool is_file = uri.backend == devices::CameraUri::Backend::kFile;
+  PLEINAIR_ASSIGN_OR_RETURN(Source source,
+                            is_file ? OpenFile(uri, arguments) : OpenCamera(uri, arguments));
+  if (!source.scene) {
+    return InputError("--scene", "is missing: nobody said where this is and what is to be seen",
+                      "write one (docs/formats.md)");
+  }
+  LiveOptions options;
+  options.camera = source.lens;
+  options.scene = *source.scene;
+  options.light.as_stated = true;
+  options.lossless = arguments.lossless;
+  PLEINAIR_ASSIGN_OR_RETURN(options.start, StartOf(arguments, source));
+  if (!arguments.record.empty()) options.record = arguments.record;
+  if (!arguments.detections.empty()) options.detections = arguments.detections;
+  if (source.camera != nullptr) {
+    options.stop_source = [camera = source.camera] { camera->Stop(); };
+  }
+  const InterruptGuard guard;
+  PLEINAIR_ASSIGN_OR_RETURN(auto session,
+                            LiveSession::Create(std::move(source.frames), std::move(options)));
+  auto last = DrawAll(*session, source, arguments);
+  TellEvents(source.camera, arguments.json);
+  TellControls(source.camera);
+  session->Stop();
+  Tell(session->statistics(), arguments.json);
+  if (!last) return tl::make_unexpected(last.error());
+  if (!arguments.screenshot.empty() && !last->empty()) {
+    PLEINAIR_RETURN_IF_ERROR(WritePng(arguments.screenshot, last->view()));
+  }
+  if (auto trouble = session->recording_trouble()) return tl::make_unexpected(*trouble);
+  return {};
+}
+
+}  // namespace
+
+void AddLiveCommand(CLI::App& app, CommandResult& result) {
+  CLI::App* command =
+      app.add_subcommand("live", "Show a scene's objects in a camera's pictures as they come");
+  command->footer(kExamples);
+  auto arguments = std::make_shared<Arguments>();
+  Arguments& a = *arguments;
+  command->add_option("--camera", a.camera, "Which camera, or file:PATH of a recording")
+      ->type_name("URI")
+      ->required();
+  command->add_option("--scene", a.scene, "Scene file (docs/formats.md)");
+  command->add_option("--calibration", a.calibration, "Calibration of the lens");
+  command->add_option("--time", a.time,
+                      "Moment of the first frame: RFC 3339, or \"now\" (the default for cameras; "
+                      "for recordings the scene's)");
+  command->add_option("--record", a.record, "Record into this new folder, too");
+  command->add_option("--detections", a.detections, "Write what is seen, one JSON line a frame");
+  command->add_option("--screenshot", a.screenshot, "At the end, write the last picture as PNG");
+  command->add_flag("--headless", a.headless, "Without a window");
+  command->add_option("--seconds", a.seconds, "End after so long")->check(NumberRange(0.0, 1e9));
+  command->add_flag("--lossless", a.lossless,
+                    "Of a recording, track and draw every frame, however long that takes");
+  command->add_option("--rate", a.rate_hz, "Frames a second to ask the camera for")
+      ->check(NumberRange(0.1, 1000.0));
+  command->add_option("--format", a.pixel_format, "Pixels to ask for: YUYV, MJPG, NV12, GREY…");
+  command->add_flag("--lock", a.lock, "Hold exposure, gain, white balance and focus as they are");
+  command->add_option("--hold-exposure", a.exposure_s, "Hold this exposure, in seconds")
+      ->check(NumberRange(1e-6, 100.0));
+  command->add_option("--hold-gain", a.gain, "Hold this gain, in the camera's own steps")
+      ->check(NumberRange(0.0, 1e6));
+  command->add_option("--hold-white-balance", a.white_balance_k, "Hold this, in kelvins")
+      ->check(NumberRange(1000.0, 40000.0));
+  command->add_option("--hold-focus", a.focus, "Hold this focus, in the camera's own steps")
+      ->check(NumberRange(0.0, 1e6));
+  command->add_flag("--json", a.json, "Events and statistics as JSON lines");
+  command->callback([arguments, &result] { result.status = Run(*arguments); });
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,112 @@
+#include "devices/frame_pack_format.h"
+
+#include <nlohmann/json.hpp>
+
+namespace pleinair::devices {
+namespace {
+
+using Json = nlohmann::json;
+
+void Put(std::uint64_t value, int bytes, std::uint8_t* to) {
+  for (int i = 0; i < bytes; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
+}
+
+std::uint64_t Get(const std::uint8_t* from, int bytes) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < bytes; ++i) value |= static_cast<std::uint64_t>(from[i]) << (8 * i);
+  return value;
+}
+
+constexpr std::string_view kMeanings[] = {"unknown", "exposure start", "exposure end", "arrival"};
+
+template <typename T>
+void Set(Json* json, const char* key, const std::optional<T>& value) {
+  if (value) (*json)[key] = *value;
+}
+
+template <typename T>
+std::optional<T> Optional(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end()) return std::nullopt;
+  return found->get<T>();
+}
+
+}  // namespace
+
+std::array<std::uint8_t, FrameRecordHead::kBytes> FrameRecordHead::Encode() const {
+  std::array<std::uint8_t, kBytes> bytes{};
+  kMagic.copy(reinterpret_cast<char*>(bytes.data()), kMagic.size());
+  Put(facts_bytes, 4, &bytes[4]);
+  Put(picture_bytes, 8, &bytes[8]);
+  Put(checksum, 4, &bytes[16]);
+  return bytes;
+}
+
+std::optional<FrameRecordHead> FrameRecordHead::Decode(
+    const std::array<std::uint8_t, kBytes>& bytes) {
+  const std::string_view magic(reinterpret_cast<const char*>(bytes.data()), kMagic.size());
+  FrameRecordHead head;
+  head.facts_bytes = static_cast<std::uint32_t>(Get(&bytes[4], 4));
+  head.picture_bytes = Get(&bytes[8], 8);
+  head.checksum = static_cast<std::uint32_t>(Get(&bytes[16], 4));
+  if (magic != kMagic || head.facts_bytes > kMaxFacts || head.picture_bytes > kMaxPicture) {
+    return std::nullopt;
+  }
+  return head;
+}
+
+std::string FrameFactsJson(const Frame& frame, const RawPicture& layout) {
+  Json json{{"index", frame.index},
+            {"timestamp_ns", frame.timestamp_ns},
+            {"stamp", kMeanings[static_cast<int>(frame.stamp_meaning)]},
+            {"lost",
+             {frame.loss.by_number, frame.loss.by_time, frame.loss.damaged, frame.loss.not_taken}},
+            {"lost_before", frame.lost_before},
+            {"format", NameOf(layout.format)},
+            {"width", layout.width},
+            {"height", layout.height},
+            {"stride", layout.stride},
+            {"matrix", layout.matrix == YuvMatrix::kBt709 ? "bt709" : "bt601"},
+            {"full_range", layout.full_range}};
+  Set(&json, "arrival_ns", frame.arrival_ns);
+  Set(&json, "device_timestamp_ns", frame.device_timestamp_ns);
+  Set(&json, "exposure_s", frame.exposure_s);
+  Set(&json, "gain", frame.gain);
+  Set(&json, "white_balance_k", frame.white_balance_k);
+  return json.dump();
+}
+
+std::optional<FrameFacts> ParseFrameFacts(std::string_view text) {
+  try {
+    const Json json = Json::parse(text);
+    FrameFacts facts;
+    Frame& frame = facts.frame;
+    frame.index = json.at("index");
+    frame.timestamp_ns = json.at("timestamp_ns");
+    const std::string meaning = json.at("stamp");
+    for (int i = 0; i < 4; ++i) {
+      if (kMeanings[i] == meaning) frame.stamp_meaning = static_cast<StampMeaning>(i);
+    }
+    const auto& lost = json.at("lost");
+    frame.loss = {lost.at(0), lost.at(1), lost.at(2), lost.at(3)};
+    frame.lost_before = json.at("lost_before");
+    frame.arrival_ns = Optional<std::int64_t>(json, "arrival_ns");
+    frame.device_timestamp_ns = Optional<std::int64_t>(json, "device_timestamp_ns");
+    frame.exposure_s = Optional<double>(json, "exposure_s");
+    frame.gain = Optional<double>(json, "gain");
+    frame.white_balance_k = Optional<double>(json, "white_balance_k");
+    const auto format = PixelFormatByName(json.at("format").get<std::string>());
+    if (!format) return std::nullopt;
+    facts.layout.format = *format;
+    facts.layout.width = json.at("width");
+    facts.layout.height = json.at("height");
+    facts.layout.stride = json.at("stride");
+    facts.layout.matrix = json.at("matrix") == "bt709" ? YuvMatrix::kBt709 : YuvMatrix::kBt601;
+    facts.layout.full_range = json.at("full_range");
+    return facts;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace pleinair::devices

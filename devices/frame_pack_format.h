@@ -1,0 +1,44 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "devices/frame.h"
+
+namespace pleinair::devices {
+
+/// First bytes of the file.
+inline constexpr std::string_view kFramePackStart = "pleinair frames\n";
+
+/// What stands before each frame: all numbers little-endian. The checksum (CRC-32 of zlib) is over
+/// the facts and the picture.
+struct FrameRecordHead {
+  static constexpr std::size_t kBytes = 24;
+  static constexpr std::string_view kMagic = "FRAM";
+  static constexpr std::uint32_t kMaxFacts = 64 * 1024;
+  static constexpr std::uint64_t kMaxPicture = std::uint64_t{1} << 31;
+
+  std::uint32_t facts_bytes = 0;
+  std::uint64_t picture_bytes = 0;
+  std::uint32_t checksum = 0;
+
+  std::array<std::uint8_t, kBytes> Encode() const;
+  /// Nothing: these bytes begin no frame.
+  static std::optional<FrameRecordHead> Decode(const std::array<std::uint8_t, kBytes>& bytes);
+};
+
+/// Everything of a frame but its pixels, as one line of JSON, and back. `layout` has no bytes.
+std::string FrameFactsJson(const Frame& frame, const RawPicture& layout);
+struct FrameFacts {
+  Frame frame;
+  RawPicture layout;
+};
+/// Nothing: damaged.
+std::optional<FrameFacts> ParseFrameFacts(std::string_view json);
+
+}  // namespace pleinair::devices

@@ -1,0 +1,107 @@
+#include <fcntl.h>
+#include <sys/uio.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/atomic_file.h"
+#include "devices/frame_pack.h"
+#include "devices/frame_pack_format.h"
+
+namespace pleinair::devices {
+namespace {
+
+/// zlib counts in 32 bits.
+std::uint32_t Checksum(std::string_view facts, const std::uint8_t* picture, std::size_t bytes) {
+  uLong sum =
+      crc32(0, reinterpret_cast<const Bytef*>(facts.data()), static_cast<uInt>(facts.size()));
+  sum = crc32_z(sum, picture, bytes);
+  return static_cast<std::uint32_t>(sum);
+}
+
+/// Gives 0 or the error's number.
+int WriteAll(int fd, const void* bytes, std::size_t count) {
+  const auto* at = static_cast<const std::uint8_t*>(bytes);
+  while (count > 0) {
+    const ssize_t written = write(fd, at, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    if (written == 0) return ENOSPC;
+    at += written;
+    count -= static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+}  // namespace
+
+FramePackWriter::FramePackWriter(std::filesystem::path file, int fd)
+    : file_(std::move(file)), fd_(fd) {}
+
+FramePackWriter::~FramePackWriter() { close(fd_); }
+
+Result<std::unique_ptr<FramePackWriter>> FramePackWriter::Create(
+    const std::filesystem::path& file) {
+  const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0 && errno == EEXIST) {
+    return InputError(file.string(), "is there already", "record into another folder");
+  }
+  if (fd < 0) return tl::make_unexpected(WriteError(file, errno));
+  std::unique_ptr<FramePackWriter> writer(new FramePackWriter(file, fd));
+  const int failed = WriteAll(fd, kFramePackStart.data(), kFramePackStart.size());
+  if (failed != 0) return tl::make_unexpected(WriteError(file, failed));
+  writer->size_ = static_cast<std::int64_t>(kFramePackStart.size());
+  return writer;
+}
+
+Result<void> FramePackWriter::Fail(int error_number) {
+  failed_ = true;
+  // The part of a frame that came through goes; should even that fail, readers pass it over.
+  if (ftruncate(fd_, size_) != 0) return tl::make_unexpected(WriteError(file_, error_number));
+  return tl::make_unexpected(WriteError(file_, error_number));
+}
+
+Result<void> FramePackWriter::Add(const Frame& frame) {
+  if (failed_) return SystemError(file_.string(), "recording has ended before");
+  RawPicture layout;
+  const std::uint8_t* picture = frame.rgb.data();
+  std::size_t picture_bytes = frame.rgb.size();
+  if (frame.raw) {
+    layout = {frame.raw->format,
+              frame.raw->width,
+              frame.raw->height,
+              frame.raw->stride,
+              frame.raw->matrix,
+              frame.raw->full_range,
+              {}};
+    picture = frame.raw->bytes.data();
+    picture_bytes = frame.raw->bytes.size();
+  } else {
+    layout.format = PixelFormat::kRgb24;
+    layout.width = frame.rgb.width();
+    layout.height = frame.rgb.height();
+    layout.stride = static_cast<std::size_t>(layout.width) * 3;
+  }
+  const std::string facts = FrameFactsJson(frame, layout);
+  const FrameRecordHead head{static_cast<std::uint32_t>(facts.size()), picture_bytes,
+                             Checksum(facts, picture, picture_bytes)};
+  const auto head_bytes = head.Encode();
+  header_.assign(head_bytes.begin(), head_bytes.end());
+  header_.insert(header_.end(), facts.begin(), facts.end());
+  int failed = WriteAll(fd_, header_.data(), header_.size());
+  if (failed == 0) failed = WriteAll(fd_, picture, picture_bytes);
+  if (failed != 0) return Fail(failed);
+  size_ += static_cast<std::int64_t>(header_.size() + picture_bytes);
+  ++frames_;
+  return {};
+}
+
+Result<void> FramePackWriter::Sync() {
+  if (fdatasync(fd_) != 0) return Fail(errno);
+  return {};
+}
+
+}  // namespace pleinair::devices
