@@ -42,6 +42,25 @@ TEST(SgDetection, FindsEdgesOf200To16PixelsWithCornersToATenthOfAPixel) {
   }
 }
 
+TEST(SgDetection, MeasuresThroughNoiseAsLargeAsThePrintsContrast) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  double squares = 0.0;
+  constexpr int kPictures = 4;
+  for (std::uint32_t seed = 1; seed <= kPictures; ++seed) {
+    SCOPED_TRACE(seed);
+    const RenderedMarker marker = SgMarkerAt(camera, 2000, {161, 118}, 80, 20, 30.0 * seed, 15);
+    const auto found =
+        Track(tracker.get(),
+              RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 75.0, .seed = seed}));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 2000);
+    const double rms = CornerRms(found[0], TrueCorners(camera, marker));
+    squares += rms * rms;
+  }
+  EXPECT_LT(std::sqrt(squares / kPictures), 0.5);
+}
+
 TEST(SgDetection, FindsTiltsTo75Degrees) {
   const CameraModel camera = SgCamera();
   const auto tracker = MakeSgTracker(camera);

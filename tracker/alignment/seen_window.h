@@ -16,11 +16,16 @@ struct SeenWindow {
   std::vector<float> certainty;  ///< Inverse variance up to scale; 0: not to be used.
 };
 
+/// Why codes are clipped: where light is beyond the camera's range they say nothing, where noise
+/// takes some there, but not all of a reduced pixel's, their mean is still right enough.
+enum class Clipping { kByLight, kByNoise };
+
 /// Takes a window out of a picture, in linear light; reduced pixels are means of squares of the
-/// picture's. Codes that are clipped are not to be used; the certainty is that of even noise in
-/// codes, which is how cameras' noise looks after the sRGB curve.
+/// picture's. Codes that are clipped by light are not to be used; the certainty is that of even
+/// noise in codes, which is how cameras' noise looks after the sRGB curve.
 void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
-                      const PixelWindow& window, SeenWindow* seen);
+                      const PixelWindow& window, SeenWindow* seen,
+                      Clipping clipping = Clipping::kByLight);
 
 /// Takes a window out of a reduced picture in its codes, all alike in certainty: enough to find a
 /// print, not to measure it.

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tracker/homography.h"
 #include "tracker/surf_golay/cell_split.h"
@@ -18,6 +19,9 @@ constexpr double kFineSide_px = 100.0;   ///< … and finely.
 /// Blur of a reduced picture below which its edges tell their places no more: a pixel then sees
 /// much the same wherever in it the edge lies.
 constexpr double kSharpestReduced_px = 0.2;
+/// Correlation of a border below which it is looked for in a reduced picture as well, how much
+/// better it must be seen there, and the side that must be left of it.
+constexpr double kNoisyCorrelation = 0.65, kClearer = 0.3, kLeastReducedSide_px = 30.0;
 constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kMostClipped = 0.08;
@@ -188,6 +192,30 @@ double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
   return fit_.Correlation();
 }
 
+double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
+  const BlockFitState guess = *state;
+  halvings_for_noise_ = 0;
+  double correlation = FitBorder(steps, Detail::kFine, state);
+  // Noise averages out; what a cover hides does not come back.
+  while (correlation > 0.0 && correlation < kNoisyCorrelation &&
+         SidePx(guess.modules_from_ideal) / (2 << halvings_for_noise_) > kLeastReducedSide_px) {
+    std::swap(fit_, other_fit_);
+    std::swap(seen_, other_seen_);
+    ++halvings_for_noise_;
+    BlockFitState reduced = guess;
+    const double better = FitBorder(steps, Detail::kFine, &reduced);
+    if (better < correlation + kClearer) {
+      --halvings_for_noise_;
+      std::swap(fit_, other_fit_);
+      std::swap(seen_, other_seen_);
+      break;
+    }
+    *state = reduced;
+    correlation = better;
+  }
+  return correlation;
+}
+
 double SgReader::VisibleBorder() const {
   double visible = 0.0, border = 0.0;
   for (const PrintBlock& block : fit_.blocks()) {
@@ -199,6 +227,7 @@ double SgReader::VisibleBorder() const {
 }
 
 std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess) {
+  halvings_for_noise_ = 0;
   BlockFitState state = guess;
   const double side = SidePx(state.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
@@ -282,7 +311,7 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
 std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_steps) {
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
-  const double correlation = FitBorder(border_steps, Detail::kFine, &state);
+  const double correlation = FitBorderThroughNoise(border_steps, &state);
   const double visible_border = VisibleBorder();
   SgReading number;
   if (visible_border < kLeastVisibleBorder || !ReadNumber(state, &number)) return std::nullopt;
@@ -376,17 +405,21 @@ bool SgReader::TakeFineWindow(const BlockFitState& state, PixelWindow* window) {
          level + 1 < ReducedPictures::kLevels) {
     ++level;
   }
+  level = std::min(std::max(level, halvings_for_noise_), ReducedPictures::kLevels - 1);
   // The largest prints take more pixels than there is room for.
   while (!Window(state.modules_from_ideal, level, window)) {
     if (++level >= ReducedPictures::kLevels) return false;
   }
   for (;; --level) {
-    TakeLinearWindow(lens_, grey_, *window, &seen_);
+    const bool noisy = halvings_for_noise_ > 0;
+    TakeLinearWindow(lens_, grey_, *window, &seen_,
+                     noisy ? Clipping::kByNoise : Clipping::kByLight);
     if (level == 0) return true;
-    // A reduced pixel is lost when one of its pixels is clipped: where many are, the picture's own
-    // tell more.
+    // A reduced pixel is lost when one of its pixels is clipped by light: where many are, the
+    // picture's own tell more.
     const auto clipped = std::count(seen_.certainty.begin(), seen_.certainty.end(), 0.0F);
     if (clipped < kMostClipped * static_cast<double>(window->size())) return true;
+    if (noisy) return false;
     PixelWindow finer;
     if (!Window(state.modules_from_ideal, level - 1, &finer)) return true;
     *window = finer;

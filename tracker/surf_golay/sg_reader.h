@@ -77,6 +77,8 @@ class SgReader {
   static constexpr int kReadSteps = 4;
   std::optional<SgReading> Read(const BlockFitState& guess, int border_steps);
   bool Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const;
+  /// FitBorder, finely, in a reduced picture where noise hides the border in the picture itself.
+  double FitBorderThroughNoise(int steps, BlockFitState* state);
   /// Takes the window of a print for finding it, or for measuring; false where it has none.
   bool TakeCoarseWindow(const Mat3& modules_from_ideal, double most_side_px, PixelWindow* window);
   bool TakeFineWindow(const BlockFitState& state, PixelWindow* window);
@@ -98,11 +100,14 @@ class SgReader {
   SoftGolayDecoder decoder_;
   SeenWindow seen_;
   BlockFit fit_;
+  SeenWindow other_seen_;  ///< Where a fit at another size waits.
+  BlockFit other_fit_;
   PrintLightMeter light_meter_;
   CellReader cell_reader_;
   PrintPattern blank_;
   PrintPattern print_;
   int print_number_ = -1;
+  int halvings_for_noise_ = 0;  ///< Of the picture that prints are measured in, at least.
 };
 
 }  // namespace pleinair::tracker
