@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tests/tracker/sg_test_scenes.h"
 
@@ -105,10 +106,11 @@ TEST(SgDetection, TellsTheRotationAndTheTranslation) {
 
 TEST(SgDetection, TellsTenMarkersInViewApart) {
   const CameraModel camera = SgCamera(640, 480, 600);
-  std::vector<RenderedMarker> markers;
+  std::vector<RenderedMarker> markers(10);
   for (int i = 0; i < 10; ++i) {
-    markers.push_back(SgMarkerAt(camera, 400 * i + 7, {70.0 + 125 * (i % 5), 130.0 + 200 * (i / 5)},
-                                 74, 8 * (i % 4), 37 * i, 53 * i));
+    const int column = i % 5, row = i / 5;
+    markers[i] = SgMarkerAt(camera, 400 * i + 7, {70.0 + 125 * column, 130.0 + 200 * row}, 74,
+                            8 * (i % 4), 37 * i, 53 * i);
   }
   const auto found = Track(MakeSgTracker(camera).get(), RenderMarkers(camera, markers, Picture(4)));
   ASSERT_EQ(found.size(), 10U) << Summary(found);
@@ -138,8 +140,8 @@ TEST(SgDetection, DoesNotReportANumberThatIsNotInUse) {
   const std::vector<RenderedMarker> markers{SgMarkerAt(camera, 17, {80, 110}, 80, 20, 0, 10),
                                             SgMarkerAt(camera, 3000, {230, 120}, 80, 30, 90, 100)};
   const GreyImage picture = RenderMarkers(camera, markers, Picture(6));
-  std::vector<int> in_use;
-  for (int number = 0; number < 50; ++number) in_use.push_back(number);
+  std::vector<int> in_use(50);
+  std::iota(in_use.begin(), in_use.end(), 0);
   ExpectOnly(Track(MakeSgTracker(camera, {.numbers_in_use = in_use}).get(), picture), 17);
   ExpectOnly(Track(MakeSgTracker(camera, {.numbers_in_use = {3000}}).get(), picture), 3000);
   const auto none = Track(MakeSgTracker(camera, {.numbers_in_use = {18}}).get(), picture);

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "tracker/homography.h"
-#include "tracker/surf_golay/sg_layout.h"
+#include "tracker/surf_golay/print_square.h"
 
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
 /// Correlation of a quadrilateral with the border that makes it worth a fit, by single pixels and
 /// after one.
 constexpr double kProbedCorrelation = 0.35, kRivalCorrelation = 0.12, kFittedCorrelation = 0.45;
@@ -35,21 +34,6 @@ constexpr int kForgetAfter = 90, kSearchAtOnce = 5;
 constexpr double kTrackedVisible = 0.12;
 /// Share of the border that must look right after a guess was fitted coarsely.
 constexpr double kGuessedVisible = 0.15;
-
-std::array<Vec2, 4> CornersIdeal(const Mat3& modules_from_ideal) {
-  const Mat3 inverse = Adjugate(modules_from_ideal);
-  std::array<Vec2, 4> corners;
-  for (int i = 0; i < 4; ++i) {
-    corners[i] = Apply(
-        inverse, {kMiddle + kHalf * kSquareCorners[i].x, kMiddle - kHalf * kSquareCorners[i].y});
-  }
-  return corners;
-}
-
-Mat3 ModulesFromCorners(const std::array<Vec2, 4>& corners_ideal) {
-  constexpr Mat3 kModulesFromUnit{{kHalf, 0, kMiddle, 0, -kHalf, kMiddle, 0, 0, 1}};
-  return kModulesFromUnit * Adjugate(HomographyToQuad(corners_ideal));
-}
 
 double SideOf(const std::array<Vec2, 4>& corners) {
   double longest = 0.0;
@@ -153,19 +137,19 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
 }
 
 bool SgDetector::Taken(const Mat3& modules_from_ideal) const {
-  const std::array<Vec2, 4> corners = CornersIdeal(modules_from_ideal);
+  const std::array<Vec2, 4> corners = SquareCornersIdeal(modules_from_ideal);
   const Vec2 centre = CentreOf(corners);
   return std::any_of(found_.begin(), found_.end(), [&](const Found& found) {
-    const std::array<Vec2, 4> other = CornersIdeal(found.reading.modules_from_ideal);
+    const std::array<Vec2, 4> other = SquareCornersIdeal(found.reading.modules_from_ideal);
     return Inside(other, centre) || Inside(corners, CentreOf(other));
   });
 }
 
 bool SgDetector::Add(const SgReading& reading, DetectionPath path) {
   // Two prints cannot lie in one place: the one of which more is seen is there.
-  const std::array<Vec2, 4> corners = CornersIdeal(reading.modules_from_ideal);
+  const std::array<Vec2, 4> corners = SquareCornersIdeal(reading.modules_from_ideal);
   for (Found& found : found_) {
-    const std::array<Vec2, 4> other = CornersIdeal(found.reading.modules_from_ideal);
+    const std::array<Vec2, 4> other = SquareCornersIdeal(found.reading.modules_from_ideal);
     if (!Inside(other, CentreOf(corners)) && !Inside(corners, CentreOf(other))) continue;
     if (reading.margin * reading.visible_fraction >
         found.reading.margin * found.reading.visible_fraction) {
@@ -215,7 +199,7 @@ void SgDetector::TryQuad(const Quad& quad) {
       corners[k] = lens_.Ideal(corner.x, corner.y);
     }
     BlockFitState state;
-    state.modules_from_ideal = ModulesFromCorners(corners);
+    state.modules_from_ideal = ModulesFromSquareCorners(corners);
     if (!orientation.mirrored && Taken(state.modules_from_ideal)) return;
     if (reader_.FitBorder(kQuadSteps, SgReader::Detail::kCoarse, &state) < kFittedCorrelation)
       continue;
@@ -277,7 +261,7 @@ void SgDetector::FindByCells() {
       Mat3 by;
       by(0, 2) = sg::kCell * (shift % 3 - 1);
       by(1, 2) = sg::kCell * (shift / 3 - 1);
-      const std::array<Vec2, 4> ideal = CornersIdeal(by * guess.modules_from_ideal);
+      const std::array<Vec2, 4> ideal = SquareCornersIdeal(by * guess.modules_from_ideal);
       if (Taken(by * guess.modules_from_ideal)) continue;
       std::array<Vec2, 4> corners_px;
       for (int i = 0; i < 4; ++i) corners_px[i] = lens_.PixelOfIdeal(ideal[i]);
@@ -286,7 +270,7 @@ void SgDetector::FindByCells() {
         std::array<Vec2, 4> turned;
         for (int k = 0; k < 4; ++k) turned[k] = ideal[(orientation.first_corner + k) % 4];
         Placement placement;
-        placement.state.modules_from_ideal = ModulesFromCorners(turned);
+        placement.state.modules_from_ideal = ModulesFromSquareCorners(turned);
         placement.correlation = orientation.correlation;
         placements_.push_back(placement);
       }
@@ -322,9 +306,9 @@ bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
     if (Taken(hope.state.modules_from_ideal)) continue;
     ++fits;
     reader_.FitBorder(kGuessSteps, SgReader::Detail::kCoarse, &hope.state);
-    const std::array<Vec2, 4> corners = CornersIdeal(hope.state.modules_from_ideal);
+    const std::array<Vec2, 4> corners = SquareCornersIdeal(hope.state.modules_from_ideal);
     const bool again = std::any_of(tried_.begin(), tried_.end(), [&](const Mat3& tried) {
-      return Apart(CornersIdeal(tried), corners) < kSamePlace * SideOf(corners);
+      return Apart(SquareCornersIdeal(tried), corners) < kSamePlace * SideOf(corners);
     });
     if (again) continue;
     tried_.push_back(hope.state.modules_from_ideal);
@@ -346,7 +330,7 @@ void SgDetector::Track() {
       for (int i = 0; i < 4; ++i) corners[i] = corners[i] + known.velocity[i];
     }
     BlockFitState state;
-    state.modules_from_ideal = ModulesFromCorners(corners);
+    state.modules_from_ideal = ModulesFromSquareCorners(corners);
     state.blur_px = known.blur_px;
     const std::optional<SgReading> reading = reader_.Follow(known.number, state);
     if (reading && reading->visible_fraction >= kTrackedVisible) {
@@ -359,7 +343,7 @@ void SgDetector::Remember() {
   for (Known& known : known_) ++known.frames_unseen;
   for (const Found& found : found_) {
     const SgReading& reading = found.reading;
-    const std::array<Vec2, 4> corners = CornersIdeal(reading.modules_from_ideal);
+    const std::array<Vec2, 4> corners = SquareCornersIdeal(reading.modules_from_ideal);
     // The nearest of its number: a number may hang in two places.
     Known* same = nullptr;
     for (Known& known : known_) {

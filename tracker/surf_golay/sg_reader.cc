@@ -7,6 +7,7 @@
 
 #include "tracker/homography.h"
 #include "tracker/surf_golay/cell_split.h"
+#include "tracker/surf_golay/print_square.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
 
@@ -14,17 +15,12 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr double kGlanceSide_px = 36.0;  ///< Longest side of a print that is only glanced at,
-constexpr double kCoarseSide_px = 52.0;  ///< … that is fitted coarsely,
-constexpr double kFineSide_px = 100.0;   ///< … and finely.
-/// Blur of a reduced picture below which its edges tell their places no more: a pixel then sees
-/// much the same wherever in it the edge lies.
-constexpr double kSharpestReduced_px = 0.2;
+constexpr double kCoarseSide_px = 52.0;  ///< … and that is fitted coarsely.
 /// Correlation of a border below which it is looked for in a reduced picture as well, how much
 /// better it must be seen there, and the side that must be left of it.
 constexpr double kNoisyCorrelation = 0.65, kClearer = 0.3, kLeastReducedSide_px = 30.0;
 constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
-constexpr double kMostClipped = 0.08;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
 constexpr double kLeastContrast = 0.04;  ///< Of a block's predicted shares of white.
@@ -75,8 +71,6 @@ double EvidenceBits(const CellLikelihoods& likelihoods, int number) {
   return bits;
 }
 
-Vec2 ModulesOfUnit(Vec2 unit) { return {kMiddle + kHalf * unit.x, kMiddle - kHalf * unit.y}; }
-
 /// How far apart two homographies put the corners of a print, in modules.
 double ModulesApart(const Mat3& modules_from_ideal, const Mat3& other_modules_from_ideal) {
   const Mat3 other = modules_from_ideal * Adjugate(other_modules_from_ideal);
@@ -115,8 +109,7 @@ void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
 }  // namespace
 
 void SgReader::SetPicture(ImageView<const std::uint8_t> grey) {
-  grey_ = grey;
-  reduced_.SetPicture(grey);
+  windows_.SetPicture(grey);
   if (blank_.modules == 0) blank_ = SgPrintOfWord(0);
 }
 
@@ -128,58 +121,17 @@ const PrintPattern& SgReader::Print(int number) {
   return print_;
 }
 
-double SgReader::SidePx(const Mat3& modules_from_ideal) const {
-  const Mat3 inverse = Adjugate(modules_from_ideal);
-  double longest = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const Vec2 a = Apply(inverse, ModulesOfUnit(kSquareCorners[i]));
-    const Vec2 b = Apply(inverse, ModulesOfUnit(kSquareCorners[(i + 1) % 4]));
-    const double side = Norm(a - b);
-    if (!std::isfinite(side)) return 0.0;
-    longest = std::max(longest, side);
-  }
-  return longest;
-}
-
-bool SgReader::Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const {
-  const Mat3 inverse = Adjugate(modules_from_ideal);
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-  double sign = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const Vec3 corner{i & 1 ? static_cast<double>(sg::kPrint) : 0.0,
-                      i & 2 ? static_cast<double>(sg::kPrint) : 0.0, 1.0};
-    const Vec3 ideal = inverse * corner;
-    if (i > 0 && ideal.z * sign <= 0.0) return false;  // The horizon crosses the print.
-    sign = ideal.z;
-    const Vec2 pixel = lens_.PixelOfIdeal({ideal.x / ideal.z, ideal.y / ideal.z});
-    if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return false;
-    left = std::min(left, pixel.x);
-    right = std::max(right, pixel.x);
-    top = std::min(top, pixel.y);
-    bottom = std::max(bottom, pixel.y);
-  }
-  const double scale = 1 << level;
-  const int width = grey_.width() >> level, height = grey_.height() >> level;
-  const auto reduced = [&](double full) { return (full + 0.5) / scale - 0.5; };
-  const int x0 = static_cast<int>(std::clamp(std::floor(reduced(left)), 0.0, width * 1.0));
-  const int x1 = static_cast<int>(std::clamp(std::ceil(reduced(right)) + 1, 0.0, width * 1.0));
-  const int y0 = static_cast<int>(std::clamp(std::floor(reduced(top)), 0.0, height * 1.0));
-  const int y1 = static_cast<int>(std::clamp(std::ceil(reduced(bottom)) + 1, 0.0, height * 1.0));
-  *window = {level, x0, y0, x1 - x0, y1 - y0};
-  return window->width > 3 && window->height > 3 && window->size() < 400'000;
-}
-
 double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
   const bool coarse = detail != Detail::kFine;
-  const double side = SidePx(state->modules_from_ideal);
+  const double side = windows_.SidePx(state->modules_from_ideal);
   if (side < kLeastSide_px) return -1.0;
   PixelWindow window;
   if (coarse) {
     const double most_side = detail == Detail::kGlance ? kGlanceSide_px : kCoarseSide_px;
-    if (!TakeCoarseWindow(state->modules_from_ideal, most_side, &window)) return -1.0;
+    if (!windows_.TakeCoarse(state->modules_from_ideal, most_side, &window, &seen_)) return -1.0;
     state->blur_px =
         std::clamp(kCoarseBlurShare * side / window.Scale(), 0.7, kCoarseBlur_px) * window.Scale();
-  } else if (!TakeFineWindow(*state, &window)) {
+  } else if (!windows_.TakeFine(*state, &window, &seen_)) {
     return -1.0;
   }
   const int blocks =
@@ -194,18 +146,19 @@ double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
 
 double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
   const BlockFitState guess = *state;
-  halvings_for_noise_ = 0;
+  windows_.SetHalvingsForNoise(0);
   double correlation = FitBorder(steps, Detail::kFine, state);
   // Noise averages out; what a cover hides does not come back.
   while (correlation > 0.0 && correlation < kNoisyCorrelation &&
-         SidePx(guess.modules_from_ideal) / (2 << halvings_for_noise_) > kLeastReducedSide_px) {
+         windows_.SidePx(guess.modules_from_ideal) / (2 << windows_.halvings_for_noise()) >
+             kLeastReducedSide_px) {
     std::swap(fit_, other_fit_);
     std::swap(seen_, other_seen_);
-    ++halvings_for_noise_;
+    windows_.SetHalvingsForNoise(windows_.halvings_for_noise() + 1);
     BlockFitState reduced = guess;
     const double better = FitBorder(steps, Detail::kFine, &reduced);
     if (better < correlation + kClearer) {
-      --halvings_for_noise_;
+      windows_.SetHalvingsForNoise(windows_.halvings_for_noise() - 1);
       std::swap(fit_, other_fit_);
       std::swap(seen_, other_seen_);
       break;
@@ -227,12 +180,13 @@ double SgReader::VisibleBorder() const {
 }
 
 std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess) {
-  halvings_for_noise_ = 0;
+  windows_.SetHalvingsForNoise(0);
   BlockFitState state = guess;
-  const double side = SidePx(state.modules_from_ideal);
+  const double side = windows_.SidePx(state.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
   PixelWindow window;
-  if (!TakeCoarseWindow(state.modules_from_ideal, kCoarseSide_px, &window)) return std::nullopt;
+  if (!windows_.TakeCoarse(state.modules_from_ideal, kCoarseSide_px, &window, &seen_))
+    return std::nullopt;
   const double scale = window.Scale();
   state.blur_px = std::max(guess.blur_px, kFollowBlur_px * scale);
   BlockFitOptions options;
@@ -345,12 +299,13 @@ bool SgReader::FitContent(int number, BlockFitState* state) {
   // Coarsely first: a fit that a cover has drawn away may be half a cell off.
   for (const Detail detail : {Detail::kCoarse, Detail::kFine}) {
     PixelWindow window;
-    const bool taken = detail == Detail::kCoarse
-                           ? TakeCoarseWindow(state->modules_from_ideal, kCoarseSide_px, &window)
-                           : TakeFineWindow(*state, &window);
+    const bool taken =
+        detail == Detail::kCoarse
+            ? windows_.TakeCoarse(state->modules_from_ideal, kCoarseSide_px, &window, &seen_)
+            : windows_.TakeFine(*state, &window, &seen_);
     if (!taken) return false;
     KeepContent(window, state->modules_from_ideal);
-    const double side = SidePx(state->modules_from_ideal);
+    const double side = windows_.SidePx(state->modules_from_ideal);
     BlockFitOptions options;
     options.steps = kContentSteps;
     BlockFitState fitted = *state;
@@ -388,49 +343,11 @@ bool SgReader::Verified(const SgReading& reading) {
   });
 }
 
-bool SgReader::TakeCoarseWindow(const Mat3& modules_from_ideal, double most_side_px,
-                                PixelWindow* window) {
-  const double side = SidePx(modules_from_ideal);
-  int level = 0;
-  while (side / (1 << level) > most_side_px && level + 1 < ReducedPictures::kLevels) ++level;
-  if (!Window(modules_from_ideal, level, window)) return false;
-  TakeCodeWindow(lens_, reduced_.Level(level), *window, &seen_);
-  return true;
-}
-
-bool SgReader::TakeFineWindow(const BlockFitState& state, PixelWindow* window) {
-  const double side = SidePx(state.modules_from_ideal);
-  int level = 0;
-  while (side / (1 << level) > kFineSide_px && state.blur_px / (2 << level) > kSharpestReduced_px &&
-         level + 1 < ReducedPictures::kLevels) {
-    ++level;
-  }
-  level = std::min(std::max(level, halvings_for_noise_), ReducedPictures::kLevels - 1);
-  // The largest prints take more pixels than there is room for.
-  while (!Window(state.modules_from_ideal, level, window)) {
-    if (++level >= ReducedPictures::kLevels) return false;
-  }
-  for (;; --level) {
-    const bool noisy = halvings_for_noise_ > 0;
-    TakeLinearWindow(lens_, grey_, *window, &seen_,
-                     noisy ? Clipping::kByNoise : Clipping::kByLight);
-    if (level == 0) return true;
-    // A reduced pixel is lost when one of its pixels is clipped by light: where many are, the
-    // picture's own tell more.
-    const auto clipped = std::count(seen_.certainty.begin(), seen_.certainty.end(), 0.0F);
-    if (clipped < kMostClipped * static_cast<double>(window->size())) return true;
-    if (noisy) return false;
-    PixelWindow finer;
-    if (!Window(state.modules_from_ideal, level - 1, &finer)) return true;
-    *window = finer;
-  }
-}
-
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess) {
-  const double side = SidePx(guess.modules_from_ideal);
+  const double side = windows_.SidePx(guess.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
   PixelWindow window;
-  if (!TakeFineWindow(guess, &window)) return std::nullopt;
+  if (!windows_.TakeFine(guess, &window, &seen_)) return std::nullopt;
   BlockFitState state = guess;
   BlockFitOptions options;
   options.steps = 5;

@@ -13,10 +13,10 @@
 #include "base/vector.h"
 #include "tracker/alignment/block_fit.h"
 #include "tracker/alignment/lens_grid.h"
-#include "tracker/alignment/reduced_pictures.h"
 #include "tracker/golay/soft_golay_decoder.h"
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
+#include "tracker/surf_golay/print_windows.h"
 
 namespace pleinair::tracker {
 
@@ -41,7 +41,7 @@ struct SgReading {
 /// a pixel. Keeps its buffers; one thread at a time.
 class SgReader {
  public:
-  explicit SgReader(const LensGrid& lens) : lens_(lens) {}
+  explicit SgReader(const LensGrid& lens) : lens_(lens), windows_(lens) {}
 
   Result<void> SetNumbersInUse(std::span<const int> numbers) {
     return decoder_.SetNumbersInUse(numbers);
@@ -76,13 +76,8 @@ class SgReader {
  private:
   static constexpr int kReadSteps = 4;
   std::optional<SgReading> Read(const BlockFitState& guess, int border_steps);
-  bool Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const;
   /// FitBorder, finely, in a reduced picture where noise hides the border in the picture itself.
   double FitBorderThroughNoise(int steps, BlockFitState* state);
-  /// Takes the window of a print for finding it, or for measuring; false where it has none.
-  bool TakeCoarseWindow(const Mat3& modules_from_ideal, double most_side_px, PixelWindow* window);
-  bool TakeFineWindow(const BlockFitState& state, PixelWindow* window);
-  double SidePx(const Mat3& modules_from_ideal) const;
   /// Reads the cells of a print whose border was fitted last: number, margin and proof. False where
   /// they tell no number.
   bool ReadNumber(const BlockFitState& state, SgReading* reading);
@@ -95,8 +90,7 @@ class SgReader {
   void Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading);
 
   const LensGrid& lens_;
-  ImageView<const std::uint8_t> grey_;
-  ReducedPictures reduced_;
+  PrintWindows windows_;
   SoftGolayDecoder decoder_;
   SeenWindow seen_;
   BlockFit fit_;
@@ -107,7 +101,6 @@ class SgReader {
   PrintPattern blank_;
   PrintPattern print_;
   int print_number_ = -1;
-  int halvings_for_noise_ = 0;  ///< Of the picture that prints are measured in, at least.
 };
 
 }  // namespace pleinair::tracker

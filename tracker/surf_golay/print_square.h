@@ -1,0 +1,37 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <array>
+
+#include "base/vector.h"
+#include "tracker/homography.h"
+#include "tracker/surf_golay/sg_layout.h"
+
+namespace pleinair::tracker {
+
+/// From the black square in half edges (x right, y up, origin in its middle) to modules of the
+/// print, from its top-left corner, y down.
+inline Vec2 ModulesOfUnit(Vec2 unit) {
+  constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+  return {kMiddle + kHalf * unit.x, kMiddle - kHalf * unit.y};
+}
+
+/// The square's corners in ideal pixels: top-left, then clockwise as the print is read.
+inline std::array<Vec2, 4> SquareCornersIdeal(const Mat3& modules_from_ideal) {
+  const Mat3 ideal_from_modules = Adjugate(modules_from_ideal);
+  std::array<Vec2, 4> corners;
+  for (int i = 0; i < 4; ++i) {
+    corners[i] = Apply(ideal_from_modules, ModulesOfUnit(kSquareCorners[i]));
+  }
+  return corners;
+}
+
+/// The inverse of SquareCornersIdeal.
+inline Mat3 ModulesFromSquareCorners(const std::array<Vec2, 4>& corners_ideal) {
+  constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+  constexpr Mat3 kModulesFromUnit{{kHalf, 0, kMiddle, 0, -kHalf, kMiddle, 0, 0, 1}};
+  return kModulesFromUnit * Adjugate(HomographyToQuad(corners_ideal));
+}
+
+}  // namespace pleinair::tracker
