@@ -114,8 +114,9 @@ TEST(CellLattice, FindsTheCellsOfAMarkerWhoseBorderIsCoveredWholly) {
         bool here = false;
         for (int shift = 0; shift < 9; ++shift) {
           Mat3 by;
-          by(0, 2) = sg::kCell * (shift % 3 - 1);
-          by(1, 2) = sg::kCell * (shift / 3 - 1);
+          const int column = shift % 3 - 1, row = shift / 3 - 1;
+          by(0, 2) = sg::kCell * column;
+          by(1, 2) = sg::kCell * row;
           here = here || CellsApart(camera, by * guess.modules_from_ideal, marker) < 0.3;
         }
         if (!here) continue;

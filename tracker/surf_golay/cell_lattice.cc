@@ -34,7 +34,7 @@ constexpr int kFewestNodes = 7;
 
 double Squared(Vec2 a) { return a.x * a.x + a.y * a.y; }
 
-/// The nearest whole number, of small ones.
+/// The nearest whole number, of those above -1024.
 int Nearest(double value) { return static_cast<int>(value + 1024.5) - 1024; }
 
 }  // namespace
@@ -72,8 +72,8 @@ void CellLattice::MapCorners(int width, int height) {
   map_height_ = height;
   nearest_.assign(static_cast<std::size_t>(width) * height, -1);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const int x = static_cast<int>(corners_[i].at_px.x + 0.5);
-    const int y = static_cast<int>(corners_[i].at_px.y + 0.5);
+    const int x = Nearest(corners_[i].at_px.x);
+    const int y = Nearest(corners_[i].at_px.y);
     for (int v = std::max(0, y - kMapReach_px); v <= std::min(height - 1, y + kMapReach_px); ++v) {
       for (int u = std::max(0, x - kMapReach_px); u <= std::min(width - 1, x + kMapReach_px); ++u) {
         const std::int16_t other = nearest_[static_cast<std::size_t>(v) * width + u];
@@ -89,7 +89,7 @@ void CellLattice::MapCorners(int width, int height) {
 }
 
 bool CellLattice::CornerAt(Vec2 at, double within_px) const {
-  const int x = static_cast<int>(at.x + 0.5), y = static_cast<int>(at.y + 0.5);
+  const int x = Nearest(at.x), y = Nearest(at.y);
   if (!(at.x > 0.0 && at.y > 0.0) || x >= map_width_ || y >= map_height_) return false;
   const int nearest = nearest_[static_cast<std::size_t>(y) * map_width_ + x];
   if (nearest < 0) return false;
@@ -122,7 +122,7 @@ double CellLattice::EdgeShare(ImageView<const std::uint8_t> grey, Vec2 from, Vec
   double across = 0.0, along = 0.0;
   for (int i = 0; i < kSamples; ++i) {
     const Vec2 at = from + direction * ((i + 1.0) / (kSamples + 1.0));
-    const int x = static_cast<int>(at.x + 0.5), y = static_cast<int>(at.y + 0.5);
+    const int x = Nearest(at.x), y = Nearest(at.y);
     if (x < 1 || y < 1 || x + 1 >= grey.width() || y + 1 >= grey.height()) return 0.0;
     const double gx = grey(x + 1, y) - grey(x - 1, y), gy = grey(x, y + 1) - grey(x, y - 1);
     across += (direction.x * gy - direction.y * gx) / length;

@@ -259,8 +259,9 @@ void SgDetector::FindByCells() {
     // A row of cells without a corner may be at either end: also one cell to each side.
     for (int shift = 0; shift < 9; ++shift) {
       Mat3 by;
-      by(0, 2) = sg::kCell * (shift % 3 - 1);
-      by(1, 2) = sg::kCell * (shift / 3 - 1);
+      const int column = shift % 3 - 1, row = shift / 3 - 1;
+      by(0, 2) = sg::kCell * column;
+      by(1, 2) = sg::kCell * row;
       const std::array<Vec2, 4> ideal = SquareCornersIdeal(by * guess.modules_from_ideal);
       if (Taken(by * guess.modules_from_ideal)) continue;
       std::array<Vec2, 4> corners_px;
