@@ -8,9 +8,11 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
+#include "compositor/changing_triangles.h"
 #include "compositor/embedded_shaders.h"
 #include "compositor/environment_map.h"
 #include "compositor/render_camera.h"
@@ -88,16 +90,18 @@ shadows::View ViewOf(const RenderCamera& camera,
   return view;
 }
 
-shadows::ShadowMethod MethodOf(ShadowMethod method) {
-  switch (method) {
-    case ShadowMethod::kSunDisc:
-      return shadows::ShadowMethod::kSunDisc;
-    case ShadowMethod::kGaussian:
-      return shadows::ShadowMethod::kGaussian;
-    case ShadowMethod::kVariance:
-      return shadows::ShadowMethod::kVariance;
-  }
-  return shadows::ShadowMethod::kSunDisc;
+bool UsesMoments(ShadowMethod method) {
+  const shadows::MapContent content = shadows::TraitsOf(method).content;
+  return content == shadows::MapContent::kMoments || content == shadows::MapContent::kWarpedMoments;
+}
+
+shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) {
+  shadows::ShadowMapOptions map_options;
+  map_options.method = options.shadow_method;
+  map_options.partitions = options.shadow_partitions;
+  map_options.split_weight = options.shadow_split_weight;
+  map_options.blur_blocker_distance = Metres(options.shadow_blur_distance_m);
+  return map_options;
 }
 
 /// Mean radiance that the phantoms send upwards, for reflections below the horizon.
@@ -144,6 +148,8 @@ class GlComposer : public Composer {
   Result<void> DrawShadowMaps(const Transform<Camera, Marker>& camera_from_marker);
   void DrawScene(const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain);
   void SetMaterial(const SurfaceBuffers& surface) const;
+  void SortPhantoms();
+  void DrawPhantoms(int change) const;
 
   gl::EglContext context_;  // First: GL objects go before it.
   CameraModel camera_;
@@ -153,9 +159,13 @@ class GlComposer : public Composer {
   gl::GlTexture background_, positions_, output_, white_, environment_;
   gl::GlFramebuffer output_framebuffer_;
   gl::GlVertexArray no_attributes_;
-  gl::GlProgram phantom_program_, object_program_, composite_program_;
+  gl::GlProgram depth_program_, object_program_, composite_program_;
+  // By what may change of the light: ChangingTriangles::Change but for kNothing.
+  std::array<gl::GlProgram, ChangingTriangles::kNothing> phantom_programs_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
   std::vector<SurfaceBuffers> surfaces_;
+  std::vector<ChangingTriangles> phantom_triangles_;  // Of the phantoms among them, in order.
+  std::optional<SunWindow> sorted_for_;
   std::vector<shadows::ShadowMaps> shadow_maps_;  // kShadowSets of them.
   std::array<std::vector<shadows::ShadowCaster>, kShadowSets> casters_;
   shadows::Box object_bounds_, scene_bounds_;
@@ -193,9 +203,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
                                                 EnvironmentMap::kHeight, EnvironmentMap::kLevels));
   c.environment_.SetWrap(GL_REPEAT);
   c.no_attributes_ = gl::GlVertexArray::Create();
-  shadows::ShadowMapOptions shadow_options;
-  shadow_options.method = MethodOf(options.shadow_method);
-  shadow_options.partitions = options.shadow_partitions;
+  const shadows::ShadowMapOptions shadow_options = MapOptions(options);
   for (int set = 0; set < kShadowSets; ++set) {
     PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::ShadowMaps::Create(shadow_options));
     c.shadow_maps_.push_back(std::move(maps));
@@ -203,10 +211,19 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   const std::vector<std::string> defines =
       shadows::ShadowMaps::ShaderDefines(shadow_options, kShadowSets);
   PLEINAIR_ASSIGN_OR_RETURN(
-      c.phantom_program_,
-      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
-                             .fragment = "compositor/shaders/phantom_ratio.frag",
-                             .defines = defines}));
+      c.depth_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                                               .fragment = "compositor/shaders/depth_only.frag"}));
+  constexpr std::array<const char*, ChangingTriangles::kNothing> kChangeDefines{
+      "SUN_MAY_CHANGE", "SKY_CHANGES", "NO_SUN"};
+  for (std::size_t change = 0; change < kChangeDefines.size(); ++change) {
+    std::vector<std::string> with_change = defines;
+    with_change.emplace_back(kChangeDefines[change]);
+    PLEINAIR_ASSIGN_OR_RETURN(
+        c.phantom_programs_[change],
+        gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                               .fragment = "compositor/shaders/phantom_ratio.frag",
+                               .defines = with_change}));
+  }
   PLEINAIR_ASSIGN_OR_RETURN(
       c.object_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
@@ -230,6 +247,8 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
   surfaces_.clear();
   surfaces_.reserve(lit.size());  // The casters point into it.
   for (auto& casters : casters_) casters.clear();
+  phantom_triangles_.clear();
+  sorted_for_.reset();
   object_bounds_ = scene_bounds_ = {};
   ++revision_;
   for (const LitMesh& mesh : lit) {
@@ -243,6 +262,7 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
     scene_bounds_.Include(caster.bounds);
     if (mesh.is_phantom) {
       casters_[kPhantomsAlone].push_back(caster);
+      phantom_triangles_.emplace_back(mesh);
     } else {
       object_bounds_.Include(caster.bounds);
     }
@@ -259,7 +279,7 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
 Result<void> GlComposer::DrawShadowMaps(const Transform<Camera, Marker>& camera_from_marker) {
   for (int set = 0; set < kShadowSets; ++set) {
     shadows::ShadowMaps& maps = shadow_maps_[set];
-    if (maps.options().method == shadows::ShadowMethod::kSunDisc) {
+    if (!UsesMoments(maps.options().method)) {
       // Around the objects, whatever the camera does: drawn once a light.
       PLEINAIR_RETURN_IF_ERROR(maps.UpdateForRegion(casters_[set], {to_sun_}, object_bounds_));
     } else {
@@ -291,37 +311,75 @@ void GlComposer::SetMaterial(const SurfaceBuffers& surface) const {
   object_program_.Set("u_dielectric_f0", material.specular_f0);
 }
 
+/// Tells what of the phantoms the objects may change, after the shadow maps were updated.
+void GlComposer::SortPhantoms() {
+  SunWindow window;
+  if (HasSun()) {
+    const shadows::ShadowMaps& maps = shadow_maps_[kWithObjects];
+    const shadows::ShadowSliceUniforms& finest = maps.uniforms().slices[0];
+    const glm::vec3 to_sun(maps.uniforms().to_sun);
+    window = UsesMoments(maps.options().method)
+                 ? SunWindow::Everywhere(to_sun)
+                 : SunWindow{finest.u_from_marker, finest.v_from_marker, finest.size.z, to_sun};
+  }
+  if (window == sorted_for_) return;
+  sorted_for_ = window;
+  auto triangles = phantom_triangles_.begin();
+  for (SurfaceBuffers& surface : surfaces_) {
+    if (!surface.is_phantom()) continue;
+    triangles->Sort(window);
+    surface.SetIndices(triangles->indices());
+    ++triangles;
+  }
+}
+
+void GlComposer::DrawPhantoms(int change) const {
+  auto triangles = phantom_triangles_.begin();
+  for (const SurfaceBuffers& surface : surfaces_) {
+    if (!surface.is_phantom()) continue;
+    surface.Draw(change == 0 ? 0 : triangles->ends()[change - 1], triangles->ends()[change]);
+    ++triangles;
+  }
+}
+
 void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain) {
   const auto [near_m, far_m] = DepthRange(camera_from_marker, scene_bounds_);
   const auto clip_from_marker = glm::mat4(ClipFromCamera(render_camera_, near_m, far_m) *
                                           CameraFromMarkerMatrix(camera_from_marker));
+  SortPhantoms();
   targets_.BeginDrawing();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // Open surfaces come as two, one a side. Clockwise, because the picture's rows go down.
   glEnable(GL_CULL_FACE);
   glFrontFace(GL_CW);
-  for (const bool phantoms : {true, false}) {
-    const gl::GlProgram& program = phantoms ? phantom_program_ : object_program_;
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  depth_program_.Use();
+  depth_program_.Set("u_clip_from_marker", clip_from_marker);
+  DrawPhantoms(ChangingTriangles::kNothing);
+  glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  for (int change = 0; change < ChangingTriangles::kNothing; ++change) {
+    const gl::GlProgram& program = phantom_programs_[change];
     program.Use();
     program.Set("u_clip_from_marker", clip_from_marker);
-    // Without a sun no surface faces it, and the shaders leave the shadow maps alone.
-    program.Set("u_to_sun", HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
+    program.Set("u_to_sun", ToGlm(to_sun_));
     program.Set("u_sun_normal_lux", ToGlm(sun_normal_));
-    if (!phantoms) {
-      program.Set("u_eye_m", ToGlm(camera_from_marker.Inverse().translation_m));
-      program.Set("u_gain", ToGlm(gain));
-      environment_.Bind(1);
-    }
-    const GLboolean ratio = phantoms ? GL_TRUE : GL_FALSE;
-    const GLboolean objects = phantoms ? GL_FALSE : GL_TRUE;
-    glColorMaski(0, ratio, ratio, ratio, ratio);
-    glColorMaski(1, objects, objects, objects, objects);
-    for (const SurfaceBuffers& surface : surfaces_) {
-      if (surface.is_phantom() != phantoms) continue;
-      if (!phantoms) SetMaterial(surface);
-      surface.Draw();
-    }
+    DrawPhantoms(change);
+  }
+  glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  object_program_.Use();
+  object_program_.Set("u_clip_from_marker", clip_from_marker);
+  // Without a sun no surface faces it, and the shader leaves the shadow maps alone.
+  object_program_.Set("u_to_sun", HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
+  object_program_.Set("u_sun_normal_lux", ToGlm(sun_normal_));
+  object_program_.Set("u_eye_m", ToGlm(camera_from_marker.Inverse().translation_m));
+  object_program_.Set("u_gain", ToGlm(gain));
+  environment_.Bind(1);
+  for (const SurfaceBuffers& surface : surfaces_) {
+    if (surface.is_phantom()) continue;
+    SetMaterial(surface);
+    surface.Draw();
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_CULL_FACE);

@@ -10,23 +10,23 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/light_solver.h"
+#include "shadows/shadow_method.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
 
-/// How the virtual shadows' edges are made (shadows/shadow_maps.h).
-enum class ShadowMethod {
-  kSunDisc,   ///< The sun's disc past the blockers: penumbrae as wide as real ones.
-  kGaussian,  ///< The paper's Z-GaF: partitions by depth of view, blurred depth moments.
-  kVariance,  ///< Variance shadow maps on the same moments.
-};
+/// How the virtual shadows' edges are made; docs/shadows.md compares the methods.
+using shadows::ShadowMethod;
 
 struct ComposerOptions {
   /// Render pixels a camera pixel and side, on top of 4× multisampling. 0: 1 for a lens without
   /// distortion, 1.5 for one that the picture must be warped to.
   double supersampling = 0.0;
   ShadowMethod shadow_method = ShadowMethod::kSunDisc;
-  int shadow_partitions = 2;  ///< Partitions of the shadow maps, 1…4.
+  int shadow_partitions = 2;         ///< Partitions of the shadow maps, 1…4.
+  double shadow_split_weight = 0.5;  ///< λ of the paper's Eq. 11, for maps fitted to the view.
+  /// Methods that blur moments: distance of the blocker at which the blur has the sun's width.
+  double shadow_blur_distance_m = 1.0;
 };
 
 /// Draws the virtual objects of a scene into camera pictures: hidden by phantoms, lit by sun and

@@ -48,9 +48,17 @@ Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
   return surface;
 }
 
-void SurfaceBuffers::Draw() const {
+void SurfaceBuffers::SetIndices(std::span<const std::uint32_t> indices) {
+  indices_.Update(indices.data(), indices.size_bytes());
+}
+
+void SurfaceBuffers::Draw(int begin, int end) const {
+  if (begin == end) return;
   vertex_array_.Bind();
-  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+  const std::uintptr_t offset = static_cast<std::uintptr_t>(begin) * sizeof(std::uint32_t);
+  // OpenGL takes an offset into the element buffer as a pointer.
+  glDrawElements(GL_TRIANGLES, end - begin, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
 }
 
 Result<std::vector<gl::GlTexture>> UploadTextures(const Model& model) {

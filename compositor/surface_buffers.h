@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/error.h"
@@ -17,7 +19,12 @@ class SurfaceBuffers {
  public:
   static Result<SurfaceBuffers> Create(const LitMesh& mesh);
 
-  void Draw() const;
+  /// Other indices of the same number.
+  void SetIndices(std::span<const std::uint32_t> indices);
+
+  void Draw() const { Draw(0, index_count_); }
+  /// Draws the indices from `begin` to before `end`.
+  void Draw(int begin, int end) const;
   bool is_phantom() const { return is_phantom_; }
   int placed_model() const { return placed_model_; }
   int material() const { return material_; }

@@ -148,12 +148,4 @@ float ShadowVisibility(int set, vec3 position, vec3 normal) {
   return ShadowVisibility(set, position, normal, vec3(0.0), vec3(0.0));
 }
 
-// Whether `position` lies in the finest partition of the set's maps. Outside it, maps fitted to a
-// region (ShadowMaps::UpdateForRegion) with and without the region's objects give the same.
-bool ShadowInFinestPartition(int set, vec3 position) {
-  ShadowSlice s = shadow_sets[set].slices[0];
-  vec2 texel = ShadowTexel(s, position);
-  return all(greaterThan(texel, vec2(0.0))) && all(lessThan(texel, vec2(s.size.z)));
-}
-
 #endif

@@ -1,0 +1,61 @@
+#include "compositor/changing_triangles.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace pleinair::compositor {
+
+ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : indices_(phantom.indices) {
+  const std::size_t count = phantom.positions.size();
+  positions_.reserve(count);
+  normals_.reserve(count);
+  sky_changes_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& p = phantom.positions[i];
+    const auto& n = phantom.normals[i];
+    positions_.emplace_back(p[0], p[1], p[2]);
+    normals_.emplace_back(n[0], n[1], n[2]);
+    bool changes = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float without = phantom.ambient_without[i][c];
+      changes = changes || std::abs(phantom.ambient_with[i][c] - without) > kNoticeable * without;
+    }
+    sky_changes_.push_back(changes);
+  }
+}
+
+ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
+                                                      std::size_t first_index) const {
+  bool sky_changes = false, sunlit = false;
+  glm::vec2 low(1e30F), high(-1e30F);
+  for (std::size_t k = first_index; k < first_index + 3; ++k) {
+    const std::uint32_t vertex = indices_[k];
+    sky_changes = sky_changes || sky_changes_[vertex];
+    sunlit = sunlit || glm::dot(normals_[vertex], window.to_sun) > 0.0F;
+    const glm::vec4 position(positions_[vertex], 1.0F);
+    const glm::vec2 at(glm::dot(window.u_from_marker, position),
+                       glm::dot(window.v_from_marker, position));
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  const bool inside = high.x > 0.0F && high.y > 0.0F && low.x < window.side && low.y < window.side;
+  if (sunlit && inside) return kSun;
+  if (!sky_changes) return kNothing;
+  return sunlit ? kSunlitSky : kSky;
+}
+
+void ChangingTriangles::Sort(const SunWindow& window) {
+  for (auto& kind : kinds_) kind.clear();
+  for (std::size_t i = 0; i < indices_.size(); i += 3) {
+    auto& kind = kinds_[ChangeOf(window, i)];
+    kind.insert(kind.end(), indices_.begin() + static_cast<std::ptrdiff_t>(i),
+                indices_.begin() + static_cast<std::ptrdiff_t>(i + 3));
+  }
+  indices_.clear();
+  for (std::size_t kind = 0; kind < kChanges; ++kind) {
+    indices_.insert(indices_.end(), kinds_[kind].begin(), kinds_[kind].end());
+    ends_[kind] = static_cast<int>(indices_.size());
+  }
+}
+
+}  // namespace pleinair::compositor
