@@ -39,14 +39,16 @@ View Crept(const View& view, double pixels, double depth_m, int width) {
 
 struct TrackedPoint {
   glm::dvec3 point{0.0};
+  double cosine = 0.0;  // Of the sun's incidence.
   double sum = 0.0, squares = 0.0;
   int count = 0;
 };
 
-// A creeping camera looks at points that stand still: how much their visibility trembles.
+// A creeping camera looks at points that stand still: how much the sun's light on them trembles.
 class ShimmerMeter {
  public:
-  ShimmerMeter(const View& view, const VisibilityPicture& truth, PixelWindow window) {
+  ShimmerMeter(const View& view, const VisibilityPicture& truth, const Image<float>& cosine,
+               PixelWindow window) {
     const glm::dmat4 marker_from_camera = glm::inverse(view.camera_from_marker);
     const int width = truth.depth_m.width(), height = truth.depth_m.height();
     for (int y = window.y; y < window.y + window.height; ++y) {
@@ -56,7 +58,8 @@ class ShimmerMeter {
         const double px = -view.tan_left + (view.tan_left + view.tan_right) * (x + 0.5) / width;
         const double py = -view.tan_up + (view.tan_up + view.tan_down) * (y + 0.5) / height;
         points_.push_back(
-            {glm::dvec3(marker_from_camera * glm::dvec4(px * depth, py * depth, depth, 1.0))});
+            {glm::dvec3(marker_from_camera * glm::dvec4(px * depth, py * depth, depth, 1.0)),
+             cosine(x, y)});
       }
     }
   }
@@ -84,17 +87,18 @@ class ShimmerMeter {
     }
   }
 
-  /// Mean over the points seen in all frames.
+  /// Mean over the points seen in all frames, weighed by how squarely the sun falls on them: where a
+  /// surface turns away from the sun its shade flips from facet to facet, and nobody sees it.
   double Shimmer(int frames) const {
     double sum = 0.0;
-    int count = 0;
+    double count = 0.0;
     for (const TrackedPoint& p : points_) {
       if (p.count != frames) continue;
       const double mean = p.sum / frames;
-      sum += std::sqrt(std::max(p.squares / frames - mean * mean, 0.0));
-      ++count;
+      sum += p.cosine * std::sqrt(std::max(p.squares / frames - mean * mean, 0.0));
+      count += p.cosine;
     }
-    return count > 0 ? sum / count : 0.0;
+    return count > 0.0 ? sum / count : 0.0;
   }
 
  private:
@@ -129,7 +133,7 @@ class SceneRun {
     }
     PLEINAIR_ASSIGN_OR_RETURN(row.time, renderer_.Time(view_, options_.timed_frames));
     row.truth_shimmer = truth_shimmer_;
-    ShimmerMeter meter(view_, truth_picture_, window_);
+    ShimmerMeter meter(view_, truth_picture_, surfaces_.cosine, window_);
     for (int frame = 0; frame < options_.creep_frames; ++frame) {
       int redrawn = 0;
       const View view = CreptView(frame);
@@ -160,7 +164,7 @@ class SceneRun {
 
   ShadowBenchPictures Pictures() const {
     return {scene_.name,
-            truth_.Surfaces(view_, options_.width, options_.height),
+            surfaces_,
             truth_picture_,
             window_,
             {},
@@ -195,6 +199,7 @@ class SceneRun {
     PLEINAIR_ASSIGN_OR_RETURN(view_, renderer_.Tightened(scene_.view));
     const int w = options_.width, h = options_.height;
     truth_picture_ = truth_.Render(view_, w, h, {0, 0, w, h});
+    surfaces_ = truth_.Surfaces(view_, w, h);
     window_ = MostShadedWindow();
     middle_depth_m_ =
         truth_picture_.depth_m(window_.x + window_.width / 2, window_.y + window_.height / 2);
@@ -202,7 +207,7 @@ class SceneRun {
     const PixelWindow traced{std::max(window_.x - 3, 0), std::max(window_.y - 1, 0),
                              std::min(window_.width + 6, w - std::max(window_.x - 3, 0)),
                              std::min(window_.height + 2, h - std::max(window_.y - 1, 0))};
-    ShimmerMeter meter(view_, truth_picture_, window_);
+    ShimmerMeter meter(view_, truth_picture_, surfaces_.cosine, window_);
     for (int frame = 0; frame < options_.creep_frames; ++frame) {
       const View view = CreptView(frame);
       meter.Add(view, truth_.Render(view, w, h, traced));
@@ -241,6 +246,7 @@ class SceneRun {
   BenchRenderer renderer_;
   ShadowBenchOptions options_;
   View view_;
+  SurfacePicture surfaces_;
   VisibilityPicture truth_picture_, picture_;
   PixelWindow window_;
   double middle_depth_m_ = 1.0, truth_shimmer_ = 0.0;

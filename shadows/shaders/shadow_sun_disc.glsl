@@ -8,15 +8,8 @@
 #define SHADOW_SEARCH_SAMPLES 24
 #endif
 #ifndef SHADOW_FILTER_SAMPLES
-#define SHADOW_FILTER_SAMPLES 96
+#define SHADOW_FILTER_SAMPLES 200
 #endif
-
-// Point i of a sequence spread evenly over the pixel's footprint, texels from its middle. Roberts
-// 2018, "The unreasonable effectiveness of quasirandom sequences": R2, from the plastic number.
-vec2 ShadowFootprint(ShadowReceiver r, int i) {
-  vec2 in_pixel = fract(0.5 + float(i + 1) * vec2(0.7548776662, 0.5698402910)) - 0.5;
-  return in_pixel.x * r.step_x + in_pixel.y * r.step_y;
-}
 
 // Nearest and farthest depth in a block of the pyramid that covers `reach` texels around, and the
 // block's farthest corner from the receiver in texels (z).
@@ -38,10 +31,10 @@ vec3 ShadowBounds(int set, int slice, vec4 size, vec2 texel, float reach) {
   return vec3(bounds * size.w, length(far));
 }
 
-// Points of a disc of that radius in texels: `a_texel` a square texel of it (a tap sees four), from
-// `least` to `most`.
-int ShadowCount(float radius_texels, float a_texel, int least, int most) {
-  return clamp(least + int(a_texel * radius_texels * radius_texels), least, most);
+// Points for an area of `square_texels` over π, a tap seeing four texels: `a_texel` each on top of
+// `least`. Not a whole number: the last point weighs less, so that nothing jumps where one is added.
+float ShadowCount(float square_texels, float a_texel, float least, float most) {
+  return clamp(least + a_texel * square_texels, least, most);
 }
 
 // VogelDisc's turn from point to point, 2.39996 rad: spares a sine and a cosine a point.
@@ -115,39 +108,50 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   // branches: Mesa's software renderer runs both sides of an `if`, but leaves a loop.
   float height_sum = 0.0;
   float blockers = 0.0;
-  int search_count = soft ? ShadowCount(search_m / texel_m, 0.6, 6, SHADOW_SEARCH_SAMPLES) : 0;
+  float search_texels = search_m / texel_m;
+  float search_count =
+      soft ? ShadowCount(search_texels * search_texels, 0.6, 6.0, float(SHADOW_SEARCH_SAMPLES)) : 0.0;
   vec2 spoke = vec2(1.0, 0.0);
   int i = 0;
   do {
-    vec2 offset_m = search_m * sqrt((float(i) + 0.5) / float(search_count)) * spoke;
+    vec2 offset_m = search_m * sqrt((float(i) + 0.5) / (search_count + 0.5)) * spoke;
+    float weight = min(search_count - float(i), 1.0);
     spoke = kGoldenTurn * spoke;
     vec2 corner = floor(r.texel + offset_m / size.xy - 0.5);
     ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
     // A ray that passes at this distance is already higher than a blocker below this.
     float least_m = max((length(offset_m) - texel_m) / tan_radius, 0.0);
     vec4 blocks = ShadowBlocks(quad, least_m);
-    height_sum += dot(blocks, quad.height);
-    blockers += dot(blocks, vec4(1.0));
-  } while (++i < search_count);
-  float mean_height_m = height_sum / max(blockers, 1.0);
+    height_sum += weight * dot(blocks, quad.height);
+    blockers += weight * dot(blocks, vec4(1.0));
+  } while (float(++i) < search_count);
+  float mean_height_m = height_sum / max(blockers, 1e-3);
   float disc_m = mean_height_m * tan_radius;
   float filter_m = sqrt(max(disc_m * disc_m - tap_radius2_m, 0.0));
 
+  // One even spread of points over an ellipse as wide, in standard deviations, as disc and pixel
+  // together. Points of the disc each moved to another place in the pixel tremble twice as much.
+  vec2 disc = filter_m / size.xy;
+  vec2 across = 0.25 * disc * disc + (r.step_x * r.step_x + r.step_y * r.step_y) / 12.0;
+  float skew = (r.step_x.x * r.step_x.y + r.step_y.x * r.step_y.y) / 12.0;
+  vec2 along = vec2(across.x, skew) / sqrt(max(across.x, 1e-12));  // Cholesky's factors.
+  mat2 ellipse = 2.0 * mat2(along, vec2(0.0, sqrt(max(across.y - along.y * along.y, 0.0))));
   float visible = 0.0;
-  int filter_count = soft ? ShadowCount(filter_m / texel_m + 0.5 * footprint, 1.5, 16,
-                                        SHADOW_FILTER_SAMPLES)
-                          : 0;
+  float filter_count = soft ? ShadowCount(ellipse[0].x * ellipse[1].y, 2.0, 20.0,
+                                          float(SHADOW_FILTER_SAMPLES))
+                            : 0.0;
   spoke = vec2(1.0, 0.0);
   i = 0;
   do {
-    vec2 offset_m = filter_m * sqrt((float(i) + 0.5) / float(filter_count)) * spoke;
+    float radius = sqrt((float(i) + 0.5) / (filter_count + 0.5));
+    vec2 texel = r.texel + ellipse * (radius * spoke);
     spoke = kGoldenTurn * spoke;
-    float least_m = max((0.5 * length(offset_m) - texel_m) / tan_radius, 0.0);
-    vec2 texel = r.texel + offset_m / size.xy + ShadowFootprint(r, i);
-    visible += ShadowTap(set, slice, size, r, texel, least_m);
-  } while (++i < filter_count);
+    float weight = min(filter_count - float(i), 1.0);
+    float least_m = max((0.5 * radius * filter_m - texel_m) / tan_radius, 0.0);
+    visible += weight * ShadowTap(set, slice, size, r, texel, least_m);
+  } while (float(++i) < filter_count);
   float narrow = ShadowNarrow(set, slice, size, r, tan_radius);
-  return soft ? visible / float(filter_count) : narrow;
+  return soft ? visible / filter_count : narrow;
 }
 
 #endif
