@@ -20,7 +20,7 @@
 #include "compositor/surface_buffers.h"
 #include "gl/egl_context.h"
 #include "gl/program.h"
-#include "shadows/shadow_maps.h"
+#include "shadows/fading_shadow_maps.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -126,6 +126,13 @@ LinearRgb MeanGroundRadiance(const std::vector<LitMesh>& lit, const std::vector<
   return count > 0 ? sum * (1.0 / static_cast<double>(count)) : sum;
 }
 
+/// The scene's programs of one permutation.
+struct SurfacePrograms {
+  // By what may change of the light: ChangingTriangles::Change but for kNothing.
+  std::array<gl::GlProgram, ChangingTriangles::kNothing> phantoms;
+  gl::GlProgram objects;
+};
+
 class GlComposer : public Composer {
  public:
   static Result<std::unique_ptr<Composer>> Make(const CameraModel& camera,
@@ -146,8 +153,10 @@ class GlComposer : public Composer {
 
   bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
   Result<void> DrawShadowMaps(const Transform<Camera, Marker>& camera_from_marker);
+  bool Fades() const { return shadow_maps_.front().Fades(); }
+  Result<void> MakeSurfacePrograms();
   void DrawScene(const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain);
-  void SetMaterial(const SurfaceBuffers& surface) const;
+  void SetMaterial(const gl::GlProgram& program, const SurfaceBuffers& surface) const;
   void SortPhantoms();
   void DrawPhantoms(int change) const;
 
@@ -159,14 +168,14 @@ class GlComposer : public Composer {
   gl::GlTexture background_, positions_, output_, white_, environment_;
   gl::GlFramebuffer output_framebuffer_;
   gl::GlVertexArray no_attributes_;
-  gl::GlProgram depth_program_, object_program_, composite_program_;
-  // By what may change of the light: ChangingTriangles::Change but for kNothing.
-  std::array<gl::GlProgram, ChangingTriangles::kNothing> phantom_programs_;
+  gl::GlProgram depth_program_, composite_program_;
+  // With shadows of one step of the sun, and of two that fade into one another; made when needed.
+  std::array<std::optional<SurfacePrograms>, 2> surface_programs_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
   std::vector<SurfaceBuffers> surfaces_;
   std::vector<ChangingTriangles> phantom_triangles_;  // Of the phantoms among them, in order.
   std::optional<SunWindow> sorted_for_;
-  std::vector<shadows::ShadowMaps> shadow_maps_;  // kShadowSets of them.
+  std::vector<shadows::FadingShadowMaps> shadow_maps_;  // kShadowSets of them.
   std::array<std::vector<shadows::ShadowCaster>, kShadowSets> casters_;
   shadows::Box object_bounds_, scene_bounds_;
   std::uint64_t revision_ = 0;  // Of the surfaces; the shadow maps follow it.
@@ -205,30 +214,13 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   c.no_attributes_ = gl::GlVertexArray::Create();
   const shadows::ShadowMapOptions shadow_options = MapOptions(options);
   for (int set = 0; set < kShadowSets; ++set) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::ShadowMaps::Create(shadow_options));
+    PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::FadingShadowMaps::Create(shadow_options));
     c.shadow_maps_.push_back(std::move(maps));
   }
-  const std::vector<std::string> defines =
-      shadows::ShadowMaps::ShaderDefines(shadow_options, kShadowSets);
   PLEINAIR_ASSIGN_OR_RETURN(
       c.depth_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                                                .fragment = "compositor/shaders/depth_only.frag"}));
-  constexpr std::array<const char*, ChangingTriangles::kNothing> kChangeDefines{
-      "SUN_MAY_CHANGE", "SKY_CHANGES", "NO_SUN"};
-  for (std::size_t change = 0; change < kChangeDefines.size(); ++change) {
-    std::vector<std::string> with_change = defines;
-    with_change.emplace_back(kChangeDefines[change]);
-    PLEINAIR_ASSIGN_OR_RETURN(
-        c.phantom_programs_[change],
-        gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
-                               .fragment = "compositor/shaders/phantom_ratio.frag",
-                               .defines = with_change}));
-  }
-  PLEINAIR_ASSIGN_OR_RETURN(
-      c.object_program_,
-      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
-                             .fragment = "compositor/shaders/virtual_object.frag",
-                             .defines = defines}));
+  PLEINAIR_RETURN_IF_ERROR(c.MakeSurfacePrograms());
   PLEINAIR_ASSIGN_OR_RETURN(
       c.composite_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
@@ -238,6 +230,31 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
     c.model_textures_.push_back(std::move(textures));
   }
   return composer;
+}
+
+Result<void> GlComposer::MakeSurfacePrograms() {
+  std::optional<SurfacePrograms>& made = surface_programs_[Fades() ? 1 : 0];
+  if (made) return {};
+  const auto make = [&](const std::string& fragment, const char* change) {
+    std::vector<std::string> defines = shadows::FadingShadowMaps::ShaderDefines(
+        shadow_maps_.front().options(), kShadowSets, Fades());
+    if (change != nullptr) defines.emplace_back(change);
+    return gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                                  .fragment = fragment,
+                                  .defines = std::move(defines)});
+  };
+  SurfacePrograms programs;
+  constexpr std::array<const char*, ChangingTriangles::kNothing> kChangeDefines{
+      "SUN_MAY_CHANGE", "SKY_CHANGES", "NO_SUN"};
+  for (std::size_t change = 0; change < kChangeDefines.size(); ++change) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        programs.phantoms[change],
+        make("compositor/shaders/phantom_ratio.frag", kChangeDefines[change]));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(programs.objects,
+                            make("compositor/shaders/virtual_object.frag", nullptr));
+  made.emplace(std::move(programs));
+  return {};
 }
 
 Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
@@ -278,7 +295,7 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
 
 Result<void> GlComposer::DrawShadowMaps(const Transform<Camera, Marker>& camera_from_marker) {
   for (int set = 0; set < kShadowSets; ++set) {
-    shadows::ShadowMaps& maps = shadow_maps_[set];
+    shadows::FadingShadowMaps& maps = shadow_maps_[set];
     if (!UsesMoments(maps.options().method)) {
       // Around the objects, whatever the camera does: drawn once a light.
       PLEINAIR_RETURN_IF_ERROR(maps.UpdateForRegion(casters_[set], {to_sun_}, object_bounds_));
@@ -288,7 +305,7 @@ Result<void> GlComposer::DrawShadowMaps(const Transform<Camera, Marker>& camera_
     }
     maps.Bind(set);
   }
-  return {};
+  return MakeSurfacePrograms();
 }
 
 void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
@@ -296,7 +313,7 @@ void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world)
   sun_normal_ = day.SunNormalIrradiance();
 }
 
-void GlComposer::SetMaterial(const SurfaceBuffers& surface) const {
+void GlComposer::SetMaterial(const gl::GlProgram& program, const SurfaceBuffers& surface) const {
   const Model& model = *scene_[surface.placed_model()].model;
   const Material& material = model.materials[surface.material()];
   const gl::GlTexture& texture =
@@ -304,18 +321,19 @@ void GlComposer::SetMaterial(const SurfaceBuffers& surface) const {
           ? model_textures_[surface.placed_model()][material.base_color_texture]
           : white_;
   texture.Bind(0);
-  object_program_.Set("u_base_color", glm::vec3(material.base_color[0], material.base_color[1],
-                                                material.base_color[2]));
-  object_program_.Set("u_metallic", material.metallic);
-  object_program_.Set("u_roughness", material.roughness);
-  object_program_.Set("u_dielectric_f0", material.specular_f0);
+  program.Set("u_base_color",
+              glm::vec3(material.base_color[0], material.base_color[1], material.base_color[2]));
+  program.Set("u_metallic", material.metallic);
+  program.Set("u_roughness", material.roughness);
+  program.Set("u_dielectric_f0", material.specular_f0);
 }
 
 /// Tells what of the phantoms the objects may change, after the shadow maps were updated.
 void GlComposer::SortPhantoms() {
   SunWindow window;
   if (HasSun()) {
-    const shadows::ShadowMaps& maps = shadow_maps_[kWithObjects];
+    // Of two steps of the sun one will do: a window's margin is wider than a step moves it.
+    const shadows::ShadowMaps& maps = shadow_maps_[kWithObjects].maps();
     const shadows::ShadowSliceUniforms& finest = maps.uniforms().slices[0];
     const glm::vec3 to_sun(maps.uniforms().to_sun);
     window = UsesMoments(maps.options().method)
@@ -347,6 +365,7 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
   const auto clip_from_marker = glm::mat4(ClipFromCamera(render_camera_, near_m, far_m) *
                                           CameraFromMarkerMatrix(camera_from_marker));
   SortPhantoms();
+  const SurfacePrograms& programs = *surface_programs_[Fades() ? 1 : 0];
   targets_.BeginDrawing();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -359,7 +378,7 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
   DrawPhantoms(ChangingTriangles::kNothing);
   glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   for (int change = 0; change < ChangingTriangles::kNothing; ++change) {
-    const gl::GlProgram& program = phantom_programs_[change];
+    const gl::GlProgram& program = programs.phantoms[change];
     program.Use();
     program.Set("u_clip_from_marker", clip_from_marker);
     program.Set("u_to_sun", ToGlm(to_sun_));
@@ -368,17 +387,17 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
   }
   glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  object_program_.Use();
-  object_program_.Set("u_clip_from_marker", clip_from_marker);
+  programs.objects.Use();
+  programs.objects.Set("u_clip_from_marker", clip_from_marker);
   // Without a sun no surface faces it, and the shader leaves the shadow maps alone.
-  object_program_.Set("u_to_sun", HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
-  object_program_.Set("u_sun_normal_lux", ToGlm(sun_normal_));
-  object_program_.Set("u_eye_m", ToGlm(camera_from_marker.Inverse().translation_m));
-  object_program_.Set("u_gain", ToGlm(gain));
+  programs.objects.Set("u_to_sun", HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
+  programs.objects.Set("u_sun_normal_lux", ToGlm(sun_normal_));
+  programs.objects.Set("u_eye_m", ToGlm(camera_from_marker.Inverse().translation_m));
+  programs.objects.Set("u_gain", ToGlm(gain));
   environment_.Bind(1);
   for (const SurfaceBuffers& surface : surfaces_) {
     if (surface.is_phantom()) continue;
-    SetMaterial(surface);
+    SetMaterial(programs.objects, surface);
     surface.Draw();
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

@@ -168,11 +168,9 @@ Result<void> ShadowMaps::CreateBounds(int size) {
   return {};
 }
 
-LightAxes ShadowMaps::SteppedAxes(Direction<Marker> to_sun) {
-  const glm::dvec3 wanted = glm::normalize(glm::dvec3(to_sun.xyz.x, to_sun.xyz.y, to_sun.xyz.z));
-  // The chord of a small angle is the angle.
-  if (glm::distance(wanted, to_sun_) > options_.sun_step.value()) to_sun_ = wanted;
-  return LightAxes::FromSun(to_sun_);
+void ShadowMaps::SetShare(double share) {
+  uniforms_.light_u.w = static_cast<float>(share);
+  uniform_buffer_.Update(&uniforms_, sizeof uniforms_);
 }
 
 Result<int> ShadowMaps::UpdateForView(std::span<const ShadowCaster> casters,
@@ -181,7 +179,7 @@ Result<int> ShadowMaps::UpdateForView(std::span<const ShadowCaster> casters,
   if (!(view.near_m > 0.0 && view.far_m > view.near_m)) {
     return InputError("shadows", "the view's near depth is not below its far depth");
   }
-  const LightAxes axes = SteppedAxes(to_sun);
+  const LightAxes axes = LightAxes::FromSun({to_sun.xyz.x, to_sun.xyz.y, to_sun.xyz.z});
   Box scene;
   for (const ShadowCaster& caster : casters) scene.Include(caster.bounds);
   if (scene.Empty()) scene.Include(glm::dvec3(0.0));
@@ -196,7 +194,7 @@ Result<int> ShadowMaps::UpdateForView(std::span<const ShadowCaster> casters,
 Result<int> ShadowMaps::UpdateForRegion(std::span<const ShadowCaster> casters,
                                         Direction<Marker> to_sun, const Box& focus) {
   if (!(Norm(to_sun.xyz) > 0.0)) return InputError("shadows", "the sun has no direction");
-  const LightAxes axes = SteppedAxes(to_sun);
+  const LightAxes axes = LightAxes::FromSun({to_sun.xyz.x, to_sun.xyz.y, to_sun.xyz.z});
   Box scene = focus;
   for (const ShadowCaster& caster : casters) scene.Include(caster.bounds);
   if (scene.Empty()) scene.Include(glm::dvec3(0.0));
@@ -281,7 +279,7 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
     if (Content() == MapContent::kDepthBounds) DrawBounds(i);
     ++redrawn;
   }
-  uniforms_.light_u = glm::vec4(axes.u, 0.0);
+  uniforms_.light_u = glm::vec4(axes.u, uniforms_.light_u.w);
   uniforms_.light_v = glm::vec4(axes.v, 0.0);
   uniforms_.to_sun = glm::vec4(axes.to_sun, std::tan(options_.sun_angular_radius.value()));
   // Least deviation of the moment methods, a share of the range: the noise of 32-bit moments.

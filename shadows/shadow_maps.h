@@ -41,7 +41,7 @@ struct ShadowMapOptions {
   Metres bias{0.0005};
   /// Maps fitted to the view: share of a partition's side over which it fades into the next.
   double blend_band = 0.05;
-  /// The maps follow the sun in steps of this size, so that its motion does not make them crawl.
+  /// Of FadingShadowMaps: what the sun moves between two sets of maps.
   Radians sun_step = FromDegrees(0.02);
 };
 
@@ -62,7 +62,8 @@ struct ShadowCaster {
 /// Z-partitioned shadow maps of the sun (Kolivand & Sunar 2014, with the deviations that
 /// docs/shadows.md explains): per partition a depth map along the sun's rays, and what the chosen
 /// visibility needs of it (a pyramid of depth bounds, or blurred moments). Maps are redrawn only
-/// when casters, windows or the sun change. Needs a current GL context; move-only.
+/// when casters, windows or the sun change; FadingShadowMaps follows a moving sun without jumps.
+/// Needs a current GL context; move-only.
 ///
 ///     auto maps = ShadowMaps::Create({});
 ///     maps->UpdateForRegion(casters, to_sun, bounds_of_virtual_objects);
@@ -93,6 +94,9 @@ class ShadowMaps {
   /// Makes the maps set number `set` of shadow_visibility.glsl: uniform block
   /// kUniformBlockBinding + set, texture units kTextureUnit + 2 set and the next.
   void Bind(int set) const;
+
+  /// Share that these maps have beside another step's, for SHADOW_CROSS_FADE.
+  void SetShare(double share);
 
   /// What a shader must define for `sets` sets of maps made with these options.
   static std::vector<std::string> ShaderDefines(const ShadowMapOptions& options, int sets);
@@ -134,7 +138,6 @@ class ShadowMaps {
   }
   Result<void> CreateMoments(int size);
   Result<void> CreateBounds(int size);
-  LightAxes SteppedAxes(Direction<Marker> to_sun);
   Result<int> Redraw(std::span<const ShadowCaster> casters, const LightAxes& axes,
                      const std::vector<LightWindow>& windows, double blend_band);
   /// Nearest and farthest depth of a map.
@@ -156,7 +159,6 @@ class ShadowMaps {
   gl::GlProgram first_program_;   // Depth to bounds, or to moments blurred along u.
   gl::GlProgram second_program_;  // Bounds to bounds, or moments blurred along v.
   std::vector<Slice> slices_;
-  glm::dvec3 to_sun_{0.0};
 };
 
 }  // namespace pleinair::shadows

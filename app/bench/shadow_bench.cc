@@ -87,8 +87,8 @@ class ShimmerMeter {
     }
   }
 
-  /// Mean over the points seen in all frames, weighed by how squarely the sun falls on them: where a
-  /// surface turns away from the sun its shade flips from facet to facet, and nobody sees it.
+  /// Mean over the points seen in all frames, weighed by how squarely the sun falls on them: where
+  /// a surface turns away from the sun its shade flips from facet to facet, and nobody sees it.
   double Shimmer(int frames) const {
     double sum = 0.0;
     double count = 0.0;
@@ -163,12 +163,7 @@ class SceneRun {
   }
 
   ShadowBenchPictures Pictures() const {
-    return {scene_.name,
-            surfaces_,
-            truth_picture_,
-            window_,
-            {},
-            0};
+    return {scene_.name, surfaces_, truth_picture_, window_, {}, 0};
   }
 
   /// Of the method measured last.

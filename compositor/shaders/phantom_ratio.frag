@@ -3,7 +3,9 @@
 // SUN_MAY_CHANGE, SKY_CHANGES or NO_SUN: compositor/changing_triangles.h.
 
 #include "compositor/shaders/differential.glsl"
+#ifndef SHADOW_SETS
 #define SHADOW_SETS 2  // 0: phantoms alone, 1: with the virtual objects.
+#endif
 #include "shadows/shaders/shadow_visibility.glsl"
 
 in vec3 v_position_m;

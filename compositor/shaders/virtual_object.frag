@@ -2,7 +2,9 @@
 // A virtual object's display-linear colour; coverage comes from multisampling.
 
 #include "compositor/shaders/ggx.glsl"
+#ifndef SHADOW_SETS
 #define SHADOW_SETS 2  // 0: phantoms alone, 1: with the virtual objects.
+#endif
 #include "shadows/shaders/shadow_visibility.glsl"
 
 in vec3 v_position_m;

@@ -20,7 +20,7 @@ struct ShadowSlice {
 
 layout(std140, binding = 8) uniform ShadowBlock {
   ShadowSlice slices[SHADOW_MAX_SLICES];
-  vec4 light_u;  // Axes of light space, marker coordinates.
+  vec4 light_u;  // Axes of light space, marker coordinates; w: share in a cross-fade.
   vec4 light_v;
   vec4 to_sun;   // w: tangent of the disc's angular radius.
   // Number of slices, bias in metres, least standard deviation over the depth range, blend band's

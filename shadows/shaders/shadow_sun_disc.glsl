@@ -80,7 +80,8 @@ float ShadowNarrow(int set, int slice, vec4 size, ShadowReceiver r, float tan_ra
 // in a pyramid of depth bounds, so that most pixels need no search at all; (2) depths are compared
 // with the receiver's plane, texel by texel, so a lit plane needs no bias to speak of; (3) blockers
 // too low for any ray of the disc at their distance are left out (the foot of a sunlit wall).
-float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
+float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius,
+                           bool wanted) {
   float texel_m = max(size.x, size.y);
   float slope_texel = length(r.slope);
   float footprint = 0.5 * (length(r.step_x) + length(r.step_y));
@@ -102,7 +103,7 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   // Boxes of more than ±1½ texels do not fit into 4×4 texels.
   vec2 pixel = 0.5 * (abs(r.step_x) + abs(r.step_y));
   vec2 widest = 0.75 * search_m * search_m / (size.xy * size.xy) + pixel * pixel;
-  bool soft = max(widest.x, widest.y) > 2.25 && !lit && !umbra;
+  bool soft = max(widest.x, widest.y) > 2.25 && !lit && !umbra && wanted;
 
   // Mean height of the blockers that the disc's rays can meet. Loops with a count of 0 instead of
   // branches: Mesa's software renderer runs both sides of an `if`, but leaves a loop.

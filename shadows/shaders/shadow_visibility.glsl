@@ -6,6 +6,8 @@
 //   float lit = ShadowVisibility(0, position_marker, normal_marker);
 //
 // Bind the maps with ShadowMaps::Bind(set). `set` must be a constant. Marker coordinates, metres.
+// SHADOW_CROSS_FADE: each set is two, of the steps of the sun before and behind it, numbered 2 set
+// and 2 set + 1 and mixed (FadingShadowMaps); SHADOW_SETS counts both.
 #ifndef PLEINAIR_SHADOW_VISIBILITY
 #define PLEINAIR_SHADOW_VISIBILITY
 // A file is included where it is first named: these must not first be named in a method left out.
@@ -76,8 +78,9 @@ void ShadowPlaces(int set, vec3 position, out ShadowPlace finest, out ShadowPlac
   }
 }
 
-// What one slice says of a point.
-float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 step_y) {
+// What one slice says of a point; anything where it is not wanted, at the least cost.
+float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 step_y,
+                    bool wanted) {
   vec3 light_u = shadow_sets[set].light_u.xyz, light_v = shadow_sets[set].light_v.xyz;
   float facing = dot(normal, shadow_sets[set].to_sun.xyz);
   ShadowReceiver r;
@@ -91,7 +94,7 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
   // Half a texel of slope: the next facet of a curved surface lies that far off this one's plane.
   r.bias = shadow_sets[set].settings.y + 0.5 * length(r.slope);
 #if defined(SHADOW_METHOD_SUN_DISC)
-  return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
+  return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, wanted);
 #elif defined(SHADOW_METHOD_SUN_DISC_FAST)
   return ShadowNarrow(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
 #elif defined(SHADOW_METHOD_PLAIN)
@@ -118,29 +121,41 @@ float ShadowPartition(int set, vec3 position) {
   return mix(float(finest.slice), float(next.slice), ShadowCoarser(set, finest, next));
 }
 
-// Mean over the pixel: `step_x`, `step_y` are how far `position` moves to the next pixel (dFdx,
-// dFdy, taken where all pixels run).
-float ShadowVisibility(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
+// What the maps of one step of the sun say.
+float ShadowAtStep(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
   ShadowPlace finest, next;
   ShadowPlaces(set, position, finest, next);
   int finest_slice = finest.slice;
   float coarser = ShadowCoarser(set, finest, next);
   // Outside every window nothing casts; a surface turned away is in its own shade.
   bool facing = dot(normal, shadow_sets[set].to_sun.xyz) > 0.0;
-  bool again = coarser > 0.0 && facing;
+  bool look = facing && finest_slice >= 0;
+  bool again = coarser > 0.0 && look;
   float visible = 0.0;
   float weight = 1.0 - coarser;
   // Tested at its end: Mesa's software renderer runs a loop's body once more after a test at its
   // beginning fails, and both sides of every `if`.
   bool more;
   do {
-    visible += weight * ShadowInSlice(set, finest, normal, step_x, step_y);
+    visible += weight * ShadowInSlice(set, finest, normal, step_x, step_y, look);
     more = again;
     again = false;
     finest = next;
     weight = coarser;
   } while (more);
   return !facing ? 0.0 : (finest_slice < 0 ? 1.0 : visible);
+}
+
+// Mean over the pixel: `step_x`, `step_y` are how far `position` moves to the next pixel (dFdx,
+// dFdy, taken where all pixels run).
+float ShadowVisibility(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
+#ifdef SHADOW_CROSS_FADE
+  return mix(ShadowAtStep(2 * set, position, normal, step_x, step_y),
+             ShadowAtStep(2 * set + 1, position, normal, step_x, step_y),
+             shadow_sets[2 * set + 1].light_u.w);
+#else
+  return ShadowAtStep(set, position, normal, step_x, step_y);
+#endif
 }
 
 // At the point alone.

@@ -21,7 +21,7 @@ uniform vec3 normal;
 layout(location = 0) out float visibility;
 void main() {
   vec3 position = origin + du * gl_FragCoord.x + dv * gl_FragCoord.y;
-  visibility = ShadowVisibility(SHADOW_SETS - 1, position, normal);
+  visibility = ShadowVisibility(0, position, normal);
 }
 )"}};
 
@@ -74,11 +74,21 @@ Box ShadowScene::Bounds() const {
 }
 
 std::vector<float> ShadowScene::Visibility(const ShadowMaps& maps, const ProbePlane& plane) {
+  maps.Bind(0);
+  return Probe(ShadowMaps::ShaderDefines(maps.options(), 1), plane);
+}
+
+std::vector<float> ShadowScene::Visibility(const FadingShadowMaps& maps, const ProbePlane& plane) {
+  maps.Bind(0);
+  return Probe(FadingShadowMaps::ShaderDefines(maps.options(), 1, maps.Fades()), plane);
+}
+
+std::vector<float> ShadowScene::Probe(const std::vector<std::string>& defines,
+                                      const ProbePlane& plane) {
   gl::ShaderLibrary::Register(kProbe);
-  const auto program =
-      gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
-                             .fragment = "shadow_test/probe.frag",
-                             .defines = ShadowMaps::ShaderDefines(maps.options(), 1)});
+  const auto program = gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
+                                              .fragment = "shadow_test/probe.frag",
+                                              .defines = defines});
   EXPECT_TRUE(program.has_value()) << program.error().Message();
   auto picture = gl::GlTexture::Create2D(GL_R32F, plane.width, plane.height);
   auto target = gl::GlFramebuffer::Create({.colors = {{.texture = &*picture}}});
@@ -90,7 +100,6 @@ std::vector<float> ShadowScene::Visibility(const ShadowMaps& maps, const ProbePl
   program->Set("du", glm::vec3(plane.du));
   program->Set("dv", glm::vec3(plane.dv));
   program->Set("normal", glm::vec3(plane.normal));
-  maps.Bind(0);
   const gl::GlVertexArray none = gl::GlVertexArray::Create();
   none.Bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);

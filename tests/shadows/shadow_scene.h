@@ -9,6 +9,7 @@
 #include "gl/buffer.h"
 #include "gl/vertex_array.h"
 #include "gl_fixture.h"
+#include "shadows/fading_shadow_maps.h"
 #include "shadows/shadow_maps.h"
 
 namespace pleinair::shadows {
@@ -39,6 +40,7 @@ class ShadowScene : public gl::GlTest {
 
   /// Visibility from the maps at each point of the plane.
   std::vector<float> Visibility(const ShadowMaps& maps, const ProbePlane& plane);
+  std::vector<float> Visibility(const FadingShadowMaps& maps, const ProbePlane& plane);
   /// The same by `rays` rays to a uniform disc.
   std::vector<float> Truth(const ProbePlane& plane, const glm::dvec3& to_sun, int rays = 256) const;
 
@@ -51,6 +53,7 @@ class ShadowScene : public gl::GlTest {
   struct Triangle {
     glm::dvec3 a, ab, ac;
   };
+  static std::vector<float> Probe(const std::vector<std::string>& defines, const ProbePlane& plane);
   void AddMesh(const std::vector<glm::vec3>& positions, const std::vector<unsigned>& indices);
 
   std::list<Mesh> meshes_;
