@@ -165,9 +165,8 @@ Result<std::unique_ptr<MarkerDetector>> CreateAprilTagDetector(
   for (const std::string& name : families) {
     const Family* family = FindFamily(name);
     if (family == nullptr) {
-      std::string known;
-      for (const Family& each : kFamilies)
-        known += (known.empty() ? "" : ", ") + std::string(each.name);
+      std::string known = "sg";  // Which the tracker knows beside these.
+      for (const Family& each : kFamilies) known += ", " + std::string(each.name);
       return InputError("", "unknown marker family \"" + name + "\"", "known are " + known);
     }
     if (std::find(found.begin(), found.end(), family) == found.end()) found.push_back(family);

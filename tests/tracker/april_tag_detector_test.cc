@@ -97,6 +97,7 @@ TEST(AprilTagDetector, RefusesUnknownFamiliesAndListsTheKnown) {
   const auto detector = CreateAprilTagDetector({"tag36h11", "tag99h1"});
   ASSERT_FALSE(detector.has_value());
   EXPECT_THAT(detector.error().Message(), HasSubstr("tag99h1"));
+  EXPECT_THAT(detector.error().Message(), HasSubstr("known are sg, "));
   for (const std::string& known : AprilTagFamilyNames()) {
     EXPECT_THAT(detector.error().Message(), HasSubstr(known));
   }
