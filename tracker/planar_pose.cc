@@ -1,16 +1,11 @@
 #include "tracker/planar_pose.h"
 
 #include <ceres/jet.h>
-#include <ceres/rotation.h>
-#include <ceres/tiny_solver.h>
-#include <ceres/tiny_solver_autodiff_function.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 #include <utility>
-#include <vector>
 
 #include "tracker/homography.h"
 
@@ -21,6 +16,11 @@ namespace {
 constexpr double kSameRotation_rad = 1e-3;
 /// Difference of χ² below which the corners do not decide between two poses.
 constexpr double kUndecided = 9.0;
+
+/// Levenberg–Marquardt: steps at most, the first damping, and a step (radians, and shares of the
+/// distance) and a gain of cost that are none.
+constexpr int kMostSteps = 60;
+constexpr double kFirstDamping = 1e-6, kMostDamping = 1e12, kStill = 1e-11, kNoGain = 1e-13;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
@@ -34,40 +34,6 @@ std::array<Vec3, 4> CornersInMarker(Metres size) {
   }
   return corners;
 }
-
-/// Whitened reprojection errors as a function of the left perturbation (w, d) of a pose:
-/// camera_from_marker' = (Exp(w) R, t + d).
-struct WhitenedCorners {
-  const CameraModel& camera;
-  const std::array<Vec3, 4>& corners_in_marker;
-  const std::array<Vec2, 4>& corners_px;
-  const Matrix8& whitening;  ///< Lower-triangular inverse of the covariance's Cholesky factor.
-  const Transform<Camera, Marker>& pose;
-
-  template <typename T>
-  bool operator()(const T* perturbation, T* residuals) const {
-    std::array<T, 8> errors;
-    for (int i = 0; i < 4; ++i) {
-      const Vec3 rotated = pose.rotation * corners_in_marker[i];
-      const T before[3] = {T(rotated.x), T(rotated.y), T(rotated.z)};
-      T after[3];
-      ceres::AngleAxisRotatePoint(perturbation, before, after);
-      const T x = after[0] + pose.translation_m.x + perturbation[3];
-      const T y = after[1] + pose.translation_m.y + perturbation[4];
-      const T z = after[2] + pose.translation_m.z + perturbation[5];
-      if (z <= T(1e-9)) return false;
-      T u, v;
-      ProjectToPixel(camera, x, y, z, &u, &v);
-      errors[2 * i] = u - corners_px[i].x;
-      errors[2 * i + 1] = v - corners_px[i].y;
-    }
-    for (int r = 0; r < 8; ++r) {
-      residuals[r] = T(0);
-      for (int c = 0; c <= r; ++c) residuals[r] += whitening(r, c) * errors[c];
-    }
-    return true;
-  }
-};
 
 Transform<Camera, Marker> Perturbed(const Transform<Camera, Marker>& pose,
                                     const Vector6& perturbation) {
@@ -97,79 +63,136 @@ class PlanarPoseProblem {
       : camera_(camera),
         corners_px_(corners_px),
         whitening_(whitening),
+        size_(size),
         corners_in_marker_(CornersInMarker(size)) {}
 
-  /// Starts of both solutions; empty when there is none.
-  std::vector<Transform<Camera, Marker>> Starts() const {
-    std::vector<cv::Point3d> object;
-    std::vector<cv::Point2d> image;
-    for (int i = 0; i < 4; ++i) {
-      object.emplace_back(corners_in_marker_[i].x, corners_in_marker_[i].y, 0.0);
-      const Vec2 ray = UndistortPixel(camera_, corners_px_[i]);
-      image.emplace_back(ray.x, ray.y);
+  /// Both solutions of IPPE: the plane's homography to first order at the square's middle gives the
+  /// rotation up to a reflection (Collins & Bartoli 2014, §4; the steps as in OpenCV's ippe.cpp).
+  /// Returns how many there are.
+  int Starts(std::array<Transform<Camera, Marker>, 2>* starts) const {
+    std::array<Vec2, 4> rays;
+    for (int i = 0; i < 4; ++i) rays[i] = UndistortPixel(camera_, corners_px_[i]);
+    const Mat3 h = HomographyToQuad(rays);
+    const double scale = 1.0 / h(2, 2), p = h(0, 2) * scale, q = h(1, 2) * scale;
+    const double g = h(2, 0) * scale, k = h(2, 1) * scale;
+    Eigen::Matrix2d by_plane;  // Derivative of the ray by the place on the plane.
+    by_plane << h(0, 0) * scale - g * p, h(0, 1) * scale - k * p,  //
+        h(1, 0) * scale - g * q, h(1, 1) * scale - k * q;
+    if (!by_plane.allFinite()) return 0;
+    // Turns the optical axis to the middle's ray.
+    const Eigen::Matrix3d to_ray =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(p, q, 1.0))
+            .toRotationMatrix();
+    Eigen::Matrix<double, 2, 3> by_space;
+    by_space << 1, 0, -p, 0, 1, -q;
+    const Eigen::Matrix2d by_turned = (by_space * to_ray).leftCols<2>();
+    const Eigen::Matrix2d a = by_turned.inverse() * by_plane;
+    const Eigen::Matrix2d aat = a * a.transpose();
+    const double trace = aat.trace(), apart = aat(0, 0) - aat(1, 1);
+    const double gamma = std::sqrt(
+        0.5 * (trace + std::sqrt(std::max(0.0, apart * apart + 4.0 * aat(0, 1) * aat(0, 1)))));
+    if (!(gamma > 1e-12)) return 0;
+    const Eigen::Matrix2d turned = a / gamma;
+    const double b0 = std::sqrt(std::max(0.0, 1.0 - turned.col(0).squaredNorm()));
+    const double b1 = std::copysign(std::sqrt(std::max(0.0, 1.0 - turned.col(1).squaredNorm())),
+                                    -turned.col(0).dot(turned.col(1)));
+    const double depth = 0.5 * size_.value() / gamma;
+    int count = 0;
+    for (const double sign : {1.0, -1.0}) {
+      Eigen::Matrix3d rotation;
+      rotation.col(0) << turned.col(0), sign * b0;
+      rotation.col(1) << turned.col(1), sign * b1;
+      rotation.col(2) = rotation.col(0).cross(rotation.col(1));
+      rotation = Eigen::Quaterniond(to_ray * rotation).normalized().toRotationMatrix();
+      if (!rotation.allFinite() || !(depth > 0.0) || !std::isfinite(depth)) continue;
+      Transform<Camera, Marker>& start = (*starts)[count++];
+      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(start.rotation.m.data()) = rotation;
+      start.translation_m = {p * depth, q * depth, depth};
     }
-    std::vector<Transform<Camera, Marker>> starts;
-    std::vector<cv::Mat> rotations, translations;
-    try {
-      cv::solvePnPGeneric(object, image, cv::Matx33d::eye(), cv::noArray(), rotations, translations,
-                          false, cv::SOLVEPNP_IPPE);
-    } catch (const cv::Exception&) {
-      return starts;  // Degenerate corners: no pose.
-    }
-    for (std::size_t i = 0; i < rotations.size(); ++i) {
-      cv::Matx33d rotation;
-      cv::Rodrigues(rotations[i], rotation);
-      Transform<Camera, Marker> start;
-      std::copy(rotation.val, rotation.val + 9, start.rotation.m.begin());
-      const cv::Vec3d translation(translations[i].ptr<double>());
-      start.translation_m = {translation[0], translation[1], translation[2]};
-      bool finite = start.translation_m.z > 0.0;
-      for (const double value : start.rotation.m) finite = finite && std::isfinite(value);
-      if (finite) starts.push_back(start);
-    }
-    return starts;
+    return count;
   }
 
   std::optional<Refined> Refine(Transform<Camera, Marker> pose) const {
-    using Function = ceres::TinySolverAutoDiffFunction<WhitenedCorners, 8, 6>;
-    // Each round starts again from its own pose, so that the perturbation stays small and its
-    // derivatives are those of the covariance's convention.
-    for (int round = 0; round < 2; ++round) {
-      const WhitenedCorners errors{camera_, corners_in_marker_, corners_px_, whitening_, pose};
-      const Function function(errors);
-      ceres::TinySolver<Function> solver;
-      solver.options.max_num_iterations = 50;
-      Vector6 perturbation = Vector6::Zero();
-      solver.Solve(function, &perturbation);
-      if (!perturbation.allFinite()) return std::nullopt;
-      pose = Perturbed(pose, perturbation);
-    }
-    const WhitenedCorners errors{camera_, corners_in_marker_, corners_px_, whitening_, pose};
-    const Function function(errors);
-    Vector8 residuals;
-    Eigen::Matrix<double, 8, 6> jacobian;
-    const Vector6 here = Vector6::Zero();
-    if (!function(here.data(), residuals.data(), jacobian.data()) || !residuals.allFinite()) {
-      return std::nullopt;
+    Linear here, there;
+    if (!Linearize(pose, &here)) return std::nullopt;
+    double damping = kFirstDamping;
+    for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
+      Eigen::Matrix<double, 6, 6> damped = here.information;
+      damped.diagonal() *= 1.0 + damping;
+      const Vector6 scaled = -damped.ldlt().solve(here.gradient);
+      if (!scaled.allFinite()) return std::nullopt;
+      const Vector6 move = here.size.cwiseInverse().cwiseProduct(scaled);
+      const Transform<Camera, Marker> moved = Perturbed(pose, move);
+      const bool still = move.head<3>().norm() < kStill &&
+                         move.tail<3>().norm() < kStill * Norm(pose.translation_m);
+      if (!Linearize(moved, &there) || !(there.cost <= here.cost)) {
+        if (still) break;
+        damping = std::max(10.0 * damping, 1e-3);
+        continue;
+      }
+      const bool same = here.cost - there.cost <= kNoGain * here.cost;
+      pose = moved;
+      here = there;
+      damping *= 0.1;
+      if (still || same) break;
     }
     Refined refined;
     refined.solution = {pose, ReprojectionRms(pose)};
-    refined.cost = residuals.squaredNorm();
-    // Metres and radians differ in size: scale before inverting.
-    const Vector6 size = jacobian.colwise().norm();
-    if (!(size.minCoeff() > 0.0)) return std::nullopt;
-    const Eigen::Matrix<double, 8, 6> scaled = jacobian * size.cwiseInverse().asDiagonal();
-    const Eigen::Matrix<double, 6, 6> information = scaled.transpose() * scaled;
+    refined.cost = here.cost;
     const Eigen::Matrix<double, 6, 6> inverse =
-        information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
+        here.information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
     const Eigen::Matrix<double, 6, 6> covariance =
-        size.cwiseInverse().asDiagonal() * inverse * size.cwiseInverse().asDiagonal();
+        here.size.cwiseInverse().asDiagonal() * inverse * here.size.cwiseInverse().asDiagonal();
     Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(refined.covariance.data()) =
         0.5 * (covariance + covariance.transpose());
     return refined;
   }
 
  private:
+  /// The whitened reprojection errors at a pose, to first order in its left perturbation (w, d):
+  /// camera_from_marker' = (Exp(w) R, t + d).
+  struct Linear {
+    double cost = 0.0;  ///< Squared length.
+    Vector6 size;       ///< Lengths of the derivatives: metres and radians differ in size, …
+    Eigen::Matrix<double, 6, 6> information;  ///< … and here all count alike.
+    Vector6 gradient;
+  };
+  /// False where a corner lies behind the camera, or nothing can be told.
+  bool Linearize(const Transform<Camera, Marker>& pose, Linear* linear) const {
+    using Jet = ceres::Jet<double, 2>;
+    Vector8 errors;
+    Eigen::Matrix<double, 8, 6> jacobian;
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 rotated = pose.rotation * corners_in_marker_[i];
+      const Vec3 at = rotated + pose.translation_m;
+      if (!(at.z > 1e-9)) return false;
+      const double per_z = 1.0 / at.z;
+      Jet u, v;
+      DistortNormalized(camera_, Jet(at.x * per_z, 0), Jet(at.y * per_z, 1), &u, &v);
+      const Vec2 error{camera_.fx * u.a + camera_.cx - corners_px_[i].x,
+                       camera_.fy * v.a + camera_.cy - corners_px_[i].y};
+      const auto row = [&](int index, double focal, const Jet& bent, double value) {
+        // By the point in space: its ray is (x/z, y/z).
+        const double x = focal * bent.v[0] * per_z, y = focal * bent.v[1] * per_z;
+        const double z = -(x * at.x + y * at.y) * per_z;
+        errors[index] = value;
+        jacobian.row(index) << rotated.y * z - rotated.z * y, rotated.z * x - rotated.x * z,
+            rotated.x * y - rotated.y * x, x, y, z;
+      };
+      row(2 * i, camera_.fx, u, error.x);
+      row(2 * i + 1, camera_.fy, v, error.y);
+    }
+    errors = whitening_.triangularView<Eigen::Lower>() * errors;
+    jacobian = whitening_.triangularView<Eigen::Lower>() * jacobian;
+    linear->cost = errors.squaredNorm();
+    linear->size = jacobian.colwise().norm();
+    if (!std::isfinite(linear->cost) || !(linear->size.minCoeff() > 0.0)) return false;
+    jacobian = jacobian * linear->size.cwiseInverse().asDiagonal();
+    linear->information.noalias() = jacobian.transpose() * jacobian;
+    linear->gradient.noalias() = jacobian.transpose() * errors;
+    return true;
+  }
+
   double ReprojectionRms(const Transform<Camera, Marker>& pose) const {
     double sum = 0.0;
     for (int i = 0; i < 4; ++i) {
@@ -182,7 +205,8 @@ class PlanarPoseProblem {
 
   const CameraModel& camera_;
   const std::array<Vec2, 4>& corners_px_;
-  const Matrix8& whitening_;
+  const Matrix8& whitening_;  ///< Lower-triangular inverse of the covariance's Cholesky factor.
+  const Metres size_;
   const std::array<Vec3, 4> corners_in_marker_;
 };
 
@@ -209,14 +233,17 @@ std::optional<PoseEstimate> EstimatePlanarPose(const CameraModel& camera,
   if (cholesky.info() != Eigen::Success) return std::nullopt;
   const Matrix8 whitening = cholesky.matrixL().solve(Matrix8::Identity());
   const PlanarPoseProblem problem(camera, corners_px, whitening, size);
-  std::vector<Refined> solutions;
-  for (const Transform<Camera, Marker>& start : problem.Starts()) {
-    if (std::optional<Refined> refined = problem.Refine(start)) solutions.push_back(*refined);
+  std::array<Transform<Camera, Marker>, 2> starts;
+  std::array<Refined, 2> solutions;
+  int count = 0;
+  for (int i = 0, all = problem.Starts(&starts); i < all; ++i) {
+    if (const std::optional<Refined> refined = problem.Refine(starts[i])) {
+      solutions[count++] = *refined;
+    }
   }
-  if (solutions.empty()) return std::nullopt;
-  std::stable_sort(solutions.begin(), solutions.end(),
-                   [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
-  if (likely_rotation != nullptr && solutions.size() > 1 &&
+  if (count == 0) return std::nullopt;
+  if (count > 1 && solutions[1].cost < solutions[0].cost) std::swap(solutions[0], solutions[1]);
+  if (likely_rotation != nullptr && count > 1 &&
       solutions[1].cost - solutions[0].cost < kUndecided) {
     const auto angle = [&](const Refined& refined) {
       return AngleBetween(refined.solution.camera_from_marker.rotation, *likely_rotation);
@@ -226,7 +253,7 @@ std::optional<PoseEstimate> EstimatePlanarPose(const CameraModel& camera,
   PoseEstimate estimate;
   estimate.best = solutions[0].solution;
   estimate.covariance = solutions[0].covariance;
-  if (solutions.size() > 1 &&
+  if (count > 1 &&
       AngleBetween(solutions[0].solution.camera_from_marker.rotation,
                    solutions[1].solution.camera_from_marker.rotation) > kSameRotation_rad) {
     estimate.alternative = solutions[1].solution;

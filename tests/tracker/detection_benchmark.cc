@@ -181,12 +181,14 @@ void BM_FastOneMarker(benchmark::State& state) {
   Run(state, std::move(pictures), camera, SgStrategy::kFast, false, 1);
 }
 
-void BM_FastFiftyMarkers(benchmark::State& state) {
+void FiftyMarkers(benchmark::State& state, SgStrategy strategy) {
   const CameraModel camera = CameraOf(static_cast<int>(state.range(0)));
   std::vector<GreyImage> pictures;
   pictures.push_back(Picture(camera, Grid(camera, 50)));
-  Run(state, std::move(pictures), camera, SgStrategy::kFast, false, 50);
+  Run(state, std::move(pictures), camera, strategy, false, 50);
 }
+void BM_FastFiftyMarkers(benchmark::State& state) { FiftyMarkers(state, SgStrategy::kFast); }
+void BM_HybridFiftyMarkers(benchmark::State& state) { FiftyMarkers(state, SgStrategy::kHybrid); }
 
 void BM_SurfGolayCoveredMarker(benchmark::State& state) {
   const CameraModel camera = CameraOf(static_cast<int>(state.range(0)));
@@ -237,6 +239,7 @@ BENCHMARK(BM_FastOneMarker)->PLEINAIR_HEIGHTS;
 BENCHMARK(BM_HybridOneMarker)->PLEINAIR_HEIGHTS;
 BENCHMARK(BM_SurfGolayCoveredMarker)->PLEINAIR_HEIGHTS;
 BENCHMARK(BM_FastFiftyMarkers)->PLEINAIR_HEIGHTS;
+BENCHMARK(BM_HybridFiftyMarkers)->PLEINAIR_HEIGHTS;
 BENCHMARK(BM_TrackedMarkers)
     ->ArgNames({"height", "markers"})
     ->ArgsProduct({{480, 720, 1080}, {1}})

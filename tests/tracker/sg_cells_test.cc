@@ -9,8 +9,10 @@
 #include "tests/tracker/sg_test_scenes.h"
 #include "tracker/golay/golay_code.h"
 #include "tracker/homography.h"
+#include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
+#include "tracker/surf_golay/print_square.h"
 #include "tracker/surf_golay/sg_print.h"
 
 namespace pleinair::tracker {
@@ -31,10 +33,7 @@ class ReadCells {
             const RenderingOptions& options, bool with_glare = false)
       : lens_(camera), blank_(SgPrintOfWord(0)) {
     const GreyImage picture = RenderMarkers(camera, {marker}, options);
-    const std::array<Vec2, 4> corners = TrueCorners(camera, marker);
-    constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
-    constexpr Mat3 kModulesFromUnit{{kHalf, 0, kMiddle, 0, -kHalf, kMiddle, 0, 0, 1}};
-    BlockFitState state{kModulesFromUnit * Adjugate(HomographyToQuad(corners)), 0.5};
+    BlockFitState state{ModulesFromSquareCorners(TrueCorners(camera, marker)), 0.5};
     TakeLinearWindow(lens_, picture.view(), {0, 0, 0, camera.width, camera.height}, &seen_);
     BlockFitOptions fitting;
     fitting.fit_blur = true;
@@ -184,6 +183,47 @@ TEST(SgCells, AreReadAcrossAnEdgeOfShadow) {
   ASSERT_TRUE(cells.ok());
   EXPECT_EQ(PlainlyWrong(*cells), 0);
   EXPECT_EQ(NumberOf(*cells), kNumber);
+}
+
+Mat3 TruePlace(const CameraModel& camera, const RenderedMarker& marker) {
+  return ModulesFromSquareCorners(TrueCorners(camera, marker));
+}
+
+TEST(SgCells, AreToldAtAGlanceWhereAPrintLiesOpen) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  const LensGrid lens(camera);
+  RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.5};
+  options.light = [](Vec2 pixel) { return 0.4 + 0.004 * pixel.x; };
+  for (const int number : {0, kNumber, 4095}) {
+    for (const double side_px : {100.0, 40.0, 24.0}) {
+      SCOPED_TRACE(testing::Message() << "number " << number << ", edge " << side_px << " px");
+      const RenderedMarker marker = SgMarkerAt(camera, number, {80, 75}, side_px, 35, 50, 8);
+      const GreyImage picture = RenderMarkers(camera, {marker}, options);
+      const auto cells = GlanceAtCells(picture.view(), lens, TruePlace(camera, marker));
+      ASSERT_TRUE(cells.has_value());
+      for (int k = 0; k < sg::kCodeCells; ++k) EXPECT_EQ((*cells)[k] > 0, IsWhite(number, k));
+    }
+  }
+}
+
+TEST(SgCells, AreNotToldAtAGlanceWhereAnythingIsDoubtful) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  const LensGrid lens(camera);
+  const RenderedMarker marker = Marker(camera, 90);
+  const auto told = [&](const RenderedMarker& of, const RenderingOptions& options) {
+    const GreyImage picture = RenderMarkers(camera, {of}, options);
+    return GlanceAtCells(picture.view(), lens, TruePlace(camera, of)).has_value();
+  };
+  ASSERT_TRUE(told(marker, {.blur_px = 0.5}));
+  RenderedMarker covered = marker;
+  covered.cover = [](Vec2 at) { return at.x > 0.1 && at.x < 0.5 && at.y < 0.0 ? 0.3 : -1.0; };
+  EXPECT_FALSE(told(covered, {.blur_px = 0.5}));
+  covered.cover = [](Vec2 at) { return at.x > 0.8 ? 0.3 : -1.0; };
+  EXPECT_FALSE(told(covered, {.blur_px = 0.5}));
+  RenderingOptions shaded{.blur_px = 0.5};
+  shaded.light = [](Vec2 pixel) { return pixel.x < 85 ? 1.0 : 0.25; };
+  EXPECT_FALSE(told(marker, shaded));
+  EXPECT_FALSE(told(SgMarkerAt(camera, kNumber, {148, 75}, 110), {.blur_px = 0.5}));
 }
 
 TEST(SgCells, LeaveNothingOfTheReadingBefore) {

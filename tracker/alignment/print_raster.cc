@@ -72,28 +72,39 @@ void PrintRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
 
 void PrintRaster::SetNodes(const PrintPattern& pattern) {
   if (nodes_of_ == pattern.white) return;
-  nodes_of_ = pattern.white;
+  const bool other_size = nodes_of_.size() != pattern.white.size();
   const int last = pattern.modules - 1, nodes = pattern.modules + 1;
   nodes_.resize(static_cast<std::size_t>(nodes) * nodes);
-  // Four modules of each row at a time, then four rows.
   row_nodes_.resize(static_cast<std::size_t>(pattern.modules) * nodes);
+  row_modules_.resize(static_cast<std::size_t>(nodes) + 3);
+  // Four modules of each row at a time, then four rows; of another print of the same kind only what
+  // differs.
+  int first_changed = pattern.modules, last_changed = -1;
   for (int y = 0; y < pattern.modules; ++y) {
-    const auto* row = &pattern.white[static_cast<std::size_t>(y) * pattern.modules];
+    const std::size_t from = static_cast<std::size_t>(y) * pattern.modules;
+    const std::uint8_t* row = &pattern.white[from];
+    if (!other_size && std::equal(row, row + pattern.modules, &nodes_of_[from])) continue;
+    first_changed = std::min(first_changed, y);
+    last_changed = y;
+    std::uint8_t* modules = row_modules_.data();  // … repeated twice beyond either end.
+    std::copy(row, row + pattern.modules, modules + 2);
+    modules[0] = modules[1] = row[0];
+    modules[nodes + 1] = modules[nodes + 2] = row[last];
+    std::uint32_t* around = &row_nodes_[static_cast<std::size_t>(y) * nodes];
     for (int i = 0; i < nodes; ++i) {
-      std::uint32_t around = 0;
-      for (int bit = 0; bit < 4; ++bit) {
-        around |= static_cast<std::uint32_t>(row[std::clamp(i - 2 + bit, 0, last)]) << bit;
-      }
-      row_nodes_[static_cast<std::size_t>(y) * nodes + i] = around;
+      around[i] = static_cast<std::uint32_t>(modules[i] | modules[i + 1] << 1 |
+                                             modules[i + 2] << 2 | modules[i + 3] << 3);
     }
   }
-  for (int j = 0; j < nodes; ++j) {
+  nodes_of_ = pattern.white;
+  for (int j = std::max(0, first_changed - 1); j <= std::min(last_changed + 2, last + 1); ++j) {
     const std::uint32_t* rows[4];
     for (int k = 0; k < 4; ++k) {
       rows[k] = &row_nodes_[static_cast<std::size_t>(std::clamp(j - 2 + k, 0, last)) * nodes];
     }
+    std::uint32_t* to = &nodes_[static_cast<std::size_t>(j) * nodes];
     for (int i = 0; i < nodes; ++i) {
-      nodes_[j * nodes + i] = rows[0][i] | rows[1][i] << 4 | rows[2][i] << 8 | rows[3][i] << 12;
+      to[i] = rows[0][i] | rows[1][i] << 4 | rows[2][i] << 8 | rows[3][i] << 12;
     }
   }
 }

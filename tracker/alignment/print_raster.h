@@ -104,6 +104,7 @@ class PrintRaster {
   std::vector<std::uint8_t> nodes_of_;
   std::vector<std::uint32_t> nodes_;
   std::vector<std::uint32_t> row_nodes_;  ///< The same of single rows.
+  std::vector<std::uint8_t> row_modules_;
 };
 
 }  // namespace pleinair::tracker

@@ -35,6 +35,17 @@ void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
   seen->certainty.resize(window.size());
   const auto& linear = LinearFromSrgb8();
   const auto& certainty = CertaintyOfCode();
+  if (window.level == 0) {
+    for (int y = 0; y < window.height; ++y) {
+      const std::uint8_t* row = grey.row(window.y0 + y) + window.x0;
+      const std::size_t at = static_cast<std::size_t>(y) * window.width;
+      for (int x = 0; x < window.width; ++x) {
+        seen->value[at + x] = linear[row[x]];
+        seen->certainty[at + x] = certainty[row[x]];
+      }
+    }
+    return;
+  }
   const int side = 1 << window.level;
   const float share = 1.0F / static_cast<float>(side * side);
   for (int y = 0; y < window.height; ++y) {

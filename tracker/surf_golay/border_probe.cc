@@ -28,57 +28,66 @@ std::array<int, 2> Turned(int column, int row, int k) {
 BorderProbe::BorderProbe() {
   std::vector<int> index(static_cast<std::size_t>(sg::kEdge) * sg::kEdge, -1);
   std::vector<std::array<int, 2>> modules;
+  std::vector<float> white;
   for (int row = 0; row < sg::kEdge; ++row) {
     for (int column = 0; column < sg::kEdge; ++column) {
       const int ring = std::min({column, row, sg::kEdge - 1 - column, sg::kEdge - 1 - row});
       if (ring < kBandFirst || ring > kBandLast) continue;
       index[row * sg::kEdge + column] = static_cast<int>(modules.size());
       modules.push_back({column, row});
-      ideal_.push_back(sg::kBorder[row][column] == '.' ? 1.0F : 0.0F);
+      white.push_back(sg::kBorder[row][column] == '.' ? 1.0F : 0.0F);
+      u_.push_back(2.0F * (static_cast<float>(column) + 0.5F) / sg::kEdge - 1.0F);
+      v_.push_back(1.0F - 2.0F * (static_cast<float>(row) + 0.5F) / sg::kEdge);
     }
-  }
-  for (const auto& [column, row] : modules) {
-    Point point;
-    point.column = (static_cast<float>(column) + 0.5F) / sg::kEdge;
-    point.row = (static_cast<float>(row) + 0.5F) / sg::kEdge;
-    for (int k = 0; k < 8; ++k) {
-      const auto turned = Turned(column, row, k);
-      point.at[k] = static_cast<std::int16_t>(index[turned[1] * sg::kEdge + turned[0]]);
-    }
-    points_.push_back(point);
   }
   float mean = 0.0F, length = 0.0F;
-  for (const float value : ideal_) mean += value / static_cast<float>(ideal_.size());
-  for (float& value : ideal_) {
+  for (const float value : white) mean += value / static_cast<float>(white.size());
+  for (float& value : white) {
     value -= mean;
     length += value * value;
   }
-  for (float& value : ideal_) value /= std::sqrt(length);
-  seen_.resize(points_.size());
+  ideal_.resize(modules.size());
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    for (int k = 0; k < kOrientations; ++k) {
+      const auto turned = Turned(modules[i][0], modules[i][1], k);
+      ideal_[index[turned[1] * sg::kEdge + turned[0]]][k] = white[i] / std::sqrt(length);
+    }
+  }
+  x_.resize(modules.size());
+  y_.resize(modules.size());
 }
 
 std::array<ProbedOrientation, 2> BorderProbe::Look(ImageView<const std::uint8_t> grey,
                                                    const std::array<Vec2, 4>& corners_px) {
-  const Mat3 h = HomographyToQuad(corners_px);
+  const Mat3 homography = HomographyToQuad(corners_px);
+  std::array<float, 9> h{};
+  for (int i = 0; i < 9; ++i) h[i] = static_cast<float>(homography.m[i]);
+  const float right = static_cast<float>(grey.width() - 1);
+  const float bottom = static_cast<float>(grey.height() - 1);
+  const std::size_t count = ideal_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float w = 1.0F / (h[6] * u_[i] + h[7] * v_[i] + h[8]);
+    const float x = (h[0] * u_[i] + h[1] * v_[i] + h[2]) * w + 0.5F;
+    const float y = (h[3] * u_[i] + h[4] * v_[i] + h[5]) * w + 0.5F;
+    // In this order what is not a number becomes 0 as well.
+    x_[i] = static_cast<std::int32_t>(std::min(right, std::max(0.0F, x)));
+    y_[i] = static_cast<std::int32_t>(std::min(bottom, std::max(0.0F, y)));
+  }
   float sum = 0.0F, squares = 0.0F;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Vec2 pixel = Apply(h, {2.0 * points_[i].column - 1.0, 1.0 - 2.0 * points_[i].row});
-    const int x = static_cast<int>(std::clamp(pixel.x + 0.5, 0.0, grey.width() - 1.0));
-    const int y = static_cast<int>(std::clamp(pixel.y + 0.5, 0.0, grey.height() - 1.0));
-    const float value = grey(x, y);
-    seen_[i] = value;
+  std::array<float, kOrientations> products{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const float value = grey(x_[i], y_[i]);
     sum += value;
     squares += value * value;
+    for (int k = 0; k < kOrientations; ++k) products[k] += ideal_[i][k] * value;
   }
-  const float n = static_cast<float>(points_.size());
+  const float n = static_cast<float>(count);
   const float spread = std::sqrt(std::max(1e-3F, squares - sum * sum / n));
   std::array<ProbedOrientation, 2> best{};
   best[0].correlation = best[1].correlation = -2.0;
-  for (int k = 0; k < 8; ++k) {
-    float product = 0.0F;
-    for (std::size_t i = 0; i < points_.size(); ++i) product += ideal_[i] * seen_[points_[i].at[k]];
+  for (int k = 0; k < kOrientations; ++k) {
     ProbedOrientation here;
-    here.correlation = product / spread;
+    here.correlation = products[k] / spread;
     here.mirrored = k >= 4;
     // The print's top-left corner, turned k times clockwise, lies at the quadrilateral's corner k;
     // mirrored before, it begins at the next.

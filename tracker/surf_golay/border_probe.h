@@ -28,13 +28,12 @@ class BorderProbe {
                                         const std::array<Vec2, 4>& corners_px);
 
  private:
-  struct Point {
-    float column, row;               ///< Module's centre in 0…1 of the square.
-    std::array<std::int16_t, 8> at;  ///< Index of the point that lies here when turned or mirrored.
-  };
-  std::vector<Point> points_;
-  std::vector<float> ideal_;  ///< The border's modules less their mean, of unit length.
-  std::vector<float> seen_;
+  static constexpr int kOrientations = 8;  ///< Four turns, then those of the mirrored print.
+
+  std::vector<float> u_, v_;  ///< Modules' centres, in half edges from the square's, y up.
+  /// What should be seen at each of them in each orientation: less its mean, of unit length.
+  std::vector<std::array<float, kOrientations>> ideal_;
+  std::vector<std::int32_t> x_, y_;
 };
 
 }  // namespace pleinair::tracker

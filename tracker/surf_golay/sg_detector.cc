@@ -201,9 +201,12 @@ void SgDetector::TryQuad(const Quad& quad) {
     BlockFitState state;
     state.modules_from_ideal = ModulesFromSquareCorners(corners);
     if (!orientation.mirrored && Taken(state.modules_from_ideal)) return;
-    if (reader_.FitBorder(kQuadSteps, SgReader::Detail::kCoarse, &state) < kFittedCorrelation)
-      continue;
-    const std::optional<SgReading> reading = reader_.Read(state);
+    std::optional<SgReading> reading = reader_.ReadPlain(state);
+    if (!reading) {
+      if (reader_.FitBorder(kQuadSteps, SgReader::Detail::kCoarse, &state) < kFittedCorrelation)
+        continue;
+      reading = reader_.Read(state);
+    }
     if (!reading) continue;
     if (orientation.mirrored) {
       warnings_.push_back("a marker that looks like number " + std::to_string(reading->number) +
@@ -315,7 +318,8 @@ bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
     tried_.push_back(hope.state.modules_from_ideal);
     if (reader_.VisibleBorder() < kGuessedVisible || Taken(hope.state.modules_from_ideal)) continue;
     ++failures;
-    const std::optional<SgReading> reading = reader_.Read(hope.state);
+    std::optional<SgReading> reading = reader_.ReadPlain(hope.state);
+    if (!reading) reading = reader_.Read(hope.state);
     if (reading && RightWayRound(*reading) && Add(*reading, DetectionPath::kSurfGolay)) {
       failures = fits = 0;
       any = true;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tracker/homography.h"
+#include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_split.h"
 #include "tracker/surf_golay/print_square.h"
 #include "tracker/surf_golay/sg_layout.h"
@@ -20,6 +21,12 @@ constexpr double kCoarseSide_px = 52.0;  ///< … and that is fitted coarsely.
 /// better it must be seen there, and the side that must be left of it.
 constexpr double kNoisyCorrelation = 0.65, kClearer = 0.3, kLeastReducedSide_px = 30.0;
 constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
+/// The sharpest print's blur is found from one this large in a few steps.
+constexpr double kMostPlainBlur_px = 1.2;
+/// Share of a print that lies open: what covers one side only can draw the fit to its own edge.
+constexpr double kPlainVisible = 0.985;
+/// A step of the fit this long ends a thirtieth of it from where more would.
+constexpr double kPlainDone_px = 0.05;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
@@ -109,6 +116,8 @@ void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
 }  // namespace
 
 void SgReader::SetPicture(ImageView<const std::uint8_t> grey) {
+  grey_ = grey;
+  plain_blur_px_ = kFirstBlur_px;
   windows_.SetPicture(grey);
   if (blank_.modules == 0) blank_ = SgPrintOfWord(0);
 }
@@ -225,6 +234,11 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
   return reading;
 }
 
+double SgReader::ProofBits(const CellLikelihoods& likelihoods, int number) const {
+  return EvidenceBits(likelihoods, number) -
+         std::log2(std::max(kFewestNumbers, decoder_.NumbersInUse()));
+}
+
 bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
   const double border_visible = VisibleBorder();
   bool read = false;
@@ -233,8 +247,7 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
     // A number in use must not be one that many others would beat.
     const float margin = decoding.margin - decoding.shortfall;
     if (margin < kLeastMargin) return;
-    const double bits = EvidenceBits(likelihoods, decoding.number) -
-                        std::log2(std::max(kFewestNumbers, decoder_.NumbersInUse())) - doubt_bits;
+    const double bits = ProofBits(likelihoods, decoding.number) - doubt_bits;
     if (read && bits <= reading->proof_bits) return;
     read = true;
     reading->number = decoding.number;
@@ -262,13 +275,28 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
   return read;
 }
 
+std::optional<SgReading> SgReader::ReadPlain(const BlockFitState& guess) {
+  const std::optional<CellLikelihoods> cells =
+      GlanceAtCells(grey_, lens_, guess.modules_from_ideal);
+  if (!cells) return std::nullopt;
+  const SoftGolayDecoding decoding = decoder_.Decode(*cells);
+  if (decoding.disagreements > 0) return std::nullopt;
+  windows_.SetHalvingsForNoise(0);
+  std::optional<SgReading> reading =
+      Measure(decoding.number, {guess.modules_from_ideal, plain_blur_px_}, kPlainDone_px);
+  if (!reading || reading->visible_fraction < kPlainVisible) return std::nullopt;
+  plain_blur_px_ = std::min(reading->blur_px, kMostPlainBlur_px);
+  reading->margin = decoding.margin;
+  reading->proof_bits = ProofBits(*cells, decoding.number);
+  return reading;
+}
+
 std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_steps) {
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
-  const double correlation = FitBorderThroughNoise(border_steps, &state);
-  const double visible_border = VisibleBorder();
+  FitBorderThroughNoise(border_steps, &state);
   SgReading number;
-  if (visible_border < kLeastVisibleBorder || !ReadNumber(state, &number)) return std::nullopt;
+  if (VisibleBorder() < kLeastVisibleBorder || !ReadNumber(state, &number)) return std::nullopt;
   std::optional<SgReading> reading = Measure(number.number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kWholeEnough) {
@@ -287,8 +315,6 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
     FitBorder(0, Detail::kFine, &measured);
     if (!ReadNumber(measured, &number) || number.number != read_first) return std::nullopt;
   }
-  reading->border_correlation = correlation;
-  reading->visible_border = visible_border;
   reading->margin = number.margin;
   reading->proof_bits = number.proof_bits;
   if (!Verified(*reading)) return std::nullopt;
@@ -343,7 +369,7 @@ bool SgReader::Verified(const SgReading& reading) {
   });
 }
 
-std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess) {
+std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess, double done_px) {
   const double side = windows_.SidePx(guess.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
   PixelWindow window;
@@ -352,6 +378,7 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   BlockFitOptions options;
   options.steps = 5;
   options.fit_blur = true;
+  options.done_px = done_px;
   const int blocks = BlockFit::BlocksAlong(1.2 * side / window.Scale(), kFineBlock_px);
   if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state)) {
     return std::nullopt;

@@ -28,10 +28,9 @@ struct SgReading {
   std::array<Vec2, 4> corners_px;  ///< Top-left, then clockwise as the print is read.
   std::array<double, 64> corner_covariance_px2{};
   double visible_fraction = 0.0;  ///< Share of the print that looks as predicted.
-  double border_correlation = 0.0, whole_correlation = 0.0;
-  double visible_border = 0.0;  ///< Share of the border that looks as predicted.
-  float margin = 0.0F;          ///< Of the number over the next likely one (SoftGolayDecoding).
-  double proof_bits = 0.0;      ///< What the cells tell beyond picking one of the numbers in use.
+  double whole_correlation = 0.0;
+  float margin = 0.0F;      ///< Of the number over the next likely one (SoftGolayDecoding).
+  double proof_bits = 0.0;  ///< What the cells tell beyond picking one of the numbers in use.
   int blocks_along = 0;
   std::vector<float> visible;  ///< 0…1 for each block of the print, row by row.
 };
@@ -66,18 +65,25 @@ class SgReader {
   /// Everything, from a guess that FitBorder has improved.
   std::optional<SgReading> Read(const BlockFitState& guess) { return Read(guess, kReadSteps); }
 
+  /// A marker that lies open in even light, whole and plain to see, from a guess that is good to a
+  /// pixel; nothing where anything is doubtful, and Read must tell.
+  std::optional<SgReading> ReadPlain(const BlockFitState& guess);
+
   /// The same from a guess of another origin that is good already, where a fit of a border that is
   /// covered nearly everywhere could only go wrong.
   std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess) { return Read(guess, 0); }
 
-  /// Measures a print whose number is known from a guess that is right to about a pixel.
-  std::optional<SgReading> Measure(int number, const BlockFitState& guess);
+  /// Measures a print whose number is known from a guess that is right to about a pixel, until a
+  /// step moves no corner farther than `done_px`.
+  std::optional<SgReading> Measure(int number, const BlockFitState& guess, double done_px = 0.01);
 
  private:
   static constexpr int kReadSteps = 4;
   std::optional<SgReading> Read(const BlockFitState& guess, int border_steps);
   /// FitBorder, finely, in a reduced picture where noise hides the border in the picture itself.
   double FitBorderThroughNoise(int steps, BlockFitState* state);
+  /// What cells tell for a number beyond picking it out of those in use.
+  double ProofBits(const CellLikelihoods& likelihoods, int number) const;
   /// Reads the cells of a print whose border was fitted last: number, margin and proof. False where
   /// they tell no number.
   bool ReadNumber(const BlockFitState& state, SgReading* reading);
@@ -90,6 +96,7 @@ class SgReader {
   void Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading);
 
   const LensGrid& lens_;
+  ImageView<const std::uint8_t> grey_;
   PrintWindows windows_;
   SoftGolayDecoder decoder_;
   SeenWindow seen_;
@@ -101,6 +108,8 @@ class SgReader {
   PrintPattern blank_;
   PrintPattern print_;
   int print_number_ = -1;
+  /// That of the last plain print of this picture: others are as far away or as much in motion.
+  double plain_blur_px_ = 0.0;
 };
 
 }  // namespace pleinair::tracker
