@@ -20,6 +20,7 @@ constexpr const char* kExamples =
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
     "  pleinair marker 17 -o marker.pdf\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
+    "  pleinair path convert out/demo/poses/sg_17.tum path.glb --calibration camera.json\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless\n"
@@ -73,6 +74,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddMarkerCommand(app, result);
     AddTargetCommand(app, result);
     AddBoardCommand(app, result);
+    AddPathCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
     AddDevicesCommand(app, result);

@@ -27,6 +27,7 @@ void AddDetectCommand(CLI::App& app, CommandResult& result);
 void AddMarkerCommand(CLI::App& app, CommandResult& result);
 void AddTargetCommand(CLI::App& app, CommandResult& result);
 void AddBoardCommand(CLI::App& app, CommandResult& result);
+void AddPathCommand(CLI::App& app, CommandResult& result);
 void AddSunCommand(CLI::App& app, CommandResult& result);
 void AddSkyCommand(CLI::App& app, CommandResult& result);
 void AddDevicesCommand(CLI::App& app, CommandResult& result);

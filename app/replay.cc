@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "app/interrupt.h"
+#include "app/paths/observed_path.h"
+#include "app/paths/path_files.h"
 #include "app/print_measurer.h"
 #include "app/progress_bar.h"
 #include "app/replay_warnings.h"
@@ -19,10 +21,10 @@
 #include "app/session.h"
 #include "app/sinks/detections_writer.h"
 #include "app/sinks/output_folder.h"
+#include "app/sinks/path_export.h"
 #include "app/sinks/picture_writer.h"
 #include "app/sinks/report_html.h"
 #include "app/sinks/report_json.h"
-#include "app/sinks/tum_writer.h"
 #include "app/sinks/video_writer.h"
 #include "base/atomic_file.h"
 #include "devices/recording.h"
@@ -75,6 +77,7 @@ class Replayer {
     report_.width = size.width;
     report_.height = size.height;
     output_camera_ = ScaleCamera(recording.camera, size);
+    PLEINAIR_RETURN_IF_ERROR(CheckExports(options_.exports, output_camera_));
     PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(scene_));
     auto tracker = tracker::Tracker::Create(recording.camera, tracking);
     if (!tracker) {
@@ -143,8 +146,12 @@ class Replayer {
       sightings = times_.Measure(
           "measure", [&] { return measurer.Measure(frame->grey.view(), std::move(sightings)); });
       session_->AddFrame(frame->index, frame->timestamp_ns, sightings);
-      PLEINAIR_RETURN_IF_ERROR(
-          detections.Add(frame->index, frame->timestamp_ns, sightings, tracker.Lost()));
+      std::string line =
+          DetectionsWriter::Line(frame->index, frame->timestamp_ns, sightings, tracker.Lost());
+      PLEINAIR_RETURN_IF_ERROR(detections.Add(line));
+      if (options_.exports.contains(PathFormat::kMcap)) {
+        markers_seen_.push_back({frame->timestamp_ns, std::move(line)});
+      }
       tracker_warnings_.Add(frame->index, tracker.Warnings());
       lost_frames_ += frame->lost_before;
       bar.Advance();
@@ -165,12 +172,23 @@ class Replayer {
       renderer_->SetMarkerPrint(PrintOf(scene_.marker, *report_.anchor));
     }
     PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
-    for (const auto& [marker, path] : session_->paths()) {
+    for (const auto& [marker, observed] : session_->paths()) {
       report_.markers.push_back(marker);
-      const std::string name = "poses/" + marker.ToString() + ".tum";
-      PLEINAIR_RETURN_IF_ERROR(WriteTum(folder_.staging() / name, path));
-      report_.outputs.push_back(name);
+      const CameraPath path = ObservedPath(observed);
+      for (const PathFormat format : {PathFormat::kTum, PathFormat::kEuroc}) {
+        if (format == PathFormat::kEuroc && !options_.exports.contains(format)) continue;
+        const std::string name =
+            "poses/" + marker.ToString() + (format == PathFormat::kTum ? ".tum" : ".csv");
+        PLEINAIR_RETURN_IF_ERROR(
+            WritePath(path, folder_.staging() / name, format, {.comment = kObservedPathComment}));
+        report_.outputs.push_back(name);
+      }
     }
+    PLEINAIR_ASSIGN_OR_RETURN(
+        const std::vector<std::string> exported,
+        ExportPath({report_, scene_, output_camera_, std::exchange(markers_seen_, {})},
+                   options_.exports, folder_.staging()));
+    report_.outputs.insert(report_.outputs.end(), exported.begin(), exported.end());
     Warn();
     // The frames for the report: spread evenly over those with a pose, or over all.
     const auto count = static_cast<std::size_t>(report_.frames);
@@ -348,6 +366,7 @@ class Replayer {
   std::unique_ptr<SceneRenderer> renderer_;
   std::optional<Session> session_;
   FrameWarnings tracker_warnings_;
+  std::vector<MarkersMessage> markers_seen_;  // For MCAP alone.
   std::set<std::int64_t> pictured_;
   std::int64_t lost_frames_ = 0;
   StageTimes times_;

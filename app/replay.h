@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "app/measured_sky.h"
+#include "app/paths/path_files.h"
 #include "app/sinks/report.h"
 #include "base/camera_model.h"
 #include "base/error.h"
@@ -24,6 +26,7 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> calibration;  ///< Needed for a plain video.
   bool write_frames = false;
   bool write_video = true;
+  std::set<PathFormat> exports;  ///< Forms of the path besides TUM.
   compositor::ComposerOptions composer;
   LightOverrides light;
   std::filesystem::path light_cache;  ///< Folder for daylight coefficients; empty: without.
@@ -32,8 +35,9 @@ struct ReplayOptions {
 };
 
 /// Composes a recording into a folder: composite.mp4, frames/, poses/, detections.jsonl,
-/// report.json and report.html. Reads the recording thrice (markers, light, pictures), one frame
-/// in memory at a time. All outputs appear at the end; on an error nothing is left.
+/// report.json and report.html, and the forms of the path that are asked for. Reads the recording
+/// thrice (markers, light, pictures), one frame in memory at a time. All outputs appear at the end;
+/// on an error nothing is left.
 Result<ReplayReport> Replay(const ReplayOptions& options);
 
 /// The lens as it looks after resizing its pictures to `size`.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/command.h"
 #include "app/number_range.h"
@@ -27,6 +28,7 @@ constexpr const char* kExamples =
     "  pleinair replay recordings/courtyard_midday -o out/demo\n"
     "  pleinair replay site/ -o out/site --frames --size 1280x720\n"
     "  pleinair replay site/ -o out/site --sun-to-sky 0   (no sun shone)\n"
+    "  pleinair replay site/ -o out/site --frames --export gltf,colmap   (for film tools)\n"
     "  pleinair replay walk.mp4 --calibration phone.yaml --scene site/scene.toml -o out/walk\n"
     "Writes composite.mp4, poses/MARKER.tum, detections.jsonl, report.json, report.html and, with\n"
     "--frames, frames/0000.png and so on. docs/formats.md describes recordings and scenes.";
@@ -35,6 +37,7 @@ constexpr const char* kExamples =
 struct Arguments {
   ReplayOptions options;
   std::string recording, output, scene, calibration, size, shader_directory;
+  std::vector<std::string> exports;
   std::string shadows = "disc", light = "measured";
   bool no_video = false;
   bool json = false;
@@ -65,6 +68,9 @@ std::string CommandText(const Arguments& arguments) {
   if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
   if (arguments.options.write_frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
+  for (std::size_t i = 0; i < arguments.exports.size(); ++i) {
+    text += (i == 0 ? " --export " : ",") + arguments.exports[i];
+  }
   if (!arguments.options.light_cache.empty()) {
     text += " --light-cache " + Quoted(arguments.options.light_cache.string());
   }
@@ -92,6 +98,9 @@ Result<void> Run(Arguments& arguments) {
   if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
   if (!arguments.size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize(arguments.size));
+  }
+  for (const std::string& name : arguments.exports) {
+    options.exports.insert(PathFormatNamed(name).value());
   }
   options.light.as_stated = arguments.light == "stated";
   options.composer.shadow_method = kShadowMethods.at(arguments.shadows);
@@ -135,6 +144,13 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
                       "Calibration of the lens (own JSON, OpenCV, ROS or Kalibr YAML)");
   command->add_flag("--frames", arguments->options.write_frames,
                     "Also write every frame as a PNG picture");
+  command
+      ->add_option("--export", arguments->exports,
+                   "Also write the camera's path for other programs: gltf (camera.glb), colmap "
+                   "(colmap/), euroc (poses/MARKER.csv), mcap (camera.mcap)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"gltf", "colmap", "euroc", "mcap"}))
+      ->type_name("FORM,...");
   command->add_option("--size", arguments->size, "Size of the output, WIDTHxHEIGHT in pixels");
   command
       ->add_option("--light", arguments->light,

@@ -1,6 +1,7 @@
 #include "devices/euroc.h"
 
 #include <charconv>
+#include <cmath>
 
 #include "devices/json_fields.h"
 
@@ -57,6 +58,33 @@ Result<std::optional<double>> ParseEurocRate(std::string_view bytes, const std::
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> rate_hz, fields.Number("rate_hz"));
   if (rate_hz && *rate_hz <= 0.0) return fields.Fail("rate_hz", "is not greater than zero");
   return rate_hz;
+}
+
+Result<Transform<EurocBody, Camera>> ParseEurocExtrinsics(std::string_view bytes,
+                                                          const std::string& name) {
+  PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseYaml(bytes, name));
+  const JsonFields fields = JsonFields(document, name).Object("T_BS");
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::vector<double>> data, fields.Numbers("data"));
+  if (!data || data->size() != 16) {
+    return InputError(name, "has no T_BS with data of 4 x 4 numbers",
+                      "name the sensor.yaml of a EuRoC camera");
+  }
+  const std::vector<double>& m = *data;
+  const Transform<EurocBody, Camera> body_from_camera{
+      {{m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]}}, {m[3], m[7], m[11]}};
+  const Mat3& r = body_from_camera.rotation;
+  const Mat3 square = r * r.Transposed();
+  // Files state it to six digits or more.
+  constexpr double kTolerance = 1e-3;
+  bool rigid = m[12] == 0.0 && m[13] == 0.0 && m[14] == 0.0 && m[15] == 1.0;
+  for (int i = 0; i < 9; ++i) rigid = rigid && std::abs(square.m[i] - Mat3().m[i]) < kTolerance;
+  const double determinant = Dot(Cross({r(0, 0), r(0, 1), r(0, 2)}, {r(1, 0), r(1, 1), r(1, 2)}),
+                                 {r(2, 0), r(2, 1), r(2, 2)});
+  if (!rigid || determinant < 0.0) {
+    return InputError(name, "has a T_BS that is no rigid motion",
+                      "its left upper 3 x 3 must be a rotation, its last row 0 0 0 1");
+  }
+  return body_from_camera;
 }
 
 }  // namespace pleinair::devices

@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/frames.h"
 
 namespace pleinair::devices {
+
+/// The frame that EuRoC's ground truth follows, "S" in its papers: the inertial sensor's.
+struct EurocBody;
 
 /// A line of a EuRoC data.csv: "timestamp [ns],filename".
 struct EurocFrame {
@@ -23,5 +27,9 @@ Result<std::vector<EurocFrame>> ParseEurocTable(std::string_view bytes, const st
 
 /// `rate_hz` of a sensor.yaml, where it is there and positive.
 Result<std::optional<double>> ParseEurocRate(std::string_view bytes, const std::string& name);
+
+/// `T_BS` of a camera's sensor.yaml. Errors: it is not there, not 4×4, or no rigid motion.
+Result<Transform<EurocBody, Camera>> ParseEurocExtrinsics(std::string_view bytes,
+                                                          const std::string& name);
 
 }  // namespace pleinair::devices

@@ -201,8 +201,8 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
       const std::lock_guard lock(mutex_);
       since_start_ns -= first_stamp_ns_.value_or(0);
     }
-    PLEINAIR_RETURN_IF_ERROR(
-        detections_->writer().Add(frame->index, since_start_ns, sightings, tracker_->Lost()));
+    PLEINAIR_RETURN_IF_ERROR(detections_->writer().Add(
+        DetectionsWriter::Line(frame->index, since_start_ns, sightings, tracker_->Lost())));
   }
   Tracked tracked{std::move(frame), std::nullopt, session_.Anchor()};
   if (!tracked.anchor) return tracked;

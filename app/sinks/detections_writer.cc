@@ -18,13 +18,17 @@ Result<DetectionsWriter> DetectionsWriter::Create(const std::filesystem::path& f
   return writer;
 }
 
-Result<void> DetectionsWriter::Add(std::int64_t frame_index, std::int64_t timestamp_ns,
+std::string DetectionsWriter::Line(std::int64_t frame_index, std::int64_t timestamp_ns,
                                    const std::vector<tracker::Sighting>& sightings,
                                    const std::vector<tracker::LostMarker>& lost) {
-  const std::string line = fmt::format(
-      "{{\"frame\":{},\"timestamp_s\":{:.9g},\"markers\":{},\"lost\":{}}}\n", frame_index,
-      static_cast<double>(timestamp_ns) * 1e-9, MarkersJson(sightings), LostJson(lost));
-  if (std::fwrite(line.data(), 1, line.size(), out_.get()) != line.size()) {
+  return fmt::format("{{\"frame\":{},\"timestamp_s\":{:.9g},\"markers\":{},\"lost\":{}}}",
+                     frame_index, static_cast<double>(timestamp_ns) * 1e-9, MarkersJson(sightings),
+                     LostJson(lost));
+}
+
+Result<void> DetectionsWriter::Add(const std::string& line) {
+  if (std::fwrite(line.data(), 1, line.size(), out_.get()) != line.size() ||
+      std::fputc('\n', out_.get()) == EOF) {
     return tl::make_unexpected(WriteError(file_, errno));
   }
   return {};

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -18,9 +19,12 @@ class DetectionsWriter {
  public:
   static Result<DetectionsWriter> Create(const std::filesystem::path& file);
 
-  Result<void> Add(std::int64_t frame_index, std::int64_t timestamp_ns,
-                   const std::vector<tracker::Sighting>& sightings,
-                   const std::vector<tracker::LostMarker>& lost);
+  /// The line of a frame, without its end.
+  static std::string Line(std::int64_t frame_index, std::int64_t timestamp_ns,
+                          const std::vector<tracker::Sighting>& sightings,
+                          const std::vector<tracker::LostMarker>& lost);
+
+  Result<void> Add(const std::string& line);
   Result<void> Finish();
 
  private:

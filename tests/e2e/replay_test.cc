@@ -25,13 +25,16 @@ using ::testing::StartsWith;
 TEST(Replay, WritesEveryOutputOfACompositeWithItsObject) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 2, true);
-  const RunResult run =
-      RunPleinair({"replay", folder / "site", "-o", folder / "deep/out", "--frames", "--json"});
+  const RunResult run = RunPleinair({"replay", folder / "site", "-o", folder / "deep/out",
+                                     "--frames", "--json", "--export", "gltf,colmap,euroc,mcap"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(
       Listing(folder / "deep/out"),
-      ElementsAre("composite.mp4", "detections.jsonl", "frames", "frames/0000.png",
-                  "frames/0001.png", "poses", "poses/sg_17.tum", "report.html", "report.json"));
+      ElementsAre("camera.glb", "camera.mcap", "colmap", "colmap/cameras.txt", "colmap/images.txt",
+                  "colmap/points3D.txt", "composite.mp4", "detections.jsonl", "frames",
+                  "frames/0000.png", "frames/0001.png", "poses", "poses/sg_17.csv",
+                  "poses/sg_17.tum", "report.html", "report.json"));
+  EXPECT_THAT(ReadFile(folder / "deep/out/colmap/images.txt"), HasSubstr(" frames/0001.png\n"));
   const auto summary = nlohmann::json::parse(run.out);
   EXPECT_EQ(summary["frames"], 2);
   EXPECT_EQ(summary["frames_with_pose"], 2);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/quaternion.h"
 #include "base/units.h"
 
 namespace pleinair::e2e {
@@ -27,12 +28,9 @@ std::vector<TumPose> ReadTum(const std::filesystem::path& file) {
     std::istringstream fields(line);
     TumPose pose;
     Vec3& t = pose.marker_from_camera.translation_m;
-    double x = 0, y = 0, z = 0, w = 0;
-    fields >> pose.time_s >> t.x >> t.y >> t.z >> x >> y >> z >> w;
-    pose.marker_from_camera.rotation = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 2 * (x * y + z * w),
-         1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 2 * (x * z - y * w), 2 * (y * z + x * w),
-         1 - 2 * (x * x + y * y)}};
+    Quaternion q;
+    fields >> pose.time_s >> t.x >> t.y >> t.z >> q.x >> q.y >> q.z >> q.w;
+    pose.marker_from_camera.rotation = RotationOf(q);
     poses.push_back(pose);
   }
   return poses;

@@ -1,0 +1,129 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/command.h"
+#include "app/number_range.h"
+#include "app/paths/path_files.h"
+#include "devices/calibration.h"
+#include "devices/text_file.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair path convert out/demo/poses/sg_17.tum path.glb --calibration camera.json\n"
+    "  pleinair path convert out/demo/poses/sg_17.tum model/ --calibration camera.json\n"
+    "  pleinair path convert mav0/state_groundtruth_estimate0/data.csv cam0.tum \\\n"
+    "    --extrinsics mav0/cam0/sensor.yaml\n"
+    "  pleinair path convert sparse/0 walk.glb --frame-rate 30 --axes y-down --scale 0.42\n"
+    "Read: TUM (.tum, .txt), EuRoC (.csv), COLMAP (a folder with cameras.txt and images.txt).\n"
+    "Written: the same, glTF (.glb, .gltf) and MCAP (.mcap). docs/film.md tells what each means.";
+
+struct Arguments {
+  std::string input, output, from, to, calibration, extrinsics, axes = "z-up";
+  double frame_rate_hz = 0.0, scale = 1.0, marker_size_mm = 0.0;
+  bool json = false;
+};
+
+Result<PathFormat> FormatOf(const std::string& stated, const std::string& file) {
+  if (const auto named = PathFormatNamed(stated)) return *named;
+  return PathFormatOf(file);
+}
+
+Result<void> Run(const Arguments& arguments) {
+  PLEINAIR_ASSIGN_OR_RETURN(const PathFormat from, FormatOf(arguments.from, arguments.input));
+  PLEINAIR_ASSIGN_OR_RETURN(const PathFormat to, FormatOf(arguments.to, arguments.output));
+  std::error_code error;
+  if (std::filesystem::equivalent(arguments.input, arguments.output, error)) {
+    return InputError(arguments.output, "is what is read", "name another file to write");
+  }
+  PathReading reading;
+  reading.frame_rate_hz = arguments.frame_rate_hz;
+  if (!arguments.extrinsics.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        const std::string yaml,
+        devices::ReadWholeFile(arguments.extrinsics, devices::kMaxCalibrationBytes));
+    PLEINAIR_ASSIGN_OR_RETURN(reading.body_from_camera,
+                              devices::ParseEurocExtrinsics(yaml, arguments.extrinsics));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(CameraPath path, ReadPath(arguments.input, from, reading));
+  if (!arguments.calibration.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(path.camera, devices::ReadCalibration(arguments.calibration));
+  }
+  ScalePath(arguments.scale, &path);
+  PathWriting writing;
+  writing.up = arguments.axes == "z-up"   ? UpAxis::kZ
+               : arguments.axes == "y-up" ? UpAxis::kY
+                                          : UpAxis::kMinusY;
+  writing.marker_size_m = arguments.marker_size_mm * 1e-3;
+  writing.body_from_camera = reading.body_from_camera;
+  if (auto written = WritePath(path, arguments.output, to, writing); !written) {
+    Error failure = std::move(written).error();
+    if (failure.where.empty()) failure.where = arguments.output;
+    return tl::make_unexpected(std::move(failure));
+  }
+  const double seconds =
+      1e-9 * static_cast<double>(path.poses.back().timestamp_ns - path.poses.front().timestamp_ns);
+  if (arguments.json) {
+    const nlohmann::ordered_json summary{{"file", arguments.output},
+                                         {"poses", path.poses.size()},
+                                         {"seconds", seconds},
+                                         {"has_camera", path.camera.has_value()},
+                                         {"points", path.points.size()}};
+    std::cout << summary.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  } else {
+    std::cerr << path.poses.size() << " poses over " << seconds << " s written to "
+              << arguments.output << '\n';
+  }
+  return {};
+}
+
+}  // namespace
+
+void AddPathCommand(CLI::App& app, CommandResult& result) {
+  CLI::App* path = app.add_subcommand("path", "Camera paths in the forms of other programs");
+  path->require_subcommand(1);
+  CLI::App* command = path->add_subcommand(
+      "convert", "Turn a camera's path from one form into another, frames of reference included");
+  command->footer(kExamples);
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("IN", arguments->input, "The path to read")->required();
+  command->add_option("OUT", arguments->output, "The file or folder to write")->required();
+  command->add_option("--from", arguments->from, "Form of IN where its name does not tell")
+      ->check(CLI::IsMember({"tum", "euroc", "colmap"}));
+  command->add_option("--to", arguments->to, "Form of OUT where its name does not tell")
+      ->check(CLI::IsMember({"tum", "euroc", "colmap", "gltf", "mcap"}));
+  command->add_option("--calibration", arguments->calibration,
+                      "The lens, for glTF, MCAP and COLMAP; instead of the one that IN has");
+  command
+      ->add_option("--frame-rate", arguments->frame_rate_hz,
+                   "Pictures a second of a COLMAP model: a picture's time is the number that ends "
+                   "its name, divided by this")
+      ->check(NumberRange(1e-3, 1e6));
+  command->add_option("--extrinsics", arguments->extrinsics,
+                      "sensor.yaml of a EuRoC camera: its T_BS stands between the body, whose path "
+                      "EuRoC files tell, and the camera; without it the camera is the body");
+  command
+      ->add_option("--axes", arguments->axes,
+                   "How the path's reference lies, for glTF: z-up (a marker on the ground), y-up "
+                   "(a marker on a wall) or y-down (many reconstructions)")
+      ->check(CLI::IsMember({"z-up", "y-up", "y-down"}))
+      ->capture_default_str();
+  command
+      ->add_option("--scale", arguments->scale,
+                   "Metres of one unit of IN: reconstructions know no scale")
+      ->check(NumberRange(1e-9, 1e9));
+  command
+      ->add_option("--marker-size-mm", arguments->marker_size_mm,
+                   "Show the marker, this large, at the reference's origin (glTF, MCAP)")
+      ->check(NumberRange(0.1, 1e6));
+  command->add_flag("--json", arguments->json, "Print a summary as one JSON object");
+  command->callback([arguments, &result] { result.status = Run(*arguments); });
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/error.h"
+
+namespace pleinair::app {
+
+/// A camera as a line of COLMAP's cameras.txt has it: the model's name and its parameters in
+/// COLMAP's order (its sensor/models.h). Pixel centres lie at .5.
+struct ColmapCamera {
+  std::string model;
+  int width = 0, height = 0;
+  std::vector<double> parameters;
+};
+
+/// Our model of it. SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV,
+/// OPENCV_FISHEYE, SIMPLE_RADIAL_FISHEYE and RADIAL_FISHEYE are the same formulae with fewer or
+/// more terms. Errors: other models (FOV, THIN_PRISM_FISHEYE …), another number of parameters, a
+/// focal length that is not greater than zero, a size outside 1…100000.
+Result<CameraModel> CameraFromColmap(const ColmapCamera& camera, const std::string& where);
+
+/// The smallest of COLMAP's models that holds ours: PINHOLE, OPENCV, FULL_OPENCV, OPENCV_FISHEYE.
+ColmapCamera ColmapFromCamera(const CameraModel& camera);
+
+}  // namespace pleinair::app

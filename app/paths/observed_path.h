@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "app/paths/camera_path.h"
+#include "app/session.h"
+
+namespace pleinair::app {
+
+/// The camera's path in the frame of the marker that it was observed from. Pictures are named as
+/// replay writes frames, frames/0000.png and so on.
+CameraPath ObservedPath(const std::vector<Observation>& observations);
+
+/// How a file of such poses says what they are.
+inline constexpr const char* kObservedPathComment =
+    "camera in the marker frame: t_s tx ty tz qx qy qz qw (x_marker = R(q) x_camera + t)";
+
+}  // namespace pleinair::app

@@ -1,0 +1,55 @@
+#include "app/sinks/path_export.h"
+
+#include <utility>
+
+#include "app/paths/observed_path.h"
+#include "base/atomic_file.h"
+
+namespace pleinair::app {
+
+Result<void> CheckExports(const std::set<PathFormat>& formats, const CameraModel& camera) {
+  if (!formats.contains(PathFormat::kGltf) ||
+      camera.distortion_model != DistortionModel::kEquidistant) {
+    return {};
+  }
+  return InputError("--export", "a glTF camera is a perspective one, and the lens a fisheye",
+                    "undistort the pictures and calibrate those, or leave gltf out");
+}
+
+Result<std::vector<std::string>> ExportPath(const PathExport& what,
+                                            const std::set<PathFormat>& formats,
+                                            const std::filesystem::path& folder) {
+  std::vector<std::string> outputs;
+  CameraPath path = ObservedPath(what.report.path);
+  path.camera = what.camera;
+  const devices::MarkerDescription& marker = what.scene.marker;
+  const UpAxis up = marker.upright ? UpAxis::kY : UpAxis::kZ;
+  const PathWriting writing{.up = up, .marker_size_m = marker.size_m};
+  if (formats.contains(PathFormat::kGltf) && !path.poses.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(WritePath(path, folder / "camera.glb", PathFormat::kGltf, writing));
+    outputs.emplace_back("camera.glb");
+  }
+  if (formats.contains(PathFormat::kColmap) && !path.poses.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(WritePath(path, folder / "colmap", PathFormat::kColmap, writing));
+    for (const char* name : {"cameras.txt", "images.txt", "points3D.txt"}) {
+      outputs.push_back(std::string("colmap/") + name);
+    }
+  }
+  if (formats.contains(PathFormat::kMcap)) {
+    McapPathOptions mcap;
+    mcap.start_ns = what.scene.place_time.start.nanoseconds_since_1970();
+    mcap.marker_size_m = marker.size_m;
+    mcap.markers = what.markers;
+    auto bytes = McapFromPath(path, mcap);
+    if (!bytes) {
+      Error error = std::move(bytes).error();
+      error.where = what.scene.file.string();
+      return tl::make_unexpected(std::move(error));
+    }
+    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder / "camera.mcap", *bytes));
+    outputs.emplace_back("camera.mcap");
+  }
+  return outputs;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,60 @@
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "app/paths/colmap_model.h"
+#include "app/paths/euroc_path.h"
+#include "app/paths/tum_path.h"
+
+namespace {
+
+using pleinair::Result;
+using pleinair::app::CameraPath;
+
+// A path is whole: times ascend, poses are finite rotations; an error says what is wrong.
+void Check(const Result<CameraPath>& path) {
+  if (!path) {
+    if (path.error().what.empty()) std::abort();
+    return;
+  }
+  if (path->poses.empty()) std::abort();
+  for (std::size_t i = 0; i < path->poses.size(); ++i) {
+    const auto& pose = path->poses[i];
+    if (i > 0 && pose.timestamp_ns <= path->poses[i - 1].timestamp_ns) std::abort();
+    const auto& t = pose.reference_from_camera.translation_m;
+    if (!std::isfinite(t.x + t.y + t.z)) std::abort();
+    const pleinair::Mat3 square =
+        pose.reference_from_camera.rotation * pose.reference_from_camera.rotation.Transposed();
+    for (int k = 0; k < 9; ++k) {
+      if (!(std::fabs(square.m[k] - pleinair::Mat3().m[k]) < 1e-9)) std::abort();
+    }
+  }
+  // What was read can be written and read again.
+  if (!pleinair::app::ParseTum(pleinair::app::TumText(*path, "again"), "again")) std::abort();
+}
+
+}  // namespace
+
+// Any bytes are a path or an error in each of the forms; a COLMAP model's three files are told
+// apart by lines of '='.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  Check(pleinair::app::ParseTum(text, "file"));
+  const auto mounting = pleinair::devices::ParseEurocExtrinsics(text, "file");
+  Check(pleinair::app::ParseEurocPath(
+      text, "file",
+      mounting.value_or(pleinair::Transform<pleinair::devices::EurocBody, pleinair::Camera>{})));
+  pleinair::app::ColmapTexts texts;
+  const std::size_t first = text.find("=\n");
+  if (first == std::string_view::npos) return 0;
+  const std::size_t second = text.find("=\n", first + 2);
+  texts.cameras = text.substr(0, first);
+  texts.images =
+      text.substr(first + 2, second == std::string_view::npos ? second : second - first - 2);
+  if (second != std::string_view::npos) texts.points3d = text.substr(second + 2);
+  Check(pleinair::app::ParseColmap(texts, "model", 30.0));
+  return 0;
+}
