@@ -36,6 +36,7 @@ constexpr const char* kExamples =
 
 struct Arguments {
   std::string camera, scene, calibration, time, record, detections, screenshot, pixel_format;
+  std::string light = "measured";
   std::optional<double> seconds, rate_hz, exposure_s, gain, white_balance_k, focus;
   bool headless = false, lossless = false, json = false, lock = false;
 };
@@ -225,7 +226,7 @@ Result<void> Run(const Arguments& arguments) {
   LiveOptions options;
   options.camera = source.lens;
   options.scene = *source.scene;
-  options.light.as_stated = true;
+  options.light.as_stated = arguments.light == "stated";
   options.lossless = arguments.lossless;
   PLEINAIR_ASSIGN_OR_RETURN(options.start, StartOf(arguments, source));
   if (!arguments.record.empty()) options.record = arguments.record;
@@ -268,6 +269,12 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--record", a.record, "Record into this new folder, too");
   command->add_option("--detections", a.detections, "Write what is seen, one JSON line a frame");
   command->add_option("--screenshot", a.screenshot, "At the end, write the last picture as PNG");
+  command
+      ->add_option("--light", a.light,
+                   "measured: sun, sky and heading from the shadows that phantoms cast; stated: as "
+                   "the scene says")
+      ->check(CLI::IsMember({"measured", "stated"}))
+      ->capture_default_str();
   command->add_flag("--headless", a.headless, "Without a window");
   command->add_option("--seconds", a.seconds, "End after so long")->check(NumberRange(0.0, 1e9));
   command->add_flag("--lossless", a.lossless,

@@ -8,7 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "app/light_look.h"
 #include "app/measured_sky.h"
+#include "app/scene_edit.h"
+#include "app/scene_light.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/frames.h"
@@ -61,7 +64,8 @@ class SceneRenderer {
   /// folder: slow once, then some milliseconds for any moment. Shows a bar while it computes.
   void KeepLightIn(const std::filesystem::path& folder) { light_cache_ = folder; }
 
-  /// Which print the frames show, before the first is rendered: it is the light meter.
+  /// Which print the frames show, before the first is rendered: it is the light meter. With light
+  /// that is made elsewhere it counts from the next on.
   void SetMarkerPrint(const compositor::MarkerPrint& print);
 
   /// Whether frames can tell more of the light than the scene and the user do.
@@ -75,21 +79,22 @@ class SceneRenderer {
   /// Draws conclusions from the frames looked at: heading, sun and sky from now on.
   void SettleLight();
 
-  /// Sun, sky and the light among surfaces at one moment.
-  struct Light;
+  /// The order for the light of a moment as the scene has it now. Not where there is nothing to
+  /// draw.
+  LightOrder OrderLight(UtcTime time) const;
 
-  /// Whether the sun has moved so far between two moments that the light should be made anew.
-  bool NeedsLight(UtcTime made, UtcTime now) const;
+  /// Takes a light over that was made elsewhere; from then on Render() only moves the sun and
+  /// leaves new light to others.
+  Result<void> UseLight(std::shared_ptr<const SceneLight> light);
 
-  /// Works out the light of a moment; another thread may do so while frames are rendered, once the
-  /// first has been or LightUp() was called.
-  std::shared_ptr<const Light> PrepareLight(UtcTime time) const;
+  /// Changes the scene: at once what is cheap (place, time, heading, drawing, where objects
+  /// stand), with the next light the rest.
+  Result<void> Edit(const SceneEdit& edit);
 
-  /// Takes a light over; from then on Render() only moves the sun and leaves new light to others.
-  Result<void> UseLight(std::shared_ptr<const Light> light);
-
-  /// Makes the first light before the first frame is there, and UseLight() hold from now on.
-  Result<void> LightUp(UtcTime time);
+  /// Whether there is anything to draw.
+  bool DrawsObjects() const { return composer_ != nullptr; }
+  /// Phantoms, then objects, as they stand.
+  const std::vector<compositor::PlacedModel>& placed() const { return placed_; }
 
   /// The frame with the virtual objects as they stand at `time`.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
@@ -101,12 +106,10 @@ class SceneRenderer {
  private:
   SceneRenderer(const CameraModel& camera, const devices::SceneDescription& scene);
 
-  sky::SunPosition SunAt(UtcTime time) const;
   void OverrideLight(const sky::SunPosition& sun);
   void TraceLight();
-  std::vector<compositor::LitMesh> LightAmongSurfaces(const sky::SkyModel& daylight,
-                                                      const Mat3& marker_from_world) const;
-  Result<void> TakeLight(std::shared_ptr<const Light> light);
+  Result<void> TakeLight(std::shared_ptr<const SceneLight> light);
+  void MoveObjects();
   Result<void> UpdateLight(UtcTime time);
   void UpdateGain(ImageView<const std::uint8_t> rgb,
                   const Transform<Camera, Marker>& camera_from_marker);
@@ -115,16 +118,17 @@ class SceneRenderer {
   devices::SceneDescription scene_;
   compositor::MarkerPrint print_;
   LightOverrides overrides_;
-  std::shared_ptr<const sky::SkySource> skies_;  // Of the scene's day, for any place of the sun.
-  LinearRgb sky_scale_{1.0, 1.0, 1.0};
+  DaySkies skies_;
   std::filesystem::path light_cache_;  // Empty: rays are traced for every place of the sun.
-  std::optional<compositor::DaylightCoefficients> coefficients_;
-  struct Look;  // What was seen of the light so far.
-  std::unique_ptr<Look> look_;
-  std::unique_ptr<compositor::LightSolver> solver_;
+  std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
+  std::unique_ptr<LightLook> look_;  // What was seen of the light so far.
+  std::vector<compositor::PlacedModel> placed_;
+  std::shared_ptr<const compositor::LightSolver> solver_;
   std::unique_ptr<compositor::Composer> composer_;
   std::optional<compositor::LightMeter> meter_;
-  std::shared_ptr<const Light> lit_;  // The light in use.
+  std::shared_ptr<const SceneLight> lit_;  // The light in use.
+  double later_s_ = 0.0;
+  bool heading_is_edited_ = false;
   bool light_from_outside_ = false;
   std::deque<LinearRgb> recent_gains_;  // Of the last frames, for the running median.
   LinearRgb guessed_gain_;
@@ -135,9 +139,5 @@ class SceneRenderer {
 /// A scene's model, loaded and placed in marker coordinates. Errors as compositor::LoadModel.
 Result<compositor::PlacedModel> PlaceModel(const devices::ModelReference& reference,
                                            bool is_phantom);
-
-/// Marker coordinates from east-north-up, from the marker's stated heading (devices/
-/// scene_description.h).
-Mat3 MarkerFromWorld(const devices::MarkerDescription& marker);
 
 }  // namespace pleinair::app

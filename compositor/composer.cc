@@ -139,6 +139,8 @@ class GlComposer : public Composer {
                                                 const std::vector<PlacedModel>& scene,
                                                 const ComposerOptions& options);
 
+  Result<void> SetOptions(const ComposerOptions& options) override;
+  void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) override;
   Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
                         const Mat3& marker_from_world) override;
   void SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) override;
@@ -152,6 +154,9 @@ class GlComposer : public Composer {
       : context_(std::move(context)), camera_(camera), scene_(scene) {}
 
   bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
+  Result<void> SetRenderSize(const ComposerOptions& options);
+  Result<void> MakeShadows(const ComposerOptions& options);
+  void PlaceCasters();
   Result<void> DrawShadowMaps(const Transform<Camera, Marker>& camera_from_marker);
   bool Fades() const { return shadow_maps_.front().Fades(); }
   Result<void> MakeSurfacePrograms();
@@ -163,6 +168,7 @@ class GlComposer : public Composer {
   gl::EglContext context_;  // First: GL objects go before it.
   CameraModel camera_;
   std::vector<PlacedModel> scene_;
+  ComposerOptions options_;
   RenderCamera render_camera_;
   RenderTargets targets_;
   gl::GlTexture background_, positions_, output_, white_, environment_;
@@ -173,6 +179,8 @@ class GlComposer : public Composer {
   std::array<std::optional<SurfacePrograms>, 2> surface_programs_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
   std::vector<SurfaceBuffers> surfaces_;
+  std::vector<shadows::Box> lit_bounds_;  // Of the surfaces, where they were lit.
+  std::vector<glm::dmat4> moved_;         // By placed model: marker from where it was lit.
   std::vector<ChangingTriangles> phantom_triangles_;  // Of the phantoms among them, in order.
   std::optional<SunWindow> sorted_for_;
   std::vector<shadows::FadingShadowMaps> shadow_maps_;  // kShadowSets of them.
@@ -190,19 +198,12 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   RegisterShaders();
   std::unique_ptr<GlComposer> composer(new GlComposer(camera, scene, std::move(context)));
   GlComposer& c = *composer;
-  const double supersampling = options.supersampling > 0.0 ? options.supersampling
-                               : camera.HasDistortion()    ? kWarpedSupersampling
-                                                           : 1.0;
-  c.render_camera_ = FitRenderCamera(camera, supersampling);
-  PLEINAIR_ASSIGN_OR_RETURN(c.targets_,
-                            RenderTargets::Create(c.render_camera_.width, c.render_camera_.height));
   PLEINAIR_ASSIGN_OR_RETURN(c.background_,
                             gl::GlTexture::Create2D(GL_RGBA8, camera.width, camera.height));
   PLEINAIR_ASSIGN_OR_RETURN(c.output_,
                             gl::GlTexture::Create2D(GL_RGBA8, camera.width, camera.height));
   PLEINAIR_ASSIGN_OR_RETURN(c.positions_,
                             gl::GlTexture::Create2D(GL_RG32F, camera.width, camera.height));
-  c.positions_.Upload(GL_RG, GL_FLOAT, RenderPositions(camera, c.render_camera_).data());
   PLEINAIR_ASSIGN_OR_RETURN(c.output_framebuffer_, gl::GlFramebuffer::Create({{{&c.output_}}, {}}));
   PLEINAIR_ASSIGN_OR_RETURN(c.white_, gl::GlTexture::Create2D(GL_RGBA8, 1, 1));
   constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};
@@ -212,15 +213,9 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
                                                 EnvironmentMap::kHeight, EnvironmentMap::kLevels));
   c.environment_.SetWrap(GL_REPEAT);
   c.no_attributes_ = gl::GlVertexArray::Create();
-  const shadows::ShadowMapOptions shadow_options = MapOptions(options);
-  for (int set = 0; set < kShadowSets; ++set) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::FadingShadowMaps::Create(shadow_options));
-    c.shadow_maps_.push_back(std::move(maps));
-  }
   PLEINAIR_ASSIGN_OR_RETURN(
       c.depth_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                                                .fragment = "compositor/shaders/depth_only.frag"}));
-  PLEINAIR_RETURN_IF_ERROR(c.MakeSurfacePrograms());
   PLEINAIR_ASSIGN_OR_RETURN(
       c.composite_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
@@ -229,7 +224,93 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
     PLEINAIR_ASSIGN_OR_RETURN(auto textures, UploadTextures(*placed.model));
     c.model_textures_.push_back(std::move(textures));
   }
+  PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
+  PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(options));
+  PLEINAIR_RETURN_IF_ERROR(c.MakeSurfacePrograms());
+  c.options_ = options;
   return composer;
+}
+
+/// How many pixels are drawn, and what they are drawn into.
+Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
+  const double supersampling = options.supersampling > 0.0 ? options.supersampling
+                               : camera_.HasDistortion()   ? kWarpedSupersampling
+                                                           : 1.0;
+  const RenderCamera render_camera = FitRenderCamera(camera_, supersampling);
+  PLEINAIR_ASSIGN_OR_RETURN(targets_,
+                            RenderTargets::Create(render_camera.width, render_camera.height));
+  positions_.Upload(GL_RG, GL_FLOAT, RenderPositions(camera_, render_camera).data());
+  render_camera_ = render_camera;
+  return {};
+}
+
+Result<void> GlComposer::MakeShadows(const ComposerOptions& options) {
+  std::vector<shadows::FadingShadowMaps> made;
+  for (int set = 0; set < kShadowSets; ++set) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::FadingShadowMaps::Create(MapOptions(options)));
+    made.push_back(std::move(maps));
+  }
+  shadow_maps_ = std::move(made);
+  sorted_for_.reset();
+  return {};
+}
+
+Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
+  if (options == options_) return {};
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  if (options.supersampling != options_.supersampling) {
+    PLEINAIR_RETURN_IF_ERROR(SetRenderSize(options));
+  }
+  const bool other_shaders = options.shadow_method != options_.shadow_method ||
+                             options.shadow_partitions != options_.shadow_partitions;
+  if (other_shaders || options.shadow_split_weight != options_.shadow_split_weight ||
+      options.shadow_blur_distance_m != options_.shadow_blur_distance_m) {
+    PLEINAIR_RETURN_IF_ERROR(MakeShadows(options));
+  }
+  if (other_shaders) {
+    for (auto& programs : surface_programs_) programs.reset();
+    PLEINAIR_RETURN_IF_ERROR(MakeSurfacePrograms());
+  }
+  options_ = options;
+  return {};
+}
+
+void GlComposer::MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) {
+  glm::dmat4 moved(1.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) moved[column][row] = linear(row, column);
+  }
+  moved[3] = glm::dvec4(translation_m.x, translation_m.y, translation_m.z, 1.0);
+  moved_[placed_model] = moved;
+  PlaceCasters();
+}
+
+/// Casters and bounds with the models where they were moved to.
+void GlComposer::PlaceCasters() {
+  for (auto& casters : casters_) casters.clear();
+  object_bounds_ = scene_bounds_ = {};
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const SurfaceBuffers& surface = surfaces_[i];
+    shadows::ShadowCaster caster;
+    caster.vertices = &surface.vertex_array();
+    caster.index_count = surface.index_count();
+    caster.revision = revision_;
+    caster.marker_from_model = moved_[surface.placed_model()];
+    const shadows::Box& lit = lit_bounds_[i];
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec4 point((corner & 1) != 0 ? lit.max.x : lit.min.x,
+                             (corner & 2) != 0 ? lit.max.y : lit.min.y,
+                             (corner & 4) != 0 ? lit.max.z : lit.min.z, 1.0);
+      caster.bounds.Include(glm::dvec3(caster.marker_from_model * point));
+    }
+    scene_bounds_.Include(caster.bounds);
+    if (surface.is_phantom()) {
+      casters_[kPhantomsAlone].push_back(caster);
+    } else {
+      object_bounds_.Include(caster.bounds);
+    }
+    casters_[kWithObjects].push_back(caster);
+  }
 }
 
 Result<void> GlComposer::MakeSurfacePrograms() {
@@ -263,28 +344,19 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
   SetSun(day, marker_from_world);
   surfaces_.clear();
   surfaces_.reserve(lit.size());  // The casters point into it.
-  for (auto& casters : casters_) casters.clear();
+  lit_bounds_.clear();
+  moved_.assign(scene_.size(), glm::dmat4(1.0));
   phantom_triangles_.clear();
   sorted_for_.reset();
-  object_bounds_ = scene_bounds_ = {};
   ++revision_;
   for (const LitMesh& mesh : lit) {
     PLEINAIR_ASSIGN_OR_RETURN(SurfaceBuffers surface, SurfaceBuffers::Create(mesh));
     surfaces_.push_back(std::move(surface));
-    shadows::ShadowCaster caster;
-    caster.vertices = &surfaces_.back().vertex_array();
-    caster.index_count = surfaces_.back().index_count();
-    caster.revision = revision_;
-    for (const auto& p : mesh.positions) caster.bounds.Include({p[0], p[1], p[2]});
-    scene_bounds_.Include(caster.bounds);
-    if (mesh.is_phantom) {
-      casters_[kPhantomsAlone].push_back(caster);
-      phantom_triangles_.emplace_back(mesh);
-    } else {
-      object_bounds_.Include(caster.bounds);
-    }
-    casters_[kWithObjects].push_back(caster);
+    lit_bounds_.emplace_back();
+    for (const auto& p : mesh.positions) lit_bounds_.back().Include({p[0], p[1], p[2]});
+    if (mesh.is_phantom) phantom_triangles_.emplace_back(mesh);
   }
+  PlaceCasters();
   const EnvironmentMap map = BuildEnvironmentMap(
       day, marker_from_world, MeanGroundRadiance(lit, scene_, sun_normal_, to_sun_));
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
@@ -398,6 +470,7 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
   for (const SurfaceBuffers& surface : surfaces_) {
     if (surface.is_phantom()) continue;
     SetMaterial(programs.objects, surface);
+    programs.objects.Set("u_marker_from_lit", glm::mat4(moved_[surface.placed_model()]));
     surface.Draw();
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

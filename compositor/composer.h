@@ -27,6 +27,8 @@ struct ComposerOptions {
   double shadow_split_weight = 0.5;  ///< λ of the paper's Eq. 11, for maps fitted to the view.
   /// Methods that blur moments: distance of the blocker at which the blur has the sun's width.
   double shadow_blur_distance_m = 1.0;
+
+  bool operator==(const ComposerOptions&) const = default;
 };
 
 /// Draws the virtual objects of a scene into camera pictures: hidden by phantoms, lit by sun and
@@ -39,6 +41,13 @@ class Composer {
                                                   const std::vector<PlacedModel>& scene,
                                                   const ComposerOptions& options);
   virtual ~Composer() = default;
+
+  /// Draws by other options from now on; builds anew only what they change. Errors as Create().
+  virtual Result<void> SetOptions(const ComposerOptions& options) = 0;
+
+  /// Moves a placed model from where it stood when the light was made: x' = linear x +
+  /// translation. The light on it and around it stays, until SetLight().
+  virtual void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) = 0;
 
   /// The light from now on. `lit` is what a LightSolver made of the same scene and daylight.
   virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& daylight,

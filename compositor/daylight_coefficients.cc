@@ -158,6 +158,7 @@ DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
   const int chunks = coefficients.with.chunks();
   for (int chunk = 0; chunk < chunks; ++chunk) {
     for (const int k : {0, 1}) {
+      if (options.stop != nullptr && *options.stop) return coefficients;
       CoefficientMatrix* matrix = k == 0 ? &coefficients.with : &coefficients.without;
       coefficients.reflections = std::max(coefficients.reflections,
                                           transfer.Follow(chunk, k, options.convergence, matrix));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -23,6 +24,8 @@ struct CoefficientOptions {
   double convergence = 0.01;
   int threads = 0;                   ///< 0: as many as there are processors.
   std::filesystem::path cache = {};  ///< Folder; empty: nothing is kept.
+  /// Once it is set, the computation ends soon; what it gives then is incomplete and not kept.
+  const std::atomic<bool>* stop = nullptr;
 };
 
 /// How far the computation is, 0…1. May be called from any thread, one at a time.

@@ -55,7 +55,8 @@ class EmbreeLightSolver : public LightSolver {
       if (found && found->with.vertices() == scene_.vertex_count) return *std::move(found);
     }
     DaylightCoefficients computed = ComputeCoefficients(scene_, up, options, progress);
-    if (!options.cache.empty()) WriteCoefficients(options.cache, hash, computed);
+    const bool stopped = options.stop != nullptr && *options.stop;
+    if (!options.cache.empty() && !stopped) WriteCoefficients(options.cache, hash, computed);
     return computed;
   }
 

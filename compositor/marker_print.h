@@ -12,6 +12,7 @@ struct MarkerPrint {
   double black_band_m = 0.0;   ///< Width of the band along the outer edge that is surely black.
   double albedo_black = 0.04;  ///< Diffuse reflectances, 0…1.
   double albedo_white = 0.80;
+  bool operator==(const MarkerPrint&) const = default;
 };
 
 }  // namespace pleinair::compositor

@@ -12,8 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// The sun moves its own width in two minutes: looking every second is often enough.
-constexpr std::chrono::milliseconds kLookAtSunEvery{1000};
+// Weight of the newest period in the running mean.
+constexpr double kPeriodWeight = 0.1;
 // What is kept of each marker's path: enough to choose between two poses by the last one.
 constexpr std::size_t kObservationsKept = 1000;
 
@@ -58,19 +58,11 @@ Result<std::unique_ptr<LiveSession>> LiveSession::Create(
   LiveSession* self = session.get();
   self->threads_.emplace_back([self] { self->Capture(); });
   self->threads_.emplace_back([self] { self->Track(); });
-  // A lossless replay is to give the same pictures each time: the light is made while drawing.
-  if (!self->options_.lossless) self->threads_.emplace_back([self] { self->MakeLight(); });
   return session;
 }
 
 Result<void> LiveSession::Prepare() {
-  if (options_.record) {
-    std::error_code error;
-    if (fs::exists(*options_.record / "frames.pack", error)) {
-      return InputError(options_.record->string(), "holds a recording already",
-                        "record into another folder");
-    }
-  }
+  if (options_.record) PLEINAIR_RETURN_IF_ERROR(StartRecording(*options_.record));
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(options_.scene));
   PLEINAIR_ASSIGN_OR_RETURN(tracker_, tracker::Tracker::Create(options_.camera, tracking));
   PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(options_.camera, options_.scene,
@@ -84,7 +76,13 @@ Result<void> LiveSession::Prepare() {
     measurer_.emplace(options_.camera, options_.scene.marker.size_m);
     return {};
   }
-  return renderer_->LightUp(options_.start.value_or(WallClock()));
+  edit_ = UneditedScene(options_.scene, options_.composer);
+  if (!renderer_->DrawsObjects()) return {};
+  const UtcTime start = options_.start.value_or(WallClock());
+  PLEINAIR_ASSIGN_OR_RETURN(light_, LiveLight::Create({options_.camera, options_.scene,
+                                                       renderer_->placed(), options_.light, edit_,
+                                                       renderer_->OrderLight(start).skies, start}));
+  return renderer_->UseLight(light_->Take());
 }
 
 LiveSession::~LiveSession() { Stop(); }
@@ -94,7 +92,6 @@ void LiveSession::Stop() {
   if (options_.stop_source) options_.stop_source();
   captured_.Close();
   tracked_.Close();
-  light_.Close();
   for (std::thread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
@@ -102,12 +99,41 @@ void LiveSession::Stop() {
     if (auto finished = detections_->writer().Finish(); !finished) Fail(finished.error());
     detections_.reset();
   }
-  if (recorder_) {
-    recorder_->Finish();
-    const std::lock_guard lock(mutex_);
-    statistics_.recorded = recorder_->recorded();
-    if (!recording_trouble_) recording_trouble_ = recorder_->trouble();
+  if (light_) light_->Stop();
+  StopRecording();
+}
+
+Result<void> LiveSession::StartRecording(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "frames.pack", error)) {
+    return InputError(folder.string(), "holds a recording already", "record into another folder");
   }
+  StopRecording();
+  const std::lock_guard lock(mutex_);
+  record_into_ = folder;
+  recording_trouble_.reset();
+  return {};
+}
+
+void LiveSession::StopRecording() {
+  std::shared_ptr<LiveRecorder> ended;
+  {
+    const std::lock_guard lock(mutex_);
+    record_into_.reset();
+    ended = std::exchange(recorder_, nullptr);
+  }
+  if (!ended) return;
+  // What is queued is written without holding anybody up.
+  ended->Finish();
+  const std::lock_guard lock(mutex_);
+  statistics_.recorded += ended->recorded();
+  statistics_.left_out_of_recording += ended->left_out();
+  if (!recording_trouble_) recording_trouble_ = ended->trouble();
+}
+
+bool LiveSession::recording() const {
+  const std::lock_guard lock(mutex_);
+  return record_into_.has_value() && !recording_trouble_ && !(recorder_ && recorder_->trouble());
 }
 
 void LiveSession::Fail(Error error) {
@@ -146,28 +172,44 @@ void LiveSession::Capture() {
         first_stamp_ns_ = frame->timestamp_ns;
         first_moment_ = options_.start.value_or(WallClock());
       }
+      if (last_stamp_ns_) {
+        const double period_ms = static_cast<double>(frame->timestamp_ns - *last_stamp_ns_) * 1e-6;
+        double& mean_ms = statistics_.period_ms;
+        mean_ms = mean_ms == 0.0 ? period_ms : mean_ms + kPeriodWeight * (period_ms - mean_ms);
+      }
+      last_stamp_ns_ = frame->timestamp_ns;
       ++statistics_.captured;
       statistics_.loss += frame->loss;
     }
-    if (options_.record) Record(frame);
+    Record(frame);
     if (!captured_.Give(frame)) break;
   }
   captured_.Close();
 }
 
 void LiveSession::Record(const FramePtr& frame) {
-  if (recording_trouble()) return;
-  if (!recorder_) {
-    auto made =
-        LiveRecorder::Create(*options_.record, options_.camera, options_.scene, MomentOf(*frame));
+  std::shared_ptr<LiveRecorder> recorder;
+  std::optional<fs::path> folder;
+  devices::SceneDescription scene = options_.scene;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!record_into_ || recording_trouble_) return;
+    recorder = recorder_;
+    folder = record_into_;
+    if (!options_.lossless) scene = WithEdit(scene, edit_);
+  }
+  if (!recorder) {
+    auto made = LiveRecorder::Create(*folder, options_.camera, scene, MomentOf(*frame));
     const std::lock_guard lock(mutex_);
     if (!made) {
       recording_trouble_ = made.error();
       return;
     }
-    recorder_ = *std::move(made);
+    recorder = *std::move(made);
+    // Ended meanwhile: the frame is its last one.
+    if (record_into_ == folder) recorder_ = recorder;
   }
-  recorder_->Add(frame);
+  recorder->Add(frame);
 }
 
 void LiveSession::Track() {
@@ -213,21 +255,30 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   return tracked;
 }
 
-void LiveSession::MakeLight() {
-  const std::int64_t started_ns = Now_ns();
-  UtcTime lit = options_.start.value_or(WallClock());
-  while (!stop_) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    const std::int64_t passed_ns = Now_ns() - started_ns;
-    const UtcTime now = options_.start
-                            ? UtcTime(options_.start->nanoseconds_since_1970() + passed_ns)
-                            : WallClock();
-    const std::chrono::nanoseconds since(now.nanoseconds_since_1970() -
-                                         lit.nanoseconds_since_1970());
-    if (since < kLookAtSunEvery || !renderer_->NeedsLight(lit, now)) continue;
-    light_.Give(renderer_->PrepareLight(now));
-    lit = now;
+void LiveSession::Edit(const SceneEdit& edit) {
+  const std::lock_guard lock(mutex_);
+  edit_ = edit;
+  edited_ = true;
+}
+
+/// Edits since the last frame, and the light made since.
+Result<void> LiveSession::TakeEdit(const devices::Frame& frame) {
+  if (options_.lossless) return {};
+  std::optional<SceneEdit> edit;
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(edited_, false)) edit = edit_;
   }
+  if (edit) {
+    SceneEdit drawn = *edit;
+    drawn.drawing = detail_.Apply(*edit);
+    PLEINAIR_RETURN_IF_ERROR(renderer_->Edit(drawn));
+    if (light_) light_->SetEdit(*edit);
+  }
+  if (!light_) return {};
+  light_->SetTime(MomentOf(frame));
+  if (auto light = light_->Take()) return renderer_->UseLight(std::move(light));
+  return {};
 }
 
 Result<std::optional<DrawnFrame>> LiveSession::Draw(std::chrono::milliseconds limit) {
@@ -238,29 +289,44 @@ Result<std::optional<DrawnFrame>> LiveSession::Draw(std::chrono::milliseconds li
   }
   if (!next) return std::nullopt;
   const auto start = Clock::now();
-  if (const auto light = light_.TakeWithin(std::chrono::milliseconds(0))) {
-    PLEINAIR_RETURN_IF_ERROR(renderer_->UseLight(*light));
-  }
+  const UtcTime moment = MomentOf(*next->frame);
   if (next->anchor && next->anchor != shown_anchor_) {
-    renderer_->SetMarkerPrint(PrintOf(options_.scene.marker, *next->anchor));
+    const compositor::MarkerPrint print = PrintOf(options_.scene.marker, *next->anchor);
+    renderer_->SetMarkerPrint(print);
+    if (light_) light_->SetPrint(print);
     shown_anchor_ = next->anchor;
   }
-  DrawnFrame drawn{next->frame, next->camera_from_marker, {}, {}};
+  PLEINAIR_RETURN_IF_ERROR(TakeEdit(*next->frame));
+  DrawnFrame drawn{next->frame, next->camera_from_marker, {}, moment, {}};
   if (next->camera_from_marker) {
-    PLEINAIR_ASSIGN_OR_RETURN(drawn.picture,
-                              renderer_->Render(next->frame->rgb.view(), *next->camera_from_marker,
-                                                MomentOf(*next->frame)));
+    if (light_) light_->Show(next->frame, *next->camera_from_marker, moment);
+    PLEINAIR_ASSIGN_OR_RETURN(drawn.picture, renderer_->Render(next->frame->rgb.view(),
+                                                               *next->camera_from_marker, moment));
   } else {
     drawn.picture = next->frame->rgb;
   }
+  drawn.light = renderer_->light();
+  CountDrawn(*next->frame, Milliseconds(start));
+  return drawn;
+}
+
+void LiveSession::CountDrawn(const devices::Frame& frame, double draw_ms) {
   const std::lock_guard lock(mutex_);
   ++statistics_.drawn;
-  statistics_.draw_ms = Milliseconds(start);
-  if (!options_.lossless) {
-    drawn.latency_ms = static_cast<double>(Now_ns() - next->frame->timestamp_ns) * 1e-6;
-    latency_.Add(*drawn.latency_ms);
+  statistics_.draw_ms = draw_ms;
+  statistics_.render = renderer_->times();
+  if (options_.lossless) return;
+  if (!options_.shown_elsewhere) {
+    latency_.Add(static_cast<double>(Now_ns() - frame.timestamp_ns) * 1e-6);
   }
-  return drawn;
+  const bool draws = renderer_->DrawsObjects() && edit_.detail == Detail::kAutomatic;
+  if (draws && detail_.Add(statistics_.render.compose_ms, statistics_.period_ms)) edited_ = true;
+}
+
+void LiveSession::Shown(const DrawnFrame& frame) {
+  const std::lock_guard lock(mutex_);
+  ++statistics_.shown;
+  latency_.Add(static_cast<double>(Now_ns() - frame.frame->timestamp_ns) * 1e-6);
 }
 
 LiveStatistics LiveSession::statistics() const {
@@ -269,9 +335,11 @@ LiveStatistics LiveSession::statistics() const {
   statistics.late_for_tracking = captured_.dropped();
   statistics.late_for_drawing = tracked_.dropped();
   statistics.latency = latency_.Summarize();
+  statistics.detail = detail_.detail();
+  if (light_) statistics.light = light_->progress();
   if (recorder_) {
-    statistics.recorded = recorder_->recorded();
-    statistics.left_out_of_recording = recorder_->left_out();
+    statistics.recorded += recorder_->recorded();
+    statistics.left_out_of_recording += recorder_->left_out();
   }
   return statistics;
 }

@@ -13,6 +13,8 @@
 
 #include "app/live/hand_over.h"
 #include "app/live/latency_meter.h"
+#include "app/live/live_detail.h"
+#include "app/live/live_light.h"
 #include "app/live/live_recorder.h"
 #include "app/measured_sky.h"
 #include "app/print_measurer.h"
@@ -38,6 +40,8 @@ struct LiveOptions {
   bool lossless = false;
   std::optional<std::filesystem::path> record;      ///< Folder of a new recording.
   std::optional<std::filesystem::path> detections;  ///< File for what was seen, a line a frame.
+  /// Frames are shown elsewhere, which tells by Shown() when: latency counts until then.
+  bool shown_elsewhere = false;
   /// Ends the source's waiting; called from another thread.
   std::function<void()> stop_source;
 };
@@ -47,7 +51,8 @@ struct DrawnFrame {
   std::shared_ptr<const devices::Frame> frame;
   std::optional<Transform<Camera, Marker>> camera_from_marker;
   RgbImage picture;  ///< With the virtual objects; the camera's own where no marker is seen.
-  std::optional<double> latency_ms;  ///< From the stamp to now; nothing in a lossless replay.
+  UtcTime moment;    ///< Of the frame, with what an edit adds.
+  LightSummary light;
 };
 
 struct LiveStatistics {
@@ -55,14 +60,19 @@ struct LiveStatistics {
   std::int64_t tracked = 0;
   std::int64_t with_pose = 0;
   std::int64_t drawn = 0;
+  std::int64_t shown = 0;              ///< Where they are shown elsewhere.
   std::int64_t late_for_tracking = 0;  ///< Replaced by a newer frame before it was tracked.
   std::int64_t late_for_drawing = 0;   ///< Tracked, and replaced before it was drawn.
   devices::FrameLoss loss;             ///< Before we got them.
   std::int64_t recorded = 0;
   std::int64_t left_out_of_recording = 0;
-  LatencyMeter::Summary latency;
-  double track_ms = 0.0;  ///< Of the last frame.
+  LatencyMeter::Summary latency;  ///< From a frame's stamp until it was drawn, or shown.
+  double period_ms = 0.0;         ///< Between frames' stamps.
+  double track_ms = 0.0;          ///< Of the last frame.
+  RenderTimes render;
   double draw_ms = 0.0;
+  Detail detail = Detail::kFine;
+  LiveLight::Progress light;
 };
 
 /// Capturing, tracking, light and recording on threads of their own, handing frames on through
@@ -83,13 +93,23 @@ class LiveSession {
   /// The source is at its end and every frame has been drawn.
   bool finished() const { return tracked_.finished(); }
 
+  /// Changes the scene from the next frame on; its light follows when it is made. Any thread.
+  void Edit(const SceneEdit& edit);
+
+  /// Notes that a drawn frame is on the screen now.
+  void Shown(const DrawnFrame& frame);
+
+  /// Starts recording into a new folder, or ends it. Any thread. Errors: it holds a recording.
+  Result<void> StartRecording(const std::filesystem::path& folder);
+  void StopRecording();
+  bool recording() const;
+
   /// Ends all threads; frames on their way are drawn no more.
   void Stop();
 
   LiveStatistics statistics() const;
   /// Why recording ended before its time.
   std::optional<Error> recording_trouble() const;
-  const LightSummary& light() const { return renderer_->light(); }
 
  private:
   using FramePtr = std::shared_ptr<const devices::Frame>;
@@ -104,10 +124,11 @@ class LiveSession {
   void Capture();
   void Track();
   Result<Tracked> TrackOne(FramePtr frame);
-  void MakeLight();
+  Result<void> TakeEdit(const devices::Frame& frame);
   void Record(const FramePtr& frame);
   void Fail(Error error);
   UtcTime MomentOf(const devices::Frame& frame) const;
+  void CountDrawn(const devices::Frame& frame, double draw_ms);
 
   LiveOptions options_;
   std::unique_ptr<devices::FrameSource> source_;
@@ -120,13 +141,18 @@ class LiveSession {
 
   HandOver<FramePtr> captured_;
   HandOver<Tracked> tracked_;
-  HandOver<std::shared_ptr<const SceneRenderer::Light>> light_{1, WhenFull::kReplaceOldest};
-  std::unique_ptr<LiveRecorder> recorder_;  // Made with the first frame, under the mutex.
+  std::unique_ptr<LiveLight> light_;  // Not where frames are drawn without loss.
+  // Made with the first frame after recording was asked for. Under the mutex.
+  std::shared_ptr<LiveRecorder> recorder_;
+  std::optional<std::filesystem::path> record_into_;
 
   std::atomic<bool> stop_ = false;
   std::optional<MarkerName> shown_anchor_;
+  LiveDetail detail_;
+  SceneEdit edit_;
+  bool edited_ = false;
   mutable std::mutex mutex_;
-  std::optional<std::int64_t> first_stamp_ns_;
+  std::optional<std::int64_t> first_stamp_ns_, last_stamp_ns_;
   UtcTime first_moment_;
   std::optional<Error> error_;
   std::optional<Error> recording_trouble_;

@@ -8,6 +8,8 @@ layout(location = 3) in vec3 in_ambient_with;     // Sky and bounced light with 
 layout(location = 4) in vec3 in_ambient_without;  // The same with the phantoms alone.
 
 uniform mat4 u_clip_from_marker;
+// Where a model was moved to since its light was made. Angles stay, so that normals turn with it.
+uniform mat4 u_marker_from_lit = mat4(1.0);
 
 out vec3 v_position_m;
 out vec3 v_normal;
@@ -18,10 +20,11 @@ centroid out vec3 v_ambient_with;
 centroid out vec3 v_ambient_without;
 
 void main() {
-  v_position_m = in_position;
-  v_normal = in_normal;
+  vec4 position = u_marker_from_lit * vec4(in_position, 1.0);
+  v_position_m = position.xyz;
+  v_normal = mat3(u_marker_from_lit) * in_normal;
   v_uv = in_uv;
   v_ambient_with = in_ambient_with;
   v_ambient_without = in_ambient_without;
-  gl_Position = u_clip_from_marker * vec4(in_position, 1.0);
+  gl_Position = u_clip_from_marker * position;
 }

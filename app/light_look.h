@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "app/measured_sky.h"
+#include "app/scene_light.h"
+#include "base/camera_model.h"
+#include "base/image.h"
+#include "compositor/light_meter.h"
+#include "compositor/surface_samples.h"
+#include "devices/scene_description.h"
+
+namespace pleinair::app {
+
+/// What frames have told of the light.
+struct FoundLight {
+  MeasuredLight measured;
+  Radians heading;  ///< Of the marker.
+  /// Null source: the frames did not tell, the scene's words hold.
+  DaySkies skies;
+};
+
+/// Reads heading, sun and sky from the shadows that phantoms cast in frames. All frames share one
+/// sun: that of the first's time.
+class LightLook {
+ public:
+  /// `scene`: with the stated or overriding heading.
+  LightLook(std::shared_ptr<const compositor::LightSolver> solver, const CameraModel& camera,
+            const compositor::MarkerPrint& print, const devices::SceneDescription& scene,
+            const LightOverrides& overrides, UtcTime time);
+
+  void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker);
+  int frames() const { return samples_.frames(); }
+
+  /// Draws the conclusions. Takes a second or two.
+  FoundLight Settle() const;
+
+ private:
+  std::shared_ptr<const compositor::LightSolver> solver_;
+  CameraModel camera_;
+  devices::SceneDescription scene_;
+  LightOverrides overrides_;
+  sky::SunPosition sun_;
+  std::unique_ptr<sky::SkyModel> day_;  // With a sun, whatever the scene says.
+  compositor::SurfaceSamples samples_;
+  compositor::LightMeter meter_;
+  LinearRgb gain_{1.0, 1.0, 1.0};  // Of the last frame that could be metered.
+};
+
+}  // namespace pleinair::app

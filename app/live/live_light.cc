@@ -1,0 +1,249 @@
+#include "app/live/live_light.h"
+
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <utility>
+
+namespace pleinair::app {
+namespace {
+
+// The light is read from so many frames, at least so far apart, as replay does; and again after a
+// while, since clouds pass.
+constexpr int kLightFrames = 8;
+constexpr double kBetweenLooks_s = 0.3, kBetweenMeasurements_s = 60.0;
+// Of lights that stand until the daylight coefficients are there.
+constexpr int kFewRays = 48;
+constexpr std::chrono::milliseconds kLookAround{100};
+// Below everything that a frame waits for.
+constexpr int kNice = 10;
+
+void LowerPriority() {
+  // Of this thread, and of those that it starts: Linux counts niceness by thread. Where it is
+  // refused, nothing is lost but time.
+  static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice));
+}
+
+}  // namespace
+
+bool LiveLight::Wanted::operator==(const Wanted& other) const {
+  return edit.sky == other.edit.sky && edit.heading_deg == other.edit.heading_deg &&
+         edit.objects == other.edit.objects && print == other.print;
+}
+
+LiveLight::LiveLight(Setup setup)
+    : setup_(std::move(setup)),
+      heading_(setup_.scene.marker.heading),
+      wanted_{setup_.edit, setup_.time, {}},
+      next_look_(setup_.time) {}
+
+Result<std::unique_ptr<LiveLight>> LiveLight::Create(Setup setup) {
+  std::unique_ptr<LiveLight> light(new LiveLight(std::move(setup)));
+  PLEINAIR_RETURN_IF_ERROR(light->Place(light->setup_.edit.objects));
+  light->Make(light->wanted_);
+  light->thread_ = std::thread([self = light.get()] { self->Run(); });
+  return light;
+}
+
+LiveLight::~LiveLight() { Stop(); }
+
+void LiveLight::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void LiveLight::SetEdit(const SceneEdit& edit) {
+  const std::lock_guard lock(mutex_);
+  wanted_.edit = edit;
+  changed_.notify_all();
+}
+
+void LiveLight::SetTime(UtcTime time) {
+  const std::lock_guard lock(mutex_);
+  wanted_.time = time;
+}
+
+void LiveLight::SetPrint(const compositor::MarkerPrint& print) {
+  const std::lock_guard lock(mutex_);
+  wanted_.print = print;
+  changed_.notify_all();
+}
+
+void LiveLight::Show(std::shared_ptr<const devices::Frame> frame,
+                     const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
+  const std::lock_guard lock(mutex_);
+  if (time < next_look_) return;
+  next_look_ = time.PlusSeconds(kBetweenLooks_s);
+  shown_ = Shown{std::move(frame), camera_from_marker, time};
+  changed_.notify_all();
+}
+
+std::shared_ptr<const SceneLight> LiveLight::Take() {
+  const std::lock_guard lock(mutex_);
+  return std::move(newest_);
+}
+
+LiveLight::Progress LiveLight::progress() const {
+  const std::lock_guard lock(mutex_);
+  Progress progress = progress_;
+  progress.coefficients = coefficients_share_;
+  return progress;
+}
+
+void LiveLight::Run() {
+  LowerPriority();
+  while (true) {
+    Wanted wanted;
+    std::optional<Shown> shown;
+    {
+      std::unique_lock lock(mutex_);
+      if (!stop_) changed_.wait_for(lock, kLookAround);
+      if (stop_) break;
+      wanted = wanted_;
+      shown = std::exchange(shown_, std::nullopt);
+    }
+    if (coefficients_done_) TakeCoefficients();
+    if (wanted.edit.objects != placed_objects_ ||
+        (coefficients_ && wanted.edit.convergence != coefficients_convergence_)) {
+      EndCoefficients();
+      // What cannot be placed stays where it was, and lit as it was.
+      if (!Place(wanted.edit.objects)) wanted.edit.objects = placed_objects_;
+    }
+    if (NeedsLight(wanted)) Make(wanted);
+    if (shown) Look(*shown, wanted);
+    if (!coefficients_ && !coefficients_thread_.joinable()) StartCoefficients(wanted);
+  }
+  EndCoefficients();
+}
+
+/// A solver for the objects at these places.
+Result<void> LiveLight::Place(const std::vector<ObjectPlace>& objects) {
+  placed_objects_ = objects;
+  const std::size_t phantoms = setup_.placed.size() - objects.size();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    setup_.placed[phantoms + i].linear = LinearOf(objects[i]);
+    setup_.placed[phantoms + i].translation_m = objects[i].translation_m;
+  }
+  compositor::LightSolverOptions options;
+  options.rays_per_vertex = kFewRays;
+  PLEINAIR_ASSIGN_OR_RETURN(solver_, compositor::LightSolver::Create(setup_.placed, options));
+  made_for_.reset();
+  return {};
+}
+
+bool LiveLight::NeedsLight(const Wanted& wanted) const {
+  if (!made_for_ || !(*made_for_ == wanted)) return true;
+  const sky::SunPosition sun = SunOver(WithEdit(setup_.scene, wanted.edit).place_time,
+                                       wanted.time.PlusSeconds(wanted.edit.later_s));
+  return !IsNearSun(made_sun_, sun);
+}
+
+LightOrder LiveLight::OrderFor(const Wanted& wanted) {
+  devices::SceneDescription scene = setup_.scene;
+  scene.marker.heading = heading_;
+  scene = WithEdit(scene, wanted.edit);
+  if (!wanted.edit.sky) {
+    skies_ = found_skies_.source ? found_skies_ : setup_.skies;
+    skies_of_.reset();
+  } else if (wanted.edit.sky != skies_of_) {
+    sky::SkyConditions conditions;
+    conditions.turbidity = wanted.edit.sky->turbidity;
+    conditions.cloud_cover = wanted.edit.sky->cloud_cover;
+    auto source = sky::SkySource::Create({sky::SkyModelKind::kAtmosphere, 0}, conditions);
+    // Outside what the sky model takes, the last one stays.
+    if (source) skies_ = {*std::move(source), {1.0, 1.0, 1.0}};
+    skies_of_ = wanted.edit.sky;
+  }
+  return {wanted.time.PlusSeconds(wanted.edit.later_s),
+          scene.place_time,
+          scene.marker,
+          skies_,
+          solver_,
+          coefficients_,
+          wanted.print};
+}
+
+void LiveLight::Make(const Wanted& wanted) {
+  auto light = std::make_shared<SceneLight>(OrderFor(wanted));
+  light->objects = placed_objects_;
+  made_for_ = wanted;
+  made_sun_ = light->sun;
+  const std::lock_guard lock(mutex_);
+  progress_.heading_deg = ToDegrees(light->order.marker.heading);
+  newest_ = std::move(light);
+}
+
+/// Whether what frames show is the light that the scene is drawn in: not of another time or place.
+bool LiveLight::MayLook(const Wanted& wanted) const {
+  const LightOverrides& overrides = setup_.overrides;
+  return !overrides.as_stated && !(overrides.sun_to_sky && overrides.heading_deg) &&
+         !setup_.scene.phantoms.empty() && wanted.print.size_m > 0.0 &&
+         !(wanted.edit.sky && wanted.edit.heading_deg) && wanted.edit.later_s == 0.0 &&
+         wanted.edit.latitude_deg == setup_.scene.place_time.latitude_deg &&
+         wanted.edit.longitude_deg == setup_.scene.place_time.longitude_deg;
+}
+
+void LiveLight::Look(const Shown& shown, const Wanted& wanted) {
+  if (!MayLook(wanted)) {
+    look_.reset();
+    return;
+  }
+  if (!look_) {
+    look_ = std::make_unique<LightLook>(solver_, setup_.camera, wanted.print, setup_.scene,
+                                        setup_.overrides, shown.time);
+  }
+  look_->Add(shown.frame->rgb.view(), shown.camera_from_marker);
+  {
+    const std::lock_guard lock(mutex_);
+    progress_.measuring = true;
+  }
+  if (look_->frames() < kLightFrames) return;
+  const FoundLight found = look_->Settle();
+  look_.reset();
+  found_skies_ = found.skies;
+  heading_ = found.heading;
+  made_for_.reset();
+  const std::lock_guard lock(mutex_);
+  progress_.measured = found.measured;
+  progress_.measuring = false;
+  next_look_ = shown.time.PlusSeconds(kBetweenMeasurements_s);
+}
+
+void LiveLight::StartCoefficients(const Wanted& wanted) {
+  coefficients_convergence_ = wanted.edit.convergence;
+  coefficients_thread_ = std::thread(
+      [this, solver = solver_, up = MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0}] {
+        compositor::CoefficientOptions options;
+        options.convergence = coefficients_convergence_;
+        options.stop = &stop_coefficients_;
+        coefficients_result_ =
+            std::make_shared<const compositor::DaylightCoefficients>(solver->Coefficients(
+                up, options, [this](double share) { coefficients_share_ = share; }));
+        coefficients_done_ = true;
+      });
+}
+
+/// What was computed, or is being, is for another geometry.
+void LiveLight::EndCoefficients() {
+  stop_coefficients_ = true;
+  if (coefficients_thread_.joinable()) coefficients_thread_.join();
+  stop_coefficients_ = coefficients_done_ = false;
+  coefficients_share_ = 0.0;
+  coefficients_result_.reset();
+  coefficients_.reset();
+}
+
+void LiveLight::TakeCoefficients() {
+  coefficients_thread_.join();
+  coefficients_done_ = false;
+  coefficients_ = std::move(coefficients_result_);
+  made_for_.reset();
+}
+
+}  // namespace pleinair::app

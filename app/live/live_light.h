@@ -1,0 +1,123 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "app/light_look.h"
+#include "app/scene_edit.h"
+#include "app/scene_light.h"
+#include "base/camera_model.h"
+#include "base/error.h"
+#include "base/utc_time.h"
+#include "devices/frame_source.h"
+#include "devices/scene_description.h"
+
+namespace pleinair::app {
+
+/// Makes the light of a live session, on threads of its own and at low priority, so that no frame
+/// waits for it: anew when the sun has moved, when the scene is edited, and when frames have told
+/// of sun and sky. The first lights are traced with few rays; meanwhile daylight coefficients are
+/// computed, from which each further light takes milliseconds. Then the frames are looked at for
+/// the phantoms' shadows, as replay does, and again every minute.
+class LiveLight {
+ public:
+  struct Setup {
+    CameraModel camera;
+    devices::SceneDescription scene;
+    std::vector<compositor::PlacedModel> placed;  ///< Phantoms, then objects.
+    LightOverrides overrides;
+    SceneEdit edit;
+    DaySkies skies;  ///< As stated or overridden.
+    UtcTime time;
+  };
+
+  /// Makes the first light and starts. Errors: the geometry.
+  static Result<std::unique_ptr<LiveLight>> Create(Setup setup);
+  ~LiveLight();
+
+  /// These change what the next light is made for; any thread.
+  void SetEdit(const SceneEdit& edit);
+  void SetTime(UtcTime time);
+  void SetPrint(const compositor::MarkerPrint& print);
+
+  /// Offers a frame to measure the light in; few are taken.
+  void Show(std::shared_ptr<const devices::Frame> frame,
+            const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
+
+  /// The newest light where it was not taken yet, otherwise null.
+  std::shared_ptr<const SceneLight> Take();
+
+  /// How the work is going.
+  struct Progress {
+    MeasuredLight measured;
+    double heading_deg = 0.0;  ///< Of the marker, in use.
+    bool measuring = false;
+    double coefficients = 0.0;  ///< 0…1: share of the daylight coefficients that is computed.
+  };
+  Progress progress() const;
+
+  void Stop();
+
+ private:
+  struct Wanted {
+    SceneEdit edit;
+    UtcTime time;
+    compositor::MarkerPrint print;
+    /// Of what a light is made for besides the sun's place.
+    bool operator==(const Wanted& other) const;
+  };
+  struct Shown {
+    std::shared_ptr<const devices::Frame> frame;
+    Transform<Camera, Marker> camera_from_marker;
+    UtcTime time;
+  };
+
+  explicit LiveLight(Setup setup);
+  void Run();
+  Result<void> Place(const std::vector<ObjectPlace>& objects);
+  void Make(const Wanted& wanted);
+  bool NeedsLight(const Wanted& wanted) const;
+  void Look(const Shown& shown, const Wanted& wanted);
+  void StartCoefficients(const Wanted& wanted);
+  void EndCoefficients();
+  void TakeCoefficients();
+  LightOrder OrderFor(const Wanted& wanted);
+  bool MayLook(const Wanted& wanted) const;
+
+  Setup setup_;  // Its places of models follow the edits.
+  std::thread thread_;
+
+  // Of the thread alone.
+  std::shared_ptr<const compositor::LightSolver> solver_;
+  std::vector<ObjectPlace> placed_objects_;
+  std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
+  double coefficients_convergence_ = 0.0;
+  DaySkies skies_;
+  std::optional<SceneEdit::Sky> skies_of_;  // The edit's air that they were made for.
+  DaySkies found_skies_;
+  Radians heading_;
+  std::unique_ptr<LightLook> look_;
+  std::optional<Wanted> made_for_;
+  sky::SunPosition made_sun_;
+  std::thread coefficients_thread_;
+  std::atomic<bool> stop_coefficients_ = false, coefficients_done_ = false;
+  std::atomic<double> coefficients_share_ = 0.0;
+  std::shared_ptr<const compositor::DaylightCoefficients> coefficients_result_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stop_ = false;
+  Wanted wanted_;
+  std::optional<Shown> shown_;
+  UtcTime next_look_;
+  std::shared_ptr<const SceneLight> newest_;
+  Progress progress_;
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,83 @@
+#include "app/scene_edit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "sky/sky_model.h"
+
+namespace pleinair::app {
+namespace {
+
+/// Rotation about x, then y, then z.
+Mat3 RotationXyz(Vec3 degrees) {
+  const auto about = [](int axis, double angle_deg) {
+    const double c = std::cos(angle_deg * kRadiansPerDegree);
+    const double s = std::sin(angle_deg * kRadiansPerDegree);
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    Mat3 rotation;
+    rotation(i, i) = c;
+    rotation(i, j) = -s;
+    rotation(j, i) = s;
+    rotation(j, j) = c;
+    return rotation;
+  };
+  return about(2, degrees.z) * about(1, degrees.y) * about(0, degrees.x);
+}
+
+}  // namespace
+
+Mat3 LinearOf(const ObjectPlace& place) {
+  Mat3 linear = RotationXyz(place.rotation_deg);
+  for (double& element : linear.m) element *= place.scale;
+  return linear;
+}
+
+SceneEdit UneditedScene(const devices::SceneDescription& scene,
+                        const compositor::ComposerOptions& drawing) {
+  SceneEdit edit;
+  edit.latitude_deg = scene.place_time.latitude_deg;
+  edit.longitude_deg = scene.place_time.longitude_deg;
+  edit.drawing = drawing;
+  for (const devices::ModelReference& object : scene.objects) {
+    edit.objects.push_back({object.translation_m, object.rotation_deg, object.scale});
+  }
+  return edit;
+}
+
+devices::SceneDescription WithEdit(const devices::SceneDescription& scene, const SceneEdit& edit) {
+  devices::SceneDescription edited = scene;
+  edited.place_time.latitude_deg = edit.latitude_deg;
+  edited.place_time.longitude_deg = edit.longitude_deg;
+  if (edit.heading_deg) edited.marker.heading = FromDegrees(*edit.heading_deg);
+  const std::size_t count = std::min(edited.objects.size(), edit.objects.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    edited.objects[i].translation_m = edit.objects[i].translation_m;
+    edited.objects[i].rotation_deg = edit.objects[i].rotation_deg;
+    edited.objects[i].scale = edit.objects[i].scale;
+  }
+  return edited;
+}
+
+SceneEdit::Sky StatedAir(const devices::SceneDescription& scene) {
+  // As sky/daylight.h has it.
+  constexpr double kHazyTurbidity = 3.2, kPartlyCloudyCover = 0.6;
+  SceneEdit::Sky air{sky::kDefaultTurbidity, 0.0};
+  switch (scene.cloudiness) {
+    case devices::Cloudiness::kClear:
+      break;
+    case devices::Cloudiness::kHazy:
+      air.turbidity = kHazyTurbidity;
+      break;
+    case devices::Cloudiness::kPartlyCloudy:
+      air.cloud_cover = kPartlyCloudyCover;
+      break;
+    case devices::Cloudiness::kOvercast:
+      air.cloud_cover = 1.0;
+      break;
+  }
+  if (scene.turbidity) air.turbidity = *scene.turbidity;
+  return air;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,48 @@
+#include "app/scene_light.h"
+
+#include <cmath>
+
+namespace pleinair::app {
+namespace {
+
+// The sun moves its own width in about two minutes; the light among surfaces is made anew
+// after half of that, the sun itself moves in every frame.
+constexpr double kSunStep = 0.25 * kRadiansPerDegree;
+
+std::vector<compositor::LitMesh> LightAmongSurfaces(const LightOrder& order,
+                                                    const sky::SkyModel& daylight,
+                                                    const Mat3& marker_from_world) {
+  if (!order.coefficients) return order.solver->Solve(daylight, marker_from_world);
+  return order.solver->Relight(*order.coefficients, daylight, marker_from_world);
+}
+
+}  // namespace
+
+Mat3 MarkerFromWorld(const devices::MarkerDescription& marker) {
+  const double s = std::sin(marker.heading.value()), c = std::cos(marker.heading.value());
+  if (marker.upright) return {{c, -s, 0, 0, 0, 1, -s, -c, 0}};
+  return {{c, -s, 0, s, c, 0, 0, 0, 1}};
+}
+
+sky::SunPosition SunOver(const devices::PlaceTime& place, UtcTime time) {
+  const sky::Observer observer{FromDegrees(place.latitude_deg), FromDegrees(place.longitude_deg),
+                               Metres(place.height_m)};
+  return sky::ComputeSunPosition(observer, time);
+}
+
+SceneLight::SceneLight(const LightOrder& light_order)
+    : order(light_order),
+      marker_from_world(MarkerFromWorld(order.marker)),
+      sun(SunOver(order.place, order.time)),
+      model(order.skies.source->ForSun(sun.ToSun(), sun.distance_au)),
+      daylight(*model, order.skies.scale, {1.0, 1.0, 1.0}),
+      meshes(LightAmongSurfaces(order, daylight, marker_from_world)) {
+  if (order.print.size_m <= 0.0) return;
+  meter.emplace(order.print, *order.solver, daylight, marker_from_world);
+}
+
+bool IsNearSun(const sky::SunPosition& made_for, const sky::SunPosition& now) {
+  return Norm(made_for.ToSun().xyz - now.ToSun().xyz) < kSunStep;
+}
+
+}  // namespace pleinair::app
