@@ -24,6 +24,7 @@ constexpr const char* kExamples =
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless\n"
+    "  pleinair accuracy --quick -o out/quick\n"
     "  pleinair devices\n"
     "  pleinair doctor\n"
     "'pleinair SUBCOMMAND --help' tells more. Exit codes: 0 done, 1 could not, 2 the input or\n"
@@ -77,6 +78,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddPathCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
+    AddAccuracyCommand(app, result);
+    AddReportCommand(app, result);
     AddDevicesCommand(app, result);
     AddBenchCommand(app, result);
     AddDoctorCommand(app, result);

@@ -30,6 +30,8 @@ void AddBoardCommand(CLI::App& app, CommandResult& result);
 void AddPathCommand(CLI::App& app, CommandResult& result);
 void AddSunCommand(CLI::App& app, CommandResult& result);
 void AddSkyCommand(CLI::App& app, CommandResult& result);
+void AddAccuracyCommand(CLI::App& app, CommandResult& result);
+void AddReportCommand(CLI::App& app, CommandResult& result);
 void AddDevicesCommand(CLI::App& app, CommandResult& result);
 void AddBenchCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);

@@ -18,11 +18,12 @@ const std::map<std::string, Names, std::less<>>& AllowedModules() {
       {"base", {}},
       {"devices", {"base"}},
       {"tracker", {"base"}},
+      {"accuracy", {"base", "tracker"}},
       {"sky", {"base"}},
       {"gl", {"base"}},
       {"shadows", {"base", "sky", "gl"}},
       {"compositor", {"base", "sky", "gl", "shadows"}},
-      {"app", {"base", "devices", "tracker", "sky", "gl", "shadows", "compositor"}},
+      {"app", {"base", "devices", "tracker", "accuracy", "sky", "gl", "shadows", "compositor"}},
   };
   return kAllowed;
 }
@@ -42,18 +43,18 @@ const std::vector<Library>& Libraries() {
       {"Eigen", {"Eigen/", "eigen3/", "unsupported/Eigen"}, {"base", "sky"}, true},
       {"OpenGL",
        {"epoxy/", "GL/", "EGL/", "GLFW/"},
-       {"base", "devices", "tracker", "sky", "app"},
+       {"base", "devices", "tracker", "accuracy", "sky", "app"},
        false},
       {"CLI11",
        {"CLI/"},
-       {"base", "devices", "tracker", "sky", "gl", "shadows", "compositor"},
+       {"base", "devices", "tracker", "accuracy", "sky", "gl", "shadows", "compositor"},
        true},
       {"AprilTag", {"apriltag/"}, {"base", "devices", "sky", "gl", "shadows", "compositor"}, true},
       {"a JSON, YAML or TOML library",
        {"nlohmann/", "yaml-cpp/", "toml"},
-       {"base", "tracker", "sky", "gl", "shadows", "compositor"},
+       {"base", "tracker", "accuracy", "sky", "gl", "shadows", "compositor"},
        true},
-      {"Embree", {"embree"}, {"base", "devices", "tracker", "sky", "gl"}, true},
+      {"Embree", {"embree"}, {"base", "devices", "tracker", "accuracy", "sky", "gl"}, true},
   };
   return kLibraries;
 }

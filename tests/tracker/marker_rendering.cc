@@ -12,30 +12,12 @@ namespace {
 
 constexpr int kSamples = 12;
 
-Mat3 RotationAbout(Vec3 axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle), t = 1.0 - c;
-  const auto [x, y, z] = axis;
-  return {{t * x * x + c, t * x * y - s * z, t * x * z + s * y, t * x * y + s * z, t * y * y + c,
-           t * y * z - s * x, t * x * z - s * y, t * y * z + s * x, t * z * z + c}};
-}
-
 /// Light of the print where a ray (undistorted, z = 1) meets it; negative beside it.
 class PrintUnderRays {
  public:
-  explicit PrintUnderRays(const RenderedMarker& marker) : marker_(marker) {
-    const Transform<Camera, Marker>& pose = marker.camera_from_marker;
-    const double half = 0.5 * marker.size.value();
-    Mat3 rays_from_print;
-    for (int row = 0; row < 3; ++row) {
-      const double t = row == 0   ? pose.translation_m.x
-                       : row == 1 ? pose.translation_m.y
-                                  : pose.translation_m.z;
-      rays_from_print(row, 0) = pose.rotation(row, 0) * half;
-      rays_from_print(row, 1) = pose.rotation(row, 1) * half;
-      rays_from_print(row, 2) = t;
-    }
-    print_from_rays_ = Adjugate(rays_from_print);
-  }
+  explicit PrintUnderRays(const RenderedMarker& marker)
+      : marker_(marker),
+        print_from_rays_(accuracy::PlaneFromRays(marker.camera_from_marker, marker.size)) {}
 
   double operator()(Vec2 ray) const {
     const Vec2 at = Apply(print_from_rays_, ray);
@@ -56,37 +38,8 @@ class PrintUnderRays {
 
  private:
   const RenderedMarker& marker_;
-  Mat3 print_from_rays_;
+  const Mat3 print_from_rays_;
 };
-
-/// Pixels that may see a print.
-struct PixelBox {
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-
-  bool Holds(int x, int y) const { return x >= left && x <= right && y >= top && y <= bottom; }
-};
-
-PixelBox BoxOf(const CameraModel& camera, const RenderedMarker& marker) {
-  constexpr int kSteps = 16;          // Along a side, since lenses bend sides.
-  constexpr double kMargin_px = 3.0;  // A pixel's own width, and what bends between two steps.
-  constexpr double kAll = 1e9;
-  const double half = 0.5 * marker.size.value() * marker.pattern->Extent();
-  PixelBox box;
-  for (int side = 0; side < 4; ++side) {
-    for (int step = 0; step < kSteps; ++step) {
-      const double along = step / static_cast<double>(kSteps);
-      const Vec2 from = kSquareCorners[side], to = kSquareCorners[(side + 1) % 4];
-      const Vec2 at = (from * (1.0 - along) + to * along) * half;
-      const Point<Camera> point = marker.camera_from_marker * Point<Marker>{{at.x, at.y, 0.0}};
-      // Partly behind the camera: it may be seen anywhere.
-      if (point.xyz.z < 1e-6) return {-kAll, kAll, -kAll, kAll};
-      const Vec2 pixel = ProjectToPixel(camera, point);
-      box = {std::min(box.left, pixel.x - kMargin_px), std::max(box.right, pixel.x + kMargin_px),
-             std::min(box.top, pixel.y - kMargin_px), std::max(box.bottom, pixel.y + kMargin_px)};
-    }
-  }
-  return box;
-}
 
 Image<double> Blurred(const Image<double>& sharp, double sigma_px) {
   const int radius = static_cast<int>(std::ceil(4.0 * sigma_px));
@@ -119,8 +72,11 @@ Image<double> Blurred(const Image<double>& sharp, double sigma_px) {
 GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMarker>& markers,
                         const RenderingOptions& options) {
   std::vector<PrintUnderRays> prints(markers.begin(), markers.end());
-  std::vector<PixelBox> boxes;
-  for (const RenderedMarker& marker : markers) boxes.push_back(BoxOf(camera, marker));
+  std::vector<accuracy::PixelBox> boxes;
+  for (const RenderedMarker& marker : markers) {
+    boxes.push_back(
+        accuracy::BoxOf(camera, marker.camera_from_marker, marker.size, marker.pattern->Extent()));
+  }
   std::vector<const PrintUnderRays*> near;
   Image<double> light(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y) {
@@ -170,30 +126,7 @@ GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMar
 }
 
 std::array<Vec2, 4> TrueCorners(const CameraModel& camera, const RenderedMarker& marker) {
-  std::array<Vec2, 4> corners;
-  for (int i = 0; i < 4; ++i) {
-    const Vec2 corner = kSquareCorners[i] * (0.5 * marker.size.value());
-    corners[i] = ProjectToPixel(
-        camera, marker.camera_from_marker * Point<Marker>{{corner.x, corner.y, 0.0}});
-  }
-  return corners;
-}
-
-Transform<Camera, Marker> PoseSeenAt(const CameraModel& camera, Vec2 centre_px, double side_px,
-                                     Metres size, Radians tilt, Radians tilt_axis, Radians roll) {
-  const Vec2 ray = UndistortPixel(camera, centre_px);
-  const Vec3 direction = Normalized(Vec3{ray.x, ray.y, 1.0});
-  // Smallest turn that takes the optical axis to the line of sight.
-  const Vec3 cross = Cross({0, 0, 1}, direction);
-  const double sine = Norm(cross);
-  const Mat3 facing =
-      sine > 1e-12 ? RotationAbout(cross * (1.0 / sine), std::atan2(sine, direction.z)) : Mat3{};
-  // The marker's y is up and its z towards the viewer: half a turn about x from the camera's axes.
-  constexpr Mat3 kUpright{{1, 0, 0, 0, -1, 0, 0, 0, -1}};
-  const Mat3 tilted =
-      RotationAbout({std::cos(tilt_axis.value()), std::sin(tilt_axis.value()), 0.0}, tilt.value());
-  return {facing * tilted * RotationAbout({0, 0, 1}, roll.value()) * kUpright,
-          direction * (camera.fx * size.value() / side_px)};
+  return accuracy::SquareCorners(camera, marker.camera_from_marker, marker.size);
 }
 
 }  // namespace pleinair::tracker

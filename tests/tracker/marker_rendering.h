@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "accuracy/seen_print.h"
 #include "base/camera_model.h"
 #include "base/frames.h"
 #include "base/image.h"
@@ -44,9 +45,6 @@ GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMar
 /// Where the corners (top-left, then clockwise as read) of a print really are.
 std::array<Vec2, 4> TrueCorners(const CameraModel& camera, const RenderedMarker& marker);
 
-/// The pose of a print seen at `centre_px` with its edge `side_px` long were it frontal, tilted by
-/// `tilt` about an axis at `tilt_axis` in its plane and turned in its plane by `roll`.
-Transform<Camera, Marker> PoseSeenAt(const CameraModel& camera, Vec2 centre_px, double side_px,
-                                     Metres size, Radians tilt, Radians tilt_axis, Radians roll);
+using accuracy::PoseSeenAt;
 
 }  // namespace pleinair::tracker

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/frames.h"
+#include "base/units.h"
+
+namespace pleinair::accuracy {
+
+/// Edge of the marker's square in every built-in scene.
+inline constexpr Metres kMarkerEdge{0.14};
+/// Markers carry the numbers 0…49, which every compared system has.
+inline constexpr int kNumbers = 50;
+/// What counts as the content of a print, whatever its kind: the middle square of half the edge.
+/// The rest is its border.
+inline constexpr double kContentShare = 0.5;
+
+/// Something that lies on a marker.
+struct OccluderSpec {
+  std::string pattern{};  ///< OccluderPatterns() has the names.
+  double share = 0.0;     ///< Of the border, or of the content for patterns of the content.
+  std::string key{};      ///< Two occluders with one key have one shape.
+};
+
+struct MarkerSpec {
+  int number = 0;
+  Transform<Camera, Marker> camera_from_marker{};
+  double side_px = 0.0;   ///< Of the edge, were it seen frontally from its distance.
+  double tilt_deg = 0.0;  ///< From the line of sight.
+  std::optional<OccluderSpec> occluder{};
+};
+
+/// A change of the light across the first marker.
+struct LightPattern {
+  double angle = 0.0;  ///< Direction across the picture, rad.
+  Vec2 offset{};       ///< Of its middle, in edges.
+  double value = 1.0;  ///< Ratio of gradient or shadow; per cent of the marker for a glare.
+};
+
+/// Light, lens and sensor. Light is linear, 1 saturates.
+struct PhotoSpec {
+  double light = 1.0;     ///< On the prints.
+  double exposure = 1.0;  ///< Of the whole picture.
+  double psf_px = 0.55;   ///< Standard deviation of the lens's Gaussian beside the pixel's box.
+  double vignette = 0.25;
+  double shot = 2e-4;       ///< Variance of the noise per unit of light,
+  double read = 0.002;      ///< … and its standard deviation in the dark.
+  double defocus_px = 0.0;  ///< Radius of the disc.
+  double motion_px = 0.0;   ///< Length of the streak, in direction
+  double motion_angle = 0.0;
+  std::optional<LightPattern> gradient{}, shadow{}, glare{};
+};
+
+/// All that a frame shows, whatever the prints look like.
+struct FrameSpec {
+  std::string name{};  ///< Unique in a run: "distance_200_003".
+  std::string sweep{}, pattern{};
+  double level = 0.0;
+  int repeat = 0;
+  std::vector<MarkerSpec> markers{};
+  PhotoSpec photo{};
+  std::string background{};  ///< Frames with the same word have the same background.
+};
+
+/// What a detector sees without a break: a single picture, or the frames of a film.
+struct FrameRun {
+  bool film = false;
+  std::vector<FrameSpec> frames;
+};
+
+}  // namespace pleinair::accuracy

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "accuracy/scene.h"
+#include "base/camera_model.h"
+
+namespace pleinair::accuracy {
+
+/// Lenses of the built-in sweeps: "640x480" and "1280x720".
+const std::vector<std::string>& SweepCameraNames();
+CameraModel SweepCamera(const std::string& name);
+
+/// What each sweep varies, one word each: distance, angle, border, content, blur, noise, light,
+/// many, negative, jitter, sequence, sequence_occl, wild. docs/accuracy-report.md describes them.
+const std::vector<std::string>& SweepNames();
+
+struct SweepOptions {
+  std::uint64_t seed = 1;
+  double scale = 1.0;  ///< Times the frames of each level; at least one stays.
+};
+
+/// The scenes of one sweep, in order. They depend on the seed, the camera and the level, not on
+/// other sweeps; a smaller scale gives a part of the same frames.
+std::vector<FrameRun> MakeSweep(const std::string& name, const CameraModel& camera,
+                                const SweepOptions& options);
+
+}  // namespace pleinair::accuracy

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace pleinair::app {
+
+/// All that decides the figures of an accuracy run; how it is divided and where it is written does
+/// not.
+struct AccuracyConfig {
+  std::vector<std::string> sweeps;  ///< accuracy::SweepNames(), each once, in that order.
+  std::string camera = "640x480";   ///< accuracy::SweepCameraNames().
+  std::uint64_t seed = 1;           ///< Of scenes,
+  std::uint64_t noise_seed = 1;     ///< … and of their noise.
+  double scale = 1.0;
+  std::vector<std::string> recordings;  ///< Folders or films with ground truth.
+  std::vector<std::string> peers;       ///< "apriltag", "aruco".
+  std::string measure = "blocks";       ///< "blocks" or "print".
+  double spoil_corners_px = 0.0;
+
+  bool operator==(const AccuracyConfig&) const = default;
+};
+
+inline constexpr const char* kOwnName = "pleinair";
+
+/// As one line of JSON; the same configuration gives the same bytes.
+std::string ConfigJson(const AccuracyConfig& config);
+
+/// Errors (input): not what ConfigJson writes.
+Result<AccuracyConfig> ParseConfig(const std::string& json, const std::string& file);
+
+/// The command that gives these figures, without where they go.
+std::string CommandOf(const AccuracyConfig& config);
+
+}  // namespace pleinair::app

@@ -1,0 +1,306 @@
+#include "app/accuracy/accuracy_html.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "app/accuracy/film_plots.h"
+#include "app/accuracy/level_chart.h"
+#include "app/accuracy/worst_frames.h"
+#include "app/sinks/page_style.h"
+#include "app/sinks/report_html.h"
+
+namespace pleinair::app {
+namespace {
+
+using accuracy::CellSummary;
+using accuracy::RunSummary;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::string Figure(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "–";
+}
+
+double RateOf(const CellSummary& cell) {
+  return cell.markers > 0 ? static_cast<double>(cell.hits) / static_cast<double>(cell.markers)
+                          : kNone;
+}
+
+std::string Card(const std::string& figure, const std::string& caption) {
+  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", EscapeHtml(figure),
+                     EscapeHtml(caption));
+}
+
+std::string Cards(const AccuracyReport& report) {
+  std::string html = "<div class=\"cards\">\n";
+  const RunSummary& summary = report.summary;
+  std::int64_t frames = 0, hits = 0, markers = 0, false_numbers = 0, flips = 0;
+  for (const CellSummary& cell : summary.cells) {
+    if (cell.level || !cell.pattern.empty() || cell.detector != summary.detectors[0]) continue;
+    frames += cell.frames;
+    hits += cell.hits;
+    markers += cell.markers;
+    false_numbers += cell.false_numbers;
+    flips += cell.flips;
+  }
+  html += Card(fmt::format("{}", frames), "frames");
+  html += Card(fmt::format("{} of {}", hits, markers), "markers hit, over all sweeps");
+  html += Card(fmt::format("{}", false_numbers), "false numbers");
+  html += Card(fmt::format("{}", flips), "poses flipped");
+  if (!summary.nominal_nees.empty()) {
+    const accuracy::NeesSummary& nees = summary.nominal_nees[0];
+    html += Card(fmt::format("{:.2f}", nees.mean),
+                 fmt::format("NEES on the distance sweep; consistent within {:.2f}…{:.2f}",
+                             nees.band.low, nees.band.high));
+  }
+  return html + "</div>\n";
+}
+
+/// What the levels of a sweep are.
+std::string LevelName(const std::string& sweep, const std::string& pattern) {
+  static const std::map<std::string, std::string> kNames{
+      {"distance", "size, px (edge, seen frontally)"},
+      {"angle", "tilt, degrees"},
+      {"border", "border covered, %"},
+      {"content", "content covered, %"},
+      {"blur/defocus", "radius of the defocus disc, px"},
+      {"blur/motion", "length of the streak, px"},
+      {"noise/gain", "photons lost, times"},
+      {"noise/dark", "exposure"},
+      {"light/gradient", "ratio over the marker"},
+      {"light/shadow", "ratio at the edge"},
+      {"light/over", "exposure"},
+      {"light/glare", "of the marker, %"},
+      {"many", "markers in the frame"},
+      {"jitter", "size, px"}};
+  const auto with_pattern = kNames.find(sweep + "/" + pattern);
+  if (with_pattern != kNames.end()) return with_pattern->second;
+  const auto plain = kNames.find(sweep);
+  return plain != kNames.end() ? plain->second : "level";
+}
+
+/// Detection and error by level of one pattern of a sweep, all detectors.
+std::string ChartsOf(const RunSummary& summary, const std::string& sweep,
+                     const std::string& pattern) {
+  std::vector<std::string> levels;
+  std::vector<LevelSeries> rates, errors;
+  for (const std::string& detector : summary.detectors) {
+    LevelSeries rate{detector, {}, {}, {}}, error{detector, {}, {}, {}};
+    std::vector<std::string> own_levels;
+    for (const CellSummary& cell : summary.cells) {
+      if (cell.detector != detector || cell.sweep != sweep || cell.pattern != pattern ||
+          !cell.level) {
+        continue;
+      }
+      own_levels.push_back(fmt::format("{}", *cell.level));
+      rate.values.push_back(RateOf(cell));
+      rate.low.push_back(cell.rate.low);
+      rate.high.push_back(cell.rate.high);
+      error.values.push_back(cell.corner_px.median);
+    }
+    if (own_levels.empty()) continue;
+    levels = own_levels;
+    rates.push_back(std::move(rate));
+    errors.push_back(std::move(error));
+  }
+  if (levels.size() < 2) return {};
+  const std::string title = pattern.empty() ? sweep : sweep + ", " + pattern;
+  const std::string level_name = LevelName(sweep, pattern);
+  return "<div class=\"charts\">" +
+         LevelChartSvg(title + ": rate of hits, 95 % intervals", level_name, levels, rates, 1.0) +
+         LevelChartSvg(title + ": median corner error, px", level_name, levels, errors, 0.0) +
+         "</div>\n";
+}
+
+std::string CellTable(const RunSummary& summary, const std::string& sweep, bool by_level) {
+  std::string html =
+      "<table><tr><th>detector</th><th>pattern</th><th>level</th><th>markers</th><th>rate</th>"
+      "<th>95 %</th><th>mis&shy;placed</th><th>false</th><th>flips</th><th>corner px, median</th>"
+      "<th>95 %</th><th>outward px</th><th>rotation °, median</th><th>95 %</th>"
+      "<th>translation %, median</th><th>95 %</th><th>NEES</th></tr>\n";
+  for (const CellSummary& cell : summary.cells) {
+    if (cell.sweep != sweep || cell.level.has_value() != by_level) continue;
+    html += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "<td>{}</td><td>{}</td></tr>\n",
+        cell.detector, cell.pattern, cell.level ? fmt::format("{}", *cell.level) : "", cell.markers,
+        Figure(RateOf(cell), 3),
+        cell.markers > 0 ? fmt::format("{:.2f}–{:.2f}", cell.rate.low, cell.rate.high) : "–",
+        cell.misplaced, cell.false_numbers, cell.flips, Figure(cell.corner_px.median, 3),
+        Figure(cell.corner_px.p95, 3), cell.hits > 0 ? Figure(cell.bias_outward_px, 3) : "–",
+        Figure(cell.rotation_deg.median, 3), Figure(cell.rotation_deg.p95, 2),
+        Figure(100 * cell.translation_share.median, 3), Figure(100 * cell.translation_share.p95, 2),
+        cell.nees ? fmt::format("{:.2f}{}", cell.nees->mean,
+                                cell.nees->band.Holds(cell.nees->mean) ? "" : " !")
+                  : "–");
+  }
+  return html + "</table>\n";
+}
+
+std::string SweepSections(const RunSummary& summary,
+                          const std::vector<accuracy::FrameRecord>& records) {
+  std::string html;
+  for (const std::string& sweep : summary.sweeps) {
+    html += "<h2>" + EscapeHtml(sweep) + "</h2>\n";
+    std::vector<std::string> patterns;
+    for (const CellSummary& cell : summary.cells) {
+      if (cell.sweep == sweep && cell.level &&
+          std::find(patterns.begin(), patterns.end(), cell.pattern) == patterns.end()) {
+        patterns.push_back(cell.pattern);
+      }
+    }
+    for (const std::string& pattern : patterns) html += ChartsOf(summary, sweep, pattern);
+    html += FilmPlots(sweep, summary.detectors, records);
+    html += "<div class=\"wide\">" + CellTable(summary, sweep, false) +
+            "<details><summary>by level</summary>" + CellTable(summary, sweep, true) +
+            "</details></div>\n";
+  }
+  return html;
+}
+
+std::string Histograms(const RunSummary& summary,
+                       const std::vector<accuracy::FrameRecord>& records) {
+  std::vector<std::vector<double>> corners, rotations;
+  for (const std::string& detector : summary.detectors) {
+    std::vector<double>&corner = corners.emplace_back(), &rotation = rotations.emplace_back();
+    for (const accuracy::FrameRecord& record : records) {
+      if (record.detector != detector) continue;
+      for (const accuracy::MarkerRecord& marker : record.markers) {
+        if (!marker.pose) continue;
+        corner.push_back(marker.CornerRms());
+        rotation.push_back(marker.pose->rotation_error_deg);
+      }
+    }
+  }
+  return "<h2>Errors of all hits</h2>\n<div class=\"charts\">" +
+         HistogramSvg("Corner error (RMS of a marker)", "px", summary.detectors, corners, 0.6) +
+         HistogramSvg("Rotation error", "°", summary.detectors, rotations, 1.2) + "</div>\n";
+}
+
+std::string Maps(const RunSummary& summary) {
+  std::string html =
+      "<h2>Where in the picture</h2>\n<p class=\"lead\">Median error of corners by "
+      "where they lie, px; full colour is 0.5 px.</p>\n<div class=\"charts\">";
+  for (const accuracy::ErrorMap& map : summary.maps) {
+    html += CellMapSvg(map.detector, map.columns, map.rows, map.median_px, 0.5);
+  }
+  return html + "</div>\n";
+}
+
+std::string PeerTable(const RunSummary& summary) {
+  if (summary.peers.empty()) return {};
+  std::string html =
+      "<h2>Against others</h2>\n<p class=\"lead\">The same scenes, each detector with its own "
+      "print. Ratios ours over theirs with 95 % bootstrap intervals (of errors: medians over the "
+      "markers that both hit); p: McNemar's exact test.</p>\n<table><tr><th>sweep</th><th>peer</th>"
+      "<th>markers</th><th>both</th><th>only ours</th><th>only theirs</th><th>p</th>"
+      "<th>rate</th><th>corner error</th><th>rotation error</th><th>false, ours/theirs</th></tr>\n";
+  const auto ratio = [](double value, const accuracy::Interval& interval) {
+    return std::isfinite(value)
+               ? fmt::format("{:.2f} ({:.2f}–{:.2f})", value, interval.low, interval.high)
+               : std::string("–");
+  };
+  for (const accuracy::PeerSummary& peer : summary.peers) {
+    html += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2g}</td>"
+        "<td>{}</td><td>{}</td><td>{}</td><td>{}/{}</td></tr>\n",
+        peer.sweep, peer.peer, peer.markers, peer.both, peer.only_ours, peer.only_peer, peer.p,
+        ratio(peer.rate_ratio, peer.rate_interval), ratio(peer.corner_ratio, peer.corner_interval),
+        ratio(peer.rotation_ratio, peer.rotation_interval), peer.our_false, peer.peer_false);
+  }
+  return html + "</table>\n";
+}
+
+std::string JitterTable(const RunSummary& summary) {
+  if (summary.jitter.empty()) return {};
+  std::string html =
+      "<h2>Jitter</h2>\n<p class=\"lead\">One scene, many draws of the noise.</p>\n<table><tr>"
+      "<th>detector</th><th>tilt</th><th>size, px</th><th>hits</th><th>corner σ, px</th>"
+      "<th>corner bias, px</th><th>translation σ, mm</th><th>rotation σ, °</th></tr>\n";
+  for (const accuracy::JitterSummary& jitter : summary.jitter) {
+    html += fmt::format(
+        "<tr><td>{}</td><td>{}°</td><td>{}</td><td>{}</td><td>{:.4f}</td><td>{:.4f}</td>"
+        "<td>{:.3f}</td><td>{:.4f}</td></tr>\n",
+        jitter.detector, jitter.pattern.substr(1), jitter.level, jitter.frames,
+        jitter.corner_std_px, jitter.corner_bias_px, jitter.translation_std_m * 1e3,
+        jitter.rotation_std_deg);
+  }
+  return html + "</table>\n";
+}
+
+std::string FilmTable(const RunSummary& summary) {
+  if (summary.films.empty()) return {};
+  std::string html =
+      "<h2>Films</h2>\n<p class=\"lead\">Absolute and relative trajectory errors as the TUM RGB-D "
+      "benchmark has them (Sturm et al. 2012).</p>\n<table><tr><th>film</th><th>detector</th>"
+      "<th>found</th><th>longest track</th><th>gaps</th><th>recovered</th><th>longest gap</th>"
+      "<th>step jitter, px</th><th>ATE, mm</th><th>unaligned, mm</th><th>RPE, mm</th>"
+      "<th>RPE, °</th></tr>\n";
+  for (const accuracy::FilmSummary& film : summary.films) {
+    html += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{} of {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "<td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.3f}</td></tr>\n",
+        EscapeHtml(film.film), film.detector, film.found, film.frames, film.longest_track,
+        film.gaps, film.recovered, film.longest_gap, Figure(film.step_jitter_px, 3),
+        film.ate_rmse_m * 1e3, film.ate_unaligned_rmse_m * 1e3, film.rpe_translation_rmse_m * 1e3,
+        film.rpe_rotation_rmse_deg);
+  }
+  return html + "</table>\n";
+}
+
+std::string AmbiguityChart(const RunSummary& summary) {
+  std::vector<std::string> levels;
+  std::vector<LevelSeries> series;
+  for (const accuracy::AmbiguityBin& bin : summary.ambiguity) {
+    if (series.empty() || series.back().name != bin.detector) {
+      series.push_back({bin.detector, {}, {}, {}});
+    }
+    if (series.size() == 1) levels.push_back(fmt::format("{:.1f}–{:.1f}", bin.low, bin.high));
+    series.back().values.push_back(
+        bin.count > 0 ? static_cast<double>(bin.wrong) / static_cast<double>(bin.count) : kNone);
+    series.back().low.push_back(bin.rate.low);
+    series.back().high.push_back(bin.rate.high);
+  }
+  return "<h2>Ambiguity</h2>\n<p class=\"lead\">How often the other solution of the planar pose "
+         "was the better one, by the ratio of reprojection errors that says how ambiguous the "
+         "pose is.</p>\n" +
+         LevelChartSvg("Wrong solution chosen", "ambiguity ratio", levels, series, 0.6);
+}
+
+}  // namespace
+
+std::string AccuracyHtml(const AccuracyReport& report,
+                         const std::vector<accuracy::FrameRecord>& records) {
+  std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
+  html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
+  html += "<title>pleinair accuracy</title><style>" + std::string(kPageStyle) +
+          ".charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(20rem,1fr));gap:.8rem}"
+          ".wide{overflow-x:auto}table{font-size:.82rem}th,td{padding:.25rem .4rem}"
+          ".worst{position:relative}.worst img,.worst svg{width:100%;display:block}"
+          ".worst svg{position:absolute;inset:0;height:100%}"
+          "body{max-width:78rem}</style></head><body>\n<h1>pleinair accuracy</h1>\n";
+  html += "<p class=\"lead\">pleinair " + EscapeHtml(report.version) + ": <code>" +
+          EscapeHtml(CommandOf(report.config)) +
+          " -o DIR</code>. Times and machines, which no two runs have alike, are in times.json "
+          "beside this page.</p>\n";
+  if (!report.skipped.empty()) {
+    html += "<h2>Skipped</h2>\n<ul class=\"warnings\">\n";
+    for (const std::string& message : report.skipped) {
+      html += "<li>" + EscapeHtml(message) + "</li>\n";
+    }
+    html += "</ul>\n";
+  }
+  if (records.empty()) return html + "<p>No frame was measured.</p></body></html>\n";
+  const RunSummary& summary = report.summary;
+  html += Cards(report) + PeerTable(summary) + SweepSections(summary, records) +
+          JitterTable(summary) + FilmTable(summary) + Histograms(summary, records) + Maps(summary) +
+          AmbiguityChart(summary) + WorstFrames(report, records);
+  return html + "</body></html>\n";
+}
+
+}  // namespace pleinair::app

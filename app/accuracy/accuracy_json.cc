@@ -1,0 +1,159 @@
+#include "app/accuracy/accuracy_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace pleinair::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using accuracy::Interval;
+using accuracy::Spread;
+
+/// Nine significant digits; null for what is no number.
+Json Number(double value) {
+  if (!std::isfinite(value)) return {};
+  if (value == 0.0) return 0.0;
+  const double scale = std::pow(10.0, 8 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * scale) / scale;
+}
+
+Json IntervalJson(const Interval& interval) {
+  return {Number(interval.low), Number(interval.high)};
+}
+
+Json SpreadJson(const Spread& spread, double unit = 1.0) {
+  return {{"median", Number(spread.median * unit)},
+          {"p95", Number(spread.p95 * unit)},
+          {"p99", Number(spread.p99 * unit)},
+          {"rms", Number(spread.rms * unit)}};
+}
+
+Json NeesJson(const accuracy::NeesSummary& nees) {
+  return {{"count", nees.count},
+          {"mean", Number(nees.mean)},
+          {"band", IntervalJson(nees.band)},
+          {"consistent", nees.band.Holds(nees.mean)}};
+}
+
+Json CellJson(const accuracy::CellSummary& cell) {
+  Json json{{"detector", cell.detector},
+            {"sweep", cell.sweep},
+            {"pattern", cell.pattern.empty() ? Json() : Json(cell.pattern)},
+            {"level", cell.level ? Json(*cell.level) : Json()},
+            {"frames", cell.frames},
+            {"markers", cell.markers},
+            {"hits", cell.hits},
+            {"rate", cell.markers > 0 ? Number(static_cast<double>(cell.hits) /
+                                               static_cast<double>(cell.markers))
+                                      : Json()},
+            {"rate_interval", IntervalJson(cell.rate)},
+            {"misplaced", cell.misplaced},
+            {"false_numbers", cell.false_numbers},
+            {"false_frames_interval", IntervalJson(cell.false_frames)}};
+  if (cell.hits == 0) return json;
+  json["flips"] = cell.flips;
+  json["corner_px"] = SpreadJson(cell.corner_px);
+  json["corner_bias_px"] = {{"x", Number(cell.bias_x_px)},
+                            {"y", Number(cell.bias_y_px)},
+                            {"outward", Number(cell.bias_outward_px)}};
+  json["rotation_deg"] = SpreadJson(cell.rotation_deg);
+  json["translation_mm"] = SpreadJson(cell.translation_m, 1e3);
+  json["translation_percent"] = SpreadJson(cell.translation_share, 1e2);
+  if (cell.nees) json["nees"] = NeesJson(*cell.nees);
+  return json;
+}
+
+Json JitterJson(const accuracy::JitterSummary& jitter) {
+  return {{"detector", jitter.detector},
+          {"pattern", jitter.pattern},
+          {"level", jitter.level},
+          {"frames", jitter.frames},
+          {"corner_std_px", Number(jitter.corner_std_px)},
+          {"corner_bias_px", Number(jitter.corner_bias_px)},
+          {"translation_std_mm", Number(jitter.translation_std_m * 1e3)},
+          {"rotation_std_deg", Number(jitter.rotation_std_deg)}};
+}
+
+Json FilmJson(const accuracy::FilmSummary& film) {
+  return {{"detector", film.detector},
+          {"film", film.film},
+          {"frames", film.frames},
+          {"found", film.found},
+          {"tracks", film.tracks},
+          {"longest_track", film.longest_track},
+          {"gaps", film.gaps},
+          {"longest_gap", film.longest_gap},
+          {"recovered", film.recovered},
+          {"step_jitter_px", Number(film.step_jitter_px)},
+          {"ate_rmse_mm", Number(film.ate_rmse_m * 1e3)},
+          {"ate_unaligned_rmse_mm", Number(film.ate_unaligned_rmse_m * 1e3)},
+          {"rpe_translation_rmse_mm", Number(film.rpe_translation_rmse_m * 1e3)},
+          {"rpe_rotation_rmse_deg", Number(film.rpe_rotation_rmse_deg)}};
+}
+
+Json PeerJson(const accuracy::PeerSummary& peer) {
+  const auto ratio = [](double value, const Interval& interval) {
+    return Json{{"ratio", Number(value)}, {"interval", IntervalJson(interval)}};
+  };
+  return {{"sweep", peer.sweep},
+          {"peer", peer.peer},
+          {"markers", peer.markers},
+          {"both", peer.both},
+          {"only_ours", peer.only_ours},
+          {"only_peer", peer.only_peer},
+          {"mcnemar_p", Number(peer.p)},
+          {"rate", ratio(peer.rate_ratio, peer.rate_interval)},
+          {"corner_px", ratio(peer.corner_ratio, peer.corner_interval)},
+          {"rotation_deg", ratio(peer.rotation_ratio, peer.rotation_interval)},
+          {"our_false_numbers", peer.our_false},
+          {"peer_false_numbers", peer.peer_false}};
+}
+
+Json AmbiguityJson(const accuracy::AmbiguityBin& bin) {
+  return {{"detector", bin.detector}, {"low", Number(bin.low)},
+          {"high", Number(bin.high)}, {"count", bin.count},
+          {"wrong", bin.wrong},       {"wrong_rate_interval", IntervalJson(bin.rate)}};
+}
+
+Json MapJson(const accuracy::ErrorMap& map) {
+  Json json{{"detector", map.detector},
+            {"columns", map.columns},
+            {"rows", map.rows},
+            {"corners", map.counts},
+            {"median_px", Json::array()}};
+  for (const double value : map.median_px) json["median_px"].push_back(Number(value));
+  return json;
+}
+
+template <typename T, typename ToJson>
+Json ListJson(const std::vector<T>& items, ToJson to_json) {
+  Json list = Json::array();
+  for (const T& item : items) list.push_back(to_json(item));
+  return list;
+}
+
+}  // namespace
+
+std::string AccuracyJson(const AccuracyReport& report) {
+  const accuracy::RunSummary& summary = report.summary;
+  Json json;
+  json["program"] = "pleinair";
+  json["format"] = 1;
+  json["version"] = report.version;
+  json["command"] = CommandOf(report.config);
+  json["config"] = Json::parse(ConfigJson(report.config));
+  json["confidence"] = accuracy::kConfidence;
+  json["skipped"] = report.skipped;
+  json["detectors"] = summary.detectors;
+  json["nominal_nees"] = ListJson(summary.nominal_nees, NeesJson);
+  json["cells"] = ListJson(summary.cells, CellJson);
+  json["jitter"] = ListJson(summary.jitter, JitterJson);
+  json["films"] = ListJson(summary.films, FilmJson);
+  json["ambiguity"] = ListJson(summary.ambiguity, AmbiguityJson);
+  json["against"] = ListJson(summary.peers, PeerJson);
+  json["error_maps"] = ListJson(summary.maps, MapJson);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,104 @@
+#include "app/accuracy/own_detector.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "accuracy/random.h"
+#include "app/print_measurer.h"
+#include "app/scene_marker.h"
+#include "tracker/planar_pose.h"
+
+namespace pleinair::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double Milliseconds(Clock::duration taken) {
+  return std::chrono::duration<double, std::milli>(taken).count();
+}
+
+class OwnDetector final : public accuracy::Detector {
+ public:
+  OwnDetector(const CameraModel& camera, const OwnDetectorOptions& options)
+      : camera_(camera), options_(options) {}
+
+  accuracy::PrintsByNumber Prints() const override {
+    return [family = options_.tracker.families.at(0)](int number) {
+      return PatternOf({family, number});
+    };
+  }
+
+  Result<void> Start(bool film) override {
+    if (film) {
+      PLEINAIR_ASSIGN_OR_RETURN(film_, Create(true));
+    } else if (!still_) {
+      PLEINAIR_ASSIGN_OR_RETURN(still_, Create(false));
+    }
+    tracker_ = film ? film_.get() : still_.get();
+    measurer_ = std::make_unique<PrintMeasurer>(camera_, options_.tracker.marker_size_m);
+    return {};
+  }
+
+  Result<Seen> Detect(ImageView<const std::uint8_t> grey) override {
+    Seen seen;
+    const auto start = Clock::now();
+    PLEINAIR_ASSIGN_OR_RETURN(std::vector<tracker::Sighting> sightings, tracker_->Track(grey));
+    const auto detected = Clock::now();
+    seen.stages_ms.emplace_back("detect", Milliseconds(detected - start));
+    if (options_.measure_prints) {
+      sightings = measurer_->Measure(grey, std::move(sightings));
+      seen.stages_ms.emplace_back("measure", Milliseconds(Clock::now() - detected));
+    }
+    seen.lost = static_cast<int>(tracker_->Lost().size());
+    for (tracker::Sighting& sighting : sightings) {
+      if (options_.spoil_corners_px > 0.0) Spoil(&sighting);
+      seen.markers.push_back({.number = sighting.detection.id,
+                              .corners_px = sighting.detection.corners_px,
+                              .pose = sighting.pose,
+                              .pose_has_covariance = true,
+                              .visible_fraction = sighting.detection.visible_fraction,
+                              .path = tracker::PathName(sighting.detection.path)});
+    }
+    return seen;
+  }
+
+ private:
+  Result<std::unique_ptr<tracker::Tracker>> Create(bool film) const {
+    tracker::TrackerOptions options = options_.tracker;
+    options.consecutive_frames = film;
+    return tracker::Tracker::Create(camera_, options);
+  }
+
+  void Spoil(tracker::Sighting* sighting) const {
+    auto& corners = sighting->detection.corners_px;
+    // The picture alone says which way, so that the order of frames does not matter.
+    accuracy::RandomStream random(
+        0, fmt::format("spoil/{}/{}/{}", sighting->detection.id, corners[0].x, corners[0].y));
+    for (Vec2& corner : corners) {
+      const double direction = random.Uniform(0, 2 * M_PI);
+      corner = corner + Vec2{std::cos(direction), std::sin(direction)} * options_.spoil_corners_px;
+    }
+    const auto pose = tracker::EstimatePlanarPose(
+        camera_, corners, tracker::IsotropicCornerCovariance(options_.spoil_corners_px),
+        Metres(options_.tracker.marker_size_m));
+    if (pose) sighting->pose = *pose;
+  }
+
+  const CameraModel camera_;
+  const OwnDetectorOptions options_;
+  std::unique_ptr<tracker::Tracker> still_, film_;
+  tracker::Tracker* tracker_ = nullptr;
+  std::unique_ptr<PrintMeasurer> measurer_;
+};
+
+}  // namespace
+
+std::unique_ptr<accuracy::Detector> MakeOwnDetector(const CameraModel& camera,
+                                                    const OwnDetectorOptions& options) {
+  return std::make_unique<OwnDetector>(camera, options);
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,128 @@
+#include "app/accuracy/record_parts.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/accuracy/record_json.h"
+#include "base/atomic_file.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+
+/// The file's bytes; nothing where it cannot be read.
+std::optional<std::string> ReadAll(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+std::string RunJson(const std::string& config_json, std::int64_t chunks) {
+  return fmt::format(
+      "{{\"program\":\"pleinair\",\"version\":\"{}\",\"format\":{},\"chunks\":{},\"config\":{}}}\n",
+      PLEINAIR_VERSION, kFormat, chunks, config_json);
+}
+
+}  // namespace
+
+Result<RecordParts> RecordParts::Open(const fs::path& folder, const AccuracyConfig& config,
+                                      std::int64_t chunks) {
+  RecordParts parts;
+  parts.folder_ = folder;
+  parts.config_ = config;
+  parts.config_json_ = ConfigJson(config);
+  parts.chunks_ = chunks;
+  const fs::path run_file = folder / "run.json";
+  const std::string run = RunJson(parts.config_json_, chunks);
+  if (const auto there = ReadAll(run_file)) {
+    if (*there == run) return parts;
+    return InputError(folder.string(), "holds an accuracy run of another configuration or version",
+                      "choose another folder with -o, or remove it");
+  }
+  std::error_code error;
+  fs::create_directories(folder / "parts", error);
+  if (error) return tl::make_unexpected(WriteError(folder, error.value()));
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(run_file, run));
+  return parts;
+}
+
+Result<RecordParts> RecordParts::Read(const fs::path& folder) {
+  const fs::path run_file = folder / "run.json";
+  const auto text = ReadAll(run_file);
+  if (!text) {
+    return InputError(run_file.string(), "there is no accuracy run",
+                      "name a folder that 'pleinair accuracy -o' wrote");
+  }
+  const Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("config") || json.value("format", 0) != kFormat ||
+      !json.contains("chunks") || !json["chunks"].is_number_integer()) {
+    return InputError(run_file.string(), "is no run of this format",
+                      "name a folder that 'pleinair accuracy -o' wrote");
+  }
+  RecordParts parts;
+  parts.folder_ = folder;
+  parts.config_json_ = json["config"].dump();
+  parts.chunks_ = json["chunks"].get<std::int64_t>();
+  PLEINAIR_ASSIGN_OR_RETURN(parts.config_, ParseConfig(parts.config_json_, run_file.string()));
+  return parts;
+}
+
+fs::path RecordParts::FileOf(std::int64_t chunk) const {
+  return folder_ / "parts" / fmt::format("{:05}.jsonl", chunk);
+}
+
+bool RecordParts::Has(std::int64_t chunk) const {
+  const auto part = Load(chunk);
+  return part && *part && (*part)->skipped.empty();
+}
+
+Result<void> RecordParts::Write(const RecordPart& part) const {
+  const Json head{{"chunk", part.chunk},
+                  {"records", part.records.size()},
+                  {"skipped", part.skipped},
+                  {"machine", part.machine},
+                  {"config", Json::parse(config_json_)}};
+  std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (const accuracy::FrameRecord& record : part.records) {
+    text += RecordJson(record, true) + "\n";
+  }
+  return WriteFileAtomically(FileOf(part.chunk), text);
+}
+
+Result<std::optional<RecordPart>> RecordParts::Load(std::int64_t chunk) const {
+  const auto text = ReadAll(FileOf(chunk));
+  if (!text || text->empty() || text->back() != '\n') return std::nullopt;
+  std::istringstream lines(*text);
+  std::string line;
+  std::getline(lines, line);
+  const Json head = Json::parse(line, nullptr, false);
+  if (!head.is_object() || !head.contains("config") || !head.contains("records")) {
+    return std::nullopt;
+  }
+  if (head["config"].dump() != config_json_ || head.value("chunk", std::int64_t{-1}) != chunk) {
+    return InputError(FileOf(chunk).string(), "belongs to a run of another configuration",
+                      "remove it and run again");
+  }
+  RecordPart part{.chunk = chunk,
+                  .records = {},
+                  .skipped = head.value("skipped", ""),
+                  .machine = head.value("machine", "")};
+  while (std::getline(lines, line)) {
+    auto record = ParseRecord(line, FileOf(chunk).string());
+    if (!record) return std::nullopt;
+    part.records.push_back(*std::move(record));
+  }
+  if (part.records.size() != head["records"].get<std::size_t>()) return std::nullopt;
+  return part;
+}
+
+}  // namespace pleinair::app

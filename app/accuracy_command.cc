@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "accuracy/sweeps.h"
+#include "app/accuracy/accuracy_config.h"
+#include "app/accuracy/accuracy_report.h"
+#include "app/accuracy/accuracy_run.h"
+#include "app/command.h"
+#include "app/number_range.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair accuracy --quick -o out/quick\n"
+    "  pleinair accuracy --sweep distance,angle --against apriltag,aruco -o out/far\n"
+    "  pleinair accuracy --shard 2/7 -o out/full        (and 'pleinair report merge out/full')\n"
+    "  pleinair report diff out/before out/after\n"
+    "DIR gets report.html, report.json and records.jsonl, which depend on the options above "
+    "alone,\n"
+    "and times.json (docs/accuracy-report.md). A run that was interrupted goes on where it\n"
+    "stopped. Markers are S-G 0-49, 14 cm; each peer has its own print in the same scenes.";
+
+struct Options {
+  AccuracyConfig config;
+  std::vector<std::string> sweeps;
+  std::string shard, output;
+  std::optional<std::uint64_t> noise_seed;
+  int threads = 0;
+  bool quick = false, json = false;
+};
+
+/// "2/7".
+Result<Shard> ShardOf(const std::string& text) {
+  Shard shard;
+  if (text.empty()) return shard;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  bool good = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  if (good) {
+    const auto second = std::from_chars(first.ptr + 1, end, shard.count);
+    good = second.ec == std::errc() && second.ptr == end;
+  }
+  if (good && shard.count >= 1 && shard.index >= 1 && shard.index <= shard.count) return shard;
+  return InputError("--shard", "\"" + text + "\" is no part of a whole",
+                    "write I/N with I from 1 to N, for example 2/7");
+}
+
+Result<void> Complete(Options* options) {
+  constexpr double kQuickScale = 0.125;
+  AccuracyConfig& config = options->config;
+  if (options->quick) config.scale = kQuickScale;
+  config.noise_seed = options->noise_seed.value_or(config.seed);
+  const bool all = options->sweeps == std::vector<std::string>{"all"} ||
+                   (options->sweeps.empty() && config.recordings.empty());
+  for (const std::string& name : accuracy::SweepNames()) {
+    const bool chosen =
+        std::find(options->sweeps.begin(), options->sweeps.end(), name) != options->sweeps.end();
+    if (all || chosen) config.sweeps.push_back(name);
+  }
+  return {};
+}
+
+Result<void> Run(Options& options) {
+  PLEINAIR_RETURN_IF_ERROR(Complete(&options));
+  PLEINAIR_ASSIGN_OR_RETURN(const Shard shard, ShardOf(options.shard));
+  const auto chunks = static_cast<std::int64_t>(PlanChunks(options.config).size());
+  PLEINAIR_ASSIGN_OR_RETURN(const RecordParts parts,
+                            RecordParts::Open(options.output, options.config, chunks));
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  PLEINAIR_ASSIGN_OR_RETURN(const RunOutcome outcome, MeasureShard(parts, shard, threads));
+  nlohmann::ordered_json json{{"folder", options.output},
+                              {"shard", fmt::format("{}/{}", shard.index, shard.count)},
+                              {"parts", outcome.chunks},
+                              {"measured_now", outcome.measured},
+                              {"skipped", outcome.skipped}};
+  std::string text = fmt::format("{} of {} parts measured now", outcome.measured, outcome.chunks);
+  if (shard.count == 1) {
+    PLEINAIR_ASSIGN_OR_RETURN(const WrittenReport written,
+                              WriteAccuracyReport({parts}, options.output));
+    json["frames"] = written.frames;
+    json["report"] = options.output + "/report.html";
+    text += fmt::format(", {} frames: {}/report.html", written.frames, options.output);
+  }
+  std::cout << (options.json
+                    ? json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                    : text)
+            << '\n';
+  for (const std::string& message : outcome.skipped) {
+    std::cerr << "pleinair accuracy: skipped " << message << '\n';
+  }
+  if (outcome.skipped.empty()) return {};
+  return SystemError("", fmt::format("{} recordings could not be measured", outcome.skipped.size()),
+                     "the others were; see above");
+}
+
+}  // namespace
+
+void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "accuracy", "Measure detection, pose and covariance against exact truth, with uncertainty");
+  command->footer(kExamples);
+  std::vector<std::string> sweeps = accuracy::SweepNames();
+  sweeps.push_back("all");
+  command->add_option("--sweep", options->sweeps, "Built-in scenes; all where none are named")
+      ->delimiter(',')
+      ->check(CLI::IsMember(sweeps))
+      ->type_name("NAME,...");
+  command->add_option("--against", options->config.peers, "Peers on the same scenes")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"apriltag", "aruco"}))
+      ->type_name("apriltag,aruco");
+  command->add_option("-o,--output", options->output, "Folder for the report")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--size", options->config.camera, "Lens and picture")
+      ->check(CLI::IsMember(accuracy::SweepCameraNames()))
+      ->capture_default_str();
+  command->add_option("--seed", options->config.seed, "Of the scenes")->capture_default_str();
+  command->add_option("--noise-seed", options->noise_seed,
+                      "Of the noise on the same scenes (default: as --seed)");
+  CLI::Option* scale =
+      command->add_option("--scale", options->config.scale, "Times the frames of each level")
+          ->check(NumberRange(0.001, 1000.0))
+          ->capture_default_str();
+  command->add_flag("--quick", options->quick, "An eighth of the frames")->excludes(scale);
+  command
+      ->add_option(
+          "--measure", options->config.measure,
+          "How prints are measured: blocks (as detect and live do) or print (as replay does)")
+      ->check(CLI::IsMember({"blocks", "print"}))
+      ->capture_default_str();
+  command
+      ->add_option("--spoil-corners-px", options->config.spoil_corners_px,
+                   "Move each found corner by so much: a planted regression, to try the gate with")
+      ->check(NumberRange(0.0, 100.0));
+  command->add_option("--shard", options->shard, "Do the I-th of N parts only; merge them later")
+      ->type_name("I/N");
+  command->add_option("--threads", options->threads, "Default: as many as the machine has")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--json", options->json, "One JSON object on standard output");
+  command->callback([options, &result] { result.status = Run(*options); });
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,119 @@
+#include "accuracy/scoring.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "accuracy/random.h"
+#include "accuracy/seen_print.h"
+#include "accuracy/statistics.h"
+#include "accuracy/sweeps.h"
+#include "accuracy/trajectory_error.h"
+
+namespace pleinair::accuracy {
+namespace {
+
+MarkerTruth TruthAt(Vec2 centre_px, int number) {
+  MarkerTruth truth{.number = number};
+  const CameraModel camera = SweepCamera("640x480");
+  truth.camera_from_marker = PoseSeenAt(camera, centre_px, 100, kMarkerEdge, FromDegrees(20),
+                                        FromDegrees(30), FromDegrees(10));
+  truth.corners_px = SquareCorners(camera, truth.camera_from_marker, kMarkerEdge);
+  return truth;
+}
+
+Detected Shifted(const MarkerTruth& truth, Vec2 by_px) {
+  Detected detected{.number = truth.number, .corners_px = truth.corners_px};
+  for (Vec2& corner : detected.corners_px) corner = corner + by_px;
+  return detected;
+}
+
+TEST(Score, TellsHitsMisplacedMissedAndFalse) {
+  const MarkerTruth a = TruthAt({150, 120}, 3), b = TruthAt({450, 120}, 4),
+                    c = TruthAt({300, 350}, 5);
+  FrameRecord record;
+  Detected other = Shifted(a, {0, 0});
+  other.number = 9;
+  // About 100 px of edge: the tolerance is 3 px. The nearer of two counts, the other is false.
+  Score({a, b, c}, {Shifted(a, {2.5, 0}), Shifted(a, {0.1, 0}), Shifted(b, {0, 4}), other},
+        &record);
+  ASSERT_EQ(record.markers.size(), 3U);
+  EXPECT_EQ(record.markers[0].outcome, Outcome::kHit);
+  EXPECT_NEAR(record.markers[0].CornerRms(), 0.1, 1e-9);
+  EXPECT_EQ(record.markers[1].outcome, Outcome::kMisplaced);
+  EXPECT_EQ(record.markers[2].outcome, Outcome::kMissed);
+  EXPECT_EQ(record.false_numbers, 2);
+}
+
+TEST(Nees, IsThatOfErrorsDrawnFromTheCovariance) {
+  const MarkerTruth truth = TruthAt({300, 200}, 1);
+  RandomStream random(2, "nees");
+  tracker::PoseEstimate estimate;
+  const double rotation_sd = 0.004, translation_sd = 0.002;
+  for (int i = 0; i < 6; ++i) {
+    estimate.covariance[7 * i] =
+        i < 3 ? rotation_sd * rotation_sd : translation_sd * translation_sd;
+  }
+  double sum = 0.0;
+  constexpr int kDraws = 2000;
+  for (int i = 0; i < kDraws; ++i) {
+    Vec3 turn{random.Normal(), random.Normal(), random.Normal()};
+    const double angle = Norm(turn) * rotation_sd;
+    auto& pose = estimate.best.camera_from_marker;
+    pose.rotation = RotationAbout(Normalized(turn), angle) * truth.camera_from_marker.rotation;
+    pose.translation_m = truth.camera_from_marker.translation_m +
+                         Vec3{random.Normal(), random.Normal(), random.Normal()} * translation_sd;
+    sum += *Nees(estimate, truth.camera_from_marker);
+  }
+  EXPECT_TRUE(MeanChiSquareBand(6, kDraws, 0.999).Holds(sum / kDraws)) << sum / kDraws;
+  estimate.covariance[0] = 0.0;
+  EXPECT_FALSE(Nees(estimate, truth.camera_from_marker).has_value());
+}
+
+TEST(AngleBetween, IsExactForSmallAndLargeTurns) {
+  for (const double angle : {1e-9, 1e-4, 1.0, 3.1}) {
+    EXPECT_NEAR(AngleBetween(Mat3{}, RotationAbout({0, 0, 1}, angle)), angle, 1e-8 * angle);
+  }
+}
+
+/// A camera that goes round the marker.
+Trajectory Circle(int frames, const Transform<Marker, Marker>& moved, double drift_m = 0.0) {
+  Trajectory path;
+  for (int i = 0; i < frames; ++i) {
+    const double angle = 0.1 * i;
+    Transform<Marker, Camera> pose{RotationAbout({0, 0, 1}, angle),
+                                   {2 * std::cos(angle), 2 * std::sin(angle), 1.0 + 0.02 * i}};
+    pose.translation_m = pose.translation_m + Vec3{drift_m * i, 0, 0};
+    path.push_back({i, moved * pose});
+  }
+  return path;
+}
+
+// Sturm et al. 2012, section IV: what both errors are of paths whose errors are known.
+TEST(TrajectoryError, IsThatOfPathsWhoseErrorsAreKnown) {
+  const Transform<Marker, Marker> none;
+  const Trajectory truth = Circle(60, none);
+  // A path that is moved as a whole: the absolute error goes with the alignment, and no step errs.
+  const Transform<Marker, Marker> moved{RotationAbout({0, 1, 0}, 0.2), {0.3, 0.0, 0.4}};
+  auto error = CompareTrajectories(Circle(60, moved), truth);
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->poses, 60);
+  EXPECT_EQ(error->steps, 59);
+  EXPECT_NEAR(error->ate_rmse_m, 0.0, 1e-12);
+  EXPECT_GT(error->ate_unaligned_rmse_m, 0.3);
+  EXPECT_NEAR(error->rpe_translation_rmse_m, 0.0, 1e-12);
+  // A camera that drifts by 1 mm a step errs by 1 mm in each.
+  error = CompareTrajectories(Circle(60, none, 0.001), truth);
+  EXPECT_NEAR(error->rpe_translation_rmse_m, 0.001, 1e-9);
+  EXPECT_NEAR(error->rpe_rotation_rmse_deg, 0.0, 1e-9);
+  // Frames without a pose are in neither: a gap is no step.
+  Trajectory with_gap = truth;
+  with_gap.erase(with_gap.begin() + 10, with_gap.begin() + 20);
+  error = CompareTrajectories(with_gap, truth);
+  EXPECT_EQ(error->poses, 50);
+  EXPECT_EQ(error->steps, 48);
+  EXPECT_FALSE(CompareTrajectories({}, truth).has_value());
+}
+
+}  // namespace
+}  // namespace pleinair::accuracy

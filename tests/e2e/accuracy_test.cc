@@ -1,0 +1,95 @@
+// `pleinair accuracy` and `pleinair report` from outside.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+
+namespace pleinair::e2e {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A few frames of four sweeps: four parts.
+std::vector<std::string> Small(std::vector<std::string> more) {
+  std::vector<std::string> arguments{"accuracy", "--sweep",   "noise,many,negative,sequence",
+                                     "--scale",  "0.01",      "--seed",
+                                     "4",        "--measure", "blocks"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(Accuracy, IsTheSameHoweverItIsDivided) {
+  const TemporaryFolder folder;
+  const RunResult whole = RunPleinair(Small({"-o", folder / "whole", "--json"}));
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_EQ(json::parse(whole.out)["parts"], 4);
+  for (const int count : {2, 7}) {
+    const fs::path shards = folder / std::to_string(count);
+    for (int i = 1; i <= count; ++i) {
+      // Every second shard into a folder of its own.
+      const std::string to = (i % 2 == 0 ? shards / "even" : shards / "odd").string();
+      const std::string shard = std::to_string(i) + "/" + std::to_string(count);
+      const RunResult run = RunPleinair(Small({"-o", to, "--shard", shard}));
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
+    const RunResult merged =
+        RunPleinair({"report", "merge", shards / "odd", shards / "even", "-o", shards / "all"});
+    ASSERT_EQ(merged.exit_code, 0) << merged.err;
+    for (const char* file : {"report.json", "report.html", "records.jsonl"}) {
+      EXPECT_EQ(ReadFile(shards / "all" / file), ReadFile(folder / "whole" / file))
+          << count << " " << file;
+    }
+    // Half of it is no report.
+    const RunResult half = RunPleinair({"report", "merge", shards / "odd", "-o", shards / "half"});
+    EXPECT_EQ(half.exit_code, 1);
+    EXPECT_THAT(half.err, HasSubstr("parts are not there"));
+    EXPECT_FALSE(fs::exists(shards / "half"));
+  }
+  const json report = json::parse(ReadFile(folder / "whole/report.json"));
+  EXPECT_EQ(report["detectors"], json({"pleinair"}));
+  EXPECT_THAT(ReadFile(folder / "whole/report.html"), Not(HasSubstr("http")));
+}
+
+TEST(Accuracy, GoesOnWhereItStoppedAndRefusesAnotherRunsFolder) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> command{"accuracy", "--sweep", "many,negative", "--scale",
+                                         "0.01",     "-o",      folder / "out",  "--json"};
+  const RunResult first = RunPleinair(command);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const std::string report = ReadFile(folder / "out/report.json");
+  const std::string part = ReadFile(folder / "out/parts/00001.jsonl");
+  // A part that was cut, as no part is that this program wrote, counts as not there.
+  WriteFile(folder / "out/parts/00001.jsonl", part.substr(0, part.size() / 2));
+  const RunResult second = RunPleinair(command);
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(json::parse(second.out)["measured_now"], 1);
+  EXPECT_EQ(ReadFile(folder / "out/report.json"), report);
+  const RunResult other = RunPleinair({"accuracy", "--sweep", "many", "-o", folder / "out"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("another configuration"));
+}
+
+TEST(Accuracy, RefusesWhatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--sweep", "colour"},
+                                                {"--shard", "3/2"},
+                                                {"--shard", "0/2"},
+                                                {"--shard", "x"},
+                                                {"--against", "eyes"},
+                                                {"--scale", "nan"}}) {
+    std::vector<std::string> arguments{"accuracy", "-o", folder / "out"};
+    arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+    const RunResult run = RunPleinair(arguments);
+    EXPECT_EQ(run.exit_code, 2) << wrong[1];
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+  EXPECT_EQ(RunPleinair({"report", "merge", folder / "nowhere"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace pleinair::e2e
