@@ -54,9 +54,9 @@ struct OpenedFramePack {
 };
 
 /// Opens the frames up to the last whole one, each with the stamps, exposure and losses that were
-/// recorded; stamps count from the first frame. `size`: what each must have.
-/// Errors: not such a file, no whole frame, another size; and from Next() a frame in the middle
-/// that is damaged.
+/// recorded; stamps count from the first frame. `size`: what each must have; 0x0: what the first
+/// has. Errors: not such a file, no whole frame, another size; and from Next() a frame in the
+/// middle that is damaged.
 Result<OpenedFramePack> OpenFramePack(const std::filesystem::path& file, PictureSize size);
 
 }  // namespace pleinair::devices

@@ -142,6 +142,7 @@ Result<OpenedFramePack> OpenFramePack(const fs::path& file, PictureSize size) {
   if (!first) {
     return InputError(file.string() + ", frame 0", "is damaged", "get a whole copy of it");
   }
+  if (size == PictureSize{}) size = {first->layout.width, first->layout.height};
   OpenedFramePack opened;
   opened.dropped_bytes = total - at;
   const std::int64_t start_ns = first->frame.timestamp_ns;

@@ -103,6 +103,7 @@ Result<OpenedVideo> Open(const std::filesystem::path& file, VideoFacts facts) {
   }
   const PictureSize is{static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH)),
                        static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT))};
+  if (facts.size == PictureSize{}) facts.size = is;
   if (is != facts.size) {
     return InputError(name,
                       "has " + std::to_string(is.width) + "x" + std::to_string(is.height) +
@@ -127,6 +128,7 @@ Result<OpenedVideo> Open(const std::filesystem::path& file, VideoFacts facts) {
     }
   }
   OpenedVideo opened;
+  opened.size = facts.size;
   opened.frame_rate_hz = *facts.frame_rate_hz;
   opened.frames =
       std::make_unique<VideoFile>(name, std::move(capture), std::move(facts), promised_exactly);

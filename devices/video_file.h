@@ -13,7 +13,8 @@ namespace pleinair::devices {
 
 /// What is known of a video apart from its file.
 struct VideoFacts {
-  PictureSize size;                     ///< What every frame must have: the calibration's.
+  /// What every frame must have: the calibration's. 0x0: whatever size the film has.
+  PictureSize size;
   std::optional<int> frame_count;       ///< Overrides what the file itself says.
   std::optional<double> frame_rate_hz;  ///< Overrides what the file itself says.
   std::vector<double> timestamps_s;     ///< One a frame; empty: index / rate.
@@ -22,6 +23,7 @@ struct VideoFacts {
 struct OpenedVideo {
   std::unique_ptr<FrameSource> frames;
   double frame_rate_hz = 0.0;
+  PictureSize size;
 };
 
 /// Frames of a video file, decoded by FFmpeg through OpenCV; a turn said in the file (phones) is

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "devices/calibration_text.h"
 #include "temporary_folder.h"
 
 namespace pleinair::devices {
@@ -253,6 +254,48 @@ TEST(Calibration, FilesThatCannotBeReadAreNamed) {
   EXPECT_THAT(MessageOf(ReadCalibration(folder.Write("empty.yaml", ""))), HasSubstr("is empty"));
   EXPECT_THAT(MessageOf(ReadCalibration(folder.Write("large.yaml", std::string(5'000'000, ' ')))),
               HasSubstr("more than the"));
+}
+
+TEST(CalibrationText, IsReadBackToTheLastBitInEveryForm) {
+  CameraModel camera;
+  camera.width = 1921;
+  camera.height = 1079;
+  camera.fx = 1.0 / 3.0 * 4000.0;
+  camera.fy = 1333.0 + 1e-10;
+  camera.cx = 960.1234567890123;
+  camera.cy = 539.9;
+  const std::array<double, 8> lenses[] = {{},
+                                          {-0.1, 1e-05, -3e-17, 0.2 / 3.0},
+                                          {-0.1, 0.01, 1e-5, -1e-6, 0.123456789012345678},
+                                          {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8},
+                                          {0.03, -0.01, 0.004, -0.001}};
+  for (std::size_t i = 0; i < std::size(lenses); ++i) {
+    camera.distortion = lenses[i];
+    camera.distortion_model =
+        i == 4 ? DistortionModel::kEquidistant : DistortionModel::kBrownConrady;
+    for (const auto form :
+         {CalibrationForm::kOwn, CalibrationForm::kOpenCvYaml, CalibrationForm::kOpenCvJson,
+          CalibrationForm::kRos, CalibrationForm::kKalibr, CalibrationForm::kEuroc}) {
+      const auto text = CalibrationText(camera, form, {{"rms_px", 0.1}});
+      const bool four_only = form == CalibrationForm::kKalibr || form == CalibrationForm::kEuroc;
+      if (four_only && (i == 2 || i == 3)) {
+        ASSERT_FALSE(text);
+        EXPECT_THAT(text.error().Message(), HasSubstr("--model radtan4"));
+        continue;
+      }
+      ASSERT_TRUE(text);
+      const auto read = ParseCalibration(*text, "written");
+      ASSERT_TRUE(read) << read.error().Message() << "\n" << *text;
+      EXPECT_EQ(read->width, camera.width);
+      EXPECT_EQ(read->height, camera.height);
+      EXPECT_EQ(read->fx, camera.fx);
+      EXPECT_EQ(read->fy, camera.fy);
+      EXPECT_EQ(read->cx, camera.cx);
+      EXPECT_EQ(read->cy, camera.cy);
+      EXPECT_EQ(read->distortion_model, camera.distortion_model);
+      EXPECT_EQ(read->distortion, camera.distortion) << *text;
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,331 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/calibrate/board_options.h"
+#include "app/calibrate/calibration_drawings.h"
+#include "app/calibrate/calibration_page.h"
+#include "app/calibrate/view_collection.h"
+#include "app/command.h"
+#include "app/interrupt.h"
+#include "app/number_range.h"
+#include "app/progress_bar.h"
+#include "app/sinks/picture_writer.h"
+#include "base/atomic_file.h"
+#include "devices/calibration_text.h"
+
+namespace pleinair::app {
+namespace {
+
+using devices::CalibrationForm;
+using tracker::LensCalibration;
+using tracker::LensKind;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  pleinair board -o board.pdf\n"
+    "  pleinair calibrate --board board.json photos/ -o camera.json --report lens.html\n"
+    "  pleinair calibrate --charuco 8x6 photos/*.jpg -o camera.json\n"
+    "  pleinair calibrate --chessboard 9x6 film.mp4 --opencv camera.yaml --ros camera_info.yaml\n"
+    "  pleinair calibrate --charuco 8x6 v4l2:/dev/video0 -o camera.json\n"
+    "      picks views while you move the board, until it has enough or you press Ctrl-C\n"
+    "Take 10 to 20 pictures of the whole board: near and far, tilted by 20 to 45 degrees in "
+    "several\n"
+    "directions, in every corner of the picture, with focus and zoom held. Views that do not\n"
+    "determine the lens are refused with the reasons. docs/calibration.md tells more.";
+
+/// A file to write and its form.
+struct Output {
+  const char* option;
+  const char* help;
+  CalibrationForm form;
+  std::string file;
+};
+
+struct Options {
+  std::vector<std::string> sources;
+  BoardOptions board;
+  std::string model = "auto";
+  std::vector<Output> outputs = {
+      {"-o,--output", "Our own form (.json)", CalibrationForm::kOwn, ""},
+      {"--opencv", "OpenCV's form (.yaml)", CalibrationForm::kOpenCvYaml, ""},
+      {"--opencv-json", "OpenCV's form as JSON", CalibrationForm::kOpenCvJson, ""},
+      {"--ros", "ROS' camera_info (.yaml)", CalibrationForm::kRos, ""},
+      {"--kalibr", "Kalibr's camchain (.yaml)", CalibrationForm::kKalibr, ""},
+      {"--euroc", "EuRoC's sensor.yaml", CalibrationForm::kEuroc, ""}};
+  std::string report, coverage, size;
+  std::optional<double> seconds;
+  int views = 40;
+  bool json = false;
+};
+
+Result<devices::PictureWish> WishOf(const Options& options) {
+  devices::PictureWish wish;
+  if (options.size.empty()) return wish;
+  PLEINAIR_ASSIGN_OR_RETURN(const auto sides, ParseSides("--size", options.size));
+  wish.size = devices::PictureSize{sides.first, sides.second};
+  return wish;
+}
+
+/// What may be wrong with the outputs is said before minutes of work.
+Result<void> CheckOutputs(const Options& options) {
+  const bool any = !options.report.empty() || !options.coverage.empty() || options.json ||
+                   std::any_of(options.outputs.begin(), options.outputs.end(),
+                               [](const Output& output) { return !output.file.empty(); });
+  if (!any) return InputError("", "nothing is to be written", "name a file with -o camera.json");
+  if (!options.coverage.empty() && !options.coverage.ends_with(".svg") &&
+      !options.coverage.ends_with(".png")) {
+    return InputError("--coverage", "\"" + options.coverage + "\" is neither .svg nor .png",
+                      "name it coverage.svg or coverage.png");
+  }
+  return {};
+}
+
+std::vector<tracker::PlaneView> Planes(const Collection& collection,
+                                       const tracker::CalibrationBoard& board) {
+  const std::vector<Vec2> points = BoardPoints(board);
+  std::vector<tracker::PlaneView> planes;
+  for (const CollectedView& each : collection.views) planes.push_back(OnPlane(each.view, points));
+  return planes;
+}
+
+/// Prints are measured once more when the lens is known about; where it cannot be found out, what
+/// comes next says why.
+void RefineViews(tracker::BoardFinder& finder, Collection* collection) {
+  if (!finder.refines() || collection->views.size() < tracker::kFewestViews) return;
+  const auto rough = tracker::FitLens(Planes(*collection, finder.board()), collection->width,
+                                      collection->height, LensKind::kRadtan4, 1.0);
+  if (!rough) return;
+  ProgressBar bar("Measuring", static_cast<std::int64_t>(collection->views.size()), "views");
+  for (CollectedView& each : collection->views) {
+    finder.Refine(rough->camera, each.grey.view(), &each.view);
+    bar.Advance();
+  }
+}
+
+Result<LensCalibration> Calibrate(const Options& options, const Collection& collection,
+                                  const tracker::CalibrationBoard& board) {
+  tracker::LensCalibrationOptions lens_options;
+  for (const LensKind kind : tracker::kLensKinds) {
+    if (options.model == NameOf(kind)) lens_options.kind = kind;
+  }
+  auto calibration = tracker::CalibrateLens(Planes(collection, board), collection.width,
+                                            collection.height, lens_options);
+  if (calibration) return calibration;
+  Error error = calibration.error();
+  if (error.where.empty()) error.where = options.sources.front();
+  if (collection.views.size() < tracker::kFewestViews) {
+    error.what = fmt::format(
+        "the board is seen in {} of {} pictures, and fewer than {} do not "
+        "determine a lens",
+        collection.views.size(), collection.looked_at, tracker::kFewestViews);
+  }
+  return tl::make_unexpected(std::move(error));
+}
+
+std::map<std::string, double> Notes(const LensCalibration& calibration) {
+  return {{"rms_px", calibration.rms_px},
+          {"validation_rms_px", calibration.validation.rms_px},
+          {"views", static_cast<double>(calibration.views.size())},
+          {"coverage", calibration.coverage.Share()},
+          {"fx_deviation_px", calibration.uncertainty.fx},
+          {"fy_deviation_px", calibration.uncertainty.fy},
+          {"cx_deviation_px", calibration.uncertainty.cx},
+          {"cy_deviation_px", calibration.uncertainty.cy}};
+}
+
+Result<void> WriteCoverage(const std::string& file, const LensCalibration& calibration) {
+  const LineDrawing drawing = CoverageDrawing(calibration);
+  constexpr int kWidth_px = 1200;
+  if (file.ends_with(".svg")) return WriteFileAtomically(file, DrawingSvg(drawing, kWidth_px));
+  return WritePng(file, RasterizeDrawing(drawing, kWidth_px).view());
+}
+
+Result<void> Write(const Options& options, const LensCalibration& calibration,
+                   const Collection& collection, const tracker::CalibrationBoard& board) {
+  // All texts first: a form that cannot hold the lens leaves nothing behind.
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const Output& output : options.outputs) {
+    if (output.file.empty()) continue;
+    auto text = devices::CalibrationText(calibration.fit.camera, output.form, Notes(calibration));
+    if (!text) {
+      Error error = text.error();
+      error.where = output.file;
+      return tl::make_unexpected(std::move(error));
+    }
+    texts.emplace_back(output.file, *std::move(text));
+  }
+  if (!options.report.empty()) {
+    CalibrationFacts facts;
+    facts.command = "pleinair calibrate";
+    for (const std::string& source : options.sources) {
+      if (facts.command.size() < 200) facts.command += " " + source;
+    }
+    facts.board = board.Words();
+    facts.title = options.sources.front();
+    facts.looked_at = collection.looked_at;
+    facts.with_board = static_cast<int>(collection.views.size());
+    texts.emplace_back(options.report, CalibrationPage(facts, calibration, collection.views));
+  }
+  for (const auto& [file, text] : texts) {
+    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(file, text));
+  }
+  return options.coverage.empty() ? Result<void>() : WriteCoverage(options.coverage, calibration);
+}
+
+nlohmann::ordered_json Json(const LensCalibration& calibration, const Collection& collection,
+                            const tracker::CalibrationBoard& board) {
+  const CameraModel& camera = calibration.fit.camera;
+  const tracker::LensUncertainty& doubt = calibration.uncertainty;
+  nlohmann::ordered_json json = {{"image_width", camera.width},
+                                 {"image_height", camera.height},
+                                 {"kind", NameOf(calibration.fit.kind)},
+                                 {"board", board.Words()},
+                                 {"fx", camera.fx},
+                                 {"fy", camera.fy},
+                                 {"cx", camera.cx},
+                                 {"cy", camera.cy}};
+  json["standard_deviations"] = {
+      {"fx", doubt.fx}, {"fy", doubt.fy}, {"cx", doubt.cx}, {"cy", doubt.cy}};
+  const auto names = CoefficientNames(camera);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(CoefficientsOf(calibration.fit.kind)); ++i) {
+    json["distortion"][names[i]] = camera.distortion[i];
+    json["standard_deviations"][names[i]] = doubt.distortion[i];
+  }
+  json["rms_px"] = calibration.rms_px;
+  json["validation"] = {{"folds", calibration.validation.folds},
+                        {"rms_px", calibration.validation.rms_px},
+                        {"focal_px", calibration.validation.focal_px}};
+  for (const tracker::TriedKind& tried : calibration.tried) {
+    json["tried"].push_back({{"kind", NameOf(tried.kind)},
+                             {"rms_px", tried.rms_px},
+                             {"validation_rms_px", tried.validation_rms_px}});
+  }
+  json["pictures"] = collection.looked_at;
+  for (std::size_t i = 0; i < calibration.views.size(); ++i) {
+    json["views"].push_back({{"name", calibration.views[i].name},
+                             {"corners", calibration.views[i].seen_px.size()},
+                             {"rms_px", tracker::Rms(calibration.residuals_px[i])}});
+  }
+  json["left_out"] = nlohmann::json::array();
+  for (const tracker::DroppedView& dropped : calibration.dropped) {
+    json["left_out"].push_back({{"name", dropped.name}, {"why", dropped.why}});
+  }
+  json["corners_left_out"] = calibration.points_left_out;
+  json["coverage"] = calibration.coverage.Share();
+  for (const ResidualRegion& region : ResidualRegions(calibration)) {
+    json["regions"].push_back({{"corners", region.points},
+                               {"mean_px", {region.mean_px.x, region.mean_px.y}},
+                               {"rms_px", region.rms_px}});
+  }
+  json["advice"] = calibration.judgement.advice;
+  return json;
+}
+
+void Print(const LensCalibration& calibration, const Collection& collection,
+           const tracker::CalibrationBoard& board) {
+  const CameraModel& camera = calibration.fit.camera;
+  const tracker::LensUncertainty& doubt = calibration.uncertainty;
+  std::cout << fmt::format(
+      "{}, seen in {} of {} pictures of {}x{}\n"
+      "fx {:.2f} +- {:.2f} px, fy {:.2f} +- {:.2f} px, centre {:.2f}, {:.2f} +- {:.2f}, {:.2f} "
+      "px\n",
+      board.Words(), collection.views.size(), collection.looked_at, camera.width, camera.height,
+      camera.fx, doubt.fx, camera.fy, doubt.fy, camera.cx, camera.cy, doubt.cx, doubt.cy);
+  std::cout << NameOf(calibration.fit.kind) << ":";
+  const auto names = CoefficientNames(camera);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(CoefficientsOf(calibration.fit.kind)); ++i) {
+    std::cout << fmt::format(" {} {:.5f} +- {:.5f}", names[i], camera.distortion[i],
+                             doubt.distortion[i]);
+  }
+  std::cout << fmt::format(
+      "\nRMS {:.3f} px, of views left out {:.3f} px; {:.0f} % of the picture covered\n",
+      calibration.rms_px, calibration.validation.rms_px, 100.0 * calibration.coverage.Share());
+  for (const tracker::DroppedView& dropped : calibration.dropped) {
+    std::cerr << "left out " << dropped.name << ": " << dropped.why << '\n';
+  }
+  for (const std::string& advice : calibration.judgement.advice) {
+    std::cerr << "better: " << advice << '\n';
+  }
+}
+
+Result<void> Run(const Options& options) {
+  PLEINAIR_RETURN_IF_ERROR(CheckOutputs(options));
+  PLEINAIR_ASSIGN_OR_RETURN(const tracker::CalibrationBoard board, BoardOf(options.board));
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::PictureWish wish, WishOf(options));
+  PLEINAIR_ASSIGN_OR_RETURN(const auto finder, tracker::BoardFinder::Create(board));
+  const InterruptGuard guard;
+  PLEINAIR_ASSIGN_OR_RETURN(const auto pictures, OpenPictures(options.sources, wish));
+  CollectionOptions collection_options;
+  collection_options.most_views = options.views;
+  collection_options.seconds = options.seconds;
+  PLEINAIR_ASSIGN_OR_RETURN(Collection collection,
+                            CollectViews(*pictures, *finder, collection_options));
+  RefineViews(*finder, &collection);
+  PLEINAIR_ASSIGN_OR_RETURN(const LensCalibration calibration,
+                            Calibrate(options, collection, finder->board()));
+  PLEINAIR_RETURN_IF_ERROR(Write(options, calibration, collection, finder->board()));
+  if (options.json) {
+    std::cout << Json(calibration, collection, finder->board())
+                     .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+              << '\n';
+  } else {
+    Print(calibration, collection, finder->board());
+  }
+  return {};
+}
+
+}  // namespace
+
+void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("calibrate", "Calibrate a camera from views of a board");
+  command->footer(kExamples);
+  command
+      ->add_option("SOURCE", options->sources,
+                   "Pictures, a folder of them, a film, or a camera (v4l2:..., libcamera:..., "
+                   "aravis:...)")
+      ->required();
+  AddBoardOptions(*command, options->board);
+  for (Output& output : options->outputs) {
+    command->add_option(output.option, output.file, output.help)->type_name("F");
+  }
+  command->add_option("--report", options->report, "Page with coverage, residuals, views (HTML)")
+      ->type_name("F");
+  command->add_option("--coverage", options->coverage, "Where the board was seen (.svg or .png)")
+      ->type_name("F");
+  command
+      ->add_option("--model", options->model,
+                   "auto (the one that foretells views left out best), pinhole, radtan4, radtan5, "
+                   "rational or equidistant (fisheye)")
+      ->check(CLI::IsMember({"auto", "pinhole", "radtan4", "radtan5", "rational", "equidistant"}))
+      ->type_name("KIND")
+      ->capture_default_str();
+  command->add_option("--views", options->views, "Of a film or camera, pick at most so many views")
+      ->check(CLI::Range(tracker::kFewestViews, 200))
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "Of a camera, look for so long at most")
+      ->check(NumberRange(1.0, 36'000.0));
+  command->add_option("--size", options->size, "Of a camera: size of its pictures")
+      ->type_name("1280x720");
+  command->add_flag("--json", options->json, "One JSON object on standard output");
+  command->callback([options, &result] {
+    try {
+      result.status = Run(*options);
+    } catch (const std::exception& error) {
+      result.status = SystemError("", std::string("calibrate failed: ") + error.what(),
+                                  "please report it with the pictures");
+    }
+  });
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,191 @@
+#include "app/calibrate/picture_stream.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <system_error>
+#include <utility>
+
+#include "app/interrupt.h"
+#include "devices/camera_uri.h"
+#include "devices/frame_pack.h"
+#include "devices/live_camera.h"
+#include "devices/picture_file.h"
+#include "devices/video_file.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PictureFiles final : public PictureStream {
+ public:
+  explicit PictureFiles(std::vector<fs::path> files) : files_(std::move(files)) {}
+
+  Result<std::optional<NamedPicture>> Next() override {
+    if (next_ == files_.size()) return std::nullopt;
+    const fs::path& file = files_[next_++];
+    PLEINAIR_ASSIGN_OR_RETURN(devices::Picture picture, devices::DecodePictureFile(file));
+    return NamedPicture{file.string(), std::move(picture.grey)};
+  }
+  std::optional<std::int64_t> Count() const override {
+    return static_cast<std::int64_t>(files_.size());
+  }
+  bool is_film() const override { return false; }
+
+ private:
+  const std::vector<fs::path> files_;
+  std::size_t next_ = 0;
+};
+
+class Film final : public PictureStream {
+ public:
+  Film(std::string name, std::unique_ptr<devices::FrameSource> frames)
+      : name_(std::move(name)), frames_(std::move(frames)) {}
+
+  Result<std::optional<NamedPicture>> Next() override {
+    PLEINAIR_ASSIGN_OR_RETURN(auto frame, frames_->Next());
+    if (!frame) return std::nullopt;
+    return NamedPicture{name_ + ", frame " + std::to_string(frame->index), std::move(frame->grey)};
+  }
+  std::optional<std::int64_t> Count() const override { return frames_->FrameCount(); }
+  bool is_film() const override { return true; }
+
+ private:
+  const std::string name_;
+  std::unique_ptr<devices::FrameSource> frames_;
+};
+
+class Camera final : public PictureStream {
+ public:
+  explicit Camera(std::unique_ptr<devices::LiveCamera> camera) : camera_(std::move(camera)) {}
+
+  Result<std::optional<NamedPicture>> Next() override {
+    while (!InterruptGuard::Interrupted()) {
+      auto frame = camera_->NextWithin(std::chrono::milliseconds(200));
+      for (const devices::CameraEvent& event : camera_->TakeEvents()) Tell(event);
+      if (frame) {
+        return NamedPicture{"frame " + std::to_string(frame->index), std::move(frame->grey)};
+      }
+    }
+    return std::nullopt;
+  }
+  std::optional<std::int64_t> Count() const override { return std::nullopt; }
+  bool is_film() const override { return true; }
+  bool is_live() const override { return true; }
+
+ private:
+  static void Tell(const devices::CameraEvent& event) {
+    using Kind = devices::CameraEvent::Kind;
+    if (event.kind == Kind::kGone) std::cerr << "The camera is gone; waiting for it.\n";
+    if (event.kind == Kind::kStalled) std::cerr << "The camera sends nothing; waiting for it.\n";
+    if (event.kind == Kind::kConnected && !event.words.empty()) std::cerr << event.words << ".\n";
+  }
+
+  std::unique_ptr<devices::LiveCamera> camera_;
+};
+
+bool IsPictureName(const fs::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
+}
+
+bool IsPicture(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  char start[4] = {};
+  stream.read(start, sizeof start);
+  return std::string_view(start, 4) == "\x89PNG" || std::string_view(start, 2) == "\xff\xd8";
+}
+
+/// Pictures of a folder by their names, numbers as numbers.
+Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (IsPictureName(entry.path()) && entry.is_regular_file(error)) files.push_back(entry.path());
+  }
+  if (error) return InputError(folder.string(), "cannot be read: " + error.message());
+  if (files.empty() && fs::is_directory(folder / "frames", error))
+    return PicturesIn(folder / "frames");
+  if (files.empty()) {
+    return InputError(folder.string(), "holds no picture (.png, .jpg)",
+                      "name the folder with them");
+  }
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    const std::string left = a.filename().string(), right = b.filename().string();
+    return std::pair(left.size(), left) < std::pair(right.size(), right);
+  });
+  return files;
+}
+
+std::optional<Result<devices::CameraUri>> CameraNamed(const std::string& source) {
+  for (const char* scheme : {"v4l2:", "libcamera:", "aravis:", "file:"}) {
+    if (source.starts_with(scheme)) return devices::ParseCameraUri(source);
+  }
+  return std::nullopt;
+}
+
+Result<std::unique_ptr<PictureStream>> OpenCamera(const devices::CameraUri& uri,
+                                                  const devices::PictureWish& wish) {
+  devices::LiveCameraOptions options;
+  options.uri = uri;
+  options.pictures = wish;
+  options.wait_for_camera = false;
+  PLEINAIR_ASSIGN_OR_RETURN(auto camera, devices::LiveCamera::Open(std::move(options)));
+  return std::make_unique<Camera>(std::move(camera));
+}
+
+Result<std::unique_ptr<PictureStream>> OpenFilm(const fs::path& file) {
+  if (devices::IsFramePack(file)) {
+    PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedFramePack pack, devices::OpenFramePack(file, {}));
+    return std::make_unique<Film>(file.string(), std::move(pack.frames));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedVideo video, devices::OpenVideo(file, {}));
+  return std::make_unique<Film>(file.string(), std::move(video.frames));
+}
+
+/// One name: pictures, which are added to `files`, or a film.
+Result<std::unique_ptr<PictureStream>> OpenOne(const fs::path& path, std::vector<fs::path>* files) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return InputError(path.string(), "is not there", "check the name");
+  if (fs::is_directory(path, error)) {
+    if (fs::exists(path / "frames.pack", error)) return OpenFilm(path / "frames.pack");
+    PLEINAIR_ASSIGN_OR_RETURN(const auto found, PicturesIn(path));
+    files->insert(files->end(), found.begin(), found.end());
+    return nullptr;
+  }
+  // What is named like a picture and is none is refused as one.
+  if (!IsPictureName(path) && !IsPicture(path)) return OpenFilm(path);
+  files->push_back(path);
+  return nullptr;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PictureStream>> OpenPictures(const std::vector<std::string>& sources,
+                                                    const devices::PictureWish& wish) {
+  const auto alone = [&](const std::string& source) -> Result<void> {
+    if (sources.size() == 1) return {};
+    return InputError(source, "can only be calibrated alone: cameras and films are not mixed",
+                      "name it alone, or pictures only");
+  };
+  std::vector<fs::path> files;
+  for (const std::string& source : sources) {
+    if (const auto uri = CameraNamed(source)) {
+      if (!*uri) return tl::make_unexpected(uri->error());
+      PLEINAIR_RETURN_IF_ERROR(alone(source));
+      if ((*uri)->backend != devices::CameraUri::Backend::kFile) return OpenCamera(**uri, wish);
+      return OpenPictures({(*uri)->value}, wish);
+    }
+    PLEINAIR_ASSIGN_OR_RETURN(auto film, OpenOne(source, &files));
+    if (!film) continue;
+    PLEINAIR_RETURN_IF_ERROR(alone(source));
+    return film;
+  }
+  return std::make_unique<PictureFiles>(std::move(files));
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,82 @@
+#include <numeric>
+
+#include "tracker/calibration/board_finders.h"
+#include "tracker/print_alignment.h"
+#include "tracker/surf_golay/sg_print.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::tracker {
+namespace {
+
+class MarkerBoardFinder final : public BoardFinder {
+ public:
+  explicit MarkerBoardFinder(const CalibrationBoard& board) : board_(board) {}
+
+  std::optional<BoardView> Find(ImageView<const std::uint8_t> grey) override {
+    if (grey.width() != camera_.width || grey.height() != camera_.height) LookThrough(grey);
+    const auto sightings = tracker_->Track(grey);
+    if (!sightings) return std::nullopt;
+    BoardView view;
+    for (const Sighting& sighting : *sightings) {
+      const int which = sighting.detection.id - board_.first;
+      if (!view.points.empty() && view.points.back() / 4 == which) continue;  // Seen twice.
+      for (int i = 0; i < 4; ++i) {
+        view.points.push_back(4 * which + i);
+        view.seen_px.push_back(sighting.detection.corners_px[static_cast<std::size_t>(i)]);
+      }
+    }
+    if (view.points.size() < kFewestPoints) return std::nullopt;
+    return view;
+  }
+
+  // A corner is where two sides meet, and the lens bends sides.
+  void Refine(const CameraModel& camera, ImageView<const std::uint8_t> grey,
+              BoardView* view) override {
+    BoardView refined;
+    refined.name = view->name;
+    for (std::size_t first = 0; first + 3 < view->points.size(); first += 4) {
+      std::array<Vec2, 4> corners;
+      std::copy_n(view->seen_px.begin() + static_cast<std::ptrdiff_t>(first), 4, corners.begin());
+      const int which = view->points[first] / 4;
+      const auto aligned = AlignPrint(camera, SgPrint(board_.first + which), grey, corners);
+      if (!aligned) continue;
+      for (int i = 0; i < 4; ++i) {
+        refined.points.push_back(4 * which + i);
+        refined.seen_px.push_back(aligned->corners_px[static_cast<std::size_t>(i)]);
+      }
+    }
+    if (refined.points.size() >= kFewestPoints) *view = std::move(refined);
+  }
+  bool refines() const override { return true; }
+
+  const CalibrationBoard& board() const override { return board_; }
+
+ private:
+  /// The tracker wants a lens: any ordinary one finds the markers.
+  void LookThrough(ImageView<const std::uint8_t> grey) {
+    camera_.width = grey.width();
+    camera_.height = grey.height();
+    camera_.fx = camera_.fy = 0.9 * grey.width();
+    camera_.cx = 0.5 * (grey.width() - 1);
+    camera_.cy = 0.5 * (grey.height() - 1);
+    TrackerOptions options;
+    options.families = {"sg"};
+    options.marker_size_m = board_.square_m;
+    options.sg.numbers_in_use.resize(static_cast<std::size_t>(board_.columns * board_.rows));
+    std::iota(options.sg.numbers_in_use.begin(), options.sg.numbers_in_use.end(), board_.first);
+    options.sg.strategy = SgStrategy::kFast;  // A board has many markers: the whole ones do.
+    tracker_ = *Tracker::Create(camera_, options);
+  }
+
+  const CalibrationBoard board_;
+  CameraModel camera_;
+  std::unique_ptr<Tracker> tracker_;
+};
+
+}  // namespace
+
+std::unique_ptr<BoardFinder> CreateMarkerBoardFinder(const CalibrationBoard& board) {
+  return std::make_unique<MarkerBoardFinder>(board);
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/vector.h"
+#include "tracker/calibration/lens_fit.h"
+
+namespace pleinair::tracker {
+
+/// Which parts of the picture views of a board have covered: the picture cut into cells, each
+/// counted where its middle lies inside the outline of a view's points.
+struct ViewCoverage {
+  static constexpr int kColumns = 16, kRows = 12;
+  std::array<int, kColumns * kRows> views{};  ///< Row by row from the top-left.
+
+  double Share() const;
+  /// Share of the cells of the left, right, upper and lower half.
+  std::array<double, 4> Halves() const;
+  void Add(const std::vector<Vec2>& seen_px, int width, int height);
+};
+
+ViewCoverage CoverageOf(const std::vector<PlaneView>& views, int width, int height);
+
+}  // namespace pleinair::tracker
