@@ -66,13 +66,17 @@ vec4 ShadowBlocks(ShadowQuad quad, float least_height) {
          vec4(greaterThan(quad.height, vec4(least_height)));
 }
 
+// Between 2×2 texels in a quad's order; f: from the lower left one's centre to the others'.
+float ShadowBilinear(vec4 quad, vec2 f) {
+  vec2 across = mix(quad.wx, quad.zy, f.x);
+  return mix(across.x, across.y, f.y);
+}
+
 // Share of the 2×2 texels around `texel` that let light pass, weighted bilinearly.
 float ShadowTap(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel, float least_height) {
   vec2 corner = floor(texel - 0.5);
-  vec2 f = texel - 0.5 - corner;
   vec4 blocks = ShadowBlocks(ShadowFetch(set, slice, size, r, corner), least_height);
-  vec4 weights = vec4((1.0 - f.x) * f.y, f.x * f.y, f.x * (1.0 - f.y), (1.0 - f.x) * (1.0 - f.y));
-  return 1.0 - dot(blocks, weights);
+  return 1.0 - ShadowBilinear(blocks, texel - 0.5 - corner);
 }
 
 #endif

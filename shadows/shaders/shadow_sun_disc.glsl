@@ -74,6 +74,30 @@ float ShadowNarrow(int set, int slice, vec4 size, ShadowReceiver r, float tan_ra
   return 1.0 - blocked;
 }
 
+// What 2×2 texels around a place block, weighted bilinearly, and their heights.
+float ShadowBlocked(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel,
+                    out vec4 height) {
+  vec2 corner = floor(texel - 0.5);
+  ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
+  height = quad.height;
+  return ShadowBilinear(vec4(greaterThan(quad.excess, vec4(0.0))), texel - 0.5 - corner);
+}
+
+// Three looks in a line that spread as far, in standard deviations, as the disc past the highest of
+// the first four texels and the pixel do beyond one look's own tent (variance 1/6 texel² an axis).
+// The outer two lie √(3/2) deviations away: (2/3) (3/2) σ² = σ².
+float ShadowThreeLooks(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
+  vec4 height, unused;
+  float blocked = ShadowBlocked(set, slice, size, r, r.texel, height);
+  vec2 high = max(height.xy, height.zw);
+  float disc = max(max(high.x, high.y), 0.0) * (tan_radius / size.x);
+  vec2 pixel2 = r.step_x * r.step_x + r.step_y * r.step_y;
+  vec2 apart = sqrt(max(1.5 * (0.25 * disc * disc + pixel2 / 12.0 - 1.0 / 6.0), 0.0));
+  blocked += ShadowBlocked(set, slice, size, r, r.texel + apart, unused);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel - apart, unused);
+  return 1.0 - blocked / 3.0;
+}
+
 // Visibility of the sun's disc by percentage-closer soft shadows (Fernando 2005) with the sun's own
 // geometry: a blocker h metres away shades a disc of h tan 0.2665° around it.
 // Deviations: (1) the search looks only as far as the highest blocker nearby can matter, found

@@ -20,7 +20,8 @@
 #elif defined(SHADOW_METHOD_PLAIN) || defined(SHADOW_METHOD_PCF) || defined(SHADOW_METHOD_PCSS)
 #include "shadows/shaders/shadow_filters.glsl"
 #else
-#if !defined(SHADOW_METHOD_SUN_DISC) && !defined(SHADOW_METHOD_SUN_DISC_FAST)
+#if !defined(SHADOW_METHOD_SUN_DISC) && !defined(SHADOW_METHOD_SUN_DISC_FAST) && \
+    !defined(SHADOW_METHOD_SUN_DISC_LEAN) && !defined(SHADOW_METHOD_SUN_DISC_LIGHT)
 #define SHADOW_METHOD_SUN_DISC
 #endif
 #include "shadows/shaders/shadow_sun_disc.glsl"
@@ -97,6 +98,10 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
   return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, wanted);
 #elif defined(SHADOW_METHOD_SUN_DISC_FAST)
   return ShadowNarrow(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
+#elif defined(SHADOW_METHOD_SUN_DISC_LIGHT)
+  return ShadowThreeLooks(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
+#elif defined(SHADOW_METHOD_SUN_DISC_LEAN)
+  return ShadowTap(set, place.slice, place.size, r, r.texel, -1e30);
 #elif defined(SHADOW_METHOD_PLAIN)
   return ShadowNearest(set, place.slice, place.size, r);
 #elif defined(SHADOW_METHOD_PCF)
