@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <map>
@@ -18,10 +19,17 @@
 namespace pleinair::app {
 namespace {
 
-const std::map<std::string, compositor::ShadowMethod> kShadowMethods{
-    {"disc", compositor::ShadowMethod::kSunDisc},
-    {"gaussian", compositor::ShadowMethod::kGaussian},
-    {"variance", compositor::ShadowMethod::kVariance}};
+/// Every method by its name in docs/shadows.md, three by a word too.
+std::map<std::string, compositor::ShadowMethod> ShadowMethodsByName() {
+  std::map<std::string, compositor::ShadowMethod> methods{
+      {"disc", compositor::ShadowMethod::kSunDisc},
+      {"gaussian", compositor::ShadowMethod::kGaussian},
+      {"variance", compositor::ShadowMethod::kVariance}};
+  for (const auto& traits : shadows::ShadowMethods()) {
+    methods.emplace(traits.name, traits.method);
+  }
+  return methods;
+}
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -38,6 +46,7 @@ struct Arguments {
   ReplayOptions options;
   std::string recording, output, scene, calibration, size, shader_directory;
   std::vector<std::string> exports;
+  std::vector<double> fog;
   std::string shadows = "disc", light = "measured";
   bool no_video = false;
   bool json = false;
@@ -83,6 +92,12 @@ std::string CommandText(const Arguments& arguments) {
   if (partitions != compositor::ComposerOptions{}.shadow_partitions) {
     text += " --shadow-partitions " + std::to_string(partitions);
   }
+  const double weight = arguments.options.composer.shadow_split_weight;
+  if (weight != compositor::ComposerOptions{}.shadow_split_weight) {
+    text += fmt::format(" --shadow-split-weight {}", weight);
+  }
+  if (!arguments.fog.empty()) text += fmt::format(" --fog {}", fmt::join(arguments.fog, ","));
+  if (arguments.options.composer.show_shadow_maps) text += " --shadow-debug";
   if (!arguments.shader_directory.empty()) {
     text += " --shader-dir " + Quoted(arguments.shader_directory);
   }
@@ -103,9 +118,14 @@ Result<void> Run(Arguments& arguments) {
     options.exports.insert(PathFormatNamed(name).value());
   }
   options.light.as_stated = arguments.light == "stated";
-  options.composer.shadow_method = kShadowMethods.at(arguments.shadows);
+  options.composer.shadow_method = ShadowMethodsByName().at(arguments.shadows);
   if (!arguments.shader_directory.empty()) {
     gl::ShaderLibrary::SetOverrideDirectory(arguments.shader_directory);
+  }
+  if (!arguments.fog.empty()) {
+    // Partitions that are not named are like the last that is.
+    options.composer.fog.fill(arguments.fog.back());
+    std::copy(arguments.fog.begin(), arguments.fog.end(), options.composer.fog.begin());
   }
   options.write_video = !arguments.no_video;
   options.command = CommandText(arguments);
@@ -174,14 +194,30 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
   command
       ->add_option("--shadows", arguments->shadows,
                    "How shadows' edges are made: disc (the sun's own width), gaussian (the paper's "
-                   "Z-GaF) or variance")
-      ->check(CLI::IsMember({"disc", "gaussian", "variance"}))
+                   "Z-GaF), variance, or another method of docs/shadows.md")
+      ->check(CLI::IsMember(ShadowMethodsByName()))
+      ->type_name("METHOD")
       ->capture_default_str();
   command
       ->add_option("--shadow-partitions", arguments->options.composer.shadow_partitions,
                    "Partitions of the shadow maps")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
+  command
+      ->add_option("--shadow-split-weight", arguments->options.composer.shadow_split_weight,
+                   "Lambda of the partitions: 0 even, 1 logarithmic")
+      ->check(NumberRange(0.0, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--fog", arguments->fog,
+                   "Haze before the virtual objects, times the day's own air; one number, or one a "
+                   "partition from near to far; 0 none. Default: 1")
+      ->delimiter(',')
+      ->expected(1, 4)
+      ->check(NumberRange(0.0, 1e6))
+      ->type_name("TIMES,...");
+  command->add_flag("--shadow-debug", arguments->options.composer.show_shadow_maps,
+                    "Tint what each partition of the shadow maps serves and show the maps");
   command
       ->add_option("--shader-dir", arguments->shader_directory,
                    "Folder with shaders to use instead of the built-in ones, for development")

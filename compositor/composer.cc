@@ -12,15 +12,18 @@
 #include <span>
 #include <utility>
 
+#include "compositor/aerial_fog.h"
 #include "compositor/changing_triangles.h"
 #include "compositor/embedded_shaders.h"
 #include "compositor/environment_map.h"
 #include "compositor/render_camera.h"
 #include "compositor/render_targets.h"
+#include "compositor/shadow_debug_view.h"
 #include "compositor/surface_buffers.h"
 #include "gl/egl_context.h"
 #include "gl/program.h"
 #include "shadows/fading_shadow_maps.h"
+#include "shadows/splits.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -89,6 +92,8 @@ shadows::View ViewOf(const RenderCamera& camera,
   view.far_m = far_m;
   return view;
 }
+
+static_assert(std::tuple_size_v<decltype(ComposerOptions::fog)> == shadows::kMaxPartitions);
 
 bool UsesMoments(ShadowMethod method) {
   const shadows::MapContent content = shadows::TraitsOf(method).content;
@@ -164,6 +169,9 @@ class GlComposer : public Composer {
   void SetMaterial(const gl::GlProgram& program, const SurfaceBuffers& surface) const;
   void SortPhantoms();
   void DrawPhantoms(int change) const;
+  void SetFog(const Transform<Camera, Marker>& camera_from_marker, double near_m,
+              double far_m) const;
+  Result<void> DrawDebugView(const Transform<Camera, Marker>& camera_from_marker);
 
   gl::EglContext context_;  // First: GL objects go before it.
   CameraModel camera_;
@@ -186,7 +194,9 @@ class GlComposer : public Composer {
   std::vector<shadows::FadingShadowMaps> shadow_maps_;  // kShadowSets of them.
   std::array<std::vector<shadows::ShadowCaster>, kShadowSets> casters_;
   shadows::Box object_bounds_, scene_bounds_;
-  std::uint64_t revision_ = 0;  // Of the surfaces; the shadow maps follow it.
+  std::uint64_t revision_ = 0;                 // Of the surfaces; the shadow maps follow it.
+  std::optional<ShadowDebugView> debug_view_;  // Made when needed.
+  AerialFog air_;
   Vec3 to_sun_;
   LinearRgb sun_normal_;
 };
@@ -241,6 +251,7 @@ Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
                             RenderTargets::Create(render_camera.width, render_camera.height));
   positions_.Upload(GL_RG, GL_FLOAT, RenderPositions(camera_, render_camera).data());
   render_camera_ = render_camera;
+  debug_view_.reset();
   return {};
 }
 
@@ -251,6 +262,7 @@ Result<void> GlComposer::MakeShadows(const ComposerOptions& options) {
     made.push_back(std::move(maps));
   }
   shadow_maps_ = std::move(made);
+  debug_view_.reset();
   sorted_for_.reset();
   return {};
 }
@@ -342,6 +354,7 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
                                   const Mat3& marker_from_world) {
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   SetSun(day, marker_from_world);
+  air_ = AerialFog(day, marker_from_world);
   surfaces_.clear();
   surfaces_.reserve(lit.size());  // The casters point into it.
   lit_bounds_.clear();
@@ -432,6 +445,47 @@ void GlComposer::DrawPhantoms(int change) const {
   }
 }
 
+void GlComposer::SetFog(const Transform<Camera, Marker>& camera_from_marker, double near_m,
+                        double far_m) const {
+  const Vec3 eye = camera_from_marker.Inverse().translation_m;
+  const glm::dvec3 to_objects =
+      0.5 * (object_bounds_.min + object_bounds_.max) - glm::dvec3(eye.x, eye.y, eye.z);
+  const double far_off = glm::length(to_objects);
+  const FogSplits fog =
+      air_.Along(far_off > 0.0 ? to_objects / far_off : glm::dvec3(0.0, 1.0, 0.0),
+                 shadows::PracticalSplits(near_m, far_m, options_.shadow_partitions,
+                                          options_.shadow_split_weight),
+                 options_.fog);
+  const gl::GlProgram& program = surface_programs_[Fades() ? 1 : 0]->objects;
+  program.SetArray("u_fog_split_m",
+                   std::vector<float>(fog.distance_m.begin(), fog.distance_m.end()));
+  program.SetArray("u_fog_optical_depth",
+                   std::vector<glm::vec3>(fog.optical_depth.begin(), fog.optical_depth.end()));
+  program.SetArray("u_fog_inscattered",
+                   std::vector<glm::vec3>(fog.inscattered.begin(), fog.inscattered.end()));
+}
+
+/// Over the picture just composed.
+Result<void> GlComposer::DrawDebugView(const Transform<Camera, Marker>& camera_from_marker) {
+  const shadows::ShadowMaps& maps = shadow_maps_[kWithObjects].maps();
+  if (!debug_view_) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        debug_view_,
+        ShadowDebugView::Create(maps.options(), render_camera_.width, render_camera_.height));
+  }
+  const shadows::View view = ViewOf(render_camera_, camera_from_marker, scene_bounds_);
+  debug_view_->Draw(
+      maps, glm::mat4(view.ClipFromMarker()),
+      [&](const gl::GlProgram& program) {
+        for (const SurfaceBuffers& surface : surfaces_) {
+          program.Set("u_marker_from_lit", glm::mat4(moved_[surface.placed_model()]));
+          surface.Draw();
+        }
+      },
+      positions_, output_framebuffer_);
+  return {};
+}
+
 void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain) {
   const auto [near_m, far_m] = DepthRange(camera_from_marker, scene_bounds_);
   const auto clip_from_marker = glm::mat4(ClipFromCamera(render_camera_, near_m, far_m) *
@@ -466,6 +520,7 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
   programs.objects.Set("u_sun_normal_lux", ToGlm(sun_normal_));
   programs.objects.Set("u_eye_m", ToGlm(camera_from_marker.Inverse().translation_m));
   programs.objects.Set("u_gain", ToGlm(gain));
+  SetFog(camera_from_marker, near_m, far_m);
   environment_.Bind(1);
   for (const SurfaceBuffers& surface : surfaces_) {
     if (surface.is_phantom()) continue;
@@ -501,6 +556,9 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   positions_.Bind(3);
   no_attributes_.Bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (options_.show_shadow_maps && HasSun()) {
+    PLEINAIR_RETURN_IF_ERROR(DrawDebugView(camera_from_marker));
+  }
   RgbImage composed(rgb.width(), rgb.height(), 3);
   output_framebuffer_.ReadPixels(0, GL_RGB, GL_UNSIGNED_BYTE, composed.data());
   return composed;

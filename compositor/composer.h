@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -27,6 +28,11 @@ struct ComposerOptions {
   double shadow_split_weight = 0.5;  ///< λ of the paper's Eq. 11, for maps fitted to the view.
   /// Methods that blur moments: distance of the blocker at which the blur has the sun's width.
   double shadow_blur_distance_m = 1.0;
+  /// Fog before the virtual objects, by partition of the view (aerial_fog.h): times what the sky's
+  /// own air does, 0 none. Partitions are cut as the shadow maps' are, from near to far.
+  std::array<double, 4> fog{1.0, 1.0, 1.0, 1.0};
+  /// Tints the shadow maps' partitions and shows the maps: shadow_debug_view.h.
+  bool show_shadow_maps = false;
 
   bool operator==(const ComposerOptions&) const = default;
 };

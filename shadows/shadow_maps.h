@@ -95,6 +95,9 @@ class ShadowMaps {
   /// kUniformBlockBinding + set, texture units kTextureUnit + 2 set and the next.
   void Bind(int set) const;
 
+  /// Makes the array of depths, 0…1 a partition, the texture of that unit (debug views).
+  void BindDepth(int unit) const { depth_.Bind(unit); }
+
   /// Share that these maps have beside another step's, for SHADOW_CROSS_FADE.
   void SetShare(double share);
 

@@ -1,6 +1,7 @@
 #version 450 core
 // A virtual object's display-linear colour; coverage comes from multisampling.
 
+#include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/ggx.glsl"
 #ifndef SHADOW_SETS
 #define SHADOW_SETS 2  // 0: phantoms alone, 1: with the virtual objects.
@@ -20,6 +21,10 @@ uniform vec3 u_base_color;       // Linear reflectance.
 uniform float u_metallic;
 uniform float u_roughness;
 uniform float u_dielectric_f0;   // Normal reflectance of the coat; 0: purely diffuse.
+
+uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/aerial_fog.h.
+uniform vec3 u_fog_optical_depth[kFogSplits];
+uniform vec3 u_fog_inscattered[kFogSplits];
 
 layout(binding = 0) uniform sampler2D u_base_color_texture;
 layout(binding = 1) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
@@ -65,6 +70,8 @@ void main() {
     radiance += EnvironmentBrdf(f0, u_roughness, n_dot_v) *
                 PrefilteredEnvironment(reflect(-to_eye, normal), u_roughness);
   }
+  radiance = ThroughFog(radiance, distance(u_eye_m, v_position_m), u_fog_split_m,
+                        u_fog_optical_depth, u_fog_inscattered);
   out_ratio = vec4(1.0);  // Masked off: what lies behind keeps its own.
   out_color = vec4(u_gain * radiance, 1.0);
 }

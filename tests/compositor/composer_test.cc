@@ -196,6 +196,66 @@ TEST(Composer, CastsNoShadowWithoutASun) {
   EXPECT_LT(SeenAt(composed, {0, 0.17, 0}) / before, 0.85);
 }
 
+/// The same light in air so thick that half of what is three metres away is seen.
+class HazySouthernSun : public SouthernSun {
+ public:
+  AirBetween AirTo(Direction<World>, Metres distance) const override {
+    const double left = std::exp2(-distance.value() / 3.0);
+    return {{left, left, left}, LinearRgb{1.0, 1.0, 1.0} * (kAirlight * (1.0 - left))};
+  }
+  static constexpr double kAirlight = 6000.0;
+};
+
+TEST(Composer, SeesTheObjectThroughAsMuchFogAsItIsToldTo) {
+  const SouthernSun clear;
+  const HazySouthernSun hazy;
+  const std::vector<PlacedModel> scene{kGround, kCube};
+  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+  ASSERT_TRUE(solver.has_value());
+  const auto lit = (*solver)->Solve(clear, Mat3{});
+  auto composer = Composer::Create(kCamera, scene, {});
+  ASSERT_TRUE(composer.has_value());
+  const auto top = [&](const sky::SkyModel& day, double fog) {
+    ComposerOptions options;
+    options.fog.fill(fog);
+    EXPECT_TRUE((*composer)->SetOptions(options));
+    EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}));
+    const auto composed =
+        (*composer)->Compose(EvenPicture(128).view(), kFromAbove, {kGain, kGain, kGain});
+    return SeenAt(*composed, {0, 0, 0.3});
+  };
+  const double plain = top(clear, 1.0);
+  EXPECT_EQ(top(hazy, 0.0), plain);
+  for (const double fog : {1.0, 2.0}) {
+    const double left = std::exp2(-fog * 2.7 / 3.0);
+    EXPECT_NEAR(top(hazy, fog), plain * left + kGain * HazySouthernSun::kAirlight * (1.0 - left),
+                0.02)
+        << fog;
+  }
+}
+
+TEST(Composer, TintsPartitionsAndShowsTheMapsInTheDebugView) {
+  ComposerOptions options;
+  options.show_shadow_maps = true;
+  const RgbImage plain = Compose({kGround, kCube}, EvenPicture(200));
+  const RgbImage shown = Compose({kGround, kCube}, EvenPicture(200), kCamera, kSunLux, options);
+  // Beside the cube, in the finest partition: red. Far off, in the second: green.
+  const int x = 159, near_y = 110, far_y = 8;
+  EXPECT_EQ(shown(x, near_y, 0), plain(x, near_y, 0));
+  EXPECT_NEAR(shown(x, near_y, 1), 0.45 * plain(x, near_y, 1), 2);
+  EXPECT_NEAR(shown(x, far_y, 0), 0.5 * plain(x, far_y, 0), 2);
+  EXPECT_EQ(shown(x, far_y, 1), plain(x, far_y, 1));
+  // The maps: the cube nearer to the sun, hence darker than the ground around it.
+  int darkest = 255, brightest = 0;
+  for (int y = kCamera.height - 60; y < kCamera.height - 4; ++y) {
+    for (int column = 4; column < 60; ++column) {
+      darkest = std::min<int>(darkest, shown(column, y, 0));
+      brightest = std::max<int>(brightest, shown(column, y, 0));
+    }
+  }
+  EXPECT_LT(darkest, brightest - 20);
+}
+
 TEST(Composer, CastsTheSameShadowByThePapersMethod) {
   ComposerOptions options;
   options.shadow_method = ShadowMethod::kGaussian;

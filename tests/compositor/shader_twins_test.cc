@@ -2,17 +2,81 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/srgb.h"
+#include "compositor/aerial_fog.h"
 #include "gl/glsl_as_cpp.h"
 
 namespace glsl {
 using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
+#include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/differential.glsl"
 #include "compositor/shaders/srgb_transfer.glsl"
 }  // namespace glsl
 
 namespace pleinair::compositor {
 namespace {
+
+/// Even air: e^−kd of a thing's light arrives, and as much of the air's own as it takes away.
+class EvenAir : public sky::SkyModel {
+ public:
+  LinearRgb SkyRadiance(Direction<World>) const override { return {}; }
+  LinearRgb SunNormalIrradiance() const override { return {}; }
+  LinearRgb SkyHorizontalIrradiance() const override { return {}; }
+  Direction<World> ToSun() const override { return {{0, 0, 1}}; }
+  AirBetween AirTo(Direction<World>, Metres distance) const override {
+    const auto left = [&](double k) { return std::exp(-k * distance.value()); };
+    const LinearRgb t{left(kRed), left(kGreen), left(kBlue)};
+    return {t, LinearRgb{1.0 - t.r, 1.0 - t.g, 1.0 - t.b} * kAirlight};
+  }
+  static constexpr double kRed = 0.0008, kGreen = 0.001, kBlue = 0.0015, kAirlight = 5000.0;
+};
+
+glm::vec3 Through(const FogSplits& fog, float distance_m) {
+  return glsl::ThroughFog(glm::vec3(1000.0F), distance_m, fog.distance_m.data(),
+                          fog.optical_depth.data(), fog.inscattered.data());
+}
+
+TEST(AerialFog, IsTheSkysOwnAtAndBetweenTheSplits) {
+  const FogSplits fog = AerialFog(EvenAir(), Mat3{})
+                            .Along({0, 1, 0}, std::vector<double>{2.0, 60.0, 250.0, 1500.0},
+                                   std::vector<double>{1.0, 1.0, 1.0});
+  for (const double distance : {0.0, 1.0, 2.0, 30.0, 60.0, 100.0, 250.0, 700.0, 1500.0}) {
+    const double left = std::exp(-EvenAir::kGreen * distance);
+    const double expected = 1000.0 * left + EvenAir::kAirlight * (1.0 - left);
+    EXPECT_NEAR(Through(fog, static_cast<float>(distance)).g, expected, 0.01 * expected)
+        << distance;
+  }
+}
+
+TEST(AerialFog, OfDifferentPartitionsDoesNotJumpAtTheirSplits) {
+  const std::vector<double> splits{2.0, 60.0, 250.0, 1500.0};
+  const FogSplits fog = AerialFog(EvenAir(), Mat3{})
+                            .Along({0.6, 0.8, 0}, splits, std::vector<double>{0.0, 20.0, 1.0});
+  for (const double split : splits) {
+    const auto at = static_cast<float>(split);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(Through(fog, at * 0.99999F)[c], Through(fog, at * 1.00001F)[c], 0.5F) << split;
+    }
+  }
+  // No air in the first partition, twenty times as much in the second.
+  EXPECT_NEAR(Through(fog, 60.0F).r, 1000.0F, 0.1F);
+  const double left = std::exp(-EvenAir::kRed * 20.0 * 190.0);
+  EXPECT_NEAR(Through(fog, 250.0F).r, 1000.0 * left + EvenAir::kAirlight * (1.0 - left), 60.0);
+  float last = 0.0F;
+  for (float distance = 0.0F; distance < 2000.0F; distance += 1.0F) {
+    EXPECT_GE(Through(fog, distance).b, last - 0.01F);
+    last = Through(fog, distance).b;
+  }
+}
+
+TEST(AerialFog, IsNoneWithoutAir) {
+  const FogSplits fog =
+      AerialFog().Along({0, 1, 0}, std::vector<double>{1.0, 100.0}, std::vector<double>{1.0});
+  EXPECT_EQ(Through(fog, 50.0F), glm::vec3(1000.0F));
+}
 
 TEST(SrgbShader, AgreesWithTheTransferFunctionOfBase) {
   for (int code = 0; code <= 255; ++code) {
