@@ -16,6 +16,7 @@ constexpr double kNoticeableTurnDeg = 1.0;
 
 /// The scene's marker in words: "sg_17", "tag36h11", "number 5", "no family or number named".
 std::string Described(const devices::MarkerDescription& marker) {
+  if (marker.target) return "the picture of " + marker.target->filename().string();
   if (marker.family) {
     return *marker.family + (marker.id ? "_" + std::to_string(*marker.id) : "");
   }

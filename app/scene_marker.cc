@@ -7,6 +7,7 @@
 
 #include "tracker/april_tag_detector.h"
 #include "tracker/golay/golay_code.h"
+#include "tracker/picture_target/target_file.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
 
@@ -40,17 +41,24 @@ int BlackRings(const tracker::PrintPattern& pattern) {
 
 Result<tracker::TrackerOptions> TrackingOf(const devices::SceneDescription& scene) {
   const devices::MarkerDescription& marker = scene.marker;
+  tracker::TrackerOptions options;
+  options.consecutive_frames = true;
+  if (marker.target) {
+    PLEINAIR_ASSIGN_OR_RETURN(tracker::PictureTarget target,
+                              tracker::ReadTargetFile(*marker.target));
+    options.families.clear();
+    options.targets = {std::make_shared<const tracker::PictureTarget>(std::move(target))};
+    return options;
+  }
   const bool may_be_sg = marker.family.value_or(kSgFamily) == kSgFamily;
   if (may_be_sg && marker.version && *marker.version != tracker::sg::kVersion) {
     return InputError(scene.file.string(),
                       "has an S-G marker of version " + std::to_string(*marker.version),
                       "this program reads version " + std::to_string(tracker::sg::kVersion));
   }
-  tracker::TrackerOptions options;
   options.families = marker.family ? std::vector<std::string>{*marker.family}
                                    : std::vector<std::string>{kSgFamily, kUsualTagFamily};
   options.marker_size_m = marker.size_m;
-  options.consecutive_frames = true;
   if (may_be_sg && marker.id) options.sg.numbers_in_use = {*marker.id};
   return options;
 }

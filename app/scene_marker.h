@@ -16,7 +16,8 @@ inline constexpr const char* kSgFamily = "sg";
 
 /// How to look for the marker that a scene describes in consecutive frames. Where it names no
 /// family, S-G markers and AprilTag's tag36h11 are looked for; a number that it names is the only
-/// one in use. Errors: a version of the print that this program does not know.
+/// one in use; a target is all that is looked for. Errors: a version of the print that this program
+/// does not know, a target's file that cannot be read.
 Result<tracker::TrackerOptions> TrackingOf(const devices::SceneDescription& scene);
 
 /// What the print of a marker looks like; null where the family is not one of ours.

@@ -23,12 +23,15 @@ struct PlaceTime {
   UtcTime start;               ///< UTC of the first frame.
 };
 
-/// The printed marker that anchors the scene.
+/// The printed marker that anchors the scene, or the picture that takes its place.
 struct MarkerDescription {
   std::optional<std::string> family;  ///< "sg", "tag36h11", …; unset: nobody said.
-  std::optional<int> id;              ///< Unset: the one marker that is seen most.
-  std::optional<int> version;         ///< Of the print, where the family has versions ("sg").
-  double size_m = 0.0;  ///< Edge of the outer black square, metres; never the paper's.
+  /// A file that `pleinair target` made; then it has no family, number or size of its own.
+  std::optional<std::filesystem::path> target;
+  std::optional<int> id;       ///< Unset: the one marker that is seen most.
+  std::optional<int> version;  ///< Of the print, where the family has versions ("sg").
+  /// Edge of the outer black square, metres; never the paper's. 0 with a target.
+  double size_m = 0.0;
   /// Azimuth, clockwise from true north, of the marker's +y axis; of its -z axis (into the wall)
   /// where the marker is `upright`.
   Radians heading;
@@ -67,7 +70,7 @@ struct SceneDescription {
 /// recording.json says of the scene, or a scene.toml written by hand (docs/formats.md). Told
 /// apart by content. Unknown TOML keys are refused with their line.
 /// Errors: file missing or cut short, place, time or marker missing, values not finite or out of
-/// range, a time without offset, models that are not there.
+/// range, a time without offset, models or a target that are not there.
 Result<SceneDescription> ReadSceneDescription(const std::filesystem::path& file);
 
 }  // namespace pleinair::devices

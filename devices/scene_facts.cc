@@ -16,14 +16,35 @@ bool Within(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
 
+/// What a target's own file says is not said again.
+Result<void> CheckTarget(const SceneFacts& facts, const std::string& name) {
+  constexpr const char* kFamily = "picture";
+  const bool is_picture = facts.marker_family.value_or(kFamily) == kFamily;
+  if (!facts.marker_target) {
+    if (!facts.marker_family || !is_picture) return {};
+    return InputError(name, "has a picture for a marker and does not say which",
+                      "add marker.target, a file that `pleinair target` made");
+  }
+  if (facts.marker_target->empty()) {
+    return InputError(name, "has a marker.target without a name", "name the target's file");
+  }
+  if (!is_picture || facts.marker_id || facts.marker_version || facts.marker_size_m ||
+      facts.marker_board_size_m) {
+    return InputError(name, "has both a target and the number, kind or size of a marker",
+                      "keep marker.target alone: its file knows how large the picture is");
+  }
+  return {};
+}
+
 Result<MarkerDescription> CompleteMarker(const SceneFacts& facts, const std::string& name) {
   MarkerDescription marker;
-  if (!facts.marker_size_m) {
+  PLEINAIR_RETURN_IF_ERROR(CheckTarget(facts, name));
+  if (!facts.marker_size_m && !facts.marker_target) {
     return InputError(name, "does not say how large the marker is",
                       "add marker.size_mm: the edge of the outer black square");
   }
   // From a pinhead to a sports field.
-  if (!Within(*facts.marker_size_m, 1e-4, 1e3)) {
+  if (facts.marker_size_m && !Within(*facts.marker_size_m, 1e-4, 1e3)) {
     return InputError(name, "has a marker whose size is not greater than zero or not finite",
                       "marker.size_mm is the edge of the outer black square, 0.1 to 1000000");
   }
@@ -42,7 +63,8 @@ Result<MarkerDescription> CompleteMarker(const SceneFacts& facts, const std::str
   if (marker.id && *marker.id < 0) {
     return InputError(name, "has a marker id below zero", "ids count from 0");
   }
-  marker.size_m = *facts.marker_size_m;
+  marker.size_m = facts.marker_size_m.value_or(0.0);
+  if (facts.marker_target) marker.target = *facts.marker_target;
   marker.heading = FromDegrees(*facts.marker_heading_deg);
   marker.upright = facts.marker_upright.value_or(false);
   marker.albedo_black = facts.albedo_black.value_or(marker.albedo_black);
@@ -134,7 +156,8 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
   Fill(facts.start, fallback.start);
   // What a board measures and which marker it is belongs to one sheet of paper: it is taken over
   // only along with the size.
-  if (!facts.marker_size_m) {
+  if (!facts.marker_size_m && !facts.marker_target) {
+    Fill(facts.marker_target, fallback.marker_target);
     Fill(facts.marker_size_m, fallback.marker_size_m);
     Fill(facts.marker_board_size_m, fallback.marker_board_size_m);
     Fill(facts.marker_family, fallback.marker_family);
@@ -155,6 +178,9 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   scene.file = file;
   PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts, name));
   PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts, name));
+  if (scene.marker.target) {
+    scene.marker.target = (file.parent_path() / *scene.marker.target).lexically_normal();
+  }
   PLEINAIR_RETURN_IF_ERROR(CheckLight(facts, name));
   scene.phantoms = facts.phantoms;
   scene.objects = facts.objects;
@@ -171,17 +197,20 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
 }
 
 Result<void> CheckModelsExist(const SceneDescription& scene) {
+  const auto check = [&](const char* what, const std::filesystem::path& named) -> Result<void> {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(named, error)) return {};
+    return InputError(
+        scene.file.string(),
+        std::string("names the ") + what + " " + named.string() + ", which is not there",
+        "put the file there or mend the name in the scene");
+  };
   for (const std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
     for (const ModelReference& model : *models) {
-      std::error_code error;
-      if (!std::filesystem::is_regular_file(model.file, error)) {
-        return InputError(scene.file.string(),
-                          "names the model " + model.file.string() + ", which is not there",
-                          "put the file there or mend the name in the scene");
-      }
+      PLEINAIR_RETURN_IF_ERROR(check("model", model.file));
     }
   }
-  return {};
+  return scene.marker.target ? check("target", *scene.marker.target) : Result<void>();
 }
 
 }  // namespace pleinair::devices

@@ -17,6 +17,7 @@ struct SceneFacts {
   std::optional<double> latitude_deg, longitude_deg, height_m;
   std::optional<UtcTime> start;
   std::optional<std::string> marker_family;
+  std::optional<std::string> marker_target;  ///< File as written, relative to the scene's.
   std::optional<int> marker_id, marker_version;
   std::optional<double> marker_size_m, marker_heading_deg, marker_board_size_m;
   std::optional<double> albedo_black, albedo_white;
@@ -28,7 +29,8 @@ struct SceneFacts {
 
   /// Says nothing of place, time and marker, which a scene cannot do without.
   bool LacksPlaceTimeAndMarker() const {
-    return !latitude_deg && !longitude_deg && !start && !marker_size_m && !marker_heading_deg;
+    return !latitude_deg && !longitude_deg && !start && !marker_size_m && !marker_target &&
+           !marker_heading_deg;
   }
 };
 
@@ -50,7 +52,7 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback);
 /// model files are relative to. Does not look at the disk.
 Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::filesystem::path& file);
 
-/// Checks that every model file is there.
+/// Checks that every model file and the target are there.
 Result<void> CheckModelsExist(const SceneDescription& scene);
 
 }  // namespace pleinair::devices

@@ -55,6 +55,7 @@ Result<void> ReadMarker(const JsonFields& marker, SceneFacts* facts) {
   if (marker.Has("id")) {
     PLEINAIR_ASSIGN_OR_RETURN(facts->marker_id, marker.Integer("id"));
   }
+  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_target, marker.Text("target"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->marker_version, marker.Integer("version"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->marker_size_m,
                             NumberOf(marker, {"size_m", "black_square_side_m"}));

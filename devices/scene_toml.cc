@@ -193,10 +193,11 @@ Result<void> ReadPlace(const Table& place, SceneFacts* facts) {
 }
 
 Result<void> ReadMarker(const Table& marker, SceneFacts* facts) {
-  PLEINAIR_RETURN_IF_ERROR(marker.AllowOnly({"family", "id", "version", "size_m", "size_mm",
-                                             "board_size_m", "board_size_mm", "heading_deg",
-                                             "upright", "albedo_black", "albedo_white"}));
+  PLEINAIR_RETURN_IF_ERROR(marker.AllowOnly(
+      {"family", "target", "id", "version", "size_m", "size_mm", "board_size_m", "board_size_mm",
+       "heading_deg", "upright", "albedo_black", "albedo_white"}));
   PLEINAIR_ASSIGN_OR_RETURN(facts->marker_family, marker.Text("family"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_target, marker.Text("target"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->marker_id, marker.Integer("id"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->marker_version, marker.Integer("version"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->marker_size_m, marker.Length("size_m", "size_mm"));

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "app/live/live_recorder.h"
+#include "app/sinks/report.h"
 
 namespace pleinair::app {
 namespace {
@@ -26,20 +27,6 @@ std::string Quoted(std::string_view text) {
   return quoted + "\"";
 }
 
-const char* Word(devices::Cloudiness cloudiness) {
-  switch (cloudiness) {
-    case devices::Cloudiness::kClear:
-      return "clear";
-    case devices::Cloudiness::kHazy:
-      return "hazy";
-    case devices::Cloudiness::kPartlyCloudy:
-      return "partly cloudy";
-    case devices::Cloudiness::kOvercast:
-      return "overcast";
-  }
-  return "clear";
-}
-
 const char* Word(devices::Shading shading) {
   switch (shading) {
     case devices::Shading::kFromFile:
@@ -52,16 +39,20 @@ const char* Word(devices::Shading shading) {
   return "file";
 }
 
+/// A file as the scene's folder sees it.
+std::string Beside(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  const fs::path near = fs::proximate(file, folder, error);
+  return Quoted((error ? fs::absolute(file, error) : near).string());
+}
+
 std::string Vector(Vec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
 void AddModel(const char* table, const devices::ModelReference& model, const fs::path& folder,
               std::string* text) {
-  std::error_code error;
-  fs::path file = fs::proximate(model.file, folder, error);
-  if (error) file = fs::absolute(model.file, error);
   *text += fmt::format(
       "\n[[{}]]\nfile = {}\nshading = \"{}\"\ntranslation_m = {}\nrotation_deg = {}\nscale = {}\n",
-      table, Quoted(file.string()), Word(model.shading), Vector(model.translation_m),
+      table, Beside(folder, model.file), Word(model.shading), Vector(model.translation_m),
       Vector(model.rotation_deg), model.scale);
 }
 
@@ -70,8 +61,8 @@ void AddModel(const char* table, const devices::ModelReference& model, const fs:
 std::string SceneToml(const devices::SceneDescription& scene, UtcTime start,
                       const fs::path& folder) {
   const devices::MarkerDescription& marker = scene.marker;
-  std::string text =
-      fmt::format("time = {}\ncloudiness = \"{}\"\n", start.ToString(), Word(scene.cloudiness));
+  std::string text = fmt::format("time = {}\ncloudiness = \"{}\"\n", start.ToString(),
+                                 CloudinessName(scene.cloudiness));
   if (scene.turbidity) text += fmt::format("turbidity = {}\n", *scene.turbidity);
   if (scene.exposure_gain) {
     text += fmt::format("exposure_gain = [{}, {}, {}]\n", scene.exposure_gain->r,
@@ -84,7 +75,11 @@ std::string SceneToml(const devices::SceneDescription& scene, UtcTime start,
   if (marker.family) text += fmt::format("family = {}\n", Quoted(*marker.family));
   if (marker.id) text += fmt::format("id = {}\n", *marker.id);
   if (marker.version) text += fmt::format("version = {}\n", *marker.version);
-  text += fmt::format("size_m = {}\n", marker.size_m);
+  if (marker.target) {
+    text += fmt::format("target = {}\n", Beside(folder, *marker.target));
+  } else {
+    text += fmt::format("size_m = {}\n", marker.size_m);
+  }
   if (marker.board_size_m > 0.0) text += fmt::format("board_size_m = {}\n", marker.board_size_m);
   text += fmt::format("heading_deg = {}\nupright = {}\nalbedo_black = {}\nalbedo_white = {}\n",
                       marker.heading.value() / kRadiansPerDegree, marker.upright,

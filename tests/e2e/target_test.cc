@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "poster.h"
 #include "run_program.h"
 
 namespace pleinair::e2e {
@@ -24,20 +25,6 @@ using ::testing::StartsWith;
 
 constexpr double kFocal_px = 800.0, kWidth_mm = 420.0;
 const cv::Size kPoster(200, 150), kPicture(400, 300);
-
-/// Rectangles and ellipses of all sizes on one another.
-cv::Mat Poster(int seed) {
-  cv::Mat poster(kPoster * 4, CV_8UC1, cv::Scalar(120));
-  cv::RNG random(seed);
-  for (int i = 0; i < 700; ++i) {
-    const int size = 8 + 90 * 90 / (90 + 3 * i);
-    const cv::Point at(random.uniform(0, poster.cols), random.uniform(0, poster.rows));
-    const cv::Size axes(random.uniform(size / 3, size) + 3, random.uniform(size / 3, size) + 3);
-    cv::ellipse(poster, at, axes, random.uniform(0, 180), 0, 360,
-                cv::Scalar(random.uniform(20, 230)), cv::FILLED, cv::LINE_AA);
-  }
-  return poster;
-}
 
 class Target : public ::testing::Test {
  protected:

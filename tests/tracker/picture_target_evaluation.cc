@@ -1,6 +1,7 @@
 // The tables of docs/targets.md: `picture_target_evaluation PHOTOGRAPH...` makes a target of each
 // photograph (as pictures of at most 800 px), renders it under known poses, and looks for all of
-// them in parts of all the others.
+// them in parts of all the others; `picture_target_evaluation` alone prints the times, on drawn
+// pictures.
 #include <ctime>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "tests/tracker/picture_target_scenes.h"
 #include "tracker/picture_target/target_making.h"
 #include "tracker/picture_target/target_quality.h"
+#include "tracker/picture_target/target_search.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -44,6 +46,18 @@ GreyImage Grey(const cv::Mat& from) {
   return grey;
 }
 
+/// The least of some runs, in milliseconds of this thread.
+template <typename Run>
+double LeastTime_ms(int runs, Run run) {
+  double least = 1e9;
+  for (int i = 0; i < runs; ++i) {
+    const double start = Now_ms();
+    run();
+    least = std::min(least, Now_ms() - start);
+  }
+  return least;
+}
+
 struct Photograph {
   std::string file;
   cv::Mat picture;
@@ -71,6 +85,45 @@ constexpr View kViews[] = {{.name = "450 px", .side_px = 450},
                            {.name = "light 12:1, shadow 4:1", .hard_light = true},
                            {.name = "blur 2 px", .blur_px = 2.0},
                            {.name = "noise of 8 codes", .noise_codes = 8.0}};
+
+/// Times of every step, as far as they can be told apart from outside.
+void PrintTimes() {
+  constexpr int kRuns = 15, kMakings = 3;
+  std::vector<std::shared_ptr<const PictureTarget>> targets;
+  const TestPicture picture = DeadLeaves(1, 640, 480);
+  std::printf("| step | ms |\n| --- | --- |\n");
+  const GreyImage codes = picture.Codes();
+  std::printf("| making a target | %.0f |\n", LeastTime_ms(kMakings, [&] {
+                targets.push_back(std::make_shared<const PictureTarget>(
+                    *MakePictureTarget(codes.view(), Metres(0.4), "leaves")));
+              }));
+  targets.resize(1);
+  for (std::uint32_t seed = 2; seed <= 10; ++seed) {
+    const GreyImage other = DeadLeaves(seed, 640, 480).Codes();
+    targets.push_back(std::make_shared<const PictureTarget>(
+        *MakePictureTarget(other.view(), Metres(0.4), "leaves")));
+  }
+  const GreyImage clutter = DeadLeaves(99, kWidth, kHeight).Codes();
+  const LensGrid lens(Camera());
+  for (const int count : {1, 10}) {
+    TargetSearch search(lens, {targets.begin(), targets.begin() + count});
+    const std::vector<bool> wanted(static_cast<std::size_t>(count), true);
+    std::vector<TargetGuess> guesses;
+    std::printf("| searching a cluttered frame for %d | %.1f |\n", count,
+                LeastTime_ms(kRuns, [&] { search.Find(clutter.view(), wanted, &guesses); }));
+  }
+  for (const double side_px : {100.0, 330.0}) {
+    const HungPicture hung = HangAt(Camera(), picture, {320, 240}, side_px, 20.0, 30.0, 40.0);
+    const GreyImage frame = RenderPictures(Camera(), {hung}, {.blur_px = 0.5, .noise_codes = 1.0});
+    for (const bool follows : {false, true}) {
+      auto tracker = *Tracker::Create(
+          Camera(), {.families = {}, .consecutive_frames = follows, .targets = {targets.front()}});
+      (void)tracker->Track(frame.view());
+      std::printf("| %s one of %.0f px | %.1f |\n", follows ? "following" : "finding", side_px,
+                  LeastTime_ms(kRuns, [&] { (void)tracker->Track(frame.view()); }));
+    }
+  }
+}
 
 class Evaluation {
  public:
@@ -219,6 +272,10 @@ class Evaluation {
 }  // namespace pleinair::tracker
 
 int main(int argc, char** argv) {
+  if (argc == 1) {
+    pleinair::tracker::PrintTimes();
+    return 0;
+  }
   pleinair::tracker::Evaluation evaluation;
   for (int i = 1; i < argc; ++i) evaluation.Load(argv[i]);
   evaluation.Render();
