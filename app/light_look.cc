@@ -10,15 +10,15 @@ namespace pleinair::app {
 LightLook::LightLook(std::shared_ptr<const compositor::LightSolver> solver,
                      const CameraModel& camera, const compositor::MarkerPrint& print,
                      const devices::SceneDescription& scene, const LightOverrides& overrides,
-                     UtcTime time)
+                     UtcTime time, const CameraResponse& response)
     : solver_(std::move(solver)),
       camera_(camera),
       scene_(scene),
       overrides_(overrides),
       sun_(SunOver(scene.place_time, time)),
       day_(SunlitSky(scene)->ForSun(sun_.ToSun(), sun_.distance_au)),
-      samples_(*solver_, camera, print),
-      meter_(print, *solver_, *day_, MarkerFromWorld(scene.marker)) {}
+      samples_(*solver_, camera, print, response),
+      meter_(print, *solver_, *day_, MarkerFromWorld(scene.marker), response) {}
 
 void LightLook::Add(ImageView<const std::uint8_t> rgb,
                     const Transform<Camera, Marker>& camera_from_marker) {

@@ -6,6 +6,7 @@
 #include "app/measured_sky.h"
 #include "app/scene_light.h"
 #include "base/camera_model.h"
+#include "base/camera_response.h"
 #include "base/image.h"
 #include "compositor/light_meter.h"
 #include "compositor/surface_samples.h"
@@ -28,7 +29,7 @@ class LightLook {
   /// `scene`: with the stated or overriding heading.
   LightLook(std::shared_ptr<const compositor::LightSolver> solver, const CameraModel& camera,
             const compositor::MarkerPrint& print, const devices::SceneDescription& scene,
-            const LightOverrides& overrides, UtcTime time);
+            const LightOverrides& overrides, UtcTime time, const CameraResponse& response);
 
   void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker);
   int frames() const { return samples_.frames(); }

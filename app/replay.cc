@@ -63,6 +63,7 @@ class Replayer {
                         "write one (docs/formats.md) and give it with --scene");
     }
     scene_ = *recording.scene;
+    if (!options_.camera_response.empty()) scene_.camera_response = options_.camera_response;
     report_.recording = options_.recording.string();
     report_.command = options_.command;
     report_.version = PLEINAIR_VERSION;
@@ -91,6 +92,7 @@ class Replayer {
     PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_,
                                                                options_.composer, options_.light));
     if (!options_.light_cache.empty()) renderer_->KeepLightIn(options_.light_cache);
+    renderer_->MatchLook(options_.match_look);
     session_.emplace(scene_.marker);
     PLEINAIR_RETURN_IF_ERROR(FindMarkers(recording, **tracker));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
@@ -302,7 +304,7 @@ class Replayer {
       while (pose != report_.path.end() && pose->frame_index < frame->index) ++pose;
       std::optional<RgbImage> composed;
       if (pose != report_.path.end() && pose->frame_index == frame->index) {
-        PLEINAIR_ASSIGN_OR_RETURN(composed, Render(*frame, pose->camera_from_marker));
+        PLEINAIR_ASSIGN_OR_RETURN(composed, Render(*frame, *pose));
       }
       PLEINAIR_RETURN_IF_ERROR(Write(*frame, composed ? *composed : frame->rgb, video.get()));
       bar.Advance();
@@ -311,9 +313,11 @@ class Replayer {
     return {};
   }
 
-  Result<RgbImage> Render(const devices::Frame& frame,
-                          const Transform<Camera, Marker>& camera_from_marker) {
-    auto composed = renderer_->Render(frame.rgb.view(), camera_from_marker, MomentOf(frame));
+  Result<RgbImage> Render(const devices::Frame& frame, const Observation& seen) {
+    compositor::PrintCover cover;
+    if (options_.hands_in_front) cover = CoverOf(scene_.marker, *report_.anchor, seen);
+    auto composed =
+        renderer_->Render(frame.rgb.view(), seen.camera_from_marker, MomentOf(frame), cover);
     if (scene_.objects.empty()) return composed;
     const RenderTimes& times = renderer_->times();
     if (times.light_ms > 1.0) times_.Add("light", times.light_ms);

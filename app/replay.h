@@ -29,7 +29,10 @@ struct ReplayOptions {
   std::set<PathFormat> exports;  ///< Forms of the path besides TUM.
   compositor::ComposerOptions composer;
   LightOverrides light;
-  std::filesystem::path light_cache;  ///< Folder for daylight coefficients; empty: without.
+  bool match_look = true;                 ///< Drawn pixels get the frames' blur and grain.
+  bool hands_in_front = false;            ///< What covers the marker is before the virtual objects.
+  std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as the scene says.
+  std::filesystem::path light_cache;      ///< Folder for daylight coefficients; empty: without.
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
   std::string command;              ///< For the report.
 };

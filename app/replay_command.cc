@@ -44,10 +44,10 @@ constexpr const char* kExamples =
 /// As the parser filled it in.
 struct Arguments {
   ReplayOptions options;
-  std::string recording, output, scene, calibration, size, shader_directory;
+  std::string recording, output, scene, calibration, response, size, shader_directory;
   std::vector<std::string> exports;
   std::vector<double> fog;
-  std::string shadows = "disc", light = "measured";
+  std::string shadows = "disc", light = "measured", look = "matched";
   bool no_video = false;
   bool json = false;
 };
@@ -75,6 +75,7 @@ std::string CommandText(const Arguments& arguments) {
       "pleinair replay " + Quoted(arguments.recording) + " -o " + Quoted(arguments.output);
   if (!arguments.scene.empty()) text += " --scene " + Quoted(arguments.scene);
   if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
+  if (!arguments.response.empty()) text += " --response " + Quoted(arguments.response);
   if (arguments.options.write_frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
   for (std::size_t i = 0; i < arguments.exports.size(); ++i) {
@@ -84,6 +85,8 @@ std::string CommandText(const Arguments& arguments) {
     text += " --light-cache " + Quoted(arguments.options.light_cache.string());
   }
   if (arguments.light != "measured") text += " --light " + arguments.light;
+  if (arguments.look != "matched") text += " --look " + arguments.look;
+  if (arguments.options.hands_in_front) text += " --hands";
   const LightOverrides& light = arguments.options.light;
   if (light.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *light.sun_to_sky);
   if (light.heading_deg) text += fmt::format(" --heading {}", *light.heading_deg);
@@ -111,6 +114,8 @@ Result<void> Run(Arguments& arguments) {
   options.output = arguments.output;
   if (!arguments.scene.empty()) options.scene = arguments.scene;
   if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
+  options.camera_response = arguments.response;
+  options.match_look = arguments.look == "matched";
   if (!arguments.size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize(arguments.size));
   }
@@ -162,6 +167,8 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
                       "Scene file (TOML or JSON) instead of the recording's own");
   command->add_option("--calibration", arguments->calibration,
                       "Calibration of the lens (own JSON, OpenCV, ROS or Kalibr YAML)");
+  command->add_option("--response", arguments->response,
+                      "Response of the camera (docs/formats.md) instead of the scene's or sRGB");
   command->add_flag("--frames", arguments->options.write_frames,
                     "Also write every frame as a PNG picture");
   command
@@ -191,6 +198,15 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
       ->add_option("--heading", arguments->options.light.heading_deg,
                    "Heading of the marker in degrees, instead of the scene's, and not refined")
       ->check(NumberRange(-360.0, 360.0));
+  command
+      ->add_option("--look", arguments->look,
+                   "matched: drawn pixels get the blur and the grain of the frames', measured on "
+                   "the marker; clean: they stay as sharp as they are drawn")
+      ->check(CLI::IsMember({"matched", "clean"}))
+      ->capture_default_str();
+  command->add_flag("--hands", arguments->options.hands_in_front,
+                    "What covers part of the marker (S-G markers and picture targets) is before "
+                    "the virtual objects, as far as its colour tells where it ends");
   command
       ->add_option("--shadows", arguments->shadows,
                    "How shadows' edges are made: disc (the sun's own width), gaussian (the paper's "

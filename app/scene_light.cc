@@ -38,7 +38,7 @@ SceneLight::SceneLight(const LightOrder& light_order)
       daylight(*model, order.skies.scale, {1.0, 1.0, 1.0}),
       meshes(LightAmongSurfaces(order, daylight, marker_from_world)) {
   if (order.print.size_m <= 0.0) return;
-  meter.emplace(order.print, *order.solver, daylight, marker_from_world);
+  meter.emplace(order.print, *order.solver, daylight, marker_from_world, order.response);
 }
 
 bool IsNearSun(const sky::SunPosition& made_for, const sky::SunPosition& now) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/scene_edit.h"
+#include "base/camera_response.h"
 #include "base/utc_time.h"
 #include "compositor/daylight_coefficients.h"
 #include "compositor/light_meter.h"
@@ -35,6 +36,7 @@ struct LightOrder {
   /// Of the solver's scene: the light of any moment in milliseconds. Null: rays are traced.
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients;
   compositor::MarkerPrint print;
+  CameraResponse response;
 };
 
 /// Sun, sky and the light among surfaces at one moment, and the meter that knows what light it

@@ -85,4 +85,11 @@ compositor::MarkerPrint PrintOf(const devices::MarkerDescription& described,
   return print;
 }
 
+compositor::PrintCover CoverOf(const devices::MarkerDescription& described,
+                               const MarkerName& marker, const Observation& seen) {
+  const auto pattern = PatternOf(marker);
+  if (pattern == nullptr || seen.visibility_side <= 0) return {};
+  return {seen.visibility_side, described.size_m * pattern->Extent(), seen.visibility};
+}
+
 }  // namespace pleinair::app

@@ -5,6 +5,7 @@
 #include "app/session.h"
 #include "base/error.h"
 #include "compositor/marker_print.h"
+#include "compositor/occluder_mask.h"
 #include "devices/scene_description.h"
 #include "tracker/print_pattern.h"
 #include "tracker/tracker.h"
@@ -27,5 +28,10 @@ std::shared_ptr<const tracker::PrintPattern> PatternOf(const MarkerName& marker)
 /// and the black band as wide as it is in this marker's print.
 compositor::MarkerPrint PrintOf(const devices::MarkerDescription& described,
                                 const MarkerName& marker);
+
+/// Which part of the print was seen, for what is to be put before the virtual objects; without
+/// squares where the tracker cannot tell (AprilTags).
+compositor::PrintCover CoverOf(const devices::MarkerDescription& described,
+                               const MarkerName& marker, const Observation& seen);
 
 }  // namespace pleinair::app

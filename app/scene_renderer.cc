@@ -9,6 +9,7 @@
 #include "app/progress_bar.h"
 #include "compositor/marker_print.h"
 #include "compositor/scaled_daylight.h"
+#include "devices/response_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -16,6 +17,9 @@ namespace {
 // Frames over which the exposure is a running median: long enough to still a flickering reading,
 // short enough to follow a camera's automatic exposure.
 constexpr std::size_t kGainWindow = 15;
+// Blur and grain change slowly: read in every so many frames, medians over so many readings.
+constexpr int kLookStep = 5;
+constexpr std::size_t kLookWindow = 5;
 // Where no marker could be read, the gain is guessed so that white paper on the ground shows as
 // this display-linear value.
 constexpr double kGuessedWhite = 0.8;
@@ -38,9 +42,10 @@ compositor::NormalsMode NormalsOf(devices::Shading shading) {
   return compositor::NormalsMode::kFromFile;
 }
 
-double MedianOf(const std::deque<LinearRgb>& gains, double LinearRgb::*channel) {
+template <typename T, typename Value>
+double MedianOf(const std::deque<T>& readings, const Value& value) {
   std::vector<double> values;
-  for (const LinearRgb& gain : gains) values.push_back(gain.*channel);
+  for (const T& reading : readings) values.push_back(value(reading));
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -80,8 +85,14 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   }
   if (scene.objects.empty()) return renderer;
   renderer->skies_.source = StatedSky(scene);
+  compositor::ComposerOptions composing = options;
+  if (!scene.camera_response.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(composing.response,
+                              devices::ReadCameraResponse(scene.camera_response));
+    renderer->response_ = composing.response;
+  }
   PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
-                            compositor::Composer::Create(camera, placed, options));
+                            compositor::Composer::Create(camera, placed, composing));
   PLEINAIR_ASSIGN_OR_RETURN(renderer->solver_, compositor::LightSolver::Create(placed, {}));
   return renderer;
 }
@@ -89,7 +100,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
 void SceneRenderer::SetMarkerPrint(const compositor::MarkerPrint& print) {
   print_ = print;
   if (!lit_ || light_from_outside_) return;
-  meter_.emplace(print_, *solver_, lit_->daylight, MarkerFromWorld(scene_.marker));
+  meter_.emplace(print_, *solver_, lit_->daylight, MarkerFromWorld(scene_.marker), response_);
 }
 
 bool SceneRenderer::CanMeasureLight() const {
@@ -100,7 +111,8 @@ bool SceneRenderer::CanMeasureLight() const {
 void SceneRenderer::LookAtLight(ImageView<const std::uint8_t> rgb,
                                 const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
   if (!look_) {
-    look_ = std::make_unique<LightLook>(solver_, camera_, print_, scene_, overrides_, time);
+    look_ =
+        std::make_unique<LightLook>(solver_, camera_, print_, scene_, overrides_, time, response_);
   }
   look_->Add(rgb, camera_from_marker);
 }
@@ -152,7 +164,8 @@ void SceneRenderer::TraceLight() {
 }
 
 LightOrder SceneRenderer::OrderLight(UtcTime time) const {
-  return {time, scene_.place_time, scene_.marker, skies_, solver_, coefficients_, print_};
+  return {time,    scene_.place_time, scene_.marker, skies_,
+          solver_, coefficients_,     print_,        response_};
 }
 
 Result<void> SceneRenderer::TakeLight(std::shared_ptr<const SceneLight> light) {
@@ -195,7 +208,9 @@ Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
     placed.translation_m = edit.objects[i].translation_m;
   }
   MoveObjects();
-  return composer_->SetOptions(edit.drawing);
+  compositor::ComposerOptions drawing = edit.drawing;
+  drawing.response = response_;
+  return composer_->SetOptions(drawing);
 }
 
 /// Draws the objects where they stand now, lit as they were where their light was made.
@@ -245,13 +260,37 @@ void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
     summary_.gain_is_guessed = true;
     return;
   }
-  summary_.gain = {MedianOf(recent_gains_, &LinearRgb::r), MedianOf(recent_gains_, &LinearRgb::g),
-                   MedianOf(recent_gains_, &LinearRgb::b)};
+  summary_.gain = {MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.r; }),
+                   MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.g; }),
+                   MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.b; })};
+}
+
+Result<void> SceneRenderer::UpdateLook(ImageView<const std::uint8_t> rgb,
+                                       const Transform<Camera, Marker>& camera_from_marker) {
+  using compositor::PictureLook;
+  if (!match_look_ || frames_to_look_-- > 0) return {};
+  const auto seen =
+      compositor::MeasurePictureLook(rgb, camera_, camera_from_marker, print_, response_);
+  if (!seen) return {};
+  frames_to_look_ = kLookStep - 1;
+  recent_looks_.push_back(*seen);
+  if (recent_looks_.size() > kLookWindow) recent_looks_.pop_front();
+  PictureLook look;
+  const auto median = [&](const auto& value) { return MedianOf(recent_looks_, value); };
+  look.blur_px = median([](const PictureLook& l) { return l.blur_px; });
+  for (int c = 0; c < 3; ++c) {
+    look.noise_constant[c] = median([c](const PictureLook& l) { return l.noise_constant[c]; });
+    look.noise_slope[c] = median([c](const PictureLook& l) { return l.noise_slope[c]; });
+  }
+  look.neighbour_correlation = median([](const PictureLook& l) { return l.neighbour_correlation; });
+  look.channel_correlation = median([](const PictureLook& l) { return l.channel_correlation; });
+  summary_.look = look;
+  return composer_->SetLook(look);
 }
 
 Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
                                        const Transform<Camera, Marker>& camera_from_marker,
-                                       UtcTime time) {
+                                       UtcTime time, const compositor::PrintCover& cover) {
   times_ = {};
   if (!composer_) {
     RgbImage copy(rgb.width(), rgb.height(), rgb.channels());
@@ -266,9 +305,13 @@ Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
   times_.light_ms = MillisecondsSince(start);
   start = Clock::now();
   UpdateGain(rgb, camera_from_marker);
+  PLEINAIR_RETURN_IF_ERROR(UpdateLook(rgb, camera_from_marker));
   times_.meter_ms = MillisecondsSince(start);
   start = Clock::now();
-  auto composed = composer_->Compose(rgb, camera_from_marker, summary_.gain);
+  PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,
+                            composer_->Compose(rgb, camera_from_marker, summary_.gain));
+  compositor::PutInFront(rgb, compositor::MaskOccluder(rgb, camera_, camera_from_marker, cover),
+                         &composed);
   times_.compose_ms = MillisecondsSince(start);
   return composed;
 }

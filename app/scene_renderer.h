@@ -13,6 +13,7 @@
 #include "app/scene_edit.h"
 #include "app/scene_light.h"
 #include "base/camera_model.h"
+#include "base/camera_response.h"
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/image.h"
@@ -21,12 +22,17 @@
 #include "compositor/daylight_coefficients.h"
 #include "compositor/light_meter.h"
 #include "compositor/light_solver.h"
+#include "compositor/occluder_mask.h"
+#include "compositor/picture_look.h"
 #include "compositor/surface_samples.h"
 #include "devices/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun_position.h"
 
 namespace pleinair::app {
+
+/// Light at which the report states noise, of the brightest: a sunlit grey.
+inline constexpr double kMediumLight = 0.2;
 
 /// What the report says of the light.
 struct LightSummary {
@@ -37,7 +43,9 @@ struct LightSummary {
   double gain_spread = 0.0;      ///< Relative; of the last frame that the marker could be read in.
   int readings = 0;              ///< Frames in which the marker served as a light meter.
   bool gain_is_guessed = false;  ///< No frame could be read and the scene gives no gain.
-  MeasuredLight measured;        ///< Sun, sky and heading.
+  /// Blur and grain of the last frames; nothing where they are not matched or cannot be read.
+  std::optional<compositor::PictureLook> look;
+  MeasuredLight measured;  ///< Sun, sky and heading.
 };
 
 /// Milliseconds spent in the last Render(), by stage.
@@ -63,6 +71,9 @@ class SceneRenderer {
   /// From now on the light among surfaces comes from daylight coefficients that are kept in a
   /// folder: slow once, then some milliseconds for any moment. Shows a bar while it computes.
   void KeepLightIn(const std::filesystem::path& folder) { light_cache_ = folder; }
+
+  /// Whether drawn pixels get the blur and the grain of the camera's (the default).
+  void MatchLook(bool match) { match_look_ = match; }
 
   /// Which print the frames show, before the first is rendered: it is the light meter. With light
   /// that is made elsewhere it counts from the next on.
@@ -91,14 +102,18 @@ class SceneRenderer {
   /// stand), with the next light the rest.
   Result<void> Edit(const SceneEdit& edit);
 
+  /// Of the camera, as the scene has it.
+  const CameraResponse& response() const { return response_; }
   /// Whether there is anything to draw.
   bool DrawsObjects() const { return composer_ != nullptr; }
   /// Phantoms, then objects, as they stand.
   const std::vector<compositor::PlacedModel>& placed() const { return placed_; }
 
-  /// The frame with the virtual objects as they stand at `time`.
+  /// The frame with the virtual objects as they stand at `time`. What covers the print, as `cover`
+  /// has it, is before them.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
-                          const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
+                          const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
+                          const compositor::PrintCover& cover = {});
 
   const LightSummary& light() const { return summary_; }
   const RenderTimes& times() const { return times_; }
@@ -111,10 +126,13 @@ class SceneRenderer {
   Result<void> TakeLight(std::shared_ptr<const SceneLight> light);
   void MoveObjects();
   Result<void> UpdateLight(UtcTime time);
+  Result<void> UpdateLook(ImageView<const std::uint8_t> rgb,
+                          const Transform<Camera, Marker>& camera_from_marker);
   void UpdateGain(ImageView<const std::uint8_t> rgb,
                   const Transform<Camera, Marker>& camera_from_marker);
 
   CameraModel camera_;
+  CameraResponse response_;
   devices::SceneDescription scene_;
   compositor::MarkerPrint print_;
   LightOverrides overrides_;
@@ -132,6 +150,9 @@ class SceneRenderer {
   bool light_from_outside_ = false;
   std::deque<LinearRgb> recent_gains_;  // Of the last frames, for the running median.
   LinearRgb guessed_gain_;
+  bool match_look_ = true;
+  int frames_to_look_ = 0;  // Until the blur is measured again.
+  std::deque<compositor::PictureLook> recent_looks_;
   LightSummary summary_;
   RenderTimes times_;
 };

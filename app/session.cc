@@ -38,10 +38,16 @@ void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
         candidates[{sighting.detection.family, sighting.detection.id}];
     duplicates = duplicates || !of_marker.empty();
     const tracker::PoseEstimate& pose = sighting.pose;
+    std::vector<std::uint8_t> visibility;
+    for (const float seen : sighting.detection.visibility) {
+      visibility.push_back(
+          static_cast<std::uint8_t>(std::lround(std::clamp(seen, 0.0F, 1.0F) * 255.0F)));
+    }
     const auto add = [&](const tracker::PoseSolution& solution) {
       of_marker.push_back({frame_index, timestamp_ns, solution.camera_from_marker,
                            solution.reprojection_rms_px, pose.ambiguity_ratio,
-                           sighting.detection.visible_fraction, sighting.detection.path});
+                           sighting.detection.visible_fraction, sighting.detection.path,
+                           sighting.detection.visibility_side, visibility});
     };
     add(pose.best);
     if (pose.alternative && pose.ambiguity_ratio > kAmbiguousRatio) add(*pose.alternative);

@@ -31,6 +31,9 @@ struct Observation {
   double ambiguity_ratio = 0.0;   ///< Near 1: the planar pose has two equally good solutions.
   double visible_fraction = 1.0;  ///< Share of the print that was seen, 0…1.
   tracker::DetectionPath path = tracker::DetectionPath::kFast;  ///< How it was found.
+  /// Squares a side of the print, and which of them are seen, 0…255; empty where unknown.
+  int visibility_side = 0;
+  std::vector<std::uint8_t> visibility{};
 };
 
 /// What is known of a recording's markers across its frames: which one anchors the scene and where

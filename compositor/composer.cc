@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "compositor/aerial_fog.h"
+#include "compositor/camera_picture.h"
 #include "compositor/changing_triangles.h"
 #include "compositor/embedded_shaders.h"
 #include "compositor/environment_map.h"
@@ -152,6 +153,11 @@ class GlComposer : public Composer {
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
                            LinearRgb gain) override;
+  Result<void> SetLook(const std::optional<PictureLook>& look) override {
+    PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+    look_ = look;
+    return picture_.SetLook(look);
+  }
 
  private:
   GlComposer(const CameraModel& camera, const std::vector<PlacedModel>& scene,
@@ -179,10 +185,10 @@ class GlComposer : public Composer {
   ComposerOptions options_;
   RenderCamera render_camera_;
   RenderTargets targets_;
-  gl::GlTexture background_, positions_, output_, white_, environment_;
-  gl::GlFramebuffer output_framebuffer_;
-  gl::GlVertexArray no_attributes_;
-  gl::GlProgram depth_program_, composite_program_;
+  CameraPicture picture_;
+  std::optional<PictureLook> look_;
+  gl::GlTexture white_, environment_;
+  gl::GlProgram depth_program_;
   // With shadows of one step of the sun, and of two that fade into one another; made when needed.
   std::array<std::optional<SurfacePrograms>, 2> surface_programs_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
@@ -208,13 +214,6 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   RegisterShaders();
   std::unique_ptr<GlComposer> composer(new GlComposer(camera, scene, std::move(context)));
   GlComposer& c = *composer;
-  PLEINAIR_ASSIGN_OR_RETURN(c.background_,
-                            gl::GlTexture::Create2D(GL_RGBA8, camera.width, camera.height));
-  PLEINAIR_ASSIGN_OR_RETURN(c.output_,
-                            gl::GlTexture::Create2D(GL_RGBA8, camera.width, camera.height));
-  PLEINAIR_ASSIGN_OR_RETURN(c.positions_,
-                            gl::GlTexture::Create2D(GL_RG32F, camera.width, camera.height));
-  PLEINAIR_ASSIGN_OR_RETURN(c.output_framebuffer_, gl::GlFramebuffer::Create({{{&c.output_}}, {}}));
   PLEINAIR_ASSIGN_OR_RETURN(c.white_, gl::GlTexture::Create2D(GL_RGBA8, 1, 1));
   constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};
   c.white_.Upload(GL_RGBA, GL_UNSIGNED_BYTE, kWhite.data());
@@ -222,14 +221,9 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
                                                 GL_RGB32F, EnvironmentMap::kWidth,
                                                 EnvironmentMap::kHeight, EnvironmentMap::kLevels));
   c.environment_.SetWrap(GL_REPEAT);
-  c.no_attributes_ = gl::GlVertexArray::Create();
   PLEINAIR_ASSIGN_OR_RETURN(
       c.depth_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                                                .fragment = "compositor/shaders/depth_only.frag"}));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      c.composite_program_,
-      gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
-                             .fragment = "compositor/shaders/composite.frag"}));
   for (const PlacedModel& placed : scene) {
     PLEINAIR_ASSIGN_OR_RETURN(auto textures, UploadTextures(*placed.model));
     c.model_textures_.push_back(std::move(textures));
@@ -249,10 +243,11 @@ Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
   const RenderCamera render_camera = FitRenderCamera(camera_, supersampling);
   PLEINAIR_ASSIGN_OR_RETURN(targets_,
                             RenderTargets::Create(render_camera.width, render_camera.height));
-  positions_.Upload(GL_RG, GL_FLOAT, RenderPositions(camera_, render_camera).data());
+  PLEINAIR_ASSIGN_OR_RETURN(
+      picture_, CameraPicture::Create(camera_, render_camera, supersampling, options.response));
   render_camera_ = render_camera;
   debug_view_.reset();
-  return {};
+  return picture_.SetLook(look_);
 }
 
 Result<void> GlComposer::MakeShadows(const ComposerOptions& options) {
@@ -270,7 +265,7 @@ Result<void> GlComposer::MakeShadows(const ComposerOptions& options) {
 Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   if (options == options_) return {};
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  if (options.supersampling != options_.supersampling) {
+  if (options.supersampling != options_.supersampling || options.response != options_.response) {
     PLEINAIR_RETURN_IF_ERROR(SetRenderSize(options));
   }
   const bool other_shaders = options.shadow_method != options_.shadow_method ||
@@ -482,7 +477,7 @@ Result<void> GlComposer::DrawDebugView(const Transform<Camera, Marker>& camera_f
           surface.Draw();
         }
       },
-      positions_, output_framebuffer_);
+      picture_.positions(), picture_.framebuffer());
   return {};
 }
 
@@ -542,26 +537,17 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   CHECK_EQ(rgb.channels(), 3);
   CHECK_EQ(rgb.stride(), static_cast<std::ptrdiff_t>(rgb.width()) * 3);
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  background_.Upload(GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+  picture_.SetBackground(rgb);
   // A sun below the horizon lights nothing and casts no shadow.
   if (HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawShadowMaps(camera_from_marker));
   }
   DrawScene(camera_from_marker, gain);
-  output_framebuffer_.Bind();
-  composite_program_.Use();
-  background_.Bind(0);
-  targets_.ratio().Bind(1);
-  targets_.objects().Bind(2);
-  positions_.Bind(3);
-  no_attributes_.Bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  picture_.Draw(targets_);
   if (options_.show_shadow_maps && HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(camera_from_marker));
   }
-  RgbImage composed(rgb.width(), rgb.height(), 3);
-  output_framebuffer_.ReadPixels(0, GL_RGB, GL_UNSIGNED_BYTE, composed.data());
-  return composed;
+  return picture_.Read();
 }
 
 }  // namespace

@@ -3,14 +3,17 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/camera_model.h"
+#include "base/camera_response.h"
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/light_solver.h"
+#include "compositor/picture_look.h"
 #include "shadows/shadow_method.h"
 #include "sky/sky_model.h"
 
@@ -33,6 +36,7 @@ struct ComposerOptions {
   std::array<double, 4> fog{1.0, 1.0, 1.0, 1.0};
   /// Tints the shadow maps' partitions and shows the maps: shadow_debug_view.h.
   bool show_shadow_maps = false;
+  CameraResponse response = {};  ///< How the camera's codes are read and written.
 
   bool operator==(const ComposerOptions&) const = default;
 };
@@ -62,6 +66,11 @@ class Composer {
   /// Moves the sun itself, between two calls of SetLight: shadows follow it without jumps, while
   /// the light among surfaces, which costs more, stays.
   virtual void SetSun(const sky::SkyModel& daylight, const Mat3& marker_from_world) = 0;
+
+  /// Blur and grain that drawn pixels get from now on, those of the camera's own; nothing: as
+  /// sharp and clean as they are drawn. Blur that the drawing has anyway (half a pixel's width) is
+  /// not added again, and noise below two steps of 8 bits is left out.
+  virtual Result<void> SetLook(const std::optional<PictureLook>& look) = 0;
 
   /// The picture with the virtual objects in it. `gain`: display-linear value per radiance and
   /// channel (LightReading). Pixels that no virtual thing touches keep their bytes.

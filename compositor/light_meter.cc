@@ -12,8 +12,7 @@ namespace {
 
 constexpr int kPairsPerSide = 40;
 constexpr double kInSun = 0.98, kInShade = 0.02;  // Sun visibility beyond which no penumbra is.
-constexpr float kClipped = 0.978F;                // Linear value of the 8-bit code 252.
-constexpr float kBlackClipped = 0.9F;
+constexpr int kClippedCode = 252, kBlackClippedCode = 243;
 // White over black, at the least, where the print is the right way round. The reflectances'
 // ratio is 20; glare bright enough to bring it down to this leaves nothing to measure.
 constexpr double kClearlyBrighter = 1.25;
@@ -65,8 +64,9 @@ std::optional<double> ShadowThreshold(const std::vector<double>& values) {
 }  // namespace
 
 LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
-                       const sky::SkyModel& day, const Mat3& marker_from_world)
-    : print_(print) {
+                       const sky::SkyModel& day, const Mat3& marker_from_world,
+                       const CameraResponse& response)
+    : print_(print), response_(response) {
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
   const Vec3 normal{0, 0, 1};
   const LinearRgb sun = day.SunNormalIrradiance();
@@ -127,11 +127,16 @@ std::optional<LightReading> LightMeter::Measure(
     const Vec2 white_px = ProjectToPixel(camera, white_in_camera);
     const Vec2 black_px = ProjectToPixel(camera, black_in_camera);
     if (Norm(white_px - black_px) < kSmallestBandPx) continue;
-    const auto white = SampleLinear(rgb, white_px);
-    const auto black = SampleLinear(rgb, black_px);
+    const auto white = SampleLinear(rgb, white_px, response_);
+    const auto black = SampleLinear(rgb, black_px, response_);
     if (!white || !black) continue;
+    const auto clipped_at = [&](int c, int code) {
+      return static_cast<double>(response_.Linear(c)[code]);
+    };
     const Rgb irradiance{pair.irradiance.r, pair.irradiance.g, pair.irradiance.b};
-    if (Sum(*white) < kClearlyBrighter * Sum(*black) && Sum(*white) < 3 * kClipped) {
+    const double all_clipped =
+        clipped_at(0, kClippedCode) + clipped_at(1, kClippedCode) + clipped_at(2, kClippedCode);
+    if (Sum(*white) < kClearlyBrighter * Sum(*black) && Sum(*white) < all_clipped) {
       ++contrary;
       continue;
     }
@@ -140,12 +145,13 @@ std::optional<LightReading> LightMeter::Measure(
     for (int c = 0; c < 3; ++c) {
       const double per_albedo = irradiance[c] / std::numbers::pi;
       const double difference = (*white)[c] - (*black)[c];
-      const bool clipped = (*white)[c] >= kClipped;
+      const bool clipped = (*white)[c] >= clipped_at(c, kClippedCode);
       sample.white_gain[c] =
           !clipped && difference > 0.0 ? difference / (albedo_step * per_albedo) : NAN;
-      sample.black_gain[c] = clipped && (*black)[c] < kBlackClipped && (*black)[c] > 0.0
-                                 ? (*black)[c] / (print_.albedo_black * per_albedo)
-                                 : NAN;
+      sample.black_gain[c] =
+          clipped && (*black)[c] < clipped_at(c, kBlackClippedCode) && (*black)[c] > 0.0
+              ? (*black)[c] / (print_.albedo_black * per_albedo)
+              : NAN;
       sample.level += (*white)[c] / per_albedo;
     }
     if (sample.level > 0.0) samples.push_back(sample);

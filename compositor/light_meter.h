@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/camera_model.h"
+#include "base/camera_response.h"
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/vector.h"
@@ -36,7 +37,7 @@ class LightMeter {
   /// Predicts the light on the print's sample points; they lie still in marker coordinates, so
   /// this is done once a light.
   LightMeter(const MarkerPrint& print, const LightSolver& solver, const sky::SkyModel& day,
-             const Mat3& marker_from_world);
+             const Mat3& marker_from_world, const CameraResponse& response = {});
 
   /// Nothing where fewer than `kMinimumPairs` pairs can be used, or where most pairs are not
   /// clearly brighter on the white side: a print the other way round, as of tag families whose
@@ -54,6 +55,7 @@ class LightMeter {
   };
 
   MarkerPrint print_;
+  CameraResponse response_;
   std::vector<Pair> pairs_;
   double lit_share_ = 0.0;
 };

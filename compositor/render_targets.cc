@@ -36,8 +36,18 @@ Result<RenderTargets> RenderTargets::Create(int width, int height) {
                             gl::GlFramebuffer::Create({{{&targets.ratio_}}, {}}));
   PLEINAIR_ASSIGN_OR_RETURN(targets.objects_target_,
                             gl::GlFramebuffer::Create({{{&targets.objects_}}, {}}));
+  for (gl::GlTexture* passed : {&targets.passed_ratio_, &targets.passed_objects_}) {
+    PLEINAIR_ASSIGN_OR_RETURN(*passed, gl::GlTexture::Create2D(GL_RGBA16F, width, height));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.pass_,
+      gl::GlFramebuffer::Create({{{&targets.passed_ratio_}, {&targets.passed_objects_}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.back_, gl::GlFramebuffer::Create({{{&targets.ratio_}, {&targets.objects_}}, {}}));
   return targets;
 }
+
+void RenderTargets::BeginPass(bool back) const { (back ? back_ : pass_).Bind(); }
 
 void RenderTargets::BeginDrawing() const {
   draw_.Bind();

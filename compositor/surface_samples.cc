@@ -16,8 +16,8 @@ constexpr std::size_t kMostSamples = 150'000;
 constexpr double kCellPx = 32.0;
 constexpr double kSmallestCellM = 0.02;
 constexpr double kNormalSteps = 16.0;
-// Linear light of the 8-bit codes 250 and 5: beyond them a value is clipped or mostly noise.
-constexpr double kClipped = 0.955, kDark = 0.0015;
+// 8-bit codes beyond which a value is clipped or mostly noise.
+constexpr int kClippedCode = 250, kDarkCode = 5;
 constexpr double kBoardMarginM = 0.02;
 constexpr int kPrintSurface = -1;
 constexpr int kPrintSpots = 96;  // A side of the board.
@@ -25,8 +25,8 @@ constexpr int kPrintSpots = 96;  // A side of the board.
 }  // namespace
 
 SurfaceSamples::SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
-                               const MarkerPrint& print)
-    : solver_(solver), camera_(camera), print_(print) {}
+                               const MarkerPrint& print, const CameraResponse& response)
+    : solver_(solver), camera_(camera), print_(print), response_(response) {}
 
 bool SurfaceSamples::IsOnBoard(Point<Marker> point) const {
   const double half = print_.board_size_m / 2 + kBoardMarginM;
@@ -43,13 +43,14 @@ bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
   const double distance = Norm(to_eye);
   if (in_camera.xyz.z <= 0.0 || Dot(sample->normal, to_eye) < 0.1 * distance) return false;
   *pixel = ProjectToPixel(camera_, in_camera);
-  const auto linear = SampleLinear(rgb, *pixel);
+  const auto linear = SampleLinear(rgb, *pixel, response_);
   if (!linear) return false;
   const auto seen = solver_.FirstPhantom({eye}, to_eye * (-1.0 / distance));
   if (seen && Norm(seen->point.xyz - eye) < distance - 3 * sample->footprint_m - 0.01) return false;
   const std::array<double, 3> scale{gain.r, gain.g, gain.b};
-  for (const double value : *linear) {
-    if (value >= kClipped || value <= kDark) return true;
+  for (int c = 0; c < 3; ++c) {
+    const auto& light = response_.Linear(c);
+    if ((*linear)[c] >= light[kClippedCode] || (*linear)[c] <= light[kDarkCode]) return true;
   }
   ++sample->frames;
   for (int c = 0; c < 3; ++c) {

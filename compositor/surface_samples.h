@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/camera_model.h"
+#include "base/camera_response.h"
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/vector.h"
@@ -30,7 +31,8 @@ struct SurfaceSample {
 class SurfaceSamples {
  public:
   /// `solver` must live as long.
-  SurfaceSamples(const LightSolver& solver, const CameraModel& camera, const MarkerPrint& print);
+  SurfaceSamples(const LightSolver& solver, const CameraModel& camera, const MarkerPrint& print,
+                 const CameraResponse& response = {});
 
   /// `gain`: the camera's scale in this frame, of which only the change from frame to frame counts.
   void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
@@ -53,6 +55,7 @@ class SurfaceSamples {
   const LightSolver& solver_;
   CameraModel camera_;
   MarkerPrint print_;
+  CameraResponse response_;
   std::vector<SurfaceSample> samples_;
   std::map<CellKey, std::uint32_t> cells_;
   int frames_ = 0;

@@ -169,6 +169,7 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
   Fill(facts.marker_heading_deg, fallback.marker_heading_deg);
   Fill(facts.marker_upright, fallback.marker_upright);
   Fill(facts.cloudiness, fallback.cloudiness);
+  if (facts.camera_response.empty()) facts.camera_response = fallback.camera_response;
   return facts;
 }
 
@@ -193,6 +194,7 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   scene.cloudiness = facts.cloudiness.value_or(Cloudiness::kClear);
   scene.turbidity = facts.turbidity;
   scene.exposure_gain = facts.exposure_gain;
+  scene.camera_response = facts.camera_response;
   return scene;
 }
 
@@ -205,6 +207,9 @@ Result<void> CheckModelsExist(const SceneDescription& scene) {
         std::string("names the ") + what + " " + named.string() + ", which is not there",
         "put the file there or mend the name in the scene");
   };
+  if (!scene.camera_response.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(check("camera response", scene.camera_response));
+  }
   for (const std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
     for (const ModelReference& model : *models) {
       PLEINAIR_RETURN_IF_ERROR(check("model", model.file));

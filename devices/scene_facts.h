@@ -26,6 +26,7 @@ struct SceneFacts {
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;
   std::optional<LinearRgb> exposure_gain;
+  std::filesystem::path camera_response;  ///< Beside the file that names it; empty: not said.
 
   /// Says nothing of place, time and marker, which a scene cannot do without.
   bool LacksPlaceTimeAndMarker() const {

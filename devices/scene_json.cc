@@ -118,6 +118,12 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("real_geometry"), &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("virtual_object"), &facts.objects));
   facts.cloudiness = SkyInWords(fields);
+  for (const JsonFields& block : {fields, fields.Object("calibration")}) {
+    const std::string response = block.TextOr("camera_response");
+    if (response.empty()) continue;
+    facts.camera_response =
+        (std::filesystem::path(name).parent_path() / response).lexically_normal();
+  }
   return facts;
 }
 

@@ -49,6 +49,8 @@ class Table {
     return {};
   }
 
+  const std::string& file() const { return file_; }
+
   const toml::node* Find(const char* key) const { return table_.get(key); }
 
   Result<std::optional<double>> Number(const char* key) const {
@@ -247,8 +249,9 @@ Result<std::vector<ModelReference>> ReadModels(const Table& scene, const char* k
 }
 
 Result<SceneFacts> ReadScene(const Table& scene) {
-  PLEINAIR_RETURN_IF_ERROR(scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain",
-                                            "place", "marker", "phantom", "object"}));
+  PLEINAIR_RETURN_IF_ERROR(
+      scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain", "camera_response",
+                       "place", "marker", "phantom", "object"}));
   SceneFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(facts.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<Table> places, scene.Tables("place"));
@@ -272,6 +275,11 @@ Result<SceneFacts> ReadScene(const Table& scene) {
   PLEINAIR_ASSIGN_OR_RETURN(facts.turbidity, scene.Number("turbidity"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> gain, scene.Triple("exposure_gain"));
   if (gain) facts.exposure_gain = LinearRgb{gain->x, gain->y, gain->z};
+  PLEINAIR_ASSIGN_OR_RETURN(const auto response, scene.Text("camera_response"));
+  if (response) {
+    facts.camera_response =
+        (std::filesystem::path(scene.file()).parent_path() / *response).lexically_normal();
+  }
   return facts;
 }
 

@@ -166,7 +166,8 @@ LightOrder LiveLight::OrderFor(const Wanted& wanted) {
           skies_,
           solver_,
           coefficients_,
-          wanted.print};
+          wanted.print,
+          setup_.response};
 }
 
 void LiveLight::Make(const Wanted& wanted) {
@@ -196,7 +197,7 @@ void LiveLight::Look(const Shown& shown, const Wanted& wanted) {
   }
   if (!look_) {
     look_ = std::make_unique<LightLook>(solver_, setup_.camera, wanted.print, setup_.scene,
-                                        setup_.overrides, shown.time);
+                                        setup_.overrides, shown.time, setup_.response);
   }
   look_->Add(shown.frame->rgb.view(), shown.camera_from_marker);
   {

@@ -35,6 +35,7 @@ class LiveLight {
     SceneEdit edit;
     DaySkies skies;  ///< As stated or overridden.
     UtcTime time;
+    CameraResponse response = {};
   };
 
   /// Makes the first light and starts. Errors: the geometry.

@@ -79,9 +79,10 @@ Result<void> LiveSession::Prepare() {
   edit_ = UneditedScene(options_.scene, options_.composer);
   if (!renderer_->DrawsObjects()) return {};
   const UtcTime start = options_.start.value_or(WallClock());
-  PLEINAIR_ASSIGN_OR_RETURN(light_, LiveLight::Create({options_.camera, options_.scene,
-                                                       renderer_->placed(), options_.light, edit_,
-                                                       renderer_->OrderLight(start).skies, start}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      light_,
+      LiveLight::Create({options_.camera, options_.scene, renderer_->placed(), options_.light,
+                         edit_, renderer_->OrderLight(start).skies, start, renderer_->response()}));
   return renderer_->UseLight(light_->Take());
 }
 

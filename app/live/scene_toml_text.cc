@@ -68,6 +68,9 @@ std::string SceneToml(const devices::SceneDescription& scene, UtcTime start,
     text += fmt::format("exposure_gain = [{}, {}, {}]\n", scene.exposure_gain->r,
                         scene.exposure_gain->g, scene.exposure_gain->b);
   }
+  if (!scene.camera_response.empty()) {
+    text += fmt::format("camera_response = {}\n", Beside(folder, scene.camera_response));
+  }
   text += fmt::format("\n[place]\nlatitude_deg = {}\nlongitude_deg = {}\nheight_m = {}\n",
                       scene.place_time.latitude_deg, scene.place_time.longitude_deg,
                       scene.place_time.height_m);

@@ -123,6 +123,11 @@ std::string Light(const ReplayReport& report) {
                    ? "camera gain (r g b per cd/m²), guessed"
                    : fmt::format("camera gain (r g b per cd/m²), {} readings, spread {:.1f} %",
                                  light.readings, light.gain_spread * 100));
+  if (light.look) {
+    html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.look->blur_px,
+                             1000 * light.look->NoiseSigma(1, kMediumLight)),
+                 "blur / noise at medium light, which drawn things get too");
+  }
   return html;
 }
 

@@ -46,6 +46,16 @@ Json MeasuredJson(const MeasuredLight& light) {
           {"shadow_edges_agreeing", light.edges_agreeing}};
 }
 
+/// Noise as its standard deviation at a medium light, in thousandths of the brightest.
+Json LookJson(const compositor::PictureLook& look) {
+  Json noise;
+  for (int c = 0; c < 3; ++c) noise.push_back(Rounded(1000 * look.NoiseSigma(c, kMediumLight)));
+  return {{"blur_px", Rounded(look.blur_px)},
+          {"noise_permille_at_medium_light", noise},
+          {"noise_neighbour_correlation", Rounded(look.neighbour_correlation)},
+          {"noise_channel_correlation", Rounded(look.channel_correlation)}};
+}
+
 Json LightJson(const LightSummary& light) {
   return {{"sun_azimuth_deg", Rounded(ToDegrees(light.sun.azimuth))},
           {"sun_elevation_deg", Rounded(ToDegrees(light.sun.elevation))},
@@ -56,6 +66,7 @@ Json LightJson(const LightSummary& light) {
           {"gain_relative_spread", Rounded(light.gain_spread)},
           {"gain_readings", light.readings},
           {"gain_is_guessed", light.gain_is_guessed},
+          {"look", light.look ? LookJson(*light.look) : Json()},
           {"measured", MeasuredJson(light.measured)}};
 }
 

@@ -1,14 +1,57 @@
 #version 450 core
 // The camera's picture with the virtual objects, one invocation a camera pixel.
+//
+// CAMERA_RESPONSE: codes are the camera's own, by table, instead of sRGB.
+// GRAIN: drawn pixels get the noise that the camera would have given them.
 
 #include "compositor/shaders/srgb_transfer.glsl"
 
-layout(binding = 0) uniform sampler2D u_background;   // sRGB-encoded codes / 255, row 0 = top.
+layout(binding = 0) uniform sampler2D u_background;   // Codes / 255, row 0 = top.
 layout(binding = 1) uniform sampler2D u_ratio;        // differential.glsl, render picture.
 layout(binding = 2) uniform sampler2D u_objects;      // Premultiplied display-linear, coverage.
 layout(binding = 3) uniform sampler2D u_positions;    // RenderPositions(), texels.
 
 layout(location = 0) out vec4 out_encoded;
+
+#ifdef CAMERA_RESPONSE
+layout(binding = 4) uniform sampler2D u_light_of_code;  // 256 texels.
+layout(binding = 5) uniform sampler2D u_code_of_light;  // Evenly by the square root of light.
+
+vec3 LinearFromEncoded(vec3 encoded) {
+  ivec3 code = ivec3(encoded * 255.0 + 0.5);
+  return vec3(texelFetch(u_light_of_code, ivec2(code.r, 0), 0).r,
+              texelFetch(u_light_of_code, ivec2(code.g, 0), 0).g,
+              texelFetch(u_light_of_code, ivec2(code.b, 0), 0).b);
+}
+
+vec3 EncodedFromLinear(vec3 light) {
+  float size = float(textureSize(u_code_of_light, 0).x);
+  vec3 at = (sqrt(clamp(light, 0.0, 1.0)) * (size - 1.0) + 0.5) / size;
+  return vec3(texture(u_code_of_light, vec2(at.r, 0.5)).r,
+              texture(u_code_of_light, vec2(at.g, 0.5)).g,
+              texture(u_code_of_light, vec2(at.b, 0.5)).b);
+}
+#else
+vec3 LinearFromEncoded(vec3 encoded) { return LinearFromSrgb(encoded); }
+vec3 EncodedFromLinear(vec3 light) { return SrgbFromLinear(light); }
+#endif
+
+#ifdef GRAIN
+layout(binding = 6) uniform sampler2D u_grain;  // MakeGrain(): one for all channels, one for each.
+uniform ivec2 u_grain_offset;
+uniform vec3 u_noise_constant;  // Variance of linear light = constant + slope * light.
+uniform vec3 u_noise_slope;
+uniform float u_channel_correlation;
+
+/// What is missing to the noise of `light`, where the noise of `behind` times `kept` is there.
+vec3 MissingGrain(ivec2 pixel, vec3 light, vec3 behind, vec3 kept) {
+  vec4 grain = texelFetch(u_grain, (pixel + u_grain_offset) % textureSize(u_grain, 0), 0);
+  vec3 unit = sqrt(u_channel_correlation) * grain.aaa + sqrt(1.0 - u_channel_correlation) * grain.rgb;
+  vec3 there = kept * kept * (u_noise_constant + u_noise_slope * behind);
+  vec3 wanted = u_noise_constant + u_noise_slope * max(light, vec3(0.0));
+  return unit * sqrt(max(wanted - there, vec3(0.0)));
+}
+#endif
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -20,6 +63,11 @@ void main() {
     out_encoded = background;
     return;
   }
-  vec3 behind = LinearFromSrgb(background.rgb) * ratio;
-  out_encoded = vec4(SrgbFromLinear(behind * (1.0 - object.a) + object.rgb), 1.0);
+  vec3 behind = LinearFromEncoded(background.rgb);
+  vec3 kept = ratio * (1.0 - object.a);
+  vec3 light = behind * kept + object.rgb;
+#ifdef GRAIN
+  light += MissingGrain(pixel, light, behind, kept);
+#endif
+  out_encoded = vec4(EncodedFromLinear(light), 1.0);
 }

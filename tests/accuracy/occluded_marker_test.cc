@@ -169,6 +169,7 @@ TEST_F(OccludedMarker, KeepsTheVirtualObjectInPlace) {
   const e2e::RunResult run =
       e2e::RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
+
   const auto found = e2e::ReadTum(folder / "out/poses/sg_17.tum");
   const std::vector<Point<Marker>> points = ObjectPoints();
   ASSERT_GT(points.size(), 50U);
@@ -216,6 +217,7 @@ TEST_F(OccludedMarker, LightsTheVirtualObjectAsWithoutTheHand) {
   const e2e::RunResult run =
       e2e::RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video", "--frames"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
+
   const cv::Mat picture =
       cv::imread(folder / fmt::format("out/frames/{:04}.png", kKeyFrame - kFirst));
   const KeyFrame key = ReadKeyFrame(kKeyFrame);
@@ -231,6 +233,54 @@ TEST_F(OccludedMarker, LightsTheVirtualObjectAsWithoutTheHand) {
   // The bounds of the composite without a hand (composite_accuracy_test.cc).
   EXPECT_LE(score.object, 2.0);
   EXPECT_LE(score.shadow, 2.6);
+}
+
+TEST_F(OccludedMarker, PutsTheHandBeforeTheVirtualObject) {
+  constexpr int kFirst = 28, kLast = 30;
+  const e2e::TemporaryFolder folder;
+  MakeRecording(folder / "site", kFirst, kLast, true);
+  // The object on the marker itself, behind the hand.
+  e2e::WriteFile(folder / "site/scene.toml",
+                 e2e::ReadFile(folder / "site/scene.toml") + "translation_m = [-0.68, -0.03, 0]\n");
+  std::vector<cv::Mat> pictures;
+  for (const bool hands : {false, true}) {
+    const std::string out = folder / (hands ? "hands" : "plain");
+    std::vector<std::string> command{"replay",     folder / "site", "-o",      out,
+                                     "--no-video", "--frames",      "--light", "stated"};
+    if (hands) command.emplace_back("--hands");
+    const e2e::RunResult run = e2e::RunPleinair(command);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+
+    pictures.push_back(cv::imread(out + "/frames/0002.png"));
+  }
+  const cv::Mat frame = cv::imread(folder / "site/frames/0002.jpg");
+  cv::Mat hand, beside;
+  cv::erode(hands_.back() > 0.9F, hand, cv::Mat(), cv::Point(-1, -1), 2);
+  cv::dilate(hands_.back() > 0.0F, beside, cv::Mat(), cv::Point(-1, -1), 6);
+  int behind = 0, kept = 0, object = 0, same = 0;
+  for (int y = 0; y < frame.rows; ++y) {
+    for (int x = 0; x < frame.cols; ++x) {
+      const auto differs = [&](const cv::Mat& picture) {
+        return cv::norm(cv::Vec3i(frame.at<cv::Vec3b>(y, x)) -
+                        cv::Vec3i(picture.at<cv::Vec3b>(y, x))) > 25;
+      };
+      if (!differs(pictures[0])) continue;
+      if (hand.at<std::uint8_t>(y, x) != 0) {
+        ++behind;
+        kept += differs(pictures[1]) ? 0 : 1;
+      } else if (beside.at<std::uint8_t>(y, x) == 0) {
+        ++object;
+        same += cv::norm(pictures[0].at<cv::Vec3b>(y, x), pictures[1].at<cv::Vec3b>(y, x)) < 1;
+      }
+    }
+  }
+  fmt::print("\nHand before the object: {} of {} pixels; object elsewhere kept: {} of {}\n", kept,
+             behind, same, object);
+  std::fflush(stdout);
+  EXPECT_GT(behind, 1000);
+  EXPECT_GT(kept, 0.7 * behind);
+  EXPECT_GT(object, 1500);
+  EXPECT_GT(same, 0.97 * object);
 }
 
 }  // namespace

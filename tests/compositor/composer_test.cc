@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "base/srgb.h"
@@ -79,7 +80,7 @@ const PlacedModel kCube = Place(MakeBox({-0.15, -0.15, 0.001}, {0.15, 0.15, 0.3}
 
 RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
                  const CameraModel& camera = kCamera, double sun_lux = kSunLux,
-                 ComposerOptions options = {}) {
+                 ComposerOptions options = {}, const std::optional<PictureLook>& look = {}) {
   LightSolverOptions solver_options;
   solver_options.rays_per_vertex = 64;
   const auto solver = LightSolver::Create(scene, solver_options);
@@ -89,6 +90,9 @@ RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
   const SouthernSun light(sun_lux);
   const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{});
   if (!set) ADD_FAILURE() << set.error().Message();
+  if (const auto looks = (*composer)->SetLook(look); !looks) {
+    ADD_FAILURE() << looks.error().Message();
+  }
   auto composed = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
   if (!composed) ADD_FAILURE() << composed.error().Message();
   return *std::move(composed);
@@ -264,6 +268,88 @@ TEST(Composer, CastsTheSameShadowByThePapersMethod) {
   const RgbImage ours = Compose({kGround, kCube}, picture);
   EXPECT_NEAR(SeenAt(paper, {0, 0.28, 0}), SeenAt(ours, {0, 0.28, 0}), 0.06);
   EXPECT_NEAR(SeenAt(paper, {0, 0.8, 0}), SeenAt(ours, {0, 0.8, 0}), 0.06);
+}
+
+/// A white slab's edge as the picture spreads it: standard deviation of the steps across it, in
+/// linear light and pixels.
+double EdgeSpread(const RgbImage& picture, int row) {
+  double all = 0.0, mean = 0.0, square = 0.0;
+  for (int x = 100; x < 159; ++x) {
+    const double step = static_cast<double>(LinearFromSrgb8()[picture(x + 1, row, 1)]) -
+                        LinearFromSrgb8()[picture(x, row, 1)];
+    all += step;
+    mean += step * x;
+    square += step * x * x;
+  }
+  mean /= all;
+  return std::sqrt(square / all - mean * mean);
+}
+
+TEST(Composer, BlursWhatIsDrawnAsTheCameraDoes) {
+  const PlacedModel slab = Place(MakeBox({-0.304, -0.8, 0.1}, {0.8, 0.8, 0.1}, 0.8F), false);
+  const RgbImage black = EvenPicture(0);
+  for (const double blur_px : {0.8, 2.0, 4.0}) {
+    PictureLook look;
+    look.blur_px = blur_px;
+    const RgbImage composed = Compose({slab}, black, kCamera, kSunLux, {}, look);
+    EXPECT_NEAR(EdgeSpread(composed, 120), blur_px, 0.06 * blur_px + 0.05);
+    EXPECT_EQ(composed(2, 2, 1), 0);
+  }
+  // As sharp as a pixel is wide, where the camera is.
+  PictureLook sharp;
+  sharp.blur_px = 0.3;
+  EXPECT_LT(EdgeSpread(Compose({slab}, black, kCamera, kSunLux, {}, sharp), 120), 0.55);
+}
+
+TEST(Composer, GivesWhatIsDrawnTheCamerasGrain) {
+  const PlacedModel slab = Place(MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.3F), false);
+  PictureLook look;
+  look.blur_px = 0.3;
+  look.noise_constant = {2e-5, 2e-5, 2e-5};
+  look.noise_slope = {4e-4, 4e-4, 4e-4};
+  look.channel_correlation = 0.5;
+  const RgbImage picture = EvenPicture(60);
+  const RgbImage composed = Compose({slab}, picture, kCamera, kSunLux, {}, look);
+  double mean = 0.0, square = 0.0, count = 0.0, crossed = 0.0, red_mean = 0.0;
+  for (int y = 90; y < 150; ++y) {
+    for (int x = 130; x < 190; ++x) {
+      const double green = LinearFromSrgb8()[composed(x, y, 1)];
+      const double red = LinearFromSrgb8()[composed(x, y, 0)];
+      mean += green;
+      red_mean += red;
+      square += green * green;
+      crossed += green * red;
+      ++count;
+    }
+  }
+  mean /= count;
+  red_mean /= count;
+  const double variance = square / count - mean * mean;
+  EXPECT_NEAR(variance / (2e-5 + 4e-4 * mean), 1.0, 0.1);
+  EXPECT_NEAR((crossed / count - mean * red_mean) / variance, 0.5, 0.1);
+  // The camera's own pixels have theirs already.
+  EXPECT_EQ(composed(10, 10, 1), 60);
+}
+
+TEST(Composer, ReadsAndWritesTheCamerasOwnCodes) {
+  // A camera whose codes are light itself.
+  ComposerOptions options;
+  const std::vector<double> ends{0.0, 1.0};
+  options.response = *CameraResponse::FromSamples(ends, {ends, ends, ends});
+  const RgbImage composed = Compose({kGround, kCube}, EvenPicture(128), kCamera, kSunLux, options);
+  const auto seen = [&](Vec3 point) {
+    const Vec2 pixel = ProjectToPixel(kCamera, kFromAbove * Point<Marker>{point});
+    return composed(static_cast<int>(std::lround(pixel.x)), static_cast<int>(std::lround(pixel.y)),
+                    1) /
+           255.0;
+  };
+  const double lux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
+  EXPECT_NEAR(seen({0, 0, 0.3}), kGain * 0.5 * lux / std::numbers::pi, 0.01);
+  // The same share of the light is left in the shadow as with any other codes.
+  const double share = seen({0, 0.30, 0}) / (128 / 255.0);
+  const RgbImage srgb = Compose({kGround, kCube}, EvenPicture(188));
+  EXPECT_NEAR(share, SeenAt(srgb, {0, 0.30, 0}) / LinearFromSrgb8()[188], 0.02);
+  EXPECT_EQ(composed(2, 2, 0), 128);
 }
 
 }  // namespace

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/srgb.h"
+
+namespace pleinair {
+
+/// How a camera writes light into 8-bit codes, a channel at a time: what Grossberg & Nayar 2003,
+/// "What is the Space of Camera Response Functions?", call the response. Light is relative to the
+/// brightest that the camera can write, which is 1. The default is sRGB.
+class CameraResponse {
+ public:
+  CameraResponse() {
+    for (auto& channel : linear_) channel = LinearFromSrgb8();
+  }
+
+  /// `light[c]` is the light at `encoded` (0…1, code / 255) in channel c; between them a monotone
+  /// cubic (Fritsch & Carlson 1980), so that a few samples suffice. Nothing where the samples do
+  /// not run from 0 to 1 in both, rising, at least two of them.
+  static std::optional<CameraResponse> FromSamples(
+      const std::vector<double>& encoded, const std::array<std::vector<double>, 3>& light) {
+    CameraResponse response;
+    response.is_srgb_ = false;
+    if (!RisesFromZeroToOne(encoded)) return std::nullopt;
+    for (int c = 0; c < 3; ++c) {
+      if (light[c].size() != encoded.size() || !RisesFromZeroToOne(light[c])) return std::nullopt;
+      Fill(encoded, light[c], &response.linear_[c]);
+    }
+    return response;
+  }
+
+  bool operator==(const CameraResponse&) const = default;
+
+  bool IsSrgb() const { return is_srgb_; }
+
+  /// Light of the 256 codes of a channel.
+  const std::array<float, 256>& Linear(int channel) const { return linear_[channel]; }
+
+  /// Encoded value, 0…1, of light; clips to 0…1.
+  double Encoded(double light, int channel) const {
+    if (is_srgb_) return SrgbFromLinear(light);
+    const auto& table = linear_[channel];
+    const auto above = std::upper_bound(table.begin(), table.end(), static_cast<float>(light));
+    if (above == table.begin()) return 0.0;
+    if (above == table.end()) return 1.0;
+    const auto code = static_cast<double>(above - table.begin());
+    const double low = *(above - 1), high = *above;
+    return (code - 1.0 + (light - low) / (high - low)) / 255.0;
+  }
+
+  /// Nearest 8-bit code of light.
+  std::uint8_t Encoded8(double light, int channel) const {
+    return static_cast<std::uint8_t>(std::lround(Encoded(light, channel) * 255.0));
+  }
+
+ private:
+  static bool RisesFromZeroToOne(const std::vector<double>& values) {
+    // Steps that a float still tells apart over 256 codes.
+    constexpr double kLeastStep = 1e-6;
+    if (values.size() < 2 || values.front() != 0.0 || values.back() != 1.0) return false;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (!(values[i] - values[i - 1] >= kLeastStep)) return false;
+    }
+    return true;
+  }
+
+  static void Fill(const std::vector<double>& x, const std::vector<double>& y,
+                   std::array<float, 256>* table) {
+    const std::size_t n = x.size();
+    const auto chord = [&](std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
+    std::vector<double> slope(n);
+    slope[0] = chord(0);
+    slope[n - 1] = chord(n - 2);
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      // The harmonic mean keeps the curve monotone (Fritsch & Butland 1984).
+      slope[i] = 2.0 * chord(i - 1) * chord(i) / (chord(i - 1) + chord(i));
+    }
+    std::size_t i = 0;
+    for (int code = 0; code < 256; ++code) {
+      const double at = code / 255.0;
+      while (i + 2 < n && at > x[i + 1]) ++i;
+      const double h = x[i + 1] - x[i], t = (at - x[i]) / h;
+      const double value = y[i] * (1 + 2 * t) * (1 - t) * (1 - t) +
+                           h * slope[i] * t * (1 - t) * (1 - t) + y[i + 1] * t * t * (3 - 2 * t) +
+                           h * slope[i + 1] * t * t * (t - 1);
+      // Rising whatever rounding does, so that every light has one code.
+      const float floor = code == 0 ? 0.0F : std::nextafter((*table)[code - 1], 2.0F);
+      (*table)[code] = std::max(floor, static_cast<float>(value));
+    }
+  }
+
+  bool is_srgb_ = true;
+  std::array<std::array<float, 256>, 3> linear_{};
+};
+
+}  // namespace pleinair

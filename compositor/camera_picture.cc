@@ -1,0 +1,164 @@
+#include "compositor/camera_picture.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "compositor/light_samples.h"
+#include "compositor/picture_grain.h"
+
+namespace pleinair::compositor {
+namespace {
+
+// What the drawing itself spreads an edge by, camera pixels, standard deviation: a pixel's width;
+// where it is warped, a smaller pixel and the interpolation between them.
+constexpr double kOwnBlurPx = 0.29, kWarpedBlurPx = 0.33;
+// Less blur than this does not show; of noise of less than so many steps of 8 bits nobody can tell
+// whether it is the sensor's or what compression leaves.
+constexpr double kLeastBlurPx = 0.3, kLeastNoiseSteps = 2.0;
+constexpr double kMostBlurPx = 12.0;
+constexpr int kGrainSide = 256, kCodeTableSize = 4096;
+}  // namespace
+
+Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const RenderCamera& render,
+                                            double supersampling, const CameraResponse& response) {
+  CameraPicture picture;
+  picture.camera_ = camera;
+  picture.response_ = response;
+  picture.supersampling_ = supersampling;
+  for (gl::GlTexture* texture : {&picture.background_, &picture.output_}) {
+    PLEINAIR_ASSIGN_OR_RETURN(*texture,
+                              gl::GlTexture::Create2D(GL_RGBA8, camera.width, camera.height));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(picture.positions_,
+                            gl::GlTexture::Create2D(GL_RG32F, camera.width, camera.height));
+  picture.positions_.Upload(GL_RG, GL_FLOAT, RenderPositions(camera, render).data());
+  PLEINAIR_ASSIGN_OR_RETURN(picture.output_framebuffer_,
+                            gl::GlFramebuffer::Create({{{&picture.output_}}, {}}));
+  picture.no_attributes_ = gl::GlVertexArray::Create();
+  PLEINAIR_ASSIGN_OR_RETURN(
+      picture.blur_program_,
+      gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
+                             .fragment = "compositor/shaders/blur.frag"}));
+  std::vector<std::string> composite_defines;
+  if (!picture.response_.IsSrgb()) {
+    PLEINAIR_RETURN_IF_ERROR(picture.CreateResponseTables());
+    composite_defines.emplace_back("CAMERA_RESPONSE");
+  }
+  for (gl::GlProgram* program : {&picture.composite_program_, &picture.grain_program_}) {
+    if (program == &picture.grain_program_) composite_defines.emplace_back("GRAIN");
+    PLEINAIR_ASSIGN_OR_RETURN(
+        *program, gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
+                                         .fragment = "compositor/shaders/composite.frag",
+                                         .defines = composite_defines}));
+  }
+  return picture;
+}
+
+Result<void> CameraPicture::CreateResponseTables() {
+  std::array<std::vector<float>, 2> tables;
+  for (int code = 0; code < 256; ++code) {
+    for (int c = 0; c < 3; ++c) tables[0].push_back(response_.Linear(c)[code]);
+  }
+  for (int i = 0; i < kCodeTableSize; ++i) {
+    const double root = static_cast<double>(i) / (kCodeTableSize - 1);
+    for (int c = 0; c < 3; ++c) {
+      tables[1].push_back(static_cast<float>(response_.Encoded(root * root, c)));
+    }
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(light_of_code_, gl::GlTexture::Create2D(GL_RGB32F, 256, 1));
+  PLEINAIR_ASSIGN_OR_RETURN(code_of_light_, gl::GlTexture::Create2D(GL_RGB32F, kCodeTableSize, 1));
+  light_of_code_.Upload(GL_RGB, GL_FLOAT, tables[0].data());
+  code_of_light_.Upload(GL_RGB, GL_FLOAT, tables[1].data());
+  return {};
+}
+
+Result<void> CameraPicture::SetLook(const std::optional<PictureLook>& look) {
+  added_blur_px_ = 0.0;
+  grain_look_.reset();
+  if (!look) return {};
+  const double own = camera_.HasDistortion() ? kWarpedBlurPx : kOwnBlurPx;
+  if (look->blur_px > own) {
+    added_blur_px_ = std::min(std::sqrt(look->blur_px * look->blur_px - own * own), kMostBlurPx);
+  }
+  if (added_blur_px_ < kLeastBlurPx) added_blur_px_ = 0.0;
+  // Of a medium grey, where eyes tell most.
+  constexpr int kGreyCode = 118;
+  const auto& table = response_.Linear(1);
+  const double step = table[kGreyCode + 1] - table[kGreyCode];
+  if (look->NoiseSigma(1, table[kGreyCode]) < kLeastNoiseSteps * step) return {};
+  grain_look_ = look;
+  constexpr double kSameCorrelation = 0.05;
+  if (std::fabs(look->neighbour_correlation - grain_correlation_) > kSameCorrelation) {
+    grain_correlation_ = look->neighbour_correlation;
+    if (!grain_) {
+      PLEINAIR_ASSIGN_OR_RETURN(grain_,
+                                gl::GlTexture::Create2D(GL_RGBA16F, kGrainSide, kGrainSide));
+    }
+    grain_.Upload(GL_RGBA, GL_FLOAT, MakeGrain(kGrainSide, grain_correlation_).data());
+  }
+  return {};
+}
+
+/// Both virtual pictures, along the rows and then along the columns.
+void CameraPicture::Blur(const RenderTargets& targets) const {
+  const double sigma = added_blur_px_ * supersampling_;
+  blur_program_.Use();
+  blur_program_.Set("u_sigma_px", static_cast<float>(sigma));
+  blur_program_.Set("u_reach_px", static_cast<int>(std::ceil(2.5 * sigma)));
+  no_attributes_.Bind();
+  for (const bool back : {false, true}) {
+    targets.BeginPass(back);
+    (back ? targets.passed_ratio() : targets.ratio()).Bind(1);
+    (back ? targets.passed_objects() : targets.objects()).Bind(2);
+    blur_program_.Set("u_direction", back ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+}
+
+void CameraPicture::SetGrain() const {
+  const PictureLook& look = *grain_look_;
+  const auto to_glm = [](const std::array<double, 3>& a) { return glm::vec3(a[0], a[1], a[2]); };
+  const std::uint32_t offset = Hash(pictures_, 0x6A);
+  grain_program_.Set("u_grain_offset",
+                     glm::ivec2(offset % kGrainSide, offset / kGrainSide % kGrainSide));
+  grain_program_.Set("u_noise_constant", to_glm(look.noise_constant));
+  grain_program_.Set("u_noise_slope", to_glm(look.noise_slope));
+  grain_program_.Set("u_channel_correlation", static_cast<float>(look.channel_correlation));
+  grain_.Bind(6);
+}
+
+void CameraPicture::SetBackground(ImageView<const std::uint8_t> rgb) {
+  background_.Upload(GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+}
+
+void CameraPicture::Draw(const RenderTargets& targets) {
+  if (added_blur_px_ > 0.0) Blur(targets);
+  output_framebuffer_.Bind();
+  (grain_look_ ? grain_program_ : composite_program_).Use();
+  if (grain_look_) SetGrain();
+  ++pictures_;
+  if (!response_.IsSrgb()) {
+    light_of_code_.Bind(4);
+    code_of_light_.Bind(5);
+  }
+  background_.Bind(0);
+  targets.ratio().Bind(1);
+  targets.objects().Bind(2);
+  positions_.Bind(3);
+  no_attributes_.Bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+RgbImage CameraPicture::Read() const {
+  RgbImage composed(camera_.width, camera_.height, 3);
+  output_framebuffer_.ReadPixels(0, GL_RGB, GL_UNSIGNED_BYTE, composed.data());
+  return composed;
+}
+
+}  // namespace pleinair::compositor

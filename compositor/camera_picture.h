@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/camera_model.h"
+#include "base/camera_response.h"
+#include "base/error.h"
+#include "base/image.h"
+#include "compositor/picture_look.h"
+#include "compositor/render_camera.h"
+#include "compositor/render_targets.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "gl/vertex_array.h"
+
+namespace pleinair::compositor {
+
+/// The last steps of a composed picture: what was drawn is blurred as the camera blurs, bent as its
+/// lens bends, put before the camera's own picture, given the camera's grain and written in its
+/// codes. Needs a current OpenGL context with the compositor's shaders registered.
+class CameraPicture {
+ public:
+  static Result<CameraPicture> Create(const CameraModel& camera, const RenderCamera& render,
+                                      double supersampling, const CameraResponse& response);
+
+  /// As Composer::SetLook().
+  Result<void> SetLook(const std::optional<PictureLook>& look);
+
+  /// Takes the camera's picture, `rgb`, of its size and without gaps between rows.
+  void SetBackground(ImageView<const std::uint8_t> rgb);
+  /// Composes what was drawn into `targets` and resolved; the blur is left in them.
+  void Draw(const RenderTargets& targets);
+  /// The picture, with whatever else was drawn into framebuffer() since.
+  RgbImage Read() const;
+
+  const gl::GlTexture& positions() const { return positions_; }
+  const gl::GlFramebuffer& framebuffer() const { return output_framebuffer_; }
+
+ private:
+  Result<void> CreateResponseTables();
+  void Blur(const RenderTargets& targets) const;
+  void SetGrain() const;
+
+  CameraModel camera_;
+  CameraResponse response_;
+  double supersampling_ = 1.0;
+  gl::GlTexture background_, positions_, output_;
+  gl::GlTexture light_of_code_, code_of_light_, grain_;
+  gl::GlFramebuffer output_framebuffer_;
+  gl::GlVertexArray no_attributes_;
+  gl::GlProgram blur_program_, composite_program_, grain_program_;
+  double added_blur_px_ = 0.0;  // Camera pixels; 0: none.
+  std::optional<PictureLook> grain_look_;
+  double grain_correlation_ = -1.0;  // Of the grain in memory.
+  std::uint32_t pictures_ = 0;       // Composed so far: each gets grain of its own.
+};
+
+}  // namespace pleinair::compositor

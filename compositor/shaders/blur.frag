@@ -1,0 +1,30 @@
+#version 450 core
+// One direction of a separable Gaussian over the two virtual pictures, render pixels.
+
+layout(binding = 1) uniform sampler2D u_ratio;
+layout(binding = 2) uniform sampler2D u_objects;
+
+uniform ivec2 u_direction;     // (1, 0) or (0, 1).
+uniform float u_sigma_px;
+uniform int u_reach_px;
+
+layout(location = 0) out vec4 out_ratio;
+layout(location = 1) out vec4 out_objects;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 last = textureSize(u_objects, 0) - 1;
+  vec4 ratio = vec4(0.0);
+  vec4 objects = vec4(0.0);
+  float weights = 0.0;
+  for (int i = -u_reach_px; i <= u_reach_px; ++i) {
+    float t = float(i) / u_sigma_px;
+    float weight = exp(-0.5 * t * t);
+    ivec2 at = clamp(pixel + i * u_direction, ivec2(0), last);
+    ratio += weight * texelFetch(u_ratio, at, 0);
+    objects += weight * texelFetch(u_objects, at, 0);
+    weights += weight;
+  }
+  out_ratio = ratio / weights;
+  out_objects = objects / weights;
+}

@@ -1,0 +1,87 @@
+#include "devices/response_file.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "devices/json_fields.h"
+#include "devices/text_file.h"
+
+namespace pleinair::devices {
+namespace {
+
+constexpr double kLeastGamma = 0.2, kLargestGamma = 5.0;
+constexpr std::size_t kMostSamples = 65'536;
+
+/// A power, densely enough that the curve between samples is the power's own.
+CameraResponse PowerResponse(double gamma) {
+  constexpr int kSteps = 255;
+  std::vector<double> encoded, light;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double at = static_cast<double>(i) / kSteps;
+    const double value = std::pow(at, gamma);
+    // Steep powers hardly leave the ground: what no float tells from 0 is left to the curve.
+    if (i != 0 && i != kSteps && (value < 1e-5 || value > 1.0 - 1e-5)) continue;
+    encoded.push_back(at);
+    light.push_back(value);
+  }
+  return *CameraResponse::FromSamples(encoded, {light, light, light});
+}
+
+Result<CameraResponse> SampledResponse(const JsonFields& fields) {
+  PLEINAIR_ASSIGN_OR_RETURN(const auto encoded, fields.Numbers("encoded"));
+  if (!encoded) {
+    return fields.Fail("encoded", "is missing", "list the encoded values, from 0 to 1, rising");
+  }
+  std::array<std::vector<double>, 3> light;
+  PLEINAIR_ASSIGN_OR_RETURN(const auto grey, fields.Numbers("light"));
+  constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
+  for (int c = 0; c < 3; ++c) {
+    PLEINAIR_ASSIGN_OR_RETURN(const auto of_channel, fields.Numbers(kChannels[c]));
+    if (!of_channel && !grey) {
+      return fields.Fail(kChannels[c], "is missing", "give light, or red, green and blue");
+    }
+    light[c] = of_channel ? *of_channel : *grey;
+    if (light[c].size() != encoded->size()) {
+      return fields.Fail(of_channel ? kChannels[c] : "light",
+                         "has " + std::to_string(light[c].size()) + " values for " +
+                             std::to_string(encoded->size()) + " in encoded",
+                         "give one light for each encoded value");
+    }
+  }
+  if (encoded->size() > kMostSamples) {
+    return fields.Fail("encoded", "has more than 65536 values", "256 are enough");
+  }
+  auto response = CameraResponse::FromSamples(*encoded, light);
+  if (!response) {
+    return fields.Fail("encoded", "and the light do not both rise from 0 to 1",
+                       "write codes / 255 and light / the brightest, in rising order");
+  }
+  return *std::move(response);
+}
+
+}  // namespace
+
+Result<CameraResponse> ReadCameraResponse(const std::filesystem::path& file) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(file, kMaxDescriptionBytes));
+  const std::string name = file.string();
+  PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseJson(bytes, name));
+  const JsonFields fields(document, name);
+  PLEINAIR_ASSIGN_OR_RETURN(const auto kind, fields.Text("response"));
+  if (kind == "srgb") return CameraResponse();
+  if (kind == "samples") return SampledResponse(fields);
+  if (kind != "gamma") {
+    return fields.Fail("response", kind ? "is not known" : "is missing",
+                       "known are srgb, gamma and samples (docs/formats.md)");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const auto gamma, fields.Number("gamma"));
+  if (!gamma || *gamma < kLeastGamma || *gamma > kLargestGamma) {
+    return fields.Fail("gamma", gamma ? "is out of range" : "is missing",
+                       "give the power from code to light, 0.2 to 5; 2.2 is usual");
+  }
+  return PowerResponse(*gamma);
+}
+
+}  // namespace pleinair::devices
