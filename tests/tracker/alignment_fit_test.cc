@@ -2,32 +2,12 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <random>
 
 #include "tests/tracker/alignment_scene.h"
+#include "tests/tracker/counted_memory.h"
 #include "tracker/homography.h"
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-// Counts every operator new of this program.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-// The standard library takes and frees temporary buffers without exceptions.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace pleinair::tracker {
 namespace {
@@ -275,12 +255,12 @@ TEST(BlockFit, AsksForNoMemoryAfterTheFirstFit) {
   // A blur as wide as any that comes needs the longest taps.
   state.blur_px = 2.5;
   ASSERT_TRUE(FitWhole(scene, &seen, &fit, &state));
-  const long before = allocations;
+  const long before = Allocations();
   for (const AlignmentScene* at : {&smaller, &scene, &smaller}) {
     state = at->Guess(0.5);
     ASSERT_TRUE(FitWhole(*at, &seen, &fit, &state));
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(Allocations(), before);
 }
 
 TEST(BlockFit, SurvivesWindowsThatShowNothing) {

@@ -12,7 +12,7 @@ pleinair_test(picture_target_detection_test
   SOURCES picture_target_detection_test.cc
   LIBS pleinair_picture_target_scenes Eigen3::Eigen opencv_core opencv_imgcodecs)
 pleinair_test(picture_target_tracking_test
-  SOURCES picture_target_tracking_test.cc
+  SOURCES counted_memory.cc picture_target_tracking_test.cc
   LIBS pleinair_picture_target_scenes)
 pleinair_test(picture_target_fit_test
   SOURCES picture_target_fit_test.cc

@@ -1,45 +1,14 @@
 // Targets followed over consecutive frames, and what that costs in memory.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <new>
 
+#include "tests/tracker/counted_memory.h"
 #include "tests/tracker/picture_target_scenes.h"
 #include "tests/tracker/sg_test_scenes.h"
 #include "tracker/picture_target/picture_detector.h"
 #include "tracker/picture_target/target_making.h"
-
-namespace {
-long allocations = 0;
-long live_bytes = 0;
-
-void Release(void* memory) {
-  live_bytes -= static_cast<long>(malloc_usable_size(memory));
-  std::free(memory);
-}
-}  // namespace
-
-void* operator new(std::size_t size) {
-  void* const memory = std::malloc(size);
-  if (memory == nullptr) throw std::bad_alloc();
-  ++allocations;
-  live_bytes += static_cast<long>(malloc_usable_size(memory));
-  return memory;
-}
-// The standard library takes and frees temporary buffers without exceptions.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  void* const memory = std::malloc(size);
-  if (memory == nullptr) return nullptr;
-  ++allocations;
-  live_bytes += static_cast<long>(malloc_usable_size(memory));
-  return memory;
-}
-void operator delete(void* memory, const std::nothrow_t&) noexcept { Release(memory); }
-void operator delete(void* memory) noexcept { Release(memory); }
-void operator delete(void* memory, std::size_t) noexcept { Release(memory); }
 
 namespace pleinair::tracker {
 namespace {
@@ -151,19 +120,19 @@ TEST_F(PictureTracking, HoldsTheSameMemoryAfterManyFrames) {
     }
   };
   go_round(4);
-  const long before = live_bytes;
+  const long before = LiveBytes();
   go_round(12);
-  EXPECT_NEAR(static_cast<double>(live_bytes), static_cast<double>(before), 4096.0);
+  EXPECT_NEAR(static_cast<double>(LiveBytes()), static_cast<double>(before), 4096.0);
 }
 
 TEST(PictureMemory, IsAskedForInAHandfulOfPiecesForAFollowedPicture) {
   PictureDetector detector(Camera(), {Leaves().target}, true);
   const GreyImage frame = Frame(0);
   for (int i = 0; i < 5; ++i) ASSERT_EQ(detector.Detect(frame.view()).size(), 1U);
-  const long before = allocations;
+  const long before = Allocations();
   constexpr int kFrames = 20;
   for (int i = 0; i < kFrames; ++i) ASSERT_EQ(detector.Detect(frame.view()).size(), 1U);
-  const double a_frame = static_cast<double>(allocations - before) / kFrames;
+  const double a_frame = static_cast<double>(Allocations() - before) / kFrames;
   RecordProperty("allocations_a_frame", std::to_string(a_frame));
   // The list that is handed out, its visibility map, and mostly the pose; nothing a pixel, block or
   // step.

@@ -2,30 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
 #include <vector>
 
+#include "tests/tracker/counted_memory.h"
 #include "tests/tracker/quad_test_prints.h"
 #include "tracker/quads/quad_detector.h"
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-// The standard library takes and frees temporary buffers without exceptions.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace pleinair::tracker {
 namespace {
@@ -42,14 +23,14 @@ TEST(QuadDetector, AsksForNoMemoryAfterTheFirstPictures) {
   QuadDetector detector;
   std::vector<Quad> quads;
   for (const GreyImage& picture : pictures) detector.Detect(picture.view(), &quads);
-  const long before = allocations;
+  const long before = Allocations();
   for (int i = 0; i < 3; ++i) {
     for (const GreyImage& picture : pictures) {
       detector.Detect(picture.view(), &quads);
       ASSERT_GE(quads.size(), 2U);
     }
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(Allocations(), before);
 }
 
 }  // namespace

@@ -1,43 +1,12 @@
 // What tracking costs in memory: counts every operator new of this program.
 #include <gtest/gtest.h>
-#include <malloc.h>
 
-#include <cstdlib>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "tests/tracker/counted_memory.h"
 #include "tests/tracker/sg_test_scenes.h"
 #include "tracker/surf_golay/sg_detector.h"
-
-namespace {
-long allocations = 0;
-long live_bytes = 0;
-
-void Release(void* memory) {
-  live_bytes -= static_cast<long>(malloc_usable_size(memory));
-  std::free(memory);
-}
-}  // namespace
-
-void* operator new(std::size_t size) {
-  void* const memory = std::malloc(size);
-  if (memory == nullptr) throw std::bad_alloc();
-  ++allocations;
-  live_bytes += static_cast<long>(malloc_usable_size(memory));
-  return memory;
-}
-// The standard library takes and frees temporary buffers without exceptions.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  void* const memory = std::malloc(size);
-  if (memory == nullptr) return nullptr;
-  ++allocations;
-  live_bytes += static_cast<long>(malloc_usable_size(memory));
-  return memory;
-}
-void operator delete(void* memory, const std::nothrow_t&) noexcept { Release(memory); }
-void operator delete(void* memory) noexcept { Release(memory); }
-void operator delete(void* memory, std::size_t) noexcept { Release(memory); }
 
 namespace pleinair::tracker {
 namespace {
@@ -65,10 +34,10 @@ TEST(SgMemory, HoldsTheSameMemoryAfterHundredsOfFrames) {
     }
   };
   go_round(6);
-  const long before = live_bytes;
+  const long before = LiveBytes();
   go_round(24);
   // The last round's frame and searches are those of the first; buffers may differ in slack.
-  EXPECT_NEAR(static_cast<double>(live_bytes), static_cast<double>(before), 4096.0);
+  EXPECT_NEAR(static_cast<double>(LiveBytes()), static_cast<double>(before), 4096.0);
 }
 
 TEST(SgMemory, IsAskedForInAHandfulOfPiecesForATrackedMarker) {
@@ -77,10 +46,10 @@ TEST(SgMemory, IsAskedForInAHandfulOfPiecesForATrackedMarker) {
   const auto detector = SgDetector::Create(camera, {}, true);
   ASSERT_TRUE(detector.has_value());
   for (int i = 0; i < 31; ++i) ASSERT_EQ((*detector)->Detect(frame.view()).size(), 2U);
-  const long before = allocations;
+  const long before = Allocations();
   constexpr int kFrames = 14;  // Between two searches for borders of new markers.
   for (int i = 0; i < kFrames; ++i) ASSERT_EQ((*detector)->Detect(frame.view()).size(), 2U);
-  const double a_marker = static_cast<double>(allocations - before) / (2 * kFrames);
+  const double a_marker = static_cast<double>(Allocations() - before) / (2 * kFrames);
   RecordProperty("allocations_a_marker_and_frame", std::to_string(a_marker));
   // The list that is handed out with its visibility maps; nothing a pixel, block or step.
   EXPECT_LT(a_marker, 20.0);
@@ -94,9 +63,9 @@ TEST(SgMemory, IsAskedForInFewPiecesWhereEverythingIsLookedFor) {
   for (int round = 0; round < 2; ++round) {
     for (const GreyImage& frame : frames) (*detector)->Detect(frame.view());
   }
-  const long before = allocations;
+  const long before = Allocations();
   for (const GreyImage& frame : frames) (*detector)->Detect(frame.view());
-  const double a_frame = static_cast<double>(allocations - before) / frames.size();
+  const double a_frame = static_cast<double>(Allocations() - before) / frames.size();
   RecordProperty("allocations_a_searched_frame", std::to_string(a_frame));
   // Quadrilaterals and guesses are tried one after another; none of that may grow with the pixels.
   EXPECT_LT(a_frame, 1500.0);

@@ -15,7 +15,7 @@ pleinair_test(sg_negative_test
   SOURCES sg_negative_test.cc
   LIBS pleinair_sg_test_scenes)
 pleinair_test(sg_tracking_test
-  SOURCES sg_memory_test.cc sg_tracking_test.cc
+  SOURCES counted_memory.cc sg_memory_test.cc sg_tracking_test.cc
   LIBS pleinair_sg_test_scenes Eigen3::Eigen)
 pleinair_test(sg_cells_test
   SOURCES sg_cells_test.cc

@@ -1,33 +1,14 @@
 // No memory is asked for once the buffers have grown: counts every operator new of this program.
 
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "surf_test_pictures.h"
+#include "tests/tracker/counted_memory.h"
 #include "tracker/surf/descriptor_matcher.h"
 #include "tracker/surf/quantised_descriptor.h"
 #include "tracker/surf/surf.h"
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-// The standard library takes and frees temporary buffers without exceptions.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace pleinair::tracker {
 namespace {
@@ -52,11 +33,11 @@ TEST(Surf, AsksForNoMemoryAfterTheFirstPictures) {
   ASSERT_GT(keypoints.size(), 50u);
   matcher.SetTemplates(quantised);
   for (const GreyImage& picture : pictures) process(picture);
-  const long before = allocations;
+  const long before = Allocations();
   for (int i = 0; i < 3; ++i) {
     for (const GreyImage& picture : pictures) process(picture);
   }
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(Allocations() - before, 0);
 }
 
 }  // namespace
