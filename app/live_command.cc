@@ -15,7 +15,11 @@
 #include "app/live/live_session.h"
 #include "app/live/paced_recording.h"
 #include "app/number_range.h"
+#include "app/replay.h"
 #include "app/sinks/picture_writer.h"
+#ifdef PLEINAIR_WINDOW
+#include "app/window/live_window.h"
+#endif
 #include "devices/calibration.h"
 #include "devices/live_camera.h"
 #include "devices/recording.h"
@@ -29,16 +33,20 @@ constexpr const char* kExamples =
     "--headless --seconds 60\n"
     "  pleinair live --camera v4l2:serial=0001 --calibration camera.json --scene site/scene.toml\n"
     "      --hold-exposure 0.008 --record out/walk --headless\n"
+    "  pleinair live --camera file:recordings/courtyard_midday --loop\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless --lossless\n"
     "'pleinair devices' lists cameras. A camera that is not there is waited for; one that is "
     "pulled\n"
-    "out is taken up again when it comes back. Ctrl-C ends. docs/cameras.md tells more.";
+    "out is taken up again when it comes back. Ctrl-C ends. docs/live.md tells of the window,\n"
+    "docs/cameras.md of cameras.";
 
 struct Arguments {
   std::string camera, scene, calibration, time, record, detections, screenshot, pixel_format;
   std::string light = "measured";
   std::optional<double> seconds, rate_hz, exposure_s, gain, white_balance_k, focus;
-  bool headless = false, lossless = false, json = false, lock = false;
+  bool headless = false, lossless = false, loop = false, json = false, lock = false;
+  std::string window_size, screenshots = ".";
+  double ui_scale = 0.0;
 };
 
 /// Where frames come from, and what else is known with them.
@@ -67,10 +75,19 @@ Result<Source> OpenFile(const devices::CameraUri& uri, const Arguments& argument
   if (!arguments.scene.empty()) options.scene = arguments.scene;
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording,
                             devices::OpenRecording(uri.value, options));
-  Source source{std::move(recording.frames), nullptr, recording.camera, recording.scene};
-  if (!arguments.lossless) {
-    source.frames = std::make_unique<PacedRecording>(std::move(source.frames));
+  if (arguments.lossless && (arguments.loop || !arguments.headless)) {
+    return InputError("--lossless", "takes the time it takes, once, and shows nothing meanwhile",
+                      "give --headless and no --loop with it");
   }
+  Source source{std::move(recording.frames), nullptr, recording.camera, recording.scene};
+  if (arguments.lossless) return source;
+  const auto reopen = [path = uri.value,
+                       options]() -> Result<std::unique_ptr<devices::FrameSource>> {
+    PLEINAIR_ASSIGN_OR_RETURN(devices::Recording again, devices::OpenRecording(path, options));
+    return std::move(again.frames);
+  };
+  PLEINAIR_ASSIGN_OR_RETURN(source.frames,
+                            PacedRecording::Open(reopen, {arguments.rate_hz, arguments.loop}));
   return source;
 }
 
@@ -121,18 +138,22 @@ const char* Word(devices::CameraEvent::Kind kind) {
   return "";
 }
 
-void TellEvents(devices::LiveCamera* camera, bool json) {
-  if (camera == nullptr) return;
+/// Tells what the camera has reported; gives the last of it in words.
+std::string TellEvents(devices::LiveCamera* camera, bool json) {
+  std::string last;
+  if (camera == nullptr) return last;
   for (const devices::CameraEvent& event : camera->TakeEvents()) {
+    const std::string separator = event.words.empty() ? "" : ": ";
+    last = std::string("camera ") + Word(event.kind) + separator + event.words;
     if (json) {
       std::cout << nlohmann::json{{"camera", Word(event.kind)}, {"words", event.words}}.dump(
                        -1, ' ', false, nlohmann::json::error_handler_t::replace)
                 << std::endl;
     } else {
-      std::cerr << "camera " << Word(event.kind) << (event.words.empty() ? "" : ": ") << event.words
-                << '\n';
+      std::cerr << last << '\n';
     }
   }
+  return last;
 }
 
 void TellControls(const devices::LiveCamera* camera) {
@@ -147,6 +168,7 @@ nlohmann::json Json(const LiveStatistics& s) {
           {"tracked", s.tracked},
           {"with_pose", s.with_pose},
           {"drawn", s.drawn},
+          {"shown", s.shown},
           {"late_for_tracking", s.late_for_tracking},
           {"late_for_drawing", s.late_for_drawing},
           {"lost",
@@ -210,10 +232,37 @@ Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Argum
   return last;
 }
 
-Result<void> Run(const Arguments& arguments) {
-  if (!arguments.headless) {
-    return InputError("live", "has no window yet", "give --headless");
+/// Shows a window until it is closed; there is no last picture.
+Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session,
+                         [[maybe_unused]] const Source& source,
+                         [[maybe_unused]] const Arguments& arguments,
+                         [[maybe_unused]] const devices::SceneDescription& scene) {
+#ifdef PLEINAIR_WINDOW
+  LiveWindowOptions options;
+  options.camera = source.lens;
+  options.scene = scene;
+  options.live_camera = source.camera;
+  options.seconds = arguments.seconds;
+  options.ui_scale = arguments.ui_scale;
+  options.screenshots = arguments.screenshots;
+  options.poll_camera = [&] { return TellEvents(source.camera, arguments.json); };
+  if (!arguments.window_size.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(const PictureSize size, ParsePictureSize(arguments.window_size));
+    options.width = size.width;
+    options.height = size.height;
   }
+  PLEINAIR_RETURN_IF_ERROR(ShowInWindow(session, options));
+#endif
+  return RgbImage();
+}
+
+Result<void> Run(const Arguments& arguments) {
+#ifndef PLEINAIR_WINDOW
+  if (!arguments.headless) {
+    return InputError("live", "was built without a window",
+                      "give --headless, or install libglfw3-dev and libimgui-dev and build again");
+  }
+#endif
   PLEINAIR_ASSIGN_OR_RETURN(const devices::CameraUri uri,
                             devices::ParseCameraUri(arguments.camera));
   const bool is_file = uri.backend == devices::CameraUri::Backend::kFile;
@@ -226,6 +275,8 @@ Result<void> Run(const Arguments& arguments) {
   LiveOptions options;
   options.camera = source.lens;
   options.scene = *source.scene;
+  const devices::SceneDescription scene = *source.scene;
+  options.shown_elsewhere = !arguments.headless;
   options.light.as_stated = arguments.light == "stated";
   options.lossless = arguments.lossless;
   PLEINAIR_ASSIGN_OR_RETURN(options.start, StartOf(arguments, source));
@@ -237,7 +288,8 @@ Result<void> Run(const Arguments& arguments) {
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(auto session,
                             LiveSession::Create(std::move(source.frames), std::move(options)));
-  auto last = DrawAll(*session, source, arguments);
+  auto last = arguments.headless ? DrawAll(*session, source, arguments)
+                                 : ShowAll(*session, source, arguments, scene);
   TellEvents(source.camera, arguments.json);
   TellControls(source.camera);
   session->Stop();
@@ -277,9 +329,20 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
       ->capture_default_str();
   command->add_flag("--headless", a.headless, "Without a window");
   command->add_option("--seconds", a.seconds, "End after so long")->check(NumberRange(0.0, 1e9));
+  command->add_option("--window", a.window_size, "Size of the window, WIDTHxHEIGHT");
+  command->add_option("--ui-scale", a.ui_scale, "Size of the window's letters; 1 is usual")
+      ->check(NumberRange(0.5, 8.0));
+  command
+      ->add_option("--pictures", a.screenshots,
+                   "Folder for the window's screenshots and recordings")
+      ->check(CLI::ExistingDirectory)
+      ->capture_default_str();
+  command->add_flag("--loop", a.loop, "Play a recording again and again");
   command->add_flag("--lossless", a.lossless,
                     "Of a recording, track and draw every frame, however long that takes");
-  command->add_option("--rate", a.rate_hz, "Frames a second to ask the camera for")
+  command
+      ->add_option("--rate", a.rate_hz,
+                   "Frames a second to ask the camera for, or to play a recording at")
       ->check(NumberRange(0.1, 1000.0));
   command->add_option("--format", a.pixel_format, "Pixels to ask for: YUYV, MJPG, NV12, GREY…");
   command->add_flag("--lock", a.lock, "Hold exposure, gain, white balance and focus as they are");

@@ -213,6 +213,10 @@ Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
   return composer_->SetOptions(drawing);
 }
 
+void SceneRenderer::LetGo() {
+  if (composer_) composer_->LetGo();
+}
+
 /// Draws the objects where they stand now, lit as they were where their light was made.
 void SceneRenderer::MoveObjects() {
   if (!lit_ || lit_->objects.empty()) return;

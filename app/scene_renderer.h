@@ -104,6 +104,10 @@ class SceneRenderer {
 
   /// Of the camera, as the scene has it.
   const CameraResponse& response() const { return response_; }
+
+  /// Lets another thread draw from now on.
+  void LetGo();
+
   /// Whether there is anything to draw.
   bool DrawsObjects() const { return composer_ != nullptr; }
   /// Phantoms, then objects, as they stand.

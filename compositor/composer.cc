@@ -145,7 +145,11 @@ class GlComposer : public Composer {
                                                 const std::vector<PlacedModel>& scene,
                                                 const ComposerOptions& options);
 
+  // What was made with the context goes with it.
+  ~GlComposer() override { static_cast<void>(context_.MakeCurrent()); }
+
   Result<void> SetOptions(const ComposerOptions& options) override;
+  void LetGo() override { context_.ReleaseCurrent(); }
   void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) override;
   Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
                         const Mat3& marker_from_world) override;

@@ -59,6 +59,9 @@ class Composer {
   /// translation. The light on it and around it stays, until SetLight().
   virtual void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) = 0;
 
+  /// Lets another thread draw from now on.
+  virtual void LetGo() = 0;
+
   /// The light from now on. `lit` is what a LightSolver made of the same scene and daylight.
   virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& daylight,
                                 const Mat3& marker_from_world) = 0;

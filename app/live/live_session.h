@@ -76,8 +76,8 @@ struct LiveStatistics {
 };
 
 /// Capturing, tracking, light and recording on threads of their own, handing frames on through
-/// bounded queues; drawing happens on the thread that made the session. No frame ever waits for a
-/// slower stage (unless `lossless`).
+/// bounded queues; drawing happens on the thread that made the session, or another that it lets go
+/// to. No frame ever waits for a slower stage (unless `lossless`).
 class LiveSession {
  public:
   /// Loads the scene and prepares its first light. Errors: models, OpenGL, the marker, and a
@@ -89,6 +89,12 @@ class LiveSession {
   /// Draws the newest frame that was tracked; nothing when there is none within `limit`.
   /// Errors: the source's, the tracker's, drawing.
   Result<std::optional<DrawnFrame>> Draw(std::chrono::milliseconds limit);
+
+  /// Lets another thread draw from now on.
+  void LetGo() { renderer_->LetGo(); }
+
+  /// Phantoms, then objects, as they stand now. Not while another thread draws.
+  const std::vector<compositor::PlacedModel>& placed() const { return renderer_->placed(); }
 
   /// The source is at its end and every frame has been drawn.
   bool finished() const { return tracked_.finished(); }

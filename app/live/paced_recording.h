@@ -1,8 +1,10 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "devices/frame_source.h"
 
@@ -12,15 +14,30 @@ namespace pleinair::app {
 /// steady clock.
 class PacedRecording : public devices::FrameSource {
  public:
-  explicit PacedRecording(std::unique_ptr<devices::FrameSource> recording)
-      : recording_(std::move(recording)) {}
+  struct Options {
+    std::optional<double> rate_hz;  ///< Instead of the recording's own.
+    bool loop = false;              ///< From the start again, without an end.
+  };
+  /// Opens the recording from its start; called again for each round.
+  using Opener = std::function<Result<std::unique_ptr<devices::FrameSource>>()>;
+
+  static Result<std::unique_ptr<PacedRecording>> Open(Opener opener, const Options& options);
 
   Result<std::optional<devices::Frame>> Next() override;
-  std::optional<std::int64_t> FrameCount() const override { return recording_->FrameCount(); }
+  std::optional<std::int64_t> FrameCount() const override;
 
  private:
+  PacedRecording(Opener opener, const Options& options,
+                 std::unique_ptr<devices::FrameSource> recording)
+      : opener_(std::move(opener)), options_(options), recording_(std::move(recording)) {}
+
+  Opener opener_;
+  Options options_;
   std::unique_ptr<devices::FrameSource> recording_;
   std::optional<std::chrono::steady_clock::time_point> start_;
+  std::int64_t next_index_ = 0;
+  std::int64_t round_ns_ = 0;  // Stamp of the round's first frame.
+  std::int64_t last_ns_ = 0, last_step_ns_ = 1'000'000'000 / 30;
 };
 
 }  // namespace pleinair::app

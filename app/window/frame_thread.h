@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "app/live/hand_over.h"
+#include "app/live/live_session.h"
+
+namespace pleinair::app {
+
+/// Draws a session's frames on a thread of its own and keeps the newest for a window.
+class FrameThread {
+ public:
+  explicit FrameThread(LiveSession& session);
+  ~FrameThread();
+
+  /// The newest frame that was not taken yet.
+  std::optional<DrawnFrame> Take();
+  /// Frames that a newer one replaced before they were taken.
+  std::int64_t late() const { return frames_.dropped(); }
+  /// The session's end, or its error.
+  bool ended() const { return ended_; }
+  std::optional<Error> error() const;
+
+  void Stop();
+
+ private:
+  void Run();
+
+  LiveSession& session_;
+  HandOver<DrawnFrame> frames_{1, WhenFull::kReplaceOldest};
+  std::atomic<bool> stop_ = false, ended_ = false;
+  mutable std::mutex mutex_;
+  std::optional<Error> error_;
+  std::thread thread_;
+};
+
+}  // namespace pleinair::app

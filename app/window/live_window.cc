@@ -1,0 +1,414 @@
+#include "app/window/live_window.h"
+
+// GLFW must not include OpenGL itself.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "app/interrupt.h"
+#include "app/scene_light.h"
+#include "app/sinks/picture_writer.h"
+#include "app/window/frame_thread.h"
+#include "app/window/picture_mouse.h"
+#include "app/window/scene_panel.h"
+#include "app/window/window_state.h"
+#include "app/window/window_style.h"
+#include "base/atomic_file.h"
+#include "devices/live_camera.h"
+
+namespace pleinair::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kUsualWidth = 1280, kUsualHeight = 800;
+// Of the letters' height.
+constexpr float kPanelWidth = 21.0F, kStatusHeight = 1.9F;
+// The window is drawn anew at least so often, for what blinks and counts.
+constexpr double kIdle_s = 0.1;
+constexpr double kRateWeight = 0.05;
+
+UtcTime WallClock() {
+  return UtcTime(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                     std::chrono::system_clock::now().time_since_epoch())
+                     .count());
+}
+
+/// "20250914T110500Z", for file names.
+std::string Compact(UtcTime time) {
+  std::string text = time.ToString();
+  std::erase_if(text, [](char c) { return c == '-' || c == ':' || c == '.'; });
+  return text;
+}
+
+/// GLFW, a window, its context and ImGui's, all of them ended in order.
+class Screen {
+ public:
+  static Result<std::unique_ptr<Screen>> Open(const LiveWindowOptions& options) {
+    std::unique_ptr<Screen> screen(new Screen());
+    glfwSetErrorCallback([](int /*code*/, const char* words) { last_error_ = words; });
+    if (glfwInit() == GLFW_FALSE) return Refuse("no window can be opened");
+    screen->initialized_ = true;
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    const int width = options.width > 0 ? options.width : kUsualWidth;
+    const int height = options.height > 0 ? options.height : kUsualHeight;
+    screen->window_ = glfwCreateWindow(width, height, "pleinair live", nullptr, nullptr);
+    if (screen->window_ == nullptr) return Refuse("no window with OpenGL 3.3 can be opened");
+    glfwMakeContextCurrent(screen->window_);
+    glfwSwapInterval(1);
+    float scale_x = 1.0F, scale_y = 1.0F;
+    glfwGetWindowContentScale(screen->window_, &scale_x, &scale_y);
+    // Before ImGui's, which passes on to it. ImGui sees only what is down when it looks: a key
+    // pressed and let go within one slow frame would be lost.
+    glfwSetWindowUserPointer(screen->window_, screen.get());
+    glfwSetKeyCallback(screen->window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+      if (action == GLFW_RELEASE) return;
+      static_cast<Screen*>(glfwGetWindowUserPointer(window))->keys_.push_back({key, mods});
+    });
+    glfwSetCursorPosCallback(screen->window_, [](GLFWwindow* window, double x, double y) {
+      static_cast<Screen*>(glfwGetWindowUserPointer(window))->mouse_ = {x, y};
+    });
+    glfwSetMouseButtonCallback(screen->window_, [](GLFWwindow* window, int button, int action,
+                                                   int mods) {
+      auto* self = static_cast<Screen*>(glfwGetWindowUserPointer(window));
+      if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return;
+      self->buttons_.push_back({button == GLFW_MOUSE_BUTTON_LEFT ? ButtonEvent::Button::kLeft
+                                                                 : ButtonEvent::Button::kRight,
+                                action == GLFW_PRESS, (mods & GLFW_MOD_SHIFT) != 0, self->mouse_});
+    });
+    ImGui::CreateContext();
+    screen->has_imgui_ = true;
+    SetWindowStyle(options.ui_scale > 0.0 ? static_cast<float>(options.ui_scale)
+                                          : std::max(scale_x, 1.0F));
+    ImGui_ImplGlfw_InitForOpenGL(screen->window_, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    glGenTextures(1, &screen->texture_);
+    return screen;
+  }
+
+  ~Screen() {
+    if (has_imgui_) {
+      if (texture_ != 0) glDeleteTextures(1, &texture_);
+      ImGui_ImplOpenGL3_Shutdown();
+      ImGui_ImplGlfw_Shutdown();
+      ImGui::DestroyContext();
+    }
+    if (window_ != nullptr) glfwDestroyWindow(window_);
+    if (initialized_) glfwTerminate();
+  }
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  GLFWwindow* window() const { return window_; }
+
+  struct Key {
+    int key, mods;
+  };
+  /// Pressed since the last call, repeats included.
+  std::vector<Key> TakeKeys() { return std::exchange(keys_, {}); }
+  std::vector<ButtonEvent> TakeButtons() { return std::exchange(buttons_, {}); }
+  ImTextureID texture() const {
+    // ImGui carries a texture's name in a pointer.
+    return reinterpret_cast<ImTextureID>(  // NOLINT(performance-no-int-to-ptr)
+        static_cast<std::uintptr_t>(texture_));
+  }
+
+  void Upload(const RgbImage& picture) {
+    glBindTexture(GL_TEXTURE_2D, texture_);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (picture.width() == width_ && picture.height() == height_) {
+      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE,
+                      picture.data());
+      return;
+    }
+    width_ = picture.width();
+    height_ = picture.height();
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                 picture.data());
+  }
+
+  /// What the window shows, its first row at the top.
+  RgbImage Read() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    RgbImage upside_down(width, height, 3), picture(width, height, 3);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
+    for (int y = 0; y < height; ++y) {
+      std::copy_n(upside_down.view().row(height - 1 - y), static_cast<std::size_t>(width) * 3,
+                  picture.view().row(y));
+    }
+    return picture;
+  }
+
+ private:
+  Screen() = default;
+
+  static tl::unexpected<Error> Refuse(const std::string& what) {
+    return tl::make_unexpected(Error{ErrorKind::kSystem, "the screen", what + ": " + last_error_,
+                                     "run it on a desktop, or give --headless"});
+  }
+
+  static inline std::string last_error_;
+  bool initialized_ = false, has_imgui_ = false;
+  GLFWwindow* window_ = nullptr;
+  std::vector<Key> keys_;
+  std::vector<ButtonEvent> buttons_;
+  Vec2 mouse_;
+  GLuint texture_ = 0;
+  int width_ = 0, height_ = 0;
+};
+
+/// One run of the window.
+class LiveWindow {
+ public:
+  LiveWindow(LiveSession& session, const LiveWindowOptions& options, Screen& screen)
+      : session_(session),
+        options_(options),
+        screen_(screen),
+        state_(WindowState::For(options.scene, options.drawing)) {
+    state_.camera = options.camera;
+    state_.boxes = BoxesOf(session.placed(), options.scene);
+    edit_ = state_.edit;
+    frames_.emplace(session);
+  }
+
+  Result<void> Run() {
+    const auto start = Clock::now();
+    while (glfwWindowShouldClose(screen_.window()) == GLFW_FALSE && !state_.wants_close &&
+           !InterruptGuard::Interrupted()) {
+      const double ran_s = std::chrono::duration<double>(Clock::now() - start).count();
+      if (options_.seconds && ran_s >= *options_.seconds) break;
+      if (auto error = frames_->error()) return tl::make_unexpected(*error);
+      WaitForSomething();
+      TakeFrame();
+      Draw();
+      PLEINAIR_RETURN_IF_ERROR(DoWishes());
+      glfwSwapBuffers(screen_.window());
+      if (fresh_) session_.Shown(*std::exchange(fresh_, std::nullopt));
+      if (!(state_.edit == edit_)) {
+        edit_ = state_.edit;
+        session_.Edit(edit_);
+      }
+    }
+    frames_->Stop();
+    return {};
+  }
+
+ private:
+  /// Until a frame is there, the user did something, or it is time to draw anyway.
+  void WaitForSomething() {
+    const auto until = Clock::now() + std::chrono::duration<double>(kIdle_s);
+    constexpr double kLook_s = 0.004;
+    ready_ = frames_->Take();
+    while (!ready_ && Clock::now() < until) {
+      const auto before = Clock::now();
+      glfwWaitEventsTimeout(kLook_s);
+      // It came back before its time: something happened.
+      const bool early = Clock::now() - before < std::chrono::duration<double>(kLook_s * 0.9);
+      ready_ = frames_->Take();
+      if (early) break;
+    }
+    glfwPollEvents();
+  }
+
+  void TakeFrame() {
+    const auto now = Clock::now();
+    state_.statistics = session_.statistics();
+    state_.late_for_screen = frames_->late();
+    state_.recording = session_.recording();
+    if (options_.poll_camera) {
+      const std::string words = options_.poll_camera();
+      if (!words.empty()) state_.camera_words = words;
+    }
+    if (!ready_) return;
+    screen_.Upload(ready_->picture);
+    state_.camera_from_marker = ready_->camera_from_marker;
+    state_.moment = ready_->moment;
+    state_.light = ready_->light;
+    state_.has_frame = true;
+    if (last_frame_) {
+      const double period_s = std::chrono::duration<double>(now - *last_frame_).count();
+      mean_period_s_ = mean_period_s_ == 0.0
+                           ? period_s
+                           : mean_period_s_ + kRateWeight * (period_s - mean_period_s_);
+      state_.shown_per_second = mean_period_s_ > 0.0 ? 1.0 / mean_period_s_ : 0.0;
+    }
+    last_frame_ = now;
+    last_picture_ = ready_->picture;
+    fresh_ = std::exchange(ready_, std::nullopt);
+  }
+
+  void Draw() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    const ImGuiIO& io = ImGui::GetIO();
+    const float letter = ImGui::GetFontSize();
+    // A window too narrow for both shows the panel over the picture.
+    const float panel = state_.panel ? std::min(letter * kPanelWidth, io.DisplaySize.x) : 0.0F;
+    const bool beside = panel < io.DisplaySize.x * 0.6F;
+    const Vec2 area{beside ? io.DisplaySize.x - panel : io.DisplaySize.x,
+                    std::max(io.DisplaySize.y - letter * kStatusHeight, 1.0F)};
+    Keys();
+    if (state_.has_frame) {
+      const PictureView view =
+          PictureView::Fit(state_.camera.width, state_.camera.height, {}, area);
+      const Vec2 low = view.ScreenFromPixel({-0.5, -0.5});
+      const Vec2 high =
+          view.ScreenFromPixel({state_.camera.width - 0.5, state_.camera.height - 0.5});
+      ImGui::GetBackgroundDrawList()->AddImage(
+          screen_.texture(), {static_cast<float>(low.x), static_cast<float>(low.y)},
+          {static_cast<float>(high.x), static_cast<float>(high.y)});
+      std::vector<ButtonEvent> buttons = screen_.TakeButtons();
+      // What is pressed on the panel or the help is theirs; letting go counts anywhere.
+      if (io.WantCaptureMouse) std::erase_if(buttons, [](const auto& event) { return event.down; });
+      mouse_.Update(view, buttons, &state_);
+    } else {
+      DrawWaiting(area);
+    }
+    DrawStatusLine(static_cast<float>(area.x), static_cast<float>(area.y));
+    if (panel > 0.0F) {
+      panel_.Draw(io.DisplaySize.x - panel, panel, io.DisplaySize.y, WallClock(), &state_);
+    }
+    if (state_.help)
+      DrawKeyHelp(static_cast<float>(area.x), static_cast<float>(area.y), &state_.help);
+    ImGui::Render();
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(screen_.window(), &width, &height);
+    glViewport(0, 0, width, height);
+    glClearColor(0.06F, 0.065F, 0.07F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  }
+
+  void Keys() {
+    for (const Screen::Key& pressed : screen_.TakeKeys()) {
+      if (ImGui::GetIO().WantTextInput) continue;
+      const bool control = (pressed.mods & GLFW_MOD_CONTROL) != 0;
+      const bool shift = (pressed.mods & GLFW_MOD_SHIFT) != 0;
+      for (const KeyBinding& binding : KeyBindings()) {
+        if (binding.key != pressed.key || binding.control != control) continue;
+        if (binding.action == Action::kScreenshot && shift) {
+          wants_window_picture_ = true;
+        } else {
+          Do(binding.action, shift, WallClock(), &state_);
+        }
+      }
+    }
+  }
+
+  void DrawWaiting(Vec2 area) const {
+    const std::string words = state_.camera_words.empty()
+                                  ? std::string("waiting for the first picture…")
+                                  : state_.camera_words;
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    ImGui::GetBackgroundDrawList()->AddText(
+        {(static_cast<float>(area.x) - size.x) / 2, (static_cast<float>(area.y) - size.y) / 2},
+        0xFFC0C0C0, words.c_str());
+  }
+
+  void DrawStatusLine(float width, float top) {
+    const float letter = ImGui::GetFontSize();
+    ImDrawList* draw = ImGui::GetBackgroundDrawList();
+    draw->AddRectFilled({0.0F, top}, {width, top + letter * kStatusHeight}, 0xFF15130F);
+    std::string words;
+    if (frames_->ended()) words = "the recording is over";
+    if (state_.has_frame && !state_.camera_from_marker) words = "no marker in sight";
+    if (!state_.message.empty()) words = state_.message;
+    if (words.empty()) words = "F1: keys and mouse";
+    const std::string rate = fmt::format("{:.1f} a second, {:.0f} ms", state_.shown_per_second,
+                                         state_.statistics.latency.median_ms);
+    draw->AddText({letter, top + letter * 0.45F}, 0xFFB8B8B8, words.c_str());
+    const float rate_width = ImGui::CalcTextSize(rate.c_str()).x;
+    draw->AddText({width - rate_width - letter, top + letter * 0.45F}, 0xFF909090, rate.c_str());
+    if (state_.recording) {
+      draw->AddCircleFilled({width - rate_width - letter * 2.2F, top + letter * 0.95F},
+                            letter * 0.35F, 0xFF3030E0);
+    }
+  }
+
+  /// What keys and panel asked the window for.
+  Result<void> DoWishes() {
+    if (std::exchange(wants_window_picture_, false)) {
+      PLEINAIR_RETURN_IF_ERROR(Save("window", screen_.Read()));
+    }
+    if (state_.wants_screenshot && !last_picture_.empty()) {
+      state_.wants_screenshot = false;
+      PLEINAIR_RETURN_IF_ERROR(Save("picture", last_picture_));
+    }
+    if (std::exchange(state_.wants_recording_change, false)) {
+      if (session_.recording()) {
+        session_.StopRecording();
+        state_.message = "recording ended";
+      } else {
+        const auto folder = options_.screenshots / ("recording-" + Compact(WallClock()));
+        const auto started = session_.StartRecording(folder);
+        state_.message = started ? "recording into " + folder.string() : started.error().Message();
+      }
+    }
+    if (auto trouble = session_.recording_trouble()) state_.message = trouble->Message();
+    if (std::exchange(state_.wants_exposure_change, false) && options_.live_camera != nullptr) {
+      std::vector<devices::ControlWish> wishes;
+      if (state_.exposure_locked) {
+        for (const auto control : {devices::CameraControl::kExposure, devices::CameraControl::kGain,
+                                   devices::CameraControl::kWhiteBalance}) {
+          wishes.push_back({control, std::nullopt});
+        }
+      }
+      options_.live_camera->Hold(std::move(wishes));
+    }
+    return {};
+  }
+
+  /// A picture that cannot be written is told, not an end.
+  Result<void> Save(const std::string& what, const RgbImage& picture) {
+    const auto file = options_.screenshots / fmt::format("{}-{}.png", what, Compact(WallClock()));
+    // Whoever waits for the file shall find it whole.
+    const std::filesystem::path part = file.string() + ".part";
+    auto written = WritePng(part, picture.view());
+    std::error_code renamed;
+    if (written) std::filesystem::rename(part, file, renamed);
+    if (renamed) written = tl::make_unexpected(WriteError(file, renamed.value()));
+    state_.message = written ? "saved " + file.string() : written.error().Message();
+    return {};
+  }
+
+  LiveSession& session_;
+  const LiveWindowOptions& options_;
+  Screen& screen_;
+  WindowState state_;
+  SceneEdit edit_;  // What the session has.
+  ScenePanel panel_;
+  PictureMouse mouse_;
+  std::optional<FrameThread> frames_;
+  std::optional<DrawnFrame> ready_, fresh_;
+  RgbImage last_picture_;
+  std::optional<Clock::time_point> last_frame_;
+  double mean_period_s_ = 0.0;
+  bool wants_window_picture_ = false;
+};
+
+}  // namespace
+
+Result<void> ShowInWindow(LiveSession& session, const LiveWindowOptions& options) {
+  // A thread has one context at a time: this one is for the window's from now on.
+  session.LetGo();
+  PLEINAIR_ASSIGN_OR_RETURN(auto screen, Screen::Open(options));
+  return LiveWindow(session, options, *screen).Run();
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "app/window/picture_view.h"
+#include "app/window/window_state.h"
+
+namespace pleinair::app {
+
+/// The boxes around a scene's objects; `placed` holds phantoms, then objects.
+std::vector<ObjectBox> BoxesOf(const std::vector<compositor::PlacedModel>& placed,
+                               const devices::SceneDescription& scene);
+
+/// A mouse button going down or up, where the mouse was then: on a slow frame it has moved on
+/// since.
+struct ButtonEvent {
+  enum class Button { kLeft, kRight };
+  Button button = Button::kLeft;
+  bool down = false;
+  bool shift = false;
+  Vec2 screen;
+};
+
+/// What the mouse does over the picture, and what is drawn there for it: the chosen object's box,
+/// the pole of north. Within an ImGui frame.
+class PictureMouse {
+ public:
+  /// `events` since the last call, in their order.
+  void Update(const PictureView& view, const std::vector<ButtonEvent>& events, WindowState* state);
+
+ private:
+  enum class Drag { kNone, kLevel, kUpright, kTurn, kPoleFoot, kPoleTip };
+
+  void Begin(const PictureView& view, const ButtonEvent& event, WindowState* state);
+  void Continue(const PictureView& view, Vec2 screen, WindowState* state);
+
+  Drag drag_ = Drag::kNone;
+  Vec2 start_screen_;
+  Sight start_;
+  Vec3 hold_;
+  ObjectPlace start_place_;
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,158 @@
+#include "app/window/window_state.h"
+
+#include <cmath>
+
+namespace pleinair::app {
+namespace {
+
+constexpr double kStep_m = 0.05, kFineStep_m = 0.005;
+constexpr double kTurn_deg = 5.0, kFineTurn_deg = 0.5;
+constexpr double kGrowth = 1.05, kFineGrowth = 1.005;
+constexpr double kTimeStep_s = 600.0, kFineTimeStep_s = 60.0;
+constexpr double kDay_s = 86400.0;
+
+/// Steps are for objects of about a metre; larger and smaller ones move in proportion.
+double SizeOf(const ObjectBox& box, const ObjectPlace& place) {
+  return Norm(box.max - box.min) * place.scale;
+}
+
+void DoToObject(Action action, bool fine, WindowState* state) {
+  const auto index = static_cast<std::size_t>(state->selected);
+  if (index >= state->edit.objects.size()) return;
+  ObjectPlace& place = state->edit.objects[index];
+  const ObjectBox& box = state->boxes[index];
+  const Vec3 up = UpOf(state->scene.marker);
+  const ViewerAxes axes = state->camera_from_marker ? AxesOf(*state->camera_from_marker, up)
+                                                    : ViewerAxes{{1, 0, 0}, Cross(up, {1, 0, 0})};
+  const double step = (fine ? kFineStep_m : kStep_m) * std::max(SizeOf(box, place), 1e-3);
+  const double turn = fine ? kFineTurn_deg : kTurn_deg;
+  const double growth = fine ? kFineGrowth : kGrowth;
+  const auto move = [&](Vec3 direction) {
+    place.translation_m = place.translation_m + direction * step;
+  };
+  switch (action) {
+    case Action::kMoveLeft:
+      return move(-axes.right);
+    case Action::kMoveRight:
+      return move(axes.right);
+    case Action::kMoveAway:
+      return move(axes.away);
+    case Action::kMoveNearer:
+      return move(-axes.away);
+    case Action::kRaise:
+      return move(up);
+    case Action::kLower:
+      return move(-up);
+    case Action::kTurnLeft:
+      place = Turned(box, place, turn, up);
+      return;
+    case Action::kTurnRight:
+      place = Turned(box, place, -turn, up);
+      return;
+    case Action::kGrow:
+      place = Scaled(box, place, growth, up);
+      return;
+    case Action::kShrink:
+      place = Scaled(box, place, 1.0 / growth, up);
+      return;
+    case Action::kResetObject:
+      place = state->unedited.objects[index];
+      return;
+    default:
+      return;
+  }
+}
+
+}  // namespace
+
+devices::MarkerDescription WindowState::marker() const {
+  devices::MarkerDescription in_use = scene.marker;
+  in_use.heading = FromDegrees(edit.heading_deg.value_or(has_frame && statistics.drawn > 0
+                                                             ? statistics.light.heading_deg
+                                                             : ToDegrees(scene.marker.heading)));
+  return in_use;
+}
+
+WindowState WindowState::For(const devices::SceneDescription& scene,
+                             const compositor::ComposerOptions& drawing) {
+  WindowState state;
+  state.scene = scene;
+  state.edit = state.unedited = UneditedScene(scene, drawing);
+  state.moment = scene.place_time.start;
+  if (state.edit.objects.size() == 1) state.selected = 0;
+  state.pole.height_m = scene.marker.size_m;
+  return state;
+}
+
+void SetShownTime(UtcTime time, WindowState* state) {
+  state->edit.later_s =
+      static_cast<double>(time.nanoseconds_since_1970() - state->moment.nanoseconds_since_1970()) *
+      1e-9;
+}
+
+double TimeOfDay(UtcTime time, double utc_offset_s) {
+  const double local = static_cast<double>(time.nanoseconds_since_1970()) * 1e-9 + utc_offset_s;
+  return local - kDay_s * std::floor(local / kDay_s);
+}
+
+void SetTimeOfDay(double seconds, double utc_offset_s, WindowState* state) {
+  state->edit.later_s += seconds - TimeOfDay(state->shown_time(), utc_offset_s);
+}
+
+void Do(Action action, bool fine, UtcTime now, WindowState* state) {
+  const double time_step = fine ? kFineTimeStep_s : kTimeStep_s;
+  switch (action) {
+    case Action::kHelp:
+      state->help = !state->help;
+      return;
+    case Action::kPanel:
+      state->panel = !state->panel;
+      return;
+    case Action::kClose:
+      state->wants_close = true;
+      return;
+    case Action::kScreenshot:
+      state->wants_screenshot = true;
+      return;
+    case Action::kRecord:
+      state->wants_recording_change = true;
+      return;
+    case Action::kNow:
+      SetShownTime(now, state);
+      return;
+    case Action::kAsRecorded:
+      state->edit.later_s = 0.0;
+      return;
+    case Action::kEarlier:
+      state->edit.later_s -= time_step;
+      return;
+    case Action::kLater:
+      state->edit.later_s += time_step;
+      return;
+    case Action::kNextObject: {
+      const int count = static_cast<int>(state->edit.objects.size());
+      state->selected = count == 0 ? -1 : (state->selected + 1) % count;
+      return;
+    }
+    case Action::kDeselect:
+      if (state->help) {
+        state->help = false;
+      } else if (state->turning_north) {
+        state->turning_north = false;
+      } else {
+        state->selected = -1;
+      }
+      return;
+    case Action::kNorth:
+      state->turning_north = !state->turning_north;
+      return;
+    case Action::kLockExposure:
+      state->exposure_locked = !state->exposure_locked;
+      state->wants_exposure_change = true;
+      return;
+    default:
+      if (state->selected >= 0) DoToObject(action, fine, state);
+  }
+}
+
+}  // namespace pleinair::app

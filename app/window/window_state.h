@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/live/live_session.h"
+#include "app/scene_edit.h"
+#include "app/window/north_pole.h"
+#include "app/window/object_moves.h"
+#include "base/utc_time.h"
+#include "devices/scene_description.h"
+
+namespace pleinair::app {
+
+/// What the window shows and what its user has done: all that the panel and the keys change,
+/// without a window, so that tests can press keys, too.
+struct WindowState {
+  devices::SceneDescription scene;  ///< As it was described.
+  SceneEdit edit, unedited;
+  std::vector<ObjectBox> boxes;  ///< Of the scene's objects, in their order.
+  int selected = -1;             ///< Index of an object; -1: none.
+  bool panel = true, help = false;
+  bool turning_north = false;  ///< The virtual pole is shown.
+  NorthPole pole;
+  bool exposure_locked = false;
+
+  // Of the frame on the screen.
+  CameraModel camera;
+  std::optional<Transform<Camera, Marker>> camera_from_marker;
+  UtcTime moment;  ///< Without what the edit adds.
+  bool has_frame = false;
+  LightSummary light;
+  LiveStatistics statistics;
+  std::int64_t late_for_screen = 0;  ///< Drawn, and replaced before they were shown.
+  double shown_per_second = 0.0;
+  bool recording = false;
+  std::string camera_words;  ///< What the camera last said of itself.
+
+  // Asked for, to be done by the window.
+  bool wants_screenshot = false, wants_recording_change = false, wants_exposure_change = false;
+  bool wants_close = false;
+  std::string message;  ///< The last thing done, for the status line.
+
+  UtcTime shown_time() const { return moment.PlusSeconds(edit.later_s); }
+  /// The marker with the heading in use.
+  devices::MarkerDescription marker() const;
+  /// The scene's state for a new session.
+  static WindowState For(const devices::SceneDescription& scene,
+                         const compositor::ComposerOptions& drawing);
+};
+
+/// Makes the scene that of another time.
+void SetShownTime(UtcTime time, WindowState* state);
+/// The time on a local clock's day, seconds since its midnight, to another of the same day.
+void SetTimeOfDay(double seconds, double utc_offset_s, WindowState* state);
+double TimeOfDay(UtcTime time, double utc_offset_s);
+
+/// What keys do.
+enum class Action {
+  kHelp,
+  kPanel,
+  kClose,
+  kScreenshot,
+  kRecord,
+  kNow,
+  kAsRecorded,
+  kEarlier,
+  kLater,
+  kNextObject,
+  kDeselect,
+  kMoveLeft,
+  kMoveRight,
+  kMoveAway,
+  kMoveNearer,
+  kRaise,
+  kLower,
+  kTurnLeft,
+  kTurnRight,
+  kGrow,
+  kShrink,
+  kResetObject,
+  kNorth,
+  kLockExposure,
+};
+
+/// Carries an action out. `fine`: small steps.
+void Do(Action action, bool fine, UtcTime now, WindowState* state);
+
+}  // namespace pleinair::app

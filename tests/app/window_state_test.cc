@@ -1,0 +1,138 @@
+#include "app/window/window_state.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "app/scene_light.h"
+#include "app/window/cities.h"
+
+namespace pleinair::app {
+namespace {
+
+using testing::DoubleNear;
+
+WindowState State() {
+  devices::SceneDescription scene;
+  scene.place_time.start = *UtcTime::Parse("2025-09-14T11:05:00Z");
+  scene.place_time.latitude_deg = 50.0875;
+  scene.place_time.longitude_deg = 14.4213;
+  scene.marker.size_m = 0.5;
+  scene.marker.heading = FromDegrees(342.0);
+  devices::ModelReference object;
+  object.translation_m = {0.2, 0.3, 0.0};
+  object.rotation_deg = {10.0, 20.0, 30.0};
+  object.scale = 0.5;
+  scene.objects = {object};
+  WindowState state = WindowState::For(scene, {});
+  state.boxes = {{"box", {-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}}};
+  // A camera 3 m above the print that looks straight down, its right along the print's x.
+  state.camera.width = 640;
+  state.camera.height = 480;
+  state.camera.fx = state.camera.fy = 600.0;
+  state.camera.cx = 319.5;
+  state.camera.cy = 239.5;
+  state.camera_from_marker = {{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 3}};
+  return state;
+}
+
+void ExpectNear(Vec3 a, Vec3 b) { EXPECT_LT(Norm(a - b), 1e-9) << a.x << ' ' << a.y << ' ' << a.z; }
+
+TEST(WindowState, KeysMoveTheChosenObjectAsTheViewerSeesItAndPutItBack) {
+  WindowState state = State();
+  ASSERT_EQ(state.selected, 0) << "the only object is chosen from the start";
+  const ObjectPlace before = state.edit.objects[0];
+  Do(Action::kMoveRight, false, {}, &state);
+  const Vec3 step = state.edit.objects[0].translation_m - before.translation_m;
+  EXPECT_GT(step.x, 0.01);
+  ExpectNear(step, {step.x, 0.0, 0.0});
+  Do(Action::kMoveAway, true, {}, &state);
+  EXPECT_NEAR(state.edit.objects[0].translation_m.y - before.translation_m.y, step.x / 10, 1e-9);
+  Do(Action::kRaise, false, {}, &state);
+  EXPECT_GT(state.edit.objects[0].translation_m.z, 0.01);
+  Do(Action::kResetObject, false, {}, &state);
+  EXPECT_EQ(state.edit.objects[0], before);
+  Do(Action::kDeselect, false, {}, &state);
+  Do(Action::kMoveRight, false, {}, &state);
+  EXPECT_EQ(state.edit.objects[0], before) << "nothing is chosen";
+}
+
+TEST(WindowState, TurningAndScalingKeepTheFootWhereItIs) {
+  const WindowState state = State();
+  const Vec3 up{0, 0, 1};
+  const ObjectPlace& place = state.edit.objects[0];
+  ObjectPlace turned = place;
+  for (int i = 0; i < 36; ++i) turned = Turned(state.boxes[0], turned, 10.0, up);
+  ExpectNear(turned.translation_m, place.translation_m);
+  ExpectNear(turned.rotation_deg, place.rotation_deg);
+  const ObjectPlace quarter = Turned(state.boxes[0], place, 90.0, up);
+  const Vec3 was = LinearOf(place) * Vec3{1, 2, 3};
+  ExpectNear(LinearOf(quarter) * Vec3{1, 2, 3}, {-was.y, was.x, was.z});
+  const ObjectPlace scaled = Scaled(state.boxes[0], place, 3.0, up);
+  EXPECT_NEAR(scaled.scale, 1.5, 1e-12);
+  ExpectNear(BoxFoot(state.boxes[0], scaled, up), BoxFoot(state.boxes[0], place, up));
+}
+
+TEST(WindowState, TheMouseTakesHoldOfWhatItPointsAtAndTheGroundFollowsIt) {
+  WindowState state = State();
+  ObjectPlace& place = state.edit.objects[0];
+  place = {{0.2, 0.3, 0.0}, {}, 0.1};
+  const auto pixel = [&](Vec3 point) {
+    return ProjectToPixel(state.camera, *state.camera_from_marker * Point<Marker>{point});
+  };
+  const Sight at = SightThrough(state.camera, *state.camera_from_marker, pixel({0.2, 0.3, 0.1}));
+  EXPECT_EQ(PickObject(state.boxes, state.edit.objects, at), 0);
+  const Sight beside = SightThrough(state.camera, *state.camera_from_marker, pixel({0.5, 0.3, 0}));
+  EXPECT_EQ(PickObject(state.boxes, state.edit.objects, beside), std::nullopt);
+  const Vec3 hold{0.2, 0.3, 0.1};
+  const Sight to = SightThrough(state.camera, *state.camera_from_marker, pixel({0.4, 0.0, 0.1}));
+  ExpectNear(DraggedLevel(place, at, to, hold, {0, 0, 1}).translation_m, {0.4, 0.0, 0.0});
+}
+
+TEST(WindowState, TheScrubBarKeepsTheDayAndNowIsNow) {
+  WindowState state = State();
+  SetTimeOfDay(15.5 * 3600.0, 3600.0, &state);
+  EXPECT_EQ(state.shown_time().ToString(), "2025-09-14T14:30:00Z");
+  Do(Action::kLater, false, {}, &state);
+  EXPECT_EQ(state.shown_time().ToString(), "2025-09-14T14:40:00Z");
+  Do(Action::kNow, false, *UtcTime::Parse("2026-01-02T03:04:05Z"), &state);
+  EXPECT_EQ(state.shown_time().ToString(), "2026-01-02T03:04:05Z");
+  Do(Action::kAsRecorded, false, {}, &state);
+  EXPECT_EQ(state.shown_time(), state.moment);
+}
+
+TEST(NorthPole, GivesTheHeadingAtWhichItsShadowFallsWhereItWasDragged) {
+  for (const bool upright : {false, true}) {
+    devices::MarkerDescription marker = State().scene.marker;
+    marker.upright = upright;
+    const Vec3 to_sun =
+        SunOver(State().scene.place_time, State().scene.place_time.start).ToSun().xyz;
+    NorthPole pole;
+    pole.foot = {0.1, 0.2, 0.3};
+    pole.height_m = 2.0;
+    const auto tip = pole.ShadowTip(marker, to_sun);
+    ASSERT_TRUE(tip);
+    EXPECT_NEAR(Dot(*tip - pole.foot, UpOf(marker)), 0.0, 1e-9) << "it lies on the ground";
+    EXPECT_NEAR(Norm(*tip - pole.foot), 2.0 * std::sqrt(1 - to_sun.z * to_sun.z) / to_sun.z, 1e-9);
+    devices::MarkerDescription other = marker;
+    other.heading = FromDegrees(17.0);
+    EXPECT_THAT(*HeadingForShadow(other, pole, *tip, to_sun), DoubleNear(342.0, 1e-9));
+    EXPECT_EQ(HeadingForShadow(marker, pole, *tip, {0.0, 1.0, 0.0}), std::nullopt) << "at sunset";
+  }
+}
+
+TEST(Cities, AreFoundByTheBeginningOfAnyWordWithoutAccents) {
+  EXPECT_EQ(FindCities("").size(), Cities().size());
+  ASSERT_EQ(FindCities("paulo").size(), 1U);
+  EXPECT_EQ(FindCities("paulo")[0].name, "São Paulo");
+  EXPECT_EQ(FindCities("REYKJAVIK")[0].name, "Reykjavík");
+  EXPECT_NEAR(FindCities("prague")[0].latitude_deg, 50.0875, 0.01);
+  EXPECT_TRUE(FindCities("xyz").empty());
+  for (const City& city : Cities()) {
+    EXPECT_LE(std::abs(city.latitude_deg), 90.0) << city.name;
+    EXPECT_LE(std::abs(city.longitude_deg), 180.0) << city.name;
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::app
