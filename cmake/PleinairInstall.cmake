@@ -49,6 +49,9 @@ set(devices_requires "opencv4 yaml-cpp libjpeg zlib")
 if(ARAVIS_FOUND)
   string(APPEND devices_requires " aravis-0.8")
 endif()
+if(LIBCAMERA_FOUND)
+  string(APPEND devices_requires " libcamera")
+endif()
 pleinair_pkg_config(devices "cameras, recordings, calibrations and scenes" "${devices_requires}"
   "-pthread")
 pleinair_pkg_config(tracker "markers and their poses" "opencv4 libhwy"

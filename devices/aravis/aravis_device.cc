@@ -7,6 +7,7 @@
 
 #include "devices/aravis/aravis_camera.h"
 #include "devices/aravis/aravis_handles.h"
+#include "devices/aravis/gige_probe.h"
 #include "devices/picture_choice.h"
 
 namespace pleinair::devices {
@@ -88,6 +89,7 @@ class AravisDevice : public CameraDevice {
     }
     g_signal_connect(arv_camera_get_device(camera_.get()), "control-lost",
                      G_CALLBACK(&AravisDevice::OnControlLost), this);
+    OpenProbe();
     RememberControls();
     arv_camera_start_acquisition(camera_.get(), error.Fresh());
     if (error.failed()) return tl::make_unexpected(AravisError(where, "cannot start", error));
@@ -99,7 +101,10 @@ class AravisDevice : public CameraDevice {
     if (control_lost_) return WaitOutcome::kGone;
     ArvBuffer* buffer = arv_stream_timeout_pop_buffer(
         stream_.get(), static_cast<guint64>(std::chrono::microseconds(limit).count()));
-    if (buffer == nullptr) return control_lost_ ? WaitOutcome::kGone : WaitOutcome::kNothing;
+    if (buffer == nullptr) {
+      const bool gone = control_lost_ || (probe_ && probe_->IsRefused());
+      return gone ? WaitOutcome::kGone : WaitOutcome::kNothing;
+    }
     Take(buffer, picture);
     arv_stream_push_buffer(stream_.get(), buffer);
     return WaitOutcome::kPicture;
@@ -135,6 +140,18 @@ class AravisDevice : public CameraDevice {
 
  private:
   static void OnControlLost(ArvDevice*, AravisDevice* self) { self->control_lost_ = true; }
+
+  void OpenProbe() {
+    ArvDevice* device = arv_camera_get_device(camera_.get());
+    if (!ARV_IS_GV_DEVICE(device)) return;
+    GSocketAddress* address = arv_gv_device_get_device_address(ARV_GV_DEVICE(device));
+    sockaddr_in native{};
+    GErrorSlot error;
+    if (g_socket_address_get_native_size(address) == sizeof native &&
+        g_socket_address_to_native(address, &native, sizeof native, error.Fresh()) != FALSE) {
+      probe_ = std::make_unique<GigeProbe>(native);
+    }
+  }
 
   void RememberControls() {
     exposure_s_.reset();
@@ -187,6 +204,7 @@ class AravisDevice : public CameraDevice {
   PictureAgreement agreement_;
   TransportCounts transport_;
   bool started_ = false;
+  std::unique_ptr<GigeProbe> probe_;  ///< Null for cameras on USB.
   std::atomic<bool> control_lost_ = false;
   std::int64_t last_id_ = -1;
   std::int64_t number_ = 0;
@@ -201,8 +219,12 @@ std::string Text(const char* text) { return text == nullptr ? "" : text; }
 Result<std::unique_ptr<CameraDevice>> OpenAravisDevice(const CameraUri& uri,
                                                        const PictureWish& wish) {
   GErrorSlot error;
-  arv_update_device_list();
+  // Where it was last is asked first: looking on all networks takes a second.
   GObjectPtr<ArvCamera> camera(arv_camera_new(uri.value.c_str(), error.Fresh()));
+  if (!camera) {
+    arv_update_device_list();
+    camera.reset(arv_camera_new(uri.value.c_str(), error.Fresh()));
+  }
   if (!camera) {
     return tl::make_unexpected(error.failed() ? AravisError(uri.ToString(), "cannot open", error)
                                               : NotThere(uri.ToString()));

@@ -1,0 +1,407 @@
+#include "devices/libcamera/libcamera_device.h"
+
+#include <libcamera/control_ids.h>
+#include <libcamera/framebuffer_allocator.h>
+#include <libcamera/property_ids.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <condition_variable>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "devices/libcamera/libcamera_controls.h"
+#include "devices/libcamera/libcamera_manager.h"
+#include "devices/picture_choice.h"
+#include "devices/v4l2/v4l2_controls.h"
+
+namespace pleinair::devices {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr unsigned kBuffers = 6;
+
+Error NotThere(const std::string& where) {
+  return {ErrorKind::kInput, where, "there is no such camera (any more)",
+          "plug it in; 'pleinair devices' lists what is there"};
+}
+
+Error LibcameraError(const std::string& where, const std::string& doing, int error_number) {
+  if (error_number == ENODEV || error_number == ENOENT) return NotThere(where);
+  if (error_number == EBUSY) {
+    return {ErrorKind::kInput, where, doing + ": another program uses the camera",
+            "close that program"};
+  }
+  if (error_number == EACCES || error_number == EPERM) {
+    return {ErrorKind::kInput, where, doing + ": you have no permission for it",
+            "join the group 'video' and log in again"};
+  }
+  return {ErrorKind::kSystem, where, doing + ": " + std::strerror(error_number),
+          "unplug it and plug it in again"};
+}
+
+/// Memory of the planes of one buffer, for reading.
+class MappedPlanes {
+ public:
+  MappedPlanes() = default;
+  MappedPlanes(MappedPlanes&& other) noexcept : maps_(std::exchange(other.maps_, {})) {}
+  MappedPlanes& operator=(MappedPlanes&&) = delete;
+  ~MappedPlanes() {
+    for (const Map& map : maps_) munmap(map.start, map.length);
+  }
+
+  bool Add(const libcamera::FrameBuffer::Plane& plane) {
+    const std::size_t length = plane.offset + static_cast<std::size_t>(plane.length);
+    void* start = mmap(nullptr, length, PROT_READ, MAP_SHARED, plane.fd.get(), 0);
+    if (start == MAP_FAILED) return false;
+    maps_.push_back({start, length, plane.offset});
+    return true;
+  }
+
+  std::span<const std::uint8_t> Plane(std::size_t i) const {
+    const auto* start = static_cast<const std::uint8_t*>(maps_[i].start);
+    return {start + maps_[i].offset, maps_[i].length - maps_[i].offset};
+  }
+  std::size_t size() const { return maps_.size(); }
+
+ private:
+  struct Map {
+    void* start;
+    std::size_t length, offset;
+  };
+  std::vector<Map> maps_;
+};
+
+/// A stamp brought to the steady clock. libcamera documents CLOCK_BOOTTIME and hands on what the
+/// driver said, mostly CLOCK_MONOTONIC: they differ by the time that the machine slept.
+std::int64_t ToSteady_ns(std::int64_t stamp_ns, std::int64_t steady_now_ns) {
+  timespec boot{};
+  clock_gettime(CLOCK_BOOTTIME, &boot);
+  const std::int64_t slept_ns = boot.tv_sec * 1'000'000'000LL + boot.tv_nsec - steady_now_ns;
+  return stamp_ns > steady_now_ns ? stamp_ns - slept_ns : stamp_ns;
+}
+
+class LibcameraDevice final : public CameraDevice {
+ public:
+  LibcameraDevice(std::shared_ptr<libcamera::CameraManager> manager,
+                  std::shared_ptr<libcamera::Camera> camera)
+      : manager_(std::move(manager)),
+        camera_(std::move(camera)),
+        identity_{CameraUri::Backend::kLibcamera, CameraUri::Key::kId, camera_->id()} {}
+
+  ~LibcameraDevice() override {
+    if (started_) {
+      camera_->stop();  // Nothing completes after this: the slot can go.
+      camera_->requestCompleted.disconnect(this);
+    }
+    requests_.clear();
+    planes_.clear();
+    allocator_.reset();
+    if (acquired_) camera_->release();
+  }
+
+  Result<void> Agree(const PictureWish& wish) {
+    const std::string where = identity_.ToString();
+    if (const int failed = camera_->acquire(); failed != 0) {
+      return tl::make_unexpected(LibcameraError(where, "cannot open", -failed));
+    }
+    acquired_ = true;
+    configuration_ = camera_->generateConfiguration({libcamera::StreamRole::Viewfinder});
+    if (!configuration_ || configuration_->empty()) {
+      return InputError(where, "has no stream for viewing", "choose another camera");
+    }
+    libcamera::StreamConfiguration& stream = configuration_->at(0);
+    PLEINAIR_ASSIGN_OR_RETURN(const PictureChoice choice,
+                              ChoosePictures(LibcameraFormats(stream.formats()), wish, where));
+    stream.pixelFormat = *LibcameraFormatOf(choice.format);
+    if (choice.size) {
+      stream.size = {static_cast<unsigned>(choice.size->width),
+                     static_cast<unsigned>(choice.size->height)};
+    }
+    stream.bufferCount = std::max(stream.bufferCount, kBuffers);
+    if (configuration_->validate() == libcamera::CameraConfiguration::Invalid) {
+      return InputError(where, "refuses the pictures that were asked for",
+                        "ask for another size or format");
+    }
+    const auto format = PixelFormatOf(stream.pixelFormat);
+    if (!format) {
+      return InputError(where,
+                        "sends " + stream.pixelFormat.toString() + ", which is not read here",
+                        "ask for another format");
+    }
+    if (const int failed = camera_->configure(configuration_.get()); failed != 0) {
+      return tl::make_unexpected(LibcameraError(where, "cannot set size and format", -failed));
+    }
+    agreement_.format = *format;
+    agreement_.size = {static_cast<int>(stream.size.width), static_cast<int>(stream.size.height)};
+    Describe(stream);
+    node_ = NodeBehind(*manager_, camera_);
+    return {};
+  }
+
+  Result<void> Start(const PictureWish& wish) {
+    const std::string where = identity_.ToString();
+    libcamera::Stream* stream = configuration_->at(0).stream();
+    allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
+    if (const int count = allocator_->allocate(stream); count <= 0) {
+      return tl::make_unexpected(LibcameraError(where, "cannot make buffers", -count));
+    }
+    for (const auto& buffer : allocator_->buffers(stream)) {
+      auto request = camera_->createRequest();
+      MappedPlanes planes;
+      for (const auto& plane : buffer->planes()) {
+        if (planes.Add(plane)) continue;
+        return tl::make_unexpected(LibcameraError(where, "cannot map a buffer", errno));
+      }
+      if (!request || request->addBuffer(stream, buffer.get()) != 0) {
+        return tl::make_unexpected(LibcameraError(where, "cannot make a request", ENOMEM));
+      }
+      planes_.emplace(buffer.get(), std::move(planes));
+      requests_.push_back(std::move(request));
+    }
+    libcamera::ControlList controls(camera_->controls());
+    const auto durations = camera_->controls().find(&libcamera::controls::FrameDurationLimits);
+    if (wish.rate_hz && durations != camera_->controls().end()) {
+      const auto duration_us = static_cast<std::int64_t>(1e6 / *wish.rate_hz);
+      const std::int64_t limits[2] = {duration_us, duration_us};
+      controls.set(libcamera::controls::FrameDurationLimits,
+                   libcamera::Span<const std::int64_t, 2>(limits));
+      agreement_.rate_hz = wish.rate_hz;
+    }
+    agreement_.words = Differences(wish, agreement_);
+    RememberControls();
+    camera_->requestCompleted.connect(this, &LibcameraDevice::OnCompleted);
+    if (const int failed = camera_->start(&controls); failed != 0) {
+      camera_->requestCompleted.disconnect(this);
+      return tl::make_unexpected(LibcameraError(where, "cannot start", -failed));
+    }
+    started_ = true;
+    for (const auto& request : requests_) camera_->queueRequest(request.get());
+    return {};
+  }
+
+  WaitOutcome Wait(milliseconds limit, CapturedPicture* picture) override {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (true) {
+      libcamera::Request* request = nullptr;
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait_until(lock, end, [this] { return !completed_.empty() || wake_; });
+        if (!completed_.empty()) {
+          request = completed_.front();
+          completed_.pop_front();
+        } else if (std::exchange(wake_, false)) {
+          return WaitOutcome::kNothing;
+        }
+      }
+      // The requests of a camera that left never complete: only the list of cameras tells.
+      if (request == nullptr) return IsThere() ? WaitOutcome::kNothing : WaitOutcome::kGone;
+      const bool taken = Take(*request, picture);
+      request->reuse(libcamera::Request::ReuseBuffers);
+      ApplyWishes(request);
+      if (camera_->queueRequest(request) != 0 && !IsThere()) return WaitOutcome::kGone;
+      if (taken) return WaitOutcome::kPicture;
+    }
+  }
+
+  void Wake() override {
+    const std::lock_guard lock(mutex_);
+    wake_ = true;
+    changed_.notify_all();
+  }
+
+  std::string Words() const override { return "the camera is gone"; }
+  const PictureAgreement& agreement() const override { return agreement_; }
+  CameraUri identity() const override { return identity_; }
+
+  std::vector<ControlRange> Controls() override {
+    std::vector<ControlRange> controls = LibcameraControls(camera_->controls());
+    if (!node_) return controls;
+    // What the node says is read back from the camera; libcamera's are ranges only.
+    std::vector<ControlRange> better = V4l2Controls(*node_);
+    for (const ControlRange& range : controls) {
+      const auto same = [&](const ControlRange& each) { return each.control == range.control; };
+      if (std::none_of(better.begin(), better.end(), same)) better.push_back(range);
+    }
+    return better;
+  }
+
+  std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) override {
+    std::vector<ControlAnswer> answers;
+    wishes_ = std::make_unique<libcamera::ControlList>(camera_->controls());
+    for (const ControlWish& wish : wishes) {
+      // The node first: it reads back, and has white balance and focus, too.
+      if (node_) {
+        ControlAnswer answer = HoldV4l2Controls(*node_, {wish}).front();
+        if (answer.value) {
+          answers.push_back(std::move(answer));
+          continue;
+        }
+      }
+      const auto& now = wish.control == CameraControl::kExposure ? exposure_s_ : gain_;
+      auto answer = AskLibcamera(camera_->controls(), wish, now, wishes_.get());
+      if (!answer) {
+        answer = ControlAnswer{};
+        answer->control = wish.control;
+        answer->words = "the camera has no control of its " + std::string(NameOf(wish.control));
+      }
+      answers.push_back(*std::move(answer));
+    }
+    RememberControls();
+    return answers;
+  }
+
+ private:
+  // On libcamera's own thread.
+  void OnCompleted(libcamera::Request* request) {
+    if (request->status() == libcamera::Request::RequestCancelled) return;
+    const std::lock_guard lock(mutex_);
+    completed_.push_back(request);
+    changed_.notify_all();
+  }
+
+  bool IsThere() const {
+    const auto cameras = manager_->cameras();
+    return std::find(cameras.begin(), cameras.end(), camera_) != cameras.end();
+  }
+
+  void Describe(const libcamera::StreamConfiguration& stream) {
+    layout_.format = agreement_.format;
+    layout_.width = agreement_.size.width;
+    layout_.height = agreement_.size.height;
+    layout_.stride = stream.stride;
+    layout_.full_range = agreement_.format == PixelFormat::kGrey8;
+    if (!stream.colorSpace) return;
+    using Space = libcamera::ColorSpace;
+    layout_.matrix = stream.colorSpace->ycbcrEncoding == Space::YcbcrEncoding::Rec709
+                         ? YuvMatrix::kBt709
+                         : YuvMatrix::kBt601;
+    layout_.full_range = layout_.full_range || stream.colorSpace->range == Space::Range::Full;
+  }
+
+  /// What the camera says of itself between pictures; nothing where an automatism changes it.
+  void RememberControls() {
+    exposure_s_.reset();
+    gain_.reset();
+    white_balance_k_.reset();
+    if (!node_) return;
+    for (const ControlRange& range : V4l2Controls(*node_)) {
+      if (range.is_auto) continue;
+      if (range.control == CameraControl::kExposure) exposure_s_ = range.value;
+      if (range.control == CameraControl::kGain) gain_ = range.value;
+      if (range.control == CameraControl::kWhiteBalance) white_balance_k_ = range.value;
+    }
+  }
+
+  void ApplyWishes(libcamera::Request* request) {
+    if (!wishes_ || wishes_->empty()) return;
+    request->controls().merge(*wishes_);
+    wishes_.reset();
+  }
+
+  bool Take(libcamera::Request& request, CapturedPicture* picture) {
+    const libcamera::FrameBuffer* buffer = request.buffers().begin()->second;
+    const libcamera::FrameMetadata& facts = buffer->metadata();
+    if (facts.status == libcamera::FrameMetadata::FrameCancelled) return false;
+    picture->arrival_ns = SteadyNow_ns();
+    picture->number = facts.sequence;
+    const auto sensor = request.metadata().get(libcamera::controls::SensorTimestamp);
+    const std::int64_t stamp_ns = sensor.value_or(static_cast<std::int64_t>(facts.timestamp));
+    picture->timestamp_ns = ToSteady_ns(stamp_ns, picture->arrival_ns);
+    // "The time when the first row of the image sensor active array is exposed" (control_ids.yaml).
+    picture->stamp_meaning = StampMeaning::kExposureStart;
+    picture->device_timestamp_ns = stamp_ns;
+    const auto exposure_us = request.metadata().get(libcamera::controls::ExposureTime);
+    picture->exposure_s = exposure_us ? std::optional(*exposure_us * 1e-6) : exposure_s_;
+    const auto gain = request.metadata().get(libcamera::controls::AnalogueGain);
+    picture->gain = gain ? std::optional<double>(*gain) : gain_;
+    const auto kelvins = request.metadata().get(libcamera::controls::ColourTemperature);
+    picture->white_balance_k = kelvins ? std::optional<double>(*kelvins) : white_balance_k_;
+    picture->damaged = facts.status != libcamera::FrameMetadata::FrameSuccess;
+    std::vector<std::uint8_t> bytes = std::move(picture->raw.bytes);
+    picture->raw = layout_;
+    bytes.clear();
+    const MappedPlanes& planes = planes_.at(buffer);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const auto plane = planes.Plane(i);
+      const std::size_t used = std::min<std::size_t>(facts.planes()[i].bytesused, plane.size());
+      bytes.insert(bytes.end(), plane.begin(), plane.begin() + static_cast<std::ptrdiff_t>(used));
+    }
+    picture->raw.bytes = std::move(bytes);
+    return true;
+  }
+
+  // The manager goes last.
+  std::shared_ptr<libcamera::CameraManager> manager_;
+  std::shared_ptr<libcamera::Camera> camera_;
+  CameraUri identity_;
+  bool acquired_ = false, started_ = false;
+  std::unique_ptr<libcamera::CameraConfiguration> configuration_;
+  std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
+  std::vector<std::unique_ptr<libcamera::Request>> requests_;
+  std::map<const libcamera::FrameBuffer*, MappedPlanes> planes_;
+  std::optional<V4l2Node> node_;
+  PictureAgreement agreement_;
+  RawPicture layout_;
+  std::unique_ptr<libcamera::ControlList> wishes_;  ///< For the next request.
+  std::optional<double> exposure_s_, gain_, white_balance_k_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<libcamera::Request*> completed_;
+  bool wake_ = false;
+};
+
+std::shared_ptr<libcamera::Camera> Find(libcamera::CameraManager& manager,
+                                        const std::string& name) {
+  if (auto camera = manager.get(name)) return camera;
+  const bool is_number = name.size() < 4 && std::all_of(name.begin(), name.end(), [](char c) {
+                           return c >= '0' && c <= '9';
+                         });
+  const auto cameras = manager.cameras();
+  const std::size_t place = is_number ? std::strtoul(name.c_str(), nullptr, 10) : cameras.size();
+  return place < cameras.size() ? cameras[place] : nullptr;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CameraDevice>> OpenLibcameraDevice(const CameraUri& uri,
+                                                          const PictureWish& wish) {
+  PLEINAIR_ASSIGN_OR_RETURN(auto manager, LibcameraManager());
+  auto camera = Find(*manager, uri.value);
+  if (!camera) return tl::make_unexpected(NotThere(uri.ToString()));
+  auto device = std::make_unique<LibcameraDevice>(std::move(manager), std::move(camera));
+  PLEINAIR_RETURN_IF_ERROR(device->Agree(wish));
+  PLEINAIR_RETURN_IF_ERROR(device->Start(wish));
+  return std::unique_ptr<CameraDevice>(std::move(device));
+}
+
+Result<std::vector<CameraDescription>> ListLibcameraCameras() {
+  PLEINAIR_ASSIGN_OR_RETURN(const auto manager, LibcameraManager());
+  std::vector<CameraDescription> cameras;
+  for (const auto& camera : manager->cameras()) {
+    CameraDescription description;
+    description.uri = description.node = "libcamera:" + camera->id();
+    description.name = camera->properties().get(libcamera::properties::Model).value_or("");
+    description.driver = "libcamera";
+    description.bus = camera->id();
+    if (const auto configuration =
+            camera->generateConfiguration({libcamera::StreamRole::Viewfinder})) {
+      description.formats = LibcameraFormats(configuration->at(0).formats());
+    }
+    const auto node = NodeBehind(*manager, camera);
+    description.controls = node ? V4l2Controls(*node) : LibcameraControls(camera->controls());
+    cameras.push_back(std::move(description));
+  }
+  return cameras;
+}
+
+}  // namespace pleinair::devices

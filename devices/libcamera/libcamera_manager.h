@@ -1,0 +1,35 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <libcamera/camera.h>
+#include <libcamera/camera_manager.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "devices/camera.h"
+#include "devices/v4l2/v4l2_node.h"
+
+namespace pleinair::devices {
+
+/// The process's one manager (libcamera allows no second), started when needed and stopped with
+/// the last reference, after everything that came from it. Meanwhile it notices by itself what is
+/// plugged in and out. Error (system): it cannot be started.
+Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager();
+
+/// Formats of a camera's first stream for viewing, largest size first; libcamera states no rates.
+std::vector<FormatDescription> LibcameraFormats(const libcamera::StreamFormats& formats);
+
+std::optional<PixelFormat> PixelFormatOf(const libcamera::PixelFormat& theirs);
+std::optional<libcamera::PixelFormat> LibcameraFormatOf(PixelFormat ours);
+
+/// The video node behind a camera whose pictures come straight from one (USB cameras), for the
+/// controls that libcamera has not; nothing for cameras with a pipeline of several.
+std::optional<V4l2Node> NodeBehind(libcamera::CameraManager& manager,
+                                   const std::shared_ptr<libcamera::Camera>& camera);
+
+}  // namespace pleinair::devices

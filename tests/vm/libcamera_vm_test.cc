@@ -1,0 +1,115 @@
+// Runs inside the VM: libcamera on uvcvideo, its pipeline for USB cameras.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <thread>
+
+#include "camera_helpers.h"
+#include "devices/camera_list.h"
+#include "uvc_simulator.h"
+
+namespace pleinair::vm {
+namespace {
+
+using devices::CameraControl;
+using devices::LiveCamera;
+using devices::LiveCameraOptions;
+using devices::PixelFormat;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr const char* kFirst = "libcamera:0";
+
+TEST(Libcamera, DeliversFramesInOrderWithStampsOnTheSteadyClock) {
+  const UvcSimulator simulator;
+  for (const PixelFormat format : {PixelFormat::kYuyv, PixelFormat::kMjpeg}) {
+    const auto camera = Open(Options(kFirst, format, 320, 240, 15.0));
+    std::int64_t last_ns = 0, last_index = -1;
+    for (int i = 0; i < 8; ++i) {
+      const auto frame = camera->NextWithin(kLong);
+      ASSERT_TRUE(frame);
+      EXPECT_EQ(frame->grey.width(), 320);
+      EXPECT_GT(frame->timestamp_ns, last_ns);
+      EXPECT_GT(frame->index, last_index);
+      EXPECT_EQ(frame->stamp_meaning, devices::StampMeaning::kExposureStart);
+      EXPECT_LT(std::abs(*frame->arrival_ns - frame->timestamp_ns), 200'000'000);
+      // The simulator's ramp, not one grey.
+      EXPECT_NE(frame->grey(3, 120), frame->grey(40, 120));
+      last_ns = frame->timestamp_ns;
+      last_index = frame->index;
+    }
+    EXPECT_EQ(camera->agreement()->format, format);
+  }
+  int listed = 0;
+  for (const devices::CameraDescription& camera : devices::ListCameras(false).cameras) {
+    if (camera.driver != "libcamera") continue;
+    ++listed;
+    EXPECT_THAT(camera.uri, StartsWith("libcamera:"));
+    EXPECT_EQ(camera.formats.size(), 2U);
+    EXPECT_EQ(camera.controls.size(), 4U);
+  }
+  EXPECT_EQ(listed, 1);
+}
+
+TEST(Libcamera, HoldsControlsThroughTheNodeAndReadsThemBack) {
+  UvcSimulator simulator;
+  LiveCameraOptions options = Options(kFirst, PixelFormat::kYuyv, 320, 240, 15.0);
+  options.controls = {{CameraControl::kExposure, 0.01}, {CameraControl::kWhiteBalance, 5000.0}};
+  const auto camera = Open(options);
+  std::optional<devices::Frame> frame;
+  for (int i = 0; i < 4; ++i) frame = camera->NextWithin(kLong);
+  ASSERT_TRUE(frame);
+  ASSERT_EQ(camera->Answers().size(), 2U);
+  for (const devices::ControlAnswer& answer : camera->Answers()) {
+    EXPECT_TRUE(answer.held) << answer.words;
+    EXPECT_EQ(answer.words, "");
+  }
+  EXPECT_NEAR(frame->exposure_s.value_or(0.0), 0.01, 1e-9);
+  EXPECT_NEAR(frame->white_balance_k.value_or(0.0), 5000.0, 1e-9);
+  EXPECT_THAT(simulator.Output(), HasSubstr("ctrl 1 0x04 100"));
+  EXPECT_THAT(simulator.Output(), HasSubstr("ctrl 2 0x0a 5000"));
+}
+
+TEST(Libcamera, ABusyOrMissingCameraIsToldInWords) {
+  const UvcSimulator simulator;
+  const auto first = Open(Options(kFirst, PixelFormat::kYuyv, 320, 240, 15.0));
+  ASSERT_TRUE(first->NextWithin(kLong));
+  LiveCameraOptions options = Options(kFirst, PixelFormat::kYuyv, 320, 240, 15.0);
+  options.wait_for_camera = false;
+  const auto second = LiveCamera::Open(options);
+  ASSERT_FALSE(second);
+  EXPECT_THAT(second.error().Message(), HasSubstr("another program uses the camera"));
+  options.uri = *devices::ParseCameraUri("libcamera:none");
+  const auto none = LiveCamera::Open(options);
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().Message(), HasSubstr("there is no such camera"));
+}
+
+TEST(Libcamera, AnUnpluggedCameraIsToldWithinASecondAndComesBackByItself) {
+  UvcSimulator simulator({"--unplug-after", "10", "--replug-ms", "1500"});
+  LiveCameraOptions options = Options(kFirst, PixelFormat::kYuyv, 320, 240, 15.0);
+  const auto camera = Open(options);
+  const Replug replug = WatchReplug(camera.get());
+  EXPECT_LT(replug.told_after_ns, 1'000'000'000);
+  ASSERT_TRUE(replug.back) << simulator.Output();
+  EXPECT_TRUE(camera->NextWithin(kLong));
+  EXPECT_EQ(camera->counts().connections, 2);
+}
+
+TEST(Libcamera, StartsAndStopsLeaveNothingBehind) {
+  const UvcSimulator simulator;
+  for (int round = 0; round < 6; ++round) {
+    const auto camera = Open(Options(kFirst, PixelFormat::kYuyv, 320, 240, 15.0));
+    ASSERT_NE(camera, nullptr);
+    if (round % 3 == 0) {
+      EXPECT_TRUE(camera->NextWithin(kLong));
+    }
+    std::thread stopper([&] { camera->Stop(); });
+    stopper.join();
+  }
+  const auto again = Open(Options(kFirst, PixelFormat::kYuyv, 320, 240, 15.0));
+  EXPECT_TRUE(again->NextWithin(kLong)) << "a camera left acquired would be busy";
+}
+
+}  // namespace
+}  // namespace pleinair::vm
