@@ -47,30 +47,42 @@ struct Thing {
   std::uint32_t word;
 };
 
-/// The tone at a point of it; negative beside it.
-double ToneOf(const Thing& thing, double u, double v) {
-  if (std::fabs(u) > 1.0 || std::fabs(v) > 1.0) return -1.0;
-  const int column = static_cast<int>((u + 1.0) * 0.5 * thing.cells);
-  const int row = static_cast<int>((v + 1.0) * 0.5 * thing.cells);
-  switch (thing.kind) {
-    case Thing::kBox:
-      return thing.tone;
-    case Thing::kDisc:
-      return u * u + v * v <= 1.0 ? thing.tone : -1.0;
-    case Thing::kGrating:
-      return column % 2 == 0 ? thing.tone : thing.other_tone;
-    case Thing::kCheckers:
-      return (column + row) % 2 == 0 ? thing.tone : thing.other_tone;
-    case Thing::kSigns: {  // A bit a cell: as irregular as print, or as a marker's code.
-      const std::uint32_t bits = Philox(
-          {static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), thing.word, 0},
-          {0, 0})[0];
-      return bits % 2 == 0 ? thing.tone : thing.other_tone;
+/// Whether a cell of a thing has its other tone.
+bool HasOtherTone(const Thing& thing, int column, int row) {
+  if (thing.kind == Thing::kGrating) return column % 2 != 0;
+  if (thing.kind == Thing::kCheckers) return (column + row) % 2 != 0;
+  if (thing.kind != Thing::kSigns) return false;
+  // A bit a cell: as irregular as print, or as a marker's code.
+  return Philox(
+             {static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), thing.word, 0},
+             {0, 0})[0] %
+             2 !=
+         0;
+}
+
+/// The tones of a thing's cells, row by row.
+std::vector<double> CellTones(const Thing& thing) {
+  std::vector<double> tones;
+  for (int row = 0; row < thing.cells; ++row) {
+    for (int column = 0; column < thing.cells; ++column) {
+      tones.push_back(HasOtherTone(thing, column, row) ? thing.other_tone : thing.tone);
     }
-    case Thing::kFrame:  // A picture frame or a window: the closed square that detectors look for.
-      return std::max(std::fabs(u), std::fabs(v)) > 0.8 ? thing.tone : thing.other_tone;
   }
-  return -1.0;
+  return tones;
+}
+
+/// The tone at a point of it; negative beside it.
+double ToneOf(const Thing& thing, const std::vector<double>& cells, double u, double v) {
+  if (std::fabs(u) > 1.0 || std::fabs(v) > 1.0) return -1.0;
+  if (thing.kind == Thing::kDisc) return u * u + v * v <= 1.0 ? thing.tone : -1.0;
+  // A picture frame or a window: the closed square that detectors look for.
+  if (thing.kind == Thing::kFrame) {
+    return std::max(std::fabs(u), std::fabs(v)) > 0.8 ? thing.tone : thing.other_tone;
+  }
+  const auto cell = [&](double at) {
+    return std::min(static_cast<int>((at + 1.0) * 0.5 * thing.cells), thing.cells - 1);
+  };
+  return cells[static_cast<std::size_t>(cell(v)) * thing.cells + cell(u)];
 }
 
 Thing RandomThing(int width, int height, RandomStream* random) {
@@ -90,6 +102,7 @@ Thing RandomThing(int width, int height, RandomStream* random) {
 
 void Paint(const Thing& thing, Image<float>* light) {
   constexpr int kSamples = 3;
+  const std::vector<double> cells = CellTones(thing);
   const double cosine = std::cos(thing.turn), sine = std::sin(thing.turn);
   const double reach = std::hypot(thing.half_width, thing.half_height) + 1.0;
   const int left = std::max(0, static_cast<int>(thing.middle.x - reach));
@@ -98,12 +111,19 @@ void Paint(const Thing& thing, Image<float>* light) {
   const int bottom = std::min(light->height() - 1, static_cast<int>(thing.middle.y + reach));
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
+      const double from_x = x - thing.middle.x, from_y = y - thing.middle.y;
+      // Farther than a pixel's half diagonal beside it.
+      if (std::fabs(from_x * cosine + from_y * sine) > thing.half_width + 1.0 ||
+          std::fabs(from_y * cosine - from_x * sine) > thing.half_height + 1.0) {
+        continue;
+      }
       double sum = 0.0;
       int inside = 0;
       for (int k = 0; k < kSamples * kSamples; ++k) {
-        const double dx = x + (k % kSamples + 0.5) / kSamples - 0.5 - thing.middle.x;
-        const double dy = y + (k / kSamples + 0.5) / kSamples - 0.5 - thing.middle.y;
-        const double tone = ToneOf(thing, (dx * cosine + dy * sine) / thing.half_width,
+        const int column = k % kSamples, row = k / kSamples;
+        const double dx = x + (column + 0.5) / kSamples - 0.5 - thing.middle.x;
+        const double dy = y + (row + 0.5) / kSamples - 0.5 - thing.middle.y;
+        const double tone = ToneOf(thing, cells, (dx * cosine + dy * sine) / thing.half_width,
                                    (dy * cosine - dx * sine) / thing.half_height);
         if (tone < 0.0) continue;
         sum += tone;
@@ -122,9 +142,11 @@ Image<float> MakeBackground(int width, int height, std::uint64_t seed, std::stri
   Image<float> light(width, height);
   const double roughness = random.Uniform(0.5, 0.8);  // Amplitude of an octave over the last one's.
   double amplitude = random.Uniform(0.25, 0.8);
-  for (double cell_px = height / 2.0; cell_px > 1.5; cell_px /= 2.0) {
+  double cell_px = height / 2.0;
+  while (cell_px > 1.5) {
     AddNoise(cell_px, amplitude, &random, &light);
     amplitude *= roughness;
+    cell_px /= 2.0;
   }
   const double middle = std::log(random.Uniform(0.05, 0.4));
   const double slope = random.Uniform(-0.8, 0.8);  // Brighter above or below.

@@ -28,6 +28,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  pleinair accuracy --quick -o out/quick\n"
     "  pleinair accuracy --sweep distance,angle --against apriltag,aruco -o out/far\n"
+    "  pleinair accuracy recordings/* -o out/films\n"
     "  pleinair accuracy --shard 2/7 -o out/full        (and 'pleinair report merge out/full')\n"
     "  pleinair report diff out/before out/after\n"
     "DIR gets report.html, report.json and records.jsonl, which depend on the options above "
@@ -106,8 +107,10 @@ Result<void> Run(Options& options) {
     std::cerr << "pleinair accuracy: skipped " << message << '\n';
   }
   if (outcome.skipped.empty()) return {};
-  return SystemError("", fmt::format("{} recordings could not be measured", outcome.skipped.size()),
-                     "the others were; see above");
+  return SystemError(options.output,
+                     fmt::format("{} of {} recordings could not be measured",
+                                 outcome.skipped.size(), options.config.recordings.size()),
+                     "the others were; mend it and run again: what is done stays");
 }
 
 }  // namespace
@@ -117,9 +120,13 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand(
       "accuracy", "Measure detection, pose and covariance against exact truth, with uncertainty");
   command->footer(kExamples);
+  command->add_option("RECORDING", options->config.recordings,
+                      "Recordings with ground truth (truth.tum)");
   std::vector<std::string> sweeps = accuracy::SweepNames();
   sweeps.push_back("all");
-  command->add_option("--sweep", options->sweeps, "Built-in scenes; all where none are named")
+  command
+      ->add_option("--sweep", options->sweeps,
+                   "Built-in scenes; all where neither these nor recordings are named")
       ->delimiter(',')
       ->check(CLI::IsMember(sweeps))
       ->type_name("NAME,...");

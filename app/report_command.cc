@@ -8,9 +8,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/regression.h"
 #include "app/accuracy/accuracy_report.h"
 #include "app/accuracy/record_parts.h"
+#include "app/accuracy/recorded_run.h"
 #include "app/command.h"
+#include "app/number_range.h"
 
 namespace pleinair::app {
 namespace {
@@ -59,12 +62,91 @@ void AddMerge(CLI::App* report, CommandResult& result) {
   command->callback([options, &result] { result.status = Merge(*options); });
 }
 
+constexpr const char* kDiffExamples =
+    "Examples:\n"
+    "  pleinair report diff out/before out/after\n"
+    "  pleinair report diff tests/accuracy/baseline out/now --json\n"
+    "OLD, NEW: folders with run.json and records.jsonl, as 'pleinair accuracy' leaves them. Runs "
+    "of\n"
+    "the same seed are compared scene by scene; of others, level by level. WORSE is what got "
+    "worse\n"
+    "significantly: the chance that anything is called so where only the noise differs is "
+    "--alpha.\n"
+    "Exit code 1 where anything got worse.";
+
+struct DiffOptions {
+  std::string before, after, detector = kOwnName;
+  double alpha = accuracy::RegressionOptions().alpha;
+  bool json = false;
+};
+
+std::string ChangeText(const accuracy::Change& change) {
+  return fmt::format("{:<14}{:<20}{:>7}{:>12.5g}{:>12.5g}{:>10.2g}{:>10.2g}  {}\n", change.sweep,
+                     change.measure, change.pairs, change.before, change.after, change.p_worse,
+                     change.p_better,
+                     change.worse    ? "WORSE"
+                     : change.better ? "better"
+                                     : "");
+}
+
+std::string ChangeJson(const accuracy::Change& change) {
+  nlohmann::ordered_json json{
+      {"sweep", change.sweep},       {"measure", change.measure}, {"pairs", change.pairs},
+      {"before", change.before},     {"after", change.after},     {"p_worse", change.p_worse},
+      {"p_better", change.p_better}, {"worse", change.worse},     {"better", change.better}};
+  return json.dump() + "\n";
+}
+
+Result<void> Diff(const DiffOptions& options) {
+  PLEINAIR_ASSIGN_OR_RETURN(const RecordedRun before, ReadRecordedRun(options.before));
+  PLEINAIR_ASSIGN_OR_RETURN(const RecordedRun after, ReadRecordedRun(options.after));
+  const std::vector<accuracy::Change> changes =
+      accuracy::CompareRuns(before.records, after.records,
+                            {.detector = options.detector,
+                             .alpha = options.alpha,
+                             .same_scenes = before.config.seed == after.config.seed});
+  if (changes.empty()) {
+    return InputError(options.after,
+                      "has no frame of " + options.detector + " in common with " + options.before,
+                      "compare runs of the same sweeps");
+  }
+  if (!options.json) {
+    std::cout << fmt::format("{:<14}{:<20}{:>7}{:>12}{:>12}{:>10}{:>10}\n", "sweep", "measure",
+                             "pairs", "before", "after", "p worse", "p better");
+  }
+  int worse = 0;
+  for (const accuracy::Change& change : changes) {
+    std::cout << (options.json ? ChangeJson(change) : ChangeText(change));
+    worse += change.worse;
+  }
+  if (worse == 0) return {};
+  return SystemError(options.after,
+                     fmt::format("{} of {} figures got significantly worse", worse, changes.size()),
+                     "see the lines above that say so");
+}
+
+void AddDiff(CLI::App* report, CommandResult& result) {
+  auto options = std::make_shared<DiffOptions>();
+  CLI::App* command =
+      report->add_subcommand("diff", "What got significantly worse between two accuracy runs");
+  command->footer(kDiffExamples);
+  command->add_option("OLD", options->before, "Folder of the run before")->required();
+  command->add_option("NEW", options->after, "Folder of the run after")->required();
+  command->add_option("--detector", options->detector, "Whose figures")->capture_default_str();
+  command->add_option("--alpha", options->alpha, "Chance of a false alarm, over all figures")
+      ->check(NumberRange(1e-9, 0.5))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "One JSON object a figure");
+  command->callback([options, &result] { result.status = Diff(*options); });
+}
+
 }  // namespace
 
 void AddReportCommand(CLI::App& app, CommandResult& result) {
   CLI::App* report = app.add_subcommand("report", "Merge and compare reports of accuracy runs");
   report->require_subcommand(1);
   AddMerge(report, result);
+  AddDiff(report, result);
 }
 
 }  // namespace pleinair::app

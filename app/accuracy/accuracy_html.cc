@@ -10,6 +10,7 @@
 #include "app/accuracy/film_plots.h"
 #include "app/accuracy/level_chart.h"
 #include "app/accuracy/worst_frames.h"
+#include "app/sinks/line_plot.h"
 #include "app/sinks/page_style.h"
 #include "app/sinks/report_html.h"
 
@@ -163,6 +164,15 @@ std::string SweepSections(const RunSummary& summary,
   return html;
 }
 
+/// An axis that holds 90 % of every detector's values, ending at 1, 2 or 5 times a power of ten.
+double TopOf(const std::vector<std::vector<double>>& values) {
+  double top = 0.0;
+  for (const std::vector<double>& sample : values) {
+    if (!sample.empty()) top = std::max(top, accuracy::Percentile(sample, 0.9));
+  }
+  return top > 0.0 ? TickStep(0.0, top, 1) : 1.0;
+}
+
 std::string Histograms(const RunSummary& summary,
                        const std::vector<accuracy::FrameRecord>& records) {
   std::vector<std::vector<double>> corners, rotations;
@@ -178,16 +188,24 @@ std::string Histograms(const RunSummary& summary,
     }
   }
   return "<h2>Errors of all hits</h2>\n<div class=\"charts\">" +
-         HistogramSvg("Corner error (RMS of a marker)", "px", summary.detectors, corners, 0.6) +
-         HistogramSvg("Rotation error", "°", summary.detectors, rotations, 1.2) + "</div>\n";
+         HistogramSvg("Corner error (RMS of a marker)", "px", summary.detectors, corners,
+                      TopOf(corners)) +
+         HistogramSvg("Rotation error", "°", summary.detectors, rotations, TopOf(rotations)) +
+         "</div>\n";
 }
 
 std::string Maps(const RunSummary& summary) {
   std::string html =
       "<h2>Where in the picture</h2>\n<p class=\"lead\">Median error of corners by "
-      "where they lie, px; full colour is 0.5 px.</p>\n<div class=\"charts\">";
+      "where they lie, px; full colour is four times the median of "
+      "all cells.</p>\n<div class=\"charts\">";
   for (const accuracy::ErrorMap& map : summary.maps) {
-    html += CellMapSvg(map.detector, map.columns, map.rows, map.median_px, 0.5);
+    std::vector<double> seen;
+    for (const double value : map.median_px) {
+      if (std::isfinite(value)) seen.push_back(value);
+    }
+    const double full = seen.empty() ? 1.0 : 4.0 * accuracy::Percentile(seen, 0.5);
+    html += CellMapSvg(map.detector, map.columns, map.rows, map.median_px, full);
   }
   return html + "</div>\n";
 }
@@ -268,8 +286,10 @@ std::string AmbiguityChart(const RunSummary& summary) {
   }
   return "<h2>Ambiguity</h2>\n<p class=\"lead\">How often the other solution of the planar pose "
          "was the better one, by the ratio of reprojection errors that says how ambiguous the "
-         "pose is.</p>\n" +
-         LevelChartSvg("Wrong solution chosen", "ambiguity ratio", levels, series, 0.6);
+         "pose is.</p>\n"
+         "<div class=\"charts\">" +
+         LevelChartSvg("Wrong solution chosen", "ambiguity ratio", levels, series, 0.6) +
+         "</div>\n";
 }
 
 }  // namespace

@@ -114,6 +114,7 @@ Result<WrittenReport> WriteAccuracyReport(const std::vector<RecordParts>& folder
   std::error_code error;
   std::filesystem::create_directories(output, error);
   if (error) return tl::make_unexpected(WriteError(output, error.value()));
+  PLEINAIR_RETURN_IF_ERROR(folders[0].WriteRunFile(output));
   PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(output / "records.jsonl", lines));
   PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(output / "times.json", TimesJson(gathered)));
   PLEINAIR_RETURN_IF_ERROR(

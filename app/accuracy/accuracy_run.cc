@@ -14,6 +14,7 @@
 #include "accuracy/scoring.h"
 #include "accuracy/sweeps.h"
 #include "app/accuracy/own_detector.h"
+#include "app/accuracy/recording_run.h"
 #include "app/progress_bar.h"
 #include "app/scene_marker.h"
 
@@ -102,8 +103,17 @@ void SortByFrame(std::vector<accuracy::FrameRecord>* records) {
 }
 
 Result<RecordPart> MeasureChunk(const AccuracyChunk& chunk, std::int64_t number,
-                                std::vector<Station>* stations) {
+                                const AccuracyConfig& config, std::vector<Station>* stations) {
   RecordPart part{.chunk = number, .records = {}, .skipped = {}, .machine = MachineName()};
+  if (chunk.recording) {
+    auto records = MeasureRecording(*chunk.recording, FirstFrameOf(number), config);
+    if (records) {
+      part.records = *std::move(records);
+    } else {
+      part.skipped = records.error().Message();
+    }
+    return part;
+  }
   for (Station& station : *stations) {
     std::int64_t frame = FirstFrameOf(number);
     for (const accuracy::FrameRun& run : chunk.runs) {
@@ -145,6 +155,7 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
     ++outcome.chunks;
     if (!parts.Has(i)) to_do.push_back(i);
   }
+  if (to_do.empty()) return outcome;
   ProgressBar bar("accuracy", static_cast<std::int64_t>(to_do.size()), "parts");
   std::mutex mutex;  // Guards what follows.
   std::optional<Error> failure;
@@ -158,7 +169,7 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
         if (failure || next == to_do.size()) return;
         number = to_do[next++];
       }
-      auto part = MeasureChunk(chunks[number], number, &stations);
+      auto part = MeasureChunk(chunks[number], number, parts.config(), &stations);
       Result<void> written;
       if (part) written = parts.Write(*part);
       const std::lock_guard<std::mutex> lock(mutex);
@@ -172,7 +183,7 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
     }
   };
   std::vector<std::thread> workers;
-  const int count = std::clamp(threads, 1, std::max(1, static_cast<int>(to_do.size())));
+  const int count = std::clamp(threads, 1, static_cast<int>(to_do.size()));
   for (int i = 0; i < count; ++i) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   if (failure) return tl::make_unexpected(*failure);
@@ -181,9 +192,10 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
 
 std::optional<GreyImage> PictureOf(const AccuracyConfig& config, std::int64_t frame) {
   const std::vector<AccuracyChunk> chunks = PlanChunks(config);
-  const auto chunk = static_cast<std::size_t>(frame >> 20);
-  if (chunk >= chunks.size() || chunks[chunk].recording) return std::nullopt;
-  std::int64_t at = frame - FirstFrameOf(static_cast<std::int64_t>(chunk));
+  const auto chunk = static_cast<std::size_t>(frame / FirstFrameOf(1));
+  if (chunk >= chunks.size()) return std::nullopt;
+  std::int64_t at = frame % FirstFrameOf(1);
+  if (chunks[chunk].recording) return RecordedPicture(*chunks[chunk].recording, at);
   for (const accuracy::FrameRun& run : chunks[chunk].runs) {
     const auto frames = static_cast<std::int64_t>(run.frames.size());
     if (at < frames) {

@@ -3,7 +3,6 @@
 #include <limits>
 #include <map>
 
-#include "accuracy/films.h"
 #include "app/sinks/line_plot.h"
 
 namespace pleinair::app {
@@ -23,9 +22,8 @@ std::string FilmPlots(const std::string& sweep, const std::vector<std::string>& 
     }
     Film& film = films[record.pattern];
     const accuracy::MarkerRecord& marker = record.markers[0];
-    const double at_s = record.repeat / accuracy::kFilmRate_hz;
-    const auto add = [at_s](PlotLine& line, double value) {
-      line.x.push_back(at_s);
+    const auto add = [&record](PlotLine& line, double value) {
+      line.x.push_back(record.repeat);
       line.y.push_back(value);
     };
     Vec3 place{kGap, kGap, kGap};
@@ -37,14 +35,16 @@ std::string FilmPlots(const std::string& sweep, const std::vector<std::string>& 
     add(film.place_error, Norm(place - truth) * 1e3);
     add(film.rotation_error, marker.pose ? marker.pose->rotation_error_deg : kGap);
   }
+  constexpr const char* kUnit = "frames";
   std::string html;
   for (const auto& [name, film] : films) {
     const std::string of = name.empty() ? "" : name + ": ";
-    html +=
-        "<div class=\"charts\">" +
-        LinePlotSvg(of + "Camera in the marker frame, as found", "m", {film.x, film.y, film.z}) +
-        LinePlotSvg(of + "Error of its place", "mm", {film.place_error}) +
-        LinePlotSvg(of + "Error of its rotation", "°", {film.rotation_error}) + "</div>\n";
+    html += "<div class=\"charts\">" +
+            LinePlotSvg(of + "Camera in the marker frame, as found", "m", {film.x, film.y, film.z},
+                        kUnit) +
+            LinePlotSvg(of + "Error of its place", "mm", {film.place_error}, kUnit) +
+            LinePlotSvg(of + "Error of its rotation", "°", {film.rotation_error}, kUnit) +
+            "</div>\n";
   }
   return html;
 }

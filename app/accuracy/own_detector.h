@@ -10,7 +10,7 @@
 namespace pleinair::app {
 
 struct OwnDetectorOptions {
-  tracker::TrackerOptions tracker;  ///< One family and its size.
+  tracker::TrackerOptions tracker{};  ///< One family and its size.
   /// Measure S-G prints once more from all their pixels, as `replay` does; else as `detect` does.
   bool measure_prints = false;
   /// Moves every corner by this much in a direction of its own, before the pose is estimated: a

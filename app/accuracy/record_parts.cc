@@ -41,18 +41,20 @@ Result<RecordParts> RecordParts::Open(const fs::path& folder, const AccuracyConf
   parts.config_ = config;
   parts.config_json_ = ConfigJson(config);
   parts.chunks_ = chunks;
-  const fs::path run_file = folder / "run.json";
-  const std::string run = RunJson(parts.config_json_, chunks);
-  if (const auto there = ReadAll(run_file)) {
-    if (*there == run) return parts;
+  const auto there = ReadAll(folder / "run.json");
+  if (there && *there != RunJson(parts.config_json_, chunks)) {
     return InputError(folder.string(), "holds an accuracy run of another configuration or version",
                       "choose another folder with -o, or remove it");
   }
   std::error_code error;
   fs::create_directories(folder / "parts", error);
   if (error) return tl::make_unexpected(WriteError(folder, error.value()));
-  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(run_file, run));
+  if (!there) PLEINAIR_RETURN_IF_ERROR(parts.WriteRunFile(folder));
   return parts;
+}
+
+Result<void> RecordParts::WriteRunFile(const fs::path& folder) const {
+  return WriteFileAtomically(folder / "run.json", RunJson(config_json_, chunks_));
 }
 
 Result<RecordParts> RecordParts::Read(const fs::path& folder) {

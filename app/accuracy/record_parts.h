@@ -33,6 +33,9 @@ class RecordParts {
   /// An existing one. Errors (input): there is none.
   static Result<RecordParts> Read(const std::filesystem::path& folder);
 
+  /// Says in another folder what run this is.
+  Result<void> WriteRunFile(const std::filesystem::path& folder) const;
+
   const std::filesystem::path& folder() const { return folder_; }
   const AccuracyConfig& config() const { return config_; }
   std::int64_t chunks() const { return chunks_; }

@@ -50,7 +50,7 @@ double TickStep(double low, double high, int most) {
 }
 
 std::string LinePlotSvg(const std::string& title, const std::string& y_unit,
-                        const std::vector<PlotLine>& lines) {
+                        const std::vector<PlotLine>& lines, const std::string& x_unit) {
   Range xs, ys;
   for (const PlotLine& line : lines) {
     for (const double x : line.x) xs.Add(x);
@@ -77,8 +77,8 @@ std::string LinePlotSvg(const std::string& title, const std::string& y_unit,
   const double x_step = TickStep(xs.low, xs.high, 8);
   for (double x = std::ceil(xs.low / x_step) * x_step; x <= xs.high + 1e-9 * x_step; x += x_step) {
     svg += fmt::format(
-        "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{} s</text>",
-        to_x(x), kHeight - kBottom + 18, TickLabel(x, x_step));
+        "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{} {}</text>",
+        to_x(x), kHeight - kBottom + 18, TickLabel(x, x_step), EscapeHtml(x_unit));
   }
   double legend_x = kWidth - kRight;
   for (std::size_t i = lines.size(); i-- > 0;) {

@@ -14,11 +14,12 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A few frames of four sweeps: four parts.
+/// Nine frames of four sweeps: four parts.
 std::vector<std::string> Small(std::vector<std::string> more) {
-  std::vector<std::string> arguments{"accuracy", "--sweep",   "noise,many,negative,sequence",
-                                     "--scale",  "0.01",      "--seed",
-                                     "4",        "--measure", "blocks"};
+  std::vector<std::string> arguments{
+      "accuracy", "--sweep",   "negative,sequence,sequence_occl,wild",
+      "--scale",  "0.01",      "--seed",
+      "4",        "--measure", "blocks"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -57,7 +58,7 @@ TEST(Accuracy, IsTheSameHoweverItIsDivided) {
 
 TEST(Accuracy, GoesOnWhereItStoppedAndRefusesAnotherRunsFolder) {
   const TemporaryFolder folder;
-  const std::vector<std::string> command{"accuracy", "--sweep", "many,negative", "--scale",
+  const std::vector<std::string> command{"accuracy", "--sweep", "wild,negative", "--scale",
                                          "0.01",     "-o",      folder / "out",  "--json"};
   const RunResult first = RunPleinair(command);
   ASSERT_EQ(first.exit_code, 0) << first.err;
@@ -72,6 +73,55 @@ TEST(Accuracy, GoesOnWhereItStoppedAndRefusesAnotherRunsFolder) {
   const RunResult other = RunPleinair({"accuracy", "--sweep", "many", "-o", folder / "out"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("another configuration"));
+}
+
+// The gate: what this program does now against what it did when the baseline was recorded
+// (docs/accuracy-report.md says how to record it anew). And a gate that would notice.
+TEST(Accuracy, IsNoWorseThanTheBaselineAndASpoiledDetectorIs) {
+  const TemporaryFolder folder;
+  const std::string baseline = PLEINAIR_SOURCE_DIR "/tests/accuracy/baseline";
+  const auto run = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"accuracy", "--sweep", "distance",   "--scale",
+                                       "0.05",     "-o",      folder / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const RunResult measured = RunPleinair(arguments);
+    EXPECT_EQ(measured.exit_code, 0) << measured.err;
+    return RunPleinair({"report", "diff", baseline, folder / name});
+  };
+  const RunResult now = run("now", {});
+  EXPECT_EQ(now.exit_code, 0) << now.out << now.err;
+  EXPECT_THAT(now.out, Not(HasSubstr("WORSE")));
+  const RunResult spoiled = run("spoiled", {"--spoil-corners-px", "0.05"});
+  EXPECT_EQ(spoiled.exit_code, 1);
+  EXPECT_THAT(spoiled.out, HasSubstr("WORSE"));
+  EXPECT_THAT(spoiled.err, HasSubstr("got significantly worse"));
+}
+
+TEST(Accuracy, GoesOnBehindARecordingThatIsCorrupt) {
+  const TemporaryFolder folder;
+  for (const char* name : {"good", "bad"}) {
+    fs::copy(BundledRecording(), folder / name, fs::copy_options::recursive);
+  }
+  const std::string picture = ReadFile(folder / "bad/frames/0001.jpg");
+  WriteFile(folder / "bad/frames/0001.jpg", picture.substr(0, picture.size() / 2));
+  const std::vector<std::string> command{"accuracy", folder / "bad", folder / "good", "-o",
+                                         folder / "out"};
+  const RunResult run = RunPleinair(command);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("0001.jpg"));
+  EXPECT_THAT(run.err, HasSubstr("1 of 2 recordings could not be measured"));
+  json report = json::parse(ReadFile(folder / "out/report.json"));
+  EXPECT_EQ(report["skipped"].size(), 1U);
+  ASSERT_EQ(report["films"].size(), 1U);
+  EXPECT_EQ(report["films"][0]["found"], 90);
+  EXPECT_LT(report["films"][0]["ate_unaligned_rmse_mm"], 5.0);
+  // Mended, it is measured; the other is not measured again.
+  WriteFile(folder / "bad/frames/0001.jpg", picture);
+  const RunResult again = RunPleinair(command);
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  report = json::parse(ReadFile(folder / "out/report.json"));
+  EXPECT_EQ(report["films"].size(), 2U);
+  EXPECT_TRUE(report["skipped"].empty());
 }
 
 TEST(Accuracy, RefusesWhatItDoesNotKnow) {
@@ -89,6 +139,7 @@ TEST(Accuracy, RefusesWhatItDoesNotKnow) {
     EXPECT_FALSE(fs::exists(folder / "out"));
   }
   EXPECT_EQ(RunPleinair({"report", "merge", folder / "nowhere"}).exit_code, 2);
+  EXPECT_EQ(RunPleinair({"report", "diff", folder / "nowhere", folder / "nowhere"}).exit_code, 2);
 }
 
 }  // namespace

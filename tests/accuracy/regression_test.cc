@@ -1,0 +1,106 @@
+#include "accuracy/regression.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "accuracy/random.h"
+
+namespace pleinair::accuracy {
+namespace {
+
+struct Wanted {
+  double corner_px = 0.05;  ///< Standard deviation of a corner's coordinate.
+  double missed = 0.1;
+  std::uint64_t seed = 1;
+};
+
+/// 120 frames of two sweeps and the ten of one jitter scene, which has an error of its own.
+std::vector<FrameRecord> MakeRun(const Wanted& wanted) {
+  RandomStream random(wanted.seed, "run");
+  std::vector<FrameRecord> records;
+  const double jitter_px = wanted.corner_px * (1.0 + random.Uniform());
+  for (int i = 0; i < 130; ++i) {
+    FrameRecord record{.frame = i, .name = "frame" + std::to_string(i), .detector = "ours"};
+    record.sweep = i < 60 ? "distance" : i < 120 ? "angle" : "jitter";
+    MarkerRecord marker;
+    marker.outcome = random.Uniform() < wanted.missed ? Outcome::kMissed : Outcome::kHit;
+    const double spread_px = i < 120 ? wanted.corner_px : jitter_px;
+    for (Vec2& error : marker.corner_error_px) {
+      error = {spread_px * random.Normal(), spread_px * random.Normal()};
+    }
+    marker.true_camera_from_marker.translation_m = {0, 0, 2};
+    record.markers.push_back(marker);
+    records.push_back(record);
+  }
+  return records;
+}
+
+const Change* Find(const std::vector<Change>& changes, const std::string& sweep,
+                   const std::string& measure) {
+  for (const Change& change : changes) {
+    if (change.sweep == sweep && change.measure == measure) return &change;
+  }
+  return nullptr;
+}
+
+TEST(Regression, FlagsCornersThatGotWorseByATwentiethOfAPixel) {
+  const auto changes =
+      CompareRuns(MakeRun({}), MakeRun({.corner_px = 0.085, .seed = 2}), {.detector = "ours"});
+  for (const char* sweep : {"distance", "angle", "all"}) {
+    const Change* corner = Find(changes, sweep, "corner_px");
+    ASSERT_NE(corner, nullptr);
+    EXPECT_TRUE(corner->worse) << sweep << " " << corner->p_worse;
+    EXPECT_NEAR(corner->after - corner->before, 0.05, 0.02);
+    EXPECT_FALSE(Find(changes, sweep, "rate")->worse);
+  }
+  const auto back =
+      CompareRuns(MakeRun({.corner_px = 0.085, .seed = 2}), MakeRun({}), {.detector = "ours"});
+  EXPECT_TRUE(Find(back, "all", "corner_px")->better);
+}
+
+TEST(Regression, FlagsMarkersThatAreNoLongerFound) {
+  const auto changes =
+      CompareRuns(MakeRun({}), MakeRun({.missed = 0.4, .seed = 2}), {.detector = "ours"});
+  EXPECT_TRUE(Find(changes, "all", "rate")->worse);
+  EXPECT_FALSE(Find(changes, "all", "corner_px")->worse);
+}
+
+TEST(Regression, FlagsFalseNumbers) {
+  std::vector<FrameRecord> after = MakeRun({});
+  for (int i = 0; i < 30; ++i) after[4 * i].false_numbers = 1;
+  EXPECT_TRUE(
+      Find(CompareRuns(MakeRun({}), after, {.detector = "ours"}), "all", "false_numbers")->worse);
+}
+
+TEST(Regression, CallsNoiseWorseAsSeldomAsItSays) {
+  const std::vector<FrameRecord> before = MakeRun({});
+  int flagged_same = 0, flagged_other = 0;
+  constexpr int kRepeats = 200;
+  for (int i = 0; i < kRepeats; ++i) {
+    const auto after = MakeRun({.seed = static_cast<std::uint64_t>(100 + i)});
+    const auto any_worse = [&](double alpha, bool same_scenes) {
+      for (const Change& change : CompareRuns(
+               before, after, {.detector = "ours", .alpha = alpha, .same_scenes = same_scenes})) {
+        if (change.worse) return true;
+      }
+      return false;
+    };
+    flagged_same += any_worse(0.001, false);
+    flagged_other += any_worse(0.05, false);
+    // The draws of one jitter scene are not as many scenes: taken so, they would be flagged.
+    const auto changes = CompareRuns(before, after, {.detector = "ours", .same_scenes = false});
+    EXPECT_EQ(Find(changes, "jitter", "corner_px")->pairs, 1);
+  }
+  EXPECT_LE(flagged_same, 1);
+  EXPECT_LE(flagged_other, 0.05 * kRepeats + 3 * std::sqrt(0.05 * 0.95 * kRepeats));
+}
+
+TEST(Regression, FindsNothingInCommonWithOtherFrames) {
+  EXPECT_TRUE(CompareRuns(MakeRun({}), {}, {.detector = "ours"}).empty());
+  EXPECT_TRUE(CompareRuns(MakeRun({}), MakeRun({}), {.detector = "theirs"}).empty());
+}
+
+}  // namespace
+}  // namespace pleinair::accuracy
