@@ -83,19 +83,36 @@ float ShadowBlocked(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel,
   return ShadowBilinear(vec4(greaterThan(quad.excess, vec4(0.0))), texel - 0.5 - corner);
 }
 
-// Three looks in a line that spread as far, in standard deviations, as the disc past the highest of
-// the first four texels and the pixel do beyond one look's own tent (variance 1/6 texel² an axis).
-// The outer two lie √(3/2) deviations away: (2/3) (3/2) σ² = σ².
+// Deviations along both axes, texels, of what disc and pixel spread beyond one look's own tent
+// (variance 1/6 texel² an axis); the disc past the highest of the four texels of that look.
+vec2 ShadowSpread(ShadowReceiver r, vec4 height, float tan_radius_texels) {
+  vec2 high = max(height.xy, height.zw);
+  float disc = max(max(high.x, high.y), 0.0) * tan_radius_texels;
+  vec2 pixel2 = r.step_x * r.step_x + r.step_y * r.step_y;
+  return sqrt(max(0.25 * disc * disc + pixel2 / 12.0 - 1.0 / 6.0, 0.0));
+}
+
+// Three looks in a line: the outer two lie √(3/2) deviations away, (2/3) (3/2) σ² = σ².
 float ShadowThreeLooks(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
   vec4 height, unused;
   float blocked = ShadowBlocked(set, slice, size, r, r.texel, height);
-  vec2 high = max(height.xy, height.zw);
-  float disc = max(max(high.x, high.y), 0.0) * (tan_radius / size.x);
-  vec2 pixel2 = r.step_x * r.step_x + r.step_y * r.step_y;
-  vec2 apart = sqrt(max(1.5 * (0.25 * disc * disc + pixel2 / 12.0 - 1.0 / 6.0), 0.0));
+  vec2 apart = sqrt(1.5) * ShadowSpread(r, height, tan_radius / size.x);
   blocked += ShadowBlocked(set, slice, size, r, r.texel + apart, unused);
   blocked += ShadowBlocked(set, slice, size, r, r.texel - apart, unused);
   return 1.0 - blocked / 3.0;
+}
+
+// Five looks, one amid four: (4/5) (5/4) σ² = σ².
+float ShadowFiveLooks(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
+  vec4 height, unused;
+  float blocked = ShadowBlocked(set, slice, size, r, r.texel, height);
+  vec2 apart = sqrt(1.25) * ShadowSpread(r, height, tan_radius / size.x);
+  vec2 across = vec2(apart.x, -apart.y);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel + apart, unused);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel - apart, unused);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel + across, unused);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel - across, unused);
+  return 1.0 - blocked / 5.0;
 }
 
 // Visibility of the sun's disc by percentage-closer soft shadows (Fernando 2005) with the sun's own

@@ -21,7 +21,8 @@
 #include "shadows/shaders/shadow_filters.glsl"
 #else
 #if !defined(SHADOW_METHOD_SUN_DISC) && !defined(SHADOW_METHOD_SUN_DISC_FAST) && \
-    !defined(SHADOW_METHOD_SUN_DISC_LEAN) && !defined(SHADOW_METHOD_SUN_DISC_LIGHT)
+    !defined(SHADOW_METHOD_SUN_DISC_LEAN) && !defined(SHADOW_METHOD_SUN_DISC_LIGHT) &&       \
+    !defined(SHADOW_METHOD_SUN_DISC_SPREAD)
 #define SHADOW_METHOD_SUN_DISC
 #endif
 #include "shadows/shaders/shadow_sun_disc.glsl"
@@ -98,6 +99,8 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
   return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, wanted);
 #elif defined(SHADOW_METHOD_SUN_DISC_FAST)
   return ShadowNarrow(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
+#elif defined(SHADOW_METHOD_SUN_DISC_SPREAD)
+  return ShadowFiveLooks(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
 #elif defined(SHADOW_METHOD_SUN_DISC_LIGHT)
   return ShadowThreeLooks(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
 #elif defined(SHADOW_METHOD_SUN_DISC_LEAN)
