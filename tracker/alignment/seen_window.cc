@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "base/srgb.h"
+#include "tracker/homography.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -80,6 +82,41 @@ void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
           static_cast<float>(row[x]) * (1.0F / 255.0F);
     }
   }
+}
+
+std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plane_from_ideal,
+                                          double side, int places, int width, int height, int level,
+                                          int margin) {
+  const Mat3 inverse = Adjugate(plane_from_ideal);
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+  double sign = 0.0;
+  for (int i = 0; i < 4 * places; ++i) {
+    // Round the square: along its top, right, bottom and left.
+    const double along = side * (i % places) / places;
+    const Vec2 at = std::array<Vec2, 4>{
+        Vec2{along, 0.0}, {side, along}, {side - along, side}, {0.0, side - along}}[i / places];
+    const Vec3 ideal = inverse * Vec3{at.x, at.y, 1.0};
+    if (i > 0 && ideal.z * sign <= 0.0) return std::nullopt;
+    sign = ideal.z;
+    const Vec2 pixel = lens.PixelOfIdeal({ideal.x / ideal.z, ideal.y / ideal.z});
+    if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return std::nullopt;
+    left = std::min(left, pixel.x);
+    right = std::max(right, pixel.x);
+    top = std::min(top, pixel.y);
+    bottom = std::max(bottom, pixel.y);
+  }
+  const double scale = 1 << level;
+  const auto first = [&](double full, int most) {
+    return static_cast<int>(
+        std::clamp(std::floor((full + 0.5) / scale - 0.5) - margin, 0.0, 1.0 * most));
+  };
+  const auto behind = [&](double full, int most) {
+    return static_cast<int>(
+        std::clamp(std::ceil((full + 0.5) / scale - 0.5) + 1 + margin, 0.0, 1.0 * most));
+  };
+  const int x0 = first(left, width >> level), y0 = first(top, height >> level);
+  return PixelWindow{level, x0, y0, behind(right, width >> level) - x0,
+                     behind(bottom, height >> level) - y0};
 }
 
 }  // namespace pleinair::tracker

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/image.h"
@@ -31,5 +32,13 @@ void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
 /// print, not to measure it.
 void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
                     const PixelWindow& window, SeenWindow* seen);
+
+/// Which pixels of a picture of `width` x `height`, reduced `level` times, show the square
+/// [0, side]² of a plane, and `margin` more on every side; at most the whole picture. The plane is
+/// told by `plane_from_ideal`; `places` of each side are looked at, since lenses bend sides.
+/// Nothing where the horizon crosses the square.
+std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plane_from_ideal,
+                                          double side, int places, int width, int height, int level,
+                                          int margin);
 
 }  // namespace pleinair::tracker

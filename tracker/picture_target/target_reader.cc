@@ -112,34 +112,15 @@ bool TargetReader::TakeWindow(const Mat3& target_from_ideal, double most_px,
          extent->shortest / (1 << (level + 1)) > kLeastShort_px) {
     ++level;
   }
-  const Mat3 inverse = Adjugate(target_from_ideal);
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-  constexpr int kSteps = 4;  // Along a side, since lenses bend sides.
-  for (int side = 0; side < 4; ++side) {
-    for (int step = 0; step < kSteps; ++step) {
-      const double share = static_cast<double>(step) / kSteps;
-      const Vec2 unit =
-          kSquareCorners[side] * (1.0 - share) + kSquareCorners[(side + 1) % 4] * share;
-      const Vec2 pixel =
-          lens_.PixelOfIdeal(Apply(inverse, {kHalf + kHalf * unit.x, kHalf - kHalf * unit.y}));
-      if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return false;
-      left = std::min(left, pixel.x);
-      right = std::max(right, pixel.x);
-      top = std::min(top, pixel.y);
-      bottom = std::max(bottom, pixel.y);
-    }
+  constexpr int kPlaces = 4;  // Along a side.
+  constexpr int kMargin = 1;
+  const std::optional<PixelWindow> window =
+      WindowOfSquare(lens_, target_from_ideal, kTargetSide, kPlaces, grey_.width(), grey_.height(),
+                     level, kMargin);
+  if (!window || window->width <= 3 || window->height <= 3 || window->size() > kMostWindow) {
+    return false;
   }
-  const double scale = 1 << level;
-  const int width = grey_.width() >> level, height = grey_.height() >> level;
-  const auto within = [&](double full, int add, int most) {
-    return static_cast<int>(
-        std::clamp(std::floor((full + 0.5) / scale - 0.5) + add, 0.0, 1.0 * most));
-  };
-  const int x0 = within(left, -1, width), x1 = within(right, 3, width);
-  const int y0 = within(top, -1, height), y1 = within(bottom, 3, height);
-  const PixelWindow window{level, x0, y0, x1 - x0, y1 - y0};
-  if (window.width <= 3 || window.height <= 3 || window.size() > kMostWindow) return false;
-  TakeLinearWindow(lens_, grey_, window, seen);
+  TakeLinearWindow(lens_, grey_, *window, seen);
   return true;
 }
 

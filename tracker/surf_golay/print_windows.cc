@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "tracker/homography.h"
 #include "tracker/surf_golay/print_square.h"
 
 namespace pleinair::tracker {
@@ -36,30 +35,10 @@ double PrintWindows::SidePx(const Mat3& modules_from_ideal) {
 }
 
 bool PrintWindows::Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const {
-  const Mat3 inverse = Adjugate(modules_from_ideal);
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-  double sign = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const Vec3 corner{i & 1 ? static_cast<double>(sg::kPrint) : 0.0,
-                      i & 2 ? static_cast<double>(sg::kPrint) : 0.0, 1.0};
-    const Vec3 ideal = inverse * corner;
-    if (i > 0 && ideal.z * sign <= 0.0) return false;  // The horizon crosses the print.
-    sign = ideal.z;
-    const Vec2 pixel = lens_.PixelOfIdeal({ideal.x / ideal.z, ideal.y / ideal.z});
-    if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return false;
-    left = std::min(left, pixel.x);
-    right = std::max(right, pixel.x);
-    top = std::min(top, pixel.y);
-    bottom = std::max(bottom, pixel.y);
-  }
-  const double scale = 1 << level;
-  const int width = grey_.width() >> level, height = grey_.height() >> level;
-  const auto reduced = [&](double full) { return (full + 0.5) / scale - 0.5; };
-  const int x0 = static_cast<int>(std::clamp(std::floor(reduced(left)), 0.0, width * 1.0));
-  const int x1 = static_cast<int>(std::clamp(std::ceil(reduced(right)) + 1, 0.0, width * 1.0));
-  const int y0 = static_cast<int>(std::clamp(std::floor(reduced(top)), 0.0, height * 1.0));
-  const int y1 = static_cast<int>(std::clamp(std::ceil(reduced(bottom)) + 1, 0.0, height * 1.0));
-  *window = {level, x0, y0, x1 - x0, y1 - y0};
+  const std::optional<PixelWindow> found = WindowOfSquare(lens_, modules_from_ideal, sg::kPrint, 1,
+                                                          grey_.width(), grey_.height(), level, 0);
+  if (!found) return false;
+  *window = *found;
   return window->width > 3 && window->height > 3 && window->size() < kMostPixels;
 }
 
