@@ -140,14 +140,15 @@ Result<void> Run(Options& options) {
       "bench",
       static_cast<std::int64_t>(bench.scenes.size() * (1 + methods * bench.resolutions.size())),
       "rows");
-  if (!options.json) std::cout << kHead << std::flush;
-  PLEINAIR_ASSIGN_OR_RETURN(const ShadowBenchResult result, RunShadowBench(
-                                                                bench, [&] { bar.Advance(); },
-                                                                [&](const ShadowBenchRow& row) {
-                                                                  if (!options.json)
-                                                                    std::cout << RowText(row)
-                                                                              << std::flush;
-                                                                }));
+  bool headed = options.json;  // With the first row: an error before it is all that is said.
+  const auto print = [&](const ShadowBenchRow& row) {
+    if (!headed) std::cout << kHead;
+    headed = true;
+    if (!options.json) std::cout << RowText(row) << std::flush;
+  };
+  PLEINAIR_ASSIGN_OR_RETURN(const ShadowBenchResult result,
+                            RunShadowBench(
+                                bench, [&] { bar.Advance(); }, print));
   if (!options.output.empty()) PLEINAIR_RETURN_IF_ERROR(WriteResults(result, options.output));
   if (options.json) {
     for (const ShadowBenchRow& row : result.rows) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "refusal.h"
 #include "run_program.h"
 
 namespace pleinair::e2e {
@@ -13,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 using ::testing::Contains;
-using ::testing::HasSubstr;
 
 TEST(BenchShadows, MeasuresAllMethodsAndOursIsTheBest) {
   const TemporaryFolder folder;
@@ -50,13 +50,11 @@ TEST(BenchShadows, MeasuresAllMethodsAndOursIsTheBest) {
 }
 
 TEST(BenchShadows, RefusesWhatItDoesNotKnow) {
-  const RunResult method = RunPleinair({"bench", "shadows", "--quick", "--methods", "raytracing"});
-  EXPECT_EQ(method.exit_code, 2);
-  EXPECT_THAT(method.err, HasSubstr("no method 'raytracing'"));
-  const RunResult recording = RunPleinair(
-      {"bench", "shadows", "--quick", "--scenes", "courtyard", "--recording", "/no/such/folder"});
-  EXPECT_EQ(recording.exit_code, 2);
-  EXPECT_THAT(recording.err, HasSubstr("/no/such/folder"));
+  ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--methods", "raytracing"}),
+                "no method 'raytracing'");
+  ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--scenes", "courtyard", "--recording",
+                             "/no/such/folder"}),
+                "/no/such/folder");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "refusal.h"
 #include "run_program.h"
 
 namespace pleinair::e2e {
@@ -19,7 +20,6 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
 
 constexpr double kPixelsPerMm = 12.0;
 
@@ -228,11 +228,7 @@ TEST_P(BadSheet, IsRefusedInOneLineAndLeavesNothing) {
   for (std::string& argument : arguments) {
     if (argument.starts_with("OUT/")) argument = folder / argument.substr(4);
   }
-  const RunResult run = RunPleinair(arguments);
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(GetParam().message)));
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  EXPECT_THAT(run.out, IsEmpty());
+  ExpectRefused(RunPleinair(arguments), GetParam().message);
   EXPECT_THAT(Listing(folder.path()), IsEmpty());
 }
 

@@ -16,6 +16,13 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
+void ExpectRefused(const RunResult& run, const std::string& message, int exit_code) {
+  EXPECT_EQ(run.exit_code, exit_code) << run.err;
+  EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(message)));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_THAT(run.out, IsEmpty());
+}
+
 void ExpectRefusal(const std::string& subcommand, const Refusal& refusal) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "out");
@@ -25,11 +32,7 @@ void ExpectRefusal(const std::string& subcommand, const Refusal& refusal) {
     if (at != std::string::npos) word.replace(at, 3, (folder / "out").string());
     arguments.push_back(word);
   }
-  const RunResult run = RunPleinair(arguments);
-  EXPECT_EQ(run.exit_code, 2) << run.err;
-  EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(refusal.message)));
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  EXPECT_THAT(run.out, IsEmpty());
+  ExpectRefused(RunPleinair(arguments), refusal.message);
   EXPECT_THAT(Listing(folder / "out"), IsEmpty());
 }
 

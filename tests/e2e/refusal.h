@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "run_program.h"
+
 namespace pleinair::e2e {
 
 /// A command line that cannot be carried out, and what the one line of error must name. OUT in an
@@ -15,7 +17,10 @@ struct Refusal {
 };
 inline void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; }
 
-/// Exit code 2, one line that names what is wrong, nothing on standard output, nothing written.
+/// One line that names what is wrong, nothing on standard output.
+void ExpectRefused(const RunResult& run, const std::string& message, int exit_code = 2);
+
+/// The same of a command that is run here, and nothing written.
 void ExpectRefusal(const std::string& subcommand, const Refusal& refusal);
 
 /// The same for `--csv` of a table whose third line is `broken`, to standard output and to a file:

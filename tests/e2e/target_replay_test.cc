@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "poster.h"
+#include "refusal.h"
 #include "run_program.h"
 #include "tum_file.h"
 
@@ -18,10 +19,8 @@ namespace pleinair::e2e {
 namespace {
 
 using nlohmann::json;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
 
 constexpr double kWidth_m = 0.84;  // Covers the recording's own marker with its board.
 
@@ -140,8 +139,7 @@ TEST(TargetReplay, RefusesAScenesTargetThatCannotBe) {
                                                       "[marker]\nheading_deg = 342\n") +
                                               c.marker + "\n");
     const RunResult run = RunPleinair({"replay", folder / "site", "-o", folder / "out"});
-    EXPECT_EQ(run.exit_code, 2) << c.marker;
-    EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(c.message)));
+    ExpectRefused(run, c.message);
     EXPECT_FALSE(std::filesystem::exists(folder / "out")) << c.marker;
   }
 }

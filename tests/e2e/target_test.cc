@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -11,6 +10,7 @@
 #include <sstream>
 
 #include "poster.h"
+#include "refusal.h"
 #include "run_program.h"
 
 namespace pleinair::e2e {
@@ -21,7 +21,6 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
 
 constexpr double kFocal_px = 800.0, kWidth_mm = 420.0;
 const cv::Size kPoster(200, 150), kPicture(400, 300);
@@ -72,13 +71,6 @@ class Target : public ::testing::Test {
     std::istringstream stream(run.out);
     for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
     return lines;
-  }
-
-  static void ExpectRefused(const RunResult& run, const std::string& message) {
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_THAT(run.err, AllOf(StartsWith("pleinair: "), HasSubstr(message)));
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_THAT(run.out, IsEmpty());
   }
 
   const TemporaryFolder folder_;
