@@ -34,6 +34,10 @@ TEST(IncludeRules, CatchOpenCvWhereABareMachineMustBuild) {
 TEST(IncludeRules, CatchOpenGlInTheTracker) {
   EXPECT_THAT(FindBreaches("tracker/pose.cc", "  #  include <epoxy/gl.h>"),
               ElementsAre(HasSubstr("tracker may not know OpenGL")));
+  // The window draws; the rest of app leaves that to compositor.
+  EXPECT_THAT(FindBreaches("app/session.cc", "#include <epoxy/gl.h>"),
+              ElementsAre(HasSubstr("app may not know OpenGL")));
+  EXPECT_THAT(FindBreaches("app/window/live_window.cc", "#include <GLFW/glfw3.h>"), IsEmpty());
 }
 
 TEST(IncludeRules, CatchALibrarysTypesInAPublicHeader) {
