@@ -166,6 +166,14 @@ TEST(Composer, NeverDarkensARealShadowTwice) {
   EXPECT_NEAR(SeenAt(composed, {0, 0.8, 0}) / before, 1.0, 0.04);
 }
 
+TEST(Composer, ShadesTheObjectWhereARealWallKeepsTheSunFromIt) {
+  const PlacedModel wall = Place(MakeBox({-3, -0.8, 0}, {3, -0.7, 2.5}, 0.3F), true);
+  const double sky_alone = kGain * 0.5 * kSkyLux / std::numbers::pi;
+  const double shaded = SeenAt(Compose({kGround, wall, kCube}, EvenPicture(120)), {0, 0, 0.3});
+  EXPECT_LT(shaded, 1.05 * sky_alone);
+  EXPECT_GT(shaded, 0.5 * sky_alone);  // The wall hides some of the sky.
+}
+
 TEST(Composer, HidesTheObjectBehindAPhantom) {
   const PlacedModel table = Place(MakeBox({-1, -1, 0.8}, {1, 1, 0.85}, 0.3F), true);
   const RgbImage picture = EvenPicture(90);
