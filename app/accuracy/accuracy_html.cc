@@ -219,9 +219,8 @@ std::string PeerTable(const RunSummary& summary) {
       "<th>markers</th><th>both</th><th>only ours</th><th>only theirs</th><th>p</th>"
       "<th>rate</th><th>corner error</th><th>rotation error</th><th>false, ours/theirs</th></tr>\n";
   const auto ratio = [](double value, const accuracy::Interval& interval) {
-    return std::isfinite(value)
-               ? fmt::format("{:.2f} ({:.2f}–{:.2f})", value, interval.low, interval.high)
-               : std::string("–");
+    if (!(value > 0.0) || !std::isfinite(value)) return std::string("–");
+    return fmt::format("{:.2f} ({}–{})", value, Figure(interval.low, 2), Figure(interval.high, 2));
   };
   for (const accuracy::PeerSummary& peer : summary.peers) {
     html += fmt::format(
