@@ -6,11 +6,13 @@ extern "C" {
 #include <apriltag/tag36h11.h>
 }
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <ctime>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -225,6 +227,47 @@ void BM_TrackedMarkers(benchmark::State& state) {
       static_cast<std::size_t>(markers));
 }
 
+double ResidentMebibytes() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  file >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+/// Consecutive frames in which a marker moves there and back, is covered and gone for a while: what
+/// the process holds after the first thousand and after all.
+void BM_MemoryOverFrames(benchmark::State& state) {
+  const CameraModel camera = CameraOf(480);
+  std::vector<GreyImage> pictures;
+  for (int i = 0; i < 24; ++i) {
+    std::vector<Placed> places;
+    if (i < 20) places.push_back({{250.0 + 1.4 * i, 240.0 - 0.6 * i}, 96.0, 7, i >= 10});
+    pictures.push_back(Picture(camera, places));
+  }
+  TrackerOptions options;
+  options.families = {"sg"};
+  options.marker_size_m = 0.1;
+  options.consecutive_frames = true;
+  auto made = Tracker::Create(camera, options);
+  CHECK_EQ(made.has_value(), true);
+  constexpr int kFirst = 1000;
+  double first = 0.0;
+  std::int64_t found = 0;
+  for (auto _ : state) {
+    for (int frame = 0; frame < state.range(0); ++frame) {
+      if (frame == kFirst) first = ResidentMebibytes();
+      // There and back.
+      const int at = frame % 48;
+      const auto seen = (*made)->Track(pictures[at < 24 ? at : 47 - at].view());
+      found += seen.has_value() ? static_cast<std::int64_t>(seen->size()) : 0;
+    }
+  }
+  state.counters["mib_first"] = benchmark::Counter(first);
+  state.counters["mib_last"] = benchmark::Counter(ResidentMebibytes());
+  state.counters["markers"] =
+      benchmark::Counter(static_cast<double>(found) / static_cast<double>(state.range(0)));
+}
+
 void BM_AprilTag(benchmark::State& state) {
   const CameraModel camera = CameraOf(static_cast<int>(state.range(0)));
   GreyImage picture =
@@ -246,6 +289,11 @@ BENCHMARK(BM_TrackedMarkers)
     ->Args({480, 10})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_MemoryOverFrames)
+    ->ArgName("frames")
+    ->Arg(100'000)
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond);
 BENCHMARK(BM_AprilTag)
     ->ArgNames({"height", "threads"})
     ->ArgsProduct({{480, 720, 1080}, {1, 2}})

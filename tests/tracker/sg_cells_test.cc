@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 
 #include "tests/tracker/sg_test_scenes.h"
@@ -160,9 +161,26 @@ TEST(SgCells, ShowThroughGlareThatIsSmooth) {
   EXPECT_GT(agreement(*glared), agreement(*plain));
 }
 
+// Light that saturates most of the content: what is left at its fringe must be told from covers.
+TEST(SgCells, ShowAroundTheCoreOfAHighlight) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.5};
+  options.glare = [](Vec2 pixel) {
+    const double away = Norm(pixel - Vec2{60, 60}) / 24.0;
+    return 1.6 * std::exp(-std::numbers::ln2 * std::pow(away, 4.0));
+  };
+  const ReadCells cells(camera, Marker(camera, 110), options, true);
+  ASSERT_TRUE(cells.ok());
+  EXPECT_EQ(PlainlyWrong(*cells), 0);
+  const SoftGolayDecoding decoding = SoftGolayDecoder().Decode(cells->likelihoods);
+  EXPECT_GE(decoding.erasures, 3);
+  EXPECT_EQ(decoding.number, kNumber);
+  EXPECT_GT(decoding.margin, 8.0F);
+}
+
 TEST(SgCells, AreReadWhereWhiteClips) {
   const CameraModel camera = SgCamera(160, 150, 300);
-  for (const double exposure : {2.0, 4.0}) {
+  for (const double exposure : {2.0, 4.0, 8.0}) {
     SCOPED_TRACE(testing::Message() << "exposed " << exposure << " times");
     RenderedMarker marker = Marker(camera, 90);
     marker.white *= exposure;

@@ -11,7 +11,10 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kMostBlocksAlong = 8;
-constexpr double kLeastBlockContrast = 0.04;  ///< Standard deviation of the share of white.
+/// Standard deviation of the share of white. Where much of the window clips only the foot of each
+/// edge is left, steep as it is.
+constexpr double kLeastBlockContrast = 0.04, kLeastClippedContrast = 0.012, kMuchClipped = 0.25;
+constexpr float kClippedLight = 0.9F;  ///< Pixels that are left out for other reasons are darker.
 constexpr int kLeastBlockPixels = 6;
 constexpr double kLeastWeight = 0.02;
 constexpr double kRobustNoises = 1.0;  ///< Standard deviations at which a pixel loses half.
@@ -121,7 +124,7 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
     const double vp = sum.wpp / sum.w - p * p, vi = sum.wii / sum.w - i * i;
     const double vpi = sum.wpi / sum.w - p * i;
     block.contrast = std::sqrt(std::max(0.0, vp));
-    if (block.contrast < kLeastBlockContrast || !(vi > 1e-12)) continue;
+    if (block.contrast < least_contrast_ || !(vi > 1e-12)) continue;
     block.correlation = vpi / std::sqrt(vp * vi);
     if (!(sum.r > 0.0)) continue;
     const double rp = sum.rp / sum.r;
@@ -187,6 +190,14 @@ void BlockFit::Start(const PrintPattern& pattern, const SeenWindow& seen, int bl
   sums_->lights.assign(blocks, BlockLight{});
   block_of_.resize(seen.value.size());
   weight_ = seen.certainty;
+  std::size_t clipped = 0;
+  for (std::size_t n = 0; n < weight_.size(); ++n) {
+    clipped += weight_[n] == 0.0F && seen.value[n] > kClippedLight;
+  }
+  least_contrast_ =
+      static_cast<double>(clipped) > kMuchClipped * static_cast<double>(weight_.size())
+          ? kLeastClippedContrast
+          : kLeastBlockContrast;
   const Sides sides = SidesOf(Adjugate(UnitFromModules(pattern) * state.modules_from_ideal));
   const double shortest = sides.shortest / seen.rays.window.Scale();
   const double block_px = shortest * pattern.modules / pattern.edge_modules / blocks_along_;
@@ -286,7 +297,7 @@ bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow
 double BlockFit::Correlation() const {
   double sum = 0.0, share = 0.0;
   for (const PrintBlock& block : blocks_) {
-    if (block.contrast < kLeastBlockContrast) continue;
+    if (block.contrast < least_contrast_) continue;
     const double weight = block.pixels * block.contrast;
     sum += weight * block.correlation;
     share += weight;

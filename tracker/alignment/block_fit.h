@@ -67,6 +67,8 @@ class BlockFit {
   /// less than `done_px` from there: row by row from the top-left.
   const std::vector<PrintBlock>& blocks() const { return blocks_; }
   int blocks_along() const { return blocks_along_; }
+  /// Contrast of a block below which it tells nothing.
+  double least_contrast() const { return least_contrast_; }
   const PrintMap& map() const { return map_; }
   const PrintPicture& picture() const { return picture_; }
   /// Block of each pixel of the window; -1: not of what is known of the print. A block's pixels
@@ -104,6 +106,7 @@ class BlockFit {
   PrintPicture picture_;
   int blocks_along_ = 0;
   int tile_ = 4;
+  double least_contrast_ = 0.0;
   std::vector<PrintBlock> blocks_;
   std::vector<double> noise_shares_;
   std::vector<std::int16_t> block_of_;

@@ -11,6 +11,8 @@ namespace {
 /// Deviation of a cell's share that no noise tells: uneven light, ink, the blur's shape.
 constexpr double kSystematicShare = 0.025, kMostEven = 0.008, kSystematicGlare = 0.03,
                  kSystematicPerBlur = 0.05;
+/// Of glare, as a share of it, how much may be left on a cell or taken from it.
+constexpr double kUnsurePerGlare = 0.15;
 /// Prior probability that a cell is covered: alone, and when all around it are.
 constexpr double kCoveredAlone = 0.03, kCoveredAmong = 0.6;
 /// Density of the share that is seen where a cell is covered.
@@ -19,6 +21,8 @@ constexpr double kCoveredDensity = 0.5;
 constexpr double kUnevenShare = 0.10;
 /// White brighter than this clips: a clipped pixel is white there, and glare elsewhere.
 constexpr double kWhiteClips = 0.93;
+/// In the core of a highlight noise and compression leave some pixels just below the brightest.
+constexpr float kNearlyClips = 0.92F;
 constexpr double kRidge = 1e-4;
 constexpr double kLeastSeen_px = 0.3;
 /// A pixel that sees so much of one cell is a witness of its own; those of a cell together are
@@ -34,7 +38,7 @@ constexpr int kGlareNodes = 2 * sg::kCells + 3;
 constexpr std::array<int, 4> kNodeSteps{0, 1, kGlareNodes, kGlareNodes + 1};
 constexpr double kGlaring = 1.12;  ///< Share of white of a cell that glares,
 constexpr int kFewestGlaring = 2;  ///< … and how many must.
-constexpr double kGlareBend = 0.03, kGlareSize = 0.0005;
+constexpr double kGlareBend = 0.02, kGlareSize = 0.00003;
 
 double GlareNode(double module) {
   return (module - (sg::kQuiet + sg::kContent - 0.5 * sg::kCell)) / (0.5 * sg::kCell);
@@ -69,7 +73,7 @@ void ColumnShares(double at, double sigma, std::array<double, sg::kCells>* share
 }  // namespace
 
 void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-                        const BlockFitState& state, const PrintLight& light) {
+                        const BlockFitState& state, const PrintLight& light, bool with_glare) {
   pixels_.clear();
   const double blur = state.blur_px / seen.rays.window.Scale();
   const double variance_px2 = blur * blur + 1.0 / 12.0;
@@ -88,7 +92,8 @@ void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const Se
     const double u = (c - middle) * per_half, v = (r - middle) * per_half;
     const double white = light.White(u, v), black = light.black_share * white;
     const bool clipped = !(seen.certainty[n] > 0.0F);
-    if (clipped && white < kWhiteClips) continue;
+    if (clipped && (with_glare || white < kWhiteClips)) continue;
+    if (with_glare && seen.value[n] > kNearlyClips) continue;
     const double known = fit.picture().white[n];
     const double share = (seen.value[n] - black) / (white - black);
     Pixel pixel;
@@ -200,7 +205,7 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
                       const BlockFitState& state, const PrintLight& light, bool with_glare,
                       CellReading* reading) {
   *reading = CellReading{};
-  Gather(blank, fit, seen, state, light);
+  Gather(blank, fit, seen, state, light, with_glare);
   if (pixels_.empty()) return;
   Eigen::VectorXd found;
   Eigen::MatrixXd inverse;
@@ -225,13 +230,16 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
       std::clamp(light.white_noise, 1.5 * kMostEven, kSystematicShare) + rough};
 
   std::array<double, sg::kCodeCells> left{}, seen_share{}, whole{}, witness{};
+  std::array<double, sg::kCodeCells> glare{};
   for (const Pixel& pixel : pixels_) {
-    double predicted = with_glare ? GlareAt(pixel, found) : 0.0;
+    const double thrown_back = with_glare ? GlareAt(pixel, found) : 0.0;
+    double predicted = thrown_back;
     for (int a = 0; a < pixel.cells; ++a) predicted += pixel.share[a] * white[pixel.cell[a]];
     const double error = pixel.value - predicted;
     for (int a = 0; a < pixel.cells; ++a) {
       const int k = pixel.cell[a];
       left[k] += pixel.share[a] * error * error;
+      glare[k] += pixel.share[a] * std::max(0.0, thrown_back);
       seen_share[k] += pixel.share[a];
       if (pixel.share[a] < kWholeShare) continue;
       const double share = white[k] + error / pixel.share[a];
@@ -260,14 +268,17 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
       reading->witness[k] = static_cast<float>(kWitnesses * witness[k] / whole[k]);
     }
   }
-  Judge(systematic, reading);
+  for (int k = 0; k < sg::kCodeCells; ++k) glare[k] /= std::max(1.0, seen_share[k]);
+  Judge(systematic, glare, reading);
 }
 
-void CellReader::Judge(const Unevenness& systematic, CellReading* reading) {
+void CellReader::Judge(const Unevenness& systematic,
+                       const std::array<double, sg::kCodeCells>& glare, CellReading* reading) {
   std::array<double, sg::kCodeCells> evidence{}, covered{};
   const auto density = [&](int k, double ideal) {
     const double off = reading->white[k] - ideal;
-    const double even = ideal > 0.5 ? systematic.white : systematic.black;
+    const double even =
+        (ideal > 0.5 ? systematic.white : systematic.black) + kUnsurePerGlare * glare[k];
     const double sigma2 = even * even + reading->deviation[k] * reading->deviation[k];
     return std::exp(-0.5 * off * off / sigma2) / std::sqrt(2.0 * std::numbers::pi * sigma2);
   };
@@ -275,7 +286,7 @@ void CellReader::Judge(const Unevenness& systematic, CellReading* reading) {
     // What no pixel tells of is drowned in light, or outside the picture; nothing lies on it.
     if (!reading->seen[k]) continue;
     // How much likelier the cell's looks are when something covers it.
-    const double uneven = reading->misfit[k] / kUnevenShare;
+    const double uneven = reading->misfit[k] / (kUnevenShare + kUnsurePerGlare * glare[k]);
     evidence[k] = std::exp(std::min(20.0, 2.0 * uneven * uneven)) * kCoveredDensity;
     const double clean = 0.5 * (density(k, 0.0) + density(k, 1.0));
     covered[k] =

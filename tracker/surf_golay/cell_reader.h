@@ -51,7 +51,7 @@ class CellReader {
     float least = -1.0F;  ///< Of a clipped pixel on clipping white: its share is at least this.
   };
   void Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-              const BlockFitState& state, const PrintLight& light);
+              const BlockFitState& state, const PrintLight& light, bool with_glare);
   /// Least squares of the cells' shares, and of smooth glare on top where asked.
   bool Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd* inverse);
   static double GlareAt(const Pixel& pixel, const Eigen::VectorXd& found);
@@ -60,7 +60,8 @@ class CellReader {
   struct Unevenness {
     double black, white;
   };
-  static void Judge(const Unevenness& systematic, CellReading* reading);
+  static void Judge(const Unevenness& systematic, const std::array<double, sg::kCodeCells>& glare,
+                    CellReading* reading);
 
   std::vector<Pixel> pixels_;
 };

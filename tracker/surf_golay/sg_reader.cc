@@ -30,8 +30,7 @@ constexpr double kPlainDone_px = 0.05;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
-constexpr double kLeastContrast = 0.04;  ///< Of a block's predicted shares of white.
-constexpr double kLeastTelling = 0.15;   ///< Blocks that count at least, as a share of all.
+constexpr double kLeastTelling = 0.15;  ///< Blocks that count at least, as a share of all.
 constexpr double kLeastVisibleBorder = 0.06;
 /// A print of which less is seen is also measured from its content; and in so many steps.
 constexpr double kWholeEnough = 0.93;
@@ -59,7 +58,7 @@ constexpr double kTellsLight = 0.8, kSplitDoubt_bits = 2.0;
 /// With few numbers in use as much proof is asked for as with so many: a picture holds many places
 /// where one may be seen by chance.
 constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
-constexpr int kFewestNumbers = 64;
+constexpr int kFewestNumbers = 256;
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.005;
@@ -98,12 +97,12 @@ void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
       const PrintBlock& block = blocks[row * side + column];
-      if (block.contrast > kLeastContrast || 2 * block.pixels < most->pixels) continue;
+      if (block.contrast > fit.least_contrast() || 2 * block.pixels < most->pixels) continue;
       float sum = 0.0F;
       int count = 0;
       for (int y = std::max(0, row - 1); y <= std::min(side - 1, row + 1); ++y) {
         for (int x = std::max(0, column - 1); x <= std::min(side - 1, column + 1); ++x) {
-          if (blocks[y * side + x].contrast <= kLeastContrast) continue;
+          if (blocks[y * side + x].contrast <= fit.least_contrast()) continue;
           sum += (*visible)[y * side + x];
           ++count;
         }
@@ -181,7 +180,7 @@ double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
 double SgReader::VisibleBorder() const {
   double visible = 0.0, border = 0.0;
   for (const PrintBlock& block : fit_.blocks()) {
-    if (block.contrast < kLeastContrast) continue;
+    if (block.contrast < fit_.least_contrast()) continue;
     border += block.pixels;
     if (block.correlation > kVisibleCorrelation) visible += block.pixels;
   }
@@ -218,7 +217,7 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
         const double middle = (at + 0.5) / along * sg::kPrint - kMiddle;
         return std::fabs(middle) < 0.5 * sg::kCells * sg::kCell;
       };
-      if (!central(column) || !central(row) || block.contrast < kLeastContrast) continue;
+      if (!central(column) || !central(row) || block.contrast < fit_.least_contrast()) continue;
       seen += block.pixels;
       right += block.pixels * std::clamp(block.correlation, 0.0, 1.0);
     }
@@ -398,7 +397,7 @@ void SgReader::Finish(const BlockFit& fit, const BlockFitState& state, SgReading
   double seen = 0.0, all = 0.0;
   for (const PrintBlock& block : fit.blocks()) {
     // Blocks that clip all over, or lie outside the picture, tell nothing.
-    const bool tells = block.contrast > kLeastContrast;
+    const bool tells = block.contrast > fit.least_contrast();
     const double visible = tells ? std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0) : 0.0;
     reading->visible.push_back(static_cast<float>(visible));
     seen += visible;
