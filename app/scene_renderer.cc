@@ -99,6 +99,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
 
 void SceneRenderer::SetMarkerPrint(const compositor::MarkerPrint& print) {
   print_ = print;
+  if (composer_) composer_->SetMarkerBoard(print.board_size_m);
   if (!lit_ || light_from_outside_) return;
   meter_.emplace(print_, *solver_, lit_->daylight, MarkerFromWorld(scene_.marker), response_);
 }

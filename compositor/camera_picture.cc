@@ -38,6 +38,9 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
   PLEINAIR_ASSIGN_OR_RETURN(picture.positions_,
                             gl::GlTexture::Create2D(GL_RG32F, camera.width, camera.height));
   picture.positions_.Upload(GL_RG, GL_FLOAT, RenderPositions(camera, render).data());
+  PLEINAIR_ASSIGN_OR_RETURN(picture.camera_positions_,
+                            gl::GlTexture::Create2D(GL_RG32F, render.width, render.height));
+  picture.camera_positions_.Upload(GL_RG, GL_FLOAT, CameraPositions(camera, render).data());
   PLEINAIR_ASSIGN_OR_RETURN(picture.output_framebuffer_,
                             gl::GlFramebuffer::Create({{{&picture.output_}}, {}}));
   picture.no_attributes_ = gl::GlVertexArray::Create();
@@ -46,8 +49,8 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                              .fragment = "compositor/shaders/blur.frag"}));
   std::vector<std::string> composite_defines;
+  PLEINAIR_RETURN_IF_ERROR(picture.CreateResponseTables());
   if (!picture.response_.IsSrgb()) {
-    PLEINAIR_RETURN_IF_ERROR(picture.CreateResponseTables());
     composite_defines.emplace_back("CAMERA_RESPONSE");
   }
   for (gl::GlProgram* program : {&picture.composite_program_, &picture.grain_program_}) {

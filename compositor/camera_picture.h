@@ -32,6 +32,12 @@ class CameraPicture {
   void SetBackground(ImageView<const std::uint8_t> rgb);
   /// Composes what was drawn into `targets` and resolved; the blur is left in them.
   void Draw(const RenderTargets& targets);
+  /// Binds the camera's picture, where render pixels lie in it, and the light of its codes.
+  void BindForShading(int background_unit, int positions_unit, int light_unit) const {
+    background_.Bind(background_unit);
+    camera_positions_.Bind(positions_unit);
+    light_of_code_.Bind(light_unit);
+  }
   /// The picture, with whatever else was drawn into framebuffer() since.
   RgbImage Read() const;
 
@@ -46,7 +52,7 @@ class CameraPicture {
   CameraModel camera_;
   CameraResponse response_;
   double supersampling_ = 1.0;
-  gl::GlTexture background_, positions_, output_;
+  gl::GlTexture background_, positions_, camera_positions_, output_;
   gl::GlTexture light_of_code_, code_of_light_, grain_;
   gl::GlFramebuffer output_framebuffer_;
   gl::GlVertexArray no_attributes_;

@@ -157,6 +157,7 @@ class GlComposer : public Composer {
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
                            LinearRgb gain) override;
+  void SetMarkerBoard(double board_size_m) override { board_size_m_ = board_size_m; }
   Result<void> SetLook(const std::optional<PictureLook>& look) override {
     PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
     look_ = look;
@@ -178,7 +179,7 @@ class GlComposer : public Composer {
   void DrawScene(const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain);
   void SetMaterial(const gl::GlProgram& program, const SurfaceBuffers& surface) const;
   void SortPhantoms();
-  void DrawPhantoms(int change) const;
+  void DrawPhantoms(int change, const gl::GlProgram* shaded) const;
   void SetFog(const Transform<Camera, Marker>& camera_from_marker, double near_m,
               double far_m) const;
   Result<void> DrawDebugView(const Transform<Camera, Marker>& camera_from_marker);
@@ -191,6 +192,7 @@ class GlComposer : public Composer {
   RenderTargets targets_;
   CameraPicture picture_;
   std::optional<PictureLook> look_;
+  double board_size_m_ = 0.0;
   gl::GlTexture white_, environment_;
   gl::GlProgram depth_program_;
   // With shadows of one step of the sun, and of two that fade into one another; made when needed.
@@ -435,10 +437,17 @@ void GlComposer::SortPhantoms() {
   }
 }
 
-void GlComposer::DrawPhantoms(int change) const {
+/// `shaded`: the program that looks for real shade, to be told each surface's reflectance.
+void GlComposer::DrawPhantoms(int change, const gl::GlProgram* shaded) const {
   auto triangles = phantom_triangles_.begin();
   for (const SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
+    if (shaded != nullptr) {
+      const Material& material =
+          scene_[surface.placed_model()].model->materials[surface.material()];
+      const bool even = material.base_color_texture < 0 && material.metallic == 0.0F;
+      shaded->Set("u_green_albedo", even ? material.base_color[1] : 0.0F);
+    }
     surface.Draw(change == 0 ? 0 : triangles->ends()[change - 1], triangles->ends()[change]);
     ++triangles;
   }
@@ -500,7 +509,7 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   depth_program_.Use();
   depth_program_.Set("u_clip_from_marker", clip_from_marker);
-  DrawPhantoms(ChangingTriangles::kNothing);
+  DrawPhantoms(ChangingTriangles::kNothing, nullptr);
   glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   for (int change = 0; change < ChangingTriangles::kNothing; ++change) {
     const gl::GlProgram& program = programs.phantoms[change];
@@ -508,7 +517,12 @@ void GlComposer::DrawScene(const Transform<Camera, Marker>& camera_from_marker, 
     program.Set("u_clip_from_marker", clip_from_marker);
     program.Set("u_to_sun", ToGlm(to_sun_));
     program.Set("u_sun_normal_lux", ToGlm(sun_normal_));
-    DrawPhantoms(change);
+    if (change == ChangingTriangles::kSun) {
+      program.Set("u_green_gain", static_cast<float>(gain.g));
+      program.Set("u_board_half_m", static_cast<float>(board_size_m_ / 2));
+      picture_.BindForShading(2, 3, 4);
+    }
+    DrawPhantoms(change, change == ChangingTriangles::kSun ? &program : nullptr);
   }
   glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

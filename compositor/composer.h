@@ -70,6 +70,9 @@ class Composer {
   /// the light among surfaces, which costs more, stays.
   virtual void SetSun(const sky::SkyModel& daylight, const Mat3& marker_from_world) = 0;
 
+  /// Edge of the white board that the marker is printed on, where no phantom's colour counts.
+  virtual void SetMarkerBoard(double board_size_m) = 0;
+
   /// Blur and grain that drawn pixels get from now on, those of the camera's own; nothing: as
   /// sharp and clean as they are drawn. Blur that the drawing has anyway (half a pixel's width) is
   /// not added again, and noise below two steps of 8 bits is left out.

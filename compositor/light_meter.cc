@@ -19,6 +19,8 @@ constexpr double kClearlyBrighter = 1.25;
 // A shadow's edge on the print: light on its two sides differs by more than this factor.
 constexpr double kShadowContrast = 1.6;
 constexpr double kShadowShare = 0.15;
+// Relative spread of a print's light from which on leaves are dappling it.
+constexpr double kDappled = 0.10, kBrightest = 0.9;
 constexpr double kSmallestBandPx = 3.0;
 
 using Rgb = std::array<double, 3>;
@@ -194,6 +196,8 @@ std::optional<LightReading> LightMeter::Measure(
     if (!(gain[c] > 0.0) || !std::isfinite(gain[c])) return std::nullopt;
     // Interquartile range of a normal distribution: 1.349 standard deviations.
     const double spread = (Quantile(values, 0.75) - Quantile(values, 0.25)) / 1.349 / gain[c];
+    // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
+    if (lit >= kMinimumPairs && spread > kDappled) gain[c] = Quantile(values, kBrightest);
     reading.spread = std::max(reading.spread, spread);
   }
   reading.gain = {gain[0], gain[1], gain[2]};

@@ -27,6 +27,9 @@ constexpr double kClipped = 250.0 / 255.0;
 // Szeliski & Kang 2006, "Noise Estimation from a Single Image"): of pure noise, the block that one
 // in fifty is smoother than has so much of the variance.
 constexpr int kBlock = 8;
+// Nearer to an edge than a compressed block is wide, what compression leaves of the edge passes
+// for noise of about so many steps of 8 bits.
+constexpr double kBlockReachPx = 8.5, kEdgeSteps = 3.0;
 constexpr double kSmoothest = 0.02, kSmoothestVariance = 0.62;
 constexpr int kMostBlocks = 1200, kFewestBlocks = 60;
 constexpr int kDarkestGrey = 25, kBrightestGrey = 235;
@@ -353,8 +356,19 @@ double PrintInPicture::NoiseOfSmoothest(const PictureLook& look) const {
 }
 
 bool PrintInPicture::MeasureNoise(double blur_px, PictureLook* look) const {
-  const double clearance_px = 1.0 + 2.5 * blur_px;
-  const auto white = NoiseOf(true, clearance_px), black = NoiseOf(false, clearance_px);
+  // Out of the reach of an edge's compression block, where the print is large enough for that.
+  const double near_px = 1.0 + 2.5 * blur_px;
+  auto white = NoiseOf(true, std::max(near_px, kBlockReachPx));
+  auto black = NoiseOf(false, std::max(near_px, kBlockReachPx));
+  for (auto* level : {&white, &black}) {
+    if (*level) continue;
+    *level = NoiseOf(level == &white, near_px);
+    if (!*level) continue;
+    for (int c = 0; c < 3; ++c) {
+      const double of_edges = 12 * RoundingAt(c, (*level)->light[c]) * kEdgeSteps * kEdgeSteps;
+      (*level)->variance[c] = std::max(0.0, (*level)->variance[c] - of_edges);
+    }
+  }
   if (!white && !black) return false;
   for (int c = 0; c < 3; ++c) {
     if (!white || !black) {

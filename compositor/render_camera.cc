@@ -69,4 +69,17 @@ Image<float> RenderPositions(const CameraModel& camera, const RenderCamera& rend
   return positions;
 }
 
+Image<float> CameraPositions(const CameraModel& camera, const RenderCamera& render) {
+  Image<float> positions(render.width, render.height, 2);
+  for (int y = 0; y < render.height; ++y) {
+    for (int x = 0; x < render.width; ++x) {
+      const Point<Camera> ahead{{(x - render.cx) / render.fx, (y - render.cy) / render.fy, 1.0}};
+      const Vec2 texel = CornerOriginFromPixel(ProjectToPixel(camera, ahead));
+      positions(x, y, 0) = static_cast<float>(texel.x);
+      positions(x, y, 1) = static_cast<float>(texel.y);
+    }
+  }
+  return positions;
+}
+
 }  // namespace pleinair::compositor

@@ -22,4 +22,8 @@ RenderCamera FitRenderCamera(const CameraModel& camera, double supersampling);
 /// in render texels with texel centres at .5 (OpenGL's origin).
 Image<float> RenderPositions(const CameraModel& camera, const RenderCamera& render);
 
+/// For each render pixel, where in the camera's picture its light comes to: as RenderPositions()
+/// the other way round.
+Image<float> CameraPositions(const CameraModel& camera, const RenderCamera& render);
+
 }  // namespace pleinair::compositor

@@ -18,6 +18,38 @@ uniform vec3 u_sun_normal_lux;  // Linear Rec.709.
 
 layout(location = 0) out vec4 out_ratio;
 
+#ifdef SUN_MAY_CHANGE
+layout(binding = 2) uniform sampler2D u_background;        // Codes / 255, row 0 = top.
+layout(binding = 3) uniform sampler2D u_camera_positions;  // Of a render pixel, camera texels.
+layout(binding = 4) uniform sampler2D u_light_of_code;     // 256 texels.
+uniform float u_green_gain;      // Display-linear value per radiance.
+uniform float u_green_albedo;    // Of the surface; 0: not known.
+uniform float u_board_half_m;    // The marker's board lies here: white and black, not the ground.
+
+/// How much of the sun the picture shows on a surface that the model has in the sun: trees and all
+/// that no phantom stands for shade it too, and what is shaded already no virtual shadow darkens
+/// again. Green alone, over about three pixels, so that a surface's grain does not count. From half
+/// the sun on all of it counts: patterns are darker than their mean, too.
+float SunSeen(vec3 position_m, float ambient, float sun) {
+  const float kPi = 3.14159265;
+  const float kShaded = 0.08, kHalf = 0.35, kLit = 0.70;
+  bool on_board = max(abs(position_m.x), abs(position_m.y)) < u_board_half_m &&
+                  abs(position_m.z) < 0.25 * u_board_half_m;
+  vec2 size = vec2(textureSize(u_background, 0));
+  vec2 at = texelFetch(u_camera_positions, ivec2(gl_FragCoord.xy), 0).xy;
+  float light = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 aside = vec2((i & 1) == 0 ? -0.8 : 0.8, (i & 2) == 0 ? -0.8 : 0.8);
+    float code = texture(u_background, (at + aside) / size).g * 255.0;
+    light += 0.25 * texelFetch(u_light_of_code, ivec2(int(code + 0.5), 0), 0).g;
+  }
+  float irradiance = kPi * light / max(u_green_gain * u_green_albedo, 1e-12);
+  float share = (irradiance - ambient) / max(sun, 1e-6);
+  float seen = mix(clamp(share - kShaded, 0.0, 1.0), 1.0, smoothstep(kHalf, kLit, share));
+  return on_board || u_green_albedo == 0.0 ? 1.0 : seen;
+}
+#endif
+
 void main() {
   // Permutations, not tests: Mesa's software renderer runs an `if` whatever its condition.
 #ifdef NO_SUN
@@ -33,6 +65,9 @@ void main() {
   float visibility_phantoms = ShadowVisibility(0, v_position_m, flat_normal, step_x, step_y);
 #ifdef SUN_MAY_CHANGE
   float visibility_all = ShadowVisibility(1, v_position_m, flat_normal, step_x, step_y);
+  float seen = SunSeen(v_position_m, v_ambient_without.g, sun.g * visibility_phantoms);
+  visibility_phantoms *= seen;
+  visibility_all *= seen;
 #else
   float visibility_all = visibility_phantoms;
 #endif
