@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace pleinair::app {
+namespace {
+
+constexpr std::chrono::milliseconds kLongestLag{250};
+
+}  // namespace
 
 Result<std::unique_ptr<PacedRecording>> PacedRecording::Open(Opener opener,
                                                              const Options& options) {
@@ -32,6 +37,9 @@ Result<std::optional<devices::Frame>> PacedRecording::Next() {
   last_ns_ = stamp_ns;
   const std::chrono::nanoseconds since_start(stamp_ns);
   if (!start_) start_ = Clock::now() - since_start;
+  // Read too slowly it plays later from here on: its pictures are not to come older and older.
+  const auto late = Clock::now() - (*start_ + since_start);
+  if (late > kLongestLag) *start_ += late;
   const Clock::time_point due = *start_ + since_start;
   std::this_thread::sleep_until(due);
   (*frame)->timestamp_ns =

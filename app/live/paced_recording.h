@@ -11,7 +11,7 @@
 namespace pleinair::app {
 
 /// Plays a recording as a camera would send it: each frame when its time has come, stamped on the
-/// steady clock.
+/// steady clock. Where it cannot be read so fast it plays more slowly.
 class PacedRecording : public devices::FrameSource {
  public:
   struct Options {

@@ -275,7 +275,10 @@ class LiveWindow {
           {static_cast<float>(high.x), static_cast<float>(high.y)});
       std::vector<ButtonEvent> buttons = screen_.TakeButtons();
       // What is pressed on the panel or the help is theirs; letting go counts anywhere.
-      if (io.WantCaptureMouse) std::erase_if(buttons, [](const auto& event) { return event.down; });
+      std::erase_if(buttons, [&](const ButtonEvent& event) {
+        const bool on_panel = event.screen.x >= io.DisplaySize.x - panel;
+        return event.down && (io.WantCaptureMouse || on_panel);
+      });
       mouse_.Update(view, buttons, &state_);
     } else {
       DrawWaiting(area);
