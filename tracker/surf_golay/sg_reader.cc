@@ -25,8 +25,8 @@ constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 
 constexpr double kMostPlainBlur_px = 1.2;
 /// Share of a print that lies open: what covers one side only can draw the fit to its own edge.
 constexpr double kPlainVisible = 0.985;
-/// A step of the fit this long ends a thirtieth of it from where more would.
-constexpr double kPlainDone_px = 0.05;
+/// A step of the fit this short is the last one; of a print of 200 px one of 0.05 px was not.
+constexpr double kPlainDone_px = 0.02;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
