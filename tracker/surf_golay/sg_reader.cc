@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tracker/golay/golay_code.h"
 #include "tracker/homography.h"
 #include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_split.h"
@@ -55,10 +56,12 @@ constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F;
 /// Share of the border that tells the light over the whole print; and what it takes off a proof
 /// that the cells themselves had to tell it.
 constexpr double kTellsLight = 0.8, kSplitDoubt_bits = 2.0;
-/// With few numbers in use as much proof is asked for as with so many: a picture holds many places
-/// where one may be seen by chance.
 constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
+/// With few numbers in use as much proof is asked for as with so many: a picture holds many places
+/// where one may be seen by chance. Two numbers print as chequerboards, of which the world is full.
 constexpr int kFewestNumbers = 256;
+constexpr double kChequeredDoubt_bits = 6.0;
+constexpr GolayWord kAllCells = (1U << kGolayBits) - 1;
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.005;
@@ -234,8 +237,11 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
 }
 
 double SgReader::ProofBits(const CellLikelihoods& likelihoods, int number) const {
+  const GolayWord print = PrintedWord(number);
+  const bool chequered = print == kGolayWhitening || (~print & kAllCells) == kGolayWhitening;
   return EvidenceBits(likelihoods, number) -
-         std::log2(std::max(kFewestNumbers, decoder_.NumbersInUse()));
+         std::log2(std::max(kFewestNumbers, decoder_.NumbersInUse())) -
+         (chequered ? kChequeredDoubt_bits : 0.0);
 }
 
 bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
