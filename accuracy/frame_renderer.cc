@@ -39,11 +39,11 @@ class SrgbTable {
  public:
   SrgbTable() : codes_(kSteps + 1) {
     for (int i = 0; i <= kSteps; ++i) {
-      codes_[i] = static_cast<std::uint8_t>(SrgbFromLinear(1.0 * i / kSteps) * 255.0 + 0.5);
+      codes_[i] = static_cast<std::uint8_t>(std::lround(SrgbFromLinear(1.0 * i / kSteps) * 255.0));
     }
   }
   std::uint8_t operator()(float linear) const {
-    return codes_[static_cast<int>(std::clamp(linear, 0.0F, 1.0F) * kSteps + 0.5F)];
+    return codes_[std::lround(std::clamp(linear, 0.0F, 1.0F) * kSteps)];
   }
 
  private:
@@ -267,7 +267,7 @@ RenderedFrame FrameRenderer::Render(const FrameSpec& frame) {
     } else {
       Paint(marker, nullptr, frame.photo, &light);
     }
-    rendered.truth.push_back(std::move(truth));
+    rendered.truth.push_back(truth);
   }
   if (!rendered.truth.empty()) AddLightPatterns(frame, rendered.truth[0], &light);
   rendered.grey = Develop(frame, Expose(frame.photo, std::move(light)));
