@@ -1,0 +1,64 @@
+#include "compositor/scene_shadows.h"
+
+#include <array>
+#include <glm/glm.hpp>
+#include <utility>
+
+#include "base/units.h"
+
+namespace pleinair::compositor {
+namespace {
+
+shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) {
+  shadows::ShadowMapOptions map_options;
+  map_options.method = options.shadow_method;
+  map_options.partitions = options.shadow_partitions;
+  map_options.split_weight = options.shadow_split_weight;
+  map_options.blur_blocker_distance = Metres(options.shadow_blur_distance_m);
+  return map_options;
+}
+
+}  // namespace
+
+Result<SceneShadows> SceneShadows::Create(const ComposerOptions& options) {
+  SceneShadows shadows;
+  for (int set = 0; set < kSets; ++set) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::FadingShadowMaps::Create(MapOptions(options)));
+    shadows.sets_.push_back(std::move(maps));
+  }
+  return shadows;
+}
+
+/// Maps of moments do, as the paper's.
+bool SceneShadows::FitsView() const {
+  const shadows::MapContent content = shadows::TraitsOf(options().method).content;
+  return content == shadows::MapContent::kMoments || content == shadows::MapContent::kWarpedMoments;
+}
+
+Result<void> SceneShadows::Update(const SceneSurfaces& surfaces, Direction<Marker> to_sun,
+                                  const shadows::View& view) {
+  const std::array<std::span<const shadows::ShadowCaster>, kSets> casters{
+      surfaces.phantom_casters(), surfaces.casters()};
+  for (int set = 0; set < kSets; ++set) {
+    shadows::FadingShadowMaps& maps = sets_[set];
+    if (FitsView()) {
+      PLEINAIR_RETURN_IF_ERROR(maps.UpdateForView(casters[set], to_sun, view));
+    } else {
+      // Around the objects, whatever the camera does: drawn once a light.
+      PLEINAIR_RETURN_IF_ERROR(
+          maps.UpdateForRegion(casters[set], to_sun, surfaces.object_bounds()));
+    }
+    maps.Bind(set);
+  }
+  return {};
+}
+
+SunWindow SceneShadows::Window() const {
+  // Of two steps of the sun one will do: a window's margin is wider than a step moves it.
+  const shadows::ShadowSliceUniforms& finest = maps().uniforms().slices[0];
+  const glm::vec3 to_sun(maps().uniforms().to_sun);
+  return FitsView() ? SunWindow::Everywhere(to_sun)
+                    : SunWindow{finest.u_from_marker, finest.v_from_marker, finest.size.z, to_sun};
+}
+
+}  // namespace pleinair::compositor

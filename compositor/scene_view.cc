@@ -1,0 +1,57 @@
+#include "compositor/scene_view.h"
+
+#include <algorithm>
+#include <glm/glm.hpp>
+#include <utility>
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr double kNearM = 0.02;
+
+glm::dmat4 CameraFromMarkerMatrix(const Transform<Camera, Marker>& camera_from_marker) {
+  glm::dmat4 matrix(1.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      matrix[column][row] = camera_from_marker.rotation(row, column);
+    }
+  }
+  const Vec3 t = camera_from_marker.translation_m;
+  matrix[3] = glm::dvec4(t.x, t.y, t.z, 1.0);
+  return matrix;
+}
+
+/// Nearest and farthest depth at which something of the scene can lie.
+std::pair<double, double> DepthRange(const Transform<Camera, Marker>& camera_from_marker,
+                                     const shadows::Box& bounds) {
+  double nearest = 1e30, farthest = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Point<Marker> point{{(corner & 1) ? bounds.max.x : bounds.min.x,
+                               (corner & 2) ? bounds.max.y : bounds.min.y,
+                               (corner & 4) ? bounds.max.z : bounds.min.z}};
+    const double depth = (camera_from_marker * point).xyz.z;
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  const double near_m = std::max(nearest * 0.99, kNearM);
+  return {near_m, std::max(farthest * 1.01, 2 * near_m)};
+}
+
+}  // namespace
+
+shadows::View ViewOf(const RenderCamera& camera,
+                     const Transform<Camera, Marker>& camera_from_marker,
+                     const shadows::Box& bounds) {
+  const auto [near_m, far_m] = DepthRange(camera_from_marker, bounds);
+  shadows::View view;
+  view.camera_from_marker = CameraFromMarkerMatrix(camera_from_marker);
+  view.tan_left = (camera.cx + 0.5) / camera.fx;
+  view.tan_right = (camera.width - 0.5 - camera.cx) / camera.fx;
+  view.tan_up = (camera.cy + 0.5) / camera.fy;
+  view.tan_down = (camera.height - 0.5 - camera.cy) / camera.fy;
+  view.near_m = near_m;
+  view.far_m = far_m;
+  return view;
+}
+
+}  // namespace pleinair::compositor

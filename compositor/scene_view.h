@@ -1,0 +1,15 @@
+#pragma once
+
+#include "base/frames.h"
+#include "compositor/render_camera.h"
+#include "shadows/light_window.h"
+
+namespace pleinair::compositor {
+
+/// What the render camera sees of a scene that lies within `bounds`: its pyramid of view, with near
+/// and far as tight around the scene as its box tells.
+shadows::View ViewOf(const RenderCamera& camera,
+                     const Transform<Camera, Marker>& camera_from_marker,
+                     const shadows::Box& bounds);
+
+}  // namespace pleinair::compositor

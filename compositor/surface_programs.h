@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+
+#include "base/error.h"
+#include "compositor/changing_triangles.h"
+#include "gl/program.h"
+#include "shadows/shadow_maps.h"
+
+namespace pleinair::compositor {
+
+/// The programs that shade a scene's surfaces, of one permutation.
+struct SurfacePrograms {
+  /// `fades`: the sun stands between two steps, FadingShadowMaps::Fades(). Errors as
+  /// gl::GlProgram::Create.
+  static Result<SurfacePrograms> Create(const shadows::ShadowMapOptions& options, bool fades);
+
+  /// By what may change of the light: ChangingTriangles::Change but for kNothing.
+  std::array<gl::GlProgram, ChangingTriangles::kNothing> phantoms;
+  gl::GlProgram objects;
+};
+
+}  // namespace pleinair::compositor
