@@ -45,6 +45,7 @@ struct Arguments {
   std::string light = "measured";
   std::optional<double> seconds, rate_hz, exposure_s, gain, white_balance_k, focus;
   bool headless = false, lossless = false, loop = false, json = false, lock = false;
+  bool shadow_debug = false;
   std::string window_size, screenshots = ".";
   double ui_scale = 0.0;
 };
@@ -241,6 +242,7 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session,
   LiveWindowOptions options;
   options.camera = source.lens;
   options.scene = scene;
+  options.drawing.show_shadow_maps = arguments.shadow_debug;
   options.live_camera = source.camera;
   options.seconds = arguments.seconds;
   options.ui_scale = arguments.ui_scale;
@@ -275,6 +277,7 @@ Result<void> Run(const Arguments& arguments) {
   LiveOptions options;
   options.camera = source.lens;
   options.scene = *source.scene;
+  options.composer.show_shadow_maps = arguments.shadow_debug;
   const devices::SceneDescription scene = *source.scene;
   options.shown_elsewhere = !arguments.headless;
   options.light.as_stated = arguments.light == "stated";
@@ -327,6 +330,9 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                    "the scene says")
       ->check(CLI::IsMember({"measured", "stated"}))
       ->capture_default_str();
+  command->add_flag("--shadow-debug", a.shadow_debug,
+                    "Tint what each partition of the shadow maps serves and show the maps (in the "
+                    "window: M)");
   command->add_flag("--headless", a.headless, "Without a window");
   command->add_option("--seconds", a.seconds, "End after so long")->check(NumberRange(0.0, 1e9));
   command->add_option("--window", a.window_size, "Size of the window, WIDTHxHEIGHT");

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
@@ -29,11 +30,32 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr double kWarpedSupersampling = 1.5;
+// Half a code of 8 bits at black, sRGB: less light of the air changes no picture.
+constexpr double kNoticeableAir = 0.5 / 255.0 / 12.92;
 
 glm::vec3 ToGlm(Vec3 v) { return {v.x, v.y, v.z}; }
 glm::vec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
 
 static_assert(std::tuple_size_v<decltype(ComposerOptions::fog)> == shadows::kMaxPartitions);
+
+/// What the programs are told of one frame.
+struct Frame {
+  glm::mat4 clip_from_marker;
+  glm::vec3 eye_m;
+  glm::vec3 gain;
+  FogSplits fog;
+  bool hazy = false;  // The air before the farthest real surface is noticed.
+
+  void SetFog(const gl::GlProgram& program) const {
+    program.Set("u_eye_m", eye_m);
+    program.SetArray("u_fog_split_m",
+                     std::vector<float>(fog.distance_m.begin(), fog.distance_m.end()));
+    program.SetArray("u_fog_optical_depth",
+                     std::vector<glm::vec3>(fog.optical_depth.begin(), fog.optical_depth.end()));
+    program.SetArray("u_fog_inscattered",
+                     std::vector<glm::vec3>(fog.inscattered.begin(), fog.inscattered.end()));
+  }
+};
 
 class GlComposer : public Composer {
  public:
@@ -70,12 +92,11 @@ class GlComposer : public Composer {
   bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
   Result<void> SetRenderSize(const ComposerOptions& options);
   Result<void> MakeShadows(const ComposerOptions& options);
-  Result<void> MakeSurfacePrograms();
-  void DrawPhantoms(const SurfacePrograms& programs, const glm::mat4& clip_from_marker,
-                    LinearRgb gain);
-  void DrawObjects(const gl::GlProgram& program, const glm::mat4& clip_from_marker,
-                   const glm::vec3& eye_m, LinearRgb gain, const FogSplits& fog);
-  void DrawScene(const shadows::View& view, const glm::vec3& eye_m, LinearRgb gain);
+  /// The programs for the shadow maps as they are and the air that a frame has.
+  Result<const SurfacePrograms*> ProgramsFor(const Frame& frame);
+  void DrawPhantoms(const SurfacePrograms& programs, const Frame& frame);
+  void DrawObjects(const gl::GlProgram& program, const Frame& frame);
+  void DrawScene(const SurfacePrograms& programs, const Frame& frame);
   FogSplits FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const;
   Result<void> DrawDebugView(const shadows::View& view);
 
@@ -90,8 +111,9 @@ class GlComposer : public Composer {
   double board_size_m_ = 0.0;
   gl::GlTexture environment_;
   gl::GlProgram depth_program_;
-  // With shadows of one step of the sun, and of two that fade into one another; made when needed.
-  std::array<std::optional<SurfacePrograms>, 2> surface_programs_;
+  // With shadows of one step of the sun, and of two that fade into one another, without and with
+  // haze; made when needed.
+  std::array<std::array<std::optional<SurfacePrograms>, 2>, 2> surface_programs_;
   SceneSurfaces surfaces_;
   SceneShadows shadows_;
   std::optional<ShadowDebugView> debug_view_;  // Made when needed.
@@ -117,7 +139,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
   PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(options));
-  PLEINAIR_RETURN_IF_ERROR(c.MakeSurfacePrograms());
+  PLEINAIR_RETURN_IF_ERROR(c.ProgramsFor({}));
   c.options_ = options;
   return composer;
 }
@@ -156,20 +178,23 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
     PLEINAIR_RETURN_IF_ERROR(MakeShadows(options));
   }
   if (other_shaders) {
-    for (auto& programs : surface_programs_) programs.reset();
-    PLEINAIR_RETURN_IF_ERROR(MakeSurfacePrograms());
+    surface_programs_ = {};
+    PLEINAIR_RETURN_IF_ERROR(ProgramsFor({}));
   }
   options_ = options;
   return {};
 }
 
-Result<void> GlComposer::MakeSurfacePrograms() {
-  std::optional<SurfacePrograms>& made = surface_programs_[shadows_.Fades() ? 1 : 0];
-  if (made) return {};
-  PLEINAIR_ASSIGN_OR_RETURN(SurfacePrograms programs,
-                            SurfacePrograms::Create(shadows_.options(), shadows_.Fades()));
-  made.emplace(std::move(programs));
-  return {};
+Result<const SurfacePrograms*> GlComposer::ProgramsFor(const Frame& frame) {
+  std::optional<SurfacePrograms>& made =
+      surface_programs_[shadows_.Fades() ? 1 : 0][frame.hazy ? 1 : 0];
+  if (!made) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        SurfacePrograms programs,
+        SurfacePrograms::Create(shadows_.options(), shadows_.Fades(), frame.hazy));
+    made.emplace(std::move(programs));
+  }
+  return &*made;
 }
 
 Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
@@ -217,47 +242,38 @@ Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
 }
 
 /// What the objects change of the real surfaces' light; the surfaces' depth is there already.
-void GlComposer::DrawPhantoms(const SurfacePrograms& programs, const glm::mat4& clip_from_marker,
-                              LinearRgb gain) {
+void GlComposer::DrawPhantoms(const SurfacePrograms& programs, const Frame& frame) {
   using Change = ChangingTriangles::Change;
+  picture_.BindForShading(2, 3, 4);
   for (const Change change : {Change::kSun, Change::kSunlitSky, Change::kSky}) {
     const gl::GlProgram& program = programs.phantoms[change];
     program.Use();
-    program.Set("u_clip_from_marker", clip_from_marker);
+    program.Set("u_clip_from_marker", frame.clip_from_marker);
     program.Set("u_to_sun", ToGlm(to_sun_));
     program.Set("u_sun_normal_lux", ToGlm(sun_normal_));
+    program.Set("u_gain", frame.gain);
+    if (frame.hazy) frame.SetFog(program);
     if (change == Change::kSun) {
-      program.Set("u_green_gain", static_cast<float>(gain.g));
       program.Set("u_board_half_m", static_cast<float>(board_size_m_ / 2));
-      picture_.BindForShading(2, 3, 4);
     }
     surfaces_.DrawPhantoms(change, change == Change::kSun ? &program : nullptr);
   }
 }
 
-void GlComposer::DrawObjects(const gl::GlProgram& program, const glm::mat4& clip_from_marker,
-                             const glm::vec3& eye_m, LinearRgb gain, const FogSplits& fog) {
+void GlComposer::DrawObjects(const gl::GlProgram& program, const Frame& frame) {
   program.Use();
-  program.Set("u_clip_from_marker", clip_from_marker);
+  program.Set("u_clip_from_marker", frame.clip_from_marker);
   // Without a sun no surface faces it, and the shader leaves the shadow maps alone.
   program.Set("u_to_sun", HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
   program.Set("u_sun_normal_lux", ToGlm(sun_normal_));
-  program.Set("u_eye_m", eye_m);
-  program.Set("u_gain", ToGlm(gain));
-  program.SetArray("u_fog_split_m",
-                   std::vector<float>(fog.distance_m.begin(), fog.distance_m.end()));
-  program.SetArray("u_fog_optical_depth",
-                   std::vector<glm::vec3>(fog.optical_depth.begin(), fog.optical_depth.end()));
-  program.SetArray("u_fog_inscattered",
-                   std::vector<glm::vec3>(fog.inscattered.begin(), fog.inscattered.end()));
+  program.Set("u_gain", frame.gain);
+  frame.SetFog(program);
   environment_.Bind(1);
   surfaces_.DrawObjects(program);
 }
 
-void GlComposer::DrawScene(const shadows::View& view, const glm::vec3& eye_m, LinearRgb gain) {
-  const glm::mat4 clip_from_marker(view.ClipFromMarker());
+void GlComposer::DrawScene(const SurfacePrograms& programs, const Frame& frame) {
   surfaces_.SortPhantoms(HasSun() ? shadows_.Window() : SunWindow{});
-  const SurfacePrograms& programs = *surface_programs_[shadows_.Fades() ? 1 : 0];
   targets_.BeginDrawing();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -266,13 +282,14 @@ void GlComposer::DrawScene(const shadows::View& view, const glm::vec3& eye_m, Li
   glFrontFace(GL_CW);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   depth_program_.Use();
-  depth_program_.Set("u_clip_from_marker", clip_from_marker);
+  depth_program_.Set("u_clip_from_marker", frame.clip_from_marker);
   surfaces_.DrawPhantoms(ChangingTriangles::kNothing, nullptr);
   glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  DrawPhantoms(programs, clip_from_marker, gain);
+  if (frame.hazy) glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  DrawPhantoms(programs, frame);
   glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  DrawObjects(programs.objects, clip_from_marker, eye_m, gain, FogBeforeObjects(view, eye_m));
+  DrawObjects(programs.objects, frame);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
@@ -292,9 +309,16 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   // A sun below the horizon lights nothing and casts no shadow.
   if (HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {to_sun_}, view));
-    PLEINAIR_RETURN_IF_ERROR(MakeSurfacePrograms());
   }
-  DrawScene(view, ToGlm(camera_from_marker.Inverse().translation_m), gain);
+  Frame frame;
+  frame.clip_from_marker = glm::mat4(view.ClipFromMarker());
+  frame.eye_m = ToGlm(camera_from_marker.Inverse().translation_m);
+  frame.gain = ToGlm(gain);
+  frame.fog = FogBeforeObjects(view, frame.eye_m);
+  const glm::vec3 most_air = frame.gain * frame.fog.inscattered.back();
+  frame.hazy = std::max({most_air.r, most_air.g, most_air.b}) > kNoticeableAir;
+  PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
+  DrawScene(*programs, frame);
   picture_.Draw(targets_);
   if (options_.show_shadow_maps && HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));

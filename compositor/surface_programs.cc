@@ -11,11 +11,14 @@
 namespace pleinair::compositor {
 
 Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions& options,
-                                                bool fades) {
+                                                bool fades, bool hazy) {
   const auto make = [&](const std::string& fragment, const char* change) {
     std::vector<std::string> defines =
         shadows::FadingShadowMaps::ShaderDefines(options, SceneShadows::kSets, fades);
-    if (change != nullptr) defines.emplace_back(change);
+    if (change != nullptr) {
+      defines.emplace_back(change);
+      if (hazy) defines.emplace_back("HAZE");
+    }
     return gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                                   .fragment = fragment,
                                   .defines = std::move(defines)});

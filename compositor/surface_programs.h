@@ -11,9 +11,10 @@ namespace pleinair::compositor {
 
 /// The programs that shade a scene's surfaces, of one permutation.
 struct SurfacePrograms {
-  /// `fades`: the sun stands between two steps, FadingShadowMaps::Fades(). Errors as
-  /// gl::GlProgram::Create.
-  static Result<SurfacePrograms> Create(const shadows::ShadowMapOptions& options, bool fades);
+  /// `fades`: the sun stands between two steps, FadingShadowMaps::Fades(); `hazy`: the air before
+  /// the real surfaces counts. Errors as gl::GlProgram::Create.
+  static Result<SurfacePrograms> Create(const shadows::ShadowMapOptions& options, bool fades,
+                                        bool hazy);
 
   /// By what may change of the light: ChangingTriangles::Change but for kNothing.
   std::array<gl::GlProgram, ChangingTriangles::kNothing> phantoms;

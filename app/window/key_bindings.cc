@@ -32,6 +32,8 @@ constexpr std::array kBindings = {
     KeyBinding{GLFW_KEY_N, false, Action::kNow, "N", "the time is now"},
     KeyBinding{GLFW_KEY_T, false, Action::kAsRecorded, "T", "the time of the pictures"},
     KeyBinding{GLFW_KEY_O, false, Action::kNorth, "O", "find north by a pole's shadow"},
+    KeyBinding{GLFW_KEY_M, false, Action::kShadowMaps, "M",
+               "show the shadows' partitions and maps"},
     KeyBinding{GLFW_KEY_L, false, Action::kLockExposure, "L", "lock the exposure"},
     KeyBinding{GLFW_KEY_S, true, Action::kScreenshot, "Ctrl+S",
                "picture (Shift: the whole window)"},

@@ -276,6 +276,9 @@ void ScenePanel::Shadows(WindowState* state) {
   ImGui::SliderInt("partitions", &drawing.shadow_partitions, 1, 4);
   drawing.shadow_partitions = std::clamp(drawing.shadow_partitions, 1, 4);
   ImGui::Checkbox("show partitions and maps", &drawing.show_shadow_maps);
+  Hint(
+      "M. Tints what each partition of the shadow maps serves (red the finest, then green, blue, "
+      "yellow) and shows the maps in the corner.");
   const bool moments = in_use.content == shadows::MapContent::kMoments ||
                        in_use.content == shadows::MapContent::kWarpedMoments;
   if (!moments) return;

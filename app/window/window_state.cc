@@ -146,6 +146,9 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
     case Action::kNorth:
       state->turning_north = !state->turning_north;
       return;
+    case Action::kShadowMaps:
+      state->edit.drawing.show_shadow_maps = !state->edit.drawing.show_shadow_maps;
+      return;
     case Action::kLockExposure:
       state->exposure_locked = !state->exposure_locked;
       state->wants_exposure_change = true;

@@ -81,6 +81,7 @@ enum class Action {
   kShrink,
   kResetObject,
   kNorth,
+  kShadowMaps,
   kLockExposure,
 };
 

@@ -3,11 +3,16 @@
 // Fog by partition, compositor/aerial_fog.h: what the air does up to each split of the view.
 const int kFogSplits = 5;
 
-// Radiance as it arrives from `distance_m` away: L τ + L_in (Preetham et al. 1999, §4). Between two
-// splits the air is taken as even: its optical depth grows with distance, its light with the share
-// of the split's extinction that lies behind.
-vec3 ThroughFog(vec3 radiance, float distance_m, const float split_m[kFogSplits],
-                const vec3 optical_depth[kFogSplits], const vec3 inscattered[kFogSplits]) {
+struct FogAir {
+  vec3 left;   // Share of a thing's light that comes through.
+  vec3 light;  // The air's own, cd/m².
+};
+
+// The air up to `distance_m` (Preetham et al. 1999, §4). Between two splits it is taken as even: its
+// optical depth grows with distance, its light with the share of the split's extinction that lies
+// behind.
+FogAir FogUpTo(float distance_m, const float split_m[kFogSplits],
+               const vec3 optical_depth[kFogSplits], const vec3 inscattered[kFogSplits]) {
   // From the eye to the first split.
   float share = clamp(distance_m / max(split_m[0], 1e-6f), 0.0f, 1.0f);
   vec3 depth = share * optical_depth[0];
@@ -23,7 +28,17 @@ vec3 ThroughFog(vec3 radiance, float distance_m, const float split_m[kFogSplits]
     depth += share * here;
     light += lit * (inscattered[i] - inscattered[i - 1]);
   }
-  return radiance * exp(-depth) + light;
+  FogAir air;
+  air.left = exp(-depth);
+  air.light = light;
+  return air;
+}
+
+// What a virtual shadow of ratio R (differential.glsl) adds to R times a hazy picture, display-linear.
+// The picture P = L τ + A has the air's light A in it, which no shadow takes away: R L τ + A =
+// R P + (1 − R) A. A picture darker than the air is said to be takes that to be its air.
+vec3 AirBeforeShadow(vec3 ratio, vec3 air_light, vec3 picture) {
+  return (1.0f - ratio) * min(air_light, picture);
 }
 
 #endif

@@ -70,8 +70,9 @@ void main() {
     radiance += EnvironmentBrdf(f0, u_roughness, n_dot_v) *
                 PrefilteredEnvironment(reflect(-to_eye, normal), u_roughness);
   }
-  radiance = ThroughFog(radiance, distance(u_eye_m, v_position_m), u_fog_split_m,
-                        u_fog_optical_depth, u_fog_inscattered);
+  FogAir air = FogUpTo(distance(u_eye_m, v_position_m), u_fog_split_m, u_fog_optical_depth,
+                       u_fog_inscattered);
+  radiance = radiance * air.left + air.light;
   out_ratio = vec4(1.0);  // Masked off: what lies behind keeps its own.
   out_color = vec4(u_gain * radiance, 1.0);
 }

@@ -57,6 +57,14 @@ TEST(WindowState, KeysMoveTheChosenObjectAsTheViewerSeesItAndPutItBack) {
   EXPECT_EQ(state.edit.objects[0], before) << "nothing is chosen";
 }
 
+TEST(WindowState, AKeyShowsTheShadowMapsAndHidesThem) {
+  WindowState state = State();
+  Do(Action::kShadowMaps, false, {}, &state);
+  EXPECT_TRUE(state.edit.drawing.show_shadow_maps);
+  Do(Action::kShadowMaps, false, {}, &state);
+  EXPECT_EQ(state.edit, state.unedited);
+}
+
 TEST(WindowState, TurningAndScalingKeepTheFootWhereItIs) {
   const WindowState state = State();
   const Vec3 up{0, 0, 1};

@@ -35,8 +35,9 @@ class EvenAir : public sky::SkyModel {
 };
 
 glm::vec3 Through(const FogSplits& fog, float distance_m) {
-  return glsl::ThroughFog(glm::vec3(1000.0F), distance_m, fog.distance_m.data(),
-                          fog.optical_depth.data(), fog.inscattered.data());
+  const glsl::FogAir air = glsl::FogUpTo(distance_m, fog.distance_m.data(),
+                                         fog.optical_depth.data(), fog.inscattered.data());
+  return 1000.0F * air.left + air.light;
 }
 
 TEST(AerialFog, IsTheSkysOwnAtAndBetweenTheSplits) {
@@ -70,6 +71,28 @@ TEST(AerialFog, OfDifferentPartitionsDoesNotJumpAtTheirSplits) {
     EXPECT_GE(Through(fog, distance).b, last - 0.01F);
     last = Through(fog, distance).b;
   }
+}
+
+TEST(AerialFog, FadesAVirtualShadowAsARealOne) {
+  const glm::vec3 lit(0.4F), ratio(0.25F);
+  for (const float distance : {5.0F, 200.0F, 3000.0F}) {
+    const FogSplits fog = AerialFog(EvenAir(), Mat3{})
+                              .Along({0, 1, 0}, std::vector<double>{2.0, 60.0, 4000.0},
+                                     std::vector<double>{1.0, 1.0});
+    const glsl::FogAir air = glsl::FogUpTo(distance, fog.distance_m.data(),
+                                           fog.optical_depth.data(), fog.inscattered.data());
+    const glm::vec3 air_light = air.light / 10000.0F;
+    const glm::vec3 picture = lit * air.left + air_light;
+    const glm::vec3 real_shadow = ratio * lit * air.left + air_light;
+    const glm::vec3 shadow = ratio * picture + glsl::AirBeforeShadow(ratio, air_light, picture);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shadow[c], real_shadow[c], 1e-6) << distance;
+  }
+}
+
+TEST(AerialFog, NeverLightsAShadowUpBeyondThePicture) {
+  const glm::vec3 ratio(0.25F), picture(0.1F), air_light(0.7F);
+  const glm::vec3 shadow = ratio * picture + glsl::AirBeforeShadow(ratio, air_light, picture);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(shadow[c], picture[c], 1e-7);
 }
 
 TEST(AerialFog, IsNoneWithoutAir) {

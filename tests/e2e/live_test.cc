@@ -3,6 +3,8 @@
 #include <string>
 
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "run_program.h"
 
@@ -44,6 +46,23 @@ TEST(Live, ARecordingMadeLiveReplaysToTheSameSightings) {
     return poses;
   };
   EXPECT_EQ(without_stamps(ReadFile(folder / "other.jsonl")), without_stamps(one));
+}
+
+TEST(Live, ShowsTheShadowMapsPartitionsWhereAsked) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, /*with_object=*/true);
+  const auto shown = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"live", "--camera", "file:" + (folder / "site").string(), "--headless",
+                 "--lossless", "--light", "stated", "--screenshot", (folder / name).string()});
+    EXPECT_EQ(RunPleinair(more).exit_code, 0);
+    return cv::mean(cv::imread((folder / name).string()));
+  };
+  const cv::Scalar plain = shown("plain.png", {});
+  const cv::Scalar tinted = shown("tinted.png", {"--shadow-debug"});
+  // Red and green, the two partitions' tints, leave less of blue.
+  EXPECT_LT(tinted[0], 0.8 * plain[0]);
+  EXPECT_LT(tinted[0] / plain[0], tinted[1] / plain[1]);
 }
 
 TEST(Live, WithoutItsCameraItSaysSoAndEndsWhenItsTimeIsOver) {

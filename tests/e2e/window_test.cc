@@ -187,6 +187,14 @@ TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
       Changed(dragged, 500, "mousemove 1150 170 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1").empty())
       << "by the panel";
   EXPECT_GT(Differing(whole, Screenshot("ctrl+shift+s")), 2000) << "the window shows it";
+  // The partitions of the shadow maps tint most of the picture.
+  const cv::Mat plain = Screenshot("ctrl+s");
+  ASSERT_TRUE(Hands("key m"));
+  const cv::Mat tinted = Changed(plain, 20000);
+  ASSERT_FALSE(tinted.empty()) << "by the key of the shadow maps";
+  EXPECT_LT(cv::mean(tinted)[0], 0.8 * cv::mean(plain)[0]) << "blue is what both tints take away";
+  ASSERT_TRUE(Hands("key m"));
+  EXPECT_FALSE(Changed(tinted, 20000).empty()) << "and back";
   ExpectToClose();
 }
 
