@@ -16,6 +16,7 @@
 #include "app/progress_bar.h"
 #include "app/sinks/compare_html.h"
 #include "app/sinks/picture_writer.h"
+#include "app/time_lapse/time_lapse.h"
 #include "app/true_pictures.h"
 #include "base/atomic_file.h"
 #include "devices/picture_file.h"
@@ -140,6 +141,7 @@ Result<void> Run(const Options& options) {
   }
   comparison.mean = MeanOf(scores.data(), scores.size());
   if (!options.report.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(comparison.time_lapse, TimeLapseHtml(options.pictures));
     PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(options.report, CompareHtml(comparison)));
   }
   Print(options, comparison);
@@ -156,7 +158,8 @@ void AddCompareCommand(CLI::App& app, CommandResult& result) {
   command->add_option("TRUTH", options->truth, "Recording with true pictures, or a folder of them")
       ->required();
   command->add_option("--report", options->report,
-                      "Page with scores, truth, composed picture and difference (HTML)");
+                      "Page with scores, truth, composed picture and difference, and the day of "
+                      "replay --time-lapse (HTML)");
   command->add_flag("--glossy", options->glossy, "Against the glossy variant of the object");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback([options, &result] {

@@ -26,6 +26,7 @@
 #include "app/sinks/report_html.h"
 #include "app/sinks/report_json.h"
 #include "app/sinks/video_writer.h"
+#include "app/time_lapse/time_lapse.h"
 #include "base/atomic_file.h"
 #include "devices/recording.h"
 #include "tracker/tracker.h"
@@ -78,6 +79,9 @@ class Replayer {
     report_.width = size.width;
     report_.height = size.height;
     output_camera_ = ScaleCamera(recording.camera, size);
+    if (options_.time_lapse) {
+      PLEINAIR_ASSIGN_OR_RETURN(day_moments_, MomentsOf(*options_.time_lapse, scene_.place_time));
+    }
     PLEINAIR_RETURN_IF_ERROR(CheckExports(options_.exports, output_camera_));
     PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(scene_));
     auto tracker = tracker::Tracker::Create(recording.camera, tracking);
@@ -100,6 +104,7 @@ class Replayer {
     PLEINAIR_RETURN_IF_ERROR(LookAtLight());
     PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
     PLEINAIR_RETURN_IF_ERROR(ComposeFrames(recording));
+    PLEINAIR_RETURN_IF_ERROR(DrawDay());
     PLEINAIR_RETURN_IF_ERROR(WriteReports());
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
     PLEINAIR_RETURN_IF_ERROR(folder_.Commit());
@@ -343,6 +348,41 @@ class Replayer {
                           [&] { return video->Add(composed.view(), frame.timestamp_ns); });
   }
 
+  /// The observation whose camera the time-lapse looks through.
+  Result<Observation> ViewOfDay() const {
+    const auto& path = report_.path;
+    if (!options_.time_lapse->frame) return path[path.size() / 2];
+    for (const Observation& at : path) {
+      if (at.frame_index == *options_.time_lapse->frame) return at;
+    }
+    return InputError("--time-lapse-frame",
+                      fmt::format("frame {} has no pose", *options_.time_lapse->frame),
+                      "name another, or leave it out for the middle one");
+  }
+
+  Result<void> DrawDay() {
+    if (!options_.time_lapse) return {};
+    if (report_.path.empty() || scene_.objects.empty()) {
+      report_.warnings.emplace_back(
+          "There is no time-lapse: it needs a virtual object and a frame with a pose.");
+      return {};
+    }
+    PLEINAIR_ASSIGN_OR_RETURN(const Observation view, ViewOfDay());
+    LightOrder order = renderer_->OrderLight(scene_.place_time.start);
+    order.coefficients = renderer_->Coefficients();
+    PLEINAIR_ASSIGN_OR_RETURN(
+        const auto day, DayRenderer::Create(output_camera_, renderer_->placed(), std::move(order),
+                                            options_.composer));
+    PLEINAIR_ASSIGN_OR_RETURN(const std::vector<std::string> written,
+                              times_.Measure("draw day", [&] {
+                                return WriteTimeLapse(*day, day_moments_, view.camera_from_marker,
+                                                      folder_.staging(), options_.write_frames);
+                              }));
+    report_.outputs.insert(report_.outputs.end(), written.begin(), written.end());
+    PLEINAIR_ASSIGN_OR_RETURN(report_.time_lapse, TimeLapseHtml(folder_.staging()));
+    return {};
+  }
+
   Result<void> WriteReports() {
     if (report_.light && report_.light->gain_is_guessed) {
       report_.warnings.emplace_back(
@@ -372,6 +412,7 @@ class Replayer {
   FrameWarnings tracker_warnings_;
   std::vector<MarkersMessage> markers_seen_;  // For MCAP alone.
   std::set<std::int64_t> pictured_;
+  TimeLapseMoments day_moments_;
   std::int64_t lost_frames_ = 0;
   StageTimes times_;
   ReplayReport report_;

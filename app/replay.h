@@ -8,6 +8,7 @@
 #include "app/measured_sky.h"
 #include "app/paths/path_files.h"
 #include "app/sinks/report.h"
+#include "app/time_lapse/moments.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "compositor/composer.h"
@@ -34,7 +35,8 @@ struct ReplayOptions {
   std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as the scene says.
   std::filesystem::path light_cache;      ///< Folder for daylight coefficients; empty: without.
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
-  std::string command;              ///< For the report.
+  std::optional<TimeLapseOptions> time_lapse;  ///< A day of the scene besides.
+  std::string command;                         ///< For the report.
 };
 
 /// Composes a recording into a folder: composite.mp4, frames/, poses/, detections.jsonl,

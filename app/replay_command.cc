@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,7 @@ constexpr const char* kExamples =
     "  pleinair replay site/ -o out/site --frames --size 1280x720\n"
     "  pleinair replay site/ -o out/site --sun-to-sky 0   (no sun shone)\n"
     "  pleinair replay site/ -o out/site --frames --export gltf,colmap   (for film tools)\n"
+    "  pleinair replay site/ -o out/site --time-lapse 05:00..21:00 --every 10min   (the day)\n"
     "  pleinair replay walk.mp4 --calibration phone.yaml --scene site/scene.toml -o out/walk\n"
     "Writes composite.mp4, poses/MARKER.tum, detections.jsonl, report.json, report.html and, with\n"
     "--frames, frames/0000.png and so on. docs/formats.md describes recordings and scenes.";
@@ -47,6 +49,8 @@ struct Arguments {
   std::string recording, output, scene, calibration, response, size, shader_directory;
   std::vector<std::string> exports;
   std::vector<double> fog;
+  std::string time_lapse, every = "10min";
+  std::optional<std::int64_t> time_lapse_frame;
   std::string shadows = "disc", light = "measured", look = "matched";
   bool no_video = false;
   bool json = false;
@@ -100,6 +104,12 @@ std::string CommandText(const Arguments& arguments) {
     text += fmt::format(" --shadow-split-weight {}", weight);
   }
   if (!arguments.fog.empty()) text += fmt::format(" --fog {}", fmt::join(arguments.fog, ","));
+  if (!arguments.time_lapse.empty()) {
+    text += " --time-lapse " + Quoted(arguments.time_lapse) + " --every " + Quoted(arguments.every);
+  }
+  if (arguments.time_lapse_frame) {
+    text += fmt::format(" --time-lapse-frame {}", *arguments.time_lapse_frame);
+  }
   if (arguments.options.composer.show_shadow_maps) text += " --shadow-debug";
   if (!arguments.shader_directory.empty()) {
     text += " --shader-dir " + Quoted(arguments.shader_directory);
@@ -118,6 +128,11 @@ Result<void> Run(Arguments& arguments) {
   options.match_look = arguments.look == "matched";
   if (!arguments.size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize(arguments.size));
+  }
+  if (!arguments.time_lapse.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(options.time_lapse,
+                              ParseTimeLapse(arguments.time_lapse, arguments.every));
+    options.time_lapse->frame = arguments.time_lapse_frame;
   }
   for (const std::string& name : arguments.exports) {
     options.exports.insert(PathFormatNamed(name).value());
@@ -232,6 +247,20 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
       ->expected(1, 4)
       ->check(NumberRange(0.0, 1e6))
       ->type_name("TIMES,...");
+  CLI::Option* time_lapse = command->add_option(
+      "--time-lapse", arguments->time_lapse,
+      "Also draw the whole scene, phantoms in their own colours, over its day: timelapse.mp4 and "
+      "the sheet timelapse.png; with --frames each picture. Hours on a clock, 05:00..21:00 or "
+      "05:00..21:00+02:00, or the word day: while it is light");
+  time_lapse->type_name("HOURS|day");
+  command->add_option("--every", arguments->every, "Step of the time-lapse: 10min, 90s, 1h")
+      ->needs(time_lapse)
+      ->capture_default_str();
+  command
+      ->add_option("--time-lapse-frame", arguments->time_lapse_frame,
+                   "Frame from whose camera the time-lapse is seen; default: the middle one")
+      ->needs(time_lapse)
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--shadow-debug", arguments->options.composer.show_shadow_maps,
                     "Tint what each partition of the shadow maps serves and show the maps");
   command

@@ -149,9 +149,8 @@ void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
   skies_ = {measured.skies, measured.sky_scale};
 }
 
-/// Traces where each surface's light comes from, once for all skies, where that is to be kept.
-void SceneRenderer::TraceLight() {
-  if (light_cache_.empty() || coefficients_) return;
+std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficients() {
+  if (coefficients_) return coefficients_;
   constexpr int kSteps = 100;
   ProgressBar bar("Tracing light", kSteps, "%");
   int done = 0;
@@ -162,6 +161,7 @@ void SceneRenderer::TraceLight() {
   options.cache = light_cache_;
   coefficients_ = std::make_shared<const compositor::DaylightCoefficients>(solver_->Coefficients(
       MarkerFromWorld(scene_.marker) * Vec3{0.0, 0.0, 1.0}, options, advance));
+  return coefficients_;
 }
 
 LightOrder SceneRenderer::OrderLight(UtcTime time) const {
@@ -237,7 +237,7 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   summary_.sun = SunOver(scene_.place_time, time);
   if (!lit_) OverrideLight(summary_.sun);
   if (!light_from_outside_ && !(lit_ && IsNearSun(lit_->sun, summary_.sun))) {
-    TraceLight();
+    if (!light_cache_.empty()) Coefficients();
     return TakeLight(std::make_shared<const SceneLight>(OrderLight(time)));
   }
   const auto model = skies_.source->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);

@@ -94,6 +94,10 @@ class SceneRenderer {
   /// draw.
   LightOrder OrderLight(UtcTime time) const;
 
+  /// Where each surface's light comes from, once for all skies: traced on the first call, with a
+  /// bar, or read from the folder of KeepLightIn(). Not where there is nothing to draw.
+  std::shared_ptr<const compositor::DaylightCoefficients> Coefficients();
+
   /// Takes a light over that was made elsewhere; from then on Render() only moves the sun and
   /// leaves new light to others.
   Result<void> UseLight(std::shared_ptr<const SceneLight> light);
@@ -126,7 +130,6 @@ class SceneRenderer {
   SceneRenderer(const CameraModel& camera, const devices::SceneDescription& scene);
 
   void OverrideLight(const sky::SunPosition& sun);
-  void TraceLight();
   Result<void> TakeLight(std::shared_ptr<const SceneLight> light);
   void MoveObjects();
   Result<void> UpdateLight(UtcTime time);

@@ -7,8 +7,8 @@
 
 namespace pleinair::compositor {
 
-/// Mean radiance that the phantoms send upwards, for reflections below the horizon. `to_sun` in
-/// marker coordinates.
+/// Mean radiance that the phantoms send upwards, or all there is in a scene without any, for
+/// reflections below the horizon. `to_sun` in marker coordinates.
 LinearRgb MeanGroundRadiance(const std::vector<LitMesh>& lit, const std::vector<PlacedModel>& scene,
                              LinearRgb sun_normal, Vec3 to_sun);
 

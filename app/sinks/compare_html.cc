@@ -51,7 +51,7 @@ std::string CompareHtml(const Comparison& comparison) {
             Figure(picture.truth_jpeg, "truth") + Figure(picture.picture_jpeg, "composed") +
             Figure(picture.difference_jpeg, "difference") + "</div>\n";
   }
-  return html + "</body></html>\n";
+  return html + comparison.time_lapse + "</body></html>\n";
 }
 
 }  // namespace pleinair::app

@@ -19,6 +19,7 @@ struct Comparison {
   std::string command, pictures, truth;  ///< As called; the two folders.
   std::vector<ComparedPicture> compared;
   PictureScores mean;
+  std::string time_lapse;  ///< Part of the page that shows the day; empty without.
 };
 
 /// A page without any external resource: scores as a table, and of every picture the truth, ours

@@ -33,13 +33,14 @@ bool IsNamedLikeOutput(const fs::path& relative) {
   const std::string name = relative.filename().string();
   if (folder.empty()) {
     return name == "composite.mp4" || name == "detections.jsonl" || name == "report.json" ||
-           name == "report.html" || name == "camera.glb" || name == "camera.mcap";
+           name == "report.html" || name == "camera.glb" || name == "camera.mcap" ||
+           name == "timelapse.mp4" || name == "timelapse.png";
   }
   if (folder == "poses") return relative.extension() == ".tum" || relative.extension() == ".csv";
   if (folder == "colmap") {
     return name == "cameras.txt" || name == "images.txt" || name == "points3D.txt";
   }
-  return folder == "frames" && FrameNumber(relative.filename());
+  return (folder == "frames" || folder == "timelapse") && FrameNumber(relative.filename());
 }
 
 bool IsPicture(const fs::path& file) {
@@ -87,7 +88,7 @@ bool EarlierReplay::Wrote(const fs::path& relative) const {
 
 std::vector<fs::path> EarlierReplay::FilesNamedLikeOutputs() const {
   std::vector<fs::path> files;
-  for (const char* part : {"", "poses", "frames", "colmap"}) {
+  for (const char* part : {"", "poses", "frames", "timelapse", "colmap"}) {
     std::error_code error;
     for (fs::directory_iterator it(folder_ / part, error), end; !error && it != end;
          it.increment(error)) {
@@ -111,7 +112,7 @@ void EarlierReplay::Remove() const {
   for (const fs::path& file : FilesNamedLikeOutputs()) {
     if (Wrote(file) && file != "report.json") fs::remove(folder_ / file, ignored);
   }
-  for (const char* part : {"poses", "frames", "colmap"}) {
+  for (const char* part : {"poses", "frames", "timelapse", "colmap"}) {
     // Only if nothing else is in it.
     if (!outputs_.empty() && fs::is_directory(folder_ / part, ignored)) {
       fs::remove(folder_ / part, ignored);

@@ -36,6 +36,7 @@ struct ReplayReport {
   devices::Cloudiness cloudiness = devices::Cloudiness::kClear;
   std::size_t virtual_objects = 0, phantoms = 0;
   std::optional<LightSummary> light;  ///< Nothing where nothing had to be lit.
+  std::string time_lapse;             ///< Part of the page that shows it; empty without.
   std::string video_encoder;          ///< Empty without video.
   std::vector<std::string> outputs;   ///< Relative to the output folder.
   std::vector<std::string> warnings;

@@ -214,6 +214,7 @@ std::string ReportHtml(const ReplayReport& report) {
     html += "<h2>Before and after</h2>\n<div class=\"pictures\">\n" + Pictures(report) + "</div>\n";
   }
   html += "<h2>Light</h2>\n<div class=\"cards\">\n" + Light(report) + "</div>\n";
+  html += report.time_lapse;
   if (!report.path.empty()) html += "<h2>Camera path</h2>\n" + Plots(report);
   html +=
       "<h2>Time per stage</h2>\n<table><tr><th>stage</th><th>runs</th><th>median, ms</th>"

@@ -75,8 +75,15 @@ TEST(Replay, TakesTheLightThatTheUserGives) {
   MakeShortRecording(folder / "site", 1, true);
   const RunResult run =
       RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video", "--sun-to-sky",
-                   "0", "--heading", "10", "--light-cache", folder / "cache"});
+                   "0", "--heading", "10", "--light-cache", folder / "cache", "--frames",
+                   "--time-lapse", "11:00..13:00", "--every", "60min"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(
+      Listing(folder / "out"),
+      ElementsAre("detections.jsonl", "frames", "frames/0000.png", "poses", "poses/sg_17.tum",
+                  "report.html", "report.json", "timelapse", "timelapse.mp4", "timelapse.png",
+                  "timelapse/0000.png", "timelapse/0001.png", "timelapse/0002.png"));
+  EXPECT_THAT(ReadFile(folder / "out/report.html"), HasSubstr("data:video/mp4;base64,"));
   const auto report = nlohmann::json::parse(ReadFile(folder / "out/report.json"));
   EXPECT_EQ(report["light"]["sun_normal_lux"], 0.0);
   EXPECT_EQ(Listing(folder / "cache").size(), 1U);

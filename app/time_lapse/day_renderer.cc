@@ -1,0 +1,100 @@
+#include "app/time_lapse/day_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/srgb.h"
+#include "compositor/sky_table.h"
+#include "shadows/shadow_uniforms.h"
+
+namespace pleinair::app {
+namespace {
+
+// Of the land beyond the phantoms, as the light solver takes it.
+constexpr double kLandAlbedo = 0.2;
+// White paper on the ground shows as this display-linear value in the brightest moment.
+constexpr double kWhite = 0.8, kPaper = 0.8;
+// How much of a fall of the light shows: its fifth root.
+constexpr double kDimming = 0.2;
+// Less than this, starlight apart, no camera of daylight shows, lux.
+constexpr double kDark_lux = 0.05;
+
+}  // namespace
+
+DayRenderer::DayRenderer(const CameraModel& camera, LightOrder order)
+    : order_(std::move(order)), width_(camera.width), height_(camera.height) {
+  rays_.reserve(static_cast<std::size_t>(width_) * height_);
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const Vec2 at = UndistortPixel(camera, {static_cast<double>(x), static_cast<double>(y)});
+      rays_.push_back(Normalized({at.x, at.y, 1.0}));
+    }
+  }
+}
+
+Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
+    const CameraModel& camera, std::vector<compositor::PlacedModel> placed, LightOrder order,
+    const compositor::ComposerOptions& options) {
+  std::unique_ptr<DayRenderer> renderer(new DayRenderer(camera, std::move(order)));
+  renderer->order_.print = {};  // Nothing is metered.
+  for (compositor::PlacedModel& model : placed) model.is_phantom = false;
+  compositor::ComposerOptions drawing = options;
+  drawing.response = {};
+  drawing.shadow_partitions = shadows::kMaxPartitions;  // Everything casts, not only the objects.
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
+                            compositor::Composer::Create(camera, placed, drawing));
+  return renderer;
+}
+
+LinearRgb DayRenderer::LevelLight(UtcTime time) const {
+  const sky::SunPosition sun = SunOver(order_.place, time);
+  const auto model = order_.skies.source->ForSun(sun.ToSun(), sun.distance_au);
+  return model->SkyHorizontalIrradiance() * order_.skies.scale +
+         model->SunNormalIrradiance() * std::max(0.0, sun.ToSun().xyz.z);
+}
+
+Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_from_marker,
+                                     UtcTime time, LinearRgb gain) {
+  LightOrder order = order_;
+  order.time = time;
+  SceneLight light(order);
+  for (compositor::LitMesh& mesh : light.meshes) {
+    mesh.is_phantom = false;
+    mesh.ambient_without.clear();
+  }
+  PLEINAIR_RETURN_IF_ERROR(
+      composer_->SetLight(light.meshes, light.daylight, light.marker_from_world));
+  return composer_->Compose(Far(light, camera_from_marker, gain).view(), camera_from_marker, gain);
+}
+
+/// What lies behind the scene: sky and land.
+RgbImage DayRenderer::Far(const SceneLight& light,
+                          const Transform<Camera, Marker>& camera_from_marker,
+                          LinearRgb gain) const {
+  const compositor::SkyTable sky(light.daylight, light.marker_from_world, kLandAlbedo);
+  const Mat3 marker_from_camera = camera_from_marker.rotation.Transposed();
+  RgbImage picture(width_, height_, 3);
+  auto ray = rays_.begin();
+  for (int y = 0; y < height_; ++y) {
+    std::uint8_t* at = picture.view().row(y);
+    for (int x = 0; x < width_; ++x, ++ray) {
+      const auto radiance = sky.Radiance(marker_from_camera * *ray);
+      *at++ = Srgb8FromLinear(radiance[0] * gain.r);
+      *at++ = Srgb8FromLinear(radiance[1] * gain.g);
+      *at++ = Srgb8FromLinear(radiance[2] * gain.b);
+    }
+  }
+  return picture;
+}
+
+LinearRgb GainOfDay(LinearRgb level_light, LinearRgb brightest) {
+  const double light = Luminance(level_light), most = Luminance(brightest);
+  if (light < kDark_lux || most <= 0.0) return {};
+  const double white = kWhite * std::pow(light / most, kDimming);
+  const LinearRgb balance{most / brightest.r, most / brightest.g, most / brightest.b};
+  return balance * (white * std::numbers::pi / (kPaper * light));
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,164 @@
+#include "app/time_lapse/time_lapse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "app/interrupt.h"
+#include "app/line_drawing.h"
+#include "app/progress_bar.h"
+#include "app/sinks/picture_writer.h"
+#include "app/sinks/report_html.h"
+#include "app/sinks/video_writer.h"
+#include "base/atomic_file.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPicturesPerSecond = 12.0;
+// Of the sheet.
+constexpr std::size_t kColumns = 4, kMostTiles = 16;
+constexpr int kTileWidth_px = 320, kCaption_px = 22;
+
+/// A strip with a time in it.
+RgbImage Caption(const std::string& text) {
+  LineDrawing drawing;
+  drawing.width = kTileWidth_px;
+  drawing.height = kCaption_px;
+  drawing.texts.push_back(
+      {{kTileWidth_px / 2.0, kCaption_px / 2.0}, 0.65 * kCaption_px, text, {34, 38, 43}});
+  return RasterizeDrawing(drawing, kTileWidth_px);
+}
+
+void Paste(const RgbImage& from, int left, int top, RgbImage* onto) {
+  for (int y = 0; y < from.height(); ++y) {
+    std::copy_n(from.view().row(y), static_cast<std::size_t>(from.width()) * 3,
+                onto->view().row(top + y) + static_cast<std::ptrdiff_t>(left) * 3);
+  }
+}
+
+class ContactSheet {
+ public:
+  ContactSheet(std::size_t pictures, double aspect)
+      : tiles_(std::min(pictures, kMostTiles)),
+        pictures_(pictures),
+        tile_height_(static_cast<int>(std::lround(kTileWidth_px * aspect))) {
+    const std::size_t columns = std::min(tiles_, kColumns);
+    const std::size_t rows = (tiles_ + kColumns - 1) / kColumns;
+    sheet_ = RgbImage(static_cast<int>(columns) * kTileWidth_px,
+                      static_cast<int>(rows) * (tile_height_ + kCaption_px), 3);
+    std::fill_n(sheet_.data(), sheet_.size(), std::uint8_t{255});
+  }
+
+  /// Takes a picture where it is one of those that are shown: first, last, and evenly between.
+  void Offer(std::size_t index, const RgbImage& picture, const std::string& caption) {
+    if (taken_ >= tiles_ || index != Wanted(taken_)) return;
+    const int left = static_cast<int>(taken_ % kColumns) * kTileWidth_px;
+    const int top = static_cast<int>(taken_ / kColumns) * (tile_height_ + kCaption_px);
+    Paste(ResizeRgb(picture.view(), kTileWidth_px, tile_height_), left, top, &sheet_);
+    Paste(Caption(caption), left, top + tile_height_, &sheet_);
+    ++taken_;
+  }
+
+  const RgbImage& sheet() const { return sheet_; }
+
+ private:
+  std::size_t Wanted(std::size_t tile) const {
+    if (tiles_ < 2) return 0;
+    return (tile * (pictures_ - 1) + (tiles_ - 1) / 2) / (tiles_ - 1);
+  }
+
+  std::size_t tiles_, pictures_;
+  int tile_height_;
+  std::size_t taken_ = 0;
+  RgbImage sheet_;
+};
+
+/// "06:10" of a clock.
+std::string ClockTime(UtcTime time, UtcOffset clock) {
+  constexpr std::size_t kAfterDate = 11, kLength = 5;
+  return FormatLocal(time, clock).substr(kAfterDate, kLength);
+}
+
+Result<std::vector<std::uint8_t>> Bytes(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in) return InputError(file.string(), "cannot be read", "check its permissions");
+  return bytes;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
+                                                const TimeLapseMoments& moments,
+                                                const Transform<Camera, Marker>& camera_from_marker,
+                                                const fs::path& folder, bool pictures) {
+  std::vector<std::string> written{kTimeLapseVideo, kTimeLapseSheet};
+  LinearRgb brightest;
+  for (const UtcTime time : moments.times) {
+    const LinearRgb light = renderer.LevelLight(time);
+    if (Luminance(light) > Luminance(brightest)) brightest = light;
+  }
+  if (pictures) {
+    std::error_code error;
+    fs::create_directories(folder / kTimeLapsePictures, error);
+    if (error) return tl::make_unexpected(WriteError(folder / kTimeLapsePictures, error.value()));
+  }
+  std::unique_ptr<VideoWriter> video;
+  std::optional<ContactSheet> sheet;
+  ProgressBar bar("Drawing the day", static_cast<std::int64_t>(moments.times.size()), "pictures");
+  for (std::size_t i = 0; i < moments.times.size(); ++i) {
+    if (InterruptGuard::Interrupted()) {
+      return SystemError("", "interrupted", "nothing was written");
+    }
+    const UtcTime time = moments.times[i];
+    PLEINAIR_ASSIGN_OR_RETURN(
+        const RgbImage picture,
+        renderer.Render(camera_from_marker, time, GainOfDay(renderer.LevelLight(time), brightest)));
+    if (!video) {
+      PLEINAIR_ASSIGN_OR_RETURN(
+          video, VideoWriter::Create(folder / kTimeLapseVideo,
+                                     {picture.width(), picture.height(), kPicturesPerSecond}));
+      sheet.emplace(moments.times.size(), static_cast<double>(picture.height()) / picture.width());
+    }
+    PLEINAIR_RETURN_IF_ERROR(video->Add(
+        picture.view(), std::llround(static_cast<double>(i) * 1e9 / kPicturesPerSecond)));
+    sheet->Offer(i, picture, ClockTime(time, moments.clock));
+    if (pictures) {
+      const std::string name = fmt::format("{}/{:04}.png", kTimeLapsePictures, i);
+      PLEINAIR_RETURN_IF_ERROR(WritePng(folder / name, picture.view()));
+      written.push_back(name);
+    }
+    bar.Advance();
+  }
+  PLEINAIR_RETURN_IF_ERROR(video->Finish());
+  PLEINAIR_RETURN_IF_ERROR(WritePng(folder / kTimeLapseSheet, sheet->sheet().view()));
+  return written;
+}
+
+Result<std::string> TimeLapseHtml(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / kTimeLapseVideo, error) ||
+      !fs::exists(folder / kTimeLapseSheet, error)) {
+    return std::string();
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const auto video, Bytes(folder / kTimeLapseVideo));
+  PLEINAIR_ASSIGN_OR_RETURN(const auto sheet, Bytes(folder / kTimeLapseSheet));
+  return fmt::format(
+      "<h2>The day of this scene</h2>\n<p class=\"lead\">Drawn from the models alone, lit as the "
+      "frames say that the day was.</p>\n<video controls autoplay loop muted "
+      "style=\"width:100%;border-radius:8px\" src=\"data:video/mp4;base64,{}\"></video>\n"
+      "<figure><img alt=\"the day in pictures\" style=\"width:100%;border-radius:8px\" "
+      "src=\"data:image/png;base64,{}\"><figcaption>the day in pictures</figcaption></figure>\n",
+      Base64(video), Base64(sheet));
+}
+
+}  // namespace pleinair::app
