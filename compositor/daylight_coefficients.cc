@@ -150,7 +150,8 @@ DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
   const std::uint32_t affordable = kRayBudget / std::max(1U, scene.vertex_count);
   const int rays = static_cast<int>(std::min(static_cast<std::uint32_t>(options.rays_per_vertex),
                                              std::max(kFewestRays, affordable)));
-  const GatheredLight gathered = GatherPatches(scene, patches, rays, options.threads);
+  const GatheredLight gathered = GatherPatches(scene, patches, rays, options.threads, options.stop);
+  if (options.stop != nullptr && *options.stop) return coefficients;
   report(kShareOfRays);
   Transfer transfer(scene, gathered, options.threads);
   coefficients.with = CoefficientMatrix(scene.vertex_count, patches.total());

@@ -131,12 +131,13 @@ std::size_t BlockCount(std::uint32_t vertices) {
 }
 
 GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int rays_per_vertex,
-                         int threads) {
+                         int threads, const std::atomic<bool>* stop) {
   GatheredLight gathered;
   gathered.rays_per_vertex = rays_per_vertex;
   gathered.vertices.resize(scene.vertex_count);
   gathered.blocks.resize(BlockCount(scene.vertex_count));
   ParallelFor(gathered.blocks.size(), threads, [&](std::size_t index) {
+    if (stop != nullptr && *stop) return;
     GatheredLight::Block& block = gathered.blocks[index];
     const auto first = static_cast<std::uint32_t>(index) * GatheredLight::kBlockSize;
     const std::uint32_t last = std::min(first + GatheredLight::kBlockSize, scene.vertex_count);
@@ -156,13 +157,13 @@ GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int 
 GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays_per_vertex,
                      int threads) {
   return GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, rays_per_vertex), rays_per_vertex,
-                    threads);
+                    threads, nullptr);
 }
 
 GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays_per_vertex,
-                            int threads) {
+                            int threads, const std::atomic<bool>* stop) {
   return GatherWith(scene, Gatherer(scene, nullptr, &patches, std::nullopt, rays_per_vertex),
-                    rays_per_vertex, threads);
+                    rays_per_vertex, threads, stop);
 }
 
 VertexLight Reflect(const LightScene& scene, const GatheredLight& gathered,

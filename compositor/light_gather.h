@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -59,9 +60,9 @@ GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, 
                      int threads);
 
 /// The same for whatever sky: rays that leave are told by the patch that they leave through, and no
-/// sun is asked for.
+/// sun is asked for. Once `stop` is set it ends soon, and what it gives is of no use.
 GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays_per_vertex,
-                            int threads);
+                            int threads, const std::atomic<bool>* stop = nullptr);
 
 /// Irradiance on every vertex after `bounces` reflections; [0]: with the virtual objects, [1]:
 /// phantoms alone (meaningless for vertices of objects). Vertices that lie inside a body, such as

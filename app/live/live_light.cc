@@ -91,13 +91,12 @@ std::shared_ptr<const SceneLight> LiveLight::Take() {
 
 LiveLight::Progress LiveLight::progress() const {
   const std::lock_guard lock(mutex_);
-  Progress progress = progress_;
-  progress.coefficients = coefficients_share_;
-  return progress;
+  return progress_;
 }
 
 void LiveLight::Run() {
   LowerPriority();
+  compositor::CoefficientWorker worker;  // Here, because its threads are as patient as this one.
   while (true) {
     Wanted wanted;
     std::optional<Shown> shown;
@@ -108,18 +107,17 @@ void LiveLight::Run() {
       wanted = wanted_;
       shown = std::exchange(shown_, std::nullopt);
     }
-    if (coefficients_done_) TakeCoefficients();
-    if (wanted.edit.objects != placed_objects_ ||
-        (coefficients_ && wanted.edit.convergence != coefficients_convergence_)) {
-      EndCoefficients();
+    TakeCoefficients(worker);
+    if (wanted.edit.objects != placed_objects_) {
       // What cannot be placed stays where it was, and lit as it was.
       if (!Place(wanted.edit.objects)) wanted.edit.objects = placed_objects_;
     }
     if (NeedsLight(wanted)) Make(wanted);
     if (shown) Look(*shown, wanted);
-    if (!coefficients_ && !coefficients_thread_.joinable()) StartCoefficients(wanted);
+    if (wanted_for_ != solver_ || wanted.edit.convergence != coefficients_convergence_) {
+      WantCoefficients(wanted, &worker);
+    }
   }
-  EndCoefficients();
 }
 
 /// A solver for the objects at these places.
@@ -133,6 +131,7 @@ Result<void> LiveLight::Place(const std::vector<ObjectPlace>& objects) {
   compositor::LightSolverOptions options;
   options.rays_per_vertex = kFewRays;
   PLEINAIR_ASSIGN_OR_RETURN(solver_, compositor::LightSolver::Create(setup_.placed, options));
+  coefficients_.reset();  // They are another scene's.
   made_for_.reset();
   return {};
 }
@@ -216,34 +215,23 @@ void LiveLight::Look(const Shown& shown, const Wanted& wanted) {
   next_look_ = shown.time.PlusSeconds(kBetweenMeasurements_s);
 }
 
-void LiveLight::StartCoefficients(const Wanted& wanted) {
+void LiveLight::WantCoefficients(const Wanted& wanted, compositor::CoefficientWorker* worker) {
+  wanted_for_ = solver_;
   coefficients_convergence_ = wanted.edit.convergence;
-  coefficients_thread_ = std::thread(
-      [this, solver = solver_, up = MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0}] {
-        compositor::CoefficientOptions options;
-        options.convergence = coefficients_convergence_;
-        options.stop = &stop_coefficients_;
-        coefficients_result_ =
-            std::make_shared<const compositor::DaylightCoefficients>(solver->Coefficients(
-                up, options, [this](double share) { coefficients_share_ = share; }));
-        coefficients_done_ = true;
-      });
+  compositor::CoefficientOptions options;
+  options.convergence = coefficients_convergence_;
+  worker->Want(solver_, MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0}, options);
 }
 
-/// What was computed, or is being, is for another geometry.
-void LiveLight::EndCoefficients() {
-  stop_coefficients_ = true;
-  if (coefficients_thread_.joinable()) coefficients_thread_.join();
-  stop_coefficients_ = coefficients_done_ = false;
-  coefficients_share_ = 0.0;
-  coefficients_result_.reset();
-  coefficients_.reset();
-}
-
-void LiveLight::TakeCoefficients() {
-  coefficients_thread_.join();
-  coefficients_done_ = false;
-  coefficients_ = std::move(coefficients_result_);
+/// Where new ones are there, of the scene as it stands now.
+void LiveLight::TakeCoefficients(const compositor::CoefficientWorker& worker) {
+  const auto newest = worker.Newest();
+  {
+    const std::lock_guard lock(mutex_);
+    progress_.coefficients = wanted_for_ ? worker.progress() : 0.0;
+  }
+  if (!newest || newest->solver != solver_ || newest->coefficients == coefficients_) return;
+  coefficients_ = newest->coefficients;
   made_for_.reset();
 }
 

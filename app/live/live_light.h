@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/utc_time.h"
+#include "compositor/coefficient_worker.h"
 #include "devices/frame_source.h"
 #include "devices/scene_description.h"
 
@@ -23,7 +23,8 @@ namespace pleinair::app {
 /// Makes the light of a live session, on threads of its own and at low priority, so that no frame
 /// waits for it: anew when the sun has moved, when the scene is edited, and when frames have told
 /// of sun and sky. The first lights are traced with few rays; meanwhile daylight coefficients are
-/// computed, from which each further light takes milliseconds. Then the frames are looked at for
+/// computed, from which each further light takes milliseconds. A moved object begins this anew;
+/// until its next light is there it is drawn with the last. Then the frames are looked at for
 /// the phantoms' shadows, as replay does, and again every minute.
 class LiveLight {
  public:
@@ -85,9 +86,8 @@ class LiveLight {
   void Make(const Wanted& wanted);
   bool NeedsLight(const Wanted& wanted) const;
   void Look(const Shown& shown, const Wanted& wanted);
-  void StartCoefficients(const Wanted& wanted);
-  void EndCoefficients();
-  void TakeCoefficients();
+  void WantCoefficients(const Wanted& wanted, compositor::CoefficientWorker* worker);
+  void TakeCoefficients(const compositor::CoefficientWorker& worker);
   LightOrder OrderFor(const Wanted& wanted);
   bool MayLook(const Wanted& wanted) const;
 
@@ -99,6 +99,7 @@ class LiveLight {
   std::vector<ObjectPlace> placed_objects_;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
   double coefficients_convergence_ = 0.0;
+  std::shared_ptr<const compositor::LightSolver> wanted_for_;  // Their scene, ordered.
   DaySkies skies_;
   std::optional<SceneEdit::Sky> skies_of_;  // The edit's air that they were made for.
   DaySkies found_skies_;
@@ -106,10 +107,6 @@ class LiveLight {
   std::unique_ptr<LightLook> look_;
   std::optional<Wanted> made_for_;
   sky::SunPosition made_sun_;
-  std::thread coefficients_thread_;
-  std::atomic<bool> stop_coefficients_ = false, coefficients_done_ = false;
-  std::atomic<double> coefficients_share_ = 0.0;
-  std::shared_ptr<const compositor::DaylightCoefficients> coefficients_result_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

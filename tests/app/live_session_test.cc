@@ -7,7 +7,9 @@
 #include <string>
 #include <thread>
 
+#include "app/live/live_light.h"
 #include "devices/recording.h"
+#include "tests/compositor/light_scenes.h"
 
 namespace pleinair::app {
 namespace {
@@ -182,6 +184,57 @@ TEST(LiveSession, SaysSoWhereTheCamerasSizeIsNotTheCalibrations) {
   if (drawn) drawn = (*session)->Draw(milliseconds(0));
   ASSERT_FALSE(drawn);
   EXPECT_THAT(drawn.error().what, testing::HasSubstr("160x120"));
+}
+
+TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
+  using compositor::testing::BoxModel;
+  using compositor::testing::Ground;
+  LiveLight::Setup setup;
+  setup.camera = Options().camera;
+  setup.scene = Options().scene;
+  setup.scene.place_time.start = *Options().start;
+  setup.scene.phantoms.emplace_back();
+  setup.scene.objects.emplace_back();
+  setup.placed = {
+      compositor::testing::Phantom(Ground(0.6, {0.3F, 0.3F, 0.3F})),
+      compositor::testing::Object(BoxModel({0, 0, 0}, {0.3, 0.3, 0.3}, {0.5F, 0.4F, 0.3F}))};
+  setup.edit = UneditedScene(setup.scene, {});
+  setup.skies.source = StatedSky(setup.scene);
+  setup.time = *Options().start;
+  SceneEdit edit = setup.edit;
+  auto light = LiveLight::Create(setup);
+  ASSERT_TRUE(light) << light.error().Message();
+  std::shared_ptr<const SceneLight> in_use = (*light)->Take();
+  ASSERT_NE(in_use, nullptr) << "the first light is there at once";
+  const auto until_coefficients = [&] {
+    int seen_without = 0;
+    while (!in_use->order.coefficients || in_use->objects != edit.objects) {
+      if (auto newest = (*light)->Take()) in_use = newest;
+      seen_without += in_use->order.coefficients ? 0 : 1;
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    return seen_without;
+  };
+  EXPECT_GT(until_coefficients(), 0) << "frames were drawn before, by light that was traced";
+  const auto before = in_use;
+  edit.objects[0].translation_m = {-0.3, 0.1, 0.0};
+  (*light)->SetEdit(edit);
+  EXPECT_EQ((*light)->Take(), nullptr) << "asking does not wait; the last light stays";
+  EXPECT_GT(until_coefficients(), 0);
+  EXPECT_NE(in_use->order.solver, before->order.solver);
+  while ((*light)->progress().coefficients < 1.0) std::this_thread::sleep_for(milliseconds(1));
+  (*light)->Stop();
+  // What came of it is what is made from nothing for that place.
+  compositor::CoefficientOptions options;
+  options.convergence = edit.convergence;
+  const auto fresh = in_use->order.solver->Coefficients(
+      MarkerFromWorld(setup.scene.marker) * Vec3{0, 0, 1}, options, {});
+  const auto meshes =
+      in_use->order.solver->Relight(fresh, in_use->daylight, in_use->marker_from_world);
+  ASSERT_EQ(meshes.size(), in_use->meshes.size());
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    EXPECT_EQ(meshes[i].ambient_with, in_use->meshes[i].ambient_with);
+  }
 }
 
 TEST(HandOver, ReplacesWaitsOrRefusesWhenItIsFull) {

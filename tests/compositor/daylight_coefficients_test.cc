@@ -165,8 +165,8 @@ TEST(DaylightCoefficients, AreReciprocal) {
     (first ? least1 : least2) = std::min(first ? least1 : least2, mean);
   }
   const double f12 = 1 - least1 / kPi, f21 = 1 - least2 / kPi;
-  EXPECT_NEAR(area1 * f12, area2 * f21, 0.01 * area1 * f12 + 0.002);
-  EXPECT_NEAR(f12, 0.2329, 0.004);
+  EXPECT_NEAR(area1 * f12, area2 * f21, 0.01 * area1 * f12);
+  EXPECT_NEAR(f12, 0.2329, 0.01 * 0.2329);
 }
 
 TEST(DaylightCoefficients, KeepAllLightInAWhiteBox) {
