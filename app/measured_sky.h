@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -20,6 +21,8 @@ struct LightOverrides {
   bool as_stated = false;            ///< Measure nothing but the gain: believe the scene.
   std::optional<double> sun_to_sky;  ///< Sun's illuminance of level ground over the sky's; 0: none.
   std::optional<double> heading_deg;  ///< Of the marker, as in the scene.
+  /// Where light is gathered, at most (compositor::LightSolverOptions).
+  std::optional<std::size_t> max_patches;
 };
 
 /// The light of a recording's day: which sky, how strong beside the sun, and why we think so.

@@ -88,6 +88,9 @@ std::string CommandText(const Arguments& arguments) {
   if (!arguments.options.light_cache.empty()) {
     text += " --light-cache " + Quoted(arguments.options.light_cache.string());
   }
+  if (const auto& patches = arguments.options.light.max_patches) {
+    text += " --light-patches " + std::to_string(*patches);
+  }
   if (arguments.light != "measured") text += " --light " + arguments.light;
   if (arguments.look != "matched") text += " --look " + arguments.look;
   if (arguments.options.hands_in_front) text += " --hands";
@@ -204,6 +207,11 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
       "--light-cache", arguments->options.light_cache,
       "Folder for daylight coefficients: traced once for a scene, then any moment's "
       "light takes milliseconds; for long days and for trying out");
+  command
+      ->add_option("--light-patches", arguments->options.light.max_patches,
+                   "Places where light is gathered, at most; models of more vertices share it by "
+                   "patches. More are finer and slower [100000]")
+      ->check(CLI::Range(1'000, 10'000'000));
   command
       ->add_option("--sun-to-sky", arguments->options.light.sun_to_sky,
                    "The sun's light on level ground over the sky's, instead of measuring it: 4 on "

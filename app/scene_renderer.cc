@@ -93,7 +93,9 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   }
   PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
                             compositor::Composer::Create(camera, placed, composing));
-  PLEINAIR_ASSIGN_OR_RETURN(renderer->solver_, compositor::LightSolver::Create(placed, {}));
+  compositor::LightSolverOptions solving;
+  solving.max_patches = overrides.max_patches.value_or(solving.max_patches);
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->solver_, compositor::LightSolver::Create(placed, solving));
   return renderer;
 }
 

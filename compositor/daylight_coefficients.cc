@@ -24,7 +24,8 @@ constexpr std::uint32_t kRayBudget = 25'000'000;
 constexpr std::uint32_t kFewestRays = 32;
 constexpr double kShareOfRays = 0.35;  // Of the time, for the progress.
 
-/// Reflected light of 16 patches on a vertex: red of all, green of all, blue of all.
+/// Reflected light of 16 patches of the sky on a patch of a surface: red of all, green of all, blue
+/// of all.
 using Reflected = std::array<float, 3 * kP>;
 using Straight = std::array<float, kP>;
 
@@ -34,8 +35,8 @@ class Transfer {
       : scene_(scene),
         gathered_(gathered),
         threads_(threads),
-        inside_(InsideVertices(scene, gathered, threads)),
-        weight_(std::numbers::pi_v<float> / static_cast<float>(gathered.rays_per_vertex)) {}
+        inside_(InsidePatches(scene, gathered, threads)),
+        weight_(std::numbers::pi_v<float> / static_cast<float>(gathered.rays)) {}
 
   /// One chunk of patches in one case (0: with the objects, 1: without); how many reflections.
   int Follow(int chunk, int k, double convergence, CoefficientMatrix* matrix) {
@@ -80,7 +81,7 @@ class Transfer {
   }
 
   std::vector<Straight> StraightLight(int chunk, int k) const {
-    std::vector<Straight> straight(scene_.vertex_count);
+    std::vector<Straight> straight(scene_.patch_count);
     ParallelFor(gathered_.blocks.size(), threads_, [&](std::size_t index) {
       const GatheredLight::Block& block = gathered_.blocks[index];
       std::uint32_t at = 0;
@@ -100,29 +101,29 @@ class Transfer {
     constexpr float kInvPi = std::numbers::inv_pi_v<float>;
     std::vector<Reflected> reflected(arriving.size());
     ParallelFor(gathered_.blocks.size(), threads_, [&](std::size_t index) {
-      ForEachVertex(
-          gathered_, index,
-          [&](std::uint32_t vertex, const GatheredLight::Hit* first,
-              const GatheredLight::Hit* last) {
-            Reflected& sum = reflected[vertex];
-            for (const GatheredLight::Hit* hit = first; hit != last; ++hit) {
-              if ((k == 0 ? hit->with : hit->without) == 0) continue;
-              const LightScene::Face& face = scene_.faces[hit->face];
-              const auto corners = CornersOf(face, *hit);
-              const float u = static_cast<float>(hit->u) / 65535.0F;
-              const float v = static_cast<float>(hit->v) / 65535.0F;
-              const float* a = arriving[corners[0]].data();
-              const float* b = arriving[corners[1]].data();
-              const float* d = arriving[corners[2]].data();
-              for (int c = 0; c < 3; ++c) {
-                const float factor = scene_.sheets[face.sheet].albedo[c] * kInvPi * weight_;
-                const float wa = (1.0F - u - v) * factor, wb = u * factor, wd = v * factor;
-                for (int i = c * kP; i < (c + 1) * kP; ++i) {
-                  sum[i] += wa * a[i] + wb * b[i] + wd * d[i];
-                }
-              }
-            }
-          });
+      ForEachPatch(gathered_, index,
+                   [&](std::uint32_t patch, const GatheredLight::Hit* first,
+                       const GatheredLight::Hit* last) {
+                     Reflected& sum = reflected[patch];
+                     for (const GatheredLight::Hit* hit = first; hit != last; ++hit) {
+                       if ((k == 0 ? hit->with : hit->without) == 0) continue;
+                       const LightScene::Face& face = scene_.faces[hit->face];
+                       const auto corners = CornersOf(face, *hit);
+                       const float u = static_cast<float>(hit->u) / 65535.0F;
+                       const float v = static_cast<float>(hit->v) / 65535.0F;
+                       const float* a = arriving[corners[0]].data();
+                       const float* b = arriving[corners[1]].data();
+                       const float* d = arriving[corners[2]].data();
+                       for (int c = 0; c < 3; ++c) {
+                         const float factor =
+                             scene_.sheets[face.sheet].albedo[c] * kInvPi * weight_;
+                         const float wa = (1.0F - u - v) * factor, wb = u * factor, wd = v * factor;
+                         for (int i = c * kP; i < (c + 1) * kP; ++i) {
+                           sum[i] += wa * a[i] + wb * b[i] + wd * d[i];
+                         }
+                       }
+                     }
+                   });
     });
     return reflected;
   }
@@ -147,15 +148,15 @@ DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
   coefficients.division = options.division;
   coefficients.up = up;
   const SkyPatches patches = coefficients.Patches();
-  const std::uint32_t affordable = kRayBudget / std::max(1U, scene.vertex_count);
+  const std::uint32_t affordable = kRayBudget / std::max(1U, scene.patch_count);
   const int rays = static_cast<int>(std::min(static_cast<std::uint32_t>(options.rays_per_vertex),
                                              std::max(kFewestRays, affordable)));
   const GatheredLight gathered = GatherPatches(scene, patches, rays, options.threads, options.stop);
   if (options.stop != nullptr && *options.stop) return coefficients;
   report(kShareOfRays);
   Transfer transfer(scene, gathered, options.threads);
-  coefficients.with = CoefficientMatrix(scene.vertex_count, patches.total());
-  coefficients.without = CoefficientMatrix(scene.vertex_count, patches.total());
+  coefficients.with = CoefficientMatrix(scene.patch_count, patches.total());
+  coefficients.without = CoefficientMatrix(scene.patch_count, patches.total());
   const int chunks = coefficients.with.chunks();
   for (int chunk = 0; chunk < chunks; ++chunk) {
     for (const int k : {0, 1}) {
@@ -193,6 +194,7 @@ std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOp
     add_all(sheet.mesh.normals);
     add_all(sheet.mesh.indices);
     add_all(sheet.albedo);
+    if (sheet.groups) add_all(sheet.groups->patch_of);
     const std::int32_t flags[] = {sheet.mesh.is_phantom, sheet.mesh.closed, sheet.twin};
     add(flags, sizeof flags);
   }

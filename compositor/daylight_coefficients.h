@@ -18,7 +18,7 @@ struct LightScene;
 
 struct CoefficientOptions {
   int division = 1;           ///< Of Tregenza's patches, 1…4.
-  int rays_per_vertex = 256;  ///< Lowered for huge models.
+  int rays_per_vertex = 256;  ///< Or patch of a fine surface; lowered for huge scenes.
   /// Reflections are followed until the last adds less than this share of all the light. The
   /// paper's convergence rate.
   double convergence = 0.01;
@@ -32,9 +32,10 @@ struct CoefficientOptions {
 using CoefficientProgress = std::function<void(double)>;
 
 /// Daylight coefficients (Tregenza & Waters 1983, "Daylight coefficients", Lighting Research &
-/// Technology 15(2)): what light each patch of the sky sends to every vertex of a scene, straight
-/// and after reflections among virtual objects and phantoms. Made once for a geometry; the light
-/// of any date, time and sky is then one product with a matrix.
+/// Technology 15(2)): what light each patch of the sky sends to every vertex of a scene (or patch
+/// of its surfaces, where these are finer than light needs), straight and after reflections among
+/// virtual objects and phantoms. Made once for a geometry; the light of any date, time and sky is
+/// then one product with a matrix.
 ///
 /// The rays of every vertex are traced once; the surfaces that they meet are the only ones it
 /// exchanges light with (the paper's caster culling), and the light of all patches is passed along

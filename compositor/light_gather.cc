@@ -16,6 +16,7 @@ using Hit = GatheredLight::Hit;
 
 // Real ground comes in layers (a lawn's sheet over paving); what lies between them is not seen.
 constexpr double kLayerGapM = 0.02;
+constexpr std::uint32_t kSpotSalt = 0x5B;
 
 class Gatherer {
  public:
@@ -25,22 +26,25 @@ class Gatherer {
       : scene_(scene), sky_(sky), patches_(patches), rays_(rays) {
     if (to_sun) sun_frame_.emplace(*to_sun);
     for (const LightScene::Sheet& sheet : scene.sheets) {
-      for (const auto& normal : sheet.mesh.normals) normals_.push_back(normal);
-      is_phantom_.insert(is_phantom_.end(), sheet.mesh.normals.size(), sheet.mesh.is_phantom);
+      is_phantom_.insert(is_phantom_.end(), sheet.patch_count, sheet.mesh.is_phantom);
     }
   }
 
-  GatheredLight::Vertex GatherVertex(std::uint32_t vertex, GatheredLight::Block* block) const {
-    GatheredLight::Vertex light;
-    const auto& n = normals_[vertex];
-    const TangentFrame frame(Normalized({n[0], n[1], n[2]}));
-    const Vec3 origin = scene_.gather_origins[vertex];
-    const bool phantom = is_phantom_[vertex];
+  GatheredLight::Patch GatherPatch(std::uint32_t patch, GatheredLight::Block* block) const {
+    GatheredLight::Patch light;
+    const std::uint32_t first = patch == 0 ? 0 : scene_.spot_ends[patch - 1];
+    const std::uint32_t spots = scene_.spot_ends[patch] - first;
+    const bool phantom = is_phantom_[patch];
     for (int i = 0; i < rays_; ++i) {
       const auto ray = static_cast<std::uint32_t>(i);
+      // A patch of many spots gathers the mean over them.
+      const LightScene::Spot& spot =
+          scene_.spots[first + (spots > 1 ? Hash(Hash(patch, ray), kSpotSalt) % spots : 0)];
+      const Vec3 origin = spot.origin;
+      const TangentFrame frame(Normalized({spot.normal[0], spot.normal[1], spot.normal[2]}));
       const Vec3 direction =
-          CosineDirection(frame, ShiftedHammersley(ray, static_cast<std::uint32_t>(rays_), vertex));
-      const std::uint32_t seed = Hash(vertex, ray);
+          CosineDirection(frame, ShiftedHammersley(ray, static_cast<std::uint32_t>(rays_), patch));
+      const std::uint32_t seed = Hash(patch, ray);
       RayHit hit;
       if (!scene_.rays->Intersect(RayTargets::kEverything, origin, direction, &hit)) {
         AddSky(direction, true, phantom, &light, block);
@@ -59,7 +63,7 @@ class Gatherer {
   }
 
  private:
-  void AddSky(Vec3 direction, bool with, bool without, GatheredLight::Vertex* light,
+  void AddSky(Vec3 direction, bool with, bool without, GatheredLight::Patch* light,
               GatheredLight::Block* block) const {
     bool above = false;
     std::array<float, 3> radiance{};
@@ -83,7 +87,7 @@ class Gatherer {
   }
 
   void AddHit(const RayHit& hit, Vec3 origin, Vec3 direction, std::uint32_t seed, bool with,
-              bool without, GatheredLight::Vertex* light, std::vector<Hit>* hits) const {
+              bool without, GatheredLight::Patch* light, std::vector<Hit>* hits) const {
     const LightScene::Face& face = scene_.FaceOf(hit);
     const bool inside = hit.back && face.back_offset == 0;
     for (const int k : {0, 1}) {
@@ -122,27 +126,26 @@ class Gatherer {
   const SkyPatches* patches_;
   std::optional<TangentFrame> sun_frame_;
   int rays_;
-  std::vector<std::array<float, 3>> normals_;
   std::vector<std::uint8_t> is_phantom_;
 };
 
-std::size_t BlockCount(std::uint32_t vertices) {
-  return (vertices + GatheredLight::kBlockSize - 1) / GatheredLight::kBlockSize;
+std::size_t BlockCount(std::uint32_t patches) {
+  return (patches + GatheredLight::kBlockSize - 1) / GatheredLight::kBlockSize;
 }
 
-GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int rays_per_vertex,
-                         int threads, const std::atomic<bool>* stop) {
+GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int rays, int threads,
+                         const std::atomic<bool>* stop) {
   GatheredLight gathered;
-  gathered.rays_per_vertex = rays_per_vertex;
-  gathered.vertices.resize(scene.vertex_count);
-  gathered.blocks.resize(BlockCount(scene.vertex_count));
+  gathered.rays = rays;
+  gathered.patches.resize(scene.patch_count);
+  gathered.blocks.resize(BlockCount(scene.patch_count));
   ParallelFor(gathered.blocks.size(), threads, [&](std::size_t index) {
     if (stop != nullptr && *stop) return;
     GatheredLight::Block& block = gathered.blocks[index];
     const auto first = static_cast<std::uint32_t>(index) * GatheredLight::kBlockSize;
-    const std::uint32_t last = std::min(first + GatheredLight::kBlockSize, scene.vertex_count);
-    for (std::uint32_t vertex = first; vertex < last; ++vertex) {
-      gathered.vertices[vertex] = gatherer.GatherVertex(vertex, &block);
+    const std::uint32_t last = std::min(first + GatheredLight::kBlockSize, scene.patch_count);
+    for (std::uint32_t patch = first; patch < last; ++patch) {
+      gathered.patches[patch] = gatherer.GatherPatch(patch, &block);
       block.ends.push_back(static_cast<std::uint32_t>(block.hits.size()));
       block.escape_ends.push_back(static_cast<std::uint32_t>(block.escapes.size()));
     }
@@ -154,39 +157,38 @@ GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int 
 
 }  // namespace
 
-GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays_per_vertex,
+GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays,
                      int threads) {
-  return GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, rays_per_vertex), rays_per_vertex,
-                    threads, nullptr);
+  return GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, rays), rays, threads, nullptr);
 }
 
-GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays_per_vertex,
+GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays,
                             int threads, const std::atomic<bool>* stop) {
-  return GatherWith(scene, Gatherer(scene, nullptr, &patches, std::nullopt, rays_per_vertex),
-                    rays_per_vertex, threads, stop);
+  return GatherWith(scene, Gatherer(scene, nullptr, &patches, std::nullopt, rays), rays, threads,
+                    stop);
 }
 
-VertexLight Reflect(const LightScene& scene, const GatheredLight& gathered,
-                    const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
-                    int threads) {
+PatchLight Reflect(const LightScene& scene, const GatheredLight& gathered,
+                   const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
+                   int threads) {
   constexpr float kPi = std::numbers::pi_v<float>;
-  const auto inside = InsideVertices(scene, gathered, threads);
-  const float weight = kPi / static_cast<float>(gathered.rays_per_vertex);
-  VertexLight light;
+  const auto inside = InsidePatches(scene, gathered, threads);
+  const float weight = kPi / static_cast<float>(gathered.rays);
+  PatchLight light;
   for (const int k : {0, 1}) {
-    light.irradiance[k].resize(scene.vertex_count);
-    for (std::uint32_t v = 0; v < scene.vertex_count; ++v) {
+    light.irradiance[k].resize(scene.patch_count);
+    for (std::uint32_t v = 0; v < scene.patch_count; ++v) {
       for (int c = 0; c < 3; ++c) {
-        light.irradiance[k][v][c] = gathered.vertices[v].sky[k][c] * weight;
+        light.irradiance[k][v][c] = gathered.patches[v].sky[k][c] * weight;
       }
     }
     FillFromNeighbours(scene, inside[k], &light.irradiance[k]);
   }
   for (int bounce = 0; bounce < bounces; ++bounce) {
-    const VertexLight previous = light;
+    const PatchLight previous = light;
     ParallelFor(gathered.blocks.size(), threads, [&](std::size_t block) {
-      ForEachVertex(gathered, block, [&](std::uint32_t vertex, const Hit* first, const Hit* last) {
-        auto sum = gathered.vertices[vertex].sky;
+      ForEachPatch(gathered, block, [&](std::uint32_t patch, const Hit* first, const Hit* last) {
+        auto sum = gathered.patches[patch].sky;
         for (const Hit* hit = first; hit != last; ++hit) {
           const LightScene::Face& face = scene.faces[hit->face];
           const auto corners = CornersOf(face, *hit);
@@ -206,7 +208,7 @@ VertexLight Reflect(const LightScene& scene, const GatheredLight& gathered,
           }
         }
         for (const int k : {0, 1}) {
-          for (int c = 0; c < 3; ++c) light.irradiance[k][vertex][c] = sum[k][c] * weight;
+          for (int c = 0; c < 3; ++c) light.irradiance[k][patch][c] = sum[k][c] * weight;
         }
       });
     });

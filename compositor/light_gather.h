@@ -11,9 +11,9 @@
 
 namespace pleinair::compositor {
 
-/// What the rays of every vertex met, so that reflections can be followed without tracing again.
+/// What the rays of every patch met, so that reflections can be followed without tracing again.
 struct GatheredLight {
-  /// A surface that a vertex sees, in 8 bytes: there are millions.
+  /// A surface that a patch sees, in 8 bytes: there are millions.
   struct Hit {
     std::uint32_t face : 26;
     std::uint32_t with : 1;         ///< Seen with the virtual objects there.
@@ -27,7 +27,7 @@ struct GatheredLight {
   static_assert(sizeof(Hit) == 8);
 
   /// Index 0: with the virtual objects, 1: phantoms alone.
-  struct Vertex {
+  struct Patch {
     std::array<std::array<float, 3>, 2> sky{};   ///< Sum of radiances of rays that left.
     std::array<std::uint32_t, 2> sky_rays{};     ///< How many of them went above the horizon.
     std::array<std::uint32_t, 2> inside_rays{};  ///< Rays that met the inside of a body.
@@ -43,35 +43,35 @@ struct GatheredLight {
 
   struct Block {
     std::vector<Hit> hits;
-    std::vector<std::uint32_t> ends;  ///< One past each vertex's last hit.
+    std::vector<std::uint32_t> ends;  ///< One past each patch's last hit.
     std::vector<Escape> escapes;      ///< Of GatherPatches() alone.
     std::vector<std::uint32_t> escape_ends;
   };
 
-  static constexpr std::uint32_t kBlockSize = 256;  ///< Vertices a block.
-  int rays_per_vertex = 0;
-  std::vector<Vertex> vertices;
+  static constexpr std::uint32_t kBlockSize = 256;  ///< Patches a block.
+  int rays = 0;                                     ///< A patch.
+  std::vector<Patch> patches;
   std::vector<Block> blocks;
 };
 
-/// Sends `rays_per_vertex` cosine-weighted rays from every vertex. A ray whose nearest surface is
+/// Sends `rays` cosine-weighted rays from every patch. A ray whose nearest surface is
 /// a phantom's serves both cases, so that they differ by what the objects change and not by noise.
-GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays_per_vertex,
+GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays,
                      int threads);
 
 /// The same for whatever sky: rays that leave are told by the patch that they leave through, and no
 /// sun is asked for. Once `stop` is set it ends soon, and what it gives is of no use.
-GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays_per_vertex,
+GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays,
                             int threads, const std::atomic<bool>* stop = nullptr);
 
-/// Irradiance on every vertex after `bounces` reflections; [0]: with the virtual objects, [1]:
-/// phantoms alone (meaningless for vertices of objects). Vertices that lie inside a body, such as
+/// Irradiance on every patch after `bounces` reflections; [0]: with the virtual objects, [1]:
+/// phantoms alone (meaningless for patches of objects). Patches that lie inside a body, such as
 /// the ground's under a wall, take their neighbours' values, lest they darken them.
-struct VertexLight {
+struct PatchLight {
   std::array<std::vector<std::array<float, 3>>, 2> irradiance;
 };
-VertexLight Reflect(const LightScene& scene, const GatheredLight& gathered,
-                    const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
-                    int threads);
+PatchLight Reflect(const LightScene& scene, const GatheredLight& gathered,
+                   const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
+                   int threads);
 
 }  // namespace pleinair::compositor

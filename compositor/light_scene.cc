@@ -122,27 +122,59 @@ std::vector<Vec3> GatherOrigins(const SurfaceMesh& mesh) {
   return origins;
 }
 
-void AddSheet(SurfaceMesh mesh, const std::array<float, 3>& albedo, LightScene* scene) {
-  const std::vector<Vec3> origins = GatherOrigins(mesh);
-  scene->gather_origins.insert(scene->gather_origins.end(), origins.begin(), origins.end());
+/// A patch's spots: of its many vertices some, evenly chosen, are enough.
+constexpr std::uint32_t kMostSpots = 64;
+
+void AddSpots(const LightScene::Sheet& sheet, LightScene* scene) {
+  const std::vector<Vec3> origins = GatherOrigins(sheet.mesh);
+  const auto add = [&](std::uint32_t vertex) {
+    scene->spots.push_back({origins[vertex], sheet.mesh.normals[vertex]});
+  };
+  if (!sheet.groups) {
+    for (std::uint32_t vertex = 0; vertex < origins.size(); ++vertex) {
+      add(vertex);
+      scene->spot_ends.push_back(static_cast<std::uint32_t>(scene->spots.size()));
+    }
+    return;
+  }
+  std::uint32_t first = 0;
+  for (const std::uint32_t last : sheet.groups->member_ends) {
+    const std::uint32_t size = last - first;
+    const std::uint32_t count = std::min(size, kMostSpots);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      add(sheet.groups->members[first + static_cast<std::uint32_t>(i * size / count)]);
+    }
+    scene->spot_ends.push_back(static_cast<std::uint32_t>(scene->spots.size()));
+    first = last;
+  }
+}
+
+void AddSheet(SurfaceMesh mesh, const std::array<float, 3>& albedo,
+              std::shared_ptr<const SurfacePatches> groups, LightScene* scene) {
   LightScene::Sheet sheet;
   sheet.albedo = albedo;
-  sheet.first_vertex = scene->vertex_count;
-  scene->vertex_count += static_cast<std::uint32_t>(mesh.positions.size());
+  sheet.first_patch = scene->patch_count;
+  sheet.patch_count = groups ? groups->count : static_cast<std::uint32_t>(mesh.positions.size());
+  sheet.groups = std::move(groups);
   sheet.mesh = std::move(mesh);
+  scene->patch_count += sheet.patch_count;
+  AddSpots(sheet, scene);
   scene->sheets.push_back(std::move(sheet));
 }
 
-void AddFaces(const SurfaceMesh& mesh, std::uint32_t sheet, LightScene* scene) {
-  const std::uint32_t base = scene->vertex_count;
-  const auto size = static_cast<std::uint32_t>(mesh.positions.size());
+void AddFaces(const SurfaceMesh& mesh, const SurfacePatches* groups, std::uint32_t sheet,
+              LightScene* scene) {
+  const std::uint32_t base = scene->patch_count;
+  const auto size =
+      groups != nullptr ? groups->count : static_cast<std::uint32_t>(mesh.positions.size());
   scene->first_face.push_back(static_cast<std::uint32_t>(scene->faces.size()));
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     LightScene::Face face;
     std::array<Vec3, 3> p;
     for (int c = 0; c < 3; ++c) {
       p[c] = ToVec3(mesh.positions[mesh.indices[i + c]]);
-      face.vertices[c] = base + mesh.indices[i + c];
+      const std::uint32_t vertex = mesh.indices[i + c];
+      face.patches[c] = base + (groups != nullptr ? groups->patch_of[vertex] : vertex);
     }
     face.back_offset = mesh.closed ? 0 : size;
     face.sheet = sheet;
@@ -154,6 +186,13 @@ void AddFaces(const SurfaceMesh& mesh, std::uint32_t sheet, LightScene* scene) {
 }
 
 }  // namespace
+
+std::vector<std::array<float, 3>> LightScene::VertexLight(
+    const Sheet& sheet, std::span<const std::array<float, 3>> patch_light) const {
+  const auto of_sheet = patch_light.subspan(sheet.first_patch, sheet.patch_count);
+  if (sheet.groups) return sheet.groups->Interpolate(of_sheet);
+  return {of_sheet.begin(), of_sheet.end()};
+}
 
 Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
                                       const LightSolverOptions& options) {
@@ -171,21 +210,32 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
   TessellationOptions tessellation;
   tessellation.near_edge_m = options.near_edge_m;
   tessellation.growth_per_m = options.growth_per_m;
+  std::size_t vertices = 0;
+  for (const SurfaceMesh& surface : surfaces) vertices += surface.positions.size();
+  // Surfaces that are fine from the start must not keep others from being subdivided.
+  if (vertices > options.max_patches) tessellation.max_vertices += vertices;
   Tessellate(tessellation, &surfaces);
+  std::vector<SurfacePatches> divided =
+      DividedIntoPatches(surfaces, tessellation, options.max_patches, options.threads);
 
   LightScene scene;
   std::vector<RayMesh> ray_meshes;
-  for (SurfaceMesh& surface : surfaces) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    SurfaceMesh& surface = surfaces[i];
+    std::shared_ptr<const SurfacePatches> groups;
+    if (divided[i].count > 0) {
+      groups = std::make_shared<const SurfacePatches>(std::move(divided[i]));
+    }
     ray_meshes.push_back({surface.positions, surface.indices, surface.is_phantom});
     const std::array<float, 3> albedo =
         DiffuseAlbedo(*models[surface.placed_model].model, surface.material);
     const auto front = static_cast<int>(scene.sheets.size());
-    AddFaces(surface, static_cast<std::uint32_t>(front), &scene);
+    AddFaces(surface, groups.get(), static_cast<std::uint32_t>(front), &scene);
     const bool closed = surface.closed;
     SurfaceMesh back = closed ? SurfaceMesh{} : OtherSide(surface);
-    AddSheet(std::move(surface), albedo, &scene);
+    AddSheet(std::move(surface), albedo, groups, &scene);
     if (!closed) {
-      AddSheet(std::move(back), albedo, &scene);
+      AddSheet(std::move(back), albedo, groups, &scene);
       scene.sheets[front].twin = front + 1;
       scene.sheets[front + 1].twin = front;
     }

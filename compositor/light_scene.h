@@ -3,31 +3,42 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/error.h"
 #include "base/vector.h"
 #include "compositor/mesh_orientation.h"
 #include "compositor/ray_scene.h"
+#include "compositor/surface_patches.h"
 
 namespace pleinair::compositor {
 
 struct PlacedModel;
 struct LightSolverOptions;
 
-/// The scene as the light solver sees it: tessellated sheets of vertices that store light, and
-/// the faces that rays hit. An open surface is two sheets, one for each side; a closed body one.
+/// The scene as the light solver sees it: sheets of patches that gather and store light, and the
+/// faces that rays hit. An open surface is two sheets, one for each side; a closed body one. Each
+/// vertex of a tessellated surface is a patch; where there are too many of them for that, a patch
+/// is a group of vertices (surface_patches.h).
 struct LightScene {
   struct Sheet {
     SurfaceMesh mesh;
     std::array<float, 3> albedo{};  ///< Diffuse, linear; texture averaged; metals have none.
-    std::uint32_t first_vertex = 0;
-    int twin = -1;  ///< The other side's sheet.
+    std::uint32_t first_patch = 0, patch_count = 0;
+    int twin = -1;                                 ///< The other side's sheet.
+    std::shared_ptr<const SurfacePatches> groups;  ///< Null: each vertex is a patch.
+  };
+
+  /// Where a patch gathers light: a little above its surface and away from its edges.
+  struct Spot {
+    Vec3 origin;
+    std::array<float, 3> normal{};
   };
 
   struct Face {
-    std::array<std::uint32_t, 3> vertices{};  ///< Scene-wide, of the front's sheet.
-    std::uint32_t back_offset = 0;  ///< To add for the back's vertices; 0: the back is inside.
+    std::array<std::uint32_t, 3> patches{};  ///< At the corners; scene-wide, of the front's sheet.
+    std::uint32_t back_offset = 0;  ///< To add for the back's patches; 0: the back is inside.
     std::uint32_t sheet = 0;        ///< Of the front.
     Vec3 normal;                    ///< Of the front, unit.
   };
@@ -35,12 +46,16 @@ struct LightScene {
   std::vector<Sheet> sheets;
   std::vector<Face> faces;
   std::vector<std::uint32_t> first_face;  ///< By mesh of the ray scene.
-  std::uint32_t vertex_count = 0;
-  /// Where each vertex gathers light: a little above its surface and away from its edges.
-  std::vector<Vec3> gather_origins;
+  std::uint32_t patch_count = 0;
+  std::vector<Spot> spots;               ///< By patch.
+  std::vector<std::uint32_t> spot_ends;  ///< One past each patch's last spot.
   std::unique_ptr<RayScene> rays;
 
   const Face& FaceOf(const RayHit& hit) const { return faces[first_face[hit.mesh] + hit.triangle]; }
+
+  /// The light of a sheet's vertices from that of all patches.
+  std::vector<std::array<float, 3>> VertexLight(
+      const Sheet& sheet, std::span<const std::array<float, 3>> patch_light) const;
 
   static Result<LightScene> Create(const std::vector<PlacedModel>& models,
                                    const LightSolverOptions& options);

@@ -21,7 +21,7 @@ constexpr std::uint32_t kFewestRays = 32;
 constexpr double kLandAlbedo = 0.2;
 
 constexpr std::uint32_t kSunRays = 256;
-constexpr std::size_t kSkySeenVertices = 64;
+constexpr std::size_t kSkySeenPatches = 64;
 
 class EmbreeLightSolver : public LightSolver {
  public:
@@ -33,15 +33,15 @@ class EmbreeLightSolver : public LightSolver {
     const SkyTable sky(day, marker_from_world, kLandAlbedo);
     const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
     const LinearRgb sun = day.SunNormalIrradiance();
-    const GatheredLight gathered = Gather(scene_, sky, to_sun, RaysPerVertex(), options_.threads);
-    const VertexLight light =
+    const GatheredLight gathered = Gather(scene_, sky, to_sun, RaysPerPatch(), options_.threads);
+    const PatchLight light =
         Reflect(scene_, gathered,
                 {static_cast<float>(sun.r), static_cast<float>(sun.g), static_cast<float>(sun.b)},
                 to_sun, options_.bounces, options_.threads);
     return MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
       double rays = 0.0;
-      for (std::size_t i = 0; i < sheet.mesh.positions.size(); ++i) {
-        rays += gathered.vertices[sheet.first_vertex + i].sky_rays[0];
+      for (std::size_t i = 0; i < sheet.patch_count; ++i) {
+        rays += gathered.patches[sheet.first_patch + i].sky_rays[0];
       }
       return rays;
     });
@@ -52,7 +52,7 @@ class EmbreeLightSolver : public LightSolver {
     const std::uint64_t hash = GeometryHash(scene_, up, options);
     if (!options.cache.empty()) {
       auto found = ReadCoefficients(options.cache, hash);
-      if (found && found->with.vertices() == scene_.vertex_count) return *std::move(found);
+      if (found && found->with.vertices() == scene_.patch_count) return *std::move(found);
     }
     DaylightCoefficients computed = ComputeCoefficients(scene_, up, options, progress);
     const bool stopped = options.stop != nullptr && *options.stop;
@@ -65,19 +65,19 @@ class EmbreeLightSolver : public LightSolver {
     const SkyPatches patches = coefficients.Patches();
     const auto sky = patches.Radiances(day, marker_from_world, kLandAlbedo);
     const auto sun = patches.Sun(day, marker_from_world);
-    VertexLight light;
+    PatchLight light;
     for (const int k : {0, 1}) {
-      light.irradiance[k].resize(scene_.vertex_count);
+      light.irradiance[k].resize(scene_.patch_count);
       (k == 0 ? coefficients.with : coefficients.without).Multiply(sky, sun, light.irradiance[k]);
     }
     return MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
-      // Some vertices of a sheet tell which side of it looks to the sky.
-      const std::size_t size = sheet.mesh.positions.size();
-      const std::size_t step = std::max<std::size_t>(1, size / kSkySeenVertices);
+      // Some patches of a sheet tell which side of it looks to the sky.
+      const std::size_t size = sheet.patch_count;
+      const std::size_t step = std::max<std::size_t>(1, size / kSkySeenPatches);
       double straight = 0.0;
       for (std::size_t i = 0; i < size; i += step) {
         for (int patch = 0; patch < patches.count(); ++patch) {
-          straight += coefficients.with.At(sheet.first_vertex + i, patch, 0);
+          straight += coefficients.with.At(sheet.first_patch + i, patch, 0);
         }
       }
       return straight;
@@ -163,15 +163,15 @@ class EmbreeLightSolver : public LightSolver {
     return {UnitFromHash(Hash(seed, salt)), UnitFromHash(Hash(seed, salt + 1))};
   }
 
-  int RaysPerVertex() const {
-    const std::uint32_t affordable = kRayBudget / std::max(1U, scene_.vertex_count);
+  int RaysPerPatch() const {
+    const std::uint32_t affordable = kRayBudget / std::max(1U, scene_.patch_count);
     const auto wanted = static_cast<std::uint32_t>(std::max(1, options_.rays_per_vertex));
     return static_cast<int>(std::min(wanted, std::max(kFewestRays, affordable)));
   }
 
   /// Of an open surface's two sides, that of which `sky_seen` says more comes first.
   template <typename SkySeen>
-  std::vector<LitMesh> MakeLitMeshes(const VertexLight& light, const SkySeen& sky_seen) const {
+  std::vector<LitMesh> MakeLitMeshes(const PatchLight& light, const SkySeen& sky_seen) const {
     std::vector<LitMesh> meshes;
     for (std::size_t i = 0; i < scene_.sheets.size(); ++i) {
       const int twin = scene_.sheets[i].twin;
@@ -186,7 +186,7 @@ class EmbreeLightSolver : public LightSolver {
     return meshes;
   }
 
-  static LitMesh MakeLitMesh(const LightScene::Sheet& sheet, const VertexLight& light) {
+  LitMesh MakeLitMesh(const LightScene::Sheet& sheet, const PatchLight& light) const {
     LitMesh mesh;
     mesh.is_phantom = sheet.mesh.is_phantom;
     mesh.placed_model = sheet.mesh.placed_model;
@@ -195,13 +195,8 @@ class EmbreeLightSolver : public LightSolver {
     mesh.normals = sheet.mesh.normals;
     mesh.uvs = sheet.mesh.uvs;
     mesh.indices = sheet.mesh.indices;
-    const auto slice = [&](int k) {
-      const auto first = light.irradiance[k].begin() + sheet.first_vertex;
-      return std::vector<std::array<float, 3>>(
-          first, first + static_cast<std::ptrdiff_t>(mesh.positions.size()));
-    };
-    mesh.ambient_with = slice(0);
-    if (mesh.is_phantom) mesh.ambient_without = slice(1);
+    mesh.ambient_with = scene_.VertexLight(sheet, light.irradiance[0]);
+    if (mesh.is_phantom) mesh.ambient_without = scene_.VertexLight(sheet, light.irradiance[1]);
     return mesh;
   }
 

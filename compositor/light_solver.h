@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,11 +48,16 @@ struct LitMesh {
 };
 
 struct LightSolverOptions {
-  int rays_per_vertex = 256;   ///< Cosine-weighted, stratified; lowered for huge models.
+  int rays_per_vertex = 256;   ///< Cosine-weighted, stratified; lowered for huge scenes.
   int bounces = 2;             ///< Diffuse reflections followed beyond the sky's direct light.
   double near_edge_m = 0.04;   ///< Longest edge of a triangle close to a virtual object.
   double growth_per_m = 0.25;  ///< How much longer edges may be per metre of distance.
-  int threads = 0;             ///< 0: as many as there are processors.
+  /// Where light is gathered, at most: in scenes of more vertices than that, those of fine surfaces
+  /// share it by patches, and between patches it is interpolated (surface_patches.h).
+  std::size_t max_patches = kDefaultPatches;
+  int threads = 0;  ///< 0: as many as there are processors.
+
+  static constexpr std::size_t kDefaultPatches = 100'000;
 };
 
 /// Where a line of sight meets a real surface.

@@ -7,53 +7,15 @@
 #include <unordered_map>
 #include <utility>
 
+#include "compositor/object_distance.h"
+
 namespace pleinair::compositor {
 namespace {
 
-struct Box {
-  std::array<float, 3> low, high;
-
-  double Distance(const std::array<float, 3>& p) const {
-    double squared = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      const double outside = std::max({low[i] - p[i], p[i] - high[i], 0.0F});
-      squared += outside * outside;
-    }
-    return std::sqrt(squared);
-  }
-};
-
-/// Boxes around the virtual objects; one for all of them when there are very many.
-std::vector<Box> ObjectBoxes(const std::vector<SurfaceMesh>& surfaces) {
-  constexpr std::size_t kMost = 32;
-  std::vector<Box> boxes;
-  for (const SurfaceMesh& surface : surfaces) {
-    if (surface.is_phantom || surface.positions.empty()) continue;
-    Box box{surface.positions[0], surface.positions[0]};
-    for (const auto& p : surface.positions) {
-      for (int i = 0; i < 3; ++i) {
-        box.low[i] = std::min(box.low[i], p[i]);
-        box.high[i] = std::max(box.high[i], p[i]);
-      }
-    }
-    boxes.push_back(box);
-  }
-  if (boxes.empty()) boxes.push_back(Box{});
-  if (boxes.size() <= kMost) return boxes;
-  Box all = boxes[0];
-  for (const Box& box : boxes) {
-    for (int i = 0; i < 3; ++i) {
-      all.low[i] = std::min(all.low[i], box.low[i]);
-      all.high[i] = std::max(all.high[i], box.high[i]);
-    }
-  }
-  return {all};
-}
-
 class Refiner {
  public:
-  Refiner(std::vector<Box> boxes, double near_edge_m, double growth_per_m)
-      : boxes_(std::move(boxes)), near_edge_m_(near_edge_m), growth_per_m_(growth_per_m) {}
+  Refiner(const ObjectDistance& distance, double near_edge_m, double growth_per_m)
+      : distance_(distance), near_edge_m_(near_edge_m), growth_per_m_(growth_per_m) {}
 
   /// Splits until every edge fits; false when more than `max_vertices` would be needed.
   bool Refine(SurfaceMesh* surface, std::size_t max_vertices) const {
@@ -75,9 +37,7 @@ class Refiner {
     const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
     if (length <= near_edge_m_) return false;
     const std::array<float, 3> middle = Midpoint(a, b);
-    double distance = boxes_[0].Distance(middle);
-    for (const Box& box : boxes_) distance = std::min(distance, box.Distance(middle));
-    return length > near_edge_m_ + growth_per_m_ * distance;
+    return length > near_edge_m_ + growth_per_m_ * distance_(middle);
   }
 
   static std::uint32_t AddMidpoint(SurfaceMesh* surface, std::uint32_t a, std::uint32_t b) {
@@ -103,11 +63,11 @@ class Refiner {
     constexpr std::uint32_t kKeep = ~0U;
     std::unordered_map<std::uint64_t, std::uint32_t> middles;
     const auto middle_of = [&](std::uint32_t a, std::uint32_t b) {
+      if (!TooLong(surface->positions[a], surface->positions[b])) return kKeep;
       const std::uint64_t key = (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
       const auto found = middles.find(key);
       if (found != middles.end()) return found->second;
-      const bool split = TooLong(surface->positions[a], surface->positions[b]);
-      const std::uint32_t middle = split ? AddMidpoint(surface, a, b) : kKeep;
+      const std::uint32_t middle = AddMidpoint(surface, a, b);
       middles.emplace(key, middle);
       return middle;
     };
@@ -153,7 +113,7 @@ class Refiner {
     return changed;
   }
 
-  std::vector<Box> boxes_;
+  const ObjectDistance& distance_;
   double near_edge_m_;
   double growth_per_m_;
 };
@@ -168,9 +128,9 @@ std::size_t CountVertices(const std::vector<SurfaceMesh>& surfaces) {
 
 void Tessellate(const TessellationOptions& options, std::vector<SurfaceMesh>* surfaces) {
   if (CountVertices(*surfaces) >= options.max_vertices) return;
-  const std::vector<Box> boxes = ObjectBoxes(*surfaces);
+  const ObjectDistance distance(*surfaces);
   for (double scale = 1.0; scale < 1e6; scale *= 1.5) {
-    const Refiner refiner(boxes, options.near_edge_m * scale, options.growth_per_m * scale);
+    const Refiner refiner(distance, options.near_edge_m * scale, options.growth_per_m * scale);
     std::vector<SurfaceMesh> refined = *surfaces;
     bool fits = true;
     std::size_t used = 0;

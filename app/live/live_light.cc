@@ -130,6 +130,7 @@ Result<void> LiveLight::Place(const std::vector<ObjectPlace>& objects) {
   }
   compositor::LightSolverOptions options;
   options.rays_per_vertex = kFewRays;
+  options.max_patches = setup_.overrides.max_patches.value_or(options.max_patches);
   PLEINAIR_ASSIGN_OR_RETURN(solver_, compositor::LightSolver::Create(setup_.placed, options));
   coefficients_.reset();  // They are another scene's.
   made_for_.reset();

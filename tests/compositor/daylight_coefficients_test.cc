@@ -61,7 +61,7 @@ double MeanOver(const LightScene& scene, std::size_t sheet,
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t i = s.mesh.indices[t + c];
       p[c] = {s.mesh.positions[i][0], s.mesh.positions[i][1], s.mesh.positions[i][2]};
-      mean += light[s.first_vertex + i][1] / 3.0;
+      mean += light[s.first_patch + i][1] / 3.0;
     }
     const double a = Norm(Cross(p[1] - p[0], p[2] - p[0])) / 2;
     sum += mean * a;

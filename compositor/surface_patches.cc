@@ -1,0 +1,480 @@
+#include "compositor/surface_patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include "base/vector.h"
+#include "compositor/light_samples.h"
+#include "compositor/object_distance.h"
+#include "compositor/parallel_for.h"
+
+namespace pleinair::compositor {
+namespace {
+
+// Surfaces that patches would not at least halve stay as they are.
+constexpr double kWorthwhile = 0.5;
+// How much wider patches are made at a time until there are few enough of them, and how far that
+// may go: beyond, a surface is one.
+constexpr double kWidening = 1.15;
+constexpr int kMostWidenings = 100;
+// Loose pieces are joined where they leave so small a share of the patches to be had unused.
+constexpr double kTooLoose = 0.25;
+// Normals within about 25° of an axis, or of a face's edge or corner, are alike.
+constexpr double kAlikeNormals = 0.4;
+
+using Float3 = std::array<float, 3>;
+using Share = SurfacePatches::Share;
+
+Vec3 ToVec3(const Float3& a) { return {a[0], a[1], a[2]}; }
+
+/// Sets of vertices; the smallest is the name of its set.
+class Sets {
+ public:
+  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
+
+  std::uint32_t Find(std::uint32_t v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+
+  void Join(std::uint32_t a, std::uint32_t b) {
+    a = Find(a);
+    b = Find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Which of 54 groups a normal belongs to: nine to each face of a cube.
+std::uint32_t NormalGroup(const Float3& n) {
+  int axis = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::fabs(n[i]) > std::fabs(n[axis])) axis = i;
+  }
+  const float most = std::fabs(n[axis]);
+  auto group = static_cast<std::uint32_t>(2 * axis + (n[axis] < 0.0F ? 1 : 0));
+  for (const int side : {(axis + 1) % 3, (axis + 2) % 3}) {
+    const double slope = most > 0.0F ? n[side] / most : 0.0;
+    group = group * 3 + (slope < -kAlikeNormals ? 0 : slope > kAlikeNormals ? 2 : 1);
+  }
+  return group;
+}
+
+/// One surface on its way to patches.
+class Divider {
+ public:
+  Divider(const SurfaceMesh& mesh, const TessellationOptions& spacing,
+          const ObjectDistance& distance)
+      : mesh_(mesh), near_edge_m_(spacing.near_edge_m) {
+    for (const Float3& position : mesh.positions) {
+      const double growth = 1.0 + spacing.growth_per_m * distance(position) / near_edge_m_;
+      levels_.push_back(static_cast<std::uint8_t>(std::min(30.0, std::log2(growth))));
+    }
+    FindTwins();
+  }
+
+  /// Area in units of the patches' there.
+  double Area() const {
+    double area = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
+      const std::uint32_t* v = &mesh_.indices[i];
+      const Vec3 p = ToVec3(mesh_.positions[v[0]]);
+      const Vec3 twice =
+          Cross(ToVec3(mesh_.positions[v[1]]) - p, ToVec3(mesh_.positions[v[2]]) - p);
+      const double width_m = WidthM(v[0], 1.0);
+      area += 0.5 * Norm(twice) / (width_m * width_m);
+    }
+    return area;
+  }
+
+  std::size_t sides() const { return mesh_.closed ? 1 : 2; }
+
+  /// Divides into patches `scale` times as wide as triangles are to be.
+  void Divide(double scale, bool hang_together) {
+    scale_ = scale;
+    const std::size_t size = mesh_.positions.size();
+    std::vector<std::uint64_t> keys(size);
+    for (std::uint32_t v = 0; v < size; ++v) keys[v] = Key(v, scale);
+    Sets sets(size);
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+      if (keys[a] == keys[b]) sets.Join(a, b);
+    };
+    if (hang_together) {
+      std::vector<std::uint64_t> cells = keys;
+      std::sort(cells.begin(), cells.end());
+      cells_ = static_cast<std::size_t>(std::unique(cells.begin(), cells.end()) - cells.begin());
+      for (const auto& [a, b] : twins_) join(a, b);
+      for (std::size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
+        for (int e = 0; e < 3; ++e) join(mesh_.indices[i + e], mesh_.indices[i + (e + 1) % 3]);
+      }
+    } else {
+      std::vector<std::uint32_t> by_key(size);
+      std::iota(by_key.begin(), by_key.end(), 0U);
+      std::sort(by_key.begin(), by_key.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
+      });
+      for (std::size_t i = 1; i < size; ++i) join(by_key[i - 1], by_key[i]);
+    }
+    patch_of_.resize(size);
+    std::uint32_t count = 0;
+    for (std::uint32_t v = 0; v < size; ++v) {
+      const std::uint32_t first = sets.Find(v);  // At most v: numbered before.
+      patch_of_[v] = first == v ? count++ : patch_of_[first];
+    }
+    count_ = count;
+  }
+
+  void MakeOne() {
+    patch_of_.assign(mesh_.positions.size(), 0);
+    count_ = 1;
+    cells_ = 1;
+  }
+
+  /// What it costs, both sides; as many as there are vertices where patches are not worthwhile.
+  std::size_t Cost() const { return (Worthwhile() ? count_ : patch_of_.size()) * sides(); }
+  /// The same if all in one cell were one patch.
+  std::size_t LooseCost() const { return cells_ * sides(); }
+
+  SurfacePatches Patches(int threads) const;
+
+ private:
+  bool Worthwhile() const {
+    return count_ <= kWorthwhile * static_cast<double>(patch_of_.size()) || count_ == 1;
+  }
+
+  double WidthM(std::uint32_t v, double scale) const {
+    return scale * near_edge_m_ * static_cast<double>(1U << levels_[v]);
+  }
+
+  std::uint64_t Key(std::uint32_t v, double scale) const {
+    const double width_m = WidthM(v, scale);
+    std::uint64_t key = NormalGroup(mesh_.normals[v]) * 64ULL + levels_[v];
+    for (int c = 0; c < 3; ++c) {
+      const auto cell = static_cast<std::int64_t>(std::floor(mesh_.positions[v][c] / width_m));
+      // Multiplicative hashing, Knuth 6.4; what has the same number by chance need not hang
+      // together and is then no patch.
+      key = (key ^ static_cast<std::uint64_t>(cell)) * 0x9E3779B97F4A7C15ULL;
+      key ^= key >> 29;
+    }
+    return key;
+  }
+
+  /// Pairs of vertices at one place: a surface hangs together there for all that its corners differ
+  /// in normal or texture.
+  void FindTwins() {
+    std::vector<std::uint32_t> order(mesh_.positions.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto& p = mesh_.positions;
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return p[a] != p[b] ? p[a] < p[b] : a < b; });
+    // Each with all others of its place that lie near in the list; corners have few.
+    constexpr std::size_t kReach = 8;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      for (std::size_t k = i + 1; k < std::min(order.size(), i + kReach); ++k) {
+        if (p[order[i]] != p[order[k]]) break;
+        twins_.push_back({order[i], order[k]});
+      }
+    }
+  }
+
+  void SortMembers(SurfacePatches* patches) const;
+  void FindLinks(SurfacePatches* patches) const;
+
+  const SurfaceMesh& mesh_;
+  double near_edge_m_;
+  std::vector<std::uint8_t> levels_;  // How often a patch's width has doubled with the distance.
+  std::vector<std::array<std::uint32_t, 2>> twins_;
+  std::vector<std::uint32_t> patch_of_;
+  double scale_ = 1.0;
+  std::uint32_t count_ = 0;
+  std::size_t cells_ = 0;
+};
+
+void Divider::SortMembers(SurfacePatches* patches) const {
+  patches->member_ends.assign(count_, 0);
+  for (const std::uint32_t patch : patch_of_) ++patches->member_ends[patch];
+  std::vector<std::uint32_t> at(count_);
+  std::uint32_t sum = 0;
+  for (std::uint32_t patch = 0; patch < count_; ++patch) {
+    at[patch] = sum;
+    sum += patches->member_ends[patch];
+    patches->member_ends[patch] = sum;
+  }
+  patches->members.resize(patch_of_.size());
+  for (std::uint32_t v = 0; v < patch_of_.size(); ++v) patches->members[at[patch_of_[v]]++] = v;
+}
+
+void Divider::FindLinks(SurfacePatches* patches) const {
+  auto& links = patches->links;
+  const auto add = [&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t from = patch_of_[a], to = patch_of_[b];
+    if (from != to) links.push_back({std::min(from, to), std::max(from, to)});
+  };
+  for (const auto& [a, b] : twins_) add(a, b);
+  for (std::size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
+    for (int e = 0; e < 3; ++e) add(mesh_.indices[i + e], mesh_.indices[i + (e + 1) % 3]);
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+}
+
+/// Solves for the first unknown's row of the inverse of a symmetric, positive definite matrix.
+template <std::size_t N>
+std::array<double, N> FirstRowOfInverse(std::array<std::array<double, N>, N> a) {
+  // Cholesky, a = L Lᵀ.
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      double sum = a[i][k];
+      for (std::size_t m = 0; m < k; ++m) sum -= a[i][m] * a[k][m];
+      a[i][k] = sum / a[k][k];
+    }
+    double sum = a[i][i];
+    for (std::size_t m = 0; m < i; ++m) sum -= a[i][m] * a[i][m];
+    a[i][i] = std::sqrt(std::max(sum, 1e-12));
+  }
+  std::array<double, N> x{};
+  for (std::size_t i = 0; i < N; ++i) {
+    double sum = i == 0 ? 1.0 : 0.0;
+    for (std::size_t m = 0; m < i; ++m) sum -= a[i][m] * x[m];
+    x[i] = sum / a[i][i];
+  }
+  for (std::size_t i = N; i-- > 0;) {
+    for (std::size_t m = i + 1; m < N; ++m) x[i] -= a[m][i] * x[m];
+    x[i] /= a[i][i];
+  }
+  return x;
+}
+
+/// Whose light each vertex gets, and how much of it.
+class Sharer {
+ public:
+  /// `widths_m`: of patches as they are meant to be, by vertex.
+  Sharer(const SurfaceMesh& mesh, const SurfacePatches& patches,
+         const std::vector<double>& widths_m)
+      : mesh_(mesh), patches_(patches) {
+    FindMeans();
+    FindReaches(widths_m);
+    FindNear();
+  }
+
+  void Add(std::uint32_t vertex, std::vector<Share>* shares) const {
+    const std::uint32_t own = patches_.patch_of[vertex];
+    const Vec3 position = ToVec3(mesh_.positions[vertex]), normal = ToVec3(mesh_.normals[vertex]);
+    const TangentFrame frame(Normalized(normal));
+    std::array<std::array<double, kUnknowns>, kMost> rows{};
+    std::array<double, kMost> weights{};
+    std::array<std::uint32_t, kMost> chosen{};
+    std::size_t size = 0;
+    double sum = 0.0;
+    const auto add = [&](std::uint32_t patch) {
+      const Vec3 aside = means_[patch].position - position, turn = means_[patch].normal - normal;
+      const double reach = reaches_[patch];
+      const double far = Dot(aside, aside) / (reach * reach) + Dot(turn, turn) / kReachOfNormals;
+      if (far >= 1.0 || size == kMost) return;
+      // Falls to nothing, and smoothly, before a patch is out of reach.
+      weights[size] = (1.0 - far) * (1.0 - far);
+      sum += weights[size];
+      rows[size] = {1.0,
+                    Dot(aside, frame.tangent) / reach,
+                    Dot(aside, frame.bitangent) / reach,
+                    turn.x,
+                    turn.y,
+                    turn.z};
+      chosen[size++] = patch;
+    };
+    for (std::uint32_t i = first_near_[own]; i < first_near_[own + 1]; ++i) add(near_[i]);
+    if (sum < 1e-6) {
+      shares->push_back({own, 1.0F});
+      return;
+    }
+    std::array<std::array<double, kUnknowns>, kUnknowns> normal_matrix{};
+    for (std::size_t k = 0; k < size; ++k) {
+      for (std::size_t i = 0; i < kUnknowns; ++i) {
+        for (std::size_t m = 0; m < kUnknowns; ++m) {
+          normal_matrix[i][m] += weights[k] * rows[k][i] * rows[k][m];
+        }
+      }
+    }
+    for (std::size_t i = 1; i < kUnknowns; ++i) {
+      normal_matrix[i][i] += sum * (i < 3 ? kDoubtInPlace : kDoubtInNormal);
+    }
+    const auto fit = FirstRowOfInverse(normal_matrix);
+    for (std::size_t k = 0; k < size; ++k) {
+      const double value = std::inner_product(fit.begin(), fit.end(), rows[k].begin(), 0.0);
+      shares->push_back({chosen[k], static_cast<float>(weights[k] * value)});
+    }
+  }
+
+ private:
+  static constexpr std::size_t kUnknowns = 6, kMost = 48;
+  // Patches whose mean normals are further than 60° from a vertex' do not count (1² of a chord).
+  static constexpr double kReachOfNormals = 1.0;
+  // In widths of a patch: less leaves a fit to chance, more blurs.
+  static constexpr double kReach = 1.7;
+  // Against a slope that only noise asks for: rays leave 3 % of it, light changes by about a third
+  // from patch to patch and by about all of it with the normal.
+  static constexpr double kDoubtInPlace = 0.005, kDoubtInNormal = 0.002;
+
+  struct Mean {
+    Vec3 position, normal;
+  };
+
+  void FindMeans() {
+    means_.resize(patches_.count);
+    std::uint32_t first = 0;
+    for (std::uint32_t patch = 0; patch < patches_.count; ++patch) {
+      const std::uint32_t last = patches_.member_ends[patch];
+      for (std::uint32_t i = first; i < last; ++i) {
+        const std::uint32_t v = patches_.members[i];
+        means_[patch].position = means_[patch].position + ToVec3(mesh_.positions[v]);
+        means_[patch].normal = means_[patch].normal + ToVec3(mesh_.normals[v]);
+      }
+      const double share = 1.0 / (last - first);
+      means_[patch] = {means_[patch].position * share, means_[patch].normal * share};
+      first = last;
+    }
+  }
+
+  /// As far as a patch reaches, by how wide it is meant to be: some are slivers.
+  void FindReaches(const std::vector<double>& widths_m) {
+    spans_.assign(patches_.count, 0.0);
+    reaches_.assign(patches_.count, 0.0);
+    for (std::uint32_t v = 0; v < patches_.patch_of.size(); ++v) {
+      const std::uint32_t patch = patches_.patch_of[v];
+      spans_[patch] =
+          std::max(spans_[patch], Norm(ToVec3(mesh_.positions[v]) - means_[patch].position));
+      reaches_[patch] = std::max(kReach * widths_m[v], 1.2 * spans_[patch]);
+    }
+  }
+
+  /// The patches that reach to a vertex of a patch, itself first, along what hangs together.
+  void FindNear() {
+    std::vector<std::vector<std::uint32_t>> beside(patches_.count);
+    for (const auto& [a, b] : patches_.links) {
+      beside[a].push_back(b);
+      beside[b].push_back(a);
+    }
+    first_near_.push_back(0);
+    std::vector<std::uint32_t> seen_for(patches_.count, ~0U);
+    for (std::uint32_t patch = 0; patch < patches_.count; ++patch) {
+      const std::size_t first = near_.size();
+      near_.push_back(patch);
+      seen_for[patch] = patch;
+      for (std::size_t at = first; at < near_.size(); ++at) {
+        for (const std::uint32_t other : beside[near_[at]]) {
+          if (seen_for[other] == patch) continue;
+          seen_for[other] = patch;
+          const double apart_m = Norm(means_[other].position - means_[patch].position);
+          if (apart_m < reaches_[other] + spans_[patch]) near_.push_back(other);
+        }
+      }
+      first_near_.push_back(static_cast<std::uint32_t>(near_.size()));
+    }
+  }
+
+  const SurfaceMesh& mesh_;
+  const SurfacePatches& patches_;
+  std::vector<Mean> means_;
+  std::vector<double> reaches_, spans_;
+  std::vector<std::uint32_t> near_, first_near_;
+};
+
+SurfacePatches Divider::Patches(int threads) const {
+  SurfacePatches patches;
+  if (!Worthwhile()) return patches;
+  patches.count = count_;
+  patches.patch_of = patch_of_;
+  SortMembers(&patches);
+  FindLinks(&patches);
+  std::vector<double> widths_m;
+  for (std::uint32_t v = 0; v < patch_of_.size(); ++v) widths_m.push_back(WidthM(v, scale_));
+  const Sharer sharer(mesh_, patches, widths_m);
+  constexpr std::size_t kBlock = 4096;
+  struct Block {
+    std::vector<Share> shares;
+    std::vector<std::uint32_t> ends;
+  };
+  std::vector<Block> blocks((patch_of_.size() + kBlock - 1) / kBlock);
+  ParallelFor(blocks.size(), threads, [&](std::size_t b) {
+    const std::size_t last = std::min(patch_of_.size(), (b + 1) * kBlock);
+    for (std::size_t v = b * kBlock; v < last; ++v) {
+      sharer.Add(static_cast<std::uint32_t>(v), &blocks[b].shares);
+      blocks[b].ends.push_back(static_cast<std::uint32_t>(blocks[b].shares.size()));
+    }
+  });
+  for (Block& block : blocks) {
+    const auto base = static_cast<std::uint32_t>(patches.shares.size());
+    for (const std::uint32_t end : block.ends) patches.share_ends.push_back(base + end);
+    patches.shares.insert(patches.shares.end(), block.shares.begin(), block.shares.end());
+    block = {};
+  }
+  return patches;
+}
+
+}  // namespace
+
+std::vector<Float3> SurfacePatches::Interpolate(std::span<const Float3> light) const {
+  std::vector<Float3> values(share_ends.size());
+  std::uint32_t at = 0;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    Float3 sum{};
+    for (; at < share_ends[v]; ++at) {
+      for (int c = 0; c < 3; ++c) sum[c] += shares[at].weight * light[shares[at].patch][c];
+    }
+    for (int c = 0; c < 3; ++c) values[v][c] = std::max(0.0F, sum[c]);
+  }
+  return values;
+}
+
+std::vector<SurfacePatches> DividedIntoPatches(const std::vector<SurfaceMesh>& surfaces,
+                                               const TessellationOptions& spacing,
+                                               std::size_t max_patches, int threads) {
+  std::vector<SurfacePatches> divided(surfaces.size());
+  std::size_t vertices = 0;
+  for (const SurfaceMesh& mesh : surfaces) {
+    vertices += mesh.positions.size() * (mesh.closed ? 1 : 2);
+  }
+  if (vertices <= max_patches) return divided;
+
+  const ObjectDistance distance(surfaces);
+  std::vector<Divider> dividers;
+  double area = 0.0;
+  for (const SurfaceMesh& mesh : surfaces) {
+    dividers.emplace_back(mesh, spacing, distance);
+    area += dividers.back().Area() * static_cast<double>(dividers.back().sides());
+  }
+  const auto divide_all = [&](double scale, bool hang_together) {
+    ParallelFor(dividers.size(), threads,
+                [&](std::size_t i) { dividers[i].Divide(scale, hang_together); });
+    return std::transform_reduce(dividers.begin(), dividers.end(), std::size_t{0}, std::plus<>(),
+                                 [](const Divider& divider) { return divider.Cost(); });
+  };
+  const auto loose_cost = [&] {
+    return std::transform_reduce(dividers.begin(), dividers.end(), std::size_t{0}, std::plus<>(),
+                                 [](const Divider& divider) { return divider.LooseCost(); });
+  };
+  // Somewhat narrower than if patches were squares of one size.
+  const double narrowest = 0.9 * std::sqrt(area / static_cast<double>(max_patches));
+  bool fits = false;
+  for (const bool hang_together : {true, false}) {
+    double scale = std::max(narrowest, 1e-3);
+    for (int i = 0; i < kMostWidenings && !fits; ++i, scale *= kWidening) {
+      fits = divide_all(scale, hang_together) <= max_patches;
+      if (hang_together && loose_cost() < kTooLoose * static_cast<double>(max_patches)) break;
+    }
+    if (fits) break;
+  }
+  if (!fits) {
+    for (Divider& divider : dividers) divider.MakeOne();
+  }
+  for (std::size_t i = 0; i < surfaces.size(); ++i) divided[i] = dividers[i].Patches(threads);
+  return divided;
+}
+
+}  // namespace pleinair::compositor
