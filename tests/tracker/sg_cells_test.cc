@@ -13,6 +13,7 @@
 #include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
+#include "tracker/surf_golay/cell_split.h"
 #include "tracker/surf_golay/print_square.h"
 #include "tracker/surf_golay/sg_print.h"
 
@@ -242,6 +243,29 @@ TEST(SgCells, AreNotToldAtAGlanceWhereAnythingIsDoubtful) {
   shaded.light = [](Vec2 pixel) { return pixel.x < 85 ? 1.0 : 0.25; };
   EXPECT_FALSE(told(marker, shaded));
   EXPECT_FALSE(told(SgMarkerAt(camera, kNumber, {148, 75}, 110), {.blur_px = 0.5}));
+}
+
+// A hand is darker than any white cell that lies open beside it, and much lighter than ink.
+TEST(SgCells, PartIntoBlackAndWhiteWithoutAHandForInk) {
+  CellReading cells;
+  cells.seen.fill(true);
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    const bool covered = k % 2 == 0;
+    const float open = k % 4 == 1 ? 1.0F : 0.01F;
+    cells.white[k] = covered ? 0.03F + 0.013F * static_cast<float>(k) : open;
+  }
+  const CellSplits splits = SplitCells(cells);
+  ASSERT_GT(splits.count, 0);
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    const float likelihood = splits.likelihoods[0][k];
+    if (k % 2 == 0) {
+      if (k >= 16) {
+        EXPECT_LT(std::fabs(likelihood), 1.0F) << k;
+      }
+    } else {
+      EXPECT_GT(k % 4 == 1 ? likelihood : -likelihood, 3.0F) << k;
+    }
+  }
 }
 
 TEST(SgCells, LeaveNothingOfTheReadingBefore) {

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracker/alignment/block_sums.h"
+#include "tracker/alignment/block_fit_sums.h"
 #include "tracker/homography.h"
 
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kMostBlocksAlong = 8;
 /// Standard deviation of the share of white. Where much of the window clips only the foot of each
 /// edge is left, steep as it is.
 constexpr double kLeastBlockContrast = 0.04, kLeastClippedContrast = 0.012, kMuchClipped = 0.25;
@@ -53,36 +52,7 @@ Mat3 UnitFromModules(const PrintPattern& pattern) {
   return {{1 / half, 0, -middle / half, 0, 1 / half, -middle / half, 0, 0, 1}};
 }
 
-/// What a change of a block's gain and offset could do as well as the parameters.
-struct Elimination {
-  bool with_gain = false, possible = false;
-  double w = 0.0, p = 0.0, pp = 0.0, determinant = 0.0;
-
-  explicit Elimination(const BlockMotions& sums) : w(sums.w), p(sums.p), pp(sums.pp) {
-    determinant = w * pp - p * p;
-    possible = w > 0.0;
-    with_gain = determinant > 1e-9 * w * w;
-  }
-  /// How much of something, its sums with 1 and p, is like white …
-  double OnWhite(double sum, double sum_p) const {
-    return with_gain ? (w * sum_p - p * sum) / determinant : 0.0;
-  }
-  /// … and how much like a constant.
-  double OnOne(double sum, double sum_p) const {
-    return with_gain ? (pp * sum - p * sum_p) / determinant : sum / w;
-  }
-};
-
 }  // namespace
-
-struct BlockFit::Sums {
-  BlockSums blocks;
-  std::vector<RowRange> ranges;
-  std::vector<BlockLight> lights;
-  std::vector<LevelSums> levels;
-  std::vector<BlockMotions> motions;
-  FitProducts products;
-};
 
 BlockFit::BlockFit() : sums_(std::make_unique<Sums>()) {}
 BlockFit::~BlockFit() = default;
@@ -96,6 +66,7 @@ int BlockFit::BlocksAlong(double print_side_px, double block_px) {
 void BlockFit::Predict(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
                        const BlockFitState& state) {
   const double blur = state.blur_px / seen.rays.window.Scale();
+  blur_px_ = state.blur_px;
   raster_.RenderPrint(pattern, state.modules_from_ideal, seen.rays, blur, &map_, &picture_,
                       &sums_->ranges);
   KnownPart known{};
@@ -149,6 +120,7 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
     std::nth_element(noise_shares_.begin(), quartile, noise_shares_.end());
     share = std::max(share, kRobustNoises * *quartile);
   }
+  robust_share_ = share;
   for (BlockLight& light : sums_->lights) {
     if (light.gain > 0.0F) light.inverse = static_cast<float>(1.0 / (light.gain * share));
   }
@@ -185,6 +157,8 @@ void BlockFit::AddUp(const SeenWindow& seen, bool blur) {
 void BlockFit::Start(const PrintPattern& pattern, const SeenWindow& seen, int blocks_along,
                      const BlockFitState& state) {
   blocks_along_ = std::clamp(blocks_along, 1, kMostBlocksAlong);
+  modules_ = pattern.modules;
+  edge_modules_ = pattern.edge_modules;
   const std::size_t blocks = static_cast<std::size_t>(blocks_along_) * blocks_along_;
   blocks_.resize(blocks);
   sums_->lights.assign(blocks, BlockLight{});
@@ -303,26 +277,6 @@ double BlockFit::Correlation() const {
     share += weight;
   }
   return share > 0.0 ? sum / share : 0.0;
-}
-
-std::array<double, 64> BlockFit::MotionCovariance() const {
-  double residual = 0.0, count = 0.0;
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    const BlockMotions& sum = sums_->motions[k];
-    const Elimination eliminate(sum);
-    if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
-    residual += std::max(0.0, sum.rr - eliminate.OnWhite(sum.r, sum.rp) * sum.rp -
-                                  eliminate.OnOne(sum.r, sum.rp) * sum.r);
-    count += blocks_[k].pixels * blocks_[k].weight;
-  }
-  Eigen::Matrix<double, kMotions, kMotions> hessian =
-      Eigen::Map<const Eigen::Matrix<double, kParameters, kParameters>>(hessian_.data())
-          .topLeftCorner<kMotions, kMotions>();
-  const double variance = residual / std::max(1.0, count - kParameters);
-  std::array<double, 64> covariance{};
-  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>> out(covariance.data());
-  out = hessian.ldlt().solve(Eigen::Matrix<double, kMotions, kMotions>::Identity()) * variance;
-  return covariance;
 }
 
 }  // namespace pleinair::tracker

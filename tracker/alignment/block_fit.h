@@ -80,7 +80,8 @@ class BlockFit {
   }
   /// Share-weighted correlation over all blocks that have contrast: 1 is perfect.
   double Correlation() const;
-  /// Covariance of the eight motions (see .cc) from what is left over; row-major 8×8.
+  /// Covariance of the eight motions (see block_fit_covariance.cc) from what is left over;
+  /// row-major 8×8.
   std::array<double, 64> MotionCovariance() const;
 
   /// Predicts and compares without moving anything.
@@ -88,10 +89,12 @@ class BlockFit {
                 int blocks_along, const BlockFitState& state);
 
  private:
+  static constexpr int kMostBlocksAlong = 8;
+  static constexpr int kMostBlocks = kMostBlocksAlong * kMostBlocksAlong;
   static constexpr int kMotions = 8;
   static constexpr int kParameters = kMotions + 1;  // … and the variance of the blur.
 
-  struct Sums;  // What block_sums.h adds up.
+  struct Sums;  // What block_sums.h adds up; in block_fit_sums.h.
   void Start(const PrintPattern& pattern, const SeenWindow& seen, int blocks_along,
              const BlockFitState& state);
   void Predict(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
@@ -106,7 +109,10 @@ class BlockFit {
   PrintPicture picture_;
   int blocks_along_ = 0;
   int tile_ = 4;
+  int modules_ = 0, edge_modules_ = 0;
   double least_contrast_ = 0.0;
+  double robust_share_ = 0.0;  ///< Residual, in shares of white, at which a pixel loses half.
+  double blur_px_ = 0.0;       ///< In the picture's pixels, of the last prediction.
   std::vector<PrintBlock> blocks_;
   std::vector<double> noise_shares_;
   std::vector<std::int16_t> block_of_;

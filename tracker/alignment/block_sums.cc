@@ -174,6 +174,35 @@ void BlockSums::Motions(const SeenWindow& seen, const PrintPicture& picture,
       products, blocks->data());
 }
 
+void BlockSums::Scores(int modules, int edge_modules,
+                       std::span<const BlockElimination> eliminations, CellScores* scores) const {
+  *scores = CellScores{};
+  const double reach = static_cast<double>(modules) / edge_modules;  // In half edges.
+  const auto index = [&](double at) {
+    const double cell = (at + reach) / (2.0 * reach) * CellScores::kAlong;
+    return static_cast<int>(std::clamp(cell, 0.0, CellScores::kAlong - 0.5));
+  };
+  for (std::size_t t = 0; t < tiles_; ++t) {
+    const double gain = gain_[t];
+    const BlockElimination& eliminate = eliminations[block_[t]];
+    if (!(gain > 0.0) || !eliminate.possible) continue;
+    const auto sum = [&](int q) { return static_cast<double>(tile_sums_[q * capacity_ + t]); };
+    const double u = u_[t], v = v_[t], r = sum(3), rp = sum(4);
+    const double p_u = u_x_[t] * sum(10) + u_y_[t] * sum(11);
+    const double p_v = v_x_[t] * sum(10) + v_y_[t] * sum(11);
+    const double along = p_u * u + p_v * v;
+    // As in TileKernels' products.
+    const std::array<double, kFitParameters> rj{-p_u,     -p_u * u,  -p_u * v,  -p_v,   -p_v * u,
+                                                -p_v * v, along * u, along * v, sum(17)};
+    const int cell = index(v) * CellScores::kAlong + index(u);
+    std::array<double, kFitParameters>& gradient = scores->gradient[cell];
+    for (int a = 0; a < kFitParameters; ++a) {
+      gradient[a] += gain * (rj[a] - eliminate.on_white[a] * rp - eliminate.on_one[a] * r);
+    }
+    ++scores->tiles[cell];
+  }
+}
+
 void BlockSums::WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of) const {
   const int width = seen.rays.window.width, shift = tile_ == 4 ? 2 : 1;
   std::fill(block_of->begin(), block_of->end(), static_cast<std::int16_t>(-1));

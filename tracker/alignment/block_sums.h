@@ -2,7 +2,9 @@
 
 // Internal: between the .cc files of this module; not installed.
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tracker/alignment/print_raster.h"
@@ -22,6 +24,20 @@ struct BlockLight {
   float gain = 0.0F, offset = 0.0F;
   float inverse = 0.0F;  ///< 1 / (gain × robust share); 0: unknown, no residual counts.
   float belief = 0.0F;
+};
+
+/// How much of what a block's pixels say about each parameter its gain and its offset could do.
+struct BlockElimination {
+  bool possible = false;
+  std::array<double, kFitParameters> on_white{}, on_one{};
+};
+
+/// The equations of a fit told apart by where on the print their pixels lie: by so many cells along
+/// each side, whatever the blocks.
+struct CellScores {
+  static constexpr int kAlong = 8;
+  std::array<std::array<double, kFitParameters>, kAlong * kAlong> gradient{};  ///< Σ gain w r J,
+  std::array<int, kAlong * kAlong> tiles{};  ///< … from so many tiles.
 };
 
 /// Adds up pixels for each block of a print: first by tiles of 2×2 or 4×4 pixels, which belong to
@@ -46,6 +62,11 @@ class BlockSums {
   void Motions(const SeenWindow& seen, const PrintPicture& picture,
                const std::vector<BlockLight>& lights, bool blur, std::vector<float>* weight,
                FitProducts* products, std::vector<BlockMotions>* blocks);
+
+  /// What each cell's pixels say in the equations that Motions made last, with the light of the
+  /// blocks eliminated. `modules` is the print's side, `edge_modules` that of its square.
+  void Scores(int modules, int edge_modules, std::span<const BlockElimination> eliminations,
+              CellScores* scores) const;
 
   /// Block of each pixel of the window; -1: not of what is known of the print.
   void WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of) const;

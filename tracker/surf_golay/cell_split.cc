@@ -13,6 +13,9 @@ constexpr double kLeastGap = 0.5, kPlainGap = 1.1;  ///< Natural logarithms of r
 constexpr double kPlain = 5.0;                      ///< Log-likelihood ratio of a plain cell.
 /// Left-over inside a cell, as a share of the light at the gap, that leaves it as likely as not.
 constexpr double kUneven = 0.5;
+/// How much lighter than the print's black, in shares of the darkest white, leaves a cell as likely
+/// black as not: ink throws back little under any light, and a hand more.
+constexpr double kGreyer = 0.15;
 
 }  // namespace
 
@@ -43,13 +46,19 @@ CellSplits SplitCells(const CellReading& cells) {
   for (int i = 0; i < splits.count; ++i) {
     const double plain = kPlain * std::min(1.0, gaps[i].size / kPlainGap);
     const double at_gap = std::exp(gaps[i].middle);
+    // There are at least so many black cells, so that none is blacker than the last of them.
+    const double black = std::exp(level[order[kFewestOfAColour - 1]]);
+    const double darkest_white = std::exp(gaps[i].middle + 0.5 * gaps[i].size);
     for (int n = 0; n < seen; ++n) {
       const int k = order[n];
       const bool white = level[k] > gaps[i].middle;
       // What covers a part of a cell, or a shadow's edge across it, shows as unevenness.
       const double light = white ? std::exp(level[k]) : at_gap;
       const double uneven = cells.misfit[k] / (kUneven * light);
-      const double likelihood = plain / (1.0 + uneven * uneven * uneven * uneven);
+      const double greyer =
+          white ? 0.0 : std::max(0.0, std::exp(level[k]) - black) / (kGreyer * darkest_white);
+      const double likelihood = plain / (1.0 + uneven * uneven * uneven * uneven) /
+                                (1.0 + greyer * greyer * greyer * greyer);
       splits.likelihoods[i][k] = static_cast<float>(white ? likelihood : -likelihood);
     }
   }
