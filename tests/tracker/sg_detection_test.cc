@@ -120,6 +120,19 @@ TEST(SgDetection, TellsTenMarkersInViewApart) {
   }
 }
 
+TEST(SgDetection, FindsFortyMarkersByTheirBordersAlone) {
+  // Together they have several times the keypoints that are described at once.
+  const CameraModel camera = SgCamera(640, 480, 600);
+  std::vector<RenderedMarker> markers(40);
+  for (int i = 0; i < 40; ++i) {
+    markers[i] = SgMarkerAt(camera, 100 * i + 7, {48.0 + 77 * (i % 8), 58.0 + 90 * (i / 8)}, 50,
+                            8 * (i % 4), 37 * i, 53 * i);
+  }
+  const auto tracker = MakeSgTracker(camera, {.strategy = SgStrategy::kSurfGolay});
+  const auto found = Track(tracker.get(), RenderMarkers(camera, markers, Picture(4)));
+  EXPECT_EQ(found.size(), 40U) << Summary(found);
+}
+
 TEST(SgDetection, GivesANumberThatIsPrintedTwiceTwice) {
   const CameraModel camera = SgCamera();
   const std::vector<RenderedMarker> markers{SgMarkerAt(camera, 5, {240, 110}, 70, 20, 0, 10),

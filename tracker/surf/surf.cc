@@ -34,7 +34,7 @@ Surf::Surf(Surf&&) noexcept = default;
 Surf& Surf::operator=(Surf&&) noexcept = default;
 
 void Surf::Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints,
-                  bool double_size) {
+                  bool double_size, const std::function<bool(const SurfKeypoint&)>& unwanted) {
   State& s = *state_;
   keypoints->clear();
   s.integral.Compute(grey);
@@ -54,6 +54,7 @@ void Surf::Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>*
   }
   s.hessian.Detect(s.integral, s.options.octaves, s.options.first_step, s.options.threshold,
                    keypoints);
+  if (unwanted) std::erase_if(*keypoints, unwanted);
   s.selection.KeepFairShares(grey.width(), grey.height(), s.options.bucket_px,
                              s.options.max_keypoints, keypoints);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -43,9 +44,11 @@ class Surf {
   Surf& operator=(Surf&&) noexcept;
 
   /// Keypoints of a picture of one channel, strongest first; none in an empty one. `double_size`
-  /// false leaves out the doubled picture that the options ask for.
+  /// false leaves out the doubled picture that the options ask for. Keypoints that are `unwanted`
+  /// leave their places among max_keypoints to others.
   void Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints,
-              bool double_size = true);
+              bool double_size = true,
+              const std::function<bool(const SurfKeypoint&)>& unwanted = nullptr);
 
   /// Fills the angles of keypoints in the picture of the last Detect (its own, or others), and
   /// describes them; descriptors[i] belongs to keypoints[i].

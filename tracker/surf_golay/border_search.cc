@@ -41,19 +41,30 @@ BorderSearch::BorderSearch(const LensGrid& lens, BorderTemplates templates,
 }
 
 void BorderSearch::Find(ImageView<const std::uint8_t> grey,
-                        const std::vector<std::array<Vec2, 4>>& taken, Sizes sizes,
+                        const std::vector<std::array<Vec2, 4>>& taken, Sizes sizes, bool refill,
                         std::vector<BorderGuess>* guesses) {
   guesses->clear();
-  surf_.Detect(grey, &keypoints_, sizes == Sizes::kAll);
-  std::erase_if(keypoints_, [&](const SurfKeypoint& k) {
+  const auto known = [&](const SurfKeypoint& k) {
     return std::any_of(taken.begin(), taken.end(),
                        [&](const auto& quad) { return Inside(quad, k.x, k.y); });
-  });
+  };
+  const bool all_sizes = sizes == Sizes::kAll;
+  if (refill) {
+    surf_.Detect(grey, &keypoints_, all_sizes, known);
+  } else {
+    surf_.Detect(grey, &keypoints_, all_sizes);
+    std::erase_if(keypoints_, known);
+  }
   surf_.Describe(&keypoints_, &descriptors_);
   Quantise(keypoints_, descriptors_, &quantised_);
   matcher_.Match(quantised_, options_.neighbours, &templates_of_frame_, &frame_of_templates_);
   CastVotes();
   Gather(guesses);
+}
+
+int BorderSearch::KeypointsInside(const std::array<Vec2, 4>& quad) const {
+  return static_cast<int>(std::ranges::count_if(
+      keypoints_, [&](const SurfKeypoint& k) { return Inside(quad, k.x, k.y); }));
 }
 
 void BorderSearch::CastVotes() {

@@ -48,9 +48,14 @@ class BorderSearch {
   /// ones when it is doubled as well.
   enum class Sizes { kLarge, kAll };
 
-  /// Keypoints inside `taken` quadrilaterals (markers that are known) are left out.
+  /// Keypoints inside `taken` quadrilaterals (markers that are known) are left out. With `refill`
+  /// others, weaker ones, take their places: many markers have more keypoints than are described.
   void Find(ImageView<const std::uint8_t> grey, const std::vector<std::array<Vec2, 4>>& taken,
-            Sizes sizes, std::vector<BorderGuess>* guesses);
+            Sizes sizes, bool refill, std::vector<BorderGuess>* guesses);
+
+  /// How many of the keypoints of the last Find lie inside a quadrilateral.
+  int KeypointsInside(const std::array<Vec2, 4>& quad) const;
+  int most_keypoints() const { return options_.surf.max_keypoints; }
 
   const std::vector<SurfKeypoint>& keypoints() const { return keypoints_; }
 

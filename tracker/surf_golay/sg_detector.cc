@@ -20,6 +20,9 @@ constexpr int kGuessesAtOnce = 14, kMostFits = 9, kMostFailures = 4;
 /// Votes times fit that make a guess worth more than a glance. In pictures without a marker a
 /// quarter of the best guesses is.
 constexpr double kLeastWorth = 1.2;
+/// So many new markers, with so large a share of the keypoints, leave too few for any others.
+constexpr std::size_t kFewestForMore = 3;
+constexpr double kSpentKeypoints = 0.1;
 /// The corners of cells are looked for in a picture of at most this width.
 constexpr int kMostLatticeWidth_px = 900;
 /// Correlation with the border of which little is seen; placements that are read.
@@ -237,16 +240,25 @@ bool SgDetector::FindBySurf(BorderSearch::Sizes sizes) {
     search_ = std::make_unique<BorderSearch>(
         lens_, MakeBorderTemplates(options.surf.descriptor_window_scales), options);
   }
-  taken_.clear();
-  for (const Found& found : found_) taken_.push_back(found.reading.corners_px);
-  search_->Find(grey_, taken_, sizes, &guesses_);
-  tried_.clear();
   bool any = false;
-  // As long as guesses turn out to be markers, more of them may.
-  for (std::size_t first = 0; first < guesses_.size(); first += kGuessesAtOnce) {
-    const std::size_t count = std::min<std::size_t>(kGuessesAtOnce, guesses_.size() - first);
-    if (!TryGuesses(std::span(guesses_).subspan(first, count))) break;
-    any = true;
+  for (bool more = true, refill = false; more; refill = true) {
+    taken_.clear();
+    for (const Found& found : found_) taken_.push_back(found.reading.corners_px);
+    search_->Find(grey_, taken_, sizes, refill, &guesses_);
+    tried_.clear();
+    // As long as guesses turn out to be markers, more of them may.
+    for (std::size_t first = 0; first < guesses_.size(); first += kGuessesAtOnce) {
+      const std::size_t count = std::min<std::size_t>(kGuessesAtOnce, guesses_.size() - first);
+      if (!TryGuesses(std::span(guesses_).subspan(first, count))) break;
+      any = true;
+    }
+    // Where the markers just found had many of the keypoints, others had few.
+    int spent = 0;
+    for (std::size_t i = taken_.size(); i < found_.size(); ++i) {
+      spent += search_->KeypointsInside(found_[i].reading.corners_px);
+    }
+    more = found_.size() >= taken_.size() + kFewestForMore &&
+           spent > kSpentKeypoints * search_->most_keypoints();
   }
   return any;
 }
