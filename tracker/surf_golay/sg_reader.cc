@@ -91,6 +91,31 @@ double ModulesApart(const Mat3& modules_from_ideal, const Mat3& other_modules_fr
   return farthest;
 }
 
+/// Whether a reading explains more of the print than another of the same number. What covers the
+/// border has edges that pass for the outer ones, but nothing passes for what lies inside: only
+/// where that fits alike, how much is seen decides.
+bool Explains(const SgReading& reading, const SgReading& other) {
+  constexpr double kAlike = 0.01;
+  const double better = reading.inner_correlation - other.inner_correlation;
+  return better > kAlike || (better > -kAlike && reading.visible_fraction > other.visible_fraction);
+}
+
+/// Correlation of the blocks that do not touch the print's edge, by their contrast.
+double InnerCorrelation(const BlockFit& fit) {
+  const int side = fit.blocks_along();
+  double sum = 0.0, share = 0.0;
+  for (int row = 1; row + 1 < side; ++row) {
+    for (int column = 1; column + 1 < side; ++column) {
+      const PrintBlock& block = fit.blocks()[row * side + column];
+      if (block.contrast <= fit.least_contrast()) continue;
+      const double weight = block.pixels * block.contrast;
+      sum += weight * block.correlation;
+      share += weight;
+    }
+  }
+  return share > 0.0 ? sum / share : 0.0;
+}
+
 /// Blocks where the print is plain tell nothing by themselves: they take the mean of those around
 /// them that tell something.
 void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
@@ -310,7 +335,7 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
     BlockFitState by_content = state;
     if (FitContent(number.number, &by_content)) {
       std::optional<SgReading> other = Measure(number.number, by_content);
-      if (other && other->visible_fraction > reading->visible_fraction) reading = std::move(other);
+      if (other && Explains(*other, *reading)) reading = std::move(other);
     }
   }
   if (ModulesApart(state.modules_from_ideal, reading->modules_from_ideal) > kSameCells_modules) {
@@ -398,6 +423,7 @@ void SgReader::Finish(const BlockFit& fit, const BlockFitState& state, SgReading
   reading->modules_from_ideal = state.modules_from_ideal;
   reading->blur_px = state.blur_px;
   reading->whole_correlation = fit.Correlation();
+  reading->inner_correlation = InnerCorrelation(fit);
   reading->blocks_along = fit.blocks_along();
   reading->visible.clear();
   double seen = 0.0, all = 0.0;

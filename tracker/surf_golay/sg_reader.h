@@ -29,7 +29,8 @@ struct SgReading {
   std::array<double, 64> corner_covariance_px2{};
   double visible_fraction = 0.0;  ///< Share of the print that looks as predicted.
   double whole_correlation = 0.0;
-  float margin = 0.0F;      ///< Of the number over the next likely one (SoftGolayDecoding).
+  double inner_correlation = 0.0;  ///< Of the blocks that do not touch the print's edge.
+  float margin = 0.0F;             ///< Of the number over the next likely one (SoftGolayDecoding).
   double proof_bits = 0.0;  ///< What the cells tell beyond picking one of the numbers in use.
   int blocks_along = 0;
   std::vector<float> visible;  ///< 0…1 for each block of the print, row by row.
