@@ -6,12 +6,14 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "app/command.h"
 #include "app/interrupt.h"
+#include "app/live/live_messages.h"
+#include "app/live/live_report.h"
 #include "app/live/live_session.h"
 #include "app/live/paced_recording.h"
 #include "app/number_range.h"
@@ -35,13 +37,22 @@ constexpr const char* kExamples =
     "      --hold-exposure 0.008 --record out/walk --headless\n"
     "  pleinair live --camera file:recordings/courtyard_midday --loop\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless --lossless\n"
+    "  pleinair live --camera file:recordings/courtyard_midday --headless --record out/take "
+    "-o out/live\n"
+    "      (poses to compare with those of 'pleinair replay out/take -o out/replayed')\n"
     "'pleinair devices' lists cameras. A camera that is not there is waited for; one that is "
     "pulled\n"
     "out is taken up again when it comes back. Ctrl-C ends. docs/live.md tells of the window,\n"
     "docs/cameras.md of cameras.";
 
+// Of a long run's account, where it is told at all.
+constexpr double kReportEvery_s = 60.0;
+
 struct Arguments {
   std::string camera, scene, calibration, time, record, detections, screenshot, pixel_format;
+  std::string output;
+  std::vector<std::string> exports;
+  std::optional<double> report_every_s;
   std::string light = "measured";
   std::optional<double> seconds, rate_hz, exposure_s, gain, white_balance_k, focus;
   bool headless = false, lossless = false, loop = false, json = false, lock = false;
@@ -123,88 +134,6 @@ Result<Source> OpenCamera(const devices::CameraUri& uri, const Arguments& argume
   return source;
 }
 
-const char* Word(devices::CameraEvent::Kind kind) {
-  switch (kind) {
-    case devices::CameraEvent::Kind::kConnected:
-      return "connected";
-    case devices::CameraEvent::Kind::kGone:
-      return "gone";
-    case devices::CameraEvent::Kind::kWaiting:
-      return "waiting";
-    case devices::CameraEvent::Kind::kStalled:
-      return "stalled";
-    case devices::CameraEvent::Kind::kRecovered:
-      return "recovered";
-  }
-  return "";
-}
-
-/// Tells what the camera has reported; gives the last of it in words.
-std::string TellEvents(devices::LiveCamera* camera, bool json) {
-  std::string last;
-  if (camera == nullptr) return last;
-  for (const devices::CameraEvent& event : camera->TakeEvents()) {
-    const std::string separator = event.words.empty() ? "" : ": ";
-    last = std::string("camera ") + Word(event.kind) + separator + event.words;
-    if (json) {
-      std::cout << nlohmann::json{{"camera", Word(event.kind)}, {"words", event.words}}.dump(
-                       -1, ' ', false, nlohmann::json::error_handler_t::replace)
-                << std::endl;
-    } else {
-      std::cerr << last << '\n';
-    }
-  }
-  return last;
-}
-
-void TellControls(const devices::LiveCamera* camera) {
-  if (camera == nullptr) return;
-  for (const devices::ControlAnswer& answer : camera->Answers()) {
-    if (!answer.words.empty()) std::cerr << "camera: " << answer.words << '\n';
-  }
-}
-
-nlohmann::json Json(const LiveStatistics& s) {
-  return {{"captured", s.captured},
-          {"tracked", s.tracked},
-          {"with_pose", s.with_pose},
-          {"drawn", s.drawn},
-          {"shown", s.shown},
-          {"late_for_tracking", s.late_for_tracking},
-          {"late_for_drawing", s.late_for_drawing},
-          {"lost",
-           {{"by_number", s.loss.by_number},
-            {"by_time", s.loss.by_time},
-            {"damaged", s.loss.damaged},
-            {"not_taken", s.loss.not_taken}}},
-          {"recorded", s.recorded},
-          {"left_out_of_recording", s.left_out_of_recording},
-          {"latency_ms",
-           {{"median", s.latency.median_ms},
-            {"p95", s.latency.p95_ms},
-            {"worst", s.latency.worst_ms}}}};
-}
-
-void Tell(const LiveStatistics& s, bool json) {
-  if (json) {
-    std::cout << Json(s).dump() << '\n';
-    return;
-  }
-  std::cerr << fmt::format(
-      "{} frames captured, {} tracked, {} with a pose, {} drawn; {} late for tracking, {} late for "
-      "drawing, {} lost before\n",
-      s.captured, s.tracked, s.with_pose, s.drawn, s.late_for_tracking, s.late_for_drawing,
-      s.loss.Total());
-  if (s.latency.worst_ms > 0.0) {
-    std::cerr << fmt::format("exposure to picture: {:.0f} ms (95 %: {:.0f}, worst {:.0f})\n",
-                             s.latency.median_ms, s.latency.p95_ms, s.latency.worst_ms);
-  }
-  if (s.recorded > 0) {
-    std::cerr << fmt::format("{} frames recorded, {} left out because the disk was late\n",
-                             s.recorded, s.left_out_of_recording);
-  }
-}
-
 Result<std::optional<UtcTime>> StartOf(const Arguments& arguments, const Source& source) {
   if (arguments.time == "now") return std::nullopt;
   if (!arguments.time.empty()) {
@@ -217,7 +146,8 @@ Result<std::optional<UtcTime>> StartOf(const Arguments& arguments, const Source&
 }
 
 /// Draws until the end, the time or Ctrl-C; gives the last picture.
-Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Arguments& arguments) {
+Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Arguments& arguments,
+                         LiveReport* report) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   RgbImage last;
@@ -227,6 +157,7 @@ Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Argum
       break;
     }
     TellEvents(source.camera, arguments.json);
+    if (const auto interval = report->Poll(session)) Tell(*interval, arguments.json);
     PLEINAIR_ASSIGN_OR_RETURN(auto drawn, session.Draw(std::chrono::milliseconds(50)));
     if (drawn) last = std::move(drawn->picture);
   }
@@ -237,7 +168,8 @@ Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Argum
 Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session,
                          [[maybe_unused]] const Source& source,
                          [[maybe_unused]] const Arguments& arguments,
-                         [[maybe_unused]] const devices::SceneDescription& scene) {
+                         [[maybe_unused]] const devices::SceneDescription& scene,
+                         [[maybe_unused]] LiveReport* report) {
 #ifdef PLEINAIR_WINDOW
   LiveWindowOptions options;
   options.camera = source.lens;
@@ -247,7 +179,10 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session,
   options.seconds = arguments.seconds;
   options.ui_scale = arguments.ui_scale;
   options.screenshots = arguments.screenshots;
-  options.poll_camera = [&] { return TellEvents(source.camera, arguments.json); };
+  options.poll_camera = [&] {
+    if (const auto interval = report->Poll(session)) Tell(*interval, arguments.json);
+    return TellEvents(source.camera, arguments.json);
+  };
   if (!arguments.window_size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(const PictureSize size, ParsePictureSize(arguments.window_size));
     options.width = size.width;
@@ -285,22 +220,31 @@ Result<void> Run(const Arguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(options.start, StartOf(arguments, source));
   if (!arguments.record.empty()) options.record = arguments.record;
   if (!arguments.detections.empty()) options.detections = arguments.detections;
+  if (!arguments.output.empty()) {
+    options.output.emplace().folder = arguments.output;
+    for (const std::string& name : arguments.exports) {
+      options.output->exports.insert(PathFormatNamed(name).value());
+    }
+  }
   if (source.camera != nullptr) {
     options.stop_source = [camera = source.camera] { camera->Stop(); };
   }
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(auto session,
                             LiveSession::Create(std::move(source.frames), std::move(options)));
-  auto last = arguments.headless ? DrawAll(*session, source, arguments)
-                                 : ShowAll(*session, source, arguments, scene);
+  LiveReport report(arguments.report_every_s.value_or(arguments.json ? kReportEvery_s : 0.0));
+  auto last = arguments.headless ? DrawAll(*session, source, arguments, &report)
+                                 : ShowAll(*session, source, arguments, scene, &report);
   TellEvents(source.camera, arguments.json);
   TellControls(source.camera);
   session->Stop();
+  if (const auto interval = report.Finish(*session)) Tell(*interval, arguments.json);
   Tell(session->statistics(), arguments.json);
   if (!last) return tl::make_unexpected(last.error());
   if (!arguments.screenshot.empty() && !last->empty()) {
     PLEINAIR_RETURN_IF_ERROR(WritePng(arguments.screenshot, last->view()));
   }
+  if (auto trouble = session->output_trouble()) return tl::make_unexpected(*trouble);
   if (auto trouble = session->recording_trouble()) return tl::make_unexpected(*trouble);
   return {};
 }
@@ -323,6 +267,25 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                       "for recordings the scene's)");
   command->add_option("--record", a.record, "Record into this new folder, too");
   command->add_option("--detections", a.detections, "Write what is seen, one JSON line a frame");
+  CLI::Option* output =
+      command
+          ->add_option("-o,--output", a.output,
+                       "Folder for what replay writes of a recording: poses/MARKER.tum and "
+                       "detections.jsonl; prints are measured as replay does, some 20 ms a marker")
+          ->type_name("FOLDER");
+  command
+      ->add_option("--export", a.exports,
+                   "With -o, also write the camera's path for other programs: gltf, colmap, euroc, "
+                   "mcap")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"gltf", "colmap", "euroc", "mcap"}))
+      ->type_name("FORM,...")
+      ->needs(output);
+  command
+      ->add_option("--report-every", a.report_every_s,
+                   "Account for frames, latency and memory every so many seconds; 0: never. "
+                   "Default: 60 with --json, else 0")
+      ->check(NumberRange(0.0, 1e9));
   command->add_option("--screenshot", a.screenshot, "At the end, write the last picture as PNG");
   command
       ->add_option("--light", a.light,

@@ -181,20 +181,17 @@ class Replayer {
     PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
     for (const auto& [marker, observed] : session_->paths()) {
       report_.markers.push_back(marker);
-      const CameraPath path = ObservedPath(observed);
-      for (const PathFormat format : {PathFormat::kTum, PathFormat::kEuroc}) {
-        if (format == PathFormat::kEuroc && !options_.exports.contains(format)) continue;
-        const std::string name =
-            "poses/" + marker.ToString() + (format == PathFormat::kTum ? ".tum" : ".csv");
-        PLEINAIR_RETURN_IF_ERROR(
-            WritePath(path, folder_.staging() / name, format, {.comment = kObservedPathComment}));
-        report_.outputs.push_back(name);
-      }
+      PLEINAIR_ASSIGN_OR_RETURN(
+          const std::vector<std::string> written,
+          WriteMarkerPath(marker, ObservedPath(observed), options_.exports, folder_.staging()));
+      report_.outputs.insert(report_.outputs.end(), written.begin(), written.end());
     }
+    CameraPath path = ObservedPath(report_.path);
+    path.camera = output_camera_;
     PLEINAIR_ASSIGN_OR_RETURN(
         const std::vector<std::string> exported,
-        ExportPath({report_, scene_, output_camera_, std::exchange(markers_seen_, {})},
-                   options_.exports, folder_.staging()));
+        ExportPath({std::move(path), scene_, std::exchange(markers_seen_, {})}, options_.exports,
+                   folder_.staging()));
     report_.outputs.insert(report_.outputs.end(), exported.begin(), exported.end());
     Warn();
     // The frames for the report: spread evenly over those with a pose, or over all.

@@ -74,14 +74,16 @@ void Session::ForgetAllBut(std::size_t observations) {
   }
 }
 
+bool MayAnchor(const MarkerName& marker, const devices::MarkerDescription& declared) {
+  return marker.family == declared.family.value_or(marker.family) &&
+         marker.id == declared.id.value_or(marker.id);
+}
+
 std::optional<MarkerName> Session::Anchor() const {
   std::optional<MarkerName> most;
   std::size_t sightings = 0;
   for (const auto& [marker, path] : paths_) {
-    if (marker.family != declared_.family.value_or(marker.family) ||
-        marker.id != declared_.id.value_or(marker.id) || path.size() <= sightings) {
-      continue;
-    }
+    if (!MayAnchor(marker, declared_) || path.size() <= sightings) continue;
     most = marker;
     sightings = path.size();
   }

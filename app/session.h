@@ -22,6 +22,9 @@ struct MarkerName {
   std::string ToString() const { return family + "_" + std::to_string(id); }
 };
 
+/// Whether a scene that declares this may stand on that marker.
+bool MayAnchor(const MarkerName& marker, const devices::MarkerDescription& declared);
+
 /// What is kept of one sighting of one marker: bounded, whatever the picture's size.
 struct Observation {
   std::int64_t frame_index = 0;

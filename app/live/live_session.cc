@@ -72,10 +72,14 @@ Result<void> LiveSession::Prepare() {
                               DetectionsWriter::Create(*options_.detections));
     detections_ = std::make_unique<Detections>(std::move(writer));
   }
-  if (options_.lossless) {
-    measurer_.emplace(options_.camera, options_.scene.marker.size_m);
-    return {};
+  if (options_.output) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        output_, LiveOutput::Create(*options_.output, options_.camera, options_.scene));
   }
+  if (options_.lossless || options_.output) {
+    measurer_.emplace(options_.camera, options_.scene.marker.size_m);
+  }
+  if (options_.lossless) return {};
   edit_ = UneditedScene(options_.scene, options_.composer);
   if (!renderer_->DrawsObjects()) return {};
   const UtcTime start = options_.start.value_or(WallClock());
@@ -96,12 +100,31 @@ void LiveSession::Stop() {
   for (std::thread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
-  if (detections_) {
-    if (auto finished = detections_->writer().Finish(); !finished) Fail(finished.error());
-    detections_.reset();
-  }
+  while (captured_.Take()) GiveUpFrame();
+  while (tracked_.Take()) GiveUpFrame();
+  FinishOutput();
   if (light_) light_->Stop();
   StopRecording();
+}
+
+void LiveSession::GiveUpFrame() {
+  const std::lock_guard lock(mutex_);
+  ++statistics_.on_the_way_at_end;
+}
+
+void LiveSession::FinishOutput() {
+  Result<void> finished;
+  if (detections_) finished = detections_->writer().Finish();
+  detections_.reset();
+  UtcTime start;
+  {
+    const std::lock_guard lock(mutex_);
+    start = first_moment_;
+  }
+  if (finished && output_) finished = output_->Finish(start);
+  output_.reset();
+  const std::lock_guard lock(mutex_);
+  if (!finished) output_trouble_ = finished.error();
 }
 
 Result<void> LiveSession::StartRecording(const fs::path& folder) {
@@ -183,7 +206,10 @@ void LiveSession::Capture() {
       statistics_.loss += frame->loss;
     }
     Record(frame);
-    if (!captured_.Give(frame)) break;
+    if (!captured_.Give(frame)) {
+      GiveUpFrame();
+      break;
+    }
   }
   captured_.Close();
 }
@@ -215,11 +241,15 @@ void LiveSession::Record(const FramePtr& frame) {
 
 void LiveSession::Track() {
   while (auto frame = captured_.Take()) {
-    if (stop_) break;
+    if (stop_) {
+      GiveUpFrame();
+      break;
+    }
     const auto start = Clock::now();
     auto tracked = TrackOne(*std::move(frame));
     if (!tracked) {
       Fail(tracked.error());
+      GiveUpFrame();
       break;
     }
     {
@@ -228,7 +258,10 @@ void LiveSession::Track() {
       if (tracked->camera_from_marker) ++statistics_.with_pose;
       statistics_.track_ms = Milliseconds(start);
     }
-    if (!tracked_.Give(*std::move(tracked))) break;
+    if (!tracked_.Give(*std::move(tracked))) {
+      GiveUpFrame();
+      break;
+    }
   }
   tracked_.Close();
 }
@@ -238,15 +271,7 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   if (measurer_) sightings = measurer_->Measure(frame->grey.view(), std::move(sightings));
   session_.AddFrame(frame->index, frame->timestamp_ns, sightings);
   if (!options_.lossless) session_.ForgetAllBut(kObservationsKept);
-  if (detections_) {
-    std::int64_t since_start_ns = frame->timestamp_ns;
-    {
-      const std::lock_guard lock(mutex_);
-      since_start_ns -= first_stamp_ns_.value_or(0);
-    }
-    PLEINAIR_RETURN_IF_ERROR(detections_->writer().Add(
-        DetectionsWriter::Line(frame->index, since_start_ns, sightings, tracker_->Lost())));
-  }
+  PLEINAIR_RETURN_IF_ERROR(WriteSightings(*frame, sightings));
   Tracked tracked{std::move(frame), std::nullopt, session_.Anchor()};
   if (!tracked.anchor) return tracked;
   const std::vector<Observation>& path = session_.Path(*tracked.anchor);
@@ -254,6 +279,23 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
     tracked.camera_from_marker = path.back().camera_from_marker;
   }
   return tracked;
+}
+
+Result<void> LiveSession::WriteSightings(const devices::Frame& frame,
+                                         const std::vector<tracker::Sighting>& sightings) {
+  if (!detections_ && !output_) return {};
+  std::int64_t since_start_ns = frame.timestamp_ns;
+  {
+    const std::lock_guard lock(mutex_);
+    since_start_ns -= first_stamp_ns_.value_or(0);
+  }
+  const std::string line =
+      DetectionsWriter::Line(frame.index, since_start_ns, sightings, tracker_->Lost());
+  if (detections_) PLEINAIR_RETURN_IF_ERROR(detections_->writer().Add(line));
+  if (output_) {
+    PLEINAIR_RETURN_IF_ERROR(output_->Add(session_, frame.index, since_start_ns, line));
+  }
+  return {};
 }
 
 void LiveSession::Edit(const SceneEdit& edit) {
@@ -286,28 +328,38 @@ Result<std::optional<DrawnFrame>> LiveSession::Draw(std::chrono::milliseconds li
   std::optional<Tracked> next = tracked_.TakeWithin(limit);
   {
     const std::lock_guard lock(mutex_);
-    if (error_) return tl::make_unexpected(*error_);
+    if (error_) {
+      if (next) ++statistics_.on_the_way_at_end;
+      return tl::make_unexpected(*error_);
+    }
   }
   if (!next) return std::nullopt;
+  auto drawn = DrawOne(*std::move(next));
+  if (!drawn) GiveUpFrame();
+  return drawn;
+}
+
+Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   const auto start = Clock::now();
-  const UtcTime moment = MomentOf(*next->frame);
-  if (next->anchor && next->anchor != shown_anchor_) {
-    const compositor::MarkerPrint print = PrintOf(options_.scene.marker, *next->anchor);
+  const UtcTime moment = MomentOf(*tracked.frame);
+  if (tracked.anchor && tracked.anchor != shown_anchor_) {
+    const compositor::MarkerPrint print = PrintOf(options_.scene.marker, *tracked.anchor);
     renderer_->SetMarkerPrint(print);
     if (light_) light_->SetPrint(print);
-    shown_anchor_ = next->anchor;
+    shown_anchor_ = tracked.anchor;
   }
-  PLEINAIR_RETURN_IF_ERROR(TakeEdit(*next->frame));
-  DrawnFrame drawn{next->frame, next->camera_from_marker, {}, moment, {}};
-  if (next->camera_from_marker) {
-    if (light_) light_->Show(next->frame, *next->camera_from_marker, moment);
-    PLEINAIR_ASSIGN_OR_RETURN(drawn.picture, renderer_->Render(next->frame->rgb.view(),
-                                                               *next->camera_from_marker, moment));
+  PLEINAIR_RETURN_IF_ERROR(TakeEdit(*tracked.frame));
+  DrawnFrame drawn{tracked.frame, tracked.camera_from_marker, {}, moment, {}};
+  if (tracked.camera_from_marker) {
+    if (light_) light_->Show(tracked.frame, *tracked.camera_from_marker, moment);
+    PLEINAIR_ASSIGN_OR_RETURN(
+        drawn.picture,
+        renderer_->Render(tracked.frame->rgb.view(), *tracked.camera_from_marker, moment));
   } else {
-    drawn.picture = next->frame->rgb;
+    drawn.picture = tracked.frame->rgb;
   }
   drawn.light = renderer_->light();
-  CountDrawn(*next->frame, Milliseconds(start));
+  CountDrawn(*tracked.frame, Milliseconds(start));
   return drawn;
 }
 
@@ -317,17 +369,28 @@ void LiveSession::CountDrawn(const devices::Frame& frame, double draw_ms) {
   statistics_.draw_ms = draw_ms;
   statistics_.render = renderer_->times();
   if (options_.lossless) return;
-  if (!options_.shown_elsewhere) {
-    latency_.Add(static_cast<double>(Now_ns() - frame.timestamp_ns) * 1e-6);
-  }
+  if (!options_.shown_elsewhere) CountLatency(frame);
   const bool draws = renderer_->DrawsObjects() && edit_.detail == Detail::kAutomatic;
   if (draws && detail_.Add(statistics_.render.compose_ms, statistics_.period_ms)) edited_ = true;
 }
 
-void LiveSession::Shown(const DrawnFrame& frame) {
+void LiveSession::Shown(const DrawnFrame& frame, std::int64_t late_for_screen) {
   const std::lock_guard lock(mutex_);
   ++statistics_.shown;
-  latency_.Add(static_cast<double>(Now_ns() - frame.frame->timestamp_ns) * 1e-6);
+  statistics_.late_for_screen = late_for_screen;
+  CountLatency(*frame.frame);
+}
+
+/// Up to now. Under the mutex.
+void LiveSession::CountLatency(const devices::Frame& frame) {
+  const double latency_ms = static_cast<double>(Now_ns() - frame.timestamp_ns) * 1e-6;
+  latency_.Add(latency_ms);
+  latencies_.Add(latency_ms);
+}
+
+LatencyHistogram LiveSession::TakeLatencies() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(latencies_, {});
 }
 
 LiveStatistics LiveSession::statistics() const {
@@ -343,6 +406,11 @@ LiveStatistics LiveSession::statistics() const {
     statistics.left_out_of_recording += recorder_->left_out();
   }
   return statistics;
+}
+
+std::optional<Error> LiveSession::output_trouble() const {
+  const std::lock_guard lock(mutex_);
+  return output_trouble_;
 }
 
 std::optional<Error> LiveSession::recording_trouble() const {

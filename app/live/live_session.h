@@ -12,10 +12,13 @@
 #include <vector>
 
 #include "app/live/hand_over.h"
+#include "app/live/latency_histogram.h"
 #include "app/live/latency_meter.h"
 #include "app/live/live_detail.h"
 #include "app/live/live_light.h"
+#include "app/live/live_output.h"
 #include "app/live/live_recorder.h"
+#include "app/live/live_statistics.h"
 #include "app/measured_sky.h"
 #include "app/print_measurer.h"
 #include "app/scene_renderer.h"
@@ -40,6 +43,8 @@ struct LiveOptions {
   bool lossless = false;
   std::optional<std::filesystem::path> record;      ///< Folder of a new recording.
   std::optional<std::filesystem::path> detections;  ///< File for what was seen, a line a frame.
+  /// Poses and more, as replay writes them. Prints are measured as in replay then.
+  std::optional<LiveOutput::Options> output;
   /// Frames are shown elsewhere, which tells by Shown() when: latency counts until then.
   bool shown_elsewhere = false;
   /// Ends the source's waiting; called from another thread.
@@ -53,26 +58,6 @@ struct DrawnFrame {
   RgbImage picture;  ///< With the virtual objects; the camera's own where no marker is seen.
   UtcTime moment;    ///< Of the frame, with what an edit adds.
   LightSummary light;
-};
-
-struct LiveStatistics {
-  std::int64_t captured = 0;
-  std::int64_t tracked = 0;
-  std::int64_t with_pose = 0;
-  std::int64_t drawn = 0;
-  std::int64_t shown = 0;              ///< Where they are shown elsewhere.
-  std::int64_t late_for_tracking = 0;  ///< Replaced by a newer frame before it was tracked.
-  std::int64_t late_for_drawing = 0;   ///< Tracked, and replaced before it was drawn.
-  devices::FrameLoss loss;             ///< Before we got them.
-  std::int64_t recorded = 0;
-  std::int64_t left_out_of_recording = 0;
-  LatencyMeter::Summary latency;  ///< From a frame's stamp until it was drawn, or shown.
-  double period_ms = 0.0;         ///< Between frames' stamps.
-  double track_ms = 0.0;          ///< Of the last frame.
-  RenderTimes render;
-  double draw_ms = 0.0;
-  Detail detail = Detail::kFine;
-  LiveLight::Progress light;
 };
 
 /// Capturing, tracking, light and recording on threads of their own, handing frames on through
@@ -102,8 +87,8 @@ class LiveSession {
   /// Changes the scene from the next frame on; its light follows when it is made. Any thread.
   void Edit(const SceneEdit& edit);
 
-  /// Notes that a drawn frame is on the screen now.
-  void Shown(const DrawnFrame& frame);
+  /// Notes that a drawn frame is on the screen now, and how many were replaced before so far.
+  void Shown(const DrawnFrame& frame, std::int64_t late_for_screen);
 
   /// Starts recording into a new folder, or ends it. Any thread. Errors: it holds a recording.
   Result<void> StartRecording(const std::filesystem::path& folder);
@@ -114,8 +99,12 @@ class LiveSession {
   void Stop();
 
   LiveStatistics statistics() const;
+  /// Of all frames drawn, or shown, since it was last asked.
+  LatencyHistogram TakeLatencies();
   /// Why recording ended before its time.
   std::optional<Error> recording_trouble() const;
+  /// After the end: why detections or the output could not be written.
+  std::optional<Error> output_trouble() const;
 
  private:
   using FramePtr = std::shared_ptr<const devices::Frame>;
@@ -130,11 +119,17 @@ class LiveSession {
   void Capture();
   void Track();
   Result<Tracked> TrackOne(FramePtr frame);
+  Result<void> WriteSightings(const devices::Frame& frame,
+                              const std::vector<tracker::Sighting>& sightings);
+  void FinishOutput();
   Result<void> TakeEdit(const devices::Frame& frame);
   void Record(const FramePtr& frame);
   void Fail(Error error);
+  void GiveUpFrame();
   UtcTime MomentOf(const devices::Frame& frame) const;
+  Result<std::optional<DrawnFrame>> DrawOne(Tracked tracked);
   void CountDrawn(const devices::Frame& frame, double draw_ms);
+  void CountLatency(const devices::Frame& frame);
 
   LiveOptions options_;
   std::unique_ptr<devices::FrameSource> source_;
@@ -143,6 +138,7 @@ class LiveSession {
   std::optional<PrintMeasurer> measurer_;
   class Detections;
   std::unique_ptr<Detections> detections_;
+  std::unique_ptr<LiveOutput> output_;
   Session session_;
 
   HandOver<FramePtr> captured_;
@@ -161,9 +157,10 @@ class LiveSession {
   std::optional<std::int64_t> first_stamp_ns_, last_stamp_ns_;
   UtcTime first_moment_;
   std::optional<Error> error_;
-  std::optional<Error> recording_trouble_;
+  std::optional<Error> recording_trouble_, output_trouble_;
   LiveStatistics statistics_;
   LatencyMeter latency_;
+  LatencyHistogram latencies_;  // Since they were taken.
   std::vector<std::thread> threads_;
 };
 

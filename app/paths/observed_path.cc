@@ -4,15 +4,17 @@
 
 namespace pleinair::app {
 
-CameraPath ObservedPath(const std::vector<Observation>& observations) {
+PathPose ObservedPose(const Observation& at) {
   // The marker is what the path is told in.
   const Transform<Reference, Marker> reference_from_marker;
+  return {at.timestamp_ns, reference_from_marker * at.camera_from_marker.Inverse(),
+          fmt::format("frames/{:04}.png", at.frame_index)};
+}
+
+CameraPath ObservedPath(const std::vector<Observation>& observations) {
   CameraPath path;
   path.poses.reserve(observations.size());
-  for (const Observation& at : observations) {
-    path.poses.push_back({at.timestamp_ns, reference_from_marker * at.camera_from_marker.Inverse(),
-                          fmt::format("frames/{:04}.png", at.frame_index)});
-  }
+  for (const Observation& at : observations) path.poses.push_back(ObservedPose(at));
   return path;
 }
 

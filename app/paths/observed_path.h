@@ -7,6 +7,9 @@
 
 namespace pleinair::app {
 
+/// Where the camera was when it saw the marker, in the marker's frame.
+PathPose ObservedPose(const Observation& at);
+
 /// The camera's path in the frame of the marker that it was observed from. Pictures are named as
 /// replay writes frames, frames/0000.png and so on.
 CameraPath ObservedPath(const std::vector<Observation>& observations);

@@ -16,12 +16,25 @@ Result<void> CheckExports(const std::set<PathFormat>& formats, const CameraModel
                     "undistort the pictures and calibrate those, or leave gltf out");
 }
 
-Result<std::vector<std::string>> ExportPath(const PathExport& what,
-                                            const std::set<PathFormat>& formats,
+Result<std::vector<std::string>> WriteMarkerPath(const MarkerName& marker, const CameraPath& path,
+                                                 const std::set<PathFormat>& formats,
+                                                 const std::filesystem::path& folder) {
+  std::vector<std::string> outputs;
+  for (const PathFormat format : {PathFormat::kTum, PathFormat::kEuroc}) {
+    if (format == PathFormat::kEuroc && !formats.contains(format)) continue;
+    const std::string name =
+        "poses/" + marker.ToString() + (format == PathFormat::kTum ? ".tum" : ".csv");
+    PLEINAIR_RETURN_IF_ERROR(
+        WritePath(path, folder / name, format, {.comment = kObservedPathComment}));
+    outputs.push_back(name);
+  }
+  return outputs;
+}
+
+Result<std::vector<std::string>> ExportPath(PathExport what, const std::set<PathFormat>& formats,
                                             const std::filesystem::path& folder) {
   std::vector<std::string> outputs;
-  CameraPath path = ObservedPath(what.report.path);
-  path.camera = what.camera;
+  const CameraPath& path = what.path;
   const devices::MarkerDescription& marker = what.scene.marker;
   const UpAxis up = marker.upright ? UpAxis::kY : UpAxis::kZ;
   const PathWriting writing{.up = up, .marker_size_m = marker.size_m};
@@ -39,7 +52,7 @@ Result<std::vector<std::string>> ExportPath(const PathExport& what,
     McapPathOptions mcap;
     mcap.start_ns = what.scene.place_time.start.nanoseconds_since_1970();
     mcap.marker_size_m = marker.size_m;
-    mcap.markers = what.markers;
+    mcap.markers = std::move(what.markers);
     auto bytes = McapFromPath(path, mcap);
     if (!bytes) {
       Error error = std::move(bytes).error();

@@ -198,7 +198,7 @@ class LiveWindow {
       Draw();
       PLEINAIR_RETURN_IF_ERROR(DoWishes());
       glfwSwapBuffers(screen_.window());
-      if (fresh_) session_.Shown(*std::exchange(fresh_, std::nullopt));
+      if (fresh_) session_.Shown(*std::exchange(fresh_, std::nullopt), frames_->late());
       if (!(state_.edit == edit_)) {
         edit_ = state_.edit;
         session_.Edit(edit_);
@@ -228,7 +228,6 @@ class LiveWindow {
   void TakeFrame() {
     const auto now = Clock::now();
     state_.statistics = session_.statistics();
-    state_.late_for_screen = frames_->late();
     state_.recording = session_.recording();
     if (options_.poll_camera) {
       const std::string words = options_.poll_camera();

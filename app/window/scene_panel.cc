@@ -328,8 +328,8 @@ void ScenePanel::Statistics(const WindowState& state) {
   Quiet(fmt::format(
       "{} captured = {} shown + {} late for tracking + {} for drawing + {} for the "
       "screen + {} on their way; {} lost before",
-      s.captured, s.shown, s.late_for_tracking, s.late_for_drawing, state.late_for_screen,
-      s.captured - s.late_for_tracking - s.late_for_drawing - s.shown - state.late_for_screen,
+      s.captured, s.shown, s.late_for_tracking, s.late_for_drawing, s.late_for_screen,
+      s.captured - s.late_for_tracking - s.late_for_drawing - s.shown - s.late_for_screen,
       s.loss.Total()));
   if (s.recorded > 0) {
     Quiet(fmt::format("{} recorded, {} left out", s.recorded, s.left_out_of_recording));

@@ -32,7 +32,6 @@ struct WindowState {
   bool has_frame = false;
   LightSummary light;
   LiveStatistics statistics;
-  std::int64_t late_for_screen = 0;  ///< Drawn, and replaced before they were shown.
   double shown_per_second = 0.0;
   bool recording = false;
   std::string camera_words;  ///< What the camera last said of itself.

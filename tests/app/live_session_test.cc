@@ -122,6 +122,34 @@ TEST(LiveSession, AccountsForEveryFrameWhileASlowRendererLagsBehind) {
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 59) << "the newest frame is drawn last";
   EXPECT_GT(statistics.latency.worst_ms, 0.0);
+  EXPECT_EQ(statistics.Unaccounted(), 0);
+}
+
+TEST(LiveSession, CountsFramesThatItsEndCutsOff) {
+  for (int round = 0; round < 5; ++round) {
+    auto session =
+        LiveSession::Create(std::make_unique<GreyFrames>(1000, milliseconds(1)), Options());
+    ASSERT_TRUE(session);
+    while ((*session)->statistics().captured < 20) std::this_thread::yield();
+    (*session)->Stop();
+    const LiveStatistics statistics = (*session)->statistics();
+    EXPECT_GE(statistics.on_the_way_at_end, 1) << "nobody has drawn";
+    EXPECT_LE(statistics.on_the_way_at_end, 5);
+    EXPECT_EQ(statistics.Unaccounted(), 0);
+  }
+}
+
+TEST(LatencyHistogram, GivesMedianAndNinetyFifthPercentOfAnyNumberOfLatencies) {
+  LatencyHistogram latencies;
+  EXPECT_EQ(latencies.Summarize().median_ms, 0.0);
+  for (int i = 1; i <= 10000; ++i) latencies.Add(i * 0.1);
+  const LatencyMeter::Summary summary = latencies.Summarize();
+  EXPECT_NEAR(summary.median_ms, 500.0, 10.0);
+  EXPECT_NEAR(summary.p95_ms, 950.0, 19.0);
+  EXPECT_EQ(summary.worst_ms, 1000.0);
+  latencies.Add(1e9);
+  latencies.Add(0.0);
+  EXPECT_EQ(latencies.Summarize().worst_ms, 1e9);
 }
 
 TEST(LiveSession, RecordsEveryFrameOnItsOwnThreadAndTheRecordingOpens) {

@@ -1,0 +1,69 @@
+#include "app/live/live_output.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/paths/observed_path.h"
+#include "app/sinks/path_export.h"
+
+namespace pleinair::app {
+
+LiveOutput::LiveOutput(Options options, const CameraModel& camera,
+                       const devices::SceneDescription& scene, OutputFolder folder,
+                       DetectionsWriter detections)
+    : options_(std::move(options)),
+      camera_(camera),
+      scene_(scene),
+      folder_(std::move(folder)),
+      detections_(std::move(detections)) {}
+
+Result<std::unique_ptr<LiveOutput>> LiveOutput::Create(const Options& options,
+                                                       const CameraModel& camera,
+                                                       const devices::SceneDescription& scene) {
+  PLEINAIR_RETURN_IF_ERROR(CheckExports(options.exports, camera));
+  PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.folder));
+  PLEINAIR_ASSIGN_OR_RETURN(DetectionsWriter detections,
+                            DetectionsWriter::Create(folder.staging() / "detections.jsonl"));
+  return std::unique_ptr<LiveOutput>(
+      new LiveOutput(options, camera, scene, std::move(folder), std::move(detections)));
+}
+
+Result<void> LiveOutput::Add(const Session& session, std::int64_t frame_index,
+                             std::int64_t timestamp_ns, const std::string& line) {
+  for (const auto& [marker, observations] : session.paths()) {
+    if (observations.empty() || observations.back().frame_index != frame_index) continue;
+    // Poses of recordings count from their start, as the line's time does.
+    PathPose pose = ObservedPose(observations.back());
+    pose.timestamp_ns = timestamp_ns;
+    paths_[marker].poses.push_back(std::move(pose));
+  }
+  if (options_.exports.contains(PathFormat::kMcap)) markers_seen_.push_back({timestamp_ns, line});
+  return detections_.Add(line);
+}
+
+Result<void> LiveOutput::Finish(UtcTime start) {
+  auto written = Write(start);
+  if (!written) return tl::make_unexpected(folder_.InTermsOfTarget(written.error()));
+  return written;
+}
+
+Result<void> LiveOutput::Write(UtcTime start) {
+  PLEINAIR_RETURN_IF_ERROR(detections_.Finish());
+  PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
+  CameraPath anchors;
+  for (const auto& [marker, path] : paths_) {
+    PLEINAIR_RETURN_IF_ERROR(
+        WriteMarkerPath(marker, path, options_.exports, folder_.staging()).map([](auto) {}));
+    if (MayAnchor(marker, scene_.marker) && path.poses.size() > anchors.poses.size()) {
+      anchors = path;
+    }
+  }
+  scene_.place_time.start = start;
+  anchors.camera = camera_;
+  PLEINAIR_RETURN_IF_ERROR(ExportPath({std::move(anchors), scene_, std::move(markers_seen_)},
+                                      options_.exports, folder_.staging())
+                               .map([](const auto&) {}));
+  return folder_.Commit();
+}
+
+}  // namespace pleinair::app
