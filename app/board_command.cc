@@ -4,16 +4,21 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/calibrate/board_options.h"
 #include "app/command.h"
 #include "app/sheets/board_description.h"
 #include "app/sheets/marker_sheet.h"
 #include "app/sheets/sheet.h"
 #include "app/sheets/sheet_file.h"
+#include "app/sheets/square_board.h"
+#include "tracker/calibration/aruco_dictionaries.h"
 #include "tracker/golay/golay_code.h"
 
 namespace pleinair::app {
@@ -27,11 +32,19 @@ constexpr const char* kExamples =
     "      4 x 5 markers of 36 mm on A4, and board.json, which says where each corner lies\n"
     "  pleinair board --columns 6 --rows 4 --first 100 --size-mm 50 --page A3-landscape -o "
     "big.svg\n"
-    "The size is the outer edge of each black square, the gap lies between two such edges.\n";
+    "  pleinair board --chessboard 9x6 -o chess.pdf\n"
+    "      9 x 6 inner corners, squares as large as the page takes\n"
+    "  pleinair board --charuco 8x6 --dictionary 5x5_100 --square-mm 30 --page A3-landscape "
+    "-o charuco.svg\n"
+    "Of our markers the size is the outer edge of each black square, the gap lies between two "
+    "such edges.\n"
+    "'pleinair calibrate --board board.json' takes what is written beside the sheet.\n";
 
 struct Options {
   Board board{.columns = 4, .rows = 5, .first = 0, .size_mm = 36.0};
   std::optional<double> gap_mm;
+  std::string chessboard, charuco, dictionary;
+  std::optional<double> square_mm, marker_mm;
   std::string page = "A4";
   FormatFlags formats;
   std::string output;
@@ -70,30 +83,99 @@ Result<fs::path> NameDescription(const Options& options) {
   return beside;
 }
 
+/// What is printed, and its description.
+struct Printed {
+  Sheet sheet;
+  std::string description;
+  nlohmann::ordered_json json;  ///< What --json tells besides the files.
+};
+
+Result<Printed> PrintMarkers(const Options& options, PageSize page) {
+  if (options.square_mm || options.marker_mm || !options.dictionary.empty()) {
+    return InputError("--square-mm, --marker-mm and --dictionary",
+                      "are for chessboards and ChArUco boards",
+                      "name one with --chessboard or --charuco, or leave them out");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const Board board, CheckBoard(options));
+  PLEINAIR_ASSIGN_OR_RETURN(Sheet sheet, BoardSheet(board, page));
+  return Printed{
+      std::move(sheet), DescribeBoard(board), {{"first", board.first}, {"count", board.Count()}}};
+}
+
+/// Side of a ChArUco board's markers: enough white around for its codes to be read.
+Result<double> MarkerSide_mm(const Options& options, double square_mm) {
+  constexpr double kUsual = 0.75, kLeast = 0.4, kMost = 0.9;
+  const double side = options.marker_mm.value_or(kUsual * square_mm);
+  if (side >= kLeast * square_mm && side <= kMost * square_mm) return side;
+  return InputError(
+      "--marker-mm",
+      fmt::format("markers of {:g} mm do not suit squares of {:g} mm", side, square_mm),
+      fmt::format("give {:g} to {:g} mm", kLeast * square_mm, kMost * square_mm));
+}
+
+Result<Printed> PrintSquares(const Options& options, PageSize page) {
+  const bool charuco = !options.charuco.empty();
+  SquareBoard print;
+  tracker::CalibrationBoard& board = print.board;
+  board.kind = charuco ? tracker::BoardKind::kCharuco : tracker::BoardKind::kChessboard;
+  PLEINAIR_ASSIGN_OR_RETURN(const auto sides, charuco
+                                                  ? ParseSides("--charuco", options.charuco)
+                                                  : ParseSides("--chessboard", options.chessboard));
+  board.columns = sides.first;
+  board.rows = sides.second;
+  board.square_m = 1.0;  // Until it is known.
+  board.dictionary = options.dictionary;
+  PLEINAIR_RETURN_IF_ERROR(tracker::CheckBoard(board));
+  if (!charuco && (options.marker_mm || !options.dictionary.empty())) {
+    return InputError("--marker-mm and --dictionary", "are for ChArUco boards", "leave them out");
+  }
+  if (charuco && board.dictionary.empty()) {
+    const auto names = tracker::DictionariesFor(board.columns * board.rows / 2);
+    if (names.empty()) {
+      return InputError("--charuco", "has more markers than any dictionary", "print fewer squares");
+    }
+    board.dictionary = names.front();
+  }
+  double square_mm = options.square_mm.value_or(0.0);
+  if (!options.square_mm) {
+    PLEINAIR_ASSIGN_OR_RETURN(square_mm, LargestSquare_mm(board, page));
+  }
+  board.square_m = square_mm * 1e-3;
+  if (charuco) {
+    PLEINAIR_ASSIGN_OR_RETURN(print.marker_mm, MarkerSide_mm(options, square_mm));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(Sheet sheet, SquareBoardSheet(print, page));
+  nlohmann::ordered_json json{{"square_mm", square_mm}};
+  if (charuco) {
+    json["marker_mm"] = print.marker_mm;
+    json["dictionary"] = board.dictionary;
+  }
+  return Printed{std::move(sheet), DescribeBoard(print), std::move(json)};
+}
+
 Result<void> Run(const Options& options) {
   if (options.output.empty()) {
     return InputError("--output", "the name is empty", "name a file, for example board.pdf");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const Board board, CheckBoard(options));
   PLEINAIR_ASSIGN_OR_RETURN(const PageSize page, ParsePageSize(options.page));
   PLEINAIR_ASSIGN_OR_RETURN(const SheetFormat format,
                             ChooseFormat(options.formats, options.output));
-  PLEINAIR_ASSIGN_OR_RETURN(const Sheet sheet, BoardSheet(board, page));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string content, RenderSheet(sheet, format));
+  const bool squares = !options.chessboard.empty() || !options.charuco.empty();
+  PLEINAIR_ASSIGN_OR_RETURN(Printed printed,
+                            squares ? PrintSquares(options, page) : PrintMarkers(options, page));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string content, RenderSheet(printed.sheet, format));
   PLEINAIR_ASSIGN_OR_RETURN(const fs::path description, NameDescription(options));
   if (description == fs::path(options.output)) {
     return InputError("--description", "names the same file as --output", "give it another name");
   }
-  PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(description, DescribeBoard(board)));
+  PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(description, printed.description));
   PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(options.output, content));
   if (options.json) {
-    std::cout << nlohmann::json{{"file", options.output},
+    nlohmann::ordered_json json{{"file", options.output},
                                 {"description", description.string()},
-                                {"page_mm", {page.width_mm, page.height_mm}},
-                                {"first", board.first},
-                                {"count", board.Count()}}
-                     .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
-              << '\n';
+                                {"page_mm", {page.width_mm, page.height_mm}}};
+    json.update(printed.json);
+    std::cout << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   }
   return {};
 }
@@ -102,27 +184,58 @@ Result<void> Run(const Options& options) {
 
 void AddBoardCommand(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("board", "Make a board of markers to print");
+  CLI::App* command = app.add_subcommand(
+      "board", "Make a board to print: of markers, or a chessboard or ChArUco board");
   command->footer(kExamples);
   const auto side = CLI::Range(1, tracker::kGolayNumbers);
-  command->add_option("--columns", options->board.columns, "Markers side by side")
-      ->check(side)
-      ->capture_default_str();
-  command->add_option("--rows", options->board.rows, "Markers one below the other")
-      ->check(side)
-      ->capture_default_str();
+  std::vector<CLI::Option*> of_markers;
+  of_markers.push_back(
+      command->add_option("--columns", options->board.columns, "Markers side by side")
+          ->check(side)
+          ->capture_default_str());
+  of_markers.push_back(
+      command->add_option("--rows", options->board.rows, "Markers one below the other")
+          ->check(side)
+          ->capture_default_str());
+  of_markers.push_back(
+      command
+          ->add_option("--first", options->board.first,
+                       "Number of the top-left marker; the others follow row by row")
+          ->check(CLI::Range(0, tracker::kGolayNumbers - 1))
+          ->capture_default_str());
+  of_markers.push_back(
+      command->add_option("--size-mm", options->board.size_mm, "Outer edge of each black square")
+          ->type_name("MM")
+          ->check(CLI::Range(kSmallestMarker_mm, kLargestMarker_mm))
+          ->capture_default_str());
+  of_markers.push_back(
+      command
+          ->add_option("--gap-mm", options->gap_mm,
+                       "Between the black squares; default 0.2, at least 0.1 of the size")
+          ->type_name("MM"));
+  CLI::Option* chessboard = command
+                                ->add_option("--chessboard", options->chessboard,
+                                             "A chessboard instead, with so many inner corners")
+                                ->type_name("9x6");
+  CLI::Option* charuco =
+      command
+          ->add_option("--charuco", options->charuco, "A ChArUco board instead, of so many squares")
+          ->type_name("8x6")
+          ->excludes(chessboard);
+  for (CLI::Option* option : of_markers) option->excludes(chessboard)->excludes(charuco);
   command
-      ->add_option("--first", options->board.first,
-                   "Number of the top-left marker; the others follow row by row")
-      ->check(CLI::Range(0, tracker::kGolayNumbers - 1))
-      ->capture_default_str();
-  command->add_option("--size-mm", options->board.size_mm, "Outer edge of each black square")
-      ->type_name("MM")
+      ->add_option("--dictionary", options->dictionary,
+                   "Of the ChArUco board's markers, such as 5x5_100; default: the smallest of 4x4")
+      ->type_name("NAME");
+  command
+      ->add_option("--square-mm", options->square_mm,
+                   "Side of a square; default: the most whole millimetres that fit the page")
       ->check(CLI::Range(kSmallestMarker_mm, kLargestMarker_mm))
-      ->capture_default_str();
+      ->type_name("MM");
   command
-      ->add_option("--gap-mm", options->gap_mm,
-                   "Between the black squares; default 0.2, at least 0.1 of the size")
+      ->add_option("--marker-mm", options->marker_mm,
+                   "Side of a ChArUco marker's black square; default 0.75 of a square")
+      ->check(CLI::Range(1.0, kLargestMarker_mm))
       ->type_name("MM");
   command->add_option("--page", options->page, "A5 to A0, letter, A4-landscape or 300x400 in mm")
       ->type_name("PAGE")

@@ -14,7 +14,10 @@ double SmallestGap_mm(double size_mm);
 /// (origin at its centre, x right, y up, z out of the print towards the viewer).
 std::string DescribeBoard(const Board& board);
 
-/// Whether a file is what DescribeBoard made.
+/// Metres without the rounding of binary fractions: to the picometre.
+double RoundedMetres(double mm);
+
+/// Whether a file describes a board, of whatever kind.
 bool IsBoardDescription(const std::filesystem::path& file);
 
 }  // namespace pleinair::app

@@ -18,6 +18,7 @@
 #include "app/sheets/print_outline.h"
 #include "app/sheets/sheet.h"
 #include "app/sheets/sheet_raster.h"
+#include "app/sheets/square_board.h"
 #include "base/srgb.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
@@ -174,6 +175,58 @@ TEST(BoardSheet, ShowsWhatItsDescriptionSays) {
       EXPECT_EQ(marker["corners_m"][c][2], 0.0);
     }
   }
+}
+
+/// Light of a rendered page around a place, 1 mm a side.
+double LightAt(const Image<std::uint8_t>& page, Vec2 at_mm) {
+  double light = 0.0;
+  for (int i = 0; i < kSheetPixelsPerMm * kSheetPixelsPerMm; ++i) {
+    const int x = static_cast<int>((at_mm.x - 0.5) * kSheetPixelsPerMm) + i % kSheetPixelsPerMm;
+    const int y = static_cast<int>((at_mm.y - 0.5) * kSheetPixelsPerMm) + i / kSheetPixelsPerMm;
+    light += LinearFromSrgb8()[page(x, y)];
+  }
+  return light / (kSheetPixelsPerMm * kSheetPixelsPerMm);
+}
+
+TEST(SquareBoardSheet, HasItsCornersWhereItsDescriptionSays) {
+  for (const bool charuco : {false, true}) {
+    SquareBoard board;
+    board.board = {charuco ? tracker::BoardKind::kCharuco : tracker::BoardKind::kChessboard,
+                   6,
+                   5,
+                   0.0,
+                   0.0,
+                   0,
+                   charuco ? "4x4_50" : ""};
+    board.board.square_m = 1.0;
+    const auto largest = LargestSquare_mm(board.board, {210, 297});
+    ASSERT_TRUE(largest);
+    EXPECT_EQ(*largest, charuco ? 27.0 : 23.0);  // (210 - 2 * 10) / (6 or 7, and 1 of white)
+    board.board.square_m = 0.018;
+    board.marker_mm = 12.0;
+    const auto sheet = SquareBoardSheet(board, {210, 297});
+    ASSERT_TRUE(sheet) << sheet.error().Message();
+    const Image<std::uint8_t> page = RasterizeSheet(*sheet);
+    const auto description = nlohmann::json::parse(DescribeBoard(board));
+    EXPECT_EQ(description["square_m"], 0.018);
+    EXPECT_EQ(description["corners_m"].size(), charuco ? 20U : 30U);
+    const double columns = charuco ? 6 : 7, rows = charuco ? 5 : 6;
+    const Vec2 middle = sheet->prints[0].top_left_mm + Vec2{columns, rows} * 9.0;
+    for (const auto& corner : description["corners_m"]) {
+      const Vec2 at{middle.x + corner[0].get<double>() * 1e3,
+                    middle.y - corner[1].get<double>() * 1e3};
+      // Black and white meet crosswise, and half of what is around is black.
+      const double one = LightAt(page, at + Vec2{1, 1}), other = LightAt(page, at + Vec2{-1, 1});
+      EXPECT_NEAR(one + other, 1.0, 1e-6);
+      EXPECT_EQ(LightAt(page, at + Vec2{-1, -1}), one);
+      EXPECT_EQ(LightAt(page, at + Vec2{1, -1}), other);
+      EXPECT_NEAR(LightAt(page, at), 0.5, 1e-6);
+    }
+  }
+  const auto small =
+      LargestSquare_mm({tracker::BoardKind::kChessboard, 60, 60, 1.0, 0.0, 0, ""}, {210, 297});
+  ASSERT_FALSE(small);
+  EXPECT_THAT(small.error().Message(), HasSubstr("--page"));
 }
 
 TEST(PrintPicture, HasWholePixelsForModulesAtMultiplesOfTheirNumber) {

@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "base/srgb.h"
 #include "devices/calibration.h"
 #include "run_program.h"
 #include "tests/tracker/board_rendering.h"
@@ -116,6 +119,112 @@ TEST(Calibrate, WritesEveryFormAndAPageFromPicturesAndFromAFilm) {
   EXPECT_EQ(of_film["views"].size(), 12U);
   EXPECT_EQ(of_film["pictures"], 36);
   EXPECT_NEAR(of_film["fx"].get<double>() / TrueCamera().fx, 1.0, 0.003);
+}
+
+/// A sheet as `pleinair board` made it, 12 px/mm, in linear light at half of that.
+cv::Mat ReadSheet(const fs::path& file) {
+  cv::Mat sheet = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  EXPECT_FALSE(sheet.empty());
+  cv::Mat light(1, 256, CV_32F), linear;
+  for (int i = 0; i < 256; ++i) light.at<float>(i) = LinearFromSrgb8()[i];
+  cv::LUT(sheet, light, linear);
+  cv::resize(linear, linear, {}, 0.5, 0.5, cv::INTER_AREA);
+  return linear;
+}
+
+/// Photographs sheets through one lens: 3 × 3 samples a pixel and half a
+/// pixel of blur, in linear light.
+class SheetCamera {
+ public:
+  explicit SheetCamera(const CameraModel& camera) : size_(camera.width, camera.height) {
+    for (int row = 0; row < size_.height * kSamples; ++row) {
+      for (int column = 0; column < size_.width * kSamples; ++column) {
+        const Vec2 ray =
+            UndistortPixel(camera, {(column + 0.5) / kSamples - 0.5, (row + 0.5) / kSamples - 0.5});
+        rays_.push_back({ray.x, ray.y, 1.0});
+      }
+    }
+  }
+
+  /// `middle_mm`: of the board, on its page.
+  cv::Mat Take(const cv::Mat& sheet, Vec2 middle_mm,
+               const Transform<Camera, Marker>& camera_from_board) const {
+    constexpr float kPixelsPerMm = 6.0F;
+    cv::Mat_<cv::Vec2f> at(size_.height * kSamples, size_.width * kSamples);
+    const Transform<Marker, Camera> back = camera_from_board.Inverse();
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      const Vec3 along = back.rotation * rays_[i];
+      const Vec3 on_board = back.translation_m + along * (-back.translation_m.z / along.z);
+      at(static_cast<int>(i)) = {
+          static_cast<float>(on_board.x * 1e3 + middle_mm.x) * kPixelsPerMm - 0.5F,
+          static_cast<float>(middle_mm.y - on_board.y * 1e3) * kPixelsPerMm - 0.5F};
+    }
+    cv::Mat seen, picture;
+    cv::remap(sheet, seen, at, cv::Mat(), cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0.3));
+    cv::GaussianBlur(seen, seen, {}, 0.5 * kSamples);
+    cv::resize(seen, picture, size_, 0, 0, cv::INTER_AREA);
+    cv::Mat encoded(size_, CV_8U);
+    for (int i = 0; i < size_.area(); ++i) {
+      encoded.data[i] = Srgb8FromLinear(picture.ptr<float>()[i]);
+    }
+    return encoded;
+  }
+
+ private:
+  static constexpr int kSamples = 3;
+  cv::Size size_;
+  std::vector<Vec3> rays_;
+};
+
+TEST(Calibrate, FindsTheLensFromPicturesOfTheBoardsThatBoardPrints) {
+  struct Case {
+    std::vector<std::string> board;
+    double width_mm, height_mm;  // Of the squares.
+    std::string words;
+  };
+  const Case cases[] = {
+      {{"--chessboard", "9x6", "--square-mm", "20"}, 200, 140, "chessboard with 9x6 inner corners"},
+      {{"--charuco", "8x6", "--dictionary", "5x5_100", "--square-mm", "20"},
+       160,
+       120,
+       "ChArUco board of 8x6 squares (5x5_100)"}};
+  // Chessboards are found whole or not at all: their squares must not be too small.
+  CameraModel camera = TrueCamera();
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx *= 1.6;
+  camera.fy *= 1.6;
+  camera.cx = 324.0;
+  camera.cy = 235.0;
+  const SheetCamera photographer(camera);
+  for (const Case& each : cases) {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{"board", "--page", "A3", "-o", folder / "board.png"};
+    arguments.insert(arguments.end(), each.board.begin(), each.board.end());
+    const RunResult printed = RunPleinair(arguments);
+    ASSERT_EQ(printed.exit_code, 0) << printed.err;
+    const cv::Mat sheet = ReadSheet(folder / "board.png");
+    ASSERT_EQ(sheet.size(), cv::Size(297 * 6, 420 * 6));
+    // 10 mm from the page's upper edge half a square of white begins.
+    const Vec2 middle_mm{
+        std::floor(0.5 * (297.0 - each.width_mm - 20.0)) + 10.0 + 0.5 * each.width_mm,
+        20.0 + 0.5 * each.height_mm};
+    fs::create_directories(folder / "views");
+    const auto poses = tracker::BoardPoses(camera, each.width_mm * 1e-3, 40.0);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      cv::imwrite((folder / ("views/" + std::to_string(10 + i) + ".png")),
+                  photographer.Take(sheet, middle_mm, poses[i]));
+    }
+    const RunResult run =
+        RunPleinair({"calibrate", "--board", folder / "board.json", folder / "views", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["board"], each.words);
+    EXPECT_GE(json["views"].size(), 8U);
+    EXPECT_NEAR(json["fx"].get<double>() / camera.fx, 1.0, 0.002);
+    EXPECT_NEAR(json["fy"].get<double>() / camera.fy, 1.0, 0.002);
+    EXPECT_LT(json["rms_px"].get<double>(), 0.1);
+  }
 }
 
 TEST(Calibrate, RefusesInOneLineWithTheReasonAndWritesNothing) {

@@ -201,6 +201,18 @@ TEST(Board, StandsOnThePageWhereItsDescriptionSays) {
   EXPECT_NEAR((edges[3] - edges[2]) / kPixelsPerMm, right_mm - left_mm, 0.1);
 }
 
+TEST(Board, HasSquaresTrueToScaleWhereAChessboardIsAskedFor) {
+  const TemporaryFolder folder;
+  const RunResult run = RunPleinair(
+      {"board", "--chessboard", "9x6", "--square-mm", "15", "-o", folder / "c.pdf", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(Lines(run.out).at(0)["square_mm"], 15.0);
+  const cv::Mat page = DrawPdf(folder / "c.pdf");
+  // Through the middle of the first row: 10 mm of page, half a square of white, half of a square.
+  EXPECT_NEAR(BlackAlong(page.row(static_cast<int>(25.0 * kPixelsPerMm))), 5 * 15.0, 0.1);
+  EXPECT_NEAR(BlackAlong(page.row(static_cast<int>(40.0 * kPixelsPerMm))), 5 * 15.0, 0.1);
+}
+
 TEST(Board, DoesNotReplaceAFileThatIsNoDescription) {
   const TemporaryFolder folder;
   WriteFile(folder / "b.json", "{\"precious\": 1}");
@@ -256,6 +268,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadUse{"FolderNotThere", {"marker", "1", "-o", "OUT/none/m.png"}, "none"},
         BadUse{"BoardBeyondTheLastNumber", {"board", "--first", "4090", "-o", "OUT/b.pdf"}, "4095"},
         BadUse{"BoardWithoutMargin", {"board", "--gap-mm", "1", "-o", "OUT/b.pdf"}, "3.6 mm"},
+        BadUse{"ChessboardTooLarge",
+               {"board", "--chessboard", "9x6", "--square-mm", "30", "-o", "OUT/b.pdf"},
+               "--page A2"},
+        BadUse{"ChessboardOfMarkers",
+               {"board", "--chessboard", "9x6", "--columns", "3", "-o", "OUT/b.pdf"},
+               "--columns excludes --chessboard"},
+        BadUse{"CharucoBoardWithTooFewCodes",
+               {"board", "--charuco", "30x30", "--dictionary", "4x4_50", "-o", "OUT/b.pdf"},
+               "has 50 markers"},
+        BadUse{"CharucoBoardWithoutWhite",
+               {"board", "--charuco", "8x6", "--square-mm", "20", "--marker-mm", "19", "-o",
+                "OUT/b.pdf"},
+               "give 8 to 18 mm"},
         BadUse{"BoardTooLarge", {"board", "--size-mm", "60", "-o", "OUT/b.pdf"}, "--page A2"}),
     [](const auto& use) { return std::string(use.param.name); });
 
