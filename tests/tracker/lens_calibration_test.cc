@@ -230,6 +230,35 @@ TEST(LensCalibration, RefusesPointsThatAllLieAtOneDistance) {
   EXPECT_THAT(Refusal(poses), HasSubstr("lies at one distance"));
 }
 
+TEST(LensCalibration, JudgesByTheCovarianceWhetherDistancesAndTiltsDetermineTheFocalLength) {
+  // Twelve places, at 44, 55 and 66 cm or all at 55 cm.
+  const auto places = [](double tilt_deg, bool three_distances, bool one_axis) {
+    std::vector<Transform<Camera, Marker>> poses;
+    for (int i = 0; i < 12; ++i) {
+      const double sign = i % 2 == 0 ? 1.0 : -1.0;
+      Transform<Camera, Marker> pose =
+          Seen(0.5, 0.5, 300.0, one_axis ? sign * tilt_deg : tilt_deg, one_axis ? 0.0 : 210.0 * i);
+      const double far = three_distances ? 0.8 + 0.2 * (i / 2 % 3) : 1.0;
+      pose.translation_m = {0.1 * (i % 4 - 1.5), 0.08 * (i / 4 - 1.0), 0.55 * far};
+      poses.push_back(pose);
+    }
+    return poses;
+  };
+  for (const bool three_distances : {false, true}) {
+    // Distances alone do not help: a longer lens farther off shows planes that face it the same.
+    for (const double tilt_deg : {0.0, 5.0}) {
+      EXPECT_THAT(Refusal(places(tilt_deg, three_distances, false)),
+                  HasSubstr("looks straight at the board"))
+          << tilt_deg;
+    }
+    // Tilts do, whatever the distances.
+    EXPECT_EQ(Refusal(places(15.0, three_distances, false)), "");
+    // Tilted about one axis only, one of the two focal lengths has nothing to go by.
+    EXPECT_THAT(Refusal(places(20.0, three_distances, true)),
+                HasSubstr("tilt the board about both axes"));
+  }
+}
+
 TEST(LensCalibration, RefusesViewsOfOneCornerOfThePicture) {
   std::vector<Transform<Camera, Marker>> poses;
   for (int i = 0; i < 12; ++i) {

@@ -57,6 +57,7 @@ LensUncertainty Uncertainty(const LensFit& fit, const std::vector<PlaneView>& vi
   const Lens covariance = eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() *
                           eigen.eigenvectors().transpose();
   const double noise = std::max(uncertainty.noise_px, least_noise_px);
+  uncertainty.assumed_px = noise;
   const auto deviation = [&](int i) { return noise * std::sqrt(covariance(i, i)) / scale(i); };
   uncertainty.fx = deviation(0);
   uncertainty.fy = deviation(1);

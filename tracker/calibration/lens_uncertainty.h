@@ -9,7 +9,8 @@ namespace pleinair::tracker {
 
 /// How well views determine a lens.
 struct LensUncertainty {
-  double noise_px = 0.0;  ///< Standard deviation of one coordinate, from the residuals.
+  double noise_px = 0.0;    ///< Standard deviation of one coordinate, from the residuals.
+  double assumed_px = 0.0;  ///< What the deviations below are for: that, or what was assumed.
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
   std::array<double, 8> distortion{};
   bool determined = true;  ///< False: the equations are singular, and the numbers mean nothing.

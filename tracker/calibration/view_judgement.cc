@@ -10,15 +10,19 @@
 namespace pleinair::tracker {
 namespace {
 
-// Refused beyond these: what lies there cannot be told from the noise of real corners, or only from
-// the model's being exact. Photographs taken with some care lie far on the other side.
-constexpr double kLeastTilt_deg = 8.0;
-constexpr double kLeastDepthRatio = 1.12;
+// Refused beyond these. Photographs taken with some care lie far on the other side.
 constexpr double kLeastShare = 0.25;
 constexpr double kLeastHalf = 0.12;
 constexpr double kMostFocalDeviation = 0.01;   // Relative.
 constexpr double kMostCentreDeviation = 0.02;  // Of the picture's longer side.
 constexpr double kMostRmsShare = 0.005;        // Of the picture's longer side: 3 px of 640.
+// What corners of one view may be off by together, or this share of their own noise.
+constexpr double kCommonError_px = 0.05;
+constexpr double kCommonShare = 0.5;
+constexpr double kCornersOfAView = 4.0;
+// What is lacking in views that do not determine the focal length is named by these.
+constexpr double kLittleTilt_deg = 12.0;
+constexpr double kLittleDepthRatio = 1.12;
 // Said below these.
 constexpr double kGoodTilt_deg = 20.0;
 constexpr double kGoodShare = 0.7;
@@ -61,28 +65,62 @@ void Measure(const LensFit& fit, const std::vector<PlaneView>& views, ViewJudgem
   judgement->distance_ratio = farthest_middle / nearest_middle;
 }
 
+/// How far the solution moves if each view as a whole is a little wrong.
+void Deviate(const LensFit& fit, const std::vector<PlaneView>& views,
+             const LensUncertainty& uncertainty, ViewJudgement* judgement) {
+  const CameraModel& camera = fit.camera;
+  judgement->focal_deviation = judgement->centre_deviation =
+      std::numeric_limits<double>::infinity();
+  if (!uncertainty.determined || !(uncertainty.assumed_px > 0.0)) return;
+  double corners = 0.0;
+  for (const PlaneView& view : views) corners += static_cast<double>(view.seen_px.size());
+  const double common_px = std::max(kCommonError_px, kCommonShare * uncertainty.noise_px);
+  const double by =
+      common_px / uncertainty.assumed_px *
+      std::sqrt(std::max(corners / (kCornersOfAView * static_cast<double>(views.size())), 1.0));
+  const double focal = std::max(uncertainty.fx / camera.fx, uncertainty.fy / camera.fy);
+  const double side = std::max(camera.width, camera.height);
+  const double centre = std::max(uncertainty.cx, uncertainty.cy) / side;
+  if (std::isfinite(focal)) judgement->focal_deviation = focal * by;
+  if (std::isfinite(centre)) judgement->centre_deviation = centre * by;
+}
+
+std::string WhatLacks(const ViewJudgement& judgement) {
+  std::string lacks = "tilt the board about both axes of the picture, and take more views, larger";
+  if (judgement.largest_tilt_deg < kLittleTilt_deg) {
+    lacks = "the camera looks straight at the board in every view (tilted by at most " +
+            Number("%.1f", judgement.largest_tilt_deg) +
+            " degrees): tilt the board by 20 to 45 degrees, in several directions";
+  } else if (judgement.widest_apart_deg < kLittleTilt_deg) {
+    lacks = "the board stands the same way in every view (to " +
+            Number("%.1f", judgement.widest_apart_deg) + " degrees): tilt it in several directions";
+  }
+  if (judgement.largest_tilt_deg < kLittleTilt_deg && judgement.depth_ratio < kLittleDepthRatio) {
+    lacks += ", and everything seen lies at one distance (to " +
+             Number("%.0f", 100.0 * (judgement.depth_ratio - 1.0)) + " %): come nearer in some";
+  }
+  return lacks;
+}
+
 void JudgePlanes(ViewJudgement* judgement) {
-  if (judgement->largest_tilt_deg < kLeastTilt_deg) {
+  if (!(judgement->focal_deviation <= kMostFocalDeviation) ||
+      !(judgement->centre_deviation <= kMostCentreDeviation)) {
+    const bool open = !(judgement->focal_deviation < 1.0);
     judgement->reasons.push_back(
-        "the camera looks straight at the board in every view (tilted by at most " +
-        Number("%.1f", judgement->largest_tilt_deg) +
-        " degrees), which leaves the focal length open: tilt the board by 20 to 45 degrees, in "
-        "several directions");
-  } else if (judgement->widest_apart_deg < kLeastTilt_deg) {
-    judgement->reasons.push_back("the board stands the same way in every view (to " +
-                                 Number("%.1f", judgement->widest_apart_deg) +
-                                 " degrees): tilt it in several directions");
-  } else if (judgement->largest_tilt_deg < kGoodTilt_deg) {
+        (open
+             ? std::string("the focal length is open")
+             : "the focal length is known to " +
+                   Number("%.2g", 100.0 * judgement->focal_deviation) + " % and the centre to " +
+                   Number("%.2g", 100.0 * judgement->centre_deviation) + " % of the picture only") +
+        ": " + WhatLacks(*judgement));
+    return;
+  }
+  if (judgement->largest_tilt_deg < kGoodTilt_deg) {
     judgement->advice.push_back(
         "tilt the board more: " + Number("%.0f", judgement->largest_tilt_deg) +
         " degrees are the most, 20 to 45 are good");
   }
-  if (judgement->depth_ratio < kLeastDepthRatio) {
-    judgement->reasons.push_back(
-        "everything seen lies at one distance (to " +
-        Number("%.0f", 100.0 * (judgement->depth_ratio - 1.0)) +
-        " %), and a longer lens farther off would show the same: come nearer in some views");
-  } else if (judgement->distance_ratio < kGoodDistanceRatio) {
+  if (judgement->distance_ratio < kGoodDistanceRatio) {
     judgement->advice.emplace_back("take some views from nearer and some from farther");
   }
 }
@@ -108,19 +146,10 @@ void JudgeCoverage(const ViewCoverage& coverage, ViewJudgement* judgement) {
   }
 }
 
-void JudgeNumbers(const LensFit& fit, const std::vector<PlaneView>& views,
-                  const LensUncertainty& uncertainty, ViewJudgement* judgement) {
+void JudgeResiduals(const LensFit& fit, const std::vector<PlaneView>& views,
+                    ViewJudgement* judgement) {
   const CameraModel& camera = fit.camera;
   const double side = std::max(camera.width, camera.height);
-  const double focal = std::max(uncertainty.fx / camera.fx, uncertainty.fy / camera.fy);
-  const double centre = std::max(uncertainty.cx, uncertainty.cy);
-  if (!uncertainty.determined || !std::isfinite(focal)) {
-    judgement->reasons.emplace_back("different lenses explain these views equally well");
-  } else if (focal > kMostFocalDeviation || centre > kMostCentreDeviation * side) {
-    judgement->reasons.push_back("the focal length is known to " + Number("%.2g", 100.0 * focal) +
-                                 " % and the centre to " + Number("%.1f", centre) +
-                                 " px only: take more views, larger, with more tilt");
-  }
   double squares = 0.0, points = 0.0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     for (const Vec2 each : Residuals(camera, fit.camera_from_board[i], views[i])) {
@@ -143,9 +172,10 @@ ViewJudgement JudgeViews(const LensFit& fit, const std::vector<PlaneView>& views
                          const ViewCoverage& coverage, const LensUncertainty& uncertainty) {
   ViewJudgement judgement;
   Measure(fit, views, &judgement);
+  Deviate(fit, views, uncertainty, &judgement);
   JudgePlanes(&judgement);
   JudgeCoverage(coverage, &judgement);
-  JudgeNumbers(fit, views, uncertainty, &judgement);
+  JudgeResiduals(fit, views, &judgement);
   if (views.size() < kGoodViews) {
     judgement.advice.push_back("take more views: " + std::to_string(views.size()) +
                                " are here, 10 to 20 are good");

@@ -14,17 +14,24 @@ constexpr int kFewestViews = 4;
 
 /// What the views are like, and what is wrong with them.
 struct ViewJudgement {
-  double largest_tilt_deg = 0.0;     ///< Of a board against the picture's plane.
-  double widest_apart_deg = 0.0;     ///< Between the planes of two views.
+  double largest_tilt_deg = 0.0;  ///< Of a board against the picture's plane.
+  double widest_apart_deg = 0.0;  ///< Between the planes of two views.
+  /// Deviations of the focal length, relative, and of the centre, of the picture's longer side, if
+  /// each view as a whole were a little wrong; infinite where nothing determines them.
+  double focal_deviation = 0.0, centre_deviation = 0.0;
   double depth_ratio = 1.0;          ///< The farthest point's depth over the nearest one's.
   double distance_ratio = 1.0;       ///< The same of the boards' middles.
   std::vector<std::string> reasons;  ///< Why they do not determine the lens; empty: they do.
   std::vector<std::string> advice;   ///< What would make them better.
 };
 
-/// Judges the views by the fit. Views of planes that are all parallel leave the focal length free
-/// (Zhang 2000, §4.2), as do points that all lie at one depth; a part of the picture without points
-/// leaves the distortion there free; and what remains shows in the standard deviations.
+/// Judges the views by the fit. Whether they determine focal length and centre is read from the
+/// covariance of the solution, but not for independent noise of every corner, which many corners
+/// would average out: for views that are wrong as a whole, by a board that is not quite flat or a
+/// lens that is not quite the model's. A view of a plane tells eight numbers (Zhang 2000, §2.3),
+/// four corners' worth, so that the deviations count for so many corners a view. What the views
+/// lack is named from their geometry. A part of the picture without points leaves the distortion
+/// there free.
 ViewJudgement JudgeViews(const LensFit& fit, const std::vector<PlaneView>& views,
                          const ViewCoverage& coverage, const LensUncertainty& uncertainty);
 
