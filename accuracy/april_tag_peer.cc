@@ -1,10 +1,14 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 
 extern "C" {
 #include <apriltag/apriltag.h>
+#include <apriltag/tag16h5.h>
+#include <apriltag/tag25h9.h>
 #include <apriltag/tag36h11.h>
+#include <apriltag/tagStandard41h12.h>
 }
 
 #include "accuracy/detector.h"
@@ -14,13 +18,20 @@ extern "C" {
 namespace pleinair::accuracy {
 namespace {
 
-constexpr const char* kFamily = "tag36h11";
+struct Family {
+  const char* name;
+  apriltag_family_t* (*create)();
+  void (*destroy)(apriltag_family_t*);
+};
+constexpr std::array<Family, 4> kFamilies{{
+    {"tag36h11", tag36h11_create, tag36h11_destroy},
+    {"tag25h9", tag25h9_create, tag25h9_destroy},
+    {"tag16h5", tag16h5_create, tag16h5_destroy},
+    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
+}};
 
 struct FreeDetector {
   void operator()(apriltag_detector_t* detector) const { apriltag_detector_destroy(detector); }
-};
-struct FreeFamily {
-  void operator()(apriltag_family_t* family) const { tag36h11_destroy(family); }
 };
 struct FreePicture {
   void operator()(image_u8_t* picture) const { image_u8_destroy(picture); }
@@ -28,9 +39,11 @@ struct FreePicture {
 
 class AprilTagPeer final : public Detector {
  public:
-  explicit AprilTagPeer(const CameraModel& camera)
+  AprilTagPeer(const CameraModel& camera, const Family& family, Metres edge)
       : camera_(camera),
-        family_(tag36h11_create()),
+        edge_(edge),
+        name_(family.name),
+        family_(family.create(), family.destroy),
         detector_(apriltag_detector_create()),
         picture_(image_u8_create(camera.width, camera.height)) {
     apriltag_detector_add_family(detector_.get(), family_.get());
@@ -38,7 +51,7 @@ class AprilTagPeer final : public Detector {
   }
 
   PrintsByNumber Prints() const override {
-    return [](int number) { return tracker::AprilTagPattern(kFamily, number); };
+    return [name = name_](int number) { return tracker::AprilTagPattern(name, number); };
   }
 
   Result<void> Start(bool /*film*/) override { return {}; }
@@ -61,8 +74,8 @@ class AprilTagPeer final : public Detector {
       for (int k = 0; k < 4; ++k) {
         detected.corners_px[k] = {tag->p[3 - k][0] - 0.5, tag->p[3 - k][1] - 0.5};
       }
-      detected.pose = tracker::EstimatePlanarPose(
-          camera_, detected.corners_px, tracker::IsotropicCornerCovariance(1.0), kMarkerEdge);
+      detected.pose = tracker::EstimatePlanarPose(camera_, detected.corners_px,
+                                                  tracker::IsotropicCornerCovariance(1.0), edge_);
       seen.markers.push_back(std::move(detected));
     }
     apriltag_detections_destroy(found);
@@ -71,15 +84,21 @@ class AprilTagPeer final : public Detector {
 
  private:
   const CameraModel camera_;
-  std::unique_ptr<apriltag_family_t, FreeFamily> family_;
+  const Metres edge_;
+  const char* const name_;
+  std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family_;
   std::unique_ptr<apriltag_detector_t, FreeDetector> detector_;
   std::unique_ptr<image_u8_t, FreePicture> picture_;
 };
 
 }  // namespace
 
-std::unique_ptr<Detector> MakeAprilTagPeer(const CameraModel& camera) {
-  return std::make_unique<AprilTagPeer>(camera);
+std::unique_ptr<Detector> MakeAprilTagPeer(const CameraModel& camera, std::string_view family,
+                                           Metres edge) {
+  for (const Family& known : kFamilies) {
+    if (known.name == family) return std::make_unique<AprilTagPeer>(camera, known, edge);
+  }
+  return nullptr;
 }
 
 }  // namespace pleinair::accuracy

@@ -1,37 +1,54 @@
+#include <array>
 #include <chrono>
 #include <opencv2/aruco.hpp>
 
 #include "accuracy/detector.h"
+#include "tracker/april_tag_detector.h"
 #include "tracker/planar_pose.h"
 
 namespace pleinair::accuracy {
 namespace {
 
-constexpr int kBits = 4;   // Of the code, along a side,
-constexpr int kEdge = 6;   // … with the black rim,
-constexpr int kQuiet = 1;  // … and the white margin around that, on each side.
+struct Family {
+  const char* name;
+  cv::aruco::PREDEFINED_DICTIONARY_NAME dictionary;
+  int bits;   ///< Of the code, along a side; a ring of black around them.
+  int turns;  ///< Quarter turns clockwise from its first corner to the print's top-left one.
+};
+constexpr std::array<Family, 4> kFamilies{{
+    {"4X4_50", cv::aruco::DICT_4X4_50, 4, 0},
+    {"tag36h11", cv::aruco::DICT_APRILTAG_36h11, 6, 2},
+    {"tag25h9", cv::aruco::DICT_APRILTAG_25h9, 5, 2},
+    {"tag16h5", cv::aruco::DICT_APRILTAG_16h5, 4, 2},
+}};
+constexpr int kQuiet = 1;  // Modules of white margin on each side.
 
 class ArucoPeer final : public Detector {
  public:
-  explicit ArucoPeer(const CameraModel& camera)
+  ArucoPeer(const CameraModel& camera, const Family& family, Metres edge)
       : camera_(camera),
-        dictionary_(cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50)),
+        edge_(edge),
+        family_(family),
+        dictionary_(cv::aruco::getPredefinedDictionary(family.dictionary)),
         parameters_(cv::aruco::DetectorParameters::create()) {
-    static_assert(kEdge == kBits + 2);
     cv::setNumThreads(1);  // As the others.
     parameters_->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
   }
 
   PrintsByNumber Prints() const override {
-    return [dictionary = dictionary_](int number) {
+    if (family_.turns != 0) {
+      return [name = family_.name](int number) { return tracker::AprilTagPattern(name, number); };
+    }
+    return [dictionary = dictionary_,
+            edge = family_.bits + 2](int number) -> std::shared_ptr<const tracker::PrintPattern> {
       cv::Mat drawn;
-      cv::aruco::drawMarker(dictionary, number, kEdge, drawn);
+      cv::aruco::drawMarker(dictionary, number, edge, drawn);
       auto pattern = std::make_shared<tracker::PrintPattern>();
-      pattern->modules = kEdge + 2 * kQuiet;
-      pattern->edge_modules = kEdge;
+      pattern->modules = edge + 2 * kQuiet;
+      pattern->edge_modules = edge;
       pattern->white.assign(static_cast<std::size_t>(pattern->modules) * pattern->modules, 1);
-      for (int row = 0; row < kEdge; ++row) {
-        for (int column = 0; column < kEdge; ++column) {
+      for (int row = 0; row < edge; ++row) {
+        for (int column = 0; column < edge; ++column) {
           pattern->white[(row + kQuiet) * pattern->modules + column + kQuiet] =
               drawn.at<std::uint8_t>(row, column) > 127;
         }
@@ -55,9 +72,12 @@ class ArucoPeer final : public Detector {
     seen.stages_ms.emplace_back("detect", taken.count());
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       Detected detected{.number = numbers[i]};
-      for (int k = 0; k < 4; ++k) detected.corners_px[k] = {corners[i][k].x, corners[i][k].y};
-      detected.pose = tracker::EstimatePlanarPose(
-          camera_, detected.corners_px, tracker::IsotropicCornerCovariance(1.0), kMarkerEdge);
+      for (int k = 0; k < 4; ++k) {
+        const cv::Point2f corner = corners[i][(k + family_.turns) % 4];
+        detected.corners_px[k] = {corner.x, corner.y};
+      }
+      detected.pose = tracker::EstimatePlanarPose(camera_, detected.corners_px,
+                                                  tracker::IsotropicCornerCovariance(1.0), edge_);
       seen.markers.push_back(std::move(detected));
     }
     return seen;
@@ -65,14 +85,20 @@ class ArucoPeer final : public Detector {
 
  private:
   const CameraModel camera_;
+  const Metres edge_;
+  const Family family_;
   cv::Ptr<cv::aruco::Dictionary> dictionary_;
   cv::Ptr<cv::aruco::DetectorParameters> parameters_;
 };
 
 }  // namespace
 
-std::unique_ptr<Detector> MakeArucoPeer(const CameraModel& camera) {
-  return std::make_unique<ArucoPeer>(camera);
+std::unique_ptr<Detector> MakeArucoPeer(const CameraModel& camera, std::string_view family,
+                                        Metres edge) {
+  for (const Family& known : kFamilies) {
+    if (known.name == family) return std::make_unique<ArucoPeer>(camera, known, edge);
+  }
+  return nullptr;
 }
 
 }  // namespace pleinair::accuracy

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,11 +36,17 @@ class Detector {
   virtual Result<Seen> Detect(ImageView<const std::uint8_t> grey) = 0;
 };
 
-/// AprilTag 3 as its library comes (tag36h11, quad_decimate 2, one thread).
-std::unique_ptr<Detector> MakeAprilTagPeer(const CameraModel& camera);
+/// AprilTag 3 as its library comes (quad_decimate 2, one thread), for one of its families; null for
+/// prints of other kinds. `edge`: of the square whose corners it reports.
+std::unique_ptr<Detector> MakeAprilTagPeer(const CameraModel& camera,
+                                           std::string_view family = "tag36h11",
+                                           Metres edge = kMarkerEdge);
 
-/// OpenCV's ArUco module (dictionary 4X4_50, corners refined by cornerSubPix, as its users are told
-/// to).
-std::unique_ptr<Detector> MakeArucoPeer(const CameraModel& camera);
+/// OpenCV's ArUco module (corners refined by cornerSubPix, as its users are told to), for its
+/// dictionary "4X4_50", or for the AprilTag families that it has dictionaries of; null for prints
+/// of other kinds.
+std::unique_ptr<Detector> MakeArucoPeer(const CameraModel& camera,
+                                        std::string_view family = "4X4_50",
+                                        Metres edge = kMarkerEdge);
 
 }  // namespace pleinair::accuracy

@@ -53,10 +53,12 @@ constexpr std::array<double, 8> kF{1.0,
                                    1.42151175831644588870e-7,
                                    2.04426310338993978564e-15};
 
+// Of continued fractions and series.
+constexpr int kMostTerms = 100000;
+constexpr double kDone = 1e-16, kTiny = 1e-300;
+
 /// Regularised lower incomplete gamma function P(a, x).
 double LowerGamma(double a, double x) {
-  constexpr int kMostTerms = 100000;
-  constexpr double kDone = 1e-16;
   const double log_front = a * std::log(x) - x - std::lgamma(a);
   if (x < a + 1.0) {  // A&S 6.5.29.
     double term = 1.0 / a, sum = term;
@@ -67,7 +69,6 @@ double LowerGamma(double a, double x) {
     return std::exp(log_front) * sum;
   }
   // A&S 6.5.31, evaluated forwards after Lentz.
-  constexpr double kTiny = 1e-300;
   double b = x + 1.0 - a, c = 1.0 / kTiny, d = 1.0 / b, fraction = d;
   for (int i = 1; i < kMostTerms; ++i) {
     const double an = -i * (i - a);
@@ -81,6 +82,27 @@ double LowerGamma(double a, double x) {
     if (std::fabs(d * c - 1.0) < kDone) break;
   }
   return 1.0 - std::exp(log_front) * fraction;
+}
+
+/// The regularised incomplete beta function I_x(a, b), for x below (a + 1) / (a + b + 2): A&S
+/// 26.5.8, evaluated forwards after Lentz.
+double LowerBeta(double x, double a, double b) {
+  if (x <= 0.0) return 0.0;
+  const double log_front = std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) +
+                           b * std::log1p(-x) - std::log(a);
+  double c = 1.0 / kTiny, d = 1.0, fraction = 1.0;
+  for (int i = 1; i < kMostTerms; ++i) {
+    const int m = i / 2;
+    const double term = i % 2 == 0 ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
+                                   : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
+    d = 1.0 + term * d;
+    d = 1.0 / (std::fabs(d) < kTiny ? kTiny : d);
+    c = 1.0 + term / c;
+    if (std::fabs(c) < kTiny) c = kTiny;
+    fraction *= c * d;
+    if (std::fabs(c * d - 1.0) < kDone) break;
+  }
+  return std::exp(log_front) * fraction;
 }
 
 }  // namespace
@@ -114,6 +136,25 @@ double ChiSquareQuantile(double p, double degrees) {
   for (int i = 0; i < 200 && high - low > 1e-14 * high; ++i) {
     const double middle = 0.5 * (low + high);
     (ChiSquareCdf(middle, degrees) < p ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double StudentCdf(double t, double degrees) {
+  // A&S 26.7.1: both tails together are I_x(ν/2, 1/2) with x = ν / (ν + t²).
+  const double x = degrees / (degrees + t * t), a = 0.5 * degrees, b = 0.5;
+  const double both =
+      x < (a + 1.0) / (a + b + 2.0) ? LowerBeta(x, a, b) : 1.0 - LowerBeta(1.0 - x, b, a);
+  return t > 0.0 ? 1.0 - 0.5 * both : 0.5 * both;
+}
+
+double StudentQuantile(double p, double degrees) {
+  if (p < 0.5) return -StudentQuantile(1.0 - p, degrees);
+  double low = 0.0, high = 1.0;
+  while (StudentCdf(high, degrees) < p) high *= 2.0;
+  for (int i = 0; i < 200 && high - low > 1e-14 * high; ++i) {
+    const double middle = 0.5 * (low + high);
+    (StudentCdf(middle, degrees) < p ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }

@@ -19,6 +19,13 @@ double ChiSquareCdf(double x, double degrees);
 /// Inverse of ChiSquareCdf: bisection from the approximation of Wilson & Hilferty 1931.
 double ChiSquareQuantile(double p, double degrees);
 
+/// P(T <= t) of Student's t with `degrees` of freedom, by the incomplete beta function's continued
+/// fraction (Abramowitz & Stegun 1964, 26.7.1 and 26.5.8).
+double StudentCdf(double t, double degrees);
+
+/// Inverse of StudentCdf, 0 < p < 1, by bisection.
+double StudentQuantile(double p, double degrees);
+
 /// P(X <= k) of `n` fair coins' heads.
 double FairCoinCdf(std::int64_t k, std::int64_t n);
 

@@ -11,14 +11,8 @@
 namespace pleinair::accuracy {
 namespace {
 
-double Mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
 double Deviation(const std::vector<double>& values) {
-  const double mean = Mean(values);
+  const double mean = MeanOf(values);
   double sum = 0.0;
   for (const double value : values) sum += (value - mean) * (value - mean);
   return std::sqrt(sum / static_cast<double>(values.size()));
@@ -35,7 +29,7 @@ JitterSummary JitterOf(const std::vector<const MarkerRecord*>& hits) {
         errors.push_back(along_x ? error.x : error.y);
       }
       summary.corner_std_px += Deviation(errors) / 8;
-      summary.corner_bias_px += std::fabs(Mean(errors)) / 8;
+      summary.corner_bias_px += std::fabs(MeanOf(errors)) / 8;
     }
   }
   std::vector<double> rotation;
@@ -56,10 +50,6 @@ JitterSummary JitterOf(const std::vector<const MarkerRecord*>& hits) {
   return summary;
 }
 
-bool IsFilm(const FrameRecord& record) {
-  return record.sweep.starts_with("sequence") || record.sweep == "recording";
-}
-
 double StepJitter(const MarkerRecord& a, const MarkerRecord& b) {
   double sum = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -72,8 +62,9 @@ double StepJitter(const MarkerRecord& a, const MarkerRecord& b) {
 FilmSummary SummarizeFilm(const std::vector<const FrameRecord*>& frames) {
   FilmSummary film;
   film.frames = static_cast<std::int64_t>(frames.size());
+  film.truth_aligned = frames[0]->truth_aligned;
   Trajectory found, truth;
-  std::vector<double> steps;
+  std::vector<double> steps, tracks;
   std::int64_t track = 0, gap = 0;
   const MarkerRecord* before = nullptr;
   for (const FrameRecord* frame : frames) {
@@ -85,14 +76,20 @@ FilmSummary SummarizeFilm(const std::vector<const FrameRecord*>& frames) {
     if (hit && before != nullptr) steps.push_back(StepJitter(*before, marker));
     before = hit ? &marker : nullptr;
     film.found += hit;
-    film.tracks += hit && track == 0;
     film.gaps += !hit && gap == 0;
-    film.recovered += hit && gap > 0;
+    const bool lost = !hit && track > 0;
+    film.lost += lost;
+    film.told_lost += lost && frame->lost > 0;
+    film.recovered += hit && gap > 0 && !tracks.empty();
+    if (lost) tracks.push_back(static_cast<double>(track));
     track = hit ? track + 1 : 0;
     gap = hit ? 0 : gap + 1;
     film.longest_track = std::max(film.longest_track, track);
     film.longest_gap = std::max(film.longest_gap, gap);
   }
+  if (track > 0) tracks.push_back(static_cast<double>(track));
+  film.tracks = static_cast<std::int64_t>(tracks.size());
+  film.median_track = Percentile(tracks, 0.5);
   film.step_jitter_px = Percentile(steps, 0.5);
   if (const auto error = CompareTrajectories(found, truth)) {
     film.ate_rmse_m = error->ate_rmse_m;

@@ -55,11 +55,19 @@ struct FrameRecord {
   double level = 0.0;
   int repeat = 0;
   std::string detector{};
+  /// The truth was known up to a rigid motion of all of it, and that was chosen to fit.
+  bool truth_aligned = false;
   std::vector<MarkerRecord> markers{};
   int false_numbers = 0;  ///< Reported and not there, or reported again.
   int lost = 0;           ///< Markers that the detector says it has lost.
   std::vector<std::pair<std::string, double>> stages_ms{};
 };
+
+/// The sweep that frames of recordings are said to be of.
+inline constexpr const char* kRecordingSweep = "recording";
+
+/// Whether a frame is one of a film: the marker is followed from the frame before.
+bool IsFilm(const FrameRecord& record);
 
 /// A rotation error beyond this is a flip to the other planar pose, or worse.
 inline constexpr double kFlip_deg = 15.0;

@@ -1,7 +1,10 @@
 #include "accuracy/peer_summary.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 
 namespace pleinair::accuracy {
 namespace {
@@ -14,11 +17,12 @@ struct FramePair {
 
 bool IsHit(const MarkerRecord& marker) { return marker.outcome == Outcome::kHit; }
 
-std::vector<FramePair> PairFrames(const std::vector<FrameRecord>& records, const std::string& sweep,
+std::vector<FramePair> PairFrames(const std::vector<FrameRecord>& records, const PeerFrames& which,
                                   const std::string& ours, const std::string& peer) {
   std::map<std::int64_t, FramePair> by_frame;
   for (const FrameRecord& record : records) {
-    if (record.sweep != sweep) continue;
+    if (record.sweep != which.sweep) continue;
+    if (!which.film.empty() && record.pattern != which.film) continue;
     if (record.detector == ours) by_frame[record.frame].ours = &record;
     if (record.detector == peer) by_frame[record.frame].peer = &record;
   }
@@ -29,31 +33,57 @@ std::vector<FramePair> PairFrames(const std::vector<FrameRecord>& records, const
   return pairs;
 }
 
-/// Calls `use` with each marker as both have seen it, of the frames with these indices.
-void ForMarkers(const std::vector<FramePair>& pairs, const std::vector<std::size_t>& frames,
+using Block = std::vector<FramePair>;
+
+/// Pairs that may be taken for independent of each other.
+std::vector<Block> BlocksOf(const std::vector<FramePair>& pairs) {
+  std::map<std::string, std::vector<FramePair>> films;
+  std::vector<Block> blocks;
+  for (const FramePair& pair : pairs) {
+    if (IsFilm(*pair.ours)) {
+      films[pair.ours->pattern].push_back(pair);
+    } else {
+      blocks.push_back({pair});
+    }
+  }
+  for (const auto& [name, frames] : films) {
+    const auto length =
+        static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(frames.size()))));
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      if (i % length == 0) blocks.emplace_back();
+      blocks.back().push_back(frames[i]);
+    }
+  }
+  return blocks;
+}
+
+/// Calls `use` with each marker as both have seen it, of the blocks with these indices.
+void ForMarkers(const std::vector<Block>& blocks, const std::vector<std::size_t>& indices,
                 const std::function<void(const MarkerRecord&, const MarkerRecord&)>& use) {
-  for (const std::size_t frame : frames) {
-    const auto& ours = pairs[frame].ours->markers;
-    const auto& peer = pairs[frame].peer->markers;
-    for (std::size_t i = 0; i < std::min(ours.size(), peer.size()); ++i) use(ours[i], peer[i]);
+  for (const std::size_t index : indices) {
+    for (const FramePair& pair : blocks[index]) {
+      const auto &ours = pair.ours->markers, &peer = pair.peer->markers;
+      for (std::size_t i = 0; i < std::min(ours.size(), peer.size()); ++i) use(ours[i], peer[i]);
+    }
   }
 }
 
 }  // namespace
 
 std::optional<PeerSummary> CompareWithPeer(const std::vector<FrameRecord>& records,
-                                           const std::string& sweep, const std::string& ours,
+                                           const PeerFrames& which, const std::string& ours,
                                            const std::string& peer) {
-  const std::vector<FramePair> pairs = PairFrames(records, sweep, ours, peer);
+  const std::vector<FramePair> pairs = PairFrames(records, which, ours, peer);
   if (pairs.empty()) return std::nullopt;
-  PeerSummary summary{.sweep = sweep, .peer = peer};
-  std::vector<std::size_t> all(pairs.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i] = i;
-    summary.our_false += pairs[i].ours->false_numbers;
-    summary.peer_false += pairs[i].peer->false_numbers;
+  PeerSummary summary{.sweep = which.sweep, .peer = peer, .film = which.film};
+  for (const FramePair& pair : pairs) {
+    summary.our_false += pair.ours->false_numbers;
+    summary.peer_false += pair.peer->false_numbers;
   }
-  ForMarkers(pairs, all, [&](const MarkerRecord& a, const MarkerRecord& b) {
+  const std::vector<Block> blocks = BlocksOf(pairs);
+  std::vector<std::size_t> all(blocks.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  ForMarkers(blocks, all, [&](const MarkerRecord& a, const MarkerRecord& b) {
     ++summary.markers;
     summary.both += IsHit(a) && IsHit(b);
     summary.only_ours += IsHit(a) && !IsHit(b);
@@ -61,9 +91,9 @@ std::optional<PeerSummary> CompareWithPeer(const std::vector<FrameRecord>& recor
   });
   if (summary.markers == 0) return summary;
   summary.p = McNemarExact(summary.only_ours, summary.only_peer);
-  const auto rate_ratio = [&](const std::vector<std::size_t>& frames) {
+  const auto rate_ratio = [&](const std::vector<std::size_t>& indices) {
     double our_hits = 0.0, peer_hits = 0.0;
-    ForMarkers(pairs, frames, [&](const MarkerRecord& a, const MarkerRecord& b) {
+    ForMarkers(blocks, indices, [&](const MarkerRecord& a, const MarkerRecord& b) {
       our_hits += IsHit(a);
       peer_hits += IsHit(b);
     });
@@ -71,9 +101,9 @@ std::optional<PeerSummary> CompareWithPeer(const std::vector<FrameRecord>& recor
   };
   // Of medians, over the markers that both hit.
   const auto median_ratio = [&](double (*error)(const MarkerRecord&)) {
-    return [&pairs, error](const std::vector<std::size_t>& frames) {
+    return [&blocks, error](const std::vector<std::size_t>& indices) {
       std::vector<double> our_errors, peer_errors;
-      ForMarkers(pairs, frames, [&](const MarkerRecord& a, const MarkerRecord& b) {
+      ForMarkers(blocks, indices, [&](const MarkerRecord& a, const MarkerRecord& b) {
         if (!a.pose || !b.pose) return;
         our_errors.push_back(error(a));
         peer_errors.push_back(error(b));
@@ -87,7 +117,7 @@ std::optional<PeerSummary> CompareWithPeer(const std::vector<FrameRecord>& recor
   summary.rate_ratio = rate_ratio(all);
   summary.corner_ratio = corner_ratio(all);
   summary.rotation_ratio = rotation_ratio(all);
-  const std::string purpose = "bootstrap/" + sweep + "/" + peer;
+  const std::string purpose = "bootstrap/" + which.sweep + "/" + peer;
   summary.rate_interval = BootstrapInterval(all.size(), rate_ratio, purpose);
   summary.corner_interval = BootstrapInterval(all.size(), corner_ratio, purpose);
   summary.rotation_interval = BootstrapInterval(all.size(), rotation_ratio, purpose);

@@ -20,10 +20,6 @@ struct Pair {
 /// The frames of one scene.
 using Scene = std::vector<Pair>;
 
-bool IsFilm(const FrameRecord& record) {
-  return record.sweep.starts_with("sequence") || record.sweep == "recording";
-}
-
 std::string SceneOf(const FrameRecord& record, bool same_scenes) {
   if (same_scenes) return record.name;
   if (IsFilm(record)) return record.sweep + "/" + record.pattern;
@@ -168,19 +164,50 @@ void AddChanges(const std::string& sweep, const std::vector<Scene>& scenes,
   add("translation_percent", CompareErrors(scenes, TranslationError));
 }
 
+/// Composed pictures that both runs have.
+void AddLightChanges(const std::vector<PictureRecord>& before,
+                     const std::vector<PictureRecord>& after, std::vector<Change>* changes) {
+  std::map<std::pair<std::string, std::string>, const PictureRecord*> after_by_name;
+  for (const PictureRecord& picture : after) {
+    after_by_name[{picture.recording, picture.picture}] = &picture;
+  }
+  for (std::size_t i = 0; i < kPictureMeasures.size(); ++i) {
+    std::vector<double> old_scores, new_scores, worse, better;
+    for (const PictureRecord& picture : before) {
+      const auto other = after_by_name.find({picture.recording, picture.picture});
+      if (other == after_by_name.end()) continue;
+      const auto old_score = picture.scores[i], new_score = other->second->scores[i];
+      if (!old_score || !new_score) continue;
+      old_scores.push_back(*old_score);
+      new_scores.push_back(*new_score);
+      const double sign = kPictureMeasures[i].more_is_worse ? 1.0 : -1.0;
+      worse.push_back(sign * (*new_score - *old_score));
+      better.push_back(-worse.back());
+    }
+    if (worse.empty()) continue;
+    Change change{.sweep = "light", .measure = kPictureMeasures[i].name};
+    change.pairs = static_cast<std::int64_t>(worse.size());
+    change.before = MeanOf(old_scores);
+    change.after = MeanOf(new_scores);
+    change.p_worse = MeanGreater(worse, kPictureMeasures[i].smallest_change);
+    change.p_better = MeanGreater(better, kPictureMeasures[i].smallest_change);
+    changes->push_back(std::move(change));
+  }
+}
+
 }  // namespace
 
-std::vector<Change> CompareRuns(const std::vector<FrameRecord>& before,
-                                const std::vector<FrameRecord>& after,
+std::vector<Change> CompareRuns(const RunRecords& before, const RunRecords& after,
                                 const RegressionOptions& options) {
   std::vector<Change> changes;
-  const auto sweeps = PairScenes(before, after, options);
+  const auto sweeps = PairScenes(before.frames, after.frames, options);
   std::vector<Scene> all;
   for (const auto& [sweep, scenes] : sweeps) {
     AddChanges(sweep, scenes, &changes);
     all.insert(all.end(), scenes.begin(), scenes.end());
   }
   if (sweeps.size() > 1) AddChanges("all", all, &changes);
+  AddLightChanges(before.pictures, after.pictures, &changes);
   std::vector<double> p_worse, p_better;
   for (const Change& change : changes) {
     p_worse.push_back(change.p_worse);

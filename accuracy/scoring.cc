@@ -52,6 +52,10 @@ double MarkerRecord::TrueEdge() const {
   return sum / 4.0;
 }
 
+bool IsFilm(const FrameRecord& record) {
+  return record.sweep.starts_with("sequence") || record.sweep == kRecordingSweep;
+}
+
 double AngleBetween(const Mat3& a, const Mat3& b) {
   // From the chord: the cosine has no precision near 0.
   double square = 0.0;

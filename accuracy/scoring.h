@@ -19,6 +19,7 @@ struct Detected {
   bool pose_has_covariance = false;
   double visible_fraction = 1.0;
   std::string path{};
+  std::string family{};  ///< Where the detector looks for several.
 };
 
 /// Matches what was detected with what is there. A detection hits a marker when its number is

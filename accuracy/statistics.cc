@@ -25,6 +25,14 @@ double ExactRankSumGreater(int n, int at_least) {
   return tail * std::pow(0.5, n);
 }
 
+/// Standard error of the mean of at least two values.
+double StandardError(const std::vector<double>& values) {
+  const double mean = MeanOf(values), n = static_cast<double>(values.size());
+  double sum2 = 0.0;
+  for (const double value : values) sum2 += (value - mean) * (value - mean);
+  return std::sqrt(sum2 / (n - 1.0) / n);
+}
+
 }  // namespace
 
 Interval WilsonInterval(std::int64_t hits, std::int64_t trials, double confidence) {
@@ -99,6 +107,24 @@ double SignedRankGreater(const std::vector<double>& differences) {
   const double mean = n * (n + 1) / 4;
   const double variance = n * (n + 1) * (2 * n + 1) / 24 - tie_correction / 48;
   return 1.0 - NormalCdf((positive - mean - 0.5) / std::sqrt(variance));
+}
+
+double MeanOf(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::optional<Interval> MeanInterval(const std::vector<double>& values, double confidence) {
+  if (values.size() < 2) return std::nullopt;
+  const double degrees = static_cast<double>(values.size()) - 1.0, mean = MeanOf(values);
+  const double half = StudentQuantile(0.5 + 0.5 * confidence, degrees) * StandardError(values);
+  return Interval{mean - half, mean + half};
+}
+
+double MeanGreater(const std::vector<double>& differences, double margin) {
+  if (differences.size() < 2) return 1.0;
+  const double above = MeanOf(differences) - margin, error = StandardError(differences);
+  if (error == 0.0) return above > 0.0 ? 0.0 : 1.0;
+  return StudentCdf(-above / error, static_cast<double>(differences.size()) - 1.0);
 }
 
 std::vector<bool> HolmRejections(const std::vector<double>& p_values, double alpha) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +46,16 @@ double SignTestGreater(std::int64_t in_favour, std::int64_t against);
 /// for up to 25 differences without ties, the normal approximation with continuity correction
 /// beyond.
 double SignedRankGreater(const std::vector<double>& differences);
+
+/// Mean of a few values with the interval that holds the mean behind them, if they are about
+/// normal: Student 1908, "The probable error of a mean". Nothing for less than two.
+std::optional<Interval> MeanInterval(const std::vector<double>& values,
+                                     double confidence = kConfidence);
+double MeanOf(const std::vector<double>& values);
+
+/// p of the hypothesis that the mean behind paired differences is at most `margin` (Student's
+/// paired test); 1 for less than two.
+double MeanGreater(const std::vector<double>& differences, double margin);
 
 /// Smallest p first, each multiplied by how many remain: which hypotheses fall at level `alpha` of
 /// being wrong about any of them. Holm 1979, "A simple sequentially rejective multiple test

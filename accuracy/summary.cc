@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "accuracy/film_summary.h"
+#include "accuracy/light_summary.h"
 #include "accuracy/peer_summary.h"
 
 namespace pleinair::accuracy {
@@ -157,38 +158,42 @@ ErrorMap MapErrors(const std::vector<FrameRecord>& records, const std::string& d
 
 }  // namespace
 
-RunSummary Summarize(const std::vector<FrameRecord>& records, int picture_width,
-                     int picture_height) {
+RunSummary Summarize(const RunRecords& records, int picture_width, int picture_height) {
   RunSummary summary;
   Cells cells;
   const auto note = [](std::vector<std::string>* names, const std::string& name) {
     if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
   };
-  for (const FrameRecord& record : records) {
+  std::vector<std::string> recordings;
+  for (const FrameRecord& record : records.frames) {
     note(&summary.detectors, record.detector);
     note(&summary.sweeps, record.sweep);
+    if (record.sweep == kRecordingSweep) note(&recordings, record.pattern);
     cells.Add(record);
   }
   summary.cells = cells.Finish();
-  summary.jitter = SummarizeJitter(records);
-  summary.films = SummarizeFilms(records);
+  summary.jitter = SummarizeJitter(records.frames);
+  summary.films = SummarizeFilms(records.frames);
+  summary.light = SummarizeLight(records.pictures);
   for (const std::string& detector : summary.detectors) {
-    for (AmbiguityBin& bin : BinAmbiguity(records, detector)) {
+    for (AmbiguityBin& bin : BinAmbiguity(records.frames, detector)) {
       summary.ambiguity.push_back(std::move(bin));
     }
-    summary.maps.push_back(MapErrors(records, detector, picture_width, picture_height));
+    summary.maps.push_back(MapErrors(records.frames, detector, picture_width, picture_height));
     for (const CellSummary& cell : summary.cells) {
       const bool nominal = cell.detector == detector && cell.sweep == "distance" && !cell.level;
       if (nominal && cell.nees) summary.nominal_nees.push_back(*cell.nees);
     }
   }
   for (std::size_t i = 1; i < summary.detectors.size(); ++i) {
-    for (const std::string& sweep : summary.sweeps) {
-      if (const auto peer =
-              CompareWithPeer(records, sweep, summary.detectors[0], summary.detectors[i])) {
-        summary.peers.push_back(*peer);
-      }
-    }
+    const auto compare = [&](const std::string& sweep, const std::string& film) {
+      const auto peer = CompareWithPeer(records.frames, {sweep, film}, summary.detectors[0],
+                                        summary.detectors[i]);
+      if (peer) summary.peers.push_back(*peer);
+    };
+    for (const std::string& sweep : summary.sweeps) compare(sweep, "");
+    if (recordings.size() < 2) continue;
+    for (const std::string& recording : recordings) compare(kRecordingSweep, recording);
   }
   return summary;
 }

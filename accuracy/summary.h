@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "accuracy/frame_record.h"
+#include "accuracy/picture_record.h"
 #include "accuracy/statistics.h"
 
 namespace pleinair::accuracy {
@@ -51,10 +53,29 @@ struct FilmSummary {
   std::int64_t frames = 0, found = 0;
   std::int64_t tracks = 0;  ///< Runs of frames with the marker.
   std::int64_t longest_track = 0, longest_gap = 0;
-  std::int64_t gaps = 0, recovered = 0;  ///< Runs of frames without it; those that ended.
+  double median_track = 0.0;    ///< Length of a run, frames.
+  std::int64_t gaps = 0;        ///< Runs of frames without it, before the first sighting too.
+  std::int64_t lost = 0;        ///< How often it was there and then not found,
+  std::int64_t told_lost = 0;   ///< … and the detector said so in that frame,
+  std::int64_t recovered = 0;   ///< … and it was found again.
   double step_jitter_px = 0.0;  ///< Median change of the corner errors from frame to frame, RMS.
+  bool truth_aligned = false;   ///< Then there is no unaligned error.
   double ate_rmse_m = 0.0, ate_unaligned_rmse_m = 0.0;
   double rpe_translation_rmse_m = 0.0, rpe_rotation_rmse_deg = 0.0;
+};
+
+/// One figure of composed pictures.
+struct LightFigure {
+  std::int64_t count = 0;  ///< Pictures, or recordings, that have it.
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  std::optional<Interval> interval{};  ///< Student's; none of a single value.
+};
+
+/// How far a recording's composed pictures are from the true ones.
+struct LightSummary {
+  std::string recording{};  ///< Empty: all, each recording's mean being a value.
+  std::int64_t pictures = 0;
+  std::array<LightFigure, kPictureMeasures.size()> figures{};
 };
 
 /// Hits whose ambiguity ratio lies in one tenth of 0…1.
@@ -69,6 +90,7 @@ struct AmbiguityBin {
 /// Ours against a peer on the same scenes, each with its own print.
 struct PeerSummary {
   std::string sweep{}, peer{};
+  std::string film{};  ///< Of recordings: which one; empty: all of the sweep.
   std::int64_t markers = 0, both = 0, only_ours = 0, only_peer = 0;
   double p = 1.0;                                                     ///< McNemar's exact test.
   double rate_ratio = 0.0, corner_ratio = 0.0, rotation_ratio = 0.0;  ///< Ours over the peer's.
@@ -91,14 +113,20 @@ struct RunSummary {
   std::vector<FilmSummary> films;
   std::vector<AmbiguityBin> ambiguity;
   std::vector<PeerSummary> peers;
+  std::vector<LightSummary> light;
   std::vector<ErrorMap> maps;
   std::vector<NeesSummary> nominal_nees;  ///< By detector: the sweep "distance".
 };
 
-/// The records of a run in the order of their frames, detectors of a frame in the run's order: the
-/// first detector is ours. All figures are computed from these alone, in this order, so that they
-/// are the same however the run was divided.
-RunSummary Summarize(const std::vector<FrameRecord>& records, int picture_width,
-                     int picture_height);
+/// Frames in their order, detectors of a frame in the run's order, the first being ours; composed
+/// pictures in the order of recordings.
+struct RunRecords {
+  std::vector<FrameRecord> frames;
+  std::vector<PictureRecord> pictures;
+};
+
+/// All figures are computed from the records alone, in their order, so that they are the same
+/// however the run was divided.
+RunSummary Summarize(const RunRecords& records, int picture_width, int picture_height);
 
 }  // namespace pleinair::accuracy

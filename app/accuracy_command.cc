@@ -19,6 +19,7 @@
 #include "app/accuracy/accuracy_report.h"
 #include "app/accuracy/accuracy_run.h"
 #include "app/command.h"
+#include "app/marker_numbers.h"
 #include "app/number_range.h"
 
 namespace pleinair::app {
@@ -65,6 +66,7 @@ Result<void> Complete(Options* options) {
   constexpr double kQuickScale = 0.125;
   AccuracyConfig& config = options->config;
   if (options->quick) config.scale = kQuickScale;
+  PLEINAIR_RETURN_IF_ERROR(MarkerNumbersOf(config.numbers));
   config.noise_seed = options->noise_seed.value_or(config.seed);
   const bool all = options->sweeps == std::vector<std::string>{"all"} ||
                    (options->sweeps.empty() && config.recordings.empty());
@@ -107,10 +109,11 @@ Result<void> Run(Options& options) {
     std::cerr << "pleinair accuracy: skipped " << message << '\n';
   }
   if (outcome.skipped.empty()) return {};
-  return SystemError(options.output,
-                     fmt::format("{} of {} recordings could not be measured",
-                                 outcome.skipped.size(), options.config.recordings.size()),
-                     "the others were; mend it and run again: what is done stays");
+  return SystemError(
+      options.output,
+      fmt::format("{} of {} recordings could not be measured", outcome.skipped_recordings.size(),
+                  options.config.recordings.size()),
+      "the others were; mend it and run again: what is done stays");
 }
 
 }  // namespace
@@ -121,7 +124,9 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
       "accuracy", "Measure detection, pose and covariance against exact truth, with uncertainty");
   command->footer(kExamples);
   command->add_option("RECORDING", options->config.recordings,
-                      "Recordings with ground truth (truth.tum)");
+                      "Recordings with ground truth (truth.tum, groundtruth.txt, or EuRoC's)");
+  command->add_flag("!--no-light", options->config.light,
+                    "Do not compose recordings that have true pictures");
   std::vector<std::string> sweeps = accuracy::SweepNames();
   sweeps.push_back("all");
   command
@@ -143,6 +148,12 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--seed", options->config.seed, "Of the scenes")->capture_default_str();
   command->add_option("--noise-seed", options->noise_seed,
                       "Of the noise on the same scenes (default: as --seed)");
+  command
+      ->add_option("--numbers", options->config.numbers,
+                   "S-G numbers that we may take to be in use in the sweeps, such as 0-49 "
+                   "(default: all 4,096)")
+      ->delimiter(',')
+      ->type_name("N,...");
   CLI::Option* scale =
       command->add_option("--scale", options->config.scale, "Times the frames of each level")
           ->check(NumberRange(0.001, 1000.0))

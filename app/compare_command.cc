@@ -12,14 +12,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
+#include "app/picture_comparison.h"
 #include "app/picture_scores.h"
 #include "app/progress_bar.h"
 #include "app/sinks/compare_html.h"
-#include "app/sinks/picture_writer.h"
 #include "app/time_lapse/time_lapse.h"
 #include "app/true_pictures.h"
 #include "base/atomic_file.h"
-#include "devices/picture_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -37,53 +36,11 @@ constexpr const char* kExamples =
     "around them, and everything.";
 
 constexpr int kReportWidth_px = 640;
-constexpr int kReportJpegQuality = 88;
 
 struct Options {
   std::string pictures, truth, report;
   bool glossy = false, json = false;
 };
-
-Result<RgbImage> ReadPicture(const std::filesystem::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(devices::Picture picture, devices::DecodePictureFile(file));
-  return std::move(picture.rgb);
-}
-
-Result<Image<std::uint8_t>> ReadRegion(const std::filesystem::path& file, const RgbImage& truth) {
-  if (file.empty()) return Image<std::uint8_t>();
-  PLEINAIR_ASSIGN_OR_RETURN(devices::Picture picture, devices::DecodePictureFile(file));
-  if (picture.grey.width() != truth.width() || picture.grey.height() != truth.height()) {
-    return InputError(file.string(), "is not of the true picture's size", "fetch it again");
-  }
-  return std::move(picture.grey);
-}
-
-Result<ComparedPicture> CompareOne(const Options& options, const TruePicture& of) {
-  PLEINAIR_ASSIGN_OR_RETURN(const auto file, FindPicture(options.pictures, of.name));
-  PLEINAIR_ASSIGN_OR_RETURN(const RgbImage picture, ReadPicture(file));
-  PLEINAIR_ASSIGN_OR_RETURN(const RgbImage truth, ReadPicture(of.truth));
-  if (picture.width() != truth.width() || picture.height() != truth.height()) {
-    return InputError(file.string(),
-                      fmt::format("has {}x{} pixels, the true picture {}x{}", picture.width(),
-                                  picture.height(), truth.width(), truth.height()),
-                      "replay without --size");
-  }
-  PictureRegions regions;
-  PLEINAIR_ASSIGN_OR_RETURN(regions.object, ReadRegion(of.object, truth));
-  PLEINAIR_ASSIGN_OR_RETURN(regions.shadow, ReadRegion(of.shadow, truth));
-  ComparedPicture compared;
-  compared.name = of.name;
-  compared.scores = ScorePicture(picture.view(), truth.view(), regions);
-  if (!options.report.empty()) {
-    const auto encode = [](const RgbImage& image) {
-      return EncodeJpeg(image.view(), kReportWidth_px, kReportJpegQuality);
-    };
-    compared.truth_jpeg = encode(truth);
-    compared.picture_jpeg = encode(picture);
-    compared.difference_jpeg = encode(DifferencePicture(picture.view(), truth.view()));
-  }
-  return compared;
-}
 
 nlohmann::ordered_json ScoresJson(const PictureScores& scores) {
   nlohmann::ordered_json json;
@@ -130,10 +87,12 @@ Result<void> Run(const Options& options) {
   comparison.pictures = options.pictures;
   comparison.truth = options.truth;
   std::vector<PictureScores> scores;
+  const int width_px = options.report.empty() ? 0 : kReportWidth_px;
   {
     ProgressBar bar("Comparing", static_cast<std::int64_t>(truths.size()), "pictures");
     for (const TruePicture& truth : truths) {
-      PLEINAIR_ASSIGN_OR_RETURN(ComparedPicture compared, CompareOne(options, truth));
+      PLEINAIR_ASSIGN_OR_RETURN(ComparedPicture compared,
+                                ComparePicture(options.pictures, truth, width_px));
       scores.push_back(compared.scores);
       comparison.compared.push_back(std::move(compared));
       bar.Advance();

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
+#include "app/marker_numbers.h"
 #include "app/pose_json.h"
 #include "devices/calibration.h"
 #include "devices/picture_file.h"
@@ -42,28 +43,6 @@ Result<tracker::SgStrategy> StrategyOf(const std::string& name) {
                     "use hybrid, fast or surf-golay");
 }
 
-/// Numbers and ranges of them: "17", "0-49".
-Result<std::vector<int>> NumbersOf(const std::vector<std::string>& texts) {
-  std::vector<int> numbers;
-  for (const std::string& text : texts) {
-    int first = -1, last = -1;
-    const char* end = text.data() + text.size();
-    auto [at, status] = std::from_chars(text.data(), end, first);
-    last = first;
-    if (status == std::errc() && at != end && *at == '-') {
-      const auto second = std::from_chars(at + 1, end, last);
-      at = second.ptr;
-      status = second.ec;
-    }
-    if (status != std::errc() || at != end || first < 0 || last < first || last > 4095) {
-      return InputError("--numbers", "\"" + text + "\" is no number or range within 0-4095",
-                        "write for example 17 or 0-49");
-    }
-    for (int number = first; number <= last; ++number) numbers.push_back(number);
-  }
-  return numbers;
-}
-
 /// Says which argument an error without a place is about.
 tl::unexpected<Error> Located(Error error, const std::string& where) {
   if (error.where.empty()) error.where = where;
@@ -93,7 +72,7 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
                       "give the edge of its outer black square in millimetres with --size-mm");
   }
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::SgStrategy strategy, StrategyOf(arguments.strategy));
-  PLEINAIR_ASSIGN_OR_RETURN(std::vector<int> numbers, NumbersOf(arguments.numbers));
+  PLEINAIR_ASSIGN_OR_RETURN(std::vector<int> numbers, MarkerNumbersOf(arguments.numbers));
   PLEINAIR_ASSIGN_OR_RETURN(const CameraModel camera,
                             devices::ReadCalibration(arguments.calibration));
   tracker::TrackerOptions options{.families = arguments.families,

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iostream>
 #include <utility>
@@ -11,24 +12,27 @@ namespace pleinair::app {
 namespace {
 constexpr int kBarWidth = 30;
 constexpr std::chrono::milliseconds kRedraw{100};
+
+std::atomic<int> alive{0};
 }  // namespace
 
 ProgressBar::ProgressBar(std::string label, std::optional<std::int64_t> total, std::string unit)
     : label_(std::move(label)),
       total_(total),
       unit_(std::move(unit)),
-      on_terminal_(isatty(STDERR_FILENO) == 1),
+      is_drawn_(alive++ == 0 && isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
       last_drawn_(start_) {}
 
 ProgressBar::~ProgressBar() {
-  if (on_terminal_) std::cerr << "\r\033[K" << std::flush;
+  --alive;
+  if (is_drawn_) std::cerr << "\r\033[K" << std::flush;
 }
 
 void ProgressBar::Advance() {
   ++done_;
   const auto now = Clock::now();
-  if (!on_terminal_ || now - last_drawn_ < kRedraw) return;
+  if (!is_drawn_ || now - last_drawn_ < kRedraw) return;
   last_drawn_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   std::cerr << "\r\033[K" << Line(label_, done_, total_, elapsed_s, unit_) << std::flush;

@@ -8,7 +8,7 @@
 namespace pleinair::app {
 
 /// A bar on standard error, drawn only on a terminal and at most ten times a second; its line is
-/// wiped when it goes.
+/// wiped when it goes. Of several that live at once only the first is drawn.
 class ProgressBar {
  public:
   /// `unit`: what is counted, in the plural.
@@ -30,7 +30,7 @@ class ProgressBar {
   std::optional<std::int64_t> total_;
   std::string unit_;
   std::int64_t done_ = 0;
-  bool on_terminal_;
+  bool is_drawn_;
   Clock::time_point start_;
   Clock::time_point last_drawn_;
 };

@@ -45,25 +45,27 @@ Result<std::vector<TruePicture>> OfKeyFrames(const fs::path& folder, const Json&
 
 }  // namespace
 
+Result<std::vector<TruePicture>> FindKeyFrames(const fs::path& folder, bool glossy) {
+  const fs::path scene = folder / "scene.json";
+  if (!IsFile(scene)) return std::vector<TruePicture>();
+  try {
+    std::ifstream stream(scene);
+    const Json json = Json::parse(stream);
+    if (!json.contains("key_frames")) return std::vector<TruePicture>();
+    return OfKeyFrames(folder, json, glossy);
+  } catch (const Json::exception& problem) {
+    return InputError(scene.string(), std::string("cannot be read: ") + problem.what(),
+                      "mend its key_frames");
+  }
+}
+
 Result<std::vector<TruePicture>> FindTruePictures(const fs::path& folder, bool glossy) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     return InputError(folder.string(), "is no folder", "name a recording with true pictures");
   }
-  std::vector<TruePicture> pictures;
-  const fs::path scene = folder / "scene.json";
-  if (IsFile(scene)) {
-    try {
-      std::ifstream stream(scene);
-      const Json json = Json::parse(stream);
-      if (json.contains("key_frames")) {
-        PLEINAIR_ASSIGN_OR_RETURN(pictures, OfKeyFrames(folder, json, glossy));
-      }
-    } catch (const Json::exception& problem) {
-      return InputError(scene.string(), std::string("cannot be read: ") + problem.what(),
-                        "mend its key_frames");
-    }
-  } else {
+  PLEINAIR_ASSIGN_OR_RETURN(std::vector<TruePicture> pictures, FindKeyFrames(folder, glossy));
+  if (!IsFile(folder / "scene.json")) {
     for (const auto& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() != ".png" || !entry.is_regular_file(error)) continue;
       pictures.push_back({entry.path().stem().string(), entry.path(), {}, {}});

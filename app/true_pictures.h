@@ -15,6 +15,10 @@ struct TruePicture {
   std::filesystem::path object, shadow;  ///< Regions (PictureRegions); empty: nobody knows.
 };
 
+/// Of a recording: what the `key_frames` of its scene.json name; empty where there are none. Errors
+/// (input): a scene.json that cannot be read, a file that it names is missing.
+Result<std::vector<TruePicture>> FindKeyFrames(const std::filesystem::path& folder, bool glossy);
+
 /// What a recording with ground truth (a folder whose scene.json lists `key_frames`), or a folder
 /// of pictures NNNN.png, has true pictures of. `glossy`: of the glossy variant of the object.
 /// Errors (input): no such folder, nothing true in it, a file that it names is missing.

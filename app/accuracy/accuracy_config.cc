@@ -2,45 +2,48 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "accuracy/sweeps.h"
+#include "app/accuracy/record_fields.h"
 
 namespace pleinair::app {
 
-using Json = nlohmann::ordered_json;
+namespace {
+
+/// The configuration is const where it is written.
+template <typename Visitor, typename Config>
+void TellConfig(Visitor& visit, Config& config) {
+  visit.Field("sweeps", config.sweeps);
+  visit.Field("size", config.camera);
+  visit.Field("seed", config.seed);
+  visit.Field("noise_seed", config.noise_seed);
+  visit.Field("scale", config.scale);
+  visit.Field("recordings", config.recordings);
+  visit.Field("light", config.light);
+  visit.Field("against", config.peers);
+  visit.Field("numbers", config.numbers);
+  visit.Field("measure", config.measure);
+  visit.Field("spoil_corners_px", config.spoil_corners_px);
+}
+
+}  // namespace
 
 std::string ConfigJson(const AccuracyConfig& config) {
-  const Json json{{"sweeps", config.sweeps},
-                  {"size", config.camera},
-                  {"seed", config.seed},
-                  {"noise_seed", config.noise_seed},
-                  {"scale", config.scale},
-                  {"recordings", config.recordings},
-                  {"against", config.peers},
-                  {"measure", config.measure},
-                  {"spoil_corners_px", config.spoil_corners_px}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  FieldWriter writer;
+  TellConfig(writer, config);
+  return writer.json.dump(-1, ' ', false, RecordJsonValue::error_handler_t::replace);
 }
 
 Result<AccuracyConfig> ParseConfig(const std::string& text, const std::string& file) {
+  const auto json = RecordJsonValue::parse(text, nullptr, false);
+  AccuracyConfig config;
   try {
-    const Json json = Json::parse(text);
-    AccuracyConfig config;
-    json.at("sweeps").get_to(config.sweeps);
-    json.at("size").get_to(config.camera);
-    json.at("seed").get_to(config.seed);
-    json.at("noise_seed").get_to(config.noise_seed);
-    json.at("scale").get_to(config.scale);
-    json.at("recordings").get_to(config.recordings);
-    json.at("against").get_to(config.peers);
-    json.at("measure").get_to(config.measure);
-    json.at("spoil_corners_px").get_to(config.spoil_corners_px);
-    return config;
-  } catch (const Json::exception&) {
+    FieldReader reader(json);
+    TellConfig(reader, config);
+  } catch (const RecordJsonValue::exception&) {
     return InputError(file, "does not hold the configuration of an accuracy run",
-                      "name a folder that 'pleinair accuracy' wrote");
+                      "name a folder that this version of 'pleinair accuracy' wrote");
   }
+  return config;
 }
 
 std::string CommandOf(const AccuracyConfig& config) {
@@ -54,6 +57,9 @@ std::string CommandOf(const AccuracyConfig& config) {
   command += fmt::format(" --size {} --seed {} --noise-seed {} --scale {}", config.camera,
                          config.seed, config.noise_seed, config.scale);
   if (!config.peers.empty()) command += fmt::format(" --against {}", fmt::join(config.peers, ","));
+  if (!config.numbers.empty())
+    command += fmt::format(" --numbers {}", fmt::join(config.numbers, ","));
+  if (!config.recordings.empty() && !config.light) command += " --no-light";
   command += " --measure " + config.measure;
   if (config.spoil_corners_px != 0.0) {
     command += fmt::format(" --spoil-corners-px {}", config.spoil_corners_px);

@@ -17,8 +17,12 @@ struct AccuracyConfig {
   std::uint64_t noise_seed = 1;     ///< … and of their noise.
   double scale = 1.0;
   std::vector<std::string> recordings;  ///< Folders or films with ground truth.
+  bool light = true;                    ///< Compose recordings that have true pictures, too.
   std::vector<std::string> peers;       ///< "apriltag", "aruco".
-  std::string measure = "blocks";       ///< "blocks" or "print".
+  /// Of S-G markers that our detector may take to be in use in the sweeps, such as "0-49"; none:
+  /// all of them.
+  std::vector<std::string> numbers;
+  std::string measure = "blocks";  ///< "blocks" or "print".
   double spoil_corners_px = 0.0;
 
   bool operator==(const AccuracyConfig&) const = default;

@@ -9,6 +9,7 @@
 
 #include "app/accuracy/film_plots.h"
 #include "app/accuracy/level_chart.h"
+#include "app/accuracy/light_section.h"
 #include "app/accuracy/worst_frames.h"
 #include "app/sinks/line_plot.h"
 #include "app/sinks/page_style.h"
@@ -34,6 +35,14 @@ double RateOf(const CellSummary& cell) {
 std::string Card(const std::string& figure, const std::string& caption) {
   return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", EscapeHtml(figure),
                      EscapeHtml(caption));
+}
+
+std::string MachinesText(const std::set<std::string>& machines) {
+  std::string text = "Measured on";
+  for (const std::string& machine : machines) {
+    text += (machine == *machines.begin() ? " " : "; ") + EscapeHtml(machine);
+  }
+  return text;
 }
 
 std::string Cards(const AccuracyReport& report) {
@@ -210,11 +219,19 @@ std::string Maps(const RunSummary& summary) {
   return html + "</div>\n";
 }
 
-std::string PeerTable(const RunSummary& summary) {
-  if (summary.peers.empty()) return {};
+std::string PeerTable(const AccuracyReport& report) {
+  const RunSummary& summary = report.summary;
+  std::string unread;
+  for (const UnreadFilm& film : UnreadFilms(report)) {
+    unread += fmt::format("<li>{}: its marker is no print that {} reads.</li>\n",
+                          EscapeHtml(film.film), film.peer);
+  }
+  if (!unread.empty()) unread = "<ul class=\"warnings\">\n" + unread + "</ul>\n";
+  if (summary.peers.empty()) return unread.empty() ? "" : "<h2>Against others</h2>\n" + unread;
   std::string html =
       "<h2>Against others</h2>\n<p class=\"lead\">The same scenes, each detector with its own "
-      "print. Ratios ours over theirs with 95 % bootstrap intervals (of errors: medians over the "
+      "print; of recordings all with the one that is there. Ratios ours over theirs with 95 % "
+      "bootstrap intervals (of errors: medians over the "
       "markers that both hit); p: McNemar's exact test.</p>\n<table><tr><th>sweep</th><th>peer</th>"
       "<th>markers</th><th>both</th><th>only ours</th><th>only theirs</th><th>p</th>"
       "<th>rate</th><th>corner error</th><th>rotation error</th><th>false, ours/theirs</th></tr>\n";
@@ -226,11 +243,12 @@ std::string PeerTable(const RunSummary& summary) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2g}</td>"
         "<td>{}</td><td>{}</td><td>{}</td><td>{}/{}</td></tr>\n",
-        peer.sweep, peer.peer, peer.markers, peer.both, peer.only_ours, peer.only_peer, peer.p,
-        ratio(peer.rate_ratio, peer.rate_interval), ratio(peer.corner_ratio, peer.corner_interval),
+        EscapeHtml(peer.film.empty() ? peer.sweep : peer.film), peer.peer, peer.markers, peer.both,
+        peer.only_ours, peer.only_peer, peer.p, ratio(peer.rate_ratio, peer.rate_interval),
+        ratio(peer.corner_ratio, peer.corner_interval),
         ratio(peer.rotation_ratio, peer.rotation_interval), peer.our_false, peer.peer_false);
   }
-  return html + "</table>\n";
+  return html + "</table>\n" + unread;
 }
 
 std::string JitterTable(const RunSummary& summary) {
@@ -254,18 +272,24 @@ std::string FilmTable(const RunSummary& summary) {
   if (summary.films.empty()) return {};
   std::string html =
       "<h2>Films</h2>\n<p class=\"lead\">Absolute and relative trajectory errors as the TUM RGB-D "
-      "benchmark has them (Sturm et al. 2012).</p>\n<table><tr><th>film</th><th>detector</th>"
-      "<th>found</th><th>longest track</th><th>gaps</th><th>recovered</th><th>longest gap</th>"
-      "<th>step jitter, px</th><th>ATE, mm</th><th>unaligned, mm</th><th>RPE, mm</th>"
+      "benchmark has them (Sturm et al. 2012); unaligned: in the marker's own frame. Lost: how "
+      "often the marker was there and then not found; told: the detector said "
+      "so.</p>\n<table><tr><th>film</th><th>detector</th>"
+      "<th>found</th><th>tracks</th><th>median length</th><th>longest</th><th>lost</th>"
+      "<th>of them told</th><th>found again</th><th>longest gap</th><th>step jitter, "
+      "px</th><th>ATE, mm</th><th>unaligned, mm</th><th>RPE, mm</th>"
       "<th>RPE, °</th></tr>\n";
   for (const accuracy::FilmSummary& film : summary.films) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{} of {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-        "<td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.3f}</td></tr>\n",
-        EscapeHtml(film.film), film.detector, film.found, film.frames, film.longest_track,
-        film.gaps, film.recovered, film.longest_gap, Figure(film.step_jitter_px, 3),
-        film.ate_rmse_m * 1e3, film.ate_unaligned_rmse_m * 1e3, film.rpe_translation_rmse_m * 1e3,
-        film.rpe_rotation_rmse_deg);
+        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{}</td><td>{:.2f}</td>"
+        "<td>{:.3f}</td></tr>\n",
+        EscapeHtml(film.film), film.detector, film.found, film.frames, film.tracks,
+        Figure(film.median_track, 0), film.longest_track, film.lost,
+        film.detector == summary.detectors[0] ? fmt::format("{}", film.told_lost) : "–",
+        film.recovered, film.longest_gap, Figure(film.step_jitter_px, 3), film.ate_rmse_m * 1e3,
+        film.truth_aligned ? "–" : Figure(film.ate_unaligned_rmse_m * 1e3, 2),
+        film.rpe_translation_rmse_m * 1e3, film.rpe_rotation_rmse_deg);
   }
   return html + "</table>\n";
 }
@@ -300,12 +324,15 @@ std::string AccuracyHtml(const AccuracyReport& report,
   html += "<title>pleinair accuracy</title><style>" + std::string(kPageStyle) +
           ".charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(20rem,1fr));gap:.8rem}"
           ".wide{overflow-x:auto}table{font-size:.82rem}th,td{padding:.25rem .4rem}"
+          ".thirds{display:grid;grid-template-columns:repeat(3,1fr);gap:.6rem}"
+          ".light{width:100%;border-radius:8px}small{color:var(--soft)}"
           ".worst{position:relative}.worst img,.worst svg{width:100%;display:block}"
           ".worst svg{position:absolute;inset:0;height:100%}"
           "body{max-width:78rem}</style></head><body>\n<h1>pleinair accuracy</h1>\n";
   html += "<p class=\"lead\">pleinair " + EscapeHtml(report.version) + ": <code>" +
-          EscapeHtml(CommandOf(report.config)) +
-          " -o DIR</code>. Times and machines, which no two runs have alike, are in times.json "
+          EscapeHtml(CommandOf(report.config)) + " -o DIR</code></p>\n<p class=\"lead\">" +
+          MachinesText(report.machines) +
+          ". <a href=\"times.html\">Times of the stages</a>, which no two runs have alike, lie "
           "beside this page.</p>\n";
   if (!report.skipped.empty()) {
     html += "<h2>Skipped</h2>\n<ul class=\"warnings\">\n";
@@ -314,11 +341,13 @@ std::string AccuracyHtml(const AccuracyReport& report,
     }
     html += "</ul>\n";
   }
-  if (records.empty()) return html + "<p>No frame was measured.</p></body></html>\n";
   const RunSummary& summary = report.summary;
-  html += Cards(report) + PeerTable(summary) + SweepSections(summary, records) +
+  if (records.empty()) {
+    return html + LightSection(report) + "<p>No frame was measured.</p></body></html>\n";
+  }
+  html += Cards(report) + PeerTable(report) + SweepSections(summary, records) +
           JitterTable(summary) + FilmTable(summary) + Histograms(summary, records) + Maps(summary) +
-          AmbiguityChart(summary) + WorstFrames(report, records);
+          AmbiguityChart(summary) + LightSection(report) + WorstFrames(report, records);
   return html + "</body></html>\n";
 }
 

@@ -1,5 +1,6 @@
 #include "app/accuracy/accuracy_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -81,13 +82,18 @@ Json FilmJson(const accuracy::FilmSummary& film) {
           {"frames", film.frames},
           {"found", film.found},
           {"tracks", film.tracks},
+          {"median_track", Number(film.median_track)},
           {"longest_track", film.longest_track},
+          {"lost", film.lost},
+          {"told_lost", film.told_lost},
           {"gaps", film.gaps},
           {"longest_gap", film.longest_gap},
           {"recovered", film.recovered},
           {"step_jitter_px", Number(film.step_jitter_px)},
           {"ate_rmse_mm", Number(film.ate_rmse_m * 1e3)},
-          {"ate_unaligned_rmse_mm", Number(film.ate_unaligned_rmse_m * 1e3)},
+          {"truth_aligned", film.truth_aligned},
+          {"ate_unaligned_rmse_mm",
+           film.truth_aligned ? Json() : Number(film.ate_unaligned_rmse_m * 1e3)},
           {"rpe_translation_rmse_mm", Number(film.rpe_translation_rmse_m * 1e3)},
           {"rpe_rotation_rmse_deg", Number(film.rpe_rotation_rmse_deg)}};
 }
@@ -97,6 +103,7 @@ Json PeerJson(const accuracy::PeerSummary& peer) {
     return Json{{"ratio", Number(value)}, {"interval", IntervalJson(interval)}};
   };
   return {{"sweep", peer.sweep},
+          {"film", peer.film.empty() ? Json() : Json(peer.film)},
           {"peer", peer.peer},
           {"markers", peer.markers},
           {"both", peer.both},
@@ -109,6 +116,21 @@ Json PeerJson(const accuracy::PeerSummary& peer) {
           {"our_false_numbers", peer.our_false},
           {"peer_false_numbers", peer.peer_false}};
 }
+
+Json LightJson(const accuracy::LightSummary& light) {
+  Json json{{"recording", light.recording.empty() ? Json() : Json(light.recording)},
+            {"pictures", light.pictures}};
+  for (std::size_t i = 0; i < light.figures.size(); ++i) {
+    const accuracy::LightFigure& figure = light.figures[i];
+    json[accuracy::kPictureMeasures[i].name] = {
+        {"count", figure.count},
+        {"mean", Number(figure.mean)},
+        {"interval", figure.interval ? IntervalJson(*figure.interval) : Json()}};
+  }
+  return json;
+}
+
+Json UnreadJson(const UnreadFilm& unread) { return {{"film", unread.film}, {"peer", unread.peer}}; }
 
 Json AmbiguityJson(const accuracy::AmbiguityBin& bin) {
   return {{"detector", bin.detector}, {"low", Number(bin.low)},
@@ -135,6 +157,26 @@ Json ListJson(const std::vector<T>& items, ToJson to_json) {
 
 }  // namespace
 
+std::vector<UnreadFilm> UnreadFilms(const AccuracyReport& report) {
+  std::vector<UnreadFilm> unread;
+  const std::vector<accuracy::FilmSummary>& films = report.summary.films;
+  const std::vector<std::string>& recordings = report.config.recordings;
+  for (const accuracy::FilmSummary& film : films) {
+    const bool is_ours = film.detector == report.summary.detectors[0];
+    const bool is_recording =
+        std::find(recordings.begin(), recordings.end(), film.film) != recordings.end();
+    if (!is_ours || !is_recording) continue;
+    for (const std::string& peer : report.config.peers) {
+      if (std::none_of(films.begin(), films.end(), [&](const accuracy::FilmSummary& other) {
+            return other.film == film.film && other.detector == peer;
+          })) {
+        unread.push_back({film.film, peer});
+      }
+    }
+  }
+  return unread;
+}
+
 std::string AccuracyJson(const AccuracyReport& report) {
   const accuracy::RunSummary& summary = report.summary;
   Json json;
@@ -152,6 +194,8 @@ std::string AccuracyJson(const AccuracyReport& report) {
   json["films"] = ListJson(summary.films, FilmJson);
   json["ambiguity"] = ListJson(summary.ambiguity, AmbiguityJson);
   json["against"] = ListJson(summary.peers, PeerJson);
+  json["without_print"] = ListJson(UnreadFilms(report), UnreadJson);
+  json["light"] = ListJson(summary.light, LightJson);
   json["error_maps"] = ListJson(summary.maps, MapJson);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -12,13 +10,11 @@
 #include "app/accuracy/accuracy_html.h"
 #include "app/accuracy/accuracy_json.h"
 #include "app/accuracy/record_json.h"
-#include "app/stage_times.h"
+#include "app/accuracy/run_times.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// "3", "3, 5 and 7", "3, 5, 7 and 12 more".
 std::string ListOf(const std::vector<std::int64_t>& numbers) {
@@ -32,7 +28,8 @@ std::string ListOf(const std::vector<std::int64_t>& numbers) {
 }
 
 struct Gathered {
-  std::vector<accuracy::FrameRecord> records;
+  accuracy::RunRecords records;
+  std::vector<LightPicture> pictures;
   std::vector<std::string> skipped;
   std::set<std::string> machines;
 };
@@ -53,10 +50,17 @@ Result<Gathered> Gather(const std::vector<RecordParts>& folders) {
       missing.push_back(chunk);
       continue;
     }
-    if (!best->skipped.empty()) gathered.skipped.push_back(best->skipped);
+    // Both parts of a recording may fail for one cause.
+    const bool is_new = std::find(gathered.skipped.begin(), gathered.skipped.end(),
+                                  best->skipped) == gathered.skipped.end();
+    if (!best->skipped.empty() && is_new) gathered.skipped.push_back(best->skipped);
     gathered.machines.insert(best->machine);
     for (accuracy::FrameRecord& record : best->records) {
-      gathered.records.push_back(std::move(record));
+      gathered.records.frames.push_back(std::move(record));
+    }
+    for (LightPicture& picture : best->pictures) {
+      gathered.records.pictures.push_back(picture.record);
+      gathered.pictures.push_back(std::move(picture));
     }
   }
   if (!missing.empty()) {
@@ -66,26 +70,6 @@ Result<Gathered> Gather(const std::vector<RecordParts>& folders) {
                        "run the shards that are missing; they go on where they stopped");
   }
   return gathered;
-}
-
-std::string TimesJson(const Gathered& gathered) {
-  Json json;
-  json["machines"] = gathered.machines;
-  std::map<std::string, StageTimes> detectors;
-  for (const accuracy::FrameRecord& record : gathered.records) {
-    for (const auto& [stage, ms] : record.stages_ms) detectors[record.detector].Add(stage, ms);
-  }
-  json["stages"] = Json::array();
-  for (const auto& [detector, times] : detectors) {
-    for (const StageTimes::Summary& stage : times.Summarize()) {
-      json["stages"].push_back({{"detector", detector},
-                                {"stage", stage.stage},
-                                {"frames", stage.runs},
-                                {"median_ms", stage.median_ms},
-                                {"p95_ms", stage.p95_ms}});
-    }
-  }
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
@@ -98,27 +82,39 @@ Result<WrittenReport> WriteAccuracyReport(const std::vector<RecordParts>& folder
                       "is of another run than " + folders[0].folder().string(),
                       "merge the shards of one command");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const Gathered gathered, Gather(folders));
+  PLEINAIR_ASSIGN_OR_RETURN(Gathered gathered, Gather(folders));
   AccuracyReport report{.config = folders[0].config(),
                         .version = PLEINAIR_VERSION,
+                        .machines = gathered.machines,
                         .summary = {},
+                        .pictures = std::move(gathered.pictures),
                         .skipped = gathered.skipped};
   const CameraModel camera = accuracy::SweepCamera(report.config.camera);
   report.summary = accuracy::Summarize(gathered.records, camera.width, camera.height);
-  std::string lines;
+  std::string lines, picture_lines;
   std::set<std::int64_t> frames;
-  for (const accuracy::FrameRecord& record : gathered.records) {
+  for (const accuracy::FrameRecord& record : gathered.records.frames) {
     lines += RecordJson(record, false) + "\n";
     frames.insert(record.frame);
+  }
+  for (const accuracy::PictureRecord& picture : gathered.records.pictures) {
+    picture_lines += PictureJson(picture) + "\n";
   }
   std::error_code error;
   std::filesystem::create_directories(output, error);
   if (error) return tl::make_unexpected(WriteError(output, error.value()));
   PLEINAIR_RETURN_IF_ERROR(folders[0].WriteRunFile(output));
   PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(output / "records.jsonl", lines));
-  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(output / "times.json", TimesJson(gathered)));
+  if (!picture_lines.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(output / "pictures.jsonl", picture_lines));
+  }
+  const std::vector<DetectorTimes> times = TimesOf(gathered.records.frames);
   PLEINAIR_RETURN_IF_ERROR(
-      WriteFileAtomically(output / "report.html", AccuracyHtml(report, gathered.records)));
+      WriteFileAtomically(output / "times.json", TimesJson(gathered.machines, times)));
+  PLEINAIR_RETURN_IF_ERROR(
+      WriteFileAtomically(output / "times.html", TimesHtml(gathered.machines, times)));
+  PLEINAIR_RETURN_IF_ERROR(
+      WriteFileAtomically(output / "report.html", AccuracyHtml(report, gathered.records.frames)));
   PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(output / "report.json", AccuracyJson(report)));
   return WrittenReport{static_cast<std::int64_t>(frames.size()), gathered.skipped};
 }

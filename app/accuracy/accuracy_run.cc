@@ -13,8 +13,11 @@
 #include "accuracy/detector.h"
 #include "accuracy/scoring.h"
 #include "accuracy/sweeps.h"
+#include "app/accuracy/light_run.h"
 #include "app/accuracy/own_detector.h"
 #include "app/accuracy/recording_run.h"
+#include "app/interrupt.h"
+#include "app/marker_numbers.h"
 #include "app/progress_bar.h"
 #include "app/scene_marker.h"
 
@@ -36,6 +39,7 @@ std::unique_ptr<accuracy::Detector> MakeDetector(const std::string& name,
   OwnDetectorOptions options;
   options.tracker.families = {kSgFamily};
   options.tracker.marker_size_m = accuracy::kMarkerEdge.value();
+  options.tracker.sg.numbers_in_use = MarkerNumbersOf(config.numbers).value_or(std::vector<int>());
   options.measure_prints = config.measure == "print";
   options.spoil_corners_px = config.spoil_corners_px;
   return MakeOwnDetector(camera, options);
@@ -102,18 +106,35 @@ void SortByFrame(std::vector<accuracy::FrameRecord>* records) {
                    });
 }
 
-Result<RecordPart> MeasureChunk(const AccuracyChunk& chunk, std::int64_t number,
-                                const AccuracyConfig& config, std::vector<Station>* stations) {
-  RecordPart part{.chunk = number, .records = {}, .skipped = {}, .machine = MachineName()};
-  if (chunk.recording) {
-    auto records = MeasureRecording(*chunk.recording, FirstFrameOf(number), config);
-    if (records) {
-      part.records = *std::move(records);
+/// A recording's frames or its composed pictures; what cannot be measured is skipped.
+Result<RecordPart> MeasureRecordingChunk(const AccuracyChunk& chunk, RecordPart part,
+                                         const AccuracyConfig& config) {
+  if (chunk.light) {
+    auto pictures = MeasureLight(*chunk.recording);
+    // Interrupted while it composed: then nothing is to be written.
+    if (!pictures && InterruptGuard::Interrupted()) return tl::make_unexpected(pictures.error());
+    if (pictures) {
+      part.pictures = *std::move(pictures);
     } else {
-      part.skipped = records.error().Message();
+      part.skipped = pictures.error().Message();
     }
     return part;
   }
+  auto records = MeasureRecording(*chunk.recording, FirstFrameOf(part.chunk), config);
+  if (records) {
+    part.records = *std::move(records);
+    SortByFrame(&part.records);
+  } else {
+    part.skipped = records.error().Message();
+  }
+  return part;
+}
+
+Result<RecordPart> MeasureChunk(const AccuracyChunk& chunk, std::int64_t number,
+                                const AccuracyConfig& config, std::vector<Station>* stations) {
+  RecordPart part{
+      .chunk = number, .records = {}, .pictures = {}, .skipped = {}, .machine = MachineName()};
+  if (chunk.recording) return MeasureRecordingChunk(chunk, std::move(part), config);
   for (Station& station : *stations) {
     std::int64_t frame = FirstFrameOf(number);
     for (const accuracy::FrameRun& run : chunk.runs) {
@@ -142,7 +163,10 @@ std::vector<AccuracyChunk> PlanChunks(const AccuracyConfig& config) {
     }
     if (!chunk.runs.empty()) chunks.push_back(std::move(chunk));
   }
-  for (const std::string& recording : config.recordings) chunks.push_back({{}, recording});
+  for (const std::string& recording : config.recordings) {
+    chunks.push_back({{}, recording, false});
+    if (config.light) chunks.push_back({{}, recording, true});
+  }
   return chunks;
 }
 
@@ -178,7 +202,14 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
         return;
       }
       ++outcome.measured;
-      if (!part->skipped.empty()) outcome.skipped.push_back(part->skipped);
+      if (!part->skipped.empty()) {
+        outcome.skipped_recordings.insert(*chunks[number].recording);
+        // A picture that cannot be read is said once, though both parts of its recording fail.
+        if (std::find(outcome.skipped.begin(), outcome.skipped.end(), part->skipped) ==
+            outcome.skipped.end()) {
+          outcome.skipped.push_back(part->skipped);
+        }
+      }
       bar.Advance();
     }
   };

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace pleinair::app {
 /// Frames that are measured together and kept together.
 struct AccuracyChunk {
   std::vector<accuracy::FrameRun> runs;
-  std::optional<std::string> recording;  ///< Then without runs.
+  std::optional<std::string> recording{};  ///< Then without runs.
+  bool light = false;  ///< Of a recording: its composed pictures in place of its frames.
 };
 
 /// The frames of a run in chunks: the same for everybody who works on it.
@@ -32,9 +34,10 @@ struct Shard {
 };
 
 struct RunOutcome {
-  std::int64_t chunks = 0;           ///< Of this shard,
-  std::int64_t measured = 0;         ///< … measured now, the others having been there.
-  std::vector<std::string> skipped;  ///< Messages about recordings that could not be measured.
+  std::int64_t chunks = 0;                   ///< Of this shard,
+  std::int64_t measured = 0;                 ///< … measured now, the others having been there.
+  std::vector<std::string> skipped;          ///< Messages about what could not be measured.
+  std::set<std::string> skipped_recordings;  ///< Those that the messages are of.
 };
 
 /// Measures what is not there yet of a shard, with `threads` threads.

@@ -60,7 +60,8 @@ class OwnDetector final : public accuracy::Detector {
                               .pose = sighting.pose,
                               .pose_has_covariance = true,
                               .visible_fraction = sighting.detection.visible_fraction,
-                              .path = tracker::PathName(sighting.detection.path)});
+                              .path = tracker::PathName(sighting.detection.path),
+                              .family = sighting.detection.family});
     }
     return seen;
   }

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "accuracy/frame_record.h"
+#include "accuracy/picture_record.h"
 #include "base/error.h"
 
 namespace pleinair::app {
@@ -14,5 +15,11 @@ std::string RecordJson(const accuracy::FrameRecord& record, bool with_times);
 
 /// Errors (input): not what RecordJson writes; `where` names file and line.
 Result<accuracy::FrameRecord> ParseRecord(std::string_view line, const std::string& where);
+
+/// A composed picture's record as one line (pictures.jsonl).
+std::string PictureJson(const accuracy::PictureRecord& record);
+
+/// Errors (input): not what PictureJson writes.
+Result<accuracy::PictureRecord> ParsePicture(std::string_view line, const std::string& where);
 
 }  // namespace pleinair::app

@@ -90,12 +90,17 @@ bool RecordParts::Has(std::int64_t chunk) const {
 Result<void> RecordParts::Write(const RecordPart& part) const {
   const Json head{{"chunk", part.chunk},
                   {"records", part.records.size()},
+                  {"pictures", part.pictures.size()},
                   {"skipped", part.skipped},
                   {"machine", part.machine},
                   {"config", Json::parse(config_json_)}};
   std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   for (const accuracy::FrameRecord& record : part.records) {
     text += RecordJson(record, true) + "\n";
+  }
+  for (const LightPicture& picture : part.pictures) {
+    const Json jpegs{picture.truth, picture.composed, picture.difference};
+    text += PictureJson(picture.record) + "\n" + jpegs.dump() + "\n";
   }
   return WriteFileAtomically(FileOf(part.chunk), text);
 }
@@ -116,15 +121,25 @@ Result<std::optional<RecordPart>> RecordParts::Load(std::int64_t chunk) const {
   }
   RecordPart part{.chunk = chunk,
                   .records = {},
+                  .pictures = {},
                   .skipped = head.value("skipped", ""),
                   .machine = head.value("machine", "")};
-  while (std::getline(lines, line)) {
+  const auto records = head.value("records", std::size_t{0});
+  while (part.records.size() < records && std::getline(lines, line)) {
     auto record = ParseRecord(line, FileOf(chunk).string());
     if (!record) return std::nullopt;
     part.records.push_back(*std::move(record));
   }
-  if (part.records.size() != head["records"].get<std::size_t>()) return std::nullopt;
-  return part;
+  while (std::getline(lines, line)) {
+    auto record = ParsePicture(line, FileOf(chunk).string());
+    if (!record || !std::getline(lines, line)) return std::nullopt;
+    const Json jpegs = Json::parse(line, nullptr, false);
+    if (!jpegs.is_array() || jpegs.size() != 3 || !jpegs[0].is_string()) return std::nullopt;
+    part.pictures.push_back({*std::move(record), jpegs[0], jpegs[1], jpegs[2]});
+  }
+  const bool whole = part.records.size() == records &&
+                     part.pictures.size() == head.value("pictures", std::size_t{0});
+  return whole ? std::optional(std::move(part)) : std::nullopt;
 }
 
 }  // namespace pleinair::app

@@ -8,6 +8,7 @@
 
 #include "accuracy/frame_record.h"
 #include "app/accuracy/accuracy_config.h"
+#include "app/accuracy/light_run.h"
 #include "base/error.h"
 
 namespace pleinair::app {
@@ -16,6 +17,7 @@ namespace pleinair::app {
 struct RecordPart {
   std::int64_t chunk = 0;
   std::vector<accuracy::FrameRecord> records;
+  std::vector<LightPicture> pictures;
   std::string skipped;  ///< Why nothing could be measured; empty where it could.
   std::string machine;  ///< That did it.
 };

@@ -10,6 +10,22 @@
 #include "app/accuracy/record_parts.h"
 
 namespace pleinair::app {
+namespace {
+
+template <typename Record>
+Result<void> ReadLines(std::istream& in, const std::filesystem::path& file,
+                       Result<Record> (*parse)(std::string_view, const std::string&),
+                       std::vector<Record>* records) {
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    const std::string where = fmt::format("{}:{}", file.string(), ++number);
+    PLEINAIR_ASSIGN_OR_RETURN(Record record, parse(line, where));
+    records->push_back(std::move(record));
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<RecordedRun> ReadRecordedRun(const std::string& folder) {
   std::filesystem::path path = folder;
@@ -23,12 +39,11 @@ Result<RecordedRun> ReadRecordedRun(const std::string& folder) {
     return InputError(file.string(), "cannot be opened",
                       "finish the run, or put its shards together with 'pleinair report merge'");
   }
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    const std::string where = fmt::format("{}:{}", file.string(), ++number);
-    PLEINAIR_ASSIGN_OR_RETURN(accuracy::FrameRecord record, ParseRecord(line, where));
-    run.records.push_back(std::move(record));
-  }
+  PLEINAIR_RETURN_IF_ERROR(ReadLines(in, file, ParseRecord, &run.records.frames));
+  // Runs without recordings that have true pictures have none.
+  const std::filesystem::path pictures = path / "pictures.jsonl";
+  std::ifstream in_pictures(pictures, std::ios::binary);
+  PLEINAIR_RETURN_IF_ERROR(ReadLines(in_pictures, pictures, ParsePicture, &run.records.pictures));
   return run;
 }
 

@@ -4,116 +4,228 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
+#include <map>
+#include <memory>
 #include <utility>
 
 #include "accuracy/scoring.h"
 #include "accuracy/seen_print.h"
 #include "app/accuracy/own_detector.h"
-#include "app/paths/path_files.h"
+#include "app/accuracy/recording_truth.h"
 #include "app/scene_marker.h"
 #include "devices/recording.h"
 
 namespace pleinair::app {
 namespace {
 
-namespace fs = std::filesystem;
+using accuracy::Detector;
+using accuracy::FrameRecord;
+using accuracy::MarkerTruth;
 
-Result<Trajectory> ReadTruth(const fs::path& recording) {
-  const fs::path file = recording / "truth.tum";
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
-    return InputError(recording.string(), "has no ground truth",
-                      "put truth.tum beside its frames: the camera in the marker's frame");
-  }
-  PLEINAIR_ASSIGN_OR_RETURN(const CameraPath path, ReadPath(file, PathFormat::kTum, {}));
-  return TrajectoryOf(path);
-}
-
-/// The true pose nearest in time, if within `reach_ns`.
-const TimedPose* PoseAt(const Trajectory& truth, std::int64_t timestamp_ns, std::int64_t reach_ns) {
-  const auto after = std::lower_bound(
-      truth.begin(), truth.end(), timestamp_ns,
-      [](const TimedPose& pose, std::int64_t time) { return pose.timestamp_ns < time; });
-  const TimedPose* nearest = nullptr;
-  const auto consider = [&](const TimedPose& pose) {
-    const std::int64_t away = std::llabs(pose.timestamp_ns - timestamp_ns);
-    if (away > reach_ns) return;
-    if (nearest == nullptr || away < std::llabs(nearest->timestamp_ns - timestamp_ns)) {
-      nearest = &pose;
-    }
-  };
-  if (after != truth.end()) consider(*after);
-  if (after != truth.begin()) consider(*(after - 1));
-  return nearest;
-}
-
-/// The marker whose truth is known, as a detector of its family sees it.
-struct Anchor {
-  int number = 0;
-  Metres size;
+/// What our detector saw in a frame.
+struct SeenFrame {
+  std::int64_t index = 0, timestamp_ns = 0;
+  Detector::Seen seen;
 };
 
-std::optional<accuracy::MarkerTruth> TruthOf(const CameraModel& camera, const Anchor& anchor,
-                                             const TimedPose& pose) {
-  accuracy::MarkerTruth truth{.number = anchor.number,
-                              .camera_from_marker = pose.marker_from_camera.Inverse()};
-  for (const Vec2 corner : {Vec2{-1, 1}, Vec2{1, 1}, Vec2{1, -1}, Vec2{-1, -1}}) {
-    const Vec2 at = corner * (0.5 * anchor.size.value());
-    if ((truth.camera_from_marker * Point<Marker>{{at.x, at.y, 0.0}}).xyz.z <= 0.0) {
-      return std::nullopt;
+/// The marker whose truth is known.
+struct Anchor {
+  std::string family;
+  int number = 0;
+  Metres size;
+  bool is_named = false;  ///< The scene says which it is.
+
+  bool Is(const accuracy::Detected& detected) const {
+    return detected.family == family && detected.number == number;
+  }
+};
+
+std::unique_ptr<Detector> MakePeer(const std::string& name, const CameraModel& camera,
+                                   const Anchor& anchor) {
+  return name == "apriltag" ? accuracy::MakeAprilTagPeer(camera, anchor.family, anchor.size)
+                            : accuracy::MakeArucoPeer(camera, anchor.family, anchor.size);
+}
+
+/// One recording from opening to records.
+class RecordingRun {
+ public:
+  RecordingRun(const std::string& path, std::int64_t first_frame, const AccuracyConfig& config)
+      : path_(path), first_frame_(first_frame), config_(config) {}
+
+  Result<std::vector<FrameRecord>> Measure() {
+    PLEINAIR_RETURN_IF_ERROR(LookThrough());
+    PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
+    PLEINAIR_RETURN_IF_ERROR(FindTruth());
+    for (SeenFrame& frame : frames_) {
+      if (truth_.contains(frame.index)) AddRecord(kOwnName, frame.index, std::move(frame.seen));
+    }
+    for (const std::string& name : config_.peers) PLEINAIR_RETURN_IF_ERROR(MeasurePeer(name));
+    return std::move(records_);
+  }
+
+ private:
+  /// Our own detector over all frames: it follows through those whose truth is not known, too.
+  Result<void> LookThrough() {
+    PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, devices::OpenRecording(path_));
+    if (!recording.scene || recording.scene->marker.size_m <= 0.0) {
+      return InputError(path_, "does not say how large the marker is that its ground truth is of",
+                        "name size, and better family and id too, of the marker in its scene");
+    }
+    scene_ = *recording.scene;
+    camera_ = recording.camera;
+    period_ns_ = std::llround(recording.frame_rate_hz > 0.0 ? 1e9 / recording.frame_rate_hz : 4e7);
+    OwnDetectorOptions options{.measure_prints = config_.measure == "print",
+                               .spoil_corners_px = config_.spoil_corners_px};
+    PLEINAIR_ASSIGN_OR_RETURN(options.tracker, TrackingOf(scene_));
+    const auto detector = MakeOwnDetector(camera_, options);
+    PLEINAIR_RETURN_IF_ERROR(detector->Start(true));
+    for (std::int64_t index = 0;; ++index) {
+      PLEINAIR_ASSIGN_OR_RETURN(const auto frame, recording.frames->Next());
+      if (!frame) return {};
+      if (index == 0 && frame->device_timestamp_ns) {
+        start_ns_ = *frame->device_timestamp_ns - frame->timestamp_ns;
+      }
+      PLEINAIR_ASSIGN_OR_RETURN(Detector::Seen seen, detector->Detect(frame->grey.view()));
+      frames_.push_back({index, frame->timestamp_ns, std::move(seen)});
     }
   }
-  truth.corners_px = accuracy::SquareCorners(camera, truth.camera_from_marker, anchor.size);
-  return truth;
-}
+
+  Result<void> ChooseAnchor() {
+    anchor_.size = Metres(scene_.marker.size_m);
+    std::map<std::pair<std::string, int>, int> sightings;
+    for (const SeenFrame& frame : frames_) {
+      for (const accuracy::Detected& detected : frame.seen.markers) {
+        if (scene_.marker.family && *scene_.marker.family != detected.family) continue;
+        if (scene_.marker.id && *scene_.marker.id != detected.number) continue;
+        ++sightings[{detected.family, detected.number}];
+      }
+    }
+    anchor_.is_named = scene_.marker.family && scene_.marker.id;
+    if (anchor_.is_named) {
+      anchor_.family = *scene_.marker.family;
+      anchor_.number = *scene_.marker.id;
+      return {};
+    }
+    const auto most =
+        std::max_element(sightings.begin(), sightings.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most == sightings.end()) {
+      return InputError(path_, "no marker was found in it, and its scene names none",
+                        "name family and id of the marker in its scene");
+    }
+    std::tie(anchor_.family, anchor_.number) = most->first;
+    return {};
+  }
+
+  /// Stamps from 2001 on count from 1970, others from the recording's start.
+  std::int64_t SinceStart(std::int64_t timestamp_ns) const {
+    constexpr std::int64_t kLate_ns = 1'000'000'000'000'000'000;
+    if (timestamp_ns < kLate_ns) return timestamp_ns;
+    return timestamp_ns - start_ns_.value_or(scene_.place_time.start.nanoseconds_since_1970());
+  }
+
+  Result<void> FindTruth() {
+    PLEINAIR_ASSIGN_OR_RETURN(RecordingTruth truth, ReadRecordingTruth(path_));
+    for (PathPose& pose : truth.poses) pose.timestamp_ns = SinceStart(pose.timestamp_ns);
+    Transform<Marker, Reference> marker_from_reference;
+    is_aligned_ = !truth.in_marker_frame;
+    if (is_aligned_) {
+      const auto aligned = AlignReference(PairsWith(truth.poses));
+      if (!aligned) {
+        return InputError(path_, "its marker is found at no moment of the ground truth",
+                          "give times in seconds since the recording's start, or since 1970");
+      }
+      marker_from_reference = *aligned;
+    }
+    for (const SeenFrame& frame : frames_) {
+      const auto pose = PoseAt(truth.poses, frame.timestamp_ns, period_ns_);
+      if (!pose) continue;
+      const auto marker = TruthOf((marker_from_reference * *pose).Inverse());
+      if (marker) truth_.emplace(frame.index, *marker);
+    }
+    if (!truth_.empty()) return {};
+    return InputError(path_, "its ground truth has no pose at the time of any frame",
+                      "give times in seconds since the recording's start, or since 1970");
+  }
+
+  std::vector<PosePair> PairsWith(const std::vector<PathPose>& truth) const {
+    std::vector<PosePair> pairs;
+    for (const SeenFrame& frame : frames_) {
+      const auto pose = PoseAt(truth, frame.timestamp_ns, period_ns_);
+      if (!pose) continue;
+      for (const accuracy::Detected& detected : frame.seen.markers) {
+        if (!anchor_.Is(detected) || !detected.pose) continue;
+        pairs.push_back({detected.pose->best.camera_from_marker.Inverse(), *pose});
+        break;
+      }
+    }
+    return pairs;
+  }
+
+  std::optional<MarkerTruth> TruthOf(const Transform<Camera, Marker>& camera_from_marker) const {
+    MarkerTruth truth{.number = anchor_.number, .camera_from_marker = camera_from_marker};
+    for (const Vec2 corner : {Vec2{-1, 1}, Vec2{1, 1}, Vec2{1, -1}, Vec2{-1, -1}}) {
+      const Vec2 at = corner * (0.5 * anchor_.size.value());
+      if ((camera_from_marker * Point<Marker>{{at.x, at.y, 0.0}}).xyz.z <= 0.0) {
+        return std::nullopt;
+      }
+    }
+    truth.corners_px = accuracy::SquareCorners(camera_, camera_from_marker, anchor_.size);
+    return truth;
+  }
+
+  void AddRecord(const std::string& detector, std::int64_t index, Detector::Seen seen) {
+    if (!anchor_.is_named) {
+      std::erase_if(seen.markers, [&](const accuracy::Detected& detected) {
+        return detector == kOwnName ? !anchor_.Is(detected) : detected.number != anchor_.number;
+      });
+    }
+    FrameRecord record{.frame = first_frame_ + index,
+                       .name = fmt::format("{}_{:04}", path_, index),
+                       .sweep = accuracy::kRecordingSweep,
+                       .pattern = path_,
+                       .repeat = static_cast<int>(index),
+                       .detector = detector,
+                       .truth_aligned = is_aligned_};
+    accuracy::Score({truth_.at(index)}, seen.markers, &record);
+    record.lost = seen.lost;
+    record.stages_ms = std::move(seen.stages_ms);
+    records_.push_back(std::move(record));
+  }
+
+  Result<void> MeasurePeer(const std::string& name) {
+    const auto detector = MakePeer(name, camera_, anchor_);
+    if (detector == nullptr) return {};  // The report says that it had no print to read.
+    PLEINAIR_RETURN_IF_ERROR(detector->Start(true));
+    PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, devices::OpenRecording(path_));
+    for (std::int64_t index = 0;; ++index) {
+      PLEINAIR_ASSIGN_OR_RETURN(const auto frame, recording.frames->Next());
+      if (!frame) return {};
+      if (!truth_.contains(index)) continue;
+      PLEINAIR_ASSIGN_OR_RETURN(Detector::Seen seen, detector->Detect(frame->grey.view()));
+      AddRecord(name, index, std::move(seen));
+    }
+  }
+
+  const std::string& path_;
+  const std::int64_t first_frame_;
+  const AccuracyConfig& config_;
+  devices::SceneDescription scene_;
+  CameraModel camera_;
+  std::int64_t period_ns_ = 0;
+  std::optional<std::int64_t> start_ns_;  ///< Of the recording, by its own clock's stamps.
+  std::vector<SeenFrame> frames_;
+  Anchor anchor_;
+  bool is_aligned_ = false;
+  std::map<std::int64_t, MarkerTruth> truth_;  ///< By frame.
+  std::vector<FrameRecord> records_;
+};
 
 }  // namespace
 
-Result<std::vector<accuracy::FrameRecord>> MeasureRecording(const std::string& path,
-                                                            std::int64_t first_frame,
-                                                            const AccuracyConfig& config) {
-  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, devices::OpenRecording(path));
-  if (!recording.scene || !recording.scene->marker.family || !recording.scene->marker.id) {
-    return InputError(path, "does not say which marker its ground truth is of",
-                      "name family and id of the marker in its scene");
-  }
-  PLEINAIR_ASSIGN_OR_RETURN(const Trajectory truth, ReadTruth(path));
-  OwnDetectorOptions options{.measure_prints = config.measure == "print",
-                             .spoil_corners_px = config.spoil_corners_px};
-  PLEINAIR_ASSIGN_OR_RETURN(options.tracker, TrackingOf(*recording.scene));
-  const auto detector = MakeOwnDetector(recording.camera, options);
-  PLEINAIR_RETURN_IF_ERROR(detector->Start(true));
-  const Anchor anchor{*recording.scene->marker.id, Metres(recording.scene->marker.size_m)};
-  const double period_s = recording.frame_rate_hz > 0.0 ? 1.0 / recording.frame_rate_hz : 0.04;
-  const auto reach_ns = static_cast<std::int64_t>(0.25e9 * period_s);
-  std::vector<accuracy::FrameRecord> records;
-  for (int index = 0;; ++index) {
-    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<devices::Frame> frame, recording.frames->Next());
-    if (!frame) break;
-    // The tracker follows through frames whose truth is not known, too.
-    PLEINAIR_ASSIGN_OR_RETURN(accuracy::Detector::Seen seen, detector->Detect(frame->grey.view()));
-    const TimedPose* pose = PoseAt(truth, frame->timestamp_ns, reach_ns);
-    if (pose == nullptr) continue;
-    const auto marker = TruthOf(recording.camera, anchor, *pose);
-    if (!marker) continue;
-    accuracy::FrameRecord record{.frame = first_frame + index,
-                                 .name = fmt::format("{}_{:04}", path, index),
-                                 .sweep = "recording",
-                                 .pattern = path,
-                                 .repeat = index,
-                                 .detector = kOwnName};
-    accuracy::Score({*marker}, seen.markers, &record);
-    record.lost = seen.lost;
-    record.stages_ms = std::move(seen.stages_ms);
-    records.push_back(std::move(record));
-  }
-  if (records.empty()) {
-    return InputError(path, "its ground truth has no pose at the time of any frame",
-                      "give times in seconds since the recording's start");
-  }
-  return records;
+Result<std::vector<FrameRecord>> MeasureRecording(const std::string& path, std::int64_t first_frame,
+                                                  const AccuracyConfig& config) {
+  return RecordingRun(path, first_frame, config).Measure();
 }
 
 std::optional<GreyImage> RecordedPicture(const std::string& path, std::int64_t index) {

@@ -7,6 +7,7 @@
 #include "accuracy/random.h"
 #include "accuracy/seen_print.h"
 #include "accuracy/statistics.h"
+#include "accuracy/summary.h"
 #include "accuracy/sweeps.h"
 #include "accuracy/trajectory_error.h"
 
@@ -113,6 +114,98 @@ TEST(TrajectoryError, IsThatOfPathsWhoseErrorsAreKnown) {
   EXPECT_EQ(error->poses, 50);
   EXPECT_EQ(error->steps, 48);
   EXPECT_FALSE(CompareTrajectories({}, truth).has_value());
+}
+
+// By hand: a camera at the corners of a square that errs by 1 cm, up and down in turn. No rigid
+// motion makes that less (the errors' moments vanish), and each step errs by 2 cm.
+TEST(TrajectoryError, IsWhatOneWorksOutByHand) {
+  const std::array<Vec3, 4> corners{Vec3{1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}};
+  Trajectory truth, found;
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 error{0, 0, i % 2 == 0 ? 0.01 : -0.01};
+    truth.push_back({i, {Mat3{}, corners[i]}});
+    found.push_back({i, {Mat3{}, corners[i] + error}});
+  }
+  const auto error = CompareTrajectories(found, truth);
+  ASSERT_TRUE(error.has_value());
+  EXPECT_NEAR(error->ate_rmse_m, 0.01, 1e-12);
+  EXPECT_NEAR(error->ate_unaligned_rmse_m, 0.01, 1e-12);
+  EXPECT_NEAR(error->rpe_translation_rmse_m, 0.02, 1e-12);
+  EXPECT_NEAR(error->rpe_rotation_rmse_deg, 0.0, 1e-12);
+}
+
+// What the TUM RGB-D benchmark's evaluate_ate and evaluate_rpe do, written anew in NumPy after
+// Sturm et al. 2012 (Horn's alignment by singular values), gives for these two paths.
+TEST(TrajectoryError, IsThatOfTheBenchmarksTools) {
+  Trajectory truth, found;
+  for (int i = 0; i < 12; ++i) {
+    const double s = 0.3 * i;
+    const Mat3 turn = RotationAbout({0, 0, 1}, 0.5 * s) * RotationAbout({1, 0, 0}, 0.2 * s);
+    truth.push_back({i, {turn, {2 * std::cos(s), 1.5 * std::sin(s), 0.1 * s * s}}});
+    found.push_back({i,
+                     {RotationAbout({0, 1, 0}, 0.3 + 0.01 * std::sin(3 * s)) * turn,
+                      {2.02 * std::cos(s) + 0.4, 1.5 * std::sin(s + 0.01), 0.1 * s * s - 0.2}}});
+  }
+  const auto error = CompareTrajectories(found, truth);
+  ASSERT_TRUE(error.has_value());
+  EXPECT_NEAR(error->ate_rmse_m, 0.015500045105943624, 1e-12);
+  EXPECT_NEAR(error->rpe_translation_rmse_m, 0.1288946600290839, 1e-12);
+  EXPECT_NEAR(error->rpe_rotation_rmse_deg, 0.3606704038956915, 1e-9);
+}
+
+TEST(Films, CountHowOftenAMarkerIsLostToldAndFoundAgain) {
+  RunRecords run;
+  // Missed at first, then tracks of 3, 1 and 2 frames; the first loss is told by the detector.
+  const std::string seen = ".###..#..##";
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    FrameRecord frame{.frame = static_cast<std::int64_t>(i), .sweep = "sequence"};
+    frame.repeat = static_cast<int>(i);
+    frame.detector = "ours";
+    frame.lost = i == 4 || i == 5 ? 1 : 0;
+    MarkerRecord& marker = frame.markers.emplace_back();
+    marker.true_camera_from_marker.translation_m = {0, 0, 1};
+    if (seen[i] == '#') {
+      marker.outcome = Outcome::kHit;
+      marker.pose.emplace().camera_from_marker = marker.true_camera_from_marker;
+    }
+    run.frames.push_back(frame);
+  }
+  const RunSummary summary = Summarize(run, 640, 480);
+  ASSERT_EQ(summary.films.size(), 1U);
+  const FilmSummary& film = summary.films[0];
+  EXPECT_EQ(film.found, 6);
+  EXPECT_EQ(film.tracks, 3);
+  EXPECT_EQ(film.longest_track, 3);
+  EXPECT_EQ(film.median_track, 2.0);
+  EXPECT_EQ(film.lost, 2);
+  EXPECT_EQ(film.told_lost, 1);
+  EXPECT_EQ(film.recovered, 2);
+  EXPECT_EQ(film.gaps, 3);
+  EXPECT_EQ(film.longest_gap, 2);
+}
+
+TEST(Light, HasTheMeansOfRecordingsAndOfAllWithIntervals) {
+  RunRecords run;
+  const auto add = [&](const char* recording, double object_de) {
+    PictureRecord picture{.recording = recording};
+    picture.scores[2] = object_de;
+    run.pictures.push_back(picture);
+  };
+  add("a", 1.0);
+  add("a", 1.4);
+  add("b", 2.0);
+  const std::vector<LightSummary> light = Summarize(run, 640, 480).light;
+  ASSERT_EQ(light.size(), 3U);
+  EXPECT_EQ(light[0].recording, "a");
+  EXPECT_EQ(light[0].figures[2].count, 2);
+  EXPECT_NEAR(light[0].figures[2].mean, 1.2, 1e-12);
+  EXPECT_NEAR(light[0].figures[2].interval->high, 1.2 + 12.706 * 0.2, 1e-3);
+  EXPECT_EQ(light[0].figures[0].count, 0);
+  EXPECT_FALSE(light[1].figures[2].interval.has_value());
+  EXPECT_EQ(light[2].recording, "");
+  EXPECT_EQ(light[2].pictures, 3);
+  EXPECT_EQ(light[2].figures[2].count, 2);
+  EXPECT_NEAR(light[2].figures[2].mean, 1.6, 1e-12);
 }
 
 }  // namespace

@@ -148,5 +148,33 @@ TEST(Bootstrap, CoversTheMeanAsOftenAsItSays) {
   EXPECT_GT(covered, 0.88 * kTrials);
 }
 
+// Fisher & Yates 1938, "Statistical Tables", table III: two-sided 5 % and 0.1 % points.
+TEST(Student, GivesThePublishedQuantiles) {
+  EXPECT_NEAR(StudentQuantile(0.975, 1), 12.706, 5e-4);
+  EXPECT_NEAR(StudentQuantile(0.975, 2), 4.303, 5e-4);
+  EXPECT_NEAR(StudentQuantile(0.975, 5), 2.571, 5e-4);
+  EXPECT_NEAR(StudentQuantile(0.9995, 10), 4.587, 5e-4);
+  EXPECT_NEAR(StudentQuantile(0.025, 60), -2.000, 5e-4);
+  for (const double degrees : {1.0, 4.0, 300.0}) {
+    EXPECT_NEAR(StudentCdf(StudentQuantile(0.7, degrees), degrees), 0.7, 1e-12) << degrees;
+  }
+}
+
+// Student 1908, "The probable error of a mean": additional hours of sleep gained by ten patients
+// under one drug rather than another. Figures: R's t.test of these data (`sleep`), t = 4.0621.
+TEST(MeanInterval, IsThatOfStudentsOwnExample) {
+  const std::vector<double> hours{1.2, 2.4, 1.3, 1.3, 0.0, 1.0, 1.8, 0.8, 4.6, 1.4};
+  const auto interval = MeanInterval(hours);
+  ASSERT_TRUE(interval.has_value());
+  EXPECT_NEAR(interval->low, 0.7001142, 1e-6);
+  EXPECT_NEAR(interval->high, 2.4598858, 1e-6);
+  EXPECT_NEAR(MeanGreater(hours, 0.0), 0.002833 / 2, 1e-6);
+  EXPECT_GT(MeanGreater(hours, 1.58), 0.499);
+  EXPECT_FALSE(MeanInterval({1.0}).has_value());
+  EXPECT_EQ(MeanGreater({1.0}, 0.0), 1.0);
+  EXPECT_EQ(MeanGreater({1.0, 1.0}, 0.5), 0.0);
+  EXPECT_EQ(MeanGreater({1.0, 1.0}, 1.0), 1.0);
+}
+
 }  // namespace
 }  // namespace pleinair::accuracy

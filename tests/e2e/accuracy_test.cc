@@ -104,8 +104,8 @@ TEST(Accuracy, GoesOnBehindARecordingThatIsCorrupt) {
   }
   const std::string picture = ReadFile(folder / "bad/frames/0001.jpg");
   WriteFile(folder / "bad/frames/0001.jpg", picture.substr(0, picture.size() / 2));
-  const std::vector<std::string> command{"accuracy", folder / "bad", folder / "good", "-o",
-                                         folder / "out"};
+  const std::vector<std::string> command{"accuracy",   folder / "bad", folder / "good",
+                                         "--no-light", "-o",           folder / "out"};
   const RunResult run = RunPleinair(command);
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("0001.jpg"));
@@ -131,6 +131,7 @@ TEST(Accuracy, RefusesWhatItDoesNotKnow) {
                                                 {"--shard", "0/2"},
                                                 {"--shard", "x"},
                                                 {"--against", "eyes"},
+                                                {"--numbers", "0-5000"},
                                                 {"--scale", "nan"}}) {
     std::vector<std::string> arguments{"accuracy", "-o", folder / "out"};
     arguments.insert(arguments.end(), wrong.begin(), wrong.end());

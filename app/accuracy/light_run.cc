@@ -1,0 +1,91 @@
+#include "app/accuracy/light_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <string_view>
+#include <utility>
+
+#include "app/picture_comparison.h"
+#include "app/replay.h"
+#include "app/sinks/report_html.h"
+#include "app/true_pictures.h"
+#include "base/atomic_file.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPageWidth_px = 480;
+
+static_assert(kPictureScoreNames.size() == accuracy::kPictureMeasures.size() &&
+              std::equal(kPictureScoreNames.begin(), kPictureScoreNames.end(),
+                         accuracy::kPictureMeasures.begin(),
+                         [](std::string_view name, const accuracy::PictureMeasure& measure) {
+                           return name == measure.name;
+                         }));
+
+/// A folder that goes when this does.
+class ScratchFolder {
+ public:
+  static Result<ScratchFolder> Create() {
+    std::error_code error;
+    std::string name = (fs::temp_directory_path(error) / "pleinair-light-XXXXXX").string();
+    if (error || mkdtemp(name.data()) == nullptr) {
+      return SystemError(name, "cannot be made", "set TMPDIR to a folder that can be written");
+    }
+    return ScratchFolder(name);
+  }
+  ScratchFolder(ScratchFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+  ScratchFolder& operator=(ScratchFolder&&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
+  fs::path path_;
+};
+
+LightPicture PictureOf(const std::string& recording, const ComparedPicture& compared) {
+  LightPicture picture;
+  picture.record = {.recording = recording, .picture = compared.name, .scores = {}};
+  const auto values = compared.scores.Values();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isnan(values[i])) picture.record.scores[i] = values[i];
+  }
+  picture.truth = Base64(compared.truth_jpeg);
+  picture.composed = Base64(compared.picture_jpeg);
+  picture.difference = Base64(compared.difference_jpeg);
+  return picture;
+}
+
+}  // namespace
+
+Result<std::vector<LightPicture>> MeasureLight(const std::string& recording) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TruePicture> truths, FindKeyFrames(recording, false));
+  std::vector<LightPicture> pictures;
+  if (truths.empty()) return pictures;
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  PLEINAIR_ASSIGN_OR_RETURN(const ScratchFolder scratch, ScratchFolder::Create());
+  ReplayOptions options;
+  options.recording = recording;
+  options.output = scratch.path() / "replay";
+  options.write_frames = true;
+  options.write_video = false;
+  PLEINAIR_RETURN_IF_ERROR(Replay(options));
+  for (const TruePicture& truth : truths) {
+    PLEINAIR_ASSIGN_OR_RETURN(const ComparedPicture compared,
+                              ComparePicture(options.output, truth, kPageWidth_px));
+    pictures.push_back(PictureOf(recording, compared));
+  }
+  return pictures;
+}
+
+}  // namespace pleinair::app

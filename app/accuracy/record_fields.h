@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/frame_record.h"
+#include "base/frames.h"
+#include "base/vector.h"
+
+namespace pleinair::app {
+
+// What is kept of a run is told once, field by field, to a visitor: a FieldWriter makes JSON of it,
+// a FieldReader reads it back. Numbers are the shortest that read back the same.
+
+using RecordJsonValue = nlohmann::ordered_json;
+
+template <typename T>
+RecordJsonValue ToJson(const T& value) {
+  return value;
+}
+template <typename T>
+RecordJsonValue ToJson(const std::optional<T>& value) {
+  return value ? RecordJsonValue(*value) : RecordJsonValue();
+}
+inline RecordJsonValue ToJson(const std::array<Vec2, 4>& points) {
+  RecordJsonValue json = RecordJsonValue::array();
+  for (const Vec2 point : points) json.push_back({point.x, point.y});
+  return json;
+}
+inline RecordJsonValue ToJson(const Transform<Camera, Marker>& pose) {
+  const Vec3& t = pose.translation_m;
+  return {{"rotation", pose.rotation.m}, {"translation_m", {t.x, t.y, t.z}}};
+}
+
+inline constexpr std::array<const char*, 3> kOutcomeNames{"hit", "misplaced", "missed"};
+
+inline RecordJsonValue ToJson(accuracy::Outcome outcome) {
+  return kOutcomeNames[static_cast<std::size_t>(outcome)];
+}
+
+template <typename T>
+void FromJson(const RecordJsonValue& json, T* value) {
+  json.get_to(*value);
+}
+template <typename T>
+void FromJson(const RecordJsonValue& json, std::optional<T>* value) {
+  *value = json.is_null() ? std::nullopt : std::optional(json.get<T>());
+}
+inline void FromJson(const RecordJsonValue& json, std::array<Vec2, 4>* points) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    (*points)[i] = {json.at(i).at(0).get<double>(), json.at(i).at(1).get<double>()};
+  }
+}
+inline void FromJson(const RecordJsonValue& json, Transform<Camera, Marker>* pose) {
+  json.at("rotation").get_to(pose->rotation.m);
+  const auto t = json.at("translation_m").get<std::array<double, 3>>();
+  pose->translation_m = {t[0], t[1], t[2]};
+}
+inline void FromJson(const RecordJsonValue& json, accuracy::Outcome* outcome) {
+  const auto name = json.get<std::string>();
+  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
+    if (name == kOutcomeNames[i]) *outcome = static_cast<accuracy::Outcome>(i);
+  }
+}
+
+/// Adds fields to a JSON object, in the order in which they are told.
+class FieldWriter {
+ public:
+  template <typename T>
+  void Field(const char* name, const T& value) {
+    json[name] = ToJson(value);
+  }
+  /// Told where it is true.
+  void Flag(const char* name, bool value) {
+    if (value) json[name] = true;
+  }
+  /// Whether the fields of `part` follow; `first` is the name of the first of them.
+  template <typename T>
+  bool Part(const char* /*first*/, const std::optional<T>& part) {
+    return part.has_value();
+  }
+
+  RecordJsonValue json = RecordJsonValue::object();
+};
+
+/// Takes fields out of a JSON object. Throws nlohmann's exceptions where they are not there, or are
+/// something else.
+class FieldReader {
+ public:
+  explicit FieldReader(const RecordJsonValue& json) : json_(json) {}
+
+  template <typename T>
+  void Field(const char* name, T& value) {
+    FromJson(json_.at(name), &value);
+  }
+  void Flag(const char* name, bool& value) { value = json_.value(name, false); }
+  template <typename T>
+  bool Part(const char* first, std::optional<T>& part) {
+    if (!json_.contains(first)) return false;
+    part.emplace();
+    return true;
+  }
+
+ private:
+  const RecordJsonValue& json_;
+};
+
+}  // namespace pleinair::app
