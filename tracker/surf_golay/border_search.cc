@@ -62,11 +62,6 @@ void BorderSearch::Find(ImageView<const std::uint8_t> grey,
   Gather(guesses);
 }
 
-int BorderSearch::KeypointsInside(const std::array<Vec2, 4>& quad) const {
-  return static_cast<int>(std::ranges::count_if(
-      keypoints_, [&](const SurfKeypoint& k) { return Inside(quad, k.x, k.y); }));
-}
-
 void BorderSearch::CastVotes() {
   votes_.clear();
   const double largest = kLargestShare * lens_.camera().height;

@@ -53,10 +53,6 @@ class BorderSearch {
   void Find(ImageView<const std::uint8_t> grey, const std::vector<std::array<Vec2, 4>>& taken,
             Sizes sizes, bool refill, std::vector<BorderGuess>* guesses);
 
-  /// How many of the keypoints of the last Find lie inside a quadrilateral.
-  int KeypointsInside(const std::array<Vec2, 4>& quad) const;
-  int most_keypoints() const { return options_.surf.max_keypoints; }
-
   const std::vector<SurfKeypoint>& keypoints() const { return keypoints_; }
 
  private:

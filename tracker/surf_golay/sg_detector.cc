@@ -20,9 +20,8 @@ constexpr int kGuessesAtOnce = 14, kMostFits = 9, kMostFailures = 4;
 /// Votes times fit that make a guess worth more than a glance. In pictures without a marker a
 /// quarter of the best guesses is.
 constexpr double kLeastWorth = 1.2;
-/// So many new markers, with so large a share of the keypoints, leave too few for any others.
+/// So many markers in view make it likely that there are more.
 constexpr std::size_t kFewestForMore = 3;
-constexpr double kSpentKeypoints = 0.1;
 /// The corners of cells are looked for in a picture of at most this width.
 constexpr int kMostLatticeWidth_px = 900;
 /// Correlation with the border of which little is seen; placements that are read.
@@ -229,19 +228,22 @@ void SgDetector::FindFast() {
 void SgDetector::SearchPicture() {
   if (!found_.empty()) {
     FindBySurf(BorderSearch::Sizes::kAll);
-  } else if (!FindBySurf(BorderSearch::Sizes::kLarge) && !FindBySurf(BorderSearch::Sizes::kAll)) {
-    FindByCells();
+    return;
   }
+  const bool any = FindBySurf(BorderSearch::Sizes::kLarge);
+  // Among several there may be small ones.
+  if (any && found_.size() < kFewestForMore) return;
+  if (!FindBySurf(BorderSearch::Sizes::kAll, any) && !any) FindByCells();
 }
 
-bool SgDetector::FindBySurf(BorderSearch::Sizes sizes) {
+bool SgDetector::FindBySurf(BorderSearch::Sizes sizes, bool refill) {
   if (search_ == nullptr) {
     const BorderSearchOptions options;
     search_ = std::make_unique<BorderSearch>(
         lens_, MakeBorderTemplates(options.surf.descriptor_window_scales), options);
   }
   bool any = false;
-  for (bool more = true, refill = false; more; refill = true) {
+  for (bool more = true; more; refill = true) {
     taken_.clear();
     for (const Found& found : found_) taken_.push_back(found.reading.corners_px);
     search_->Find(grey_, taken_, sizes, refill, &guesses_);
@@ -252,13 +254,8 @@ bool SgDetector::FindBySurf(BorderSearch::Sizes sizes) {
       if (!TryGuesses(std::span(guesses_).subspan(first, count))) break;
       any = true;
     }
-    // Where the markers just found had many of the keypoints, others had few.
-    int spent = 0;
-    for (std::size_t i = taken_.size(); i < found_.size(); ++i) {
-      spent += search_->KeypointsInside(found_[i].reading.corners_px);
-    }
-    more = found_.size() >= taken_.size() + kFewestForMore &&
-           spent > kSpentKeypoints * search_->most_keypoints();
+    // Many markers had many of the keypoints, so that others had few.
+    more = found_.size() >= taken_.size() + (refill ? 1 : kFewestForMore);
   }
   return any;
 }

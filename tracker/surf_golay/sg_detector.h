@@ -74,8 +74,9 @@ class SgDetector final : public MarkerDetector {
   /// By the border and the cells: all that is there beside what was found; where nothing was, the
   /// dearer ways only as long as the cheaper ones find nothing.
   void SearchPicture();
-  /// Whether it found any.
-  bool FindBySurf(BorderSearch::Sizes sizes);
+  /// Whether it found any. Goes on as long as it finds more where it found several, or with
+  /// `refill` from the first on, with keypoints in place of those on markers that are known.
+  bool FindBySurf(BorderSearch::Sizes sizes, bool refill = false);
   void FindByCells();
   /// Fits and reads guesses, the best first; whether any was a marker.
   bool TryGuesses(std::span<const BorderGuess> guesses);
