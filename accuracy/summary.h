@@ -13,6 +13,8 @@
 
 namespace pleinair::accuracy {
 
+inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
 /// Whether a detector's covariances are as large as its errors.
 struct NeesSummary {
   std::int64_t count = 0;
@@ -53,21 +55,23 @@ struct FilmSummary {
   std::int64_t frames = 0, found = 0;
   std::int64_t tracks = 0;  ///< Runs of frames with the marker.
   std::int64_t longest_track = 0, longest_gap = 0;
-  double median_track = 0.0;    ///< Length of a run, frames.
-  std::int64_t gaps = 0;        ///< Runs of frames without it, before the first sighting too.
-  std::int64_t lost = 0;        ///< How often it was there and then not found,
-  std::int64_t told_lost = 0;   ///< … and the detector said so in that frame,
-  std::int64_t recovered = 0;   ///< … and it was found again.
-  double step_jitter_px = 0.0;  ///< Median change of the corner errors from frame to frame, RMS.
-  bool truth_aligned = false;   ///< Then there is no unaligned error.
-  double ate_rmse_m = 0.0, ate_unaligned_rmse_m = 0.0;
-  double rpe_translation_rmse_m = 0.0, rpe_rotation_rmse_deg = 0.0;
+  double median_track = 0.0;   ///< Length of a run, frames.
+  std::int64_t gaps = 0;       ///< Runs of frames without it, before the first sighting too.
+  std::int64_t lost = 0;       ///< How often it was there and then not found,
+  std::int64_t told_lost = 0;  ///< … and the detector said so in that frame,
+  std::int64_t recovered = 0;  ///< … and it was found again.
+  // What follows is no number where the marker was never found.
+  double step_jitter_px =
+      kNoNumber;               ///< Median change of the corner errors from frame to frame, RMS.
+  bool truth_aligned = false;  ///< Then there is no unaligned error.
+  double ate_rmse_m = kNoNumber, ate_unaligned_rmse_m = kNoNumber;
+  double rpe_translation_rmse_m = kNoNumber, rpe_rotation_rmse_deg = kNoNumber;
 };
 
 /// One figure of composed pictures.
 struct LightFigure {
   std::int64_t count = 0;  ///< Pictures, or recordings, that have it.
-  double mean = std::numeric_limits<double>::quiet_NaN();
+  double mean = kNoNumber;
   std::optional<Interval> interval{};  ///< Student's; none of a single value.
 };
 

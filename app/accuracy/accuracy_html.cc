@@ -282,16 +282,33 @@ std::string FilmTable(const RunSummary& summary) {
   for (const accuracy::FilmSummary& film : summary.films) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{} of {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{}</td><td>{:.2f}</td>"
-        "<td>{:.3f}</td></tr>\n",
+        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "<td>{}</td></tr>\n",
         EscapeHtml(film.film), film.detector, film.found, film.frames, film.tracks,
         Figure(film.median_track, 0), film.longest_track, film.lost,
         film.detector == summary.detectors[0] ? fmt::format("{}", film.told_lost) : "–",
-        film.recovered, film.longest_gap, Figure(film.step_jitter_px, 3), film.ate_rmse_m * 1e3,
+        film.recovered, film.longest_gap, Figure(film.step_jitter_px, 3),
+        Figure(film.ate_rmse_m * 1e3, 2),
         film.truth_aligned ? "–" : Figure(film.ate_unaligned_rmse_m * 1e3, 2),
-        film.rpe_translation_rmse_m * 1e3, film.rpe_rotation_rmse_deg);
+        Figure(film.rpe_translation_rmse_m * 1e3, 2), Figure(film.rpe_rotation_rmse_deg, 3));
   }
   return html + "</table>\n";
+}
+
+std::string AmbiguityTable(const RunSummary& summary) {
+  std::string html =
+      "<details><summary>as a table</summary><table><tr><th>detector</th><th>ratio</th>"
+      "<th>poses</th><th>wrong</th><th>share</th><th>95 %</th></tr>\n";
+  for (const accuracy::AmbiguityBin& bin : summary.ambiguity) {
+    if (bin.count == 0) continue;
+    html += fmt::format(
+        "<tr><td>{}</td><td>{:.1f}–{:.1f}</td><td>{}</td><td>{}</td><td>{:.3f}</td>"
+        "<td>{:.3f}–{:.3f}</td></tr>\n",
+        bin.detector, bin.low, bin.high, bin.count, bin.wrong,
+        static_cast<double>(bin.wrong) / static_cast<double>(bin.count), bin.rate.low,
+        bin.rate.high);
+  }
+  return html + "</table></details>\n";
 }
 
 std::string AmbiguityChart(const RunSummary& summary) {
@@ -312,7 +329,7 @@ std::string AmbiguityChart(const RunSummary& summary) {
          "pose is.</p>\n"
          "<div class=\"charts\">" +
          LevelChartSvg("Wrong solution chosen", "ambiguity ratio", levels, series, 0.6) +
-         "</div>\n";
+         "</div>\n" + AmbiguityTable(summary);
 }
 
 }  // namespace
@@ -321,14 +338,16 @@ std::string AccuracyHtml(const AccuracyReport& report,
                          const std::vector<accuracy::FrameRecord>& records) {
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
-  html += "<title>pleinair accuracy</title><style>" + std::string(kPageStyle) +
-          ".charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(20rem,1fr));gap:.8rem}"
-          ".wide{overflow-x:auto}table{font-size:.82rem}th,td{padding:.25rem .4rem}"
-          ".thirds{display:grid;grid-template-columns:repeat(3,1fr);gap:.6rem}"
-          ".light{width:100%;border-radius:8px}small{color:var(--soft)}"
-          ".worst{position:relative}.worst img,.worst svg{width:100%;display:block}"
-          ".worst svg{position:absolute;inset:0;height:100%}"
-          "body{max-width:78rem}</style></head><body>\n<h1>pleinair accuracy</h1>\n";
+  html +=
+      "<title>pleinair accuracy</title><style>" + std::string(kPageStyle) +
+      ".charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(20rem,1fr));gap:.8rem}"
+      ".wide{overflow-x:auto}table{font-size:.82rem}th,td{padding:.25rem "
+      ".4rem}td{white-space:nowrap}"
+      ".thirds{display:grid;grid-template-columns:repeat(3,1fr);gap:.6rem}"
+      ".light{width:100%;border-radius:8px}small{color:var(--soft)}"
+      ".worst{position:relative}.worst img,.worst svg{width:100%;display:block}"
+      ".worst svg{position:absolute;inset:0;height:100%}"
+      "body{max-width:78rem}</style></head><body>\n<h1>pleinair accuracy</h1>\n";
   html += "<p class=\"lead\">pleinair " + EscapeHtml(report.version) + ": <code>" +
           EscapeHtml(CommandOf(report.config)) + " -o DIR</code></p>\n<p class=\"lead\">" +
           MachinesText(report.machines) +
