@@ -215,6 +215,7 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
   };
   std::vector<std::thread> workers;
   const int count = std::clamp(threads, 1, static_cast<int>(to_do.size()));
+  workers.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   if (failure) return tl::make_unexpected(*failure);
