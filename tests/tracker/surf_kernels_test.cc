@@ -68,7 +68,7 @@ TEST_P(SurfKernels, BoxSumsOutliveTheOverflowOfTheIntegral) {
   EXPECT_EQ(integral.BoxSum(4100, 4100, 4200, 4200), 255u * 100 * 100);
   HessianScratch scratch;
   std::vector<float> responses(4200 + IntegralImage::kPadding);
-  ComputeHessianRow(integral, 27, 1, 4180, &scratch, responses.data());
+  ComputeHessianRow(integral, 27, 1, 4180, {0, 4200}, &scratch, responses.data());
   EXPECT_EQ(*std::max_element(responses.begin(), responses.end()), 0.0f);
   EXPECT_EQ(*std::min_element(responses.begin(), responses.end()), 0.0f);
 }
@@ -83,7 +83,11 @@ TEST_P(SurfKernels, ResponsesEqualTheReference) {
       const int samples = (grey.width() + step - 1) / step;
       std::vector<float> responses(samples + IntegralImage::kPadding, -1.0f);
       for (const int y : {0, size / 2 - 1, size / 2, 60, 120 - size / 2, 121 - size / 2, 120}) {
-        ComputeHessianRow(integral, size, step, y, &scratch, responses.data());
+        // In two strips.
+        ComputeHessianRow(integral, size, step, y, {0, samples / 2 + 3}, &scratch,
+                          responses.data());
+        ComputeHessianRow(integral, size, step, y, {samples / 2, samples}, &scratch,
+                          responses.data());
         for (int i = 0; i < samples; ++i) {
           double laplacian = 0;
           const double expected = reference::Response(grey, size, i * step, y, &laplacian);
@@ -241,6 +245,9 @@ TEST_P(SurfKernels, NearestDescriptorsEqualTheReference) {
         matcher.Match(frame, k, &of_frame, &of_templates);
         ASSERT_EQ(of_frame.size(), frame.size() * k);
         ASSERT_EQ(of_templates.size(), templates.size() * k);
+        std::vector<DescriptorMatch> one_way;
+        matcher.Match(frame, k, &one_way, nullptr);
+        ASSERT_EQ(one_way, of_frame);
         for (int i = 0; i < frame_count; ++i) {
           const auto expected = reference::Nearest(frame[i], templates, k);
           for (int n = 0; n < k; ++n) ASSERT_EQ(of_frame[i * k + n], expected[n]) << i << " " << n;

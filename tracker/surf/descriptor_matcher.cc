@@ -208,7 +208,9 @@ void DescriptorMatcher::Match(std::span<const QuantisedDescriptor> frame, int k,
   CHECK_GE(k, 1);
   CHECK_LE(k, kMaxNeighbours);
   templates_of_frame->assign(frame.size() * k, DescriptorMatch{});
-  frame_of_templates->assign(static_cast<std::size_t>(template_count_) * k, DescriptorMatch{});
+  if (frame_of_templates != nullptr) {
+    frame_of_templates->assign(static_cast<std::size_t>(template_count_) * k, DescriptorMatch{});
+  }
   for (const bool bright : {false, true}) {
     Frame& group = frame_[bright ? 1 : 0];
     group.indices.clear();
@@ -230,7 +232,9 @@ void DescriptorMatcher::Match(std::span<const QuantisedDescriptor> frame, int k,
     for (std::size_t first = 0; first < templates.indices.size(); first += kBlock) {
       alignas(64) float distances[kMaxNeighbours * kBlock];
       alignas(64) std::int32_t indices[kMaxNeighbours * kBlock];
-      std::fill_n(distances, k * kBlock, std::numeric_limits<float>::infinity());
+      // Where nobody asks for a template's nearest none is near enough.
+      std::fill_n(distances, k * kBlock,
+                  frame_of_templates != nullptr ? std::numeric_limits<float>::infinity() : -1.0f);
       std::fill_n(indices, k * kBlock, DescriptorMatch::kNone);
       HWY_DYNAMIC_DISPATCH(MatchBlock)
       ({.block = templates.values.data() + first * kDimensions,
@@ -245,6 +249,7 @@ void DescriptorMatcher::Match(std::span<const QuantisedDescriptor> frame, int k,
         .templates_of_frame = templates_of_frame->data(),
         .nearest_distances = distances,
         .nearest_indices = indices});
+      if (frame_of_templates == nullptr) continue;
       for (int t = 0; t < kBlock; ++t) {
         const std::int32_t template_index = templates.indices[first + t];
         if (template_index == DescriptorMatch::kNone) break;

@@ -34,7 +34,8 @@ class DescriptorMatcher {
 
   /// The `k` (1..kMaxNeighbours) nearest templates of each descriptor of the frame, at
   /// (*templates_of_frame)[frame * k ...], and the `k` nearest of the frame of each template, at
-  /// (*frame_of_templates)[template * k ...]; nearest first, of equals the lower index first.
+  /// (*frame_of_templates)[template * k ...], unless that is nullptr; nearest first, of equals the
+  /// lower index first.
   void Match(std::span<const QuantisedDescriptor> frame, int k,
              std::vector<DescriptorMatch>* templates_of_frame,
              std::vector<DescriptorMatch>* frame_of_templates);

@@ -14,6 +14,8 @@ namespace {
 constexpr int kRowPadding = IntegralImage::kPadding;
 /// A row begins this many elements into its memory: the neighbourhood looks one to the left.
 constexpr int kRowFront = 16;
+/// Columns of the picture that are searched together: of a filter of 27 px 30 KB of sums.
+constexpr int kStrip_px = 256;
 
 /// Maximum of the parabola through the 3 x 3 x 3 neighbourhood, relative to its middle sample, in
 /// samples (Brown and Lowe, "Invariant Features from Interest Point Groups", BMVC 2002):
@@ -98,35 +100,53 @@ void FastHessian::DetectOctave(const IntegralImage& integral, int octave, int st
     }
   }
 
+  const int strip = kStrip_px / step;
+  for (int first = 0; first < columns; first += strip) {
+    DetectStrip(integral, octave, step, shares_with_next, ratio,
+                {first, std::min(first + strip, columns)}, threshold, maxima);
+  }
+}
+
+void FastHessian::DetectStrip(const IntegralImage& integral, int octave, int step,
+                              bool shares_with_next, int ratio, SampleRange strip, float threshold,
+                              std::vector<SurfKeypoint>* maxima) {
+  const int columns = (integral.width() + step - 1) / step;
+  const int rows = (integral.height() + step - 1) / step;
+  // … with the neighbours of the strip's samples.
+  const SampleRange around{std::max(0, strip.first - 1), std::min(columns, strip.last + 1)};
+  const int next_first = (strip.first + ratio - 1) / ratio;
+  const int next_last = (strip.last + ratio - 1) / ratio;
   for (int sample_y = 0; sample_y < rows; ++sample_y) {
     for (int layer = 0; layer < kLayers; ++layer) {
       float* const row = RingRow(layer, sample_y);
       if (octave > 0 && layer < 2) {
         const Plane& plane = shared_[layer];
-        std::copy_n(plane.values.data() + sample_y * plane.stride, columns, row);
+        const float* const from = plane.values.data() + sample_y * plane.stride;
+        std::copy(from + around.first, from + around.last, row + around.first);
       } else {
-        ComputeHessianRow(integral, FilterSize(octave, layer), step, sample_y * step, &scratch_,
-                          row);
+        ComputeHessianRow(integral, FilterSize(octave, layer), step, sample_y * step, around,
+                          &scratch_, row);
       }
       if (shares_with_next && layer % 2 == 1 && sample_y % ratio == 0) {
         Plane& plane = shared_next_[layer / 2];
         float* const shared_row = plane.values.data() + (sample_y / ratio) * plane.stride;
-        for (int i = 0; i < next_columns; ++i) shared_row[i] = row[i * ratio];
+        for (int i = next_first; i < next_last; ++i) shared_row[i] = row[i * ratio];
       }
     }
-    if (sample_y >= 2) FindMaxima(integral, octave, step, sample_y - 1, threshold, maxima);
+    if (sample_y >= 2) FindMaxima(integral, octave, step, sample_y - 1, strip, threshold, maxima);
   }
 }
 
 void FastHessian::FindMaxima(const IntegralImage& integral, int octave, int step, int sample_y,
-                             float threshold, std::vector<SurfKeypoint>* maxima) {
+                             SampleRange strip, float threshold,
+                             std::vector<SurfKeypoint>* maxima) {
   for (int layer = 1; layer + 1 < kLayers; ++layer) {
     // Only where the largest filter of the neighbourhood lies inside the picture everywhere.
     const int margin = FilterSize(octave, layer + 1) / 2;
     const int y = sample_y * step;
     if (y - step < margin || y + step + margin >= integral.height()) continue;
-    const int begin = (margin + step - 1) / step + 1;
-    const int end = (integral.width() - 1 - margin) / step;
+    const int begin = std::max(strip.first, (margin + step - 1) / step + 1);
+    const int end = std::min(strip.last, (integral.width() - 1 - margin) / step);
     if (begin >= end) continue;
     ResponseNeighbourhood neighbourhood;
     for (int k = 0; k < 3; ++k) {

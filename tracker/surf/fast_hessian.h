@@ -19,12 +19,13 @@ constexpr int FilterSize(int octave, int layer) { return 3 * ((2 << octave) * (l
 /// The Fast-Hessian detector (Bay et al. 2008, section 3): maxima of the determinant of the Hessian
 /// in place and scale, interpolated.
 ///
-/// Rows of responses live in a ring only as long as the 3 x 3 x 3 neighbourhood needs them, so that
-/// they stay in the first-level cache; only what the next octave shares is kept whole.
+/// Strip by strip of the picture's columns, so narrow that the rows of the integral image that a
+/// filter spans stay in the first-level cache. Rows of responses live in a ring only as long as the
+/// 3 x 3 x 3 neighbourhood needs them; only what the next octave shares is kept whole.
 class FastHessian {
  public:
-  /// Appends the maxima above `threshold` to `maxima`, in the order in which they are found; their
-  /// angle is 0. Octave o is sampled every min(first_step * 2^o, 4) px; first_step is 1, 2 or 4.
+  /// Appends the maxima above `threshold` to `maxima`, in no order that means anything; their angle
+  /// is 0. Octave o is sampled every min(first_step * 2^o, 4) px; first_step is 1, 2 or 4.
   /// Deviation: the paper's step goes on doubling; beyond 4 px that saves nothing that matters.
   void Detect(const IntegralImage& integral, int octaves, int first_step, float threshold,
               std::vector<SurfKeypoint>* maxima);
@@ -38,8 +39,11 @@ class FastHessian {
 
   void DetectOctave(const IntegralImage& integral, int octave, int step, bool shares_with_next,
                     int next_step, float threshold, std::vector<SurfKeypoint>* maxima);
+  void DetectStrip(const IntegralImage& integral, int octave, int step, bool shares_with_next,
+                   int ratio, SampleRange strip, float threshold,
+                   std::vector<SurfKeypoint>* maxima);
   void FindMaxima(const IntegralImage& integral, int octave, int step, int sample_y,
-                  float threshold, std::vector<SurfKeypoint>* maxima);
+                  SampleRange strip, float threshold, std::vector<SurfKeypoint>* maxima);
   float* RingRow(int layer, int sample_y);
 
   HessianScratch scratch_;

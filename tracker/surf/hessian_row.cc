@@ -18,10 +18,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// with its middle lobe taken thrice (weights 1, -2, 1), [2] of D_xy, upper minus lower boxes.
 /// `rows` of the integral image: 0, 1 above and below the 2l - 1 rows of D_xx; 2, 3 above and below
 /// D_yy and 4, 5 its middle lobe; 6, 7 above and below the upper boxes of D_xy and 8, 9 the lower.
-void SubtractRows(const std::uint32_t* const* rows, int count, std::int32_t* const* differences) {
+void SubtractRows(const std::uint32_t* const* rows, int begin, int end,
+                  std::int32_t* const* differences) {
   const hn::ScalableTag<std::uint32_t> du;
   const hn::RebindToSigned<decltype(du)> di;
-  for (int x = 0; x < count; x += static_cast<int>(hn::Lanes(du))) {
+  for (int x = begin; x < end; x += static_cast<int>(hn::Lanes(du))) {
     const auto at = [&](int k) { return hn::LoadU(du, rows[k] + x); };
     const auto xx = hn::Sub(at(1), at(0));
     const auto middle = hn::Sub(at(5), at(4));
@@ -94,33 +95,36 @@ HWY_EXPORT(SubtractRows);
 HWY_EXPORT(SplitPhases);
 HWY_EXPORT(Determinants);
 
-/// Grows, never shrinks: different filters and octaves share the memory.
+/// Grows, never shrinks: different filters and octaves share the memory. From a whole cache line
+/// on.
 std::int32_t* AtLeast(std::size_t size, std::vector<std::int32_t>* values) {
-  if (values->size() < size) values->resize(size);
-  return values->data();
+  constexpr std::uintptr_t kLine = 64;
+  if (values->size() < size + kLine) values->resize(size + kLine);
+  const auto address = reinterpret_cast<std::uintptr_t>(values->data());
+  return values->data() + (kLine - address % kLine) % kLine / sizeof(std::int32_t);
 }
 
-/// x-difference of the integral image's elements, seen from sample i = 0, with samples `step`
-/// apart.
+/// x-difference of the integral image's elements, seen from sample i = 0, with samples `step` = 1,
+/// 2 or 4 apart.
 const std::int32_t* EdgeAt(const std::int32_t* phases, std::ptrdiff_t phase_stride, int step,
                            int offset) {
-  const int phase = ((offset % step) + step) % step;
-  return phases + phase * phase_stride + (offset - phase) / step;
+  const int phase = offset & (step - 1);
+  return phases + phase * phase_stride + ((offset - phase) >> (step >> 1));
 }
 
 }  // namespace
 
 void ComputeHessianRow(const IntegralImage& integral, int filter_size, int step, int y,
-                       HessianScratch* scratch, float* responses) {
+                       SampleRange samples, HessianScratch* scratch, float* responses) {
   const int width = integral.width();
-  const int samples = (width + step - 1) / step;
   const int margin = filter_size / 2;
   const int lobe = filter_size / 3;
   // Samples whose filter lies inside the picture.
-  const int begin = (margin + step - 1) / step;
-  const int end = width - 1 - margin < 0 ? 0 : (width - 1 - margin) / step + 1;
+  const int inside = width - 1 - margin < 0 ? 0 : (width - 1 - margin) / step + 1;
+  const int begin = std::max(samples.first, (margin + step - 1) / step);
+  const int end = std::min(samples.last, inside);
   if (y < margin || y + margin >= integral.height() || begin >= end) {
-    std::fill(responses, responses + samples, 0.0f);
+    std::fill(responses + samples.first, responses + samples.last, 0.0f);
     return;
   }
 
@@ -130,19 +134,23 @@ void ComputeHessianRow(const IntegralImage& integral, int filter_size, int step,
       row(1 - lobe), row(lobe),                                             // D_xx
       row(-margin),  row(margin + 1), row(-half_lobe), row(half_lobe + 1),  // D_yy
       row(-lobe),    row(0),          row(1),          row(lobe + 1)};      // D_xy
-  const int count = width + 1;
+  // Whole vectors of the row, from where the first filter begins to where the last one ends.
+  constexpr int kVector = 16;
+  const int from = (begin * step - margin) / kVector * kVector;
+  const int to = (end - 1) * step + margin + 2;
   // Room for whole vectors at the end of the row and of each phase.
-  const std::size_t row_size = count + 4 * IntegralImage::kPadding;
+  const std::size_t row_size = width + 1 + 4 * IntegralImage::kPadding;
   std::int32_t* differences[3];
   for (int k = 0; k < 3; ++k) differences[k] = AtLeast(row_size, &scratch->differences[k]);
-  HWY_DYNAMIC_DISPATCH(SubtractRows)(rows.data(), count, differences);
+  HWY_DYNAMIC_DISPATCH(SubtractRows)(rows.data(), from, to, differences);
 
   std::ptrdiff_t phase_stride = 0;
   if (step > 1) {
-    phase_stride = count / step + 1 + IntegralImage::kPadding;
+    phase_stride = (width + 1) / step + 1 + IntegralImage::kPadding;
     for (int k = 0; k < 3; ++k) {
       std::int32_t* phases = AtLeast(phase_stride * step, &scratch->phases[k]);
-      HWY_DYNAMIC_DISPATCH(SplitPhases)(differences[k], count, step, phase_stride, phases);
+      HWY_DYNAMIC_DISPATCH(SplitPhases)
+      (differences[k] + from, to - from, step, phase_stride, phases + from / step);
       differences[k] = phases;
     }
   }
@@ -153,8 +161,8 @@ void ComputeHessianRow(const IntegralImage& integral, int filter_size, int step,
       edge(2, -lobe),    edge(2, 0),          edge(2, 1),          edge(2, lobe + 1)};      // D_xy
   const float area = static_cast<float>(filter_size) * static_cast<float>(filter_size);
   HWY_DYNAMIC_DISPATCH(Determinants)(edges.data(), begin, end, 1.0f / (255.0f * area), responses);
-  std::fill(responses, responses + begin, 0.0f);
-  std::fill(responses + end, responses + samples, 0.0f);
+  std::fill(responses + samples.first, responses + begin, 0.0f);
+  std::fill(responses + end, responses + samples.last, 0.0f);
 }
 
 float LaplacianAt(const IntegralImage& integral, int filter_size, int x, int y) {

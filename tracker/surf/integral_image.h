@@ -24,8 +24,8 @@ class IntegralImage {
 
   int width() const { return width_; }    ///< px of the picture.
   int height() const { return height_; }  ///< px of the picture.
-  /// Row 0..height(), elements 0..width().
-  const std::uint32_t* row(int y) const { return sums_.data() + y * stride_; }
+  /// Row 0..height(), elements 0..width(). Rows begin at whole cache lines.
+  const std::uint32_t* row(int y) const { return sums_.data() + front_ + y * stride_; }
 
   /// Sum over the pixels x0 <= x < x1, y0 <= y < y1, all inside the picture.
   std::uint32_t BoxSum(int x0, int y0, int x1, int y1) const {
@@ -35,6 +35,7 @@ class IntegralImage {
  private:
   int width_ = 0;
   int height_ = 0;
+  std::ptrdiff_t front_ = 0;  ///< Unused elements in front of the first whole cache line.
   std::ptrdiff_t stride_ = 0;
   std::vector<std::uint32_t> sums_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include "tracker/homography.h"
 #include "tracker/surf_golay/sg_layout.h"
@@ -22,6 +23,9 @@ constexpr double kSamePlace = 0.12;  ///< Guesses closer than this, in shares of
 Vec2 ApplyAffine(const std::array<double, 6>& m, Vec2 p) {
   return {m[0] * p.x + m[1] * p.y + m[2], m[3] * p.x + m[4] * p.y + m[5]};
 }
+
+/// Corners of the print's square, in no order around it.
+Vec2 CornerModules(int corner) { return {corner & 1 ? 44.0 : 4.0, corner & 2 ? 44.0 : 4.0}; }
 
 bool Inside(const std::array<Vec2, 4>& quad, double x, double y) {
   int sides = 0;
@@ -57,7 +61,7 @@ void BorderSearch::Find(ImageView<const std::uint8_t> grey,
   }
   surf_.Describe(&keypoints_, &descriptors_);
   Quantise(keypoints_, descriptors_, &quantised_);
-  matcher_.Match(quantised_, options_.neighbours, &templates_of_frame_, &frame_of_templates_);
+  matcher_.Match(quantised_, options_.neighbours, &templates_of_frame_, nullptr);
   CastVotes();
   Gather(guesses);
 }
@@ -69,6 +73,7 @@ void BorderSearch::CastVotes() {
       QuantisedDescriptor::kUnit * static_cast<double>(QuantisedDescriptor::kUnit);
   for (std::size_t n = 0; n < keypoints_.size(); ++n) {
     const SurfKeypoint& k = keypoints_[n];
+    const Vec2 here = lens_.Ideal(k.x, k.y);
     for (int i = 0; i < options_.neighbours; ++i) {
       const DescriptorMatch& match = templates_of_frame_[n * options_.neighbours + i];
       if (match.index == DescriptorMatch::kNone) break;
@@ -79,10 +84,10 @@ void BorderSearch::CastVotes() {
       Vote vote;
       vote.keypoint = static_cast<int>(n);
       vote.model = match.index;
+      vote.place = here;
       vote.rotation_rad = std::remainder(k.angle_rad - model.angle_rad, 2.0 * std::numbers::pi);
       const double zoom = k.scale / model.scale;
       const double c = zoom * std::cos(vote.rotation_rad), s = zoom * std::sin(vote.rotation_rad);
-      const Vec2 here = lens_.Ideal(k.x, k.y);
       vote.from_modules = {c * view[0] - s * view[3],
                            c * view[1] - s * view[4],
                            c * (view[2] - model.view.x) - s * (view[5] - model.view.y) + here.x,
@@ -100,15 +105,11 @@ void BorderSearch::CastVotes() {
   }
 }
 
-void BorderSearch::CallWitnesses(const std::vector<int>& bin) {
-  Witnesses& w = witnesses_;
-  for (auto* values : {&w.centre_x, &w.centre_y, &w.size_px, &w.rotation_rad, &w.keypoint_x,
-                       &w.keypoint_y, &w.modules_x, &w.modules_y}) {
-    values->resize(bin.size());
-  }
-  w.agrees.resize(bin.size());
-  for (std::size_t i = 0; i < bin.size(); ++i) {
-    const Vote& vote = votes_[bin[i]];
+void BorderSearch::CallWitnesses(Bin* bin) {
+  VoteWitnesses& w = bin->witnesses;
+  w.Resize(bin->votes.size());
+  for (std::size_t i = 0; i < bin->votes.size(); ++i) {
+    const Vote& vote = votes_[bin->votes[i]];
     const Vec2 modules = templates_.keypoints[vote.model].modules;
     w.centre_x[i] = static_cast<float>(vote.centre.x);
     w.centre_y[i] = static_cast<float>(vote.centre.y);
@@ -121,42 +122,37 @@ void BorderSearch::CallWitnesses(const std::vector<int>& bin) {
   }
 }
 
-double BorderSearch::Supporters(const std::vector<int>& bin, int at, std::vector<int>* members) {
-  Witnesses& w = witnesses_;
-  const Vote& seed = votes_[bin[at]];
-  std::array<float, 6> m;
-  std::ranges::copy(seed.from_modules, m.begin());
-  const float size = w.size_px[at], centre_y = w.centre_y[at], rotation = w.rotation_rad[at];
-  const float far = 0.5F * size, near = kPlaceTolerance * size;
-  const float largest = kScaleTolerance * size, smallest = size / kScaleTolerance;
-  constexpr float kWholeTurn = 2.0F * std::numbers::pi_v<float>;
-  const auto x = w.centre_x.begin();
+double BorderSearch::Supporters(const Bin& bin, int at, std::vector<int>* members) {
+  const VoteWitnesses& w = bin.witnesses;
+  const float size = w.size_px[at], far = 0.5F * size;
+  VoteSeed seed{.from_modules = {},
+                .centre_y = w.centre_y[at],
+                .rotation_rad = w.rotation_rad[at],
+                .far_px = far,
+                .near_px = kPlaceTolerance * size,
+                .smallest_px = size / kScaleTolerance,
+                .largest_px = kScaleTolerance * size,
+                .turn_rad = kTurnTolerance_rad};
+  std::ranges::copy(votes_[bin.votes[at]].from_modules, seed.from_modules);
+  const auto x = w.centre_x.begin(), end = x + static_cast<std::ptrdiff_t>(bin.votes.size());
   const auto first = static_cast<int>(std::lower_bound(x, x + at, w.centre_x[at] - far) - x);
-  const auto last =
-      static_cast<int>(std::upper_bound(x + at, w.centre_x.end(), w.centre_x[at] + far) - x);
-  // Without branches, so that the compiler takes several at a time.
-  std::int32_t* agrees = w.agrees.data();
-  for (int j = first; j < last; ++j) {
-    const float turn = std::fabs(w.rotation_rad[j] - rotation);
-    const float off_x = m[0] * w.modules_x[j] + m[1] * w.modules_y[j] + m[2] - w.keypoint_x[j];
-    const float off_y = m[3] * w.modules_x[j] + m[4] * w.modules_y[j] + m[5] - w.keypoint_y[j];
-    agrees[j] = (std::fabs(w.centre_y[j] - centre_y) <= far) & (w.size_px[j] <= largest) &
-                (w.size_px[j] >= smallest) &
-                (std::min(turn, kWholeTurn - turn) <= kTurnTolerance_rad) &
-                (std::fabs(off_x) < near) & (std::fabs(off_y) < near);
-  }
+  const auto last = static_cast<int>(std::upper_bound(x + at, end, w.centre_x[at] + far) - x);
+  agreeing_.resize(std::max<std::size_t>(agreeing_.size(), last - first + kVoteSlack));
+  const int count = AgreeingVotes(w, seed, first, last, agreeing_.data());
   double sum = 0.0;
   int last_keypoint = -1;
-  const auto count = [&](int j) {
-    if (agrees[j] == 0) return;
-    const Vote& vote = votes_[bin[j]];
-    if (members != nullptr) members->push_back(bin[j]);
+  const auto add = [&](int j) {
+    const Vote& vote = votes_[bin.votes[j]];
+    if (members != nullptr) members->push_back(bin.votes[j]);
     // Several templates of one keypoint are one witness.
     if (vote.keypoint != last_keypoint) sum += vote.weight;
     last_keypoint = vote.keypoint;
   };
-  for (int j = at; j < last; ++j) count(j);
-  for (int j = at; j-- > first;) count(j);
+  // From the seed to the right, then to the left.
+  const int middle = static_cast<int>(
+      std::lower_bound(agreeing_.begin(), agreeing_.begin() + count, at) - agreeing_.begin());
+  for (int i = middle; i < count; ++i) add(agreeing_[i]);
+  for (int i = middle; i-- > 0;) add(agreeing_[i]);
   return sum;
 }
 
@@ -166,21 +162,22 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
   const int bins = std::max(
       4, static_cast<int>(std::ceil(2.0 * std::numbers::pi / (0.5 * options_.rotation_bin_rad))));
   bins_.resize(bins);
-  for (auto& bin : bins_) bin.clear();
+  for (Bin& bin : bins_) bin.votes.clear();
+  by_centre_.clear();
   for (std::size_t v = 0; v < votes_.size(); ++v) {
+    by_centre_.emplace_back(votes_[v].centre.x, static_cast<int>(v));
+  }
+  std::ranges::sort(by_centre_);
+  for (const auto& [centre_x, v] : by_centre_) {
     const double turn = votes_[v].rotation_rad / (2.0 * std::numbers::pi) + 0.5;
     const int bin = std::clamp(static_cast<int>(turn * bins), 0, bins - 1);
-    bins_[bin].push_back(static_cast<int>(v));
-    bins_[(bin + 1) % bins].push_back(static_cast<int>(v));
+    bins_[bin].votes.push_back(v);
+    bins_[(bin + 1) % bins].votes.push_back(v);
   }
   ranked_.clear();
   for (int bin = 0; bin < bins; ++bin) {
-    std::sort(bins_[bin].begin(), bins_[bin].end(), [&](int a, int b) {
-      return votes_[a].centre.x < votes_[b].centre.x ||
-             (votes_[a].centre.x == votes_[b].centre.x && a < b);
-    });
-    CallWitnesses(bins_[bin]);
-    for (int i = 0; i < static_cast<int>(bins_[bin].size()); ++i) {
+    CallWitnesses(&bins_[bin]);
+    for (int i = 0; i < static_cast<int>(bins_[bin].votes.size()); ++i) {
       const double votes = Supporters(bins_[bin], i, nullptr);
       if (votes >= options_.fewest_votes) ranked_.push_back({bin, i, votes});
     }
@@ -189,51 +186,62 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
     if (a.votes != b.votes) return a.votes > b.votes;
     return a.bin < b.bin || (a.bin == b.bin && a.at < b.at);
   });
+  guessed_corners_.clear();
   for (const Ranked& candidate : ranked_) {
     if (static_cast<int>(guesses->size()) >= options_.most_guesses) break;
-    const std::vector<int>& bin = bins_[candidate.bin];
-    const Vote& seed = votes_[bin[candidate.at]];
+    const Bin& bin = bins_[candidate.bin];
+    const Vote& seed = votes_[bin.votes[candidate.at]];
     members_.clear();
-    CallWitnesses(bin);
     Supporters(bin, candidate.at, &members_);
     BorderGuess guess;
     guess.votes = candidate.votes;
     guess.matches = static_cast<int>(members_.size());
     if (!FitGuess(members_, seed, &guess)) continue;
+    std::array<Vec2, 4> corners;
     const Mat3 inverse = Adjugate(guess.modules_from_ideal);
-    const bool known = std::any_of(guesses->begin(), guesses->end(), [&](const BorderGuess& other) {
-      const Mat3 other_inverse = Adjugate(other.modules_from_ideal);
-      double farthest = 0.0;
-      for (int corner = 0; corner < 4; ++corner) {
-        const Vec2 modules{corner & 1 ? 44.0 : 4.0, corner & 2 ? 44.0 : 4.0};
-        farthest =
-            std::max(farthest, Norm(Apply(inverse, modules) - Apply(other_inverse, modules)));
-      }
-      return farthest < kSamePlace * seed.size_px;
-    });
-    if (!known) guesses->push_back(guess);
+    for (int k = 0; k < 4; ++k) corners[k] = Apply(inverse, CornerModules(k));
+    const double same2 = kSamePlace * kSamePlace * seed.size_px * seed.size_px;
+    const bool known = std::any_of(guessed_corners_.begin(), guessed_corners_.end(),
+                                   [&](const std::array<Vec2, 4>& other) {
+                                     return std::ranges::all_of(std::views::iota(0, 4), [&](int k) {
+                                       const Vec2 apart = corners[k] - other[k];
+                                       return apart.x * apart.x + apart.y * apart.y < same2;
+                                     });
+                                   });
+    if (known) continue;
+    guesses->push_back(guess);
+    guessed_corners_.push_back(corners);
   }
 }
 
 bool BorderSearch::FitGuess(const std::vector<int>& members, const Vote& seed, BorderGuess* guess) {
   // Least squares of an affine picture on all that agree, held towards the seed's own shape: what a
   // match of one view implies is already near, and few matches tell little more.
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+  double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  Vec2 by_one, by_x, by_y;
   const auto add = [&](Vec2 modules, Vec2 ideal, double weight) {
-    const Eigen::Vector3d row(modules.x - kMiddle, modules.y - kMiddle, 1.0);
-    normal += weight * row * row.transpose();
-    right += weight * row * Eigen::RowVector2d(ideal.x, ideal.y);
+    const double u = modules.x - kMiddle, v = modules.y - kMiddle;
+    const Vec2 weighted = ideal * weight;
+    w += weight;
+    x += weight * u;
+    y += weight * v;
+    xx += weight * u * u;
+    xy += weight * u * v;
+    yy += weight * v * v;
+    by_one = by_one + weighted;
+    by_x = by_x + weighted * u;
+    by_y = by_y + weighted * v;
   };
   for (const int member : members) {
     const Vote& vote = votes_[member];
-    const SurfKeypoint& k = keypoints_[vote.keypoint];
-    add(templates_.keypoints[vote.model].modules, lens_.Ideal(k.x, k.y), vote.weight);
+    add(templates_.keypoints[vote.model].modules, vote.place, vote.weight);
   }
   for (int corner = 0; corner < 4; ++corner) {
-    const Vec2 modules{corner & 1 ? 44.0 : 4.0, corner & 2 ? 44.0 : 4.0};
+    const Vec2 modules = CornerModules(corner);
     add(modules, ApplyAffine(seed.from_modules, modules), 0.15);
   }
+  const Eigen::Matrix3d normal{{xx, xy, x}, {xy, yy, y}, {x, y, w}};
+  const Eigen::Matrix<double, 3, 2> right{{by_x.x, by_x.y}, {by_y.x, by_y.y}, {by_one.x, by_one.y}};
   const Eigen::Matrix<double, 3, 2> affine = normal.ldlt().solve(right);
   if (!affine.allFinite()) return false;
   const double a = affine(0, 0), b = affine(1, 0), d = affine(0, 1), e = affine(1, 1);
