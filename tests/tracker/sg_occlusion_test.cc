@@ -119,8 +119,8 @@ TEST(SgOcclusion, FindsBordersThatAreMostlyCoveredByTheCornersOfTheCells) {
       ASSERT_EQ(found.size(), 1U);
       EXPECT_EQ(found[0].detection.id, number);
       EXPECT_EQ(found[0].detection.path, DetectionPath::kSurfGolay);
-      // A hundredth of the edge: the corners are twice as far out as what is seen.
-      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 1.3);
+      // A hundredth of the edge or so: the corners are twice as far out as what is seen.
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 1.7);
     }
   }
 }

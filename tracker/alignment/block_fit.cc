@@ -264,7 +264,7 @@ bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow
     if (!solved || still) break;
     if (done) step = options.steps - 1;
   }
-  sums_->blocks.WriteBlocks(seen, &block_of_);
+  if (options.tell_blocks) sums_->blocks.WriteBlocks(seen, &block_of_);
   return solved;
 }
 

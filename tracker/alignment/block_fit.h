@@ -41,6 +41,7 @@ struct BlockFitOptions {
   bool fit_blur = false;
   bool fit_projection = true;  ///< False: only the affine part of the motion.
   double robust_share = 0.35;  ///< Residual, in shares of white, at which a pixel loses half.
+  bool tell_blocks = true;     ///< Which block each pixel belongs to is asked for afterwards.
   double done_px = 0.01;       ///< Stop when no corner moves farther, in the window's pixels.
 };
 
@@ -72,7 +73,7 @@ class BlockFit {
   const PrintMap& map() const { return map_; }
   const PrintPicture& picture() const { return picture_; }
   /// Block of each pixel of the window; -1: not of what is known of the print. A block's pixels
-  /// come in squares of 2×2 or 4×4.
+  /// come in squares of 2×2 or 4×4. Only after a Run with `tell_blocks`.
   const std::vector<std::int16_t>& block_of() const { return block_of_; }
   /// How much the fit believes in a pixel of the window that has a block, 0…1.
   float Belief(std::size_t pixel, const SeenWindow& seen) const {

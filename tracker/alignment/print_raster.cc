@@ -17,7 +17,7 @@ constexpr double kSharpestBlur_px = 0.12;
 constexpr double kSmoothBlur_px = 1.15;
 /// Pixels around the print that are predicted as well, for the differences of neighbours.
 constexpr float kAroundPrint_px = 2.0F;
-constexpr int kProbes = 12;  ///< Along each side of the window.
+constexpr int kProbes = 6;  ///< Along each side of the window.
 
 }  // namespace
 
@@ -196,10 +196,10 @@ void PrintRaster::RenderRows(const PrintPattern& pattern, const Mat3& modules_fr
         static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder - pad;
     kernels_->map({&rays.x[from], &rays.y[from], stride, origin_x, origin_y}, homography.data(),
                   count, here);
-    RowRange sampled{0, count};
+    RowRanges of_print{{0, count}, {0, count}};
     if (!everywhere) {
-      sampled =
-          kernels_->range(here, modules, static_cast<float>(pad) + kAroundPrint_px + 1.0F, count);
+      of_print = kernels_->ranges(here, modules, kAroundPrint_px,
+                                  static_cast<float>(pad) + kAroundPrint_px + 1.0F, count);
     }
     if (y >= 0 && y < window.height) {
       const std::size_t to = static_cast<std::size_t>(y) * window.width;
@@ -213,12 +213,11 @@ void PrintRaster::RenderRows(const PrintPattern& pattern, const Mat3& modules_fr
       RowRange& range = (*ranges)[y];
       range = {0, window.width};
       if (!everywhere) {
-        range = kernels_->range(here, modules, kAroundPrint_px, count);
-        range.begin = std::clamp(range.begin - pad, 0, window.width);
-        range.end = std::clamp(range.end - pad, range.begin, window.width);
+        range.begin = std::clamp(of_print.near.begin - pad, 0, window.width);
+        range.end = std::clamp(of_print.near.end - pad, range.begin, window.width);
       }
     }
-    SampleRow(here, table, taps, sampled, count, row, y + pad);
+    SampleRow(here, table, taps, of_print.far, count, row, y + pad);
     if (y < pad) continue;
     const int out = y - pad;
     for (int k = 0; k < all_taps; ++k) {
@@ -243,10 +242,12 @@ void PrintRaster::SampleRow(const MapRow& map, const NodeTable& table, const Blu
                       map.column_y + begin, map.row_x + begin, map.row_y + begin},
                      table, per_pixel, drawn, row, &samples_[begin]);
   }
-  for (int s = 0; s < per_pixel * per_pixel; ++s) {
+  // … as far as the blur reaches.
+  const int white_begin = std::max(0, begin - 2 * pad), white_end = std::min(count, end + 2 * pad);
+  for (int s = 0; s < per_pixel * per_pixel && drawn > 0; ++s) {
     float* samples = &samples_[static_cast<std::size_t>(s) * row];
-    std::fill(samples, samples + (drawn > 0 ? begin : count), 1.0F);
-    std::fill(samples + (drawn > 0 ? end : 0), samples + count, 1.0F);
+    std::fill(samples + white_begin, samples + begin, 1.0F);
+    std::fill(samples + end, samples + white_end, 1.0F);
   }
   for (int j = 0; j < per_pixel; ++j) {
     const std::size_t at = static_cast<std::size_t>((index * per_pixel + j) % all_taps) * row;

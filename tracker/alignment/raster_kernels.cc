@@ -29,19 +29,24 @@ void Map(const RayRow& rays, const float m[9], int count, const MapRow& out) {
   }
 }
 
-RowRange Range(const MapRow& map, float modules, float reach_px, int count) {
-  RowRange range{count, 0};
-  for (int x = 0; x < count; ++x) {
-    const float rc = reach_px * (std::fabs(map.column_x[x]) + std::fabs(map.column_y[x]));
-    const float rr = reach_px * (std::fabs(map.row_x[x]) + std::fabs(map.row_y[x]));
-    if (!(map.column[x] > -rc && map.column[x] < modules + rc && map.row[x] > -rr &&
-          map.row[x] < modules + rr)) {
-      continue;
+RowRanges Ranges(const MapRow& map, float modules, float near_px, float far_px, int count) {
+  const auto range_of = [&](float reach_px) {
+    RowRange range{count, 0};
+    for (int x = 0; x < count; ++x) {
+      const auto near = [&](float value, float at_x, float at_y) {
+        const float far = reach_px * (std::fabs(at_x) + std::fabs(at_y));
+        return value > -far && value < modules + far;
+      };
+      if (!near(map.column[x], map.column_x[x], map.column_y[x]) ||
+          !near(map.row[x], map.row_x[x], map.row_y[x])) {
+        continue;
+      }
+      range.begin = std::min(range.begin, x);
+      range.end = x + 1;
     }
-    range.begin = std::min(range.begin, x);
-    range.end = x + 1;
-  }
-  return range.begin < range.end ? range : RowRange{};
+    return range.begin < range.end ? range : RowRange{};
+  };
+  return {range_of(near_px), range_of(far_px)};
 }
 
 /// Pixels that see nothing look at the print's first corner.
@@ -138,7 +143,7 @@ void AlongColumn(const float* const* rows, const float* const* rows_x, const Blu
 }  // namespace
 
 const RasterKernels& ScalarRasterKernels() {
-  static const RasterKernels kKernels{&Map, &Range, &Sample, &AlongRow, &AlongColumn};
+  static const RasterKernels kKernels{&Map, &Ranges, &Sample, &AlongRow, &AlongColumn};
   return kKernels;
 }
 

@@ -37,12 +37,17 @@ struct BlurTaps {
   int per_pixel, pixels;
 };
 
+/// Pixels of a row near a print, and those that have a say in how it looks there.
+struct RowRanges {
+  RowRange near, far;
+};
+
 /// What PrintRaster does to a row of pixels; the SIMD version and its scalar reference agree to
 /// single precision.
 struct RasterKernels {
   void (*map)(const RayRow& rays, const float homography[9], int count, const MapRow& out);
-  /// The pixels less than `reach_px` from a print of `modules`: the shortest range that holds them.
-  RowRange (*range)(const MapRow& map, float modules, float reach_px, int count);
+  /// The pixels less than each reach from a print of `modules`: the shortest ranges that hold them.
+  RowRanges (*ranges)(const MapRow& map, float modules, float near_px, float far_px, int count);
   /// Samples `per_pixel`² times in each pixel: out[j][i][x], j from the top, rows `stride` apart.
   void (*sample)(const MapRow& map, const NodeTable& table, int per_pixel, int count,
                  std::ptrdiff_t stride, float* out);

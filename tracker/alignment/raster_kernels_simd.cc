@@ -53,28 +53,38 @@ void Map(const RayRow& rays, const float m[9], int count, const MapRow& out) {
   }
 }
 
-RowRange Range(const MapRow& map, float modules, float reach_px, int count) {
+RowRanges Ranges(const MapRow& map, float modules, float near_px, float far_px, int count) {
   const int lanes = static_cast<int>(hn::Lanes(kFloats));
-  const Floats reach = hn::Set(kFloats, reach_px), all = hn::Set(kFloats, modules);
-  const auto near = [&](const float* at, const float* at_x, const float* at_y) {
-    const Floats value = hn::LoadU(kFloats, at);
-    const Floats far = hn::Mul(
-        reach, hn::Add(hn::Abs(hn::LoadU(kFloats, at_x)), hn::Abs(hn::LoadU(kFloats, at_y))));
-    return hn::And(hn::Gt(value, hn::Neg(far)), hn::Lt(value, hn::Add(all, far)));
-  };
-  RowRange range{count, 0};
+  const Floats all = hn::Set(kFloats, modules);
+  const Floats near_reach = hn::Set(kFloats, near_px), far_reach = hn::Set(kFloats, far_px);
+  RowRange near{count, 0}, far{count, 0};
   for (int x = 0; x < count; x += lanes) {
-    const auto mask = hn::And(hn::And(near(map.column + x, map.column_x + x, map.column_y + x),
-                                      near(map.row + x, map.row_x + x, map.row_y + x)),
-                              hn::FirstN(kFloats, static_cast<std::size_t>(count - x)));
-    if (hn::AllFalse(kFloats, mask)) continue;
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(kFloats, mask, bits);
-    const unsigned set = bits[0] | static_cast<unsigned>(bits[1]) << 8;
-    if (range.end == 0) range.begin = x + __builtin_ctz(set);
-    range.end = x + 32 - __builtin_clz(set);
+    const auto load = [&](const float* from) { return hn::LoadU(kFloats, from + x); };
+    const auto step = [&](const float* by_x, const float* by_y) {
+      return hn::Add(hn::Abs(load(by_x)), hn::Abs(load(by_y)));
+    };
+    const Floats column = load(map.column), row = load(map.row);
+    const Floats column_step = step(map.column_x, map.column_y);
+    const Floats row_step = step(map.row_x, map.row_y);
+    const auto within = [&](Floats value, Floats reach) {
+      return hn::And(hn::Gt(value, hn::Neg(reach)), hn::Lt(value, hn::Add(all, reach)));
+    };
+    const auto add = [&](Floats reach, RowRange* range) {
+      const auto mask = hn::And(hn::And(within(column, hn::Mul(reach, column_step)),
+                                        within(row, hn::Mul(reach, row_step))),
+                                hn::FirstN(kFloats, static_cast<std::size_t>(count - x)));
+      if (hn::AllFalse(kFloats, mask)) return false;
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(kFloats, mask, bits);
+      const unsigned set = bits[0] | static_cast<unsigned>(bits[1]) << 8;
+      if (range->end == 0) range->begin = x + __builtin_ctz(set);
+      range->end = x + 32 - __builtin_clz(set);
+      return true;
+    };
+    // Where nothing is within the greater reach nothing is within the smaller.
+    if (add(far_reach, &far)) add(near_reach, &near);
   }
-  return range.end > 0 ? range : RowRange{};
+  return {near.end > 0 ? near : RowRange{}, far.end > 0 ? far : RowRange{}};
 }
 
 /// Modules around a node → the share of white in a box, `s` and `t` of which lie right of and
@@ -238,7 +248,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pleinair::tracker {
 HWY_EXPORT(Map);
-HWY_EXPORT(Range);
+HWY_EXPORT(Ranges);
 HWY_EXPORT(Sample);
 HWY_EXPORT(AlongRow);
 HWY_EXPORT(AlongColumn);
@@ -248,8 +258,8 @@ const RasterKernels& SimdRasterKernels() {
       [](const RayRow& rays, const float homography[9], int count, const MapRow& out) {
         HWY_DYNAMIC_DISPATCH(Map)(rays, homography, count, out);
       },
-      [](const MapRow& map, float modules, float reach_px, int count) {
-        return HWY_DYNAMIC_DISPATCH(Range)(map, modules, reach_px, count);
+      [](const MapRow& map, float modules, float near_px, float far_px, int count) {
+        return HWY_DYNAMIC_DISPATCH(Ranges)(map, modules, near_px, far_px, count);
       },
       [](const MapRow& map, const NodeTable& table, int per_pixel, int count, std::ptrdiff_t stride,
          float* out) {

@@ -177,6 +177,8 @@ void PictureRaster::Render(const PicturePyramid& pyramid, const Mat3& target_fro
         static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder - pad;
     kernels_->map({&rays.x[from], &rays.y[from], stride, origin_x, origin_y}, homography.data(),
                   count, here);
+    const RowRanges of_target = kernels_->ranges(
+        here, kSide, kAround_px, static_cast<float>(pad) + kAround_px + 1.0F, count);
     if (y >= 0 && y < window.height) {
       const std::size_t to = static_cast<std::size_t>(y) * window.width;
       const std::size_t bytes = static_cast<std::size_t>(window.width) * sizeof(float);
@@ -187,12 +189,10 @@ void PictureRaster::Render(const PicturePyramid& pyramid, const Mat3& target_fro
       std::memcpy(&map->row_x[to], here.row_x + pad, bytes);
       std::memcpy(&map->row_y[to], here.row_y + pad, bytes);
       RowRange& range = (*ranges)[y];
-      range = kernels_->range(here, kSide, kAround_px, count);
-      range.begin = std::clamp(range.begin - pad, 0, window.width);
-      range.end = std::clamp(range.end - pad, range.begin, window.width);
+      range.begin = std::clamp(of_target.near.begin - pad, 0, window.width);
+      range.end = std::clamp(of_target.near.end - pad, range.begin, window.width);
     }
-    const RowRange sampled =
-        kernels_->range(here, kSide, static_cast<float>(pad) + kAround_px + 1.0F, count);
+    const RowRange sampled = of_target.far;
     const int begin = sampled.begin, drawn = sampled.end - sampled.begin;
     if (drawn > 0) {
       Sample({here.column + begin, here.row + begin, here.column_x + begin, here.column_y + begin,

@@ -43,6 +43,24 @@ bool Plausible(const RimEvidence& evidence, float greatest_doubt) {
          evidence.Doubt() <= greatest_doubt;
 }
 
+/// Whether a dark component of a picture reduced `scale` times fills the box around a square that
+/// has been found: most squares are found again at half size, and their outlines cost the most.
+bool Fills(const DarkComponent& component, int scale, const Quad& quad) {
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+  for (const Vec2& corner : quad.corners_px) {
+    left = std::min(left, corner.x);
+    right = std::max(right, corner.x);
+    top = std::min(top, corner.y);
+    bottom = std::max(bottom, corner.y);
+  }
+  const double tolerance = scale;
+  const auto edge = [&](int pixel) { return pixel * scale - 0.5; };
+  return std::fabs(edge(component.min_x) - left) < tolerance &&
+         std::fabs(edge(component.max_x + 1) - right) < tolerance &&
+         std::fabs(edge(component.min_y) - top) < tolerance &&
+         std::fabs(edge(component.max_y + 1) - bottom) < tolerance;
+}
+
 /// The same square found twice.
 bool Same(const Quad& a, const Quad& b) {
   const double area = std::min(Area(a), Area(b));
@@ -90,6 +108,7 @@ void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale
         c.max_x == level.width() - 1 || c.max_y == level.height() - 1) {
       continue;
     }
+    if (std::ranges::any_of(*quads, [&](const Quad& q) { return Fills(c, scale, q); })) continue;
     const auto outline_found = outline.Fit(components.runs(), c, least_side);
     if (!outline_found) continue;
     Quad quad{*outline_found, 0.0F};

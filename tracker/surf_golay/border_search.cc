@@ -28,12 +28,12 @@ Vec2 ApplyAffine(const std::array<double, 6>& m, Vec2 p) {
 Vec2 CornerModules(int corner) { return {corner & 1 ? 44.0 : 4.0, corner & 2 ? 44.0 : 4.0}; }
 
 bool Inside(const std::array<Vec2, 4>& quad, double x, double y) {
-  int sides = 0;
-  for (int i = 0; i < 4; ++i) {
+  const auto right_of = [&](int i) {
     const Vec2 a = quad[i], b = quad[(i + 1) % 4];
-    sides += (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x) > 0.0 ? 1 : -1;
-  }
-  return sides == 4 || sides == -4;
+    return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x) > 0.0;
+  };
+  const bool first = right_of(0);
+  return right_of(2) == first && right_of(1) == first && right_of(3) == first;
 }
 
 }  // namespace
@@ -42,6 +42,18 @@ BorderSearch::BorderSearch(const LensGrid& lens, BorderTemplates templates,
                            const BorderSearchOptions& options)
     : lens_(lens), templates_(std::move(templates)), options_(options), surf_(options.surf) {
   matcher_.SetTemplates(templates_.descriptors);
+  const std::size_t most =
+      static_cast<std::size_t>(options_.surf.max_keypoints) * options_.neighbours;
+  votes_.reserve(most);
+  by_centre_.reserve(most);
+  ranked_.reserve(2 * most);
+  binned_.resize(2 * most);
+  witnesses_.Resize(2 * most);
+  agreeing_.resize(2 * most + kVoteSlack);
+  members_.reserve(most);
+  guessed_corners_.reserve(options_.most_guesses);
+  bins_.resize(std::max(
+      4, static_cast<int>(std::ceil(2.0 * std::numbers::pi / (0.5 * options_.rotation_bin_rad)))));
 }
 
 void BorderSearch::Find(ImageView<const std::uint8_t> grey,
@@ -105,25 +117,51 @@ void BorderSearch::CastVotes() {
   }
 }
 
-void BorderSearch::CallWitnesses(Bin* bin) {
-  VoteWitnesses& w = bin->witnesses;
-  w.Resize(bin->votes.size());
-  for (std::size_t i = 0; i < bin->votes.size(); ++i) {
-    const Vote& vote = votes_[bin->votes[i]];
+void BorderSearch::FillBins() {
+  // The angle filter: bins of the turn between template and frame, each overlapping its neighbours
+  // by half, so that every pair of matches of one marker meets in some bin.
+  const int bins = static_cast<int>(bins_.size());
+  const auto bin_of = [&](const Vote& vote) {
+    const double turn = vote.rotation_rad / (2.0 * std::numbers::pi) + 0.5;
+    return std::clamp(static_cast<int>(turn * bins), 0, bins - 1);
+  };
+  by_centre_.clear();
+  for (Bin& bin : bins_) bin = {};
+  for (std::size_t v = 0; v < votes_.size(); ++v) {
+    by_centre_.emplace_back(votes_[v].centre.x, static_cast<int>(v));
+    const int bin = bin_of(votes_[v]);
+    ++bins_[bin].end;
+    ++bins_[(bin + 1) % bins].end;
+  }
+  std::ranges::sort(by_centre_);
+  int begin = 0;
+  for (Bin& bin : bins_) {
+    const int count = bin.end;
+    bin = {begin, begin};
+    begin += count;
+  }
+  VoteWitnesses& w = witnesses_;
+  for (const auto& [centre_x, v] : by_centre_) {
+    const Vote& vote = votes_[v];
     const Vec2 modules = templates_.keypoints[vote.model].modules;
-    w.centre_x[i] = static_cast<float>(vote.centre.x);
-    w.centre_y[i] = static_cast<float>(vote.centre.y);
-    w.size_px[i] = static_cast<float>(vote.size_px);
-    w.rotation_rad[i] = static_cast<float>(vote.rotation_rad);
-    w.keypoint_x[i] = keypoints_[vote.keypoint].x;
-    w.keypoint_y[i] = keypoints_[vote.keypoint].y;
-    w.modules_x[i] = static_cast<float>(modules.x);
-    w.modules_y[i] = static_cast<float>(modules.y);
+    const int first = bin_of(vote);
+    for (const int bin : {first, (first + 1) % bins}) {
+      const int i = bins_[bin].end++;
+      binned_[i] = v;
+      w.centre_x[i] = static_cast<float>(vote.centre.x);
+      w.centre_y[i] = static_cast<float>(vote.centre.y);
+      w.size_px[i] = static_cast<float>(vote.size_px);
+      w.rotation_rad[i] = static_cast<float>(vote.rotation_rad);
+      w.keypoint_x[i] = keypoints_[vote.keypoint].x;
+      w.keypoint_y[i] = keypoints_[vote.keypoint].y;
+      w.modules_x[i] = static_cast<float>(modules.x);
+      w.modules_y[i] = static_cast<float>(modules.y);
+    }
   }
 }
 
 double BorderSearch::Supporters(const Bin& bin, int at, std::vector<int>* members) {
-  const VoteWitnesses& w = bin.witnesses;
+  const VoteWitnesses& w = witnesses_;
   const float size = w.size_px[at], far = 0.5F * size;
   VoteSeed seed{.from_modules = {},
                 .centre_y = w.centre_y[at],
@@ -133,17 +171,18 @@ double BorderSearch::Supporters(const Bin& bin, int at, std::vector<int>* member
                 .smallest_px = size / kScaleTolerance,
                 .largest_px = kScaleTolerance * size,
                 .turn_rad = kTurnTolerance_rad};
-  std::ranges::copy(votes_[bin.votes[at]].from_modules, seed.from_modules);
-  const auto x = w.centre_x.begin(), end = x + static_cast<std::ptrdiff_t>(bin.votes.size());
-  const auto first = static_cast<int>(std::lower_bound(x, x + at, w.centre_x[at] - far) - x);
-  const auto last = static_cast<int>(std::upper_bound(x + at, end, w.centre_x[at] + far) - x);
-  agreeing_.resize(std::max<std::size_t>(agreeing_.size(), last - first + kVoteSlack));
+  std::ranges::copy(votes_[binned_[at]].from_modules, seed.from_modules);
+  const auto x = w.centre_x.begin();
+  const auto first =
+      static_cast<int>(std::lower_bound(x + bin.begin, x + at, w.centre_x[at] - far) - x);
+  const auto last =
+      static_cast<int>(std::upper_bound(x + at, x + bin.end, w.centre_x[at] + far) - x);
   const int count = AgreeingVotes(w, seed, first, last, agreeing_.data());
   double sum = 0.0;
   int last_keypoint = -1;
   const auto add = [&](int j) {
-    const Vote& vote = votes_[bin.votes[j]];
-    if (members != nullptr) members->push_back(bin.votes[j]);
+    const Vote& vote = votes_[binned_[j]];
+    if (members != nullptr) members->push_back(binned_[j]);
     // Several templates of one keypoint are one witness.
     if (vote.keypoint != last_keypoint) sum += vote.weight;
     last_keypoint = vote.keypoint;
@@ -157,27 +196,10 @@ double BorderSearch::Supporters(const Bin& bin, int at, std::vector<int>* member
 }
 
 void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
-  // The angle filter: bins of the turn between template and frame, each overlapping its neighbours
-  // by half, so that every pair of matches of one marker meets in some bin.
-  const int bins = std::max(
-      4, static_cast<int>(std::ceil(2.0 * std::numbers::pi / (0.5 * options_.rotation_bin_rad))));
-  bins_.resize(bins);
-  for (Bin& bin : bins_) bin.votes.clear();
-  by_centre_.clear();
-  for (std::size_t v = 0; v < votes_.size(); ++v) {
-    by_centre_.emplace_back(votes_[v].centre.x, static_cast<int>(v));
-  }
-  std::ranges::sort(by_centre_);
-  for (const auto& [centre_x, v] : by_centre_) {
-    const double turn = votes_[v].rotation_rad / (2.0 * std::numbers::pi) + 0.5;
-    const int bin = std::clamp(static_cast<int>(turn * bins), 0, bins - 1);
-    bins_[bin].votes.push_back(v);
-    bins_[(bin + 1) % bins].votes.push_back(v);
-  }
+  FillBins();
   ranked_.clear();
-  for (int bin = 0; bin < bins; ++bin) {
-    CallWitnesses(&bins_[bin]);
-    for (int i = 0; i < static_cast<int>(bins_[bin].votes.size()); ++i) {
+  for (int bin = 0; bin < static_cast<int>(bins_.size()); ++bin) {
+    for (int i = bins_[bin].begin; i < bins_[bin].end; ++i) {
       const double votes = Supporters(bins_[bin], i, nullptr);
       if (votes >= options_.fewest_votes) ranked_.push_back({bin, i, votes});
     }
@@ -190,7 +212,7 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
   for (const Ranked& candidate : ranked_) {
     if (static_cast<int>(guesses->size()) >= options_.most_guesses) break;
     const Bin& bin = bins_[candidate.bin];
-    const Vote& seed = votes_[bin.votes[candidate.at]];
+    const Vote& seed = votes_[binned_[candidate.at]];
     members_.clear();
     Supporters(bin, candidate.at, &members_);
     BorderGuess guess;

@@ -72,18 +72,18 @@ class BorderSearch {
     double weight = 0.0;
   };
   void CastVotes();
-  /// A vote as the seed of a guess: where it stands in its bin, and what agrees with it.
+  /// A vote as the seed of a guess: its bin and place in binned_, and what agrees with it.
   struct Ranked {
     int bin, at;
     double votes;
   };
-  /// Votes whose turns are alike, sorted by their centres.
+  /// Votes whose turns are alike, sorted by their centres: where they stand in binned_.
   struct Bin {
-    std::vector<int> votes;
-    VoteWitnesses witnesses;
+    int begin = 0, end = 0;
   };
-  void CallWitnesses(Bin* bin);
-  /// The summed likeness of the votes of the bin that agree with one.
+  /// Sorts the votes into bins.
+  void FillBins();
+  /// The summed likeness of the votes of the bin that agree with the one at a place in binned_.
   double Supporters(const Bin& bin, int at, std::vector<int>* members);
   void Gather(std::vector<BorderGuess>* guesses);
   bool FitGuess(const std::vector<int>& members, const Vote& seed, BorderGuess* guess);
@@ -103,6 +103,8 @@ class BorderSearch {
   std::vector<int> members_;
   std::vector<std::pair<double, int>> by_centre_;
   std::vector<Bin> bins_;
+  std::vector<int> binned_;  ///< Each vote twice, bin after bin; and what tells whether they agree.
+  VoteWitnesses witnesses_;
   std::vector<std::array<Vec2, 4>> guessed_corners_;
 };
 

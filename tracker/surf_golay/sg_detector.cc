@@ -50,12 +50,12 @@ double Apart(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b) {
 }
 
 bool Inside(const std::array<Vec2, 4>& quad, Vec2 point) {
-  int sides = 0;
-  for (int i = 0; i < 4; ++i) {
+  const auto right_of = [&](int i) {
     const Vec2 along = quad[(i + 1) % 4] - quad[i], to = point - quad[i];
-    sides += along.x * to.y - along.y * to.x > 0.0 ? 1 : -1;
-  }
-  return sides == 4 || sides == -4;
+    return along.x * to.y - along.y * to.x > 0.0;
+  };
+  const bool first = right_of(0);
+  return right_of(2) == first && right_of(1) == first && right_of(3) == first;
 }
 
 Vec2 CentreOf(const std::array<Vec2, 4>& quad) {
@@ -142,8 +142,7 @@ bool SgDetector::Taken(const Mat3& modules_from_ideal) const {
   const std::array<Vec2, 4> corners = SquareCornersIdeal(modules_from_ideal);
   const Vec2 centre = CentreOf(corners);
   return std::any_of(found_.begin(), found_.end(), [&](const Found& found) {
-    const std::array<Vec2, 4> other = SquareCornersIdeal(found.reading.modules_from_ideal);
-    return Inside(other, centre) || Inside(corners, CentreOf(other));
+    return Inside(found.corners_ideal, centre) || Inside(corners, CentreOf(found.corners_ideal));
   });
 }
 
@@ -151,16 +150,16 @@ bool SgDetector::Add(const SgReading& reading, DetectionPath path) {
   // Two prints cannot lie in one place: the one of which more is seen is there.
   const std::array<Vec2, 4> corners = SquareCornersIdeal(reading.modules_from_ideal);
   for (Found& found : found_) {
-    const std::array<Vec2, 4> other = SquareCornersIdeal(found.reading.modules_from_ideal);
+    const std::array<Vec2, 4>& other = found.corners_ideal;
     if (!Inside(other, CentreOf(corners)) && !Inside(corners, CentreOf(other))) continue;
     if (reading.margin * reading.visible_fraction >
         found.reading.margin * found.reading.visible_fraction) {
-      found = {reading, path};
+      found = {reading, path, corners};
       return true;
     }
     return false;
   }
-  found_.push_back({reading, path});
+  found_.push_back({reading, path, corners});
   return true;
 }
 

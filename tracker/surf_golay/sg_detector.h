@@ -44,6 +44,7 @@ class SgDetector final : public MarkerDetector {
   struct Found {
     SgReading reading;
     DetectionPath path = DetectionPath::kFast;
+    std::array<Vec2, 4> corners_ideal;
   };
   /// A marker of the frames before.
   struct Known {

@@ -26,8 +26,9 @@ constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 
 constexpr double kMostPlainBlur_px = 1.2;
 /// Share of a print that lies open: what covers one side only can draw the fit to its own edge.
 constexpr double kPlainVisible = 0.985;
-/// A step of the fit this short is the last one; of a print of 200 px one of 0.05 px was not.
-constexpr double kPlainDone_px = 0.02;
+/// A step of the fit this short is the last one; of a print of 200 px one of 0.05 px was not. Below
+/// 40 px, where noise moves corners by more, it is: most of fifty markers take one step then.
+constexpr double kPlainDone_px = 0.02, kSmallPlain_px = 40.0, kSmallPlainDone_px = 0.05;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
@@ -226,6 +227,7 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
   const double scale = window.Scale();
   state.blur_px = std::max(guess.blur_px, kFollowBlur_px * scale);
   BlockFitOptions options;
+  options.tell_blocks = false;
   options.steps = kFollowSteps;
   options.done_px = 0.1;
   if (!fit_.Run(Print(number), PrintPart::kWhole, seen_,
@@ -312,8 +314,10 @@ std::optional<SgReading> SgReader::ReadPlain(const BlockFitState& guess) {
   const SoftGolayDecoding decoding = decoder_.Decode(*cells);
   if (decoding.disagreements > 0) return std::nullopt;
   windows_.SetHalvingsForNoise(0);
+  const bool small = windows_.SidePx(guess.modules_from_ideal) < kSmallPlain_px;
   std::optional<SgReading> reading =
-      Measure(decoding.number, {guess.modules_from_ideal, plain_blur_px_}, kPlainDone_px);
+      Measure(decoding.number, {guess.modules_from_ideal, plain_blur_px_},
+              small ? kSmallPlainDone_px : kPlainDone_px);
   if (!reading || reading->visible_fraction < kPlainVisible) return std::nullopt;
   plain_blur_px_ = std::min(reading->blur_px, kMostPlainBlur_px);
   reading->margin = decoding.margin;
@@ -363,6 +367,7 @@ bool SgReader::FitContent(int number, BlockFitState* state) {
     KeepContent(window, state->modules_from_ideal);
     const double side = windows_.SidePx(state->modules_from_ideal);
     BlockFitOptions options;
+    options.tell_blocks = false;
     options.steps = kContentSteps;
     BlockFitState fitted = *state;
     if (detail == Detail::kCoarse) {
@@ -408,6 +413,7 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   BlockFitOptions options;
   options.steps = 5;
   options.fit_blur = true;
+  options.tell_blocks = false;
   options.done_px = done_px;
   const int blocks = BlockFit::BlocksAlong(1.2 * side / window.Scale(), kFineBlock_px);
   if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state)) {
@@ -459,10 +465,10 @@ void SgReader::Finish(const BlockFit& fit, const BlockFitState& state, SgReading
     }
   }
   const std::array<double, 64> motion = fit.MotionCovariance();
+  const Eigen::Matrix<double, 8, 8> by_motion = corners_by_motion.lazyProduct(
+      Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(motion.data()));
   Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(reading->corner_covariance_px2.data()) =
-      corners_by_motion *
-          Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(motion.data()) *
-          corners_by_motion.transpose() +
+      by_motion.lazyProduct(corners_by_motion.transpose()) +
       kSystematicCorner_px * kSystematicCorner_px * Eigen::Matrix<double, 8, 8>::Identity();
 }
 
