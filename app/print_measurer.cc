@@ -1,30 +1,59 @@
 #include "app/print_measurer.h"
 
-#include <optional>
+#include <cstddef>
+#include <utility>
 
 #include "app/scene_marker.h"
 #include "base/units.h"
+#include "compositor/parallel_for.h"
 #include "tracker/planar_pose.h"
-#include "tracker/print_alignment.h"
 
 namespace pleinair::app {
 
-std::vector<tracker::Sighting> PrintMeasurer::Measure(ImageView<const std::uint8_t> grey,
-                                                      std::vector<tracker::Sighting> sightings) {
-  for (tracker::Sighting& sighting : sightings) {
-    if (sighting.detection.family == kSgFamily) MeasureOne(grey, &sighting);
+void PrintMeasurer::Measure(std::span<Seen> frames) {
+  for (const Seen& seen : frames) {
+    for (const tracker::Sighting& sighting : seen.sightings) {
+      const MarkerName name{sighting.detection.family, sighting.detection.id};
+      if (name.family != kSgFamily) continue;
+      Marker& marker = markers_[name];
+      if (!marker.pattern) marker.pattern = PatternOf(name);
+    }
   }
-  return sightings;
+  std::vector<Alignments> alignments(frames.size());
+  compositor::ParallelFor(frames.size(), 0,
+                          [&](std::size_t i) { alignments[i] = Align(frames[i]); });
+  // Each pose leans on the one before.
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (std::size_t k = 0; k < frames[i].sightings.size(); ++k) {
+      tracker::Sighting& sighting = frames[i].sightings[k];
+      if (sighting.detection.family == kSgFamily) TakeOver(alignments[i][k], &sighting);
+    }
+  }
 }
 
-void PrintMeasurer::MeasureOne(ImageView<const std::uint8_t> grey, tracker::Sighting* sighting) {
+std::vector<tracker::Sighting> PrintMeasurer::Measure(ImageView<const std::uint8_t> grey,
+                                                      std::vector<tracker::Sighting> sightings) {
+  Seen seen{grey, std::move(sightings)};
+  Measure({&seen, 1});
+  return std::move(seen.sightings);
+}
+
+PrintMeasurer::Alignments PrintMeasurer::Align(const Seen& seen) const {
+  Alignments alignments(seen.sightings.size());
+  for (std::size_t k = 0; k < alignments.size(); ++k) {
+    const tracker::MarkerDetection& detection = seen.sightings[k].detection;
+    if (detection.family != kSgFamily) continue;
+    const Marker& marker = markers_.at({detection.family, detection.id});
+    alignments[k] = tracker::AlignPrint(camera_, *marker.pattern, seen.grey, detection.corners_px,
+                                        {detection.visibility_side, detection.visibility});
+  }
+  return alignments;
+}
+
+void PrintMeasurer::TakeOver(const std::optional<tracker::PrintAlignment>& alignment,
+                             tracker::Sighting* sighting) {
   tracker::MarkerDetection& detection = sighting->detection;
-  const MarkerName name{detection.family, detection.id};
-  Marker& marker = markers_[name];
-  if (!marker.pattern) marker.pattern = PatternOf(name);
-  const std::optional<tracker::PrintAlignment> alignment =
-      tracker::AlignPrint(camera_, *marker.pattern, grey, detection.corners_px,
-                          {detection.visibility_side, detection.visibility});
+  Marker& marker = markers_.at({detection.family, detection.id});
   if (alignment) {
     const std::optional<tracker::PoseEstimate> pose = tracker::EstimatePlanarPose(
         camera_, alignment->corners_px, alignment->corner_covariance_px2, Metres(marker_size_m_),

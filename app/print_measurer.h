@@ -3,11 +3,14 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "app/session.h"
 #include "base/camera_model.h"
 #include "base/image.h"
+#include "tracker/print_alignment.h"
 #include "tracker/print_pattern.h"
 #include "tracker/sighting.h"
 
@@ -22,14 +25,25 @@ class PrintMeasurer {
   PrintMeasurer(const CameraModel& camera, double marker_size_m)
       : camera_(camera), marker_size_m_(marker_size_m) {}
 
-  /// What the tracker saw in a frame, with better corners and poses; frames come in order. Where a
-  /// print does not bear out the alignment, since too little of it is seen, its sighting stays as
-  /// it is.
+  /// What the tracker saw in a frame.
+  struct Seen {
+    ImageView<const std::uint8_t> grey;
+    std::vector<tracker::Sighting> sightings;
+  };
+
+  /// Gives what the tracker saw better corners and poses; frames come in order, and several at once
+  /// are aligned on as many threads as there are processors, with the same results. Where a print
+  /// does not bear out the alignment, since too little of it is seen, its sighting stays as it is.
+  void Measure(std::span<Seen> frames);
   std::vector<tracker::Sighting> Measure(ImageView<const std::uint8_t> grey,
                                          std::vector<tracker::Sighting> sightings);
 
  private:
-  void MeasureOne(ImageView<const std::uint8_t> grey, tracker::Sighting* sighting);
+  using Alignments = std::vector<std::optional<tracker::PrintAlignment>>;
+
+  Alignments Align(const Seen& seen) const;
+  void TakeOver(const std::optional<tracker::PrintAlignment>& alignment,
+                tracker::Sighting* sighting);
 
   struct Marker {
     std::shared_ptr<const tracker::PrintPattern> pattern;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <memory>
 #include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "app/frames_ahead.h"
 #include "app/interrupt.h"
 #include "app/paths/observed_path.h"
 #include "app/paths/path_files.h"
@@ -19,6 +21,7 @@
 #include "app/scene_marker.h"
 #include "app/scene_renderer.h"
 #include "app/session.h"
+#include "app/sinks/composite_writer.h"
 #include "app/sinks/detections_writer.h"
 #include "app/sinks/output_folder.h"
 #include "app/sinks/path_export.h"
@@ -43,6 +46,16 @@ constexpr int kReportJpegQuality = 85;
 constexpr std::size_t kLightFrames = 8;
 // Within half a minute about the middle the sun moves an eighth of a degree.
 constexpr std::int64_t kOneSunNs = 30'000'000'000;
+
+// Frames whose prints are measured at once: enough for all processors, few enough for memory.
+constexpr std::size_t kMeasuredTogether = 8;
+
+/// A frame between tracking and measuring.
+struct TrackedFrame {
+  devices::Frame frame;
+  std::vector<tracker::Sighting> sightings;
+  std::vector<tracker::LostMarker> lost;
+};
 
 /// One replay from opening to report; its members are what the two passes share.
 class Replayer {
@@ -103,7 +116,7 @@ class Replayer {
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
     PLEINAIR_RETURN_IF_ERROR(LookAtLight());
     PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
-    PLEINAIR_RETURN_IF_ERROR(ComposeFrames(recording));
+    PLEINAIR_RETURN_IF_ERROR(ComposeFrames(std::move(recording.frames)));
     PLEINAIR_RETURN_IF_ERROR(DrawDay());
     PLEINAIR_RETURN_IF_ERROR(WriteReports());
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
@@ -120,10 +133,10 @@ class Replayer {
     return SystemError(options_.recording.string(), "interrupted", "nothing was written");
   }
 
-  /// The next frame, timed; nothing at the end.
-  Result<std::optional<devices::Frame>> NextFrame(devices::Recording& recording) {
+  /// The next frame; nothing at the end.
+  Result<std::optional<devices::Frame>> NextFrame(FramesAhead& frames) const {
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
-    return times_.Measure("read", [&] { return recording.frames->Next(); });
+    return frames.Next();
   }
 
   /// A frame's moment must be one that UtcTime reaches; some videos' stamps run for centuries.
@@ -142,32 +155,58 @@ class Replayer {
     PLEINAIR_ASSIGN_OR_RETURN(auto detections,
                               DetectionsWriter::Create(folder_.staging() / "detections.jsonl"));
     PrintMeasurer measurer(recording.camera, scene_.marker.size_m);
-    ProgressBar bar("Finding markers", recording.frames->FrameCount());
-    while (true) {
-      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(recording));
-      if (!frame) break;
-      PLEINAIR_RETURN_IF_ERROR(CheckMoment(*frame));
-      PLEINAIR_ASSIGN_OR_RETURN(auto sightings, times_.Measure("track", [&] {
-        return tracker.Track(frame->grey.view());
-      }));
-      sightings = times_.Measure(
-          "measure", [&] { return measurer.Measure(frame->grey.view(), std::move(sightings)); });
-      session_->AddFrame(frame->index, frame->timestamp_ns, sightings);
-      std::string line =
-          DetectionsWriter::Line(frame->index, frame->timestamp_ns, sightings, tracker.Lost());
-      PLEINAIR_RETURN_IF_ERROR(detections.Add(line));
-      if (options_.exports.contains(PathFormat::kMcap)) {
-        markers_seen_.push_back({frame->timestamp_ns, std::move(line)});
+    FramesAhead frames(std::move(recording.frames));
+    ProgressBar bar("Finding markers", frames.FrameCount());
+    std::vector<TrackedFrame> tracked;
+    for (bool more = true; more;) {
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(frames));
+      more = frame.has_value();
+      if (more) {
+        PLEINAIR_RETURN_IF_ERROR(CheckMoment(*frame));
+        PLEINAIR_ASSIGN_OR_RETURN(auto sightings, times_.Measure("track", [&] {
+          return tracker.Track(frame->grey.view());
+        }));
+        tracker_warnings_.Add(frame->index, tracker.Warnings());
+        lost_frames_ += frame->lost_before;
+        tracked.push_back({*std::move(frame), std::move(sightings), tracker.Lost()});
       }
-      tracker_warnings_.Add(frame->index, tracker.Warnings());
-      lost_frames_ += frame->lost_before;
-      bar.Advance();
+      if (more && tracked.size() < kMeasuredTogether) continue;
+      PLEINAIR_RETURN_IF_ERROR(TakeTracked(tracked, measurer, detections));
+      for (std::size_t i = 0; i < tracked.size(); ++i) bar.Advance();
+      tracked.clear();
     }
+    times_.Add(frames.Finish());
     PLEINAIR_RETURN_IF_ERROR(detections.Finish());
     report_.outputs.emplace_back("detections.jsonl");
     report_.frames = session_->frames();
     if (report_.frames == 0) {
       return InputError(options_.recording.string(), "holds no frames", "record it again");
+    }
+    return {};
+  }
+
+  /// Measures tracked frames and keeps what is found.
+  Result<void> TakeTracked(const std::vector<TrackedFrame>& tracked, PrintMeasurer& measurer,
+                           DetectionsWriter& detections) {
+    std::vector<PrintMeasurer::Seen> seen;
+    for (const TrackedFrame& frame : tracked) {
+      seen.push_back({frame.frame.grey.view(), frame.sightings});
+    }
+    StageTimes together;
+    together.Measure("measure", [&] {
+      measurer.Measure(seen);
+      return 0;
+    });
+    for (std::size_t i = 0; i < tracked.size(); ++i) {
+      const devices::Frame& frame = tracked[i].frame;
+      times_.Add("measure", together.Summarize()[0].total_ms / static_cast<double>(tracked.size()));
+      session_->AddFrame(frame.index, frame.timestamp_ns, seen[i].sightings);
+      std::string line = DetectionsWriter::Line(frame.index, frame.timestamp_ns, seen[i].sightings,
+                                                tracked[i].lost);
+      PLEINAIR_RETURN_IF_ERROR(detections.Add(line));
+      if (options_.exports.contains(PathFormat::kMcap)) {
+        markers_seen_.push_back({frame.timestamp_ns, std::move(line)});
+      }
     }
     return {};
   }
@@ -228,9 +267,10 @@ class Replayer {
     const std::vector<std::size_t> chosen = LightFrames();
     if (chosen.empty() || !renderer_->CanMeasureLight()) return {};
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenRecording());
+    FramesAhead frames(std::move(recording.frames));
     ProgressBar bar("Reading the light", static_cast<std::int64_t>(chosen.size()));
     for (auto next = chosen.begin(); next != chosen.end();) {
-      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(recording));
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(frames));
       if (!frame) break;
       const Observation& at = report_.path[*next];
       if (frame->index != at.frame_index) continue;
@@ -242,6 +282,7 @@ class Replayer {
       });
       bar.Advance();
     }
+    times_.Add(frames.Finish());
     times_.Measure("settle light", [&] {
       renderer_->SettleLight();
       return 0;
@@ -276,8 +317,9 @@ class Replayer {
     }
   }
 
-  Result<void> ComposeFrames(devices::Recording& recording) {
+  Result<void> ComposeFrames(std::unique_ptr<devices::FrameSource> source) {
     std::unique_ptr<VideoWriter> video;
+    fs::path pictures;
     if (options_.write_video) {
       PLEINAIR_ASSIGN_OR_RETURN(
           video, VideoWriter::Create(folder_.staging() / "composite.mp4",
@@ -291,12 +333,15 @@ class Replayer {
     }
     if (options_.write_frames) {
       PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("frames"));
+      pictures = folder_.staging() / "frames";
       report_.outputs.emplace_back("frames/%04d.png");
     }
+    FramesAhead frames(std::move(source));
+    CompositeWriter writer(std::move(pictures), std::move(video));
     auto pose = report_.path.begin();
     ProgressBar bar("Composing", report_.frames);
     for (std::int64_t count = 0;; ++count) {
-      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(recording));
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(frames));
       if (!frame && count != report_.frames) {
         return InputError(options_.recording.string(), "changed while it was being replayed",
                           "replay it again when nothing writes to it");
@@ -308,10 +353,16 @@ class Replayer {
       if (pose != report_.path.end() && pose->frame_index == frame->index) {
         PLEINAIR_ASSIGN_OR_RETURN(composed, Render(*frame, *pose));
       }
-      PLEINAIR_RETURN_IF_ERROR(Write(*frame, composed ? *composed : frame->rgb, video.get()));
+      if (pictured_.contains(frame->index)) {
+        Picture(*frame, composed ? composed->view() : frame->rgb.view());
+      }
+      PLEINAIR_RETURN_IF_ERROR(writer.Add(frame->index, frame->timestamp_ns,
+                                          composed ? *std::move(composed) : std::move(frame->rgb)));
       bar.Advance();
     }
-    if (video) PLEINAIR_RETURN_IF_ERROR(video->Finish());
+    PLEINAIR_RETURN_IF_ERROR(writer.Finish());
+    times_.Add(frames.Finish());
+    times_.Add(writer.times());
     return {};
   }
 
@@ -329,20 +380,10 @@ class Replayer {
     return composed;
   }
 
-  Result<void> Write(const devices::Frame& frame, const RgbImage& composed, VideoWriter* video) {
-    if (pictured_.contains(frame.index)) {
-      report_.pictures.push_back(
-          {frame.index, EncodeJpeg(frame.rgb.view(), kReportPictureWidth_px, kReportJpegQuality),
-           EncodeJpeg(composed.view(), kReportPictureWidth_px, kReportJpegQuality)});
-    }
-    if (options_.write_frames) {
-      const fs::path file = folder_.staging() / "frames" / fmt::format("{:04}.png", frame.index);
-      PLEINAIR_RETURN_IF_ERROR(
-          times_.Measure("write picture", [&] { return WritePng(file, composed.view()); }));
-    }
-    if (video == nullptr) return {};
-    return times_.Measure("encode video",
-                          [&] { return video->Add(composed.view(), frame.timestamp_ns); });
+  void Picture(const devices::Frame& frame, ImageView<const std::uint8_t> composed) {
+    report_.pictures.push_back(
+        {frame.index, EncodeJpeg(frame.rgb.view(), kReportPictureWidth_px, kReportJpegQuality),
+         EncodeJpeg(composed, kReportPictureWidth_px, kReportJpegQuality)});
   }
 
   /// The observation whose camera the time-lapse looks through.
@@ -394,6 +435,9 @@ class Replayer {
     report_.outputs.emplace_back("report.json");
     report_.outputs.emplace_back("report.html");
     std::sort(report_.outputs.begin(), report_.outputs.end());
+    const std::chrono::duration<double, std::milli> taken =
+        std::chrono::steady_clock::now() - begun_;
+    times_.Add(kWholeReplay, taken.count());
     report_.timings = times_.Summarize();
     PLEINAIR_RETURN_IF_ERROR(
         WriteFileAtomically(folder_.staging() / "report.json", ReportJson(report_)));
@@ -411,6 +455,7 @@ class Replayer {
   std::set<std::int64_t> pictured_;
   TimeLapseMoments day_moments_;
   std::int64_t lost_frames_ = 0;
+  const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   StageTimes times_;
   ReplayReport report_;
 };

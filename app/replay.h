@@ -41,8 +41,9 @@ struct ReplayOptions {
 
 /// Composes a recording into a folder: composite.mp4, frames/, poses/, detections.jsonl,
 /// report.json and report.html, and the forms of the path that are asked for. Reads the recording
-/// thrice (markers, light, pictures), one frame in memory at a time. All outputs appear at the end;
-/// on an error nothing is left.
+/// thrice (markers, light, pictures), a dozen frames in memory at a time; reading,
+/// drawing and writing run beside each other, with the same results on any number of processors.
+/// All outputs appear at the end; on an error nothing is left.
 Result<ReplayReport> Replay(const ReplayOptions& options);
 
 /// The lens as it looks after resizing its pictures to `size`.

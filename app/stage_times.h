@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ class StageTimes {
     std::size_t runs = 0;
     double median_ms = 0.0;
     double p95_ms = 0.0;
+    double total_ms = 0.0;
   };
 
   void Add(const std::string& stage, double milliseconds) {
@@ -41,10 +43,18 @@ class StageTimes {
     return result;
   }
 
+  /// Adds what another thread measured.
+  void Add(const StageTimes& other) {
+    for (const auto& [name, samples] : other.stages_) {
+      for (const float sample : samples) Add(name, sample);
+    }
+  }
+
   std::vector<Summary> Summarize() const {
     std::vector<Summary> summaries;
     for (const auto& [name, samples] : stages_) {
-      summaries.push_back({name, samples.size(), Quantile(samples, 0.5), Quantile(samples, 0.95)});
+      summaries.push_back({name, samples.size(), Quantile(samples, 0.5), Quantile(samples, 0.95),
+                           std::accumulate(samples.begin(), samples.end(), 0.0)});
     }
     return summaries;
   }

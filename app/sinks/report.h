@@ -41,8 +41,16 @@ struct ReplayReport {
   std::vector<std::string> outputs;   ///< Relative to the output folder.
   std::vector<std::string> warnings;
   std::vector<ReportPicture> pictures;
-  std::vector<StageTimes::Summary> timings;
+  std::vector<StageTimes::Summary> timings;  ///< The last is the whole.
 };
+
+/// The last of a replay's stages: all of it, from the first frame's reading to the report.
+inline constexpr const char* kWholeReplay = "whole replay";
+
+/// Frames of the recording a second that a stage would do by itself. Stages run beside each other.
+inline double FramesPerSecond(const ReplayReport& report, const StageTimes::Summary& stage) {
+  return stage.total_ms > 0.0 ? 1000.0 * static_cast<double>(report.frames) / stage.total_ms : 0.0;
+}
 
 /// Figures of the camera's path as the report states them.
 struct PoseStatistics {

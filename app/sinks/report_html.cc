@@ -218,10 +218,12 @@ std::string ReportHtml(const ReplayReport& report) {
   if (!report.path.empty()) html += "<h2>Camera path</h2>\n" + Plots(report);
   html +=
       "<h2>Time per stage</h2>\n<table><tr><th>stage</th><th>runs</th><th>median, ms</th>"
-      "<th>95 %, ms</th></tr>\n";
+      "<th>95 %, ms</th><th>frames a second</th></tr>\n";
   for (const StageTimes::Summary& stage : report.timings) {
-    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
-                        EscapeHtml(stage.stage), stage.runs, stage.median_ms, stage.p95_ms);
+    html += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.1f}</td></tr>\n",
+        EscapeHtml(stage.stage), stage.runs, stage.median_ms, stage.p95_ms,
+        FramesPerSecond(report, stage));
   }
   return html + "</table>\n<script>" + kScript + "</script></body></html>\n";
 }

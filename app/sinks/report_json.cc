@@ -95,6 +95,19 @@ Json PosesJson(const ReplayReport& report) {
       {"lost", {{"frames", lost.frames}, {"longest", lost.longest}}}};
 }
 
+Json TimingsJson(const ReplayReport& report) {
+  Json timings = Json::array();
+  for (const StageTimes::Summary& stage : report.timings) {
+    timings.push_back({{"stage", stage.stage},
+                       {"runs", stage.runs},
+                       {"median_ms", Rounded(stage.median_ms)},
+                       {"p95_ms", Rounded(stage.p95_ms)},
+                       {"total_ms", Rounded(stage.total_ms)},
+                       {"frames_per_s", Rounded(FramesPerSecond(report, stage))}});
+  }
+  return timings;
+}
+
 }  // namespace
 
 std::string ReportJson(const ReplayReport& report) {
@@ -123,13 +136,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["video_encoder"] = report.video_encoder.empty() ? Json() : Json(report.video_encoder);
   json["outputs"] = report.outputs;
   json["warnings"] = report.warnings;
-  json["timings"] = Json::array();
-  for (const StageTimes::Summary& stage : report.timings) {
-    json["timings"].push_back({{"stage", stage.stage},
-                               {"runs", stage.runs},
-                               {"median_ms", Rounded(stage.median_ms)},
-                               {"p95_ms", Rounded(stage.p95_ms)}});
-  }
+  json["timings"] = TimingsJson(report);
   return Dump(json, 1) + "\n";
 }
 
@@ -141,6 +148,7 @@ std::string SummaryJson(const ReplayReport& report, const std::filesystem::path&
   json["marker"] = report.anchor ? Json(report.anchor->ToString()) : Json();
   json["outputs"] = report.outputs;
   json["warnings"] = report.warnings;
+  json["timings"] = TimingsJson(report);
   return Dump(json, -1);
 }
 

@@ -33,7 +33,7 @@ ReplayReport Example() {
   report.anchor = MarkerName{"tag36h11", 7};
   report.path = {At(0, 0.0), At(1, 0.1), At(2, 0.2)};
   report.warnings = {"<script>alert(1)</script>"};
-  report.timings = {{"track", 3, 1.5, 2.5}};
+  report.timings = {{"track", 3, 1.5, 2.5, 6.0}, {kWholeReplay, 1, 1500.0, 1500.0, 1500.0}};
   report.pictures = {{1, {1, 2, 3}, {4, 5, 6}}};
   return report;
 }
@@ -70,6 +70,9 @@ TEST(ReportJson, StatesThePathAndTheTimings) {
   EXPECT_EQ(json["marker"], "tag36h11_7");
   EXPECT_NEAR(json["poses"]["path_length_m"], 0.2, 1e-9);
   EXPECT_EQ(json["timings"][0]["p95_ms"], 2.5);
+  EXPECT_EQ(json["timings"][0]["frames_per_s"], 500.0) << "3 frames in 6 ms";
+  EXPECT_EQ(json["timings"][1]["stage"], "whole replay");
+  EXPECT_EQ(json["timings"][1]["frames_per_s"], 2.0);
   EXPECT_TRUE(json["light"].is_null());
 }
 

@@ -42,6 +42,8 @@ TEST(Replay, WritesEveryOutputOfACompositeWithItsObject) {
   EXPECT_NEAR(report["light"]["sun_elevation_deg"], 43.10, 0.01);
   EXPECT_NEAR(report["light"]["sun_azimuth_deg"], 182.46, 0.05);
   EXPECT_GT(report["timings"].size(), 4U);
+  EXPECT_EQ(report["timings"].back()["stage"], "whole replay");
+  EXPECT_EQ(summary["timings"], report["timings"]);
   const cv::Mat before = cv::imread(folder / "site/frames/0000.jpg");
   const cv::Mat after = cv::imread(folder / "deep/out/frames/0000.png");
   EXPECT_GT(cv::norm(before, after, cv::NORM_L1), 0.0);

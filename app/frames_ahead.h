@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "app/live/hand_over.h"
+#include "app/stage_times.h"
+#include "base/error.h"
+#include "devices/frame_source.h"
+
+namespace pleinair::app {
+
+/// Reads a recording's frames on a thread of its own, a few ahead of who asks for them.
+class FramesAhead {
+ public:
+  explicit FramesAhead(std::unique_ptr<devices::FrameSource> source)
+      : source_(std::move(source)), thread_([this] { Run(); }) {}
+  ~FramesAhead() { Finish(); }
+  FramesAhead(const FramesAhead&) = delete;
+  FramesAhead& operator=(const FramesAhead&) = delete;
+
+  std::optional<std::int64_t> FrameCount() const { return source_->FrameCount(); }
+
+  /// As FrameSource::Next().
+  Result<std::optional<devices::Frame>> Next() {
+    auto next = read_.Take();
+    if (!next) return std::optional<devices::Frame>();
+    return *std::move(next);
+  }
+
+  /// Reads no more. Gives the times that reading took.
+  const StageTimes& Finish() {
+    read_.Close();
+    if (thread_.joinable()) thread_.join();
+    return times_;
+  }
+
+ private:
+  static constexpr std::size_t kAhead = 3;
+
+  void Run() {
+    for (bool more = true; more;) {
+      auto frame = times_.Measure("read", [&] { return source_->Next(); });
+      more = frame.has_value() && frame->has_value();
+      if (!read_.Give(std::move(frame))) return;
+    }
+    read_.Close();
+  }
+
+  std::unique_ptr<devices::FrameSource> source_;
+  StageTimes times_;  // Of the thread, until it has ended.
+  HandOver<Result<std::optional<devices::Frame>>> read_{kAhead, WhenFull::kWait};
+  std::thread thread_;  // Last: it uses the others.
+};
+
+}  // namespace pleinair::app

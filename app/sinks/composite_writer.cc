@@ -1,0 +1,55 @@
+#include "app/sinks/composite_writer.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/sinks/picture_writer.h"
+
+namespace pleinair::app {
+
+CompositeWriter::CompositeWriter(std::filesystem::path pictures, std::unique_ptr<VideoWriter> video)
+    : pictures_(std::move(pictures)), video_(std::move(video)), thread_([this] { Run(); }) {}
+
+CompositeWriter::~CompositeWriter() { End(); }
+
+void CompositeWriter::End() {
+  items_.Close();
+  if (thread_.joinable()) thread_.join();
+}
+
+Result<void> CompositeWriter::Add(std::int64_t index, std::int64_t timestamp_ns,
+                                  RgbImage composed) {
+  if (items_.Give({index, timestamp_ns, std::move(composed)})) return {};
+  End();
+  return result_;
+}
+
+Result<void> CompositeWriter::Finish() {
+  End();
+  PLEINAIR_RETURN_IF_ERROR(result_);
+  if (!video_) return {};
+  return times_.Measure("encode video", [&] { return video_->Finish(); });
+}
+
+void CompositeWriter::Run() {
+  while (const std::optional<Item> item = items_.Take()) {
+    result_ = Write(*item);
+    if (result_) continue;
+    items_.Close();
+    return;
+  }
+}
+
+Result<void> CompositeWriter::Write(const Item& item) {
+  if (!pictures_.empty()) {
+    const std::filesystem::path file = pictures_ / fmt::format("{:04}.png", item.index);
+    PLEINAIR_RETURN_IF_ERROR(
+        times_.Measure("write picture", [&] { return WritePng(file, item.picture.view()); }));
+  }
+  if (!video_) return {};
+  return times_.Measure("encode video",
+                        [&] { return video_->Add(item.picture.view(), item.timestamp_ns); });
+}
+
+}  // namespace pleinair::app

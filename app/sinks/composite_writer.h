@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "app/live/hand_over.h"
+#include "app/sinks/video_writer.h"
+#include "app/stage_times.h"
+#include "base/error.h"
+#include "base/image.h"
+
+namespace pleinair::app {
+
+/// Writes composed frames as pictures and into a video, on a thread of its own while the next ones
+/// are drawn.
+class CompositeWriter {
+ public:
+  /// `pictures`: folder for 0000.png and so on; empty: none. `video`: null: none.
+  CompositeWriter(std::filesystem::path pictures, std::unique_ptr<VideoWriter> video);
+  ~CompositeWriter();
+  CompositeWriter(const CompositeWriter&) = delete;
+  CompositeWriter& operator=(const CompositeWriter&) = delete;
+
+  /// Takes the frames in order. Errors are those of a frame before.
+  Result<void> Add(std::int64_t index, std::int64_t timestamp_ns, RgbImage composed);
+
+  /// Waits until all is written and ends the video.
+  Result<void> Finish();
+
+  /// After Finish().
+  const StageTimes& times() const { return times_; }
+
+ private:
+  struct Item {
+    std::int64_t index = 0;
+    std::int64_t timestamp_ns = 0;
+    RgbImage picture;
+  };
+
+  // So many pictures may wait.
+  static constexpr std::size_t kWaiting = 3;
+
+  void Run();
+  Result<void> Write(const Item& item);
+  void End();
+
+  std::filesystem::path pictures_;
+  std::unique_ptr<VideoWriter> video_;
+  // Of the thread, until it has ended.
+  StageTimes times_;
+  Result<void> result_;
+  HandOver<Item> items_{kWaiting, WhenFull::kWait};
+  std::thread thread_;  // Last: it uses the others.
+};
+
+}  // namespace pleinair::app
