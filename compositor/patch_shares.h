@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "compositor/mesh_orientation.h"
+#include "compositor/surface_patches.h"
+
+namespace pleinair::compositor {
+
+/// Says whose light each vertex of a divided surface gets, and how much of it: fills in `shares`
+/// and `share_ends`. `widths_m`: of patches as they are meant to be, by vertex.
+void ShareLight(const SurfaceMesh& mesh, const std::vector<double>& widths_m, int threads,
+                SurfacePatches* patches);
+
+}  // namespace pleinair::compositor
