@@ -4,6 +4,7 @@
 
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
+#include "compositor/unmodelled_shade.h"
 
 namespace pleinair::app {
 
@@ -56,6 +57,12 @@ FoundLight LightLook::Settle() const {
   }
   found.heading = marker.heading;
   if (overrides_.sun_to_sky || reading.sun == Sun::kUnknown) return found;
+  const compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
+      *solver_, samples_, *day_, MarkerFromWorld(marker), reading.sky_scale);
+  if (reading.sun == Sun::kHidden && shade.CastBySun()) {
+    light.sun_doubtful = true;
+    return found;
+  }
   light.sun_source = MeasuredLight::Source::kMeasured;
   if (reading.sun == Sun::kHidden) {
     found.skies.source = OvercastSky();
@@ -64,7 +71,8 @@ FoundLight LightLook::Settle() const {
   const LinearRgb scale = WeighedScale(reading, scene_.cloudiness, &light.sun_to_sky_error);
   const LinearRgb share = day_->SkyHorizontalIrradiance() / day_->SunNormalIrradiance() * scale;
   const MeasuredSky measured = SkyWithShare(share, day_->ToSun(), sun_.distance_au);
-  found.skies = {measured.skies, measured.sky_scale};
+  found.skies = {measured.skies, measured.sky_scale, shade.Matters()};
+  light.shaded = shade.shaded;
   return found;
 }
 

@@ -38,6 +38,10 @@ struct MeasuredLight {
   Radians heading_error;           ///< One standard deviation.
   int frames = 0;                  ///< Looked at.
   int edges = 0, edges_agreeing = 0;
+  /// No shadow lies where phantoms would cast one, yet there are shadows: neither sun nor overcast
+  /// is concluded.
+  bool sun_doubtful = false;
+  double shaded = 0.0;  ///< Share of what the phantoms leave in the sun that lies in shade.
 };
 
 /// The skies of a day whose light was measured.

@@ -105,6 +105,13 @@ std::vector<std::string> LightWarnings(const MeasuredLight& light) {
                     "the scene says otherwise.",
                     light.edges_agreeing));
   }
+  if (light.sun_doubtful) {
+    warnings.push_back(fmt::format(
+        "No shadow lies where the phantoms would cast one ({} places looked at), but others lie "
+        "elsewhere: whether the sun shone is doubtful, and the sky stays as the scene says. Check "
+        "place, time and heading, or give --sun-to-sky.",
+        light.edges));
+  }
   const double turn_deg = ToDegrees(light.heading_offset);
   if (std::abs(turn_deg) > kNoticeableTurnDeg) {
     warnings.push_back(

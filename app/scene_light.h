@@ -24,6 +24,8 @@ sky::SunPosition SunOver(const devices::PlaceTime& place, UtcTime time);
 struct DaySkies {
   std::shared_ptr<const sky::SkySource> source;
   LinearRgb scale{1.0, 1.0, 1.0};  ///< To multiply the sky with; the sun stays.
+  /// Whether trees and the like may shade what the phantoms leave in the sun.
+  bool other_shade = true;
 };
 
 /// All that the light of a moment is made from; nothing in it changes meanwhile.

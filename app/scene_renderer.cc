@@ -183,6 +183,7 @@ Result<void> SceneRenderer::TakeLight(std::shared_ptr<const SceneLight> light) {
   const LinearRgb ground = sky + sun * std::max(0.0, light->sun.ToSun().xyz.z);
   const double white = scene_.marker.albedo_white / std::numbers::pi;
   guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
+  composer_->LookForShade(light->order.skies.other_shade);
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(light->meshes, daylight, marker_from_world));
   meter_ = light->meter;
   solver_ = light->order.solver;

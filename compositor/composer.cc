@@ -78,6 +78,7 @@ class GlComposer : public Composer {
                            const Transform<Camera, Marker>& camera_from_marker,
                            LinearRgb gain) override;
   void SetMarkerBoard(double board_size_m) override { board_size_m_ = board_size_m; }
+  void LookForShade(bool look) override { looks_for_shade_ = look; }
   Result<void> SetLook(const std::optional<PictureLook>& look) override {
     PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
     look_ = look;
@@ -109,6 +110,7 @@ class GlComposer : public Composer {
   CameraPicture picture_;
   std::optional<PictureLook> look_;
   double board_size_m_ = 0.0;
+  bool looks_for_shade_ = true;
   gl::GlTexture environment_;
   gl::GlProgram depth_program_;
   // With shadows of one step of the sun, and of two that fade into one another, without and with
@@ -256,7 +258,10 @@ void GlComposer::DrawPhantoms(const SurfacePrograms& programs, const Frame& fram
     if (change == Change::kSun) {
       program.Set("u_board_half_m", static_cast<float>(board_size_m_ / 2));
     }
-    surfaces_.DrawPhantoms(change, change == Change::kSun ? &program : nullptr);
+    const bool look = change == Change::kSun && looks_for_shade_;
+    // A surface whose colour is not known is taken to lie in the sun.
+    if (change == Change::kSun && !look) program.Set("u_green_albedo", 0.0F);
+    surfaces_.DrawPhantoms(change, look ? &program : nullptr);
   }
 }
 

@@ -73,6 +73,11 @@ class Composer {
   /// Edge of the white board that the marker is printed on, where no phantom's colour counts.
   virtual void SetMarkerBoard(double board_size_m) = 0;
 
+  /// Whether what no phantom stands for, trees say, may shade what the phantoms leave in the sun
+  /// (the default): then pictures are asked how much of it is there, and only that is taken away.
+  /// Where nothing does, asking costs: dark joints and edges look a little shaded.
+  virtual void LookForShade(bool look) = 0;
+
   /// Blur and grain that drawn pixels get from now on, those of the camera's own; nothing: as
   /// sharp and clean as they are drawn. Blur that the drawing has anyway (half a pixel's width) is
   /// not added again, and noise below two steps of 8 bits is left out.

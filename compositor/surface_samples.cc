@@ -63,6 +63,7 @@ void SurfaceSamples::AddSpot(Point<Marker> point, Vec3 normal, int surface, doub
   SurfaceSample sample;
   sample.point = point;
   sample.normal = normal;
+  sample.surface = surface;
   sample.footprint_m = distance_m / std::max(1.0, std::min(camera_.fx, camera_.fy));
   const int level = static_cast<int>(
       std::lround(std::log2(std::max(kCellPx * sample.footprint_m, kSmallestCellM))));

@@ -21,6 +21,7 @@ struct SurfaceSample {
   Vec3 normal;
   double footprint_m = 0.0;         ///< Edge of a pixel where it was first seen.
   std::array<double, 3> log_rgb{};  ///< Mean logarithm of linear light over the frame's gain.
+  int surface = 0;                  ///< PhantomSurface's; below 0: the print's white.
   std::uint32_t cell = 0;           ///< Spots of one cell: neighbours on one material and plane.
   int frames = 0;                   ///< That show it unclipped.
 };

@@ -43,7 +43,9 @@ Json MeasuredJson(const MeasuredLight& light) {
           {"heading_from", SourceName(light.heading_source)},
           {"frames", light.frames},
           {"shadow_edges", light.edges},
-          {"shadow_edges_agreeing", light.edges_agreeing}};
+          {"shadow_edges_agreeing", light.edges_agreeing},
+          {"sun_doubtful", light.sun_doubtful},
+          {"shaded_without_phantom", Rounded(light.shaded)}};
 }
 
 /// Noise as its standard deviation at a medium light, in thousandths of the brightest.

@@ -10,9 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "app/ciede2000.h"
 #include "base/srgb.h"
 #include "tests/accuracy/key_frame.h"
 #include "tests/e2e/run_program.h"
@@ -160,6 +162,68 @@ TEST_F(CompositeOfCourtyardMidday, LooksLikeThePathTracedTruth) {
   EXPECT_GT(untouched.Mean().object, 10.0);
   EXPECT_GT(untouched.Mean().shadow, 10.0);
   EXPECT_GT(unlit.Mean().object, 10.0);
+}
+
+/// Mean colour of a picture over level places of the scene, [x, y] in marker coordinates.
+app::Lab MeanColour(const cv::Mat& picture, const json& camera, const json& pose,
+                    const std::vector<std::array<double, 2>>& places) {
+  std::array<double, 3> sum{};
+  const json& r = pose["rotation"];
+  const json& t = pose["translation_m"];
+  for (const auto& [x, y] : places) {
+    std::array<double, 3> at{};
+    for (int row = 0; row < 3; ++row) {
+      at[row] =
+          r[3 * row].get<double>() * x + r[3 * row + 1].get<double>() * y + t[row].get<double>();
+    }
+    const double u = camera["fx"].get<double>() * at[0] / at[2] + camera["cx"].get<double>();
+    const double v = camera["fy"].get<double>() * at[1] / at[2] + camera["cy"].get<double>();
+    const cv::Vec3b& bgr =
+        picture.at<cv::Vec3b>(static_cast<int>(std::lround(v)), static_cast<int>(std::lround(u)));
+    for (int c = 0; c < 3; ++c) sum[c] += LinearFromSrgb(bgr[2 - c] / 255.0);
+  }
+  const auto code = [&](int c) {
+    return Srgb8FromLinear(sum[c] / static_cast<double>(places.size()));
+  };
+  return app::LabFromSrgb8({code(0), code(1), code(2)});
+}
+
+TEST_F(CompositeOfCourtyardMidday, ShowsWhitePaperBesideTheMarkersWhiteAsWhiteAsThat) {
+  const e2e::TemporaryFolder folder;
+  MakeRecordingWithoutTruth(folder / "site", kKeyFrames, kJpegFrames);
+  const json scene = json::parse(e2e::ReadFile(folder / "site/scene.json"));
+  const double white = scene["marker"]["albedo_white"];
+  // A sheet as large as a hand, at the left of the board, in the print's own white.
+  e2e::WriteFile(folder / "site/object.obj",
+                 "mtllib object.mtl\nusemtl paper\nv -0.50 -0.2 0.003\nv -0.32 -0.2 0.003\n"
+                 "v -0.32 0.2 0.003\nv -0.50 0.2 0.003\nf 1 2 3 4\n");
+  e2e::WriteFile(folder / "site/object.mtl",
+                 fmt::format("newmtl paper\nKd {0} {0} {0}\nillum 1\n", white));
+  const e2e::RunResult run =
+      e2e::RunPleinair({"replay", folder / "site", "-o", folder / "out", "--frames", "--no-video"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::vector<std::array<double, 2>> paper, print;
+  for (double y = -0.17; y < 0.175; y += 0.02) {
+    for (const double x : {-0.46, -0.43, -0.40, -0.37}) paper.push_back({x, y});
+    for (const double x : {-0.28, -0.275, -0.27}) print.push_back({x, y});
+  }
+  std::istringstream lines(e2e::ReadFile(folder / "out/detections.jsonl"));
+  std::string line;
+  for (std::size_t i = 0; i < kKeyFrames.size(); ++i) {
+    ASSERT_TRUE(std::getline(lines, line));
+    const json pose = json::parse(line)["markers"].at(0)["camera_from_marker"];
+    const cv::Mat picture = cv::imread(folder / fmt::format("out/frames/{:04}.png", i));
+    ASSERT_FALSE(picture.empty());
+    const app::Lab ours = MeanColour(picture, scene["intrinsics"], pose, paper);
+    const app::Lab printed = MeanColour(picture, scene["intrinsics"], pose, print);
+    const double difference = app::Ciede2000(ours, printed);
+    fmt::print("frame {:04}: white paper beside the marker's white, CIEDE2000 {:.2f}\n",
+               kKeyFrames[i], difference);
+    EXPECT_LT(difference, 3.0);
+    // And it is there: the paving under it is far from white.
+    const cv::Mat before = cv::imread(folder / fmt::format("site/frames/{:04}.jpg", i));
+    EXPECT_GT(app::Ciede2000(MeanColour(before, scene["intrinsics"], pose, paper), printed), 10.0);
+  }
 }
 
 // To the right of the object and its shadow stands a real pole, whose outline is where light could

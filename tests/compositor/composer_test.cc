@@ -83,13 +83,15 @@ const PlacedModel kCube = Place(MakeBox({-0.15, -0.15, 0.001}, {0.15, 0.15, 0.3}
 
 RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
                  const CameraModel& camera = kCamera, double sun_lux = kSunLux,
-                 ComposerOptions options = {}, const std::optional<PictureLook>& look = {}) {
+                 ComposerOptions options = {}, const std::optional<PictureLook>& look = {},
+                 bool look_for_shade = true) {
   LightSolverOptions solver_options;
   solver_options.rays_per_vertex = 64;
   const auto solver = LightSolver::Create(scene, solver_options);
   if (!solver) ADD_FAILURE() << solver.error().Message();
   auto composer = Composer::Create(camera, scene, options);
   if (!composer) ADD_FAILURE() << composer.error().Message();
+  (*composer)->LookForShade(look_for_shade);
   const SouthernSun light(sun_lux);
   const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{});
   if (!set) ADD_FAILURE() << set.error().Message();
@@ -167,6 +169,25 @@ TEST(Composer, NeverDarkensARealShadowTwice) {
   // Darkened by a shadow of the cube's own it would keep a quarter.
   EXPECT_NEAR(SeenAt(composed, {0, 0.35, 0}) / before, 0.95, 0.1);
   EXPECT_NEAR(SeenAt(composed, {0, 0.8, 0}) / before, 1.0, 0.04);
+}
+
+TEST(Composer, DarkensNothingThatATreeShadesAlready) {
+  // West of the middle the ground lies in the shade of something that no phantom stands for.
+  const double lit = 0.3 * 0.8;
+  const double shade = lit * kSkyLux / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
+  RgbImage picture = EvenPicture(Srgb8FromLinear(lit));
+  for (int y = 0; y < picture.height(); ++y) {
+    std::fill_n(picture.view().row(y), 3 * picture.width() / 2, Srgb8FromLinear(shade));
+  }
+  // Both in the cube's shadow, clear of the tree's edge.
+  const Vec3 sunlit{0.08, 0.32, 0.0}, shaded{-0.08, 0.32, 0.0};
+  const RgbImage composed = Compose({kGround, kCube}, picture);
+  EXPECT_LT(SeenAt(composed, sunlit), 1.1 * shade);
+  EXPECT_GT(SeenAt(composed, shaded), 0.75 * shade) << "the cube takes some of the sky";
+  // Where pictures are not asked, the tree's shade is darkened as sunlit ground is.
+  const RgbImage unasked = Compose({kGround, kCube}, picture, kCamera, kSunLux, {}, {}, false);
+  EXPECT_NEAR(SeenAt(unasked, sunlit), SeenAt(composed, sunlit), 0.02);
+  EXPECT_LT(SeenAt(unasked, shaded), 0.4 * shade);
 }
 
 TEST(Composer, ShadesTheObjectWhereARealWallKeepsTheSunFromIt) {

@@ -112,6 +112,30 @@ TEST(LightMeter, TakesTheSunlitPartWhenAnUnknownShadowCrossesThePrint) {
   ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
 }
 
+TEST(LightMeter, TakesTheBrightestSpotsUnderLeaves) {
+  // Leaves leave between a quarter and all of the sun, and no edge divides light from shade.
+  RgbImage picture = Photograph(kGain, -1.0);
+  double mean = 0.0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const double leaves = std::sin(0.31 * x + 0.05 * y) * std::sin(0.23 * y - 0.08 * x);
+      const double sun = std::clamp(0.7 + 0.45 * leaves, 0.25, 1.0);
+      const double share = (kAmbientLux + sun * kSunLux) / (kAmbientLux + kSunLux);
+      mean += share / (picture.width() * picture.height());
+      for (int c = 0; c < 3; ++c) {
+        picture(x, y, c) = Srgb8FromLinear(LinearFromSrgb8()[picture(x, y, c)] * share);
+      }
+    }
+  }
+  ASSERT_LT(mean, 0.8) << "the middle of the light is far below the sun";
+  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ASSERT_TRUE(reading);
+  EXPECT_GT(reading->spread, 0.10);
+  EXPECT_NEAR(reading->gain.r / kGain.r, 1.0, 0.08);
+  EXPECT_NEAR(reading->gain.g / kGain.g, 1.0, 0.08);
+  EXPECT_NEAR(reading->gain.b / kGain.b, 1.0, 0.08);
+}
+
 TEST(LightMeter, CancelsVeilingGlare) {
   const RgbImage picture = Photograph(kGain, -1.0, 0.05);
   ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);

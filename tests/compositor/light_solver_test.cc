@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "compositor/coefficient_worker.h"
+#include "sky/daylight.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {
@@ -226,6 +227,31 @@ TEST(LightSolver, TintsTheGroundBesideASunlitRedWall) {
   const FoundVertex near = Nearest(meshes, {0.3, 0.0, 0.0}, kUp);
   EXPECT_GT(near.with[0], 2.0F * near.with[1]);
   EXPECT_NEAR(near.without[0], near.without[1], 1e-3F * near.without[1]);
+}
+
+TEST(LightSolver, WarmsTheSunsSideOfABodyAtDawnAndLeavesTheOtherBlue) {
+  // Grey all over, under the clear sky that scenes get, the sun 4 degrees high in the east.
+  const auto sky = sky::CreateDaylight({sky::SkyCondition::kClear, 0.0});
+  const double elevation = 4.0 * kPi / 180.0;
+  const Vec3 to_sun{std::cos(elevation), 0.0, std::sin(elevation)};
+  const auto day = sky->ForSun({to_sun}, 1.0);
+  const auto meshes =
+      MakeSolver({Phantom(Ground(3.0, {0.3F, 0.3F, 0.3F})),
+                  Object(BoxModel({-0.2, -0.2, 0.0}, {0.2, 0.2, 0.6}, {0.5F, 0.5F, 0.5F}))})
+          ->Solve(*day, Mat3{});
+  const auto light_on = [&](Vec3 point, Vec3 normal) {
+    const FoundVertex at = Nearest(meshes, point, normal);
+    EXPECT_LT(at.distance_m, 0.05);
+    const LinearRgb sky_and_ground{at.with[0], at.with[1], at.with[2]};
+    return sky_and_ground + day->SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun));
+  };
+  const LinearRgb sunny = light_on({0.2, 0.0, 0.4}, {1, 0, 0});
+  const LinearRgb shady = light_on({-0.2, 0.0, 0.4}, {-1, 0, 0});
+  EXPECT_GT(sunny.r, 1.5 * sunny.b);
+  EXPECT_GT(sunny.r, sunny.g);
+  EXPECT_GT(shady.b, 1.1 * shady.r);
+  EXPECT_GT(shady.b, shady.g);
+  EXPECT_GT(Luminance(sunny), 2.0 * Luminance(shady));
 }
 
 TEST(LightSolver, ChangesNothingFarFromTheObject) {

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
+#include "compositor/unmodelled_shade.h"
 #include "tests/compositor/photographed_yard.h"
 
 namespace pleinair::compositor {
@@ -114,6 +116,81 @@ TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
 TEST_F(ShadowLight, BelievesTheStatedHeadingUnderAnOvercastSky) {
   const SurfaceSamples samples = Look({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_FALSE(ReadHeading(yard_->solver(), samples, kUp, yard_->model().ToSun().xyz));
+}
+
+UnmodelledShade Shade(const SurfaceSamples& samples, const sky::SkyModel& model,
+                      const LightSolver& solver) {
+  return FindUnmodelledShade(solver, samples, model, Mat3{}, {1, 1, 1});
+}
+
+TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereATreeShadesAllThePhantomsEdges) {
+  // All that lies within a step of an edge of the phantoms' shadows, on either side.
+  const LightSolver& solver = yard_->solver();
+  const Vec3 to_sun = yard_->model().ToSun().xyz;
+  const auto tree = [&](Vec3 p) {
+    bool lit = false, shaded = false;
+    for (const double reach : {0.0, 0.06, 0.12, 0.2, 0.3, 0.4}) {
+      for (int i = 0; i < 12; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 12;
+        const Vec3 beside =
+            p + Vec3{reach * std::cos(angle), reach * std::sin(angle), i % 2 * reach + 1e-3};
+        (solver.ReachesPhantomsOnly({beside}, to_sun) ? lit : shaded) = true;
+      }
+    }
+    return lit && shaded;
+  };
+  const SurfaceSamples samples = Look({.shaded = tree});
+  EXPECT_EQ(Read(samples).sun, SunSkyReading::Sun::kHidden);
+  const UnmodelledShade shade = Shade(samples, yard_->model(), solver);
+  EXPECT_TRUE(shade.CastBySun()) << shade.crossed << " of " << shade.places;
+}
+
+TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereTheTimeIsHoursOff) {
+  const SurfaceSamples samples = Look({});
+  const Vec3 to_sun = yard_->model().ToSun().xyz;
+  int hidden = 0;
+  for (const double off_deg : {-75.0, -50.0, 50.0, 75.0}) {
+    const testing::UniformDay wrong({3000, 4200, 6500}, {62e3, 55e3, 44e3},
+                                    Turned(to_sun, kUp, FromDegrees(off_deg)));
+    const SunSkyReading reading =
+        ReadSunAndSky(FindShadowEdges(yard_->solver(), samples, wrong, Mat3{}));
+    EXPECT_NE(reading.sun, SunSkyReading::Sun::kShines) << off_deg;
+    hidden += reading.sun == SunSkyReading::Sun::kHidden ? 1 : 0;
+    const UnmodelledShade shade = Shade(samples, wrong, yard_->solver());
+    EXPECT_TRUE(shade.CastBySun()) << off_deg << ": " << shade.crossed << " of " << shade.places;
+  }
+  EXPECT_GT(hidden, 0) << "without a doubt it would be taken for overcast";
+}
+
+TEST_F(ShadowLight, DoesNotDoubtAnOvercastSkyOverPatternedPaving) {
+  for (const double strength : {1.0, 3.0}) {
+    const SurfaceSamples samples =
+        Look({.sky_scale = LinearRgb{1, 1, 1} * strength, .sun_scale = 0.0}, 3);
+    EXPECT_EQ(Read(samples).sun, SunSkyReading::Sun::kHidden);
+    const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
+    EXPECT_GT(shade.places, 100);
+    EXPECT_FALSE(shade.CastBySun()) << shade.crossed << " of " << shade.places;
+  }
+}
+
+TEST_F(ShadowLight, TellsHowMuchLiesInTheShadeOfTrees) {
+  const UnmodelledShade open = Shade(Look({}), yard_->model(), yard_->solver());
+  EXPECT_GT(open.sunlit, 100);
+  EXPECT_FALSE(open.Matters()) << open.shaded;
+  const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
+  const SurfaceSamples samples = Look({.shaded = tree});
+  const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
+  EXPECT_TRUE(shade.Matters());
+  // As much as there is: of the spots that the model has in the sun, those under the tree.
+  int lit = 0, under = 0;
+  for (const SurfaceSample& spot : samples.samples()) {
+    const Vec3 to_sun = yard_->model().ToSun().xyz;
+    if (spot.frames == 0 || spot.surface < 0 || Dot(spot.normal, to_sun) < 0.2) continue;
+    if (!yard_->solver().ReachesPhantomsOnly(spot.point, to_sun)) continue;
+    ++lit;
+    under += tree(spot.point.xyz) ? 1 : 0;
+  }
+  EXPECT_NEAR(shade.shaded, static_cast<double>(under) / lit, 0.08);
 }
 
 }  // namespace

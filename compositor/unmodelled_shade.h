@@ -1,0 +1,32 @@
+#pragma once
+
+#include "base/vector.h"
+#include "compositor/light_solver.h"
+#include "compositor/surface_samples.h"
+#include "sky/sky_model.h"
+
+namespace pleinair::compositor {
+
+/// Shadows in view that no phantom explains: a tree's, a neighbouring house's, or the phantoms' own
+/// where the sun does not stand where it is thought to.
+struct UnmodelledShade {
+  int places = 0;       ///< Small cells of one material that face the sun.
+  int crossed = 0;      ///< Of them, those that a shadow's edge crosses.
+  double edges = 0.0;   ///< Their share.
+  int sunlit = 0;       ///< Cells that the model has wholly in the sun.
+  double shaded = 0.0;  ///< Share of them that lie in shade.
+
+  /// Whether the edges are more than chance and things that no phantom stands for bring about: a
+  /// sun must cast them.
+  bool CastBySun() const;
+  /// Whether so much lies in shade that the model has in the sun that pictures must be asked where.
+  bool Matters() const;
+};
+
+/// Looks for shadows of about the depth that `daylight` gives them where the sky is `sky_scale`
+/// times as strong beside its sun; `marker_from_world` with the heading in use.
+UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamples& samples,
+                                    const sky::SkyModel& daylight, const Mat3& marker_from_world,
+                                    LinearRgb sky_scale);
+
+}  // namespace pleinair::compositor
