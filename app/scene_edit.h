@@ -42,6 +42,8 @@ struct SceneEdit {
   Detail detail = Detail::kAutomatic;
   double convergence = 0.01;  ///< compositor::CoefficientOptions.
   std::vector<ObjectPlace> objects;
+  /// Drawn objects keep the brightness that the marker was last read to give them.
+  bool hold_gain = false;
   bool operator==(const SceneEdit&) const = default;
 };
 

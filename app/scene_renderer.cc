@@ -205,6 +205,7 @@ Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
   scene_ = WithEdit(scene_, edit);
   later_s_ = edit.later_s;
   heading_is_edited_ = edit.heading_deg.has_value();
+  hold_gain_ = edit.hold_gain;
   if (!composer_) return {};
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
     compositor::PlacedModel& placed = placed_[scene_.phantoms.size() + i];
@@ -256,6 +257,8 @@ void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
     summary_.gain = *scene_.exposure_gain;
     return;
   }
+  // Held once there is a reading to hold.
+  if (hold_gain_ && !recent_gains_.empty()) return;
   const auto reading = meter_ ? meter_->Measure(rgb, camera_, camera_from_marker) : std::nullopt;
   if (reading) {
     recent_gains_.push_back(reading->gain);

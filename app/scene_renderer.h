@@ -154,6 +154,7 @@ class SceneRenderer {
   std::shared_ptr<const SceneLight> lit_;  // The light in use.
   double later_s_ = 0.0;
   bool heading_is_edited_ = false;
+  bool hold_gain_ = false;
   bool light_from_outside_ = false;
   std::deque<LinearRgb> recent_gains_;  // Of the last frames, for the running median.
   LinearRgb guessed_gain_;

@@ -32,6 +32,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int kUsualWidth = 1280, kUsualHeight = 800;
 // Of the letters' height.
 constexpr float kPanelWidth = 21.0F, kStatusHeight = 1.9F;
+// Of a window too narrow for both: what of the picture the panel hides.
+constexpr float kNarrowShare = 0.8F;
 // The window is drawn anew at least so often, for what blinks and counts.
 constexpr double kIdle_s = 0.1;
 constexpr double kRateWeight = 0.05;
@@ -231,7 +233,11 @@ class LiveWindow {
     state_.recording = session_.recording();
     if (options_.poll_camera) {
       const std::string words = options_.poll_camera();
-      if (!words.empty()) state_.camera_words = words;
+      if (!words.empty()) {
+        state_.camera_words = words;
+        camera_is_away_ =
+            !words.starts_with("camera connected") && !words.starts_with("camera recovered");
+      }
     }
     if (!ready_) return;
     screen_.Upload(ready_->picture);
@@ -258,7 +264,8 @@ class LiveWindow {
     const ImGuiIO& io = ImGui::GetIO();
     const float letter = ImGui::GetFontSize();
     // A window too narrow for both shows the panel over the picture.
-    const float panel = state_.panel ? std::min(letter * kPanelWidth, io.DisplaySize.x) : 0.0F;
+    const float panel =
+        state_.panel ? std::min(letter * kPanelWidth, io.DisplaySize.x * kNarrowShare) : 0.0F;
     const bool beside = panel < io.DisplaySize.x * 0.6F;
     const Vec2 area{beside ? io.DisplaySize.x - panel : io.DisplaySize.x,
                     std::max(io.DisplaySize.y - letter * kStatusHeight, 1.0F)};
@@ -331,12 +338,19 @@ class LiveWindow {
     if (frames_->ended()) words = "the recording is over";
     if (state_.has_frame && !state_.camera_from_marker) words = "no marker in sight";
     if (!state_.message.empty()) words = state_.message;
+    if (camera_is_away_) words = state_.camera_words;
     if (words.empty()) words = "F1: keys and mouse";
     const std::string rate = fmt::format("{:.1f} a second, {:.0f} ms", state_.shown_per_second,
                                          state_.statistics.latency.median_ms);
     draw->AddText({letter, top + letter * 0.45F}, 0xFFB8B8B8, words.c_str());
-    const float rate_width = ImGui::CalcTextSize(rate.c_str()).x;
-    draw->AddText({width - rate_width - letter, top + letter * 0.45F}, 0xFF909090, rate.c_str());
+    float rate_width = ImGui::CalcTextSize(rate.c_str()).x;
+    // What was done last matters more where there is no room for both.
+    const float free = width - ImGui::CalcTextSize(words.c_str()).x - letter * 5.0F;
+    if (rate_width < free) {
+      draw->AddText({width - rate_width - letter, top + letter * 0.45F}, 0xFF909090, rate.c_str());
+    } else {
+      rate_width = -letter;
+    }
     if (state_.recording) {
       draw->AddCircleFilled({width - rate_width - letter * 2.2F, top + letter * 0.95F},
                             letter * 0.35F, 0xFF3030E0);
@@ -402,6 +416,7 @@ class LiveWindow {
   std::optional<Clock::time_point> last_frame_;
   double mean_period_s_ = 0.0;
   bool wants_window_picture_ = false;
+  bool camera_is_away_ = false;
 };
 
 }  // namespace

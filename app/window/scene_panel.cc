@@ -309,8 +309,8 @@ void ScenePanel::Capture(WindowState* state) {
   bool locked = state->exposure_locked;
   if (ImGui::Checkbox("lock exposure", &locked)) Do(Action::kLockExposure, false, {}, state);
   Hint(
-      "Holds the camera's exposure, gain and white balance, and the scale that the marker's "
-      "white was read to have.");
+      "Holds the camera's exposure, gain and white balance where they are, and the brightness that "
+      "the marker last gave the objects: they then follow the time of day and the air alone.");
   if (ImGui::Button("Screenshot")) state->wants_screenshot = true;
   ImGui::SameLine();
   if (state->recording) ImGui::PushStyleColor(ImGuiCol_Button, {0.75F, 0.15F, 0.15F, 1.0F});

@@ -109,6 +109,14 @@ TEST(WindowState, TheScrubBarKeepsTheDayAndNowIsNow) {
   EXPECT_EQ(state.shown_time(), state.moment);
 }
 
+TEST(WindowState, TheExposureLockHoldsTheCameraAndTheBrightnessOfObjects) {
+  WindowState state = State();
+  Do(Action::kLockExposure, false, {}, &state);
+  EXPECT_TRUE(state.exposure_locked && state.edit.hold_gain && state.wants_exposure_change);
+  Do(Action::kLockExposure, false, {}, &state);
+  EXPECT_FALSE(state.exposure_locked || state.edit.hold_gain);
+}
+
 TEST(NorthPole, GivesTheHeadingAtWhichItsShadowFallsWhereItWasDragged) {
   for (const bool upright : {false, true}) {
     devices::MarkerDescription marker = State().scene.marker;

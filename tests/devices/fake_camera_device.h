@@ -16,6 +16,7 @@ namespace pleinair::devices {
 class FakeCamera {
  public:
   static constexpr int kWidth = 4, kHeight = 2;
+  explicit FakeCamera(int width = kWidth, int height = kHeight) : size_{width, height} {}
   static constexpr std::int64_t kPeriod_ns = 33'333'333;
 
   void Plug() {
@@ -34,11 +35,11 @@ class FakeCamera {
   void SendAt(std::int64_t number, std::int64_t stamp_ns, std::uint8_t level, bool damaged) {
     CapturedPicture picture;
     picture.raw.format = PixelFormat::kGrey8;
-    picture.raw.width = kWidth;
-    picture.raw.height = kHeight;
-    picture.raw.stride = kWidth;
+    picture.raw.width = size_.width;
+    picture.raw.height = size_.height;
+    picture.raw.stride = size_.width;
     picture.raw.full_range = true;
-    picture.raw.bytes.assign(kWidth * kHeight, level);
+    picture.raw.bytes.assign(static_cast<std::size_t>(size_.width) * size_.height, level);
     picture.number = number;
     picture.timestamp_ns = stamp_ns;
     picture.stamp_meaning = StampMeaning::kExposureStart;
@@ -73,7 +74,7 @@ class FakeCamera {
    public:
     explicit Device(FakeCamera* camera) : camera_(camera) {
       agreement_.format = PixelFormat::kGrey8;
-      agreement_.size = {kWidth, kHeight};
+      agreement_.size = camera->size_;
     }
     WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) override {
       std::unique_lock lock(camera_->mutex_);
@@ -121,6 +122,7 @@ class FakeCamera {
     changed_.notify_all();
   }
 
+  const PictureSize size_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool plugged_ = true;

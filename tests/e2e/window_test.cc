@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
@@ -84,7 +85,7 @@ int Differing(const cv::Mat& a, const cv::Mat& b) {
 class Window : public testing::Test {
  protected:
   void SetUp() override {
-    for (const char* program : {"Xvfb", "xdotool"}) {
+    for (const char* program : {"Xvfb", "xdotool", "xprop"}) {
       if (!Runs(program)) GTEST_SKIP() << program << " is not installed (scripts/setup does)";
     }
     if (RunPleinair({"live", "--camera", "v4l2:none"}).err.find("without a window") !=
@@ -92,7 +93,7 @@ class Window : public testing::Test {
       GTEST_SKIP() << "built without GLFW and Dear ImGui";
     }
     screen_.emplace(
-        fmt::format("Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp "
+        fmt::format("Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset "
                     "3>'{}' >/dev/null 2>&1",
                     (folder_ / "display").string()));
     ASSERT_TRUE(Until([&] { return ReadFile(folder_ / "display").ends_with('\n'); }));
@@ -102,9 +103,11 @@ class Window : public testing::Test {
   }
 
   void Open(const std::string& arguments) {
-    session_.emplace(fmt::format(
-        "env DISPLAY={} {} live --pictures '{}' --window 1280x800 {} 2>'{}'", display_,
-        PLEINAIR_PROGRAM, (folder_ / "pictures").string(), arguments, (folder_ / "err").string()));
+    session_.emplace(
+        fmt::format("env DISPLAY={} {} live --pictures '{}' {} {} 2>'{}'", display_,
+                    PLEINAIR_PROGRAM, (folder_ / "pictures").string(),
+                    arguments.find("--window") == std::string::npos ? "--window 1280x800" : "",
+                    arguments, (folder_ / "err").string()));
     ASSERT_TRUE(Until([&] {
       return !session_->running() || Hands("search --onlyvisible --name 'pleinair live'");
     }));
@@ -149,6 +152,23 @@ class Window : public testing::Test {
     return changed ? now : cv::Mat();
   }
 
+  /// The whole window once it shows the camera's picture.
+  cv::Mat WithPicture() {
+    Screenshot("ctrl+s");
+    return Screenshot("ctrl+shift+s");
+  }
+
+  /// The camera's picture once it changes no more.
+  cv::Mat Settled() {
+    cv::Mat last = Screenshot("ctrl+s");
+    EXPECT_TRUE(Until([&] {
+      std::this_thread::sleep_for(std::chrono::seconds(2));
+      const cv::Mat now = Screenshot("ctrl+s");
+      return Differing(std::exchange(last, now), now) < 50;
+    }));
+    return last;
+  }
+
   void ExpectToClose() {
     EXPECT_TRUE(Hands("key ctrl+q"));
     EXPECT_TRUE(Until([&] { return !session_->running(); }));
@@ -182,9 +202,15 @@ TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
             "mouseup 1"));
   const cv::Mat dragged = Changed(back, 500);
   ASSERT_FALSE(dragged.empty()) << "by the mouse";
+  // Where it was dropped: the wheel makes it larger, the right button turns it.
+  const cv::Mat larger = Changed(dragged, 500, "mousemove 500 320 click 4 click 4 click 4");
+  ASSERT_FALSE(larger.empty()) << "by the wheel";
+  const cv::Mat turned =
+      Changed(larger, 300, "mousemove 500 320 mousedown 3 mousemove 560 320 sleep 0.2 mouseup 3");
+  ASSERT_FALSE(turned.empty()) << "by the right button";
   // The bar of the day's time, at three in the afternoon: shadows turn.
   EXPECT_FALSE(
-      Changed(dragged, 500, "mousemove 1150 170 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1").empty())
+      Changed(turned, 500, "mousemove 1150 170 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1").empty())
       << "by the panel";
   EXPECT_GT(Differing(whole, Screenshot("ctrl+shift+s")), 2000) << "the window shows it";
   // The partitions of the shadow maps tint most of the picture.
@@ -195,6 +221,83 @@ TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
   EXPECT_LT(cv::mean(tinted)[0], 0.8 * cv::mean(plain)[0]) << "blue is what both tints take away";
   ASSERT_TRUE(Hands("key m"));
   EXPECT_FALSE(Changed(tinted, 20000).empty()) << "and back";
+  ExpectToClose();
+}
+
+TEST_F(Window, RecordsWhileItIsShownAndTheLockHoldsTheBrightness) {
+  MakeShortRecording(folder_ / "site", 1, /*with_object=*/true);
+  Open(fmt::format("--camera 'file:{}' --loop --rate 5 --light stated",
+                   (folder_ / "site").string()));
+  const cv::Mat start = Screenshot("ctrl+s");
+  ASSERT_TRUE(Hands("key ctrl+r"));
+  const auto recorded = [&] {
+    for (const std::string& name : Listing(folder_ / "pictures")) {
+      if (name.ends_with("frames.pack")) return folder_ / ("pictures/" + name);
+    }
+    return std::filesystem::path();
+  };
+  // Five frames of 640 × 480 in RGB.
+  EXPECT_TRUE(Until([&] {
+    return !recorded().empty() && std::filesystem::file_size(recorded()) > 5 * 640 * 480 * 3;
+  }));
+  ASSERT_TRUE(Hands("key ctrl+r"));
+  // Locked at noon it gets dark towards the evening; let go it is as bright as the marker again.
+  ASSERT_TRUE(Hands("key l"));
+  std::string later = "key --delay 30";
+  for (int i = 0; i < 36; ++i) later += " bracketright";
+  ASSERT_TRUE(Hands(later));
+  ASSERT_FALSE(Changed(start, 500).empty());
+  const cv::Mat dark = Settled();
+  ASSERT_TRUE(Hands("key l"));
+  const cv::Mat bright = Changed(dark, 300);
+  ASSERT_FALSE(bright.empty()) << "by letting the exposure go";
+  EXPECT_GT(cv::mean(bright)[1], cv::mean(dark)[1]);
+  ExpectToClose();
+  const RunResult replay =
+      RunPleinair({"live", "--camera", "file:" + recorded().parent_path().string(), "--headless",
+                   "--lossless", "--json"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_THAT(replay.out, testing::HasSubstr("\"with_pose\":")) << "it opens";
+}
+
+TEST_F(Window, IsUsableWhenItIsSmallAndTwiceAsLargeOnAScreenOfTwiceTheScale) {
+  MakeShortRecording(folder_ / "site", 1, /*with_object=*/false);
+  const std::string camera =
+      fmt::format("--camera 'file:{}' --loop --rate 5", (folder_ / "site").string());
+  Open(camera + " --window 320x240");
+  cv::Mat top;
+  const cv::Mat empty(240, 50, CV_8UC3, cv::Scalar(18, 17, 15));
+  EXPECT_TRUE(Until([&] {
+    top = Screenshot("ctrl+shift+s");
+    return top.size() == cv::Size(320, 240) && Differing(top.colRange(0, 50), empty) > 500;
+  })) << "some of the picture is seen beside the panel";
+  // The panel is longer than the window: the wheel reaches its end.
+  ASSERT_TRUE(Hands("mousemove 200 120"));
+  EXPECT_TRUE(Until([&] {
+    EXPECT_TRUE(Hands("click 5"));
+    return Differing(top, Screenshot("ctrl+shift+s")) > 3000;
+  })) << "by the wheel over the panel";
+  ASSERT_TRUE(Hands("key F2"));
+  EXPECT_TRUE(Until([&] { return Differing(top, Screenshot("ctrl+shift+s")) > 20000; }))
+      << "without the panel";
+  ExpectToClose();
+
+  // What desktops tell GLFW of a screen with small pixels.
+  ASSERT_EQ(std::system(("DISPLAY=" + display_ +
+                         " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi: 192'")
+                            .c_str()),
+            0);
+  Open(camera + " --window 640x400");
+  const cv::Mat scaled = WithPicture();
+  ASSERT_EQ(scaled.size(), cv::Size(1280, 800)) << "twice the pixels";
+  ExpectToClose();
+  ASSERT_EQ(std::system(("DISPLAY=" + display_ + " xprop -root -remove RESOURCE_MANAGER").c_str()),
+            0);
+  Open(camera + " --window 1280x800 --ui-scale 2");
+  const cv::Mat large = WithPicture();
+  ASSERT_EQ(large.size(), scaled.size());
+  // But for the counts in its statistics it is the same.
+  EXPECT_LT(Differing(large, scaled), 1280 * 800 / 50);
   ExpectToClose();
 }
 
