@@ -49,8 +49,10 @@ nlohmann::json RowJson(const ShadowBenchRow& row, const std::string& renderer) {
                            {"over_darkening", row.errors.over_darkening},
                            {"pixels", row.errors.pixels},
                            {"penumbra_pixels", row.errors.penumbra_pixels},
-                           {"shimmer", row.shimmer},
-                           {"truth_shimmer", row.truth_shimmer},
+                           {"shimmer", row.shimmer.of_visibility},
+                           {"truth_shimmer", row.truth_shimmer.of_visibility},
+                           {"light_shimmer", row.shimmer.of_light},
+                           {"truth_light_shimmer", row.truth_shimmer.of_light},
                            {"maps_ms", row.time.maps_ms},
                            {"scene_ms", row.time.scene_ms},
                            {"ms", row.time.total_ms()},
@@ -82,8 +84,8 @@ std::string RowText(const ShadowBenchRow& row) {
       "{:>8.1f}{:>7.2f}\n",
       row.scene, traits.name, row.resolution, row.errors.penumbra_rmse, row.errors.rmse,
       row.errors.bias, row.errors.leak_mean, row.errors.leak_p99, row.errors.over_darkening,
-      row.shimmer - row.truth_shimmer, row.time.maps_ms, row.time.scene_ms, row.time.cpu_ms,
-      row.ratio_to_plain);
+      row.shimmer.of_visibility - row.truth_shimmer.of_visibility, row.time.maps_ms,
+      row.time.scene_ms, row.time.cpu_ms, row.ratio_to_plain);
 }
 
 constexpr const char* kHead =
@@ -187,7 +189,9 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--rays", options->bench.rays, "Rays a pixel of the truth")
       ->check(CLI::IsMember({64, 256, 1024}))
       ->capture_default_str();
-  command->add_option("--frames", options->bench.timed_frames, "Frames timed; the least counts")
+  command
+      ->add_option("--rounds", options->bench.timed_rounds,
+                   "Rounds in which all methods are timed in turn; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "Folder for pictures, charts and the page")

@@ -51,6 +51,7 @@ struct Arguments {
   std::vector<double> fog;
   std::string time_lapse, every = "10min";
   std::optional<std::int64_t> time_lapse_frame;
+  std::vector<int> shadow_sizes;
   std::string shadows = "disc", light = "measured", look = "matched";
   bool no_video = false;
   bool json = false;
@@ -106,6 +107,13 @@ std::string CommandText(const Arguments& arguments) {
   if (weight != compositor::ComposerOptions{}.shadow_split_weight) {
     text += fmt::format(" --shadow-split-weight {}", weight);
   }
+  const double blur_m = arguments.options.composer.shadow_blur_distance_m;
+  if (blur_m != compositor::ComposerOptions{}.shadow_blur_distance_m) {
+    text += fmt::format(" --shadow-blur {}", blur_m);
+  }
+  if (!arguments.shadow_sizes.empty()) {
+    text += fmt::format(" --shadow-sizes {}", fmt::join(arguments.shadow_sizes, ","));
+  }
   if (!arguments.fog.empty()) text += fmt::format(" --fog {}", fmt::join(arguments.fog, ","));
   if (!arguments.time_lapse.empty()) {
     text += " --time-lapse " + Quoted(arguments.time_lapse) + " --every " + Quoted(arguments.every);
@@ -144,6 +152,11 @@ Result<void> Run(Arguments& arguments) {
   options.composer.shadow_method = ShadowMethodsByName().at(arguments.shadows);
   if (!arguments.shader_directory.empty()) {
     gl::ShaderLibrary::SetOverrideDirectory(arguments.shader_directory);
+  }
+  if (!arguments.shadow_sizes.empty()) {
+    auto& sizes = options.composer.shadow_sizes;
+    sizes.fill(arguments.shadow_sizes.back());
+    std::copy(arguments.shadow_sizes.begin(), arguments.shadow_sizes.end(), sizes.begin());
   }
   if (!arguments.fog.empty()) {
     // Partitions that are not named are like the last that is.
@@ -248,8 +261,23 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
       ->check(NumberRange(0.0, 1.0))
       ->capture_default_str();
   command
+      ->add_option("--shadow-sizes", arguments->shadow_sizes,
+                   "Texels a side of the shadow maps; one number, or one a partition from the "
+                   "finest on. Default: 2048,2048,1024,1024")
+      ->delimiter(',')
+      ->expected(1, 4)
+      ->check(CLI::IsMember({128, 256, 512, 1024, 2048, 4096}))
+      ->type_name("N,...");
+  command
+      ->add_option("--shadow-blur", arguments->options.composer.shadow_blur_distance_m,
+                   "Methods that blur moments: how far off the blocker is whose edge they are as "
+                   "soft as, in metres")
+      ->check(NumberRange(0.01, 100.0))
+      ->capture_default_str();
+  command
       ->add_option("--fog", arguments->fog,
-                   "Haze before the virtual objects, times the day's own air; one number, or one a "
+                   "Haze before the virtual objects and their shadows, times the day's own air; "
+                   "one number, or one a "
                    "partition from near to far; 0 none. Default: 1")
       ->delimiter(',')
       ->expected(1, 4)

@@ -175,7 +175,8 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   }
   const bool other_shaders = options.shadow_method != options_.shadow_method ||
                              options.shadow_partitions != options_.shadow_partitions;
-  if (other_shaders || options.shadow_split_weight != options_.shadow_split_weight ||
+  if (other_shaders || options.shadow_sizes != options_.shadow_sizes ||
+      options.shadow_split_weight != options_.shadow_split_weight ||
       options.shadow_blur_distance_m != options_.shadow_blur_distance_m) {
     PLEINAIR_RETURN_IF_ERROR(MakeShadows(options));
   }

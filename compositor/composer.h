@@ -27,7 +27,9 @@ struct ComposerOptions {
   /// distortion, 1.5 for one that the picture must be warped to.
   double supersampling = 0.0;
   ShadowMethod shadow_method = ShadowMethod::kSunDisc;
-  int shadow_partitions = 2;         ///< Partitions of the shadow maps, 1…4.
+  int shadow_partitions = 2;  ///< Partitions of the shadow maps, 1…4.
+  /// Texels a side of each partition's map, powers of two from 16 to 8192.
+  std::array<int, 4> shadow_sizes{2048, 2048, 1024, 1024};
   double shadow_split_weight = 0.5;  ///< λ of the paper's Eq. 11, for maps fitted to the view.
   /// Methods that blur moments: distance of the blocker at which the blur has the sun's width.
   double shadow_blur_distance_m = 1.0;

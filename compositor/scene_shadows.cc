@@ -13,6 +13,7 @@ shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) {
   shadows::ShadowMapOptions map_options;
   map_options.method = options.shadow_method;
   map_options.partitions = options.shadow_partitions;
+  map_options.resolutions = options.shadow_sizes;
   map_options.split_weight = options.shadow_split_weight;
   map_options.blur_blocker_distance = Metres(options.shadow_blur_distance_m);
   return map_options;

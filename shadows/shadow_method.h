@@ -22,7 +22,7 @@ enum class ShadowMethod {
   kPercentageCloserSoft,  ///< Blocker search, then a filter of that width (Fernando 2005).
   kGaussian,              ///< The paper's Z-GaF: a Gaussian of blurred depth moments.
   kSunDiscLean,    ///< Ours with one map and one look at four texels: as cheap as a plain map.
-  kSunDiscLight,   ///< Ours with one map and three looks, as far apart as disc and pixel ask.
+  kSunDiscLight,   ///< kSunDiscFast with one map.
   kSunDiscSpread,  ///< Ours with four maps and five looks, as far apart as disc and pixel ask.
   kSunDiscFast,    ///< Ours with penumbrae of at most 3 texels: no search, no pyramid.
   kSunDisc,        ///< Ours, the default: the sun's disc seen past the blockers.

@@ -1,8 +1,9 @@
 #include "app/bench/shadow_bench.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <span>
 #include <utility>
 
 #include "app/bench/recording_scene.h"
@@ -18,6 +19,14 @@ using shadows::View;
 using shadows::VisibilityPicture;
 
 constexpr double kCreepPxAFrame = 0.1;
+// A pixel, as the compositor has it.
+constexpr int kCreepSamples = 4;
+constexpr int kFramesARound = 2;
+
+double Median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
 
 Result<BenchScene> MakeScene(const std::string& name, const ShadowBenchOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;
@@ -87,18 +96,20 @@ class ShimmerMeter {
     }
   }
 
-  /// Mean over the points seen in all frames, weighed by how squarely the sun falls on them: where
-  /// a surface turns away from the sun its shade flips from facet to facet, and nobody sees it.
-  double Shimmer(int frames) const {
-    double sum = 0.0;
-    double count = 0.0;
+  /// Mean over the points seen in all frames.
+  Shimmer Mean(int frames) const {
+    Shimmer sum;
+    double count = 0.0, weight = 0.0;
     for (const TrackedPoint& p : points_) {
       if (p.count != frames) continue;
       const double mean = p.sum / frames;
-      sum += p.cosine * std::sqrt(std::max(p.squares / frames - mean * mean, 0.0));
-      count += p.cosine;
+      const double deviation = std::sqrt(std::max(p.squares / frames - mean * mean, 0.0));
+      sum.of_visibility += deviation;
+      sum.of_light += p.cosine * deviation;
+      count += 1.0;
+      weight += p.cosine;
     }
-    return count > 0.0 ? sum / count : 0.0;
+    return {sum.of_visibility / std::max(count, 1.0), sum.of_light / std::max(weight, 1e-9)};
   }
 
  private:
@@ -110,40 +121,75 @@ class SceneRun {
  public:
   static Result<SceneRun> Create(BenchScene scene, const ShadowBenchOptions& options) {
     PLEINAIR_ASSIGN_OR_RETURN(ShadowTruth truth, ShadowTruth::Create(scene, options.rays));
-    PLEINAIR_ASSIGN_OR_RETURN(BenchRenderer renderer,
-                              BenchRenderer::Create(scene, options.width, options.height));
-    SceneRun run(std::move(scene), std::move(truth), std::move(renderer), options);
+    PLEINAIR_ASSIGN_OR_RETURN(
+        BenchRenderer creeping,
+        BenchRenderer::Create(scene, options.width, options.height, kCreepSamples));
+    SceneRun run(std::move(scene), std::move(truth), std::move(creeping), options);
     PLEINAIR_RETURN_IF_ERROR(run.TraceTruth());
     return run;
   }
 
-  Result<ShadowBenchRow> Measure(shadows::ShadowMethod method, int resolution) {
+  /// Makes ready for methods at one resolution; the functions below mean them by their index.
+  Result<void> Prepare(std::span<const shadows::ShadowMethod> methods, int resolution) {
+    resolution_ = resolution;
+    methods_.assign(methods.begin(), methods.end());
+    renderers_.clear();
+    for (const shadows::ShadowMethod method : methods) {
+      PLEINAIR_ASSIGN_OR_RETURN(BenchRenderer renderer,
+                                BenchRenderer::Create(scene_, options_.width, options_.height));
+      PLEINAIR_RETURN_IF_ERROR(renderer.SetMethod(shadows::CommonOptions(method, resolution)));
+      renderers_.push_back(std::move(renderer));
+    }
+    return {};
+  }
+
+  Result<ShadowBenchRow> Measure(std::size_t index) {
+    BenchRenderer& renderer = renderers_[index];
     ShadowBenchRow row;
     row.scene = scene_.name;
-    row.method = method;
-    row.resolution = resolution;
-    PLEINAIR_RETURN_IF_ERROR(renderer_.SetMethod(shadows::CommonOptions(method, resolution)));
-    PLEINAIR_ASSIGN_OR_RETURN(picture_, renderer_.Draw(view_));
+    row.method = methods_[index];
+    row.resolution = resolution_;
+    PLEINAIR_RETURN_IF_ERROR(creeping_.SetMethod(renderer.maps().options()));
+    PLEINAIR_ASSIGN_OR_RETURN(picture_, renderer.Draw(view_));
     row.errors = CompareVisibility(picture_, truth_picture_);
     if (!scene_.edges.empty()) {
-      PLEINAIR_ASSIGN_OR_RETURN(row.closed_form, MeasureClosedForms(scene_, renderer_));
+      PLEINAIR_ASSIGN_OR_RETURN(row.closed_form, MeasureClosedForms(scene_, renderer));
       const glm::dvec3 at(view_.camera_from_marker *
                           glm::dvec4(scene_.contacts.front().middle, 1.0));
       row.pixel_m = at.z * (view_.tan_left + view_.tan_right) / options_.width;
     }
-    PLEINAIR_ASSIGN_OR_RETURN(row.time, renderer_.Time(view_, options_.timed_frames));
     row.truth_shimmer = truth_shimmer_;
     ShimmerMeter meter(view_, truth_picture_, surfaces_.cosine, window_);
     for (int frame = 0; frame < options_.creep_frames; ++frame) {
       int redrawn = 0;
       const View view = CreptView(frame);
-      PLEINAIR_ASSIGN_OR_RETURN(const View tight, renderer_.Tightened(view));
-      PLEINAIR_ASSIGN_OR_RETURN(const VisibilityPicture drawn, renderer_.Draw(tight, &redrawn));
+      PLEINAIR_ASSIGN_OR_RETURN(const View tight, renderer.Tightened(view));
+      PLEINAIR_ASSIGN_OR_RETURN(const VisibilityPicture drawn, creeping_.Draw(tight, &redrawn));
       meter.Add(view, drawn);
       if (frame > 0) row.creep_redraws += redrawn;
     }
-    row.shimmer = meter.Shimmer(options_.creep_frames);
+    row.shimmer = meter.Mean(options_.creep_frames);
     return row;
+  }
+
+  /// Times the methods in turn, round after round, so that whatever else the machine does meanwhile
+  /// falls on all of them. After Measure(), which compiles and warms up.
+  Result<std::vector<shadows::FrameTime>> Time() {
+    std::vector<std::array<std::vector<double>, 3>> times(renderers_.size());
+    for (int round = 0; round < options_.timed_rounds; ++round) {
+      for (std::size_t i = 0; i < renderers_.size(); ++i) {
+        PLEINAIR_ASSIGN_OR_RETURN(const shadows::FrameTime time,
+                                  renderers_[i].Time(view_, kFramesARound));
+        times[i][0].push_back(time.maps_ms);
+        times[i][1].push_back(time.scene_ms);
+        times[i][2].push_back(time.cpu_ms);
+      }
+    }
+    std::vector<shadows::FrameTime> medians;
+    for (const auto& [maps, scene, cpu] : times) {
+      medians.push_back({Median(maps), Median(scene), Median(cpu)});
+    }
+    return medians;
   }
 
   /// Largest difference of the rays from the closed form over twice the penumbrae.
@@ -167,23 +213,24 @@ class SceneRun {
   }
 
   /// Of the method measured last.
-  Result<ShadowBenchPictures::OfMethod> PicturesOf(shadows::ShadowMethod method) {
+  Result<ShadowBenchPictures::OfMethod> PicturesOf(std::size_t index) {
+    BenchRenderer& renderer = renderers_[index];
     ShadowBenchPictures::OfMethod pictures;
-    pictures.method = method;
+    pictures.method = methods_[index];
     pictures.visibility = picture_;
-    PLEINAIR_ASSIGN_OR_RETURN(pictures.partitions, renderer_.DrawPartitions(view_));
-    for (int i = 0; i < renderer_.maps().options().partitions; ++i) {
-      pictures.maps.push_back(renderer_.maps().ReadDepth(i));
+    PLEINAIR_ASSIGN_OR_RETURN(pictures.partitions, renderer.DrawPartitions(view_));
+    for (int i = 0; i < renderer.maps().options().partitions; ++i) {
+      pictures.maps.push_back(renderer.maps().ReadDepth(i));
     }
     return pictures;
   }
 
  private:
-  SceneRun(BenchScene scene, ShadowTruth truth, BenchRenderer renderer,
+  SceneRun(BenchScene scene, ShadowTruth truth, BenchRenderer creeping,
            const ShadowBenchOptions& options)
       : scene_(std::move(scene)),
         truth_(std::move(truth)),
-        renderer_(std::move(renderer)),
+        creeping_(std::move(creeping)),
         options_(options) {}
 
   View CreptView(int frame) const {
@@ -191,7 +238,7 @@ class SceneRun {
   }
 
   Result<void> TraceTruth() {
-    PLEINAIR_ASSIGN_OR_RETURN(view_, renderer_.Tightened(scene_.view));
+    PLEINAIR_ASSIGN_OR_RETURN(view_, creeping_.Tightened(scene_.view));
     const int w = options_.width, h = options_.height;
     truth_picture_ = truth_.Render(view_, w, h, {0, 0, w, h});
     surfaces_ = truth_.Surfaces(view_, w, h);
@@ -207,7 +254,7 @@ class SceneRun {
       const View view = CreptView(frame);
       meter.Add(view, truth_.Render(view, w, h, traced));
     }
-    truth_shimmer_ = meter.Shimmer(options_.creep_frames);
+    truth_shimmer_ = meter.Mean(options_.creep_frames);
     return {};
   }
 
@@ -238,13 +285,17 @@ class SceneRun {
 
   BenchScene scene_;
   ShadowTruth truth_;
-  BenchRenderer renderer_;
+  BenchRenderer creeping_;
+  std::vector<BenchRenderer> renderers_;  // One a method.
+  std::vector<shadows::ShadowMethod> methods_;
+  int resolution_ = 0;
   ShadowBenchOptions options_;
   View view_;
   SurfacePicture surfaces_;
   VisibilityPicture truth_picture_, picture_;
   PixelWindow window_;
-  double middle_depth_m_ = 1.0, truth_shimmer_ = 0.0;
+  double middle_depth_m_ = 1.0;
+  Shimmer truth_shimmer_;
 };
 
 }  // namespace
@@ -270,18 +321,26 @@ Result<ShadowBenchResult> RunShadowBench(const ShadowBenchOptions& options,
       result.pictures.back().resolution = middle;
     }
     for (const int resolution : options.resolutions) {
-      double plain_ms = 0.0;
-      for (const shadows::ShadowMethod method : methods) {
-        PLEINAIR_ASSIGN_OR_RETURN(ShadowBenchRow row, run.Measure(method, resolution));
-        if (method == shadows::ShadowMethod::kPlain) plain_ms = row.time.total_ms();
-        if (plain_ms > 0.0) row.ratio_to_plain = row.time.total_ms() / plain_ms;
+      std::vector<ShadowBenchRow> rows;
+      PLEINAIR_RETURN_IF_ERROR(run.Prepare(methods, resolution));
+      for (std::size_t i = 0; i < methods.size(); ++i) {
+        PLEINAIR_ASSIGN_OR_RETURN(ShadowBenchRow row, run.Measure(i));
         if (options.pictures && resolution == middle) {
-          PLEINAIR_ASSIGN_OR_RETURN(auto pictures, run.PicturesOf(method));
+          PLEINAIR_ASSIGN_OR_RETURN(auto pictures, run.PicturesOf(i));
           result.pictures.back().methods.push_back(std::move(pictures));
         }
-        on_row(row);
-        result.rows.push_back(std::move(row));
+        rows.push_back(std::move(row));
         advance();
+      }
+      PLEINAIR_ASSIGN_OR_RETURN(const auto times, run.Time());
+      const auto plain = std::find(methods.begin(), methods.end(), shadows::ShadowMethod::kPlain);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].time = times[i];
+        if (plain != methods.end()) {
+          rows[i].ratio_to_plain = times[i].cpu_ms / times[plain - methods.begin()].cpu_ms;
+        }
+        on_row(rows[i]);
+        result.rows.push_back(std::move(rows[i]));
       }
     }
   }

@@ -21,9 +21,17 @@ struct ShadowBenchOptions {
   std::filesystem::path recording = "recordings/courtyard_midday";
   int width = 480, height = 270;
   int rays = 256;         ///< A pixel of the truth.
-  int timed_frames = 5;   ///< The least time of these counts.
+  int timed_rounds = 5;   ///< Of all methods in turn; the median counts.
   int creep_frames = 11;  ///< Of the creeping camera, 0.1 px a frame.
   bool pictures = false;  ///< Keep them.
+};
+
+/// Mean standard deviation of V at a point while the camera creeps, four samples a pixel as the
+/// compositor takes.
+struct Shimmer {
+  double of_visibility = 0.0;  ///< All points alike.
+  /// Weighed by how squarely the sun falls on a point, as its light is.
+  double of_light = 0.0;
 };
 
 /// One method at one resolution in one scene.
@@ -35,10 +43,8 @@ struct ShadowBenchRow {
   std::optional<ClosedFormErrors> closed_form;  ///< Where the scene has closed forms.
   double pixel_m = 0.0;                         ///< Of the picture, at the closed forms' distance.
   shadows::FrameTime time;
-  double ratio_to_plain =
-      0.0;               ///< Total time over the plain map's of the same resolution; 0: unknown.
-  double shimmer = 0.0;  ///< Mean standard deviation of V at a point, the camera creeping.
-  double truth_shimmer = 0.0;
+  double ratio_to_plain = 0.0;  ///< Processor time over the plain map's, same size; 0: unknown.
+  Shimmer shimmer, truth_shimmer;
   int creep_redraws = 0;  ///< Maps redrawn in the creep's frames after the first.
 };
 

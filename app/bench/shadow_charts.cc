@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,7 +16,8 @@ namespace {
 
 constexpr double kWidth = 760, kHeight = 460, kLeft = 70, kRight = 150, kTop = 40, kBottom = 50;
 constexpr DrawingColour kInk{40, 40, 40}, kGrid{225, 225, 225};
-constexpr std::array<DrawingColour, 13> kColours{{{120, 120, 120},
+// By method, in the order of ShadowMethods().
+constexpr std::array<DrawingColour, 16> kColours{{{120, 120, 120},
                                                   {158, 202, 225},
                                                   {66, 146, 198},
                                                   {8, 81, 156},
@@ -24,10 +26,14 @@ constexpr std::array<DrawingColour, 13> kColours{{{120, 120, 120},
                                                   {230, 130, 40},
                                                   {166, 86, 40},
                                                   {150, 100, 200},
-                                                  {200, 100, 160},
+                                                  {90, 60, 140},
                                                   {110, 160, 60},
-                                                  {240, 90, 90},
-                                                  {200, 0, 0}}};
+                                                  {255, 170, 190},
+                                                  {250, 120, 150},
+                                                  {240, 70, 90},
+                                                  {215, 20, 40},
+                                                  {140, 0, 0}}};
+constexpr DrawingColour kFront{60, 60, 60};
 
 struct Axis {
   double low = 1e30, high = 0.0, start = 0.0, length = 0.0;
@@ -58,6 +64,26 @@ void AddGrid(const Axis& axis, bool along_x, LineDrawing* drawing) {
   }
 }
 
+/// The Pareto front: what nothing else is both quicker and better than, as a dashed stair.
+void AddFront(const ShadowBenchResult& result, const std::string& scene, const Axis& x,
+              const Axis& y, LineDrawing* drawing) {
+  std::vector<std::pair<double, double>> rows;
+  for (const ShadowBenchRow& row : result.rows) {
+    if (row.scene != scene) continue;
+    rows.emplace_back(std::max(row.time.cpu_ms, 0.01), std::max(row.errors.rmse, 1e-4));
+  }
+  std::sort(rows.begin(), rows.end());
+  DrawingLine front{.points = {}, .colour = kFront, .width = 1.2, .dashed = true};
+  double best = 1e30;
+  for (const auto& [ms, rmse] : rows) {
+    if (rmse >= best) continue;
+    if (!front.points.empty()) front.points.push_back({x.At(ms), y.At(best)});
+    front.points.push_back({x.At(ms), y.At(rmse)});
+    best = rmse;
+  }
+  if (front.points.size() > 1) drawing->lines.push_back(front);
+}
+
 LineDrawing Chart(const ShadowBenchResult& result, const std::string& scene) {
   LineDrawing drawing;
   drawing.width = kWidth;
@@ -83,9 +109,10 @@ LineDrawing Chart(const ShadowBenchResult& result, const std::string& scene) {
   drawing.texts.push_back(
       {{kWidth / 2 - 40, kHeight - 14}, 12.0, "processor time of a frame, ms", kInk});
   drawing.texts.push_back({{kLeft - 8, kTop - 12}, 12.0, "RMSE of the picture", kInk});
+  AddFront(result, scene, x, y, &drawing);
   double legend = kTop + 8;
   for (const shadows::ShadowMethodTraits& traits : shadows::ShadowMethods()) {
-    const DrawingColour colour = kColours[static_cast<std::size_t>(traits.method) % 13];
+    const DrawingColour colour = kColours[static_cast<std::size_t>(traits.method)];
     DrawingLine line;
     line.colour = colour;
     line.width = traits.name.starts_with("ours") ? 3.0 : 1.5;

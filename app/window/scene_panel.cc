@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -64,6 +65,9 @@ std::string HoursMinutes(double seconds) {
   const int minutes = static_cast<int>(seconds / 60.0);
   return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
 }
+
+// Texels a side, and double at each step of its bar.
+constexpr int kSmallestMap = 128;
 
 void Fog(compositor::ComposerOptions* drawing) {
   double fog = *std::max_element(drawing->fog.begin(), drawing->fog.end());
@@ -275,6 +279,18 @@ void ScenePanel::Shadows(WindowState* state) {
   }
   ImGui::SliderInt("partitions", &drawing.shadow_partitions, 1, 4);
   drawing.shadow_partitions = std::clamp(drawing.shadow_partitions, 1, 4);
+  for (int i = 0; i < drawing.shadow_partitions; ++i) {
+    ImGui::PushID(i);
+    int& size = drawing.shadow_sizes[i];
+    int step = std::countr_zero(static_cast<unsigned>(size) / kSmallestMap);
+    constexpr int kMapSizes = 6;
+    if (ImGui::SliderInt("##texels", &step, 0, kMapSizes - 1, std::to_string(size).c_str())) {
+      size = kSmallestMap << std::clamp(step, 0, kMapSizes - 1);
+    }
+    ImGui::SameLine();
+    ImGui::Text("texels of map %d", i + 1);
+    ImGui::PopID();
+  }
   ImGui::Checkbox("show partitions and maps", &drawing.show_shadow_maps);
   Hint(
       "M. Tints what each partition of the shadow maps serves (red the finest, then green, blue, "

@@ -26,7 +26,8 @@ double Stepped(double depth_m, int direction) {
 
 }  // namespace
 
-Result<BenchRenderer> BenchRenderer::Create(const BenchScene& scene, int width, int height) {
+Result<BenchRenderer> BenchRenderer::Create(const BenchScene& scene, int width, int height,
+                                            int samples) {
   RegisterShaders();
   BenchRenderer renderer;
   renderer.width_ = width;
@@ -56,6 +57,17 @@ Result<BenchRenderer> BenchRenderer::Create(const BenchScene& scene, int width, 
   PLEINAIR_ASSIGN_OR_RETURN(renderer.target_,
                             gl::GlFramebuffer::Create({.colors = {{.texture = &renderer.picture_}},
                                                        .depth = {.texture = &renderer.depth_}}));
+  if (samples > 1) {
+    PLEINAIR_ASSIGN_OR_RETURN(renderer.picture_samples_,
+                              gl::GlTexture::Create2DMultisample(GL_RG32F, width, height, samples));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        renderer.depth_samples_,
+        gl::GlTexture::Create2DMultisample(GL_DEPTH_COMPONENT32F, width, height, samples));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        renderer.samples_target_,
+        gl::GlFramebuffer::Create({.colors = {{.texture = &renderer.picture_samples_}},
+                                   .depth = {.texture = &renderer.depth_samples_}}));
+  }
   renderer.no_vertices_ = gl::GlVertexArray::Create();
   return renderer;
 }
@@ -82,7 +94,7 @@ Result<void> BenchRenderer::SetMethod(const ShadowMapOptions& options) {
 }
 
 Result<View> BenchRenderer::Tightened(const View& view) {
-  DrawDepth(view);
+  DrawDepth(target_, view);
   std::vector<float> depths(static_cast<std::size_t>(width_) * height_);
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
   float least = 1.0F, most = 0.0F;
@@ -116,10 +128,10 @@ void BenchRenderer::DrawSurfaces(const gl::GlProgram& program, const View& view)
   }
 }
 
-void BenchRenderer::DrawDepth(const View& view) {
-  target_.Bind();
-  target_.ClearColor(0, 1, 0, 0, 0);
-  target_.ClearDepth(1.0F);
+void BenchRenderer::DrawDepth(const gl::GlFramebuffer& target, const View& view) {
+  target.Bind();
+  target.ClearColor(0, 1, 0, 0, 0);
+  target.ClearDepth(1.0F);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
@@ -136,6 +148,7 @@ void BenchRenderer::DrawVisible(const gl::GlProgram& program, const View& view) 
   DrawSurfaces(program, view);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
+  if (samples_target_) samples_target_->BlitTo(target_);
 }
 
 VisibilityPicture BenchRenderer::Read() const {
@@ -154,14 +167,14 @@ VisibilityPicture BenchRenderer::Read() const {
 Result<VisibilityPicture> BenchRenderer::Draw(const View& view, int* redrawn) {
   PLEINAIR_ASSIGN_OR_RETURN(const int count, UpdateMaps(view));
   if (redrawn != nullptr) *redrawn = count;
-  DrawDepth(view);
+  DrawDepth(DrawTarget(), view);
   DrawVisible(view_program_, view);
   return Read();
 }
 
 Result<VisibilityPicture> BenchRenderer::DrawPartitions(const View& view) {
   PLEINAIR_RETURN_IF_ERROR(UpdateMaps(view));
-  DrawDepth(view);
+  DrawDepth(DrawTarget(), view);
   DrawVisible(partitions_program_, view);
   return Read();
 }
@@ -177,7 +190,7 @@ Result<FrameTime> BenchRenderer::Time(const View& view, int frames) {
     glFinish();
     least.maps_ms = std::min(least.maps_ms, MillisecondsSince(start));
     start = Clock::now();
-    DrawDepth(view);
+    DrawDepth(DrawTarget(), view);
     DrawVisible(view_program_, view);
     glFinish();
     least.scene_ms = std::min(least.scene_ms, MillisecondsSince(start));

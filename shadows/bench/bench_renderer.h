@@ -1,6 +1,7 @@
 #pragma once
 
 #include <list>
+#include <optional>
 #include <vector>
 
 #include "base/image.h"
@@ -39,10 +40,13 @@ struct ProbeGrid {
   glm::dvec3 At(int x, int y) const { return origin + du * (x + 0.5) + dv * (y + 0.5); }
 };
 
-/// Draws one scene with any shadow method. Needs a current GL context for its whole life.
+/// Draws one scene with any shadow method, one sample a pixel in its middle or several as the
+/// compositor does, so that edges of surfaces do not tremble where its camera creeps. Needs a
+/// current GL context for its whole life.
 class BenchRenderer {
  public:
-  static Result<BenchRenderer> Create(const BenchScene& scene, int width, int height);
+  static Result<BenchRenderer> Create(const BenchScene& scene, int width, int height,
+                                      int samples = 1);
 
   /// The method from now on. Errors as ShadowMaps::Create.
   Result<void> SetMethod(const ShadowMapOptions& options);
@@ -76,7 +80,10 @@ class BenchRenderer {
   };
   Result<int> UpdateMaps(const View& view);
   void DrawSurfaces(const gl::GlProgram& program, const View& view);
-  void DrawDepth(const View& view);
+  const gl::GlFramebuffer& DrawTarget() const {
+    return samples_target_ ? *samples_target_ : target_;
+  }
+  void DrawDepth(const gl::GlFramebuffer& target, const View& view);
   void DrawVisible(const gl::GlProgram& program, const View& view);
   VisibilityPicture Read() const;
 
@@ -86,8 +93,9 @@ class BenchRenderer {
   std::vector<ShadowCaster> casters_;
   std::vector<ShadowMaps> maps_;  // One; none before SetMethod.
   gl::GlProgram depth_program_, view_program_, partitions_program_, probe_program_;
-  gl::GlTexture picture_, depth_;
+  gl::GlTexture picture_, depth_, picture_samples_, depth_samples_;
   gl::GlFramebuffer target_;
+  std::optional<gl::GlFramebuffer> samples_target_;  // With several samples a pixel.
   gl::GlVertexArray no_vertices_;
 };
 

@@ -21,8 +21,7 @@
 #include "shadows/shaders/shadow_filters.glsl"
 #else
 #if !defined(SHADOW_METHOD_SUN_DISC) && !defined(SHADOW_METHOD_SUN_DISC_FAST) && \
-    !defined(SHADOW_METHOD_SUN_DISC_LEAN) && !defined(SHADOW_METHOD_SUN_DISC_LIGHT) &&       \
-    !defined(SHADOW_METHOD_SUN_DISC_SPREAD)
+    !defined(SHADOW_METHOD_SUN_DISC_LEAN) && !defined(SHADOW_METHOD_SUN_DISC_SPREAD)
 #define SHADOW_METHOD_SUN_DISC
 #endif
 #include "shadows/shaders/shadow_sun_disc.glsl"
@@ -101,8 +100,6 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
   return ShadowNarrow(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
 #elif defined(SHADOW_METHOD_SUN_DISC_SPREAD)
   return ShadowFiveLooks(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
-#elif defined(SHADOW_METHOD_SUN_DISC_LIGHT)
-  return ShadowThreeLooks(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
 #elif defined(SHADOW_METHOD_SUN_DISC_LEAN)
   return ShadowTap(set, place.slice, place.size, r, r.texel, -1e30);
 #elif defined(SHADOW_METHOD_PLAIN)

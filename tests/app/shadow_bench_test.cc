@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 #include "app/bench/shadow_metrics.h"
 #include "app/bench/shadow_truth.h"
+#include "shadows/bench/example_models.h"
 
 namespace pleinair::app {
 namespace {
@@ -81,6 +85,28 @@ TEST(ShadowTruth, IsDarkBehindTheBoxAndLitOnItsTop) {
   EXPECT_EQ(truth->At({-0.1, 0.35, 0.0}, {0, 0, 1}), 0.0);
   EXPECT_EQ(truth->At({-0.1, 0.0, 0.8}, {0, 0, 1}), 1.0);
   EXPECT_EQ(truth->At({-0.1, 0.3, 0.4}, {0, 1, 0}), 0.0) << "turned away from the sun";
+}
+
+TEST(ExampleModels, AreWhatTheToolWrites) {
+  const auto models = shadows::TreeAndBody();
+  ASSERT_EQ(models.size(), 2U);
+  for (const shadows::ExampleModel& model : models) {
+    std::ifstream file(std::string(PLEINAIR_SOURCE_DIR "/docs/examples/tree_and_body/") +
+                       model.file);
+    std::istringstream written(model.text);
+    std::string there, here;
+    int words = 0;
+    while (written >> here) {
+      ASSERT_TRUE(file >> there) << model.file << " ends at word " << words;
+      // Another machine's sine may round the last digit elsewhere.
+      if (here != there) {
+        ASSERT_NEAR(std::stod(here), std::stod(there), 1.5e-4) << model.file << " word " << words;
+      }
+      ++words;
+    }
+    EXPECT_FALSE(file >> there) << model.file << " has more";
+    EXPECT_GT(words, 5000);
+  }
 }
 
 }  // namespace

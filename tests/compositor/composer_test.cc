@@ -394,6 +394,23 @@ TEST(Composer, TintsPartitionsAndShowsTheMapsInTheDebugView) {
   EXPECT_LT(darkest, brightest - 20);
 }
 
+TEST(Composer, DrawsShadowMapsOfTheSizesAskedFor) {
+  ComposerOptions options;
+  options.shadow_method = ShadowMethod::kPlain;
+  const RgbImage fine = Compose({kGround, kCube}, EvenPicture(200), kCamera, kSunLux, options);
+  options.shadow_sizes = {32, 32, 32, 32};
+  const RgbImage coarse = Compose({kGround, kCube}, EvenPicture(200), kCamera, kSunLux, options);
+  int differing = 0;
+  for (int y = 0; y < kCamera.height; ++y) {
+    for (int x = 0; x < kCamera.width; ++x) differing += fine(x, y, 1) != coarse(x, y, 1);
+  }
+  EXPECT_GT(differing, 100) << "the shadow's edge follows the texels";
+  options.shadow_sizes[1] = 100;
+  const auto refused = Composer::Create(kCamera, {kGround, kCube}, options);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().kind, ErrorKind::kInput);
+}
+
 TEST(Composer, CastsTheSameShadowByThePapersMethod) {
   ComposerOptions options;
   options.shadow_method = ShadowMethod::kGaussian;
