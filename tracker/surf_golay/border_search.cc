@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 
 #include "tracker/homography.h"
 #include "tracker/surf_golay/sg_layout.h"
@@ -223,13 +222,12 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
     const Mat3 inverse = Adjugate(guess.modules_from_ideal);
     for (int k = 0; k < 4; ++k) corners[k] = Apply(inverse, CornerModules(k));
     const double same2 = kSamePlace * kSamePlace * seed.size_px * seed.size_px;
-    const bool known = std::any_of(guessed_corners_.begin(), guessed_corners_.end(),
-                                   [&](const std::array<Vec2, 4>& other) {
-                                     return std::ranges::all_of(std::views::iota(0, 4), [&](int k) {
-                                       const Vec2 apart = corners[k] - other[k];
-                                       return apart.x * apart.x + apart.y * apart.y < same2;
-                                     });
-                                   });
+    const auto near = [&](Vec2 a, Vec2 b) {
+      return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) < same2;
+    };
+    const bool known = std::ranges::any_of(guessed_corners_, [&](const std::array<Vec2, 4>& other) {
+      return std::ranges::equal(corners, other, near);
+    });
     if (known) continue;
     guesses->push_back(guess);
     guessed_corners_.push_back(corners);
