@@ -211,6 +211,24 @@ class PlanarPoseProblem {
   const std::array<Vec3, 4> corners_in_marker_;
 };
 
+/// Where nothing but the corners chose the pose, the other may be the true one: with the odds that
+/// the reprojection errors give it, its distance squared is part of the best one's variance (second
+/// moment of a mixture of two).
+void WidenByAlternative(const Refined& best, const Refined& other, PoseEstimate* estimate) {
+  const auto rotation = [](const Refined& refined) {
+    return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(
+        refined.solution.camera_from_marker.rotation.m.data());
+  };
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(rotation(other) * rotation(best).transpose()));
+  const Vec3 shift = other.solution.camera_from_marker.translation_m -
+                     best.solution.camera_from_marker.translation_m;
+  Vector6 apart;
+  apart << turn.angle() * turn.axis(), shift.x, shift.y, shift.z;
+  const double share = 1.0 / (1.0 + std::exp(0.5 * (other.cost - best.cost)));
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(estimate->covariance.data()) +=
+      share * apart * apart.transpose();
+}
+
 double AngleBetween(const Mat3& a, const Mat3& b) {
   const Mat3 difference = a * b.Transposed();
   const double cosine = 0.5 * (difference(0, 0) + difference(1, 1) + difference(2, 2) - 1.0);
@@ -262,6 +280,7 @@ std::optional<PoseEstimate> EstimatePlanarPose(const CameraModel& camera,
     if (worse > 0.0) {
       estimate.ambiguity_ratio = std::min(1.0, estimate.best.reprojection_rms_px / worse);
     }
+    if (likely_rotation == nullptr) WidenByAlternative(solutions[0], solutions[1], &estimate);
   }
   return estimate;
 }

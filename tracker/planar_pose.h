@@ -22,9 +22,9 @@ CornerCovariance IsotropicCornerCovariance(double sigma_px);
 /// plane-based pose estimation") on undistorted rays and are refined in distorted pixels, weighted
 /// by the corners' covariance. The one that fits better comes first; no alternative is given when
 /// both end in the same pose. Where the corners do not tell the two apart (χ² differs by less than
-/// 9, odds of 90 to 1), `likely_rotation`, such as that of the frame before, decides. Nothing is
-/// returned when the corners admit no pose in front of the
-/// camera.
+/// 9, odds of 90 to 1), `likely_rotation`, such as that of the frame before, decides; without it,
+/// the covariance counts with the other at its odds. Nothing is returned when the corners admit no
+/// pose in front of the camera.
 std::optional<PoseEstimate> EstimatePlanarPose(const CameraModel& camera,
                                                const std::array<Vec2, 4>& corners_px,
                                                const CornerCovariance& corner_covariance_px2,

@@ -73,6 +73,37 @@ TEST(PoseCovariance, TellsTheTruthForGaussianNoiseOnTheCorners) {
   }
 }
 
+// Of a small, little tilted print the corners now and then prefer the wrong one of two poses; the
+// covariance must not hold that for impossible.
+TEST(PoseCovariance, CountsWithTheOtherPoseWhereTheCornersHardlyTellThemApart) {
+  const CameraModel camera{.width = 640, .height = 480, .fx = 600, .fy = 605, .cx = 322, .cy = 238};
+  RenderedMarker marker;
+  marker.camera_from_marker = PoseSeenAt(camera, {400, 180}, 24, marker.size, FromDegrees(12),
+                                         FromDegrees(100), FromDegrees(5));
+  const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0.0, 0.06);
+  constexpr int kDraws = 1000;
+  double sum = 0.0;
+  int wrong = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::array<Vec2, 4> corners = truth;
+    for (Vec2& corner : corners) {
+      corner.x += normal(random);
+      corner.y += normal(random);
+    }
+    const auto pose =
+        EstimatePlanarPose(camera, corners, IsotropicCornerCovariance(0.06), marker.size);
+    ASSERT_TRUE(pose.has_value());
+    sum += Nees(*pose, marker.camera_from_marker);
+    const auto error = PoseError(pose->best.camera_from_marker, marker.camera_from_marker);
+    if (error.head<3>().norm() > FromDegrees(12).value()) ++wrong;
+  }
+  RecordProperty("mean_nees", std::to_string(sum / kDraws));
+  EXPECT_GT(wrong, kDraws / 50);
+  EXPECT_NEAR(sum / kDraws, 6.0, 2.0);
+}
+
 // From the picture's noise to the pose, through the whole tracker. The covariance knows the noise
 // from the residuals only, and holds a floor for what they do not tell (a hundredth of a pixel in
 // the corners): it may be somewhat too wide, never too narrow.

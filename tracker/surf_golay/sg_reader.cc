@@ -65,7 +65,7 @@ constexpr double kChequeredDoubt_bits = 6.0;
 constexpr GolayWord kAllCells = (1U << kGolayBits) - 1;
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
-constexpr double kSystematicCorner_px = 0.0025;
+constexpr double kSystematicCorner_px = 0.002;
 
 constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
 
