@@ -45,6 +45,7 @@ compositor::NormalsMode NormalsOf(devices::Shading shading) {
 template <typename T, typename Value>
 double MedianOf(const std::deque<T>& readings, const Value& value) {
   std::vector<double> values;
+  values.reserve(readings.size());
   for (const T& reading : readings) values.push_back(value(reading));
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -129,7 +129,8 @@ std::size_t CountVertices(const std::vector<SurfaceMesh>& surfaces) {
 void Tessellate(const TessellationOptions& options, std::vector<SurfaceMesh>* surfaces) {
   if (CountVertices(*surfaces) >= options.max_vertices) return;
   const ObjectDistance distance(*surfaces);
-  for (double scale = 1.0; scale < 1e6; scale *= 1.5) {
+  double scale = 1.0;
+  for (int coarser = 0; coarser < 34; ++coarser, scale *= 1.5) {  // Up to a million times.
     const Refiner refiner(distance, options.near_edge_m * scale, options.growth_per_m * scale);
     std::vector<SurfaceMesh> refined = *surfaces;
     bool fits = true;

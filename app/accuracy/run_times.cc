@@ -16,6 +16,7 @@ std::vector<DetectorTimes> TimesOf(const std::vector<accuracy::FrameRecord>& rec
     for (const auto& [stage, ms] : record.stages_ms) by_detector[record.detector].Add(stage, ms);
   }
   std::vector<DetectorTimes> times;
+  times.reserve(by_detector.size());
   for (const auto& [detector, stages] : by_detector) {
     times.push_back({detector, stages.Summarize()});
   }
