@@ -11,110 +11,23 @@
 
 #include "base/srgb.h"
 #include "compositor/render_camera.h"
-#include "compositor/scene_view.h"
-#include "shadows/splits.h"
+#include "tests/compositor/composer_scene.h"
 
 namespace pleinair::compositor {
 namespace {
 
-constexpr double kSkyLux = 20000, kSunLux = 80000;
-
-/// An even sky and a sun in the south, 45° high, or no sun at all.
-class SouthernSun : public sky::SkyModel {
- public:
-  explicit SouthernSun(double sun_lux = kSunLux) : sun_lux_(sun_lux) {}
-  LinearRgb SkyRadiance(Direction<World>) const override {
-    return LinearRgb{kSkyLux, kSkyLux, kSkyLux} * std::numbers::inv_pi;
-  }
-  LinearRgb SunNormalIrradiance() const override { return {sun_lux_, sun_lux_, sun_lux_}; }
-  LinearRgb SkyHorizontalIrradiance() const override { return {kSkyLux, kSkyLux, kSkyLux}; }
-  Direction<World> ToSun() const override {
-    return {{0, -std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2}};
-  }
-
- private:
-  double sun_lux_;
-};
-
-/// An axis-aligned box, or with zero height an upward rectangle.
-Model MakeBox(Vec3 low, Vec3 high, float albedo) {
-  Model model;
-  Material material;
-  material.base_color = {albedo, albedo, albedo};
-  model.materials.push_back(material);
-  Mesh mesh;
-  const auto face = [&](Vec3 origin, Vec3 u, Vec3 v) {
-    const Vec3 normal = Normalized(Cross(u, v));
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const Vec3 p : {origin, origin + u, origin + u + v, origin + v}) {
-      mesh.positions.push_back(
-          {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-      mesh.normals.push_back({static_cast<float>(normal.x), static_cast<float>(normal.y),
-                              static_cast<float>(normal.z)});
-    }
-    for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + i);
-  };
-  const Vec3 dx{high.x - low.x, 0, 0}, dy{0, high.y - low.y, 0}, dz{0, 0, high.z - low.z};
-  face(low + dz, dx, dy);
-  if (dz.z > 0.0) {
-    face(low, dy, dx);
-    face(low, dx, dz);
-    face(low + dx, dy, dz);
-    face(low + dx + dy, dx * -1.0, dz);
-    face(low + dy, dy * -1.0, dz);
-  }
-  model.meshes.push_back(std::move(mesh));
-  return model;
-}
-
-PlacedModel Place(const Model& model, bool is_phantom) {
-  return {std::make_shared<const Model>(model), Mat3{}, {}, is_phantom};
-}
-
-const CameraModel kCamera{
-    .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 159.5, .cy = 119.5};
-// Three metres above the marker, looking straight down; picture up is the marker's +y (north).
-const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 3}};
-// Display-linear value per radiance: white ground in full light shows as 0.8.
-const double kGain = 0.8 * std::numbers::pi / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
-
-const PlacedModel kGround = Place(MakeBox({-4, -4, 0}, {4, 4, 0}, 0.3F), true);
-const PlacedModel kCube = Place(MakeBox({-0.15, -0.15, 0.001}, {0.15, 0.15, 0.3}, 0.5F), false);
-
-RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
-                 const CameraModel& camera = kCamera, double sun_lux = kSunLux,
-                 ComposerOptions options = {}, const std::optional<PictureLook>& look = {},
-                 bool look_for_shade = true) {
-  LightSolverOptions solver_options;
-  solver_options.rays_per_vertex = 64;
-  const auto solver = LightSolver::Create(scene, solver_options);
-  if (!solver) ADD_FAILURE() << solver.error().Message();
-  auto composer = Composer::Create(camera, scene, options);
-  if (!composer) ADD_FAILURE() << composer.error().Message();
-  (*composer)->LookForShade(look_for_shade);
-  const SouthernSun light(sun_lux);
-  const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{});
-  if (!set) ADD_FAILURE() << set.error().Message();
-  if (const auto looks = (*composer)->SetLook(look); !looks) {
-    ADD_FAILURE() << looks.error().Message();
-  }
-  auto composed = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
-  if (!composed) ADD_FAILURE() << composed.error().Message();
-  return *std::move(composed);
-}
-
-RgbImage EvenPicture(std::uint8_t code) {
-  RgbImage picture(kCamera.width, kCamera.height, 3);
-  std::fill_n(picture.data(), picture.size(), code);
-  return picture;
-}
-
-/// Linear value of the green channel where a point of the scene is seen.
-double SeenAt(const RgbImage& picture, Vec3 point, const CameraModel& camera = kCamera) {
-  const Vec2 pixel = ProjectToPixel(camera, kFromAbove * Point<Marker>{point});
-  return LinearFromSrgb8()[picture(static_cast<int>(std::lround(pixel.x)),
-                                   static_cast<int>(std::lround(pixel.y)), 1)];
-}
+using testing::Compose;
+using testing::EvenPicture;
+using testing::kCamera;
+using testing::kCube;
+using testing::kFromAbove;
+using testing::kGain;
+using testing::kGround;
+using testing::kSkyLux;
+using testing::kSunLux;
+using testing::MakeBox;
+using testing::Place;
+using testing::SeenAt;
 
 TEST(Composer, KeepsTheBytesThatNoVirtualThingTouches) {
   RgbImage noise(kCamera.width, kCamera.height, 3);
@@ -230,146 +143,6 @@ TEST(Composer, CastsNoShadowWithoutASun) {
   EXPECT_NEAR(SeenAt(composed, {0, 0.30, 0}) / before, SeenAt(composed, {0, -0.30, 0}) / before,
               0.03);
   EXPECT_LT(SeenAt(composed, {0, 0.17, 0}) / before, 0.85);
-}
-
-/// The same light in air so thick that half of what is three metres away is seen.
-class HazySouthernSun : public SouthernSun {
- public:
-  AirBetween AirTo(Direction<World>, Metres distance) const override {
-    const double left = std::exp2(-distance.value() / 3.0);
-    return {{left, left, left}, LinearRgb{1.0, 1.0, 1.0} * (kAirlight * (1.0 - left))};
-  }
-  static constexpr double kAirlight = 6000.0;
-};
-
-TEST(Composer, SeesTheObjectThroughAsMuchFogAsItIsToldTo) {
-  const SouthernSun clear;
-  const HazySouthernSun hazy;
-  const std::vector<PlacedModel> scene{kGround, kCube};
-  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
-  ASSERT_TRUE(solver.has_value());
-  const auto lit = (*solver)->Solve(clear, Mat3{});
-  auto composer = Composer::Create(kCamera, scene, {});
-  ASSERT_TRUE(composer.has_value());
-  const auto top = [&](const sky::SkyModel& day, double fog) {
-    ComposerOptions options;
-    options.fog.fill(fog);
-    EXPECT_TRUE((*composer)->SetOptions(options));
-    EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}));
-    const auto composed =
-        (*composer)->Compose(EvenPicture(128).view(), kFromAbove, {kGain, kGain, kGain});
-    return SeenAt(*composed, {0, 0, 0.3});
-  };
-  const double plain = top(clear, 1.0);
-  EXPECT_EQ(top(hazy, 0.0), plain);
-  for (const double fog : {1.0, 2.0}) {
-    const double left = std::exp2(-fog * 2.7 / 3.0);
-    EXPECT_NEAR(top(hazy, fog), plain * left + kGain * HazySouthernSun::kAirlight * (1.0 - left),
-                0.02)
-        << fog;
-  }
-}
-
-TEST(Composer, DrawsFogOfDifferentPartitionsWithoutASeam) {
-  // A virtual lawn from under the camera to the horizon, and its fog by the formula.
-  const std::vector<PlacedModel> scene{Place(MakeBox({-400, -400, 0}, {400, 400, 0}, 0.5F), false)};
-  const Transform<Camera, Marker> eye_level{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {0, 2, 0}};
-  const HazySouthernSun day;
-  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 16, .near_edge_m = 100.0});
-  ASSERT_TRUE(solver.has_value());
-  ComposerOptions options;
-  options.shadow_partitions = 4;
-  options.fog = {0.0, 0.06, 0.005, 0.02};
-  auto composer = Composer::Create(kCamera, scene, options);
-  ASSERT_TRUE(composer.has_value());
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(day, Mat3{}), day, Mat3{}));
-  const auto composed =
-      (*composer)->Compose(EvenPicture(0).view(), eye_level, {kGain, kGain, kGain});
-  ASSERT_TRUE(composed.has_value());
-  const shadows::View view =
-      ViewOf(FitRenderCamera(kCamera, 1.0), eye_level, {{-400, -400, 0}, {400, 400, 0}});
-  const std::vector<double> splits =
-      shadows::PracticalSplits(view.near_m, view.far_m, 4, options.shadow_split_weight);
-  const double radiance =
-      0.5 * (kSkyLux + kSunLux * std::numbers::sqrt2 / 2) * std::numbers::inv_pi;
-  int partitions_seen = 0;
-  double last = -1.0;
-  for (int y = kCamera.height - 1; y > 122; --y) {
-    const double down = (y - kCamera.cy) / kCamera.fy;
-    const double distance = 2.0 * std::sqrt(1.0 + down * down) / down;  // To a point ahead.
-    double through_m = 0.0;
-    for (int i = 0; i < 4; ++i) {
-      const double length = std::clamp(distance - (i == 0 ? 0.0 : splits[i]), 0.0,
-                                       splits[i + 1] - (i == 0 ? 0.0 : splits[i]));
-      through_m += options.fog[i] * length;
-      if (length > 0.0) partitions_seen = std::max(partitions_seen, i + 1);
-    }
-    const double left = std::exp2(-through_m / 3.0);
-    const double seen = LinearFromSrgb8()[(*composed)(160, y, 1)];
-    EXPECT_NEAR(seen, kGain * (radiance * left + HazySouthernSun::kAirlight * (1.0 - left)), 0.02)
-        << "row " << y << ", " << distance << " m";
-    // Fog may thicken from row to row; a seam would be a step.
-    if (last >= 0.0 && distance < 60.0) {
-      EXPECT_NEAR(seen, last, 0.02) << "row " << y;
-    }
-    last = seen;
-  }
-  EXPECT_GE(partitions_seen, 3);
-}
-
-/// The same light in air that leaves 60 % of what is 200 m away.
-class HazySouthernField : public SouthernSun {
- public:
-  AirBetween AirTo(Direction<World>, Metres distance) const override {
-    const double left = std::pow(kLeft, distance.value() / 200.0);
-    return {{left, left, left}, LinearRgb{1.0, 1.0, 1.0} * (kAirlight * (1.0 - left))};
-  }
-  static constexpr double kLeft = 0.6, kAirlight = 6000.0;
-  /// How a surface 200 m away shows.
-  static double Shown(double radiance) {
-    return kGain * (radiance * kLeft + kAirlight * (1.0 - kLeft));
-  }
-};
-
-TEST(Composer, FadesAShadowOnARealSurface200MetresAwayAsHazeFadesARealOne) {
-  const PlacedModel field = Place(MakeBox({-150, -150, 0}, {150, 150, 0}, 0.3F), true);
-  const PlacedModel tower = Place(MakeBox({-10, -10, 0.01}, {10, 10, 20}, 0.5F), false);
-  const Transform<Camera, Marker> from_far_above{kFromAbove.rotation, {0, 0, 200}};
-  const std::vector<PlacedModel> scene{field, tower};
-  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64, .near_edge_m = 2.0});
-  ASSERT_TRUE(solver.has_value());
-  const HazySouthernField day;
-  const auto lit = (*solver)->Solve(day, Mat3{});
-  auto composer = Composer::Create(kCamera, scene, {});
-  ASSERT_TRUE(composer.has_value());
-  ASSERT_TRUE((*composer)->SetLight(lit, day, Mat3{}));
-  const auto shadow = [&](double picture, double fog) {
-    ComposerOptions options;
-    options.fog.fill(fog);
-    EXPECT_TRUE((*composer)->SetOptions(options));
-    const auto code = static_cast<std::uint8_t>(std::lround(255.0 * SrgbFromLinear(picture)));
-    const auto composed =
-        (*composer)->Compose(EvenPicture(code).view(), from_far_above, {kGain, kGain, kGain});
-    const Vec2 pixel = ProjectToPixel(kCamera, from_far_above * Point<Marker>{{0, 20, 0}});
-    return LinearFromSrgb8()[(*composed)(static_cast<int>(std::lround(pixel.x)),
-                                         static_cast<int>(std::lround(pixel.y)), 1)];
-  };
-  const double sunlit = 0.3 * (kSkyLux + kSunLux * std::numbers::sqrt2 / 2) / std::numbers::pi;
-  // As a near picture would have it, to know what the tower leaves of the light.
-  const double ratio = shadow(kGain * sunlit, 0.0) / (kGain * sunlit);
-  EXPECT_NEAR(ratio, 0.23, 0.06);
-  EXPECT_NEAR(shadow(HazySouthernField::Shown(sunlit), 1.0),
-              HazySouthernField::Shown(ratio * sunlit), 0.006);
-  EXPECT_LT(shadow(HazySouthernField::Shown(sunlit), 0.0),
-            HazySouthernField::Shown(ratio * sunlit) - 0.04);
-  // Half the air: half the optical depth.
-  const double left = std::sqrt(HazySouthernField::kLeft);
-  const double air = kGain * HazySouthernField::kAirlight * (1.0 - left);
-  EXPECT_NEAR(shadow(kGain * sunlit * left + air, 0.5), kGain * ratio * sunlit * left + air, 0.006);
-  // Shade that the picture has there already is known for it through the haze.
-  const double shaded = HazySouthernField::Shown(0.3 * kSkyLux / std::numbers::pi);
-  EXPECT_NEAR(shadow(shaded, 1.0), shaded, 0.015);
-  EXPECT_LT(shadow(shaded, 0.0), 0.7 * shaded);
 }
 
 TEST(Composer, TintsPartitionsAndShowsTheMapsInTheDebugView) {

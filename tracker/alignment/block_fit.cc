@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tracker/alignment/block_fit_sums.h"
+#include "tracker/alignment/light_elimination.h"
 #include "tracker/homography.h"
 
 namespace pleinair::tracker {
@@ -137,11 +138,11 @@ void BlockFit::AddUp(const SeenWindow& seen, bool blur) {
   // them could do as well.
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const BlockMotions& sum = sums_->motions[k];
-    const Elimination eliminate(sum);
+    const LightElimination eliminate(sum);
     if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
     const double gain = blocks_[k].gain;
     for (int a = 0; a < kParameters; ++a) {
-      const double on_white = eliminate.OnWhite(sum.j[a], sum.pj[a]);
+      const double on_white = eliminate.OnPattern(sum.j[a], sum.pj[a]);
       const double on_one = eliminate.OnOne(sum.j[a], sum.pj[a]);
       gradient_[a] -= gain * (on_white * sum.rp + on_one * sum.r);
       for (int b = 0; b <= a; ++b) {

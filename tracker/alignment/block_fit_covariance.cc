@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tracker/alignment/block_fit_sums.h"
+#include "tracker/alignment/light_elimination.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -40,14 +41,14 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const PrintBlock& block = blocks_[k];
     const BlockMotions& sum = sums_->motions[k];
-    const Elimination eliminate(sum);
+    const LightElimination eliminate(sum);
     if (!(block.weight > 0.0) || !eliminate.possible) continue;
-    residual += std::max(0.0, sum.rr - eliminate.OnWhite(sum.r, sum.rp) * sum.rp -
+    residual += std::max(0.0, sum.rr - eliminate.OnPattern(sum.r, sum.rp) * sum.rp -
                                   eliminate.OnOne(sum.r, sum.rp) * sum.r);
     count += block.pixels * block.weight;
     eliminations[k].possible = true;
     for (int a = 0; a < kParameters; ++a) {
-      eliminations[k].on_white[a] = block.gain * eliminate.OnWhite(sum.j[a], sum.pj[a]);
+      eliminations[k].on_white[a] = block.gain * eliminate.OnPattern(sum.j[a], sum.pj[a]);
       eliminations[k].on_one[a] = block.gain * eliminate.OnOne(sum.j[a], sum.pj[a]);
     }
     const double tells = block.weight * block.pixels * block.contrast;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tracker/alignment/block_sums.h"
+#include "tracker/alignment/light_elimination.h"
 #include "tracker/homography.h"
 #include "tracker/picture_target/picture_target.h"
 
@@ -62,26 +63,6 @@ const PrintPattern& SidePattern() {
                                      .white = {}};
   return kPattern;
 }
-
-/// What a change of a block's gain and offset could do as well as the parameters.
-struct Elimination {
-  bool with_gain = false, possible = false;
-  double w = 0.0, p = 0.0, pp = 0.0, determinant = 0.0;
-
-  explicit Elimination(const BlockMotions& sums) : w(sums.w), p(sums.p), pp(sums.pp) {
-    determinant = w * pp - p * p;
-    possible = w > 0.0;
-    with_gain = determinant > 1e-9 * w * w;
-  }
-  /// How much of something, its sums with 1 and p, is like the picture …
-  double OnPicture(double sum, double sum_p) const {
-    return with_gain ? (w * sum_p - p * sum) / determinant : 0.0;
-  }
-  /// … and how much like a constant.
-  double OnOne(double sum, double sum_p) const {
-    return with_gain ? (pp * sum - p * sum_p) / determinant : sum / w;
-  }
-};
 
 }  // namespace
 
@@ -177,11 +158,11 @@ void PictureFit::AddUp(const SeenWindow& seen, bool blur) {
   // them could do as well.
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const BlockMotions& sum = sums_->motions[k];
-    const Elimination eliminate(sum);
+    const LightElimination eliminate(sum);
     if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
     const double gain = blocks_[k].gain;
     for (int a = 0; a < kParameters; ++a) {
-      const double on_picture = eliminate.OnPicture(sum.j[a], sum.pj[a]);
+      const double on_picture = eliminate.OnPattern(sum.j[a], sum.pj[a]);
       const double on_one = eliminate.OnOne(sum.j[a], sum.pj[a]);
       gradient_[a] -= gain * (on_picture * sum.rp + on_one * sum.r);
       for (int b = 0; b <= a; ++b) {
@@ -356,9 +337,9 @@ std::array<double, 64> PictureFit::MotionCovariance() const {
   double residual = 0.0, count = 0.0;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const BlockMotions& sum = sums_->motions[k];
-    const Elimination eliminate(sum);
+    const LightElimination eliminate(sum);
     if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
-    residual += std::max(0.0, sum.rr - eliminate.OnPicture(sum.r, sum.rp) * sum.rp -
+    residual += std::max(0.0, sum.rr - eliminate.OnPattern(sum.r, sum.rp) * sum.rp -
                                   eliminate.OnOne(sum.r, sum.rp) * sum.r);
     count += blocks_[k].pixels * blocks_[k].weight;
   }

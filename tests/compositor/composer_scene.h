@@ -1,0 +1,120 @@
+#pragma once
+
+// A small scene whose light can be worked out by hand: a cube on ground, seen from above.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/srgb.h"
+#include "compositor/composer.h"
+
+namespace pleinair::compositor::testing {
+
+inline constexpr double kSkyLux = 20000, kSunLux = 80000;
+
+/// An even sky and a sun in the south, 45° high, or no sun at all.
+class SouthernSun : public sky::SkyModel {
+ public:
+  explicit SouthernSun(double sun_lux = kSunLux) : sun_lux_(sun_lux) {}
+  LinearRgb SkyRadiance(Direction<World>) const override {
+    return LinearRgb{kSkyLux, kSkyLux, kSkyLux} * std::numbers::inv_pi;
+  }
+  LinearRgb SunNormalIrradiance() const override { return {sun_lux_, sun_lux_, sun_lux_}; }
+  LinearRgb SkyHorizontalIrradiance() const override { return {kSkyLux, kSkyLux, kSkyLux}; }
+  Direction<World> ToSun() const override {
+    return {{0, -std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2}};
+  }
+
+ private:
+  double sun_lux_;
+};
+
+/// An axis-aligned box, or with zero height an upward rectangle.
+inline Model MakeBox(Vec3 low, Vec3 high, float albedo) {
+  Model model;
+  Material material;
+  material.base_color = {albedo, albedo, albedo};
+  model.materials.push_back(material);
+  Mesh mesh;
+  const auto face = [&](Vec3 origin, Vec3 u, Vec3 v) {
+    const Vec3 normal = Normalized(Cross(u, v));
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3 p : {origin, origin + u, origin + u + v, origin + v}) {
+      mesh.positions.push_back(
+          {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+      mesh.normals.push_back({static_cast<float>(normal.x), static_cast<float>(normal.y),
+                              static_cast<float>(normal.z)});
+    }
+    for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + i);
+  };
+  const Vec3 dx{high.x - low.x, 0, 0}, dy{0, high.y - low.y, 0}, dz{0, 0, high.z - low.z};
+  face(low + dz, dx, dy);
+  if (dz.z > 0.0) {
+    face(low, dy, dx);
+    face(low, dx, dz);
+    face(low + dx, dy, dz);
+    face(low + dx + dy, dx * -1.0, dz);
+    face(low + dy, dy * -1.0, dz);
+  }
+  model.meshes.push_back(std::move(mesh));
+  return model;
+}
+
+inline PlacedModel Place(const Model& model, bool is_phantom) {
+  return {std::make_shared<const Model>(model), Mat3{}, {}, is_phantom};
+}
+
+inline const CameraModel kCamera{
+    .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 159.5, .cy = 119.5};
+// Three metres above the marker, looking straight down; picture up is the marker's +y (north).
+inline const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 3}};
+// Display-linear value per radiance: white ground in full light shows as 0.8.
+inline const double kGain = 0.8 * std::numbers::pi / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
+
+inline const PlacedModel kGround = Place(MakeBox({-4, -4, 0}, {4, 4, 0}, 0.3F), true);
+inline const PlacedModel kCube =
+    Place(MakeBox({-0.15, -0.15, 0.001}, {0.15, 0.15, 0.3}, 0.5F), false);
+
+inline RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
+                        const CameraModel& camera = kCamera, double sun_lux = kSunLux,
+                        ComposerOptions options = {}, const std::optional<PictureLook>& look = {},
+                        bool look_for_shade = true) {
+  LightSolverOptions solver_options;
+  solver_options.rays_per_vertex = 64;
+  const auto solver = LightSolver::Create(scene, solver_options);
+  if (!solver) ADD_FAILURE() << solver.error().Message();
+  auto composer = Composer::Create(camera, scene, options);
+  if (!composer) ADD_FAILURE() << composer.error().Message();
+  (*composer)->LookForShade(look_for_shade);
+  const SouthernSun light(sun_lux);
+  const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{});
+  if (!set) ADD_FAILURE() << set.error().Message();
+  if (const auto looks = (*composer)->SetLook(look); !looks) {
+    ADD_FAILURE() << looks.error().Message();
+  }
+  auto composed = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+  if (!composed) ADD_FAILURE() << composed.error().Message();
+  return *std::move(composed);
+}
+
+inline RgbImage EvenPicture(std::uint8_t code) {
+  RgbImage picture(kCamera.width, kCamera.height, 3);
+  std::fill_n(picture.data(), picture.size(), code);
+  return picture;
+}
+
+/// Linear value of the green channel where a point of the scene is seen.
+inline double SeenAt(const RgbImage& picture, Vec3 point, const CameraModel& camera = kCamera) {
+  const Vec2 pixel = ProjectToPixel(camera, kFromAbove * Point<Marker>{point});
+  return LinearFromSrgb8()[picture(static_cast<int>(std::lround(pixel.x)),
+                                   static_cast<int>(std::lround(pixel.y)), 1)];
+}
+
+}  // namespace pleinair::compositor::testing
