@@ -22,9 +22,11 @@ class FakeCamera {
   void Plug() {
     Change([this] { plugged_ = true; });
   }
+  /// What is open stays gone, as a node does, also where it is plugged in again at once.
   void Unplug() {
     Change([this] {
       plugged_ = false;
+      ++unplugged_;
       pictures_.clear();
     });
   }
@@ -72,7 +74,7 @@ class FakeCamera {
  private:
   class Device : public CameraDevice {
    public:
-    explicit Device(FakeCamera* camera) : camera_(camera) {
+    explicit Device(FakeCamera* camera) : camera_(camera), unplugged_(camera->unplugged_) {
       agreement_.format = PixelFormat::kGrey8;
       agreement_.size = camera->size_;
     }
@@ -80,12 +82,11 @@ class FakeCamera {
       std::unique_lock lock(camera_->mutex_);
       camera_->waiting_ = true;
       camera_->changed_.notify_all();
-      camera_->changed_.wait_for(lock, limit, [this] {
-        return !camera_->pictures_.empty() || !camera_->plugged_ || woken_;
-      });
+      camera_->changed_.wait_for(
+          lock, limit, [this] { return !camera_->pictures_.empty() || IsGone() || woken_; });
       camera_->waiting_ = false;
       woken_ = false;
-      if (!camera_->plugged_) return WaitOutcome::kGone;
+      if (IsGone()) return WaitOutcome::kGone;
       if (camera_->pictures_.empty()) return WaitOutcome::kNothing;
       *picture = std::move(camera_->pictures_.front());
       camera_->pictures_.pop_front();
@@ -110,7 +111,10 @@ class FakeCamera {
     }
 
    private:
+    bool IsGone() const { return camera_->unplugged_ != unplugged_; }
+
     FakeCamera* camera_;
+    const int unplugged_;
     PictureAgreement agreement_;
     bool woken_ = false;
   };
@@ -126,6 +130,7 @@ class FakeCamera {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool plugged_ = true;
+  int unplugged_ = 0;  // How often.
   bool waiting_ = false;
   std::deque<CapturedPicture> pictures_;
   std::atomic<int> opened_{0};
