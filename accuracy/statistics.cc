@@ -53,7 +53,10 @@ double Percentile(std::vector<double> values, double share) {
   const double low = values[below];
   if (below + 1 == static_cast<std::ptrdiff_t>(values.size())) return low;
   const double high = *std::min_element(values.begin() + below + 1, values.end());
-  return low + (place - static_cast<double>(below)) * (high - low);
+  const double part = place - static_cast<double>(below);
+  // Nothing lies between two infinite values, nor a part of the way from or to one.
+  if (part == 0.0 || low == high || std::isinf(low)) return low;
+  return low + part * (high - low);
 }
 
 Spread SpreadOf(const std::vector<double>& values) {
@@ -150,9 +153,11 @@ Interval BootstrapInterval(std::size_t count,
     for (std::size_t& index : drawn) {
       index = static_cast<std::size_t>(random.Below(static_cast<int>(count)));
     }
-    values.push_back(statistic(drawn));
+    const double value = statistic(drawn);
+    if (!std::isnan(value)) values.push_back(value);
   }
   const double tail = 0.5 * (1.0 - confidence);
+  if (values.size() < static_cast<std::size_t>(resamples) / 2) values.clear();
   return {Percentile(values, tail), Percentile(values, 1.0 - tail)};
 }
 

@@ -64,7 +64,9 @@ std::vector<bool> HolmRejections(const std::vector<double>& p_values, double alp
 
 /// Percentile interval of a statistic of `count` samples: it is computed from `resamples` drawings
 /// of indices with replacement. Efron & Tibshirani 1993, "An Introduction to the Bootstrap",
-/// section 13.3. `purpose` names the random numbers: the same data give the same interval.
+/// section 13.3. `purpose` names the random numbers: the same data give the same interval. Drawings
+/// whose statistic is no number (0/0) are no samples of it and left out; where most are so, the
+/// ends are no numbers. Where it is infinite in many (1/0), an end is infinite.
 Interval BootstrapInterval(std::size_t count,
                            const std::function<double(const std::vector<std::size_t>&)>& statistic,
                            std::string_view purpose, int resamples = 1000,

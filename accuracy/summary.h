@@ -96,9 +96,12 @@ struct PeerSummary {
   std::string sweep{}, peer{};
   std::string film{};  ///< Of recordings: which one; empty: all of the sweep.
   std::int64_t markers = 0, both = 0, only_ours = 0, only_peer = 0;
-  double p = 1.0;                                                     ///< McNemar's exact test.
-  double rate_ratio = 0.0, corner_ratio = 0.0, rotation_ratio = 0.0;  ///< Ours over the peer's.
-  Interval rate_interval{}, corner_interval{}, rotation_interval{};
+  double p = 1.0;  ///< McNemar's exact test.
+  /// Ours over the peer's; no numbers without markers, infinite where theirs is 0.
+  double rate_ratio = kNoNumber, corner_ratio = kNoNumber, rotation_ratio = kNoNumber;
+  /// Their ends are infinite where the data bound them not.
+  Interval rate_interval{kNoNumber, kNoNumber}, corner_interval{kNoNumber, kNoNumber},
+      rotation_interval{kNoNumber, kNoNumber};
   std::int64_t our_false = 0, peer_false = 0;
 };
 

@@ -275,10 +275,10 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
           ->type_name("FOLDER");
   command
       ->add_option("--export", a.exports,
-                   "With -o, also write the camera's path for other programs: gltf, colmap, euroc, "
-                   "mcap")
+                   "With -o, also write the camera's path for other programs: gltf, colmap or "
+                   "colmap-binary, euroc, mcap")
       ->delimiter(',')
-      ->check(CLI::IsMember({"gltf", "colmap", "euroc", "mcap"}))
+      ->check(CLI::IsMember({"gltf", "colmap", "colmap-binary", "euroc", "mcap"}))
       ->type_name("FORM,...")
       ->needs(output);
   command

@@ -20,9 +20,12 @@ constexpr const char* kExamples =
     "  pleinair path convert out/demo/poses/sg_17.tum model/ --calibration camera.json\n"
     "  pleinair path convert mav0/state_groundtruth_estimate0/data.csv cam0.tum \\\n"
     "    --extrinsics mav0/cam0/sensor.yaml\n"
+    "  pleinair path convert sparse/0 text/ --frame-rate 30\n"
     "  pleinair path convert sparse/0 walk.glb --frame-rate 30 --axes y-down --scale 0.42\n"
-    "Read: TUM (.tum, .txt), EuRoC (.csv), COLMAP (a folder with cameras.txt and images.txt).\n"
-    "Written: the same, glTF (.glb, .gltf) and MCAP (.mcap). docs/film.md tells what each means.";
+    "Read: TUM (.tum, .txt), EuRoC (.csv), COLMAP (a folder with cameras and images, .txt or "
+    ".bin).\n"
+    "Written: the same, COLMAP as text or, with --to colmap-binary, as .bin; glTF (.glb, .gltf) "
+    "and MCAP (.mcap). docs/film.md tells what each means.";
 
 struct Arguments {
   std::string input, output, from, to, calibration, extrinsics, axes = "z-up";
@@ -97,7 +100,7 @@ void AddPathCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--from", arguments->from, "Form of IN where its name does not tell")
       ->check(CLI::IsMember({"tum", "euroc", "colmap"}));
   command->add_option("--to", arguments->to, "Form of OUT where its name does not tell")
-      ->check(CLI::IsMember({"tum", "euroc", "colmap", "gltf", "mcap"}));
+      ->check(CLI::IsMember({"tum", "euroc", "colmap", "colmap-binary", "gltf", "mcap"}));
   command->add_option("--calibration", arguments->calibration,
                       "The lens, for glTF, MCAP and COLMAP; instead of the one that IN has");
   command

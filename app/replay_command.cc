@@ -205,9 +205,9 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
   command
       ->add_option("--export", arguments->exports,
                    "Also write the camera's path for other programs: gltf (camera.glb), colmap "
-                   "(colmap/), euroc (poses/MARKER.csv), mcap (camera.mcap)")
+                   "or colmap-binary (colmap/), euroc (poses/MARKER.csv), mcap (camera.mcap)")
       ->delimiter(',')
-      ->check(CLI::IsMember({"gltf", "colmap", "euroc", "mcap"}))
+      ->check(CLI::IsMember({"gltf", "colmap", "colmap-binary", "euroc", "mcap"}))
       ->type_name("FORM,...");
   command->add_option("--size", arguments->size, "Size of the output, WIDTHxHEIGHT in pixels");
   command

@@ -229,6 +229,10 @@ Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folde
 }
 
 Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& options) {
+  if (file.extension() == ".mcap") {
+    return InputError(file.string(), "is an MCAP file, a form that is written and not read",
+                      "name a recording's folder or a video (docs/formats.md)");
+  }
   if (!options.calibration) {
     return InputError(file.string(), "is a plain file, which says nothing of its lens",
                       "give --calibration FILE (docs/formats.md), or name a recording's folder");

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/little_endian.h"
+
 namespace pleinair::devices {
 namespace {
 
@@ -16,14 +18,6 @@ constexpr int kMaxBoxes = 100'000;
 std::uint64_t BigEndian(std::string_view bytes) {
   std::uint64_t number = 0;
   for (const char c : bytes) number = number << 8 | static_cast<std::uint8_t>(c);
-  return number;
-}
-
-std::uint64_t LittleEndian(std::string_view bytes) {
-  std::uint64_t number = 0;
-  for (std::size_t i = bytes.size(); i-- > 0;) {
-    number = number << 8 | static_cast<std::uint8_t>(bytes[i]);
-  }
   return number;
 }
 
@@ -50,7 +44,7 @@ Result<void> CheckContainerIsWhole(const std::filesystem::path& file) {
     const std::string_view type = head.substr(4, 4);
     if (box == 0 && head.starts_with("RIFF")) {
       // A recorder that was stopped leaves the length at zero.
-      const std::uint64_t end = LittleEndian(type) + 8;
+      const std::uint64_t end = std::uint64_t{LittleEndianReader(type).Get<std::uint32_t>()} + 8;
       if (end > 8 && end > bytes) return CutShort(file, bytes, end);
       return {};
     }

@@ -10,6 +10,7 @@
 #include "app/accuracy/film_plots.h"
 #include "app/accuracy/level_chart.h"
 #include "app/accuracy/light_section.h"
+#include "app/accuracy/ratio_text.h"
 #include "app/accuracy/worst_frames.h"
 #include "app/sinks/line_plot.h"
 #include "app/sinks/page_style.h"
@@ -235,18 +236,14 @@ std::string PeerTable(const AccuracyReport& report) {
       "markers that both hit); p: McNemar's exact test.</p>\n<table><tr><th>sweep</th><th>peer</th>"
       "<th>markers</th><th>both</th><th>only ours</th><th>only theirs</th><th>p</th>"
       "<th>rate</th><th>corner error</th><th>rotation error</th><th>false, ours/theirs</th></tr>\n";
-  const auto ratio = [](double value, const accuracy::Interval& interval) {
-    if (!(value > 0.0) || !std::isfinite(value)) return std::string("–");
-    return fmt::format("{:.2f} ({}–{})", value, Figure(interval.low, 2), Figure(interval.high, 2));
-  };
   for (const accuracy::PeerSummary& peer : summary.peers) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2g}</td>"
         "<td>{}</td><td>{}</td><td>{}</td><td>{}/{}</td></tr>\n",
         EscapeHtml(peer.film.empty() ? peer.sweep : peer.film), peer.peer, peer.markers, peer.both,
-        peer.only_ours, peer.only_peer, peer.p, ratio(peer.rate_ratio, peer.rate_interval),
-        ratio(peer.corner_ratio, peer.corner_interval),
-        ratio(peer.rotation_ratio, peer.rotation_interval), peer.our_false, peer.peer_false);
+        peer.only_ours, peer.only_peer, peer.p, RatioText(peer.rate_ratio, peer.rate_interval),
+        RatioText(peer.corner_ratio, peer.corner_interval),
+        RatioText(peer.rotation_ratio, peer.rotation_interval), peer.our_false, peer.peer_false);
   }
   return html + "</table>\n" + unread;
 }

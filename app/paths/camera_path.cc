@@ -27,10 +27,11 @@ Result<void> CheckPose(const std::string& where, Vec3 shift, const Quaternion& t
   const double length = std::sqrt(Dot(turn, turn));
   if (!(std::abs(length - 1.0) <= kLengthTolerance)) {
     return InputError(where, fmt::format("has a quaternion of length {:.4g} instead of 1", length),
-                      "mend the line, or get a whole copy of the file");
+                      "mend it, or get a whole copy of the file");
   }
   if (!IsNear(shift)) {
-    return InputError(where, "has a place farther off than 1e9", "mend the line");
+    return InputError(where, "has a place farther off than 1e9",
+                      "mend it, or get a whole copy of the file");
   }
   return {};
 }
@@ -40,7 +41,8 @@ Result<void> AddPose(const std::string& where, PathPose pose, CameraPath* path) 
     return InputError(where, "is not later than the pose before", "sort the lines by time");
   }
   if (pose.timestamp_ns > kLongestNs || pose.timestamp_ns < -kLongestNs) {
-    return InputError(where, "has a time stamp of more than 9e9 seconds", "mend the line");
+    return InputError(where, "has a time stamp of more than 9e9 seconds",
+                      "mend it, or get a whole copy of the file");
   }
   path->poses.push_back(std::move(pose));
   return {};

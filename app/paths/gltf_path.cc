@@ -1,7 +1,6 @@
 #include "app/paths/gltf_path.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "app/sinks/report_html.h"
+#include "base/little_endian.h"
 
 namespace pleinair::app {
 namespace {
@@ -40,10 +40,7 @@ class Buffer {
       most.push_back(high);
     }
     BeginView(values.size() * sizeof(float), vertices);
-    for (const float value : values) {
-      const auto bits = std::bit_cast<std::uint32_t>(value);
-      for (int shift = 0; shift < 32; shift += 8) bytes_ += static_cast<char>(bits >> shift);
-    }
+    for (const float value : values) PutLittleEndian(value, &bytes_);
     return AddAccessor({{"bufferView", views_.size() - 1},
                         {"componentType", kFloat},
                         {"count", count},
@@ -178,7 +175,7 @@ void AddThings(const CameraPath& path, const GltfPathOptions& options, Buffer* b
 }
 
 void AppendWord(std::size_t value, std::string* bytes) {
-  for (int shift = 0; shift < 32; shift += 8) *bytes += static_cast<char>(value >> shift);
+  PutLittleEndian(static_cast<std::uint32_t>(value), bytes);
 }
 
 /// glTF 2.0, section 4: header, JSON and binary chunk, each padded to four bytes.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/little_endian.h"
+
 namespace pleinair::app {
 namespace {
 
@@ -29,8 +31,7 @@ class Record {
  public:
   template <typename T>
   Record& Add(T value) {
-    auto bits = static_cast<std::uint64_t>(value);
-    for (std::size_t i = 0; i < sizeof(T); ++i, bits >>= 8) bytes_ += static_cast<char>(bits);
+    PutLittleEndian(value, &bytes_);
     return *this;
   }
   /// With its length before it.

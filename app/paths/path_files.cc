@@ -1,5 +1,7 @@
 #include "app/paths/path_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -7,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/paths/colmap_model.h"
+#include "app/paths/colmap_folder.h"
 #include "app/paths/euroc_path.h"
 #include "app/paths/gltf_path.h"
 #include "app/paths/mcap_path.h"
@@ -22,38 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 
-Result<ColmapTexts> ReadColmapTexts(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder / "images.txt", error) && fs::exists(folder / "images.bin", error)) {
-    return InputError(folder.string(), "holds a COLMAP model in binary form",
-                      "turn it into text: colmap model_converter --output_type TXT");
-  }
-  ColmapTexts texts;
-  PLEINAIR_ASSIGN_OR_RETURN(texts.cameras,
-                            devices::ReadWholeFile(folder / "cameras.txt", kMostBytes));
-  PLEINAIR_ASSIGN_OR_RETURN(texts.images,
-                            devices::ReadWholeFile(folder / "images.txt", kMostBytes));
-  if (fs::exists(folder / "points3D.txt", error)) {
-    PLEINAIR_ASSIGN_OR_RETURN(texts.points3d,
-                              devices::ReadWholeFile(folder / "points3D.txt", kMostBytes));
-  }
-  return texts;
-}
-
-Result<void> WriteColmap(const CameraPath& path, const fs::path& folder) {
-  PLEINAIR_ASSIGN_OR_RETURN(const ColmapTexts texts, ColmapFromPath(path));
-  std::error_code error;
-  if (fs::exists(folder / "images.bin", error) || fs::exists(folder / "cameras.bin", error)) {
-    return InputError(folder.string(), "holds a COLMAP model in binary form, which would count",
-                      "name another folder");
-  }
-  fs::create_directories(folder, error);
-  if (error) return tl::make_unexpected(WriteError(folder, error.value()));
-  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder / "cameras.txt", texts.cameras));
-  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder / "points3D.txt", texts.points3d));
-  return WriteFileAtomically(folder / "images.txt", texts.images);
-}
-
 std::string LowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -64,10 +34,11 @@ std::string LowerExtension(const fs::path& file) {
 }  // namespace
 
 std::optional<PathFormat> PathFormatNamed(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, PathFormat>, 5> kNames{{
+  constexpr std::array<std::pair<std::string_view, PathFormat>, 6> kNames{{
       {"tum", PathFormat::kTum},
       {"euroc", PathFormat::kEuroc},
       {"colmap", PathFormat::kColmap},
+      {"colmap-binary", PathFormat::kColmapBinary},
       {"gltf", PathFormat::kGltf},
       {"mcap", PathFormat::kMcap},
   }};
@@ -92,16 +63,18 @@ Result<PathFormat> PathFormatOf(const fs::path& file) {
 
 Result<CameraPath> ReadPath(const fs::path& file, PathFormat format, const PathReading& options) {
   if (format == PathFormat::kGltf || format == PathFormat::kMcap) {
-    return InputError(file.string(), "is of a form that is written and not read",
+    const char* form = format == PathFormat::kGltf ? "a glTF" : "an MCAP";
+    return InputError(file.string(),
+                      fmt::format("is {} file, a form that is written and not read", form),
                       "name a TUM, EuRoC or COLMAP path");
   }
-  if (format == PathFormat::kColmap) {
+  if (format == PathFormat::kColmap || format == PathFormat::kColmapBinary) {
     if (options.frame_rate_hz == 0.0) {
       return InputError(file.string(), "is a COLMAP model, which knows no times",
                         "give the pictures' rate with --frame-rate");
     }
-    PLEINAIR_ASSIGN_OR_RETURN(const ColmapTexts texts, ReadColmapTexts(file));
-    return ParseColmap(texts, file.string(), options.frame_rate_hz);
+    PLEINAIR_ASSIGN_OR_RETURN(ColmapModel model, ReadColmapFolder(file));
+    return PathFromColmap(std::move(model), options.frame_rate_hz);
   }
   PLEINAIR_ASSIGN_OR_RETURN(const std::string text, devices::ReadWholeFile(file, kMostBytes));
   if (format == PathFormat::kTum) return ParseTum(text, file.string());
@@ -116,7 +89,11 @@ Result<void> WritePath(const CameraPath& path, const fs::path& file, PathFormat 
     case PathFormat::kEuroc:
       return WriteFileAtomically(file, EurocPathText(path, options.body_from_camera));
     case PathFormat::kColmap:
-      return WriteColmap(path, file);
+    case PathFormat::kColmapBinary: {
+      PLEINAIR_ASSIGN_OR_RETURN(const ColmapModel model, ColmapFromPath(path));
+      return WriteColmapFolder(
+          model, format == PathFormat::kColmap ? ColmapForm::kText : ColmapForm::kBinary, file);
+    }
     case PathFormat::kGltf: {
       const bool binary = LowerExtension(file) != ".gltf";
       PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,

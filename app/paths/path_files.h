@@ -12,9 +12,9 @@
 namespace pleinair::app {
 
 /// Forms that a camera's path has in files.
-enum class PathFormat { kTum, kEuroc, kColmap, kGltf, kMcap };
+enum class PathFormat { kTum, kEuroc, kColmap, kColmapBinary, kGltf, kMcap };
 
-/// By name: "tum", "euroc", "colmap", "gltf", "mcap"; nothing for others.
+/// By name: "tum", "euroc", "colmap", "colmap-binary", "gltf", "mcap"; nothing for others.
 std::optional<PathFormat> PathFormatNamed(const std::string& name);
 
 /// By a file's name: .tum and .txt TUM, .csv EuRoC, .glb and .gltf glTF, .mcap MCAP; a folder or a
@@ -26,7 +26,8 @@ struct PathReading {
   Transform<devices::EurocBody, Camera> body_from_camera{};
 };
 
-/// Reads TUM, EuRoC or COLMAP. Errors: what their parsers refuse, forms that are only written.
+/// Reads TUM, EuRoC or COLMAP, this in the form that the folder has. Errors: what their parsers
+/// refuse, forms that are only written.
 Result<CameraPath> ReadPath(const std::filesystem::path& file, PathFormat format,
                             const PathReading& options);
 
@@ -37,9 +38,8 @@ struct PathWriting {
   Transform<devices::EurocBody, Camera> body_from_camera{};
 };
 
-/// Writes any of the forms, under a temporary name first; of a COLMAP model the folder is made and
-/// images.txt comes last. Errors: what the writers refuse; a folder with a model in COLMAP's binary
-/// form, which would count before ours.
+/// Writes any of the forms, under a temporary name first; of a COLMAP model the folder is made.
+/// Errors: what the writers refuse.
 Result<void> WritePath(const CameraPath& path, const std::filesystem::path& file, PathFormat format,
                        const PathWriting& options);
 

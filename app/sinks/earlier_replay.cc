@@ -9,6 +9,8 @@
 #include <optional>
 #include <system_error>
 
+#include "app/paths/colmap_folder.h"
+
 namespace pleinair::app {
 namespace {
 
@@ -38,7 +40,11 @@ bool IsNamedLikeOutput(const fs::path& relative) {
   }
   if (folder == "poses") return relative.extension() == ".tum" || relative.extension() == ".csv";
   if (folder == "colmap") {
-    return name == "cameras.txt" || name == "images.txt" || name == "points3D.txt";
+    const auto is_named = [&](ColmapForm form) {
+      const auto names = ColmapFileNames(form);
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    return is_named(ColmapForm::kText) || is_named(ColmapForm::kBinary);
   }
   return (folder == "frames" || folder == "timelapse") && FrameNumber(relative.filename());
 }

@@ -2,12 +2,17 @@
 
 #include <utility>
 
+#include "app/paths/colmap_folder.h"
 #include "app/paths/observed_path.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {
 
 Result<void> CheckExports(const std::set<PathFormat>& formats, const CameraModel& camera) {
+  if (formats.contains(PathFormat::kColmap) && formats.contains(PathFormat::kColmapBinary)) {
+    return InputError("--export", "colmap and colmap-binary are one model in two forms",
+                      "leave one of them out");
+  }
   if (!formats.contains(PathFormat::kGltf) ||
       camera.distortion_model != DistortionModel::kEquidistant) {
     return {};
@@ -42,11 +47,11 @@ Result<std::vector<std::string>> ExportPath(PathExport what, const std::set<Path
     PLEINAIR_RETURN_IF_ERROR(WritePath(path, folder / "camera.glb", PathFormat::kGltf, writing));
     outputs.emplace_back("camera.glb");
   }
-  if (formats.contains(PathFormat::kColmap) && !path.poses.empty()) {
-    PLEINAIR_RETURN_IF_ERROR(WritePath(path, folder / "colmap", PathFormat::kColmap, writing));
-    for (const char* name : {"cameras.txt", "images.txt", "points3D.txt"}) {
-      outputs.push_back(std::string("colmap/") + name);
-    }
+  for (const auto& [format, form] : {std::pair(PathFormat::kColmap, ColmapForm::kText),
+                                     std::pair(PathFormat::kColmapBinary, ColmapForm::kBinary)}) {
+    if (!formats.contains(format) || path.poses.empty()) continue;
+    PLEINAIR_RETURN_IF_ERROR(WritePath(path, folder / "colmap", format, writing));
+    for (const char* name : ColmapFileNames(form)) outputs.push_back(std::string("colmap/") + name);
   }
   if (formats.contains(PathFormat::kMcap)) {
     McapPathOptions mcap;

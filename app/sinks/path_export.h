@@ -20,7 +20,7 @@ struct PathExport {
   std::vector<MarkersMessage> markers;  ///< For MCAP alone: what was seen, frame by frame.
 };
 
-/// Error: a lens that a form cannot hold; found before a long search for markers.
+/// Errors: a lens that a form cannot hold, a form twice; found before a long search for markers.
 Result<void> CheckExports(const std::set<PathFormat>& formats, const CameraModel& camera);
 
 /// Writes a marker's path into the folder `poses` in `folder`, as MARKER.tum and, where `euroc` is

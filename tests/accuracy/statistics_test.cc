@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "accuracy/distributions.h"
@@ -80,6 +82,10 @@ TEST(Percentile, InterpolatesBetweenTheNearestRanks) {
   EXPECT_DOUBLE_EQ(Percentile({4, 1, 3, 2}, 0.5), 2.5);
   EXPECT_DOUBLE_EQ(Percentile({4, 1, 3, 2}, 1.0), 4.0);
   EXPECT_TRUE(std::isnan(Percentile({}, 0.5)));
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(Percentile({1, kInfinity, 2}, 0.5), 2.0);
+  EXPECT_EQ(Percentile({1, kInfinity, 2}, 0.75), kInfinity);
+  EXPECT_EQ(Percentile({kInfinity, kInfinity}, 0.3), kInfinity);
 }
 
 // Bar-Shalom, Li & Kirubarajan 2001, section 5.4.2: 100 degrees of freedom over 50 runs of two.
@@ -146,6 +152,34 @@ TEST(Bootstrap, CoversTheMeanAsOftenAsItSays) {
     covered += interval.Holds(2.0);
   }
   EXPECT_GT(covered, 0.88 * kTrials);
+}
+
+// The share of drawings without a given one of ten is 0.9^10 = 35 %, without one of two given ones
+// 1 - (1 - 2 0.9^10 + 0.8^10) = 59 %.
+TEST(Bootstrap, IsOpenWhereTheDataBoundNothing) {
+  using Drawing = std::vector<std::size_t>;
+  const auto times = [](const Drawing& drawn, std::size_t index) {
+    return static_cast<double>(std::count(drawn.begin(), drawn.end(), index));
+  };
+  const Interval open = BootstrapInterval(
+      10, [&](const Drawing& drawn) { return 10 / times(drawn, 0); }, "open");
+  EXPECT_GE(open.low, 2.0);
+  EXPECT_LE(open.low, 5.0);
+  EXPECT_TRUE(std::isinf(open.high));
+  // 0/0 is left out,
+  const Interval some = BootstrapInterval(
+      10, [&](const Drawing& drawn) { return times(drawn, 0) / times(drawn, 0); }, "some");
+  EXPECT_EQ(some.low, 1.0);
+  EXPECT_EQ(some.high, 1.0);
+  // … unless it is the rule.
+  const Interval few = BootstrapInterval(
+      10,
+      [&](const Drawing& drawn) {
+        const double both = times(drawn, 0) * times(drawn, 1);
+        return both / both;
+      },
+      "few");
+  EXPECT_TRUE(std::isnan(few.low) && std::isnan(few.high));
 }
 
 // Fisher & Yates 1938, "Statistical Tables", table III: two-sided 5 % and 0.1 % points.

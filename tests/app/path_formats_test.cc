@@ -5,18 +5,16 @@
 #include <numbers>
 #include <string>
 
-#include "app/paths/colmap_camera.h"
-#include "app/paths/colmap_model.h"
 #include "app/paths/euroc_path.h"
 #include "app/paths/observed_path.h"
 #include "app/paths/text_lines.h"
 #include "app/paths/tum_path.h"
+#include "error_message.h"
 
 namespace pleinair::app {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -29,11 +27,6 @@ CameraPath OnePose(const Transform<Reference, Camera>& pose) {
   CameraPath path;
   path.poses.push_back({1'066'667'000, pose, ""});
   return path;
-}
-
-template <typename T>
-std::string MessageOf(const Result<T>& result) {
-  return result ? "no error" : result.error().Message();
 }
 
 // Ground truth of freiburg1_xyz, as the TUM RGB-D benchmark publishes it.
@@ -171,154 +164,6 @@ TEST(EurocPath, RefusesWhatIsNoPathOrMounting) {
         "T_BS: {data: [1, 0, 0, .nan, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}\n"}) {
     EXPECT_FALSE(devices::ParseEurocExtrinsics(wrong, "sensor.yaml")) << wrong;
   }
-}
-
-// The example of COLMAP's documentation ("Output Format").
-const ColmapTexts& ColmapExample() {
-  static const ColmapTexts kTexts{
-      "# Camera list with one line of data per camera:\n"
-      "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
-      "# Number of cameras: 3\n"
-      "1 SIMPLE_PINHOLE 3072 2304 2559.81 1536 1152\n"
-      "2 PINHOLE 3072 2304 2560.56 2560.56 1536 1152\n"
-      "3 SIMPLE_RADIAL 3072 2304 2559.69 1536 1152 -0.0218531\n",
-      "# Image list with two lines of data per image:\n"
-      "#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
-      "#   POINTS2D[] as (X, Y, POINT3D_ID)\n"
-      "# Number of images: 2, mean observations per image: 2\n"
-      "1 0.851773 0.0165051 0.503764 -0.142941 -0.737434 1.02973 3.74354 1 P1180141.JPG\n"
-      "2362.39 248.498 58396 1784.7 268.254 59027 1784.7 268.254 -1\n"
-      "2 0.851773 0.0165051 0.503764 -0.142941 -0.737434 1.02973 3.74354 1 P1180142.JPG\n"
-      "1190.83 663.957 23056 1258.77 640.354 59070\n",
-      "# 3D point list with one line of data per point:\n"
-      "#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n"
-      "# Number of points: 3, mean track length: 3.3334\n"
-      "63390 1.67241 0.292931 0.609726 115 121 122 1.33927 16 6542 15 7345 6 6714 14 7227\n"
-      "63376 2.01848 0.108877 -0.0260841 102 209 250 1.73449 16 6519 15 7322 14 7212 8 3991\n"
-      "63371 1.71102 0.28566 0.53475 245 251 249 0.612829 118 4140 117 4473\n"};
-  return kTexts;
-}
-
-TEST(ColmapModel, ReadsTheDocumentationsOwnExample) {
-  const auto path = ParseColmap(ColmapExample(), "model", 30.0);
-  ASSERT_TRUE(path) << path.error().Message();
-  ASSERT_EQ(path->poses.size(), 2U);
-  EXPECT_EQ(path->poses[0].picture, "P1180141.JPG");
-  EXPECT_NEAR(path->poses[1].timestamp_ns - path->poses[0].timestamp_ns, 33'333'333, 1);
-  // "The coordinates of the projection/camera center are given by -R^t * T".
-  const Mat3 r = RotationOf({.x = 0.0165051, .y = 0.503764, .z = -0.142941, .w = 0.851773});
-  const Vec3 centre = -(r.Transposed() * Vec3{-0.737434, 1.02973, 3.74354});
-  EXPECT_EQ(path->poses[0].reference_from_camera.translation_m, centre);
-  ASSERT_TRUE(path->camera);
-  EXPECT_EQ(path->camera->fx, 2559.81);
-  EXPECT_EQ(path->camera->fy, 2559.81);
-  // COLMAP's pixels begin at the picture's corner, ours at the first pixel's centre.
-  EXPECT_EQ(path->camera->cx, 1535.5);
-  ASSERT_EQ(path->points.size(), 3U);
-  EXPECT_EQ(path->points[1].place.xyz, (Vec3{2.01848, 0.108877, -0.0260841}));
-  EXPECT_THAT(path->points[1].rgb, ElementsAre(102, 209, 250));
-}
-
-TEST(ColmapModel, WritesWhatItReads) {
-  const auto path = ParseColmap(ColmapExample(), "model", 30.0);
-  const auto texts = ColmapFromPath(*path);
-  ASSERT_TRUE(texts);
-  EXPECT_THAT(texts->images, HasSubstr(" -0.737434 1.02973 3.74354 1 P1180141.JPG\n\n"));
-  const auto again = ParseColmap(*texts, "again", 30.0);
-  ASSERT_TRUE(again) << again.error().Message();
-  EXPECT_EQ(again->points.size(), 3U);
-  EXPECT_EQ(again->poses[1].picture, "P1180142.JPG");
-  EXPECT_NEAR(again->poses[1].reference_from_camera.translation_m.x,
-              path->poses[1].reference_from_camera.translation_m.x, 1e-9);
-  EXPECT_FALSE(ColmapFromPath(OnePose({})));
-}
-
-TEST(ColmapCamera, EveryKnownModelDistortsAsItsFormulaSays) {
-  // Formulae of COLMAP's sensor/models.h at one point of the picture.
-  const double u = 0.3, v = -0.2, r2 = u * u + v * v;
-  const double theta = std::atan(std::sqrt(r2)), t2 = theta * theta;
-  struct Case {
-    ColmapCamera camera;
-    double x, y;
-  };
-  const double k1 = -0.1, k2 = 0.05, p1 = 0.01, p2 = -0.02;
-  const double radial = 1 + k1 * r2 + k2 * r2 * r2;
-  const double fish = theta / std::sqrt(r2) * (1 + k1 * t2 + k2 * t2 * t2);
-  const double rational =
-      (radial + 0.2 * r2 * r2 * r2) / (1 + 0.3 * r2 + 0.1 * r2 * r2 - 0.2 * r2 * r2 * r2);
-  const double tx = 2 * p1 * u * v + p2 * (r2 + 2 * u * u);
-  const double ty = 2 * p2 * u * v + p1 * (r2 + 2 * v * v);
-  for (const Case& c : {
-           Case{{"SIMPLE_PINHOLE", 640, 480, {500, 320, 240}}, u, v},
-           Case{{"PINHOLE", 640, 480, {500, 500, 320, 240}}, u, v},
-           Case{{"SIMPLE_RADIAL", 640, 480, {500, 320, 240, k1}},
-                u * (1 + k1 * r2),
-                v * (1 + k1 * r2)},
-           Case{{"RADIAL", 640, 480, {500, 320, 240, k1, k2}}, u * radial, v * radial},
-           Case{{"OPENCV", 640, 480, {500, 500, 320, 240, k1, k2, p1, p2}},
-                u * radial + tx,
-                v * radial + ty},
-           Case{
-               {"FULL_OPENCV", 640, 480, {500, 500, 320, 240, k1, k2, p1, p2, 0.2, 0.3, 0.1, -0.2}},
-               u * rational + tx,
-               v * rational + ty},
-           Case{{"SIMPLE_RADIAL_FISHEYE", 640, 480, {500, 320, 240, k1}},
-                u * theta / std::sqrt(r2) * (1 + k1 * t2),
-                v * theta / std::sqrt(r2) * (1 + k1 * t2)},
-           Case{{"RADIAL_FISHEYE", 640, 480, {500, 320, 240, k1, k2}}, u * fish, v * fish},
-           Case{{"OPENCV_FISHEYE", 640, 480, {500, 500, 320, 240, k1, k2, 0, 0}},
-                u * fish,
-                v * fish},
-       }) {
-    const auto ours = CameraFromColmap(c.camera, "cameras.txt:4");
-    ASSERT_TRUE(ours) << ours.error().Message();
-    const Vec2 pixel = ProjectToPixel(*ours, Point<Camera>{{u * 3, v * 3, 3}});
-    EXPECT_NEAR(pixel.x + 0.5, 500 * c.x + 320, 1e-9) << c.camera.model;
-    EXPECT_NEAR(pixel.y + 0.5, 500 * c.y + 240, 1e-9) << c.camera.model;
-    const auto back = CameraFromColmap(ColmapFromCamera(*ours), "again");
-    ASSERT_TRUE(back);
-    EXPECT_EQ(back->distortion, ours->distortion) << c.camera.model;
-    EXPECT_EQ(back->cx, ours->cx);
-  }
-  for (const char* other :
-       {"FOV", "THIN_PRISM_FISHEYE", "RAD_TAN_THIN_PRISM_FISHEYE", "nonsense"}) {
-    EXPECT_THAT(MessageOf(CameraFromColmap({other, 640, 480, {500, 500, 320, 240, 0}}, "c:1")),
-                HasSubstr(other));
-  }
-}
-
-TEST(ColmapModel, RefusesWhatIsCutShortOrContradictsItself) {
-  struct Case {
-    std::string ColmapTexts::*file;
-    const char *from, *to, *message;
-  };
-  for (const Case& c : {
-           Case{&ColmapTexts::cameras, "1 SIMPLE_PINHOLE", "4 SIMPLE_PINHOLE",
-                "cameras.txt has not"},
-           Case{&ColmapTexts::cameras, "2559.81 1536", "2559.81", "cameras.txt:4: "},
-           Case{&ColmapTexts::cameras, "2559.81 1536", "-2559.81 1536", "focal length"},
-           Case{&ColmapTexts::cameras, "2 PINHOLE", "1 PINHOLE", "another camera"},
-           Case{&ColmapTexts::cameras, "3072 2304 2559.81", "99999999999 2304 2559.81",
-                "picture of"},
-           Case{&ColmapTexts::images, "1 0.851773", "1 0.51773", "images.txt:5: has a quaternion"},
-           Case{&ColmapTexts::images, "-0.737434", "nan", "images.txt:5: "},
-           Case{&ColmapTexts::images, " 1 P1180141.JPG", " 1", "names no picture"},
-           Case{&ColmapTexts::images, " 268.254 -1\n", " 268.254\n", "images.txt:6: "},
-           Case{&ColmapTexts::images, "P1180142", "P1180141", "number or name of another"},
-           Case{&ColmapTexts::images, "3.74354 1 P1180142", "3.74354 2 P1180142", "another camera"},
-           Case{&ColmapTexts::images, "images: 2", "images: 3", "promises 3 entries and has 2"},
-           Case{&ColmapTexts::points3d, "245 251 249", "245 256 249", "points3D.txt:6: "},
-           Case{&ColmapTexts::points3d, " 117 4473", " 117", "ends in its middle"},
-           Case{&ColmapTexts::points3d, "1.67241", "inf", "points3D.txt:4: "},
-       }) {
-    ColmapTexts texts = ColmapExample();
-    std::string& text = texts.*c.file;
-    const std::size_t at = text.find(c.from);
-    ASSERT_NE(at, std::string::npos) << c.from;
-    text.replace(at, std::string(c.from).size(), c.to);
-    EXPECT_THAT(MessageOf(ParseColmap(texts, "model", 30.0)), HasSubstr(c.message)) << c.from;
-  }
-  EXPECT_THAT(MessageOf(ParseColmap({"", "", ""}, "model", 30.0)), HasSubstr("holds no pictures"));
 }
 
 }  // namespace

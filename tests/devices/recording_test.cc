@@ -263,6 +263,8 @@ TEST(Recording, WhatIsNoRecordingSaysWhatOneIs) {
   EXPECT_THAT(MessageOf(OpenRecording(folder / "none")), HasSubstr("no such recording"));
   EXPECT_THAT(MessageOf(OpenRecording(folder.Write("film.mp4", "x"))),
               HasSubstr("give --calibration"));
+  EXPECT_THAT(MessageOf(OpenRecording(folder.Write("log.mcap", "x"))),
+              HasSubstr("log.mcap: is an MCAP file, a form that is written and not read"));
 }
 
 }  // namespace

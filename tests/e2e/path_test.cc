@@ -46,9 +46,14 @@ TEST(Path, GoesThroughEveryFormAndComesBack) {
       Convert(folder / "model", folder / "colmap.tum", {"--frame-rate", "15", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["has_camera"], true);
+  ASSERT_EQ(
+      Convert(folder / "model", folder / "binary", {"--frame-rate", "15", "--to", "colmap-binary"})
+          .exit_code,
+      0);
+  ASSERT_EQ(Convert(folder / "binary", folder / "binary.tum", {"--frame-rate", "15"}).exit_code, 0);
   const std::vector<TumPose> truth = ReadTum(kTruth);
   ASSERT_GT(truth.size(), 80U);
-  for (const char* name : {"euroc.tum", "colmap.tum"}) {
+  for (const char* name : {"euroc.tum", "colmap.tum", "binary.tum"}) {
     const std::vector<TumPose> poses = ReadTum(folder / name);
     ASSERT_EQ(poses.size(), truth.size()) << name;
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -62,6 +67,30 @@ TEST(Path, GoesThroughEveryFormAndComesBack) {
   EXPECT_NE(ReadFile(folder / "body.csv"), ReadFile(folder / "euroc.tum"));
   ASSERT_EQ(Convert(kTruth, folder / "path.mcap", lens).exit_code, 0);
   EXPECT_THAT(ReadFile(folder / "path.mcap"), StartsWith("\x89MCAP0\r\n"));
+}
+
+// As COLMAP's model_converter wrote it; where both forms are there it counts, as with COLMAP.
+TEST(Path, ReadsAModelInColmapsBinaryForm) {
+  const TemporaryFolder folder;
+  const std::filesystem::path example = std::string(PLEINAIR_SOURCE_DIR) + "/tests/app/data/colmap";
+  std::filesystem::create_directories(folder / "model");
+  for (const char* name : {"cameras.bin", "images.bin", "points3D.bin"}) {
+    std::filesystem::copy_file(example / name, folder / "model" / name);
+  }
+  WriteFile(folder / "model/images.txt", "nonsense\n");
+  const RunResult run =
+      Convert(folder / "model", folder / "path.tum", {"--frame-rate", "1", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["points"], 3);
+  const std::vector<TumPose> poses = ReadTum(folder / "path.tum");
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[0].time_s, 1180141.0);
+  const std::string images = ReadFile(folder / "model/images.bin");
+  WriteFile(folder / "model/images.bin", images.substr(0, images.size() / 2));
+  const RunResult cut = Convert(folder / "model", folder / "cut.tum", {"--frame-rate", "1"});
+  EXPECT_EQ(cut.exit_code, 2);
+  EXPECT_THAT(cut.err, HasSubstr("images.bin, entry 2 of 2: ends before the entry does"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "cut.tum"));
 }
 
 // What tools/blender/pleinair_path.py sets in Blender must show things where the camera saw them.
@@ -120,7 +149,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NoModel",
                 {"convert", BundledRecording(), "OUT/x.tum", "--frame-rate", "30"},
                 "cameras.txt: there is no such file"},
-        Refusal{"NotRead", {"convert", "a.glb", "OUT/x.tum"}, "written and not read"},
+        Refusal{"NotRead",
+                {"convert", "a.mcap", "OUT/x.tum"},
+                "a.mcap: is an MCAP file, a form that is written and not read"},
         Refusal{"NotThere", {"convert", "nowhere.tum", "OUT/x.csv"}, "nowhere.tum: "},
         Refusal{"Onto", {"convert", kTruth, kTruth}, "is what is read"},
         Refusal{"NotTum",

@@ -4,8 +4,11 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "app/paths/colmap_binary.h"
 #include "app/paths/colmap_model.h"
+#include "app/paths/colmap_text.h"
 #include "app/paths/euroc_path.h"
 #include "app/paths/tum_path.h"
 
@@ -36,6 +39,14 @@ void Check(const Result<CameraPath>& path) {
   if (!pleinair::app::ParseTum(pleinair::app::TumText(*path, "again"), "again")) std::abort();
 }
 
+void CheckModel(Result<pleinair::app::ColmapModel> model) {
+  if (!model) {
+    if (model.error().what.empty()) std::abort();
+    return;
+  }
+  Check(pleinair::app::PathFromColmap(*std::move(model), 30.0));
+}
+
 }  // namespace
 
 // Any bytes are a path or an error in each of the forms; a COLMAP model's three files are told
@@ -47,14 +58,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Check(pleinair::app::ParseEurocPath(
       text, "file",
       mounting.value_or(pleinair::Transform<pleinair::devices::EurocBody, pleinair::Camera>{})));
-  pleinair::app::ColmapTexts texts;
+  pleinair::app::ColmapFiles files;
   const std::size_t first = text.find("=\n");
   if (first == std::string_view::npos) return 0;
   const std::size_t second = text.find("=\n", first + 2);
-  texts.cameras = text.substr(0, first);
-  texts.images =
+  files.cameras = text.substr(0, first);
+  files.images =
       text.substr(first + 2, second == std::string_view::npos ? second : second - first - 2);
-  if (second != std::string_view::npos) texts.points3d = text.substr(second + 2);
+  if (second != std::string_view::npos) files.points3d = text.substr(second + 2);
   Check(pleinair::app::ParseColmap(texts, "model", 30.0));
   return 0;
 }

@@ -1,15 +1,14 @@
 #include "tracker/picture_target/target_file.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/little_endian.h"
 #include "tracker/picture_target/target_making.h"
 
 namespace pleinair::tracker {
@@ -25,53 +24,6 @@ constexpr float kMostAngle_rad = 4.0F;
 constexpr double kBesideTarget = 1.0;  ///< Target units that a keypoint may lie off it.
 constexpr double kMostAspect = 8.0;
 
-/// Whole numbers and IEEE 754 floats of so many bytes, least significant first.
-template <typename T>
-using BitsOf = std::conditional_t<
-    sizeof(T) == 1, std::uint8_t,
-    std::conditional_t<sizeof(T) == 2, std::uint16_t,
-                       std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
-
-template <typename T>
-void Put(T value, std::string* bytes) {
-  const auto bits = std::bit_cast<BitsOf<T>>(value);
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    bytes->push_back(static_cast<char>(static_cast<std::uint64_t>(bits) >> (8 * i) & 0xFFU));
-  }
-}
-
-/// Takes values off the front; once there are too few bytes all are 0 and `complete` is false.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-
-  template <typename T>
-  T Get() {
-    const std::string_view taken = Take(sizeof(T));
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < taken.size(); ++i) {
-      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(taken[i])) << (8 * i);
-    }
-    return std::bit_cast<T>(static_cast<BitsOf<T>>(bits));
-  }
-  std::string_view Take(std::size_t count) {
-    if (count > bytes_.size()) {
-      complete_ = false;
-      bytes_ = {};
-      return {};
-    }
-    const std::string_view taken = bytes_.substr(0, count);
-    bytes_.remove_prefix(count);
-    return taken;
-  }
-  std::size_t left() const { return bytes_.size(); }
-  bool complete() const { return complete_; }
-
- private:
-  std::string_view bytes_;
-  bool complete_ = true;
-};
-
 constexpr std::size_t kKeypointBytes = 2 + 4 * sizeof(float) + 64;
 constexpr std::size_t kViewBytes = 6 * sizeof(double);
 
@@ -80,7 +32,7 @@ bool Within(double value, double least, double most) { return value >= least && 
 /// What is wrong with the content, or nothing.
 using Fault = std::string;
 
-Fault ReadPicture(Reader* reader, PictureTarget* target) {
+Fault ReadPicture(LittleEndianReader* reader, PictureTarget* target) {
   target->name = reader->Take(reader->Get<std::uint16_t>());
   target->width_m = reader->Get<double>();
   target->height_m = reader->Get<double>();
@@ -105,9 +57,9 @@ Fault ReadPicture(Reader* reader, PictureTarget* target) {
   return {};
 }
 
-Fault ReadViews(Reader* reader, PictureTarget* target) {
+Fault ReadViews(LittleEndianReader* reader, PictureTarget* target) {
   const int views = reader->Get<std::uint16_t>();
-  if (views < 1 || views > kMostTargetViews || reader->left() < views * kViewBytes) {
+  if (views < 1 || views > kMostTargetViews || reader->rest().size() < views * kViewBytes) {
     return "it tells of " + std::to_string(views) + " views and does not hold them";
   }
   for (int i = 0; i < views; ++i) {
@@ -124,10 +76,10 @@ Fault ReadViews(Reader* reader, PictureTarget* target) {
   return {};
 }
 
-Fault ReadKeypoints(Reader* reader, PictureTarget* target) {
+Fault ReadKeypoints(LittleEndianReader* reader, PictureTarget* target) {
   const std::uint32_t keypoints = reader->Get<std::uint32_t>();
   if (keypoints < 1 || keypoints > kMostTargetKeypoints ||
-      reader->left() < keypoints * kKeypointBytes) {
+      reader->rest().size() < keypoints * kKeypointBytes) {
     return "it tells of " + std::to_string(keypoints) + " features and does not hold them";
   }
   Fault fault = "one of its features is none";
@@ -159,7 +111,7 @@ Fault ReadKeypoints(Reader* reader, PictureTarget* target) {
     target->keypoints.push_back(keypoint);
     target->descriptors.push_back(descriptor);
   }
-  return reader->left() == 0 ? Fault() : "it goes on after its end";
+  return reader->rest().empty() ? Fault() : "it goes on after its end";
 }
 
 constexpr const char* kMakeAgain = "make it again with 'pleinair target PICTURE'";
@@ -187,31 +139,31 @@ std::uint32_t Crc32(std::string_view bytes) {
 
 std::string SerializeTarget(const PictureTarget& target) {
   std::string content;
-  Put(static_cast<std::uint16_t>(target.name.size()), &content);
+  PutLittleEndian(static_cast<std::uint16_t>(target.name.size()), &content);
   content += target.name;
-  Put(target.width_m, &content);
-  Put(target.height_m, &content);
-  Put(static_cast<std::uint16_t>(target.picture.width()), &content);
-  Put(static_cast<std::uint16_t>(target.picture.height()), &content);
+  PutLittleEndian(target.width_m, &content);
+  PutLittleEndian(target.height_m, &content);
+  PutLittleEndian(static_cast<std::uint16_t>(target.picture.width()), &content);
+  PutLittleEndian(static_cast<std::uint16_t>(target.picture.height()), &content);
   content.append(reinterpret_cast<const char*>(target.picture.data()), target.picture.size());
-  Put(static_cast<std::uint16_t>(target.views.size()), &content);
+  PutLittleEndian(static_cast<std::uint16_t>(target.views.size()), &content);
   for (const TargetView& view : target.views) {
-    for (const double entry : view.from_target) Put(entry, &content);
+    for (const double entry : view.from_target) PutLittleEndian(entry, &content);
   }
-  Put(static_cast<std::uint32_t>(target.keypoints.size()), &content);
+  PutLittleEndian(static_cast<std::uint32_t>(target.keypoints.size()), &content);
   for (std::size_t i = 0; i < target.keypoints.size(); ++i) {
     const TargetKeypoint& keypoint = target.keypoints[i];
-    Put(static_cast<std::uint8_t>(keypoint.view), &content);
-    Put(static_cast<std::uint8_t>(target.descriptors[i].bright ? 1 : 0), &content);
+    PutLittleEndian(static_cast<std::uint8_t>(keypoint.view), &content);
+    PutLittleEndian(static_cast<std::uint8_t>(target.descriptors[i].bright ? 1 : 0), &content);
     for (const float value : {keypoint.x, keypoint.y, keypoint.scale, keypoint.angle_rad}) {
-      Put(value, &content);
+      PutLittleEndian(value, &content);
     }
-    for (const std::int8_t value : target.descriptors[i].values) Put(value, &content);
+    for (const std::int8_t value : target.descriptors[i].values) PutLittleEndian(value, &content);
   }
   std::string bytes(kMagic);
-  Put(static_cast<std::uint32_t>(kTargetFileVersion), &bytes);
-  Put(static_cast<std::uint32_t>(content.size()), &bytes);
-  Put(Crc32(content), &bytes);
+  PutLittleEndian(static_cast<std::uint32_t>(kTargetFileVersion), &bytes);
+  PutLittleEndian(static_cast<std::uint32_t>(content.size()), &bytes);
+  PutLittleEndian(Crc32(content), &bytes);
   return bytes + content;
 }
 
@@ -220,7 +172,7 @@ Result<PictureTarget> ParseTarget(std::string_view bytes, const std::string& nam
     return InputError(name, "is no target file", kMakeAgain);
   }
   if (bytes.size() < kHeader) return InputError(name, "is cut short", kMakeAgain);
-  Reader header(bytes.substr(kMagic.size(), kHeader - kMagic.size()));
+  LittleEndianReader header(bytes.substr(kMagic.size(), kHeader - kMagic.size()));
   const auto version = header.Get<std::uint32_t>();
   if (version != kTargetFileVersion) {
     return InputError(name,
@@ -242,7 +194,7 @@ Result<PictureTarget> ParseTarget(std::string_view bytes, const std::string& nam
                       "copy it again, or " + std::string(kMakeAgain));
   }
   PictureTarget target;
-  Reader reader(content);
+  LittleEndianReader reader(content);
   for (const auto read : {&ReadPicture, &ReadViews, &ReadKeypoints}) {
     const Fault fault = read(&reader, &target);
     if (!fault.empty()) {
