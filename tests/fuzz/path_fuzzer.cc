@@ -66,6 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   files.images =
       text.substr(first + 2, second == std::string_view::npos ? second : second - first - 2);
   if (second != std::string_view::npos) files.points3d = text.substr(second + 2);
-  Check(pleinair::app::ParseColmap(texts, "model", 30.0));
+  CheckModel(pleinair::app::ParseColmapText(files, "model"));
+  CheckModel(pleinair::app::ParseColmapBinary(files, "model"));
   return 0;
 }
