@@ -125,6 +125,40 @@ TEST(SgOcclusion, FindsBordersThatAreMostlyCoveredByTheCornersOfTheCells) {
   }
 }
 
+TEST(SgOcclusion, FindsBordersUnderCoversThatLookLikeInkOrPaper) {
+  // What looks like the print has edges that pass for its own: fits of the border go astray there.
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  struct {
+    const char* name;
+    Cover cover;
+    double light;
+  } const covers[] = {
+      {"a cross is seen",
+       [](Vec2 p) {
+         const bool corner = Inwards(p.x) < 16 && Inwards(p.y) < 16;
+         return corner && (Inwards(p.x) < 10 || Inwards(p.y) < 10);
+       },
+       0.06},
+      {"bars of paper along two sides", [](Vec2 p) { return p.y < 9.5 || p.y > 30.5; }, 0.75},
+  };
+  std::uint32_t seed = 1;
+  for (const auto& [name, cover, light] : covers) {
+    for (const int number : {169, 2032, 3814}) {
+      SCOPED_TRACE(testing::Message() << name << ", " << number);
+      ASSERT_GT(BorderShare(cover), 0.4);
+      RenderedMarker marker = SgMarkerAt(camera, number, {161, 118}, 130, 20, 30.0 * seed, 15);
+      Lay(cover, &marker, light);
+      const auto found = Track(
+          tracker.get(),
+          RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found[0].detection.id, number);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 2.5);
+    }
+  }
+}
+
 struct CoveredContent {
   const char* name;
   bool (*cover)(Vec2);

@@ -82,7 +82,9 @@ class SgDetector final : public MarkerDetector {
   /// Fits and reads guesses, the best first; whether any was a marker.
   bool TryGuesses(std::span<const BorderGuess> guesses);
   bool Add(const SgReading& reading, DetectionPath path);
-  bool Taken(const Mat3& modules_from_ideal) const;
+  /// Whether a marker was found there already, of which so much is seen or that lies just so.
+  bool Taken(const Mat3& modules_from_ideal, double visible = 0.0) const;
+  std::array<Vec2, 4> CornersPx(const Mat3& modules_from_ideal) const;
   bool RightWayRound(const SgReading& reading);
   void TryQuad(const Quad& quad);
   void Remember();

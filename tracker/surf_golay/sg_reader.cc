@@ -52,6 +52,9 @@ struct Proof {
 };
 constexpr std::array<Proof, 6> kProofs{
     {{0.8, 0.7}, {0.7, 1.5}, {0.6, 2.5}, {0.4, 5.0}, {0.3, 5.5}, {0.1, 10.0}}};
+/// Covers leave few blocks that look right as a whole, where all the bits of border between them
+/// together do: so much correlation of single pixels with it leaves so much to prove.
+constexpr double kProofByBorder_bits = 5.5;
 /// … and how much likelier than the next its number must be, in nats.
 constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F;
 /// Share of the border that tells the light over the whole print; and what it takes off a proof
@@ -325,12 +328,15 @@ std::optional<SgReading> SgReader::ReadPlain(const BlockFitState& guess) {
   return reading;
 }
 
-std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_steps) {
+std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_steps,
+                                        double border_correlation) {
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
   FitBorderThroughNoise(border_steps, &state);
   SgReading number;
-  if (VisibleBorder() < kLeastVisibleBorder || !ReadNumber(state, &number)) return std::nullopt;
+  // Where nearly all of the border is covered no block of it may look right as a whole.
+  if (border_steps > 0 && VisibleBorder() < kLeastVisibleBorder) return std::nullopt;
+  if (!ReadNumber(state, &number)) return std::nullopt;
   std::optional<SgReading> reading = Measure(number.number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kWholeEnough) {
@@ -351,7 +357,7 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
   }
   reading->margin = number.margin;
   reading->proof_bits = number.proof_bits;
-  if (!Verified(*reading)) return std::nullopt;
+  if (!Verified(*reading, border_correlation)) return std::nullopt;
   return reading;
 }
 
@@ -398,10 +404,13 @@ void SgReader::KeepContent(const PixelWindow& window, const Mat3& modules_from_i
   }
 }
 
-bool SgReader::Verified(const SgReading& reading) {
-  return std::any_of(kProofs.begin(), kProofs.end(), [&](const Proof& proof) {
-    return reading.visible_fraction >= proof.visible && reading.proof_bits >= proof.bits;
-  });
+bool SgReader::Verified(const SgReading& reading, double border_correlation) {
+  const bool border_shines_through =
+      border_correlation >= kPlainBorder && reading.visible_fraction >= kBarelyVisible;
+  return (border_shines_through && reading.proof_bits >= kProofByBorder_bits) ||
+         std::any_of(kProofs.begin(), kProofs.end(), [&](const Proof& proof) {
+           return reading.visible_fraction >= proof.visible && reading.proof_bits >= proof.bits;
+         });
 }
 
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess, double done_px) {

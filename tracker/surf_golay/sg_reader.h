@@ -64,15 +64,22 @@ class SgReader {
   std::optional<SgReading> Follow(int number, const BlockFitState& guess);
 
   /// Everything, from a guess that FitBorder has improved.
-  std::optional<SgReading> Read(const BlockFitState& guess) { return Read(guess, kReadSteps); }
+  std::optional<SgReading> Read(const BlockFitState& guess) { return Read(guess, kReadSteps, 0.0); }
 
   /// A marker that lies open in even light, whole and plain to see, from a guess that is good to a
   /// pixel; nothing where anything is doubtful, and Read must tell.
   std::optional<SgReading> ReadPlain(const BlockFitState& guess);
 
+  /// Correlation of single pixels with the whole border, covers included (BorderProbe), that no
+  /// chance gives.
+  static constexpr double kPlainBorder = 0.42;
+
   /// The same from a guess of another origin that is good already, where a fit of a border that is
-  /// covered nearly everywhere could only go wrong.
-  std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess) { return Read(guess, 0); }
+  /// covered nearly everywhere could only go wrong. Where `border_correlation` is plain fewer bits
+  /// prove the number.
+  std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess, double border_correlation) {
+    return Read(guess, 0, border_correlation);
+  }
 
   /// Measures a print whose number is known from a guess that is right to about a pixel, until a
   /// step moves no corner farther than `done_px`.
@@ -80,7 +87,8 @@ class SgReader {
 
  private:
   static constexpr int kReadSteps = 4;
-  std::optional<SgReading> Read(const BlockFitState& guess, int border_steps);
+  std::optional<SgReading> Read(const BlockFitState& guess, int border_steps,
+                                double border_correlation);
   /// FitBorder, finely, in a reduced picture where noise hides the border in the picture itself.
   double FitBorderThroughNoise(int steps, BlockFitState* state);
   /// What cells tell for a number beyond picking it out of those in use.
@@ -93,7 +101,7 @@ class SgReader {
   /// Makes the pixels of the window that do not show the content count for nothing.
   void KeepContent(const PixelWindow& window, const Mat3& modules_from_ideal);
   const PrintPattern& Print(int number);
-  static bool Verified(const SgReading& reading);
+  static bool Verified(const SgReading& reading, double border_correlation);
   void Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading);
 
   const LensGrid& lens_;
