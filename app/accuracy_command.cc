@@ -113,7 +113,7 @@ Result<void> Run(Options& options) {
       options.output,
       fmt::format("{} of {} recordings could not be measured", outcome.skipped_recordings.size(),
                   options.config.recordings.size()),
-      "the others were; mend it and run again: what is done stays");
+      "mend what the lines above say and run again: what is done stays");
 }
 
 }  // namespace

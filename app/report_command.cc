@@ -48,7 +48,12 @@ Result<void> Merge(const MergeOptions& options) {
   } else {
     std::cout << fmt::format("{} frames: {}/report.html\n", written.frames, output);
   }
-  return {};
+  for (const std::string& message : written.skipped) {
+    std::cerr << "pleinair report: skipped " << message << '\n';
+  }
+  if (written.skipped.empty()) return {};
+  return SystemError(output, "the report is without what could not be measured",
+                     "mend it and run the shards again: what is done stays");
 }
 
 void AddMerge(CLI::App* report, CommandResult& result) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -182,6 +183,7 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
   if (to_do.empty()) return outcome;
   ProgressBar bar("accuracy", static_cast<std::int64_t>(to_do.size()), "parts");
   std::mutex mutex;  // Guards what follows.
+  std::map<std::int64_t, std::string> skipped;
   std::optional<Error> failure;
   std::size_t next = 0;
   const auto work = [&] {
@@ -201,14 +203,10 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
         if (!failure) failure = part ? written.error() : part.error();
         return;
       }
-      ++outcome.measured;
-      if (!part->skipped.empty()) {
-        outcome.skipped_recordings.insert(*chunks[number].recording);
-        // A picture that cannot be read is said once, though both parts of its recording fail.
-        if (std::find(outcome.skipped.begin(), outcome.skipped.end(), part->skipped) ==
-            outcome.skipped.end()) {
-          outcome.skipped.push_back(part->skipped);
-        }
+      if (part->skipped.empty()) {
+        ++outcome.measured;
+      } else {
+        skipped.emplace(number, std::move(part->skipped));
       }
       bar.Advance();
     }
@@ -219,6 +217,13 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
   for (int i = 0; i < count; ++i) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   if (failure) return tl::make_unexpected(*failure);
+  for (auto& [number, message] : skipped) {
+    outcome.skipped_recordings.insert(*chunks[number].recording);
+    // A picture that cannot be read is said once, though both parts of its recording fail.
+    const bool is_new =
+        std::find(outcome.skipped.begin(), outcome.skipped.end(), message) == outcome.skipped.end();
+    if (is_new) outcome.skipped.push_back(std::move(message));
+  }
   return outcome;
 }
 

@@ -115,6 +115,9 @@ TEST(Accuracy, GoesOnBehindARecordingThatIsCorrupt) {
   ASSERT_EQ(report["films"].size(), 1U);
   EXPECT_EQ(report["films"][0]["found"], 90);
   EXPECT_LT(report["films"][0]["ate_unaligned_rmse_mm"], 5.0);
+  const RunResult merged = RunPleinair({"report", "merge", folder / "out"});
+  EXPECT_EQ(merged.exit_code, 1);
+  EXPECT_THAT(merged.err, HasSubstr("0001.jpg"));
   // Mended, it is measured; the other is not measured again.
   WriteFile(folder / "bad/frames/0001.jpg", picture);
   const RunResult again = RunPleinair(command);
