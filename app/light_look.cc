@@ -1,5 +1,6 @@
 #include "app/light_look.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "compositor/shadow_contrast.h"
@@ -7,6 +8,12 @@
 #include "compositor/unmodelled_shade.h"
 
 namespace pleinair::app {
+namespace {
+
+// Leaves let through this much at the least in their brightest gaps; more is another's mistake.
+constexpr double kDeepestPrintShade = 1.6;
+
+}  // namespace
 
 LightLook::LightLook(std::shared_ptr<const compositor::LightSolver> solver,
                      const CameraModel& camera, const compositor::MarkerPrint& print,
@@ -25,6 +32,7 @@ void LightLook::Add(ImageView<const std::uint8_t> rgb,
                     const Transform<Camera, Marker>& camera_from_marker) {
   if (const auto reading = meter_.Measure(rgb, camera_, camera_from_marker)) {
     gain_ = reading->gain;
+    dappled_ += reading->dappled ? 1 : 0;
   }
   samples_.AddFrame(rgb, camera_from_marker, gain_);
 }
@@ -57,7 +65,7 @@ FoundLight LightLook::Settle() const {
   }
   found.heading = marker.heading;
   if (overrides_.sun_to_sky || reading.sun == Sun::kUnknown) return found;
-  const compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
+  compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
       *solver_, samples_, *day_, MarkerFromWorld(marker), reading.sky_scale);
   if (reading.sun == Sun::kHidden && shade.CastBySun()) {
     light.sun_doubtful = true;
@@ -73,6 +81,14 @@ FoundLight LightLook::Settle() const {
   const MeasuredSky measured = SkyWithShare(share, day_->ToSun(), sun_.distance_au);
   found.skies = {measured.skies, measured.sky_scale, shade.Matters()};
   light.shaded = shade.shaded;
+  if (shade.Matters()) {
+    found.skies.sunlight =
+        std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
+    if (2 * dappled_ > samples_.frames()) {
+      found.skies.print_shade = std::clamp(shade.open_gain, 1.0, kDeepestPrintShade);
+    }
+    light.print_shade = found.skies.print_shade;
+  }
   return found;
 }
 

@@ -46,6 +46,7 @@ class LightLook {
   std::unique_ptr<sky::SkyModel> day_;  // With a sun, whatever the scene says.
   compositor::SurfaceSamples samples_;
   compositor::LightMeter meter_;
+  int dappled_ = 0;                // Frames in which leaves shade the print.
   LinearRgb gain_{1.0, 1.0, 1.0};  // Of the last frame that could be metered.
 };
 

@@ -41,7 +41,8 @@ struct MeasuredLight {
   /// No shadow lies where phantoms would cast one, yet there are shadows: neither sun nor overcast
   /// is concluded.
   bool sun_doubtful = false;
-  double shaded = 0.0;  ///< Share of what the phantoms leave in the sun that lies in shade.
+  double shaded = 0.0;       ///< Share of what the phantoms leave in the sun that lies in shade.
+  double print_shade = 1.0;  ///< Open sunlight over that on the print's brightest under leaves.
 };
 
 /// The skies of a day whose light was measured.

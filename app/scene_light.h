@@ -11,6 +11,7 @@
 #include "compositor/light_meter.h"
 #include "compositor/light_solver.h"
 #include "compositor/scaled_daylight.h"
+#include "compositor/seen_sunlight.h"
 #include "devices/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun_position.h"
@@ -26,6 +27,10 @@ struct DaySkies {
   LinearRgb scale{1.0, 1.0, 1.0};  ///< To multiply the sky with; the sun stays.
   /// Whether trees and the like may shade what the phantoms leave in the sun.
   bool other_shade = true;
+  /// How much of the sun these leave, across its rays; null: all.
+  std::shared_ptr<const compositor::SeenSunlight> sunlight{};
+  /// To multiply the camera's gain with: above 1 where leaves shade all of the print.
+  double print_shade = 1.0;
 };
 
 /// All that the light of a moment is made from; nothing in it changes meanwhile.

@@ -185,6 +185,7 @@ Result<void> SceneRenderer::TakeLight(std::shared_ptr<const SceneLight> light) {
   const double white = scene_.marker.albedo_white / std::numbers::pi;
   guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
   composer_->LookForShade(light->order.skies.other_shade);
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetSunlight(light->order.skies.sunlight));
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(light->meshes, daylight, marker_from_world));
   meter_ = light->meter;
   solver_ = light->order.solver;
@@ -262,7 +263,7 @@ void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
   if (hold_gain_ && !recent_gains_.empty()) return;
   const auto reading = meter_ ? meter_->Measure(rgb, camera_, camera_from_marker) : std::nullopt;
   if (reading) {
-    recent_gains_.push_back(reading->gain);
+    recent_gains_.push_back(reading->gain * skies_.print_shade);
     if (recent_gains_.size() > kGainWindow) recent_gains_.pop_front();
     summary_.gain_spread = reading->spread;
     ++summary_.readings;

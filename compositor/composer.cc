@@ -79,6 +79,7 @@ class GlComposer : public Composer {
                            LinearRgb gain) override;
   void SetMarkerBoard(double board_size_m) override { board_size_m_ = board_size_m; }
   void LookForShade(bool look) override { looks_for_shade_ = look; }
+  Result<void> SetSunlight(const std::shared_ptr<const SeenSunlight>& sunlight) override;
   Result<void> SetLook(const std::optional<PictureLook>& look) override {
     PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
     look_ = look;
@@ -90,6 +91,8 @@ class GlComposer : public Composer {
              gl::EglContext context)
       : context_(std::move(context)), camera_(camera), scene_(scene) {}
 
+  Result<void> UploadSunlight(const SeenSunlight& sunlight);
+  void SetSunlightOf(const gl::GlProgram& program) const;
   bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
   Result<void> SetRenderSize(const ComposerOptions& options);
   Result<void> MakeShadows(const ComposerOptions& options);
@@ -112,6 +115,8 @@ class GlComposer : public Composer {
   double board_size_m_ = 0.0;
   bool looks_for_shade_ = true;
   gl::GlTexture environment_;
+  std::shared_ptr<const SeenSunlight> sunlight_;
+  gl::GlTexture sunlight_map_;
   gl::GlProgram depth_program_;
   // With shadows of one step of the sun, and of two that fade into one another, without and with
   // haze; made when needed.
@@ -135,6 +140,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
                                                 GL_RGB32F, EnvironmentMap::kWidth,
                                                 EnvironmentMap::kHeight, EnvironmentMap::kLevels));
   c.environment_.SetWrap(GL_REPEAT);
+  PLEINAIR_RETURN_IF_ERROR(c.UploadSunlight({}));
   PLEINAIR_ASSIGN_OR_RETURN(
       c.depth_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                                                .fragment = "compositor/shaders/depth_only.frag"}));
@@ -219,6 +225,34 @@ void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world)
   sun_normal_ = day.SunNormalIrradiance();
 }
 
+Result<void> GlComposer::SetSunlight(const std::shared_ptr<const SeenSunlight>& sunlight) {
+  if (sunlight == sunlight_) return {};
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  PLEINAIR_RETURN_IF_ERROR(UploadSunlight(sunlight ? *sunlight : SeenSunlight{}));
+  sunlight_ = sunlight;
+  return {};
+}
+
+/// Of the program in use.
+void GlComposer::SetSunlightOf(const gl::GlProgram& program) const {
+  std::array<std::array<float, 4>, 2> rows{};
+  if (sunlight_ && !sunlight_->share.empty()) rows = sunlight_->TextureFromMarker();
+  program.Set("u_sunlight_s", glm::vec4(rows[0][0], rows[0][1], rows[0][2], rows[0][3]));
+  program.Set("u_sunlight_t", glm::vec4(rows[1][0], rows[1][1], rows[1][2], rows[1][3]));
+  sunlight_map_.Bind(5);
+}
+
+/// Of an empty map: one texel, all of the sun.
+Result<void> GlComposer::UploadSunlight(const SeenSunlight& sunlight) {
+  const bool empty = sunlight.share.empty();
+  PLEINAIR_ASSIGN_OR_RETURN(
+      sunlight_map_,
+      gl::GlTexture::Create2D(GL_R16F, empty ? 1 : sunlight.width, empty ? 1 : sunlight.height));
+  constexpr float kAll = 1.0F;
+  sunlight_map_.Upload(GL_RED, GL_FLOAT, empty ? &kAll : sunlight.share.data());
+  return {};
+}
+
 FogSplits GlComposer::FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const {
   const shadows::Box& objects = surfaces_.object_bounds();
   const glm::dvec3 to_objects = 0.5 * (objects.min + objects.max) - eye_m;
@@ -258,6 +292,7 @@ void GlComposer::DrawPhantoms(const SurfacePrograms& programs, const Frame& fram
     if (frame.hazy) frame.SetFog(program);
     if (change == Change::kSun) {
       program.Set("u_board_half_m", static_cast<float>(board_size_m_ / 2));
+      SetSunlightOf(program);
     }
     const bool look = change == Change::kSun && looks_for_shade_;
     // A surface whose colour is not known is taken to lie in the sun.
@@ -274,6 +309,7 @@ void GlComposer::DrawObjects(const gl::GlProgram& program, const Frame& frame) {
   program.Set("u_sun_normal_lux", ToGlm(sun_normal_));
   program.Set("u_gain", frame.gain);
   frame.SetFog(program);
+  SetSunlightOf(program);
   environment_.Bind(1);
   surfaces_.DrawObjects(program);
 }

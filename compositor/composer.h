@@ -14,6 +14,7 @@
 #include "base/vector.h"
 #include "compositor/light_solver.h"
 #include "compositor/picture_look.h"
+#include "compositor/seen_sunlight.h"
 #include "shadows/shadow_method.h"
 #include "sky/sky_model.h"
 
@@ -79,6 +80,10 @@ class Composer {
   /// (the default): then pictures are asked how much of it is there, and only that is taken away.
   /// Where nothing does, asking costs: dark joints and edges look a little shaded.
   virtual void LookForShade(bool look) = 0;
+
+  /// How much of the sun what no phantom stands for leaves to the virtual objects; null: all of it,
+  /// as at first. Errors: no memory.
+  virtual Result<void> SetSunlight(const std::shared_ptr<const SeenSunlight>& sunlight) = 0;
 
   /// Blur and grain that drawn pixels get from now on, those of the camera's own; nothing: as
   /// sharp and clean as they are drawn. Blur that the drawing has anyway (half a pixel's width) is

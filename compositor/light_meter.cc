@@ -197,7 +197,10 @@ std::optional<LightReading> LightMeter::Measure(
     // Interquartile range of a normal distribution: 1.349 standard deviations.
     const double spread = (Quantile(values, 0.75) - Quantile(values, 0.25)) / 1.349 / gain[c];
     // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
-    if (lit >= kMinimumPairs && spread > kDappled) gain[c] = Quantile(values, kBrightest);
+    if (lit >= kMinimumPairs && spread > kDappled) {
+      gain[c] = Quantile(values, kBrightest);
+      reading.dappled = true;
+    }
     reading.spread = std::max(reading.spread, spread);
   }
   reading.gain = {gain[0], gain[1], gain[2]};

@@ -22,6 +22,7 @@ struct LightReading {
   double spread = 0.0;     ///< Robust relative standard deviation over the pairs used.
   int pairs = 0;           ///< White–black pairs used.
   double lit_share = 0.0;  ///< Share of the print that the phantoms leave in the sun.
+  bool dappled = false;    ///< Leaves shade it: its brightest spots alone were used.
 };
 
 /// Uses the print as a light meter. Pairs of points on either side of the outer black edge have

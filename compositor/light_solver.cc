@@ -105,9 +105,11 @@ class EmbreeLightSolver : public LightSolver {
     if (!scene_.rays->Intersect(RayTargets::kPhantoms, eye.xyz, direction, &hit)) return {};
     const LightScene::Face& face = scene_.FaceOf(hit);
     const int side = hit.back ? 1 : 0;
+    const auto& albedo = scene_.sheets[face.sheet].albedo;
     return PhantomSurface{{eye.xyz + direction * hit.distance_m},
                           hit.back ? -face.normal : face.normal,
-                          static_cast<int>(face.sheet) * 2 + side};
+                          static_cast<int>(face.sheet) * 2 + side,
+                          {albedo[0], albedo[1], albedo[2]}};
   }
 
   std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3 normal,

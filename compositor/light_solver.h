@@ -63,8 +63,9 @@ struct LightSolverOptions {
 /// Where a line of sight meets a real surface.
 struct PhantomSurface {
   Point<Marker> point;
-  Vec3 normal;      ///< Unit, towards the eye.
-  int surface = 0;  ///< Equal for points of one side of one surface of one material.
+  Vec3 normal;         ///< Unit, towards the eye.
+  int surface = 0;     ///< Equal for points of one side of one surface of one material.
+  LinearRgb albedo{};  ///< That the phantom states, textures as their mean.
 };
 
 /// Computes where the day's light goes among phantoms and virtual objects (Embree). Keeps the ray

@@ -59,11 +59,13 @@ bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
   return true;
 }
 
-void SurfaceSamples::AddSpot(Point<Marker> point, Vec3 normal, int surface, double distance_m) {
+void SurfaceSamples::AddSpot(const PhantomSurface& spot, double distance_m) {
+  const auto& [point, normal, surface, albedo] = spot;
   SurfaceSample sample;
   sample.point = point;
   sample.normal = normal;
   sample.surface = surface;
+  sample.albedo = albedo;
   sample.footprint_m = distance_m / std::max(1.0, std::min(camera_.fx, camera_.fy));
   const int level = static_cast<int>(
       std::lround(std::log2(std::max(kCellPx * sample.footprint_m, kSmallestCellM))));
@@ -88,6 +90,7 @@ void SurfaceSamples::AddPrint(double distance_m) {
   const double half = print_.size_m / 2;
   const double margin_m = (print_.board_size_m - print_.size_m) / 2;
   if (margin_m <= 0.0) return;
+  const LinearRgb white = LinearRgb{1, 1, 1} * print_.albedo_white;
   for (int side = 0; side < 4; ++side) {
     const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
     const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
@@ -95,7 +98,8 @@ void SurfaceSamples::AddPrint(double distance_m) {
       const double x = half * (2.0 * (i + 0.5) / kPrintSpots - 1.0);
       for (const double outwards : {0.3, 0.5, 0.7}) {
         const double y = half + outwards * margin_m;
-        AddSpot({{c * x - s * y, s * x + c * y, 0.0}}, {0, 0, 1}, kPrintSurface - side, distance_m);
+        AddSpot({{{c * x - s * y, s * x + c * y, 0.0}}, {0, 0, 1}, kPrintSurface - side, white},
+                distance_m);
       }
     }
   }
@@ -127,7 +131,7 @@ void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
       const Vec3 direction = Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1.0});
       const auto seen = solver_.FirstPhantom(eye, direction);
       if (!seen || IsOnBoard(seen->point)) continue;
-      AddSpot(seen->point, seen->normal, seen->surface, Norm(seen->point.xyz - eye.xyz));
+      AddSpot(*seen, Norm(seen->point.xyz - eye.xyz));
       Observe(rgb, pose, gain, &samples_.back(), &pixel);
     }
   }

@@ -22,6 +22,7 @@ struct SurfaceSample {
   double footprint_m = 0.0;         ///< Edge of a pixel where it was first seen.
   std::array<double, 3> log_rgb{};  ///< Mean logarithm of linear light over the frame's gain.
   int surface = 0;                  ///< PhantomSurface's; below 0: the print's white.
+  LinearRgb albedo{};               ///< Stated for the surface.
   std::uint32_t cell = 0;           ///< Spots of one cell: neighbours on one material and plane.
   int frames = 0;                   ///< That show it unclipped.
 };
@@ -49,7 +50,7 @@ class SurfaceSamples {
   /// Whether a sample shows at a pixel of a frame; adds its brightness there.
   bool Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
                LinearRgb gain, SurfaceSample* sample, Vec2* pixel) const;
-  void AddSpot(Point<Marker> point, Vec3 normal, int surface, double distance_m);
+  void AddSpot(const PhantomSurface& surface, double distance_m);
   void AddPrint(double distance_m);
   bool IsOnBoard(Point<Marker> point) const;
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,10 @@ constexpr double kSmallestStep = 0.4;
 // Shade: darker by this share of a shadow's depth than the surface's sunlit places, of which so
 // many are darker.
 constexpr double kShadeDepth = 0.5, kSunlitQuantile = 0.8;
+
+// Share of the sun below which a spot has none of it and above which it has all: between, patterns
+// that are darker or brighter than their mean and true half-light look alike.
+constexpr double kNoSun = 0.1, kAllSun = 0.9;
 
 using Rgb = std::array<double, 3>;
 
@@ -115,6 +121,82 @@ bool ChangesColourAsShadowsDo(const Cell& cell, const TwoLevels& levels) {
   return true;
 }
 
+double MeanLog(LinearRgb c) { return (std::log(c.r) + std::log(c.g) + std::log(c.b)) / 3; }
+
+/// The light on surfaces in the open.
+struct OpenLight {
+  LinearRgb sun, sky;  ///< The sun's on a surface that faces it, the sky's on level ground.
+  Vec3 to_sun, up;     ///< Unit.
+
+  LinearRgb On(Vec3 normal) const {
+    return sun * std::max(0.0, Dot(normal, to_sun)) + sky * (0.5 + 0.5 * Dot(normal, up));
+  }
+};
+
+/// A plane of one material, as far as the model has it in the sun.
+struct OpenSurface {
+  std::vector<double> medians;  ///< Of its cells' logarithmic brightness.
+  double depth = 0.0;           ///< Of a shadow there, logarithmic.
+  double level = 0.0;           ///< Brightness in the open sun: of the cells that are not in shade.
+};
+using OpenSurfaces = std::map<std::pair<int, Rgb>, OpenSurface>;
+
+constexpr std::size_t kFewestCells = 4;
+
+/// The brightness of each surface in the open sun, and what gain of the camera they tell of beside
+/// `log_light_on_print`, the samples' unit: median over their cells, since colours are stated
+/// roughly and grass reflects less than its blades.
+double FindOpenLevels(const OpenLight& light, double log_light_on_print,
+                      const SurfaceSamples& samples, OpenSurfaces* surfaces) {
+  std::map<std::pair<int, Rgb>, LinearRgb> albedos;
+  for (const SurfaceSample& spot : samples.samples()) {
+    albedos.try_emplace({spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}}, spot.albedo);
+  }
+  std::vector<double> gains;
+  for (auto& [key, surface] : *surfaces) {
+    const double shade = Quantile(surface.medians, kSunlitQuantile) - kShadeDepth * surface.depth;
+    std::vector<double> open;
+    std::copy_if(surface.medians.begin(), surface.medians.end(), std::back_inserter(open),
+                 [&](double value) { return value >= shade; });
+    surface.level = Quantile(open, 0.5);
+    const LinearRgb albedo = albedos.at(key);
+    if (open.size() < kFewestCells || std::min({albedo.r, albedo.g, albedo.b}) <= 0.0) continue;
+    const auto& [x, y, z] = key.second;
+    const double predicted = log_light_on_print - std::log(std::numbers::pi) +
+                             MeanLog(light.On({x, y, z}) / light.On({0, 0, 1}) * albedo);
+    gains.insert(gains.end(), open.size(), surface.level - predicted);
+  }
+  return gains.empty() ? 0.0 : Quantile(gains, 0.5);
+}
+
+/// How much of the sun is on every spot that the model has in the sun.
+void MapSunlight(const OpenLight& light, double log_light_on_print,
+                 const std::vector<std::uint8_t>& reached, const SurfaceSamples& samples,
+                 OpenSurfaces* surfaces, UnmodelledShade* shade) {
+  const double log_gain = FindOpenLevels(light, log_light_on_print, samples, surfaces);
+  shade->open_gain = std::exp(log_gain);
+  std::vector<SunlitSpot> spots;
+  for (std::size_t i = 0; i < samples.samples().size(); ++i) {
+    const SurfaceSample& spot = samples.samples()[i];
+    if (reached[i] == 0 || Dot(spot.normal, light.to_sun) < kGrazing) continue;
+    double level = std::max(0.0, log_gain) + log_light_on_print +
+                   std::log(spot.albedo.g / std::numbers::pi);  // Of the print's white.
+    if (spot.surface >= 0) {
+      const auto found =
+          surfaces->find({spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}});
+      if (found == surfaces->end() || found->second.medians.size() < kFewestCells) continue;
+      level = found->second.level;
+    }
+    const double brightness = (spot.log_rgb[0] + spot.log_rgb[1] + spot.log_rgb[2]) / 3;
+    const LinearRgb sun = light.sun * Dot(spot.normal, light.to_sun);
+    const double ambient_share = light.sky.g / (light.sky.g + sun.g);
+    const double share = (std::exp(brightness - level) - ambient_share) / (1 - ambient_share);
+    const double t = std::clamp((share - kNoSun) / (kAllSun - kNoSun), 0.0, 1.0);
+    spots.push_back({spot.point.xyz, t * t * (3 - 2 * t), spot.footprint_m});
+  }
+  shade->sunlight = MapSeenSunlight(light.to_sun, spots);
+}
+
 /// Whether a shadow's edge divides it: two sharp levels, or two on a side each.
 bool IsCrossed(const Cell& cell) {
   const TwoLevels levels = SplitInTwo(cell.spots);
@@ -138,6 +220,8 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   const LinearRgb sun = day.SunNormalIrradiance();
   const LinearRgb sky = day.SkyHorizontalIrradiance() * sky_scale;
   if (day.ToSun().xyz.z <= 0.0 || Luminance(sun) <= 0.0 || Luminance(sky) <= 0.0) return shade;
+  // As the light meter has it, by which the samples' unit is set.
+  const LinearRgb light_on_print = day.SkyHorizontalIrradiance() + sun * std::max(0.0, to_sun.z);
   const auto& all = samples.samples();
   std::vector<std::uint8_t> reached(all.size());
   ParallelFor(all.size(), 0, [&](std::size_t i) {
@@ -165,25 +249,30 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   std::erase_if(cells, [](const Cell& cell) { return cell.spots.size() < kFewestSpots; });
   int edges = 0, shaded = 0;
   // Medians of the cells that the model has in the sun, by plane and material.
-  std::map<std::pair<int, Rgb>, std::vector<double>> sunlit;
+  OpenSurfaces sunlit;
   for (Cell& cell : cells) {
     ++shade.places;
     std::sort(cell.spots.begin(), cell.spots.end(),
               [](const Spot& a, const Spot& b) { return a.value < b.value; });
     edges += IsCrossed(cell) ? 1 : 0;
-    if (cell.lit && !cell.unlit) {
-      sunlit[{cell.surface, cell.normal}].push_back(cell.Median());
-    }
+    if (cell.lit && !cell.unlit)
+      sunlit[{cell.surface, cell.normal}].medians.push_back(cell.Median());
   }
   for (const Cell& cell : cells) {
     if (!cell.lit || cell.unlit) continue;
-    const double level = Quantile(sunlit[{cell.surface, cell.normal}], kSunlitQuantile);
+    OpenSurface& surface = sunlit[{cell.surface, cell.normal}];
+    surface.depth = cell.depth;
+    const double level = Quantile(surface.medians, kSunlitQuantile);
     ++shade.sunlit;
     shaded += cell.Median() < level - kShadeDepth * cell.depth ? 1 : 0;
   }
   if (shade.places > 0) shade.edges = static_cast<double>(edges) / shade.places;
   if (shade.sunlit > 0) shade.shaded = static_cast<double>(shaded) / shade.sunlit;
   shade.crossed = edges;
+  if (shade.Matters()) {
+    MapSunlight({sun, sky, to_sun, marker_from_world * Vec3{0, 0, 1}}, MeanLog(light_on_print),
+                reached, samples, &sunlit, &shade);
+  }
   return shade;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/vector.h"
 #include "compositor/light_solver.h"
+#include "compositor/seen_sunlight.h"
 #include "compositor/surface_samples.h"
 #include "sky/sky_model.h"
 
@@ -15,6 +16,10 @@ struct UnmodelledShade {
   double edges = 0.0;   ///< Their share.
   int sunlit = 0;       ///< Cells that the model has wholly in the sun.
   double shaded = 0.0;  ///< Share of them that lie in shade.
+  /// Gain of the camera that phantoms' places in the open sun tell of, over that of the frames:
+  /// above 1 where the print, or the brightest of it, has less than the open sun.
+  double open_gain = 1.0;
+  SeenSunlight sunlight;  ///< Where Matters().
 
   /// Whether the edges are more than chance and things that no phantom stands for bring about: a
   /// sun must cast them.

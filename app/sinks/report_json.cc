@@ -45,7 +45,8 @@ Json MeasuredJson(const MeasuredLight& light) {
           {"shadow_edges", light.edges},
           {"shadow_edges_agreeing", light.edges_agreeing},
           {"sun_doubtful", light.sun_doubtful},
-          {"shaded_without_phantom", Rounded(light.shaded)}};
+          {"shaded_without_phantom", Rounded(light.shaded)},
+          {"open_sun_over_brightest_of_print", Rounded(light.print_shade)}};
 }
 
 /// Noise as its standard deviation at a medium light, in thousandths of the brightest.

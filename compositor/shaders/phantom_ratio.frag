@@ -44,11 +44,15 @@ vec3 PictureLight() {
 #ifdef SUN_MAY_CHANGE
 uniform float u_green_albedo;    // Of the surface; 0: not known.
 uniform float u_board_half_m;    // The marker's board lies here: white and black, not the ground.
+layout(binding = 5) uniform sampler2D u_sunlight;  // Share of the sun, compositor/seen_sunlight.h.
+uniform vec4 u_sunlight_s;                         // Its coordinates, from marker coordinates.
+uniform vec4 u_sunlight_t;
 
 /// How much of the sun the picture shows on a surface that the model has in the sun: trees and all
 /// that no phantom stands for shade it too, and what is shaded already no virtual shadow darkens
 /// again. Green alone, over about three pixels, so that a surface's grain does not count. From half
-/// the sun on all of it counts: patterns are darker than their mean, too.
+/// the sun on all of it counts: patterns are darker than their mean, too. On the marker's board the
+/// map says it, which the white around the print and the ground about it fill.
 float SunSeen(vec3 position_m, float ambient, float sun, FogAir air) {
   const float kPi = 3.14159265;
   const float kShaded = 0.08, kHalf = 0.35, kLit = 0.70;
@@ -66,7 +70,9 @@ float SunSeen(vec3 position_m, float ambient, float sun, FogAir air) {
   float irradiance = kPi * radiance / max(u_green_albedo, 1e-6);
   float share = (irradiance - ambient) / max(sun, 1e-6);
   float seen = mix(clamp(share - kShaded, 0.0, 1.0), 1.0, smoothstep(kHalf, kLit, share));
-  return on_board || u_green_albedo == 0.0 ? 1.0 : seen;
+  vec4 place = vec4(position_m, 1.0);
+  float on_print = texture(u_sunlight, vec2(dot(u_sunlight_s, place), dot(u_sunlight_t, place))).r;
+  return on_board ? on_print : (u_green_albedo == 0.0 ? 1.0 : seen);
 }
 #endif
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -101,6 +102,39 @@ TEST(Composer, DarkensNothingThatATreeShadesAlready) {
   const RgbImage unasked = Compose({kGround, kCube}, picture, kCamera, kSunLux, {}, {}, false);
   EXPECT_NEAR(SeenAt(unasked, sunlit), SeenAt(composed, sunlit), 0.02);
   EXPECT_LT(SeenAt(unasked, shaded), 0.4 * shade);
+}
+
+TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
+  const auto solver = LightSolver::Create({kGround, kCube}, {.rays_per_vertex = 64});
+  const auto composer = Composer::Create(kCamera, {kGround, kCube}, {});
+  ASSERT_TRUE(solver);
+  ASSERT_TRUE(composer);
+  const testing::SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  // On the ground the tree's shade ends north of the cube, where the cube's shadow falls: its west
+  // half lies in shade.
+  const Vec3 to_sun = light.ToSun().xyz;
+  std::vector<SunlitSpot> spots;
+  for (double x = -0.495; x < 0.5; x += 0.01) {
+    for (double y = -0.5; y < 0.6; y += 0.01) {
+      spots.push_back({{x, y, 0.0}, x < 0.0 ? 0.0 : 1.0, 0.005});
+    }
+  }
+  const auto seen_on_top = [&] {
+    const auto composed =
+        (*composer)->Compose(EvenPicture(150).view(), kFromAbove, {kGain, kGain, kGain});
+    EXPECT_TRUE(composed);
+    return std::pair{SeenAt(*composed, {-0.08, 0.05, 0.3}), SeenAt(*composed, {0.08, 0.05, 0.3})};
+  };
+  const auto open = seen_on_top();
+  EXPECT_NEAR(open.first, open.second, 0.01);
+  ASSERT_TRUE((*composer)->SetSunlight(
+      std::make_shared<const SeenSunlight>(MapSeenSunlight(to_sun, spots))));
+  const auto [shaded, sunlit] = seen_on_top();
+  EXPECT_NEAR(sunlit, open.second, 0.01);
+  EXPECT_NEAR(shaded / sunlit, kSkyLux / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2), 0.03);
+  ASSERT_TRUE((*composer)->SetSunlight(nullptr));
+  EXPECT_EQ(seen_on_top(), open);
 }
 
 TEST(Composer, ShadesTheObjectWhereARealWallKeepsTheSunFromIt) {

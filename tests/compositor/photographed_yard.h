@@ -82,9 +82,10 @@ class PhotographedYard {
     return image;
   }
 
- private:
+  /// Display-linear value per radiance.
   static constexpr double kGain = 2.0e-5;
 
+ private:
   static std::array<int, 3> Bin(Vec3 p) {
     const auto step = [](double v) { return static_cast<int>(std::floor(v / 0.25)); };
     return {step(p.x), step(p.y), step(p.z)};

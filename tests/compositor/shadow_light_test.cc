@@ -193,5 +193,44 @@ TEST_F(ShadowLight, TellsHowMuchLiesInTheShadeOfTrees) {
   EXPECT_NEAR(shade.shaded, static_cast<double>(under) / lit, 0.08);
 }
 
+TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
+  // Stripes across the sun's rays, as of things so far off that they shade whatever a ray meets.
+  const Vec3 to_sun = Normalized(yard_->model().ToSun().xyz);
+  const Vec3 across = Normalized(Cross(to_sun, kUp));
+  const auto tree = [&](Vec3 p) { return std::sin(7 * Dot(p, across)) > 0.0; };
+  const UnmodelledShade shade = Shade(Look({.shaded = tree}), yard_->model(), yard_->solver());
+  ASSERT_TRUE(shade.Matters());
+  int right = 0, points = 0;
+  for (double x = -0.8; x <= 0.8; x += 0.1) {
+    for (double y = -0.8; y <= 0.25; y += 0.1) {
+      const Vec3 ground{x, y, 0.0};
+      if (!yard_->solver().ReachesPhantomsOnly({ground}, to_sun)) continue;
+      // On the way to the ground, where something virtual would be.
+      for (const double above : {0.0, 0.3, 0.6}) {
+        if (std::fabs(std::sin(7 * Dot(ground, across))) < 0.3) continue;
+        ++points;
+        const double share = shade.sunlight.At(ground + to_sun * above);
+        right += (share < 0.5) == tree(ground) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(points, 200);
+  EXPECT_GT(right, 0.95 * points);
+}
+
+TEST_F(ShadowLight, TellsFromTheGroundHowMuchDarkerThanTheSunThePrintIs) {
+  // The frames' gain is read from a print that has 0.7 of the open light.
+  const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
+  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print());
+  constexpr double kPrint = 0.7;
+  const double gain = kPrint * PhotographedYard::kGain;
+  for (const int i : {0, 1}) {
+    samples.AddFrame(yard_->Photograph(i, {.shaded = tree}).view(), PhotographedYard::Pose(i),
+                     {gain, gain, gain});
+  }
+  const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
+  EXPECT_NEAR(shade.open_gain * kPrint, 1.0, 0.12);  // The stated colours are not the paving's own.
+}
+
 }  // namespace
 }  // namespace pleinair::compositor

@@ -1,0 +1,120 @@
+#include "compositor/seen_sunlight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "compositor/light_samples.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr double kCellPx = 2.0;  // About the distance of spots.
+constexpr int kWidest = 512;
+// Of the spots along either direction, left out at either end: far ground spreads them thin.
+constexpr double kOutside = 0.01;
+// What the cells around one count in it, of a spot's weight; alone where it has none.
+constexpr double kNeighbours = 0.25;
+
+double Quantile(std::vector<double> values, double q) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Sums and weights of cells.
+struct Level {
+  int width = 0, height = 0;
+  std::vector<double> sum, weight;
+  Level(int w, int h) : width(w), height(h), sum(Size()), weight(Size()) {}
+  std::size_t Size() const { return static_cast<std::size_t>(width) * height; }
+  std::size_t At(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
+};
+
+/// Each cell's mean, of cells without a spot the mean about them: pull and push (Gortler et al.,
+/// The Lumigraph, 1996, section 3.3.2).
+std::vector<double> FillGaps(const Level& level) {
+  if (level.Size() == 1) return {level.sum[0] / level.weight[0]};
+  Level coarse((level.width + 1) / 2, (level.height + 1) / 2);
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) {
+      coarse.sum[coarse.At(x / 2, y / 2)] += level.sum[level.At(x, y)];
+      coarse.weight[coarse.At(x / 2, y / 2)] += level.weight[level.At(x, y)];
+    }
+  }
+  const std::vector<double> about = FillGaps(coarse);
+  std::vector<double> filled(level.Size());
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) {
+      const std::size_t i = level.At(x, y);
+      filled[i] = (level.sum[i] + kNeighbours * about[coarse.At(x / 2, y / 2)]) /
+                  (level.weight[i] + kNeighbours);
+    }
+  }
+  return filled;
+}
+
+}  // namespace
+
+double SeenSunlight::At(Vec3 point) const {
+  if (share.empty()) return 1.0;
+  const double x =
+      std::clamp((Dot(point, across_x) - first_x) / cell_m, 0.0, static_cast<double>(width - 1));
+  const double y =
+      std::clamp((Dot(point, across_y) - first_y) / cell_m, 0.0, static_cast<double>(height - 1));
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const auto cell = [&](int column, int row) {
+    return static_cast<double>(share[static_cast<std::size_t>(std::min(row, height - 1)) * width +
+                                     std::min(column, width - 1)]);
+  };
+  const double u = x - left, v = y - top;
+  return (1 - v) * ((1 - u) * cell(left, top) + u * cell(left + 1, top)) +
+         v * ((1 - u) * cell(left, top + 1) + u * cell(left + 1, top + 1));
+}
+
+std::array<std::array<float, 4>, 2> SeenSunlight::TextureFromMarker() const {
+  const auto row = [&](Vec3 across, double first, int cells) {
+    const double scale = 1.0 / (cell_m * cells);
+    return std::array{static_cast<float>(across.x * scale), static_cast<float>(across.y * scale),
+                      static_cast<float>(across.z * scale),
+                      static_cast<float>(0.5 / cells - first * scale)};
+  };
+  return {row(across_x, first_x, width), row(across_y, first_y, height)};
+}
+
+SeenSunlight MapSeenSunlight(Vec3 to_sun, std::span<const SunlitSpot> spots) {
+  SeenSunlight map;
+  if (spots.empty()) return map;
+  const TangentFrame sun(Normalized(to_sun));
+  map.across_x = sun.tangent;
+  map.across_y = sun.bitangent;
+  std::vector<double> xs, ys, footprints;
+  for (const SunlitSpot& spot : spots) {
+    xs.push_back(Dot(spot.point, map.across_x));
+    ys.push_back(Dot(spot.point, map.across_y));
+    footprints.push_back(spot.footprint_m);
+  }
+  map.first_x = Quantile(xs, kOutside);
+  map.first_y = Quantile(ys, kOutside);
+  const double wide = Quantile(xs, 1 - kOutside) - map.first_x;
+  const double high = Quantile(ys, 1 - kOutside) - map.first_y;
+  map.cell_m =
+      std::max({kCellPx * Quantile(footprints, 0.5), std::max(wide, high) / (kWidest - 1), 1e-4});
+  map.width = static_cast<int>(wide / map.cell_m) + 1;
+  map.height = static_cast<int>(high / map.cell_m) + 1;
+  Level level(map.width, map.height);
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    const auto x = std::lround((xs[i] - map.first_x) / map.cell_m);
+    const auto y = std::lround((ys[i] - map.first_y) / map.cell_m);
+    if (x < 0 || y < 0 || x >= map.width || y >= map.height) continue;
+    const std::size_t cell = level.At(static_cast<int>(x), static_cast<int>(y));
+    level.sum[cell] += spots[i].share;
+    level.weight[cell] += 1.0;
+  }
+  const std::vector<double> filled = FillGaps(level);
+  map.share.assign(filled.begin(), filled.end());
+  return map;
+}
+
+}  // namespace pleinair::compositor
