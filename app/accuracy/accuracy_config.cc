@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "accuracy/sweeps.h"
 #include "app/accuracy/record_fields.h"
 
@@ -30,19 +32,26 @@ void TellConfig(Visitor& visit, Config& config) {
 std::string ConfigJson(const AccuracyConfig& config) {
   FieldWriter writer;
   TellConfig(writer, config);
-  return writer.json.dump(-1, ' ', false, RecordJsonValue::error_handler_t::replace);
+  return LineOf(writer.json);
 }
 
 Result<AccuracyConfig> ParseConfig(const std::string& text, const std::string& file) {
-  const auto json = RecordJsonValue::parse(text, nullptr, false);
-  AccuracyConfig config;
-  try {
-    FieldReader reader(json);
-    TellConfig(reader, config);
-  } catch (const RecordJsonValue::exception&) {
-    return InputError(file, "does not hold the configuration of an accuracy run",
-                      "name a folder that this version of 'pleinair accuracy' wrote");
-  }
+  const auto refusal = InputError(file, "does not hold the configuration of an accuracy run",
+                                  "name a folder that this version of 'pleinair accuracy' wrote");
+  PLEINAIR_ASSIGN_OR_RETURN(
+      AccuracyConfig config,
+      ReadJson<AccuracyConfig>(text, refusal,
+                               [](const RecordJsonValue& json, AccuracyConfig* read) {
+                                 FieldReader reader(json);
+                                 TellConfig(reader, *read);
+                               }));
+  const auto is_among = [](const std::string& name, const std::vector<std::string>& known) {
+    return std::find(known.begin(), known.end(), name) != known.end();
+  };
+  const bool has_sweeps = std::all_of(
+      config.sweeps.begin(), config.sweeps.end(),
+      [&](const std::string& sweep) { return is_among(sweep, accuracy::SweepNames()); });
+  if (!has_sweeps || !is_among(config.camera, accuracy::SweepCameraNames())) return refusal;
   return config;
 }
 

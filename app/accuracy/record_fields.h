@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "accuracy/frame_record.h"
+#include "base/error.h"
 #include "base/frames.h"
 #include "base/vector.h"
 
@@ -62,8 +64,11 @@ inline void FromJson(const RecordJsonValue& json, Transform<Camera, Marker>* pos
 inline void FromJson(const RecordJsonValue& json, accuracy::Outcome* outcome) {
   const auto name = json.get<std::string>();
   for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
-    if (name == kOutcomeNames[i]) *outcome = static_cast<accuracy::Outcome>(i);
+    if (name != kOutcomeNames[i]) continue;
+    *outcome = static_cast<accuracy::Outcome>(i);
+    return;
   }
+  throw RecordJsonValue::type_error::create(302, "no outcome: " + name, &json);
 }
 
 /// Adds fields to a JSON object, in the order in which they are told.
@@ -107,5 +112,22 @@ class FieldReader {
  private:
   const RecordJsonValue& json_;
 };
+
+inline std::string LineOf(const RecordJsonValue& json) {
+  return json.dump(-1, ' ', false, RecordJsonValue::error_handler_t::replace);
+}
+
+/// What `tell(json, &record)` takes out of a text. Where that is no JSON, or lacks a field or has
+/// another kind of value in it, the error that `refusal` is.
+template <typename Record, typename Tell>
+Result<Record> ReadJson(std::string_view text, const tl::unexpected<Error>& refusal, Tell tell) {
+  try {
+    Record record;
+    tell(RecordJsonValue::parse(text), &record);
+    return record;
+  } catch (const RecordJsonValue::exception&) {
+    return refusal;
+  }
+}
 
 }  // namespace pleinair::app

@@ -60,21 +60,9 @@ void TellPicture(Visitor& visit, Record& record) {
   }
 }
 
-std::string LineOf(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-/// What `tell` reads of a line.
-template <typename Record, typename Tell>
-Result<Record> Parse(std::string_view line, const std::string& where, Tell tell) {
-  try {
-    Record record;
-    tell(Json::parse(line), &record);
-    return record;
-  } catch (const Json::exception&) {
-    return InputError(where, "is no record of an accuracy run",
-                      "run 'pleinair accuracy' again with the same -o");
-  }
+tl::unexpected<Error> NoRecord(const std::string& where) {
+  return InputError(where, "is no record of an accuracy run",
+                    "run 'pleinair accuracy' again with the same -o");
 }
 
 }  // namespace
@@ -95,7 +83,7 @@ std::string RecordJson(const FrameRecord& record, bool with_times) {
 }
 
 Result<FrameRecord> ParseRecord(std::string_view line, const std::string& where) {
-  return Parse<FrameRecord>(line, where, [](const Json& json, FrameRecord* record) {
+  return ReadJson<FrameRecord>(line, NoRecord(where), [](const Json& json, FrameRecord* record) {
     FieldReader frame(json);
     TellFrame(frame, *record);
     for (const Json& marker : json.at("markers")) {
@@ -116,11 +104,11 @@ std::string PictureJson(const accuracy::PictureRecord& record) {
 }
 
 Result<accuracy::PictureRecord> ParsePicture(std::string_view line, const std::string& where) {
-  return Parse<accuracy::PictureRecord>(line, where,
-                                        [](const Json& json, accuracy::PictureRecord* record) {
-                                          FieldReader picture(json);
-                                          TellPicture(picture, *record);
-                                        });
+  return ReadJson<accuracy::PictureRecord>(line, NoRecord(where),
+                                           [](const Json& json, accuracy::PictureRecord* record) {
+                                             FieldReader picture(json);
+                                             TellPicture(picture, *record);
+                                           });
 }
 
 }  // namespace pleinair::app

@@ -5,9 +5,9 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/accuracy/record_fields.h"
 #include "app/accuracy/record_json.h"
 #include "base/atomic_file.h"
 
@@ -15,9 +15,30 @@ namespace pleinair::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using Json = RecordJsonValue;
 
 constexpr int kFormat = 1;
+// Ten times what the largest --scale makes of all sweeps.
+constexpr std::int64_t kMostChunks = 1'000'000;
+
+/// What stands before a part's records.
+struct PartHead {
+  std::int64_t chunk = 0;
+  std::size_t records = 0, pictures = 0;
+  std::string skipped, machine;
+  Json config;
+};
+
+/// The head is const where it is written.
+template <typename Visitor, typename Head>
+void TellHead(Visitor& visit, Head& head) {
+  visit.Field("chunk", head.chunk);
+  visit.Field("records", head.records);
+  visit.Field("pictures", head.pictures);
+  visit.Field("skipped", head.skipped);
+  visit.Field("machine", head.machine);
+  visit.Field("config", head.config);
+}
 
 /// The file's bytes; nothing where it cannot be read.
 std::optional<std::string> ReadAll(const fs::path& file) {
@@ -65,8 +86,11 @@ Result<RecordParts> RecordParts::Read(const fs::path& folder) {
                       "name a folder that 'pleinair accuracy -o' wrote");
   }
   const Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("config") || json.value("format", 0) != kFormat ||
-      !json.contains("chunks") || !json["chunks"].is_number_integer()) {
+  const bool is_run = json.is_object() && json.contains("config") && json.contains("format") &&
+                      json["format"] == kFormat && json.contains("chunks") &&
+                      json["chunks"].is_number_integer() && json["chunks"] >= 0 &&
+                      json["chunks"] <= kMostChunks;
+  if (!is_run) {
     return InputError(run_file.string(), "is no run of this format",
                       "name a folder that 'pleinair accuracy -o' wrote");
   }
@@ -88,13 +112,11 @@ bool RecordParts::Has(std::int64_t chunk) const {
 }
 
 Result<void> RecordParts::Write(const RecordPart& part) const {
-  const Json head{{"chunk", part.chunk},
-                  {"records", part.records.size()},
-                  {"pictures", part.pictures.size()},
-                  {"skipped", part.skipped},
-                  {"machine", part.machine},
-                  {"config", Json::parse(config_json_)}};
-  std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const PartHead head{part.chunk,   part.records.size(), part.pictures.size(),
+                      part.skipped, part.machine,        Json::parse(config_json_)};
+  FieldWriter writer;
+  TellHead(writer, head);
+  std::string text = LineOf(writer.json) + "\n";
   for (const accuracy::FrameRecord& record : part.records) {
     text += RecordJson(record, true) + "\n";
   }
@@ -111,21 +133,23 @@ Result<std::optional<RecordPart>> RecordParts::Load(std::int64_t chunk) const {
   std::istringstream lines(*text);
   std::string line;
   std::getline(lines, line);
-  const Json head = Json::parse(line, nullptr, false);
-  if (!head.is_object() || !head.contains("config") || !head.contains("records")) {
-    return std::nullopt;
-  }
-  if (head["config"].dump() != config_json_ || head.value("chunk", std::int64_t{-1}) != chunk) {
+  const auto head =
+      ReadJson<PartHead>(line, InputError(FileOf(chunk).string(), "is no part of a run"),
+                         [](const Json& json, PartHead* read) {
+                           FieldReader reader(json);
+                           TellHead(reader, *read);
+                         });
+  if (!head) return std::nullopt;
+  if (head->config.dump() != config_json_ || head->chunk != chunk) {
     return InputError(FileOf(chunk).string(), "belongs to a run of another configuration",
                       "remove it and run again");
   }
   RecordPart part{.chunk = chunk,
                   .records = {},
                   .pictures = {},
-                  .skipped = head.value("skipped", ""),
-                  .machine = head.value("machine", "")};
-  const auto records = head.value("records", std::size_t{0});
-  while (part.records.size() < records && std::getline(lines, line)) {
+                  .skipped = head->skipped,
+                  .machine = head->machine};
+  while (part.records.size() < head->records && std::getline(lines, line)) {
     auto record = ParseRecord(line, FileOf(chunk).string());
     if (!record) return std::nullopt;
     part.records.push_back(*std::move(record));
@@ -134,11 +158,12 @@ Result<std::optional<RecordPart>> RecordParts::Load(std::int64_t chunk) const {
     auto record = ParsePicture(line, FileOf(chunk).string());
     if (!record || !std::getline(lines, line)) return std::nullopt;
     const Json jpegs = Json::parse(line, nullptr, false);
-    if (!jpegs.is_array() || jpegs.size() != 3 || !jpegs[0].is_string()) return std::nullopt;
+    const bool is_three = jpegs.is_array() && jpegs.size() == 3 && jpegs[0].is_string() &&
+                          jpegs[1].is_string() && jpegs[2].is_string();
+    if (!is_three) return std::nullopt;
     part.pictures.push_back({*std::move(record), jpegs[0], jpegs[1], jpegs[2]});
   }
-  const bool whole = part.records.size() == records &&
-                     part.pictures.size() == head.value("pictures", std::size_t{0});
+  const bool whole = part.records.size() == head->records && part.pictures.size() == head->pictures;
   return whole ? std::optional(std::move(part)) : std::nullopt;
 }
 

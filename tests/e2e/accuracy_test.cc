@@ -75,6 +75,40 @@ TEST(Accuracy, GoesOnWhereItStoppedAndRefusesAnotherRunsFolder) {
   EXPECT_THAT(other.err, HasSubstr("another configuration"));
 }
 
+TEST(Accuracy, RefusesDamagedRunsByTheirFile) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(RunPleinair({"accuracy", "--sweep", "wild", "--scale", "0.01", "-o", folder / "run"})
+                .exit_code,
+            0);
+  struct Damage {
+    const char *file, *what, *by;
+    int exit_code;
+    const char* message;
+  };
+  for (const Damage& damage : {
+           Damage{"run.json", "\"format\":1", "\"format\":\"x\"", 2, "run.json: is no run"},
+           Damage{"run.json", "\"chunks\":1", "\"chunks\":9999999999", 2, "run.json: is no run"},
+           Damage{"run.json", "\"chunks\":1", "\"chunks\":2", 1, "1 of 2 parts are not there"},
+           Damage{"run.json", "\"seed\":1", "\"seed\":\"x\"", 2, "run.json: does not hold the"},
+           Damage{"run.json", "[\"wild\"]", "[\"mild\"]", 2, "run.json: does not hold the"},
+           Damage{"parts/00000.jsonl", "\"records\":", "\"records\":\"\",\"r\":", 1,
+                  "are not there"},
+           Damage{"parts/00000.jsonl", "\"hit\"", "\"hot\"", 1, "are not there"},
+       }) {
+    const std::string whole = ReadFile(folder / "run" / damage.file);
+    const std::size_t at = whole.find(damage.what);
+    ASSERT_NE(at, std::string::npos) << damage.what;
+    std::string damaged = whole;
+    WriteFile(folder / "run" / damage.file,
+              damaged.replace(at, std::string(damage.what).size(), damage.by));
+    const RunResult run = RunPleinair({"report", "merge", folder / "run", "-o", folder / "merged"});
+    EXPECT_EQ(run.exit_code, damage.exit_code) << damage.by;
+    EXPECT_THAT(run.err, HasSubstr(damage.message)) << damage.by;
+    EXPECT_FALSE(fs::exists(folder / "merged/report.json")) << damage.by;
+    WriteFile(folder / "run" / damage.file, whole);
+  }
+}
+
 // The gate: what this program does now against what it did when the baseline was recorded
 // (docs/accuracy-report.md says how to record it anew). And a gate that would notice.
 TEST(Accuracy, IsNoWorseThanTheBaselineAndASpoiledDetectorIs) {
