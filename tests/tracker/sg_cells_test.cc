@@ -10,6 +10,7 @@
 #include "tests/tracker/sg_test_scenes.h"
 #include "tracker/golay/golay_code.h"
 #include "tracker/homography.h"
+#include "tracker/surf_golay/cell_evidence.h"
 #include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
@@ -266,6 +267,46 @@ TEST(SgCells, PartIntoBlackAndWhiteWithoutAHandForInk) {
       EXPECT_GT(k % 4 == 1 ? likelihood : -likelihood, 3.0F) << k;
     }
   }
+}
+
+TEST(SgCells, ProveANumberUnderOneCoverButNotUnderScatteredErrors) {
+  const GolayWord word = PrintedWord(kNumber);
+  const auto white = [&](int k) { return (word >> k & 1U) != 0; };
+  CellLikelihoods plain{};
+  for (int k = 0; k < sg::kCodeCells; ++k) plain[k] = white(k) ? 5.0F : -5.0F;
+  EXPECT_NEAR(EvidenceBits(plain, kNumber), 24.0, 0.3);
+  EXPECT_FALSE(EvidenceBitsUnderCover(plain, kNumber));
+
+  // A bar that looks like ink over the two uppermost rows.
+  CellLikelihoods barred = plain;
+  int hidden = 0;
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    if (sg::CodeCellRow(k) > 1) continue;
+    hidden += white(k);
+    barred[k] = -5.0F;
+  }
+  ASSERT_GE(hidden, 3);
+  const auto under_cover = EvidenceBitsUnderCover(barred, kNumber);
+  ASSERT_TRUE(under_cover);
+  // The first wrong cell at its full price (5 nats are 7.2 bits), one bit for each other.
+  EXPECT_NEAR(*under_cover, 24.0 - hidden + 1.0 - 7.2 - (hidden - 1), 0.3);
+  EXPECT_LT(EvidenceBits(barred, kNumber), *under_cover - 4.0);
+
+  // The same and a white cell too much, or wrong cells of which each is alone.
+  CellLikelihoods both = barred;
+  for (int k = 23; k > 12; --k) {
+    if (white(k)) continue;
+    both[k] = 5.0F;
+    break;
+  }
+  EXPECT_FALSE(EvidenceBitsUnderCover(both, kNumber));
+  CellLikelihoods apart{};
+  for (int k = 0; k < sg::kCodeCells; ++k) apart[k] = -0.0F;
+  apart[sg::CodeCell(0, 0)] = white(sg::CodeCell(0, 0)) ? -5.0F : 5.0F;
+  const bool same = white(sg::CodeCell(4, 4)) == white(sg::CodeCell(0, 0));
+  const int far = same ? sg::CodeCell(4, 4) : sg::CodeCell(4, 0);
+  apart[far] = white(far) ? -5.0F : 5.0F;
+  EXPECT_FALSE(EvidenceBitsUnderCover(apart, kNumber));
 }
 
 TEST(SgCells, LeaveNothingOfTheReadingBefore) {

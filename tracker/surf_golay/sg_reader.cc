@@ -7,6 +7,7 @@
 
 #include "tracker/golay/golay_code.h"
 #include "tracker/homography.h"
+#include "tracker/surf_golay/cell_evidence.h"
 #include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_split.h"
 #include "tracker/surf_golay/print_square.h"
@@ -71,18 +72,6 @@ constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 constexpr double kSystematicCorner_px = 0.002;
 
 constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
-
-/// How many bits the cells tell for a number over cells that are drawn at random: one each where
-/// all are plain and right, much less than none where one is plainly wrong.
-double EvidenceBits(const CellLikelihoods& likelihoods, int number) {
-  const GolayWord word = PrintedWord(number);
-  double bits = 0.0;
-  for (int k = 0; k < sg::kCodeCells; ++k) {
-    const double right = (word >> k & 1U) != 0 ? likelihoods[k] : -likelihoods[k];
-    bits += 1.0 - std::log2(1.0 + std::exp(-right));
-  }
-  return bits;
-}
 
 /// How far apart two homographies put the corners of a print, in modules.
 double ModulesApart(const Mat3& modules_from_ideal, const Mat3& other_modules_from_ideal) {
@@ -280,9 +269,18 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
   const auto decode = [&](const CellLikelihoods& likelihoods, double doubt_bits) {
     const SoftGolayDecoding decoding = decoder_.Decode(likelihoods);
     // A number in use must not be one that many others would beat.
-    const float margin = decoding.margin - decoding.shortfall;
+    float margin = decoding.margin - decoding.shortfall;
+    double bits = ProofBits(likelihoods, decoding.number) - doubt_bits;
+    if (border_visible >= kTellsLight && decoding.margin > 2.0F * kLeastMargin &&
+        decoder_.NumbersInUse() <= kFewestNumbers) {
+      // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
+      // or paper lies on it.
+      if (const auto covered = EvidenceBitsUnderCover(likelihoods, decoding.number)) {
+        margin = decoding.margin;
+        bits = std::max(bits, *covered - std::log2(decoder_.NumbersInUse()));
+      }
+    }
     if (margin < kLeastMargin) return;
-    const double bits = ProofBits(likelihoods, decoding.number) - doubt_bits;
     if (read && bits <= reading->proof_bits) return;
     read = true;
     reading->number = decoding.number;

@@ -1,0 +1,21 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <optional>
+
+#include "tracker/golay/soft_golay_decoder.h"
+
+namespace pleinair::tracker {
+
+/// How many bits the cells tell for a number over cells that are drawn at random: one each where
+/// all are plain and right, much less than none where one is plainly wrong.
+double EvidenceBits(const CellLikelihoods& likelihoods, int number);
+
+/// The same where all that is wrong may lie under one thing that looks like ink, or like paper: the
+/// wrong cells look alike and hang together by cells that look like them. One of them is as
+/// unlikely as it looks; of the others under the same cover each second one is bound to be wrong.
+/// Nothing where less than two cells are wrong, or not in this way.
+std::optional<double> EvidenceBitsUnderCover(const CellLikelihoods& likelihoods, int number);
+
+}  // namespace pleinair::tracker
