@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdint>
 #include <ctime>
+#include <utility>
 
 namespace pleinair::app {
 namespace {
@@ -51,5 +52,10 @@ InterruptGuard::InterruptGuard() {
 InterruptGuard::~InterruptGuard() { Install(SIG_DFL); }
 
 bool InterruptGuard::Interrupted() { return signals != 0; }
+
+Result<void> CheckInterrupt(std::string work) {
+  if (!InterruptGuard::Interrupted()) return {};
+  return SystemError(std::move(work), "interrupted", "nothing was written");
+}
 
 }  // namespace pleinair::app

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+
+#include "base/error.h"
+
 namespace pleinair::app {
 
 /// While one of these lives, Ctrl-C (SIGINT, SIGTERM) only sets a flag, so that the work can stop
@@ -14,5 +18,8 @@ class InterruptGuard {
 
   static bool Interrupted();
 };
+
+/// Error where somebody asked to stop; `work` is what is worked on, of which nothing was written.
+Result<void> CheckInterrupt(std::string work);
 
 }  // namespace pleinair::app

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <memory>
 #include <set>
@@ -13,16 +12,14 @@
 
 #include "app/frames_ahead.h"
 #include "app/interrupt.h"
+#include "app/marker_search.h"
 #include "app/paths/observed_path.h"
 #include "app/paths/path_files.h"
-#include "app/print_measurer.h"
 #include "app/progress_bar.h"
 #include "app/replay_warnings.h"
 #include "app/scene_marker.h"
 #include "app/scene_renderer.h"
-#include "app/session.h"
 #include "app/sinks/composite_writer.h"
-#include "app/sinks/detections_writer.h"
 #include "app/sinks/output_folder.h"
 #include "app/sinks/path_export.h"
 #include "app/sinks/picture_writer.h"
@@ -46,16 +43,6 @@ constexpr int kReportJpegQuality = 85;
 constexpr std::size_t kLightFrames = 8;
 // Within half a minute about the middle the sun moves an eighth of a degree.
 constexpr std::int64_t kOneSunNs = 30'000'000'000;
-
-// Frames whose prints are measured at once: enough for all processors, few enough for memory.
-constexpr std::size_t kMeasuredTogether = 8;
-
-/// A frame between tracking and measuring.
-struct TrackedFrame {
-  devices::Frame frame;
-  std::vector<tracker::Sighting> sightings;
-  std::vector<tracker::LostMarker> lost;
-};
 
 /// One replay from opening to report; its members are what the two passes share.
 class Replayer {
@@ -104,22 +91,21 @@ class Replayer {
       if (error.where.empty()) error.where = scene_.file.string();
       return tl::make_unexpected(std::move(error));
     }
-    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
     // Models are loaded before a long search for markers begins: their errors come at once.
     PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_,
                                                                options_.composer, options_.light));
     if (!options_.light_cache.empty()) renderer_->KeepLightIn(options_.light_cache);
     renderer_->MatchLook(options_.match_look);
-    session_.emplace(scene_.marker);
-    PLEINAIR_RETURN_IF_ERROR(FindMarkers(recording, **tracker));
+    PLEINAIR_RETURN_IF_ERROR(SeekMarkers(std::move(recording), **tracker));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
-    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
     PLEINAIR_RETURN_IF_ERROR(LookAtLight());
     PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
     PLEINAIR_RETURN_IF_ERROR(ComposeFrames(std::move(recording.frames)));
     PLEINAIR_RETURN_IF_ERROR(DrawDay());
     PLEINAIR_RETURN_IF_ERROR(WriteReports());
-    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
     PLEINAIR_RETURN_IF_ERROR(folder_.Commit());
     return std::move(report_);
   }
@@ -128,97 +114,23 @@ class Replayer {
     return devices::OpenRecording(options_.recording, {options_.calibration, options_.scene});
   }
 
-  Result<void> CheckInterrupt() const {
-    if (!InterruptGuard::Interrupted()) return {};
-    return SystemError(options_.recording.string(), "interrupted", "nothing was written");
-  }
-
-  /// The next frame; nothing at the end.
-  Result<std::optional<devices::Frame>> NextFrame(FramesAhead& frames) const {
-    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt());
-    return frames.Next();
-  }
-
-  /// A frame's moment must be one that UtcTime reaches; some videos' stamps run for centuries.
-  Result<void> CheckMoment(const devices::Frame& frame) const {
-    std::int64_t moment_ns = 0;
-    if (!__builtin_add_overflow(scene_.place_time.start.nanoseconds_since_1970(),
-                                frame.timestamp_ns, &moment_ns)) {
-      return {};
-    }
-    return InputError(options_.recording.string(),
-                      fmt::format("frame {} lies beyond the years 1678 to 2261", frame.index),
-                      "mend the scene's time, or the recording's frame rate or time stamps");
-  }
-
-  Result<void> FindMarkers(devices::Recording& recording, tracker::Tracker& tracker) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto detections,
-                              DetectionsWriter::Create(folder_.staging() / "detections.jsonl"));
-    PrintMeasurer measurer(recording.camera, scene_.marker.size_m);
-    FramesAhead frames(std::move(recording.frames));
-    ProgressBar bar("Finding markers", frames.FrameCount());
-    std::vector<TrackedFrame> tracked;
-    for (bool more = true; more;) {
-      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(frames));
-      more = frame.has_value();
-      if (more) {
-        PLEINAIR_RETURN_IF_ERROR(CheckMoment(*frame));
-        PLEINAIR_ASSIGN_OR_RETURN(auto sightings, times_.Measure("track", [&] {
-          return tracker.Track(frame->grey.view());
-        }));
-        tracker_warnings_.Add(frame->index, tracker.Warnings());
-        lost_frames_ += frame->lost_before;
-        tracked.push_back({*std::move(frame), std::move(sightings), tracker.Lost()});
-      }
-      if (more && tracked.size() < kMeasuredTogether) continue;
-      PLEINAIR_RETURN_IF_ERROR(TakeTracked(tracked, measurer, detections));
-      for (std::size_t i = 0; i < tracked.size(); ++i) bar.Advance();
-      tracked.clear();
-    }
-    times_.Add(frames.Finish());
-    PLEINAIR_RETURN_IF_ERROR(detections.Finish());
+  Result<void> SeekMarkers(devices::Recording recording, tracker::Tracker& tracker) {
+    const MarkerSearch search{report_.recording, scene_, folder_.staging() / "detections.jsonl",
+                              options_.exports.contains(PathFormat::kMcap)};
+    PLEINAIR_ASSIGN_OR_RETURN(found_, FindMarkers(search, std::move(recording), tracker, &times_));
     report_.outputs.emplace_back("detections.jsonl");
-    report_.frames = session_->frames();
-    if (report_.frames == 0) {
-      return InputError(options_.recording.string(), "holds no frames", "record it again");
-    }
-    return {};
-  }
-
-  /// Measures tracked frames and keeps what is found.
-  Result<void> TakeTracked(const std::vector<TrackedFrame>& tracked, PrintMeasurer& measurer,
-                           DetectionsWriter& detections) {
-    std::vector<PrintMeasurer::Seen> seen;
-    for (const TrackedFrame& frame : tracked) {
-      seen.push_back({frame.frame.grey.view(), frame.sightings});
-    }
-    StageTimes together;
-    together.Measure("measure", [&] {
-      measurer.Measure(seen);
-      return 0;
-    });
-    for (std::size_t i = 0; i < tracked.size(); ++i) {
-      const devices::Frame& frame = tracked[i].frame;
-      times_.Add("measure", together.Summarize()[0].total_ms / static_cast<double>(tracked.size()));
-      session_->AddFrame(frame.index, frame.timestamp_ns, seen[i].sightings);
-      std::string line = DetectionsWriter::Line(frame.index, frame.timestamp_ns, seen[i].sightings,
-                                                tracked[i].lost);
-      PLEINAIR_RETURN_IF_ERROR(detections.Add(line));
-      if (options_.exports.contains(PathFormat::kMcap)) {
-        markers_seen_.push_back({frame.timestamp_ns, std::move(line)});
-      }
-    }
+    report_.frames = found_->session.frames();
     return {};
   }
 
   Result<void> ChooseAnchor() {
-    report_.anchor = session_->Anchor();
+    report_.anchor = found_->session.Anchor();
     if (report_.anchor) {
-      report_.path = session_->Path(*report_.anchor);
+      report_.path = found_->session.Path(*report_.anchor);
       renderer_->SetMarkerPrint(PrintOf(scene_.marker, *report_.anchor));
     }
     PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
-    for (const auto& [marker, observed] : session_->paths()) {
+    for (const auto& [marker, observed] : found_->session.paths()) {
       report_.markers.push_back(marker);
       PLEINAIR_ASSIGN_OR_RETURN(
           const std::vector<std::string> written,
@@ -229,7 +141,7 @@ class Replayer {
     path.camera = output_camera_;
     PLEINAIR_ASSIGN_OR_RETURN(
         const std::vector<std::string> exported,
-        ExportPath({std::move(path), scene_, std::exchange(markers_seen_, {})}, options_.exports,
+        ExportPath({std::move(path), scene_, std::exchange(found_->messages, {})}, options_.exports,
                    folder_.staging()));
     report_.outputs.insert(report_.outputs.end(), exported.begin(), exported.end());
     Warn();
@@ -270,7 +182,8 @@ class Replayer {
     FramesAhead frames(std::move(recording.frames));
     ProgressBar bar("Reading the light", static_cast<std::int64_t>(chosen.size()));
     for (auto next = chosen.begin(); next != chosen.end();) {
-      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(frames));
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame,
+                                NextFrame(report_.recording, frames));
       if (!frame) break;
       const Observation& at = report_.path[*next];
       if (frame->index != at.frame_index) continue;
@@ -301,13 +214,13 @@ class Replayer {
   }
 
   void Warn() {
-    report_.warnings = MarkerWarnings(report_, *session_, scene_);
-    for (std::string& sentence : tracker_warnings_.Sentences()) {
+    report_.warnings = MarkerWarnings(report_, found_->session, scene_);
+    for (std::string& sentence : found_->warnings.Sentences()) {
       report_.warnings.push_back(std::move(sentence));
     }
-    if (lost_frames_ > 0) {
+    if (found_->lost_frames > 0) {
       report_.warnings.push_back(
-          fmt::format("{} frames were lost when this was recorded.", lost_frames_));
+          fmt::format("{} frames were lost when this was recorded.", found_->lost_frames));
     }
     if (scene_.objects.empty()) {
       report_.warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
@@ -341,7 +254,8 @@ class Replayer {
     auto pose = report_.path.begin();
     ProgressBar bar("Composing", report_.frames);
     for (std::int64_t count = 0;; ++count) {
-      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, NextFrame(frames));
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame,
+                                NextFrame(report_.recording, frames));
       if (!frame && count != report_.frames) {
         return InputError(options_.recording.string(), "changed while it was being replayed",
                           "replay it again when nothing writes to it");
@@ -449,12 +363,9 @@ class Replayer {
   devices::SceneDescription scene_;
   CameraModel output_camera_;
   std::unique_ptr<SceneRenderer> renderer_;
-  std::optional<Session> session_;
-  FrameWarnings tracker_warnings_;
-  std::vector<MarkersMessage> markers_seen_;  // For MCAP alone.
+  std::optional<FoundMarkers> found_;
   std::set<std::int64_t> pictured_;
   TimeLapseMoments day_moments_;
-  std::int64_t lost_frames_ = 0;
   const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   StageTimes times_;
   ReplayReport report_;
@@ -482,36 +393,6 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.output));
   return Replayer(options, std::move(folder)).Run();
-}
-
-CameraModel ScaleCamera(const CameraModel& camera, PictureSize size) {
-  CameraModel scaled = camera;
-  const double sx = static_cast<double>(size.width) / camera.width;
-  const double sy = static_cast<double>(size.height) / camera.height;
-  scaled.width = size.width;
-  scaled.height = size.height;
-  scaled.fx = camera.fx * sx;
-  scaled.fy = camera.fy * sy;
-  // The outer corner of the first pixel, at -0.5, stays where it is.
-  scaled.cx = (camera.cx + 0.5) * sx - 0.5;
-  scaled.cy = (camera.cy + 0.5) * sy - 0.5;
-  return scaled;
-}
-
-Result<PictureSize> ParsePictureSize(const std::string& text) {
-  constexpr int kSmallest = 16, kLargest = 16384;
-  PictureSize size;
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  const bool has_cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-  const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.height)
-                                : std::from_chars_result{end, std::errc::invalid_argument};
-  const auto fits = [](int side) { return side >= kSmallest && side <= kLargest; };
-  if (height.ec != std::errc() || height.ptr != end || !fits(size.width) || !fits(size.height)) {
-    return InputError("--size", "\"" + text.substr(0, 40) + "\" is not a size",
-                      "write WIDTHxHEIGHT in pixels, 16 to 16384 each, for example 1280x720");
-  }
-  return size;
 }
 
 }  // namespace pleinair::app

@@ -7,18 +7,13 @@
 
 #include "app/measured_sky.h"
 #include "app/paths/path_files.h"
+#include "app/picture_size.h"
 #include "app/sinks/report.h"
 #include "app/time_lapse/moments.h"
-#include "base/camera_model.h"
 #include "base/error.h"
 #include "compositor/composer.h"
 
 namespace pleinair::app {
-
-struct PictureSize {
-  int width = 0;
-  int height = 0;
-};
 
 struct ReplayOptions {
   std::filesystem::path recording;
@@ -45,11 +40,5 @@ struct ReplayOptions {
 /// drawing and writing run beside each other, with the same results on any number of processors.
 /// All outputs appear at the end; on an error nothing is left.
 Result<ReplayReport> Replay(const ReplayOptions& options);
-
-/// The lens as it looks after resizing its pictures to `size`.
-CameraModel ScaleCamera(const CameraModel& camera, PictureSize size);
-
-/// "1280x720"; errors: not two whole numbers of 16…16384.
-Result<PictureSize> ParsePictureSize(const std::string& text);
 
 }  // namespace pleinair::app

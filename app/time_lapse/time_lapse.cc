@@ -116,9 +116,7 @@ Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
   std::optional<ContactSheet> sheet;
   ProgressBar bar("Drawing the day", static_cast<std::int64_t>(moments.times.size()), "pictures");
   for (std::size_t i = 0; i < moments.times.size(); ++i) {
-    if (InterruptGuard::Interrupted()) {
-      return SystemError("", "interrupted", "nothing was written");
-    }
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(""));
     const UtcTime time = moments.times[i];
     PLEINAIR_ASSIGN_OR_RETURN(
         const RgbImage picture,

@@ -1,0 +1,103 @@
+#include "app/marker_search.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/interrupt.h"
+#include "app/print_measurer.h"
+#include "app/progress_bar.h"
+#include "app/sinks/detections_writer.h"
+
+namespace pleinair::app {
+namespace {
+
+// Frames whose prints are measured at once: enough for all processors, few enough for memory.
+constexpr std::size_t kMeasuredTogether = 8;
+
+/// A frame between tracking and measuring.
+struct TrackedFrame {
+  devices::Frame frame;
+  std::vector<tracker::Sighting> sightings;
+  std::vector<tracker::LostMarker> lost;
+};
+
+/// A frame's moment must be one that UtcTime reaches; some videos' stamps run for centuries.
+Result<void> CheckMoment(const MarkerSearch& search, const devices::Frame& frame) {
+  std::int64_t moment_ns = 0;
+  if (!__builtin_add_overflow(search.scene.place_time.start.nanoseconds_since_1970(),
+                              frame.timestamp_ns, &moment_ns)) {
+    return {};
+  }
+  return InputError(search.recording,
+                    fmt::format("frame {} lies beyond the years 1678 to 2261", frame.index),
+                    "mend the scene's time, or the recording's frame rate or time stamps");
+}
+
+/// Measures tracked frames and keeps what is found.
+Result<void> TakeTracked(const MarkerSearch& search, const std::vector<TrackedFrame>& tracked,
+                         PrintMeasurer& measurer, DetectionsWriter& detections, StageTimes* times,
+                         FoundMarkers* found) {
+  std::vector<PrintMeasurer::Seen> seen;
+  for (const TrackedFrame& frame : tracked) {
+    seen.push_back({frame.frame.grey.view(), frame.sightings});
+  }
+  StageTimes together;
+  together.Measure("measure", [&] {
+    measurer.Measure(seen);
+    return 0;
+  });
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    const devices::Frame& frame = tracked[i].frame;
+    times->Add("measure", together.Summarize()[0].total_ms / static_cast<double>(tracked.size()));
+    found->session.AddFrame(frame.index, frame.timestamp_ns, seen[i].sightings);
+    std::string line =
+        DetectionsWriter::Line(frame.index, frame.timestamp_ns, seen[i].sightings, tracked[i].lost);
+    PLEINAIR_RETURN_IF_ERROR(detections.Add(line));
+    if (search.keep_messages) found->messages.push_back({frame.timestamp_ns, std::move(line)});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording recording,
+                                 tracker::Tracker& tracker, StageTimes* times) {
+  PLEINAIR_ASSIGN_OR_RETURN(auto detections, DetectionsWriter::Create(search.detections));
+  FoundMarkers found{.session = Session(search.scene.marker)};
+  PrintMeasurer measurer(recording.camera, search.scene.marker.size_m);
+  FramesAhead frames(std::move(recording.frames));
+  ProgressBar bar("Finding markers", frames.FrameCount());
+  std::vector<TrackedFrame> tracked;
+  for (bool more = true; more;) {
+    PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame,
+                              NextFrame(search.recording, frames));
+    more = frame.has_value();
+    if (more) {
+      PLEINAIR_RETURN_IF_ERROR(CheckMoment(search, *frame));
+      PLEINAIR_ASSIGN_OR_RETURN(auto sightings, times->Measure("track", [&] {
+        return tracker.Track(frame->grey.view());
+      }));
+      found.warnings.Add(frame->index, tracker.Warnings());
+      found.lost_frames += frame->lost_before;
+      tracked.push_back({*std::move(frame), std::move(sightings), tracker.Lost()});
+    }
+    if (more && tracked.size() < kMeasuredTogether) continue;
+    PLEINAIR_RETURN_IF_ERROR(TakeTracked(search, tracked, measurer, detections, times, &found));
+    for (std::size_t i = 0; i < tracked.size(); ++i) bar.Advance();
+    tracked.clear();
+  }
+  times->Add(frames.Finish());
+  PLEINAIR_RETURN_IF_ERROR(detections.Finish());
+  if (found.session.frames() == 0) {
+    return InputError(search.recording, "holds no frames", "record it again");
+  }
+  return found;
+}
+
+Result<std::optional<devices::Frame>> NextFrame(const std::string& recording, FramesAhead& frames) {
+  PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(recording));
+  return frames.Next();
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/frames_ahead.h"
+#include "app/paths/mcap_path.h"
+#include "app/replay_warnings.h"
+#include "app/session.h"
+#include "app/stage_times.h"
+#include "base/error.h"
+#include "devices/recording.h"
+#include "devices/scene_description.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::app {
+
+/// What is known of a recording before its markers are sought.
+struct MarkerSearch {
+  std::string recording;  ///< Its name, for errors.
+  const devices::SceneDescription& scene;
+  std::filesystem::path detections;  ///< File to write what is seen to, a line a frame.
+  bool keep_messages = false;        ///< Also in memory.
+};
+
+struct FoundMarkers {
+  Session session;
+  FrameWarnings warnings{};                ///< The tracker's.
+  std::vector<MarkersMessage> messages{};  ///< The lines of `detections`, if they are to be kept.
+  std::int64_t lost_frames = 0;            ///< Which the recorder had to leave out.
+};
+
+/// Tracks the markers of a recording's frames and measures their prints; reading, tracking and
+/// measuring run beside each other. Adds the time of each stage to `times`.
+/// Errors: a frame that cannot be read or lies centuries away, no frames, the file, an interrupt.
+Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording recording,
+                                 tracker::Tracker& tracker, StageTimes* times);
+
+/// The next frame; nothing at the end. Errors: the source's, an interrupt.
+Result<std::optional<devices::Frame>> NextFrame(const std::string& recording, FramesAhead& frames);
+
+}  // namespace pleinair::app

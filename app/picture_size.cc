@@ -1,0 +1,38 @@
+#include "app/picture_size.h"
+
+#include <charconv>
+#include <system_error>
+
+namespace pleinair::app {
+
+CameraModel ScaleCamera(const CameraModel& camera, PictureSize size) {
+  CameraModel scaled = camera;
+  const double sx = static_cast<double>(size.width) / camera.width;
+  const double sy = static_cast<double>(size.height) / camera.height;
+  scaled.width = size.width;
+  scaled.height = size.height;
+  scaled.fx = camera.fx * sx;
+  scaled.fy = camera.fy * sy;
+  // The outer corner of the first pixel, at -0.5, stays where it is.
+  scaled.cx = (camera.cx + 0.5) * sx - 0.5;
+  scaled.cy = (camera.cy + 0.5) * sy - 0.5;
+  return scaled;
+}
+
+Result<PictureSize> ParsePictureSize(const std::string& text) {
+  constexpr int kSmallest = 16, kLargest = 16384;
+  PictureSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool has_cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+  const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.height)
+                                : std::from_chars_result{end, std::errc::invalid_argument};
+  const auto fits = [](int side) { return side >= kSmallest && side <= kLargest; };
+  if (height.ec != std::errc() || height.ptr != end || !fits(size.width) || !fits(size.height)) {
+    return InputError("--size", "\"" + text.substr(0, 40) + "\" is not a size",
+                      "write WIDTHxHEIGHT in pixels, 16 to 16384 each, for example 1280x720");
+  }
+  return size;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "base/camera_model.h"
+#include "base/error.h"
+
+namespace pleinair::app {
+
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
+/// "1280x720"; errors: not two whole numbers of 16…16384.
+Result<PictureSize> ParsePictureSize(const std::string& text);
+
+/// The lens as it looks after resizing its pictures to `size`.
+CameraModel ScaleCamera(const CameraModel& camera, PictureSize size);
+
+}  // namespace pleinair::app
