@@ -1,12 +1,21 @@
 // Runs inside the VM, on the kernel's own drivers: docs/cameras.md lists the behaviours.
 #include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <sstream>
+#include <string_view>
+#include <thread>
+#include <utility>
 
 #include "camera_helpers.h"
 #include "devices/frame_pack.h"
@@ -53,32 +62,48 @@ std::vector<Vec3> TruePlaces() {
   return places;
 }
 
-/// By the way to the camera.
-class Behaviour12 : public testing::TestWithParam<const char*> {};
+constexpr const char* kSequence = "/tmp/sequence.grey";
 
-TEST_P(Behaviour12, WhatIsRecordedLiveReplaysToIdenticalPosesAndTheseAreRight) {
-  std::remove("/tmp/live.pack");
+/// Writes what the simulator plays; gives what comes of each picture.
+std::vector<GreyImage> WriteSequence(devices::FrameSource* frames) {
   constexpr int kFrames = 6;
-  auto recording = devices::OpenRecording(PLEINAIR_SOURCE_DIR "/recordings/courtyard_tag36h11");
-  ASSERT_TRUE(recording);
   std::vector<GreyImage> sent;
-  std::ofstream bytes("/tmp/sequence.grey", std::ios::binary);
+  std::ofstream bytes(kSequence, std::ios::binary);
   for (int i = 0; i < kFrames; ++i) {
-    const auto frame = recording->frames->Next();
-    ASSERT_TRUE(frame && *frame);
+    const auto frame = frames->Next();
+    EXPECT_TRUE(frame && *frame);
+    if (!frame || !*frame) break;
     const GreyImage& grey = (*frame)->grey;
     bytes.write(reinterpret_cast<const char*>(grey.data()),
                 static_cast<std::streamsize>(grey.size()));
     sent.push_back(ThroughYuyv(grey));
   }
-  bytes.close();
+  return sent;
+}
+
+/// Which of the pictures sent this one is; their count where it is none of them.
+std::size_t NumberOf(const GreyImage& grey, const std::vector<GreyImage>& sent) {
+  return static_cast<std::size_t>(
+      std::find_if(sent.begin(), sent.end(),
+                   [&](const GreyImage& each) { return Same(each, grey); }) -
+      sent.begin());
+}
+
+/// By the way to the camera.
+class Behaviour12 : public testing::TestWithParam<const char*> {};
+
+TEST_P(Behaviour12, WhatIsRecordedLiveReplaysToIdenticalPosesAndTheseAreRight) {
+  std::remove("/tmp/live.pack");
+  auto recording = devices::OpenRecording(PLEINAIR_SOURCE_DIR "/recordings/courtyard_tag36h11");
+  ASSERT_TRUE(recording);
+  const std::vector<GreyImage> sent = WriteSequence(recording->frames.get());
   tracker::TrackerOptions options;
   options.families = {"tag36h11"};  // Quick to find, even in a machine made of software.
   options.marker_size_m = recording->scene->marker.size_m;
   const auto tracker = tracker::Tracker::Create(recording->camera, options);
   ASSERT_TRUE(tracker);
 
-  const UvcSimulator simulator({"--fps", "5", "--grey", "/tmp/sequence.grey", "640", "480"});
+  const UvcSimulator simulator({"--fps", "5", "--grey", kSequence, "640", "480"});
   const auto camera = Open(Options(GetParam(), PixelFormat::kYuyv, 640, 480));
   const auto writer = devices::FramePackWriter::Create("/tmp/live.pack");
   ASSERT_TRUE(writer);
@@ -89,10 +114,8 @@ TEST_P(Behaviour12, WhatIsRecordedLiveReplaysToIdenticalPosesAndTheseAreRight) {
     auto frame = camera->NextWithin(kLong);
     ASSERT_TRUE(frame);
     ASSERT_TRUE((*writer)->Add(*frame));
-    const auto which = std::find_if(sent.begin(), sent.end(),
-                                    [&](const GreyImage& each) { return Same(each, frame->grey); });
-    ASSERT_NE(which, sent.end()) << "frame " << i << " is none of those that were sent";
-    numbers.push_back(static_cast<std::size_t>(which - sent.begin()));
+    numbers.push_back(NumberOf(frame->grey, sent));
+    ASSERT_LT(numbers.back(), sent.size()) << "frame " << i << " is none of those that were sent";
     const auto sightings = (*tracker)->Track(frame->grey.view());
     ASSERT_TRUE(sightings);
     ASSERT_EQ(sightings->size(), 1U);
@@ -124,6 +147,121 @@ INSTANTIATE_TEST_SUITE_P(V4l2, Behaviour12, testing::Values(kUsb));
 #ifdef PLEINAIR_HAS_LIBCAMERA
 INSTANTIATE_TEST_SUITE_P(Libcamera, Behaviour12, testing::Values("libcamera:0"));
 #endif
+
+/// `pleinair` as a process of its own, what it prints in a file.
+class Command {
+ public:
+  Command(const char* printed, std::vector<std::string> arguments) : pid_(fork()) {
+    if (pid_ != 0) return;
+    const char* program = std::getenv("PLEINAIR");
+    if (program == nullptr || std::freopen(printed, "w", stdout) == nullptr) _exit(127);
+    arguments.insert(arguments.begin(), program);
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    execv(words[0], words.data());
+    _exit(127);
+  }
+  ~Command() {
+    if (pid_ > 0) kill(pid_, SIGKILL);
+    Wait();
+  }
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  void Terminate() const { kill(pid_, SIGTERM); }
+  /// For its exit code; -1 where a signal ended it.
+  int Wait() {
+    int status = 0;
+    if (pid_ <= 0 || waitpid(std::exchange(pid_, -1), &status, 0) < 0) return -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  pid_t pid_;
+};
+
+/// The camera's places in the marker's frame with its turn, by the time as it is written.
+std::map<std::string, std::vector<double>> PathOf(const std::string& file) {
+  std::map<std::string, std::vector<double>> path;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string time;
+    if (line.starts_with('#') || !(words >> time)) continue;
+    for (double number = 0.0; words >> number;) path[time].push_back(number);
+  }
+  return path;
+}
+
+/// Frames that a session's accounts tell of as tracked.
+int TrackedOf(const char* accounts) {
+  int tracked = 0;
+  std::ifstream in(accounts);
+  constexpr std::string_view kName = "\"tracked\":";
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t at = line.find(kName);
+    if (at != std::string::npos) tracked += std::atoi(line.c_str() + at + kName.size());
+  }
+  return tracked;
+}
+
+TEST(LiveCommand, TracksAndRecordsACameraUntilItIsEndedAndReplaysToTheSamePoses) {
+  const std::string source = PLEINAIR_SOURCE_DIR "/recordings/courtyard_tag36h11";
+  auto recording = devices::OpenRecording(source);
+  ASSERT_TRUE(recording);
+  const std::vector<GreyImage> sent = WriteSequence(recording->frames.get());
+  std::ofstream("/tmp/scene.toml") << R"(time = "2025-09-14T11:05:00Z"
+[place]
+latitude_deg = 50.0875
+longitude_deg = 14.4213
+[marker]
+family = "tag36h11"
+size_m = 0.48
+heading_deg = 342
+)";
+  {
+    // Slowly: all of this machine is software.
+    const UvcSimulator simulator({"--fps", "1", "--grey", kSequence, "640", "480"});
+    Command live("/tmp/live.jsonl",
+                 {"live", "--camera", kUsb, "--format", "YUYV", "--calibration",
+                  source + "/recording.json", "--scene", "/tmp/scene.toml", "--headless",
+                  "--record", "/tmp/take", "-o", "/tmp/lived", "--json", "--report-every", "0.5"});
+    // Only ever waited out by a failing test.
+    for (int i = 0; i < 600 && TrackedOf("/tmp/live.jsonl") < 3; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+    live.Terminate();
+    ASSERT_EQ(live.Wait(), 0);
+  }
+  ASSERT_EQ(
+      Command("/dev/null", {"replay", "/tmp/take", "-o", "/tmp/replayed", "--no-video"}).Wait(), 0);
+  const auto lived = PathOf("/tmp/lived/poses/tag36h11_0.tum");
+  const auto replayed = PathOf("/tmp/replayed/poses/tag36h11_0.tum");
+  auto take = devices::OpenRecording("/tmp/take");
+  ASSERT_TRUE(take) << take.error().Message();
+  EXPECT_EQ(take->frames->FrameCount(), replayed.size()) << "every frame has a pose";
+  ASSERT_GE(lived.size(), 3U);
+  // Of the frame after one that came too late to be tracked the last digits may differ.
+  const bool none_late = lived.size() == replayed.size();
+  std::cout << lived.size() << " tracked live of " << replayed.size() << " recorded\n";
+  const std::vector<Vec3> truth = TruePlaces();
+  for (const auto& [time, pose] : replayed) {
+    const auto frame = take->frames->Next();
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_NEAR(static_cast<double>((*frame)->timestamp_ns) * 1e-9, std::stod(time), 2e-6);
+    const std::size_t number = NumberOf((*frame)->grey, sent);
+    ASSERT_LT(number, sent.size()) << "none of those that were sent";
+    ASSERT_EQ(pose.size(), 7U);
+    const Vec3 place{pose[0], pose[1], pose[2]};
+    EXPECT_LT(Norm(place - truth[number]), 0.005);
+    const auto live_pose = lived.find(time);
+    if (live_pose == lived.end()) continue;
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+      EXPECT_NEAR(live_pose->second[i], pose[i], none_late ? 0.0 : 2e-3);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace pleinair::vm
