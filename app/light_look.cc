@@ -1,8 +1,9 @@
 #include "app/light_look.h"
 
-#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "compositor/plane_contrast.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
 #include "compositor/unmodelled_shade.h"
@@ -10,8 +11,30 @@
 namespace pleinair::app {
 namespace {
 
-// Leaves let through this much at the least in their brightest gaps; more is another's mistake.
-constexpr double kDeepestPrintShade = 1.6;
+// A print this much darker than the ground in the open lies in shade, even if evenly: no stated
+// colour is believed to be so far off.
+constexpr double kSurelyShaded = 1.5;
+// Logarithmic, between planes of one material: what an overcast sky may leave unexplained.
+constexpr double kMostPlaneContrast = 0.6;
+
+double MeanLog(LinearRgb c) { return (std::log(c.r) + std::log(c.g) + std::log(c.b)) / 3; }
+
+/// Open light over that on a print that has the sky and a part of the sun, so much that the mean of
+/// the channels is `open_gain`: shade is not only darker but bluer.
+LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
+  double least = 0.0, most = 1.0;
+  const auto shade = [&](double part) { return (sun + sky) / (sun * part + sky); };
+  constexpr int kBisections = 20;
+  for (int i = 0; i < kBisections; ++i) {
+    const double part = (least + most) / 2;
+    (MeanLog(shade(part)) > std::log(open_gain) ? least : most) = part;
+  }
+  return shade((least + most) / 2);
+}
+
+bool MayShine(devices::Cloudiness stated) {
+  return stated == devices::Cloudiness::kClear || stated == devices::Cloudiness::kHazy;
+}
 
 }  // namespace
 
@@ -64,31 +87,42 @@ FoundLight LightLook::Settle() const {
     light.heading_source = MeasuredLight::Source::kStated;
   }
   found.heading = marker.heading;
-  if (overrides_.sun_to_sky || reading.sun == Sun::kUnknown) return found;
+  if (overrides_.sun_to_sky) return found;
   compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
       *solver_, samples_, *day_, MarkerFromWorld(marker), reading.sky_scale);
-  if (reading.sun == Sun::kHidden && shade.CastBySun()) {
-    light.sun_doubtful = true;
-    return found;
-  }
-  light.sun_source = MeasuredLight::Source::kMeasured;
   if (reading.sun == Sun::kHidden) {
-    found.skies.source = OvercastSky();
+    const auto overcast = OvercastSky();
+    const double contrast = compositor::FindPlaneContrast(
+        *solver_, samples_, *overcast->ForSun(sun_.ToSun(), sun_.distance_au),
+        MarkerFromWorld(marker));
+    light.sun_doubtful = shade.CastBySun() || contrast > kMostPlaneContrast;
+    if (!light.sun_doubtful) {
+      light.sun_source = MeasuredLight::Source::kMeasured;
+      found.skies.source = overcast;
+      return found;
+    }
+  }
+  if (reading.sun == Sun::kShines) {
+    light.sun_source = MeasuredLight::Source::kMeasured;
+    const LinearRgb scale = WeighedScale(reading, scene_.cloudiness, &light.sun_to_sky_error);
+    const LinearRgb share = day_->SkyHorizontalIrradiance() / day_->SunNormalIrradiance() * scale;
+    const MeasuredSky measured = SkyWithShare(share, day_->ToSun(), sun_.distance_au);
+    found.skies = {measured.skies, measured.sky_scale, shade.Matters()};
+  } else if (MayShine(scene_.cloudiness) && shade.sunlit > 0) {
+    found.skies = {StatedSky(scene_), {1.0, 1.0, 1.0}, shade.Matters()};
+  } else {
     return found;
   }
-  const LinearRgb scale = WeighedScale(reading, scene_.cloudiness, &light.sun_to_sky_error);
-  const LinearRgb share = day_->SkyHorizontalIrradiance() / day_->SunNormalIrradiance() * scale;
-  const MeasuredSky measured = SkyWithShare(share, day_->ToSun(), sun_.distance_au);
-  found.skies = {measured.skies, measured.sky_scale, shade.Matters()};
   light.shaded = shade.shaded;
-  if (shade.Matters()) {
-    found.skies.sunlight =
-        std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
-    if (2 * dappled_ > samples_.frames()) {
-      found.skies.print_shade = std::clamp(shade.open_gain, 1.0, kDeepestPrintShade);
-    }
-    light.print_shade = found.skies.print_shade;
+  if (!shade.Matters()) return found;
+  found.skies.sunlight =
+      std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
+  if (2 * dappled_ > samples_.frames() || shade.open_gain > kSurelyShaded) {
+    const LinearRgb sky = day_->SkyHorizontalIrradiance() * reading.sky_scale;
+    const LinearRgb sun = day_->SunNormalIrradiance() * day_->ToSun().xyz.z;
+    found.skies.print_shade = PrintShade(shade.open_gain, sun, sky);
   }
+  light.print_shade = std::exp(MeanLog(found.skies.print_shade));
   return found;
 }
 

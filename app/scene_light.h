@@ -30,7 +30,7 @@ struct DaySkies {
   /// How much of the sun these leave, across its rays; null: all.
   std::shared_ptr<const compositor::SeenSunlight> sunlight{};
   /// To multiply the camera's gain with: above 1 where leaves shade all of the print.
-  double print_shade = 1.0;
+  LinearRgb print_shade{1.0, 1.0, 1.0};
 };
 
 /// All that the light of a moment is made from; nothing in it changes meanwhile.

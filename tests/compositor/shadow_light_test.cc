@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compositor/plane_contrast.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
 #include "compositor/unmodelled_shade.h"
@@ -171,6 +172,16 @@ TEST_F(ShadowLight, DoesNotDoubtAnOvercastSkyOverPatternedPaving) {
     EXPECT_GT(shade.places, 100);
     EXPECT_FALSE(shade.CastBySun()) << shade.crossed << " of " << shade.places;
   }
+}
+
+TEST_F(ShadowLight, TellsASunFromAnOvercastSkyByHowPlanesOfOneMaterialDiffer) {
+  // No matter where shadows fall: the overcast sky's model has no sun.
+  const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard_->model().ToSun().xyz);
+  const auto contrast = [&](const PhotographedYard::Light& light) {
+    return FindPlaneContrast(yard_->solver(), Look(light), overcast, Mat3{});
+  };
+  EXPECT_GT(contrast({}), 0.7);
+  EXPECT_LT(contrast({.sky_scale = {3, 3, 3}, .sun_scale = 0.0}), 0.4);
 }
 
 TEST_F(ShadowLight, TellsHowMuchLiesInTheShadeOfTrees) {
