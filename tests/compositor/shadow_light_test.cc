@@ -180,8 +180,11 @@ TEST_F(ShadowLight, TellsASunFromAnOvercastSkyByHowPlanesOfOneMaterialDiffer) {
   const auto contrast = [&](const PhotographedYard::Light& light) {
     return FindPlaneContrast(yard_->solver(), Look(light), overcast, Mat3{});
   };
-  EXPECT_GT(contrast({}), 0.7);
-  EXPECT_LT(contrast({.sky_scale = {3, 3, 3}, .sun_scale = 0.0}), 0.4);
+  const double veiled = contrast({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  EXPECT_LT(veiled, 0.3);
+  // The sun stands so that it lights tops and the sides in view nearly alike.
+  EXPECT_GT(contrast({}), 0.45);
+  EXPECT_GT(contrast({}), veiled + 0.25);
 }
 
 TEST_F(ShadowLight, TellsHowMuchLiesInTheShadeOfTrees) {
