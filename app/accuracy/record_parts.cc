@@ -26,10 +26,9 @@ struct PartHead {
   std::int64_t chunk = 0;
   std::size_t records = 0, pictures = 0;
   std::string skipped, machine;
-  Json config;
 };
 
-/// The head is const where it is written.
+/// The configuration follows. The head is const where it is written.
 template <typename Visitor, typename Head>
 void TellHead(Visitor& visit, Head& head) {
   visit.Field("chunk", head.chunk);
@@ -37,7 +36,6 @@ void TellHead(Visitor& visit, Head& head) {
   visit.Field("pictures", head.pictures);
   visit.Field("skipped", head.skipped);
   visit.Field("machine", head.machine);
-  visit.Field("config", head.config);
 }
 
 /// The file's bytes; nothing where it cannot be read.
@@ -112,10 +110,11 @@ bool RecordParts::Has(std::int64_t chunk) const {
 }
 
 Result<void> RecordParts::Write(const RecordPart& part) const {
-  const PartHead head{part.chunk,   part.records.size(), part.pictures.size(),
-                      part.skipped, part.machine,        Json::parse(config_json_)};
+  const PartHead head{part.chunk, part.records.size(), part.pictures.size(), part.skipped,
+                      part.machine};
   FieldWriter writer;
   TellHead(writer, head);
+  writer.json["config"] = Json::parse(config_json_);
   std::string text = LineOf(writer.json) + "\n";
   for (const accuracy::FrameRecord& record : part.records) {
     text += RecordJson(record, true) + "\n";
@@ -133,14 +132,16 @@ Result<std::optional<RecordPart>> RecordParts::Load(std::int64_t chunk) const {
   std::istringstream lines(*text);
   std::string line;
   std::getline(lines, line);
+  std::string config;
   const auto head =
       ReadJson<PartHead>(line, InputError(FileOf(chunk).string(), "is no part of a run"),
-                         [](const Json& json, PartHead* read) {
+                         [&config](const Json& json, PartHead* read) {
                            FieldReader reader(json);
                            TellHead(reader, *read);
+                           config = json.at("config").dump();
                          });
   if (!head) return std::nullopt;
-  if (head->config.dump() != config_json_ || head->chunk != chunk) {
+  if (config != config_json_ || head->chunk != chunk) {
     return InputError(FileOf(chunk).string(), "belongs to a run of another configuration",
                       "remove it and run again");
   }
