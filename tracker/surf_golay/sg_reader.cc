@@ -51,8 +51,8 @@ struct Proof {
   double visible;
   double bits;
 };
-constexpr std::array<Proof, 6> kProofs{
-    {{0.8, 0.7}, {0.7, 1.5}, {0.6, 2.5}, {0.4, 5.0}, {0.3, 5.5}, {0.1, 10.0}}};
+constexpr std::array<Proof, 7> kProofs{
+    {{0.9, 0.0}, {0.8, 0.7}, {0.7, 1.5}, {0.6, 2.5}, {0.4, 5.0}, {0.3, 5.5}, {0.1, 10.0}}};
 /// Covers leave few blocks that look right as a whole, where all the bits of border between them
 /// together do: so much correlation of single pixels with it leaves so much to prove.
 constexpr double kProofByBorder_bits = 5.5;
