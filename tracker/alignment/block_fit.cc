@@ -249,7 +249,7 @@ bool BlockFit::Move(const PrintPattern& pattern, const BlockFitOptions& options,
 bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
                    int blocks_along, const BlockFitOptions& options, BlockFitState* state) {
   const double scale = seen.rays.window.Scale();
-  bool solved = true;
+  bool solved = true, last = false;
   Start(pattern, seen, blocks_along, *state);
   for (int step = 0;; ++step) {
     Predict(pattern, part, seen, *state);
@@ -261,9 +261,9 @@ bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow
     bool done = false, still = false;
     solved = Move(pattern, options, scale, state, &done, &still);
     // What was predicted holds for where the print is if it has hardly moved; if only the blur has
-    // changed, one more round predicts and weighs.
-    if (!solved || still) break;
-    if (done) step = options.steps - 1;
+    // changed, one more round predicts, weighs and, with the right blur, takes off what is left.
+    if (!solved || still || last) break;
+    last = done;
   }
   if (options.tell_blocks) sums_->blocks.WriteBlocks(seen, &block_of_);
   return solved;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "base/image.h"
 
@@ -21,7 +20,7 @@ class ReducedPictures {
 
  private:
   ImageView<const std::uint8_t> grey_;
-  std::array<std::vector<std::uint8_t>, kLevels> pixels_;
+  std::array<Image<std::uint8_t>, kLevels> pictures_;
   int made_ = 0;  ///< The last level that is there.
 };
 

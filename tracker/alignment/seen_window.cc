@@ -84,6 +84,33 @@ void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
   }
 }
 
+void TakeEvenWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
+                    const PixelWindow& window, SeenWindow* seen) {
+  LookUpRays(lens, window, &seen->rays);
+  seen->value.resize(window.size());
+  seen->certainty.resize(window.size());
+  const auto& linear = LinearFromSrgb8();
+  const int side = 1 << window.level;
+  const float share = 1.0F / static_cast<float>(side * side);
+  for (int y = 0; y < window.height; ++y) {
+    float* value = &seen->value[static_cast<std::size_t>(y) * window.width];
+    float* certain = &seen->certainty[static_cast<std::size_t>(y) * window.width];
+    for (int x = 0; x < window.width; ++x) {
+      const std::uint8_t* block = grey.row((window.y0 + y) * side) + (window.x0 + x) * side;
+      float sum = 0.0F;
+      std::uint8_t brightest = 0;
+      for (int j = 0; j < side; ++j, block += grey.stride()) {
+        for (int i = 0; i < side; ++i) {
+          sum += linear[block[i]];
+          brightest = std::max(brightest, block[i]);
+        }
+      }
+      value[x] = sum * share;
+      certain[x] = brightest > kBrightest ? 0.0F : 1.0F;
+    }
+  }
+}
+
 std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plane_from_ideal,
                                           double side, int places, int width, int height, int level,
                                           int margin) {

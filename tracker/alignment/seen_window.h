@@ -33,6 +33,12 @@ void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
 void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
                     const PixelWindow& window, SeenWindow* seen);
 
+/// As TakeLinearWindow, but all that does not clip alike in certainty: a fit of too great a blur,
+/// which finds a print from farther away, then still ends where the print is. (Weighed by the noise
+/// of codes, the dark feet of edges would draw it.)
+void TakeEvenWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
+                    const PixelWindow& window, SeenWindow* seen);
+
 /// Which pixels of a picture of `width` x `height`, reduced `level` times, show the square
 /// [0, side]² of a plane, and `margin` more on every side; at most the whole picture. The plane is
 /// told by `plane_from_ideal`; `places` of each side are looked at, since lenses bend sides.

@@ -42,13 +42,25 @@ bool PrintWindows::Window(const Mat3& modules_from_ideal, int level, PixelWindow
   return window->width > 3 && window->height > 3 && window->size() < kMostPixels;
 }
 
-bool PrintWindows::TakeCoarse(const Mat3& modules_from_ideal, double most_side_px,
-                              PixelWindow* window, SeenWindow* seen) {
+bool PrintWindows::CoarseWindow(const Mat3& modules_from_ideal, double most_side_px,
+                                PixelWindow* window) const {
   const double side = SidePx(modules_from_ideal);
   int level = 0;
   while (side / (1 << level) > most_side_px && level + 1 < ReducedPictures::kLevels) ++level;
-  if (!Window(modules_from_ideal, level, window)) return false;
-  TakeCodeWindow(lens_, reduced_.Level(level), *window, seen);
+  return Window(modules_from_ideal, level, window);
+}
+
+bool PrintWindows::TakeCoarse(const Mat3& modules_from_ideal, double most_side_px,
+                              PixelWindow* window, SeenWindow* seen) {
+  if (!CoarseWindow(modules_from_ideal, most_side_px, window)) return false;
+  TakeCodeWindow(lens_, reduced_.Level(window->level), *window, seen);
+  return true;
+}
+
+bool PrintWindows::TakeCoarseLight(const Mat3& modules_from_ideal, double most_side_px,
+                                   PixelWindow* window, SeenWindow* seen) {
+  if (!CoarseWindow(modules_from_ideal, most_side_px, window)) return false;
+  TakeEvenWindow(lens_, grey_, *window, seen);
   return true;
 }
 

@@ -29,6 +29,10 @@ class PrintWindows {
   bool TakeCoarse(const Mat3& modules_from_ideal, double most_side_px, PixelWindow* window,
                   SeenWindow* seen);
 
+  /// The same in linear light, where edges are where TakeFine will see them.
+  bool TakeCoarseLight(const Mat3& modules_from_ideal, double most_side_px, PixelWindow* window,
+                       SeenWindow* seen);
+
   /// At the size that tells the edges' places best for the blur of `state`. False where there is no
   /// window.
   bool TakeFine(const BlockFitState& state, PixelWindow* window, SeenWindow* seen);
@@ -39,6 +43,8 @@ class PrintWindows {
 
  private:
   bool Window(const Mat3& modules_from_ideal, int level, PixelWindow* window) const;
+  /// Where the print's sides are `most_side_px` at most.
+  bool CoarseWindow(const Mat3& modules_from_ideal, double most_side_px, PixelWindow* window) const;
 
   const LensGrid& lens_;
   ImageView<const std::uint8_t> grey_;

@@ -28,8 +28,9 @@ constexpr int kMostLatticeWidth_px = 900;
 constexpr double kCoveredCorrelation = 0.1;
 constexpr std::size_t kMostPlacements = 6;
 constexpr double kSamePlace = 0.04;  ///< Of the side: two fits that ended here are one.
-/// Between two searches for markers that are new: quadrilaterals, borders.
-constexpr int kFastEvery = 3, kSearchEvery = 15;
+/// Frames between two searches for markers that are new: for quadrilaterals, for borders of which
+/// something is covered, and for those while a marker that was there is missing.
+constexpr int kFastEvery = 5, kSearchEvery = 30, kMissingSearchEvery = 15;
 /// A marker that was not seen for so many frames is forgotten; a search for its border is tried in
 /// each of the first few and then now and then.
 constexpr int kForgetAfter = 90, kSearchAtOnce = 5;
@@ -118,7 +119,7 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
         FindBySurf(BorderSearch::Sizes::kLarge);
         if (missing(true)) FindBySurf(BorderSearch::Sizes::kAll);
         if (missing(true)) FindByCells();
-      } else if (search && frame_ % kSearchEvery == 0) {
+      } else if (search && frame_ % (missing(false) ? kMissingSearchEvery : kSearchEvery) == 0) {
         SearchPicture();
       }
       Remember();

@@ -27,9 +27,6 @@ constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 
 constexpr double kMostPlainBlur_px = 1.2;
 /// Share of a print that lies open: what covers one side only can draw the fit to its own edge.
 constexpr double kPlainVisible = 0.985;
-/// A step of the fit this short is the last one; of a print of 200 px one of 0.05 px was not. Below
-/// 40 px, where noise moves corners by more, it is: most of fifty markers take one step then.
-constexpr double kPlainDone_px = 0.02, kSmallPlain_px = 40.0, kSmallPlainDone_px = 0.05;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
@@ -41,7 +38,7 @@ constexpr int kContentSteps = 4;
 /// Corners that far apart put a cell's middle where it was: cells need not be read again.
 constexpr double kSameCells_modules = 0.5;
 constexpr int kFollowSteps = 4;
-constexpr double kFollowBlur_px = 0.9;
+constexpr std::array<double, 2> kFollowBlurs_px{0.9, 0.3};
 /// Mean correlation of the content's blocks that makes a followed marker's number sure, and likely.
 constexpr double kContentSure = 0.9, kContentRight = 0.4;
 /// What makes a reading a marker: the less of the print looks as predicted, the more bits must its
@@ -72,6 +69,14 @@ constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 constexpr double kSystematicCorner_px = 0.002;
 
 constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+
+/// Step of a fit from nearby, in pixels, that is short enough to be the last: it leaves a fortieth
+/// of itself. Of large prints, whose corners are told best, that must be less; of small ones noise
+/// moves the corners by more.
+double LastStepPx(double side_px) {
+  constexpr double kSmall_px = 40.0, kLarge_px = 130.0;
+  return side_px < kSmall_px ? 0.05 : side_px < kLarge_px ? 0.04 : 0.02;
+}
 
 /// How far apart two homographies put the corners of a print, in modules.
 double ModulesApart(const Mat3& modules_from_ideal, const Mat3& other_modules_from_ideal) {
@@ -214,20 +219,23 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
   const double side = windows_.SidePx(state.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
   PixelWindow window;
-  if (!windows_.TakeCoarse(state.modules_from_ideal, kCoarseSide_px, &window, &seen_))
+  if (!windows_.TakeCoarseLight(state.modules_from_ideal, kCoarseSide_px, &window, &seen_))
     return std::nullopt;
   const double scale = window.Scale();
-  state.blur_px = std::max(guess.blur_px, kFollowBlur_px * scale);
   BlockFitOptions options;
   options.tell_blocks = false;
   options.steps = kFollowSteps;
   options.done_px = 0.1;
-  if (!fit_.Run(Print(number), PrintPart::kWhole, seen_,
-                BlockFit::BlocksAlong(1.2 * side / scale, kCoarseBlock_px), options, &state)) {
-    return std::nullopt;
+  const int blocks = BlockFit::BlocksAlong(1.2 * side / scale, kCoarseBlock_px);
+  // Much blur finds a print from farther away, less of it nearer to where it is.
+  for (const double blur_px : kFollowBlurs_px) {
+    state.blur_px = std::max(guess.blur_px, blur_px * scale);
+    if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state)) {
+      return std::nullopt;
+    }
   }
   state.blur_px = guess.blur_px;
-  std::optional<SgReading> reading = Measure(number, state);
+  std::optional<SgReading> reading = Measure(number, state, LastStepPx(side));
   if (!reading || reading->visible_fraction < kBarelyVisible) return std::nullopt;
   // By the code: where the content is seen it must be this number's.
   double right = 0.0, seen = 0.0;
@@ -315,10 +323,9 @@ std::optional<SgReading> SgReader::ReadPlain(const BlockFitState& guess) {
   const SoftGolayDecoding decoding = decoder_.Decode(*cells);
   if (decoding.disagreements > 0) return std::nullopt;
   windows_.SetHalvingsForNoise(0);
-  const bool small = windows_.SidePx(guess.modules_from_ideal) < kSmallPlain_px;
   std::optional<SgReading> reading =
       Measure(decoding.number, {guess.modules_from_ideal, plain_blur_px_},
-              small ? kSmallPlainDone_px : kPlainDone_px);
+              LastStepPx(windows_.SidePx(guess.modules_from_ideal)));
   if (!reading || reading->visible_fraction < kPlainVisible) return std::nullopt;
   plain_blur_px_ = std::min(reading->blur_px, kMostPlainBlur_px);
   reading->margin = decoding.margin;
