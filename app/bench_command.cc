@@ -11,6 +11,7 @@
 #include "app/bench/shadow_bench.h"
 #include "app/bench/shadow_pictures.h"
 #include "app/command.h"
+#include "app/number_range.h"
 #include "app/progress_bar.h"
 #include "base/atomic_file.h"
 #include "gl/shader_library.h"
@@ -23,6 +24,8 @@ constexpr const char* kExamples =
     "  pleinair bench shadows\n"
     "  pleinair bench shadows --json > shadows.jsonl\n"
     "  pleinair bench shadows --scenes trees --methods ours,pcf5,zgaf --sizes 1024 -o out/shadows\n"
+    "  pleinair bench shadows --equal-texels --split-weight 0.5 --methods "
+    "plain,pcf5,csm-pcf5,zgaf\n"
     "  pleinair bench shadows --quick";
 
 struct Options {
@@ -41,12 +44,17 @@ nlohmann::json RowJson(const ShadowBenchRow& row, const std::string& renderer) {
                            {"method", traits.name},
                            {"title", traits.title},
                            {"resolution", row.resolution},
+                           {"map_sizes", row.map_sizes},
+                           {"split_weight", row.split_weight},
                            {"penumbra_rmse", row.errors.penumbra_rmse},
                            {"rmse", row.errors.rmse},
                            {"bias", row.errors.bias},
                            {"leak_mean", row.errors.leak_mean},
                            {"leak_p99", row.errors.leak_p99},
                            {"over_darkening", row.errors.over_darkening},
+                           {"solid_penumbra_rmse", row.solid_errors.penumbra_rmse},
+                           {"solid_rmse", row.solid_errors.rmse},
+                           {"solid_leak_mean", row.solid_errors.leak_mean},
                            {"pixels", row.errors.pixels},
                            {"penumbra_pixels", row.errors.penumbra_pixels},
                            {"shimmer", row.shimmer.of_visibility},
@@ -70,6 +78,7 @@ nlohmann::json RowJson(const ShadowBenchRow& row, const std::string& renderer) {
                                  {"width_ratio", edge.width_ratio},
                                  {"offset_mm", 1e3 * edge.offset_m},
                                  {"offset_px", edge.offset_m / row.pixel_m},
+                                 {"jaggedness_mm", 1e3 * edge.jaggedness_m},
                                  {"rmse", edge.rmse},
                                  {"worst", edge.worst}});
     }
@@ -180,8 +189,15 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
   CLI::Option* sizes =
       command->add_option("--sizes", options->bench.resolutions, "Texels of a map's side")
           ->delimiter(',')
-          ->check(CLI::IsMember({128, 256, 512, 1024, 2048, 4096}))
+          ->check(CLI::IsMember({128, 256, 512, 768, 1024, 1280, 1536, 1792, 2048, 3072, 4096}))
           ->type_name("N,...");
+  command->add_flag("--equal-texels", options->bench.equal_texels,
+                    "As many texels in all for every method as maps of N, N/2, N/2, N/4 have");
+  command
+      ->add_option("--split-weight", options->bench.split_weight,
+                   "Lambda of the view's splits for all methods; each one's own by default")
+      ->check(NumberRange(0.0, 1.0))
+      ->type_name("0...1");
   command
       ->add_option("--recording", options->recording,
                    "Recording whose models the courtyard is; recordings/courtyard_midday")

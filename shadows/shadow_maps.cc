@@ -42,8 +42,9 @@ Result<void> CheckOptions(const ShadowMapOptions& options) {
   }
   for (int i = 0; i < options.partitions; ++i) {
     const int resolution = options.resolutions[i];
-    if (resolution < 16 || resolution > 8192 ||
-        !std::has_single_bit(static_cast<unsigned>(resolution))) {
+    const bool halves = TraitsOf(options.method).content != MapContent::kDepthBounds ||
+                        std::has_single_bit(static_cast<unsigned>(resolution));
+    if (resolution < 16 || resolution > 8192 || !halves) {
       return InputError("shadows", "a map of " + std::to_string(resolution) + " texels a side",
                         "choose a power of two from 16 to 8192");
     }

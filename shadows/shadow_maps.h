@@ -28,9 +28,11 @@ constexpr Radians kSunAngularRadius = FromDegrees(0.2665);
 
 struct ShadowMapOptions {
   ShadowMethod method = ShadowMethod::kSunDisc;
-  int partitions = 2;                                                   ///< 1 to 4.
-  double split_weight = 0.5;                                            ///< λ of Eq. 11.
-  std::array<int, kMaxPartitions> resolutions{2048, 2048, 1024, 1024};  ///< Powers of two, 16…8192.
+  int partitions = 2;         ///< 1 to 4.
+  double split_weight = 0.5;  ///< λ of Eq. 11.
+  /// 16…8192 texels a side; powers of two where the method has a pyramid
+  /// (MapContent::kDepthBounds).
+  std::array<int, kMaxPartitions> resolutions{2048, 2048, 1024, 1024};
   Radians sun_angular_radius = kSunAngularRadius;
   /// Moment methods: distance of the blocker at which the blur has the disc's width.
   Metres blur_blocker_distance{1.0};

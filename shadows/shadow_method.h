@@ -20,6 +20,8 @@ enum class ShadowMethod {
   kCascadesVariance,      ///< Four cascades with variance and bleed reduction.
   kExponentialVariance,   ///< Moments of two exponential warps (Lauritzen & McCool 2008).
   kPercentageCloserSoft,  ///< Blocker search, then a filter of that width (Fernando 2005).
+  kCascadesGaussian,      ///< Four cascades with Z-GaF's blur and step: the paper's "CSMs with
+                          ///< Gaussian blurring" (its Figure 8 C).
   kGaussian,              ///< The paper's Z-GaF: a Gaussian of blurred depth moments.
   kSunDiscLean,    ///< Ours with one map and one look at four texels: as cheap as a plain map.
   kSunDiscLight,   ///< kSunDiscFast with one map.

@@ -38,6 +38,17 @@ Result<BenchScene> MakeScene(const std::string& name, const ShadowBenchOptions& 
                     "choose among pole_and_box, courtyard, trees and wide_field");
 }
 
+shadows::ShadowMapOptions MapOptions(shadows::ShadowMethod method, int resolution,
+                                     const ShadowBenchOptions& bench) {
+  shadows::ShadowMapOptions options = shadows::CommonOptions(method, resolution);
+  options.split_weight = bench.split_weight.value_or(options.split_weight);
+  // (1 + ¼ + ¼ + 1/16) N² = (5/4 N)² = 4 (5/8 N)².
+  if (bench.equal_texels && !shadows::TraitsOf(method).falling_resolution) {
+    options.resolutions.fill(options.partitions == 1 ? resolution * 5 / 4 : resolution * 5 / 8);
+  }
+  return options;
+}
+
 // The camera moved sideways so that what lies `depth_m` away moves by `pixels` in the picture.
 View Crept(const View& view, double pixels, double depth_m, int width) {
   View moved = view;
@@ -137,7 +148,7 @@ class SceneRun {
     for (const shadows::ShadowMethod method : methods) {
       PLEINAIR_ASSIGN_OR_RETURN(BenchRenderer renderer,
                                 BenchRenderer::Create(scene_, options_.width, options_.height));
-      PLEINAIR_RETURN_IF_ERROR(renderer.SetMethod(shadows::CommonOptions(method, resolution)));
+      PLEINAIR_RETURN_IF_ERROR(renderer.SetMethod(MapOptions(method, resolution, options_)));
       renderers_.push_back(std::move(renderer));
     }
     return {};
@@ -149,9 +160,13 @@ class SceneRun {
     row.scene = scene_.name;
     row.method = methods_[index];
     row.resolution = resolution_;
-    PLEINAIR_RETURN_IF_ERROR(creeping_.SetMethod(renderer.maps().options()));
+    const shadows::ShadowMapOptions& maps = renderer.maps().options();
+    row.map_sizes.assign(maps.resolutions.begin(), maps.resolutions.begin() + maps.partitions);
+    row.split_weight = maps.split_weight;
+    PLEINAIR_RETURN_IF_ERROR(creeping_.SetMethod(maps));
     PLEINAIR_ASSIGN_OR_RETURN(picture_, renderer.Draw(view_));
     row.errors = CompareVisibility(picture_, truth_picture_);
+    row.solid_errors = CompareVisibility(picture_, truth_picture_, &surfaces_.leaves);
     if (!scene_.edges.empty()) {
       PLEINAIR_ASSIGN_OR_RETURN(row.closed_form, MeasureClosedForms(scene_, renderer));
       const glm::dvec3 at(view_.camera_from_marker *

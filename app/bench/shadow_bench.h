@@ -18,6 +18,10 @@ struct ShadowBenchOptions {
   std::vector<std::string> scenes{"pole_and_box", "courtyard", "trees", "wide_field"};
   std::vector<shadows::ShadowMethod> methods;  ///< Empty: all.
   std::vector<int> resolutions{512, 1024, 2048};
+  /// Every method gets as many texels in all as one with maps of N, N/2, N/2, N/4: one map of 5/4 N
+  /// a side, or four of 5/8 N.
+  bool equal_texels = false;
+  std::optional<double> split_weight;  ///< λ of Eq. 11 for all methods in place of each one's own.
   std::filesystem::path recording = "recordings/courtyard_midday";
   int width = 480, height = 270;
   int rays = 256;         ///< A pixel of the truth.
@@ -39,7 +43,10 @@ struct ShadowBenchRow {
   std::string scene;
   shadows::ShadowMethod method = shadows::ShadowMethod::kSunDisc;
   int resolution = 0;
+  std::vector<int> map_sizes;  ///< Texels a side, one a partition.
+  double split_weight = 0.0;   ///< λ of Eq. 11.
   ShadowErrors errors;
+  ShadowErrors solid_errors;                    ///< Without what is seen of trees' crowns.
   std::optional<ClosedFormErrors> closed_form;  ///< Where the scene has closed forms.
   double pixel_m = 0.0;                         ///< Of the picture, at the closed forms' distance.
   shadows::FrameTime time;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kWidth = 760, kHeight = 460, kLeft = 70, kRight = 150, kTop = 40, kBottom = 50;
 constexpr DrawingColour kInk{40, 40, 40}, kGrid{225, 225, 225};
 // By method, in the order of ShadowMethods().
-constexpr std::array<DrawingColour, 16> kColours{{{120, 120, 120},
+constexpr std::array<DrawingColour, 17> kColours{{{120, 120, 120},
                                                   {158, 202, 225},
                                                   {66, 146, 198},
                                                   {8, 81, 156},
@@ -27,6 +27,7 @@ constexpr std::array<DrawingColour, 16> kColours{{{120, 120, 120},
                                                   {166, 86, 40},
                                                   {150, 100, 200},
                                                   {90, 60, 140},
+                                                  {190, 210, 90},
                                                   {110, 160, 60},
                                                   {255, 170, 190},
                                                   {250, 120, 150},

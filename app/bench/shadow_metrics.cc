@@ -34,14 +34,20 @@ double Crossing(const std::vector<double>& profile, double value) {
 
 }  // namespace
 
+bool IsCompared(double result_depth_m, double truth_depth_m) {
+  return truth_depth_m > 0.0 && std::abs(result_depth_m - truth_depth_m) <= 0.01 * truth_depth_m;
+}
+
 ShadowErrors CompareVisibility(const shadows::VisibilityPicture& result,
-                               const shadows::VisibilityPicture& truth) {
+                               const shadows::VisibilityPicture& truth,
+                               const Image<float>* left_out) {
   ShadowErrors errors;
   std::vector<float> leaks;
   int lit = 0;
   for (std::size_t i = 0; i < truth.visibility.size(); ++i) {
     const double depth = truth.depth_m.data()[i];
-    if (depth <= 0.0 || std::abs(result.depth_m.data()[i] - depth) > 0.01 * depth) continue;
+    if (!IsCompared(result.depth_m.data()[i], depth)) continue;
+    if (left_out != nullptr && left_out->data()[i] != 0.0F) continue;
     const double t = truth.visibility.data()[i], v = result.visibility.data()[i];
     const double difference = v - t;
     errors.rmse += difference * difference;
@@ -135,6 +141,10 @@ Result<ClosedFormErrors> MeasureClosedForms(const shadows::BenchScene& scene,
     const double width = (mean(highs) - mean(lows)) * step;
     result.width_ratio = width / (2.0 * SegmentInverse(0.9) * half);
     result.offset_m = (mean(middles) + 0.5) * step - reach;
+    double squares = 0.0;
+    for (const double middle : middles)
+      squares += (middle - mean(middles)) * (middle - mean(middles));
+    result.jaggedness_m = std::sqrt(squares / kRows) * step;
     errors.edges.push_back(result);
     const double x = std::log(edge.middle.z), y = std::log(std::max(width, 1e-6));
     sum_x += x;

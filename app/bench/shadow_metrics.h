@@ -18,8 +18,12 @@ struct ShadowErrors {
   double over_darkening = 0.0;  ///< Mean 1 − result where truth > 0.999.
   int pixels = 0, penumbra_pixels = 0, dark_pixels = 0;
 };
+/// Whether both see the same surface in a pixel (depth 0: none).
+bool IsCompared(double result_depth_m, double truth_depth_m);
+/// `left_out`, where given: pixels in which it is not 0 do not count.
 ShadowErrors CompareVisibility(const shadows::VisibilityPicture& result,
-                               const shadows::VisibilityPicture& truth);
+                               const shadows::VisibilityPicture& truth,
+                               const Image<float>* left_out = nullptr);
 
 /// Share of the sun's disc that a straight edge along x at `edge` leaves a point of the ground:
 /// V(u) = ½ + (u√(1−u²) + asin u)/π with u = Δy s_z² / (h √(s_y²+s_z²) tan 0.2665°), Δy counted
@@ -36,6 +40,8 @@ struct EdgeProfile {
   double offset_m = 0.0;     ///< Where V = ½ lies, towards the lit side of the truth.
   double rmse = 0.0;         ///< Against the closed form over twice the penumbra.
   double worst = 0.0;
+  /// Standard deviation of where V = ½ lies along the edge: its stairs.
+  double jaggedness_m = 0.0;
 };
 
 /// What can be measured where closed forms exist; from the maps as last drawn.

@@ -8,13 +8,14 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "app/bench/shadow_metrics.h"
 #include "app/sinks/picture_writer.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {
 namespace {
 
-constexpr int kZoom = 3, kColumns = 4, kLabelHeight_px = 18, kJpegQuality = 88;
+constexpr int kZoom = 3, kColumns = 4, kErrorColumns = 2, kLabelHeight_px = 18, kJpegQuality = 88;
 constexpr float kSky = 0.22F;  // Of the sun's light on a surface that faces it.
 constexpr std::array<std::array<float, 3>, 4> kTints{
     {{1.0F, 0.45F, 0.4F}, {0.5F, 1.0F, 0.45F}, {0.45F, 0.6F, 1.0F}, {1.0F, 0.95F, 0.4F}}};
@@ -91,6 +92,43 @@ RgbImage MethodSheet(const ShadowBenchPictures& scene) {
   return sheet;
 }
 
+// White where a method is right, red where it lets light through that the rays do not, blue where
+// it is too dark; grey where their surfaces differ.
+RgbImage ErrorPicture(const shadows::VisibilityPicture& result,
+                      const shadows::VisibilityPicture& truth) {
+  RgbImage picture(truth.visibility.width(), truth.visibility.height(), 3);
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const float error = result.visibility(x, y) - truth.visibility(x, y);
+      const bool compared = IsCompared(result.depth_m(x, y), truth.depth_m(x, y));
+      const float least = 1.0F - std::min(std::abs(error), 1.0F);
+      const float red = error < 0.0F ? least : 1.0F, blue = error > 0.0F ? least : 1.0F;
+      const std::array<float, 3> colour{red, least, blue};
+      for (int c = 0; c < 3; ++c) {
+        picture(x, y, c) = static_cast<std::uint8_t>(
+            std::lround(255.0F * (compared ? colour[static_cast<std::size_t>(c)] : 0.75F)));
+      }
+    }
+  }
+  return picture;
+}
+
+// The whole pictures' errors side by side.
+RgbImage ErrorSheet(const ShadowBenchPictures& scene) {
+  const int width = scene.truth.visibility.width(), height = scene.truth.visibility.height();
+  const int tiles = static_cast<int>(scene.methods.size());
+  const int columns = std::min(tiles, kErrorColumns), rows = (tiles + columns - 1) / columns;
+  RgbImage sheet(columns * (width + 2), rows * (height + kLabelHeight_px), 3);
+  std::fill_n(sheet.data(), sheet.size(), std::uint8_t{255});
+  for (int i = 0; i < tiles; ++i) {
+    const int left = i % columns * (width + 2), top = i / columns * (height + kLabelHeight_px);
+    Label(std::string(shadows::TraitsOf(scene.methods[i].method).name), left, top, &sheet);
+    Paste(ErrorPicture(scene.methods[i].visibility, scene.truth), left, top + kLabelHeight_px,
+          &sheet);
+  }
+  return sheet;
+}
+
 RgbImage PartitionsPicture(const ShadowBenchPictures& scene,
                            const ShadowBenchPictures::OfMethod& method) {
   RgbImage picture = Shade(scene.surfaces, method.visibility.visibility);
@@ -137,6 +175,10 @@ Result<void> WriteShadowPictures(const ShadowBenchResult& result,
         WriteJpeg(Shade(scene.surfaces, scene.truth.visibility), folder / (scene.scene + ".jpg")));
     PLEINAIR_RETURN_IF_ERROR(
         WriteJpeg(MethodSheet(scene), folder / (scene.scene + "_methods.jpg")));
+    if (!scene.methods.empty()) {
+      PLEINAIR_RETURN_IF_ERROR(
+          WriteJpeg(ErrorSheet(scene), folder / (scene.scene + "_errors.jpg")));
+    }
     for (const auto& method : scene.methods) {
       if (method.maps.size() < 2) continue;
       const std::string name(shadows::TraitsOf(method.method).name);

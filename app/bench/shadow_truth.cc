@@ -25,6 +25,7 @@ Result<ShadowTruth> ShadowTruth::Create(const shadows::BenchScene& scene, int ra
     for (const glm::vec3& p : mesh.positions) ray_mesh.positions.push_back({p.x, p.y, p.z});
     ray_mesh.indices = mesh.indices;
     truth.albedos_.push_back(mesh.albedo);
+    truth.leaves_.push_back(mesh.leaves);
     std::vector<glm::dvec3>& normals = truth.triangle_normals_.emplace_back();
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       const glm::dvec3 a(mesh.positions[mesh.indices[i]]);
@@ -83,13 +84,15 @@ double ShadowTruth::FreeShare(const glm::dvec3& point, const glm::dvec3& normal,
 }
 
 SurfacePicture ShadowTruth::Surfaces(const shadows::View& view, int width, int height) const {
-  SurfacePicture picture{Image<float>(width, height, 3), Image<float>(width, height)};
+  SurfacePicture picture{Image<float>(width, height, 3), Image<float>(width, height),
+                         Image<float>(width, height)};
   const glm::dvec3 eye(glm::inverse(view.camera_from_marker)[3]);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const Hit hit = Trace(view, eye, x + 0.5, y + 0.5, width, height);
       if (hit.depth_m <= 0.0) continue;
       for (int c = 0; c < 3; ++c) picture.albedo(x, y, c) = albedos_[hit.mesh][c];
+      picture.leaves(x, y) = leaves_[hit.mesh] ? 1.0F : 0.0F;
       picture.cosine(x, y) = static_cast<float>(std::max(glm::dot(hit.normal, to_sun_), 0.0));
     }
   }

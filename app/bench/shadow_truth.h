@@ -21,6 +21,7 @@ struct PixelWindow {
 struct SurfacePicture {
   Image<float> albedo;  ///< Linear, three channels; black where nothing is seen.
   Image<float> cosine;  ///< Of the angle between sun and surface; 0 where it is turned away.
+  Image<float> leaves;  ///< 1 where a tree's crown is seen.
 };
 
 /// The visibility that shadow methods are measured against: rays (Embree) to a uniform disc of
@@ -56,6 +57,7 @@ class ShadowTruth {
   std::shared_ptr<const compositor::RayScene> rays_scene_;
   std::vector<std::vector<glm::dvec3>> triangle_normals_;  // A list a mesh.
   std::vector<glm::vec3> albedos_;                         // One a mesh.
+  std::vector<bool> leaves_;                               // One a mesh.
   std::vector<Vec3> directions_;                           // Over the disc.
   glm::dvec3 to_sun_{0.0};
 };

@@ -14,6 +14,7 @@ struct BenchMesh {
   std::vector<glm::vec3> positions;
   std::vector<std::uint32_t> indices;  ///< Three a triangle.
   glm::vec3 albedo{0.5F};              ///< Linear; for pictures.
+  bool leaves = false;                 ///< A crown: thin blockers and receivers amid gaps.
 };
 
 /// A straight edge above the ground z = 0 whose penumbra has a closed form. It runs along x.

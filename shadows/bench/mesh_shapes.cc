@@ -111,7 +111,7 @@ BenchMesh Trunk(const TreeShape& tree, const glm::vec3& albedo) {
 }
 
 BenchMesh Leaves(const TreeShape& tree, const glm::vec3& albedo) {
-  BenchMesh mesh{{}, {}, albedo};
+  BenchMesh mesh{{}, {}, albedo, true};
   Numbers numbers(1000 + tree.seed);
   const glm::dvec3 centre = tree.foot + glm::dvec3(0, 0, tree.height - tree.crown);
   for (int i = 0; i < tree.leaves; ++i) {

@@ -74,34 +74,40 @@ float ShadowNarrow(int set, int slice, vec4 size, ShadowReceiver r, float tan_ra
   return 1.0 - dot(rows, y) / (4.0 * k.x * k.y);
 }
 
-// What 2×2 texels around a place block, weighted bilinearly, and their heights.
-float ShadowBlocked(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel,
-                    out vec4 height) {
-  vec2 corner = floor(texel - 0.5);
-  ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
-  height = quad.height;
-  return ShadowBilinear(vec4(greaterThan(quad.excess, vec4(0.0))), texel - 0.5 - corner);
+// Share of the 2×2 texels around a place that blocks, weighted bilinearly.
+float ShadowBlocked(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel) {
+  return 1.0 - ShadowTap(set, slice, size, r, texel, -1e30);
 }
 
 // Deviations along both axes, texels, of what disc and pixel spread beyond one look's own tent
-// (variance 1/6 texel² an axis); the disc past the highest of the four texels of that look.
-vec2 ShadowSpread(ShadowReceiver r, vec4 height, float tan_radius_texels) {
-  vec2 high = max(height.xy, height.zw);
-  float disc = max(max(high.x, high.y), 0.0) * tan_radius_texels;
+// (variance 1/6 texel² an axis).
+vec2 ShadowSpread(ShadowReceiver r, float height, float tan_radius_texels) {
+  float disc = max(height, 0.0) * tan_radius_texels;
   vec2 pixel2 = r.step_x * r.step_x + r.step_y * r.step_y;
   return sqrt(max(0.25 * disc * disc + pixel2 / 12.0 - 1.0 / 6.0, 0.0));
 }
 
-// Five looks, one amid four: (4/5) (5/4) σ² = σ².
+// Five looks, one amid four on a square turned by atan ½, so that an edge along an axis passes them
+// one by one: (4 + 1 + 4 + 1)/5 (σ/√2)² = σ². Three quads on a diagonal tell the blockers' height:
+// one alone sees none on most of the lit side of a penumbra, and another one at every texel.
 float ShadowFiveLooks(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
-  vec4 height, unused;
-  float blocked = ShadowBlocked(set, slice, size, r, r.texel, height);
-  vec2 apart = sqrt(1.25) * ShadowSpread(r, height, tan_radius / size.x);
-  vec2 across = vec2(apart.x, -apart.y);
-  blocked += ShadowBlocked(set, slice, size, r, r.texel + apart, unused);
-  blocked += ShadowBlocked(set, slice, size, r, r.texel - apart, unused);
-  blocked += ShadowBlocked(set, slice, size, r, r.texel + across, unused);
-  blocked += ShadowBlocked(set, slice, size, r, r.texel - across, unused);
+  vec4 heights = vec4(0.0), blockers = vec4(0.0);
+  float blocked = 0.0;
+  for (int i = -1; i <= 1; ++i) {
+    vec2 corner = floor(r.texel + 2.0 * float(i) - 0.5);
+    ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
+    vec4 blocks = vec4(greaterThan(quad.excess, vec4(0.0)));
+    heights += blocks * quad.height;
+    blockers += blocks;
+    if (i == 0) blocked = ShadowBilinear(blocks, r.texel - 0.5 - corner);
+  }
+  float height = dot(heights, vec4(1.0)) / max(dot(blockers, vec4(1.0)), 1.0);
+  vec2 apart = sqrt(0.5) * ShadowSpread(r, height, tan_radius / size.x);
+  vec2 far = apart * vec2(2.0, 1.0), across = apart * vec2(-1.0, 2.0);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel + far);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel - far);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel + across);
+  blocked += ShadowBlocked(set, slice, size, r, r.texel - across);
   return 1.0 - blocked / 5.0;
 }
 

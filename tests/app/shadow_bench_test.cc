@@ -48,6 +48,16 @@ TEST(ShadowErrors, LeaveOutPixelsThatShowAnotherSurface) {
   EXPECT_EQ(CompareVisibility(result, truth).pixels, 1);
 }
 
+TEST(ShadowErrors, LeaveOutPixelsThatAreNotToCount) {
+  const VisibilityPicture truth = Row({0.0F, 0.0F}), result = Row({1.0F, 0.5F});
+  Image<float> leaves(2, 1);
+  leaves(0, 0) = 1.0F;
+  leaves(1, 0) = 0.0F;
+  const ShadowErrors errors = CompareVisibility(result, truth, &leaves);
+  EXPECT_EQ(errors.pixels, 1);
+  EXPECT_NEAR(errors.leak_mean, 0.5, 1e-6);
+}
+
 // corrections of the segment's share: V(0.5) = 0.8045, V(0.8) = 0.9480; 9.3 mm a metre, sun
 // overhead.
 TEST(StraightEdge, HasThePublishedShareAndTheSunsWidth) {

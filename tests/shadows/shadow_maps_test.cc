@@ -121,6 +121,9 @@ TEST_F(ShadowMapsTest, RefuseOptionsOutOfRange) {
   const auto odd = ShadowMaps::Create(options_);
   ASSERT_FALSE(odd.has_value());
   EXPECT_THAT(odd.error().Message(), HasSubstr("power of two"));
+  // Methods without a pyramid have nothing to halve.
+  options_.method = ShadowMethod::kGaussian;
+  EXPECT_TRUE(ShadowMaps::Create(options_).has_value());
 }
 
 TEST_F(ShadowMapsTest, RefuseASunWithoutDirection) {
