@@ -4,11 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -18,15 +15,13 @@
 #include <utility>
 
 #include "camera_helpers.h"
-#include "devices/frame_pack.h"
+#include "courtyard_film.h"
 #include "devices/recording.h"
-#include "tracker/tracker.h"
 #include "uvc_simulator.h"
 
 namespace pleinair::vm {
 namespace {
 
-using devices::Frame;
 using devices::PixelFormat;
 
 /// What a grey picture looks like after it went through the camera's Y of limited range.
@@ -45,35 +40,13 @@ GreyImage ThroughYuyv(const GreyImage& grey) {
   return picture.grey;
 }
 
-bool Same(const GreyImage& a, const GreyImage& b) {
-  return a.size() == b.size() && std::equal(a.data(), a.data() + a.size(), b.data());
-}
-
-/// The camera's place in the marker's frame, from lines of "seconds x y z qx qy qz qw".
-std::vector<Vec3> TruePlaces() {
-  std::ifstream file(PLEINAIR_SOURCE_DIR "/recordings/courtyard_tag36h11/truth.tum");
-  std::vector<Vec3> places;
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream numbers(line);
-    double seconds = 0.0;
-    Vec3 place;
-    if (numbers >> seconds >> place.x >> place.y >> place.z) places.push_back(place);
-  }
-  return places;
-}
-
 constexpr const char* kSequence = "/tmp/sequence.grey";
 
 /// Writes what the simulator plays; gives what comes of each picture.
-std::vector<GreyImage> WriteSequence(devices::FrameSource* frames) {
-  constexpr int kFrames = 6;
+std::vector<GreyImage> WriteSequence(const CourtyardFilm& film) {
   std::vector<GreyImage> sent;
   std::ofstream bytes(kSequence, std::ios::binary);
-  for (int i = 0; i < kFrames; ++i) {
-    const auto frame = frames->Next();
-    EXPECT_TRUE(frame && *frame);
-    if (!frame || !*frame) break;
-    const GreyImage& grey = (*frame)->grey;
+  for (const GreyImage& grey : film.pictures) {
     bytes.write(reinterpret_cast<const char*>(grey.data()),
                 static_cast<std::streamsize>(grey.size()));
     sent.push_back(ThroughYuyv(grey));
@@ -81,66 +54,16 @@ std::vector<GreyImage> WriteSequence(devices::FrameSource* frames) {
   return sent;
 }
 
-/// Which of the pictures sent this one is; their count where it is none of them.
-std::size_t NumberOf(const GreyImage& grey, const std::vector<GreyImage>& sent) {
-  return static_cast<std::size_t>(
-      std::find_if(sent.begin(), sent.end(),
-                   [&](const GreyImage& each) { return Same(each, grey); }) -
-      sent.begin());
-}
-
 /// By the way to the camera.
 class Behaviour12 : public testing::TestWithParam<const char*> {};
 
 TEST_P(Behaviour12, WhatIsRecordedLiveReplaysToIdenticalPosesAndTheseAreRight) {
-  std::remove("/tmp/live.pack");
-  auto recording = devices::OpenRecording(PLEINAIR_SOURCE_DIR "/recordings/courtyard_tag36h11");
-  ASSERT_TRUE(recording);
-  const std::vector<GreyImage> sent = WriteSequence(recording->frames.get());
-  tracker::TrackerOptions options;
-  options.families = {"tag36h11"};  // Quick to find, even in a machine made of software.
-  options.marker_size_m = recording->scene->marker.size_m;
-  const auto tracker = tracker::Tracker::Create(recording->camera, options);
-  ASSERT_TRUE(tracker);
-
+  const CourtyardFilm film = OpenCourtyardFilm();
+  const std::vector<GreyImage> sent = WriteSequence(film);
   const UvcSimulator simulator({"--fps", "5", "--grey", kSequence, "640", "480"});
   const auto camera = Open(Options(GetParam(), PixelFormat::kYuyv, 640, 480));
-  const auto writer = devices::FramePackWriter::Create("/tmp/live.pack");
-  ASSERT_TRUE(writer);
-  std::vector<Frame> live;
-  std::vector<std::size_t> numbers;
-  std::vector<Transform<Camera, Marker>> poses;
-  for (int i = 0; i < 4; ++i) {
-    auto frame = camera->NextWithin(kLong);
-    ASSERT_TRUE(frame);
-    ASSERT_TRUE((*writer)->Add(*frame));
-    numbers.push_back(NumberOf(frame->grey, sent));
-    ASSERT_LT(numbers.back(), sent.size()) << "frame " << i << " is none of those that were sent";
-    const auto sightings = (*tracker)->Track(frame->grey.view());
-    ASSERT_TRUE(sightings);
-    ASSERT_EQ(sightings->size(), 1U);
-    poses.push_back(sightings->front().pose.best.camera_from_marker);
-    live.push_back(std::move(*frame));
-  }
-  const std::vector<Vec3> truth = TruePlaces();
-  const auto replayed = devices::OpenFramePack("/tmp/live.pack", {640, 480});
-  ASSERT_TRUE(replayed);
-  for (std::size_t i = 0; i < live.size(); ++i) {
-    const Vec3 place = poses[i].Inverse().translation_m;
-    const Vec3 error = place - truth[numbers[i]];
-    std::cout << "place wrong by " << Norm(error) * 1000.0 << " mm\n";
-    EXPECT_LT(Norm(error), 0.005);
-    const auto frame = replayed->frames->Next();
-    ASSERT_TRUE(frame && *frame);
-    EXPECT_EQ((*frame)->timestamp_ns, live[i].timestamp_ns - live[0].timestamp_ns);
-    EXPECT_EQ((*frame)->exposure_s, live[i].exposure_s);
-    const auto sightings = (*tracker)->Track((*frame)->grey.view());
-    ASSERT_TRUE(sightings);
-    ASSERT_EQ(sightings->size(), 1U);
-    const auto& again = sightings->front().pose.best.camera_from_marker;
-    EXPECT_EQ(Norm(again.translation_m - poses[i].translation_m), 0.0);
-    EXPECT_EQ(again.rotation.m, poses[i].rotation.m);
-  }
+  ASSERT_TRUE(camera);
+  ExpectRightPosesAndTheSameInReplay(camera.get(), film, sent);
 }
 
 INSTANTIATE_TEST_SUITE_P(V4l2, Behaviour12, testing::Values(kUsb));
@@ -208,9 +131,8 @@ int TrackedOf(const char* accounts) {
 
 TEST(LiveCommand, TracksAndRecordsACameraUntilItIsEndedAndReplaysToTheSamePoses) {
   const std::string source = PLEINAIR_SOURCE_DIR "/recordings/courtyard_tag36h11";
-  auto recording = devices::OpenRecording(source);
-  ASSERT_TRUE(recording);
-  const std::vector<GreyImage> sent = WriteSequence(recording->frames.get());
+  const CourtyardFilm film = OpenCourtyardFilm();
+  const std::vector<GreyImage> sent = WriteSequence(film);
   std::ofstream("/tmp/scene.toml") << R"(time = "2025-09-14T11:05:00Z"
 [place]
 latitude_deg = 50.0875
@@ -245,7 +167,6 @@ heading_deg = 342
   // Of the frame after one that came too late to be tracked the last digits may differ.
   const bool none_late = lived.size() == replayed.size();
   std::cout << lived.size() << " tracked live of " << replayed.size() << " recorded\n";
-  const std::vector<Vec3> truth = TruePlaces();
   for (const auto& [time, pose] : replayed) {
     const auto frame = take->frames->Next();
     ASSERT_TRUE(frame && *frame);
@@ -254,7 +175,7 @@ heading_deg = 342
     ASSERT_LT(number, sent.size()) << "none of those that were sent";
     ASSERT_EQ(pose.size(), 7U);
     const Vec3 place{pose[0], pose[1], pose[2]};
-    EXPECT_LT(Norm(place - truth[number]), 0.005);
+    EXPECT_LT(Norm(place - film.places[number]), 0.005);
     const auto live_pose = lived.find(time);
     if (live_pose == lived.end()) continue;
     for (std::size_t i = 0; i < pose.size(); ++i) {

@@ -1,0 +1,23 @@
+// Beside GigE Vision cameras in software, one of which plays footage whose poses are known.
+#include <gtest/gtest.h>
+
+#include "camera_helpers.h"
+#include "courtyard_film.h"
+#include "gige_film_camera.h"
+
+namespace pleinair::vm {
+namespace {
+
+TEST(GigE, WhatIsRecordedLiveReplaysToIdenticalPosesAndTheseAreRight) {
+  const CourtyardFilm film = OpenCourtyardFilm();
+  // The address is one that aravis-camera-test adds.
+  const auto playing = GigeFilmCamera::Start("127.0.0.3", "FILM", film.pictures);
+  ASSERT_NE(playing, nullptr);
+  const auto camera = Open(Options("aravis:Aravis-Fake-FILM", devices::PixelFormat::kGrey8,
+                                   film.camera.width, film.camera.height, 5.0));
+  ASSERT_NE(camera, nullptr);
+  ExpectRightPosesAndTheSameInReplay(camera.get(), film, film.pictures);
+}
+
+}  // namespace
+}  // namespace pleinair::vm
