@@ -201,6 +201,7 @@ class SceneRun {
       }
     }
     std::vector<shadows::FrameTime> medians;
+    medians.reserve(times.size());
     for (const auto& [maps, scene, cpu] : times) {
       medians.push_back({Median(maps), Median(scene), Median(cpu)});
     }
