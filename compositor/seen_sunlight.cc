@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/units.h"
 #include "compositor/light_samples.h"
 
 namespace pleinair::compositor {
@@ -15,6 +16,9 @@ constexpr int kWidest = 512;
 constexpr double kOutside = 0.01;
 // What the cells around one count in it, of a spot's weight; alone where it has none.
 constexpr double kNeighbours = 0.25;
+// The shadow of a tree's crown moves half a metre meanwhile, its gaps' own size, of leaves that are
+// ten metres off.
+constexpr double kFarthestSun = 3.0 * kRadiansPerDegree;
 
 double Quantile(std::vector<double> values, double q) {
   const auto at =
@@ -73,6 +77,10 @@ double SeenSunlight::At(Vec3 point) const {
          v * ((1 - u) * cell(left, top + 1) + u * cell(left + 1, top + 1));
 }
 
+bool SeenSunlight::HoldsFor(Vec3 direction) const {
+  return Dot(direction, to_sun) >= std::cos(kFarthestSun);
+}
+
 std::array<std::array<float, 4>, 2> SeenSunlight::TextureFromMarker() const {
   const auto row = [&](Vec3 across, double first, int cells) {
     const double scale = 1.0 / (cell_m * cells);
@@ -87,6 +95,7 @@ SeenSunlight MapSeenSunlight(Vec3 to_sun, std::span<const SunlitSpot> spots) {
   SeenSunlight map;
   if (spots.empty()) return map;
   const TangentFrame sun(Normalized(to_sun));
+  map.to_sun = sun.normal;
   map.across_x = sun.tangent;
   map.across_y = sun.bitangent;
   std::vector<double> xs, ys, footprints;
@@ -111,6 +120,10 @@ SeenSunlight MapSeenSunlight(Vec3 to_sun, std::span<const SunlitSpot> spots) {
     const std::size_t cell = level.At(static_cast<int>(x), static_cast<int>(y));
     level.sum[cell] += spots[i].share;
     level.weight[cell] += 1.0;
+  }
+  // A few spots may lie in opposite corners, outside the box of both directions' quantiles.
+  if (std::none_of(level.weight.begin(), level.weight.end(), [](double w) { return w > 0.0; })) {
+    return SeenSunlight{};
   }
   const std::vector<double> filled = FillGaps(level);
   map.share.assign(filled.begin(), filled.end());

@@ -12,6 +12,7 @@ namespace pleinair::compositor {
 /// rays: what a ray shows on the real surface at its end holds for whatever virtual thing it meets
 /// before. Marker coordinates, metres.
 struct SeenSunlight {
+  Vec3 to_sun;                      ///< Unit, of the sun whose rays these are.
   Vec3 across_x, across_y;          ///< Unit; with the sun's rays a right-handed frame.
   double first_x = 0, first_y = 0;  ///< Along these, of the first cell's middle.
   double cell_m = 0.0;
@@ -20,6 +21,9 @@ struct SeenSunlight {
 
   /// Between the cells' middles linear, beyond the border the border's; 1 of an empty map.
   double At(Vec3 point) const;
+  /// Whether a sun stands so near to the map's that its shadows still lie about where the map has
+  /// them. `direction` unit.
+  bool HoldsFor(Vec3 direction) const;
   /// The rows that give texture coordinates of (x, y, z, 1); not of an empty map.
   std::array<std::array<float, 4>, 2> TextureFromMarker() const;
 };
@@ -31,7 +35,8 @@ struct SunlitSpot {
   double footprint_m = 0.0;  ///< Edge of a pixel there.
 };
 
-/// The map that spots tell of; between them it is smooth. Empty without spots.
+/// The map that spots tell of; between them it is smooth. Empty without spots, and where the few
+/// that there are all lie beyond its border.
 SeenSunlight MapSeenSunlight(Vec3 to_sun, std::span<const SunlitSpot> spots);
 
 }  // namespace pleinair::compositor

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -214,7 +215,8 @@ TEST(LiveSession, SaysSoWhereTheCamerasSizeIsNotTheCalibrations) {
   EXPECT_THAT(drawn.error().what, testing::HasSubstr("160x120"));
 }
 
-TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
+/// A box on level ground.
+LiveLight::Setup BoxOnGround() {
   using compositor::testing::BoxModel;
   using compositor::testing::Ground;
   LiveLight::Setup setup;
@@ -229,6 +231,11 @@ TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
   setup.edit = UneditedScene(setup.scene, {});
   setup.skies.source = StatedSky(setup.scene);
   setup.time = *Options().start;
+  return setup;
+}
+
+TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
+  const LiveLight::Setup setup = BoxOnGround();
   SceneEdit edit = setup.edit;
   auto light = LiveLight::Create(setup);
   ASSERT_TRUE(light) << light.error().Message();
@@ -263,6 +270,37 @@ TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     EXPECT_EQ(meshes[i].ambient_with, in_use->meshes[i].ambient_with);
   }
+}
+
+TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
+  LiveLight::Setup setup = BoxOnGround();
+  const Vec3 to_sun =
+      MarkerFromWorld(setup.scene.marker) * SunOver(setup.scene.place_time, setup.time).ToSun().xyz;
+  const std::vector<compositor::SunlitSpot> spots{{{0, 0, 0}, 0.2, 0.01}};
+  setup.skies.sunlight =
+      std::make_shared<const compositor::SeenSunlight>(compositor::MapSeenSunlight(to_sun, spots));
+  auto light = LiveLight::Create(setup);
+  ASSERT_TRUE(light) << light.error().Message();
+  const auto has_map = [&](double later_s, double heading_deg) {
+    SceneEdit edit = setup.edit;
+    edit.later_s = later_s;
+    edit.heading_deg = heading_deg;
+    (*light)->SetEdit(edit);
+    for (int i = 0; i < 5000; ++i) {
+      const auto newest = (*light)->Take();
+      if (newest && newest->order.time == setup.time.PlusSeconds(later_s) &&
+          std::fabs(ToDegrees(newest->order.marker.heading) - heading_deg) < 1e-9) {
+        return newest->order.skies.sunlight != nullptr;
+      }
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    ADD_FAILURE() << "no light came";
+    return false;
+  };
+  EXPECT_TRUE(has_map(300, 0)) << "five minutes move the sun by little more than a degree";
+  EXPECT_FALSE(has_map(2 * 3600, 0));
+  EXPECT_TRUE(has_map(299, 0)) << "it is still there for the hour that it was made for";
+  EXPECT_FALSE(has_map(299, 30));
 }
 
 TEST(HandOver, ReplacesWaitsOrRefusesWhenItIsFull) {

@@ -232,6 +232,15 @@ TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
   EXPECT_GT(right, 0.95 * points);
 }
 
+TEST(SeenSunlight, IsEmptyWhereAFewSpotsLieInOppositeCorners) {
+  // Either direction's quantiles leave out one of them.
+  const SeenSunlight aim = MapSeenSunlight({0.3, 0.2, 1.0}, std::vector<SunlitSpot>{{{}, 1, 0.1}});
+  const std::vector<SunlitSpot> spots{{aim.across_y * 1.0, 0.3, 0.1}, {aim.across_x * 1.0, 1, 0.1}};
+  const SeenSunlight map = MapSeenSunlight({0.3, 0.2, 1.0}, spots);
+  EXPECT_TRUE(map.share.empty());
+  EXPECT_EQ(map.At({}), 1.0);
+}
+
 TEST_F(ShadowLight, TellsFromTheGroundHowMuchDarkerThanTheSunThePrintIs) {
   // The frames' gain is read from a print that has 0.7 of the open light.
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
