@@ -156,7 +156,7 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
       ->type_name("N,...");
   CLI::Option* scale =
       command->add_option("--scale", options->config.scale, "Times the frames of each level")
-          ->check(NumberRange(0.001, 1000.0))
+          ->check(NumberRange(kLeastScale, kMostScale))
           ->capture_default_str();
   command->add_flag("--quick", options->quick, "An eighth of the frames")->excludes(scale);
   command
@@ -168,7 +168,7 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
   command
       ->add_option("--spoil-corners-px", options->config.spoil_corners_px,
                    "Move each found corner by so much: a planted regression, to try the gate with")
-      ->check(NumberRange(0.0, 100.0));
+      ->check(NumberRange(0.0, kMostSpoil_px));
   command->add_option("--shard", options->shard, "Do the I-th of N parts only; merge them later")
       ->type_name("I/N");
   command->add_option("--threads", options->threads, "Default: as many as the machine has")

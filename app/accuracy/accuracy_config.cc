@@ -52,6 +52,18 @@ Result<AccuracyConfig> ParseConfig(const std::string& text, const std::string& f
       config.sweeps.begin(), config.sweeps.end(),
       [&](const std::string& sweep) { return is_among(sweep, accuracy::SweepNames()); });
   if (!has_sweeps || !is_among(config.camera, accuracy::SweepCameraNames())) return refusal;
+  if (config.scale < kLeastScale || config.scale > kMostScale) {
+    return InputError(
+        file,
+        fmt::format("its scale of {} is not from {} to {}", config.scale, kLeastScale, kMostScale),
+        "measure it again");
+  }
+  if (config.spoil_corners_px < 0.0 || config.spoil_corners_px > kMostSpoil_px) {
+    return InputError(file,
+                      fmt::format("its spoil_corners_px of {} is not from 0 to {}",
+                                  config.spoil_corners_px, kMostSpoil_px),
+                      "measure it again");
+  }
   return config;
 }
 

@@ -113,17 +113,23 @@ class FieldReader {
   const RecordJsonValue& json_;
 };
 
+/// JSON as one line without its end; bytes that are no UTF-8 become U+FFFD.
 inline std::string LineOf(const RecordJsonValue& json) {
   return json.dump(-1, ' ', false, RecordJsonValue::error_handler_t::replace);
 }
+
+/// Discarded where a text is no JSON, or nested deeper than anything that is kept of a run.
+RecordJsonValue ParseRecordJson(std::string_view text);
 
 /// What `tell(json, &record)` takes out of a text. Where that is no JSON, or lacks a field or has
 /// another kind of value in it, the error that `refusal` is.
 template <typename Record, typename Tell>
 Result<Record> ReadJson(std::string_view text, const tl::unexpected<Error>& refusal, Tell tell) {
+  const RecordJsonValue json = ParseRecordJson(text);
+  if (json.is_discarded()) return refusal;
   try {
     Record record;
-    tell(RecordJsonValue::parse(text), &record);
+    tell(json, &record);
     return record;
   } catch (const RecordJsonValue::exception&) {
     return refusal;

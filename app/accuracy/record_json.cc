@@ -1,5 +1,7 @@
 #include "app/accuracy/record_json.h"
 
+#include <utility>
+
 #include "app/accuracy/record_fields.h"
 
 namespace pleinair::app {
@@ -66,6 +68,20 @@ tl::unexpected<Error> NoRecord(const std::string& where) {
 }
 
 }  // namespace
+
+RecordJsonValue ParseRecordJson(std::string_view text) {
+  // nlohmann's copies and dump() call themselves for each level: a file must not choose how often.
+  constexpr int kMostLevels = 32;
+  bool too_deep = false;
+  RecordJsonValue json = RecordJsonValue::parse(
+      text,
+      [&too_deep](int depth, RecordJsonValue::parse_event_t, const RecordJsonValue&) {
+        too_deep |= depth > kMostLevels;
+        return !too_deep;
+      },
+      false);
+  return too_deep ? RecordJsonValue(RecordJsonValue::value_t::discarded) : std::move(json);
+}
 
 std::string RecordJson(const FrameRecord& record, bool with_times) {
   FieldWriter frame;

@@ -83,7 +83,7 @@ Result<RecordParts> RecordParts::Read(const fs::path& folder) {
     return InputError(run_file.string(), "there is no accuracy run",
                       "name a folder that 'pleinair accuracy -o' wrote");
   }
-  const Json json = Json::parse(*text, nullptr, false);
+  const Json json = ParseRecordJson(*text);
   const bool is_run = json.is_object() && json.contains("config") && json.contains("format") &&
                       json["format"] == kFormat && json.contains("chunks") &&
                       json["chunks"].is_number_integer() && json["chunks"] >= 0 &&
@@ -158,7 +158,7 @@ Result<std::optional<RecordPart>> RecordParts::Load(std::int64_t chunk) const {
   while (std::getline(lines, line)) {
     auto record = ParsePicture(line, FileOf(chunk).string());
     if (!record || !std::getline(lines, line)) return std::nullopt;
-    const Json jpegs = Json::parse(line, nullptr, false);
+    const Json jpegs = ParseRecordJson(line);
     const bool is_three = jpegs.is_array() && jpegs.size() == 3 && jpegs[0].is_string() &&
                           jpegs[1].is_string() && jpegs[2].is_string();
     if (!is_three) return std::nullopt;

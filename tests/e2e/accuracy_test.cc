@@ -80,8 +80,12 @@ TEST(Accuracy, RefusesDamagedRunsByTheirFile) {
   ASSERT_EQ(RunPleinair({"accuracy", "--sweep", "wild", "--scale", "0.01", "-o", folder / "run"})
                 .exit_code,
             0);
+  // So deep that a function that calls itself for each level runs out of stack.
+  constexpr std::size_t kLevels = 100'000;
+  const std::string deep = std::string(kLevels, '[') + std::string(kLevels, ']');
   struct Damage {
-    const char *file, *what, *by;
+    const char *file, *what;
+    std::string by;
     int exit_code;
     const char* message;
   };
@@ -91,6 +95,16 @@ TEST(Accuracy, RefusesDamagedRunsByTheirFile) {
            Damage{"run.json", "\"chunks\":1", "\"chunks\":2", 1, "1 of 2 parts are not there"},
            Damage{"run.json", "\"seed\":1", "\"seed\":\"x\"", 2, "run.json: does not hold the"},
            Damage{"run.json", "[\"wild\"]", "[\"mild\"]", 2, "run.json: does not hold the"},
+           Damage{"run.json", "\"scale\":0.01", "\"scale\":1e300", 2,
+                  "run.json: its scale of 1e+300"},
+           Damage{"run.json", "\"scale\":0.01", "\"scale\":0.0", 2, "run.json: its scale of 0 is"},
+           Damage{"run.json", "\"spoil_corners_px\":0.0", "\"spoil_corners_px\":101", 2,
+                  "run.json: its spoil_corners_px of 101"},
+           Damage{"run.json", "\"wild\"", deep, 2, "run.json: is no run"},
+           Damage{"parts/00000.jsonl", "\"scale\":0.01", "\"scale\":" + deep, 1, "are not there"},
+           Damage{"parts/00000.jsonl", "\"scale\":0.01", "\"scale\":0.02", 2,
+                  "another configuration"},
+           Damage{"parts/00000.jsonl", "\"hit\"", deep, 1, "are not there"},
            Damage{"parts/00000.jsonl", "\"records\":", "\"records\":\"\",\"r\":", 1,
                   "are not there"},
            Damage{"parts/00000.jsonl", "\"hit\"", "\"hot\"", 1, "are not there"},
@@ -102,9 +116,9 @@ TEST(Accuracy, RefusesDamagedRunsByTheirFile) {
     WriteFile(folder / "run" / damage.file,
               damaged.replace(at, std::string(damage.what).size(), damage.by));
     const RunResult run = RunPleinair({"report", "merge", folder / "run", "-o", folder / "merged"});
-    EXPECT_EQ(run.exit_code, damage.exit_code) << damage.by;
-    EXPECT_THAT(run.err, HasSubstr(damage.message)) << damage.by;
-    EXPECT_FALSE(fs::exists(folder / "merged/report.json")) << damage.by;
+    EXPECT_EQ(run.exit_code, damage.exit_code) << damage.message;
+    EXPECT_THAT(run.err, HasSubstr(damage.message)) << damage.message;
+    EXPECT_FALSE(fs::exists(folder / "merged/report.json")) << damage.message;
     WriteFile(folder / "run" / damage.file, whole);
   }
 }
