@@ -41,7 +41,7 @@ class FramePackWriter {
   bool failed_ = false;
   std::int64_t size_ = 0;
   std::int64_t frames_ = 0;
-  std::vector<std::uint8_t> header_;
+  std::string header_;
 };
 
 /// Whether a file begins as a frame pack does.

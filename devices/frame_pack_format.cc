@@ -2,20 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/little_endian.h"
+
 namespace pleinair::devices {
 namespace {
 
 using Json = nlohmann::json;
-
-void Put(std::uint64_t value, int bytes, std::uint8_t* to) {
-  for (int i = 0; i < bytes; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
-}
-
-std::uint64_t Get(const std::uint8_t* from, int bytes) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < bytes; ++i) value |= static_cast<std::uint64_t>(from[i]) << (8 * i);
-  return value;
-}
 
 constexpr std::string_view kMeanings[] = {"unknown", "exposure start", "exposure end", "arrival"};
 
@@ -33,22 +25,21 @@ std::optional<T> Optional(const Json& json, const char* key) {
 
 }  // namespace
 
-std::array<std::uint8_t, FrameRecordHead::kBytes> FrameRecordHead::Encode() const {
-  std::array<std::uint8_t, kBytes> bytes{};
-  kMagic.copy(reinterpret_cast<char*>(bytes.data()), kMagic.size());
-  Put(facts_bytes, 4, &bytes[4]);
-  Put(picture_bytes, 8, &bytes[8]);
-  Put(checksum, 4, &bytes[16]);
-  return bytes;
+void FrameRecordHead::Append(std::string* bytes) const {
+  *bytes += kMagic;
+  PutLittleEndian(facts_bytes, bytes);
+  PutLittleEndian(picture_bytes, bytes);
+  PutLittleEndian(checksum, bytes);
+  PutLittleEndian(std::uint32_t{0}, bytes);  // Unused.
 }
 
-std::optional<FrameRecordHead> FrameRecordHead::Decode(
-    const std::array<std::uint8_t, kBytes>& bytes) {
-  const std::string_view magic(reinterpret_cast<const char*>(bytes.data()), kMagic.size());
+std::optional<FrameRecordHead> FrameRecordHead::Decode(std::string_view bytes) {
+  LittleEndianReader reader(bytes);
+  const std::string_view magic = reader.Take(kMagic.size());
   FrameRecordHead head;
-  head.facts_bytes = static_cast<std::uint32_t>(Get(&bytes[4], 4));
-  head.picture_bytes = Get(&bytes[8], 8);
-  head.checksum = static_cast<std::uint32_t>(Get(&bytes[16], 4));
+  head.facts_bytes = reader.Get<std::uint32_t>();
+  head.picture_bytes = reader.Get<std::uint64_t>();
+  head.checksum = reader.Get<std::uint32_t>();
   if (magic != kMagic || head.facts_bytes > kMaxFacts || head.picture_bytes > kMaxPicture) {
     return std::nullopt;
   }

@@ -2,7 +2,7 @@
 
 // Internal: between the .cc files of this module; not installed.
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,9 +27,10 @@ struct FrameRecordHead {
   std::uint64_t picture_bytes = 0;
   std::uint32_t checksum = 0;
 
-  std::array<std::uint8_t, kBytes> Encode() const;
-  /// Nothing: these bytes begin no frame.
-  static std::optional<FrameRecordHead> Decode(const std::array<std::uint8_t, kBytes>& bytes);
+  /// Adds kBytes.
+  void Append(std::string* bytes) const;
+  /// Takes kBytes. Nothing: these bytes begin no frame.
+  static std::optional<FrameRecordHead> Decode(std::string_view bytes);
 };
 
 /// Everything of a frame but its pixels, as one line of JSON, and back. `layout` has no bytes.

@@ -1,6 +1,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -120,9 +121,9 @@ Result<OpenedFramePack> OpenFramePack(const fs::path& file, PictureSize size) {
   std::vector<Place> places;
   std::int64_t at = static_cast<std::int64_t>(kFramePackStart.size());
   while (true) {
-    std::array<std::uint8_t, FrameRecordHead::kBytes> bytes{};
+    std::array<char, FrameRecordHead::kBytes> bytes{};
     if (!ReadAt(stream, at, bytes.data(), bytes.size())) break;
-    const auto head = FrameRecordHead::Decode(bytes);
+    const auto head = FrameRecordHead::Decode({bytes.data(), bytes.size()});
     if (!head) break;
     const Place place{at, *head};
     if (place.bytes() > total - at) break;

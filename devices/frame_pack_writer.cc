@@ -88,9 +88,9 @@ Result<void> FramePackWriter::Add(const Frame& frame) {
   const std::string facts = FrameFactsJson(frame, layout);
   const FrameRecordHead head{static_cast<std::uint32_t>(facts.size()), picture_bytes,
                              Checksum(facts, picture, picture_bytes)};
-  const auto head_bytes = head.Encode();
-  header_.assign(head_bytes.begin(), head_bytes.end());
-  header_.insert(header_.end(), facts.begin(), facts.end());
+  header_.clear();
+  head.Append(&header_);
+  header_ += facts;
   int failed = WriteAll(fd_, header_.data(), header_.size());
   if (failed == 0) failed = WriteAll(fd_, picture, picture_bytes);
   if (failed != 0) return Fail(failed);
