@@ -1,10 +1,10 @@
 // Runs inside the VM, on the kernel's own drivers: docs/cameras.md lists the behaviours.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -74,16 +74,21 @@ INSTANTIATE_TEST_SUITE_P(Libcamera, Behaviour12, testing::Values("libcamera:0"))
 /// `pleinair` as a process of its own, what it prints in a file.
 class Command {
  public:
-  Command(const char* printed, std::vector<std::string> arguments) : pid_(fork()) {
-    if (pid_ != 0) return;
+  Command(const char* printed, std::vector<std::string> arguments) {
     const char* program = std::getenv("PLEINAIR");
-    if (program == nullptr || std::freopen(printed, "w", stdout) == nullptr) _exit(127);
+    const int output = open(printed, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (program == nullptr || output < 0) std::abort();  // As where the simulator is not there.
     arguments.insert(arguments.begin(), program);
     std::vector<char*> words;
     for (std::string& argument : arguments) words.push_back(argument.data());
     words.push_back(nullptr);
-    execv(words[0], words.data());
-    _exit(127);
+    pid_ = fork();
+    if (pid_ == 0) {
+      // Other threads may have held locks: only calls that are safe in handlers of signals.
+      if (dup2(output, STDOUT_FILENO) >= 0) execv(words[0], words.data());
+      _exit(127);
+    }
+    close(output);
   }
   ~Command() {
     if (pid_ > 0) kill(pid_, SIGKILL);
@@ -92,7 +97,9 @@ class Command {
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
 
-  void Terminate() const { kill(pid_, SIGTERM); }
+  void Terminate() const {
+    if (pid_ > 0) kill(pid_, SIGTERM);
+  }
   /// For its exit code; -1 where a signal ended it.
   int Wait() {
     int status = 0;
@@ -101,7 +108,7 @@ class Command {
   }
 
  private:
-  pid_t pid_;
+  pid_t pid_ = -1;
 };
 
 /// The camera's places in the marker's frame with its turn, by the time as it is written.

@@ -14,16 +14,16 @@ UvcSimulator::UvcSimulator(const std::vector<std::string>& arguments) {
   int to[2], from[2];
   if (program_name == nullptr || pipe2(to, O_CLOEXEC) != 0 || pipe2(from, O_CLOEXEC) != 0)
     std::abort();
+  std::vector<std::string> copies = arguments;
+  copies.insert(copies.begin(), program_name);
+  std::vector<char*> words;
+  for (std::string& copy : copies) words.push_back(copy.data());
+  words.push_back(nullptr);
   pid_ = fork();
   if (pid_ == 0) {
+    // Other threads may have held locks: only calls that are safe in handlers of signals.
     dup2(to[0], STDIN_FILENO);
     dup2(from[1], STDOUT_FILENO);
-    std::vector<char*> words;
-    std::string program = program_name;
-    words.push_back(program.data());
-    std::vector<std::string> copies = arguments;
-    for (std::string& copy : copies) words.push_back(copy.data());
-    words.push_back(nullptr);
     execv(words[0], words.data());
     _exit(127);
   }
