@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdint>
 #include <ctime>
-#include <utility>
 
 namespace pleinair::app {
 namespace {
@@ -53,9 +52,9 @@ InterruptGuard::~InterruptGuard() { Install(SIG_DFL); }
 
 bool InterruptGuard::Interrupted() { return signals != 0; }
 
-Result<void> CheckInterrupt(std::string work) {
+Result<void> CheckInterrupt(const std::string& work) {
   if (!InterruptGuard::Interrupted()) return {};
-  return SystemError(std::move(work), "interrupted", "nothing was written");
+  return SystemError(work, "interrupted", "nothing was written");
 }
 
 }  // namespace pleinair::app

@@ -20,6 +20,6 @@ class InterruptGuard {
 };
 
 /// Error where somebody asked to stop; `work` is what is worked on, of which nothing was written.
-Result<void> CheckInterrupt(std::string work);
+Result<void> CheckInterrupt(const std::string& work);
 
 }  // namespace pleinair::app

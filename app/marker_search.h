@@ -26,6 +26,7 @@ struct MarkerSearch {
   bool keep_messages = false;        ///< Also in memory.
 };
 
+/// What FindMarkers gives: the markers' poses and prints, and what went wrong on the way.
 struct FoundMarkers {
   Session session;
   FrameWarnings warnings{};                ///< The tracker's.

@@ -140,10 +140,10 @@ Result<ClosedFormErrors> MeasureClosedForms(const shadows::BenchScene& scene,
     result.rmse = std::sqrt(result.rmse / std::max(near, 1));
     const double width = (mean(highs) - mean(lows)) * step;
     result.width_ratio = width / (2.0 * SegmentInverse(0.9) * half);
-    result.offset_m = (mean(middles) + 0.5) * step - reach;
+    const double middle_row = mean(middles);
+    result.offset_m = (middle_row + 0.5) * step - reach;
     double squares = 0.0;
-    for (const double middle : middles)
-      squares += (middle - mean(middles)) * (middle - mean(middles));
+    for (const double middle : middles) squares += (middle - middle_row) * (middle - middle_row);
     result.jaggedness_m = std::sqrt(squares / kRows) * step;
     errors.edges.push_back(result);
     const double x = std::log(edge.middle.z), y = std::log(std::max(width, 1e-6));

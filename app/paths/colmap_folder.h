@@ -8,6 +8,7 @@
 
 namespace pleinair::app {
 
+/// In which of COLMAP's forms a model's files are: `.txt` or `.bin`.
 enum class ColmapForm { kText, kBinary };
 
 /// What a model's files are called, in the order they are written: images last, which makes it one.

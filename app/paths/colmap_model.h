@@ -17,6 +17,7 @@ struct ColmapFiles {
   std::string points3d;  ///< May be empty.
 };
 
+/// A picture of a model: an entry of its `images` file.
 struct ColmapPicture {
   std::string where;  ///< File and line or entry, for errors.
   std::string name;
