@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <vector>
+#include <string>
 
 #include "base/error.h"
 #include "devices/frame_source.h"

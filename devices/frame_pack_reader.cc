@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "devices/frame_pack.h"
 #include "devices/frame_pack_format.h"
