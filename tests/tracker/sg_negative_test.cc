@@ -208,5 +208,38 @@ TEST(SgDetection, GivesMirroredPrintsNoNumberFromAnywhere) {
   }
 }
 
+// Each pair differs in eight cells that have one colour on the first print and touch each other: as
+// the second print would look under one cover of ink or paper.
+TEST(SgNegative, TakesAPrintNotInUseForNoCoveredOneThatIsAndStillReadsThatOneCovered) {
+  struct {
+    int printed, in_use;
+  } constexpr kPairs[] = {{2986, 491}, {826, 861}, {2944, 4049}, {2758, 3542}};
+  const CameraModel camera = SgCamera();
+  std::uint32_t seed = 1;
+  for (const auto& [printed, in_use] : kPairs) {
+    SCOPED_TRACE(testing::Message() << printed << " printed, " << in_use << " in use");
+    const auto tracker =
+        MakeSgTracker(camera, {.strategy = SgStrategy::kFast, .numbers_in_use = {in_use}});
+    const RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0, .seed = seed};
+    for (const double side_px : {30.0, 60.0, 100.0}) {
+      const RenderedMarker other =
+          SgMarkerAt(camera, printed, {161, 118}, side_px, 0, 0, 25.0 * seed);
+      const auto none = Track(tracker.get(), RenderMarkers(camera, {other}, options));
+      EXPECT_TRUE(none.empty()) << Summary(none);
+    }
+
+    RenderedMarker barred =
+        SgMarkerAt(camera, in_use, {161, 118}, 90, 15, 40.0 * seed, 25.0 * seed);
+    barred.cover = [](Vec2 at) {
+      const Vec2 modules = ModulesOf(at);
+      return std::fabs(modules.x - 20) < 10 && std::fabs(modules.y - 16) < 4 ? 0.06 : -1.0;
+    };
+    const auto found = Track(tracker.get(), RenderMarkers(camera, {barred}, options));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, in_use);
+    ++seed;
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::tracker

@@ -64,6 +64,10 @@ constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare w
 constexpr int kFewestNumbers = 256;
 constexpr double kChequeredDoubt_bits = 6.0;
 constexpr GolayWord kAllCells = (1U << kGolayBits) - 1;
+/// Agreement of the cells with a number, in use or not, that is plainly the one printed: with one
+/// cell of 24 wrong it is 0.917, with two 0.833. One that differs from it in eight cells of one
+/// colour is then not taken for covered there, of which each number has five others on average.
+constexpr float kAnotherLiesOpen = 0.87F;
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.002;
@@ -76,6 +80,12 @@ constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
 double LastStepPx(double side_px) {
   constexpr double kSmall_px = 40.0, kLarge_px = 130.0;
   return side_px < kSmall_px ? 0.05 : side_px < kLarge_px ? 0.04 : 0.02;
+}
+
+double ChequeredDoubtBits(int number) {
+  const GolayWord print = PrintedWord(number);
+  const bool chequered = print == kGolayWhitening || (~print & kAllCells) == kGolayWhitening;
+  return chequered ? kChequeredDoubt_bits : 0.0;
 }
 
 /// How far apart two homographies put the corners of a print, in modules.
@@ -264,11 +274,15 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
 }
 
 double SgReader::ProofBits(const CellLikelihoods& likelihoods, int number) const {
-  const GolayWord print = PrintedWord(number);
-  const bool chequered = print == kGolayWhitening || (~print & kAllCells) == kGolayWhitening;
   return EvidenceBits(likelihoods, number) -
-         std::log2(std::max(kFewestNumbers, decoder_.NumbersInUse())) -
-         (chequered ? kChequeredDoubt_bits : 0.0);
+         std::log2(std::max(kFewestNumbers, decoder_.NumbersInUse())) - ChequeredDoubtBits(number);
+}
+
+std::optional<double> SgReader::ProofBitsUnderCover(const CellLikelihoods& likelihoods,
+                                                    int number) const {
+  const std::optional<double> bits = EvidenceBitsUnderCover(likelihoods, number);
+  if (!bits || any_number_.Decode(likelihoods).agreement > kAnotherLiesOpen) return std::nullopt;
+  return *bits - std::log2(decoder_.NumbersInUse()) - ChequeredDoubtBits(number);
 }
 
 bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
@@ -283,9 +297,9 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
         decoder_.NumbersInUse() <= kFewestNumbers) {
       // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
       // or paper lies on it.
-      if (const auto covered = EvidenceBitsUnderCover(likelihoods, decoding.number)) {
+      if (const auto covered = ProofBitsUnderCover(likelihoods, decoding.number)) {
         margin = decoding.margin;
-        bits = std::max(bits, *covered - std::log2(decoder_.NumbersInUse()));
+        bits = std::max(bits, *covered - doubt_bits);
       }
     }
     if (margin < kLeastMargin) return;

@@ -93,6 +93,9 @@ class SgReader {
   double FitBorderThroughNoise(int steps, BlockFitState* state);
   /// What cells tell for a number beyond picking it out of those in use.
   double ProofBits(const CellLikelihoods& likelihoods, int number) const;
+  /// The same where what is wrong may lie under one cover (EvidenceBitsUnderCover). Nothing where
+  /// the cells look like the print of another number, in use or not, that lies open.
+  std::optional<double> ProofBitsUnderCover(const CellLikelihoods& likelihoods, int number) const;
   /// Reads the cells of a print whose border was fitted last: number, margin and proof. False where
   /// they tell no number.
   bool ReadNumber(const BlockFitState& state, SgReading* reading);
@@ -108,6 +111,7 @@ class SgReader {
   ImageView<const std::uint8_t> grey_;
   PrintWindows windows_;
   SoftGolayDecoder decoder_;
+  SoftGolayDecoder any_number_;
   SeenWindow seen_;
   BlockFit fit_;
   SeenWindow other_seen_;  ///< Where a fit at another size waits.
