@@ -187,7 +187,9 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
       ->delimiter(',')
       ->type_name("NAME,...");
   CLI::Option* sizes =
-      command->add_option("--sizes", options->bench.resolutions, "Texels of a map's side")
+      command
+          ->add_option("--sizes", options->bench.resolutions,
+                       "Texels of a map's side; for ours a power of two")
           ->delimiter(',')
           ->check(CLI::IsMember({128, 256, 512, 768, 1024, 1280, 1536, 1792, 2048, 3072, 4096}))
           ->type_name("N,...");

@@ -29,7 +29,8 @@ struct ComposerOptions {
   double supersampling = 0.0;
   ShadowMethod shadow_method = ShadowMethod::kSunDisc;
   int shadow_partitions = 2;  ///< Partitions of the shadow maps, 1…4.
-  /// Texels a side of each partition's map, powers of two from 16 to 8192.
+  /// Texels a side of each partition's map, 16…8192; powers of two where the method has a pyramid
+  /// (shadows::MapContent::kDepthBounds).
   std::array<int, 4> shadow_sizes{2048, 2048, 1024, 1024};
   double shadow_split_weight = 0.5;  ///< λ of the paper's Eq. 11, for maps fitted to the view.
   /// Methods that blur moments: distance of the blocker at which the blur has the sun's width.

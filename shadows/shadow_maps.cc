@@ -35,18 +35,20 @@ glm::dmat4 ClipFromMarker(const LightAxes& axes, const LightWindow& window, doub
   return glm::transpose(rows);
 }
 
-Result<void> CheckOptions(const ShadowMapOptions& options) {
+}  // namespace
+
+Result<void> CheckShadowMapOptions(const ShadowMapOptions& options) {
   if (options.partitions < 1 || options.partitions > kMaxPartitions) {
     return InputError("shadows", std::to_string(options.partitions) + " partitions",
                       "choose 1 to 4");
   }
   for (int i = 0; i < options.partitions; ++i) {
     const int resolution = options.resolutions[i];
-    const bool halves = TraitsOf(options.method).content != MapContent::kDepthBounds ||
-                        std::has_single_bit(static_cast<unsigned>(resolution));
-    if (resolution < 16 || resolution > 8192 || !halves) {
+    const bool pyramid = TraitsOf(options.method).content == MapContent::kDepthBounds;
+    if (resolution < 16 || resolution > 8192 ||
+        (pyramid && !std::has_single_bit(static_cast<unsigned>(resolution)))) {
       return InputError("shadows", "a map of " + std::to_string(resolution) + " texels a side",
-                        "choose a power of two from 16 to 8192");
+                        pyramid ? "choose a power of two from 16 to 8192" : "choose 16 to 8192");
     }
   }
   if (!(options.split_weight >= 0.0 && options.split_weight <= 1.0)) {
@@ -59,6 +61,8 @@ Result<void> CheckOptions(const ShadowMapOptions& options) {
   }
   return {};
 }
+
+namespace {
 
 // Levels of the pyramid of a map: from a quarter of its size down to 2 texels, or to blocks of 256
 // texels, beyond which no penumbra reaches.
@@ -96,7 +100,7 @@ std::vector<std::string> ShadowMaps::ShaderDefines(const ShadowMapOptions& optio
 }
 
 Result<ShadowMaps> ShadowMaps::Create(const ShadowMapOptions& options) {
-  PLEINAIR_RETURN_IF_ERROR(CheckOptions(options));
+  PLEINAIR_RETURN_IF_ERROR(CheckShadowMapOptions(options));
   RegisterShaders();
   ShadowMaps maps;
   maps.options_ = options;

@@ -47,6 +47,10 @@ struct ShadowMapOptions {
   Radians sun_step = FromDegrees(0.02);
 };
 
+/// Errors (input): a number of partitions, a resolution, a λ or an angular radius out of the ranges
+/// above.
+Result<void> CheckShadowMapOptions(const ShadowMapOptions& options);
+
 /// The options with which a method is commonly used: its partitions, each of `resolution` texels a
 /// side or falling with distance.
 ShadowMapOptions CommonOptions(ShadowMethod method, int resolution);

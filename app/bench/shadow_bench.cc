@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "app/bench/recording_scene.h"
 #include "app/bench/shadow_truth.h"
 #include "gl/egl_context.h"
@@ -47,6 +49,22 @@ shadows::ShadowMapOptions MapOptions(shadows::ShadowMethod method, int resolutio
     options.resolutions.fill(options.partitions == 1 ? resolution * 5 / 4 : resolution * 5 / 8);
   }
   return options;
+}
+
+// Before the minutes of measuring: whether each method can have maps of each size.
+Result<void> CheckSizes(const std::vector<shadows::ShadowMethod>& methods,
+                        const ShadowBenchOptions& bench) {
+  for (const shadows::ShadowMethod method : methods) {
+    for (const int resolution : bench.resolutions) {
+      if (shadows::CheckShadowMapOptions(MapOptions(method, resolution, bench))) continue;
+      return InputError(
+          "--sizes",
+          fmt::format("'{}' cannot have maps of {} texels", shadows::TraitsOf(method).name,
+                      resolution),
+          "choose powers of two, or with --methods those without a pyramid of depths");
+    }
+  }
+  return {};
 }
 
 // The camera moved sideways so that what lies `depth_m` away moves by `pixels` in the picture.
@@ -319,13 +337,14 @@ class SceneRun {
 Result<ShadowBenchResult> RunShadowBench(const ShadowBenchOptions& options,
                                          const std::function<void()>& advance,
                                          const std::function<void(const ShadowBenchRow&)>& on_row) {
-  PLEINAIR_ASSIGN_OR_RETURN(const gl::EglContext context, gl::EglContext::Create());
-  ShadowBenchResult result;
-  result.renderer = context.info().renderer;
   std::vector<shadows::ShadowMethod> methods = options.methods;
   if (methods.empty()) {
     for (const auto& traits : shadows::ShadowMethods()) methods.push_back(traits.method);
   }
+  PLEINAIR_RETURN_IF_ERROR(CheckSizes(methods, options));
+  PLEINAIR_ASSIGN_OR_RETURN(const gl::EglContext context, gl::EglContext::Create());
+  ShadowBenchResult result;
+  result.renderer = context.info().renderer;
   const int middle = options.resolutions[options.resolutions.size() / 2];
   for (const std::string& name : options.scenes) {
     PLEINAIR_ASSIGN_OR_RETURN(BenchScene scene, MakeScene(name, options));

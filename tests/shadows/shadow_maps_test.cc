@@ -13,6 +13,7 @@ namespace pleinair::shadows {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class ShadowMapsTest : public ShadowScene {
  protected:
@@ -124,6 +125,10 @@ TEST_F(ShadowMapsTest, RefuseOptionsOutOfRange) {
   // Methods without a pyramid have nothing to halve.
   options_.method = ShadowMethod::kGaussian;
   EXPECT_TRUE(ShadowMaps::Create(options_).has_value());
+  options_.resolutions[1] = 9000;
+  const auto large = ShadowMaps::Create(options_);
+  ASSERT_FALSE(large.has_value());
+  EXPECT_THAT(large.error().Message(), Not(HasSubstr("power of two")));
 }
 
 TEST_F(ShadowMapsTest, RefuseASunWithoutDirection) {
