@@ -20,7 +20,7 @@ constexpr double kMostPlaneContrast = 0.6;
 double MeanLog(LinearRgb c) { return (std::log(c.r) + std::log(c.g) + std::log(c.b)) / 3; }
 
 /// Open light over that on a print that has the sky and a part of the sun, so much that the mean of
-/// the channels is `open_gain`: shade is not only darker but bluer.
+/// the channels is `open_gain`: shade is not only darker but bluer. 1 without a sun.
 LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
   double least = 0.0, most = 1.0;
   const auto shade = [&](double part) { return (sun + sky) / (sun * part + sky); };
@@ -89,18 +89,20 @@ FoundLight LightLook::Settle() const {
   found.heading = marker.heading;
   if (overrides_.sun_to_sky) return found;
   compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
-      *solver_, samples_, *day_, MarkerFromWorld(marker), reading.sky_scale);
+      *solver_, samples_, meter_, *day_, MarkerFromWorld(marker), reading.sky_scale);
   if (reading.sun == Sun::kHidden) {
     const auto overcast = OvercastSky();
-    const double contrast = compositor::FindPlaneContrast(
-        *solver_, samples_, *overcast->ForSun(sun_.ToSun(), sun_.distance_au),
-        MarkerFromWorld(marker));
-    light.sun_doubtful = shade.CastBySun() || contrast > kMostPlaneContrast;
-    if (!light.sun_doubtful) {
-      light.sun_source = MeasuredLight::Source::kMeasured;
-      found.skies.source = overcast;
-      return found;
-    }
+    const auto contrast = [&] {
+      return compositor::FindPlaneContrast(*solver_, samples_,
+                                           *overcast->ForSun(sun_.ToSun(), sun_.distance_au),
+                                           MarkerFromWorld(marker));
+    };
+    light.sun_doubtful = shade.CastBySun() || contrast() > kMostPlaneContrast;
+    // Where the sun stands is doubtful, too: what lies in its shade would be a guess.
+    if (light.sun_doubtful) return found;
+    light.sun_source = MeasuredLight::Source::kMeasured;
+    found.skies.source = overcast;
+    return found;
   }
   if (reading.sun == Sun::kShines) {
     light.sun_source = MeasuredLight::Source::kMeasured;
@@ -117,10 +119,10 @@ FoundLight LightLook::Settle() const {
   if (!shade.Matters()) return found;
   found.skies.sunlight =
       std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
-  if (2 * dappled_ > samples_.frames() || shade.open_gain > kSurelyShaded) {
-    const LinearRgb sky = day_->SkyHorizontalIrradiance() * reading.sky_scale;
-    const LinearRgb sun = day_->SunNormalIrradiance() * day_->ToSun().xyz.z;
-    found.skies.print_shade = PrintShade(shade.open_gain, sun, sky);
+  if (2 * dappled_ > samples_.frames() ||
+      (shade.open_gain > kSurelyShaded && shade.open_gain_agreed)) {
+    found.skies.print_shade =
+        PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
   }
   light.print_shade = std::exp(MeanLog(found.skies.print_shade));
   return found;

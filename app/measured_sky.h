@@ -39,7 +39,7 @@ struct MeasuredLight {
   int frames = 0;                  ///< Looked at.
   int edges = 0, edges_agreeing = 0;
   /// No shadow lies where phantoms would cast one, yet there are shadows: neither sun nor overcast
-  /// is concluded.
+  /// is concluded, nor what lies in shade.
   bool sun_doubtful = false;
   double shaded = 0.0;       ///< Share of what the phantoms leave in the sun that lies in shade.
   double print_shade = 1.0;  ///< Open sunlight over that on the print's brightest under leaves.

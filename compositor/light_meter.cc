@@ -107,6 +107,14 @@ LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     pairs_[i].irradiance = ambient[i] + sun * (cosine * pairs_[i].sun_visibility);
   }
+  in_sun_ = lit >= kMinimumPairs;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (in_sun_ && pairs_[i].sun_visibility < 0.5) continue;
+    places_.push_back(edges[i]);
+    light_on_print_ = light_on_print_ + pairs_[i].irradiance;
+  }
+  if (!places_.empty())
+    light_on_print_ = light_on_print_ * (1.0 / static_cast<double>(places_.size()));
   lit_share_ = pairs_.empty() ? 0.0 : static_cast<double>(lit) / static_cast<double>(pairs_.size());
 }
 

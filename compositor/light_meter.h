@@ -46,6 +46,14 @@ class LightMeter {
   std::optional<LightReading> Measure(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                                       const Transform<Camera, Marker>& camera_from_marker) const;
 
+  /// Where the pairs lie that count: those in the sun, where there are enough of them. At the edge
+  /// between white and black.
+  const std::vector<Point<Marker>>& places() const { return places_; }
+  /// Whether these lie in the sun.
+  bool in_sun() const { return in_sun_; }
+  /// Mean light predicted there: what readings are told in terms of. Black without places.
+  LinearRgb light_on_print() const { return light_on_print_; }
+
   static constexpr int kMinimumPairs = 12;
 
  private:
@@ -59,6 +67,9 @@ class LightMeter {
   CameraResponse response_;
   std::vector<Pair> pairs_;
   double lit_share_ = 0.0;
+  std::vector<Point<Marker>> places_;
+  bool in_sun_ = false;
+  LinearRgb light_on_print_;
 };
 
 }  // namespace pleinair::compositor

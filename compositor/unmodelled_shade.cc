@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "compositor/parallel_for.h"
+#include "compositor/scaled_daylight.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -123,14 +124,52 @@ bool ChangesColourAsShadowsDo(const Cell& cell, const TwoLevels& levels) {
 
 double MeanLog(LinearRgb c) { return (std::log(c.r) + std::log(c.g) + std::log(c.b)) / 3; }
 
-/// The light on surfaces in the open.
-struct OpenLight {
-  LinearRgb sun, sky;  ///< The sun's on a surface that faces it, the sky's on level ground.
-  Vec3 to_sun, up;     ///< Unit.
+/// The light on surfaces in the open sun, phantoms about them as they are.
+class OpenLight {
+ public:
+  OpenLight(const LightSolver& solver, const LightMeter& meter, const sky::SkyModel& day,
+            const Mat3& marker_from_world, LinearRgb sky_scale)
+      : solver_(solver),
+        day_(day, sky_scale, {1, 1, 1}),
+        marker_from_world_(marker_from_world),
+        to_sun_(Normalized(marker_from_world * day.ToSun().xyz)),
+        log_unit_(MeanLog(meter.light_on_print())),
+        sun_on_print_(meter.in_sun() ? SunOn({0, 0, 1}) : LinearRgb{}),
+        ambient_on_print_(Ambient(meter.places(), {0, 0, 1})) {}
 
-  LinearRgb On(Vec3 normal) const {
-    return sun * std::max(0.0, Dot(normal, to_sun)) + sky * (0.5 + 0.5 * Dot(normal, up));
+  Vec3 to_sun() const { return to_sun_; }
+  LinearRgb sky() const { return day_.SkyHorizontalIrradiance(); }
+  /// Mean logarithm of the light that the meter takes to be on the print, the samples' unit.
+  double log_unit() const { return log_unit_; }
+  LinearRgb sun_on_print() const { return sun_on_print_; }
+  LinearRgb ambient_on_print() const { return ambient_on_print_; }
+
+  LinearRgb SunOn(Vec3 normal) const {
+    return day_.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun_));
   }
+  /// Mean over places that face `normal`, of which a few are asked.
+  LinearRgb Ambient(const std::vector<Point<Marker>>& places, Vec3 normal) const {
+    constexpr std::size_t kProbes = 12;
+    constexpr std::uint32_t kPaths = 256;
+    std::vector<Point<Marker>> probes;
+    for (std::size_t i = 0; i < kProbes && !places.empty(); ++i) {
+      probes.push_back(places[(2 * i + 1) * places.size() / (2 * kProbes)]);
+    }
+    LinearRgb sum;
+    for (const LinearRgb& light :
+         solver_.AmbientPhantomsOnly(probes, normal, day_, marker_from_world_, kPaths)) {
+      sum = sum + light;
+    }
+    return sum * (1.0 / kProbes);
+  }
+
+ private:
+  const LightSolver& solver_;
+  ScaledDaylight day_;
+  Mat3 marker_from_world_;
+  Vec3 to_sun_;
+  double log_unit_;
+  LinearRgb sun_on_print_, ambient_on_print_;
 };
 
 /// A plane of one material, as far as the model has it in the sun.
@@ -142,44 +181,65 @@ struct OpenSurface {
 using OpenSurfaces = std::map<std::pair<int, Rgb>, OpenSurface>;
 
 constexpr std::size_t kFewestCells = 4;
+// Logarithmic: how near surfaces' gains must be to agree.
+constexpr double kAgreement = 0.26;
 
-/// The brightness of each surface in the open sun, and what gain of the camera they tell of beside
-/// `log_light_on_print`, the samples' unit: median over their cells, since colours are stated
-/// roughly and grass reflects less than its blades.
-double FindOpenLevels(const OpenLight& light, double log_light_on_print,
-                      const SurfaceSamples& samples, OpenSurfaces* surfaces) {
-  std::map<std::pair<int, Rgb>, LinearRgb> albedos;
-  for (const SurfaceSample& spot : samples.samples()) {
-    albedos.try_emplace({spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}}, spot.albedo);
+/// The brightness of each surface in the open sun, and what gain of the camera they tell of:
+/// median over their cells, since colours are stated roughly and grass reflects less than its
+/// blades. Gives its logarithm.
+double FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,
+                      const SurfaceSamples& samples, OpenSurfaces* surfaces, bool* agreed) {
+  struct Places {
+    LinearRgb albedo;
+    std::vector<Point<Marker>> lit;
+  };
+  std::map<std::pair<int, Rgb>, Places> places;
+  for (std::size_t i = 0; i < samples.samples().size(); ++i) {
+    if (reached[i] == 0) continue;
+    const SurfaceSample& spot = samples.samples()[i];
+    Places& of = places[{spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}}];
+    of.albedo = spot.albedo;
+    of.lit.push_back(spot.point);
   }
+  const LinearRgb on_print = light.sun_on_print() + light.ambient_on_print();
   std::vector<double> gains;
+  std::map<Rgb, std::vector<double>> by_colour;
   for (auto& [key, surface] : *surfaces) {
     const double shade = Quantile(surface.medians, kSunlitQuantile) - kShadeDepth * surface.depth;
     std::vector<double> open;
     std::copy_if(surface.medians.begin(), surface.medians.end(), std::back_inserter(open),
                  [&](double value) { return value >= shade; });
     surface.level = Quantile(open, 0.5);
-    const LinearRgb albedo = albedos.at(key);
+    const auto& [albedo, lit] = places.at(key);
     if (open.size() < kFewestCells || std::min({albedo.r, albedo.g, albedo.b}) <= 0.0) continue;
-    const auto& [x, y, z] = key.second;
-    const double predicted = log_light_on_print - std::log(std::numbers::pi) +
-                             MeanLog(light.On({x, y, z}) / light.On({0, 0, 1}) * albedo);
+    const Vec3 normal{key.second[0], key.second[1], key.second[2]};
+    const LinearRgb on_surface = light.SunOn(normal) + light.Ambient(lit, normal);
+    const double predicted =
+        light.log_unit() + MeanLog(on_surface / on_print * albedo * (1 / std::numbers::pi));
     gains.insert(gains.end(), open.size(), surface.level - predicted);
+    by_colour[{albedo.r, albedo.g, albedo.b}].push_back(surface.level - predicted);
   }
-  return gains.empty() ? 0.0 : Quantile(gains, 0.5);
+  if (gains.empty()) return 0.0;
+  const double gain = Quantile(gains, 0.5);
+  *agreed = std::count_if(by_colour.begin(), by_colour.end(), [&](const auto& colour) {
+              return std::fabs(Quantile(colour.second, 0.5) - gain) < kAgreement;
+            }) > 1;
+  return gain;
 }
 
 /// How much of the sun is on every spot that the model has in the sun.
-void MapSunlight(const OpenLight& light, double log_light_on_print,
-                 const std::vector<std::uint8_t>& reached, const SurfaceSamples& samples,
-                 OpenSurfaces* surfaces, UnmodelledShade* shade) {
-  const double log_gain = FindOpenLevels(light, log_light_on_print, samples, surfaces);
+void MapSunlight(const OpenLight& light, const std::vector<std::uint8_t>& reached,
+                 const SurfaceSamples& samples, OpenSurfaces* surfaces, UnmodelledShade* shade) {
+  const double log_gain =
+      FindOpenLevels(light, reached, samples, surfaces, &shade->open_gain_agreed);
   shade->open_gain = std::exp(log_gain);
+  shade->sun_on_print = light.sun_on_print();
+  shade->ambient_on_print = light.ambient_on_print();
   std::vector<SunlitSpot> spots;
   for (std::size_t i = 0; i < samples.samples().size(); ++i) {
     const SurfaceSample& spot = samples.samples()[i];
-    if (reached[i] == 0 || Dot(spot.normal, light.to_sun) < kGrazing) continue;
-    double level = std::max(0.0, log_gain) + log_light_on_print +
+    if (reached[i] == 0 || Dot(spot.normal, light.to_sun()) < kGrazing) continue;
+    double level = std::max(0.0, log_gain) + light.log_unit() +
                    std::log(spot.albedo.g / std::numbers::pi);  // Of the print's white.
     if (spot.surface >= 0) {
       const auto found =
@@ -188,13 +248,13 @@ void MapSunlight(const OpenLight& light, double log_light_on_print,
       level = found->second.level;
     }
     const double brightness = (spot.log_rgb[0] + spot.log_rgb[1] + spot.log_rgb[2]) / 3;
-    const LinearRgb sun = light.sun * Dot(spot.normal, light.to_sun);
-    const double ambient_share = light.sky.g / (light.sky.g + sun.g);
+    const LinearRgb sun = light.SunOn(spot.normal), sky = light.sky();
+    const double ambient_share = sky.g / (sky.g + sun.g);
     const double share = (std::exp(brightness - level) - ambient_share) / (1 - ambient_share);
     const double t = std::clamp((share - kNoSun) / (kAllSun - kNoSun), 0.0, 1.0);
     spots.push_back({spot.point.xyz, t * t * (3 - 2 * t), spot.footprint_m});
   }
-  shade->sunlight = MapSeenSunlight(light.to_sun, spots);
+  shade->sunlight = MapSeenSunlight(light.to_sun(), spots);
 }
 
 /// Whether a shadow's edge divides it: two sharp levels, or two on a side each.
@@ -213,15 +273,13 @@ bool IsCrossed(const Cell& cell) {
 }  // namespace
 
 UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamples& samples,
-                                    const sky::SkyModel& day, const Mat3& marker_from_world,
-                                    LinearRgb sky_scale) {
+                                    const LightMeter& meter, const sky::SkyModel& day,
+                                    const Mat3& marker_from_world, LinearRgb sky_scale) {
   UnmodelledShade shade;
   const Vec3 to_sun = Normalized(marker_from_world * day.ToSun().xyz);
   const LinearRgb sun = day.SunNormalIrradiance();
   const LinearRgb sky = day.SkyHorizontalIrradiance() * sky_scale;
   if (day.ToSun().xyz.z <= 0.0 || Luminance(sun) <= 0.0 || Luminance(sky) <= 0.0) return shade;
-  // As the light meter has it, by which the samples' unit is set.
-  const LinearRgb light_on_print = day.SkyHorizontalIrradiance() + sun * std::max(0.0, to_sun.z);
   const auto& all = samples.samples();
   std::vector<std::uint8_t> reached(all.size());
   ParallelFor(all.size(), 0, [&](std::size_t i) {
@@ -269,9 +327,9 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   if (shade.places > 0) shade.edges = static_cast<double>(edges) / shade.places;
   if (shade.sunlit > 0) shade.shaded = static_cast<double>(shaded) / shade.sunlit;
   shade.crossed = edges;
-  if (shade.Matters()) {
-    MapSunlight({sun, sky, to_sun, marker_from_world * Vec3{0, 0, 1}}, MeanLog(light_on_print),
-                reached, samples, &sunlit, &shade);
+  if (shade.Matters() && !meter.places().empty()) {
+    MapSunlight({solver, meter, day, marker_from_world, sky_scale}, reached, samples, &sunlit,
+                &shade);
   }
   return shade;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/vector.h"
+#include "compositor/light_meter.h"
 #include "compositor/light_solver.h"
 #include "compositor/seen_sunlight.h"
 #include "compositor/surface_samples.h"
@@ -19,6 +20,10 @@ struct UnmodelledShade {
   /// Gain of the camera that phantoms' places in the open sun tell of, over that of the frames:
   /// above 1 where the print, or the brightest of it, has less than the open sun.
   double open_gain = 1.0;
+  /// Whether surfaces of two stated colours at least tell nearly that: one colour may be wrong.
+  bool open_gain_agreed = false;
+  /// Where Matters(): the sun's light on the print in the open and all other, as phantoms leave it.
+  LinearRgb sun_on_print, ambient_on_print;
   SeenSunlight sunlight;  ///< Where Matters().
 
   /// Whether the edges are more than chance and things that no phantom stands for bring about: a
@@ -29,9 +34,10 @@ struct UnmodelledShade {
 };
 
 /// Looks for shadows of about the depth that `daylight` gives them where the sky is `sky_scale`
-/// times as strong beside its sun; `marker_from_world` with the heading in use.
+/// times as strong beside its sun; `marker_from_world` with the heading in use. `meter`: by which
+/// the samples' gains were read.
 UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamples& samples,
-                                    const sky::SkyModel& daylight, const Mat3& marker_from_world,
-                                    LinearRgb sky_scale);
+                                    const LightMeter& meter, const sky::SkyModel& daylight,
+                                    const Mat3& marker_from_world, LinearRgb sky_scale);
 
 }  // namespace pleinair::compositor

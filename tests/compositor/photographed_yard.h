@@ -20,15 +20,19 @@ namespace pleinair::compositor::testing {
 /// light: sky, light among surfaces and the sun's disc, through an 8-bit camera.
 class PhotographedYard {
  public:
-  PhotographedYard()
-      : solver_(*LightSolver::Create(
+  /// `to_sun`: in marker coordinates.
+  explicit PhotographedYard(Vec3 to_sun = {-0.55, -0.6, 0.62}, LinearRgb sky = {3000, 4200, 6500},
+                            const Mat3& marker_from_world = {})
+      : marker_from_world_(marker_from_world),
+        model_(sky, {62e3, 55e3, 44e3}, marker_from_world.Transposed() * to_sun),
+        solver_(*LightSolver::Create(
             {Phantom(Ground(5.0, {0.35F, 0.33F, 0.30F})),
              Phantom(BoxModel({-3.0, 1.2, 0.0}, {3.0, 1.4, 1.2}, {0.35F, 0.20F, 0.15F})),
              Phantom(BoxModel({0.9, -0.9, 0.0}, {0.98, -0.82, 2.2}, {0.25F, 0.25F, 0.25F})),
              Phantom(BoxModel({-1.4, 0.3, 0.0}, {-0.5, 0.8, 0.3}, {0.4F, 0.4F, 0.38F}))},
             {.rays_per_vertex = 128, .near_edge_m = 0.1})),
-        sky_(solver_->Solve(ScaledDaylight(model_, {1, 1, 1}, {}), Mat3{})),
-        sun_(solver_->Solve(ScaledDaylight(model_, {}, {1, 1, 1}), Mat3{})) {
+        sky_(solver_->Solve(ScaledDaylight(model_, {1, 1, 1}, {}), marker_from_world)),
+        sun_(solver_->Solve(ScaledDaylight(model_, {}, {1, 1, 1}), marker_from_world)) {
     for (std::size_t m = 0; m < sky_.size(); ++m) {
       for (std::size_t i = 0; i < sky_[m].positions.size(); ++i) {
         const auto& p = sky_[m].positions[i];
@@ -39,6 +43,8 @@ class PhotographedYard {
 
   /// What is known of the day: the model that readings are told in terms of.
   const sky::SkyModel& model() const { return model_; }
+  const Mat3& marker_from_world() const { return marker_from_world_; }
+  Vec3 ToSun() const { return marker_from_world_ * model_.ToSun().xyz; }
   const LightSolver& solver() const { return *solver_; }
   const CameraModel& camera() const { return camera_; }
   const MarkerPrint& print() const { return print_; }
@@ -63,7 +69,7 @@ class PhotographedYard {
 
   RgbImage Photograph(int picture, const Light& light) const {
     const auto marker_from_camera = Pose(picture).Inverse();
-    const TangentFrame sun(model_.ToSun().xyz);
+    const TangentFrame sun(ToSun());
     RgbImage image(camera_.width, camera_.height, 3);
     for (int y = 0; y < camera_.height; ++y) {
       for (int x = 0; x < camera_.width; ++x) {
@@ -143,7 +149,8 @@ class PhotographedYard {
     return ambient + model_.SunNormalIrradiance() * (light.sun_scale * cosine * reached / kRays);
   }
 
-  UniformDay model_{{3000, 4200, 6500}, {62e3, 55e3, 44e3}, {-0.55, -0.6, 0.62}};
+  Mat3 marker_from_world_;
+  UniformDay model_;
   std::unique_ptr<LightSolver> solver_;
   std::vector<LitMesh> sky_, sun_;
   std::map<std::array<int, 3>, std::vector<std::pair<std::size_t, std::size_t>>> vertices_;

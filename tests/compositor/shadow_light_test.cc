@@ -119,9 +119,11 @@ TEST_F(ShadowLight, BelievesTheStatedHeadingUnderAnOvercastSky) {
   EXPECT_FALSE(ReadHeading(yard_->solver(), samples, kUp, yard_->model().ToSun().xyz));
 }
 
+constexpr MarkerPrint kPrint{.size_m = 0.2, .board_size_m = 0.25, .black_band_m = 0.02};
 UnmodelledShade Shade(const SurfaceSamples& samples, const sky::SkyModel& model,
                       const LightSolver& solver) {
-  return FindUnmodelledShade(solver, samples, model, Mat3{}, {1, 1, 1});
+  const LightMeter meter(kPrint, solver, model, Mat3{});
+  return FindUnmodelledShade(solver, samples, meter, model, Mat3{}, {1, 1, 1});
 }
 
 TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereATreeShadesAllThePhantomsEdges) {
@@ -174,17 +176,24 @@ TEST_F(ShadowLight, DoesNotDoubtAnOvercastSkyOverPatternedPaving) {
   }
 }
 
-TEST_F(ShadowLight, TellsASunFromAnOvercastSkyByHowPlanesOfOneMaterialDiffer) {
-  // No matter where shadows fall: the overcast sky's model has no sun.
-  const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard_->model().ToSun().xyz);
-  const auto contrast = [&](const PhotographedYard::Light& light) {
-    return FindPlaneContrast(yard_->solver(), Look(light), overcast, Mat3{});
+TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
+  const auto contrast = [](const PhotographedYard& yard, const PhotographedYard::Light& light) {
+    SurfaceSamples samples(yard.solver(), yard.camera(), yard.print());
+    for (const int i : {0, 1}) {
+      samples.AddFrame(yard.Photograph(i, light).view(), PhotographedYard::Pose(i), {1, 1, 1});
+    }
+    // The overcast sky's model has no sun.
+    const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
+    return FindPlaneContrast(yard.solver(), samples, overcast, Mat3{});
   };
-  const double veiled = contrast({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  const double veiled = contrast(*yard_, {.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled, 0.3);
-  // The sun stands so that it lights tops and the sides in view nearly alike.
-  EXPECT_GT(contrast({}), 0.45);
-  EXPECT_GT(contrast({}), veiled + 0.25);
+  // This sun lights tops and the sides in view nearly alike: more than none does, too little to
+  // doubt an overcast sky (app/light_look.cc: 0.6).
+  EXPECT_GT(contrast(*yard_, {}), veiled + 0.2);
+  EXPECT_LT(contrast(*yard_, {}), 0.6);
+  // High over the yard, or behind what is in view, it is told.
+  EXPECT_GT(contrast(PhotographedYard({-0.2, 0.3, 0.9}), {}), 0.6);
 }
 
 TEST_F(ShadowLight, TellsHowMuchLiesInTheShadeOfTrees) {
@@ -245,14 +254,41 @@ TEST_F(ShadowLight, TellsFromTheGroundHowMuchDarkerThanTheSunThePrintIs) {
   // The frames' gain is read from a print that has 0.7 of the open light.
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
   SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print());
-  constexpr double kPrint = 0.7;
-  const double gain = kPrint * PhotographedYard::kGain;
+  constexpr double kOnPrint = 0.7;
+  const double gain = kOnPrint * PhotographedYard::kGain;
   for (const int i : {0, 1}) {
     samples.AddFrame(yard_->Photograph(i, {.shaded = tree}).view(), PhotographedYard::Pose(i),
                      {gain, gain, gain});
   }
   const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
-  EXPECT_NEAR(shade.open_gain * kPrint, 1.0, 0.12);  // The stated colours are not the paving's own.
+  // The stated colours are not the paving's own.
+  EXPECT_NEAR(shade.open_gain * kOnPrint, 1.0, 0.12);
+  EXPECT_NEAR(shade.sun_on_print.g, yard_->model().SunNormalIrradiance().g * yard_->ToSun().z, 1.0);
+}
+
+TEST(UnmodelledShade, TellsHowMuchDarkerThanTheSunAPrintOnAWallIs) {
+  // The paving is a wall, what stands on it an awning; under a sky as bright as the sun's light,
+  // of which a wall sees half.
+  const Mat3 on_wall{{1, 0, 0, 0, 0, 1, 0, -1, 0}};
+  const PhotographedYard yard({-0.5, 0.6, 0.62}, {10e3, 12e3, 14e3}, on_wall);
+  const LightMeter meter(yard.print(), yard.solver(), yard.model(), on_wall);
+  ASSERT_TRUE(meter.in_sun());
+  SurfaceSamples samples(yard.solver(), yard.camera(), yard.print());
+  constexpr double kOnPrint = 0.7;
+  const double gain = kOnPrint * PhotographedYard::kGain;
+  const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
+  for (const int i : {0, 1}) {
+    samples.AddFrame(yard.Photograph(i, {.shaded = tree}).view(), PhotographedYard::Pose(i),
+                     {gain, gain, gain});
+  }
+  const UnmodelledShade shade =
+      FindUnmodelledShade(yard.solver(), samples, meter, yard.model(), on_wall, {1, 1, 1});
+  ASSERT_TRUE(shade.Matters());
+  EXPECT_NEAR(shade.open_gain * kOnPrint, 1.0, 0.12);
+  const LinearRgb level = yard.model().SkyHorizontalIrradiance();
+  EXPECT_LT(shade.ambient_on_print.g, 0.8 * level.g)
+      << "half the sky, and what the land sends back";
+  EXPECT_GT(shade.ambient_on_print.g, 0.4 * level.g);
 }
 
 }  // namespace
