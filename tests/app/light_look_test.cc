@@ -1,0 +1,58 @@
+// What is concluded from frames, and what is not.
+#include "app/light_look.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "tests/compositor/photographed_yard.h"
+
+namespace pleinair::app {
+namespace {
+
+using compositor::testing::PhotographedYard;
+
+/// What a sunny yard tells where the scene has the sun `off_deg` beside its place.
+FoundLight Settle(double off_deg, const PhotographedYard::Light& light) {
+  static const PhotographedYard yard;
+  devices::SceneDescription scene;
+  scene.place_time.latitude_deg = 50.0;
+  scene.cloudiness = devices::Cloudiness::kClear;
+  const UtcTime time = *UtcTime::Parse("2025-09-14T13:50:00Z");
+  // The yard's sun stands as high as this one, about; the heading puts it where it stands.
+  const Vec3 sun = SunOver(scene.place_time, time).ToSun().xyz, seen = yard.ToSun();
+  EXPECT_NEAR(sun.z, seen.z, 0.05);
+  scene.marker.heading =
+      Radians(std::atan2(seen.y, seen.x) - std::atan2(sun.y, sun.x)) + FromDegrees(off_deg);
+  const std::shared_ptr<const compositor::LightSolver> solver(&yard.solver(), [](const auto*) {});
+  LightLook look(solver, yard.camera(), yard.print(), scene, {}, time, {});
+  for (const int i : {0, 1}) look.Add(yard.Photograph(i, light).view(), PhotographedYard::Pose(i));
+  return look.Settle();
+}
+
+TEST(LightLook, SeesThatTheSunShines) {
+  const FoundLight found = Settle(0.0, {});
+  EXPECT_FALSE(found.measured.sun_doubtful);
+  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kMeasured);
+  EXPECT_GT(found.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
+  EXPECT_EQ(found.skies.print_shade, (LinearRgb{1, 1, 1}));
+}
+
+TEST(LightLook, SeesThatNoSunShines) {
+  const FoundLight found = Settle(0.0, {.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  EXPECT_FALSE(found.measured.sun_doubtful);
+  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kMeasured);
+  EXPECT_EQ(found.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
+}
+
+TEST(LightLook, BelievesTheWordsAloneWhereTheSunStandsElsewhere) {
+  const FoundLight found = Settle(60.0, {});
+  EXPECT_TRUE(found.measured.sun_doubtful);
+  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kStated);
+  EXPECT_EQ(found.skies.source, nullptr);
+  EXPECT_EQ(found.skies.sunlight, nullptr) << "the phantoms' own shadows would be leaves'";
+}
+
+}  // namespace
+}  // namespace pleinair::app
