@@ -39,6 +39,7 @@ Result<void> TakeTracked(const MarkerSearch& search, const std::vector<TrackedFr
                          PrintMeasurer& measurer, DetectionsWriter& detections, StageTimes* times,
                          FoundMarkers* found) {
   std::vector<PrintMeasurer::Seen> seen;
+  seen.reserve(tracked.size());
   for (const TrackedFrame& frame : tracked) {
     seen.push_back({frame.frame.grey.view(), frame.sightings});
   }
