@@ -133,17 +133,18 @@ TEST(SgOcclusion, FindsBordersUnderCoversThatLookLikeInkOrPaper) {
     const char* name;
     Cover cover;
     double light;
+    double most_rms_px;  // Beneath ink the border goes on where it is none, and the fit with it.
   } const covers[] = {
       {"a cross is seen",
        [](Vec2 p) {
          const bool corner = Inwards(p.x) < 16 && Inwards(p.y) < 16;
          return corner && (Inwards(p.x) < 10 || Inwards(p.y) < 10);
        },
-       0.06},
-      {"bars of paper along two sides", [](Vec2 p) { return p.y < 9.5 || p.y > 30.5; }, 0.75},
+       0.06, 8.0},
+      {"bars of paper along two sides", [](Vec2 p) { return p.y < 9.5 || p.y > 30.5; }, 0.75, 0.3},
   };
   std::uint32_t seed = 1;
-  for (const auto& [name, cover, light] : covers) {
+  for (const auto& [name, cover, light, most_rms_px] : covers) {
     for (const int number : {169, 2032, 3814}) {
       SCOPED_TRACE(testing::Message() << name << ", " << number);
       ASSERT_GT(BorderShare(cover), 0.4);
@@ -154,7 +155,7 @@ TEST(SgOcclusion, FindsBordersUnderCoversThatLookLikeInkOrPaper) {
           RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
       ASSERT_EQ(found.size(), 1U);
       EXPECT_EQ(found[0].detection.id, number);
-      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 2.5);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), most_rms_px);
     }
   }
 }
