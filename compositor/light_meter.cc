@@ -176,6 +176,7 @@ std::optional<LightReading> LightMeter::Measure(
   if (lit >= kMinimumPairs) {
     std::erase_if(samples, [](const Sample& sample) { return !sample.in_sun; });
     std::vector<double> levels;
+    levels.reserve(samples.size());
     for (const Sample& sample : samples) levels.push_back(sample.level);
     if (const auto threshold = ShadowThreshold(levels)) {
       std::erase_if(samples, [&](const Sample& sample) { return sample.level < *threshold; });
