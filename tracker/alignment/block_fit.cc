@@ -90,7 +90,7 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
     BlockLight& light = sums_->lights[k];
     block = PrintBlock{};
     light = BlockLight{};
-    block.pixels = static_cast<int>(sum.pixels + 0.5);
+    block.pixels = static_cast<int>(std::lround(sum.pixels));
     if (block.pixels < kLeastBlockPixels || !(sum.w > 0.0)) continue;
     const double p = sum.wp / sum.w, i = sum.wi / sum.w;
     const double vp = sum.wpp / sum.w - p * p, vi = sum.wii / sum.w - i * i;
