@@ -17,8 +17,6 @@ constexpr double kSurelyShaded = 1.5;
 // Logarithmic, between planes of one material: what an overcast sky may leave unexplained.
 constexpr double kMostPlaneContrast = 0.6;
 
-double MeanLog(LinearRgb c) { return (std::log(c.r) + std::log(c.g) + std::log(c.b)) / 3; }
-
 /// Open light over that on a print that has the sky and a part of the sun, so much that the mean of
 /// the channels is `open_gain`: shade is not only darker but bluer. 1 without a sun.
 LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {

@@ -68,4 +68,7 @@ struct LinearRgb {
 /// Relative luminance of linear Rec.709 primaries (IEC 61966-2-1: Y row of the RGB→XYZ matrix).
 constexpr double Luminance(LinearRgb c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
+/// Mean of the channels' natural logarithms: how bright on a scale of ratios. All above 0.
+inline double MeanLog(LinearRgb c) { return (std::log(c.r) + std::log(c.g) + std::log(c.b)) / 3; }
+
 }  // namespace pleinair

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "compositor/linear_sample.h"
+#include "compositor/quantile.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -26,12 +27,6 @@ constexpr double kSmallestBandPx = 3.0;
 using Rgb = std::array<double, 3>;
 
 double Sum(const Rgb& value) { return value[0] + value[1] + value[2]; }
-
-double Quantile(std::vector<double> values, double q) {
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(q * (values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
 
 /// Where values fall apart into a darker and a brighter group that a shadow's edge would explain,
 /// the value between them; otherwise nothing. Two-means on logarithms.

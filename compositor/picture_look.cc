@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "compositor/quantile.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -36,12 +37,6 @@ constexpr int kDarkestGrey = 25, kBrightestGrey = 235;
 
 double Gauss(double t) { return std::exp(-t * t / 2) / std::sqrt(2 * std::numbers::pi); }
 double GaussIntegral(double t) { return 0.5 * std::erfc(-t / std::numbers::sqrt2); }
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A pixel near an edge: distance across it, towards the white, and brightness.
 struct EdgePixel {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "compositor/quantile.h"
+
 namespace pleinair::compositor {
 namespace {
 
@@ -19,12 +21,6 @@ constexpr std::size_t kFewestSpots = 40;
 // Where the model is asked, spread over the spots of a plane.
 constexpr std::size_t kProbes = 12;
 constexpr std::uint32_t kPaths = 128;
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

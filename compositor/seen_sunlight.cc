@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "compositor/light_samples.h"
+#include "compositor/quantile.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -19,13 +20,6 @@ constexpr double kNeighbours = 0.25;
 // The shadow of a tree's crown moves half a metre meanwhile, its gaps' own size, of leaves that are
 // ten metres off.
 constexpr double kFarthestSun = 3.0 * kRadiansPerDegree;
-
-double Quantile(std::vector<double> values, double q) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Sums and weights of cells.
 struct Level {

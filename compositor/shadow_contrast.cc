@@ -9,6 +9,7 @@
 
 #include "compositor/light_samples.h"
 #include "compositor/parallel_for.h"
+#include "compositor/quantile.h"
 #include "compositor/scaled_daylight.h"
 
 namespace pleinair::compositor {
@@ -57,12 +58,6 @@ Side SideOf(const LightSolver& solver, const SurfaceSample& sample, const Tangen
     if (solver.ReachesPhantomsOnly(beside, sun.normal) != lit) return Side::kNeither;
   }
   return lit ? Side::kLit : Side::kShaded;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Median over spots and the variance of that median; a channel, or (−1) the channels' mean.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "compositor/parallel_for.h"
+#include "compositor/quantile.h"
 #include "compositor/scaled_daylight.h"
 
 namespace pleinair::compositor {
@@ -37,13 +38,6 @@ constexpr double kShadeDepth = 0.5, kSunlitQuantile = 0.8;
 constexpr double kNoSun = 0.1, kAllSun = 0.9;
 
 using Rgb = std::array<double, 3>;
-
-double Quantile(std::vector<double> values, double q) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// A spot's logarithmic brightness, and where it lies.
 struct Spot {
@@ -121,8 +115,6 @@ bool ChangesColourAsShadowsDo(const Cell& cell, const TwoLevels& levels) {
   }
   return true;
 }
-
-double MeanLog(LinearRgb c) { return (std::log(c.r) + std::log(c.g) + std::log(c.b)) / 3; }
 
 /// The light on surfaces in the open sun, phantoms about them as they are.
 class OpenLight {

@@ -42,11 +42,10 @@ vec3 PictureLight() {
 #endif
 
 #ifdef SUN_MAY_CHANGE
+#include "compositor/shaders/seen_sunlight.glsl"
+
 uniform float u_green_albedo;    // Of the surface; 0: not known.
 uniform float u_board_half_m;    // The marker's board lies here: white and black, not the ground.
-layout(binding = 5) uniform sampler2D u_sunlight;  // Share of the sun, compositor/seen_sunlight.h.
-uniform vec4 u_sunlight_s;                         // Its coordinates, from marker coordinates.
-uniform vec4 u_sunlight_t;
 
 /// How much of the sun the picture shows on a surface that the model has in the sun: trees and all
 /// that no phantom stands for shade it too, and what is shaded already no virtual shadow darkens
@@ -70,9 +69,7 @@ float SunSeen(vec3 position_m, float ambient, float sun, FogAir air) {
   float irradiance = kPi * radiance / max(u_green_albedo, 1e-6);
   float share = (irradiance - ambient) / max(sun, 1e-6);
   float seen = mix(clamp(share - kShaded, 0.0, 1.0), 1.0, smoothstep(kHalf, kLit, share));
-  vec4 place = vec4(position_m, 1.0);
-  float on_print = texture(u_sunlight, vec2(dot(u_sunlight_s, place), dot(u_sunlight_t, place))).r;
-  return on_board ? on_print : (u_green_albedo == 0.0 ? 1.0 : seen);
+  return on_board ? SeenSunlight(position_m) : (u_green_albedo == 0.0 ? 1.0 : seen);
 }
 #endif
 

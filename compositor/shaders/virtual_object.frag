@@ -3,6 +3,7 @@
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/ggx.glsl"
+#include "compositor/shaders/seen_sunlight.glsl"
 #ifndef SHADOW_SETS
 #define SHADOW_SETS 2  // 0: phantoms alone, 1: with the virtual objects.
 #endif
@@ -29,10 +30,6 @@ uniform vec3 u_fog_inscattered[kFogSplits];
 layout(binding = 0) uniform sampler2D u_base_color_texture;
 layout(binding = 1) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
 
-layout(binding = 5) uniform sampler2D u_sunlight;  // Share of the sun, compositor/seen_sunlight.h.
-uniform vec4 u_sunlight_s;                         // Its coordinates, from marker coordinates.
-uniform vec4 u_sunlight_t;
-
 layout(location = 0) out vec4 out_ratio;
 layout(location = 1) out vec4 out_color;
 
@@ -57,8 +54,7 @@ void main() {
   vec3 step_y = dFdy(v_position_m);
   float n_dot_l = max(dot(normal, u_to_sun), 0.0);
   float visibility = n_dot_l > 0.0 ? ShadowVisibility(1, v_position_m, flat_normal, step_x, step_y) : 0.0;
-  vec4 place = vec4(v_position_m, 1.0);
-  visibility *= texture(u_sunlight, vec2(dot(u_sunlight_s, place), dot(u_sunlight_t, place))).r;
+  visibility *= SeenSunlight(v_position_m);
   vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);
 
   vec3 diffuse = base_color * (1.0 - u_metallic) * (1.0 - u_dielectric_f0);

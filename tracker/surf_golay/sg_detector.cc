@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tracker/homography.h"
+#include "tracker/surf_golay/number_proof.h"
 #include "tracker/surf_golay/print_square.h"
 
 namespace pleinair::tracker {
@@ -347,7 +348,7 @@ bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
     if (!reading) {
       // Covers that look like ink or paper draw a fine fit away from a guess that was better.
       const ProbedOrientation seen = Probe(CornersPx(hope.state.modules_from_ideal))[0];
-      if (!seen.mirrored && seen.first_corner == 0 && seen.correlation > SgReader::kPlainBorder) {
+      if (!seen.mirrored && seen.first_corner == 0 && seen.correlation > kPlainBorder) {
         reading = reader_.ReadAsGuessed(hope.state, seen.correlation);
       }
     }

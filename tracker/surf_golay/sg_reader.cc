@@ -1,15 +1,13 @@
 #include "tracker/surf_golay/sg_reader.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "tracker/golay/golay_code.h"
 #include "tracker/homography.h"
-#include "tracker/surf_golay/cell_evidence.h"
 #include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_split.h"
+#include "tracker/surf_golay/number_proof.h"
 #include "tracker/surf_golay/print_square.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
@@ -30,7 +28,6 @@ constexpr double kPlainVisible = 0.985;
 constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
-constexpr double kLeastTelling = 0.15;  ///< Blocks that count at least, as a share of all.
 constexpr double kLeastVisibleBorder = 0.06;
 /// A print of which less is seen is also measured from its content; and in so many steps.
 constexpr double kWholeEnough = 0.93;
@@ -41,38 +38,16 @@ constexpr int kFollowSteps = 4;
 constexpr std::array<double, 2> kFollowBlurs_px{0.9, 0.3};
 /// Mean correlation of the content's blocks that makes a followed marker's number sure, and likely.
 constexpr double kContentSure = 0.9, kContentRight = 0.4;
-/// What makes a reading a marker: the less of the print looks as predicted, the more bits must its
-/// cells tell beyond those that pick one of the numbers in use. Chosen on pictures without markers,
-/// with markers of another border and with covered ones.
-struct Proof {
-  double visible;
-  double bits;
-};
-constexpr std::array<Proof, 7> kProofs{
-    {{0.9, 0.0}, {0.8, 0.7}, {0.7, 1.5}, {0.6, 2.5}, {0.4, 5.0}, {0.3, 5.5}, {0.1, 10.0}}};
-/// Covers leave few blocks that look right as a whole, where all the bits of border between them
-/// together do: so much correlation of single pixels with it leaves so much to prove.
-constexpr double kProofByBorder_bits = 5.5;
-/// … and how much likelier than the next its number must be, in nats.
+/// How much likelier than the next the number of a marker must be, in nats.
 constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F;
 /// Share of the border that tells the light over the whole print; and what it takes off a proof
 /// that the cells themselves had to tell it.
 constexpr double kTellsLight = 0.8, kSplitDoubt_bits = 2.0;
 constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
-/// With few numbers in use as much proof is asked for as with so many: a picture holds many places
-/// where one may be seen by chance. Two numbers print as chequerboards, of which the world is full.
-constexpr int kFewestNumbers = 256;
-constexpr double kChequeredDoubt_bits = 6.0;
-constexpr GolayWord kAllCells = (1U << kGolayBits) - 1;
-/// Agreement of the cells with a number, in use or not, that is plainly the one printed: with one
-/// cell of 24 wrong it is 0.917, with two 0.833. One that differs from it in eight cells of one
-/// colour is then not taken for covered there, of which each number has five others on average.
-constexpr float kAnotherLiesOpen = 0.87F;
+/// Share of a print that must be seen at least where its number is known, and where nothing tells
+/// that it is still that.
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
-/// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
-constexpr double kSystematicCorner_px = 0.002;
-
-constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+constexpr double kMiddle = 0.5 * sg::kPrint;
 
 /// Step of a fit from nearby, in pixels, that is short enough to be the last: it leaves a fortieth
 /// of itself. Of large prints, whose corners are told best, that must be less; of small ones noise
@@ -80,12 +55,6 @@ constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
 double LastStepPx(double side_px) {
   constexpr double kSmall_px = 40.0, kLarge_px = 130.0;
   return side_px < kSmall_px ? 0.05 : side_px < kLarge_px ? 0.04 : 0.02;
-}
-
-double ChequeredDoubtBits(int number) {
-  const GolayWord print = PrintedWord(number);
-  const bool chequered = print == kGolayWhitening || (~print & kAllCells) == kGolayWhitening;
-  return chequered ? kChequeredDoubt_bits : 0.0;
 }
 
 /// How far apart two homographies put the corners of a print, in modules.
@@ -106,46 +75,6 @@ bool Explains(const SgReading& reading, const SgReading& other) {
   constexpr double kAlike = 0.01;
   const double better = reading.inner_correlation - other.inner_correlation;
   return better > kAlike || (better > -kAlike && reading.visible_fraction > other.visible_fraction);
-}
-
-/// Correlation of the blocks that do not touch the print's edge, by their contrast.
-double InnerCorrelation(const BlockFit& fit) {
-  const int side = fit.blocks_along();
-  double sum = 0.0, share = 0.0;
-  for (int row = 1; row + 1 < side; ++row) {
-    for (int column = 1; column + 1 < side; ++column) {
-      const PrintBlock& block = fit.blocks()[row * side + column];
-      if (block.contrast <= fit.least_contrast()) continue;
-      const double weight = block.pixels * block.contrast;
-      sum += weight * block.correlation;
-      share += weight;
-    }
-  }
-  return share > 0.0 ? sum / share : 0.0;
-}
-
-/// Blocks where the print is plain tell nothing by themselves: they take the mean of those around
-/// them that tell something.
-void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
-  const std::vector<PrintBlock>& blocks = fit.blocks();
-  const int side = fit.blocks_along();
-  const auto most = std::ranges::max_element(blocks, {}, &PrintBlock::pixels);
-  for (int row = 0; row < side; ++row) {
-    for (int column = 0; column < side; ++column) {
-      const PrintBlock& block = blocks[row * side + column];
-      if (block.contrast > fit.least_contrast() || 2 * block.pixels < most->pixels) continue;
-      float sum = 0.0F;
-      int count = 0;
-      for (int y = std::max(0, row - 1); y <= std::min(side - 1, row + 1); ++y) {
-        for (int x = std::max(0, column - 1); x <= std::min(side - 1, column + 1); ++x) {
-          if (blocks[y * side + x].contrast <= fit.least_contrast()) continue;
-          sum += (*visible)[y * side + x];
-          ++count;
-        }
-      }
-      if (count > 0) (*visible)[row * side + column] = sum / static_cast<float>(count);
-    }
-  }
 }
 
 }  // namespace
@@ -273,18 +202,6 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
   return reading;
 }
 
-double SgReader::ProofBits(const CellLikelihoods& likelihoods, int number) const {
-  return EvidenceBits(likelihoods, number) -
-         std::log2(std::max(kFewestNumbers, decoder_.NumbersInUse())) - ChequeredDoubtBits(number);
-}
-
-std::optional<double> SgReader::ProofBitsUnderCover(const CellLikelihoods& likelihoods,
-                                                    int number) const {
-  const std::optional<double> bits = EvidenceBitsUnderCover(likelihoods, number);
-  if (!bits || any_number_.Decode(likelihoods).agreement > kAnotherLiesOpen) return std::nullopt;
-  return *bits - std::log2(decoder_.NumbersInUse()) - ChequeredDoubtBits(number);
-}
-
 bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
   const double border_visible = VisibleBorder();
   bool read = false;
@@ -292,12 +209,13 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
     const SoftGolayDecoding decoding = decoder_.Decode(likelihoods);
     // A number in use must not be one that many others would beat.
     float margin = decoding.margin - decoding.shortfall;
-    double bits = ProofBits(likelihoods, decoding.number) - doubt_bits;
+    double bits = ProofBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - doubt_bits;
     if (border_visible >= kTellsLight && decoding.margin > 2.0F * kLeastMargin &&
-        decoder_.NumbersInUse() <= kFewestNumbers) {
+        decoder_.NumbersInUse() <= kFewestNumbersProved) {
       // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
       // or paper lies on it.
-      if (const auto covered = ProofBitsUnderCover(likelihoods, decoding.number)) {
+      if (const auto covered = ProofBitsUnderCover(likelihoods, decoding.number,
+                                                   decoder_.NumbersInUse(), any_number_)) {
         margin = decoding.margin;
         bits = std::max(bits, *covered - doubt_bits);
       }
@@ -343,7 +261,7 @@ std::optional<SgReading> SgReader::ReadPlain(const BlockFitState& guess) {
   if (!reading || reading->visible_fraction < kPlainVisible) return std::nullopt;
   plain_blur_px_ = std::min(reading->blur_px, kMostPlainBlur_px);
   reading->margin = decoding.margin;
-  reading->proof_bits = ProofBits(*cells, decoding.number);
+  reading->proof_bits = ProofBits(*cells, decoding.number, decoder_.NumbersInUse());
   return reading;
 }
 
@@ -376,7 +294,8 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
   }
   reading->margin = number.margin;
   reading->proof_bits = number.proof_bits;
-  if (!Verified(*reading, border_correlation)) return std::nullopt;
+  if (!IsProved(reading->proof_bits, reading->visible_fraction, border_correlation))
+    return std::nullopt;
   return reading;
 }
 
@@ -423,15 +342,6 @@ void SgReader::KeepContent(const PixelWindow& window, const Mat3& modules_from_i
   }
 }
 
-bool SgReader::Verified(const SgReading& reading, double border_correlation) {
-  const bool border_shines_through =
-      border_correlation >= kPlainBorder && reading.visible_fraction >= kBarelyVisible;
-  return (border_shines_through && reading.proof_bits >= kProofByBorder_bits) ||
-         std::any_of(kProofs.begin(), kProofs.end(), [&](const Proof& proof) {
-           return reading.visible_fraction >= proof.visible && reading.proof_bits >= proof.bits;
-         });
-}
-
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess, double done_px) {
   const double side = windows_.SidePx(guess.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
@@ -449,55 +359,8 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   }
   SgReading reading;
   reading.number = number;
-  Finish(fit_, state, &reading);
+  DescribeFit(lens_, fit_, state, &reading);
   return reading;
-}
-
-void SgReader::Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading) {
-  reading->modules_from_ideal = state.modules_from_ideal;
-  reading->blur_px = state.blur_px;
-  reading->whole_correlation = fit.Correlation();
-  reading->inner_correlation = InnerCorrelation(fit);
-  reading->blocks_along = fit.blocks_along();
-  reading->visible.clear();
-  double seen = 0.0, all = 0.0;
-  for (const PrintBlock& block : fit.blocks()) {
-    // Blocks that clip all over, or lie outside the picture, tell nothing.
-    const bool tells = block.contrast > fit.least_contrast();
-    const double visible = tells ? std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0) : 0.0;
-    reading->visible.push_back(static_cast<float>(visible));
-    seen += visible;
-    all += tells ? 1.0 : 0.0;
-  }
-  const double blocks = static_cast<double>(fit.blocks().size());
-  reading->visible_fraction = seen / std::max(all, kLeastTelling * blocks);
-  JudgePlainBlocks(fit, &reading->visible);
-  // The corners and how they follow the eight motions.
-  const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
-  const auto pixel_of = [&](Vec2 unit_down) {
-    return lens_.PixelOfIdeal(
-        Apply(ideal_from_modules, {kMiddle + kHalf * unit_down.x, kMiddle + kHalf * unit_down.y}));
-  };
-  Eigen::Matrix<double, 8, 8> corners_by_motion;
-  for (int i = 0; i < 4; ++i) {
-    const double u = kSquareCorners[i].x, v = -kSquareCorners[i].y;
-    reading->corners_px[i] = pixel_of({u, v});
-    constexpr double kStep = 1e-4;
-    const Vec2 by_u = (pixel_of({u + kStep, v}) - pixel_of({u - kStep, v})) * (0.5 / kStep);
-    const Vec2 by_v = (pixel_of({u, v + kStep}) - pixel_of({u, v - kStep})) * (0.5 / kStep);
-    const std::array<double, 8> flow_u{1, u, v, 0, 0, 0, -u * u, -u * v};
-    const std::array<double, 8> flow_v{0, 0, 0, 1, u, v, -u * v, -v * v};
-    for (int k = 0; k < 8; ++k) {
-      corners_by_motion(2 * i, k) = by_u.x * flow_u[k] + by_v.x * flow_v[k];
-      corners_by_motion(2 * i + 1, k) = by_u.y * flow_u[k] + by_v.y * flow_v[k];
-    }
-  }
-  const std::array<double, 64> motion = fit.MotionCovariance();
-  const Eigen::Matrix<double, 8, 8> by_motion = corners_by_motion.lazyProduct(
-      Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(motion.data()));
-  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(reading->corner_covariance_px2.data()) =
-      by_motion.lazyProduct(corners_by_motion.transpose()) +
-      kSystematicCorner_px * kSystematicCorner_px * Eigen::Matrix<double, 8, 8>::Identity();
 }
 
 }  // namespace pleinair::tracker

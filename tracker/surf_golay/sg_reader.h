@@ -17,24 +17,9 @@
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
 #include "tracker/surf_golay/print_windows.h"
+#include "tracker/surf_golay/sg_reading.h"
 
 namespace pleinair::tracker {
-
-/// An S-G marker that has been read, measured and verified.
-struct SgReading {
-  int number = 0;
-  Mat3 modules_from_ideal;         ///< Homography from ideal pixels to modules of the print.
-  double blur_px = 0.0;            ///< Standard deviation beyond the pixel's square.
-  std::array<Vec2, 4> corners_px;  ///< Top-left, then clockwise as the print is read.
-  std::array<double, 64> corner_covariance_px2{};
-  double visible_fraction = 0.0;  ///< Share of the print that looks as predicted.
-  double whole_correlation = 0.0;
-  double inner_correlation = 0.0;  ///< Of the blocks that do not touch the print's edge.
-  float margin = 0.0F;             ///< Of the number over the next likely one (SoftGolayDecoding).
-  double proof_bits = 0.0;  ///< What the cells tell beyond picking one of the numbers in use.
-  int blocks_along = 0;
-  std::vector<float> visible;  ///< 0…1 for each block of the print, row by row.
-};
 
 /// Reads the marker that may be seen at a guessed place: aligns the border, reads the cells,
 /// decodes the number, predicts the whole print and verifies it, then measures it to hundredths of
@@ -70,13 +55,9 @@ class SgReader {
   /// pixel; nothing where anything is doubtful, and Read must tell.
   std::optional<SgReading> ReadPlain(const BlockFitState& guess);
 
-  /// Correlation of single pixels with the whole border, covers included (BorderProbe), that no
-  /// chance gives.
-  static constexpr double kPlainBorder = 0.42;
-
   /// The same from a guess of another origin that is good already, where a fit of a border that is
-  /// covered nearly everywhere could only go wrong. Where `border_correlation` is plain fewer bits
-  /// prove the number.
+  /// covered nearly everywhere could only go wrong. Where `border_correlation` is plain
+  /// (kPlainBorder) fewer bits prove the number.
   std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess, double border_correlation) {
     return Read(guess, 0, border_correlation);
   }
@@ -91,11 +72,6 @@ class SgReader {
                                 double border_correlation);
   /// FitBorder, finely, in a reduced picture where noise hides the border in the picture itself.
   double FitBorderThroughNoise(int steps, BlockFitState* state);
-  /// What cells tell for a number beyond picking it out of those in use.
-  double ProofBits(const CellLikelihoods& likelihoods, int number) const;
-  /// The same where what is wrong may lie under one cover (EvidenceBitsUnderCover). Nothing where
-  /// the cells look like the print of another number, in use or not, that lies open.
-  std::optional<double> ProofBitsUnderCover(const CellLikelihoods& likelihoods, int number) const;
   /// Reads the cells of a print whose border was fitted last: number, margin and proof. False where
   /// they tell no number.
   bool ReadNumber(const BlockFitState& state, SgReading* reading);
@@ -104,14 +80,12 @@ class SgReader {
   /// Makes the pixels of the window that do not show the content count for nothing.
   void KeepContent(const PixelWindow& window, const Mat3& modules_from_ideal);
   const PrintPattern& Print(int number);
-  static bool Verified(const SgReading& reading, double border_correlation);
-  void Finish(const BlockFit& fit, const BlockFitState& state, SgReading* reading);
 
   const LensGrid& lens_;
   ImageView<const std::uint8_t> grey_;
   PrintWindows windows_;
   SoftGolayDecoder decoder_;
-  SoftGolayDecoder any_number_;
+  SoftGolayDecoder any_number_;  ///< Of all 4,096, in use or not.
   SeenWindow seen_;
   BlockFit fit_;
   SeenWindow other_seen_;  ///< Where a fit at another size waits.

@@ -1,0 +1,62 @@
+#include "tracker/surf_golay/number_proof.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tracker/golay/golay_code.h"
+#include "tracker/surf_golay/cell_evidence.h"
+
+namespace pleinair::tracker {
+namespace {
+
+/// Share of the print that looks as predicted, and what its cells must tell there beyond those that
+/// pick one of the numbers in use. Chosen on pictures without markers, with markers of another
+/// border and with covered ones.
+struct Proof {
+  double visible;
+  double bits;
+};
+constexpr std::array<Proof, 7> kProofs{
+    {{0.9, 0.0}, {0.8, 0.7}, {0.7, 1.5}, {0.6, 2.5}, {0.4, 5.0}, {0.3, 5.5}, {0.1, 10.0}}};
+/// Covers leave few blocks that look right as a whole, where all the bits of border between them
+/// together do: a plain border leaves so much to prove, if that share of the print is seen.
+constexpr double kProofByBorder_bits = 5.5, kVisibleByBorder = 0.1;
+/// Two numbers print as chequerboards, of which the world is full.
+constexpr double kChequeredDoubt_bits = 6.0;
+constexpr GolayWord kAllCells = (1U << kGolayBits) - 1;
+/// Agreement of the cells with a number, in use or not, that is plainly the one printed: with one
+/// cell of 24 wrong it is 0.917, with two 0.833. One that differs from it in eight cells of one
+/// colour is then not taken for covered there, of which each number has five others on average.
+constexpr float kAnotherLiesOpen = 0.87F;
+
+double ChequeredDoubtBits(int number) {
+  const GolayWord print = PrintedWord(number);
+  const bool chequered = print == kGolayWhitening || (~print & kAllCells) == kGolayWhitening;
+  return chequered ? kChequeredDoubt_bits : 0.0;
+}
+
+}  // namespace
+
+double ProofBits(const CellLikelihoods& likelihoods, int number, int numbers_in_use) {
+  return EvidenceBits(likelihoods, number) -
+         std::log2(std::max(kFewestNumbersProved, numbers_in_use)) - ChequeredDoubtBits(number);
+}
+
+std::optional<double> ProofBitsUnderCover(const CellLikelihoods& likelihoods, int number,
+                                          int numbers_in_use, const SoftGolayDecoder& all_numbers) {
+  const std::optional<double> bits = EvidenceBitsUnderCover(likelihoods, number);
+  if (!bits || all_numbers.Decode(likelihoods).agreement > kAnotherLiesOpen) return std::nullopt;
+  return *bits - std::log2(numbers_in_use) - ChequeredDoubtBits(number);
+}
+
+bool IsProved(double proof_bits, double visible_fraction, double border_correlation) {
+  const bool border_shines_through =
+      border_correlation >= kPlainBorder && visible_fraction >= kVisibleByBorder;
+  return (border_shines_through && proof_bits >= kProofByBorder_bits) ||
+         std::any_of(kProofs.begin(), kProofs.end(), [&](const Proof& proof) {
+           return visible_fraction >= proof.visible && proof_bits >= proof.bits;
+         });
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,33 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <optional>
+
+#include "tracker/golay/soft_golay_decoder.h"
+
+namespace pleinair::tracker {
+
+/// With few numbers in use as much proof is asked for as with so many: a picture holds many places
+/// where one may be seen by chance.
+constexpr int kFewestNumbersProved = 256;
+
+/// Correlation of single pixels with the whole border, covers included (BorderProbe), that no
+/// chance gives.
+constexpr double kPlainBorder = 0.42;
+
+/// What cells tell for a number beyond picking it out of so many in use, in bits.
+double ProofBits(const CellLikelihoods& likelihoods, int number, int numbers_in_use);
+
+/// The same where what is wrong may lie under one cover (EvidenceBitsUnderCover). Nothing where
+/// the cells look like the print of another number that lies open; `all_numbers`: the decoder of
+/// every number, in use or not.
+std::optional<double> ProofBitsUnderCover(const CellLikelihoods& likelihoods, int number,
+                                          int numbers_in_use, const SoftGolayDecoder& all_numbers);
+
+/// Whether so many bits make a reading a marker where that share of the print looks as predicted:
+/// the less of it does, the more are needed. `border_correlation`: of single pixels, 0 where
+/// nobody looked; where it is plain fewer are.
+bool IsProved(double proof_bits, double visible_fraction, double border_correlation);
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,110 @@
+#include "tracker/surf_golay/sg_reading.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cstddef>
+
+#include "tracker/homography.h"
+#include "tracker/surf_golay/print_square.h"
+#include "tracker/surf_golay/sg_layout.h"
+
+namespace pleinair::tracker {
+namespace {
+
+constexpr double kLeastTelling = 0.15;  ///< Blocks that count at least, as a share of all.
+/// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
+constexpr double kSystematicCorner_px = 0.002;
+
+constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
+
+/// Correlation of the blocks that do not touch the print's edge, by their contrast.
+double InnerCorrelation(const BlockFit& fit) {
+  const int side = fit.blocks_along();
+  double sum = 0.0, share = 0.0;
+  for (int row = 1; row + 1 < side; ++row) {
+    for (int column = 1; column + 1 < side; ++column) {
+      const PrintBlock& block = fit.blocks()[row * side + column];
+      if (block.contrast <= fit.least_contrast()) continue;
+      const double weight = block.pixels * block.contrast;
+      sum += weight * block.correlation;
+      share += weight;
+    }
+  }
+  return share > 0.0 ? sum / share : 0.0;
+}
+
+/// Blocks where the print is plain tell nothing by themselves: they take the mean of those around
+/// them that tell something.
+void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
+  const std::vector<PrintBlock>& blocks = fit.blocks();
+  const int side = fit.blocks_along();
+  const auto most = std::ranges::max_element(blocks, {}, &PrintBlock::pixels);
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const PrintBlock& block = blocks[row * side + column];
+      if (block.contrast > fit.least_contrast() || 2 * block.pixels < most->pixels) continue;
+      float sum = 0.0F;
+      int count = 0;
+      for (int y = std::max(0, row - 1); y <= std::min(side - 1, row + 1); ++y) {
+        for (int x = std::max(0, column - 1); x <= std::min(side - 1, column + 1); ++x) {
+          if (blocks[y * side + x].contrast <= fit.least_contrast()) continue;
+          sum += (*visible)[y * side + x];
+          ++count;
+        }
+      }
+      if (count > 0) (*visible)[row * side + column] = sum / static_cast<float>(count);
+    }
+  }
+}
+
+}  // namespace
+
+void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state,
+                 SgReading* reading) {
+  reading->modules_from_ideal = state.modules_from_ideal;
+  reading->blur_px = state.blur_px;
+  reading->whole_correlation = fit.Correlation();
+  reading->inner_correlation = InnerCorrelation(fit);
+  reading->blocks_along = fit.blocks_along();
+  reading->visible.clear();
+  double seen = 0.0, all = 0.0;
+  for (const PrintBlock& block : fit.blocks()) {
+    // Blocks that clip all over, or lie outside the picture, tell nothing.
+    const bool tells = block.contrast > fit.least_contrast();
+    const double visible = tells ? std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0) : 0.0;
+    reading->visible.push_back(static_cast<float>(visible));
+    seen += visible;
+    all += tells ? 1.0 : 0.0;
+  }
+  const double blocks = static_cast<double>(fit.blocks().size());
+  reading->visible_fraction = seen / std::max(all, kLeastTelling * blocks);
+  JudgePlainBlocks(fit, &reading->visible);
+  // The corners and how they follow the eight motions.
+  const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
+  const auto pixel_of = [&](Vec2 unit_down) {
+    return lens.PixelOfIdeal(
+        Apply(ideal_from_modules, {kMiddle + kHalf * unit_down.x, kMiddle + kHalf * unit_down.y}));
+  };
+  Eigen::Matrix<double, 8, 8> corners_by_motion;
+  for (int i = 0; i < 4; ++i) {
+    const double u = kSquareCorners[i].x, v = -kSquareCorners[i].y;
+    reading->corners_px[i] = pixel_of({u, v});
+    constexpr double kStep = 1e-4;
+    const Vec2 by_u = (pixel_of({u + kStep, v}) - pixel_of({u - kStep, v})) * (0.5 / kStep);
+    const Vec2 by_v = (pixel_of({u, v + kStep}) - pixel_of({u, v - kStep})) * (0.5 / kStep);
+    const std::array<double, 8> flow_u{1, u, v, 0, 0, 0, -u * u, -u * v};
+    const std::array<double, 8> flow_v{0, 0, 0, 1, u, v, -u * v, -v * v};
+    for (int k = 0; k < 8; ++k) {
+      corners_by_motion(2 * i, k) = by_u.x * flow_u[k] + by_v.x * flow_v[k];
+      corners_by_motion(2 * i + 1, k) = by_u.y * flow_u[k] + by_v.y * flow_v[k];
+    }
+  }
+  const std::array<double, 64> motion = fit.MotionCovariance();
+  const Eigen::Matrix<double, 8, 8> by_motion = corners_by_motion.lazyProduct(
+      Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(motion.data()));
+  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(reading->corner_covariance_px2.data()) =
+      by_motion.lazyProduct(corners_by_motion.transpose()) +
+      kSystematicCorner_px * kSystematicCorner_px * Eigen::Matrix<double, 8, 8>::Identity();
+}
+
+}  // namespace pleinair::tracker

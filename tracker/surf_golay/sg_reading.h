@@ -1,0 +1,35 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <array>
+#include <vector>
+
+#include "base/vector.h"
+#include "tracker/alignment/block_fit.h"
+#include "tracker/alignment/lens_grid.h"
+
+namespace pleinair::tracker {
+
+/// An S-G marker that has been read, measured and verified.
+struct SgReading {
+  int number = 0;
+  Mat3 modules_from_ideal;         ///< Homography from ideal pixels to modules of the print.
+  double blur_px = 0.0;            ///< Standard deviation beyond the pixel's square.
+  std::array<Vec2, 4> corners_px;  ///< Top-left, then clockwise as the print is read.
+  std::array<double, 64> corner_covariance_px2{};
+  double visible_fraction = 0.0;  ///< Share of the print that looks as predicted.
+  double whole_correlation = 0.0;
+  double inner_correlation = 0.0;  ///< Of the blocks that do not touch the print's edge.
+  float margin = 0.0F;             ///< Of the number over the next likely one (SoftGolayDecoding).
+  double proof_bits = 0.0;  ///< What the cells tell beyond picking one of the numbers in use.
+  int blocks_along = 0;
+  std::vector<float> visible;  ///< 0…1 for each block of the print, row by row.
+};
+
+/// Writes down what a fit of the whole print tells: where it lies and how sure that is, how well it
+/// looks as predicted and where it is seen. Not the number, its margin and its proof.
+void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state,
+                 SgReading* reading);
+
+}  // namespace pleinair::tracker
