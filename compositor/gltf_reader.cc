@@ -12,6 +12,7 @@
 #include "base/srgb.h"
 #include "base/vector.h"
 #include "compositor/gltf_accessor.h"
+#include "compositor/gltf_files.h"
 #include "compositor/model_limits.h"
 #include "compositor/texture_decoder.h"
 
@@ -125,7 +126,8 @@ class GltfReader {
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(KeepEncoded, &encoded_);
     std::string error, warning;
-    const std::string folder = file_.parent_path().string();
+    std::string folder = file_.parent_path().string();
+    loader.SetFsCallbacks(FilesBesideModel(&folder));
     const auto size = static_cast<unsigned>(std::min<std::size_t>(content_.size(), ~0U));
     bool ok = false;
     try {

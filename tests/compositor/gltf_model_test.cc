@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -194,6 +195,23 @@ TEST(GltfModel, RefusesHugeAndMissingTexturesAndBuffers) {
   const auto model = LoadModel(folder.Write("m.gltf", json));
   ASSERT_FALSE(model);
   EXPECT_THAT(model.error().Message(), HasSubstr("gone.png"));
+}
+
+TEST(GltfModel, ReadsOnlyFilesAndOnlyFromItsFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "inner");
+  for (const char* uri : {R"("uri":".",)", R"("uri":"inner",)", R"("uri":"/dev/zero",)"}) {
+    EXPECT_FALSE(LoadModel(folder.Write("m.gltf", TriangleFile().Json(uri)))) << uri;
+  }
+  // One of that name in the working folder is not the model's.
+  const TemporaryFolder working;
+  working.Write("data.bin", TriangleFile().Buffer());
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(working.path());
+  EXPECT_FALSE(LoadModel(folder.Write("m.gltf", TriangleFile().Json(R"("uri":"data.bin",)"))));
+  working.Write("m.gltf", TriangleFile().Json(R"("uri":"data.bin",)"));
+  EXPECT_TRUE(LoadModel("m.gltf"));
+  std::filesystem::current_path(before);
 }
 
 TEST(GltfModel, RefusesExtensionsThatItWouldHaveToKnow) {
