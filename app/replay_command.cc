@@ -263,7 +263,8 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
   command
       ->add_option("--shadow-sizes", arguments->shadow_sizes,
                    "Texels a side of the shadow maps; one number, or one a partition from the "
-                   "finest on. Default: 2048,2048,1024,1024")
+                   "finest on. Default: as fine as the picture shows, 1024,1024,512,512 up to "
+                   "1024 pixels a side, twice that beyond")
       ->delimiter(',')
       ->expected(1, 4)
       ->check(CLI::IsMember({128, 256, 512, 1024, 2048, 4096}))

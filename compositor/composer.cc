@@ -12,9 +12,11 @@
 
 #include "compositor/aerial_fog.h"
 #include "compositor/camera_picture.h"
+#include "compositor/drawn_frame.h"
 #include "compositor/embedded_shaders.h"
 #include "compositor/environment_map.h"
 #include "compositor/ground_radiance.h"
+#include "compositor/ratio_pass.h"
 #include "compositor/render_camera.h"
 #include "compositor/render_targets.h"
 #include "compositor/scene_shadows.h"
@@ -37,25 +39,6 @@ glm::vec3 ToGlm(Vec3 v) { return {v.x, v.y, v.z}; }
 glm::vec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
 
 static_assert(std::tuple_size_v<decltype(ComposerOptions::fog)> == shadows::kMaxPartitions);
-
-/// What the programs are told of one frame.
-struct Frame {
-  glm::mat4 clip_from_marker;
-  glm::vec3 eye_m;
-  glm::vec3 gain;
-  FogSplits fog;
-  bool hazy = false;  // The air before the farthest real surface is noticed.
-
-  void SetFog(const gl::GlProgram& program) const {
-    program.Set("u_eye_m", eye_m);
-    program.SetArray("u_fog_split_m",
-                     std::vector<float>(fog.distance_m.begin(), fog.distance_m.end()));
-    program.SetArray("u_fog_optical_depth",
-                     std::vector<glm::vec3>(fog.optical_depth.begin(), fog.optical_depth.end()));
-    program.SetArray("u_fog_inscattered",
-                     std::vector<glm::vec3>(fog.inscattered.begin(), fog.inscattered.end()));
-  }
-};
 
 class GlComposer : public Composer {
  public:
@@ -92,15 +75,16 @@ class GlComposer : public Composer {
       : context_(std::move(context)), camera_(camera), scene_(scene) {}
 
   Result<void> UploadSunlight(const SeenSunlight& sunlight);
-  void SetSunlightOf(const gl::GlProgram& program) const;
   bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
   Result<void> SetRenderSize(const ComposerOptions& options);
   Result<void> MakeShadows(const ComposerOptions& options);
   /// The programs for the shadow maps as they are and the air that a frame has.
-  Result<const SurfacePrograms*> ProgramsFor(const Frame& frame);
-  void DrawPhantoms(const SurfacePrograms& programs, const Frame& frame);
-  void DrawObjects(const gl::GlProgram& program, const Frame& frame);
-  void DrawScene(const SurfacePrograms& programs, const Frame& frame);
+  Result<const SurfacePrograms*> ProgramsFor(const DrawnFrame& frame);
+  void DrawObjects(const gl::GlProgram& program, SceneSurfaces::ObjectSide side,
+                   const DrawnFrame& frame);
+  Result<void> DrawScene(const SurfacePrograms& programs, const DrawnFrame& frame);
+  DrawnFrame FrameOf(const shadows::View& view, const Transform<Camera, Marker>& camera_from_marker,
+                     LinearRgb gain) const;
   FogSplits FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const;
   Result<void> DrawDebugView(const shadows::View& view);
 
@@ -117,7 +101,7 @@ class GlComposer : public Composer {
   gl::GlTexture environment_;
   std::shared_ptr<const SeenSunlight> sunlight_;
   gl::GlTexture sunlight_map_;
-  gl::GlProgram depth_program_;
+  RatioPass ratio_pass_;
   // With shadows of one step of the sun, and of two that fade into one another, without and with
   // haze; made when needed.
   std::array<std::array<std::optional<SurfacePrograms>, 2>, 2> surface_programs_;
@@ -141,9 +125,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
                                                 EnvironmentMap::kHeight, EnvironmentMap::kLevels));
   c.environment_.SetWrap(GL_REPEAT);
   PLEINAIR_RETURN_IF_ERROR(c.UploadSunlight({}));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      c.depth_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
-                                               .fragment = "compositor/shaders/depth_only.frag"}));
+  PLEINAIR_ASSIGN_OR_RETURN(c.ratio_pass_, RatioPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
   PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(options));
@@ -168,7 +150,9 @@ Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
 }
 
 Result<void> GlComposer::MakeShadows(const ComposerOptions& options) {
-  PLEINAIR_ASSIGN_OR_RETURN(shadows_, SceneShadows::Create(options));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      shadows_,
+      SceneShadows::Create(options, std::max(render_camera_.width, render_camera_.height)));
   debug_view_.reset();
   return {};
 }
@@ -182,6 +166,7 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   const bool other_shaders = options.shadow_method != options_.shadow_method ||
                              options.shadow_partitions != options_.shadow_partitions;
   if (other_shaders || options.shadow_sizes != options_.shadow_sizes ||
+      options.supersampling != options_.supersampling ||
       options.shadow_split_weight != options_.shadow_split_weight ||
       options.shadow_blur_distance_m != options_.shadow_blur_distance_m) {
     PLEINAIR_RETURN_IF_ERROR(MakeShadows(options));
@@ -194,7 +179,7 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   return {};
 }
 
-Result<const SurfacePrograms*> GlComposer::ProgramsFor(const Frame& frame) {
+Result<const SurfacePrograms*> GlComposer::ProgramsFor(const DrawnFrame& frame) {
   std::optional<SurfacePrograms>& made =
       surface_programs_[shadows_.Fades() ? 1 : 0][frame.hazy ? 1 : 0];
   if (!made) {
@@ -233,15 +218,6 @@ Result<void> GlComposer::SetSunlight(const std::shared_ptr<const SeenSunlight>& 
   return {};
 }
 
-/// Of the program in use.
-void GlComposer::SetSunlightOf(const gl::GlProgram& program) const {
-  std::array<std::array<float, 4>, 2> rows{};
-  if (sunlight_ && !sunlight_->share.empty()) rows = sunlight_->TextureFromMarker();
-  program.Set("u_sunlight_s", glm::vec4(rows[0][0], rows[0][1], rows[0][2], rows[0][3]));
-  program.Set("u_sunlight_t", glm::vec4(rows[1][0], rows[1][1], rows[1][2], rows[1][3]));
-  sunlight_map_.Bind(5);
-}
-
 /// Of an empty map: one texel, all of the sun.
 Result<void> GlComposer::UploadSunlight(const SeenSunlight& sunlight) {
   const bool empty = sunlight.share.empty();
@@ -278,64 +254,59 @@ Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   return {};
 }
 
-/// What the objects change of the real surfaces' light; the surfaces' depth is there already.
-void GlComposer::DrawPhantoms(const SurfacePrograms& programs, const Frame& frame) {
-  using Change = ChangingTriangles::Change;
-  picture_.BindForShading(2, 3, 4);
-  for (const Change change : {Change::kSun, Change::kSunlitSky, Change::kSky}) {
-    const gl::GlProgram& program = programs.phantoms[change];
-    program.Use();
-    program.Set("u_clip_from_marker", frame.clip_from_marker);
-    program.Set("u_to_sun", ToGlm(to_sun_));
-    program.Set("u_sun_normal_lux", ToGlm(sun_normal_));
-    program.Set("u_gain", frame.gain);
-    if (frame.hazy) frame.SetFog(program);
-    if (change == Change::kSun) {
-      program.Set("u_board_half_m", static_cast<float>(board_size_m_ / 2));
-      SetSunlightOf(program);
-    }
-    const bool look = change == Change::kSun && looks_for_shade_;
-    // A surface whose colour is not known is taken to lie in the sun.
-    if (change == Change::kSun && !look) program.Set("u_green_albedo", 0.0F);
-    surfaces_.DrawPhantoms(change, look ? &program : nullptr);
-  }
-}
-
-void GlComposer::DrawObjects(const gl::GlProgram& program, const Frame& frame) {
+void GlComposer::DrawObjects(const gl::GlProgram& program, SceneSurfaces::ObjectSide side,
+                             const DrawnFrame& frame) {
   program.Use();
   program.Set("u_clip_from_marker", frame.clip_from_marker);
-  // Without a sun no surface faces it, and the shader leaves the shadow maps alone.
-  program.Set("u_to_sun", HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
-  program.Set("u_sun_normal_lux", ToGlm(sun_normal_));
-  program.Set("u_gain", frame.gain);
+  frame.Set(program);
   frame.SetFog(program);
-  SetSunlightOf(program);
+  frame.SetSunlight(program);
   environment_.Bind(1);
-  surfaces_.DrawObjects(program);
+  surfaces_.DrawObjects(program, side);
 }
 
-void GlComposer::DrawScene(const SurfacePrograms& programs, const Frame& frame) {
-  surfaces_.SortPhantoms(HasSun() ? shadows_.Window() : SunWindow{});
-  targets_.BeginDrawing();
+Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const DrawnFrame& frame) {
+  PLEINAIR_RETURN_IF_ERROR(surfaces_.SortPhantoms(HasSun() ? shadows_.Window() : SunWindow{}));
+  surfaces_.SortObjects(frame.to_sun);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // Open surfaces come as two, one a side. Clockwise, because the picture's rows go down.
   glEnable(GL_CULL_FACE);
   glFrontFace(GL_CW);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  depth_program_.Use();
-  depth_program_.Set("u_clip_from_marker", frame.clip_from_marker);
-  surfaces_.DrawPhantoms(ChangingTriangles::kNothing, nullptr);
-  glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  if (frame.hazy) glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  DrawPhantoms(programs, frame);
-  glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  DrawObjects(programs.objects, frame);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  ratio_pass_.DrawSurfaces(targets_, surfaces_, frame);
+  targets_.BeginObjects();
+  sunlight_map_.Bind(5);
+  using Side = SceneSurfaces::ObjectSide;
+  DrawObjects(programs.objects, Side::kFacingSun, frame);
+  DrawObjects(programs.objects_in_own_shade, Side::kTurnedAway, frame);
   glDisable(GL_CULL_FACE);
-  glDisable(GL_DEPTH_TEST);
   targets_.Resolve();
+  picture_.BindForShading(2, 3, 4);
+  ratio_pass_.Draw(targets_, surfaces_, programs, frame, {looks_for_shade_, board_size_m_});
+  glDisable(GL_DEPTH_TEST);
+  return {};
+}
+
+DrawnFrame GlComposer::FrameOf(const shadows::View& view,
+                               const Transform<Camera, Marker>& camera_from_marker,
+                               LinearRgb gain) const {
+  DrawnFrame frame;
+  frame.clip_from_marker = glm::mat4(view.ClipFromMarker());
+  frame.eye_m = ToGlm(camera_from_marker.Inverse().translation_m);
+  frame.ray = RaysThroughPixels(render_camera_, view);
+  frame.gain = ToGlm(gain);
+  if (HasSun()) frame.to_sun = ToGlm(to_sun_);
+  frame.sun_normal_lux = ToGlm(sun_normal_);
+  if (sunlight_ && !sunlight_->share.empty()) {
+    const auto rows = sunlight_->TextureFromMarker();
+    for (int i = 0; i < 2; ++i) {
+      frame.texture_from_marker[i] = {rows[i][0], rows[i][1], rows[i][2], rows[i][3]};
+    }
+  }
+  frame.fog = FogBeforeObjects(view, frame.eye_m);
+  const glm::vec3 most_air = frame.gain * frame.fog.inscattered.back();
+  frame.hazy = std::max({most_air.r, most_air.g, most_air.b}) > kNoticeableAir;
+  return frame;
 }
 
 Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
@@ -352,15 +323,9 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   if (HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {to_sun_}, view));
   }
-  Frame frame;
-  frame.clip_from_marker = glm::mat4(view.ClipFromMarker());
-  frame.eye_m = ToGlm(camera_from_marker.Inverse().translation_m);
-  frame.gain = ToGlm(gain);
-  frame.fog = FogBeforeObjects(view, frame.eye_m);
-  const glm::vec3 most_air = frame.gain * frame.fog.inscattered.back();
-  frame.hazy = std::max({most_air.r, most_air.g, most_air.b}) > kNoticeableAir;
+  const DrawnFrame frame = FrameOf(view, camera_from_marker, gain);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
-  DrawScene(*programs, frame);
+  PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, frame));
   picture_.Draw(targets_);
   if (options_.show_shadow_maps && HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));

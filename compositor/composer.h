@@ -30,8 +30,9 @@ struct ComposerOptions {
   ShadowMethod shadow_method = ShadowMethod::kSunDisc;
   int shadow_partitions = 2;  ///< Partitions of the shadow maps, 1…4.
   /// Texels a side of each partition's map, 16…8192; powers of two where the method has a pyramid
-  /// (shadows::MapContent::kDepthBounds).
-  std::array<int, 4> shadow_sizes{2048, 2048, 1024, 1024};
+  /// (shadows::MapContent::kDepthBounds). 0: as fine as the picture shows; finer ones cost a look
+  /// at every texel that a pixel covers, and 1024 are enough for 640 pixels (docs/performance.md).
+  std::array<int, 4> shadow_sizes{};
   double shadow_split_weight = 0.5;  ///< λ of the paper's Eq. 11, for maps fitted to the view.
   /// Methods that blur moments: distance of the blocker at which the blur has the sun's width.
   double shadow_blur_distance_m = 1.0;

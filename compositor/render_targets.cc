@@ -5,40 +5,44 @@
 namespace pleinair::compositor {
 namespace {
 
-// Mesa's software renderer stops at 4.
+// Mesa's software renderer stops at 4, and so do the shaders.
 constexpr int kSamples = 4;
 
 }  // namespace
 
 Result<RenderTargets> RenderTargets::Create(int width, int height) {
-  GLint most_samples = 1;
+  GLint most_samples = 1, most_integer_samples = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
-  const int samples = std::min(kSamples, static_cast<int>(most_samples));
+  glGetIntegerv(GL_MAX_INTEGER_SAMPLES, &most_integer_samples);
+  const int samples =
+      std::min({kSamples, static_cast<int>(most_samples), static_cast<int>(most_integer_samples)});
   RenderTargets targets;
-  PLEINAIR_ASSIGN_OR_RETURN(targets.ratio_samples_,
-                            gl::GlTexture::Create2DMultisample(GL_RGBA16F, width, height, samples));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.objects_samples_,
-                            gl::GlTexture::Create2DMultisample(GL_RGBA16F, width, height, samples));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      targets.depth_samples_,
-      gl::GlTexture::Create2DMultisample(GL_DEPTH_COMPONENT32F, width, height, samples));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.ratio_, gl::GlTexture::Create2D(GL_RGBA16F, width, height));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.objects_, gl::GlTexture::Create2D(GL_RGBA16F, width, height));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      targets.draw_,
-      gl::GlFramebuffer::Create(
-          {{{&targets.ratio_samples_}, {&targets.objects_samples_}}, {&targets.depth_samples_}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.ratio_source_,
-                            gl::GlFramebuffer::Create({{{&targets.ratio_samples_}}, {}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.objects_source_,
-                            gl::GlFramebuffer::Create({{{&targets.objects_samples_}}, {}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.ratio_target_,
-                            gl::GlFramebuffer::Create({{{&targets.ratio_}}, {}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.objects_target_,
-                            gl::GlFramebuffer::Create({{{&targets.objects_}}, {}}));
-  for (gl::GlTexture* passed : {&targets.passed_ratio_, &targets.passed_objects_}) {
-    PLEINAIR_ASSIGN_OR_RETURN(*passed, gl::GlTexture::Create2D(GL_RGBA16F, width, height));
+  const auto create_samples = [&](GLenum format) {
+    return gl::GlTexture::Create2DMultisample(format, width, height, samples);
+  };
+  PLEINAIR_ASSIGN_OR_RETURN(targets.ids_, create_samples(GL_R32UI));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.objects_samples_, create_samples(GL_RGBA16F));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.depth_samples_, create_samples(GL_DEPTH_COMPONENT32F));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.seen_, gl::GlTexture::Create2D(GL_RGBA32UI, width, height));
+  targets.seen_.SetFilter(GL_NEAREST, GL_NEAREST);
+  PLEINAIR_ASSIGN_OR_RETURN(targets.kinds_,
+                            gl::GlTexture::Create2D(GL_DEPTH_COMPONENT32F, width, height));
+  for (gl::GlTexture* picture :
+       {&targets.ratio_, &targets.objects_, &targets.passed_ratio_, &targets.passed_objects_}) {
+    PLEINAIR_ASSIGN_OR_RETURN(*picture, gl::GlTexture::Create2D(GL_RGBA16F, width, height));
   }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.draw_ids_, gl::GlFramebuffer::Create({{{&targets.ids_}}, {&targets.depth_samples_}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.draw_objects_,
+      gl::GlFramebuffer::Create({{{&targets.objects_samples_}}, {&targets.depth_samples_}}));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.resolved_objects_,
+                            gl::GlFramebuffer::Create({{{&targets.objects_}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.sort_,
+                            gl::GlFramebuffer::Create({{{&targets.seen_}}, {&targets.kinds_}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.draw_ratio_,
+      gl::GlFramebuffer::Create({{{&targets.ratio_}, {&targets.objects_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
       targets.pass_,
       gl::GlFramebuffer::Create({{{&targets.passed_ratio_}, {&targets.passed_objects_}}, {}}));
@@ -47,18 +51,26 @@ Result<RenderTargets> RenderTargets::Create(int width, int height) {
   return targets;
 }
 
+void RenderTargets::BeginSurfaces() const {
+  draw_ids_.Bind();
+  draw_ids_.ClearUnsigned(0, 0);
+  draw_ids_.ClearDepth(1.0F);
+}
+
+void RenderTargets::BeginObjects() const {
+  draw_objects_.Bind();
+  draw_objects_.ClearColor(0, 0, 0, 0, 0);
+}
+
+void RenderTargets::Resolve() const { draw_objects_.BlitTo(resolved_objects_); }
+
+void RenderTargets::BeginSorting() const { sort_.Bind(); }
+
+void RenderTargets::BeginRatio() const {
+  draw_ratio_.Bind();
+  draw_ratio_.ClearColor(0, 1, 1, 1, 1);
+}
+
 void RenderTargets::BeginPass(bool back) const { (back ? back_ : pass_).Bind(); }
-
-void RenderTargets::BeginDrawing() const {
-  draw_.Bind();
-  draw_.ClearColor(0, 1, 1, 1, 1);
-  draw_.ClearColor(1, 0, 0, 0, 0);
-  draw_.ClearDepth(1.0F);
-}
-
-void RenderTargets::Resolve() const {
-  ratio_source_.BlitTo(ratio_target_);
-  objects_source_.BlitTo(objects_target_);
-}
 
 }  // namespace pleinair::compositor

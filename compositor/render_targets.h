@@ -6,29 +6,41 @@
 
 namespace pleinair::compositor {
 
-/// What the virtual picture is drawn into, multisampled, and the two pictures it resolves to.
+/// What the virtual picture is drawn into. Geometry has several samples a pixel; light on the real
+/// surfaces is worked out once for each pixel and surface that it shows.
 class RenderTargets {
  public:
   /// Errors (system): a size or format that the renderer cannot do.
   static Result<RenderTargets> Create(int width, int height);
 
-  /// Draws go here: colour 0 is the differential ratio (cleared to 1), colour 1 the objects'
-  /// premultiplied display-linear colour with coverage (cleared to 0), and depth.
-  void BeginDrawing() const;
-  /// Resolves the samples into ratio() and objects().
+  /// Draws go to the numbers of the real surfaces' triangles, a sample each, and to their depth;
+  /// cleared to 0.
+  void BeginSurfaces() const;
+  /// Draws go to the objects' premultiplied display-linear colour with coverage, behind the
+  /// surfaces' depth; cleared to 0. Resolve() makes objects() of it.
+  void BeginObjects() const;
   void Resolve() const;
+  /// Draws go, once a pixel, to what the numbers say of it, and its depth.
+  void BeginSorting() const;
+  /// Draws go to the differential ratio (colour 0, cleared to 1) and to objects() (colour 1), with
+  /// the depth that sorting gave.
+  void BeginRatio() const;
   /// Where one pass over ratio() and objects() may be drawn into; `back`: from there into them.
   void BeginPass(bool back) const;
   const gl::GlTexture& passed_ratio() const { return passed_ratio_; }
   const gl::GlTexture& passed_objects() const { return passed_objects_; }
 
+  int samples() const { return ids_.samples(); }
+  const gl::GlTexture& ids() const { return ids_; }
+  const gl::GlTexture& seen() const { return seen_; }
   const gl::GlTexture& ratio() const { return ratio_; }
   const gl::GlTexture& objects() const { return objects_; }
 
  private:
-  gl::GlTexture ratio_samples_, objects_samples_, depth_samples_, ratio_, objects_;
+  gl::GlTexture ids_, objects_samples_, depth_samples_;
+  gl::GlTexture seen_, kinds_, ratio_, objects_;
   gl::GlTexture passed_ratio_, passed_objects_;
-  gl::GlFramebuffer draw_, ratio_source_, objects_source_, ratio_target_, objects_target_;
+  gl::GlFramebuffer draw_ids_, draw_objects_, resolved_objects_, sort_, draw_ratio_;
   gl::GlFramebuffer pass_, back_;
 };
 

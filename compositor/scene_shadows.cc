@@ -1,6 +1,9 @@
 #include "compositor/scene_shadows.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <utility>
 
@@ -9,11 +12,19 @@
 namespace pleinair::compositor {
 namespace {
 
-shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) {
+// Sides of the two finest maps that are left open; those of the others are half of it.
+constexpr int kSmallestOpenMap = 1024, kLargestOpenMap = 2048;
+
+shadows::ShadowMapOptions MapOptions(const ComposerOptions& options, int picture_px) {
   shadows::ShadowMapOptions map_options;
   map_options.method = options.shadow_method;
   map_options.partitions = options.shadow_partitions;
-  map_options.resolutions = options.shadow_sizes;
+  const int fine = std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(picture_px))),
+                              kSmallestOpenMap, kLargestOpenMap);
+  for (std::size_t i = 0; i < options.shadow_sizes.size(); ++i) {
+    const int open = i < 2 ? fine : fine / 2;
+    map_options.resolutions[i] = options.shadow_sizes[i] > 0 ? options.shadow_sizes[i] : open;
+  }
   map_options.split_weight = options.shadow_split_weight;
   map_options.blur_blocker_distance = Metres(options.shadow_blur_distance_m);
   return map_options;
@@ -21,10 +32,11 @@ shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) {
 
 }  // namespace
 
-Result<SceneShadows> SceneShadows::Create(const ComposerOptions& options) {
+Result<SceneShadows> SceneShadows::Create(const ComposerOptions& options, int picture_px) {
   SceneShadows shadows;
   for (int set = 0; set < kSets; ++set) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::FadingShadowMaps::Create(MapOptions(options)));
+    PLEINAIR_ASSIGN_OR_RETURN(auto maps,
+                              shadows::FadingShadowMaps::Create(MapOptions(options, picture_px)));
     shadows.sets_.push_back(std::move(maps));
   }
   return shadows;

@@ -20,7 +20,8 @@ class SceneShadows {
 
   SceneShadows() = default;
   /// Errors as shadows::FadingShadowMaps::Create.
-  static Result<SceneShadows> Create(const ComposerOptions& options);
+  /// `picture_px`: the longer side of the picture, for maps whose size is left open.
+  static Result<SceneShadows> Create(const ComposerOptions& options, int picture_px);
 
   /// Redraws what changed and binds both sets. `view`: what the camera sees of the scene.
   Result<void> Update(const SceneSurfaces& surfaces, Direction<Marker> to_sun,

@@ -25,15 +25,25 @@ Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
   lit_bounds_.clear();
   moved_.assign(scene_.size(), glm::dmat4(1.0));
   phantom_triangles_.clear();
+  object_triangles_.clear();
   sorted_for_.reset();
   ++revision_;
+  std::vector<float> green_albedo;
   for (const LitMesh& mesh : lit) {
     PLEINAIR_ASSIGN_OR_RETURN(SurfaceBuffers surface, SurfaceBuffers::Create(mesh));
     surfaces_.push_back(std::move(surface));
     lit_bounds_.emplace_back();
     for (const auto& p : mesh.positions) lit_bounds_.back().Include({p[0], p[1], p[2]});
-    if (mesh.is_phantom) phantom_triangles_.emplace_back(mesh);
+    if (mesh.is_phantom) {
+      phantom_triangles_.emplace_back(mesh);
+    } else {
+      object_triangles_.emplace_back(mesh);
+    }
+    const Material& material = scene_[mesh.placed_model].model->materials[mesh.material];
+    const bool even = material.base_color_texture < 0 && material.metallic == 0.0F;
+    green_albedo.push_back(even ? material.base_color[1] : 0.0F);
   }
+  PLEINAIR_ASSIGN_OR_RETURN(table_, TriangleTable::Create(lit, green_albedo));
   PlaceCasters();
   return {};
 }
@@ -77,9 +87,8 @@ void SceneSurfaces::PlaceCasters() {
   }
 }
 
-void SceneSurfaces::SortPhantoms(const SunWindow& window) {
-  if (window == sorted_for_) return;
-  sorted_for_ = window;
+Result<void> SceneSurfaces::SortPhantoms(const SunWindow& window) {
+  if (window == sorted_for_) return {};
   auto triangles = phantom_triangles_.begin();
   for (SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
@@ -87,21 +96,23 @@ void SceneSurfaces::SortPhantoms(const SunWindow& window) {
     surface.SetIndices(triangles->indices());
     ++triangles;
   }
+  PLEINAIR_RETURN_IF_ERROR(table_.SetTriangles(phantom_triangles_));
+  sorted_for_ = window;
+  return {};
 }
 
-void SceneSurfaces::DrawPhantoms(ChangingTriangles::Change change,
-                                 const gl::GlProgram* shaded) const {
-  auto triangles = phantom_triangles_.begin();
+void SceneSurfaces::DrawPhantoms(const gl::GlProgram& program) const {
+  std::size_t phantom = 0;
   for (const SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
-    if (shaded != nullptr) {
-      const Material& material =
-          scene_[surface.placed_model()].model->materials[surface.material()];
-      const bool even = material.base_color_texture < 0 && material.metallic == 0.0F;
-      shaded->Set("u_green_albedo", even ? material.base_color[1] : 0.0F);
-    }
-    surface.Draw(change == 0 ? 0 : triangles->ends()[change - 1], triangles->ends()[change]);
-    ++triangles;
+    const auto& ends = phantom_triangles_[phantom].ends();
+    program.Set("u_first_id", table_.first_id(phantom));
+    program.Set("u_step", 1);
+    surface.Draw(0, ends[ChangingTriangles::kSky]);
+    program.Set("u_first_id", 0);
+    program.Set("u_step", 0);
+    surface.Draw(ends[ChangingTriangles::kSky], ends[ChangingTriangles::kNothing]);
+    ++phantom;
   }
 }
 
@@ -120,12 +131,34 @@ void SceneSurfaces::SetMaterial(const gl::GlProgram& program, const SurfaceBuffe
   program.Set("u_dielectric_f0", material.specular_f0);
 }
 
-void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
+void SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
+  auto triangles = object_triangles_.begin();
+  for (SurfaceBuffers& surface : surfaces_) {
+    if (surface.is_phantom()) continue;
+    // Angles stay where a model is moved, but a scale does not.
+    const glm::dmat3 moved(moved_[surface.placed_model()]);
+    const glm::dvec3 lit_to_sun = glm::transpose(moved) * glm::dvec3(to_sun);
+    const double size = glm::length(lit_to_sun);
+    if (triangles->Sort(size > 0.0 ? glm::vec3(lit_to_sun / size) : glm::vec3(0.0F))) {
+      surface.SetIndices(triangles->indices());
+    }
+    ++triangles;
+  }
+}
+
+void SceneSurfaces::DrawObjects(const gl::GlProgram& program, ObjectSide side) const {
+  auto triangles = object_triangles_.begin();
   for (const SurfaceBuffers& surface : surfaces_) {
     if (surface.is_phantom()) continue;
     SetMaterial(program, surface);
     program.Set("u_marker_from_lit", glm::mat4(moved_[surface.placed_model()]));
-    surface.Draw();
+    const int facing = triangles->facing_end();
+    if (side == ObjectSide::kFacingSun) {
+      surface.Draw(0, facing);
+    } else {
+      surface.Draw(facing, surface.index_count());
+    }
+    ++triangles;
   }
 }
 

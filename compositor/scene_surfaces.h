@@ -9,8 +9,10 @@
 #include "base/error.h"
 #include "base/vector.h"
 #include "compositor/changing_triangles.h"
+#include "compositor/facing_triangles.h"
 #include "compositor/light_solver.h"
 #include "compositor/surface_buffers.h"
+#include "compositor/triangle_table.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "shadows/shadow_maps.h"
@@ -35,13 +37,18 @@ class SceneSurfaces {
   const shadows::Box& object_bounds() const { return object_bounds_; }
   const shadows::Box& bounds() const { return bounds_; }
 
-  /// Tells what of the phantoms the objects may change within `window`.
-  void SortPhantoms(const SunWindow& window);
-  /// Draws the phantoms' triangles of one kind with the program in use. `shaded`: that program,
-  /// where it looks for real shade, to be told each surface's reflectance.
-  void DrawPhantoms(ChangingTriangles::Change change, const gl::GlProgram* shaded) const;
-  /// Draws the virtual objects with `program`, which is in use: their materials and places.
-  void DrawObjects(const gl::GlProgram& program) const;
+  /// Tells what of the phantoms the objects may change within `window`. Errors (system): no memory.
+  Result<void> SortPhantoms(const SunWindow& window);
+  /// Draws the numbers that the phantoms' triangles have in triangles(), of those that change;
+  /// `program` of shaders/triangle_id.frag is in use.
+  void DrawPhantoms(const gl::GlProgram& program) const;
+  const TriangleTable& triangles() const { return table_; }
+  /// Tells which of the objects' triangles may face the sun; `to_sun` zero: none.
+  void SortObjects(const glm::vec3& to_sun);
+  enum class ObjectSide { kFacingSun, kTurnedAway };
+  /// Draws one side of the virtual objects with `program`, which is in use: their materials and
+  /// places.
+  void DrawObjects(const gl::GlProgram& program, ObjectSide side) const;
   /// Draws everything with `program`, which is in use: places alone.
   void Draw(const gl::GlProgram& program) const;
 
@@ -56,6 +63,8 @@ class SceneSurfaces {
   std::vector<shadows::Box> lit_bounds_;  // Of the surfaces, where they were lit.
   std::vector<glm::dmat4> moved_;         // By placed model: marker from where it was lit.
   std::vector<ChangingTriangles> phantom_triangles_;  // Of the phantoms among them, in order.
+  std::vector<FacingTriangles> object_triangles_;     // Of the objects, in order.
+  TriangleTable table_;
   std::optional<SunWindow> sorted_for_;
   std::vector<shadows::ShadowCaster> casters_, phantom_casters_;
   shadows::Box object_bounds_, bounds_;

@@ -54,4 +54,11 @@ shadows::View ViewOf(const RenderCamera& camera,
   return view;
 }
 
+std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const shadows::View& view) {
+  const glm::dmat3 marker_from_camera = glm::transpose(glm::dmat3(view.camera_from_marker));
+  return {marker_from_camera * glm::dvec3(-view.tan_left, -view.tan_up, 1.0),
+          marker_from_camera * glm::dvec3(1.0 / camera.fx, 0.0, 0.0),
+          marker_from_camera * glm::dvec3(0.0, 1.0 / camera.fy, 0.0)};
+}
+
 }  // namespace pleinair::compositor

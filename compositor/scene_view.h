@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <glm/glm.hpp>
+
 #include "base/frames.h"
 #include "compositor/render_camera.h"
 #include "shadows/light_window.h"
@@ -11,5 +14,9 @@ namespace pleinair::compositor {
 shadows::View ViewOf(const RenderCamera& camera,
                      const Transform<Camera, Marker>& camera_from_marker,
                      const shadows::Box& bounds);
+
+/// Directions of sight, marker coordinates, not unit: [0] + x [1] + y [2] is the ray through
+/// gl_FragCoord (x, y), one metre deep.
+std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const shadows::View& view);
 
 }  // namespace pleinair::compositor

@@ -18,7 +18,8 @@ struct SurfacePrograms {
 
   /// By what may change of the light: ChangingTriangles::Change but for kNothing.
   std::array<gl::GlProgram, ChangingTriangles::kNothing> phantoms;
-  gl::GlProgram objects;
+  gl::GlProgram objects;               ///< Of triangles that may face the sun, and
+  gl::GlProgram objects_in_own_shade;  ///< of those that do not.
 };
 
 }  // namespace pleinair::compositor

@@ -61,6 +61,11 @@ void GlFramebuffer::ClearColor(int index, float r, float g, float b, float a) co
   glClearNamedFramebufferfv(id(), GL_COLOR, index, color);
 }
 
+void GlFramebuffer::ClearUnsigned(int index, unsigned value) const {
+  const GLuint all[] = {value, value, value, value};
+  glClearNamedFramebufferuiv(id(), GL_COLOR, index, all);
+}
+
 void GlFramebuffer::ClearDepth(float depth) const {
   glClearNamedFramebufferfv(id(), GL_DEPTH, 0, &depth);
 }

@@ -36,6 +36,8 @@ class GlFramebuffer {
   void Bind() const;
   /// Clears one colour attachment.
   void ClearColor(int index, float r, float g, float b, float a) const;
+  /// The same of unsigned integers, all channels.
+  void ClearUnsigned(int index, unsigned value) const;
   void ClearDepth(float depth) const;
   /// Copies colour 0 (resolving samples) and, where asked for, depth to `target` of the same size.
   void BlitTo(const GlFramebuffer& target, GLbitfield mask = GL_COLOR_BUFFER_BIT) const;

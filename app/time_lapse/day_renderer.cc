@@ -1,7 +1,9 @@
 #include "app/time_lapse/day_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 
@@ -43,6 +45,11 @@ Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
   compositor::ComposerOptions drawing = options;
   drawing.response = {};
   drawing.shadow_partitions = shadows::kMaxPartitions;  // Everything casts, not only the objects.
+  // Maps for a whole scene, not for an object: finer than the picture alone would ask.
+  constexpr std::array<int, shadows::kMaxPartitions> kSceneMaps{2048, 2048, 1024, 1024};
+  for (std::size_t i = 0; i < kSceneMaps.size(); ++i) {
+    if (drawing.shadow_sizes[i] == 0) drawing.shadow_sizes[i] = kSceneMaps[i];
+  }
   PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
                             compositor::Composer::Create(camera, placed, drawing));
   return renderer;

@@ -282,9 +282,10 @@ void ScenePanel::Shadows(WindowState* state) {
   for (int i = 0; i < drawing.shadow_partitions; ++i) {
     ImGui::PushID(i);
     int& size = drawing.shadow_sizes[i];
-    int step = std::countr_zero(static_cast<unsigned>(size) / kSmallestMap);
-    constexpr int kMapSizes = 6;
-    if (ImGui::SliderInt("##texels", &step, 0, kMapSizes - 1, std::to_string(size).c_str())) {
+    constexpr int kMapSizes = 6, kOpenStep = 3;  // A size left open: "auto", amid the bar.
+    int step = size > 0 ? std::countr_zero(static_cast<unsigned>(size) / kSmallestMap) : kOpenStep;
+    const std::string shown = size > 0 ? std::to_string(size) : "auto";
+    if (ImGui::SliderInt("##texels", &step, 0, kMapSizes - 1, shown.c_str())) {
       size = kSmallestMap << std::clamp(step, 0, kMapSizes - 1);
     }
     ImGui::SameLine();

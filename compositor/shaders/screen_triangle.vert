@@ -1,6 +1,9 @@
 #version 450 core
 // One triangle that covers the picture, from gl_VertexID alone.
+
+uniform float u_depth = 0.5;  // Of all its pixels, 0…1.
+
 void main() {
   vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
-  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+  gl_Position = vec4(corner * 2.0 - 1.0, u_depth * 2.0 - 1.0, 1.0);
 }

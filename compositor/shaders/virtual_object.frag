@@ -1,5 +1,6 @@
 #version 450 core
-// A virtual object's display-linear colour; coverage comes from multisampling.
+// A virtual object's display-linear colour; coverage comes from multisampling. Drawn with NO_SUN where
+// all of it is turned away from the sun.
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/ggx.glsl"
@@ -30,8 +31,7 @@ uniform vec3 u_fog_inscattered[kFogSplits];
 layout(binding = 0) uniform sampler2D u_base_color_texture;
 layout(binding = 1) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
 
-layout(location = 0) out vec4 out_ratio;
-layout(location = 1) out vec4 out_color;
+layout(location = 0) out vec4 out_color;
 
 vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
   vec2 uv = vec2(atan(direction.y, direction.x) / (2.0 * kPi) + 0.5,
@@ -49,6 +49,9 @@ void main() {
   if (texel.a < 0.5) discard;  // Cut-out leaves and fences; blending needs an order.
   vec3 base_color = u_base_color * texel.rgb;
 
+#ifdef NO_SUN
+  vec3 sun = vec3(0.0);
+#else
   vec3 flat_normal = ShadowGeometricNormal(v_position_m, normal);
   vec3 step_x = dFdx(v_position_m);
   vec3 step_y = dFdy(v_position_m);
@@ -56,25 +59,27 @@ void main() {
   float visibility = n_dot_l > 0.0 ? ShadowVisibility(1, v_position_m, flat_normal, step_x, step_y) : 0.0;
   visibility *= SeenSunlight(v_position_m);
   vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);
+#endif
 
   vec3 diffuse = base_color * (1.0 - u_metallic) * (1.0 - u_dielectric_f0);
   vec3 radiance = diffuse * (sun + v_ambient_with) / kPi;
 
   vec3 f0 = mix(vec3(u_dielectric_f0), base_color, u_metallic);
   if (max(max(f0.r, f0.g), f0.b) > 0.0) {
-    vec3 half_vector = normalize(to_eye + u_to_sun);
     float n_dot_v = max(dot(normal, to_eye), 1e-4);
+#ifndef NO_SUN
+    vec3 half_vector = normalize(to_eye + u_to_sun);
     float alpha = max(u_roughness * u_roughness, 1e-3);
     vec3 specular = FresnelSchlick(max(dot(to_eye, half_vector), 0.0), f0) *
                     (DistributionGgx(max(dot(normal, half_vector), 0.0), alpha) *
                      VisibilitySmith(n_dot_v, max(n_dot_l, 1e-4), alpha));
     radiance += specular * sun;
+#endif
     radiance += EnvironmentBrdf(f0, u_roughness, n_dot_v) *
                 PrefilteredEnvironment(reflect(-to_eye, normal), u_roughness);
   }
   FogAir air = FogUpTo(distance(u_eye_m, v_position_m), u_fog_split_m, u_fog_optical_depth,
                        u_fog_inscattered);
   radiance = radiance * air.left + air.light;
-  out_ratio = vec4(1.0);  // Masked off: what lies behind keeps its own.
   out_color = vec4(u_gain * radiance, 1.0);
 }

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "compositor/facing_triangles.h"
+#include "compositor/triangle_table.h"
+
 namespace pleinair::compositor {
 namespace {
 
@@ -51,6 +54,37 @@ TEST(ChangingTriangles, AreAllThatTheSunReachesWhereItsWindowIsUnknown) {
   ChangingTriangles triangles(Row());
   triangles.Sort(SunWindow::Everywhere({0, 0, 1}));
   EXPECT_THAT(triangles.ends(), ElementsAre(12, 12, 12, 12));
+}
+
+TEST(FacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {
+  LitMesh mesh = Row();
+  for (int i = 3; i < 6; ++i) mesh.normals[i] = {0.0F, 0.0F, -1.0F};
+  mesh.normals[9] = {0.0F, 0.0F, -1.0F};  // One corner of the last: part of it may face the sun.
+  FacingTriangles triangles(mesh);
+  EXPECT_EQ(triangles.facing_end(), 12) << "not sorted yet";
+  EXPECT_TRUE(triangles.Sort({0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(triangles.facing_end(), 9);
+  EXPECT_THAT(triangles.indices(), ElementsAre(0, 1, 2, 6, 7, 8, 9, 10, 11, 3, 4, 5));
+  EXPECT_TRUE(triangles.Sort({0.0F, 0.0F, -1.0F}));
+  EXPECT_EQ(triangles.facing_end(), 6) << "the second and the last";
+}
+
+TEST(FacingTriangles, HoldWhileTheSunMovesLessThanTheirMargin) {
+  LitMesh mesh = Row();
+  mesh.normals[0] = mesh.normals[1] = mesh.normals[2] = {0.999F, 0.0F, -0.045F};
+  FacingTriangles triangles(mesh);
+  triangles.Sort({0.0F, 0.0F, 1.0F});
+  EXPECT_EQ(triangles.facing_end(), 12) << "a sun 3° farther on reaches the first";
+  EXPECT_FALSE(triangles.Sort({0.03F, 0.0F, 0.99955F}));
+  EXPECT_TRUE(triangles.Sort({0.06F, 0.0F, 0.9982F}));
+  EXPECT_TRUE(triangles.Sort({0.0F, 0.0F, 0.0F}));
+  EXPECT_EQ(triangles.facing_end(), 0) << "without a sun";
+}
+
+TEST(TriangleTable, TellsPiecesThatDoNotHangTogetherApart) {
+  LitMesh mesh = Row();
+  mesh.indices = {0, 1, 2, 2, 1, 3, 6, 7, 8, 4, 8, 5};
+  EXPECT_THAT(SheetsOf(mesh, 7), ElementsAre(7, 7, 7, 7, 8, 8, 8, 8, 8, 9, 10, 11));
 }
 
 }  // namespace

@@ -152,6 +152,18 @@ TEST(Composer, HidesTheObjectBehindAPhantom) {
   EXPECT_EQ(SeenAt(composed, {0, 0, 0.3}), LinearFromSrgb8()[90]);
 }
 
+TEST(Composer, MixesTheLightOfRealSurfacesThatMeetInAPixel) {
+  // A sunlit shelf a metre above the cube's shadow; its edge runs through the middle of a column.
+  constexpr int kColumn = 162, kRow = 90;
+  const double edge = (kColumn - kCamera.cx) / kCamera.fx * 2.0;
+  const PlacedModel shelf = Place(MakeBox({edge, 0.1, 0.98}, {0.3, 0.3, 1.0}, 0.3F), true);
+  const RgbImage composed = Compose({kGround, kCube, shelf}, EvenPicture(160));
+  const auto light = [&](int x) { return LinearFromSrgb8()[composed(x, kRow, 1)]; };
+  EXPECT_LT(light(kColumn - 1), 0.5 * light(kColumn + 1)) << "shadow beside sunlit shelf";
+  EXPECT_NEAR((light(kColumn) - light(kColumn - 1)) / (light(kColumn + 1) - light(kColumn - 1)),
+              0.5, 0.05);
+}
+
 TEST(Composer, DrawsTheObjectWhereADistortedLensSeesIt) {
   CameraModel camera = kCamera;
   camera.distortion = {-0.3, 0.05, 0.001, -0.001, 0, 0, 0, 0};

@@ -1,0 +1,28 @@
+#include "compositor/drawn_frame.h"
+
+#include <vector>
+
+namespace pleinair::compositor {
+
+void DrawnFrame::Set(const gl::GlProgram& program) const {
+  program.Set("u_eye_m", eye_m);
+  program.Set("u_gain", gain);
+  program.Set("u_to_sun", to_sun);
+  program.Set("u_sun_normal_lux", sun_normal_lux);
+}
+
+void DrawnFrame::SetFog(const gl::GlProgram& program) const {
+  program.SetArray("u_fog_split_m",
+                   std::vector<float>(fog.distance_m.begin(), fog.distance_m.end()));
+  program.SetArray("u_fog_optical_depth",
+                   std::vector<glm::vec3>(fog.optical_depth.begin(), fog.optical_depth.end()));
+  program.SetArray("u_fog_inscattered",
+                   std::vector<glm::vec3>(fog.inscattered.begin(), fog.inscattered.end()));
+}
+
+void DrawnFrame::SetSunlight(const gl::GlProgram& program) const {
+  program.Set("u_sunlight_s", texture_from_marker[0]);
+  program.Set("u_sunlight_t", texture_from_marker[1]);
+}
+
+}  // namespace pleinair::compositor

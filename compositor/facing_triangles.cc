@@ -1,0 +1,42 @@
+#include "compositor/facing_triangles.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace pleinair::compositor {
+
+FacingTriangles::FacingTriangles(const LitMesh& object)
+    : indices_(object.indices), facing_end_(static_cast<int>(object.indices.size())) {
+  normals_.reserve(object.normals.size());
+  for (const auto& [x, y, z] : object.normals) normals_.emplace_back(x, y, z);
+}
+
+bool FacingTriangles::Sort(const glm::vec3& to_sun) {
+  const bool no_sun = to_sun == glm::vec3(0.0F);
+  if (sorted_for_ && (to_sun == *sorted_for_ ||
+                      (!no_sun && glm::distance(to_sun, *sorted_for_) < 0.9F * kMargin))) {
+    return false;
+  }
+  sorted_for_ = to_sun;
+  turned_away_.clear();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < indices_.size(); i += 3) {
+    const auto first = indices_.begin() + static_cast<std::ptrdiff_t>(i);
+    const bool away = std::all_of(first, first + 3, [&](std::uint32_t vertex) {
+      return no_sun || glm::dot(normals_[vertex], to_sun) < -kMargin;
+    });
+    for (std::size_t k = i; k < i + 3; ++k) {
+      if (away) {
+        turned_away_.push_back(indices_[k]);
+      } else {
+        indices_[kept++] = indices_[k];
+      }
+    }
+  }
+  facing_end_ = static_cast<int>(kept);
+  std::copy(turned_away_.begin(), turned_away_.end(),
+            indices_.begin() + static_cast<std::ptrdiff_t>(kept));
+  return true;
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "base/error.h"
+#include "compositor/drawn_frame.h"
+#include "compositor/render_targets.h"
+#include "compositor/scene_surfaces.h"
+#include "compositor/surface_programs.h"
+#include "gl/program.h"
+#include "gl/vertex_array.h"
+
+namespace pleinair::compositor {
+
+/// What the virtual objects change of the real surfaces' light, once a pixel: first which triangle
+/// each sample of the picture shows, then what of a pixel is to be shaded, then that alone. Needs
+/// a current OpenGL context; move-only.
+class RatioPass {
+ public:
+  RatioPass() = default;
+  /// Errors as gl::GlProgram::Create.
+  static Result<RatioPass> Create();
+
+  /// Draws which triangles of the real surfaces the samples show, and their depth.
+  void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                    const DrawnFrame& frame) const;
+
+  struct Shade {
+    bool look = true;      ///< Composer::LookForShade().
+    double board_m = 0.0;  ///< Composer::SetMarkerBoard().
+  };
+  /// Shades what DrawSurfaces() found, once the objects are drawn and resolved; leaves depth and
+  /// blending as glEnable(GL_DEPTH_TEST) finds them. CameraPicture::BindForShading(2, 3, 4) and the
+  /// map of the sunlight at unit 5 must have been bound.
+  void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
+            const SurfacePrograms& programs, const DrawnFrame& frame, const Shade& shade) const;
+
+ private:
+  gl::GlProgram id_program_, sort_program_;
+  gl::GlVertexArray no_attributes_;
+};
+
+}  // namespace pleinair::compositor

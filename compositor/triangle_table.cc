@@ -1,0 +1,113 @@
+#include "compositor/triangle_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+
+namespace pleinair::compositor {
+namespace {
+
+// As in shaders/triangle_table.glsl.
+constexpr std::size_t kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
+constexpr std::uint32_t kKindBits = 2;
+
+using Texel = std::array<float, 4>;
+
+/// A texture of whole rows with `texels`, which it fills up.
+template <typename T>
+Result<gl::GlTexture> Rows(std::vector<T> texels, std::size_t row, GLenum internal_format,
+                           GLenum format, GLenum type) {
+  const std::size_t rows = std::max<std::size_t>((texels.size() + row - 1) / row, 1);
+  texels.resize(rows * row);
+  PLEINAIR_ASSIGN_OR_RETURN(
+      gl::GlTexture texture,
+      gl::GlTexture::Create2D(internal_format, static_cast<int>(row), static_cast<int>(rows)));
+  texture.SetFilter(GL_NEAREST, GL_NEAREST);
+  texture.Upload(format, type, texels.data());
+  return texture;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> SheetsOf(const LitMesh& mesh, std::uint32_t first) {
+  std::vector<std::uint32_t> parents(mesh.positions.size());
+  std::iota(parents.begin(), parents.end(), 0U);
+  const auto root_of = [&](std::uint32_t vertex) {
+    while (parents[vertex] != vertex) {
+      parents[vertex] = parents[parents[vertex]];
+      vertex = parents[vertex];
+    }
+    return vertex;
+  };
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    const std::uint32_t a = root_of(mesh.indices[i]), b = root_of(mesh.indices[i - i % 3]);
+    parents[std::max(a, b)] = std::min(a, b);
+  }
+  // A piece's root is its first vertex: numbered when it is met.
+  std::vector<std::uint32_t> sheets(parents.size());
+  for (std::uint32_t vertex = 0; vertex < sheets.size(); ++vertex) {
+    const std::uint32_t root = root_of(vertex);
+    sheets[vertex] = root == vertex ? first++ : sheets[root];
+  }
+  return sheets;
+}
+
+Result<TriangleTable> TriangleTable::Create(const std::vector<LitMesh>& lit,
+                                            std::span<const float> green_albedo) {
+  TriangleTable table;
+  std::vector<Texel> vertices;
+  std::vector<float> albedos;
+  for (std::size_t m = 0; m < lit.size(); ++m) {
+    const LitMesh& mesh = lit[m];
+    if (!mesh.is_phantom) continue;
+    table.first_vertices_.push_back(static_cast<std::uint32_t>(vertices.size() / kTexelsAVertex));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const auto& [x, y, z] = mesh.positions[i];
+      const auto& [nx, ny, nz] = mesh.normals[i];
+      const auto& [r, g, b] = mesh.ambient_with[i];
+      const auto& [r0, g0, b0] = mesh.ambient_without[i];
+      vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {r0, g0, b0, nz}});
+    }
+    const auto sheets = SheetsOf(mesh, static_cast<std::uint32_t>(albedos.size()));
+    if (!sheets.empty()) {
+      albedos.resize(*std::max_element(sheets.begin(), sheets.end()) + std::size_t{1},
+                     green_albedo[m]);
+    }
+    table.sheets_.insert(table.sheets_.end(), sheets.begin(), sheets.end());
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      table.vertices_,
+      Rows(std::move(vertices), kVerticesARow * kTexelsAVertex, GL_RGBA32F, GL_RGBA, GL_FLOAT));
+  PLEINAIR_ASSIGN_OR_RETURN(table.green_albedos_,
+                            Rows(std::move(albedos), kTrianglesARow, GL_R32F, GL_RED, GL_FLOAT));
+  return table;
+}
+
+Result<void> TriangleTable::SetTriangles(std::span<const ChangingTriangles> phantoms) {
+  std::vector<std::array<std::uint32_t, 4>> triangles;
+  first_ids_.clear();
+  for (std::size_t phantom = 0; phantom < phantoms.size(); ++phantom) {
+    first_ids_.push_back(static_cast<int>(triangles.size()) + 1);
+    const std::uint32_t first = first_vertices_[phantom];
+    const std::span<const std::uint32_t> indices = phantoms[phantom].indices();
+    const auto& ends = phantoms[phantom].ends();
+    std::uint32_t kind = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(ends[ChangingTriangles::kSky]); i += 3) {
+      while (i >= static_cast<std::size_t>(ends[kind])) ++kind;
+      triangles.push_back({first + indices[i], first + indices[i + 1], first + indices[i + 2],
+                           kind | sheets_[first + indices[i]] << kKindBits});
+    }
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(triangles_, Rows(std::move(triangles), kTrianglesARow, GL_RGBA32UI,
+                                             GL_RGBA_INTEGER, GL_UNSIGNED_INT));
+  return {};
+}
+
+void TriangleTable::Bind() const {
+  triangles_.Bind(1);
+  vertices_.Bind(6);
+  green_albedos_.Bind(7);
+}
+
+}  // namespace pleinair::compositor
