@@ -81,7 +81,7 @@ void BlockFit::Predict(const PrintPattern& pattern, PrintPart part, const SeenWi
   sums_->blocks.Lay(pattern, known, seen, map_, sums_->ranges, tile_, blocks_along_);
 }
 
-void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
+void BlockFit::FitLevels(const SeenWindow& seen, double robust_share, bool known_light) {
   sums_->blocks.Levels(seen, picture_, sums_->lights, &sums_->levels);
   noise_shares_.clear();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -98,6 +98,12 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
     block.contrast = std::sqrt(std::max(0.0, vp));
     if (block.contrast < least_contrast_ || !(vi > 1e-12)) continue;
     block.correlation = vpi / std::sqrt(vp * vi);
+    if (known_light) {
+      block.gain = block.weight = 1.0;
+      block.noise = std::sqrt(std::max(0.0, vi - vpi * vpi / vp));
+      light = {1.0F, 0.0F, static_cast<float>(1.0 / robust_share), 1.0F};
+      continue;
+    }
     if (!(sum.r > 0.0)) continue;
     const double rp = sum.rp / sum.r;
     const double rvp = sum.rpp / sum.r - rp * rp, rvpi = sum.rpi / sum.r - rp * (sum.ri / sum.r);
@@ -113,6 +119,8 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
     light = {static_cast<float>(block.gain), static_cast<float>(block.offset), 0.0F,
              static_cast<float>(block.weight)};
   }
+  robust_share_ = robust_share;
+  if (known_light) return;
   // Noise is no outlier; what lies on the print is, and makes some blocks look noisier than others.
   double share = robust_share;
   if (!noise_shares_.empty()) {
@@ -127,8 +135,8 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share) {
   }
 }
 
-void BlockFit::AddUp(const SeenWindow& seen, bool blur) {
-  sums_->blocks.Motions(seen, picture_, sums_->lights, blur, &weight_, &sums_->products,
+void BlockFit::AddUp(const SeenWindow& seen, const BlockFitOptions& options) {
+  sums_->blocks.Motions(seen, picture_, sums_->lights, options.fit_blur, &weight_, &sums_->products,
                         &sums_->motions);
   gradient_ = sums_->products.jr;
   for (int a = 0, at = 0; a < kParameters; ++a) {
@@ -136,7 +144,7 @@ void BlockFit::AddUp(const SeenWindow& seen, bool blur) {
   }
   // Gain and offset of each block are eliminated (Schur's complement): J loses what a change of
   // them could do as well.
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+  for (std::size_t k = 0; !options.known_light && k < blocks_.size(); ++k) {
     const BlockMotions& sum = sums_->motions[k];
     const LightElimination eliminate(sum);
     if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
@@ -183,7 +191,7 @@ void BlockFit::Evaluate(const PrintPattern& pattern, PrintPart part, const SeenW
                         int blocks_along, const BlockFitState& state) {
   Start(pattern, seen, blocks_along, state);
   Predict(pattern, part, seen, state);
-  FitLevels(seen, BlockFitOptions{}.robust_share);
+  FitLevels(seen, BlockFitOptions{}.robust_share, false);
   sums_->blocks.WriteBlocks(seen, &block_of_);
 }
 
@@ -253,10 +261,10 @@ bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow
   Start(pattern, seen, blocks_along, *state);
   for (int step = 0;; ++step) {
     Predict(pattern, part, seen, *state);
-    if (step == 0) FitLevels(seen, options.robust_share);
+    if (step == 0) FitLevels(seen, options.robust_share, options.known_light);
     // The light of the step before, or without weights, tells what fits; and that the light.
-    FitLevels(seen, options.robust_share);
-    AddUp(seen, options.fit_blur);
+    FitLevels(seen, options.robust_share, options.known_light);
+    AddUp(seen, options);
     if (step >= options.steps) break;
     bool done = false, still = false;
     solved = Move(pattern, options, scale, state, &done, &still);

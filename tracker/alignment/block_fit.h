@@ -41,8 +41,10 @@ struct BlockFitOptions {
   bool fit_blur = false;
   bool fit_projection = true;  ///< False: only the affine part of the motion.
   double robust_share = 0.35;  ///< Residual, in shares of white, at which a pixel loses half.
-  bool tell_blocks = true;     ///< Which block each pixel belongs to is asked for afterwards.
-  double done_px = 0.01;       ///< Stop when no corner moves farther, in the window's pixels.
+  /// What is seen is in shares of white already: no block has a gain or an offset of its own.
+  bool known_light = false;
+  bool tell_blocks = true;  ///< Which block each pixel belongs to is asked for afterwards.
+  double done_px = 0.01;    ///< Stop when no corner moves farther, in the window's pixels.
 };
 
 /// Fits a print's homography to a picture by Gauss–Newton: the print's picture is predicted and
@@ -100,8 +102,8 @@ class BlockFit {
              const BlockFitState& state);
   void Predict(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
                const BlockFitState& state);
-  void FitLevels(const SeenWindow& seen, double robust_share);
-  void AddUp(const SeenWindow& seen, bool blur);
+  void FitLevels(const SeenWindow& seen, double robust_share, bool known_light);
+  void AddUp(const SeenWindow& seen, const BlockFitOptions& options);
   bool Move(const PrintPattern& pattern, const BlockFitOptions& options, double scale,
             BlockFitState* state, bool* done, bool* still);
 

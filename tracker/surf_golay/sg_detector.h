@@ -58,7 +58,8 @@ class SgDetector final : public MarkerDetector {
 
   /// A guess after the first steps of its fit.
   struct Hope {
-    BlockFitState state;
+    BlockFitState state, guess;  ///< Before the steps: guess.
+    bool plain = false;          ///< The guess is plainly a border's, covers or not.
     double worth = 0.0;
   };
 
@@ -81,11 +82,18 @@ class SgDetector final : public MarkerDetector {
   void FindByCells();
   /// Fits and reads guesses, the best first; whether any was a marker.
   bool TryGuesses(std::span<const BorderGuess> guesses);
+  /// Fits a guess and reads it there, unless that was tried before or is not worth it.
+  std::optional<SgReading> ReadFitted(BlockFitState* state, bool* tried);
+  /// Correlation of the border's pixels this way round; 0 where another is better.
+  double UprightCorrelation(const BlockFitState& state);
   bool Add(const SgReading& reading, DetectionPath path);
   /// Whether a marker was found there already, of which so much is seen or that lies just so.
   bool Taken(const Mat3& modules_from_ideal, double visible = 0.0) const;
   std::array<Vec2, 4> CornersPx(const Mat3& modules_from_ideal) const;
   bool RightWayRound(const SgReading& reading);
+  /// A reading from a guess that is good already, proved by what is seen of the border at its
+  /// place.
+  std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess);
   void TryQuad(const Quad& quad);
   void Remember();
 

@@ -31,7 +31,7 @@ constexpr double kVisibleCorrelation = 0.7;
 constexpr double kLeastVisibleBorder = 0.06;
 /// A print of which less is seen is also measured from its content; and in so many steps.
 constexpr double kWholeEnough = 0.93;
-constexpr int kContentSteps = 4;
+constexpr int kReadSteps = 4, kContentSteps = 4;
 /// Corners that far apart put a cell's middle where it was: cells need not be read again.
 constexpr double kSameCells_modules = 0.5;
 constexpr int kFollowSteps = 4;
@@ -47,7 +47,19 @@ constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare w
 /// Share of a print that must be seen at least where its number is known, and where nothing tells
 /// that it is still that.
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
+/// Beneath covers: noise of the black, as a share of white, where the light is not told, and of the
+/// white below which edges tell covers; steps and robust shares of the fits, the latter at least so
+/// many times the noise; and what of the correlation inside may be lost by them.
+constexpr double kMostDoubtfulBlack = 0.25, kPlainWhite = 0.1;
+constexpr int kBeneathSteps = 6;
+constexpr std::array<double, 2> kBeneathShares{0.3, 0.15};
+constexpr double kBeneathNoises = 3.0, kMostLost = 0.1;
 constexpr double kMiddle = 0.5 * sg::kPrint;
+
+int FineBlocks(const PixelWindow& window, const BlockFitState& state) {
+  return BlockFit::BlocksAlong(
+      1.2 * PrintWindows::SidePx(state.modules_from_ideal) / window.Scale(), kFineBlock_px);
+}
 
 /// Step of a fit from nearby, in pixels, that is short enough to be the last: it leaves a fortieth
 /// of itself. Of large prints, whose corners are told best, that must be less; of small ones noise
@@ -192,6 +204,7 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
     }
   }
   reading->margin = kSafeMargin;
+  LookBeneathCovers(&*reading);
   if (seen > 0.0 && right > kContentSure * seen) return reading;
   // Something covers the content, unless it is that of another print: numbers share up to two
   // thirds of their cells.
@@ -265,8 +278,13 @@ std::optional<SgReading> SgReader::ReadPlain(const BlockFitState& guess) {
   return reading;
 }
 
-std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_steps,
-                                        double border_correlation) {
+std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
+  std::optional<SgReading> reading = Read(guess, kReadSteps);
+  if (reading && !IsProved(reading->proof_bits, reading->visible_fraction, 0.0)) reading.reset();
+  return reading;
+}
+
+std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_steps) {
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
   FitBorderThroughNoise(border_steps, &state);
@@ -285,6 +303,7 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
       if (other && Explains(*other, *reading)) reading = std::move(other);
     }
   }
+  LookBeneathCovers(&*reading);
   if (ModulesApart(state.modules_from_ideal, reading->modules_from_ideal) > kSameCells_modules) {
     // Where the print turned out to lie its cells must still tell the same.
     BlockFitState measured{reading->modules_from_ideal, reading->blur_px};
@@ -294,8 +313,6 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
   }
   reading->margin = number.margin;
   reading->proof_bits = number.proof_bits;
-  if (!IsProved(reading->proof_bits, reading->visible_fraction, border_correlation))
-    return std::nullopt;
   return reading;
 }
 
@@ -353,13 +370,65 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   options.fit_blur = true;
   options.tell_blocks = false;
   options.done_px = done_px;
-  const int blocks = BlockFit::BlocksAlong(1.2 * side / window.Scale(), kFineBlock_px);
-  if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state)) {
+  if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, FineBlocks(window, guess), options,
+                &state)) {
     return std::nullopt;
   }
   SgReading reading;
   reading.number = number;
   DescribeFit(lens_, fit_, state, &reading);
+  return reading;
+}
+
+void SgReader::LookBeneathCovers(SgReading* reading) {
+  if (reading->visible_fraction >= kWholeEnough) return;
+  std::optional<SgReading> beneath =
+      MeasureBeneathCovers(reading->number, {reading->modules_from_ideal, reading->blur_px});
+  if (!beneath || beneath->inner_correlation < reading->inner_correlation - kMostLost) return;
+  beneath->margin = reading->margin;
+  *reading = std::move(*beneath);
+}
+
+std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockFitState& guess) {
+  PixelWindow window;
+  if (!windows_.TakeFine(guess, &window, &seen_)) return std::nullopt;
+  const PrintPattern& print = Print(number);
+  const int blocks = FineBlocks(window, guess);
+  BlockFitState state = guess;
+  const auto fit = [&](const BlockFitOptions& options) {
+    return fit_.Run(print, PrintPart::kWhole, seen_, blocks, options, &state);
+  };
+  fit_.Evaluate(print, PrintPart::kWhole, seen_, blocks, state);
+  PrintLight light;
+  if (!light_meter_.Measure(print, fit_, seen_, false, &light) || light.white_clips ||
+      light.black_noise > kMostDoubtfulBlack) {
+    return std::nullopt;
+  }
+  cover_.TakeShares(print, fit_, light, &seen_);
+  BlockFitOptions options;
+  options.fit_blur = true;
+  options.tell_blocks = false;
+  BlockFitOptions sharp = options;
+  sharp.steps = kBeneathSteps;
+  sharp.known_light = true;
+  const double noise = kBeneathNoises * std::max(light.white_noise, light.black_noise);
+  CoverMask::Edges edges = CoverMask::Edges::kUnsure;
+  for (const double share : kBeneathShares) {
+    sharp.robust_share = std::max(share, noise);
+    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_);
+    if (!fit(sharp)) return std::nullopt;
+    if (light.white_noise < kPlainWhite) edges = CoverMask::Edges::kTell;
+  }
+  // Covers throw shadows, too: at last each block has its own light again.
+  cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_);
+  cover_.GiveValuesBack(&seen_);
+  if (!fit(options)) return std::nullopt;
+  SgReading reading;
+  reading.number = number;
+  DescribeFit(lens_, fit_, state, &reading);
+  cover_.LiftFrom(&seen_);
+  fit_.Evaluate(print, PrintPart::kWhole, seen_, blocks, state);
+  DescribeLooks(fit_, &reading);
   return reading;
 }
 

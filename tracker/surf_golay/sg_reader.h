@@ -16,6 +16,7 @@
 #include "tracker/golay/soft_golay_decoder.h"
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
+#include "tracker/surf_golay/cover_mask.h"
 #include "tracker/surf_golay/print_windows.h"
 #include "tracker/surf_golay/sg_reading.h"
 
@@ -49,27 +50,23 @@ class SgReader {
   std::optional<SgReading> Follow(int number, const BlockFitState& guess);
 
   /// Everything, from a guess that FitBorder has improved.
-  std::optional<SgReading> Read(const BlockFitState& guess) { return Read(guess, kReadSteps, 0.0); }
+  std::optional<SgReading> Read(const BlockFitState& guess);
 
   /// A marker that lies open in even light, whole and plain to see, from a guess that is good to a
   /// pixel; nothing where anything is doubtful, and Read must tell.
   std::optional<SgReading> ReadPlain(const BlockFitState& guess);
 
-  /// The same from a guess of another origin that is good already, where a fit of a border that is
-  /// covered nearly everywhere could only go wrong. Where `border_correlation` is plain
-  /// (kPlainBorder) fewer bits prove the number.
-  std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess, double border_correlation) {
-    return Read(guess, 0, border_correlation);
-  }
+  /// As Read, from a guess of another origin that is good already, where a fit of a border that is
+  /// covered nearly everywhere could only go wrong. Whether the number is proved (IsProved) is left
+  /// to those who can look at the border's pixels.
+  std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess) { return Read(guess, 0); }
 
   /// Measures a print whose number is known from a guess that is right to about a pixel, until a
   /// step moves no corner farther than `done_px`.
   std::optional<SgReading> Measure(int number, const BlockFitState& guess, double done_px = 0.01);
 
  private:
-  static constexpr int kReadSteps = 4;
-  std::optional<SgReading> Read(const BlockFitState& guess, int border_steps,
-                                double border_correlation);
+  std::optional<SgReading> Read(const BlockFitState& guess, int border_steps);
   /// FitBorder, finely, in a reduced picture where noise hides the border in the picture itself.
   double FitBorderThroughNoise(int steps, BlockFitState* state);
   /// Reads the cells of a print whose border was fitted last: number, margin and proof. False where
@@ -79,6 +76,9 @@ class SgReader {
   bool FitContent(int number, BlockFitState* state);
   /// Makes the pixels of the window that do not show the content count for nothing.
   void KeepContent(const PixelWindow& window, const Mat3& modules_from_ideal);
+  /// Measures a print again of which something is covered, by what surely is not.
+  void LookBeneathCovers(SgReading* reading);
+  std::optional<SgReading> MeasureBeneathCovers(int number, const BlockFitState& guess);
   const PrintPattern& Print(int number);
 
   const LensGrid& lens_;
@@ -92,6 +92,7 @@ class SgReader {
   BlockFit other_fit_;
   PrintLightMeter light_meter_;
   CellReader cell_reader_;
+  CoverMask cover_;
   PrintPattern blank_;
   PrintPattern print_;
   int print_number_ = -1;

@@ -59,10 +59,7 @@ void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
 
 }  // namespace
 
-void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state,
-                 SgReading* reading) {
-  reading->modules_from_ideal = state.modules_from_ideal;
-  reading->blur_px = state.blur_px;
+void DescribeLooks(const BlockFit& fit, SgReading* reading) {
   reading->whole_correlation = fit.Correlation();
   reading->inner_correlation = InnerCorrelation(fit);
   reading->blocks_along = fit.blocks_along();
@@ -79,6 +76,13 @@ void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState&
   const double blocks = static_cast<double>(fit.blocks().size());
   reading->visible_fraction = seen / std::max(all, kLeastTelling * blocks);
   JudgePlainBlocks(fit, &reading->visible);
+}
+
+void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state,
+                 SgReading* reading) {
+  reading->modules_from_ideal = state.modules_from_ideal;
+  reading->blur_px = state.blur_px;
+  DescribeLooks(fit, reading);
   // The corners and how they follow the eight motions.
   const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
   const auto pixel_of = [&](Vec2 unit_down) {

@@ -32,4 +32,7 @@ struct SgReading {
 void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state,
                  SgReading* reading);
 
+/// Writes down only how well the whole print looks as predicted and where it is seen.
+void DescribeLooks(const BlockFit& fit, SgReading* reading);
+
 }  // namespace pleinair::tracker

@@ -1,0 +1,76 @@
+#include "tracker/surf_golay/cover_mask.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pleinair::tracker {
+namespace {
+
+/// Predicted shares of white well inside a shape, and seen ones that are of the other colour there.
+constexpr float kWhite = 0.95F, kBlack = 0.05F, kDark = 0.6F;
+/// The same on edges that tell.
+constexpr float kEdgeWhite = 0.35F, kEdgeBlack = 0.5F, kEdgeNoise = 0.1F;
+/// Ink is as dark in the shade as it is in the light: what is lighter by more than noise is none.
+constexpr float kLeastLight = 0.15F, kMostLight = 0.4F, kNoises = 5.0F;
+/// A pixel's own square beside the blur, and how many standard deviations an edge reaches.
+constexpr double kPixelSigma_px = 0.29, kReachSigmas = 2.0;
+
+}  // namespace
+
+void CoverMask::TakeShares(const PrintPattern& pattern, const BlockFit& fit,
+                           const PrintLight& light, SeenWindow* seen) {
+  value_ = seen->value;
+  certainty_ = seen->certainty;
+  const double middle = 0.5 * pattern.modules, per_half = 2.0 / pattern.edge_modules;
+  const PrintMap& map = fit.map();
+  for (std::size_t n = 0; n < value_.size(); ++n) {
+    const double white =
+        light.White((map.column[n] - middle) * per_half, (map.row[n] - middle) * per_half);
+    seen->value[n] =
+        static_cast<float>((value_[n] / white - light.black_share) / (1.0 - light.black_share));
+  }
+  share_ = seen->value;
+  least_light_ =
+      std::clamp(kNoises * static_cast<float>(light.black_noise), kLeastLight, kMostLight);
+}
+
+void CoverMask::Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow* seen) {
+  const int width = seen->rays.window.width, height = seen->rays.window.height;
+  const int reach =
+      1 + static_cast<int>(std::ceil(kReachSigmas * std::hypot(kPixelSigma_px, blur_px)));
+  covered_.resize(share_.size());
+  beside_.resize(share_.size());
+  for (std::size_t n = 0; n < share_.size(); ++n) {
+    const float predicted = fit.picture().white[n];
+    const float share = share_[n];
+    covered_[n] =
+        edges == Edges::kTell
+            ? (predicted > kEdgeWhite && share < kDark * predicted - kEdgeNoise) ||
+                  (predicted < kEdgeBlack && share > predicted + least_light_)
+            : (predicted > kWhite && share < kDark) || (predicted < kBlack && share > least_light_);
+  }
+  // Along rows, then along columns, each pixel keeps those within reach from counting.
+  const auto spread = [&](const std::vector<unsigned char>& from, int count, int step, int lines,
+                          int line_step, std::vector<unsigned char>* to) {
+    for (int line = 0; line < lines; ++line) {
+      const int first = line * line_step;
+      int last = -reach - 1;
+      for (int at = 0; at < count; ++at) {
+        if (from[first + at * step] != 0) last = at;
+        (*to)[first + at * step] = at - last <= reach;
+      }
+      last = count + reach;
+      for (int at = count - 1; at >= 0; --at) {
+        if (from[first + at * step] != 0) last = at;
+        (*to)[first + at * step] |= last - at <= reach;
+      }
+    }
+  };
+  spread(covered_, width, 1, height, width, &beside_);
+  spread(beside_, height, width, width, 1, &covered_);
+  for (std::size_t n = 0; n < share_.size(); ++n) {
+    seen->certainty[n] = covered_[n] != 0 ? 0.0F : certainty_[n];
+  }
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,45 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <vector>
+
+#include "tracker/alignment/block_fit.h"
+#include "tracker/alignment/seen_window.h"
+#include "tracker/print_pattern.h"
+#include "tracker/surf_golay/cell_light.h"
+
+namespace pleinair::tracker {
+
+/// Where something lies on a print that is known: pixels well inside a white shape that are seen
+/// dark, or well inside the black that are seen light, and all that is so near to them that an edge
+/// of the print there may be the cover's. What looks like ink agrees with the print's black, but
+/// not with its white: without the mask the feet of the edges between, which are nearly black,
+/// still draw a robust fit.
+class CoverMask {
+ public:
+  /// Turns the window's values into shares of white by `light`, and remembers what they were.
+  /// `fit` has evaluated the print on it.
+  void TakeShares(const PrintPattern& pattern, const BlockFit& fit, const PrintLight& light,
+                  SeenWindow* seen);
+
+  /// What pixels at edges of the print tell of covers: something where the print lies to a fraction
+  /// of a pixel where it is predicted, in plain light.
+  enum class Edges { kUnsure, kTell };
+
+  /// Makes covered pixels of the window count for nothing, by what `fit` predicted last of a
+  /// picture of this blur (standard deviation, the window's pixels).
+  void Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow* seen);
+
+  /// Gives the window its values back.
+  void GiveValuesBack(SeenWindow* seen) const { seen->value = value_; }
+  /// … and its certainty: as if nothing were covered.
+  void LiftFrom(SeenWindow* seen) const { seen->certainty = certainty_; }
+
+ private:
+  std::vector<float> value_, share_, certainty_;
+  float least_light_ = 0.0F;  ///< Share of white that is no ink.
+  std::vector<unsigned char> covered_, beside_;
+};
+
+}  // namespace pleinair::tracker
