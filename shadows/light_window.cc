@@ -35,7 +35,17 @@ double SteppedSide(double length) {
   return std::exp2(std::ceil(4.0 * std::log2(std::max(length, 1e-6))) / 4.0);
 }
 
+// Margin, metres, as wide as the widest kernel around `shown` metres in a map of that size. A slice
+// beside the scene shows a point of it.
+double UsefulMargin(double shown, int resolution) {
+  constexpr double kLeastShownM = 0.05;
+  const double texels = WidestKernel(resolution);
+  return std::max(shown, kLeastShownM) * texels / (resolution - 2 - 2.0 * texels);
+}
+
 }  // namespace
+
+double WidestKernel(int resolution) { return std::min(128.0, resolution / 8.0); }
 
 LightAxes LightAxes::FromSun(const glm::dvec3& to_sun) {
   const glm::dvec3 w = glm::normalize(to_sun);
@@ -90,7 +100,9 @@ std::vector<LightWindow> FitWindowsToView(const LightAxes& axes, const View& vie
     const glm::dvec2 high = glm::clamp(seen.window.max, scene.window.min, scene.window.max);
     LightWindow window;
     for (int axis = 0; axis < 2; ++axis) {
-      const double side = SteppedSide(high[axis] - low[axis] + 2.0 * margin_m);
+      const double shown = high[axis] - low[axis];
+      const double side =
+          SteppedSide(shown + 2.0 * std::min(margin_m, UsefulMargin(shown, resolutions[i])));
       // One texel of slack at each side for the snapping.
       const double texel = side / (resolutions[i] - 2);
       const double corner = 0.5 * (low[axis] + high[axis] - side);

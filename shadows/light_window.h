@@ -65,11 +65,18 @@ struct LightExtent {
 };
 LightExtent Project(const LightAxes& axes, const Box& box);
 
+/// Radius, in texels, beyond which no penumbra is followed: an eighth of a map at most, so that its
+/// margins leave three quarters of a side to what is seen. Mirrors ShadowWidestKernel in
+/// shadow_formulae.glsl.
+double WidestKernel(int resolution);
+
 /// Windows around what the view's slices (Eq. 11) can show of `scene`, finest first, each widened
-/// by `margin_m`. Sides grow in steps of 2^¼ and corners move by whole texels, so that the texels
-/// do not crawl while the camera moves. Zhang et al. 2006; snapping after Valient 2008, "Stable
-/// rendering of cascaded shadow maps". Deviation: boxes in place of bounding spheres, which are up
-/// to three times as large; a turning camera changes the texels' size at the steps alone.
+/// by `margin_m` or by the widest kernel, whichever is less (else a scene of kilometres would spend
+/// the finest map on its margins). Sides grow in steps of 2^¼ and corners move by whole texels, so
+/// that the texels do not crawl while the camera moves. Zhang et al. 2006; snapping after Valient
+/// 2008, "Stable rendering of cascaded shadow maps". Deviation: boxes in place of bounding spheres,
+/// which are up to three times as large; a turning camera changes the texels' size at the steps
+/// alone.
 std::vector<LightWindow> FitWindowsToView(const LightAxes& axes, const View& view, int partitions,
                                           double split_weight, std::span<const int> resolutions,
                                           const LightExtent& scene, double margin_m);

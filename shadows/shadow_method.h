@@ -25,7 +25,7 @@ enum class ShadowMethod {
   kGaussian,              ///< The paper's Z-GaF: a Gaussian of blurred depth moments.
   kSunDiscLean,    ///< Ours with one map and one look at four texels: as cheap as a plain map.
   kSunDiscLight,   ///< kSunDiscFast with one map.
-  kSunDiscSpread,  ///< Ours with four maps and five looks, as far apart as disc and pixel ask.
+  kSunDiscSpread,  ///< Ours without pyramid: 6×6 texels, few looks where penumbrae are wider.
   kSunDiscFast,    ///< Ours with penumbrae of at most 3 texels: no search, no pyramid.
   kSunDisc,        ///< Ours, the default: the sun's disc seen past the blockers.
 };

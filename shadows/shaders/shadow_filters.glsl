@@ -30,7 +30,7 @@ float ShadowBox(int set, int slice, vec4 size, ShadowReceiver r, int side) {
       blocked += dot(blocks, vec4(left * high, right * high, right * low, left * low));
     }
   }
-  return 1.0 - blocked / float(side * side);
+  return max(1.0 - blocked / float(side * side), 0.0);
 }
 
 // Percentage-closer soft shadows as published (Fernando 2005): a search over all that the near

@@ -20,6 +20,25 @@ vec2 VogelDisc(int i, int n) {
   return vec2(radius * cos(angle), radius * sin(angle));
 }
 
+// Share that a box of ±k texels has of two texels side by side, times 2 k; `offset`: from the point
+// to the first one's centre. ±½ is the bilinear filter.
+vec2 ShadowBoxShares(float offset, float k) {
+  vec2 start = vec2(offset - 0.5f, offset + 0.5f);
+  return clamp(k - start, 0.0f, 1.0f) - clamp(-k - start, 0.0f, 1.0f);
+}
+
+// Radius, in texels, beyond which no penumbra is followed: what lies further may lie outside the
+// map. Mirrors WidestKernel in shadows/light_window.h.
+float ShadowWidestKernel(float resolution) { return min(128.0f, resolution / 8.0f); }
+
+// Height below which a surface that far from the receiver's ray is no blocker: a tenth of what the
+// disc's widest ray has there. All of it would be too much: what is seen from the sun may hide
+// something lower beneath it, or the ray may have met the same thing before; a sunlit wall that
+// rises from the ground has a hundredth.
+float ShadowLeastHeight(float distance_m, float tan_radius) {
+  return max(0.1f * distance_m / tan_radius, 0.0f);
+}
+
 // Standard normal distribution function by the logistic fit of Bowling et al. 2009, "A logistic
 // approximation to the cumulative normal distribution", Eq. (10): error at most 1.4e-4.
 float NormalCdf(float x) {

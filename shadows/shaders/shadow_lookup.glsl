@@ -36,6 +36,7 @@ struct ShadowReceiver {
   vec2 slope;   // Depth of the receiver's plane per texel, metres.
   float depth;  // Metres.
   float bias;   // Metres.
+  float rise;   // Of its own surface from a texel to the next, metres, as far as that may excuse it.
   vec2 step_x;  // What one pixel of the picture covers, texels: the visibility is its mean.
   vec2 step_y;
 };

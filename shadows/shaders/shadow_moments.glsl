@@ -9,7 +9,7 @@ float ShadowFromMoments(int set, int slice, vec4 size, ShadowReceiver r, float l
   // The border's texels are the slice's own: beyond them another size's map may lie.
   vec2 texel = clamp(r.texel, vec2(0.5), vec2(size.z - 0.5));
   vec4 moments = textureLod(shadow_maps[2 * set], vec3(texel / map_texels, float(slice)), 0.0);
-  float sigma = least_sigma + length(r.slope) / size.w;
+  float sigma = least_sigma + r.rise / size.w;
   float depth = (r.depth - r.bias) / size.w - 0.5;
 #ifdef SHADOW_METHOD_EXPONENTIAL
   vec2 warped = ShadowWarp(depth);

@@ -40,87 +40,95 @@ float ShadowCount(float square_texels, float a_texel, float least, float most) {
 // VogelDisc's turn from point to point, 2.39996 rad: spares a sine and a cosine a point.
 const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-// Share that a box of ±k texels around the middle of 4×4 texels has of each of the four along an
-// axis, times 2 k; f: the point's offset from the second one's centre. ±½ is the bilinear filter.
-vec4 ShadowBoxShares(float f, float k) {
-  const vec4 kStart = vec4(-0.5, 0.5, 1.5, 2.5);
-  return clamp(1.0 + f + k - kStart, 0.0, 1.0) - clamp(1.0 + f - k - kStart, 0.0, 1.0);
+// Half-widths of the box that is as wide, in standard deviations, as disc and pixel together: a disc
+// of radius ρ has ±ρ√¾.
+vec2 ShadowBoxWidth(vec4 size, ShadowReceiver r, float height, float tan_radius) {
+  vec2 disc = height * tan_radius / size.xy;
+  vec2 pixel = 0.5 * (abs(r.step_x) + abs(r.step_y));
+  return sqrt(0.75 * disc * disc + pixel * pixel);
 }
 
-// Where 4×4 texels hold all that the disc and the pixel can see: their blockers' mean height, and
-// a box as wide as it asks.
-float ShadowNarrow(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
-  vec2 corner = floor(r.texel - 0.5) - 1.0;
-  vec2 f = r.texel - 1.5 - corner;
-  vec4 blocks[4];
-  vec4 heights = vec4(0.0);
-  vec4 blockers = vec4(0.0);
-  for (int i = 0; i < 4; ++i) {
+// All texels of `quads` × `quads` quads around a point (at most 3 × 3): their blockers' mean height,
+// and what a box as wide as that asks leaves visible. The widest box that fits is ±(quads − ½).
+float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius, int quads,
+                  out float height) {
+  vec2 corner = floor(r.texel - 0.5) - float(quads - 1);
+  vec4 blocks[9];
+  vec4 heights = vec4(0.0), blockers = vec4(0.0);
+  for (int i = 0; i < quads * quads; ++i) {
     ShadowQuad quad =
-        ShadowFetch(set, slice, size, r, corner + vec2(2.0 * float(i & 1), 2.0 * float(i >> 1)));
+        ShadowFetch(set, slice, size, r, corner + 2.0 * vec2(float(i % quads), float(i / quads)));
     blocks[i] = vec4(greaterThan(quad.excess, vec4(0.0)));
     heights += blocks[i] * quad.height;
     blockers += blocks[i];
   }
-  float height = max(dot(heights, vec4(1.0)), 0.0) / max(dot(blockers, vec4(1.0)), 1.0);
-  // A disc of radius ρ is as wide, in standard deviations, as a box of ±ρ√¾; a pixel is a box.
-  vec2 disc = height * tan_radius / size.xy;
-  vec2 pixel = 0.5 * (abs(r.step_x) + abs(r.step_y));
-  vec2 k = clamp(sqrt(0.75 * disc * disc + pixel * pixel), vec2(0.5), vec2(1.5));
-  vec4 x = ShadowBoxShares(f.x, k.x), y = ShadowBoxShares(f.y, k.y);
-  // Row by row; a quad's order is (0,1), (1,1), (1,0), (0,0).
-  vec4 rows = vec4(dot(vec4(blocks[0].wz, blocks[1].wz), x), dot(vec4(blocks[0].xy, blocks[1].xy), x),
-                   dot(vec4(blocks[2].wz, blocks[3].wz), x), dot(vec4(blocks[2].xy, blocks[3].xy), x));
-  return 1.0 - dot(rows, y) / (4.0 * k.x * k.y);
-}
-
-// Share of the 2×2 texels around a place that blocks, weighted bilinearly.
-float ShadowBlocked(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel) {
-  return 1.0 - ShadowTap(set, slice, size, r, texel, -1e30);
-}
-
-// Deviations along both axes, texels, of what disc and pixel spread beyond one look's own tent
-// (variance 1/6 texel² an axis).
-vec2 ShadowSpread(ShadowReceiver r, float height, float tan_radius_texels) {
-  float disc = max(height, 0.0) * tan_radius_texels;
-  vec2 pixel2 = r.step_x * r.step_x + r.step_y * r.step_y;
-  return sqrt(max(0.25 * disc * disc + pixel2 / 12.0 - 1.0 / 6.0, 0.0));
-}
-
-// Five looks, one amid four on a square turned by atan ½, so that an edge along an axis passes them
-// one by one: (4 + 1 + 4 + 1)/5 (σ/√2)² = σ². Three quads on a diagonal tell the blockers' height:
-// one alone sees none on most of the lit side of a penumbra, and another one at every texel.
-float ShadowFiveLooks(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
-  vec4 heights = vec4(0.0), blockers = vec4(0.0);
+  height = max(dot(heights, vec4(1.0)), 0.0) / max(dot(blockers, vec4(1.0)), 1.0);
+  vec2 k = clamp(ShadowBoxWidth(size, r, height, tan_radius), vec2(0.5), vec2(float(quads) - 0.5));
+  vec2 offset = corner + 0.5 - r.texel;
   float blocked = 0.0;
-  for (int i = -1; i <= 1; ++i) {
-    vec2 corner = floor(r.texel + 2.0 * float(i) - 0.5);
-    ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
-    vec4 blocks = vec4(greaterThan(quad.excess, vec4(0.0)));
-    heights += blocks * quad.height;
-    blockers += blocks;
-    if (i == 0) blocked = ShadowBilinear(blocks, r.texel - 0.5 - corner);
+  for (int i = 0; i < quads * quads; ++i) {
+    vec2 x = ShadowBoxShares(offset.x + 2.0 * float(i % quads), k.x);
+    vec2 y = ShadowBoxShares(offset.y + 2.0 * float(i / quads), k.y);
+    // A quad's order is (0,1), (1,1), (1,0), (0,0).
+    blocked += dot(blocks[i], vec4(x, x.yx) * y.yyxx);
   }
-  float height = dot(heights, vec4(1.0)) / max(dot(blockers, vec4(1.0)), 1.0);
-  vec2 apart = sqrt(0.5) * ShadowSpread(r, height, tan_radius / size.x);
-  vec2 far = apart * vec2(2.0, 1.0), across = apart * vec2(-1.0, 2.0);
-  blocked += ShadowBlocked(set, slice, size, r, r.texel + far);
-  blocked += ShadowBlocked(set, slice, size, r, r.texel - far);
-  blocked += ShadowBlocked(set, slice, size, r, r.texel + across);
-  blocked += ShadowBlocked(set, slice, size, r, r.texel - across);
-  return 1.0 - blocked / 5.0;
+  return max(1.0 - blocked / (4.0 * k.x * k.y), 0.0);
+}
+
+// Rise over distance below which what the pixel alone covers is the foot of a lit wall beside the
+// receiver, which another pixel shows, and no blocker.
+const float kShadowWallRise = 3.0;
+
+// A pixel's variance over its side's square: a box has 1/12. Edges stand as still as the truth's
+// while a camera creeps with this.
+const float kPixelVariance = 1.0 / 11.0;
+
+// One even spread of looks over an ellipse as wide, in standard deviations, as disc and pixel
+// together. Looks of the disc each moved to another place in the pixel tremble twice as much.
+// Where it is not wanted, one look.
+float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius,
+                       float height, float most, bool wanted) {
+  // A look is a tent of variance 1/6 texel² an axis; a disc of radius ρ has ρ²/4.
+  float texel_m = max(size.x, size.y);
+  float disc_m = min(height * tan_radius, ShadowWidestKernel(size.z) * min(size.x, size.y));
+  float filter_m = sqrt(max(disc_m * disc_m - 2.0 / 3.0 * texel_m * texel_m, 0.0));
+  vec2 disc = filter_m / size.xy;
+  vec2 across = 0.25 * disc * disc + kPixelVariance * (r.step_x * r.step_x + r.step_y * r.step_y);
+  float skew = kPixelVariance * (r.step_x.x * r.step_x.y + r.step_y.x * r.step_y.y);
+  vec2 along = vec2(across.x, skew) / sqrt(max(across.x, 1e-12));  // Cholesky's factors.
+  mat2 ellipse = 2.0 * mat2(along, vec2(0.0, sqrt(max(across.y - along.y * along.y, 0.0))));
+  float visible = 0.0;
+  float count = wanted ? ShadowCount(ellipse[0].x * ellipse[1].y, 2.0, 20.0, most) : 0.0;
+  vec2 spoke = vec2(1.0, 0.0);
+  int i = 0;
+  do {
+    float radius = sqrt((float(i) + 0.5) / (count + 0.5));
+    vec2 texel = r.texel + ellipse * (radius * spoke);
+    spoke = kGoldenTurn * spoke;
+    float weight = min(count - float(i), 1.0);
+    float least_m = ShadowLeastHeight(radius * filter_m - texel_m, tan_radius);
+    visible += weight * ShadowTap(set, slice, size, r, texel, least_m);
+  } while (float(++i) < count);
+  return visible / max(count, 1e-3);
+}
+
+// The disc past the blockers in 6×6 texels: a box over all of them where it fits, so that no edge
+// passes a look at a time; beyond that a spread of few looks, mixed in over a texel of width.
+float ShadowNear(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius, bool wanted) {
+  float height;
+  float dense = ShadowDense(set, slice, size, r, tan_radius, 3, height);
+  vec2 k = ShadowBoxWidth(size, r, height, tan_radius);
+  float wide = wanted ? clamp(max(k.x, k.y) - 2.5, 0.0, 1.0) : 0.0;
+  float spread = ShadowEvenSpread(set, slice, size, r, tan_radius, height, 32.0, wide > 0.0);
+  return wide > 0.0 ? mix(dense, spread, wide) : dense;
 }
 
 // Visibility of the sun's disc by percentage-closer soft shadows (Fernando 2005) with the sun's own
 // geometry: a blocker h metres away shades a disc of h tan 0.2665° around it.
 // Deviations: (1) the search looks only as far as the highest blocker nearby can matter, found
 // in a pyramid of depth bounds, so that most pixels need no search at all; (2) depths are compared
-// with the receiver's plane, texel by texel, so a lit plane needs no bias to speak of; (3) blockers
-// too low for any ray of the disc at their distance are left out (the foot of a sunlit wall).
-// (4) a pixel's variance is taken as 1/11 in place of a box's 1/12: edges then stand as still as the
-// truth's while a camera creeps.
-const float kPixelVariance = 1.0 / 11.0;
-
+// with the receiver's plane, texel by texel, so a lit plane needs no bias to speak of; (3) what is far
+// too low for any ray of the disc at its distance is left out (the foot of a sunlit wall).
 float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius,
                            bool wanted) {
   float texel_m = max(size.x, size.y);
@@ -132,68 +140,42 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   reach = max(r.depth - bounds.x, 0.0) * tan_radius / min(size.x, size.y) + footprint + 1.0;
   bounds = ShadowBounds(set, slice, size, r.texel, reach);
   float highest_m = max(r.depth - bounds.x, 0.0);
-  // At most what the pyramid's widest blocks cover.
-  float search_m = min(highest_m * tan_radius, 128.0 * min(size.x, size.y));
+  float search_m = min(highest_m * tan_radius, ShadowWidestKernel(size.z) * min(size.x, size.y));
 
-  // The bilinear tap is a tent of variance 1/6 texel² a axis; a disc of radius ρ has ρ²/4: below
-  // that the tap alone is soft enough.
-  float tap_radius2_m = (2.0 / 3.0) * texel_m * texel_m;
   bool umbra = bounds.y < r.depth - slope_texel * bounds.z - r.bias;
-  // Nothing within reach rises above the receiver's plane.
-  bool lit = highest_m < slope_texel * bounds.z + r.bias;
   // Boxes of more than ±1½ texels do not fit into 4×4 texels.
   vec2 pixel = sqrt(3.0 * kPixelVariance) * (abs(r.step_x) + abs(r.step_y));
   vec2 widest = 0.75 * search_m * search_m / (size.xy * size.xy) + pixel * pixel;
-  bool soft = max(widest.x, widest.y) > 2.25 && !lit && !umbra && wanted;
+  bool soft = max(widest.x, widest.y) > 2.25 && !umbra && wanted;
 
-  // Mean height of the blockers that the disc's rays can meet. Loops with a count of 0 instead of
-  // branches: Mesa's software renderer runs both sides of an `if`, but leaves a loop.
+  // Mean height of the blockers that the rays from the pixel to the disc can meet. Loops with a count
+  // of 0 instead of branches: Mesa's software renderer runs both sides of an `if`, but leaves a loop.
   float height_sum = 0.0;
   float blockers = 0.0;
-  float search_texels = search_m / texel_m;
+  float pixel_m = footprint * texel_m;
+  float search_texels = search_m / texel_m + footprint;
   float search_count =
       soft ? ShadowCount(search_texels * search_texels, 0.6, 6.0, float(SHADOW_SEARCH_SAMPLES)) : 0.0;
   vec2 spoke = vec2(1.0, 0.0);
   int i = 0;
   do {
-    vec2 offset_m = search_m * sqrt((float(i) + 0.5) / (search_count + 0.5)) * spoke;
-    float weight = min(search_count - float(i), 1.0);
+    vec2 offset_m = (search_m + pixel_m) * sqrt((float(i) + 0.5) / (search_count + 0.5)) * spoke;
+    float weight = clamp(search_count - float(i), 0.0, 1.0);
     spoke = kGoldenTurn * spoke;
     vec2 corner = floor(r.texel + offset_m / size.xy - 0.5);
     ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
-    // A ray that passes at this distance is already higher than a blocker below this.
-    float least_m = max((length(offset_m) - texel_m) / tan_radius, 0.0);
+    float away_m = length(offset_m) - texel_m;
+    float least_m = max(ShadowLeastHeight(away_m - pixel_m, tan_radius), kShadowWallRise * away_m);
     vec4 blocks = ShadowBlocks(quad, least_m);
     height_sum += weight * dot(blocks, quad.height);
     blockers += weight * dot(blocks, vec4(1.0));
   } while (float(++i) < search_count);
-  float mean_height_m = height_sum / max(blockers, 1e-3);
-  float disc_m = mean_height_m * tan_radius;
-  float filter_m = sqrt(max(disc_m * disc_m - tap_radius2_m, 0.0));
-
-  // One even spread of points over an ellipse as wide, in standard deviations, as disc and pixel
-  // together. Points of the disc each moved to another place in the pixel tremble twice as much.
-  vec2 disc = filter_m / size.xy;
-  vec2 across = 0.25 * disc * disc + kPixelVariance * (r.step_x * r.step_x + r.step_y * r.step_y);
-  float skew = kPixelVariance * (r.step_x.x * r.step_x.y + r.step_y.x * r.step_y.y);
-  vec2 along = vec2(across.x, skew) / sqrt(max(across.x, 1e-12));  // Cholesky's factors.
-  mat2 ellipse = 2.0 * mat2(along, vec2(0.0, sqrt(max(across.y - along.y * along.y, 0.0))));
-  float visible = 0.0;
-  float filter_count = soft ? ShadowCount(ellipse[0].x * ellipse[1].y, 2.0, 20.0,
-                                          float(SHADOW_FILTER_SAMPLES))
-                            : 0.0;
-  spoke = vec2(1.0, 0.0);
-  i = 0;
-  do {
-    float radius = sqrt((float(i) + 0.5) / (filter_count + 0.5));
-    vec2 texel = r.texel + ellipse * (radius * spoke);
-    spoke = kGoldenTurn * spoke;
-    float weight = min(filter_count - float(i), 1.0);
-    float least_m = max((0.5 * radius * filter_m - texel_m) / tan_radius, 0.0);
-    visible += weight * ShadowTap(set, slice, size, r, texel, least_m);
-  } while (float(++i) < filter_count);
-  float narrow = ShadowNarrow(set, slice, size, r, tan_radius);
-  return soft ? visible / filter_count : narrow;
+  soft = blockers > 0.0;
+  float spread = ShadowEvenSpread(set, slice, size, r, tan_radius, height_sum / max(blockers, 1e-3),
+                                  float(SHADOW_FILTER_SAMPLES), soft);
+  float height;
+  float dense = ShadowDense(set, slice, size, r, tan_radius, 2, height);
+  return soft ? spread : dense;
 }
 
 #endif

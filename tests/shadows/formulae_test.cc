@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gl/glsl_as_cpp.h"
+#include "shadows/light_window.h"
 
 namespace pleinair::shadows {
 namespace glsl {
@@ -35,6 +36,43 @@ TEST(VogelDisc, SpreadsEvenlyOverTheDisc) {
   EXPECT_LT(glm::length(mean), 0.02);
   EXPECT_NEAR(second.x, 0.25, 0.01);  // Of a uniform disc: ρ²/4 an axis.
   EXPECT_NEAR(second.y, 0.25, 0.01);
+}
+
+TEST(ShadowBoxShares, AddUpToTheBoxWhereverItLies) {
+  for (const float k : {0.5F, 1.3F, 2.5F}) {
+    for (float place = 0.0F; place < 1.0F; place += 0.13F) {
+      double sum = 0.0, mean = 0.0;
+      for (int quad = -3; quad < 3; ++quad) {
+        const float offset = 2.0F * static_cast<float>(quad) + 0.5F - place;
+        const glm::vec2 shares = glsl::ShadowBoxShares(offset, k);
+        sum += shares.x + shares.y;
+        mean += offset * shares.x + (offset + 1.0F) * shares.y;
+      }
+      EXPECT_NEAR(sum, 2.0F * k, 1e-5);
+      // Texels are shared as a whole: their mean lies where the box does but for what a texel
+      // hides.
+      EXPECT_LT(std::abs(mean / sum), 0.13) << k << ' ' << place;
+    }
+  }
+  // ±½: the bilinear filter.
+  const glm::vec2 bilinear = glsl::ShadowBoxShares(-0.3F, 0.5F);
+  EXPECT_NEAR(bilinear.x, 0.7F, 1e-6F);
+  EXPECT_NEAR(bilinear.y, 0.3F, 1e-6F);
+}
+
+TEST(ShadowWidestKernel, IsTheOneThatWindowsLeaveRoomFor) {
+  for (const int resolution : {16, 256, 1000, 1024, 2048, 8192}) {
+    EXPECT_EQ(glsl::ShadowWidestKernel(static_cast<float>(resolution)), WidestKernel(resolution));
+  }
+}
+
+// A metre of height is 4.65 mm of the disc's radius: a tenth of that counts, a wall's foot does
+// not.
+TEST(ShadowLeastHeight, TellsBlockersFromAWallsFoot) {
+  const float tan_radius = std::tan(glm::radians(0.2665F));
+  EXPECT_LT(glsl::ShadowLeastHeight(0.00465F, tan_radius), 0.11F);
+  EXPECT_GT(glsl::ShadowLeastHeight(0.00465F, tan_radius), 5.0F * 0.00465F);
+  EXPECT_EQ(glsl::ShadowLeastHeight(-0.01F, tan_radius), 0.0F);
 }
 
 TEST(NormalCdf, IsWithinThePublishedErrorOfItsFit) {

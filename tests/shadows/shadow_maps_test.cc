@@ -73,6 +73,21 @@ TEST_F(ShadowMapsTest, FittedToTheViewFollowItInWholeTexels) {
   }
 }
 
+// Mountains on the horizon must not make the nearest map coarse.
+TEST_F(ShadowMapsTest, FittedToTheViewKeepTheirTexelsInASceneOfKilometres) {
+  options_.partitions = 4;
+  auto maps = ShadowMaps::Create(options_);
+  ASSERT_TRUE(maps.has_value());
+  ASSERT_TRUE(maps->UpdateForView(Casters(), AsDirection(sun_), CameraView(0.0)).has_value());
+  const glm::vec4 alone = maps->uniforms().slices[0].size;
+  AddBox({-9000, 7000, 0}, {9000, 9000, 1500});
+  ASSERT_TRUE(maps->UpdateForView(Casters(), AsDirection(sun_), CameraView(0.0)).has_value());
+  const glm::vec4 with_mountains = maps->uniforms().slices[0].size;
+  // A third of what is seen, and a step of 2^¼ beyond it.
+  EXPECT_LT(with_mountains.x, 1.6F * alone.x);
+  EXPECT_LT(with_mountains.y, 1.6F * alone.y);
+}
+
 TEST_F(ShadowMapsTest, OfSeveralPartitionsAgreeWhereTheyMeet) {
   options_.partitions = 3;
   options_.resolutions = {1024, 1024, 1024, 1024};
