@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -101,6 +102,16 @@ constexpr const char* kHead =
     "scene        method      size  penumbra     rmse     bias     leak leak p99   darker  shimmer"
     " maps ms scene ms cpu ms / plain\n";
 
+// What is named twice is measured once.
+template <typename T>
+void DropRepeated(std::vector<T>& list) {
+  auto end = list.begin();
+  for (const T& value : list) {
+    if (std::find(list.begin(), end, value) == end) *end++ = value;
+  }
+  list.erase(end, list.end());
+}
+
 Result<void> CheckOptions(Options& options) {
   ShadowBenchOptions& bench = options.bench;
   if (options.quick) {
@@ -123,6 +134,9 @@ Result<void> CheckOptions(Options& options) {
     }
     bench.methods.push_back(traits->method);
   }
+  DropRepeated(bench.scenes);
+  DropRepeated(bench.methods);
+  DropRepeated(bench.resolutions);
   return {};
 }
 
@@ -204,9 +218,10 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
       ->add_option("--recording", options->recording,
                    "Recording whose models the courtyard is; recordings/courtyard_midday")
       ->type_name("FOLDER");
-  command->add_option("--rays", options->bench.rays, "Rays a pixel of the truth")
-      ->check(CLI::IsMember({64, 256, 1024}))
-      ->capture_default_str();
+  CLI::Option* rays =
+      command->add_option("--rays", options->bench.rays, "Rays a pixel of the truth")
+          ->check(CLI::IsMember({64, 256, 1024}))
+          ->capture_default_str();
   command
       ->add_option("--rounds", options->bench.timed_rounds,
                    "Rounds in which all methods are timed in turn; the median counts")
@@ -217,9 +232,11 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
   command
       ->add_option("--shader-dir", options->shader_directory,
                    "Shaders of this folder replace those built in")
+      ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
   command->add_flag("--quick", options->quick, "Small pictures, few rays, maps of 256")
-      ->excludes(sizes);
+      ->excludes(sizes)
+      ->excludes(rays);
   command->add_flag("--json", options->json, "One JSON object a row");
   command->callback([options, &result] { result.status = Run(*options); });
 }

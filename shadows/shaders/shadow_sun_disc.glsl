@@ -40,12 +40,17 @@ float ShadowCount(float square_texels, float a_texel, float least, float most) {
 // VogelDisc's turn from point to point, 2.39996 rad: spares a sine and a cosine a point.
 const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-// Half-widths of the box that is as wide, in standard deviations, as disc and pixel together: a disc
-// of radius ρ has ±ρ√¾.
+// A pixel's variance over its side's square: a box has 1/12. Edges stand as still as the truth's
+// while a camera creeps with this.
+const float kPixelVariance = 1.0 / 11.0;
+
+// Half-widths of the box over texels that is as wide, in standard deviations, as disc and pixel
+// together: a disc of radius ρ has the variance ρ²/4 along an axis, a box of ±k has k²/3, and its
+// texels' own is 1/12.
 vec2 ShadowBoxWidth(vec4 size, ShadowReceiver r, float height, float tan_radius) {
   vec2 disc = height * tan_radius / size.xy;
-  vec2 pixel = 0.5 * (abs(r.step_x) + abs(r.step_y));
-  return sqrt(0.75 * disc * disc + pixel * pixel);
+  vec2 pixel = kPixelVariance * (r.step_x * r.step_x + r.step_y * r.step_y);
+  return sqrt(max(3.0 * (0.25 * disc * disc + pixel) - 0.25, 0.25));
 }
 
 // All texels of `quads` × `quads` quads around a point (at most 3 × 3): their blockers' mean height,
@@ -78,10 +83,6 @@ float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_rad
 // Rise over distance below which what the pixel alone covers is the foot of a lit wall beside the
 // receiver, which another pixel shows, and no blocker.
 const float kShadowWallRise = 3.0;
-
-// A pixel's variance over its side's square: a box has 1/12. Edges stand as still as the truth's
-// while a camera creeps with this.
-const float kPixelVariance = 1.0 / 11.0;
 
 // One even spread of looks over an ellipse as wide, in standard deviations, as disc and pixel
 // together. Looks of the disc each moved to another place in the pixel tremble twice as much.

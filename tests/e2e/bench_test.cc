@@ -84,6 +84,9 @@ TEST(BenchShadows, WithAsManyTexelsEachHasZGafBeforeCascadesBeforeThePlainMap) {
 TEST(BenchShadows, RefusesWhatItDoesNotKnow) {
   ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--methods", "raytracing"}),
                 "no method 'raytracing'");
+  ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--rays", "256"}), "--rays");
+  ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--shader-dir", "/no/such/shaders"}),
+                "/no/such/shaders");
   // At once, not after what can be measured: the first size and the first methods could be.
   ExpectRefused(RunPleinair({"bench", "shadows", "--sizes", "512,768"}),
                 "--sizes: 'ours' cannot have maps of 768 texels");
