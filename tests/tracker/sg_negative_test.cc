@@ -10,6 +10,7 @@
 #include "tests/tracker/sg_test_scenes.h"
 #include "tracker/april_tag_detector.h"
 #include "tracker/golay/golay_code.h"
+#include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
 
 namespace pleinair::tracker {
@@ -226,6 +227,22 @@ TEST(SgNegative, TakesAPrintNotInUseForNoCoveredOneThatIsAndStillReadsThatOneCov
           SgMarkerAt(camera, printed, {161, 118}, side_px, 0, 0, 25.0 * seed);
       const auto none = Track(tracker.get(), RenderMarkers(camera, {other}, options));
       EXPECT_TRUE(none.empty()) << Summary(none);
+    }
+
+    // A hand on all but one or two of the cells that differ: what is left still tells.
+    for (const int left_open : {1, 2}) {
+      GolayWord hidden = PrintedWord(printed) ^ PrintedWord(in_use);
+      for (int i = 0; i < left_open; ++i) hidden &= hidden - 1;
+      RenderedMarker held = SgMarkerAt(camera, printed, {161, 118}, 60, 0, 0, 25.0 * seed);
+      held.cover = [hidden](Vec2 at) {
+        const Vec2 modules = ModulesOf(at);
+        const int column = sg::CellIndex(static_cast<int>(std::floor(modules.x)));
+        const int row = sg::CellIndex(static_cast<int>(std::floor(modules.y)));
+        const int cell = column < 0 || row < 0 ? -1 : sg::CodeCell(column, row);
+        return cell >= 0 && (hidden >> cell & 1U) != 0 ? 0.3 : -1.0;
+      };
+      const auto none = Track(tracker.get(), RenderMarkers(camera, {held}, options));
+      EXPECT_TRUE(none.empty()) << left_open << " left open: " << Summary(none);
     }
 
     RenderedMarker barred =

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "tracker/golay/golay_code.h"
 #include "tracker/surf_golay/cell_evidence.h"
+#include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -37,6 +39,16 @@ constexpr GolayWord kAllCells = (1U << kGolayBits) - 1;
 /// colour is then not taken for covered there, of which each number has five others on average.
 constexpr float kAnotherLiesOpen = 0.87F;
 
+/// Log-likelihood ratio below which a cell leaves open what is printed there.
+constexpr float kSaysLittle = 1.5F;
+/// Twice a log-likelihood ratio (SoftGolayDecoding::margin) below which two numbers look alike.
+constexpr float kAlikeMargin = 8.0F;
+/// -log2 of the chance that 8, 9, … cells drawn at random hold all those in which some other print
+/// differs: 759 C(16, n - 8) / C(24, n) up to 11, by the code's 759 words of weight 8 (corrections
+/// of overlaps begin at 12, where 47 % do).
+constexpr int kFewestDiffering = 8;
+constexpr std::array<double, 5> kAlikeByChance_bits{9.92, 6.75, 4.43, 2.55, 1.09};
+
 double ChequeredDoubtBits(int number) {
   const GolayWord print = PrintedWord(number);
   const bool chequered = print == kGolayWhitening || (~print & kAllCells) == kGolayWhitening;
@@ -48,6 +60,20 @@ double ChequeredDoubtBits(int number) {
 double ProofBits(const CellLikelihoods& likelihoods, int number, int numbers_in_use) {
   return EvidenceBits(likelihoods, number) -
          std::log2(std::max(kFewestNumbersProved, numbers_in_use)) - ChequeredDoubtBits(number);
+}
+
+double AmbiguityBits(const CellLikelihoods& likelihoods, int number,
+                     const SoftGolayDecoder& all_numbers) {
+  const SoftGolayDecoding any = all_numbers.Decode(likelihoods);
+  if (any.number == number && any.margin >= kAlikeMargin) return 0.0;
+  const GolayWord word = PrintedWord(number);
+  int hidden = 0;
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    const float right = (word >> k & 1U) != 0 ? likelihoods[k] : -likelihoods[k];
+    hidden += right < kSaysLittle;
+  }
+  const std::size_t beyond = std::max(0, hidden - kFewestDiffering);
+  return beyond < kAlikeByChance_bits.size() ? kAlikeByChance_bits[beyond] : 0.0;
 }
 
 std::optional<double> ProofBitsUnderCover(const CellLikelihoods& likelihoods, int number,

@@ -19,7 +19,13 @@ constexpr double kPlainBorder = 0.42;
 /// What cells tell for a number beyond picking it out of so many in use, in bits.
 double ProofBits(const CellLikelihoods& likelihoods, int number, int numbers_in_use);
 
-/// The same where what is wrong may lie under one cover (EvidenceBitsUnderCover). Nothing where
+/// What it speaks against a number that the cells look as much, or more, like another of all 4,096
+/// prints, in use or not, in bits: a few hidden cells leave two prints alike by chance only rarely,
+/// but always where the other print is there and the cells that differ are hidden.
+double AmbiguityBits(const CellLikelihoods& likelihoods, int number,
+                     const SoftGolayDecoder& all_numbers);
+
+/// As ProofBits where what is wrong may lie under one cover (EvidenceBitsUnderCover). Nothing where
 /// the cells look like the print of another number that lies open; `all_numbers`: the decoder of
 /// every number, in use or not.
 std::optional<double> ProofBitsUnderCover(const CellLikelihoods& likelihoods, int number,

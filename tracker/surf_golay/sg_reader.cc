@@ -222,7 +222,8 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
     const SoftGolayDecoding decoding = decoder_.Decode(likelihoods);
     // A number in use must not be one that many others would beat.
     float margin = decoding.margin - decoding.shortfall;
-    double bits = ProofBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - doubt_bits;
+    double bits = ProofBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - doubt_bits -
+                  AmbiguityBits(likelihoods, decoding.number, any_number_);
     if (border_visible >= kTellsLight && decoding.margin > 2.0F * kLeastMargin &&
         decoder_.NumbersInUse() <= kFewestNumbersProved) {
       // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
