@@ -82,7 +82,8 @@ class GlComposer : public Composer {
   Result<const SurfacePrograms*> ProgramsFor(const DrawnFrame& frame);
   void DrawObjects(const gl::GlProgram& program, SceneSurfaces::ObjectSide side,
                    const DrawnFrame& frame);
-  Result<void> DrawScene(const SurfacePrograms& programs, const DrawnFrame& frame);
+  Result<void> DrawScene(const SurfacePrograms& programs, const shadows::View& view,
+                         const DrawnFrame& frame);
   DrawnFrame FrameOf(const shadows::View& view, const Transform<Camera, Marker>& camera_from_marker,
                      LinearRgb gain) const;
   FogSplits FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const;
@@ -265,7 +266,8 @@ void GlComposer::DrawObjects(const gl::GlProgram& program, SceneSurfaces::Object
   surfaces_.DrawObjects(program, side);
 }
 
-Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const DrawnFrame& frame) {
+Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadows::View& view,
+                                   const DrawnFrame& frame) {
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SortPhantoms(HasSun() ? shadows_.Window() : SunWindow{}));
   surfaces_.SortObjects(frame.to_sun);
   glEnable(GL_DEPTH_TEST);
@@ -274,6 +276,10 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const DrawnF
   glEnable(GL_CULL_FACE);
   glFrontFace(GL_CW);
   ratio_pass_.DrawSurfaces(targets_, surfaces_, frame);
+  targets_.ClearObjects();
+  const PixelRect objects = PictureOf(render_camera_, view, surfaces_.object_bounds());
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(objects.x, objects.y, objects.width, objects.height);
   targets_.BeginObjects();
   sunlight_map_.Bind(5);
   using Side = SceneSurfaces::ObjectSide;
@@ -281,6 +287,7 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const DrawnF
   DrawObjects(programs.objects_in_own_shade, Side::kTurnedAway, frame);
   glDisable(GL_CULL_FACE);
   targets_.Resolve();
+  glDisable(GL_SCISSOR_TEST);
   picture_.BindForShading(2, 3, 4);
   ratio_pass_.Draw(targets_, surfaces_, programs, frame, {looks_for_shade_, board_size_m_});
   glDisable(GL_DEPTH_TEST);
@@ -325,7 +332,7 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   }
   const DrawnFrame frame = FrameOf(view, camera_from_marker, gain);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
-  PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, frame));
+  PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, view, frame));
   picture_.Draw(targets_);
   if (options_.show_shadow_maps && HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));

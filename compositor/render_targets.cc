@@ -57,6 +57,8 @@ void RenderTargets::BeginSurfaces() const {
   draw_ids_.ClearDepth(1.0F);
 }
 
+void RenderTargets::ClearObjects() const { resolved_objects_.ClearColor(0, 0, 0, 0, 0); }
+
 void RenderTargets::BeginObjects() const {
   draw_objects_.Bind();
   draw_objects_.ClearColor(0, 0, 0, 0, 0);

@@ -17,7 +17,9 @@ class RenderTargets {
   /// cleared to 0.
   void BeginSurfaces() const;
   /// Draws go to the objects' premultiplied display-linear colour with coverage, behind the
-  /// surfaces' depth; cleared to 0. Resolve() makes objects() of it.
+  /// surfaces' depth; cleared to 0. Resolve() makes objects() of it, which ClearObjects() cleared.
+  /// All but that keep to the scissor.
+  void ClearObjects() const;
   void BeginObjects() const;
   void Resolve() const;
   /// Draws go, once a pixel, to what the numbers say of it, and its depth.

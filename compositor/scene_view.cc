@@ -21,14 +21,18 @@ glm::dmat4 CameraFromMarkerMatrix(const Transform<Camera, Marker>& camera_from_m
   return matrix;
 }
 
+glm::dvec3 Corner(const shadows::Box& box, int corner) {
+  return {(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
+          (corner & 4) != 0 ? box.max.z : box.min.z};
+}
+
 /// Nearest and farthest depth at which something of the scene can lie.
 std::pair<double, double> DepthRange(const Transform<Camera, Marker>& camera_from_marker,
                                      const shadows::Box& bounds) {
   double nearest = 1e30, farthest = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Point<Marker> point{{(corner & 1) ? bounds.max.x : bounds.min.x,
-                               (corner & 2) ? bounds.max.y : bounds.min.y,
-                               (corner & 4) ? bounds.max.z : bounds.min.z}};
+    const glm::dvec3 at = Corner(bounds, corner);
+    const Point<Marker> point{{at.x, at.y, at.z}};
     const double depth = (camera_from_marker * point).xyz.z;
     nearest = std::min(nearest, depth);
     farthest = std::max(farthest, depth);
@@ -59,6 +63,28 @@ std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const sha
   return {marker_from_camera * glm::dvec3(-view.tan_left, -view.tan_up, 1.0),
           marker_from_camera * glm::dvec3(1.0 / camera.fx, 0.0, 0.0),
           marker_from_camera * glm::dvec3(0.0, 1.0 / camera.fy, 0.0)};
+}
+
+PixelRect PictureOf(const RenderCamera& camera, const shadows::View& view,
+                    const shadows::Box& bounds) {
+  if (bounds.Empty()) return {};
+  const PixelRect whole{0, 0, camera.width, camera.height};
+  const glm::dmat4 clip_from_marker = view.ClipFromMarker();
+  glm::dvec2 low(1e30), high(-1e30);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 clip = clip_from_marker * glm::dvec4(Corner(bounds, corner), 1.0);
+    if (clip.w < kNearM) return whole;
+    const glm::dvec2 at =
+        (0.5 * glm::dvec2(clip) / clip.w + 0.5) * glm::dvec2(camera.width, camera.height);
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  // Samples lie anywhere in a pixel; one more for rounding.
+  const glm::dvec2 size(camera.width, camera.height);
+  low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
+  high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), size);
+  return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x - low.x),
+          static_cast<int>(high.y - low.y)};
 }
 
 }  // namespace pleinair::compositor

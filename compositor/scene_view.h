@@ -19,4 +19,13 @@ shadows::View ViewOf(const RenderCamera& camera,
 /// gl_FragCoord (x, y), one metre deep.
 std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const shadows::View& view);
 
+/// Pixels, as glScissor takes them.
+struct PixelRect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// The smallest rectangle of the picture outside which nothing of `bounds` is seen.
+PixelRect PictureOf(const RenderCamera& camera, const shadows::View& view,
+                    const shadows::Box& bounds);
+
 }  // namespace pleinair::compositor
