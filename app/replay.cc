@@ -96,6 +96,7 @@ class Replayer {
     PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_,
                                                                options_.composer, options_.light));
     if (!options_.light_cache.empty()) renderer_->KeepLightIn(options_.light_cache);
+    renderer_->FollowLight(options_.sky_division, options_.convergence);
     renderer_->MatchLook(options_.match_look);
     PLEINAIR_RETURN_IF_ERROR(SeekMarkers(std::move(recording), **tracker));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());

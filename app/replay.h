@@ -29,6 +29,8 @@ struct ReplayOptions {
   bool hands_in_front = false;            ///< What covers the marker is before the virtual objects.
   std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as the scene says.
   std::filesystem::path light_cache;      ///< Folder for daylight coefficients; empty: without.
+  int sky_division = 1;             ///< Of Tregenza's patches: compositor::CoefficientOptions.
+  double convergence = 0.01;        ///< The same.
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
   std::optional<TimeLapseOptions> time_lapse;  ///< A day of the scene besides.
   std::string command;                         ///< For the report.

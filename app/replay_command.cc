@@ -89,6 +89,13 @@ std::string CommandText(const Arguments& arguments) {
   if (!arguments.options.light_cache.empty()) {
     text += " --light-cache " + Quoted(arguments.options.light_cache.string());
   }
+  if (const int division = arguments.options.sky_division; division != 1) {
+    text += fmt::format(" --sky-division {}", division);
+  }
+  if (const double convergence = arguments.options.convergence;
+      convergence != ReplayOptions{}.convergence) {
+    text += fmt::format(" --convergence {}", convergence);
+  }
   if (const auto& patches = arguments.options.light.max_patches) {
     text += " --light-patches " + std::to_string(*patches);
   }
@@ -220,6 +227,19 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
       "--light-cache", arguments->options.light_cache,
       "Folder for daylight coefficients: traced once for a scene, then any moment's "
       "light takes milliseconds; for long days and for trying out");
+  command
+      ->add_option("--sky-division", arguments->options.sky_division,
+                   "Daylight coefficients (of --light-cache and --time-lapse) of Tregenza's 145 "
+                   "patches of the sky: 1; or of Reinhart's finer ones, each divided by 2, 3 or 4 "
+                   "a side: sharper reflections of the sun; memory and time grow by the square")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  command
+      ->add_option("--convergence", arguments->options.convergence,
+                   "Daylight coefficients: reflections are followed until the last adds less than "
+                   "this share of all light")
+      ->check(NumberRange(0.0001, 0.2))
+      ->capture_default_str();
   command
       ->add_option("--light-patches", arguments->options.light.max_patches,
                    "Places where light is gathered, at most; models of more vertices share it by "

@@ -162,6 +162,8 @@ std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficie
   };
   compositor::CoefficientOptions options;
   options.cache = light_cache_;
+  options.division = sky_division_;
+  options.convergence = convergence_;
   coefficients_ = std::make_shared<const compositor::DaylightCoefficients>(solver_->Coefficients(
       MarkerFromWorld(scene_.marker) * Vec3{0.0, 0.0, 1.0}, options, advance));
   return coefficients_;

@@ -72,6 +72,12 @@ class SceneRenderer {
   /// folder: slow once, then some milliseconds for any moment. Shows a bar while it computes.
   void KeepLightIn(const std::filesystem::path& folder) { light_cache_ = folder; }
 
+  /// How finely and how far daylight coefficients follow light: compositor::CoefficientOptions.
+  void FollowLight(int sky_division, double convergence) {
+    sky_division_ = sky_division;
+    convergence_ = convergence;
+  }
+
   /// Whether drawn pixels get the blur and the grain of the camera's (the default).
   void MatchLook(bool match) { match_look_ = match; }
 
@@ -145,6 +151,8 @@ class SceneRenderer {
   LightOverrides overrides_;
   DaySkies skies_;
   std::filesystem::path light_cache_;  // Empty: rays are traced for every place of the sun.
+  int sky_division_ = 1;
+  double convergence_ = 0.01;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
   std::unique_ptr<LightLook> look_;  // What was seen of the light so far.
   std::vector<compositor::PlacedModel> placed_;
