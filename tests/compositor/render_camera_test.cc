@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/pixel_origin.h"
+#include "compositor/scene_view.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -55,6 +56,52 @@ TEST(RenderCamera, PutsAPointWhereTheRealLensSeesIt) {
   const Vec2 back = ProjectToPixel(kDistorted, Point<Camera>{{ray.x, ray.y, 1.0}});
   EXPECT_NEAR(back.x, 150, 1e-6);
   EXPECT_NEAR(back.y, 10, 1e-6);
+}
+
+// Two metres before the marker's middle, turned about two axes.
+const CameraModel kPinhole{
+    .width = 160, .height = 120, .fx = 150, .fy = 151, .cx = 70.5, .cy = 60.25};
+const Transform<Camera, Marker> kTilted{{{0.8, 0.6, 0, 0.48, -0.64, -0.6, -0.36, 0.48, -0.8}},
+                                        {0.1, -0.05, 2}};
+
+TEST(SceneView, SeesAPointOfTheSceneAlongTheRayOfItsPixel) {
+  const RenderCamera render = FitRenderCamera(kPinhole, 1.0);
+  const shadows::Box bounds{{-1, -1, 0}, {1, 1, 0.5}};
+  const auto ray = RaysThroughPixels(render, ViewOf(render, kTilted, bounds));
+  const Point<Marker> point{{0.2, 0.1, 0.3}};
+  const Vec2 pixel = CornerOriginFromPixel(ProjectToPixel(kPinhole, kTilted * point));
+  const glm::vec3 along =
+      ray[0] + static_cast<float>(pixel.x) * ray[1] + static_cast<float>(pixel.y) * ray[2];
+  const Vec3 eye = kTilted.Inverse().translation_m;
+  const double depth = (kTilted * point).xyz.z;
+  EXPECT_NEAR(eye.x + depth * along.x, point.xyz.x, 1e-6);
+  EXPECT_NEAR(eye.y + depth * along.y, point.xyz.y, 1e-6);
+  EXPECT_NEAR(eye.z + depth * along.z, point.xyz.z, 1e-6);
+}
+
+TEST(SceneView, KeepsABoxWithinItsPictureAndTheWholePictureForABoxAroundTheEye) {
+  const RenderCamera render = FitRenderCamera(kPinhole, 1.0);
+  const shadows::Box box{{-0.1, -0.1, 0}, {0.1, 0.2, 0.3}};
+  const shadows::View view = ViewOf(render, kTilted, {{-1, -1, 0}, {1, 1, 0.5}});
+  const PixelRect rect = PictureOf(render, view, box);
+  EXPECT_LT(rect.width, 60);
+  EXPECT_LT(rect.height, 60);
+  for (const double x : {-0.1, 0.1}) {
+    for (const double y : {-0.1, 0.2}) {
+      for (const double z : {0.0, 0.3}) {
+        const Vec2 at =
+            CornerOriginFromPixel(ProjectToPixel(kPinhole, kTilted * Point<Marker>{{x, y, z}}));
+        EXPECT_GT(at.x, rect.x + 0.9);
+        EXPECT_LT(at.x, rect.x + rect.width - 0.9);
+        EXPECT_GT(at.y, rect.y + 0.9);
+        EXPECT_LT(at.y, rect.y + rect.height - 0.9);
+      }
+    }
+  }
+  const PixelRect whole = PictureOf(render, view, {{-5, -5, -5}, {5, 5, 5}});
+  EXPECT_EQ(whole.width, 160);
+  EXPECT_EQ(whole.height, 120);
+  EXPECT_EQ(PictureOf(render, view, {}).width, 0) << "nothing";
 }
 
 }  // namespace
