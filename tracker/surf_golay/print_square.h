@@ -2,6 +2,7 @@
 
 // Internal: between the .cc files of this module; not installed.
 
+#include <algorithm>
 #include <array>
 
 #include "base/vector.h"
@@ -32,6 +33,19 @@ inline Mat3 ModulesFromSquareCorners(const std::array<Vec2, 4>& corners_ideal) {
   constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
   constexpr Mat3 kModulesFromUnit{{kHalf, 0, kMiddle, 0, -kHalf, kMiddle, 0, 0, 1}};
   return kModulesFromUnit * Adjugate(HomographyToQuad(corners_ideal));
+}
+
+inline double LongestSide(const std::array<Vec2, 4>& corners) {
+  double longest = 0.0;
+  for (int i = 0; i < 4; ++i) longest = std::max(longest, Norm(corners[i] - corners[(i + 1) % 4]));
+  return longest;
+}
+
+/// The greatest distance of corresponding corners.
+inline double FarthestApart(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b) {
+  double farthest = 0.0;
+  for (int i = 0; i < 4; ++i) farthest = std::max(farthest, Norm(a[i] - b[i]));
+  return farthest;
 }
 
 }  // namespace pleinair::tracker

@@ -69,6 +69,11 @@ class SgDetector final : public MarkerDetector {
     double correlation = 0.0;  ///< Of the border.
   };
 
+  /// Of the side: two fits that ended so near to each other are one.
+  static constexpr double kSamePlace = 0.04;
+  /// A marker of which less is seen may be a little beside: other guesses there are read as well.
+  static constexpr double kSurelyVisible = 0.5;
+
   /// The best ways round for a print whose square has these corners, clockwise; by pixels alone.
   std::array<ProbedOrientation, 2> Probe(std::array<Vec2, 4> corners_px);
   void Track();

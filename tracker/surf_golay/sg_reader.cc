@@ -15,23 +15,19 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kGlanceSide_px = 36.0;  ///< Longest side of a print that is only glanced at,
-constexpr double kCoarseSide_px = 52.0;  ///< … and that is fitted coarsely.
+constexpr double kGlanceSide_px = 36.0;  ///< Longest side of a print that is only glanced at.
 /// Correlation of a border below which it is looked for in a reduced picture as well, how much
 /// better it must be seen there, and the side that must be left of it.
 constexpr double kNoisyCorrelation = 0.65, kClearer = 0.3, kLeastReducedSide_px = 30.0;
-constexpr double kCoarseBlur_px = 1.2, kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
+constexpr double kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
 /// The sharpest print's blur is found from one this large in a few steps.
 constexpr double kMostPlainBlur_px = 1.2;
 /// Share of a print that lies open: what covers one side only can draw the fit to its own edge.
 constexpr double kPlainVisible = 0.985;
-constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
 constexpr double kLeastVisibleBorder = 0.06;
-/// A print of which less is seen is also measured from its content; and in so many steps.
-constexpr double kWholeEnough = 0.93;
-constexpr int kReadSteps = 4, kContentSteps = 4;
+constexpr int kReadSteps = 4;
 /// Corners that far apart put a cell's middle where it was: cells need not be read again.
 constexpr double kSameCells_modules = 0.5;
 constexpr int kFollowSteps = 4;
@@ -47,19 +43,7 @@ constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare w
 /// Share of a print that must be seen at least where its number is known, and where nothing tells
 /// that it is still that.
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
-/// Beneath covers: noise of the black, as a share of white, where the light is not told, and of the
-/// white below which edges tell covers; steps and robust shares of the fits, the latter at least so
-/// many times the noise; and what of the correlation inside may be lost by them.
-constexpr double kMostDoubtfulBlack = 0.25, kPlainWhite = 0.1;
-constexpr int kBeneathSteps = 6;
-constexpr std::array<double, 2> kBeneathShares{0.3, 0.15};
-constexpr double kBeneathNoises = 3.0, kMostLost = 0.1;
 constexpr double kMiddle = 0.5 * sg::kPrint;
-
-int FineBlocks(const PixelWindow& window, const BlockFitState& state) {
-  return BlockFit::BlocksAlong(
-      1.2 * PrintWindows::SidePx(state.modules_from_ideal) / window.Scale(), kFineBlock_px);
-}
 
 /// Step of a fit from nearby, in pixels, that is short enough to be the last: it leaves a fortieth
 /// of itself. Of large prints, whose corners are told best, that must be less; of small ones noise
@@ -317,49 +301,6 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
   return reading;
 }
 
-bool SgReader::FitContent(int number, BlockFitState* state) {
-  // Coarsely first: a fit that a cover has drawn away may be half a cell off.
-  for (const Detail detail : {Detail::kCoarse, Detail::kFine}) {
-    PixelWindow window;
-    const bool taken =
-        detail == Detail::kCoarse
-            ? windows_.TakeCoarse(state->modules_from_ideal, kCoarseSide_px, &window, &seen_)
-            : windows_.TakeFine(*state, &window, &seen_);
-    if (!taken) return false;
-    KeepContent(window, state->modules_from_ideal);
-    const double side = windows_.SidePx(state->modules_from_ideal);
-    BlockFitOptions options;
-    options.tell_blocks = false;
-    options.steps = kContentSteps;
-    BlockFitState fitted = *state;
-    if (detail == Detail::kCoarse) {
-      fitted.blur_px = std::max(fitted.blur_px, kCoarseBlur_px * window.Scale());
-    }
-    if (!fit_.Run(Print(number), PrintPart::kWhole, seen_,
-                  BlockFit::BlocksAlong(1.2 * side / window.Scale(), kCoarseBlock_px), options,
-                  &fitted)) {
-      return false;
-    }
-    state->modules_from_ideal = fitted.modules_from_ideal;
-  }
-  return true;
-}
-
-void SgReader::KeepContent(const PixelWindow& window, const Mat3& modules_from_ideal) {
-  constexpr double kReach = 0.5 * sg::kCells * sg::kCell + 1.0;
-  const int stride = window.width + 2 * kWindowBorder;
-  for (int y = 0; y < window.height; ++y) {
-    for (int x = 0; x < window.width; ++x) {
-      const std::size_t ray =
-          static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder + x;
-      const Vec2 modules = Apply(modules_from_ideal, {seen_.rays.x[ray], seen_.rays.y[ray]});
-      if (!(std::fabs(modules.x - kMiddle) < kReach && std::fabs(modules.y - kMiddle) < kReach)) {
-        seen_.certainty[static_cast<std::size_t>(y) * window.width + x] = 0.0F;
-      }
-    }
-  }
-}
-
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess, double done_px) {
   const double side = windows_.SidePx(guess.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
@@ -378,58 +319,6 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   SgReading reading;
   reading.number = number;
   DescribeFit(lens_, fit_, state, &reading);
-  return reading;
-}
-
-void SgReader::LookBeneathCovers(SgReading* reading) {
-  if (reading->visible_fraction >= kWholeEnough) return;
-  std::optional<SgReading> beneath =
-      MeasureBeneathCovers(reading->number, {reading->modules_from_ideal, reading->blur_px});
-  if (!beneath || beneath->inner_correlation < reading->inner_correlation - kMostLost) return;
-  beneath->margin = reading->margin;
-  *reading = std::move(*beneath);
-}
-
-std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockFitState& guess) {
-  PixelWindow window;
-  if (!windows_.TakeFine(guess, &window, &seen_)) return std::nullopt;
-  const PrintPattern& print = Print(number);
-  const int blocks = FineBlocks(window, guess);
-  BlockFitState state = guess;
-  const auto fit = [&](const BlockFitOptions& options) {
-    return fit_.Run(print, PrintPart::kWhole, seen_, blocks, options, &state);
-  };
-  fit_.Evaluate(print, PrintPart::kWhole, seen_, blocks, state);
-  PrintLight light;
-  if (!light_meter_.Measure(print, fit_, seen_, false, &light) || light.white_clips ||
-      light.black_noise > kMostDoubtfulBlack) {
-    return std::nullopt;
-  }
-  cover_.TakeShares(print, fit_, light, &seen_);
-  BlockFitOptions options;
-  options.fit_blur = true;
-  options.tell_blocks = false;
-  BlockFitOptions sharp = options;
-  sharp.steps = kBeneathSteps;
-  sharp.known_light = true;
-  const double noise = kBeneathNoises * std::max(light.white_noise, light.black_noise);
-  CoverMask::Edges edges = CoverMask::Edges::kUnsure;
-  for (const double share : kBeneathShares) {
-    sharp.robust_share = std::max(share, noise);
-    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_);
-    if (!fit(sharp)) return std::nullopt;
-    if (light.white_noise < kPlainWhite) edges = CoverMask::Edges::kTell;
-  }
-  // Covers throw shadows, too: at last each block has its own light again.
-  cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_);
-  cover_.GiveValuesBack(&seen_);
-  if (!fit(options)) return std::nullopt;
-  SgReading reading;
-  reading.number = number;
-  DescribeFit(lens_, fit_, state, &reading);
-  cover_.LiftFrom(&seen_);
-  fit_.Evaluate(print, PrintPart::kWhole, seen_, blocks, state);
-  DescribeLooks(fit_, &reading);
   return reading;
 }
 

@@ -66,6 +66,13 @@ class SgReader {
   std::optional<SgReading> Measure(int number, const BlockFitState& guess, double done_px = 0.01);
 
  private:
+  /// Longest side of a print that is fitted coarsely, the blur it is taken to have at most, and the
+  /// sides of the blocks that it and one that is measured are cut into.
+  static constexpr double kCoarseSide_px = 52.0, kCoarseBlur_px = 1.2;
+  static constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
+  /// A print of which less is seen is also measured from its content, and beneath its covers.
+  static constexpr double kWholeEnough = 0.93;
+
   std::optional<SgReading> Read(const BlockFitState& guess, int border_steps);
   /// FitBorder, finely, in a reduced picture where noise hides the border in the picture itself.
   double FitBorderThroughNoise(int steps, BlockFitState* state);
@@ -80,6 +87,8 @@ class SgReader {
   void LookBeneathCovers(SgReading* reading);
   std::optional<SgReading> MeasureBeneathCovers(int number, const BlockFitState& guess);
   const PrintPattern& Print(int number);
+  /// Blocks along a print that is measured in that window.
+  static int FineBlocks(const PixelWindow& window, const BlockFitState& state);
 
   const LensGrid& lens_;
   ImageView<const std::uint8_t> grey_;
