@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "accuracy/background.h"
+#include "accuracy/jpeg_loss.h"
 #include "accuracy/point_spread.h"
 #include "accuracy/random.h"
 #include "accuracy/seen_print.h"
@@ -271,6 +272,9 @@ RenderedFrame FrameRenderer::Render(const FrameSpec& frame) {
   }
   if (!rendered.truth.empty()) AddLightPatterns(frame, rendered.truth[0], &light);
   rendered.grey = Develop(frame, Expose(frame.photo, std::move(light)));
+  if (frame.photo.jpeg_quality > 0) {
+    rendered.grey = AfterJpeg(rendered.grey, frame.photo.jpeg_quality);
+  }
   return rendered;
 }
 

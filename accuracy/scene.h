@@ -52,6 +52,7 @@ struct PhotoSpec {
   double motion_px = 0.0;   ///< Length of the streak, in direction
   double motion_angle = 0.0;
   std::optional<LightPattern> gradient{}, shadow{}, glare{};
+  int jpeg_quality = 0;  ///< What the picture was kept as, 1…100; 0: lossless.
 };
 
 /// All that a frame shows, whatever the prints look like.

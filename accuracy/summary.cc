@@ -1,6 +1,7 @@
 #include "accuracy/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -10,6 +11,7 @@
 #include "accuracy/film_summary.h"
 #include "accuracy/light_summary.h"
 #include "accuracy/peer_summary.h"
+#include "tracker/sighting.h"
 
 namespace pleinair::accuracy {
 namespace {
@@ -110,21 +112,24 @@ class Cells {
 
 std::vector<AmbiguityBin> BinAmbiguity(const std::vector<FrameRecord>& records,
                                        const std::string& detector) {
-  constexpr int kBins = 10;
-  std::vector<AmbiguityBin> bins(kBins);
-  for (int i = 0; i < kBins; ++i) {
+  // The first holds those that are certain.
+  constexpr std::array<double, 5> kEdges{0.0, tracker::kCertainRatio, 0.01, 0.1, 1.0};
+  std::vector<AmbiguityBin> bins(kEdges.size() - 1);
+  for (std::size_t i = 0; i < bins.size(); ++i) {
     bins[i].detector = detector;
-    bins[i].low = i / static_cast<double>(kBins);
-    bins[i].high = (i + 1) / static_cast<double>(kBins);
+    bins[i].low = kEdges[i];
+    bins[i].high = kEdges[i + 1];
   }
   for (const FrameRecord& record : records) {
     if (record.detector != detector) continue;
     for (const MarkerRecord& marker : record.markers) {
       if (!marker.pose || !marker.pose->alternative_error_deg) continue;
-      const int bin =
-          std::clamp(static_cast<int>(marker.pose->ambiguity_ratio * kBins), 0, kBins - 1);
-      ++bins[bin].count;
-      bins[bin].wrong += *marker.pose->alternative_error_deg < marker.pose->rotation_error_deg;
+      AmbiguityBin& bin = *std::find_if(bins.begin(), bins.end() - 1, [&](const AmbiguityBin& b) {
+        return marker.pose->ambiguity_ratio < b.high;
+      });
+      ++bin.count;
+      bin.wrong += *marker.pose->alternative_error_deg < marker.pose->rotation_error_deg;
+      bin.flips += marker.pose->rotation_error_deg > kFlip_deg;
     }
   }
   for (AmbiguityBin& bin : bins) bin.rate = WilsonInterval(bin.wrong, bin.count);

@@ -82,12 +82,13 @@ struct LightSummary {
   std::array<LightFigure, kPictureMeasures.size()> figures{};
 };
 
-/// Hits whose ambiguity ratio lies in one tenth of 0…1.
+/// Hits whose ambiguity ratio lies in one power of ten.
 struct AmbiguityBin {
   std::string detector;
   double low = 0.0, high = 0.0;
   std::int64_t count = 0;
   std::int64_t wrong = 0;  ///< The other solution was nearer to the truth.
+  std::int64_t flips = 0;  ///< Rotated by more than kFlip_deg.
   Interval rate;
 };
 

@@ -173,28 +173,83 @@ std::vector<int> Shuffled(int count, RandomStream* random) {
   return order;
 }
 
+/// Where so many different markers stand in a grid, in no order.
+struct MarkerGrid {
+  MarkerGrid(const CameraModel& camera, int count, RandomStream* random) {
+    const int columns = std::max(
+        1, static_cast<int>(std::lround(std::sqrt(1.0 * count * camera.width / camera.height))));
+    const int rows = (count + columns - 1) / columns;
+    const double width = 1.0 * camera.width / columns, height = 1.0 * camera.height / rows;
+    step_px = std::min(width, height);
+    const std::vector<int> numbers = Shuffled(kNumbers, random);
+    const std::vector<int> cells = Shuffled(columns * rows, random);
+    for (int k = 0; k < count; ++k) {
+      PlaceWanted place{.number = numbers[k]};
+      place.centre_px =
+          Vec2{(cells[k] % columns + 0.5) * width, (cells[k] / columns + 0.5) * height};
+      places.push_back(place);
+    }
+  }
+  double step_px = 0.0;
+  std::vector<PlaceWanted> places;
+};
+
 void MakeMany(SweepMaker* maker) {
   const CameraModel& camera = maker->camera();
   for (const int count : {1, 2, 5, 10, 20, 30, 50}) {
     for (int i = 0; i < maker->Count(5); ++i) {
       RandomStream random = maker->Stream("pose", "", count, i);
-      const int columns = std::max(
-          1, static_cast<int>(std::lround(std::sqrt(1.0 * count * camera.width / camera.height))));
-      const int rows = (count + columns - 1) / columns;
-      const double width = 1.0 * camera.width / columns, height = 1.0 * camera.height / rows;
-      const double side = std::min({width, height, 300.0 * camera.height / 480.0}) * 0.56;
-      const std::vector<int> numbers = Shuffled(kNumbers, &random);
-      const std::vector<int> cells = Shuffled(columns * rows, &random);
+      MarkerGrid grid(camera, count, &random);
+      const double side = std::min(grid.step_px, 300.0 * camera.height / 480.0) * 0.56;
       FrameSpec frame = maker->Frame("", count, i);
-      for (int k = 0; k < count; ++k) {
-        PlaceWanted place{.number = numbers[k]};
-        place.centre_px =
-            Vec2{(cells[k] % columns + 0.5) * width, (cells[k] / columns + 0.5) * height};
+      for (PlaceWanted& place : grid.places) {
         place.side_px = side * random.Uniform(.85, 1);
         place.tilt_deg = random.Uniform(0, 40);
         frame.markers.push_back(PlaceMarker(camera, place, &random));
       }
       maker->Add(std::move(frame));
+    }
+  }
+}
+
+/// Prints so small that their two planar poses look nearly alike, many in a picture.
+void MakeAmbiguity(SweepMaker* maker) {
+  constexpr int kMarkers = 48;
+  const CameraModel& camera = maker->camera();
+  for (const std::string pattern : {"open", "noise", "blur", "covered", "jpeg", "mixed"}) {
+    const bool mixed = pattern == "mixed";
+    for (const double level : {12, 16, 20, 28, 40}) {
+      for (int i = 0; i < maker->Count(2); ++i) {
+        RandomStream random = maker->Stream("pose", pattern, level, i);
+        FrameSpec frame = maker->Frame(pattern, level, i);
+        for (PlaceWanted& place : MarkerGrid(camera, kMarkers, &random).places) {
+          place.side_px = level;
+          place.tilt_deg = random.Uniform(0, 60);
+          MarkerSpec marker = PlaceMarker(camera, place, &random);
+          if (pattern == "covered" || (mixed && random.Uniform() < .5)) {
+            const std::vector<std::string>& covers = BorderPatterns();
+            const std::string& cover = covers[random.Below(static_cast<int>(covers.size()))];
+            marker.occluder =
+                OccluderSpec{cover, std::min(random.Uniform(.05, .4), LargestShare(cover)),
+                             fmt::format("{}/{}", frame.name, marker.number)};
+          }
+          frame.markers.push_back(std::move(marker));
+        }
+        PhotoSpec& photo = frame.photo;
+        if (pattern == "noise" || mixed) {
+          const double gain = std::exp(random.Uniform(0, std::log(mixed ? 16 : 64)));
+          photo.shot = 2e-4 * gain;
+          photo.read = 0.004 * std::sqrt(gain);
+        }
+        // A tenth of the print at most.
+        if (pattern == "blur" || mixed) {
+          photo.defocus_px = level * random.Uniform(0, .08);
+          photo.motion_px = level * random.Uniform(0, .08);
+          photo.motion_angle = random.Uniform(0, M_PI);
+        }
+        if (pattern == "jpeg" || mixed) photo.jpeg_quality = 60 + random.Below(36);
+        maker->Add(std::move(frame));
+      }
     }
   }
 }
@@ -270,6 +325,7 @@ const std::map<std::string, Make>& Makers() {
       {"noise", MakeNoise},
       {"light", MakeLight},
       {"many", MakeMany},
+      {"ambiguity", MakeAmbiguity},
       {"negative", MakeNegative},
       {"jitter", MakeJitter},
       {"wild", MakeWild}};
@@ -304,8 +360,8 @@ CameraModel SweepCamera(const std::string& name) {
 
 const std::vector<std::string>& SweepNames() {
   static const std::vector<std::string> kNames{
-      "distance", "angle",    "border", "content",  "blur",          "noise", "light",
-      "many",     "negative", "jitter", "sequence", "sequence_occl", "wild"};
+      "distance", "angle",     "border",   "content", "blur",     "noise",         "light",
+      "many",     "ambiguity", "negative", "jitter",  "sequence", "sequence_occl", "wild"};
   return kNames;
 }
 

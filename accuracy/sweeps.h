@@ -14,7 +14,8 @@ const std::vector<std::string>& SweepCameraNames();
 CameraModel SweepCamera(const std::string& name);
 
 /// What each sweep varies, one word each: distance, angle, border, content, blur, noise, light,
-/// many, negative, jitter, sequence, sequence_occl, wild. docs/accuracy-report.md describes them.
+/// many, ambiguity, negative, jitter, sequence, sequence_occl, wild. docs/accuracy-report.md
+/// describes them.
 const std::vector<std::string>& SweepNames();
 
 struct SweepOptions {

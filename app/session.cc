@@ -6,9 +6,9 @@
 namespace pleinair::app {
 namespace {
 
-// From this ratio of reprojection errors on, the pictures themselves hardly tell the two planar
-// solutions apart, and where the camera was a moment ago tells more.
-constexpr double kAmbiguousRatio = 0.8;
+// Where the other planar solution is at least so likely the pictures themselves hardly tell the two
+// apart, and where the camera was a moment ago tells more.
+constexpr double kAmbiguousRatio = 0.05;
 // A last pose older than this says nothing of the next one.
 constexpr std::int64_t kMemoryNs = 500'000'000;
 

@@ -31,7 +31,7 @@ struct Observation {
   std::int64_t timestamp_ns = 0;  ///< Since the recording's start.
   Transform<Camera, Marker> camera_from_marker;
   double reprojection_rms_px = 0.0;
-  double ambiguity_ratio = 0.0;   ///< Near 1: the planar pose has two equally good solutions.
+  double ambiguity_ratio = 0.0;   ///< Near 1: two planar poses fit equally well.
   double visible_fraction = 1.0;  ///< Share of the print that was seen, 0…1.
   tracker::DetectionPath path = tracker::DetectionPath::kFast;  ///< How it was found.
   /// Squares a side of the print, and which of them are seen, 0…255; empty where unknown.

@@ -14,6 +14,11 @@ namespace {
 
 /// Two refined solutions closer than this are one.
 constexpr double kSameRotation_rad = 1e-3;
+/// Degrees of freedom of Student's t that the corners' errors are taken to have: their covariance
+/// is an estimate itself, and Gaussian odds would be too sure of what it says.
+constexpr double kTailFreedom = 8.0;
+/// Eight coordinates of corners less six of the pose.
+constexpr double kMisfitFreedom = 2.0;
 /// Difference of χ² below which the corners do not decide between two poses.
 constexpr double kUndecided = 9.0;
 
@@ -137,7 +142,7 @@ class PlanarPoseProblem {
       if (still || same) break;
     }
     Refined refined;
-    refined.solution = {pose, ReprojectionRms(pose)};
+    refined.solution = {pose, ReprojectionRms(pose), here.cost};
     refined.cost = here.cost;
     const Eigen::Matrix<double, 6, 6> inverse =
         here.information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
@@ -211,6 +216,13 @@ class PlanarPoseProblem {
   const std::array<Vec3, 4> corners_in_marker_;
 };
 
+/// Of two poses with these squared misfits, under the multivariate t distribution (Lange, Little &
+/// Taylor 1989, "Robust statistical modeling using the t distribution", Eq. (1)).
+double LikelihoodRatio(double chi2, double other_chi2) {
+  return std::pow((kTailFreedom + other_chi2) / (kTailFreedom + chi2),
+                  0.5 * (kTailFreedom + kMisfitFreedom));
+}
+
 /// Where nothing but the corners chose the pose, the other may be the true one: with the odds that
 /// the reprojection errors give it, its distance squared is part of the best one's variance (second
 /// moment of a mixture of two).
@@ -224,7 +236,8 @@ void WidenByAlternative(const Refined& best, const Refined& other, PoseEstimate*
                      best.solution.camera_from_marker.translation_m;
   Vector6 apart;
   apart << turn.angle() * turn.axis(), shift.x, shift.y, shift.z;
-  const double share = 1.0 / (1.0 + std::exp(0.5 * (other.cost - best.cost)));
+  const double ratio = LikelihoodRatio(other.cost, best.cost);
+  const double share = ratio / (1.0 + ratio);
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(estimate->covariance.data()) +=
       share * apart * apart.transpose();
 }
@@ -276,10 +289,8 @@ std::optional<PoseEstimate> EstimatePlanarPose(const CameraModel& camera,
       AngleBetween(solutions[0].solution.camera_from_marker.rotation,
                    solutions[1].solution.camera_from_marker.rotation) > kSameRotation_rad) {
     estimate.alternative = solutions[1].solution;
-    const double worse = estimate.alternative->reprojection_rms_px;
-    if (worse > 0.0) {
-      estimate.ambiguity_ratio = std::min(1.0, estimate.best.reprojection_rms_px / worse);
-    }
+    estimate.ambiguity_ratio =
+        std::min(1.0, LikelihoodRatio(estimate.alternative->chi2, estimate.best.chi2));
     if (likely_rotation == nullptr) WidenByAlternative(solutions[0], solutions[1], &estimate);
   }
   return estimate;

@@ -48,12 +48,18 @@ using PoseCovariance = std::array<double, 36>;
 struct PoseSolution {
   Transform<Camera, Marker> camera_from_marker;
   double reprojection_rms_px = 0.0;
+  double chi2 = 0.0;  ///< Squared length of that error in the corners' standard deviations.
 };
+
+/// Ambiguity ratio below which a pose is certain not to be the other planar solution: of such fewer
+/// than one in 1,000 are (docs/sg-detection.md).
+inline constexpr double kCertainRatio = 1e-3;
 
 struct PoseEstimate {
   PoseSolution best;
   std::optional<PoseSolution> alternative;  ///< The other planar solution, where there is one.
-  /// best.reprojection_rms_px / alternative's: near 1 means that nobody can tell; 0 without one.
+  /// How likely the corners make the alternative, over the best one, with their covariance: near 1
+  /// means that nobody can tell, below kCertainRatio that the picture has decided; 0 without one.
   double ambiguity_ratio = 0.0;
   PoseCovariance covariance{};
 };

@@ -295,13 +295,13 @@ std::string FilmTable(const RunSummary& summary) {
 std::string AmbiguityTable(const RunSummary& summary) {
   std::string html =
       "<details><summary>as a table</summary><table><tr><th>detector</th><th>ratio</th>"
-      "<th>poses</th><th>wrong</th><th>share</th><th>95 %</th></tr>\n";
+      "<th>poses</th><th>flips</th><th>wrong</th><th>share</th><th>95 %</th></tr>\n";
   for (const accuracy::AmbiguityBin& bin : summary.ambiguity) {
     if (bin.count == 0) continue;
     html += fmt::format(
-        "<tr><td>{}</td><td>{:.1f}–{:.1f}</td><td>{}</td><td>{}</td><td>{:.3f}</td>"
-        "<td>{:.3f}–{:.3f}</td></tr>\n",
-        bin.detector, bin.low, bin.high, bin.count, bin.wrong,
+        "<tr><td>{}</td><td>{:g}–{:g}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.4f}</td>"
+        "<td>{:.4f}–{:.4f}</td></tr>\n",
+        bin.detector, bin.low, bin.high, bin.count, bin.flips, bin.wrong,
         static_cast<double>(bin.wrong) / static_cast<double>(bin.count), bin.rate.low,
         bin.rate.high);
   }
@@ -315,15 +315,15 @@ std::string AmbiguityChart(const RunSummary& summary) {
     if (series.empty() || series.back().name != bin.detector) {
       series.push_back({bin.detector, {}, {}, {}});
     }
-    if (series.size() == 1) levels.push_back(fmt::format("{:.1f}–{:.1f}", bin.low, bin.high));
+    if (series.size() == 1) levels.push_back(fmt::format("{:g}–{:g}", bin.low, bin.high));
     series.back().values.push_back(
         bin.count > 0 ? static_cast<double>(bin.wrong) / static_cast<double>(bin.count) : kNone);
     series.back().low.push_back(bin.rate.low);
     series.back().high.push_back(bin.rate.high);
   }
   return "<h2>Ambiguity</h2>\n<p class=\"lead\">How often the other solution of the planar pose "
-         "was the better one, by the ratio of reprojection errors that says how ambiguous the "
-         "pose is.</p>\n"
+         "was the better one, by the ratio of likelihoods that says how ambiguous the pose "
+         "is: below 0.001 it is certain.</p>\n"
          "<div class=\"charts\">" +
          LevelChartSvg("Wrong solution chosen", "ambiguity ratio", levels, series, 0.6) +
          "</div>\n" + AmbiguityTable(summary);

@@ -133,9 +133,13 @@ Json LightJson(const accuracy::LightSummary& light) {
 Json UnreadJson(const UnreadFilm& unread) { return {{"film", unread.film}, {"peer", unread.peer}}; }
 
 Json AmbiguityJson(const accuracy::AmbiguityBin& bin) {
-  return {{"detector", bin.detector}, {"low", Number(bin.low)},
-          {"high", Number(bin.high)}, {"count", bin.count},
-          {"wrong", bin.wrong},       {"wrong_rate_interval", IntervalJson(bin.rate)}};
+  return {{"detector", bin.detector},
+          {"low", Number(bin.low)},
+          {"high", Number(bin.high)},
+          {"count", bin.count},
+          {"wrong", bin.wrong},
+          {"flips", bin.flips},
+          {"wrong_rate_interval", IntervalJson(bin.rate)}};
 }
 
 Json MapJson(const accuracy::ErrorMap& map) {

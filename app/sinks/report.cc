@@ -3,12 +3,9 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "tracker/sighting.h"
 
 namespace pleinair::app {
-namespace {
-constexpr double kAmbiguousRatio = 0.8;
-}
-
 PoseStatistics SummarizePath(const std::vector<Observation>& path) {
   PoseStatistics statistics;
   if (path.empty()) return statistics;
@@ -19,7 +16,7 @@ PoseStatistics SummarizePath(const std::vector<Observation>& path) {
     errors_px.push_back(at.reprojection_rms_px);
     visible.push_back(at.visible_fraction);
     ++statistics.found_by[static_cast<std::size_t>(at.path)];
-    if (at.ambiguity_ratio > kAmbiguousRatio) ++statistics.ambiguous_frames;
+    if (at.ambiguity_ratio > tracker::kCertainRatio) ++statistics.ambiguous_frames;
     if (i == 0 || at.frame_index != path[i - 1].frame_index + 1) continue;
     const auto here = at.camera_from_marker.Inverse();
     const auto before = path[i - 1].camera_from_marker.Inverse();

@@ -59,7 +59,7 @@ struct PoseStatistics {
   double step_rotation_p95_deg = 0.0;  ///< Between neighbouring frames.
   double step_translation_p95_m = 0.0;
   double reprojection_median_px = 0.0, reprojection_p95_px = 0.0;
-  std::int64_t ambiguous_frames = 0;               ///< Ambiguity ratio above 0.8.
+  std::int64_t ambiguous_frames = 0;               ///< Not certain by their ambiguity ratio.
   double visible_min = 0.0, visible_median = 0.0;  ///< Share of the print that was seen.
   std::array<std::int64_t, 3> found_by{};          ///< Frames by tracker::DetectionPath.
 };

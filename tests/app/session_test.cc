@@ -91,12 +91,12 @@ TEST(Session, DoesNotFlipToTheOtherPlanarSolution) {
   ambiguous.pose.best.camera_from_marker.rotation = AboutX(-0.1);
   ambiguous.pose.alternative = ambiguous.pose.best;
   ambiguous.pose.alternative->camera_from_marker.rotation = AboutX(0.11);
-  ambiguous.pose.ambiguity_ratio = 0.95;
+  ambiguous.pose.ambiguity_ratio = 0.5;
   session.AddFrame(1, 66'666'667, {ambiguous});
   const auto& path = session.Path({"tag36h11", 1});
   EXPECT_LT(RotationAngle(path[1].camera_from_marker.rotation, AboutX(0.11)), 1e-9);
   // Where the picture itself tells, it is believed.
-  ambiguous.pose.ambiguity_ratio = 0.2;
+  ambiguous.pose.ambiguity_ratio = 0.01;
   session.AddFrame(2, 133'333'333, {ambiguous});
   EXPECT_LT(RotationAngle(path[2].camera_from_marker.rotation, AboutX(-0.1)), 1e-9);
 }

@@ -26,11 +26,13 @@ AlignmentView RandomView(double side_px, std::mt19937* random) {
   return view;
 }
 
-bool FitWhole(const AlignmentScene& scene, SeenWindow* seen, BlockFit* fit, BlockFitState* state) {
+bool FitWhole(const AlignmentScene& scene, SeenWindow* seen, BlockFit* fit, BlockFitState* state,
+              bool fit_light = false) {
   TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, seen);
   BlockFitOptions options;
   options.steps = 6;
   options.fit_blur = true;
+  options.fit_light = fit_light;
   double side = 0.0;
   for (int i = 0; i < 4; ++i) {
     side = std::max(side, Norm(scene.truth[i] - scene.truth[(i + 1) % 4]));
@@ -47,7 +49,7 @@ struct Errors {
 
 /// Errors of the corners over some views.
 Errors Measure(double side_px, double off_px, const RenderingOptions& rendering,
-               void (*cover)(AlignmentScene*)) {
+               void (*cover)(AlignmentScene*), bool fit_light = false) {
   std::mt19937 random(11);
   Errors errors;
   int corners = 0;
@@ -60,7 +62,7 @@ Errors Measure(double side_px, double off_px, const RenderingOptions& rendering,
     AlignmentScene scene = MakeScene(RandomView(side_px, &random), options);
     if (cover != nullptr) cover(&scene);
     BlockFitState state = scene.Guess(off_px);
-    if (!FitWhole(scene, &seen, &fit, &state)) {
+    if (!FitWhole(scene, &seen, &fit, &state, fit_light)) {
       ++errors.failures;
       continue;
     }
@@ -102,6 +104,32 @@ TEST(BlockFit, FindsMarkersUnderAGradient) {
   EXPECT_EQ(errors.failures, 0);
   EXPECT_LT(Norm(errors.mean), 0.02);
   EXPECT_LT(errors.rms, 0.08);
+}
+
+TEST(BlockFit, MeasuresMarkersUnderAGradientAsInEvenLight) {
+  const auto gradient = [](Vec2 pixel) { return std::exp2(0.03 * (pixel.x - 200.0)); };
+  for (const bool fit_light : {false, true}) {
+    const Errors errors = Measure(120, 0.8, {.blur_px = 0.6, .noise_codes = 0.0, .light = gradient},
+                                  nullptr, fit_light);
+    EXPECT_EQ(errors.failures, 0);
+    if (fit_light) {
+      EXPECT_LT(errors.rms, 0.02);
+    } else {
+      EXPECT_GT(errors.rms, 0.04) << "else there is nothing to fit";
+    }
+  }
+}
+
+// The quiet zone of a print of 16 px is 1.6 px wide, the lens blurs what is beside it into it.
+TEST(BlockFit, IsNotDrawnByWhatLiesBesideASmallPrint) {
+  const auto rms = [](double background, bool fit_light) {
+    const Errors errors = Measure(16, 0.2, {.background = background, .blur_px = 0.6, .light = {}},
+                                  nullptr, fit_light);
+    EXPECT_EQ(errors.failures, 0);
+    return errors.rms;
+  };
+  EXPECT_LT(rms(0.05, true), 1.15 * rms(0.8, true)) << "dark beside it as good as white";
+  EXPECT_GT(rms(0.05, false), 1.4 * rms(0.8, false)) << "else there is nothing to fit";
 }
 
 TEST(BlockFit, FindsMarkersCrossedByTheEdgeOfAShadow) {

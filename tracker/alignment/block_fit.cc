@@ -6,6 +6,7 @@
 
 #include "tracker/alignment/block_fit_sums.h"
 #include "tracker/alignment/light_elimination.h"
+#include "tracker/alignment/surroundings.h"
 #include "tracker/homography.h"
 
 namespace pleinair::tracker {
@@ -23,6 +24,10 @@ constexpr float kMostReach_modules = 2.4F;
 constexpr double kLeastBlur_px = 0.25, kMostBlur_px = 6.0;
 /// Change of the blur that is none, in pixels.
 constexpr double kStillBlur_px = 0.02;
+/// Logarithm of light by half an edge; and how independent both slopes must be.
+constexpr double kMostSlope = 3.0, kLeastSlopeDeterminant = 1e-3;
+/// Correlation of a print that lies open: what covers others passes for a slope.
+constexpr double kPlainCorrelation = 0.9;
 /// Tiles of 4×4 pixels where blocks and the print itself are so many pixels wide at least.
 constexpr double kLeastBlockOfTiles_px = 7.0, kLeastPrintOfTiles_px = 24.0;
 
@@ -78,7 +83,7 @@ void BlockFit::Predict(const PrintPattern& pattern, PrintPart part, const SeenWi
   known.unknown_half = all ? -known.modules : 0.5F * static_cast<float>(pattern.unknown_modules);
   known.unknown_middle = static_cast<float>(pattern.unknown_first) +
                          0.5F * static_cast<float>(pattern.unknown_modules);
-  sums_->blocks.Lay(pattern, known, seen, map_, sums_->ranges, tile_, blocks_along_);
+  sums_->blocks.Lay(pattern, known, seen, map_, sums_->ranges, tile_, blocks_along_, sums_->slope);
 }
 
 void BlockFit::FitLevels(const SeenWindow& seen, double robust_share, bool known_light) {
@@ -163,6 +168,38 @@ void BlockFit::AddUp(const SeenWindow& seen, const BlockFitOptions& options) {
   }
 }
 
+void BlockFit::EliminateSlope() {
+  SlopeEquations& slopes = sums_->slopes;
+  slopes.known = Correlation() > kPlainCorrelation;
+  if (!slopes.known) return;
+  slopes = sums_->blocks.Slopes(sums_->lights, sums_->motions);
+  const Eigen::Map<const Eigen::Matrix2d> own(slopes.own[0].data());
+  const Eigen::Map<const Eigen::Vector2d> right(slopes.right.data());
+  const Eigen::Map<const Eigen::Matrix<double, kParameters, 2>> with(slopes.with[0].data());
+  Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>> hessian(hessian_.data());
+  Eigen::Map<Eigen::Matrix<double, kParameters, 1>> gradient(gradient_.data());
+  const Eigen::Matrix2d inverse = own.inverse();
+  slopes.known = own.determinant() > kLeastSlopeDeterminant * own(0, 0) * own(1, 1) &&
+                 own(0, 0) > 0.0 && inverse.allFinite();
+  if (!slopes.known) return;
+  hessian.noalias() -= with * inverse * with.transpose();
+  gradient.noalias() -= with * (inverse * right);
+}
+
+void BlockFit::MoveSlope(const std::array<double, kParameters>& move) {
+  const SlopeEquations& slopes = sums_->slopes;
+  if (!slopes.known) return;
+  const Eigen::Map<const Eigen::Matrix2d> own(slopes.own[0].data());
+  const Eigen::Map<const Eigen::Vector2d> right(slopes.right.data());
+  const Eigen::Map<const Eigen::Matrix<double, kParameters, 2>> with(slopes.with[0].data());
+  const Eigen::Vector2d change =
+      own.inverse() *
+      (right -
+       with.transpose() * Eigen::Map<const Eigen::Matrix<double, kParameters, 1>>(move.data()));
+  sums_->slope.by_u = std::clamp(sums_->slope.by_u + change[0], -kMostSlope, kMostSlope);
+  sums_->slope.by_v = std::clamp(sums_->slope.by_v + change[1], -kMostSlope, kMostSlope);
+}
+
 void BlockFit::Start(const PrintPattern& pattern, const SeenWindow& seen, int blocks_along,
                      const BlockFitState& state) {
   blocks_along_ = std::clamp(blocks_along, 1, kMostBlocksAlong);
@@ -173,6 +210,7 @@ void BlockFit::Start(const PrintPattern& pattern, const SeenWindow& seen, int bl
   sums_->lights.assign(blocks, BlockLight{});
   block_of_.resize(seen.value.size());
   weight_ = seen.certainty;
+  sums_->slope = {};
   std::size_t clipped = 0;
   for (std::size_t n = 0; n < weight_.size(); ++n) {
     clipped += weight_[n] == 0.0F && seen.value[n] > kClippedLight;
@@ -241,6 +279,11 @@ bool BlockFit::Move(const PrintPattern& pattern, const BlockFitOptions& options,
       {1.0 + move[1], move[2], move[0], move[4], 1.0 + move[5], move[3], move[6], move[7], 1.0}};
   state->modules_from_ideal = ModulesFromUnit(pattern) *
                               (Adjugate(motion) * (unit_from_modules * state->modules_from_ideal));
+  if (options.fit_light) {
+    std::array<double, kParameters> moved;
+    Eigen::Map<Eigen::Matrix<double, kParameters, 1>>(moved.data()) = move;
+    MoveSlope(moved);
+  }
   *done = moved_px < options.done_px;
   *still = *done;
   if (options.fit_blur) {
@@ -259,12 +302,20 @@ bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow
   const double scale = seen.rays.window.Scale();
   bool solved = true, last = false;
   Start(pattern, seen, blocks_along, *state);
+  const double module_px =
+      SidesOf(Adjugate(UnitFromModules(pattern) * state->modules_from_ideal)).shortest /
+      (scale * pattern.edge_modules);
   for (int step = 0;; ++step) {
     Predict(pattern, part, seen, *state);
     if (step == 0) FitLevels(seen, options.robust_share, options.known_light);
     // The light of the step before, or without weights, tells what fits; and that the light.
+    if (options.fit_light && SurroundingsShow(module_px, blur_px_ / scale)) {
+      AddSurroundings(pattern, seen, map_, sums_->ranges, blur_px_ / scale, sums_->lights,
+                      blocks_along_, &picture_);
+    }
     FitLevels(seen, options.robust_share, options.known_light);
     AddUp(seen, options);
+    if (options.fit_light) EliminateSlope();
     if (step >= options.steps) break;
     bool done = false, still = false;
     solved = Move(pattern, options, scale, state, &done, &still);

@@ -39,6 +39,9 @@ struct BlockFitState {
 struct BlockFitOptions {
   int steps = 4;
   bool fit_blur = false;
+  /// Also the light's slope within blocks, and what is beyond a small print: to measure, not to
+  /// find.
+  bool fit_light = false;
   bool fit_projection = true;  ///< False: only the affine part of the motion.
   double robust_share = 0.35;  ///< Residual, in shares of white, at which a pixel loses half.
   /// What is seen is in shares of white already: no block has a gain or an offset of its own.
@@ -104,6 +107,9 @@ class BlockFit {
                const BlockFitState& state);
   void FitLevels(const SeenWindow& seen, double robust_share, bool known_light);
   void AddUp(const SeenWindow& seen, const BlockFitOptions& options);
+  /// Eliminates the light's slope from the equations, and what it is after a move.
+  void EliminateSlope();
+  void MoveSlope(const std::array<double, kParameters>& move);
   bool Move(const PrintPattern& pattern, const BlockFitOptions& options, double scale,
             BlockFitState* state, bool* done, bool* still);
 

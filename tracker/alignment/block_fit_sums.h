@@ -16,6 +16,8 @@ struct BlockFit::Sums {
   std::vector<LevelSums> levels;
   std::vector<BlockMotions> motions;
   FitProducts products;
+  LightSlope slope;
+  SlopeEquations slopes;
 };
 
 }  // namespace pleinair::tracker

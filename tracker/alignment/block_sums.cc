@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "tracker/alignment/light_elimination.h"
 
 namespace pleinair::tracker {
 namespace {
 
 constexpr int kWholeVector = 16;  ///< The widest vectors' lanes.
+constexpr int kMostBlocks = 64;   ///< Of a BlockFit.
 
 }  // namespace
 
@@ -14,13 +18,14 @@ BlockSums::BlockSums() : kernels_(&SimdTileKernels()) {}
 
 void BlockSums::Lay(const PrintPattern& pattern, const KnownPart& known, const SeenWindow& seen,
                     const PrintMap& map, const std::vector<RowRange>& ranges, int tile,
-                    int blocks_along) {
+                    int blocks_along, const LightSlope& slope) {
   const int width = seen.rays.window.width, height = seen.rays.window.height;
   tile_ = tile;
   capacity_ = static_cast<std::size_t>((width + tile - 1) / tile) * ((height + tile - 1) / tile) +
               kTileSlack;
   column_stride_ = width + 2 * kTileSlack;
-  for (auto* values : {&u_, &v_, &u_x_, &u_y_, &v_x_, &v_y_, &gain_}) values->resize(capacity_);
+  for (auto* values : {&u_, &v_, &u_x_, &u_y_, &v_x_, &v_y_, &gain_, &block_u_, &block_v_, &shade_})
+    values->resize(capacity_);
   block_.resize(capacity_);
   tile_sums_.resize(capacity_ * kMotionSums);
   column_sums_.resize(static_cast<std::size_t>(column_stride_) * kMotionSums);
@@ -57,13 +62,13 @@ void BlockSums::Lay(const PrintPattern& pattern, const KnownPart& known, const S
     for (int t = 0; t < rows_.back().tiles; ++t, ++tiles_) {
       const int middle_x = std::min(range.begin + t * tile + tile / 2 - 1, width - 1);
       LayTile(pattern, map, static_cast<std::size_t>(middle_y) * width + middle_x, blocks_along,
-              tiles_);
+              slope, tiles_);
     }
   }
 }
 
 void BlockSums::LayTile(const PrintPattern& pattern, const PrintMap& map, std::size_t pixel,
-                        int blocks_along, std::size_t tile) {
+                        int blocks_along, const LightSlope& slope, std::size_t tile) {
   const float modules = static_cast<float>(pattern.modules);
   const float per_half = 2.0F / static_cast<float>(pattern.edge_modules);
   // The tile's middle is half a pixel right of and below this pixel's centre.
@@ -77,9 +82,17 @@ void BlockSums::LayTile(const PrintPattern& pattern, const PrintMap& map, std::s
                ? static_cast<int>(std::min(at * per_block, static_cast<float>(blocks_along) - 0.5F))
                : 0;
   };
-  block_[tile] = static_cast<unsigned char>(index(r) * blocks_along + index(c));
+  const int block_column = index(c), block_row = index(r);
+  block_[tile] = static_cast<unsigned char>(block_row * blocks_along + block_column);
   u_[tile] = (c - 0.5F * modules) * per_half;
   v_[tile] = (r - 0.5F * modules) * per_half;
+  block_u_[tile] = (c - (static_cast<float>(block_column) + 0.5F) / per_block) * per_half;
+  block_v_[tile] = (r - (static_cast<float>(block_row) + 0.5F) / per_block) * per_half;
+  // Padé's exponential: good to 1 % as far as a block reaches under any light.
+  const float half = std::clamp(0.5F * (static_cast<float>(slope.by_u) * block_u_[tile] +
+                                        static_cast<float>(slope.by_v) * block_v_[tile]),
+                                -0.5F, 0.5F);
+  shade_[tile] = (1.0F + half) / (1.0F - half);
   const float inverse = 1.0F / ((column_x * row_y - column_y * row_x) * per_half);
   u_x_[tile] = row_y * inverse;
   u_y_[tile] = -row_x * inverse;
@@ -94,7 +107,11 @@ LightOfColumns BlockSums::LightOfTiles(const TileRow& row, const std::vector<Blo
   float* belief = inverse + column_stride_;
   const unsigned char* block = &block_[row.first_tile];
   for (int t = 0; t < row.tiles; ++t) {
-    const BlockLight light = lights[block[t]];
+    BlockLight light = lights[block[t]];
+    const float shade = shade_[row.first_tile + t];
+    light.gain *= shade;
+    light.offset *= shade;
+    light.inverse /= shade;
     for (int x = t * kTile; x < (t + 1) * kTile; ++x) gain[x] = light.gain;
     for (int x = t * kTile; x < (t + 1) * kTile; ++x) offset[x] = light.offset;
     for (int x = t * kTile; x < (t + 1) * kTile; ++x) inverse[x] = light.inverse;
@@ -133,9 +150,22 @@ void BlockSums::Levels(const SeenWindow& seen, const PrintPicture& picture,
     for (int t = 0; t < row.tiles; ++t) {
       const float* from = &tile_sums_[t];
       LevelSums& of = (*sums)[block_[row.first_tile + t]];
-      for (double* sum : {&of.pixels, &of.w, &of.wp, &of.wi, &of.wpp, &of.wpi, &of.wii, &of.r,
-                          &of.rp, &of.ri, &of.rpp, &of.rpi}) {
-        *sum += *from;
+      // What is predicted is p times the shade.
+      const float shade = shade_[row.first_tile + t], squared = shade * shade;
+      const std::array<std::pair<double*, float>, kLevelSums> all{{{&of.pixels, 1.0F},
+                                                                   {&of.w, squared},
+                                                                   {&of.wp, squared},
+                                                                   {&of.wi, shade},
+                                                                   {&of.wpp, squared},
+                                                                   {&of.wpi, shade},
+                                                                   {&of.wii, 1.0F},
+                                                                   {&of.r, squared},
+                                                                   {&of.rp, squared},
+                                                                   {&of.ri, shade},
+                                                                   {&of.rpp, squared},
+                                                                   {&of.rpi, shade}}};
+      for (const auto& [sum, factor] : all) {
+        *sum += *from * factor;
         from += stride;
       }
     }
@@ -160,7 +190,9 @@ void BlockSums::Motions(const SeenWindow& seen, const PrintPicture& picture,
       const std::size_t tile = static_cast<std::size_t>(row.first_tile) + t;
       const BlockLight& of = lights[block_[tile]];
       // Where the map folds up nothing can be learnt.
-      gain_[tile] = of.belief > 0.0F && std::isfinite(u_x_[tile] + v_y_[tile]) ? of.gain : 0.0F;
+      gain_[tile] = of.belief > 0.0F && std::isfinite(u_x_[tile] + v_y_[tile])
+                        ? of.gain * shade_[tile]
+                        : 0.0F;
     }
   }
   if (!blur) {
@@ -201,6 +233,57 @@ void BlockSums::Scores(int modules, int edge_modules,
     }
     ++scores->tiles[cell];
   }
+}
+
+SlopeEquations BlockSums::Slopes(const std::vector<BlockLight>& lights,
+                                 const std::vector<BlockMotions>& blocks) const {
+  SlopeEquations all;
+  std::array<std::array<double, 2>, kMostBlocks> on_one{}, on_white{};
+  for (std::size_t t = 0; t < tiles_; ++t) {
+    const double gain = gain_[t];
+    if (!(gain > 0.0)) continue;
+    const int block = block_[t];
+    const double offset = static_cast<double>(lights[block].offset) * shade_[t];
+    const auto sum = [&](int q) { return static_cast<double>(tile_sums_[q * capacity_ + t]); };
+    const std::array<double, 2> along{block_u_[t], block_v_[t]};
+    // φ is along times this.
+    const double one = gain * sum(1) + offset * sum(0), white = gain * sum(2) + offset * sum(1);
+    const double square = gain * white + offset * one;
+    const double left = gain * sum(4) + offset * sum(3);
+    const double x = gain * sum(8) + offset * sum(6), y = gain * sum(9) + offset * sum(7);
+    const double b = gain * (gain * sum(16) + offset * sum(15));
+    const double u = u_[t], v = v_[t];
+    const double pu = gain * (u_x_[t] * x + u_y_[t] * y), pv = gain * (v_x_[t] * x + v_y_[t] * y);
+    const double inwards = pu * u + pv * v;
+    // As in TileKernels' products.
+    const std::array<double, kFitParameters> j{-pu,     -pu * u,     -pu * v,     -pv, -pv * u,
+                                               -pv * v, inwards * u, inwards * v, b};
+    for (int i = 0; i < 2; ++i) {
+      on_one[block][i] += along[i] * one;
+      on_white[block][i] += along[i] * white;
+      all.right[i] += along[i] * left;
+      for (int k = 0; k < 2; ++k) all.own[i][k] += along[i] * along[k] * square;
+      for (int a = 0; a < kFitParameters; ++a) all.with[i][a] += along[i] * j[a];
+    }
+  }
+  for (std::size_t block = 0; block < blocks.size(); ++block) {
+    const BlockMotions& sums = blocks[block];
+    const LightElimination eliminate(sums);
+    const double gain = lights[block].gain;
+    if (!(gain > 0.0) || !eliminate.possible) continue;
+    for (int i = 0; i < 2; ++i) {
+      const double white = eliminate.OnPattern(on_one[block][i], on_white[block][i]);
+      const double one = eliminate.OnOne(on_one[block][i], on_white[block][i]);
+      all.right[i] -= white * sums.rp + one * sums.r;
+      for (int k = 0; k < 2; ++k) {
+        all.own[i][k] -= white * on_white[block][k] + one * on_one[block][k];
+      }
+      for (int a = 0; a < kFitParameters; ++a) {
+        all.with[i][a] -= gain * (white * sums.pj[a] + one * sums.j[a]);
+      }
+    }
+  }
+  return all;
 }
 
 void BlockSums::WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of) const {

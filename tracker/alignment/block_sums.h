@@ -40,6 +40,21 @@ struct CellScores {
   std::array<int, kAlong * kAlong> tiles{};  ///< … from so many tiles.
 };
 
+/// The light's slope over the print as two more parameters of a fit, for which the light of the
+/// blocks is eliminated: φ_u = u' (gain p + offset) and φ_v, u' and v' in half edges from the
+/// middle of each block; inner products with the final weights.
+struct SlopeEquations {
+  std::array<std::array<double, 2>, 2> own{};                ///< φ with φ,
+  std::array<std::array<double, kFitParameters>, 2> with{};  ///< … with gain J,
+  std::array<double, 2> right{};                             ///< … and with what is left over.
+  bool known = false;                                        ///< They tell the slope.
+};
+
+/// Change of the logarithm of light by half edges to the right and down, within each block.
+struct LightSlope {
+  double by_u = 0.0, by_v = 0.0;
+};
+
 /// Adds up pixels for each block of a print: first by tiles of 2×2 or 4×4 pixels, which belong to
 /// the block their middle lies in. Within a tile the place on the print and the map's derivatives
 /// are taken as one, so that only slopes are summed pixel by pixel.
@@ -52,7 +67,8 @@ class BlockSums {
   /// Cuts the window into tiles and tells which pixels are usable. `ranges` as from
   /// PrintRaster::RenderPrint.
   void Lay(const PrintPattern& pattern, const KnownPart& known, const SeenWindow& seen,
-           const PrintMap& map, const std::vector<RowRange>& ranges, int tile, int blocks_along);
+           const PrintMap& map, const std::vector<RowRange>& ranges, int tile, int blocks_along,
+           const LightSlope& slope = {});
 
   /// One sum for each block, with the light of the blocks for the robust weights.
   void Levels(const SeenWindow& seen, const PrintPicture& picture,
@@ -62,6 +78,10 @@ class BlockSums {
   void Motions(const SeenWindow& seen, const PrintPicture& picture,
                const std::vector<BlockLight>& lights, bool blur, std::vector<float>* weight,
                FitProducts* products, std::vector<BlockMotions>* blocks);
+
+  /// The equations of the light's slope, from the sums that Motions made last.
+  SlopeEquations Slopes(const std::vector<BlockLight>& lights,
+                        const std::vector<BlockMotions>& blocks) const;
 
   /// What each cell's pixels say in the equations that Motions made last, with the light of the
   /// blocks eliminated. `modules` is the print's side, `edge_modules` that of its square.
@@ -76,7 +96,7 @@ class BlockSums {
     int y, rows, begin, count, first_tile, tiles;
   };
   void LayTile(const PrintPattern& pattern, const PrintMap& map, std::size_t pixel,
-               int blocks_along, std::size_t tile);
+               int blocks_along, const LightSlope& slope, std::size_t tile);
   /// Writes out the light of the blocks by columns.
   template <int kTile>
   LightOfColumns LightOfTiles(const TileRow& row, const std::vector<BlockLight>& lights);
@@ -93,6 +113,8 @@ class BlockSums {
   std::vector<float> usable_;
   std::vector<unsigned char> block_;
   std::vector<float> u_, v_, u_x_, u_y_, v_x_, v_y_, gain_;
+  std::vector<float> block_u_, block_v_;  ///< From the middle of the tile's block.
+  std::vector<float> shade_;              ///< Light on the tile over that on its block's middle.
   std::vector<float> tile_sums_, column_sums_, column_light_;
 };
 

@@ -33,6 +33,7 @@ const std::array<float, 256>& CertaintyOfCode() {
 void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
                       const PixelWindow& window, SeenWindow* seen, Clipping clipping) {
   LookUpRays(lens, window, &seen->rays);
+  seen->grey = grey;
   seen->value.resize(window.size());
   seen->certainty.resize(window.size());
   const auto& linear = LinearFromSrgb8();
@@ -73,6 +74,7 @@ void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
 void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
                     const PixelWindow& window, SeenWindow* seen) {
   LookUpRays(lens, window, &seen->rays);
+  seen->grey = {};
   seen->value.resize(window.size());
   seen->certainty.assign(window.size(), 1.0F);
   for (int y = 0; y < window.height; ++y) {
@@ -87,6 +89,7 @@ void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
 void TakeEvenWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
                     const PixelWindow& window, SeenWindow* seen) {
   LookUpRays(lens, window, &seen->rays);
+  seen->grey = {};
   seen->value.resize(window.size());
   seen->certainty.resize(window.size());
   const auto& linear = LinearFromSrgb8();

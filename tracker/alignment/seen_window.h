@@ -15,6 +15,8 @@ struct SeenWindow {
   WindowRays rays;
   std::vector<float> value;
   std::vector<float> certainty;  ///< Inverse variance up to scale; 0: not to be used.
+  /// The picture that TakeLinearWindow took it from, for what lies beyond the window.
+  ImageView<const std::uint8_t> grey{};
 };
 
 /// Why codes are clipped: where light is beyond the camera's range they say nothing, where noise

@@ -310,6 +310,7 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   BlockFitOptions options;
   options.steps = 5;
   options.fit_blur = true;
+  options.fit_light = true;
   options.tell_blocks = false;
   options.done_px = done_px;
   if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, FineBlocks(window, guess), options,

@@ -1,0 +1,26 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <vector>
+
+#include "tracker/alignment/block_sums.h"
+#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/seen_window.h"
+#include "tracker/print_pattern.h"
+
+namespace pleinair::tracker {
+
+/// Whether what lies beyond a print is blurred into pixels that a fit looks at: the quiet zone of
+/// small prints is narrower than the blur. `module_px`: of the window's pixels.
+bool SurroundingsShow(double module_px, double blur_px);
+
+/// Adds to a prediction, in which the quiet zone goes on for ever, what the picture shows beyond
+/// the print: each pixel's share of light from there is of the brightness that is seen a pixel or
+/// two farther out. `lights` are those of the blocks; where they are unknown nothing is added.
+void AddSurroundings(const PrintPattern& pattern, const SeenWindow& seen, const PrintMap& map,
+                     const std::vector<RowRange>& ranges, double blur_px,
+                     const std::vector<BlockLight>& lights, int blocks_along,
+                     PrintPicture* picture);
+
+}  // namespace pleinair::tracker
