@@ -45,12 +45,12 @@ const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888)
 const float kPixelVariance = 1.0 / 11.0;
 
 // Half-widths of the box over texels that is as wide, in standard deviations, as disc and pixel
-// together: a disc of radius ρ has the variance ρ²/4 along an axis, a box of ±k has k²/3, and its
-// texels' own is 1/12.
+// together: a disc of radius ρ has the variance ρ²/4 along an axis, a box of ±k has k²/3. The texels'
+// own 1/12 comes on top: without it edges of large texels tremble.
 vec2 ShadowBoxWidth(vec4 size, ShadowReceiver r, float height, float tan_radius) {
   vec2 disc = height * tan_radius / size.xy;
   vec2 pixel = kPixelVariance * (r.step_x * r.step_x + r.step_y * r.step_y);
-  return sqrt(max(3.0 * (0.25 * disc * disc + pixel) - 0.25, 0.25));
+  return sqrt(max(3.0 * (0.25 * disc * disc + pixel), 0.25));
 }
 
 // All texels of `quads` × `quads` quads around a point (at most 3 × 3): their blockers' mean height,
