@@ -3,7 +3,7 @@
 #include <libcamera/control_ids.h>
 #include <libcamera/framebuffer_allocator.h>
 #include <libcamera/property_ids.h>
-#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -14,11 +14,12 @@
 #include <deque>
 #include <map>
 #include <mutex>
-#include <span>
+#include <string>
 #include <utility>
 
 #include "devices/libcamera/libcamera_controls.h"
 #include "devices/libcamera/libcamera_manager.h"
+#include "devices/libcamera/mapped_planes.h"
 #include "devices/picture_choice.h"
 #include "devices/v4l2/v4l2_controls.h"
 
@@ -48,38 +49,6 @@ Error LibcameraError(const std::string& where, const std::string& doing, int err
           "unplug it and plug it in again"};
 }
 
-/// Memory of the planes of one buffer, for reading.
-class MappedPlanes {
- public:
-  MappedPlanes() = default;
-  MappedPlanes(MappedPlanes&& other) noexcept : maps_(std::exchange(other.maps_, {})) {}
-  MappedPlanes& operator=(MappedPlanes&&) = delete;
-  ~MappedPlanes() {
-    for (const Map& map : maps_) munmap(map.start, map.length);
-  }
-
-  bool Add(const libcamera::FrameBuffer::Plane& plane) {
-    const std::size_t length = plane.offset + static_cast<std::size_t>(plane.length);
-    void* start = mmap(nullptr, length, PROT_READ, MAP_SHARED, plane.fd.get(), 0);
-    if (start == MAP_FAILED) return false;
-    maps_.push_back({start, length, plane.offset});
-    return true;
-  }
-
-  std::span<const std::uint8_t> Plane(std::size_t i) const {
-    const auto* start = static_cast<const std::uint8_t*>(maps_[i].start);
-    return {start + maps_[i].offset, maps_[i].length - maps_[i].offset};
-  }
-  std::size_t size() const { return maps_.size(); }
-
- private:
-  struct Map {
-    void* start;
-    std::size_t length, offset;
-  };
-  std::vector<Map> maps_;
-};
-
 /// A stamp brought to the steady clock. libcamera documents CLOCK_BOOTTIME and hands on what the
 /// driver said, mostly CLOCK_MONOTONIC: they differ by the time that the machine slept.
 std::int64_t ToSteady_ns(std::int64_t stamp_ns, std::int64_t steady_now_ns) {
@@ -99,7 +68,9 @@ class LibcameraDevice final : public CameraDevice {
 
   ~LibcameraDevice() override {
     if (started_) {
-      camera_->stop();  // Nothing completes after this: the slot can go.
+      // Nothing completes after this: the slot can go. The streams of a camera that left cannot be
+      // stopped, and libcamera ends the program where it tries.
+      if (IsThere()) camera_->stop();
       camera_->requestCompleted.disconnect(this);
     }
     requests_.clear();
@@ -143,6 +114,7 @@ class LibcameraDevice final : public CameraDevice {
     agreement_.format = *format;
     agreement_.size = {static_cast<int>(stream.size.width), static_cast<int>(stream.size.height)};
     Describe(stream);
+    entry_ = KernelEntryOf(*manager_, camera_).value_or("");
     node_ = NodeBehind(*manager_, camera_);
     return {};
   }
@@ -202,12 +174,12 @@ class LibcameraDevice final : public CameraDevice {
           return WaitOutcome::kNothing;
         }
       }
-      // The requests of a camera that left never complete: only the list of cameras tells.
-      if (request == nullptr) return IsThere() ? WaitOutcome::kNothing : WaitOutcome::kGone;
+      // The requests of a camera that left never complete: only the kernel's list of devices tells.
+      if (request == nullptr) return GoneForATick() ? WaitOutcome::kGone : WaitOutcome::kNothing;
       const bool taken = Take(*request, picture);
       request->reuse(libcamera::Request::ReuseBuffers);
       ApplyWishes(request);
-      if (camera_->queueRequest(request) != 0 && !IsThere()) return WaitOutcome::kGone;
+      camera_->queueRequest(request);  // What fails here is a camera that left: see above.
       if (taken) return WaitOutcome::kPicture;
     }
   }
@@ -268,10 +240,12 @@ class LibcameraDevice final : public CameraDevice {
     changed_.notify_all();
   }
 
-  bool IsThere() const {
-    const auto cameras = manager_->cameras();
-    return std::find(cameras.begin(), cameras.end(), camera_) != cameras.end();
-  }
+  /// Without a known node it always is: only its silence tells then.
+  bool IsThere() const { return entry_.empty() || access(entry_.c_str(), F_OK) == 0; }
+
+  /// It has been so since the last wait: what completed on libcamera's thread while it left is
+  /// over.
+  bool GoneForATick() { return std::exchange(was_gone_, !IsThere()) && was_gone_; }
 
   void Describe(const libcamera::StreamConfiguration& stream) {
     layout_.format = agreement_.format;
@@ -343,7 +317,8 @@ class LibcameraDevice final : public CameraDevice {
   std::shared_ptr<libcamera::CameraManager> manager_;
   std::shared_ptr<libcamera::Camera> camera_;
   CameraUri identity_;
-  bool acquired_ = false, started_ = false;
+  bool acquired_ = false, started_ = false, was_gone_ = false;
+  std::string entry_;  ///< Exists while the camera is plugged in.
   std::unique_ptr<libcamera::CameraConfiguration> configuration_;
   std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
   std::vector<std::unique_ptr<libcamera::Request>> requests_;

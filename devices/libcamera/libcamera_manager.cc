@@ -3,12 +3,15 @@
 #include <libcamera/formats.h>
 #include <libcamera/logging.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+
+#include "devices/libcamera/uevent_sockets.h"
 
 namespace pleinair::devices {
 namespace {
@@ -57,8 +60,7 @@ void StopManager(libcamera::CameraManager* manager) {
 }  // namespace
 
 Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager() {
-  // Not kept beyond its users: the thread of 0.0.3 that hears what is plugged in does not survive
-  // every order in which nodes come and go, so it runs only while somebody needs it.
+  // Not kept beyond its users: it knows only what was plugged in when it started.
   OnlyManager& only = TheOnlyOne();
   std::unique_lock lock(only.mutex);
   std::shared_ptr<libcamera::CameraManager> manager;
@@ -69,9 +71,18 @@ Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager() {
     libcamera::logSetTarget(libcamera::LoggingTargetNone);
   }
   auto created = std::make_unique<libcamera::CameraManager>();
+  const std::vector<int> of_others = UeventSockets();
   if (const int failed = created->start(); failed != 0) {
     return SystemError("libcamera", "cannot start: " + std::string(std::strerror(-failed)),
                        "see whether udev runs and you may read the devices");
+  }
+  // 0.0.3 does not survive every order of what it hears: DeviceEnumeratorUdev::addV4L2Device leaves
+  // the devices it was waiting for in devMap_ when it frees them, and reads them when a camera gets
+  // the same number again and its video node is told of before its media node.
+  for (const int socket : UeventSockets()) {
+    if (std::find(of_others.begin(), of_others.end(), socket) == of_others.end()) {
+      MuteSocket(socket);
+    }
   }
   manager.reset(created.release(), StopManager);
   only.running = manager;
@@ -114,16 +125,41 @@ std::vector<FormatDescription> LibcameraFormats(const libcamera::StreamFormats& 
   return descriptions;
 }
 
-std::optional<V4l2Node> NodeBehind(libcamera::CameraManager& manager,
-                                   const std::shared_ptr<libcamera::Camera>& camera) {
-  const std::shared_ptr<V4l2Io> io = SystemV4l2Io();
-  for (const V4l2Io::Node& each : io->Nodes()) {
+namespace {
+
+struct VideoNode {
+  std::string path;
+  dev_t number;
+};
+
+std::vector<VideoNode> VideoNodesOf(libcamera::CameraManager& manager,
+                                    const std::shared_ptr<libcamera::Camera>& camera) {
+  std::vector<VideoNode> nodes;
+  for (const V4l2Io::Node& each : SystemV4l2Io()->Nodes()) {
     struct stat facts {};
     if (stat(each.path.c_str(), &facts) != 0 || manager.get(facts.st_rdev) != camera) continue;
-    auto node = V4l2Node::Open(io, each.path);
+    nodes.push_back({each.path, facts.st_rdev});
+  }
+  return nodes;
+}
+
+}  // namespace
+
+std::optional<V4l2Node> NodeBehind(libcamera::CameraManager& manager,
+                                   const std::shared_ptr<libcamera::Camera>& camera) {
+  for (const VideoNode& each : VideoNodesOf(manager, camera)) {
+    auto node = V4l2Node::Open(SystemV4l2Io(), each.path);
     if (node) return *std::move(node);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> KernelEntryOf(libcamera::CameraManager& manager,
+                                         const std::shared_ptr<libcamera::Camera>& camera) {
+  const std::vector<VideoNode> nodes = VideoNodesOf(manager, camera);
+  if (nodes.empty()) return std::nullopt;
+  const dev_t number = nodes.front().number;
+  return "/sys/dev/char/" + std::to_string(major(number)) + ":" + std::to_string(minor(number));
 }
 
 }  // namespace pleinair::devices

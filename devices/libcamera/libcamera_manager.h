@@ -17,8 +17,9 @@
 namespace pleinair::devices {
 
 /// The process's one manager (libcamera allows no second), started when needed and stopped with
-/// the last reference, after everything that came from it. Meanwhile it notices by itself what is
-/// plugged in and out. Error (system): it cannot be started.
+/// the last reference, after everything that came from it. It knows the cameras that were plugged
+/// in when it started and does not notice what comes and goes: KernelEntryOf() tells of a camera
+/// that left, a new manager of one that came. Error (system): it cannot be started.
 Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager();
 
 /// Formats of a camera's first stream for viewing, largest size first; libcamera states no rates.
@@ -31,5 +32,10 @@ std::optional<libcamera::PixelFormat> LibcameraFormatOf(PixelFormat ours);
 /// controls that libcamera has not; nothing for cameras with a pipeline of several.
 std::optional<V4l2Node> NodeBehind(libcamera::CameraManager& manager,
                                    const std::shared_ptr<libcamera::Camera>& camera);
+
+/// A path that exists as long as the camera is plugged in, though its nodes be held open; nothing
+/// where no video node of it is known.
+std::optional<std::string> KernelEntryOf(libcamera::CameraManager& manager,
+                                         const std::shared_ptr<libcamera::Camera>& camera);
 
 }  // namespace pleinair::devices

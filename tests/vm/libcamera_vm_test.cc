@@ -1,7 +1,12 @@
 // Runs inside the VM: libcamera on uvcvideo, its pipeline for USB cameras.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "camera_helpers.h"
@@ -94,6 +99,73 @@ TEST(Libcamera, AnUnpluggedCameraIsToldWithinASecondAndComesBackByItself) {
   ASSERT_TRUE(replug.back) << simulator.Output();
   EXPECT_TRUE(camera->NextWithin(kLong));
   EXPECT_EQ(camera->counts().connections, 2);
+}
+
+/// Lets udev tell of nodes of one kind a second later, of one after the other; of none at the end.
+class SlowNodes {
+ public:
+  SlowNodes() {
+    std::filesystem::create_directories(kRules.parent_path());
+    std::ofstream rules(kRules);
+    for (const char* kind : {"media", "video4linux"}) {
+      rules << "SUBSYSTEM==\"" << kind << "\", PROGRAM=\"/bin/sh -c 'test ! -e /run/slow-" << kind
+            << " || sleep 1'\"\n";
+    }
+    rules.close();
+    EXPECT_EQ(std::system("udevadm control --reload"), 0);
+  }
+  ~SlowNodes() {
+    Are("");
+    std::filesystem::remove(kRules);
+    EXPECT_EQ(std::system("udevadm control --reload"), 0);
+  }
+  void Are(const std::string& kind) {
+    if (!file_.empty()) std::filesystem::remove(file_);
+    file_ = kind.empty() ? "" : "/run/slow-" + kind;
+    if (!file_.empty()) std::ofstream(file_) << "slow";
+  }
+
+ private:
+  const std::filesystem::path kRules = "/run/udev/rules.d/10-slow-nodes.rules";
+  std::filesystem::path file_;
+};
+
+std::size_t MediaNodes() {
+  std::size_t count = 0;
+  for (const auto& each : std::filesystem::directory_iterator("/dev")) {
+    count += each.path().filename().string().starts_with("media") ? 1 : 0;
+  }
+  return count;
+}
+
+/// Waits until there are so many and udev has told of them.
+void WaitForMediaNodes(std::size_t count) {
+  for (const auto end = std::chrono::steady_clock::now() + kLong;
+       MediaNodes() != count && std::chrono::steady_clock::now() < end;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_EQ(MediaNodes(), count);
+  EXPECT_EQ(std::system("udevadm settle -t 20"), 0);
+}
+
+// A manager that listens crashes here: it frees what it waits for at the first round and reads it
+// at the second, when the video node comes first.
+TEST(Libcamera, AnotherCameraThatComesAndGoesInAnyOrderOfNodesHarmsNobody) {
+  const UvcSimulator simulator;
+  const auto camera = Open(Options(kFirst, PixelFormat::kYuyv, 320, 240, 15.0));
+  ASSERT_TRUE(camera->NextWithin(kLong));
+  const std::size_t alone = MediaNodes();
+  SlowNodes slow;
+  for (const char* kind : {"video4linux", "media"}) {
+    slow.Are(kind);
+    {
+      const UvcSimulator other({"--port", "1"});
+      WaitForMediaNodes(alone + 1);
+    }
+    WaitForMediaNodes(alone);
+    EXPECT_TRUE(camera->NextWithin(kLong));
+  }
+  EXPECT_EQ(camera->counts().connections, 1);
 }
 
 TEST(Libcamera, StartsAndStopsLeaveNothingBehind) {
