@@ -1,6 +1,5 @@
 #include "app/live/live_session.h"
 
-#include <system_error>
 #include <utility>
 
 #include "app/scene_marker.h"
@@ -9,7 +8,6 @@
 namespace pleinair::app {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 // Weight of the newest period in the running mean.
@@ -48,6 +46,7 @@ LiveSession::LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptio
     : options_(std::move(options)),
       source_(std::move(source)),
       session_(options_.scene.marker),
+      recording_(options_.camera),
       captured_(1, options_.lossless ? WhenFull::kWait : WhenFull::kReplaceOldest),
       tracked_(1, options_.lossless ? WhenFull::kWait : WhenFull::kReplaceOldest) {}
 
@@ -62,7 +61,7 @@ Result<std::unique_ptr<LiveSession>> LiveSession::Create(
 }
 
 Result<void> LiveSession::Prepare() {
-  if (options_.record) PLEINAIR_RETURN_IF_ERROR(StartRecording(*options_.record));
+  if (options_.record) PLEINAIR_RETURN_IF_ERROR(recording_.Start(*options_.record));
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(options_.scene));
   PLEINAIR_ASSIGN_OR_RETURN(tracker_, tracker::Tracker::Create(options_.camera, tracking));
   PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(options_.camera, options_.scene,
@@ -104,7 +103,7 @@ void LiveSession::Stop() {
   while (tracked_.Take()) GiveUpFrame();
   FinishOutput();
   if (light_) light_->Stop();
-  StopRecording();
+  recording_.Stop();
 }
 
 void LiveSession::GiveUpFrame() {
@@ -125,39 +124,6 @@ void LiveSession::FinishOutput() {
   output_.reset();
   const std::lock_guard lock(mutex_);
   if (!finished) output_trouble_ = finished.error();
-}
-
-Result<void> LiveSession::StartRecording(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(folder / "frames.pack", error)) {
-    return InputError(folder.string(), "holds a recording already", "record into another folder");
-  }
-  StopRecording();
-  const std::lock_guard lock(mutex_);
-  record_into_ = folder;
-  recording_trouble_.reset();
-  return {};
-}
-
-void LiveSession::StopRecording() {
-  std::shared_ptr<LiveRecorder> ended;
-  {
-    const std::lock_guard lock(mutex_);
-    record_into_.reset();
-    ended = std::exchange(recorder_, nullptr);
-  }
-  if (!ended) return;
-  // What is queued is written without holding anybody up.
-  ended->Finish();
-  const std::lock_guard lock(mutex_);
-  statistics_.recorded += ended->recorded();
-  statistics_.left_out_of_recording += ended->left_out();
-  if (!recording_trouble_) recording_trouble_ = ended->trouble();
-}
-
-bool LiveSession::recording() const {
-  const std::lock_guard lock(mutex_);
-  return record_into_.has_value() && !recording_trouble_ && !(recorder_ && recorder_->trouble());
 }
 
 void LiveSession::Fail(Error error) {
@@ -205,7 +171,7 @@ void LiveSession::Capture() {
       ++statistics_.captured;
       statistics_.loss += frame->loss;
     }
-    Record(frame);
+    recording_.Add(frame, MomentOf(*frame), [this] { return SceneNow(); });
     if (!captured_.Give(frame)) {
       GiveUpFrame();
       break;
@@ -214,29 +180,9 @@ void LiveSession::Capture() {
   captured_.Close();
 }
 
-void LiveSession::Record(const FramePtr& frame) {
-  std::shared_ptr<LiveRecorder> recorder;
-  std::optional<fs::path> folder;
-  devices::SceneDescription scene = options_.scene;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!record_into_ || recording_trouble_) return;
-    recorder = recorder_;
-    folder = record_into_;
-    if (!options_.lossless) scene = WithEdit(scene, edit_);
-  }
-  if (!recorder) {
-    auto made = LiveRecorder::Create(*folder, options_.camera, scene, MomentOf(*frame));
-    const std::lock_guard lock(mutex_);
-    if (!made) {
-      recording_trouble_ = made.error();
-      return;
-    }
-    recorder = *std::move(made);
-    // Ended meanwhile: the frame is its last one.
-    if (record_into_ == folder) recorder_ = recorder;
-  }
-  recorder->Add(frame);
+devices::SceneDescription LiveSession::SceneNow() const {
+  const std::lock_guard lock(mutex_);
+  return options_.lossless ? options_.scene : WithEdit(options_.scene, edit_);
 }
 
 void LiveSession::Track() {
@@ -401,22 +347,15 @@ LiveStatistics LiveSession::statistics() const {
   statistics.latency = latency_.Summarize();
   statistics.detail = detail_.detail();
   if (light_) statistics.light = light_->progress();
-  if (recorder_) {
-    statistics.recorded += recorder_->recorded();
-    statistics.left_out_of_recording += recorder_->left_out();
-  }
+  const RecordingSwitch::Counts recording = recording_.counts();
+  statistics.recorded = recording.recorded;
+  statistics.left_out_of_recording = recording.left_out;
   return statistics;
 }
 
 std::optional<Error> LiveSession::output_trouble() const {
   const std::lock_guard lock(mutex_);
   return output_trouble_;
-}
-
-std::optional<Error> LiveSession::recording_trouble() const {
-  const std::lock_guard lock(mutex_);
-  if (recording_trouble_) return recording_trouble_;
-  return recorder_ ? recorder_->trouble() : std::nullopt;
 }
 
 }  // namespace pleinair::app

@@ -17,8 +17,8 @@
 #include "app/live/live_detail.h"
 #include "app/live/live_light.h"
 #include "app/live/live_output.h"
-#include "app/live/live_recorder.h"
 #include "app/live/live_statistics.h"
+#include "app/live/recording_switch.h"
 #include "app/measured_sky.h"
 #include "app/print_measurer.h"
 #include "app/scene_renderer.h"
@@ -91,9 +91,11 @@ class LiveSession {
   void Shown(const DrawnFrame& frame, std::int64_t late_for_screen);
 
   /// Starts recording into a new folder, or ends it. Any thread. Errors: it holds a recording.
-  Result<void> StartRecording(const std::filesystem::path& folder);
-  void StopRecording();
-  bool recording() const;
+  Result<void> StartRecording(const std::filesystem::path& folder) {
+    return recording_.Start(folder);
+  }
+  void StopRecording() { recording_.Stop(); }
+  bool recording() const { return recording_.on(); }
 
   /// Ends all threads; frames on their way are drawn no more.
   void Stop();
@@ -102,7 +104,7 @@ class LiveSession {
   /// Of all frames drawn, or shown, since it was last asked.
   LatencyHistogram TakeLatencies();
   /// Why recording ended before its time.
-  std::optional<Error> recording_trouble() const;
+  std::optional<Error> recording_trouble() const { return recording_.trouble(); }
   /// After the end: why detections or the output could not be written.
   std::optional<Error> output_trouble() const;
 
@@ -123,7 +125,7 @@ class LiveSession {
                               const std::vector<tracker::Sighting>& sightings);
   void FinishOutput();
   Result<void> TakeEdit(const devices::Frame& frame);
-  void Record(const FramePtr& frame);
+  devices::SceneDescription SceneNow() const;
   void Fail(Error error);
   void GiveUpFrame();
   UtcTime MomentOf(const devices::Frame& frame) const;
@@ -140,13 +142,11 @@ class LiveSession {
   std::unique_ptr<Detections> detections_;
   std::unique_ptr<LiveOutput> output_;
   Session session_;
+  RecordingSwitch recording_;
 
   HandOver<FramePtr> captured_;
   HandOver<Tracked> tracked_;
   std::unique_ptr<LiveLight> light_;  // Not where frames are drawn without loss.
-  // Made with the first frame after recording was asked for. Under the mutex.
-  std::shared_ptr<LiveRecorder> recorder_;
-  std::optional<std::filesystem::path> record_into_;
 
   std::atomic<bool> stop_ = false;
   std::optional<MarkerName> shown_anchor_;
@@ -157,7 +157,7 @@ class LiveSession {
   std::optional<std::int64_t> first_stamp_ns_, last_stamp_ns_;
   UtcTime first_moment_;
   std::optional<Error> error_;
-  std::optional<Error> recording_trouble_, output_trouble_;
+  std::optional<Error> output_trouble_;
   LiveStatistics statistics_;
   LatencyMeter latency_;
   LatencyHistogram latencies_;  // Since they were taken.

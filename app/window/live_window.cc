@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <utility>
 
 #include "app/interrupt.h"
@@ -19,8 +20,8 @@
 #include "app/window/frame_thread.h"
 #include "app/window/picture_mouse.h"
 #include "app/window/scene_panel.h"
+#include "app/window/screen.h"
 #include "app/window/window_state.h"
-#include "app/window/window_style.h"
 #include "base/atomic_file.h"
 #include "devices/live_camera.h"
 
@@ -29,7 +30,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kUsualWidth = 1280, kUsualHeight = 800;
 // Of the letters' height.
 constexpr float kPanelWidth = 21.0F, kStatusHeight = 1.9F;
 // Of a window too narrow for both: what of the picture the panel hides.
@@ -51,128 +51,11 @@ std::string Compact(UtcTime time) {
   return text;
 }
 
-/// GLFW, a window, its context and ImGui's, all of them ended in order.
-class Screen {
- public:
-  static Result<std::unique_ptr<Screen>> Open(const LiveWindowOptions& options) {
-    std::unique_ptr<Screen> screen(new Screen());
-    glfwSetErrorCallback([](int /*code*/, const char* words) { last_error_ = words; });
-    if (glfwInit() == GLFW_FALSE) return Refuse("no window can be opened");
-    screen->initialized_ = true;
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    const int width = options.width > 0 ? options.width : kUsualWidth;
-    const int height = options.height > 0 ? options.height : kUsualHeight;
-    screen->window_ = glfwCreateWindow(width, height, "pleinair live", nullptr, nullptr);
-    if (screen->window_ == nullptr) return Refuse("no window with OpenGL 3.3 can be opened");
-    glfwMakeContextCurrent(screen->window_);
-    glfwSwapInterval(1);
-    float scale_x = 1.0F, scale_y = 1.0F;
-    glfwGetWindowContentScale(screen->window_, &scale_x, &scale_y);
-    // Before ImGui's, which passes on to it. ImGui sees only what is down when it looks: a key
-    // pressed and let go within one slow frame would be lost.
-    glfwSetWindowUserPointer(screen->window_, screen.get());
-    glfwSetKeyCallback(screen->window_, [](GLFWwindow* window, int key, int, int action, int mods) {
-      if (action == GLFW_RELEASE) return;
-      static_cast<Screen*>(glfwGetWindowUserPointer(window))->keys_.push_back({key, mods});
-    });
-    glfwSetCursorPosCallback(screen->window_, [](GLFWwindow* window, double x, double y) {
-      static_cast<Screen*>(glfwGetWindowUserPointer(window))->mouse_ = {x, y};
-    });
-    glfwSetMouseButtonCallback(screen->window_, [](GLFWwindow* window, int button, int action,
-                                                   int mods) {
-      auto* self = static_cast<Screen*>(glfwGetWindowUserPointer(window));
-      if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return;
-      self->buttons_.push_back({button == GLFW_MOUSE_BUTTON_LEFT ? ButtonEvent::Button::kLeft
-                                                                 : ButtonEvent::Button::kRight,
-                                action == GLFW_PRESS, (mods & GLFW_MOD_SHIFT) != 0, self->mouse_});
-    });
-    ImGui::CreateContext();
-    screen->has_imgui_ = true;
-    SetWindowStyle(options.ui_scale > 0.0 ? static_cast<float>(options.ui_scale)
-                                          : std::max(scale_x, 1.0F));
-    ImGui_ImplGlfw_InitForOpenGL(screen->window_, true);
-    ImGui_ImplOpenGL3_Init("#version 330 core");
-    glGenTextures(1, &screen->texture_);
-    return screen;
-  }
-
-  ~Screen() {
-    if (has_imgui_) {
-      if (texture_ != 0) glDeleteTextures(1, &texture_);
-      ImGui_ImplOpenGL3_Shutdown();
-      ImGui_ImplGlfw_Shutdown();
-      ImGui::DestroyContext();
-    }
-    if (window_ != nullptr) glfwDestroyWindow(window_);
-    if (initialized_) glfwTerminate();
-  }
-  Screen(const Screen&) = delete;
-  Screen& operator=(const Screen&) = delete;
-
-  GLFWwindow* window() const { return window_; }
-
-  struct Key {
-    int key, mods;
-  };
-  /// Pressed since the last call, repeats included.
-  std::vector<Key> TakeKeys() { return std::exchange(keys_, {}); }
-  std::vector<ButtonEvent> TakeButtons() { return std::exchange(buttons_, {}); }
-  ImTextureID texture() const {
-    // ImGui carries a texture's name in a pointer.
-    return reinterpret_cast<ImTextureID>(  // NOLINT(performance-no-int-to-ptr)
-        static_cast<std::uintptr_t>(texture_));
-  }
-
-  void Upload(const RgbImage& picture) {
-    glBindTexture(GL_TEXTURE_2D, texture_);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    if (picture.width() == width_ && picture.height() == height_) {
-      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE,
-                      picture.data());
-      return;
-    }
-    width_ = picture.width();
-    height_ = picture.height();
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE,
-                 picture.data());
-  }
-
-  /// What the window shows, its first row at the top.
-  RgbImage Read() const {
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
-    RgbImage upside_down(width, height, 3), picture(width, height, 3);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
-    for (int y = 0; y < height; ++y) {
-      std::copy_n(upside_down.view().row(height - 1 - y), static_cast<std::size_t>(width) * 3,
-                  picture.view().row(y));
-    }
-    return picture;
-  }
-
- private:
-  Screen() = default;
-
-  static tl::unexpected<Error> Refuse(const std::string& what) {
-    return tl::make_unexpected(Error{ErrorKind::kSystem, "the screen", what + ": " + last_error_,
-                                     "run it on a desktop, or give --headless"});
-  }
-
-  static inline std::string last_error_;
-  bool initialized_ = false, has_imgui_ = false;
-  GLFWwindow* window_ = nullptr;
-  std::vector<Key> keys_;
-  std::vector<ButtonEvent> buttons_;
-  Vec2 mouse_;
-  GLuint texture_ = 0;
-  int width_ = 0, height_ = 0;
-};
+/// ImGui carries a texture's name in a pointer.
+ImTextureID TextureOf(const Screen& screen) {
+  return reinterpret_cast<ImTextureID>(  // NOLINT(performance-no-int-to-ptr)
+      static_cast<std::uintptr_t>(screen.texture()));
+}
 
 /// One run of the window.
 class LiveWindow {
@@ -277,7 +160,7 @@ class LiveWindow {
       const Vec2 high =
           view.ScreenFromPixel({state_.camera.width - 0.5, state_.camera.height - 0.5});
       ImGui::GetBackgroundDrawList()->AddImage(
-          screen_.texture(), {static_cast<float>(low.x), static_cast<float>(low.y)},
+          TextureOf(screen_), {static_cast<float>(low.x), static_cast<float>(low.y)},
           {static_cast<float>(high.x), static_cast<float>(high.y)});
       std::vector<ButtonEvent> buttons = screen_.TakeButtons();
       // What is pressed on the panel or the help is theirs; letting go counts anywhere.
@@ -424,7 +307,8 @@ class LiveWindow {
 Result<void> ShowInWindow(LiveSession& session, const LiveWindowOptions& options) {
   // A thread has one context at a time: this one is for the window's from now on.
   session.LetGo();
-  PLEINAIR_ASSIGN_OR_RETURN(auto screen, Screen::Open(options));
+  PLEINAIR_ASSIGN_OR_RETURN(auto screen,
+                            Screen::Open({options.width, options.height, options.ui_scale}));
   return LiveWindow(session, options, *screen).Run();
 }
 

@@ -10,14 +10,13 @@
 
 #include "app/live/live_light.h"
 #include "devices/recording.h"
+#include "tests/app/small_camera.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::app {
 namespace {
 
 using std::chrono::milliseconds;
-
-constexpr int kWidth = 160, kHeight = 120;
 
 /// A folder of its own for one test, gone afterwards.
 class Folder {
@@ -52,8 +51,8 @@ class GreyFrames : public devices::FrameSource {
                              .count();
     frame.lost_before = next_ == 3 ? 2 : 0;
     frame.loss.by_number = frame.lost_before;
-    frame.rgb = RgbImage(kWidth, kHeight, 3);
-    frame.grey = GreyImage(kWidth, kHeight, 1);
+    frame.rgb = RgbImage(kSmallWidth, kSmallHeight, 3);
+    frame.grey = GreyImage(kSmallWidth, kSmallHeight, 1);
     std::fill_n(frame.rgb.data(), frame.rgb.size(), static_cast<std::uint8_t>(next_));
     ++next_;
     return frame;
@@ -67,15 +66,7 @@ class GreyFrames : public devices::FrameSource {
 };
 
 LiveOptions Options() {
-  LiveOptions options;
-  options.camera.width = kWidth;
-  options.camera.height = kHeight;
-  options.camera.fx = options.camera.fy = 200.0;
-  options.camera.cx = 79.5;
-  options.camera.cy = 59.5;
-  options.scene.marker.family = "tag36h11";
-  options.scene.marker.size_m = 0.2;
-  options.scene.place_time.latitude_deg = 50.0;
+  LiveOptions options = SmallCameraOptions();
   options.start = *UtcTime::Parse("2025-09-14T11:05:00Z");
   return options;
 }

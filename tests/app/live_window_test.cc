@@ -14,6 +14,7 @@
 
 #include "app/interrupt.h"
 #include "devices/live_camera.h"
+#include "tests/app/small_camera.h"
 #include "tests/devices/fake_camera_device.h"
 
 namespace pleinair::app {
@@ -21,8 +22,6 @@ namespace {
 
 using devices::FakeCamera;
 using std::chrono::milliseconds;
-
-constexpr int kWidth = 160, kHeight = 120;
 
 /// A screen without a screen, ended with the test.
 class Screen {
@@ -59,7 +58,7 @@ class Screen {
 TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
   const Screen screen;
   if (!screen.is_there()) GTEST_SKIP() << "Xvfb is not installed (scripts/setup does)";
-  FakeCamera fake(kWidth, kHeight);
+  FakeCamera fake(kSmallWidth, kSmallHeight);
   devices::LiveCameraOptions camera_options;
   camera_options.uri = {devices::CameraUri::Backend::kV4l2, devices::CameraUri::Key::kNode,
                         "/dev/video0"};
@@ -70,15 +69,7 @@ TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
       });
   ASSERT_TRUE(opened);
   devices::LiveCamera* camera = opened->get();
-  LiveOptions options;
-  options.camera.width = kWidth;
-  options.camera.height = kHeight;
-  options.camera.fx = options.camera.fy = 200.0;
-  options.camera.cx = 79.5;
-  options.camera.cy = 59.5;
-  options.scene.marker.family = "tag36h11";
-  options.scene.marker.size_m = 0.2;
-  options.scene.place_time.latitude_deg = 50.0;
+  LiveOptions options = SmallCameraOptions();
   options.shown_elsewhere = true;
   options.stop_source = [camera] { camera->Stop(); };
   LiveWindowOptions window;
