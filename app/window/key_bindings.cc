@@ -47,7 +47,7 @@ std::span<const KeyBinding> KeyBindings() { return kBindings; }
 
 void DrawKeyHelp(float screen_width, float screen_height, bool* open) {
   ImGui::SetNextWindowPos({screen_width / 2, screen_height / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowBgAlpha(0.92F);
+  ImGui::SetNextWindowBgAlpha(0.97F);
   if (ImGui::Begin("Keys and mouse", open,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoCollapse)) {

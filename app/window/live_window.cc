@@ -21,6 +21,7 @@
 #include "app/window/picture_mouse.h"
 #include "app/window/scene_panel.h"
 #include "app/window/screen.h"
+#include "app/window/window_layout.h"
 #include "app/window/window_state.h"
 #include "base/atomic_file.h"
 #include "devices/live_camera.h"
@@ -30,10 +31,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of the letters' height.
-constexpr float kPanelWidth = 21.0F, kStatusHeight = 1.9F;
-// Of a window too narrow for both: what of the picture the panel hides.
-constexpr float kNarrowShare = 0.8F;
 // The window is drawn anew at least so often, for what blinks and counts.
 constexpr double kIdle_s = 0.1;
 constexpr double kRateWeight = 0.05;
@@ -55,6 +52,17 @@ std::string Compact(UtcTime time) {
 ImTextureID TextureOf(const Screen& screen) {
   return reinterpret_cast<ImTextureID>(  // NOLINT(performance-no-int-to-ptr)
       static_cast<std::uintptr_t>(screen.texture()));
+}
+
+/// A line that is too long ends with an ellipsis.
+std::string CutTo(float width, std::string words) {
+  if (ImGui::CalcTextSize(words.c_str()).x <= width) return words;
+  do {
+    // Whole letters of UTF-8.
+    while (!words.empty() && (words.back() & 0xC0) == 0x80) words.pop_back();
+    if (!words.empty()) words.pop_back();
+  } while (!words.empty() && ImGui::CalcTextSize((words + "…").c_str()).x > width);
+  return words + "…";
 }
 
 /// One run of the window.
@@ -145,13 +153,10 @@ class LiveWindow {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     const ImGuiIO& io = ImGui::GetIO();
-    const float letter = ImGui::GetFontSize();
-    // A window too narrow for both shows the panel over the picture.
-    const float panel =
-        state_.panel ? std::min(letter * kPanelWidth, io.DisplaySize.x * kNarrowShare) : 0.0F;
-    const bool beside = panel < io.DisplaySize.x * 0.6F;
-    const Vec2 area{beside ? io.DisplaySize.x - panel : io.DisplaySize.x,
-                    std::max(io.DisplaySize.y - letter * kStatusHeight, 1.0F)};
+    const WindowLayout layout = WindowLayout::For(
+        {io.DisplaySize.x, io.DisplaySize.y}, ImGui::GetFontSize(), state_.panel,
+        {static_cast<double>(state_.camera.width), static_cast<double>(state_.camera.height)});
+    const Vec2 area = layout.picture;
     Keys();
     if (state_.has_frame) {
       const PictureView view =
@@ -165,19 +170,15 @@ class LiveWindow {
       std::vector<ButtonEvent> buttons = screen_.TakeButtons();
       // What is pressed on the panel or the help is theirs; letting go counts anywhere.
       std::erase_if(buttons, [&](const ButtonEvent& event) {
-        const bool on_panel = event.screen.x >= io.DisplaySize.x - panel;
-        return event.down && (io.WantCaptureMouse || on_panel);
+        return event.down && (io.WantCaptureMouse || layout.OnPanel(event.screen));
       });
       mouse_.Update(view, buttons, &state_);
     } else {
       DrawWaiting(area);
     }
     DrawStatusLine(static_cast<float>(area.x), static_cast<float>(area.y));
-    if (panel > 0.0F) {
-      panel_.Draw(io.DisplaySize.x - panel, panel, io.DisplaySize.y, WallClock(), &state_);
-    }
-    if (state_.help)
-      DrawKeyHelp(static_cast<float>(area.x), static_cast<float>(area.y), &state_.help);
+    if (state_.panel) panel_.Draw(layout.panel_corner, layout.panel_size, WallClock(), &state_);
+    if (state_.help) DrawKeyHelp(io.DisplaySize.x, io.DisplaySize.y, &state_.help);
     ImGui::Render();
     int width = 0, height = 0;
     glfwGetFramebufferSize(screen_.window(), &width, &height);
@@ -207,37 +208,46 @@ class LiveWindow {
     const std::string words = state_.camera_words.empty()
                                   ? std::string("waiting for the first picture…")
                                   : state_.camera_words;
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-    ImGui::GetBackgroundDrawList()->AddText(
-        {(static_cast<float>(area.x) - size.x) / 2, (static_cast<float>(area.y) - size.y) / 2},
-        0xFFC0C0C0, words.c_str());
+    const float letter = ImGui::GetFontSize();
+    const auto width = static_cast<float>(area.x), height = static_cast<float>(area.y);
+    const float wrap = std::max(width - 4.0F * letter, letter);
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str(), nullptr, false, wrap);
+    ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), letter,
+                                            {(width - size.x) / 2, (height - size.y) / 2},
+                                            0xFFC0C0C0, words.c_str(), nullptr, wrap);
   }
 
   void DrawStatusLine(float width, float top) {
     const float letter = ImGui::GetFontSize();
     ImDrawList* draw = ImGui::GetBackgroundDrawList();
-    draw->AddRectFilled({0.0F, top}, {width, top + letter * kStatusHeight}, 0xFF15130F);
-    std::string words;
-    if (frames_->ended()) words = "the recording is over";
-    if (state_.has_frame && !state_.camera_from_marker) words = "no marker in sight";
-    if (!state_.message.empty()) words = state_.message;
-    if (camera_is_away_) words = state_.camera_words;
-    if (words.empty()) words = "F1: keys and mouse";
-    const std::string rate = fmt::format("{:.1f} a second, {:.0f} ms", state_.shown_per_second,
-                                         state_.statistics.latency.median_ms);
-    draw->AddText({letter, top + letter * 0.45F}, 0xFFB8B8B8, words.c_str());
-    float rate_width = ImGui::CalcTextSize(rate.c_str()).x;
-    // What was done last matters more where there is no room for both.
-    const float free = width - ImGui::CalcTextSize(words.c_str()).x - letter * 5.0F;
-    if (rate_width < free) {
-      draw->AddText({width - rate_width - letter, top + letter * 0.45F}, 0xFF909090, rate.c_str());
-    } else {
-      rate_width = -letter;
-    }
+    const float height = letter * static_cast<float>(kStatusHeight);
+    draw->AddRectFilled({0.0F, top}, {width, top + height}, 0xFF15130F);
+    const float text_top = top + letter * 0.45F;
+    float right = width - letter;
     if (state_.recording) {
-      draw->AddCircleFilled({width - rate_width - letter * 2.2F, top + letter * 0.95F},
-                            letter * 0.35F, 0xFF3030E0);
+      draw->AddCircleFilled({right - letter * 0.35F, top + letter * 0.95F}, letter * 0.35F,
+                            0xFF3030E0);
+      right -= letter * 1.5F;
     }
+    const std::string words = StatusWords();
+    std::string rate = fmt::format("{:.0f} ms", state_.statistics.latency.median_ms);
+    if (state_.shown_per_second > 0.0) {
+      rate = fmt::format("{:.1f} a second, ", state_.shown_per_second) + rate;
+    }
+    const float rate_width = ImGui::CalcTextSize(rate.c_str()).x;
+    // What was done last matters more where there is no room for both.
+    if (ImGui::CalcTextSize(words.c_str()).x + rate_width + letter * 2.0F < right) {
+      draw->AddText({right - rate_width, text_top}, 0xFF909090, rate.c_str());
+    }
+    draw->AddText({letter, text_top}, 0xFFB8B8B8, CutTo(right - letter, words).c_str());
+  }
+
+  std::string StatusWords() const {
+    if (camera_is_away_) return state_.camera_words;
+    if (!state_.message.empty()) return state_.message;
+    if (state_.has_frame && !state_.camera_from_marker) return "no marker in sight";
+    if (frames_->ended()) return "the recording is over";
+    return "F1: keys and mouse";
   }
 
   /// What keys and panel asked the window for.

@@ -85,9 +85,9 @@ void Fog(compositor::ComposerOptions* drawing) {
 
 }  // namespace
 
-void ScenePanel::Draw(float left, float width, float height, UtcTime now, WindowState* state) {
-  ImGui::SetNextWindowPos({left, 0.0F});
-  ImGui::SetNextWindowSize({width, height});
+void ScenePanel::Draw(Vec2 corner, Vec2 size, UtcTime now, WindowState* state) {
+  ImGui::SetNextWindowPos({static_cast<float>(corner.x), static_cast<float>(corner.y)});
+  ImGui::SetNextWindowSize({static_cast<float>(size.x), static_cast<float>(size.y)});
   if (ImGui::Begin("Scene", nullptr,
                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                        ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |

@@ -11,8 +11,8 @@ namespace pleinair::app {
 /// Draws the panel with everything of the scene that can be changed, into the current ImGui frame.
 class ScenePanel {
  public:
-  /// `width` of the panel, at the right edge of a screen of that size.
-  void Draw(float left, float width, float height, UtcTime now, WindowState* state);
+  /// From its upper left corner, in screen coordinates.
+  void Draw(Vec2 corner, Vec2 size, UtcTime now, WindowState* state);
 
  private:
   void PlaceAndTime(UtcTime now, WindowState* state);

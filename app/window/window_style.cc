@@ -55,8 +55,11 @@ void SetWindowStyle(float scale) {
   set(ImGuiCol_Button, 0.20F, 0.29F, 0.37F);
   set(ImGuiCol_ButtonHovered, 0.25F, 0.37F, 0.47F);
   set(ImGuiCol_ButtonActive, 0.29F, 0.43F, 0.55F);
-  set(ImGuiCol_SliderGrab, 0.93F, 0.73F, 0.33F);
-  set(ImGuiCol_SliderGrabActive, 1.0F, 0.82F, 0.42F);
+  // Dark enough for the number that it may cover.
+  set(ImGuiCol_SliderGrab, 0.66F, 0.47F, 0.14F);
+  set(ImGuiCol_SliderGrabActive, 0.78F, 0.57F, 0.20F);
+  set(ImGuiCol_TitleBg, 0.145F, 0.16F, 0.175F);
+  set(ImGuiCol_TitleBgActive, 0.145F, 0.16F, 0.175F);
   set(ImGuiCol_CheckMark, 1.0F, 0.82F, 0.42F);
   set(ImGuiCol_PlotHistogram, 0.93F, 0.73F, 0.33F);
 }

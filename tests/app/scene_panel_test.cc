@@ -37,7 +37,7 @@ class PanelInHands : public testing::Test {
   void Frames(int count = 2) {
     for (int i = 0; i < count; ++i) {
       ImGui::NewFrame();
-      panel_.Draw(0.0F, kWidth, kHeight, now_, &state_);
+      panel_.Draw({}, {kWidth, kHeight}, now_, &state_);
       ImGui::Render();
     }
   }

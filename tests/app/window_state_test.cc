@@ -6,6 +6,7 @@
 
 #include "app/scene_light.h"
 #include "app/window/cities.h"
+#include "app/window/window_layout.h"
 
 namespace pleinair::app {
 namespace {
@@ -115,6 +116,29 @@ TEST(WindowState, TheExposureLockHoldsTheCameraAndTheBrightnessOfObjects) {
   EXPECT_TRUE(state.exposure_locked && state.edit.hold_gain && state.wants_exposure_change);
   Do(Action::kLockExposure, false, {}, &state);
   EXPECT_FALSE(state.exposure_locked || state.edit.hold_gain);
+}
+
+TEST(WindowLayout, GivesThePictureTheLargestPlaceThatThePanelLeaves) {
+  const Vec2 pixels{640, 480};
+  const WindowLayout wide = WindowLayout::For({1280, 800}, 15.0, true, pixels);
+  EXPECT_EQ(wide.picture.x + wide.panel_size.x, 1280.0) << "beside";
+  EXPECT_TRUE(wide.OnPanel({1279, 0}));
+  EXPECT_FALSE(wide.OnPanel({900, 400}));
+  const WindowLayout tall = WindowLayout::For({480, 800}, 15.0, true, pixels);
+  EXPECT_EQ(tall.picture.x, 480.0) << "below";
+  EXPECT_NEAR(tall.picture.y, 360.0, 1e-9);
+  EXPECT_EQ(tall.panel_corner.y + tall.panel_size.y, 800.0);
+  EXPECT_FALSE(tall.OnPanel({479, 300}));
+  const WindowLayout small = WindowLayout::For({320, 240}, 15.0, true, pixels);
+  EXPECT_EQ(small.picture.x, 320.0) << "over it";
+  EXPECT_FALSE(small.OnPanel({50, 100})) << "some of the picture is seen";
+  const WindowLayout alone = WindowLayout::For({320, 240}, 15.0, false, pixels);
+  EXPECT_FALSE(alone.OnPanel({319, 100}));
+  for (const Vec2 window : {Vec2{1, 1}, Vec2{4000, 60}, Vec2{60, 4000}}) {
+    const WindowLayout layout = WindowLayout::For(window, 30.0, true, pixels);
+    EXPECT_GT(layout.picture.x, 0.0);
+    EXPECT_GT(layout.picture.y, 0.0);
+  }
 }
 
 TEST(NorthPole, GivesTheHeadingAtWhichItsShadowFallsWhereItWasDragged) {

@@ -1,0 +1,45 @@
+#include "app/window/window_layout.h"
+
+#include <algorithm>
+
+namespace pleinair::app {
+namespace {
+
+// Of the letters' height: the panel beside the picture, and at least what of it is seen below.
+constexpr double kPanelWidth = 21.0, kPanelHeight = 14.0;
+// Of the largest size that the picture could have: less beside or below the panel is next to
+// nothing.
+constexpr double kLeast = 0.4;
+// What a panel that lies over the picture takes at most.
+constexpr double kOver = 0.8;
+
+/// How large the picture gets in an area; nothing in an area of no size.
+double Scale(Vec2 area, Vec2 picture) {
+  return std::max(0.0, std::min(area.x / picture.x, area.y / picture.y));
+}
+
+}  // namespace
+
+WindowLayout WindowLayout::For(Vec2 window, double letter, bool panel, Vec2 picture) {
+  const Vec2 all{window.x, std::max(window.y - letter * kStatusHeight, 1.0)};
+  if (!panel) return {all, {}, {}};
+  const double width = letter * kPanelWidth;
+  const Vec2 beside{all.x - width, all.y}, above{all.x, all.y - letter * kPanelHeight};
+  const double scale_beside = Scale(beside, picture), scale_above = Scale(above, picture);
+  if (std::max(scale_beside, scale_above) < kLeast * Scale(all, picture)) {
+    const double over = std::min(width, window.x * kOver);
+    return {all, {window.x - over, 0.0}, {over, window.y}};
+  }
+  if (scale_beside >= scale_above) return {beside, {beside.x, 0.0}, {width, window.y}};
+  // No higher than the picture needs.
+  const double height = std::min(above.y, picture.y * scale_above);
+  const double top = height + letter * kStatusHeight;
+  return {{all.x, height}, {0.0, top}, {all.x, window.y - top}};
+}
+
+bool WindowLayout::OnPanel(Vec2 screen) const {
+  const Vec2 inside = screen - panel_corner;
+  return inside.x >= 0.0 && inside.y >= 0.0 && inside.x < panel_size.x && inside.y < panel_size.y;
+}
+
+}  // namespace pleinair::app
