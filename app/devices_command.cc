@@ -147,7 +147,11 @@ void Run(const Options& options) {
       Print(camera);
     }
   }
-  if (list.cameras.empty()) std::cerr << "No camera is plugged in.\n";
+  if (list.cameras.empty()) {
+    std::cerr << "No camera is plugged in. Plug one in and ask again"
+              << (options.network ? ".\n" : "; --network looks for GigE cameras, too.\n")
+              << "Without one, file:PATH plays a recording as if it were a camera.\n";
+  }
   for (const devices::CameraBackendState& backend : list.backends) {
     if (!backend.built_in) std::cerr << "This build does without " << backend.name << ".\n";
     if (!backend.trouble.empty()) std::cerr << backend.name << ": " << backend.trouble << ".\n";

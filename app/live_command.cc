@@ -4,10 +4,12 @@
 #endif
 
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,8 @@
 #include "app/live/live_session.h"
 #include "app/live/paced_recording.h"
 #include "app/number_range.h"
+#include "app/option_use.h"
+#include "app/picture_size.h"
 #include "app/replay.h"
 #include "app/sinks/picture_writer.h"
 #ifdef PLEINAIR_WINDOW
@@ -84,6 +88,32 @@ std::vector<devices::ControlWish> ControlsOf(const Arguments& arguments) {
   return wishes;
 }
 
+/// Nothing that was asked for is passed over in silence.
+Result<void> CheckOptions(const CLI::App& command, const Arguments& arguments, bool is_file) {
+  constexpr const char* kCameras = "cameras, not to recordings";
+  constexpr const char* kWindow = "the window";
+  PLEINAIR_RETURN_IF_ERROR(RefuseUnusedOptions(
+      command, {{"--format", !is_file, kCameras},
+                {"--lock", !is_file, kCameras},
+                {"--hold-exposure", !is_file, kCameras},
+                {"--hold-gain", !is_file, kCameras},
+                {"--hold-white-balance", !is_file, kCameras},
+                {"--hold-focus", !is_file, kCameras},
+                {"--loop", is_file, "recordings"},
+                {"--rate", !arguments.lossless, "sessions at a camera's pace, without --lossless"},
+                {"--window", !arguments.headless, kWindow},
+                {"--ui-scale", !arguments.headless, kWindow},
+                {"--pictures", !arguments.headless, kWindow},
+                {"--screenshot", arguments.headless, "--headless; in the window press Ctrl+S"}}));
+  if (arguments.screenshot.empty()) return {};
+  const std::filesystem::path folder = std::filesystem::path(arguments.screenshot).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
+    return InputError("--screenshot", "there is no folder " + folder.string(), "make it first");
+  }
+  return {};
+}
+
 Result<Source> OpenFile(const devices::CameraUri& uri, const Arguments& arguments) {
   devices::RecordingOptions options;
   if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
@@ -112,7 +142,7 @@ Result<Source> OpenCamera(const devices::CameraUri& uri, const Arguments& argume
   }
   if (arguments.calibration.empty()) {
     return InputError("--calibration", "is missing: a camera says nothing of its lens",
-                      "calibrate it once and name the file");
+                      "calibrate it once ('pleinair calibrate') and name the file");
   }
   Source source;
   PLEINAIR_ASSIGN_OR_RETURN(source.lens, devices::ReadCalibration(arguments.calibration));
@@ -168,7 +198,7 @@ Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Argum
 }
 
 /// Shows a window until it is closed; there is no last picture.
-Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session,
+Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]] PictureSize window,
                          [[maybe_unused]] const Source& source,
                          [[maybe_unused]] const Arguments& arguments,
                          [[maybe_unused]] const devices::SceneDescription& scene,
@@ -186,11 +216,8 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session,
     if (const auto interval = report->Poll(session)) Tell(*interval, arguments.json);
     return TellEvents(source.camera, arguments.json);
   };
-  if (!arguments.window_size.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(const PictureSize size, ParsePictureSize(arguments.window_size));
-    options.width = size.width;
-    options.height = size.height;
-  }
+  options.width = window.width;
+  options.height = window.height;
   PLEINAIR_RETURN_IF_ERROR(ShowInWindow(session, options));
 #endif
   return RgbImage();
@@ -205,7 +232,7 @@ void KeepNoFreedPictures() {
 #endif
 }
 
-Result<void> Run(const Arguments& arguments) {
+Result<void> Run(const CLI::App& command, const Arguments& arguments) {
 #ifndef PLEINAIR_WINDOW
   if (!arguments.headless) {
     return InputError("live", "was built without a window",
@@ -215,6 +242,11 @@ Result<void> Run(const Arguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(const devices::CameraUri uri,
                             devices::ParseCameraUri(arguments.camera));
   const bool is_file = uri.backend == devices::CameraUri::Backend::kFile;
+  PLEINAIR_RETURN_IF_ERROR(CheckOptions(command, arguments, is_file));
+  PictureSize window;
+  if (!arguments.window_size.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(window, ParsePictureSize("--window", arguments.window_size));
+  }
   PLEINAIR_ASSIGN_OR_RETURN(Source source,
                             is_file ? OpenFile(uri, arguments) : OpenCamera(uri, arguments));
   if (!source.scene) {
@@ -247,14 +279,18 @@ Result<void> Run(const Arguments& arguments) {
                             LiveSession::Create(std::move(source.frames), std::move(options)));
   LiveReport report(arguments.report_every_s.value_or(arguments.json ? kReportEvery_s : 0.0));
   auto last = arguments.headless ? DrawAll(*session, source, arguments, &report)
-                                 : ShowAll(*session, source, arguments, scene, &report);
+                                 : ShowAll(*session, window, source, arguments, scene, &report);
   TellEvents(source.camera, arguments.json);
   TellControls(source.camera);
   session->Stop();
   if (const auto interval = report.Finish(*session)) Tell(*interval, arguments.json);
   Tell(session->statistics(), arguments.json);
   if (!last) return tl::make_unexpected(last.error());
-  if (!arguments.screenshot.empty() && !last->empty()) {
+  if (!arguments.screenshot.empty()) {
+    if (last->empty()) {
+      return SystemError("--screenshot", "no picture was drawn until the end",
+                         "give it more --seconds");
+    }
     PLEINAIR_RETURN_IF_ERROR(WritePng(arguments.screenshot, last->view()));
   }
   if (auto trouble = session->output_trouble()) return tl::make_unexpected(*trouble);
@@ -337,7 +373,7 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--hold-focus", a.focus, "Hold this focus, in the camera's own steps")
       ->check(NumberRange(0.0, 1e6));
   command->add_flag("--json", a.json, "Events and statistics as JSON lines");
-  command->callback([arguments, &result] { result.status = Run(*arguments); });
+  command->callback([command, arguments, &result] { result.status = Run(*command, *arguments); });
 }
 
 }  // namespace pleinair::app

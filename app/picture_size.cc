@@ -19,7 +19,7 @@ CameraModel ScaleCamera(const CameraModel& camera, PictureSize size) {
   return scaled;
 }
 
-Result<PictureSize> ParsePictureSize(const std::string& text) {
+Result<PictureSize> ParsePictureSize(const std::string& option, const std::string& text) {
   constexpr int kSmallest = 16, kLargest = 16384;
   PictureSize size;
   const char* end = text.data() + text.size();
@@ -29,7 +29,7 @@ Result<PictureSize> ParsePictureSize(const std::string& text) {
                                 : std::from_chars_result{end, std::errc::invalid_argument};
   const auto fits = [](int side) { return side >= kSmallest && side <= kLargest; };
   if (height.ec != std::errc() || height.ptr != end || !fits(size.width) || !fits(size.height)) {
-    return InputError("--size", "\"" + text.substr(0, 40) + "\" is not a size",
+    return InputError(option, "\"" + text.substr(0, 40) + "\" is not a size",
                       "write WIDTHxHEIGHT in pixels, 16 to 16384 each, for example 1280x720");
   }
   return size;

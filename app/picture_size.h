@@ -12,8 +12,8 @@ struct PictureSize {
   int height = 0;
 };
 
-/// "1280x720"; errors: not two whole numbers of 16…16384.
-Result<PictureSize> ParsePictureSize(const std::string& text);
+/// "1280x720", which was given for `option`; errors: not two whole numbers of 16…16384.
+Result<PictureSize> ParsePictureSize(const std::string& option, const std::string& text);
 
 /// The lens as it looks after resizing its pictures to `size`.
 CameraModel ScaleCamera(const CameraModel& camera, PictureSize size);

@@ -145,7 +145,7 @@ Result<void> Run(Arguments& arguments) {
   options.camera_response = arguments.response;
   options.match_look = arguments.look == "matched";
   if (!arguments.size.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize(arguments.size));
+    PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize("--size", arguments.size));
   }
   if (!arguments.time_lapse.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.time_lapse,

@@ -3,6 +3,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/atomic_file.h"
+
 namespace pleinair::app {
 
 namespace fs = std::filesystem;
@@ -13,6 +15,8 @@ Result<void> RecordingSwitch::Start(const fs::path& folder) {
     return InputError(folder.string(), "holds a recording already", "record into another folder");
   }
   Stop();
+  fs::create_directories(folder, error);
+  if (error) return tl::make_unexpected(WriteError(folder, error.value()));
   const std::lock_guard lock(mutex_);
   folder_ = folder;
   trouble_.reset();
@@ -21,12 +25,18 @@ Result<void> RecordingSwitch::Start(const fs::path& folder) {
 
 void RecordingSwitch::Stop() {
   std::shared_ptr<LiveRecorder> ended;
+  std::optional<fs::path> folder;
   {
     const std::lock_guard lock(mutex_);
-    folder_.reset();
+    folder = std::exchange(folder_, std::nullopt);
     ended = std::exchange(recorder_, nullptr);
   }
-  if (!ended) return;
+  if (!ended) {
+    // Takes only what is empty.
+    std::error_code ignored;
+    if (folder) fs::remove(*folder, ignored);
+    return;
+  }
   // What is queued is written without holding anybody up.
   ended->Finish();
   const std::lock_guard lock(mutex_);

@@ -26,10 +26,10 @@ class RecordingSwitch {
 
   explicit RecordingSwitch(const CameraModel& camera) : camera_(camera) {}
 
-  /// Records into a new folder from the next frame on; one that is under way is ended. Error: the
-  /// folder holds a recording.
+  /// Makes the folder and records into it from the next frame on; one that is under way is ended.
+  /// Errors: it holds a recording, it cannot be made.
   Result<void> Start(const std::filesystem::path& folder);
-  /// Writes what is queued and ends the recording.
+  /// Writes what is queued and ends the recording; without a frame its folder goes again.
   void Stop();
   /// One was asked for and goes on.
   bool on() const;

@@ -7,7 +7,7 @@ namespace pleinair::app {
 namespace {
 
 TEST(PictureSize, IsTwoNumbersWithACross) {
-  const auto size = ParsePictureSize("1280x720");
+  const auto size = ParsePictureSize("--size", "1280x720");
   ASSERT_TRUE(size);
   EXPECT_EQ(size->width, 1280);
   EXPECT_EQ(size->height, 720);
@@ -16,7 +16,7 @@ TEST(PictureSize, IsTwoNumbersWithACross) {
 TEST(PictureSize, RefusesAnythingElse) {
   for (const char* text : {"", "x", "1280", "1280x", "x720", "1280x720x3", "-64x64", "0x0", "15x15",
                            "99999999999x20", "1280 x 720", "20000x16"}) {
-    EXPECT_FALSE(ParsePictureSize(text)) << text;
+    EXPECT_FALSE(ParsePictureSize("--size", text)) << text;
   }
 }
 

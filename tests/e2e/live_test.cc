@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -164,26 +165,36 @@ TEST(Live, WithoutItsCameraItSaysSoAndEndsWhenItsTimeIsOver) {
   const RunResult live =
       RunPleinair({"live", "--camera", "v4l2:serial=no such camera", "--calibration",
                    (folder / "site" / "recording.json").string(), "--scene",
-                   (folder / "site" / "scene.toml").string(), "--headless", "--seconds", "0.5"});
+                   (folder / "site" / "scene.toml").string(), "--headless", "--seconds", "0.5",
+                   "--record", (folder / "take").string()});
   EXPECT_EQ(live.exit_code, 0) << live.err;
   EXPECT_THAT(live.err, HasSubstr("camera waiting: v4l2:serial=no such camera: there is no such"));
   EXPECT_THAT(live.err, HasSubstr("0 frames captured"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "take")) << "there was nothing to record";
 }
 
-TEST(Live, BadInputIsOneLineAndExitCodeTwo) {
+TEST(Live, BadInputIsOneLineThatNamesItAndExitCodeTwo) {
   const TemporaryFolder folder;
-  const std::vector<std::vector<std::string>> calls = {
-      {"--camera", "video0", "--headless"},
-      {"--camera", "v4l2:/dev/video77", "--headless"},
-      {"--camera", "file:/nowhere", "--headless"},
-      {"--camera", "v4l2:/dev/video77", "--headless", "--lossless"},
-      {"--camera", "file:" + BundledRecording().string(), "--headless", "--time", "today"}};
-  for (const std::vector<std::string>& arguments : calls) {
-    std::vector<std::string> call = {"live"};
+  const std::string bundled = "file:" + BundledRecording().string();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> calls = {
+      {{"--camera", "video0"}, "video0"},
+      {{"--camera", "v4l2:/dev/video77"}, "pleinair calibrate"},
+      {{"--camera", "file:/nowhere"}, "/nowhere"},
+      {{"--camera", "v4l2:/dev/video77", "--lossless"}, "--lossless"},
+      {{"--camera", "v4l2:/dev/video77", "--loop"}, "--loop"},
+      {{"--camera", bundled, "--time", "today"}, "today"},
+      {{"--camera", bundled, "--format", "YUYV"}, "--format"},
+      {{"--camera", bundled, "--hold-exposure", "0.01"}, "--hold-exposure"},
+      {{"--camera", bundled, "--window", "640x480"}, "--window"},
+      {{"--camera", bundled, "--screenshot", "/nowhere/it.png"}, "/nowhere"},
+      {{"--camera", bundled, "--record", "/proc/none"}, "/proc/none"}};
+  for (const auto& [arguments, named] : calls) {
+    std::vector<std::string> call = {"live", "--headless"};
     call.insert(call.end(), arguments.begin(), arguments.end());
     const RunResult live = RunPleinair(call);
     EXPECT_EQ(live.exit_code, 2) << arguments[1];
     EXPECT_THAT(live.err, StartsWith("pleinair: "));
+    EXPECT_THAT(live.err, HasSubstr(named));
     EXPECT_EQ(std::count(live.err.begin(), live.err.end(), '\n'), 1) << live.err;
   }
 }
