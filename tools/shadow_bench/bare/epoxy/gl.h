@@ -16,6 +16,7 @@
   X(PFNGLBLITNAMEDFRAMEBUFFERPROC, glBlitNamedFramebuffer)                 \
   X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, glCheckNamedFramebufferStatus)   \
   X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, glClearNamedFramebufferfv)           \
+  X(PFNGLCLEARNAMEDFRAMEBUFFERUIVPROC, glClearNamedFramebufferuiv)         \
   X(PFNGLCOMPILESHADERPROC, glCompileShader)                               \
   X(PFNGLCREATEBUFFERSPROC, glCreateBuffers)                               \
   X(PFNGLCREATEFRAMEBUFFERSPROC, glCreateFramebuffers)                     \
@@ -98,6 +99,7 @@ PLEINAIR_GL_FUNCTIONS(PLEINAIR_DECLARE_GL)
 #define glBlitNamedFramebuffer pleinair_glBlitNamedFramebuffer
 #define glCheckNamedFramebufferStatus pleinair_glCheckNamedFramebufferStatus
 #define glClearNamedFramebufferfv pleinair_glClearNamedFramebufferfv
+#define glClearNamedFramebufferuiv pleinair_glClearNamedFramebufferuiv
 #define glCompileShader pleinair_glCompileShader
 #define glCreateBuffers pleinair_glCreateBuffers
 #define glCreateFramebuffers pleinair_glCreateFramebuffers
