@@ -228,6 +228,29 @@ TEST(SgOcclusion, FindsMarkersCrossedByAHardShadowOfOneToSixteen) {
   }
 }
 
+// Light that changes within blocks draws the corners, also where something lies on the print.
+TEST(SgOcclusion, MeasuresAPrintWithACoveredCornerUnderAGradient) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  constexpr int kPictures = 5;
+  double squares = 0.0;
+  for (std::uint32_t seed = 1; seed <= kPictures; ++seed) {
+    SCOPED_TRACE(seed);
+    RenderedMarker marker = SgMarkerAt(camera, 801, {161, 118}, 110, 20, 30.0 * seed, 15);
+    Lay([](Vec2 p) { return p.x + p.y < 26; }, &marker);
+    RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0, .seed = seed};
+    // Ten to one across the print, without clipping.
+    options.light = [](Vec2 pixel) { return 0.2 * std::exp2(0.03 * (pixel.x - 161)); };
+    const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 801);
+    EXPECT_LT(found[0].detection.visible_fraction, 0.93) << "measured as covered";
+    const double rms = CornerRms(found[0], TrueCorners(camera, marker));
+    squares += rms * rms;
+  }
+  EXPECT_LT(std::sqrt(squares / kPictures), 0.06);
+}
+
 TEST(SgOcclusion, FindsMarkersWithGlareOnAFifth) {
   const CameraModel camera = SgCamera();
   const auto tracker = MakeSgTracker(camera);

@@ -110,7 +110,8 @@ std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockF
     if (!fit(sharp)) return std::nullopt;
     if (light.white_noise < kPlainWhite) edges = CoverMask::Edges::kTell;
   }
-  // Covers throw shadows, too: at last each block has its own light again.
+  // Covers throw shadows, too: at last each block has its own light again, and all of them a slope.
+  options.fit_light = true;
   cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_);
   cover_.GiveValuesBack(&seen_);
   if (!fit(options)) return std::nullopt;
