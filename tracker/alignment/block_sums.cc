@@ -10,7 +10,6 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kWholeVector = 16;  ///< The widest vectors' lanes.
-constexpr int kMostBlocks = 64;   ///< Of a BlockFit.
 
 }  // namespace
 
@@ -236,9 +235,9 @@ void BlockSums::Scores(int modules, int edge_modules,
 }
 
 SlopeEquations BlockSums::Slopes(const std::vector<BlockLight>& lights,
-                                 const std::vector<BlockMotions>& blocks) const {
+                                 const std::vector<BlockMotions>& blocks) {
   SlopeEquations all;
-  std::array<std::array<double, 2>, kMostBlocks> on_one{}, on_white{};
+  slopes_.assign(blocks.size(), SlopeSums{});
   for (std::size_t t = 0; t < tiles_; ++t) {
     const double gain = gain_[t];
     if (!(gain > 0.0)) continue;
@@ -259,8 +258,8 @@ SlopeEquations BlockSums::Slopes(const std::vector<BlockLight>& lights,
     const std::array<double, kFitParameters> j{-pu,     -pu * u,     -pu * v,     -pv, -pv * u,
                                                -pv * v, inwards * u, inwards * v, b};
     for (int i = 0; i < 2; ++i) {
-      on_one[block][i] += along[i] * one;
-      on_white[block][i] += along[i] * white;
+      slopes_[block].on_one[i] += along[i] * one;
+      slopes_[block].on_white[i] += along[i] * white;
       all.right[i] += along[i] * left;
       for (int k = 0; k < 2; ++k) all.own[i][k] += along[i] * along[k] * square;
       for (int a = 0; a < kFitParameters; ++a) all.with[i][a] += along[i] * j[a];
@@ -269,14 +268,15 @@ SlopeEquations BlockSums::Slopes(const std::vector<BlockLight>& lights,
   for (std::size_t block = 0; block < blocks.size(); ++block) {
     const BlockMotions& sums = blocks[block];
     const LightElimination eliminate(sums);
+    const auto& [on_one, on_white] = slopes_[block];
     const double gain = lights[block].gain;
     if (!(gain > 0.0) || !eliminate.possible) continue;
     for (int i = 0; i < 2; ++i) {
-      const double white = eliminate.OnPattern(on_one[block][i], on_white[block][i]);
-      const double one = eliminate.OnOne(on_one[block][i], on_white[block][i]);
+      const double white = eliminate.OnPattern(on_one[i], on_white[i]);
+      const double one = eliminate.OnOne(on_one[i], on_white[i]);
       all.right[i] -= white * sums.rp + one * sums.r;
       for (int k = 0; k < 2; ++k) {
-        all.own[i][k] -= white * on_white[block][k] + one * on_one[block][k];
+        all.own[i][k] -= white * on_white[k] + one * on_one[k];
       }
       for (int a = 0; a < kFitParameters; ++a) {
         all.with[i][a] -= gain * (white * sums.pj[a] + one * sums.j[a]);

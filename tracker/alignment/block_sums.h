@@ -81,7 +81,7 @@ class BlockSums {
 
   /// The equations of the light's slope, from the sums that Motions made last.
   SlopeEquations Slopes(const std::vector<BlockLight>& lights,
-                        const std::vector<BlockMotions>& blocks) const;
+                        const std::vector<BlockMotions>& blocks);
 
   /// What each cell's pixels say in the equations that Motions made last, with the light of the
   /// blocks eliminated. `modules` is the print's side, `edge_modules` that of its square.
@@ -94,6 +94,10 @@ class BlockSums {
  private:
   struct TileRow {
     int y, rows, begin, count, first_tile, tiles;
+  };
+  /// A block's sums of the slope's derivatives with 1 and with what is predicted of it.
+  struct SlopeSums {
+    std::array<double, 2> on_one{}, on_white{};
   };
   void LayTile(const PrintPattern& pattern, const PrintMap& map, std::size_t pixel,
                int blocks_along, const LightSlope& slope, std::size_t tile);
@@ -116,6 +120,7 @@ class BlockSums {
   std::vector<float> block_u_, block_v_;  ///< From the middle of the tile's block.
   std::vector<float> shade_;              ///< Light on the tile over that on its block's middle.
   std::vector<float> tile_sums_, column_sums_, column_light_;
+  std::vector<SlopeSums> slopes_;
 };
 
 }  // namespace pleinair::tracker
