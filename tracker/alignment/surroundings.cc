@@ -50,9 +50,12 @@ class LightFromBeyond {
 /// Linear light of the picture's pixels, bilinear; the picture's edge goes on beyond it.
 float LightAt(const ImageView<const std::uint8_t>& grey, float x, float y) {
   const std::array<float, 256>& linear = LinearFromSrgb8();
-  x = std::clamp(x, 0.0F, static_cast<float>(grey.width()) - 1.001F);
-  y = std::clamp(y, 0.0F, static_cast<float>(grey.height()) - 1.001F);
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  // In this order what is not a number becomes 0; and the last column is bounded as an integer: a
+  // fraction less than it is no number of its own in wide pictures.
+  x = std::min(std::max(0.0F, x), static_cast<float>(grey.width() - 1));
+  y = std::min(std::max(0.0F, y), static_cast<float>(grey.height() - 1));
+  const int column = std::min(static_cast<int>(x), grey.width() - 2);
+  const int row = std::min(static_cast<int>(y), grey.height() - 2);
   const float fx = x - static_cast<float>(column), fy = y - static_cast<float>(row);
   const std::uint8_t* upper = grey.row(row) + column;
   const std::uint8_t* lower = upper + grey.stride();
