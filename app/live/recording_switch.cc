@@ -15,10 +15,11 @@ Result<void> RecordingSwitch::Start(const fs::path& folder) {
     return InputError(folder.string(), "holds a recording already", "record into another folder");
   }
   Stop();
-  fs::create_directories(folder, error);
+  const bool made = fs::create_directories(folder, error);
   if (error) return tl::make_unexpected(WriteError(folder, error.value()));
   const std::lock_guard lock(mutex_);
   folder_ = folder;
+  made_folder_ = made;
   trouble_.reset();
   return {};
 }
@@ -26,15 +27,17 @@ Result<void> RecordingSwitch::Start(const fs::path& folder) {
 void RecordingSwitch::Stop() {
   std::shared_ptr<LiveRecorder> ended;
   std::optional<fs::path> folder;
+  bool made_folder = false;
   {
     const std::lock_guard lock(mutex_);
     folder = std::exchange(folder_, std::nullopt);
+    made_folder = made_folder_;
     ended = std::exchange(recorder_, nullptr);
   }
   if (!ended) {
     // Takes only what is empty.
     std::error_code ignored;
-    if (folder) fs::remove(*folder, ignored);
+    if (folder && made_folder) fs::remove(*folder, ignored);
     return;
   }
   // What is queued is written without holding anybody up.
@@ -64,7 +67,8 @@ void RecordingSwitch::Add(const std::shared_ptr<const devices::Frame>& frame, Ut
     auto made = LiveRecorder::Create(*folder, camera_, scene(), moment);
     const std::lock_guard lock(mutex_);
     if (!made) {
-      trouble_ = made.error();
+      // Ended meanwhile, its folder may have gone from under it.
+      if (folder_ == folder) trouble_ = made.error();
       return;
     }
     recorder = *std::move(made);

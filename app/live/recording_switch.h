@@ -29,7 +29,8 @@ class RecordingSwitch {
   /// Makes the folder and records into it from the next frame on; one that is under way is ended.
   /// Errors: it holds a recording, it cannot be made.
   Result<void> Start(const std::filesystem::path& folder);
-  /// Writes what is queued and ends the recording; without a frame its folder goes again.
+  /// Writes what is queued and ends the recording; without a frame a folder that
+  /// Start() made goes again.
   void Stop();
   /// One was asked for and goes on.
   bool on() const;
@@ -47,6 +48,7 @@ class RecordingSwitch {
   const CameraModel camera_;
   mutable std::mutex mutex_;
   std::optional<std::filesystem::path> folder_;
+  bool made_folder_ = false;
   std::shared_ptr<LiveRecorder> recorder_;
   std::optional<Error> trouble_;
   Counts of_ended_;

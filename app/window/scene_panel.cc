@@ -295,7 +295,7 @@ void ScenePanel::Shadows(WindowState* state) {
   ImGui::Checkbox("show partitions and maps", &drawing.show_shadow_maps);
   Hint(
       "M. Tints what each partition of the shadow maps serves (red the finest, then green, blue, "
-      "yellow) and shows the maps in the corner.");
+      "yellow) and shows the maps in the corner. Without a sun there are none.");
   const bool moments = in_use.content == shadows::MapContent::kMoments ||
                        in_use.content == shadows::MapContent::kWarpedMoments;
   if (!moments) return;

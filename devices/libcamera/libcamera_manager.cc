@@ -80,8 +80,11 @@ Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager() {
   // the devices it was waiting for in devMap_ when it frees them, and reads them when a camera gets
   // the same number again and its video node is told of before its media node.
   for (const int socket : UeventSockets()) {
-    if (std::find(of_others.begin(), of_others.end(), socket) == of_others.end()) {
-      MuteSocket(socket);
+    const bool is_new = std::find(of_others.begin(), of_others.end(), socket) == of_others.end();
+    if (is_new && !MuteSocket(socket)) {
+      created->stop();
+      return SystemError("libcamera", "cannot be kept from listening to what is plugged in",
+                         "use the camera through V4L2");
     }
   }
   manager.reset(created.release(), StopManager);

@@ -162,15 +162,20 @@ TEST(Live, AccountsForEveryFrameAndItsMemoryIntervalByInterval) {
 TEST(Live, WithoutItsCameraItSaysSoAndEndsWhenItsTimeIsOver) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, /*with_object=*/false);
-  const RunResult live =
-      RunPleinair({"live", "--camera", "v4l2:serial=no such camera", "--calibration",
-                   (folder / "site" / "recording.json").string(), "--scene",
-                   (folder / "site" / "scene.toml").string(), "--headless", "--seconds", "0.5",
-                   "--record", (folder / "take").string()});
-  EXPECT_EQ(live.exit_code, 0) << live.err;
-  EXPECT_THAT(live.err, HasSubstr("camera waiting: v4l2:serial=no such camera: there is no such"));
-  EXPECT_THAT(live.err, HasSubstr("0 frames captured"));
+  std::filesystem::create_directory(folder / "mine");
+  for (const char* take : {"take", "mine"}) {
+    const RunResult live =
+        RunPleinair({"live", "--camera", "v4l2:serial=no such camera", "--calibration",
+                     (folder / "site" / "recording.json").string(), "--scene",
+                     (folder / "site" / "scene.toml").string(), "--headless", "--seconds", "0.5",
+                     "--record", (folder / take).string()});
+    EXPECT_EQ(live.exit_code, 0) << live.err;
+    EXPECT_THAT(live.err,
+                HasSubstr("camera waiting: v4l2:serial=no such camera: there is no such"));
+    EXPECT_THAT(live.err, HasSubstr("0 frames captured"));
+  }
   EXPECT_FALSE(std::filesystem::exists(folder / "take")) << "there was nothing to record";
+  EXPECT_TRUE(std::filesystem::exists(folder / "mine")) << "it was there before";
 }
 
 TEST(Live, BadInputIsOneLineThatNamesItAndExitCodeTwo) {

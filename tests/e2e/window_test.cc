@@ -138,11 +138,12 @@ class Window : public testing::Test {
   }
 
   /// The camera's picture once it clearly differs from `before`; empty where it never does. `again`
-  /// is done before each look: a machine that is busy enough misses a click.
+  /// is done before every fourth look: a machine that is busy enough misses a click.
   cv::Mat Changed(const cv::Mat& before, int pixels, const std::string& again = "") {
     cv::Mat now;
+    int looks = 0;
     const bool changed = Until([&] {
-      if (!again.empty()) {
+      if (!again.empty() && looks++ % 4 == 0) {
         EXPECT_TRUE(Hands(again));
       }
       now = Screenshot("ctrl+s");
@@ -200,19 +201,19 @@ TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
   const cv::Mat later =
       Changed(turned, 500, "mousemove 1150 170 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1");
   ASSERT_FALSE(later.empty()) << "by the panel";
+  // The partitions of the shadow maps tint most of the picture where a sun shines. Both tints take
+  // blue away; light that is still on its way changes less.
+  const auto blue = [&] { return cv::mean(Screenshot("ctrl+s"))[0]; };
+  const double plain = blue();
+  ASSERT_TRUE(Hands("key m"));
+  EXPECT_TRUE(Until([&] { return blue() < 0.8 * plain; })) << "by the key of the shadow maps";
+  ASSERT_TRUE(Hands("key m"));
+  EXPECT_TRUE(Until([&] { return blue() > 0.9 * plain; })) << "and back";
   // The right end of the clouds' bar: without a sun its shadow goes.
   EXPECT_FALSE(
       Changed(later, 500, "mousemove 1130 347 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1").empty())
       << "by clouds";
   EXPECT_GT(Differing(whole, Screenshot("ctrl+shift+s")), 2000) << "the window shows it";
-  // The partitions of the shadow maps tint most of the picture.
-  const cv::Mat plain = Screenshot("ctrl+s");
-  ASSERT_TRUE(Hands("key m"));
-  const cv::Mat tinted = Changed(plain, 20000);
-  ASSERT_FALSE(tinted.empty()) << "by the key of the shadow maps";
-  EXPECT_LT(cv::mean(tinted)[0], 0.8 * cv::mean(plain)[0]) << "blue is what both tints take away";
-  ASSERT_TRUE(Hands("key m"));
-  EXPECT_FALSE(Changed(tinted, 20000).empty()) << "and back";
   ExpectToClose();
 }
 
