@@ -13,6 +13,7 @@
 
 #include "app/command.h"
 #include "app/number_range.h"
+#include "app/option_use.h"
 #include "app/replay.h"
 #include "app/sinks/report_json.h"
 #include "gl/shader_library.h"
@@ -136,8 +137,13 @@ std::string CommandText(const Arguments& arguments) {
   return text;
 }
 
-Result<void> Run(Arguments& arguments) {
+Result<void> Run(const CLI::App& command, Arguments& arguments) {
   ReplayOptions& options = arguments.options;
+  constexpr const char* kCoefficients = "daylight coefficients (--light-cache or --time-lapse)";
+  const bool coefficients = !options.light_cache.empty() || !arguments.time_lapse.empty();
+  PLEINAIR_RETURN_IF_ERROR(
+      RefuseUnusedOptions(command, {{"--sky-division", coefficients, kCoefficients},
+                                    {"--convergence", coefficients, kCoefficients}}));
   options.recording = arguments.recording;
   options.output = arguments.output;
   if (!arguments.scene.empty()) options.scene = arguments.scene;
@@ -326,9 +332,9 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
       ->check(CLI::ExistingDirectory);
   command->add_flag("--no-video", arguments->no_video, "Do not write composite.mp4");
   command->add_flag("--json", arguments->json, "Print a summary as one JSON object");
-  command->callback([arguments, &result] {
+  command->callback([arguments, command, &result] {
     try {
-      result.status = Run(*arguments);
+      result.status = Run(*command, *arguments);
     } catch (const std::exception& error) {
       result.status = SystemError("", std::string("replay failed: ") + error.what(),
                                   "please report it with the recording");

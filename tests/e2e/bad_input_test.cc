@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <utility>
 
 #include "refusal.h"
 #include "run_program.h"
@@ -150,6 +152,17 @@ TEST(BadInput, UsageErrorsPointToTheHelp) {
   ExpectRefused(RunPleinair({"replay"}), "pleinair replay --help");
   ExpectRefused(RunPleinair({"fly"}), "pleinair --help");
   ExpectRefused(RunPleinair({"replay", "x", "-o", "y", "--size", "big"}), "1280x720");
+}
+
+TEST(BadInput, OptionsOfDaylightCoefficientsAreRefusedWhereNoneAreTraced) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, false);
+  for (const auto& [option, value] :
+       {std::pair{"--sky-division", "4"}, {"--convergence", "0.05"}}) {
+    ExpectRefused(RunPleinair({"replay", folder / "site", "-o", folder / "out", option, value}),
+                  std::string(option) + ": has no effect here");
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
 }
 
 TEST(BadInput, TheRecordingIsNotOverwrittenByItsReplay) {

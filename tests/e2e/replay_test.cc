@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
@@ -94,6 +95,30 @@ TEST(Replay, TakesTheLightThatTheUserGives) {
   EXPECT_EQ(RunPleinair({"replay", folder / "site", "-o", folder / "out2", "--sun-to-sky", "-1"})
                 .exit_code,
             2);
+}
+
+TEST(Replay, TracesDaylightAsFinelyAndAsFarAsAsked) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, true);
+  const auto traced = [&](const std::vector<std::string>& how) {
+    std::vector<std::string> arguments = {"replay",         folder / "site",   "-o",
+                                          folder / "out",   "--no-video",      "--light-cache",
+                                          folder / "cache", "--light-patches", "1000"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    std::filesystem::remove_all(folder / "cache");
+    const RunResult run = RunPleinair(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto files = Listing(folder / "cache");
+    EXPECT_EQ(files.size(), 1U);
+    return files.empty() ? std::string() : ReadFile(folder / "cache" / files.front());
+  };
+  const std::string as_is = traced({});
+  // A number a patch of the sky: 145 of Tregenza's, 577 of Reinhart's.
+  EXPECT_GT(traced({"--sky-division", "2"}).size(), 3 * as_is.size());
+  const std::string fewer_reflections = traced({"--convergence", "0.2"});
+  EXPECT_EQ(fewer_reflections.size(), as_is.size());
+  // Beyond the file's head, in the light itself.
+  EXPECT_NE(fewer_reflections.substr(as_is.size() / 2), as_is.substr(as_is.size() / 2));
 }
 
 TEST(Replay, RecoversTheCamerasTruePathOfTheBundledRecording) {
