@@ -77,7 +77,8 @@ class GlComposer : public Composer {
   Result<void> UploadSunlight(const SeenSunlight& sunlight);
   bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
   Result<void> SetRenderSize(const ComposerOptions& options);
-  Result<void> MakeShadows(const ComposerOptions& options);
+  shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) const;
+  Result<void> MakeShadows(const shadows::ShadowMapOptions& options);
   /// The programs for the shadow maps as they are and the air that a frame has.
   Result<const SurfacePrograms*> ProgramsFor(const DrawnFrame& frame);
   void DrawObjects(const gl::GlProgram& program, SceneSurfaces::ObjectSide side,
@@ -129,7 +130,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   PLEINAIR_ASSIGN_OR_RETURN(c.ratio_pass_, RatioPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
-  PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(options));
+  PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(c.MapOptions(options)));
   PLEINAIR_RETURN_IF_ERROR(c.ProgramsFor({}));
   c.options_ = options;
   return composer;
@@ -150,10 +151,12 @@ Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
   return picture_.SetLook(look_);
 }
 
-Result<void> GlComposer::MakeShadows(const ComposerOptions& options) {
-  PLEINAIR_ASSIGN_OR_RETURN(
-      shadows_,
-      SceneShadows::Create(options, std::max(render_camera_.width, render_camera_.height)));
+shadows::ShadowMapOptions GlComposer::MapOptions(const ComposerOptions& options) const {
+  return SceneShadows::MapOptions(options, std::max(render_camera_.width, render_camera_.height));
+}
+
+Result<void> GlComposer::MakeShadows(const shadows::ShadowMapOptions& options) {
+  PLEINAIR_ASSIGN_OR_RETURN(shadows_, SceneShadows::Create(options));
   debug_view_.reset();
   return {};
 }
@@ -164,14 +167,11 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   if (options.supersampling != options_.supersampling || options.response != options_.response) {
     PLEINAIR_RETURN_IF_ERROR(SetRenderSize(options));
   }
-  const bool other_shaders = options.shadow_method != options_.shadow_method ||
-                             options.shadow_partitions != options_.shadow_partitions;
-  if (other_shaders || options.shadow_sizes != options_.shadow_sizes ||
-      options.supersampling != options_.supersampling ||
-      options.shadow_split_weight != options_.shadow_split_weight ||
-      options.shadow_blur_distance_m != options_.shadow_blur_distance_m) {
-    PLEINAIR_RETURN_IF_ERROR(MakeShadows(options));
-  }
+  // Another size of the picture mostly asks for the same maps: what they hold stays.
+  const shadows::ShadowMapOptions maps = MapOptions(options);
+  const bool other_shaders =
+      maps.method != shadows_.options().method || maps.partitions != shadows_.options().partitions;
+  if (maps != shadows_.options()) PLEINAIR_RETURN_IF_ERROR(MakeShadows(maps));
   if (other_shaders) {
     surface_programs_ = {};
     PLEINAIR_RETURN_IF_ERROR(ProgramsFor({}));

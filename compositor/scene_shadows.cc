@@ -15,7 +15,9 @@ namespace {
 // Sides of the two finest maps that are left open; those of the others are half of it.
 constexpr int kSmallestOpenMap = 1024, kLargestOpenMap = 2048;
 
-shadows::ShadowMapOptions MapOptions(const ComposerOptions& options, int picture_px) {
+}  // namespace
+
+shadows::ShadowMapOptions SceneShadows::MapOptions(const ComposerOptions& options, int picture_px) {
   shadows::ShadowMapOptions map_options;
   map_options.method = options.shadow_method;
   map_options.partitions = options.shadow_partitions;
@@ -30,13 +32,10 @@ shadows::ShadowMapOptions MapOptions(const ComposerOptions& options, int picture
   return map_options;
 }
 
-}  // namespace
-
-Result<SceneShadows> SceneShadows::Create(const ComposerOptions& options, int picture_px) {
+Result<SceneShadows> SceneShadows::Create(const shadows::ShadowMapOptions& options) {
   SceneShadows shadows;
   for (int set = 0; set < kSets; ++set) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto maps,
-                              shadows::FadingShadowMaps::Create(MapOptions(options, picture_px)));
+    PLEINAIR_ASSIGN_OR_RETURN(auto maps, shadows::FadingShadowMaps::Create(options));
     shadows.sets_.push_back(std::move(maps));
   }
   return shadows;

@@ -18,10 +18,13 @@ class SceneShadows {
   /// Sets of shadow maps, as the shaders number them.
   enum Set { kPhantomsAlone, kWithObjects, kSets };
 
+  /// How the maps are made. `picture_px`: the longer side of the picture, for maps whose size is
+  /// left open.
+  static shadows::ShadowMapOptions MapOptions(const ComposerOptions& options, int picture_px);
+
   SceneShadows() = default;
   /// Errors as shadows::FadingShadowMaps::Create.
-  /// `picture_px`: the longer side of the picture, for maps whose size is left open.
-  static Result<SceneShadows> Create(const ComposerOptions& options, int picture_px);
+  static Result<SceneShadows> Create(const shadows::ShadowMapOptions& options);
 
   /// Redraws what changed and binds both sets. `view`: what the camera sees of the scene.
   Result<void> Update(const SceneSurfaces& surfaces, Direction<Marker> to_sun,

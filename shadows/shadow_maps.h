@@ -45,6 +45,8 @@ struct ShadowMapOptions {
   double blend_band = 0.05;
   /// Of FadingShadowMaps: what the sun moves between two sets of maps.
   Radians sun_step = FromDegrees(0.02);
+
+  bool operator==(const ShadowMapOptions&) const = default;
 };
 
 /// Errors (input): a number of partitions, a resolution, a λ or an angular radius out of the ranges

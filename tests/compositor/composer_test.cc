@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "base/srgb.h"
 #include "compositor/render_camera.h"
@@ -229,6 +231,31 @@ TEST(Composer, DrawsShadowMapsOfTheSizesAskedFor) {
   const auto refused = Composer::Create(kCamera, {kGround, kCube}, options);
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error().kind, ErrorKind::kInput);
+}
+
+TEST(Composer, DrawsAfterAChangeOfOptionsAsOneMadeWithThem) {
+  const std::vector<PlacedModel> scene{kGround, kCube};
+  const testing::SouthernSun light;
+  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+  ASSERT_TRUE(solver.has_value());
+  auto composer = Composer::Create(kCamera, scene, {});
+  ASSERT_TRUE(composer.has_value());
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  const RgbImage picture = EvenPicture(200);
+  // Maps stay as they are, are drawn finer because the picture is (1280 pixels wide), then coarser
+  // as asked, by another method and by the first one again.
+  ComposerOptions half, large, sized, paper;
+  half.supersampling = 0.5;
+  large.supersampling = 4.0;
+  sized.shadow_sizes = {256, 256, 256, 256};
+  paper.shadow_method = ShadowMethod::kGaussian;
+  for (const ComposerOptions& options : {half, large, sized, paper, ComposerOptions{}}) {
+    ASSERT_TRUE((*composer)->SetOptions(options));
+    const auto changed = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+    ASSERT_TRUE(changed.has_value());
+    const RgbImage made = Compose(scene, picture, kCamera, kSunLux, options);
+    EXPECT_TRUE(std::equal(made.data(), made.data() + made.size(), changed->data()));
+  }
 }
 
 TEST(Composer, CastsTheSameShadowByThePapersMethod) {
