@@ -49,7 +49,7 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
   for (const Change change : {Change::kSun, Change::kSunlitSky, Change::kSky}) {
     const gl::GlProgram& program = programs.phantoms[change];
     program.Use();
-    program.Set("u_depth", 0.25F * static_cast<float>(change + 1));  // changing_pixels.frag.
+    program.Set("u_depth", DepthOf(change));
     program.Set("u_samples", static_cast<float>(targets.samples()));
     program.Set("u_ray", frame.ray[0]);
     program.Set("u_ray_x", frame.ray[1]);

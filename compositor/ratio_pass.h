@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "compositor/changing_triangles.h"
 #include "compositor/drawn_frame.h"
 #include "compositor/render_targets.h"
 #include "compositor/scene_surfaces.h"
@@ -32,6 +33,12 @@ class RatioPass {
   /// map of the sunlight at unit 5 must have been bound.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
             const SurfacePrograms& programs, const DrawnFrame& frame, const Shade& shade) const;
+
+  /// Depth by which the pixels are sorted of which no more than this changes: twin of
+  /// shaders/triangle_layout.glsl.
+  static constexpr float DepthOf(ChangingTriangles::Change change) {
+    return 0.25F * static_cast<float>(change + 1);
+  }
 
  private:
   gl::GlProgram id_program_, sort_program_;

@@ -8,24 +8,24 @@
 namespace pleinair::compositor {
 namespace {
 
-// As in shaders/triangle_table.glsl.
-constexpr std::size_t kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
-constexpr std::uint32_t kKindBits = 2;
-
 using Texel = std::array<float, 4>;
 
-/// A texture of whole rows with `texels`, which it fills up.
+/// Writes `texels` into `texture`, whole rows, which it fills up; into a new one where the rows are
+/// more than it has.
 template <typename T>
-Result<gl::GlTexture> Rows(std::vector<T> texels, std::size_t row, GLenum internal_format,
-                           GLenum format, GLenum type) {
+Result<void> UploadRows(std::vector<T>& texels, int width, GLenum internal_format, GLenum format,
+                        GLenum type, gl::GlTexture* texture) {
+  const auto row = static_cast<std::size_t>(width);
   const std::size_t rows = std::max<std::size_t>((texels.size() + row - 1) / row, 1);
-  texels.resize(rows * row);
-  PLEINAIR_ASSIGN_OR_RETURN(
-      gl::GlTexture texture,
-      gl::GlTexture::Create2D(internal_format, static_cast<int>(row), static_cast<int>(rows)));
-  texture.SetFilter(GL_NEAREST, GL_NEAREST);
-  texture.Upload(format, type, texels.data());
-  return texture;
+  const std::size_t had = *texture ? static_cast<std::size_t>(texture->height()) : 0;
+  texels.resize(std::max(rows, had) * row);
+  if (rows > had) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        *texture, gl::GlTexture::Create2D(internal_format, width, static_cast<int>(rows)));
+    texture->SetFilter(GL_NEAREST, GL_NEAREST);
+  }
+  texture->Upload(format, type, texels.data());
+  return {};
 }
 
 }  // namespace
@@ -76,32 +76,30 @@ Result<TriangleTable> TriangleTable::Create(const std::vector<LitMesh>& lit,
     }
     table.sheets_.insert(table.sheets_.end(), sheets.begin(), sheets.end());
   }
-  PLEINAIR_ASSIGN_OR_RETURN(
-      table.vertices_,
-      Rows(std::move(vertices), kVerticesARow * kTexelsAVertex, GL_RGBA32F, GL_RGBA, GL_FLOAT));
-  PLEINAIR_ASSIGN_OR_RETURN(table.green_albedos_,
-                            Rows(std::move(albedos), kTrianglesARow, GL_R32F, GL_RED, GL_FLOAT));
+  PLEINAIR_RETURN_IF_ERROR(UploadRows(vertices, kVerticesARow * kTexelsAVertex, GL_RGBA32F, GL_RGBA,
+                                      GL_FLOAT, &table.vertices_));
+  PLEINAIR_RETURN_IF_ERROR(
+      UploadRows(albedos, kTrianglesARow, GL_R32F, GL_RED, GL_FLOAT, &table.green_albedos_));
   return table;
 }
 
 Result<void> TriangleTable::SetTriangles(std::span<const ChangingTriangles> phantoms) {
-  std::vector<std::array<std::uint32_t, 4>> triangles;
+  texels_.clear();
   first_ids_.clear();
   for (std::size_t phantom = 0; phantom < phantoms.size(); ++phantom) {
-    first_ids_.push_back(static_cast<int>(triangles.size()) + 1);
+    first_ids_.push_back(static_cast<int>(texels_.size()) + 1);
     const std::uint32_t first = first_vertices_[phantom];
     const std::span<const std::uint32_t> indices = phantoms[phantom].indices();
     const auto& ends = phantoms[phantom].ends();
     std::uint32_t kind = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(ends[ChangingTriangles::kSky]); i += 3) {
       while (i >= static_cast<std::size_t>(ends[kind])) ++kind;
-      triangles.push_back({first + indices[i], first + indices[i + 1], first + indices[i + 2],
-                           kind | sheets_[first + indices[i]] << kKindBits});
+      texels_.push_back({first + indices[i], first + indices[i + 1], first + indices[i + 2],
+                         kind | sheets_[first + indices[i]] << kKindBits});
     }
   }
-  PLEINAIR_ASSIGN_OR_RETURN(triangles_, Rows(std::move(triangles), kTrianglesARow, GL_RGBA32UI,
-                                             GL_RGBA_INTEGER, GL_UNSIGNED_INT));
-  return {};
+  return UploadRows(texels_, kTrianglesARow, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                    &triangles_);
 }
 
 void TriangleTable::Bind() const {

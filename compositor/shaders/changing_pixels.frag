@@ -8,9 +8,7 @@
 layout(binding = 0) uniform usampler2DMS u_ids;
 uniform int u_samples;  // A pixel, 4 at most.
 
-layout(location = 0) out uvec4 out_seen;  // First to last: a triangle, from kCountShift on the count.
-
-const int kCountShift = 28;
+layout(location = 0) out uvec4 out_seen;  // First to last: SeenTriangle.
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -31,11 +29,11 @@ void main() {
     bool known = any(same_sheet);
     uvec4 slot = uvec4(known ? same_sheet : equal(ivec4(found), ivec4(0, 1, 2, 3)));
     slot *= uint(id != 0u);
-    seen += slot * (count << kCountShift | (known ? 0u : id));
+    seen += slot * SeenTriangle(known ? 0u : id, count);
     sheets = mix(sheets, uvec4(SheetOf(triangle)), equal(slot, uvec4(1u)));
     found += known ? 0 : 1;
     kind = id == 0u ? kind : min(kind, KindOf(triangle));
   } while (any(notEqual(left, uvec4(0u))));
   out_seen = seen;
-  gl_FragDepth = 0.25 * float(kind + 1u);
+  gl_FragDepth = DepthOfKind(kind);
 }

@@ -57,7 +57,7 @@ float SunSeen(SeenSurface surface, float sun, FogAir air) {
   vec3 position_m = surface.position_m;
   int sheet = int(surface.sheet);
   float green_albedo =
-      u_looks * texelFetch(u_green_albedos, ivec2(sheet % kTrianglesARow, sheet / kTrianglesARow), 0).r;
+      u_looks * texelFetch(u_green_albedos, TexelOfTriangle(sheet), 0).r;
   bool on_board = max(abs(position_m.x), abs(position_m.y)) < u_board_half_m &&
                   abs(position_m.z) < 0.25 * u_board_half_m;
   vec2 size = vec2(textureSize(u_background, 0));
@@ -75,8 +75,6 @@ float SunSeen(SeenSurface surface, float sun, FogAir air) {
   return on_board ? SeenSunlight(position_m) : (green_albedo == 0.0 ? 1.0 : seen);
 }
 #endif
-
-const int kCountShift = 28;
 
 struct Change {
   vec3 ratio;
@@ -125,8 +123,8 @@ void main() {
   vec3 ratio = vec3(0.0), haze = vec3(0.0);
   float samples = 0.0;
   do {
-    float count = float(seen.x >> kCountShift);
-    Change change = ChangeOf(SurfaceSeen(seen.x & ((1u << kCountShift) - 1u), gl_FragCoord.xy));
+    float count = float(CountOf(seen.x));
+    Change change = ChangeOf(SurfaceSeen(IdOf(seen.x), gl_FragCoord.xy));
     ratio += count * change.ratio;
     haze += count * change.haze;
     samples += count;

@@ -7,6 +7,8 @@
 
 #include "base/srgb.h"
 #include "compositor/aerial_fog.h"
+#include "compositor/ratio_pass.h"
+#include "compositor/triangle_table.h"
 #include "gl/glsl_as_cpp.h"
 
 namespace glsl {
@@ -14,6 +16,7 @@ using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/differential.glsl"
 #include "compositor/shaders/srgb_transfer.glsl"
+#include "compositor/shaders/triangle_layout.glsl"
 }  // namespace glsl
 
 namespace pleinair::compositor {
@@ -136,6 +139,38 @@ TEST(DifferentialRatio, NeverDarkensARealShadowTwiceNorLightensIt) {
   EXPECT_EQ(glsl::DifferentialRatio(ambient, ambient, sun, 0.0F, 0.0F), glm::vec3(1.0F));
   // A shadow map's rounding may claim more sun with the objects than without.
   EXPECT_EQ(glsl::DifferentialRatio(ambient, ambient, sun, 1.0F, 0.3F), glm::vec3(1.0F));
+}
+
+TEST(TriangleLayout, IsReadAsItIsWritten) {
+  EXPECT_EQ(glsl::kTrianglesARow, TriangleTable::kTrianglesARow);
+  EXPECT_EQ(glsl::kVerticesARow, TriangleTable::kVerticesARow);
+  EXPECT_EQ(glsl::kTexelsAVertex, TriangleTable::kTexelsAVertex);
+  EXPECT_EQ(glsl::kKindBits, static_cast<int>(TriangleTable::kKindBits));
+  for (const auto change : {ChangingTriangles::kSun, ChangingTriangles::kSunlitSky,
+                            ChangingTriangles::kSky, ChangingTriangles::kNothing}) {
+    const glm::uvec4 triangle(0, 0, 0, change | 12345U << TriangleTable::kKindBits);
+    EXPECT_EQ(glsl::KindOf(triangle), static_cast<unsigned>(change));
+    EXPECT_EQ(glsl::SheetOf(triangle), 12345U);
+    EXPECT_EQ(glsl::DepthOfKind(change), RatioPass::DepthOf(change));
+  }
+}
+
+TEST(TriangleLayout, GivesEachTriangleAndVertexTexelsOfItsOwn) {
+  EXPECT_EQ(glsl::TexelOfTriangle(0), glm::ivec2(0, 0));
+  EXPECT_EQ(glsl::TexelOfTriangle(4095), glm::ivec2(4095, 0));
+  EXPECT_EQ(glsl::TexelOfTriangle(4096), glm::ivec2(0, 1));
+  EXPECT_EQ(glsl::TexelOfVertex(1364), glm::ivec2(4092, 0));
+  EXPECT_EQ(glsl::TexelOfVertex(1365), glm::ivec2(0, 1));
+}
+
+TEST(TriangleLayout, CountsTheSamplesThatShowATriangle) {
+  constexpr unsigned kLargest = (1U << glsl::kCountShift) - 1U;
+  for (const unsigned id : {1U, 70000U, kLargest}) {
+    // The first sample brings the number, others of the same sheet their count alone.
+    const unsigned seen = glsl::SeenTriangle(id, 1U) + glsl::SeenTriangle(0U, 3U);
+    EXPECT_EQ(glsl::IdOf(seen), id);
+    EXPECT_EQ(glsl::CountOf(seen), 4U);
+  }
 }
 
 }  // namespace
