@@ -3,6 +3,7 @@
 // What a pixel shows of a real surface, from its triangle's number: what a rasteriser would hand to
 // a shader, but once for a pixel however many triangles meet in it.
 
+#include "compositor/shaders/plane_hit.glsl"
 #include "compositor/shaders/triangle_table.glsl"
 
 uniform vec3 u_eye_m;  // Centre of projection, marker coordinates.
@@ -25,14 +26,13 @@ SeenSurface SurfaceSeen(uint id, vec2 pixel) {
   vec3 ab = b.position_m - a.position_m, ac = c.position_m - a.position_m;
   vec3 across = cross(ab, ac);
   vec3 ray = u_ray + pixel.x * u_ray_x + pixel.y * u_ray_y;
-  float facing = dot(across, ray);
-  facing = abs(facing) > 1e-20 ? facing : 1e-20;
-  float along = dot(across, a.position_m - u_eye_m) / facing;
+  PlaneHit hit = HitPlane(across, a.position_m - u_eye_m, b.position_m - u_eye_m,
+                          c.position_m - u_eye_m, ray, u_ray_x, u_ray_y);
   SeenSurface seen;
   seen.sheet = SheetOf(triangle);
-  seen.position_m = u_eye_m + along * ray;
-  seen.step_x = along * (u_ray_x - ray * (dot(across, u_ray_x) / facing));
-  seen.step_y = along * (u_ray_y - ray * (dot(across, u_ray_y) / facing));
+  seen.position_m = u_eye_m + hit.along * ray;
+  seen.step_x = hit.step_x;
+  seen.step_y = hit.step_y;
 
   // Barycentric coordinates. The ray through the pixel's middle may pass beside the triangle that a
   // sample shows: light is not extrapolated to there, where it could be anything, and the place not

@@ -15,6 +15,7 @@ namespace glsl {
 using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/differential.glsl"
+#include "compositor/shaders/plane_hit.glsl"
 #include "compositor/shaders/srgb_transfer.glsl"
 #include "compositor/shaders/triangle_layout.glsl"
 }  // namespace glsl
@@ -170,6 +171,35 @@ TEST(TriangleLayout, CountsTheSamplesThatShowATriangle) {
     const unsigned seen = glsl::SeenTriangle(id, 1U) + glsl::SeenTriangle(0U, 3U);
     EXPECT_EQ(glsl::IdOf(seen), id);
     EXPECT_EQ(glsl::CountOf(seen), 4U);
+  }
+}
+
+/// Level ground 1.5 m below the eye, 10 m to 20 km ahead; rays of a camera with f = 500 that looks
+/// along +y, `above` pixels above the horizon.
+glsl::PlaneHit HitGround(float above) {
+  const glm::vec3 a(-100.0F, 10.0F, -1.5F), b(100.0F, 10.0F, -1.5F), c(0.0F, 20000.0F, -1.5F);
+  return glsl::HitPlane(glm::cross(b - a, c - a), a, b, c, {0.0F, 1.0F, above / 500.0F},
+                        {0.002F, 0.0F, 0.0F}, {0.0F, 0.0F, -0.002F});
+}
+
+TEST(PlaneHit, IsWhereTheRayMeetsTheGround) {
+  const glsl::PlaneHit hit = HitGround(-10.0F);
+  EXPECT_NEAR(hit.along, 75.0F, 1e-3F);
+  // A pixel lower: 1.5 m · 500 / 11.
+  const float next = HitGround(-11.0F).along;
+  EXPECT_NEAR(next, 750.0F / 11.0F, 1e-3F);
+  EXPECT_NEAR(hit.step_x.x, 75.0F * 0.002F, 1e-4F);
+  EXPECT_NEAR(hit.step_y.y, -7.5F, 1e-3F);  // ∂/∂pixel of 750 / above.
+  EXPECT_NEAR(hit.step_y.z, 0.0F, 1e-4F);
+}
+
+TEST(PlaneHit, StaysBeforeTheEyeWhereTheRayRunsAboveThePlanesHorizon) {
+  for (const float above : {0.0F, 1e-6F, 0.01F, 0.4F, -1e-8F}) {
+    const glsl::PlaneHit hit = HitGround(above);
+    EXPECT_NEAR(hit.along, 20000.0F, 1.0F) << above;
+    // What one pixel covers there: 20 km / 500.
+    EXPECT_NEAR(glm::length(hit.step_x), 40.0F, 0.1F) << above;
+    EXPECT_NEAR(glm::length(hit.step_y), 40.0F, 0.1F) << above;
   }
 }
 
