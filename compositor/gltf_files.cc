@@ -11,9 +11,12 @@
 namespace pleinair::compositor {
 namespace {
 
-bool IsBesideModel(const std::string& file, void* folder) {
-  // tinygltf looks in the model's folder first, then in the working folder.
-  if (!file.starts_with(*static_cast<const std::string*>(folder))) return false;
+bool IsNamedFromModel(const std::string& file, void* model_folder) {
+  // tinygltf puts the model's folder before the name first, then the working folder.
+  const std::string& folder = *static_cast<const std::string*>(model_folder);
+  if (!file.starts_with(folder)) return false;
+  const bool absolute = file[folder.size()] == '/';  // What the model says, behind the folder.
+  if (absolute) return false;
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored);
 }
@@ -32,7 +35,7 @@ bool ReadBesideModel(std::vector<unsigned char>* bytes, std::string* error, cons
 }  // namespace
 
 tinygltf::FsCallbacks FilesBesideModel(std::string* folder) {
-  return {.FileExists = IsBesideModel,
+  return {.FileExists = IsNamedFromModel,
           .ExpandFilePath = [](const std::string& file, void*) { return file; },
           .ReadWholeFile = ReadBesideModel,
           .WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,

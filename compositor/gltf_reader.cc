@@ -126,7 +126,7 @@ class GltfReader {
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(KeepEncoded, &encoded_);
     std::string error, warning;
-    std::string folder = file_.parent_path().string();
+    std::string folder = (file_.has_parent_path() ? file_.parent_path() / "" : "./").string();
     loader.SetFsCallbacks(FilesBesideModel(&folder));
     const auto size = static_cast<unsigned>(std::min<std::size_t>(content_.size(), ~0U));
     bool ok = false;

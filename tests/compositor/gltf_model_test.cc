@@ -214,6 +214,35 @@ TEST(GltfModel, ReadsOnlyFilesAndOnlyFromItsFolder) {
   std::filesystem::current_path(before);
 }
 
+TEST(GltfModel, TakesNamesFromItsFolderButNoAbsoluteOnes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path inner = folder.path() / "inner";
+  std::filesystem::create_directory(inner);
+  const std::filesystem::path data = folder.Write("data.bin", TriangleFile().Buffer());
+  const auto write = [&](const std::string& uri) {
+    const std::string json = TriangleFile().Json(R"("uri":")" + uri + R"(",)");
+    folder.Write("m.gltf", json);
+    folder.Write("inner/m.gltf", json);
+  };
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  // glTF 2.0, "URIs": relative paths, of which ".." may be a part.
+  write("../data.bin");
+  EXPECT_TRUE(LoadModel(inner / "m.gltf"));
+  EXPECT_TRUE(LoadModel("inner/m.gltf"));
+  std::filesystem::current_path(inner);
+  EXPECT_TRUE(LoadModel("m.gltf"));
+  std::filesystem::current_path(folder.path());
+  // The file is there, and so is one of that name behind the folder's.
+  for (const std::string& uri : {data.string(), std::string("/data.bin")}) {
+    write(uri);
+    EXPECT_FALSE(LoadModel(folder.path() / "m.gltf")) << uri;
+    EXPECT_FALSE(LoadModel("m.gltf")) << uri;
+    EXPECT_FALSE(LoadModel("./m.gltf")) << uri;
+  }
+  std::filesystem::current_path(before);
+}
+
 TEST(GltfModel, RefusesExtensionsThatItWouldHaveToKnow) {
   TriangleFile file;
   file.extra = R"(,"extensionsUsed":["KHR_draco_mesh_compression"],)"

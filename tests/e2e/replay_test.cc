@@ -101,9 +101,10 @@ TEST(Replay, TracesDaylightAsFinelyAndAsFarAsAsked) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
   const auto traced = [&](const std::vector<std::string>& how) {
-    std::vector<std::string> arguments = {"replay",         folder / "site",   "-o",
-                                          folder / "out",   "--no-video",      "--light-cache",
-                                          folder / "cache", "--light-patches", "1000"};
+    std::vector<std::string> arguments = {
+        "replay",         folder / "site",   "-o",     folder / "out", "--no-video",
+        "--light",        "stated",          "--look", "clean",        "--light-cache",
+        folder / "cache", "--light-patches", "1000"};
     arguments.insert(arguments.end(), how.begin(), how.end());
     std::filesystem::remove_all(folder / "cache");
     const RunResult run = RunPleinair(arguments);
