@@ -80,10 +80,6 @@ float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_rad
   return max(1.0 - blocked / (4.0 * k.x * k.y), 0.0);
 }
 
-// Rise over distance below which what the pixel alone covers is the foot of a lit wall beside the
-// receiver, which another pixel shows, and no blocker.
-const float kShadowWallRise = 3.0;
-
 // One even spread of looks over an ellipse as wide, in standard deviations, as disc and pixel
 // together. Looks of the disc each moved to another place in the pixel tremble twice as much.
 // Where it is not wanted, one look.
@@ -166,7 +162,7 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
     vec2 corner = floor(r.texel + offset_m / size.xy - 0.5);
     ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
     float away_m = length(offset_m) - texel_m;
-    float least_m = max(ShadowLeastHeight(away_m - pixel_m, tan_radius), kShadowWallRise * away_m);
+    float least_m = ShadowLeastHeightSought(away_m, pixel_m, tan_radius);
     vec4 blocks = ShadowBlocks(quad, least_m);
     height_sum += weight * dot(blocks, quad.height);
     blockers += weight * dot(blocks, vec4(1.0));

@@ -44,12 +44,6 @@ vec2 ShadowTexel(ShadowSlice s, vec3 position) {
 // Texels along a map's border that nothing is looked up in: half the widest box of comparisons.
 const float kShadowBorder = 4.0;
 
-// Cosines of the sun's incidence, below which: a surface counts as turned away (it gets less than a
-// thousandth of the sun's light, and derivatives of positions tell its side no better); its plane is
-// taken to be no steeper (what lies beyond an edge-on leaf's rim is not its plane, but the ground
-// under a sun of 0.3° is); and its steepness excuses no more depth.
-const float kShadowLeastFacing = 0.001, kShadowSteepest = 0.005, kShadowMostRise = 0.02;
-
 // Where a point lies in a slice.
 struct ShadowPlace {
   int slice;     // -1: in none.
@@ -89,7 +83,7 @@ void ShadowPlaces(int set, vec3 position, out ShadowPlace finest, out ShadowPlac
 float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 step_y,
                     bool wanted) {
   vec3 light_u = shadow_sets[set].light_u.xyz, light_v = shadow_sets[set].light_v.xyz;
-  float facing = max(dot(normal, shadow_sets[set].to_sun.xyz), kShadowSteepest);
+  float facing = ShadowPlaneFacing(dot(normal, shadow_sets[set].to_sun.xyz));
   ShadowReceiver r;
   r.texel = place.texel;
   r.depth = place.depth;
@@ -99,7 +93,7 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
   r.step_x = vec2(dot(light_u, step_x), dot(light_v, step_x)) / place.size.xy;
   r.step_y = vec2(dot(light_u, step_y), dot(light_v, step_y)) / place.size.xy;
   // Half a texel of slope: the next facet of a curved surface lies that far off this one's plane.
-  r.rise = length(r.slope) * min(facing / kShadowMostRise, 1.0);
+  r.rise = ShadowRise(length(r.slope), facing);
   r.bias = shadow_sets[set].settings.y + 0.5 * r.rise;
 #if defined(SHADOW_METHOD_SUN_DISC)
   return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, wanted);
@@ -141,7 +135,7 @@ float ShadowAtStep(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y
   int finest_slice = finest.slice;
   float coarser = ShadowCoarser(set, finest, next);
   // Outside every window nothing casts; a surface turned away is in its own shade.
-  bool facing = dot(normal, shadow_sets[set].to_sun.xyz) > kShadowLeastFacing;
+  bool facing = ShadowFaces(dot(normal, shadow_sets[set].to_sun.xyz));
   bool look = facing && finest_slice >= 0;
   bool again = coarser > 0.0 && look;
   float visible = 0.0;

@@ -75,6 +75,52 @@ TEST(ShadowLeastHeight, TellsBlockersFromAWallsFoot) {
   EXPECT_EQ(glsl::ShadowLeastHeight(-0.01F, tan_radius), 0.0F);
 }
 
+// A wall in the sun stands beside the receiver: what a pixel covers of it rises by cot of the sun's
+// distance from the zenith, less than 3 down to 18°, and shades nothing. What rises more does.
+TEST(ShadowLeastHeight, OfWhatThePixelAloneCoversPassesOverALitWallsFoot) {
+  const float tan_radius = std::tan(glm::radians(0.2665F));
+  for (const float pixel_m : {0.001F, 0.02F}) {
+    for (const float share : {0.1F, 0.5F, 1.0F}) {
+      const float away_m = share * pixel_m;
+      const float least_m = glsl::ShadowLeastHeightSought(away_m, pixel_m, tan_radius);
+      EXPECT_GT(least_m, 2.9F * away_m);
+      EXPECT_LT(least_m, 3.1F * away_m);
+    }
+    // Beyond the pixel the disc decides, as everywhere.
+    EXPECT_EQ(glsl::ShadowLeastHeightSought(pixel_m + 0.01F, pixel_m, tan_radius),
+              glsl::ShadowLeastHeight(pixel_m + 0.01F - pixel_m, tan_radius));
+  }
+}
+
+// Level ground under a low sun.
+TEST(ShadowFaces, FromSixHundredthsOfADegreeOn) {
+  EXPECT_FALSE(glsl::ShadowFaces(std::sin(glm::radians(0.055F))));
+  EXPECT_TRUE(glsl::ShadowFaces(std::sin(glm::radians(0.06F))));
+}
+
+TEST(ShadowPlaneFacing, IsTheGroundsOwnDownToASunOfThreeTenthsOfADegree) {
+  for (const float elevation : {0.3F, 0.5F, 20.0F, 90.0F}) {
+    const float facing = std::sin(glm::radians(elevation));
+    EXPECT_EQ(glsl::ShadowPlaneFacing(facing), facing) << elevation;
+  }
+  EXPECT_GT(glsl::ShadowPlaneFacing(std::sin(glm::radians(0.25F))), std::sin(glm::radians(0.28F)));
+}
+
+TEST(ShadowRise, IsThePlanesOwnAndFromASunOfOneDegreeDownNoMore) {
+  float most = 0.0F;
+  for (float elevation = 89.0F; elevation > 0.31F; elevation *= 0.98F) {
+    const float facing = std::sin(glm::radians(elevation));
+    const float slope = std::cos(glm::radians(elevation)) / facing;  // Texels a texel.
+    const float rise = glsl::ShadowRise(slope, facing);
+    EXPECT_LE(rise, slope * 1.0001F) << elevation;
+    if (elevation > 1.15F) {
+      EXPECT_FLOAT_EQ(rise, slope) << elevation;
+    }
+    most = std::max(most, rise);
+  }
+  EXPECT_NEAR(most, 50.0F, 0.5F);
+}
+
 TEST(NormalCdf, IsWithinThePublishedErrorOfItsFit) {
   for (double x = -6.0; x <= 6.0; x += 0.01) {
     EXPECT_NEAR(glsl::NormalCdf(static_cast<float>(x)), 0.5 * std::erfc(-x / std::sqrt(2.0)),

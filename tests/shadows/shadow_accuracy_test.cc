@@ -59,7 +59,9 @@ TEST_F(ShadowAccuracy, OfAStraightEdgeIsCloseToTheClosedForm) {
     const double rmse = std::sqrt(sum / (plane.width * plane.height));
     std::printf("| %.1f m | %.3f | %.3f |\n", height, rmse, worst);
     EXPECT_LT(rmse, 0.01) << "height " << height;
-    EXPECT_LT(worst, 0.03) << "height " << height;
+    // Measured 0.029. A single point may move by some thousandths where a renderer rounds
+    // otherwise: one of at least twenty looks weighs up to 0.05.
+    EXPECT_LT(worst, 0.035) << "height " << height;
   }
 }
 
