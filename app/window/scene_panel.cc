@@ -282,11 +282,11 @@ void ScenePanel::Shadows(WindowState* state) {
   for (int i = 0; i < drawing.shadow_partitions; ++i) {
     ImGui::PushID(i);
     int& size = drawing.shadow_sizes[i];
-    constexpr int kMapSizes = 6, kOpenStep = 3;  // A size left open: "auto", amid the bar.
-    int step = size > 0 ? std::countr_zero(static_cast<unsigned>(size) / kSmallestMap) : kOpenStep;
+    constexpr int kMapSizes = 6;  // Steps of the bar from 1 on; 0: left open.
+    int step = size > 0 ? 1 + std::countr_zero(static_cast<unsigned>(size) / kSmallestMap) : 0;
     const std::string shown = size > 0 ? std::to_string(size) : "auto";
-    if (ImGui::SliderInt("##texels", &step, 0, kMapSizes - 1, shown.c_str())) {
-      size = kSmallestMap << std::clamp(step, 0, kMapSizes - 1);
+    if (ImGui::SliderInt("##texels", &step, 0, kMapSizes, shown.c_str())) {
+      size = step > 0 ? kSmallestMap << (std::min(step, kMapSizes) - 1) : 0;
     }
     ImGui::SameLine();
     ImGui::Text("texels of map %d", i + 1);

@@ -5,6 +5,7 @@
 #include <imgui_internal.h>
 
 #include <string>
+#include <utility>
 
 #include "app/window/window_state.h"
 
@@ -115,8 +116,11 @@ TEST_F(PanelInHands, TypedNumbersChangePlaceAirAndDrawing) {
   EXPECT_NEAR(edit.convergence, 0.05, 1e-9);
   Type(Of("partitions"), "3");
   EXPECT_EQ(edit.drawing.shadow_partitions, 3);
-  Type(Of(ImGui::FindWindowByName("Scene")->GetID(1), "##texels"), "1");
-  EXPECT_EQ(edit.drawing.shadow_sizes[1], 256) << "the second step of its bar";
+  const auto texels = Of(ImGui::FindWindowByName("Scene")->GetID(1), "##texels");
+  for (const auto& [step, size] : {std::pair{"2", 256}, {"4", 1024}, {"6", 4096}, {"0", 0}}) {
+    Type(texels, step);
+    EXPECT_EQ(edit.drawing.shadow_sizes[1], size) << "0: left open, as it was";
+  }
 }
 
 TEST_F(PanelInHands, ACityIsFoundByTypingAndTheTimeIsThatOfTheDayThatIsTyped) {
