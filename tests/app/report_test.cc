@@ -104,6 +104,14 @@ TEST(SummarizePath, DoesNotCountStepsAcrossFramesWithoutAPose) {
   EXPECT_NEAR(statistics.distance_max_m, std::sqrt(13.0), 1e-12);
 }
 
+TEST(SummarizePath, CountsPosesThatMayBeTheOtherPlanarSolution) {
+  std::vector<Observation> path = {At(0, 0.0), At(1, 0.1), At(2, 0.2), At(3, 0.3)};
+  path[1].ambiguity_ratio = 0.0005;  // Certain: below 0.001.
+  path[2].ambiguity_ratio = 0.01;
+  path[3].ambiguity_ratio = 0.9;
+  EXPECT_EQ(SummarizePath(path).ambiguous_frames, 2);
+}
+
 TEST(LinePlot, LeavesAGapWhereAPointIsMissing) {
   const double gap = std::numeric_limits<double>::quiet_NaN();
   const std::string svg = LinePlotSvg("t", "m", {{"", {0, 1, 2, 3}, {1, gap, 2, 3}}});
