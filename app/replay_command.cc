@@ -290,7 +290,7 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
       ->add_option("--shadow-sizes", arguments->shadow_sizes,
                    "Texels a side of the shadow maps; one number, or one a partition from the "
                    "finest on. Default: as fine as the picture shows, 1024,1024,512,512 up to "
-                   "1024 pixels a side, twice that beyond")
+                   "1024 pixels a side, twice that beyond and for --time-lapse")
       ->delimiter(',')
       ->expected(1, 4)
       ->check(CLI::IsMember({128, 256, 512, 1024, 2048, 4096}))
