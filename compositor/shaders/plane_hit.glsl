@@ -23,7 +23,11 @@ PlaneHit HitPlane(vec3 across, vec3 a, vec3 b, vec3 c, vec3 ray, vec3 ray_x, vec
   along = meets ? along : far_end;
   float tilt_x = meets ? dot(across, ray_x) / facing : 0.0f;
   float tilt_y = meets ? dot(across, ray_y) / facing : 0.0f;
-  return PlaneHit(along, along * (ray_x - ray * tilt_x), along * (ray_y - ray * tilt_y));
+  PlaneHit hit;  // Field by field: not every C++ compiler knows GLSL's constructor.
+  hit.along = along;
+  hit.step_x = along * (ray_x - ray * tilt_x);
+  hit.step_y = along * (ray_y - ray * tilt_y);
+  return hit;
 }
 
 #endif
