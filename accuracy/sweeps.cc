@@ -184,9 +184,9 @@ struct MarkerGrid {
     const std::vector<int> numbers = Shuffled(kNumbers, random);
     const std::vector<int> cells = Shuffled(columns * rows, random);
     for (int k = 0; k < count; ++k) {
+      const int column = cells[k] % columns, row = cells[k] / columns;
       PlaceWanted place{.number = numbers[k]};
-      place.centre_px =
-          Vec2{(cells[k] % columns + 0.5) * width, (cells[k] / columns + 0.5) * height};
+      place.centre_px = Vec2{(column + 0.5) * width, (row + 0.5) * height};
       places.push_back(place);
     }
   }

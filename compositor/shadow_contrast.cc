@@ -173,7 +173,9 @@ double FitScale(const std::vector<ShadowEdge>& edges, const std::vector<std::uin
     return cost;
   };
   const auto search = [&](double from, double to, double step) {
-    for (double log_scale = from; log_scale <= to + 1e-9; log_scale += step) {
+    const int steps = static_cast<int>(std::lround((to - from) / step));
+    for (int i = 0; i <= steps; ++i) {
+      const double log_scale = from + i * step;
       const double cost = cost_at(log_scale);
       if (cost < least) {
         least = cost;

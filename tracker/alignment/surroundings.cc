@@ -36,9 +36,8 @@ class LightFromBeyond {
   }
   float reach_px() const { return reach_px_; }
   float At(float d_px) const {
-    const int i = std::clamp(static_cast<int>(d_px * kPerPixel + 0.5F), 0,
-                             static_cast<int>(share_.size()) - 1);
-    return share_[i];
+    const long last = static_cast<long>(share_.size()) - 1;
+    return share_[std::clamp(std::lrint(d_px * kPerPixel), 0L, last)];
   }
 
  private:
