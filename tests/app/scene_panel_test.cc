@@ -46,9 +46,9 @@ class PanelInHands : public testing::Test {
   /// Points at the control whose name ImGui hashes to this; tells whether it is there.
   bool Point(ImGuiID control) {
     ImGuiIO& io = ImGui::GetIO();
-    for (float y = 2.0F; y < kHeight; y += 6.0F) {
+    for (int y = 2; y < static_cast<int>(kHeight); y += 6) {
       for (const float x : {20.0F, 110.0F, 160.0F}) {
-        io.MousePos = {x, y};
+        io.MousePos = {x, static_cast<float>(y)};
         Frames();
         if (ImGui::GetCurrentContext()->HoveredId == control) return true;
       }

@@ -105,6 +105,7 @@ class FakeCamera {
       const std::lock_guard lock(camera_->mutex_);
       camera_->held_ = wishes;
       std::vector<ControlAnswer> answers;
+      answers.reserve(wishes.size());
       for (const ControlWish& wish : wishes)
         answers.push_back({wish.control, wish.value, true, ""});
       return answers;
