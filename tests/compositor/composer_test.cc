@@ -117,8 +117,9 @@ TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
   // half lies in shade.
   const Vec3 to_sun = light.ToSun().xyz;
   std::vector<SunlitSpot> spots;
-  for (double x = -0.495; x < 0.5; x += 0.01) {
-    for (double y = -0.5; y < 0.6; y += 0.01) {
+  for (int i = 0; i < 100; ++i) {
+    for (int j = 0; j < 110; ++j) {
+      const double x = -0.495 + 0.01 * i, y = -0.5 + 0.01 * j;
       spots.push_back({{x, y, 0.0}, x < 0.0 ? 0.0 : 1.0, 0.005});
     }
   }
