@@ -25,6 +25,7 @@ ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : indices_(phantom.
 }
 
 ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
+                                                      const SunFootprint& objects,
                                                       std::size_t first_index) const {
   bool sky_changes = false, sunlit = false;
   glm::vec2 low(1e30F), high(-1e30F);
@@ -32,22 +33,20 @@ ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
     const std::uint32_t vertex = indices_[k];
     sky_changes = sky_changes || sky_changes_[vertex];
     sunlit = sunlit || glm::dot(normals_[vertex], window.to_sun) > 0.0F;
-    const glm::vec4 position(positions_[vertex], 1.0F);
-    const glm::vec2 at(glm::dot(window.u_from_marker, position),
-                       glm::dot(window.v_from_marker, position));
+    const glm::vec2 at = window.At(positions_[vertex]);
     low = glm::min(low, at);
     high = glm::max(high, at);
   }
   const bool inside = high.x > 0.0F && high.y > 0.0F && low.x < window.side && low.y < window.side;
-  if (sunlit && inside) return kSun;
+  if (sunlit && inside && objects.Touches(low, high)) return kSun;
   if (!sky_changes) return kNothing;
   return sunlit ? kSunlitSky : kSky;
 }
 
-void ChangingTriangles::Sort(const SunWindow& window) {
+void ChangingTriangles::Sort(const SunWindow& window, const SunFootprint& objects) {
   for (auto& kind : kinds_) kind.clear();
   for (std::size_t i = 0; i < indices_.size(); i += 3) {
-    auto& kind = kinds_[ChangeOf(window, i)];
+    auto& kind = kinds_[ChangeOf(window, objects, i)];
     kind.insert(kind.end(), indices_.begin() + static_cast<std::ptrdiff_t>(i),
                 indices_.begin() + static_cast<std::ptrdiff_t>(i + 3));
   }

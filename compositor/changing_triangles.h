@@ -7,23 +7,9 @@
 #include <vector>
 
 #include "compositor/light_solver.h"
+#include "compositor/sun_footprint.h"
 
 namespace pleinair::compositor {
-
-/// Where virtual objects may change the sun's light: a square across its rays, as
-/// shadows::ShadowSliceUniforms has it.
-struct SunWindow {
-  glm::vec4 u_from_marker{0.0F}, v_from_marker{0.0F};
-  float side = 0.0F;       ///< Of the square, from 0 on.
-  glm::vec3 to_sun{0.0F};  ///< Unit; zero without a sun.
-  bool operator==(const SunWindow&) const = default;
-
-  /// For maps that do not say where they end.
-  static SunWindow Everywhere(const glm::vec3& to_sun) {
-    const glm::vec4 inside(0.0F, 0.0F, 0.0F, 1.0F);
-    return {inside, inside, 2.0F, to_sun};
-  }
-};
 
 /// Sorts a phantom's triangles by what virtual objects may change of their light: what they leave
 /// alone needs no shading, and what is in its own shade anyway no look into shadow maps.
@@ -40,8 +26,8 @@ class ChangingTriangles {
 
   explicit ChangingTriangles(const LitMesh& phantom);
 
-  /// Sorts; one past the last index of each kind is in ends().
-  void Sort(const SunWindow& window);
+  /// Sorts; one past the last index of each kind is in ends(). `objects`: of the same window.
+  void Sort(const SunWindow& window, const SunFootprint& objects = {});
   std::span<const std::uint32_t> indices() const { return indices_; }
   const std::array<int, kChanges>& ends() const { return ends_; }
 
@@ -49,7 +35,8 @@ class ChangingTriangles {
   static constexpr float kNoticeable = 0.002F;
 
  private:
-  Change ChangeOf(const SunWindow& window, std::size_t first_index) const;
+  Change ChangeOf(const SunWindow& window, const SunFootprint& objects,
+                  std::size_t first_index) const;
 
   std::vector<glm::vec3> positions_, normals_;
   std::vector<bool> sky_changes_;  // By vertex.

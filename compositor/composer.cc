@@ -16,6 +16,7 @@
 #include "compositor/embedded_shaders.h"
 #include "compositor/environment_map.h"
 #include "compositor/ground_radiance.h"
+#include "compositor/object_pass.h"
 #include "compositor/ratio_pass.h"
 #include "compositor/render_camera.h"
 #include "compositor/render_targets.h"
@@ -81,8 +82,6 @@ class GlComposer : public Composer {
   Result<void> MakeShadows(const shadows::ShadowMapOptions& options);
   /// The programs for the shadow maps as they are and the air that a frame has.
   Result<const SurfacePrograms*> ProgramsFor(const DrawnFrame& frame);
-  void DrawObjects(const gl::GlProgram& program, SceneSurfaces::ObjectSide side,
-                   const DrawnFrame& frame);
   Result<void> DrawScene(const SurfacePrograms& programs, const shadows::View& view,
                          const DrawnFrame& frame);
   DrawnFrame FrameOf(const shadows::View& view, const Transform<Camera, Marker>& camera_from_marker,
@@ -104,6 +103,7 @@ class GlComposer : public Composer {
   std::shared_ptr<const SeenSunlight> sunlight_;
   gl::GlTexture sunlight_map_;
   RatioPass ratio_pass_;
+  ObjectPass object_pass_;
   // With shadows of one step of the sun, and of two that fade into one another, without and with
   // haze; made when needed.
   std::array<std::array<std::optional<SurfacePrograms>, 2>, 2> surface_programs_;
@@ -128,6 +128,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   c.environment_.SetWrap(GL_REPEAT);
   PLEINAIR_RETURN_IF_ERROR(c.UploadSunlight({}));
   PLEINAIR_ASSIGN_OR_RETURN(c.ratio_pass_, RatioPass::Create());
+  PLEINAIR_ASSIGN_OR_RETURN(c.object_pass_, ObjectPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
   PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(c.MapOptions(options)));
@@ -184,9 +185,9 @@ Result<const SurfacePrograms*> GlComposer::ProgramsFor(const DrawnFrame& frame) 
   std::optional<SurfacePrograms>& made =
       surface_programs_[shadows_.Fades() ? 1 : 0][frame.hazy ? 1 : 0];
   if (!made) {
-    PLEINAIR_ASSIGN_OR_RETURN(
-        SurfacePrograms programs,
-        SurfacePrograms::Create(shadows_.options(), shadows_.Fades(), frame.hazy));
+    PLEINAIR_ASSIGN_OR_RETURN(SurfacePrograms programs,
+                              SurfacePrograms::Create(shadows_.options(), shadows_.Fades(),
+                                                      frame.hazy, surfaces_.HasTextures()));
     made.emplace(std::move(programs));
   }
   return &*made;
@@ -255,39 +256,24 @@ Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   return {};
 }
 
-void GlComposer::DrawObjects(const gl::GlProgram& program, SceneSurfaces::ObjectSide side,
-                             const DrawnFrame& frame) {
-  program.Use();
-  program.Set("u_clip_from_marker", frame.clip_from_marker);
-  frame.Set(program);
-  frame.SetFog(program);
-  frame.SetSunlight(program);
-  environment_.Bind(1);
-  surfaces_.DrawObjects(program, side);
-}
-
 Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadows::View& view,
                                    const DrawnFrame& frame) {
-  PLEINAIR_RETURN_IF_ERROR(surfaces_.SortPhantoms(HasSun() ? shadows_.Window() : SunWindow{}));
-  surfaces_.SortObjects(frame.to_sun);
+  // Where the picture is asked how much of the sun there is, the sky's light, too, counts by that.
+  const bool other_shade = looks_for_shade_ || (sunlight_ && !sunlight_->share.empty());
+  PLEINAIR_RETURN_IF_ERROR(
+      surfaces_.SortPhantoms(HasSun() ? shadows_.Window() : SunWindow{}, other_shade));
+  PLEINAIR_RETURN_IF_ERROR(surfaces_.SortObjects(frame.to_sun));
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // Open surfaces come as two, one a side. Clockwise, because the picture's rows go down.
   glEnable(GL_CULL_FACE);
   glFrontFace(GL_CW);
   ratio_pass_.DrawSurfaces(targets_, surfaces_, frame);
-  targets_.ClearObjects();
-  const PixelRect objects = PictureOf(render_camera_, view, surfaces_.object_bounds());
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(objects.x, objects.y, objects.width, objects.height);
-  targets_.BeginObjects();
-  sunlight_map_.Bind(5);
-  using Side = SceneSurfaces::ObjectSide;
-  DrawObjects(programs.objects, Side::kFacingSun, frame);
-  DrawObjects(programs.objects_in_own_shade, Side::kTurnedAway, frame);
+  object_pass_.DrawSurfaces(targets_, surfaces_, frame);
   glDisable(GL_CULL_FACE);
-  targets_.Resolve();
-  glDisable(GL_SCISSOR_TEST);
+  sunlight_map_.Bind(5);
+  object_pass_.Draw(targets_, surfaces_, programs, frame, environment_,
+                    PictureOf(render_camera_, view, surfaces_.object_bounds()));
   picture_.BindForShading(2, 3, 4);
   ratio_pass_.Draw(targets_, surfaces_, programs, frame, {looks_for_shade_, board_size_m_});
   glDisable(GL_DEPTH_TEST);

@@ -11,6 +11,12 @@ void DrawnFrame::Set(const gl::GlProgram& program) const {
   program.Set("u_sun_normal_lux", sun_normal_lux);
 }
 
+void DrawnFrame::SetRays(const gl::GlProgram& program) const {
+  program.Set("u_ray", ray[0]);
+  program.Set("u_ray_x", ray[1]);
+  program.Set("u_ray_y", ray[2]);
+}
+
 void DrawnFrame::SetFog(const gl::GlProgram& program) const {
   program.SetArray("u_fog_split_m",
                    std::vector<float>(fog.distance_m.begin(), fog.distance_m.end()));

@@ -22,6 +22,8 @@ struct DrawnFrame {
 
   /// Eye, gain and sun, which all of them are told.
   void Set(const gl::GlProgram& program) const;
+  /// For shaders/seen_surface.glsl.
+  void SetRays(const gl::GlProgram& program) const;
   void SetFog(const gl::GlProgram& program) const;
   /// For shaders/seen_sunlight.glsl.
   void SetSunlight(const gl::GlProgram& program) const;

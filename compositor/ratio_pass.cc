@@ -41,9 +41,9 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
   targets.BeginRatio();
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
-  // The air before a surface is seen beside the objects that cover it in part.
+  // The air before a surface is seen beside the objects that cover the pixel in part.
   glEnablei(GL_BLEND, 1);
-  glBlendFuncSeparatei(1, GL_ONE_MINUS_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE);
+  glBlendFuncSeparatei(1, GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
   if (!frame.hazy) glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   targets.seen().Bind(0);
   for (const Change change : {Change::kSun, Change::kSunlitSky, Change::kSky}) {
@@ -51,10 +51,8 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
     program.Use();
     program.Set("u_depth", DepthOf(change));
     program.Set("u_samples", static_cast<float>(targets.samples()));
-    program.Set("u_ray", frame.ray[0]);
-    program.Set("u_ray_x", frame.ray[1]);
-    program.Set("u_ray_y", frame.ray[2]);
     frame.Set(program);
+    frame.SetRays(program);
     if (frame.hazy) frame.SetFog(program);
     if (change == Change::kSun) {
       program.Set("u_looks", shade.look ? 1.0F : 0.0F);

@@ -20,7 +20,8 @@ class RatioPass {
   /// Errors as gl::GlProgram::Create.
   static Result<RatioPass> Create();
 
-  /// Draws which triangles of the real surfaces the samples show, and their depth.
+  /// Draws which triangles of the real surfaces the samples show, and their depth. What objects are
+  /// drawn before them afterwards is left out by Draw().
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                     const DrawnFrame& frame) const;
 
@@ -28,7 +29,7 @@ class RatioPass {
     bool look = true;      ///< Composer::LookForShade().
     double board_m = 0.0;  ///< Composer::SetMarkerBoard().
   };
-  /// Shades what DrawSurfaces() found, once the objects are drawn and resolved; leaves depth and
+  /// Shades what DrawSurfaces() found, once the objects are drawn; leaves depth and
   /// blending as glEnable(GL_DEPTH_TEST) finds them. CameraPicture::BindForShading(2, 3, 4) and the
   /// map of the sunlight at unit 5 must have been bound.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,

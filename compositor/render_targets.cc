@@ -21,7 +21,7 @@ Result<RenderTargets> RenderTargets::Create(int width, int height) {
     return gl::GlTexture::Create2DMultisample(format, width, height, samples);
   };
   PLEINAIR_ASSIGN_OR_RETURN(targets.ids_, create_samples(GL_R32UI));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.objects_samples_, create_samples(GL_RGBA16F));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.texels_, create_samples(GL_RGBA16F));
   PLEINAIR_ASSIGN_OR_RETURN(targets.depth_samples_, create_samples(GL_DEPTH_COMPONENT32F));
   PLEINAIR_ASSIGN_OR_RETURN(targets.seen_, gl::GlTexture::Create2D(GL_RGBA32UI, width, height));
   targets.seen_.SetFilter(GL_NEAREST, GL_NEAREST);
@@ -33,13 +33,13 @@ Result<RenderTargets> RenderTargets::Create(int width, int height) {
   }
   PLEINAIR_ASSIGN_OR_RETURN(
       targets.draw_ids_, gl::GlFramebuffer::Create({{{&targets.ids_}}, {&targets.depth_samples_}}));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      targets.draw_objects_,
-      gl::GlFramebuffer::Create({{{&targets.objects_samples_}}, {&targets.depth_samples_}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.resolved_objects_,
-                            gl::GlFramebuffer::Create({{{&targets.objects_}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.draw_ids_and_texels_,
+                            gl::GlFramebuffer::Create({{{&targets.ids_}, {&targets.texels_}},
+                                                       {&targets.depth_samples_}}));
   PLEINAIR_ASSIGN_OR_RETURN(targets.sort_,
                             gl::GlFramebuffer::Create({{{&targets.seen_}}, {&targets.kinds_}}));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.draw_objects_,
+                            gl::GlFramebuffer::Create({{{&targets.objects_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
       targets.draw_ratio_,
       gl::GlFramebuffer::Create({{{&targets.ratio_}, {&targets.objects_}}, {&targets.kinds_}}));
@@ -57,16 +57,16 @@ void RenderTargets::BeginSurfaces() const {
   draw_ids_.ClearDepth(1.0F);
 }
 
-void RenderTargets::ClearObjects() const { resolved_objects_.ClearColor(0, 0, 0, 0, 0); }
+void RenderTargets::BeginObjectIds(bool textured) const {
+  (textured ? draw_ids_and_texels_ : draw_ids_).Bind();
+}
+
+void RenderTargets::BeginSorting() const { sort_.Bind(); }
 
 void RenderTargets::BeginObjects() const {
   draw_objects_.Bind();
   draw_objects_.ClearColor(0, 0, 0, 0, 0);
 }
-
-void RenderTargets::Resolve() const { draw_objects_.BlitTo(resolved_objects_); }
-
-void RenderTargets::BeginSorting() const { sort_.Bind(); }
 
 void RenderTargets::BeginRatio() const {
   draw_ratio_.Bind();

@@ -13,17 +13,15 @@ class RenderTargets {
   /// Errors (system): a size or format that the renderer cannot do.
   static Result<RenderTargets> Create(int width, int height);
 
-  /// Draws go to the numbers of the real surfaces' triangles, a sample each, and to their depth;
-  /// cleared to 0.
+  /// Draws go to the numbers of triangles, a sample each, and to their depth; cleared to 0.
   void BeginSurfaces() const;
-  /// Draws go to the objects' premultiplied display-linear colour with coverage, behind the
-  /// surfaces' depth; cleared to 0. Resolve() makes objects() of it, which ClearObjects() cleared.
-  /// All but that keep to the scissor.
-  void ClearObjects() const;
-  void BeginObjects() const;
-  void Resolve() const;
+  /// Draws go there still; `textured`: and to what textures leave of the base colour (colour 1).
+  void BeginObjectIds(bool textured) const;
   /// Draws go, once a pixel, to what the numbers say of it, and its depth.
   void BeginSorting() const;
+  /// Draws go to objects(), the objects' premultiplied display-linear colour with coverage, with
+  /// the depth that sorting gave; cleared to 0.
+  void BeginObjects() const;
   /// Draws go to the differential ratio (colour 0, cleared to 1) and to objects() (colour 1), with
   /// the depth that sorting gave.
   void BeginRatio() const;
@@ -34,15 +32,16 @@ class RenderTargets {
 
   int samples() const { return ids_.samples(); }
   const gl::GlTexture& ids() const { return ids_; }
+  const gl::GlTexture& texels() const { return texels_; }
   const gl::GlTexture& seen() const { return seen_; }
   const gl::GlTexture& ratio() const { return ratio_; }
   const gl::GlTexture& objects() const { return objects_; }
 
  private:
-  gl::GlTexture ids_, objects_samples_, depth_samples_;
+  gl::GlTexture ids_, texels_, depth_samples_;
   gl::GlTexture seen_, kinds_, ratio_, objects_;
   gl::GlTexture passed_ratio_, passed_objects_;
-  gl::GlFramebuffer draw_ids_, draw_objects_, resolved_objects_, sort_, draw_ratio_;
+  gl::GlFramebuffer draw_ids_, draw_ids_and_texels_, sort_, draw_objects_, draw_ratio_;
   gl::GlFramebuffer pass_, back_;
 };
 

@@ -14,6 +14,7 @@ namespace {
 
 // Sides of the two finest maps that are left open; those of the others are half of it.
 constexpr int kSmallestOpenMap = 1024, kLargestOpenMap = 2048;
+constexpr float kReachSlack = 1.25F, kReachTexels = 6.0F;
 
 }  // namespace
 
@@ -68,9 +69,13 @@ Result<void> SceneShadows::Update(const SceneSurfaces& surfaces, Direction<Marke
 SunWindow SceneShadows::Window() const {
   // Of two steps of the sun one will do: a window's margin is wider than a step moves it.
   const shadows::ShadowSliceUniforms& finest = maps().uniforms().slices[0];
-  const glm::vec3 to_sun(maps().uniforms().to_sun);
-  return FitsView() ? SunWindow::Everywhere(to_sun)
-                    : SunWindow{finest.u_from_marker, finest.v_from_marker, finest.size.z, to_sun};
+  const glm::vec4& to_sun = maps().uniforms().to_sun;
+  if (FitsView()) return SunWindow::Everywhere(to_sun);
+  // A blocker shades no farther aside than the disc is wide as seen from the depths' far end; a
+  // quarter more for the sun between two steps. Texels: those that a look compares beside its own.
+  const float reach_m = kReachSlack * finest.size.w * to_sun.w +
+                        kReachTexels * std::max(finest.size.x, finest.size.y);
+  return {finest.u_from_marker, finest.v_from_marker, finest.size.z, to_sun, reach_m};
 }
 
 }  // namespace pleinair::compositor

@@ -1,5 +1,6 @@
 #include "compositor/scene_surfaces.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -15,6 +16,11 @@ Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scen
   for (const PlacedModel& placed : scene) {
     PLEINAIR_ASSIGN_OR_RETURN(auto textures, UploadTextures(*placed.model));
     surfaces.model_textures_.push_back(std::move(textures));
+    surfaces.has_textures_ =
+        surfaces.has_textures_ ||
+        (!placed.is_phantom &&
+         std::any_of(placed.model->materials.begin(), placed.model->materials.end(),
+                     [](const Material& m) { return m.base_color_texture >= 0; }));
   }
   return surfaces;
 }
@@ -26,24 +32,33 @@ Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
   moved_.assign(scene_.size(), glm::dmat4(1.0));
   phantom_triangles_.clear();
   object_triangles_.clear();
-  sorted_for_.reset();
+  object_positions_.clear();
   ++revision_;
-  std::vector<float> green_albedo;
+  std::vector<const LitMesh*> phantoms, objects;
+  std::vector<float> green_albedos, object_numbers;
   for (const LitMesh& mesh : lit) {
     PLEINAIR_ASSIGN_OR_RETURN(SurfaceBuffers surface, SurfaceBuffers::Create(mesh));
     surfaces_.push_back(std::move(surface));
     lit_bounds_.emplace_back();
     for (const auto& p : mesh.positions) lit_bounds_.back().Include({p[0], p[1], p[2]});
     if (mesh.is_phantom) {
+      const Material& material = MaterialOf(surfaces_.back());
+      const bool even = material.base_color_texture < 0 && material.metallic == 0.0F;
+      green_albedos.push_back(even ? material.base_color[1] : 0.0F);
       phantom_triangles_.emplace_back(mesh);
+      phantoms.push_back(&mesh);
     } else {
+      object_numbers.push_back(static_cast<float>(objects.size()));
       object_triangles_.emplace_back(mesh);
+      object_positions_.emplace_back();
+      object_positions_.back().reserve(mesh.positions.size());
+      for (const auto& [x, y, z] : mesh.positions) object_positions_.back().emplace_back(x, y, z);
+      objects.push_back(&mesh);
     }
-    const Material& material = scene_[mesh.placed_model].model->materials[mesh.material];
-    const bool even = material.base_color_texture < 0 && material.metallic == 0.0F;
-    green_albedo.push_back(even ? material.base_color[1] : 0.0F);
   }
-  PLEINAIR_ASSIGN_OR_RETURN(table_, TriangleTable::Create(lit, green_albedo));
+  PLEINAIR_ASSIGN_OR_RETURN(phantom_table_, TriangleTable::Create(phantoms, green_albedos));
+  PLEINAIR_ASSIGN_OR_RETURN(object_table_, TriangleTable::Create(objects, object_numbers));
+  objects_sorted_ = false;
   PlaceCasters();
   return {};
 }
@@ -60,6 +75,8 @@ void SceneSurfaces::Move(int placed_model, const Mat3& linear, Vec3 translation_
 
 /// Casters and bounds with the models where they were moved to.
 void SceneSurfaces::PlaceCasters() {
+  objects_placed_ = false;
+  sorted_for_.reset();
   casters_.clear();
   phantom_casters_.clear();
   object_bounds_ = bounds_ = {};
@@ -87,17 +104,44 @@ void SceneSurfaces::PlaceCasters() {
   }
 }
 
-Result<void> SceneSurfaces::SortPhantoms(const SunWindow& window) {
-  if (window == sorted_for_) return {};
+SunFootprint SceneSurfaces::FootprintOf(const SunWindow& window) const {
+  if (window.side == 0.0F) return {};
+  SunFootprint footprint(window);
+  std::size_t object = 0;
+  std::vector<glm::vec2> at;
+  for (const SurfaceBuffers& surface : surfaces_) {
+    if (surface.is_phantom()) continue;
+    const glm::mat4 moved(moved_[surface.placed_model()]);
+    at.clear();
+    for (const glm::vec3& position : object_positions_[object]) {
+      at.push_back(window.At(glm::vec3(moved * glm::vec4(position, 1.0F))));
+    }
+    const std::span<const std::uint32_t> indices = object_triangles_[object].indices();
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+      const glm::vec2 a = at[indices[i]], b = at[indices[i + 1]], c = at[indices[i + 2]];
+      footprint.Include(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c));
+    }
+    ++object;
+  }
+  return footprint;
+}
+
+Result<void> SceneSurfaces::SortPhantoms(const SunWindow& window, bool whole) {
+  if (sorted_for_ == std::pair(window, whole)) return {};
+  const SunFootprint footprint = whole ? SunFootprint() : FootprintOf(window);
   auto triangles = phantom_triangles_.begin();
+  std::vector<SortedTriangles> sorted;
+  sorted.reserve(phantom_triangles_.size());
   for (SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
-    triangles->Sort(window);
+    triangles->Sort(window, footprint);
     surface.SetIndices(triangles->indices());
+    sorted.push_back(
+        {triangles->indices(), std::span(triangles->ends()).first(ChangingTriangles::kNothing)});
     ++triangles;
   }
-  PLEINAIR_RETURN_IF_ERROR(table_.SetTriangles(phantom_triangles_));
-  sorted_for_ = window;
+  PLEINAIR_RETURN_IF_ERROR(phantom_table_.SetTriangles(sorted));
+  sorted_for_ = {window, whole};
   return {};
 }
 
@@ -106,7 +150,7 @@ void SceneSurfaces::DrawPhantoms(const gl::GlProgram& program) const {
   for (const SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
     const auto& ends = phantom_triangles_[phantom].ends();
-    program.Set("u_first_id", table_.first_id(phantom));
+    program.Set("u_first_id", phantom_table_.first_id(phantom));
     program.Set("u_step", 1);
     surface.Draw(0, ends[ChangingTriangles::kSky]);
     program.Set("u_first_id", 0);
@@ -116,23 +160,12 @@ void SceneSurfaces::DrawPhantoms(const gl::GlProgram& program) const {
   }
 }
 
-void SceneSurfaces::SetMaterial(const gl::GlProgram& program, const SurfaceBuffers& surface) const {
-  const Model& model = *scene_[surface.placed_model()].model;
-  const Material& material = model.materials[surface.material()];
-  const gl::GlTexture& texture =
-      material.base_color_texture >= 0
-          ? model_textures_[surface.placed_model()][material.base_color_texture]
-          : white_;
-  texture.Bind(0);
-  program.Set("u_base_color",
-              glm::vec3(material.base_color[0], material.base_color[1], material.base_color[2]));
-  program.Set("u_metallic", material.metallic);
-  program.Set("u_roughness", material.roughness);
-  program.Set("u_dielectric_f0", material.specular_f0);
-}
-
-void SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
+Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
   auto triangles = object_triangles_.begin();
+  std::vector<std::array<int, 2>> ends;
+  ends.reserve(object_triangles_.size());
+  std::vector<SortedTriangles> sorted;
+  sorted.reserve(object_triangles_.size());
   for (SurfaceBuffers& surface : surfaces_) {
     if (surface.is_phantom()) continue;
     // Angles stay where a model is moved, but a scale does not.
@@ -141,24 +174,33 @@ void SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
     const double size = glm::length(lit_to_sun);
     if (triangles->Sort(size > 0.0 ? glm::vec3(lit_to_sun / size) : glm::vec3(0.0F))) {
       surface.SetIndices(triangles->indices());
+      objects_sorted_ = false;
     }
+    if (!objects_placed_) {
+      object_records_.Set(sorted.size(), MaterialOf(surface),
+                          glm::mat4(moved_[surface.placed_model()]));
+    }
+    ends.push_back({triangles->facing_end(), surface.index_count()});
+    sorted.push_back({triangles->indices(), ends.back()});
     ++triangles;
   }
+  if (!objects_sorted_) PLEINAIR_RETURN_IF_ERROR(object_table_.SetTriangles(sorted));
+  if (!objects_placed_) PLEINAIR_RETURN_IF_ERROR(object_records_.Upload());
+  objects_sorted_ = objects_placed_ = true;
+  return {};
 }
 
-void SceneSurfaces::DrawObjects(const gl::GlProgram& program, ObjectSide side) const {
-  auto triangles = object_triangles_.begin();
+void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
+  std::size_t object = 0;
+  program.Set("u_step", 1);
   for (const SurfaceBuffers& surface : surfaces_) {
     if (surface.is_phantom()) continue;
-    SetMaterial(program, surface);
+    const int texture = MaterialOf(surface).base_color_texture;
+    (texture >= 0 ? model_textures_[surface.placed_model()][texture] : white_).Bind(0);
     program.Set("u_marker_from_lit", glm::mat4(moved_[surface.placed_model()]));
-    const int facing = triangles->facing_end();
-    if (side == ObjectSide::kFacingSun) {
-      surface.Draw(0, facing);
-    } else {
-      surface.Draw(facing, surface.index_count());
-    }
-    ++triangles;
+    program.Set("u_first_id", object_table_.first_id(object));
+    surface.Draw();
+    ++object;
   }
 }
 

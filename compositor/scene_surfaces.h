@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -12,6 +13,7 @@
 #include "compositor/facing_triangles.h"
 #include "compositor/light_solver.h"
 #include "compositor/surface_buffers.h"
+#include "compositor/surface_records.h"
 #include "compositor/triangle_table.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -37,35 +39,50 @@ class SceneSurfaces {
   const shadows::Box& object_bounds() const { return object_bounds_; }
   const shadows::Box& bounds() const { return bounds_; }
 
-  /// Tells what of the phantoms the objects may change within `window`. Errors (system): no memory.
-  Result<void> SortPhantoms(const SunWindow& window);
+  /// Tells what of the phantoms the objects may change within `window`; `whole`: the sun's light in
+  /// all of it, also where no object hides it. Errors (system): no memory.
+  Result<void> SortPhantoms(const SunWindow& window, bool whole);
   /// Draws the numbers that the phantoms' triangles have in triangles(), of those that change;
   /// `program` of shaders/triangle_id.frag is in use.
   void DrawPhantoms(const gl::GlProgram& program) const;
-  const TriangleTable& triangles() const { return table_; }
-  /// Tells which of the objects' triangles may face the sun; `to_sun` zero: none.
-  void SortObjects(const glm::vec3& to_sun);
-  enum class ObjectSide { kFacingSun, kTurnedAway };
-  /// Draws one side of the virtual objects with `program`, which is in use: their materials and
-  /// places.
-  void DrawObjects(const gl::GlProgram& program, ObjectSide side) const;
+  const TriangleTable& triangles() const { return phantom_table_; }
+  /// Tells which of the objects' triangles may face the sun, `to_sun` zero: none, and where the
+  /// objects stand. Errors (system): no memory.
+  Result<void> SortObjects(const glm::vec3& to_sun);
+  /// Draws the numbers that the objects' triangles have in object_triangles(), with their textures;
+  /// `program` of shaders/triangle_id.frag is in use.
+  void DrawObjects(const gl::GlProgram& program) const;
+  const TriangleTable& object_triangles() const { return object_table_; }
+  /// By the values of object_triangles().
+  const SurfaceRecords& object_records() const { return object_records_; }
+  /// Some of the objects have textures.
+  bool HasTextures() const { return has_textures_; }
   /// Draws everything with `program`, which is in use: places alone.
   void Draw(const gl::GlProgram& program) const;
 
  private:
   void PlaceCasters();
-  void SetMaterial(const gl::GlProgram& program, const SurfaceBuffers& surface) const;
+  /// What the objects cover of `window` where they stand now.
+  SunFootprint FootprintOf(const SunWindow& window) const;
+  const Material& MaterialOf(const SurfaceBuffers& surface) const {
+    return scene_[surface.placed_model()].model->materials[surface.material()];
+  }
 
   std::vector<PlacedModel> scene_;
+  bool has_textures_ = false;
   gl::GlTexture white_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
   std::vector<SurfaceBuffers> surfaces_;
   std::vector<shadows::Box> lit_bounds_;  // Of the surfaces, where they were lit.
   std::vector<glm::dmat4> moved_;         // By placed model: marker from where it was lit.
-  std::vector<ChangingTriangles> phantom_triangles_;  // Of the phantoms among them, in order.
-  std::vector<FacingTriangles> object_triangles_;     // Of the objects, in order.
-  TriangleTable table_;
-  std::optional<SunWindow> sorted_for_;
+  std::vector<ChangingTriangles> phantom_triangles_;      // Of the phantoms among them, in order.
+  std::vector<FacingTriangles> object_triangles_;         // Of the objects, in order.
+  std::vector<std::vector<glm::vec3>> object_positions_;  // Of their vertices, where they were lit.
+  TriangleTable phantom_table_, object_table_;
+  SurfaceRecords object_records_;
+  // object_table_ and object_records_ are as object_triangles_ and moved_ are.
+  bool objects_sorted_ = false, objects_placed_ = false;
+  std::optional<std::pair<SunWindow, bool>> sorted_for_;  // As SortPhantoms() was called.
   std::vector<shadows::ShadowCaster> casters_, phantom_casters_;
   shadows::Box object_bounds_, bounds_;
   std::uint64_t revision_ = 0;  // Of the surfaces; the shadow maps follow it.

@@ -21,16 +21,17 @@ shadows::ShadowMethod MethodForSky(shadows::ShadowMethod method) {
 }  // namespace
 
 Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions& options,
-                                                bool fades, bool hazy) {
-  const auto make = [&](const std::string& vertex, const std::string& fragment, const char* change,
+                                                bool fades, bool hazy, bool textured) {
+  const auto make = [&](const std::string& fragment, const std::vector<std::string>& permutation,
                         shadows::ShadowMethod method) {
     shadows::ShadowMapOptions shading = options;
     shading.method = method;
     std::vector<std::string> defines =
         shadows::FadingShadowMaps::ShaderDefines(shading, SceneShadows::kSets, fades);
-    if (change != nullptr) defines.emplace_back(change);
+    defines.insert(defines.end(), permutation.begin(), permutation.end());
     if (hazy) defines.emplace_back("HAZE");
-    return gl::GlProgram::Create({.vertex = "compositor/shaders/" + vertex,
+    if (textured) defines.emplace_back("TEXTURED");
+    return gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                                   .fragment = "compositor/shaders/" + fragment,
                                   .defines = std::move(defines)});
   };
@@ -40,15 +41,13 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
   for (std::size_t change = 0; change < kChangeDefines.size(); ++change) {
     PLEINAIR_ASSIGN_OR_RETURN(
         programs.phantoms[change],
-        make("screen_triangle.vert", "phantom_ratio.frag", kChangeDefines[change],
+        make("phantom_ratio.frag", {kChangeDefines[change]},
              change == ChangingTriangles::kSunlitSky ? MethodForSky(options.method)
                                                      : options.method));
   }
-  PLEINAIR_ASSIGN_OR_RETURN(
-      programs.objects, make("scene_surface.vert", "virtual_object.frag", nullptr, options.method));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      programs.objects_in_own_shade,
-      make("scene_surface.vert", "virtual_object.frag", "NO_SUN", options.method));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.objects, make("virtual_object.frag", {}, options.method));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.objects_in_own_shade,
+                            make("virtual_object.frag", {"NO_SUN"}, options.method));
   return programs;
 }
 

@@ -12,14 +12,15 @@ namespace pleinair::compositor {
 /// The programs that shade a scene's surfaces, of one permutation.
 struct SurfacePrograms {
   /// `fades`: the sun stands between two steps, FadingShadowMaps::Fades(); `hazy`: the air before
-  /// the real surfaces counts. Errors as gl::GlProgram::Create.
+  /// the real surfaces counts; `textured`: some of the objects have textures. Errors as
+  /// gl::GlProgram::Create.
   static Result<SurfacePrograms> Create(const shadows::ShadowMapOptions& options, bool fades,
-                                        bool hazy);
+                                        bool hazy, bool textured);
 
   /// By what may change of the light: ChangingTriangles::Change but for kNothing.
   std::array<gl::GlProgram, ChangingTriangles::kNothing> phantoms;
-  gl::GlProgram objects;               ///< Of triangles that may face the sun, and
-  gl::GlProgram objects_in_own_shade;  ///< of those that do not.
+  gl::GlProgram objects;               ///< Where the sun may shine on some of a pixel, and
+  gl::GlProgram objects_in_own_shade;  ///< where it does not.
 };
 
 }  // namespace pleinair::compositor

@@ -5,28 +5,12 @@
 #include <cstddef>
 #include <numeric>
 
+#include "compositor/texture_rows.h"
+
 namespace pleinair::compositor {
 namespace {
 
 using Texel = std::array<float, 4>;
-
-/// Writes `texels` into `texture`, whole rows, which it fills up; into a new one where the rows are
-/// more than it has.
-template <typename T>
-Result<void> UploadRows(std::vector<T>& texels, int width, GLenum internal_format, GLenum format,
-                        GLenum type, gl::GlTexture* texture) {
-  const auto row = static_cast<std::size_t>(width);
-  const std::size_t rows = std::max<std::size_t>((texels.size() + row - 1) / row, 1);
-  const std::size_t had = *texture ? static_cast<std::size_t>(texture->height()) : 0;
-  texels.resize(std::max(rows, had) * row);
-  if (rows > had) {
-    PLEINAIR_ASSIGN_OR_RETURN(
-        *texture, gl::GlTexture::Create2D(internal_format, width, static_cast<int>(rows)));
-    texture->SetFilter(GL_NEAREST, GL_NEAREST);
-  }
-  texture->Upload(format, type, texels.data());
-  return {};
-}
 
 }  // namespace
 
@@ -53,46 +37,45 @@ std::vector<std::uint32_t> SheetsOf(const LitMesh& mesh, std::uint32_t first) {
   return sheets;
 }
 
-Result<TriangleTable> TriangleTable::Create(const std::vector<LitMesh>& lit,
-                                            std::span<const float> green_albedo) {
+Result<TriangleTable> TriangleTable::Create(std::span<const LitMesh* const> meshes,
+                                            std::span<const float> values) {
   TriangleTable table;
   std::vector<Texel> vertices;
-  std::vector<float> albedos;
-  for (std::size_t m = 0; m < lit.size(); ++m) {
-    const LitMesh& mesh = lit[m];
-    if (!mesh.is_phantom) continue;
+  std::vector<float> sheet_values;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const LitMesh& mesh = *meshes[m];
     table.first_vertices_.push_back(static_cast<std::uint32_t>(vertices.size() / kTexelsAVertex));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const auto& [x, y, z] = mesh.positions[i];
       const auto& [nx, ny, nz] = mesh.normals[i];
       const auto& [r, g, b] = mesh.ambient_with[i];
-      const auto& [r0, g0, b0] = mesh.ambient_without[i];
+      // Of the virtual objects there is no light without them.
+      const auto& [r0, g0, b0] = mesh.is_phantom ? mesh.ambient_without[i] : mesh.ambient_with[i];
       vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {r0, g0, b0, nz}});
     }
-    const auto sheets = SheetsOf(mesh, static_cast<std::uint32_t>(albedos.size()));
+    const auto sheets = SheetsOf(mesh, static_cast<std::uint32_t>(sheet_values.size()));
     if (!sheets.empty()) {
-      albedos.resize(*std::max_element(sheets.begin(), sheets.end()) + std::size_t{1},
-                     green_albedo[m]);
+      sheet_values.resize(*std::max_element(sheets.begin(), sheets.end()) + std::size_t{1},
+                          values[m]);
     }
     table.sheets_.insert(table.sheets_.end(), sheets.begin(), sheets.end());
   }
   PLEINAIR_RETURN_IF_ERROR(UploadRows(vertices, kVerticesARow * kTexelsAVertex, GL_RGBA32F, GL_RGBA,
                                       GL_FLOAT, &table.vertices_));
   PLEINAIR_RETURN_IF_ERROR(
-      UploadRows(albedos, kTrianglesARow, GL_R32F, GL_RED, GL_FLOAT, &table.green_albedos_));
+      UploadRows(sheet_values, kTrianglesARow, GL_R32F, GL_RED, GL_FLOAT, &table.values_));
   return table;
 }
 
-Result<void> TriangleTable::SetTriangles(std::span<const ChangingTriangles> phantoms) {
+Result<void> TriangleTable::SetTriangles(std::span<const SortedTriangles> meshes) {
   texels_.clear();
   first_ids_.clear();
-  for (std::size_t phantom = 0; phantom < phantoms.size(); ++phantom) {
+  for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
     first_ids_.push_back(static_cast<int>(texels_.size()) + 1);
-    const std::uint32_t first = first_vertices_[phantom];
-    const std::span<const std::uint32_t> indices = phantoms[phantom].indices();
-    const auto& ends = phantoms[phantom].ends();
+    const std::uint32_t first = first_vertices_[mesh];
+    const auto& [indices, ends] = meshes[mesh];
     std::uint32_t kind = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(ends[ChangingTriangles::kSky]); i += 3) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(ends.back()); i += 3) {
       while (i >= static_cast<std::size_t>(ends[kind])) ++kind;
       texels_.push_back({first + indices[i], first + indices[i + 1], first + indices[i + 2],
                          kind | sheets_[first + indices[i]] << kKindBits});
@@ -105,7 +88,7 @@ Result<void> TriangleTable::SetTriangles(std::span<const ChangingTriangles> phan
 void TriangleTable::Bind() const {
   triangles_.Bind(1);
   vertices_.Bind(6);
-  green_albedos_.Bind(7);
+  values_.Bind(7);
 }
 
 }  // namespace pleinair::compositor

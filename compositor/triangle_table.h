@@ -6,17 +6,21 @@
 #include <vector>
 
 #include "base/error.h"
-#include "compositor/changing_triangles.h"
 #include "compositor/light_solver.h"
 #include "gl/texture.h"
 
 namespace pleinair::compositor {
 
-/// The phantoms' triangles in textures, for shaders that learn from a picture of numbers what each
-/// pixel shows (shaders/triangle_table.glsl). Pixels are then shaded once, where drawing the
-/// triangles shades each pixel along their edges several times: Burns & Hunt 2013, "The Visibility
-/// Buffer: A Cache-Friendly Approach to Deferred Shading". Needs a current OpenGL context;
-/// move-only.
+/// A mesh's indices, sorted by kinds of triangles; one past the last index of each kind.
+struct SortedTriangles {
+  std::span<const std::uint32_t> indices;
+  std::span<const int> ends;
+};
+
+/// Triangles in textures, for shaders that learn from a picture of numbers what each pixel shows
+/// (shaders/triangle_table.glsl). Pixels are then shaded once, where drawing the triangles shades
+/// each pixel along their edges several times: Burns & Hunt 2013, "The Visibility Buffer: A
+/// Cache-Friendly Approach to Deferred Shading". Needs a current OpenGL context; move-only.
 class TriangleTable {
  public:
   /// How it is laid out: twins of shaders/triangle_layout.glsl.
@@ -24,25 +28,26 @@ class TriangleTable {
   static constexpr std::uint32_t kKindBits = 2;  ///< Of a triangle's last number; then its sheet.
 
   TriangleTable() = default;
-  /// Of the phantoms among `lit`; `green_albedo` by mesh of `lit`, 0 where it is not known. Errors
-  /// (system): more vertices than a texture holds (11 million with llvmpipe), no memory.
-  static Result<TriangleTable> Create(const std::vector<LitMesh>& lit,
-                                      std::span<const float> green_albedo);
+  /// Of meshes that are all phantoms or none; `values` by mesh, what the shaders may ask of each
+  /// sheet of it. Errors (system): more vertices than a texture holds (11 million with llvmpipe),
+  /// no memory.
+  static Result<TriangleTable> Create(std::span<const LitMesh* const> meshes,
+                                      std::span<const float> values);
 
-  /// The triangles that may change, by phantom in their order. Memory is kept from call to call and
-  /// grows alone. Errors as Create().
-  Result<void> SetTriangles(std::span<const ChangingTriangles> phantoms);
+  /// The triangles that have numbers, by mesh in their order: those before the last of its ends.
+  /// Memory is kept from call to call and grows alone. Errors as Create().
+  Result<void> SetTriangles(std::span<const SortedTriangles> meshes);
 
-  /// Number of a phantom's first changing triangle; the others follow.
-  int first_id(std::size_t phantom) const { return first_ids_[phantom]; }
-  /// For the shaders' table, and for what they ask of sheets.
+  /// Number of a mesh's first triangle; the others follow.
+  int first_id(std::size_t mesh) const { return first_ids_[mesh]; }
+  /// Binds the shaders' table, units 1 and 6, and the values by sheet, unit 7.
   void Bind() const;
 
  private:
-  gl::GlTexture triangles_, vertices_, green_albedos_;
-  std::vector<std::uint32_t> first_vertices_;         // By phantom.
+  gl::GlTexture triangles_, vertices_, values_;
+  std::vector<std::uint32_t> first_vertices_;         // By mesh.
   std::vector<std::uint32_t> sheets_;                 // By vertex.
-  std::vector<int> first_ids_;                        // By phantom.
+  std::vector<int> first_ids_;                        // By mesh.
   std::vector<std::array<std::uint32_t, 4>> texels_;  // Of the triangles.
 };
 

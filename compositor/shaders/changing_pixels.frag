@@ -1,6 +1,6 @@
 #version 450 core
 // What of a pixel is to be shaded: the triangles that its samples show, one for each sheet of a real
-// surface, with the number of samples that show that sheet. The pixel's depth says what may change
+// surface, with the samples that show that sheet. The pixel's depth says what may change
 // of it, for the passes that shade: ChangingTriangles::Change, the most of its samples.
 
 #include "compositor/shaders/triangle_table.glsl"
@@ -12,9 +12,10 @@ layout(location = 0) out uvec4 out_seen;  // First to last: SeenTriangle.
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  // What is still to be counted; 0: nothing, or done.
+  // What is still to be told; 0: nothing, an object, or done.
   uvec4 left = uvec4(0u);
   for (int i = 0; i < u_samples; ++i) left[i] = texelFetch(u_ids, pixel, i).r;
+  left *= uvec4(lessThan(left, uvec4(kObjectBit)));
   uvec4 seen = uvec4(0u), sheets = uvec4(~0u);
   uint kind = 3u;
   int found = 0;
@@ -22,14 +23,13 @@ void main() {
   do {
     uint id = left.x != 0u ? left.x : left.y != 0u ? left.y : left.z != 0u ? left.z : left.w;
     uvec4 same_id = uvec4(equal(left, uvec4(id)));
-    uint count = same_id.x + same_id.y + same_id.z + same_id.w;
     left *= 1u - same_id;
     uvec4 triangle = TriangleOf(max(id, 1u));
     bvec4 same_sheet = equal(sheets, uvec4(SheetOf(triangle)));
     bool known = any(same_sheet);
     uvec4 slot = uvec4(known ? same_sheet : equal(ivec4(found), ivec4(0, 1, 2, 3)));
     slot *= uint(id != 0u);
-    seen += slot * SeenTriangle(known ? 0u : id, count);
+    seen += slot * SeenTriangle(known ? 0u : id, same_id);
     sheets = mix(sheets, uvec4(SheetOf(triangle)), equal(slot, uvec4(1u)));
     found += known ? 0 : 1;
     kind = id == 0u ? kind : min(kind, KindOf(triangle));

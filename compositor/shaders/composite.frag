@@ -7,7 +7,8 @@
 #include "compositor/shaders/srgb_transfer.glsl"
 
 layout(binding = 0) uniform sampler2D u_background;   // Codes / 255, row 0 = top.
-layout(binding = 1) uniform sampler2D u_ratio;        // differential.glsl, render picture.
+// Mean over a pixel's samples of differential.glsl, 1 where an object covers them. Render picture.
+layout(binding = 1) uniform sampler2D u_ratio;
 layout(binding = 2) uniform sampler2D u_objects;      // Premultiplied display-linear, coverage.
 layout(binding = 3) uniform sampler2D u_positions;    // RenderPositions(), texels.
 
@@ -64,7 +65,7 @@ void main() {
     return;
   }
   vec3 behind = LinearFromEncoded(background.rgb);
-  vec3 kept = ratio * (1.0 - object.a);
+  vec3 kept = max(ratio - object.a, 0.0);  // Nothing is left where the object covers.
   vec3 light = behind * kept + object.rgb;
 #ifdef GRAIN
   light += MissingGrain(pixel, light, behind, kept);

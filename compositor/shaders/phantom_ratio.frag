@@ -1,6 +1,6 @@
 #version 450 core
 // What the virtual objects change of the real surfaces' light in a pixel, see differential.glsl: the
-// mean over its samples, each sheet of a surface (changing_pixels.frag) shaded once. Drawn with
+// mean over its samples, 1 where an object is in front, each sheet of a surface (changing_pixels.frag) shaded once. Drawn with
 // SUN_MAY_CHANGE, SKY_CHANGES or NO_SUN: compositor/changing_triangles.h.
 // HAZE: so far away that the air before the surface counts.
 
@@ -42,7 +42,6 @@ vec3 PictureLight() {
 #ifdef SUN_MAY_CHANGE
 #include "compositor/shaders/seen_sunlight.glsl"
 
-layout(binding = 7) uniform sampler2D u_green_albedos;  // By sheet; 0: not known.
 uniform float u_looks;           // 1; 0 where nothing but phantoms shades: each lies in the sun.
 uniform float u_board_half_m;    // The marker's board lies here: white and black, not the ground.
 
@@ -51,13 +50,11 @@ uniform float u_board_half_m;    // The marker's board lies here: white and blac
 /// again. Green alone, over about three pixels, so that a surface's grain does not count. From half
 /// the sun on all of it counts: patterns are darker than their mean, too. On the marker's board the
 /// map says it, which the white around the print and the ground about it fill.
-float SunSeen(SeenSurface surface, float sun, FogAir air) {
+float SunSeen(SeenSurface surface, int sheet, float sun, FogAir air) {
   const float kPi = 3.14159265;
   const float kShaded = 0.08, kHalf = 0.35, kLit = 0.70;
   vec3 position_m = surface.position_m;
-  int sheet = int(surface.sheet);
-  float green_albedo =
-      u_looks * texelFetch(u_green_albedos, TexelOfTriangle(sheet), 0).r;
+  float green_albedo = u_looks * ValueOfSheet(sheet);  // 0: not known.
   bool on_board = max(abs(position_m.x), abs(position_m.y)) < u_board_half_m &&
                   abs(position_m.z) < 0.25 * u_board_half_m;
   vec2 size = vec2(textureSize(u_background, 0));
@@ -81,7 +78,7 @@ struct Change {
   vec3 haze;  // Display-linear.
 };
 
-Change ChangeOf(SeenSurface surface) {
+Change ChangeOf(SeenSurface surface, int sheet) {
 #ifdef HAZE
   FogAir air = FogUpTo(distance(u_eye_m, surface.position_m), u_fog_split_m, u_fog_optical_depth,
                        u_fog_inscattered);
@@ -100,7 +97,7 @@ Change ChangeOf(SeenSurface surface) {
 #ifdef SUN_MAY_CHANGE
   float visibility_all = ShadowVisibility(1, surface.position_m, surface.flat_normal,
                                           surface.step_x, surface.step_y);
-  float seen = SunSeen(surface, sun.g * visibility_phantoms, air);
+  float seen = SunSeen(surface, sheet, sun.g * visibility_phantoms, air);
   visibility_phantoms *= seen;
   visibility_all *= seen;
 #else
@@ -123,14 +120,17 @@ void main() {
   vec3 ratio = vec3(0.0), haze = vec3(0.0);
   float samples = 0.0;
   do {
-    float count = float(CountOf(seen.x));
-    Change change = ChangeOf(SurfaceSeen(IdOf(seen.x), gl_FragCoord.xy));
+    float count = dot(SamplesOf(seen.x), vec4(1.0));
+    uvec4 triangle = TriangleOf(IdOf(seen.x));
+    Change change = ChangeOf(SurfaceSeen(VertexOf(triangle.x), VertexOf(triangle.y),
+                                         VertexOf(triangle.z), gl_FragCoord.xy),
+                             int(SheetOf(triangle)));
     ratio += count * change.ratio;
     haze += count * change.haze;
     samples += count;
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
-  // The others show what does not change.
+  // The others show what does not change, or objects.
   out_ratio = vec4((ratio + (u_samples - samples)) / u_samples, 1.0);
   out_color = vec4(haze / u_samples, 0.0);
 }

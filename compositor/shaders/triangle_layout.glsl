@@ -4,6 +4,7 @@
 // Numbers alone; compiled as C++ too (gl/glsl_as_cpp.h, tests/compositor/shader_twins_test.cc).
 
 const int kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
+const int kTexelsASurface = 5, kSurfacesARow = 819;
 const int kKindBits = 2;
 
 // Texel of a triangle, and of a sheet, from 0 on.
@@ -12,15 +13,28 @@ ivec2 TexelOfTriangle(int index) { return ivec2(index % kTrianglesARow, index / 
 ivec2 TexelOfVertex(int vertex) {
   return ivec2(kTexelsAVertex * (vertex % kVerticesARow), vertex / kVerticesARow);
 }
+// First texel of a surface of an object (compositor/surface_records.h).
+ivec2 TexelOfSurface(int surface) {
+  return ivec2(kTexelsASurface * (surface % kSurfacesARow), surface / kSurfacesARow);
+}
 
-uint KindOf(uvec4 triangle) { return triangle.w & ((1u << kKindBits) - 1u); }  // Change.
+// Of the real surfaces' triangles: Change. Of the objects': 0 where the sun may shine, else 1.
+uint KindOf(uvec4 triangle) { return triangle.w & ((1u << kKindBits) - 1u); }
 uint SheetOf(uvec4 triangle) { return triangle.w >> kKindBits; }
 
-// What a pixel shows: a triangle's number and of how many samples, which add up.
-const int kCountShift = 28;
-uint SeenTriangle(uint id, uint count) { return count << kCountShift | id; }
-uint IdOf(uint seen) { return seen & ((1u << kCountShift) - 1u); }
-uint CountOf(uint seen) { return seen >> kCountShift; }
+// In the picture of the samples' numbers: of an object, whose triangles have numbers of their own.
+const uint kObjectBit = 1u << 31;
+
+// What a pixel shows: a triangle's number and which of its samples, a bit each, which add up.
+const int kSamplesShift = 28;
+uint SeenTriangle(uint id, uvec4 samples) {
+  return (samples.x + 2u * samples.y + 4u * samples.z + 8u * samples.w) << kSamplesShift | id;
+}
+uint IdOf(uint seen) { return seen & ((1u << kSamplesShift) - 1u); }
+// 1 for each sample, else 0.
+vec4 SamplesOf(uint seen) {
+  return vec4((uvec4(seen >> kSamplesShift) >> uvec4(0u, 1u, 2u, 3u)) & uvec4(1u));
+}
 
 // Depth of the pixels of which no more changes than ChangingTriangles::Change `kind`. Mirrors
 // RatioPass::DepthOf.

@@ -1,13 +1,17 @@
 #ifndef COMPOSITOR_TRIANGLE_TABLE_GLSL
 #define COMPOSITOR_TRIANGLE_TABLE_GLSL
-// The real surfaces' triangles as compositor/triangle_table.h lays them out.
+// Triangles as compositor/triangle_table.h lays them out.
 
 #include "compositor/shaders/triangle_layout.glsl"
 
 layout(binding = 1) uniform usampler2D u_triangles;  // Vertices; sheet and kind.
 layout(binding = 6) uniform sampler2D u_vertices;    // Three texels each.
+// By sheet: of a real surface its green albedo, of an object's the surface's number.
+layout(binding = 7) uniform sampler2D u_sheet_values;
 
 uvec4 TriangleOf(uint id) { return texelFetch(u_triangles, TexelOfTriangle(int(id) - 1), 0); }
+
+float ValueOfSheet(int sheet) { return texelFetch(u_sheet_values, TexelOfTriangle(sheet), 0).r; }
 
 struct TableVertex {
   vec3 position_m, normal, ambient_with, ambient_without;

@@ -1,85 +1,111 @@
 #version 450 core
-// A virtual object's display-linear colour; coverage comes from multisampling. Drawn with NO_SUN where
-// all of it is turned away from the sun.
+// A virtual object's display-linear colour in a pixel: the sum over its samples, each piece of surface
+// (object_pixels.frag) shaded once, and the share of them that it covers. Drawn with NO_SUN where all
+// that a pixel shows is turned away from the sun.
+//
+// TEXTURED: triangle_id.frag read textures.
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/ggx.glsl"
 #include "compositor/shaders/seen_sunlight.glsl"
+#include "compositor/shaders/seen_surface.glsl"
+#include "compositor/shaders/surface_record.glsl"
 #ifndef SHADOW_SETS
 #define SHADOW_SETS 2  // 0: phantoms alone, 1: with the virtual objects.
 #endif
 #include "shadows/shaders/shadow_visibility.glsl"
 
-in vec3 v_position_m;
-in vec3 v_normal;
-in vec2 v_uv;
-centroid in vec3 v_ambient_with;
-
+uniform float u_samples;         // A pixel.
 uniform vec3 u_to_sun;           // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;   // Linear Rec.709.
-uniform vec3 u_eye_m;            // Centre of projection, marker coordinates.
 uniform vec3 u_gain;             // Display-linear value per radiance.
-uniform vec3 u_base_color;       // Linear reflectance.
-uniform float u_metallic;
-uniform float u_roughness;
-uniform float u_dielectric_f0;   // Normal reflectance of the coat; 0: purely diffuse.
 
 uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/aerial_fog.h.
 uniform vec3 u_fog_optical_depth[kFogSplits];
 uniform vec3 u_fog_inscattered[kFogSplits];
 
-layout(binding = 0) uniform sampler2D u_base_color_texture;
-layout(binding = 1) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
+layout(binding = 0) uniform usampler2D u_seen;  // Of object_pixels.frag.
+layout(binding = 3) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
+#ifdef TEXTURED
+layout(binding = 4) uniform sampler2DMS u_texels;
+#endif
 
 layout(location = 0) out vec4 out_color;
 
 vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
   vec2 uv = vec2(atan(direction.y, direction.x) / (2.0 * kPi) + 0.5,
                  acos(clamp(direction.z, -1.0, 1.0)) / kPi);
+  // Repeated around the horizon, but the zenith must not have the nadir's light.
+  float half_row = 0.5 / float(textureSize(u_environment, 0).y);
+  uv.y = clamp(uv.y, half_row, 1.0 - half_row);
   float level = roughness * float(textureSize(u_environment, 0).z - 1);
-  vec3 low = texture(u_environment, vec3(uv, floor(level))).rgb;
-  vec3 high = texture(u_environment, vec3(uv, ceil(level))).rgb;
+  // Explicit: the next pixel may show another surface, and at ±π the direction jumps.
+  vec3 low = textureLod(u_environment, vec3(uv, floor(level)), 0.0).rgb;
+  vec3 high = textureLod(u_environment, vec3(uv, ceil(level)), 0.0).rgb;
   return mix(low, high, fract(level));
 }
 
-void main() {
-  vec3 normal = normalize(v_normal);
-  vec3 to_eye = normalize(u_eye_m - v_position_m);
-  vec4 texel = texture(u_base_color_texture, v_uv);
-  if (texel.a < 0.5) discard;  // Cut-out leaves and fences; blending needs an order.
-  vec3 base_color = u_base_color * texel.rgb;
+// Times its texture: the mean of the samples that show the piece.
+vec3 BaseColor(SurfaceRecord record, vec4 samples) {
+#ifdef TEXTURED
+  vec3 texel = vec3(0.0);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  for (int i = 0; i < int(u_samples); ++i) texel += samples[i] * texelFetch(u_texels, pixel, i).rgb;
+  return record.base_color * texel / max(dot(samples, vec4(1.0)), 1.0);
+#else
+  return record.base_color;
+#endif
+}
+
+vec3 ColorOf(SeenSurface surface, SurfaceRecord record, vec4 samples) {
+  vec3 normal = surface.normal;
+  vec3 to_eye = normalize(u_eye_m - surface.position_m);
+  vec3 base_color = BaseColor(record, samples);
 
 #ifdef NO_SUN
   vec3 sun = vec3(0.0);
 #else
-  vec3 flat_normal = ShadowGeometricNormal(v_position_m, normal);
-  vec3 step_x = dFdx(v_position_m);
-  vec3 step_y = dFdy(v_position_m);
   float n_dot_l = max(dot(normal, u_to_sun), 0.0);
-  float visibility = n_dot_l > 0.0 ? ShadowVisibility(1, v_position_m, flat_normal, step_x, step_y) : 0.0;
-  visibility *= SeenSunlight(v_position_m);
+  float visibility = ShadowVisibility(1, surface.position_m, surface.flat_normal, surface.step_x,
+                                      surface.step_y);
+  visibility *= SeenSunlight(surface.position_m);
   vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);
 #endif
 
-  vec3 diffuse = base_color * (1.0 - u_metallic) * (1.0 - u_dielectric_f0);
-  vec3 radiance = diffuse * (sun + v_ambient_with) / kPi;
+  vec3 diffuse = base_color * (1.0 - record.metallic) * (1.0 - record.dielectric_f0);
+  vec3 radiance = diffuse * (sun + surface.ambient_with) / kPi;
 
-  vec3 f0 = mix(vec3(u_dielectric_f0), base_color, u_metallic);
+  vec3 f0 = mix(vec3(record.dielectric_f0), base_color, record.metallic);
   if (max(max(f0.r, f0.g), f0.b) > 0.0) {
     float n_dot_v = max(dot(normal, to_eye), 1e-4);
 #ifndef NO_SUN
     vec3 half_vector = normalize(to_eye + u_to_sun);
-    float alpha = max(u_roughness * u_roughness, 1e-3);
+    float alpha = max(record.roughness * record.roughness, 1e-3);
     vec3 specular = FresnelSchlick(max(dot(to_eye, half_vector), 0.0), f0) *
                     (DistributionGgx(max(dot(normal, half_vector), 0.0), alpha) *
                      VisibilitySmith(n_dot_v, max(n_dot_l, 1e-4), alpha));
     radiance += specular * sun;
 #endif
-    radiance += EnvironmentBrdf(f0, u_roughness, n_dot_v) *
-                PrefilteredEnvironment(reflect(-to_eye, normal), u_roughness);
+    radiance += EnvironmentBrdf(f0, record.roughness, n_dot_v) *
+                PrefilteredEnvironment(reflect(-to_eye, normal), record.roughness);
   }
-  FogAir air = FogUpTo(distance(u_eye_m, v_position_m), u_fog_split_m, u_fog_optical_depth,
+  FogAir air = FogUpTo(distance(u_eye_m, surface.position_m), u_fog_split_m, u_fog_optical_depth,
                        u_fog_inscattered);
-  radiance = radiance * air.left + air.light;
-  out_color = vec4(u_gain * radiance, 1.0);
+  return u_gain * (radiance * air.left + air.light);
+}
+
+void main() {
+  uvec4 seen = texelFetch(u_seen, ivec2(gl_FragCoord.xy), 0);
+  vec4 sum = vec4(0.0);
+  do {
+    vec4 samples = SamplesOf(seen.x);
+    uvec4 triangle = TriangleOf(IdOf(seen.x));
+    SurfaceRecord record = RecordOf(int(ValueOfSheet(int(SheetOf(triangle)))));
+    SeenSurface surface =
+        SurfaceSeen(Moved(VertexOf(triangle.x), record), Moved(VertexOf(triangle.y), record),
+                    Moved(VertexOf(triangle.z), record), gl_FragCoord.xy);
+    sum += dot(samples, vec4(1.0)) * vec4(ColorOf(surface, record, samples), 1.0);
+    seen = uvec4(seen.yzw, 0u);
+  } while (seen.x != 0u);
+  out_color = sum / u_samples;
 }

@@ -56,6 +56,24 @@ TEST(ChangingTriangles, AreAllThatTheSunReachesWhereItsWindowIsUnknown) {
   EXPECT_THAT(triangles.ends(), ElementsAre(12, 12, 12, 12));
 }
 
+TEST(ChangingTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {
+  ChangingTriangles triangles(Row());
+  const auto sunlit = [&](float reach_m, glm::vec2 low, glm::vec2 high) {
+    SunWindow window = kWindow;
+    window.reach_m = reach_m;
+    SunFootprint objects(window);
+    objects.Include(low, high);
+    triangles.Sort(window, objects);
+    return triangles.ends()[ChangingTriangles::kSun] / 3;
+  };
+  // The second triangle alone is in the window: from 0.1 to 0.6 of its side, up to 0.5 across.
+  EXPECT_EQ(sunlit(0.0F, {0.3F, 0.3F}, {0.4F, 0.35F}), 1);
+  EXPECT_EQ(sunlit(0.0F, {0.8F, 0.1F}, {0.9F, 0.2F}), 0) << "beside it";
+  EXPECT_EQ(sunlit(0.0F, {0.3F, 0.7F}, {0.4F, 0.9F}), 0) << "beyond it";
+  EXPECT_EQ(sunlit(0.25F, {0.8F, 0.1F}, {0.9F, 0.2F}), 1) << "within reach of it";
+  EXPECT_EQ(sunlit(0.0F, {-0.5F, -0.5F}, {1.5F, 1.5F}), 1) << "larger than the window";
+}
+
 TEST(FacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {
   LitMesh mesh = Row();
   for (int i = 3; i < 6; ++i) mesh.normals[i] = {0.0F, 0.0F, -1.0F};

@@ -8,6 +8,7 @@
 #include "base/srgb.h"
 #include "compositor/aerial_fog.h"
 #include "compositor/ratio_pass.h"
+#include "compositor/surface_records.h"
 #include "compositor/triangle_table.h"
 #include "gl/glsl_as_cpp.h"
 
@@ -147,6 +148,8 @@ TEST(TriangleLayout, IsReadAsItIsWritten) {
   EXPECT_EQ(glsl::kVerticesARow, TriangleTable::kVerticesARow);
   EXPECT_EQ(glsl::kTexelsAVertex, TriangleTable::kTexelsAVertex);
   EXPECT_EQ(glsl::kKindBits, static_cast<int>(TriangleTable::kKindBits));
+  EXPECT_EQ(glsl::kTexelsASurface, SurfaceRecords::kTexelsASurface);
+  EXPECT_EQ(glsl::kSurfacesARow, SurfaceRecords::kSurfacesARow);
   for (const auto change : {ChangingTriangles::kSun, ChangingTriangles::kSunlitSky,
                             ChangingTriangles::kSky, ChangingTriangles::kNothing}) {
     const glm::uvec4 triangle(0, 0, 0, change | 12345U << TriangleTable::kKindBits);
@@ -162,16 +165,21 @@ TEST(TriangleLayout, GivesEachTriangleAndVertexTexelsOfItsOwn) {
   EXPECT_EQ(glsl::TexelOfTriangle(4096), glm::ivec2(0, 1));
   EXPECT_EQ(glsl::TexelOfVertex(1364), glm::ivec2(4092, 0));
   EXPECT_EQ(glsl::TexelOfVertex(1365), glm::ivec2(0, 1));
+  EXPECT_EQ(glsl::TexelOfSurface(818), glm::ivec2(4090, 0));
+  EXPECT_EQ(glsl::TexelOfSurface(819), glm::ivec2(0, 1));
 }
 
-TEST(TriangleLayout, CountsTheSamplesThatShowATriangle) {
-  constexpr unsigned kLargest = (1U << glsl::kCountShift) - 1U;
+TEST(TriangleLayout, TellsTheSamplesThatShowATriangle) {
+  constexpr unsigned kLargest = (1U << glsl::kSamplesShift) - 1U;
   for (const unsigned id : {1U, 70000U, kLargest}) {
-    // The first sample brings the number, others of the same sheet their count alone.
-    const unsigned seen = glsl::SeenTriangle(id, 1U) + glsl::SeenTriangle(0U, 3U);
+    // The first sample brings the number, others of the same sheet their bits alone.
+    const unsigned seen =
+        glsl::SeenTriangle(id, {0, 0, 1, 0}) + glsl::SeenTriangle(0U, {1, 0, 0, 1});
     EXPECT_EQ(glsl::IdOf(seen), id);
-    EXPECT_EQ(glsl::CountOf(seen), 4U);
+    EXPECT_EQ(glsl::SamplesOf(seen), glm::vec4(1.0F, 0.0F, 1.0F, 1.0F));
   }
+  // No number of a triangle reaches into the bit that tells an object's from a real surface's.
+  EXPECT_LT(kLargest, glsl::kObjectBit);
 }
 
 /// Level ground 1.5 m below the eye, 10 m to 20 km ahead; rays of a camera with f = 500 that looks

@@ -1,0 +1,79 @@
+#include "compositor/object_pass.h"
+
+#include <epoxy/gl.h>
+
+#include "compositor/ratio_pass.h"
+
+namespace pleinair::compositor {
+
+Result<ObjectPass> ObjectPass::Create() {
+  ObjectPass pass;
+  PLEINAIR_ASSIGN_OR_RETURN(
+      pass.id_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                                               .fragment = "compositor/shaders/triangle_id.frag",
+                                               .defines = {"OBJECT"}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      pass.textured_id_program_,
+      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                             .fragment = "compositor/shaders/triangle_id.frag",
+                             .defines = {"OBJECT", "TEXTURED"}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      pass.sort_program_,
+      gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
+                             .fragment = "compositor/shaders/object_pixels.frag"}));
+  pass.no_attributes_ = gl::GlVertexArray::Create();
+  return pass;
+}
+
+void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                              const DrawnFrame& frame) const {
+  const bool textured = surfaces.HasTextures();
+  const gl::GlProgram& id_program = textured ? textured_id_program_ : id_program_;
+  targets.BeginObjectIds(textured);
+  id_program.Use();
+  id_program.Set("u_clip_from_marker", frame.clip_from_marker);
+  surfaces.DrawObjects(id_program);
+}
+
+void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                      const SurfacePrograms& programs, const DrawnFrame& frame,
+                      const gl::GlTexture& environment, const PixelRect& within) const {
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(within.x, within.y, within.width, within.height);
+  no_attributes_.Bind();
+  surfaces.object_triangles().Bind();
+  surfaces.object_records().Bind(2);
+  targets.BeginSorting();
+  glDepthFunc(GL_ALWAYS);
+  targets.ids().Bind(0);
+  sort_program_.Use();
+  sort_program_.Set("u_samples", targets.samples());
+  sort_program_.Set("u_eye_m", frame.eye_m);
+  frame.SetRays(sort_program_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+
+  targets.BeginObjects();
+  glEnable(GL_SCISSOR_TEST);
+  glDepthFunc(GL_EQUAL);
+  glDepthMask(GL_FALSE);
+  targets.seen().Bind(0);
+  environment.Bind(3);
+  targets.texels().Bind(4);
+  // Numbered as KindOf() in shaders/triangle_layout.glsl has the kinds of objects' triangles.
+  for (int kind = 0; kind < 2; ++kind) {
+    const gl::GlProgram& program = kind == 0 ? programs.objects : programs.objects_in_own_shade;
+    program.Use();
+    program.Set("u_depth", RatioPass::DepthOf(static_cast<ChangingTriangles::Change>(kind)));
+    program.Set("u_samples", static_cast<float>(targets.samples()));
+    frame.Set(program);
+    frame.SetRays(program);
+    frame.SetFog(program);
+    frame.SetSunlight(program);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glDepthMask(GL_TRUE);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace pleinair::compositor

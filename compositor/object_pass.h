@@ -1,0 +1,41 @@
+#pragma once
+
+#include "base/error.h"
+#include "compositor/drawn_frame.h"
+#include "compositor/render_targets.h"
+#include "compositor/scene_surfaces.h"
+#include "compositor/scene_view.h"
+#include "compositor/surface_programs.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "gl/vertex_array.h"
+
+namespace pleinair::compositor {
+
+/// The virtual objects, each piece of surface in a pixel shaded once: first which triangle each
+/// sample shows, then what of a pixel is to be shaded, then that alone. Needs a current OpenGL
+/// context; move-only.
+class ObjectPass {
+ public:
+  ObjectPass() = default;
+  /// Errors as gl::GlProgram::Create.
+  static Result<ObjectPass> Create();
+
+  /// Draws which triangles of the objects the samples show, over the numbers of the real surfaces
+  /// that RatioPass::DrawSurfaces() drew and behind their depth.
+  void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                    const DrawnFrame& frame) const;
+
+  /// Shades what DrawSurfaces() found into targets.objects(). `within`: where objects are in the
+  /// picture. The shadow maps and, at unit 5, the map of the sunlight must have been bound; depth
+  /// is tested as glEnable(GL_DEPTH_TEST) has it, and nothing culled.
+  void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
+            const SurfacePrograms& programs, const DrawnFrame& frame,
+            const gl::GlTexture& environment, const PixelRect& within) const;
+
+ private:
+  gl::GlProgram id_program_, textured_id_program_, sort_program_;
+  gl::GlVertexArray no_attributes_;
+};
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,34 @@
+#include "compositor/sun_footprint.h"
+
+#include <cstddef>
+
+namespace pleinair::compositor {
+
+SunFootprint::SunFootprint(const SunWindow& window)
+    : cells_per_unit_(static_cast<float>(kCells) / window.side),
+      reach_(window.reach_m * glm::vec2(glm::length(glm::vec3(window.u_from_marker)),
+                                        glm::length(glm::vec3(window.v_from_marker)))) {}
+
+SunFootprint::Cells SunFootprint::CellsOf(const glm::vec2& low, const glm::vec2& high) const {
+  const glm::vec2 last(kCells - 1);
+  const glm::ivec2 from(glm::clamp(glm::floor(low * cells_per_unit_), glm::vec2(0.0F), last));
+  const glm::ivec2 to(glm::clamp(glm::floor(high * cells_per_unit_), glm::vec2(0.0F), last));
+  return {from.y, to.y, (~std::uint64_t{0} >> (kCells - 1 - (to.x - from.x))) << from.x};
+}
+
+void SunFootprint::Include(const glm::vec2& low, const glm::vec2& high) {
+  const Cells cells = CellsOf(low - reach_, high + reach_);
+  for (int row = cells.first_row; row <= cells.last_row; ++row) {
+    rows_[static_cast<std::size_t>(row)] |= cells.columns;
+  }
+}
+
+bool SunFootprint::Touches(const glm::vec2& low, const glm::vec2& high) const {
+  const Cells cells = CellsOf(low, high);
+  for (int row = cells.first_row; row <= cells.last_row; ++row) {
+    if ((rows_[static_cast<std::size_t>(row)] & cells.columns) != 0) return true;
+  }
+  return false;
+}
+
+}  // namespace pleinair::compositor

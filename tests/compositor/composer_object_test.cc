@@ -1,0 +1,167 @@
+// What a virtual object shows in a pixel: its material, texture and pieces of surface.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "base/srgb.h"
+#include "compositor/composer.h"
+#include "tests/compositor/composer_scene.h"
+
+namespace pleinair::compositor {
+namespace {
+
+using testing::Compose;
+using testing::EvenPicture;
+using testing::kCamera;
+using testing::kCube;
+using testing::kFromAbove;
+using testing::kGain;
+using testing::kGround;
+using testing::kSkyLux;
+using testing::kSunLux;
+using testing::MakeBox;
+using testing::Place;
+using testing::SeenAt;
+
+const double kLevelLux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
+/// Display-linear value of a level face of so much reflectance.
+double Level(double albedo) { return kGain * albedo * kLevelLux * std::numbers::inv_pi; }
+
+/// A level square of a metre whose texture's u runs along x, v against y; 0.1 m above the marker.
+Model TexturedSquare(Image<std::uint8_t> texture) {
+  Model square = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 1.0F);
+  square.meshes[0].uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  square.materials[0].base_color_texture = 0;
+  square.textures.push_back(std::move(texture));
+  return square;
+}
+
+TEST(Composer, ColoursAnObjectByItsTextureAndLeavesTheCameraWhatIsCutOut) {
+  constexpr int kSide = 64;
+  const std::uint8_t dark = Srgb8FromLinear(0.1), bright = Srgb8FromLinear(0.6);
+  Image<std::uint8_t> texture(kSide, kSide, 4);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      for (int c = 0; c < 3; ++c) texture(x, y, c) = x < kSide / 2 ? dark : bright;
+      texture(x, y, 3) = x < kSide / 2 && y < kSide / 2 ? 0 : 255;  // North-west.
+    }
+  }
+  const RgbImage composed =
+      Compose({Place(TexturedSquare(std::move(texture)), false), kCube}, EvenPicture(77));
+  EXPECT_NEAR(SeenAt(composed, {-0.35, -0.25, 0.1}), Level(0.1), 0.01);
+  EXPECT_NEAR(SeenAt(composed, {0.35, -0.25, 0.1}), Level(0.6), 0.02);
+  EXPECT_NEAR(SeenAt(composed, {0.35, 0.35, 0.1}), Level(0.6), 0.02);
+  EXPECT_EQ(SeenAt(composed, {-0.35, 0.35, 0.1}), LinearFromSrgb8()[77]);
+  // An object without a texture beside it keeps its own colour.
+  EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), Level(0.5), 0.02);
+}
+
+TEST(Composer, SeesTheMeanOfATextureThatIsFinerThanPixels) {
+  // Some ten texels of a checkered texture in a pixel of the picture.
+  constexpr int kSide = 1024;
+  Image<std::uint8_t> texture(kSide, kSide, 3);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      for (int c = 0; c < 3; ++c) texture(x, y, c) = (x + y) % 2 == 0 ? 255 : 0;
+    }
+  }
+  const RgbImage composed =
+      Compose({Place(TexturedSquare(std::move(texture)), false)}, EvenPicture(0));
+  for (int i = -20; i <= 20; ++i) {
+    const double x = 0.02 * i;
+    EXPECT_NEAR(SeenAt(composed, {x, 0.1, 0.1}), Level(0.5), 0.015) << x;
+  }
+}
+
+TEST(Composer, MixesTwoStoreysOfOneSurfaceThatMeetInAPixel) {
+  // A sheet that steps down by 0.3 m where the middle of a column sees its upper storey's edge; the
+  // storeys share vertices and normals. A real wall shades the lower one alone.
+  constexpr int kColumn = 157, kRow = 105;
+  const auto edge = static_cast<float>((kColumn - kCamera.cx) / kCamera.fx * 2.7);
+  Model stepped = MakeBox({-0.3, -0.3, 0}, {0.3, 0.3, 0}, 0.5F);
+  Mesh& sheet = stepped.meshes[0];
+  sheet.positions.clear();
+  sheet.indices.clear();
+  const std::array<std::pair<float, float>, 4> profile{
+      {{-0.3F, 0.0F}, {edge, 0.0F}, {edge, 0.3F}, {0.3F, 0.3F}}};
+  for (const auto& [x, z] : profile) {
+    sheet.positions.push_back({x, -0.3F, z});
+    sheet.positions.push_back({x, 0.3F, z});
+  }
+  sheet.normals.assign(sheet.positions.size(), {0.0F, 0.0F, 1.0F});
+  for (std::uint32_t i = 0; i < 6; i += 2) {
+    for (const std::uint32_t corner : {0U, 2U, 3U, 0U, 3U, 1U}) sheet.indices.push_back(i + corner);
+  }
+  const PlacedModel wall = Place(MakeBox({-3, -0.8, 0}, {3, -0.7, 1.0}, 0.3F), true);
+  const RgbImage composed = Compose({Place(stepped, false), wall}, EvenPicture(0));
+  const auto light = [&](int x) { return LinearFromSrgb8()[composed(x, kRow, 1)]; };
+  EXPECT_LT(light(kColumn - 1), 0.5 * light(kColumn + 1)) << "lower storey beside the upper";
+  EXPECT_NEAR((light(kColumn) - light(kColumn - 1)) / (light(kColumn + 1) - light(kColumn - 1)),
+              0.5, 0.12)
+      << "the step's own shadow darkens its edge a little";
+}
+
+TEST(Composer, MirrorsTheSkyInPolishedMetal) {
+  Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.7F);
+  plate.materials[0].metallic = 1.0F;
+  plate.materials[0].roughness = 0.1F;
+  const RgbImage composed = Compose({Place(plate, false)}, EvenPicture(0));
+  // The sun, 45° off, is mirrored elsewhere.
+  EXPECT_NEAR(SeenAt(composed, {0, 0, 0.1}), kGain * 0.7 * kSkyLux * std::numbers::inv_pi, 0.01);
+}
+
+TEST(Composer, ShadesAMovedModelWhereItStandsNow) {
+  const auto solver = LightSolver::Create({kCube}, {.rays_per_vertex = 64});
+  auto composer = Composer::Create(kCamera, {kCube}, {});
+  ASSERT_TRUE(solver.has_value());
+  ASSERT_TRUE(composer.has_value());
+  const testing::SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  const RgbImage picture = EvenPicture(77);
+  ASSERT_TRUE((*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain}));
+  // Half as large, a quarter turned and 0.4 m aside.
+  (*composer)->MoveModel(0, {{0, -0.5, 0, 0.5, 0, 0, 0, 0, 0.5}}, {0.4, 0.2, 0});
+  const auto moved = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+  ASSERT_TRUE(moved.has_value());
+  EXPECT_EQ(SeenAt(*moved, {0, 0, 0.3}), LinearFromSrgb8()[77]);
+  EXPECT_NEAR(SeenAt(*moved, {0.4, 0.2, 0.15}), Level(0.5), 0.02);
+  EXPECT_NEAR(SeenAt(*moved, {0.46, 0.26, 0.15}), Level(0.5), 0.02) << "near its corner";
+  EXPECT_EQ(SeenAt(*moved, {0.5, 0.2, 0.15}), LinearFromSrgb8()[77]);
+}
+
+TEST(Composer, MovesTheShadowOfAModelThatTurnsWithinItsBox) {
+  // Two posts on a square's diagonal, turned to the other one.
+  Model posts = MakeBox({-0.35, -0.35, 0.001}, {-0.25, -0.25, 0.2}, 0.5F);
+  posts.meshes.push_back(MakeBox({0.25, 0.25, 0.001}, {0.35, 0.35, 0.2}, 0.5F).meshes[0]);
+  const std::vector<PlacedModel> scene{kGround, Place(posts, false)};
+  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+  auto composer = Composer::Create(kCamera, scene, {});
+  ASSERT_TRUE(solver.has_value());
+  ASSERT_TRUE(composer.has_value());
+  const testing::SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  (*composer)->LookForShade(false);  // Then what no object hides from the sun is not asked for it.
+  const auto shares = [&] {
+    const auto composed =
+        (*composer)->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+    EXPECT_TRUE(composed);
+    const double before = LinearFromSrgb8()[200];
+    return std::pair{SeenAt(*composed, {-0.3, -0.16, 0}) / before,
+                     SeenAt(*composed, {0.3, -0.16, 0}) / before};
+  };
+  const auto [shaded, lit] = shares();
+  EXPECT_LT(shaded, 0.4);
+  EXPECT_GT(lit, 0.9);
+  (*composer)->MoveModel(1, {{0, -1, 0, 1, 0, 0, 0, 0, 1}}, {0, 0, 0});
+  const auto [lit_now, shaded_now] = shares();
+  EXPECT_LT(shaded_now, 0.4);
+  EXPECT_GT(lit_now, 0.7) << "its light stays until it is made anew";
+}
+
+}  // namespace
+}  // namespace pleinair::compositor

@@ -1,0 +1,113 @@
+// The table that shaders find triangles in, as they find it: by texture units.
+
+#include "compositor/triangle_table.h"
+
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "tests/gl/gl_fixture.h"
+
+namespace pleinair::compositor {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// So many triangles apart, each a sheet of its own.
+LitMesh Loose(std::uint32_t triangles) {
+  LitMesh mesh;
+  mesh.indices.resize(3 * std::size_t{triangles});
+  std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
+  mesh.positions.resize(mesh.indices.size());
+  mesh.normals.resize(mesh.indices.size());
+  mesh.ambient_with.resize(mesh.indices.size());
+  return mesh;
+}
+
+class TriangleTableTest : public gl::GlTest {
+ protected:
+  struct Triangles {
+    GLint texture = 0, rows = 0;
+    std::vector<std::array<std::uint32_t, 4>> texels;  // By number, from 1 on.
+  };
+  /// What shaders have at unit 1.
+  static Triangles Bound(const TriangleTable& table) {
+    table.Bind();
+    glActiveTexture(GL_TEXTURE1);
+    Triangles bound;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound.texture);
+    const auto id = static_cast<GLuint>(bound.texture);
+    glGetTextureLevelParameteriv(id, 0, GL_TEXTURE_HEIGHT, &bound.rows);
+    bound.texels.resize(std::size_t{TriangleTable::kTrianglesARow} *
+                        static_cast<std::size_t>(bound.rows));
+    glGetTextureImage(id, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                      static_cast<GLsizei>(bound.texels.size() * sizeof bound.texels[0]),
+                      bound.texels.data());
+    return bound;
+  }
+};
+
+TEST_F(TriangleTableTest, NumbersTheTrianglesOfAllMeshesUpToTheirLastEnds) {
+  const LitMesh first = Loose(4), second = Loose(2);
+  const std::vector<const LitMesh*> meshes{&first, &second};
+  auto table = TriangleTable::Create(meshes, std::vector<float>{0.25F, 0.5F});
+  ASSERT_TRUE(table.has_value()) << table.error().Message();
+  // Another order; of the first mesh's four the last has no number.
+  const std::vector<std::uint32_t> order{3, 4, 5, 0, 1, 2, 6, 7, 8, 9, 10, 11};
+  const std::array<int, 3> first_ends{3, 3, 9}, second_ends{0, 6, 6};
+  const std::vector<SortedTriangles> sorted{{order, first_ends}, {second.indices, second_ends}};
+  ASSERT_TRUE(table->SetTriangles(sorted));
+  EXPECT_EQ(table->first_id(0), 1);
+  EXPECT_EQ(table->first_id(1), 4);
+  const Triangles bound = Bound(*table);
+  const auto triangle = [&](int id) { return bound.texels[static_cast<std::size_t>(id) - 1]; };
+  const auto sheet_and_kind = [](std::uint32_t sheet, std::uint32_t kind) {
+    return sheet << TriangleTable::kKindBits | kind;
+  };
+  EXPECT_THAT(triangle(1), ElementsAre(3, 4, 5, sheet_and_kind(1, 0)));
+  EXPECT_THAT(triangle(2), ElementsAre(0, 1, 2, sheet_and_kind(0, 2)));
+  EXPECT_THAT(triangle(3), ElementsAre(6, 7, 8, sheet_and_kind(2, 2)));
+  // Vertices and sheets of the second mesh follow those of the whole first.
+  EXPECT_THAT(triangle(4), ElementsAre(12, 13, 14, sheet_and_kind(4, 1)));
+  EXPECT_THAT(triangle(5), ElementsAre(15, 16, 17, sheet_and_kind(5, 1)));
+  // What is asked of sheets lies at unit 7: four sheets of one value and two of the other.
+  glActiveTexture(GL_TEXTURE7);
+  GLint values_texture = 0;
+  glGetIntegerv(GL_TEXTURE_BINDING_2D, &values_texture);
+  std::vector<float> values(TriangleTable::kTrianglesARow);
+  glGetTextureImage(static_cast<GLuint>(values_texture), 0, GL_RED, GL_FLOAT,
+                    static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
+  values.resize(6);
+  EXPECT_THAT(values, ElementsAre(0.25F, 0.25F, 0.25F, 0.25F, 0.5F, 0.5F));
+}
+
+TEST_F(TriangleTableTest, GrowsWhereMoreTrianglesChangeAndKeepsItsMemoryWhereFewerDo) {
+  constexpr int kAll = 3 * (TriangleTable::kTrianglesARow + 10);
+  const LitMesh mesh = Loose(kAll / 3);
+  auto table = TriangleTable::Create(std::vector<const LitMesh*>{&mesh}, std::vector<float>{0.0F});
+  ASSERT_TRUE(table.has_value()) << table.error().Message();
+  std::vector<Triangles> seen;
+  for (const int end : {0, 3, kAll, 6, kAll}) {
+    const std::array<int, 1> ends{end};
+    ASSERT_TRUE(table->SetTriangles(std::vector<SortedTriangles>{{mesh.indices, ends}}));
+    seen.push_back(Bound(*table));
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(end) / 3; ++i) {
+      ASSERT_THAT(seen.back().texels[i],
+                  ElementsAre(3 * i, 3 * i + 1, 3 * i + 2, i << TriangleTable::kKindBits));
+    }
+  }
+  EXPECT_EQ(seen[0].rows, 1);
+  EXPECT_EQ(seen[1].texture, seen[0].texture);
+  EXPECT_EQ(seen[2].rows, 2);
+  for (const std::size_t later : {std::size_t{3}, std::size_t{4}}) {
+    EXPECT_EQ(seen[later].rows, 2);
+    EXPECT_EQ(seen[later].texture, seen[2].texture);
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::compositor
