@@ -19,9 +19,14 @@ class KeypointSelection {
                       std::vector<SurfKeypoint>* keypoints);
 
  private:
-  std::vector<std::int32_t> bucket_counts_;
-  std::vector<std::int32_t> ranks_;
+  /// Fills by_bucket_, and with_rank_: how many buckets have a keypoint of each rank.
+  void PartByBuckets(int width, int height, int bucket_px,
+                     const std::vector<SurfKeypoint>& keypoints);
+
+  std::vector<std::int32_t> bucket_of_;
+  std::vector<std::int32_t> bucket_ends_;  ///< In by_bucket_.
   std::vector<std::int32_t> with_rank_;
+  std::vector<SurfKeypoint> by_bucket_, rest_;
 };
 
 }  // namespace pleinair::tracker
