@@ -211,9 +211,10 @@ void BlockFit::Start(const PrintPattern& pattern, const SeenWindow& seen, int bl
   block_of_.resize(seen.value.size());
   weight_ = seen.certainty;
   sums_->slope = {};
-  std::size_t clipped = 0;
+  int clipped = 0;
   for (std::size_t n = 0; n < weight_.size(); ++n) {
-    clipped += weight_[n] == 0.0F && seen.value[n] > kClippedLight;
+    clipped +=
+        static_cast<int>(weight_[n] == 0.0F) & static_cast<int>(seen.value[n] > kClippedLight);
   }
   least_contrast_ =
       static_cast<double>(clipped) > kMuchClipped * static_cast<double>(weight_.size())

@@ -55,10 +55,8 @@ Vec2 LensGrid::Ideal(double x, double y) const {
 void LensGrid::IdealRow(double x0, double step, int count, double y, float* ideal_x,
                         float* ideal_y) const {
   if (!bends_) {
-    for (int k = 0; k < count; ++k) {
-      ideal_x[k] = static_cast<float>(x0 + step * k);
-      ideal_y[k] = static_cast<float>(y);
-    }
+    for (int k = 0; k < count; ++k) ideal_x[k] = static_cast<float>(x0 + step * k);
+    std::fill_n(ideal_y, count, static_cast<float>(y));
     return;
   }
   const double gy = y / spacing_ + kMarginNodes;

@@ -234,8 +234,8 @@ void PrintRaster::SampleRow(const MapRow& map, const NodeTable& table, const Blu
                             RowRange sampled, int count, int row, int index) {
   const int per_pixel = taps.per_pixel, pad = taps.pixels / 2;
   const int width = count - 2 * pad, all_taps = taps.pixels * per_pixel;
-  // Whole vectors, and white where nothing is sampled.
-  const int begin = sampled.begin / kRowSlack * kRowSlack, end = sampled.end;
+  // White where nothing is sampled.
+  const int begin = sampled.begin, end = sampled.end;
   const int drawn = std::max(0, end - begin);
   if (drawn > 0) {
     kernels_->sample({map.column + begin, map.row + begin, map.column_x + begin,

@@ -196,25 +196,39 @@ void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
   }
 }
 
+/// `kVectors` side by side, for which each weight is fetched once.
+template <int kVectors>
+HWY_INLINE void RowVectors(const float* in, std::ptrdiff_t stride, const BlurTaps& taps,
+                           float* blurred, float* blurred_x) {
+  const int lanes = static_cast<int>(hn::Lanes(kFloats));
+  Floats sum[kVectors], slope[kVectors];
+  for (int v = 0; v < kVectors; ++v) sum[v] = slope[v] = hn::Zero(kFloats);
+  for (int i = 0; i < taps.per_pixel; ++i) {
+    const float* from = in + i * stride;
+    for (int p = 0, k = i; p < taps.pixels; ++p, k += taps.per_pixel) {
+      const Floats weight = hn::Set(kFloats, taps.weight[k]);
+      const Floats weight_x = hn::Set(kFloats, taps.slope[k]);
+      for (int v = 0; v < kVectors; ++v) {
+        const Floats value = hn::LoadU(kFloats, from + p + v * lanes);
+        sum[v] = hn::MulAdd(weight, value, sum[v]);
+        slope[v] = hn::MulAdd(weight_x, value, slope[v]);
+      }
+    }
+  }
+  for (int v = 0; v < kVectors; ++v) {
+    hn::StoreU(sum[v], kFloats, blurred + v * lanes);
+    hn::StoreU(slope[v], kFloats, blurred_x + v * lanes);
+  }
+}
+
 void AlongRow(const float* in, std::ptrdiff_t stride, const BlurTaps& taps, int count,
               float* blurred, float* blurred_x) {
   const int lanes = static_cast<int>(hn::Lanes(kFloats));
-  for (int x = 0; x < count; x += lanes) {
-    Floats sum = hn::Zero(kFloats), slope = sum;
-    for (int i = 0; i < taps.per_pixel; ++i) {
-      const float* from = in + i * stride + x;
-      const float *weight = taps.weight + i, *weight_x = taps.slope + i;
-      for (int p = 0; p < taps.pixels; ++p) {
-        const Floats value = hn::LoadU(kFloats, from + p);
-        sum = hn::MulAdd(hn::Set(kFloats, *weight), value, sum);
-        slope = hn::MulAdd(hn::Set(kFloats, *weight_x), value, slope);
-        weight += taps.per_pixel;
-        weight_x += taps.per_pixel;
-      }
-    }
-    hn::StoreU(sum, kFloats, blurred + x);
-    hn::StoreU(slope, kFloats, blurred_x + x);
+  int x = 0;
+  for (; x + lanes < count; x += 2 * lanes) {
+    RowVectors<2>(in + x, stride, taps, blurred + x, blurred_x + x);
   }
+  if (x < count) RowVectors<1>(in + x, stride, taps, blurred + x, blurred_x + x);
 }
 
 void AlongColumn(const float* const* rows, const float* const* rows_x, const BlurTaps& taps,
@@ -225,19 +239,26 @@ void AlongColumn(const float* const* rows, const float* const* rows_x, const Blu
     return;
   }
   const int all = taps.pixels * taps.per_pixel;
-  for (int from = 0; from < count; from += lanes) {
-    const int x = HWY_MIN(from, count - lanes);
-    Floats sum = hn::Zero(kFloats), sum_x = sum, sum_y = sum;
+  // Two vectors at a time, which share the weights; the last ones overlap those before.
+  for (int from = 0; from < count; from += 2 * lanes) {
+    const int at[2] = {HWY_MIN(from, count - lanes), HWY_MIN(from + lanes, count - lanes)};
+    Floats sum[2], sum_x[2], sum_y[2];
+    for (int v = 0; v < 2; ++v) sum[v] = sum_x[v] = sum_y[v] = hn::Zero(kFloats);
     for (int k = 0; k < all; ++k) {
       const Floats weight = hn::Set(kFloats, taps.weight[k]);
-      const Floats value = hn::LoadU(kFloats, rows[k] + x);
-      sum = hn::MulAdd(weight, value, sum);
-      sum_x = hn::MulAdd(weight, hn::LoadU(kFloats, rows_x[k] + x), sum_x);
-      sum_y = hn::MulAdd(hn::Set(kFloats, taps.slope[k]), value, sum_y);
+      const Floats slope = hn::Set(kFloats, taps.slope[k]);
+      for (int v = 0; v < 2; ++v) {
+        const Floats value = hn::LoadU(kFloats, rows[k] + at[v]);
+        sum[v] = hn::MulAdd(weight, value, sum[v]);
+        sum_x[v] = hn::MulAdd(weight, hn::LoadU(kFloats, rows_x[k] + at[v]), sum_x[v]);
+        sum_y[v] = hn::MulAdd(slope, value, sum_y[v]);
+      }
     }
-    hn::StoreU(sum, kFloats, white + x);
-    hn::StoreU(sum_x, kFloats, white_x + x);
-    hn::StoreU(sum_y, kFloats, white_y + x);
+    for (int v = 0; v < 2; ++v) {
+      hn::StoreU(sum[v], kFloats, white + at[v]);
+      hn::StoreU(sum_x[v], kFloats, white_x + at[v]);
+      hn::StoreU(sum_y[v], kFloats, white_y + at[v]);
+    }
   }
 }
 
