@@ -107,6 +107,21 @@ INSTANTIATE_TEST_SUITE_P(Targets, GolayScoresOnEveryTarget,
                            return std::string(hwy::TargetName(target.param));
                          });
 
+TEST(SoftGolayDecoder, KnowsPrintsWithoutAWrongCellAsDecodeDoes) {
+  SoftGolayDecoder some;
+  ASSERT_TRUE(some.SetNumbersInUse(std::vector<int>{3, 7, 4095}).has_value());
+  for (int number = 0; number < kGolayNumbers; ++number) {
+    const GolayWord print = PrintedWord(number);
+    ASSERT_EQ(SoftGolayDecoder().NumberOfPrint(print), number);
+    ASSERT_EQ(some.NumberOfPrint(print).has_value(), number == 3 || number == 7 || number == 4095);
+    ASSERT_FALSE(SoftGolayDecoder().NumberOfPrint(print ^ (1U << (number % kGolayBits))));
+  }
+  const CellLikelihoods cells = CleanCells(7, 6.0F);
+  EXPECT_EQ(SoftGolayDecoder().Decode(cells).number, 7);
+  EXPECT_EQ(SoftGolayDecoder().Decode(cells).margin, 96.0F);
+  EXPECT_GE(some.Decode(cells).margin, 96.0F);
+}
+
 TEST(SoftGolayDecoder, ReadsEveryCleanPrint) {
   const SoftGolayDecoder decoder;
   for (int n = 0; n < kGolayNumbers; ++n) {

@@ -78,6 +78,13 @@ int SoftGolayDecoder::NumbersInUse() const {
   return numbers_in_use_.empty() ? kGolayNumbers : static_cast<int>(numbers_in_use_.size());
 }
 
+std::optional<int> SoftGolayDecoder::NumberOfPrint(GolayWord cells) const {
+  const auto number = static_cast<int>((cells ^ kGolayWhitening) & (kGolayNumbers - 1));
+  const bool in_use =
+      numbers_in_use_.empty() || std::ranges::binary_search(numbers_in_use_, number);
+  return in_use && PrintedWord(number) == cells ? std::optional(number) : std::nullopt;
+}
+
 SoftGolayDecoding SoftGolayDecoder::Decode(const CellLikelihoods& cells) const {
   SoftGolayDecoding decoding;
   std::array<std::int32_t, kGolayBits> weights;  // Of the codeword's bits, before whitening.

@@ -52,6 +52,11 @@ class SoftGolayDecoder {
 
   SoftGolayDecoding Decode(const CellLikelihoods& cells) const;
 
+  /// The number in use whose print has these very cells (1 = white); where there is one, Decode of
+  /// cells that look so gives it, with a margin of 16 times the least of their likelihoods or more:
+  /// prints differ in eight cells at least.
+  std::optional<int> NumberOfPrint(GolayWord cells) const;
+
  private:
   std::vector<std::uint16_t> numbers_in_use_;  // Sorted; empty: all.
 };

@@ -36,6 +36,8 @@ constexpr std::array<double, 2> kFollowBlurs_px{0.9, 0.3};
 constexpr double kContentSure = 0.9, kContentRight = 0.4;
 /// How much likelier than the next the number of a marker must be, in nats.
 constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F;
+/// … and that of one that is plain to see: eight cells of 6 nats, either way, at least.
+constexpr float kPlainMargin = 96.0F;
 /// Share of the border that tells the light over the whole print; and what it takes off a proof
 /// that the cells themselves had to tell it.
 constexpr double kTellsLight = 0.8, kSplitDoubt_bits = 2.0;
@@ -49,8 +51,8 @@ constexpr double kMiddle = 0.5 * sg::kPrint;
 /// of itself. Of large prints, whose corners are told best, that must be less; of small ones noise
 /// moves the corners by more.
 double LastStepPx(double side_px) {
-  constexpr double kSmall_px = 40.0, kLarge_px = 130.0;
-  return side_px < kSmall_px ? 0.05 : side_px < kLarge_px ? 0.04 : 0.02;
+  constexpr double kSmall_px = 60.0, kLarge_px = 130.0;
+  return side_px < kSmall_px ? 0.06 : side_px < kLarge_px ? 0.04 : 0.02;
 }
 
 /// How far apart two homographies put the corners of a print, in modules.
@@ -250,16 +252,17 @@ std::optional<SgReading> SgReader::ReadPlain(const BlockFitState& guess) {
   const std::optional<CellLikelihoods> cells =
       GlanceAtCells(grey_, lens_, guess.modules_from_ideal);
   if (!cells) return std::nullopt;
-  const SoftGolayDecoding decoding = decoder_.Decode(*cells);
-  if (decoding.disagreements > 0) return std::nullopt;
+  GolayWord white = 0;
+  for (int i = 0; i < kGolayBits; ++i) white |= static_cast<GolayWord>((*cells)[i] > 0.0F) << i;
+  const std::optional<int> number = decoder_.NumberOfPrint(white);
+  if (!number) return std::nullopt;
   windows_.SetHalvingsForNoise(0);
-  std::optional<SgReading> reading =
-      Measure(decoding.number, {guess.modules_from_ideal, plain_blur_px_},
-              LastStepPx(windows_.SidePx(guess.modules_from_ideal)));
+  std::optional<SgReading> reading = Measure(*number, {guess.modules_from_ideal, plain_blur_px_},
+                                             LastStepPx(windows_.SidePx(guess.modules_from_ideal)));
   if (!reading || reading->visible_fraction < kPlainVisible) return std::nullopt;
   plain_blur_px_ = std::min(reading->blur_px, kMostPlainBlur_px);
-  reading->margin = decoding.margin;
-  reading->proof_bits = ProofBits(*cells, decoding.number, decoder_.NumbersInUse());
+  reading->margin = kPlainMargin;
+  reading->proof_bits = ProofBits(*cells, *number, decoder_.NumbersInUse());
   return reading;
 }
 
