@@ -24,6 +24,8 @@ constexpr DarkContrast kShadowEdges{.codes = 150, .halvings = 1, .eighths = 2};
 
 constexpr float kLeastContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
 constexpr float kLeastSide = 0.12F;
+/// Boxes around squares that differ by so little on each side, as a share, are of one.
+constexpr double kSameBox = 0.04;
 /// Prints reach it below 13 px, where rim and quiet zone blur into each other, or where noise is a
 /// third of their difference.
 constexpr float kGreatestDoubt = 0.8F;
@@ -53,7 +55,8 @@ bool Fills(const DarkComponent& component, int scale, const Quad& quad) {
     top = std::min(top, corner.y);
     bottom = std::max(bottom, corner.y);
   }
-  const double tolerance = scale;
+  // The corners of squares that are turned are lost by thresholds.
+  const double tolerance = scale + kSameBox * std::max(right - left, bottom - top);
   const auto edge = [&](int pixel) { return pixel * scale - 0.5; };
   return std::fabs(edge(component.min_x) - left) < tolerance &&
          std::fabs(edge(component.max_x + 1) - right) < tolerance &&
