@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "compositor/coefficient_reflection.h"
 #include "compositor/light_gather.h"
 #include "compositor/light_inside.h"
 #include "compositor/light_scene.h"
@@ -24,9 +25,6 @@ constexpr std::uint32_t kRayBudget = 25'000'000;
 constexpr std::uint32_t kFewestRays = 32;
 constexpr double kShareOfRays = 0.35;  // Of the time, for the progress.
 
-/// Reflected light of 16 patches of the sky on a patch of a surface: red of all, green of all, blue
-/// of all.
-using Reflected = std::array<float, 3 * kP>;
 using Straight = std::array<float, kP>;
 
 class Transfer {
@@ -43,7 +41,7 @@ class Transfer {
     std::vector<Straight> straight = StraightLight(chunk, k);
     FillFromNeighbours(scene_, inside_[k], &straight);
     // First what the straight light gives after one reflection, then what that gives.
-    std::vector<Reflected> arriving(straight.size()), sum(straight.size());
+    std::vector<ChunkLight> arriving(straight.size()), sum(straight.size());
     for (std::size_t v = 0; v < straight.size(); ++v) {
       for (int c = 0; c < 3; ++c) {
         std::copy(straight[v].begin(), straight[v].end(), arriving[v].begin() + c * kP);
@@ -72,9 +70,9 @@ class Transfer {
   }
 
  private:
-  static double Total(const std::vector<Reflected>& light) {
+  static double Total(const std::vector<ChunkLight>& light) {
     double total = 0.0;
-    for (const Reflected& values : light) {
+    for (const ChunkLight& values : light) {
       for (const float value : values) total += value;
     }
     return total;
@@ -97,32 +95,29 @@ class Transfer {
     return straight;
   }
 
-  std::vector<Reflected> Reflect(const std::vector<Reflected>& arriving, int k) const {
+  std::vector<ChunkLight> Reflect(const std::vector<ChunkLight>& arriving, int k) const {
     constexpr float kInvPi = std::numbers::inv_pi_v<float>;
-    std::vector<Reflected> reflected(arriving.size());
+    std::vector<ChunkLight> reflected(arriving.size());
     ParallelFor(gathered_.blocks.size(), threads_, [&](std::size_t index) {
+      std::vector<ReflectingPlace> places;
       ForEachPatch(gathered_, index,
                    [&](std::uint32_t patch, const GatheredLight::Hit* first,
                        const GatheredLight::Hit* last) {
-                     Reflected& sum = reflected[patch];
+                     places.clear();
                      for (const GatheredLight::Hit* hit = first; hit != last; ++hit) {
                        if ((k == 0 ? hit->with : hit->without) == 0) continue;
                        const LightScene::Face& face = scene_.faces[hit->face];
                        const auto corners = CornersOf(face, *hit);
                        const float u = static_cast<float>(hit->u) / 65535.0F;
                        const float v = static_cast<float>(hit->v) / 65535.0F;
-                       const float* a = arriving[corners[0]].data();
-                       const float* b = arriving[corners[1]].data();
-                       const float* d = arriving[corners[2]].data();
-                       for (int c = 0; c < 3; ++c) {
-                         const float factor =
-                             scene_.sheets[face.sheet].albedo[c] * kInvPi * weight_;
-                         const float wa = (1.0F - u - v) * factor, wb = u * factor, wd = v * factor;
-                         for (int i = c * kP; i < (c + 1) * kP; ++i) {
-                           sum[i] += wa * a[i] + wb * b[i] + wd * d[i];
-                         }
-                       }
+                       const auto& albedo = scene_.sheets[face.sheet].albedo;
+                       const float factor = kInvPi * weight_;
+                       places.push_back(
+                           {{&arriving[corners[0]], &arriving[corners[1]], &arriving[corners[2]]},
+                            {1.0F - u - v, u, v},
+                            {albedo[0] * factor, albedo[1] * factor, albedo[2] * factor}});
                      }
+                     AddReflections(places, &reflected[patch]);
                    });
     });
     return reflected;

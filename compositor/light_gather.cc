@@ -17,6 +17,8 @@ using Hit = GatheredLight::Hit;
 // Real ground comes in layers (a lawn's sheet over paving); what lies between them is not seen.
 constexpr double kLayerGapM = 0.02;
 constexpr std::uint32_t kSpotSalt = 0x5B;
+// So many rays tell whether a lower side sees the land alone, as the ground's does.
+constexpr std::uint32_t kLandRays = 32;
 
 class Gatherer {
  public:
@@ -27,6 +29,7 @@ class Gatherer {
     if (to_sun) sun_frame_.emplace(*to_sun);
     for (const LightScene::Sheet& sheet : scene.sheets) {
       is_phantom_.insert(is_phantom_.end(), sheet.patch_count, sheet.mesh.is_phantom);
+      has_twin_.insert(has_twin_.end(), sheet.patch_count, sheet.twin >= 0);
     }
   }
 
@@ -35,6 +38,8 @@ class Gatherer {
     const std::uint32_t first = patch == 0 ? 0 : scene_.spot_ends[patch - 1];
     const std::uint32_t spots = scene_.spot_ends[patch] - first;
     const bool phantom = is_phantom_[patch];
+    const bool land_alone =
+        spots == 1 && phantom && has_twin_[patch] != 0 && SeesLandAlone(scene_.spots[first], patch);
     for (int i = 0; i < rays_; ++i) {
       const auto ray = static_cast<std::uint32_t>(i);
       // A patch of many spots gathers the mean over them.
@@ -46,7 +51,7 @@ class Gatherer {
           CosineDirection(frame, ShiftedHammersley(ray, static_cast<std::uint32_t>(rays_), patch));
       const std::uint32_t seed = Hash(patch, ray);
       RayHit hit;
-      if (!scene_.rays->Intersect(RayTargets::kEverything, origin, direction, &hit)) {
+      if (land_alone || !scene_.rays->Intersect(RayTargets::kEverything, origin, direction, &hit)) {
         AddSky(direction, true, phantom, &light, block);
         continue;
       }
@@ -63,6 +68,24 @@ class Gatherer {
   }
 
  private:
+  bool IsBelowHorizon(Vec3 direction) const {
+    return sky_ != nullptr ? sky_->SineElevation(direction) <= 0.0
+                           : patches_->At(direction) == patches_->land();
+  }
+
+  bool SeesLandAlone(const LightScene::Spot& spot, std::uint32_t patch) const {
+    const TangentFrame frame(Normalized({spot.normal[0], spot.normal[1], spot.normal[2]}));
+    if (!IsBelowHorizon(frame.normal)) return false;
+    for (std::uint32_t i = 0; i < kLandRays; ++i) {
+      const Vec3 direction = CosineDirection(frame, ShiftedHammersley(i, kLandRays, patch));
+      if (!IsBelowHorizon(direction) ||
+          scene_.rays->Occluded(RayTargets::kEverything, spot.origin, direction)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   void AddSky(Vec3 direction, bool with, bool without, GatheredLight::Patch* light,
               GatheredLight::Block* block) const {
     bool above = false;
@@ -126,7 +149,7 @@ class Gatherer {
   const SkyPatches* patches_;
   std::optional<TangentFrame> sun_frame_;
   int rays_;
-  std::vector<std::uint8_t> is_phantom_;
+  std::vector<std::uint8_t> is_phantom_, has_twin_;  ///< By patch.
 };
 
 std::size_t BlockCount(std::uint32_t patches) {

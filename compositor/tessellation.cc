@@ -7,15 +7,24 @@
 #include <unordered_map>
 #include <utility>
 
+#include "compositor/contact_lines.h"
 #include "compositor/object_distance.h"
 
 namespace pleinair::compositor {
 namespace {
 
+// Edges where surfaces meet beside those in the open, and how much longer they may be per metre
+// from there.
+constexpr double kContactShare = 0.35, kContactGrowth = 0.8;
+
 class Refiner {
  public:
-  Refiner(const ObjectDistance& distance, double near_edge_m, double growth_per_m)
-      : distance_(distance), near_edge_m_(near_edge_m), growth_per_m_(growth_per_m) {}
+  Refiner(const ObjectDistance& distance, const ContactLines& contacts, double near_edge_m,
+          double growth_per_m)
+      : distance_(distance),
+        contacts_(contacts),
+        near_edge_m_(near_edge_m),
+        growth_per_m_(growth_per_m) {}
 
   /// Splits until every edge fits; false when more than `max_vertices` would be needed.
   bool Refine(SurfaceMesh* surface, std::size_t max_vertices) const {
@@ -37,7 +46,11 @@ class Refiner {
     const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
     if (length <= near_edge_m_) return false;
     const std::array<float, 3> middle = Midpoint(a, b);
-    return length > near_edge_m_ + growth_per_m_ * distance_(middle);
+    const double open = near_edge_m_ + growth_per_m_ * distance_(middle);
+    if (length > open) return true;
+    // At a contact a share of that, and more the farther from it.
+    const double finest = std::max(near_edge_m_, kContactShare * open);
+    return length > finest && contacts_.IsWithin(middle, (length - finest) / kContactGrowth);
   }
 
   static std::uint32_t AddMidpoint(SurfaceMesh* surface, std::uint32_t a, std::uint32_t b) {
@@ -114,6 +127,7 @@ class Refiner {
   }
 
   const ObjectDistance& distance_;
+  const ContactLines& contacts_;
   double near_edge_m_;
   double growth_per_m_;
 };
@@ -129,9 +143,11 @@ std::size_t CountVertices(const std::vector<SurfaceMesh>& surfaces) {
 void Tessellate(const TessellationOptions& options, std::vector<SurfaceMesh>* surfaces) {
   if (CountVertices(*surfaces) >= options.max_vertices) return;
   const ObjectDistance distance(*surfaces);
+  const ContactLines contacts(*surfaces, options.near_edge_m);
   double scale = 1.0;
   for (int coarser = 0; coarser < 34; ++coarser, scale *= 1.5) {  // Up to a million times.
-    const Refiner refiner(distance, options.near_edge_m * scale, options.growth_per_m * scale);
+    const Refiner refiner(distance, contacts, options.near_edge_m * scale,
+                          options.growth_per_m * scale);
     std::vector<SurfaceMesh> refined = *surfaces;
     bool fits = true;
     std::size_t used = 0;

@@ -14,8 +14,9 @@ struct TessellationOptions {
 };
 
 /// Splits triangles until no edge is longer than the options allow where it lies, so that light
-/// stored at vertices can be interpolated. Whether an edge is split depends on its two ends alone:
-/// neighbours split a shared edge at the same point, also across surfaces, and no gaps open.
+/// stored at vertices can be interpolated; where phantoms meet (contact_lines.h) edges are a third
+/// as long, but not shorter than `near_edge_m`. Whether an edge is split depends on its two ends
+/// alone: neighbours split a shared edge at the same point, also across surfaces, and no gaps open.
 /// Distances are taken to the boxes around the virtual objects' surfaces, or to the marker where
 /// there are none. Surfaces that are fine enough already stay as they are.
 void Tessellate(const TessellationOptions& options, std::vector<SurfaceMesh>* surfaces);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "compositor/coefficient_reflection.h"
 #include "compositor/light_samples.h"
 #include "compositor/light_scene.h"
 #include "compositor/light_solver.h"
@@ -277,6 +278,26 @@ TEST_F(Yard, ComesOutOfTheCacheAsItWentIn) {
   }
   EXPECT_FALSE((*solver)->Coefficients(kUp, options, {}).from_cache);
   fs::remove_all(folder);
+}
+
+TEST(AddReflections, AddsWithVectorUnitsAsOneByOne) {
+  std::vector<ChunkLight> light(9);
+  for (std::uint32_t v = 0; v < light.size(); ++v) {
+    for (std::uint32_t i = 0; i < light[v].size(); ++i) {
+      light[v][i] = static_cast<float>(UnitFromHash(Hash(v, i)));
+    }
+  }
+  std::vector<ReflectingPlace> places;
+  for (std::size_t i = 0; i < 7; ++i) {
+    const float u = 0.1F * static_cast<float>(i), v = 0.3F;
+    places.push_back(
+        {{&light[i], &light[i + 1], &light[i + 2]}, {1 - u - v, u, v}, {0.5F, 0.1F, 0.03F}});
+  }
+  ChunkLight fast = light[0], slow = light[0];
+  AddReflections(places, &fast);
+  AddReflectionsScalar(places, &slow);
+  EXPECT_GT(slow[0], light[0][0]);
+  for (std::size_t i = 0; i < slow.size(); ++i) EXPECT_NEAR(fast[i], slow[i], 1e-5 * slow[i]) << i;
 }
 
 TEST(CoefficientMatrix, MultipliesWithVectorUnitsAsOneByOne) {

@@ -45,6 +45,29 @@ TEST(Tessellation, KeepsEdgesShortNearObjectsAndLongFarAway) {
   EXPECT_LT(surfaces[0].positions.size(), 5000U);
 }
 
+TEST(Tessellation, KeepsEdgesShorterWherePhantomsMeet) {
+  // The object stands 4 m from a wall: 1.04 m in the open there, a third of it at the wall's foot.
+  std::vector<SurfaceMesh> surfaces = Scene();
+  for (SurfaceMesh& surface : OrientedSurfaces(
+           Phantom(BoxModel({4.2, -5.0, 0.0}, {4.5, 5.0, 2.0}, {0.5F, 0.5F, 0.5F})), 2)) {
+    surfaces.push_back(std::move(surface));
+  }
+  Tessellate({}, &surfaces);
+  double at_foot = 0.0, in_the_open = 0.0;
+  const SurfaceMesh& ground = surfaces[0];
+  for (std::size_t i = 0; i < ground.indices.size(); ++i) {
+    const auto& a = ground.positions[ground.indices[i]];
+    const auto& b = ground.positions[ground.indices[i % 3 == 2 ? i - 2 : i + 1]];
+    const float x = (a[0] + b[0]) / 2.0F, y = (a[1] + b[1]) / 2.0F;
+    if (std::fabs(y) > 0.5F) continue;
+    if (std::fabs(x - 4.2F) < 0.05F) at_foot = std::max(at_foot, Length(a, b));
+    if (std::fabs(x + 4.2F) < 0.3F) in_the_open = std::max(in_the_open, Length(a, b));
+  }
+  EXPECT_GT(at_foot, 0.1);
+  EXPECT_LT(at_foot, 0.42);
+  EXPECT_GT(in_the_open, 0.5);
+}
+
 TEST(Tessellation, KeepsAreaAndLeavesNoGaps) {
   std::vector<SurfaceMesh> surfaces = Scene();
   Tessellate({}, &surfaces);

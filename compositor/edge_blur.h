@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "compositor/print_in_picture.h"
+
+namespace pleinair::compositor {
+
+/// Standard deviation, pixels, of the spread of each side of the outer black square: of those that
+/// show well enough, at most four. Apart from where light or an occluder changes.
+std::vector<double> BlurOfSides(const PrintInPicture& print);
+
+}  // namespace pleinair::compositor
