@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "compositor/plane_contrast.h"
+#include "compositor/shade_depth.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
 #include "compositor/unmodelled_shade.h"
@@ -29,6 +30,9 @@ LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
   }
   return shade((least + most) / 2);
 }
+
+// Of the words' sky, under which the shade of trees is looked for first.
+constexpr LinearRgb kHazierSky{2.0, 2.0, 2.0};
 
 bool MayShine(devices::Cloudiness stated) {
   return stated == devices::Cloudiness::kClear || stated == devices::Cloudiness::kHazy;
@@ -85,10 +89,23 @@ FoundLight LightLook::Settle() const {
     light.heading_source = MeasuredLight::Source::kStated;
   }
   found.heading = marker.heading;
-  if (overrides_.sun_to_sky) return found;
-  compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
-      *solver_, samples_, meter_, *day_, MarkerFromWorld(marker), reading.sky_scale);
-  if (reading.sun == Sun::kHidden) {
+  const auto shade_under = [&](LinearRgb sky_scale) {
+    return compositor::FindUnmodelledShade(*solver_, samples_, meter_, *day_,
+                                           MarkerFromWorld(marker), sky_scale);
+  };
+  const auto sky_of = [&](LinearRgb sky_scale) {
+    const LinearRgb share =
+        day_->SkyHorizontalIrradiance() / day_->SunNormalIrradiance() * sky_scale;
+    return SkyWithShare(share, day_->ToSun(), sun_.distance_au);
+  };
+  const bool overridden = overrides_.sun_to_sky.has_value();
+  if (overridden && *overrides_.sun_to_sky <= 0.0) return found;
+  LinearRgb scale = overridden ? LinearRgb{1, 1, 1} * (SunToSky(*day_) / *overrides_.sun_to_sky)
+                               : reading.sky_scale;
+  compositor::UnmodelledShade shade = shade_under(scale);
+  const bool may_shine = MayShine(scene_.cloudiness);
+  const bool edges_hidden = may_shine && shade.CastBySun() && shade.HidesEdges();
+  if (reading.sun == Sun::kHidden && !edges_hidden) {
     const auto overcast = OvercastSky();
     const auto contrast = [&] {
       return compositor::FindPlaneContrast(*solver_, samples_,
@@ -97,21 +114,44 @@ FoundLight LightLook::Settle() const {
     };
     light.sun_doubtful = shade.CastBySun() || contrast() > kMostPlaneContrast;
     // Where the sun stands is doubtful, too: what lies in its shade would be a guess.
-    if (light.sun_doubtful) return found;
+    if (light.sun_doubtful || overridden) return found;
     light.sun_source = MeasuredLight::Source::kMeasured;
     found.skies.source = overcast;
     return found;
   }
-  if (reading.sun == Sun::kShines) {
+  if (!overridden && reading.sun == Sun::kShines) {
     light.sun_source = MeasuredLight::Source::kMeasured;
-    const LinearRgb scale = WeighedScale(reading, scene_.cloudiness, &light.sun_to_sky_error);
-    const LinearRgb share = day_->SkyHorizontalIrradiance() / day_->SunNormalIrradiance() * scale;
-    const MeasuredSky measured = SkyWithShare(share, day_->ToSun(), sun_.distance_au);
-    found.skies = {measured.skies, measured.sky_scale, shade.Matters()};
-  } else if (MayShine(scene_.cloudiness) && shade.sunlit > 0) {
+    compositor::SunSkyReading edges = reading;
+    if (shade.HidesEdges()) {
+      // Half-light on the sunny side makes the sky look too strong, there and between the leaves:
+      // the weaker counts.
+      const compositor::SunSkyReading depth =
+          compositor::ReadShadeDepth(*solver_, shade, *day_, MarkerFromWorld(marker));
+      if (depth.sun == Sun::kShines && depth.sky_scale.g < reading.sky_scale.g) {
+        edges = depth;
+        light.sun_source = MeasuredLight::Source::kShade;
+        light.shade_places = depth.agreeing;
+      }
+    }
+    scale = WeighedScale(edges, scene_.cloudiness, &light.sun_to_sky_error);
+  } else if (!overridden) {
+    if (!may_shine || shade.sunlit == 0) return found;
+    // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
+    const compositor::UnmodelledShade probe = shade_under(kHazierSky);
+    const compositor::SunSkyReading depth =
+        compositor::ReadShadeDepth(*solver_, probe, *day_, MarkerFromWorld(marker));
+    if (probe.Matters() && depth.sun == Sun::kShines) {
+      light.sun_source = MeasuredLight::Source::kShade;
+      light.shade_places = depth.agreeing;
+      scale = WeighedScale(depth, scene_.cloudiness, &light.sun_to_sky_error);
+      shade = shade_under(scale);
+    }
+  }
+  if (!overridden && light.sun_source == MeasuredLight::Source::kStated) {
     found.skies = {StatedSky(scene_), {1.0, 1.0, 1.0}, shade.Matters()};
   } else {
-    return found;
+    const MeasuredSky sky = sky_of(scale);
+    found.skies = {sky.skies, sky.sky_scale, shade.Matters()};
   }
   light.shaded = shade.shaded;
   if (!shade.Matters()) return found;

@@ -27,7 +27,8 @@ struct LightOverrides {
 
 /// The light of a recording's day: which sky, how strong beside the sun, and why we think so.
 struct MeasuredLight {
-  enum class Source { kStated, kMeasured, kOverride };
+  /// kShade: from how deep the shade of trees is, where no phantom's edge could tell.
+  enum class Source { kStated, kMeasured, kShade, kOverride };
   Source sun_source = Source::kStated;
   Source heading_source = Source::kStated;
   bool sun_shines = true;
@@ -38,6 +39,7 @@ struct MeasuredLight {
   Radians heading_error;           ///< One standard deviation.
   int frames = 0;                  ///< Looked at.
   int edges = 0, edges_agreeing = 0;
+  int shade_places = 0;  ///< That the depth of trees' shade was read from; of kShade.
   /// No shadow lies where phantoms would cast one, yet there are shadows: neither sun nor overcast
   /// is concluded, nor what lies in shade.
   bool sun_doubtful = false;

@@ -12,7 +12,12 @@ constexpr double kSunStep = 0.25 * kRadiansPerDegree;
 std::vector<compositor::LitMesh> LightAmongSurfaces(const LightOrder& order,
                                                     const sky::SkyModel& daylight,
                                                     const Mat3& marker_from_world) {
-  if (!order.coefficients) return order.solver->Solve(daylight, marker_from_world);
+  if (!order.coefficients) {
+    const auto& sunlight = order.skies.sunlight;
+    const bool holds = sunlight && sunlight->HoldsFor(marker_from_world * daylight.ToSun().xyz);
+    return order.solver->SolveUnderTrees(daylight, marker_from_world,
+                                         holds ? *sunlight : compositor::SeenSunlight{});
+  }
   return order.solver->Relight(*order.coefficients, daylight, marker_from_world);
 }
 

@@ -142,14 +142,16 @@ void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
   const double wanted = *overrides_.sun_to_sky;
   const Vec3 to_sun = sun.ToSun().xyz;
   if (wanted <= 0.0 || to_sun.z <= 0.0) {
-    skies_.source = OvercastSky();
+    skies_ = {OvercastSky()};
     return;
   }
   const auto day = SunlitSky(scene_)->ForSun(sun.ToSun(), sun.distance_au);
   const LinearRgb share = day->SkyHorizontalIrradiance() / day->SunNormalIrradiance();
   const MeasuredSky measured =
       SkyWithShare(share * (SunToSky(*day) / wanted), sun.ToSun(), sun.distance_au);
-  skies_ = {measured.skies, measured.sky_scale};
+  // What lies in the shade of trees was looked for under this sky.
+  skies_.source = measured.skies;
+  skies_.scale = measured.sky_scale;
 }
 
 std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficients() {

@@ -16,16 +16,17 @@ using Hit = GatheredLight::Hit;
 
 // Real ground comes in layers (a lawn's sheet over paving); what lies between them is not seen.
 constexpr double kLayerGapM = 0.02;
-constexpr std::uint32_t kSpotSalt = 0x5B;
+constexpr std::uint32_t kSpotSalt = 0x5B, kTreesSalt = 0x7E;
 // So many rays tell whether a lower side sees the land alone, as the ground's does.
 constexpr std::uint32_t kLandRays = 32;
 
 class Gatherer {
  public:
-  /// Without `sky` rays are told by `patches`, without `to_sun` no sun is asked for.
+  /// Without `sky` rays are told by `patches`, without `to_sun` no sun is asked for. `sunlight`:
+  /// null where no trees shade it.
   Gatherer(const LightScene& scene, const SkyTable* sky, const SkyPatches* patches,
-           std::optional<Vec3> to_sun, int rays)
-      : scene_(scene), sky_(sky), patches_(patches), rays_(rays) {
+           std::optional<Vec3> to_sun, const SeenSunlight* sunlight, int rays)
+      : scene_(scene), sky_(sky), patches_(patches), sunlight_(sunlight), rays_(rays) {
     if (to_sun) sun_frame_.emplace(*to_sun);
     for (const LightScene::Sheet& sheet : scene.sheets) {
       is_phantom_.insert(is_phantom_.end(), sheet.patch_count, sheet.mesh.is_phantom);
@@ -50,16 +51,20 @@ class Gatherer {
       const Vec3 direction =
           CosineDirection(frame, ShiftedHammersley(ray, static_cast<std::uint32_t>(rays_), patch));
       const std::uint32_t seed = Hash(patch, ray);
+      // Evenly spread over a patch's rays, in whichever order (multiples of the golden ratio).
+      const double turn = UnitFromHash(Hash(patch, kTreesSalt)) + ray * (std::numbers::phi - 1.0);
+      const double trees = turn - std::floor(turn);
       RayHit hit;
       if (land_alone || !scene_.rays->Intersect(RayTargets::kEverything, origin, direction, &hit)) {
         AddSky(direction, true, phantom, &light, block);
         continue;
       }
       const bool phantom_hit = scene_.sheets[scene_.FaceOf(hit).sheet].mesh.is_phantom;
-      AddHit(hit, origin, direction, seed, true, phantom && phantom_hit, &light, &block->hits);
+      AddHit(hit, origin, direction, seed, trees, true, phantom && phantom_hit, &light,
+             &block->hits);
       if (!phantom || phantom_hit) continue;
       if (scene_.rays->Intersect(RayTargets::kPhantoms, origin, direction, &hit)) {
-        AddHit(hit, origin, direction, seed, false, true, &light, &block->hits);
+        AddHit(hit, origin, direction, seed, trees, false, true, &light, &block->hits);
       } else {
         AddSky(direction, false, true, &light, block);
       }
@@ -109,8 +114,9 @@ class Gatherer {
     }
   }
 
-  void AddHit(const RayHit& hit, Vec3 origin, Vec3 direction, std::uint32_t seed, bool with,
-              bool without, GatheredLight::Patch* light, std::vector<Hit>* hits) const {
+  /// `trees`: the ray meets the sun where they leave more than this share of it.
+  void AddHit(const RayHit& hit, Vec3 origin, Vec3 direction, std::uint32_t seed, double trees,
+              bool with, bool without, GatheredLight::Patch* light, std::vector<Hit>* hits) const {
     const LightScene::Face& face = scene_.FaceOf(hit);
     const bool inside = hit.back && face.back_offset == 0;
     for (const int k : {0, 1}) {
@@ -132,10 +138,12 @@ class Gatherer {
       const Vec3 to_sun =
           SunDiscDirection(*sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
       const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffsetM;
-      const bool lit = !scene_.rays->Occluded(RayTargets::kEverything, point, to_sun);
+      // Of half a sun every second ray meets all.
+      const bool past_trees = sunlight_ == nullptr || trees < sunlight_->At(point);
+      const bool lit = past_trees && !scene_.rays->Occluded(RayTargets::kEverything, point, to_sun);
       record.sun_with = lit;
-      record.sun_without =
-          lit || (without && !scene_.rays->Occluded(RayTargets::kPhantoms, point, to_sun));
+      record.sun_without = lit || (past_trees && without &&
+                                   !scene_.rays->Occluded(RayTargets::kPhantoms, point, to_sun));
     }
     hits->push_back(record);
   }
@@ -147,6 +155,7 @@ class Gatherer {
   const LightScene& scene_;
   const SkyTable* sky_;
   const SkyPatches* patches_;
+  const SeenSunlight* sunlight_;
   std::optional<TangentFrame> sun_frame_;
   int rays_;
   std::vector<std::uint8_t> is_phantom_, has_twin_;  ///< By patch.
@@ -180,15 +189,17 @@ GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int 
 
 }  // namespace
 
-GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays,
-                     int threads) {
-  return GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, rays), rays, threads, nullptr);
+GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun,
+                     const SeenSunlight& sunlight, int rays, int threads) {
+  const SeenSunlight* const trees = sunlight.share.empty() ? nullptr : &sunlight;
+  return GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, trees, rays), rays, threads,
+                    nullptr);
 }
 
 GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays,
                             int threads, const std::atomic<bool>* stop) {
-  return GatherWith(scene, Gatherer(scene, nullptr, &patches, std::nullopt, rays), rays, threads,
-                    stop);
+  return GatherWith(scene, Gatherer(scene, nullptr, &patches, std::nullopt, nullptr, rays), rays,
+                    threads, stop);
 }
 
 PatchLight Reflect(const LightScene& scene, const GatheredLight& gathered,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compositor/light_scene.h"
+#include "compositor/seen_sunlight.h"
 #include "compositor/sky_patches.h"
 #include "compositor/sky_table.h"
 
@@ -56,8 +57,9 @@ struct GatheredLight {
 
 /// Sends `rays` cosine-weighted rays from every patch. A ray whose nearest surface is
 /// a phantom's serves both cases, so that they differ by what the objects change and not by noise.
-GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun, int rays,
-                     int threads);
+/// `sunlight`: how much of the sun trees leave to what the rays meet.
+GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun,
+                     const SeenSunlight& sunlight, int rays, int threads);
 
 /// The same for whatever sky: rays that leave are told by the patch that they leave through, and no
 /// sun is asked for. Once `stop` is set it ends soon, and what it gives is of no use.

@@ -28,12 +28,13 @@ class EmbreeLightSolver : public LightSolver {
   EmbreeLightSolver(LightScene scene, const LightSolverOptions& options)
       : scene_(std::move(scene)), options_(options) {}
 
-  std::vector<LitMesh> Solve(const sky::SkyModel& day,
-                             const Mat3& marker_from_world) const override {
+  std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel& day, const Mat3& marker_from_world,
+                                       const SeenSunlight& sunlight) const override {
     const SkyTable sky(day, marker_from_world, kLandAlbedo);
     const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
     const LinearRgb sun = day.SunNormalIrradiance();
-    const GatheredLight gathered = Gather(scene_, sky, to_sun, RaysPerPatch(), options_.threads);
+    const GatheredLight gathered =
+        Gather(scene_, sky, to_sun, sunlight, RaysPerPatch(), options_.threads);
     const PatchLight light =
         Reflect(scene_, gathered,
                 {static_cast<float>(sun.r), static_cast<float>(sun.g), static_cast<float>(sun.b)},

@@ -14,6 +14,7 @@
 #include "base/vector.h"
 #include "compositor/daylight_coefficients.h"
 #include "compositor/model.h"
+#include "compositor/seen_sunlight.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
@@ -80,8 +81,13 @@ class LightSolver {
   /// Light on every vertex for this daylight. Deterministic whatever the number of threads. Rays
   /// with and without the virtual objects are the same, so that their ratio has no noise where
   /// the objects change nothing.
-  virtual std::vector<LitMesh> Solve(const sky::SkyModel& daylight,
-                                     const Mat3& marker_from_world) const = 0;
+  std::vector<LitMesh> Solve(const sky::SkyModel& daylight, const Mat3& marker_from_world) const {
+    return SolveUnderTrees(daylight, marker_from_world, {});
+  }
+  /// As Solve(); of the sun, surfaces reflect what `sunlight` leaves it.
+  virtual std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel& daylight,
+                                               const Mat3& marker_from_world,
+                                               const SeenSunlight& sunlight) const = 0;
 
   /// The scene's daylight coefficients, with which Relight() gives the light of any day: from the
   /// cache where it has them, otherwise computed and put there. Several seconds; may run beside

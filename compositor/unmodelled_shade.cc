@@ -13,108 +13,27 @@
 #include "compositor/parallel_for.h"
 #include "compositor/quantile.h"
 #include "compositor/scaled_daylight.h"
+#include "compositor/shade_cell.h"
 
 namespace pleinair::compositor {
 namespace {
 
+using Rgb = std::array<double, 3>;
+
 constexpr double kGrazing = 0.2;
 constexpr std::size_t kFewestSpots = 12;
-// An edge: two levels apart by this share of a shadow's depth, each of so many of the spots.
-constexpr double kEdgeDepth = 0.5, kSideShare = 0.12;
-// Spread about either level, of the distance between them; an even spread has 0.29.
-constexpr double kSharpness = 0.24, kSharp = 0.13;
-// Apartness(): bricks and joints lie among each other, sun and shade do not.
-constexpr double kApart = 0.7;
-// How much more or less than a shadow an edge may change colour, logarithmic.
-constexpr double kLargestColourOff = 0.35;
-// Logarithmic; paving and walls have smaller steps of their own.
-constexpr double kSmallestStep = 0.4;
 // Shade: darker by this share of a shadow's depth than the surface's sunlit places, of which so
 // many are darker.
 constexpr double kShadeDepth = 0.5, kSunlitQuantile = 0.8;
 
+// Beside a phantom's own edge: so many spots in the sun; darker by this share of a shadow's depth
+// than the brightest places, of which so many are darker, for leaves leave a part of the sun.
+constexpr std::size_t kFewestBesideEdge = 6;
+constexpr double kDimDepth = 0.25, kOpenQuantile = 0.9;
+
 // Share of the sun below which a spot has none of it and above which it has all: between, patterns
 // that are darker or brighter than their mean and true half-light look alike.
 constexpr double kNoSun = 0.1, kAllSun = 0.9;
-
-using Rgb = std::array<double, 3>;
-
-/// A spot's logarithmic brightness, and where it lies.
-struct Spot {
-  double value = 0.0;
-  std::array<double, 2> colour{};  ///< Red and blue against green.
-  Vec3 point;
-};
-
-/// Two-means on sorted spots.
-struct TwoLevels {
-  double low = 0.0, high = 0.0;  ///< Means.
-  double spread = 0.0;           ///< Root mean square about the nearer one.
-  double low_share = 0.0;
-  std::size_t low_count = 0;
-};
-TwoLevels SplitInTwo(const std::vector<Spot>& sorted) {
-  // Every split is tried: there are few.
-  double sum = 0.0, square = 0.0;
-  for (const Spot& spot : sorted) {
-    sum += spot.value;
-    square += spot.value * spot.value;
-  }
-  const auto n = static_cast<double>(sorted.size());
-  TwoLevels best;
-  double least = 1e300, below = 0.0;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    below += sorted[i - 1].value;
-    const auto m = static_cast<double>(i);
-    const double low = below / m, high = (sum - below) / (n - m);
-    const double rest = square - m * low * low - (n - m) * high * high;
-    if (rest >= least) continue;
-    least = rest;
-    best = {low, high, std::sqrt(std::max(0.0, rest / n)), m / n, i};
-  }
-  return best;
-}
-
-/// How far apart the middles of the first and of the other spots are, of all spots' distance from
-/// their middle: 1.2 for halves of a disc, near 0 where they lie among each other.
-double Apartness(const std::vector<Spot>& spots, std::size_t first) {
-  const auto middle = [&](std::size_t from, std::size_t to) {
-    Vec3 sum;
-    for (std::size_t i = from; i < to; ++i) sum = sum + spots[i].point;
-    return sum * (1.0 / static_cast<double>(to - from));
-  };
-  const Vec3 all = middle(0, spots.size());
-  double square = 0.0;
-  for (const Spot& spot : spots) square += Dot(spot.point - all, spot.point - all);
-  const double radius = std::sqrt(square / static_cast<double>(spots.size()));
-  return radius > 0.0 ? Norm(middle(0, first) - middle(first, spots.size())) / radius : 0.0;
-}
-
-struct Cell {
-  std::vector<Spot> spots;
-  bool lit = false, unlit = false;      // Some spot that the model has in the sun; not.
-  double depth = 0.0;                   // Of a shadow there, logarithmic, green.
-  std::array<double, 2> colour_step{};  // Red and blue against green.
-  int surface = 0;
-  Rgb normal{};
-
-  double Median() const { return spots[spots.size() / 2].value; }  // They are sorted.
-};
-
-/// Whether the change of colour from its dark spots to its bright ones is what sun and sky make.
-bool ChangesColourAsShadowsDo(const Cell& cell, const TwoLevels& levels) {
-  const double share = (levels.high - levels.low) / cell.depth;
-  for (const std::size_t k : {0, 1}) {
-    double low = 0.0, high = 0.0;
-    for (std::size_t i = 0; i < cell.spots.size(); ++i) {
-      (i < levels.low_count ? low : high) += cell.spots[i].colour[k];
-    }
-    low /= static_cast<double>(levels.low_count);
-    high /= static_cast<double>(cell.spots.size() - levels.low_count);
-    if (std::fabs(high - low - share * cell.colour_step[k]) > kLargestColourOff) return false;
-  }
-  return true;
-}
 
 /// The light on surfaces in the open sun, phantoms about them as they are.
 class OpenLight {
@@ -167,12 +86,15 @@ class OpenLight {
 /// A plane of one material, as far as the model has it in the sun.
 struct OpenSurface {
   std::vector<double> medians;  ///< Of its cells' logarithmic brightness.
+  std::vector<double> tops;     ///< Of each cell, what a quarter of its spots exceeds.
   double depth = 0.0;           ///< Of a shadow there, logarithmic.
   double level = 0.0;           ///< Brightness in the open sun: of the cells that are not in shade.
 };
 using OpenSurfaces = std::map<std::pair<int, Rgb>, OpenSurface>;
 
 constexpr std::size_t kFewestCells = 4;
+// The brightest places of a surface, and how much brighter than its mean a pattern makes them.
+constexpr double kOpenTop = 0.95, kPattern = 0.15;
 // Logarithmic: how near surfaces' gains must be to agree.
 constexpr double kAgreement = 0.26;
 
@@ -201,7 +123,8 @@ double FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& r
     std::vector<double> open;
     std::copy_if(surface.medians.begin(), surface.medians.end(), std::back_inserter(open),
                  [&](double value) { return value >= shade; });
-    surface.level = Quantile(open, 0.5);
+    // Where leaves leave half-light everywhere, few places lie in the open.
+    surface.level = std::max(Quantile(open, 0.5), Quantile(surface.tops, kOpenTop) - kPattern);
     const auto& [albedo, lit] = places.at(key);
     if (open.size() < kFewestCells || std::min({albedo.r, albedo.g, albedo.b}) <= 0.0) continue;
     const Vec3 normal{key.second[0], key.second[1], key.second[2]};
@@ -249,17 +172,20 @@ void MapSunlight(const OpenLight& light, const std::vector<std::uint8_t>& reache
   shade->sunlight = MapSeenSunlight(light.to_sun(), spots);
 }
 
-/// Whether a shadow's edge divides it: two sharp levels, or two on a side each.
-bool IsCrossed(const Cell& cell) {
-  const TwoLevels levels = SplitInTwo(cell.spots);
-  const double apart = levels.high - levels.low;
-  const bool two = apart > std::max(kEdgeDepth * cell.depth, kSmallestStep) &&
-                   levels.low_share > kSideShare && levels.low_share < 1 - kSideShare &&
-                   levels.spread < kSharpness * apart;
-  // A pole's shadow lies in the middle of a cell, the sun on both sides of it; but it is sharp.
-  return two &&
-         (levels.spread < kSharp * apart || Apartness(cell.spots, levels.low_count) > kApart) &&
-         ChangesColourAsShadowsDo(cell, levels);
+/// Looks at the sunny sides of the phantoms' own shadows.
+void CountShadedEdges(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
+                      UnmodelledShade* shade) {
+  int shaded = 0;
+  for (const ShadeCell& cell : cells) {
+    const auto surface = sunlit.find({cell.surface, cell.normal});
+    if (!cell.unlit || cell.in_sun.size() < kFewestBesideEdge || surface == sunlit.end()) continue;
+    const double open = Quantile(surface->second.medians, kOpenQuantile);
+    ++shade->beside_edges;
+    shaded += Quantile(cell.in_sun, 0.5) < open - kDimDepth * cell.depth ? 1 : 0;
+  }
+  if (shade->beside_edges > 0) {
+    shade->edges_shaded = static_cast<double>(shaded) / shade->beside_edges;
+  }
 }
 
 }  // namespace
@@ -277,16 +203,17 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   ParallelFor(all.size(), 0, [&](std::size_t i) {
     reached[i] = all[i].frames > 0 && solver.ReachesPhantomsOnly(all[i].point, to_sun) ? 1 : 0;
   });
-  std::vector<Cell> cells(samples.cells());
+  std::vector<ShadeCell> cells(samples.cells());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const SurfaceSample& spot = all[i];
     const double cosine = Dot(spot.normal, to_sun);
     if (spot.frames == 0 || spot.surface < 0 || cosine < kGrazing) continue;
-    Cell& cell = cells[spot.cell];
+    ShadeCell& cell = cells[spot.cell];
     const auto& rgb = spot.log_rgb;
     cell.spots.push_back(
         {(rgb[0] + rgb[1] + rgb[2]) / 3, {rgb[0] - rgb[1], rgb[2] - rgb[1]}, spot.point.xyz});
     (reached[i] != 0 ? cell.lit : cell.unlit) = true;
+    if (reached[i] != 0) cell.in_sun.push_back(cell.spots.back().value);
     const auto depth = [&](double of_sun, double of_sky) {
       return std::log1p(of_sun * cosine / of_sky);
     };
@@ -296,19 +223,24 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
     cell.surface = spot.surface;
     cell.normal = {spot.normal.x, spot.normal.y, spot.normal.z};
   }
-  std::erase_if(cells, [](const Cell& cell) { return cell.spots.size() < kFewestSpots; });
+  std::erase_if(cells, [](const ShadeCell& cell) { return cell.spots.size() < kFewestSpots; });
   int edges = 0, shaded = 0;
   // Medians of the cells that the model has in the sun, by plane and material.
   OpenSurfaces sunlit;
-  for (Cell& cell : cells) {
+  for (ShadeCell& cell : cells) {
     ++shade.places;
     std::sort(cell.spots.begin(), cell.spots.end(),
-              [](const Spot& a, const Spot& b) { return a.value < b.value; });
-    edges += IsCrossed(cell) ? 1 : 0;
-    if (cell.lit && !cell.unlit)
-      sunlit[{cell.surface, cell.normal}].medians.push_back(cell.Median());
+              [](const ShadeSpot& a, const ShadeSpot& b) { return a.value < b.value; });
+    const TwoLevels levels = SplitInTwo(cell.spots);
+    const bool crossed = IsCrossed(cell, levels);
+    edges += crossed ? 1 : 0;
+    if (!cell.lit || cell.unlit) continue;
+    OpenSurface& surface = sunlit[{cell.surface, cell.normal}];
+    surface.medians.push_back(cell.Median());
+    surface.tops.push_back(cell.spots[cell.spots.size() * 3 / 4].value);
+    if (crossed) shade.crossings.push_back(CrossingOf(cell, levels));
   }
-  for (const Cell& cell : cells) {
+  for (const ShadeCell& cell : cells) {
     if (!cell.lit || cell.unlit) continue;
     OpenSurface& surface = sunlit[{cell.surface, cell.normal}];
     surface.depth = cell.depth;
@@ -316,6 +248,7 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
     ++shade.sunlit;
     shaded += cell.Median() < level - kShadeDepth * cell.depth ? 1 : 0;
   }
+  CountShadedEdges(cells, sunlit, &shade);
   if (shade.places > 0) shade.edges = static_cast<double>(edges) / shade.places;
   if (shade.sunlit > 0) shade.shaded = static_cast<double>(shaded) / shade.sunlit;
   shade.crossed = edges;
@@ -330,6 +263,12 @@ bool UnmodelledShade::CastBySun() const {
   constexpr int kFewestEdges = 3;
   constexpr double kSmallestShare = 0.008;
   return crossed >= kFewestEdges && edges >= kSmallestShare;
+}
+
+bool UnmodelledShade::HidesEdges() const {
+  constexpr int kFewestPlaces = 6;
+  constexpr double kMost = 0.6;
+  return beside_edges >= kFewestPlaces && edges_shaded >= kMost;
 }
 
 bool UnmodelledShade::Matters() const {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "base/frames.h"
 #include "base/vector.h"
 #include "compositor/light_meter.h"
 #include "compositor/light_solver.h"
@@ -9,14 +12,24 @@
 
 namespace pleinair::compositor {
 
+/// A small place on one material, in the sun as far as the phantoms go, of which a shadow's edge
+/// shows that a part is not.
+struct ShadeCrossing {
+  Point<Marker> middle;
+  Vec3 normal;
+  LinearRgb contrast;  ///< Logarithm of the bright part's light over the dark one's, a channel.
+};
+
 /// Shadows in view that no phantom explains: a tree's, a neighbouring house's, or the phantoms' own
 /// where the sun does not stand where it is thought to.
 struct UnmodelledShade {
-  int places = 0;       ///< Small cells of one material that face the sun.
-  int crossed = 0;      ///< Of them, those that a shadow's edge crosses.
-  double edges = 0.0;   ///< Their share.
-  int sunlit = 0;       ///< Cells that the model has wholly in the sun.
-  double shaded = 0.0;  ///< Share of them that lie in shade.
+  int places = 0;             ///< Small cells of one material that face the sun.
+  int crossed = 0;            ///< Of them, those that a shadow's edge crosses.
+  double edges = 0.0;         ///< Their share.
+  int sunlit = 0;             ///< Cells that the model has wholly in the sun.
+  double shaded = 0.0;        ///< Share of them that lie in shade.
+  int beside_edges = 0;       ///< Places on the sunny side of the phantoms' own shadows.
+  double edges_shaded = 0.0;  ///< Share of them that lie in shade all the same.
   /// Gain of the camera that phantoms' places in the open sun tell of, over that of the frames:
   /// above 1 where the print, or the brightest of it, has less than the open sun.
   double open_gain = 1.0;
@@ -25,10 +38,15 @@ struct UnmodelledShade {
   /// Where Matters(): the sun's light on the print in the open and all other, as phantoms leave it.
   LinearRgb sun_on_print, ambient_on_print;
   SeenSunlight sunlight;  ///< Where Matters().
+  std::vector<ShadeCrossing> crossings;
 
   /// Whether the edges are more than chance and things that no phantom stands for bring about: a
   /// sun must cast them.
   bool CastBySun() const;
+  /// Whether what casts them keeps the sun from the phantoms' own shadows, too, which then show no
+  /// edge under whatever sun; where the sun is thought to stand elsewhere than it does, most of
+  /// these places lie in the open.
+  bool HidesEdges() const;
   /// Whether so much lies in shade that the model has in the sun that pictures must be asked where.
   bool Matters() const;
 };

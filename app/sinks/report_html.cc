@@ -95,6 +95,13 @@ std::string MeasuredCards(const MeasuredLight& light) {
                                         : "where phantoms would cast shadows",
                        light.edges_agreeing, light.edges, light.frames, light.sun_to_sky_stated);
   }
+  if (light.sun_source == Source::kShade) {
+    from = fmt::format(
+        "sun over sky on level ground, ± {:.0f} %, from how deep the shade of trees is at {} "
+        "places "
+        "in {} frames; the scene says {:.2f}",
+        light.sun_to_sky_error * 100, light.shade_places, light.frames, light.sun_to_sky_stated);
+  }
   std::string html = Card(sun, from);
   if (light.heading_source == Source::kMeasured) {
     html += Card(fmt::format("{:+.2f}° ± {:.2f}°", ToDegrees(light.heading_offset),

@@ -26,6 +26,8 @@ const char* SourceName(MeasuredLight::Source source) {
       return "stated";
     case MeasuredLight::Source::kMeasured:
       return "measured";
+    case MeasuredLight::Source::kShade:
+      return "shade";
     case MeasuredLight::Source::kOverride:
       return "option";
   }
@@ -44,6 +46,7 @@ Json MeasuredJson(const MeasuredLight& light) {
           {"frames", light.frames},
           {"shadow_edges", light.edges},
           {"shadow_edges_agreeing", light.edges_agreeing},
+          {"shade_places", light.shade_places},
           {"sun_doubtful", light.sun_doubtful},
           {"shaded_without_phantom", Rounded(light.shaded)},
           {"open_sun_over_brightest_of_print", Rounded(light.print_shade)}};

@@ -223,6 +223,9 @@ void ScenePanel::Air(WindowState* state) {
               ? fmt::format("measured: sun {:.1f} times the sky (from {} edges)",
                             state->light.measured.sun_to_sky, measured.edges_agreeing)
               : "measured: no sun");
+  } else if (measured.sun_source == MeasuredLight::Source::kShade) {
+    Quiet(fmt::format("measured: sun {:.1f} times the sky (from the shade of trees)",
+                      state->light.measured.sun_to_sky));
   }
 }
 

@@ -13,9 +13,14 @@ namespace {
 
 using compositor::testing::PhotographedYard;
 
+const PhotographedYard& Yard() {
+  static const PhotographedYard yard;
+  return yard;
+}
+
 /// What a sunny yard tells where the scene has the sun `off_deg` beside its place.
 FoundLight Settle(double off_deg, const PhotographedYard::Light& light) {
-  static const PhotographedYard yard;
+  const PhotographedYard& yard = Yard();
   devices::SceneDescription scene;
   scene.place_time.latitude_deg = 50.0;
   scene.cloudiness = devices::Cloudiness::kClear;
@@ -44,6 +49,34 @@ TEST(LightLook, SeesThatNoSunShines) {
   EXPECT_FALSE(found.measured.sun_doubtful);
   EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kMeasured);
   EXPECT_EQ(found.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
+}
+
+TEST(LightLook, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
+  const PhotographedYard& yard = Yard();
+  const auto tree = [&](Vec3 p) {
+    return yard.IsBesideShadowEdge(p) || std::sin(9 * p.x) * std::sin(11 * p.y + 3 * p.z) > 0.0;
+  };
+  const FoundLight hazy = Settle(0.0, {.sky_scale = {2.5, 2.5, 2.5}, .shaded = tree});
+  EXPECT_FALSE(hazy.measured.sun_doubtful);
+  EXPECT_EQ(hazy.measured.sun_source, MeasuredLight::Source::kShade);
+  EXPECT_GE(hazy.measured.shade_places, 4);
+  EXPECT_GT(hazy.measured.sun_to_sky_error, 0.1);
+  ASSERT_NE(hazy.skies.source, nullptr);
+  EXPECT_NE(hazy.skies.sunlight, nullptr);
+  // Words that have the sky much fainter beside the sun count for something; less than half.
+  const sky::SkyModel& model = yard.model();
+  const auto off = [&](const sky::SkySource& skies, LinearRgb scale) {
+    const auto day = skies.ForSun(model.ToSun(), 1.0);
+    const auto share = [](const sky::SkyModel& of) {
+      return of.SkyHorizontalIrradiance().g / of.SunNormalIrradiance().g;
+    };
+    return std::fabs(std::log(share(*day) * scale.g / (2.5 * share(model))));
+  };
+  devices::SceneDescription words;
+  words.cloudiness = devices::Cloudiness::kClear;
+  const double stated = off(*StatedSky(words), {1, 1, 1});
+  EXPECT_GT(stated, 0.8);
+  EXPECT_LT(off(*hazy.skies.source, hazy.skies.scale), 0.5 * stated);
 }
 
 TEST(LightLook, BelievesTheWordsAloneWhereTheSunStandsElsewhere) {

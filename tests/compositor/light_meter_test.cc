@@ -28,7 +28,10 @@ class OverheadSun : public sky::SkyModel {
 class HalfShadow : public LightSolver {
  public:
   explicit HalfShadow(double shadow_to_x_m) : shadow_to_x_m_(shadow_to_x_m) {}
-  std::vector<LitMesh> Solve(const sky::SkyModel&, const Mat3&) const override { return {}; }
+  std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel&, const Mat3&,
+                                       const SeenSunlight&) const override {
+    return {};
+  }
   DaylightCoefficients Coefficients(Vec3, const CoefficientOptions&,
                                     const CoefficientProgress&) const override {
     return {};

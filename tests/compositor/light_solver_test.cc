@@ -224,6 +224,36 @@ TEST(LightSolver, TintsTheGroundBesideASunlitRedWall) {
   EXPECT_NEAR(near.without[0], near.without[1], 1e-3F * near.without[1]);
 }
 
+/// Light on the side of a box, over a few places.
+float MeanOnSide(const std::vector<LitMesh>& meshes) {
+  float sum = 0.0F;
+  for (const double y : {-0.15, -0.05, 0.05, 0.15}) {
+    for (const double z : {0.2, 0.3, 0.4, 0.5}) {
+      sum += Nearest(meshes, {0.2, y, z}, {1, 0, 0}).with[1];
+    }
+  }
+  return sum / 16;
+}
+
+TEST(LightSolver, SendsBackFromTheGroundTheSunThatTreesLeaveIt) {
+  const auto solver = MakeSolver({Phantom(Ground(4.0, {0.3F, 0.3F, 0.3F})),
+                                  Object(BoxModel({-0.2, -0.2, 0.0}, {0.2, 0.2, 0.6}, {}))},
+                                 {.near_edge_m = 0.1});
+  const UniformDay day({0, 0, 0}, {60e3, 60e3, 60e3}, {0.3, 0.2, 1});
+  const auto on_side = [&](double share) {
+    // One cell is the same everywhere.
+    SeenSunlight map = MapSeenSunlight(day.ToSun().xyz, std::vector<SunlitSpot>{{{}, share, 0.1}});
+    return MeanOnSide(solver->SolveUnderTrees(day, Mat3{}, map));
+  };
+  const float open = MeanOnSide(solver->Solve(day, Mat3{}));
+  EXPECT_GT(open, 1e3F);
+  EXPECT_EQ(on_side(1.0), open);
+  // Land beyond the phantoms lies in the sun.
+  const float land = on_side(0.0);
+  EXPECT_LT(land, 0.15F * open);
+  EXPECT_NEAR(on_side(0.5), 0.5 * (open + land), 0.03 * open);  // Rays' noise.
+}
+
 TEST(LightSolver, WarmsTheSunsSideOfABodyAtDawnAndLeavesTheOtherBlue) {
   // Grey all over, under the clear sky that scenes get, the sun 4 degrees high in the east.
   const auto sky = sky::CreateDaylight({sky::SkyCondition::kClear, 0.0});

@@ -49,6 +49,20 @@ class PhotographedYard {
   const CameraModel& camera() const { return camera_; }
   const MarkerPrint& print() const { return print_; }
 
+  /// Whether a place lies within a step of an edge of the phantoms' shadows, on either side.
+  bool IsBesideShadowEdge(Vec3 p) const {
+    bool lit = false, shaded = false;
+    for (const double reach : {0.0, 0.06, 0.12, 0.2, 0.3, 0.4}) {
+      for (int i = 0; i < 12; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 12;
+        const Vec3 beside =
+            p + Vec3{reach * std::cos(angle), reach * std::sin(angle), i % 2 * reach + 1e-3};
+        (solver_->ReachesPhantomsOnly({beside}, ToSun()) ? lit : shaded) = true;
+      }
+    }
+    return lit && shaded;
+  }
+
   struct Light {
     LinearRgb sky_scale{1.0, 1.0, 1.0};
     double sun_scale = 1.0;

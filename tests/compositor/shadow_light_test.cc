@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "compositor/plane_contrast.h"
+#include "compositor/shade_depth.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
 #include "compositor/unmodelled_shade.h"
@@ -127,25 +128,32 @@ UnmodelledShade Shade(const SurfaceSamples& samples, const sky::SkyModel& model,
 }
 
 TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereATreeShadesAllThePhantomsEdges) {
-  // All that lies within a step of an edge of the phantoms' shadows, on either side.
   const LightSolver& solver = yard_->solver();
-  const Vec3 to_sun = yard_->model().ToSun().xyz;
-  const auto tree = [&](Vec3 p) {
-    bool lit = false, shaded = false;
-    for (const double reach : {0.0, 0.06, 0.12, 0.2, 0.3, 0.4}) {
-      for (int i = 0; i < 12; ++i) {
-        const double angle = 2 * std::numbers::pi * i / 12;
-        const Vec3 beside =
-            p + Vec3{reach * std::cos(angle), reach * std::sin(angle), i % 2 * reach + 1e-3};
-        (solver.ReachesPhantomsOnly({beside}, to_sun) ? lit : shaded) = true;
-      }
-    }
-    return lit && shaded;
-  };
-  const SurfaceSamples samples = Look({.shaded = tree});
+  const SurfaceSamples samples =
+      Look({.shaded = [](Vec3 p) { return yard_->IsBesideShadowEdge(p); }});
   EXPECT_EQ(Read(samples).sun, SunSkyReading::Sun::kHidden);
   const UnmodelledShade shade = Shade(samples, yard_->model(), solver);
   EXPECT_TRUE(shade.CastBySun()) << shade.crossed << " of " << shade.places;
+  EXPECT_TRUE(shade.HidesEdges()) << shade.edges_shaded << " of " << shade.beside_edges;
+}
+
+TEST_F(ShadowLight, TellsTheSkyBesideTheSunFromHowDeepTheShadeOfTreesIs) {
+  const auto tree = [](Vec3 p) { return std::sin(9 * p.x) * std::sin(11 * p.y + 3 * p.z) > 0.0; };
+  for (const double truth : {1.0, 1.7, 2.5}) {
+    const SurfaceSamples samples = Look({.sky_scale = LinearRgb{1, 1, 1} * truth, .shaded = tree});
+    const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
+    const SunSkyReading reading = ReadShadeDepth(yard_->solver(), shade, yard_->model(), Mat3{});
+    ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
+    for (const double scale : {reading.sky_scale.r, reading.sky_scale.g, reading.sky_scale.b}) {
+      EXPECT_NEAR(scale / truth, 1.0, 0.25) << truth;
+    }
+    EXPECT_LT(std::fabs(std::log(reading.sky_scale.g / truth)), 2 * reading.log_uncertainty);
+    EXPECT_GT(reading.log_uncertainty, 0.2) << "it is no phantom's edge";
+  }
+  // Without trees there is nothing to read.
+  const UnmodelledShade open = Shade(Look({}), yard_->model(), yard_->solver());
+  EXPECT_EQ(ReadShadeDepth(yard_->solver(), open, yard_->model(), Mat3{}).sun,
+            SunSkyReading::Sun::kUnknown);
 }
 
 TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereTheTimeIsHoursOff) {
@@ -161,6 +169,7 @@ TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereTheTimeIsHoursOff) {
     hidden += reading.sun == SunSkyReading::Sun::kHidden ? 1 : 0;
     const UnmodelledShade shade = Shade(samples, wrong, yard_->solver());
     EXPECT_TRUE(shade.CastBySun()) << off_deg << ": " << shade.crossed << " of " << shade.places;
+    EXPECT_FALSE(shade.HidesEdges()) << off_deg << ": " << shade.edges_shaded;
   }
   EXPECT_GT(hidden, 0) << "without a doubt it would be taken for overcast";
 }

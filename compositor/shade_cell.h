@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/vector.h"
+#include "compositor/unmodelled_shade.h"
+
+namespace pleinair::compositor {
+
+/// A spot's logarithmic brightness, and where it lies.
+struct ShadeSpot {
+  double value = 0.0;
+  std::array<double, 2> colour{};  ///< Red and blue against green.
+  Vec3 point;
+};
+
+/// Two levels of brightness, by two-means.
+struct TwoLevels {
+  double low = 0.0, high = 0.0;  ///< Means.
+  double spread = 0.0;           ///< Root mean square about the nearer one.
+  double low_share = 0.0;
+  std::size_t low_count = 0;
+};
+
+/// What is seen of a small place on one material that faces the sun.
+struct ShadeCell {
+  std::vector<ShadeSpot> spots;
+  std::vector<double> in_sun;           // Values of the spots that the model has in the sun.
+  bool lit = false, unlit = false;      // Some spot that the model has in the sun; not.
+  double depth = 0.0;                   // Of a shadow there, logarithmic, green.
+  std::array<double, 2> colour_step{};  // Red and blue against green.
+  int surface = 0;
+  std::array<double, 3> normal{};
+
+  double Median() const { return spots[spots.size() / 2].value; }  // They are sorted.
+};
+
+/// Of sorted spots.
+TwoLevels SplitInTwo(const std::vector<ShadeSpot>& sorted);
+
+/// Whether a shadow's edge divides a cell of sorted spots: two sharp levels, or two on a side each.
+bool IsCrossed(const ShadeCell& cell, const TwoLevels& levels);
+
+/// What a crossed cell shows.
+ShadeCrossing CrossingOf(const ShadeCell& cell, const TwoLevels& levels);
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,99 @@
+#include "compositor/shade_depth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "compositor/quantile.h"
+#include "compositor/scaled_daylight.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr std::size_t kFewestPlaces = 8;
+constexpr std::uint32_t kPaths = 384;
+// Of the places, those that are deep enough to lie beside the whole sun and in none of it.
+constexpr double kDeepShare = 0.5;
+// Contrast below which a step tells nothing of what made it.
+constexpr double kSmallestStep = 0.25;
+// Doubt, logarithmic, of what all places have in common: half-light on either side makes the sky
+// look stronger beside the sun, what the crown takes of it weaker.
+constexpr double kCommonDoubt = 0.25;
+
+/// The strength of the sky, of the model's, with which `contrast` would be that of all the sun and
+/// none; nothing where even a black sky leaves less.
+double ScaleOf(double contrast, double sun, double sky, double reflected) {
+  return (sun / std::expm1(contrast) - reflected) / sky;
+}
+
+}  // namespace
+
+SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& shade,
+                             const sky::SkyModel& day, const Mat3& marker_from_world) {
+  SunSkyReading reading;
+  const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
+  // By plane, since that is how ambient light is asked for.
+  std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
+  for (std::size_t i = 0; i < shade.crossings.size(); ++i) {
+    const Vec3 n = shade.crossings[i].normal;
+    by_normal[{n.x, n.y, n.z}].push_back(i);
+  }
+  const ScaledDaylight sky_alone(day, {1, 1, 1}, {});
+  // What reflects lies in the same shade, as far as it goes.
+  const double sunlit = 1.0 - shade.shaded;
+  const ScaledDaylight sun_alone(day, {}, {sunlit, sunlit, sunlit});
+  struct Place {
+    LinearRgb log_scale;
+    double depth = 0.0;
+  };
+  std::vector<Place> places;
+  for (const auto& [n, members] : by_normal) {
+    const Vec3 normal{n[0], n[1], n[2]};
+    std::vector<Point<Marker>> points;
+    points.reserve(members.size());
+    for (const std::size_t i : members) points.push_back(shade.crossings[i].middle);
+    const auto sky =
+        solver.AmbientPhantomsOnly(points, normal, sky_alone, marker_from_world, kPaths);
+    const auto reflected =
+        solver.AmbientPhantomsOnly(points, normal, sun_alone, marker_from_world, kPaths);
+    const LinearRgb sun = day.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun));
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const LinearRgb& contrast = shade.crossings[members[k]].contrast;
+      if (std::min({contrast.r, contrast.g, contrast.b}) < kSmallestStep) continue;
+      const double r = ScaleOf(contrast.r, sun.r, sky[k].r, reflected[k].r);
+      const double g = ScaleOf(contrast.g, sun.g, sky[k].g, reflected[k].g);
+      const double b = ScaleOf(contrast.b, sun.b, sky[k].b, reflected[k].b);
+      if (!(std::min({r, g, b}) > 0.0) || !std::isfinite(r + g + b)) continue;
+      places.push_back({{std::log(r), std::log(g), std::log(b)}, g});
+    }
+  }
+  reading.edges = static_cast<int>(places.size());
+  if (places.size() < kFewestPlaces) return reading;
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.depth < b.depth; });
+  places.resize(std::max<std::size_t>(
+      kFewestPlaces / 2,
+      static_cast<std::size_t>(kDeepShare * static_cast<double>(places.size()))));
+  const auto middle = [&](auto channel) {
+    std::vector<double> values;
+    values.reserve(places.size());
+    for (const Place& place : places) values.push_back(channel(place.log_scale));
+    return Quantile(values, 0.5);
+  };
+  const double green = middle([](LinearRgb c) { return c.g; });
+  reading.sun = SunSkyReading::Sun::kShines;
+  reading.agreeing = static_cast<int>(places.size());
+  reading.share_with_contrast = 1.0;
+  reading.sky_scale = {std::exp(middle([](LinearRgb c) { return c.r; })), std::exp(green),
+                       std::exp(middle([](LinearRgb c) { return c.b; }))};
+  double square = 0.0;
+  for (const Place& place : places) square += std::pow(place.log_scale.g - green, 2);
+  const auto count = static_cast<double>(places.size());
+  reading.log_uncertainty = std::sqrt(square / count / count + kCommonDoubt * kCommonDoubt);
+  return reading;
+}
+
+}  // namespace pleinair::compositor
