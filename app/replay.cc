@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/frame_choice.h"
 #include "app/frames_ahead.h"
 #include "app/interrupt.h"
 #include "app/marker_search.h"
@@ -36,13 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kReportPictures = 4;
 constexpr int kReportPictureWidth_px = 800;
 constexpr int kReportJpegQuality = 85;
-// The light is read from so many frames; more hardly show other surfaces.
-constexpr std::size_t kLightFrames = 8;
-// Within half a minute about the middle the sun moves an eighth of a degree.
-constexpr std::int64_t kOneSunNs = 30'000'000'000;
 
 /// One replay from opening to report; its members are what the two passes share.
 class Replayer {
@@ -146,38 +142,12 @@ class Replayer {
                    folder_.staging()));
     report_.outputs.insert(report_.outputs.end(), exported.begin(), exported.end());
     Warn();
-    // The frames for the report: spread evenly over those with a pose, or over all.
-    const auto count = static_cast<std::size_t>(report_.frames);
-    const std::size_t choice = report_.path.empty() ? count : report_.path.size();
-    const std::size_t shown = std::min(kReportPictures, choice);
-    for (std::size_t i = 0; i < shown; ++i) {
-      const std::size_t at = (2 * i + 1) * choice / (2 * shown);
-      pictured_.insert(report_.path.empty() ? static_cast<std::int64_t>(at)
-                                            : report_.path[at].frame_index);
-    }
+    pictured_ = ReportFrames(report_.path, report_.frames);
     return {};
   }
 
-  /// Indices into the path of the frames that the light is read from: spread evenly over as much
-  /// of its middle as one place of the sun serves.
-  std::vector<std::size_t> LightFrames() const {
-    const auto& path = report_.path;
-    if (path.empty()) return {};
-    const std::int64_t middle_ns = path[path.size() / 2].timestamp_ns;
-    std::vector<std::size_t> near;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      if (std::abs(path[i].timestamp_ns - middle_ns) <= kOneSunNs) near.push_back(i);
-    }
-    std::vector<std::size_t> chosen;
-    const std::size_t count = std::min(kLightFrames, near.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      chosen.push_back(near[(2 * i + 1) * near.size() / (2 * count)]);
-    }
-    return chosen;
-  }
-
   Result<void> LookAtLight() {
-    const std::vector<std::size_t> chosen = LightFrames();
+    const std::vector<std::size_t> chosen = LightFrames(report_.path);
     if (chosen.empty() || !renderer_->CanMeasureLight()) return {};
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenRecording());
     FramesAhead frames(std::move(recording.frames));
