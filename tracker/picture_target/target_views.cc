@@ -9,7 +9,9 @@
 #include "tracker/alignment/lens_grid.h"
 #include "tracker/picture_target/picture_pyramid.h"
 #include "tracker/picture_target/picture_raster.h"
+#include "tracker/surf/keypoint_clusters.h"
 #include "tracker/surf/surf.h"
+#include "tracker/surf/view_draws.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -36,35 +38,6 @@ constexpr double kMargin_px = 20.0;  ///< Of surroundings around the picture.
 constexpr double kLeastBlur_px = 0.5, kMostBlur_px = 1.1, kMostZoom = 0.12;
 constexpr double kNoise_codes = 2.0;
 constexpr double kPaper = 0.75;  ///< Linear light of the picture's white.
-
-/// A small generator of its own: targets must not depend on the standard library.
-class Draws {
- public:
-  double Uniform() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(state_ >> 33) / 2147483648.0;
-  }
-  /// Of deviation 1, nearly normal.
-  double Normal() { return (Uniform() + Uniform() + Uniform() + Uniform() - 2.0) * std::sqrt(3.0); }
-
- private:
-  std::uint64_t state_ = 20121;
-};
-
-struct Seen {
-  SurfKeypoint keypoint;  ///< In the view without zoom.
-  SurfDescriptor descriptor;
-};
-using Cluster = std::vector<Seen>;
-
-bool SameKeypoint(const SurfKeypoint& a, const SurfKeypoint& b) {
-  if (a.bright != b.bright) return false;
-  const float ratio = a.scale / b.scale;
-  if (ratio > 1.3F || ratio < 1.0F / 1.3F) return false;
-  if (std::hypot(a.x - b.x, a.y - b.y) > 0.7F * a.scale) return false;
-  return std::fabs(std::remainder(a.angle_rad - b.angle_rad, 2.0F * std::numbers::pi_v<float>)) <
-         0.35F;
-}
 
 /// The picture compressed `tilt` times across `direction`, its longer side `side_px` untilted.
 struct ViewShape {
@@ -170,46 +143,41 @@ class ViewMaker {
     return grey_.view();
   }
 
-  /// Puts a keypoint of a drawn view with those of other draws that are the same.
-  void Collect(const TargetView& view, const TargetView& drawn, double zoom, int draw, Seen seen) {
+  /// Puts a keypoint of a drawn view, in the coordinates of `view`, with those of other draws.
+  void Collect(const TargetView& view, const TargetView& drawn, double zoom, int draw,
+               DescribedKeypoint seen) {
     const Vec2 place = PlaceOnTarget(drawn, {seen.keypoint.x, seen.keypoint.y});
     if (!(place.x > 0.0 && place.x < kTargetSide && place.y > 0.0 && place.y < kTargetSide)) return;
     const auto& m = view.from_target;
     seen.keypoint.x = static_cast<float>(m[0] * place.x + m[1] * place.y + m[2]);
     seen.keypoint.y = static_cast<float>(m[3] * place.x + m[4] * place.y + m[5]);
     seen.keypoint.scale /= static_cast<float>(zoom);
-    const auto same = std::find_if(clusters_.begin(), clusters_.end(), [&](const Cluster& cluster) {
-      return SameKeypoint(cluster.front().keypoint, seen.keypoint);
-    });
-    if (same != clusters_.end()) {
-      same->push_back(seen);
-    } else if (draw + kComesBack <= kDraws) {
-      clusters_.push_back({seen});
-    }
+    AddToClusters(seen, draw + kComesBack <= kDraws, &clusters_);
   }
 
   void Keep(const TargetView& view, std::size_t most) {
-    std::erase_if(clusters_, [](const Cluster& c) { return c.size() < kComesBack; });
+    std::erase_if(clusters_, [](const KeypointCluster& c) { return c.size() < kComesBack; });
     // Those that come back most often, then the strongest.
-    std::stable_sort(clusters_.begin(), clusters_.end(), [](const Cluster& a, const Cluster& b) {
-      const std::size_t times_a = std::min<std::size_t>(a.size(), kDraws);
-      const std::size_t times_b = std::min<std::size_t>(b.size(), kDraws);
-      if (times_a != times_b) return times_a > times_b;
-      return a.front().keypoint.response > b.front().keypoint.response;
-    });
+    std::stable_sort(clusters_.begin(), clusters_.end(),
+                     [](const KeypointCluster& a, const KeypointCluster& b) {
+                       const std::size_t times_a = std::min<std::size_t>(a.size(), kDraws);
+                       const std::size_t times_b = std::min<std::size_t>(b.size(), kDraws);
+                       if (times_a != times_b) return times_a > times_b;
+                       return a.front().keypoint.response > b.front().keypoint.response;
+                     });
     if (clusters_.size() > most) clusters_.resize(most);
     const int index = static_cast<int>(target_.views.size());
     target_.views.push_back(view);
-    for (const Cluster& cluster : clusters_) AddKeypoint(cluster, index);
+    for (const KeypointCluster& cluster : clusters_) AddKeypoint(cluster, index);
   }
 
-  void AddKeypoint(const Cluster& cluster, int view) {
+  void AddKeypoint(const KeypointCluster& cluster, int view) {
     const auto n = static_cast<float>(cluster.size());
     TargetKeypoint keypoint;
     keypoint.view = view;
     SurfDescriptor mean{};
     float cosine = 0.0F, sine = 0.0F;
-    for (const Seen& seen : cluster) {
+    for (const DescribedKeypoint& seen : cluster) {
       keypoint.x += seen.keypoint.x / n;
       keypoint.y += seen.keypoint.y / n;
       keypoint.scale += seen.keypoint.scale / n;
@@ -224,7 +192,7 @@ class ViewMaker {
 
   PictureTarget& target_;
   const PicturePyramid pyramid_;
-  Draws draws_;
+  ViewDraws draws_;
   PictureRaster raster_;
   WindowRays rays_;
   PrintMap map_;
@@ -233,7 +201,7 @@ class ViewMaker {
   GreyImage grey_;
   std::vector<SurfKeypoint> keypoints_;
   std::vector<SurfDescriptor> descriptors_;
-  std::vector<Cluster> clusters_;
+  std::vector<KeypointCluster> clusters_;
 };
 
 }  // namespace

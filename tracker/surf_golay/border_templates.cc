@@ -9,7 +9,9 @@
 #include "tracker/alignment/lens_grid.h"
 #include "tracker/alignment/print_raster.h"
 #include "tracker/golay/golay_code.h"
+#include "tracker/surf/keypoint_clusters.h"
 #include "tracker/surf/surf.h"
+#include "tracker/surf/view_draws.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
 
@@ -31,37 +33,6 @@ constexpr double kMargin_px = 24.0;  ///< Of surroundings around the print.
 constexpr double kBlur_px = 0.7;
 constexpr double kInk = 0.04, kPaper = 0.8;
 constexpr int kMostKeypoints = 200;
-
-/// A small generator of its own: the templates must not depend on the standard library.
-class Draws {
- public:
-  std::uint32_t Next() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<std::uint32_t>(state_ >> 33);
-  }
-  double Uniform() { return Next() / 2147483648.0; }
-
- private:
-  std::uint64_t state_ = 20121;
-};
-
-struct Seen {
-  SurfKeypoint keypoint;
-  SurfDescriptor descriptor;
-};
-
-struct Cluster {
-  std::vector<Seen> seen;
-};
-
-bool SameKeypoint(const SurfKeypoint& a, const SurfKeypoint& b) {
-  if (a.bright != b.bright) return false;
-  const float ratio = a.scale / b.scale;
-  if (ratio > 1.3F || ratio < 1.0F / 1.3F) return false;
-  if (std::hypot(a.x - b.x, a.y - b.y) > 0.7F * a.scale) return false;
-  return std::fabs(std::remainder(a.angle_rad - b.angle_rad, 2.0F * std::numbers::pi_v<float>)) <
-         0.35F;
-}
 
 class TemplateMaker {
  public:
@@ -110,7 +81,7 @@ class TemplateMaker {
     camera.fx = camera.fy = 1.0;
     LookUpRays(LensGrid(camera), {0, 0, 0, width, height}, &rays_);
 
-    std::vector<Cluster> clusters;
+    std::vector<KeypointCluster> clusters;
     GreyImage grey(width, height);
     for (int draw = 0; draw < kDraws; ++draw) {
       const PrintPattern print =
@@ -129,31 +100,24 @@ class TemplateMaker {
       surf_.Detect(grey.view(), &keypoints_);
       surf_.Describe(&keypoints_, &descriptors_);
       for (std::size_t i = 0; i < keypoints_.size(); ++i) {
-        const auto same = std::find_if(clusters.begin(), clusters.end(), [&](const Cluster& c0) {
-          return SameKeypoint(c0.seen.front().keypoint, keypoints_[i]);
-        });
-        if (same != clusters.end()) {
-          same->seen.push_back({keypoints_[i], descriptors_[i]});
-        } else if (draw + kComesBack <= kDraws) {
-          clusters.push_back({{{keypoints_[i], descriptors_[i]}}});
-        }
+        AddToClusters({keypoints_[i], descriptors_[i]}, draw + kComesBack <= kDraws, &clusters);
       }
     }
     const int view_index = static_cast<int>(templates_.views.size());
     templates_.views.push_back(view);
-    for (const Cluster& cluster : clusters) {
-      if (static_cast<int>(cluster.seen.size()) < kComesBack) continue;
+    for (const KeypointCluster& cluster : clusters) {
+      if (static_cast<int>(cluster.size()) < kComesBack) continue;
       AddKeypoint(cluster, modules_from_view, view_index);
     }
   }
 
-  void AddKeypoint(const Cluster& cluster, const Mat3& modules_from_view, int view_index) {
-    const double n = static_cast<double>(cluster.seen.size());
+  void AddKeypoint(const KeypointCluster& cluster, const Mat3& modules_from_view, int view_index) {
+    const double n = static_cast<double>(cluster.size());
     BorderTemplate keypoint;
     keypoint.view_index = view_index;
     SurfDescriptor mean{};
     double cosine = 0.0, sine = 0.0;
-    for (const Seen& seen : cluster.seen) {
+    for (const DescribedKeypoint& seen : cluster) {
       keypoint.view = keypoint.view + Vec2{seen.keypoint.x / n, seen.keypoint.y / n};
       keypoint.scale += seen.keypoint.scale / n;
       cosine += std::cos(seen.keypoint.angle_rad);
@@ -171,12 +135,12 @@ class TemplateMaker {
       return;
     }
     templates_.keypoints.push_back(keypoint);
-    templates_.descriptors.push_back(Quantise(mean, cluster.seen.front().keypoint.bright));
+    templates_.descriptors.push_back(Quantise(mean, cluster.front().keypoint.bright));
   }
 
   const sg::Border& border_;
   Surf surf_;
-  Draws draws_;
+  ViewDraws draws_;
   PrintRaster raster_;
   WindowRays rays_;
   PrintMap map_;
