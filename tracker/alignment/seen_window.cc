@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "base/srgb.h"
 #include "tracker/homography.h"
@@ -28,47 +29,76 @@ const std::array<float, 256>& CertaintyOfCode() {
   return table;
 }
 
+/// How certain the mean of some codes is, told by the noise of codes.
+class CertaintyByNoise {
+ public:
+  explicit CertaintyByNoise(Clipping clipping) : clipping_(clipping) {}
+
+  void Add(std::uint8_t code) {
+    least_ = std::min(least_, table_[code]);
+    most_ = std::max(most_, table_[code]);
+    sum_ += table_[std::min(code, kBrightest)];
+  }
+  float OfMean(float share) const {
+    return clipping_ == Clipping::kByLight || !(most_ > 0.0F) ? least_ : sum_ * share;
+  }
+
+ private:
+  const std::array<float, 256>& table_ = CertaintyOfCode();
+  Clipping clipping_;
+  float least_ = std::numeric_limits<float>::max(), most_ = 0.0F, sum_ = 0.0F;
+};
+
+/// All alike, but for what clips.
+class EvenCertainty {
+ public:
+  void Add(std::uint8_t code) { brightest_ = std::max(brightest_, code); }
+  float OfMean(float /*share*/) const { return brightest_ > kBrightest ? 0.0F : 1.0F; }
+
+ private:
+  std::uint8_t brightest_ = 0;
+};
+
+/// Means of the linear light of squares, and their certainty by what begins as `nothing`.
+template <typename Certainty>
+void TakeMeans(ImageView<const std::uint8_t> grey, const PixelWindow& window,
+               const Certainty& nothing, SeenWindow* seen) {
+  seen->value.resize(window.size());
+  seen->certainty.resize(window.size());
+  const auto& linear = LinearFromSrgb8();
+  const auto take = [&](auto side) {
+    const float share = 1.0F / static_cast<float>(side * side);
+    for (int y = 0; y < window.height; ++y) {
+      for (int x = 0; x < window.width; ++x) {
+        const std::uint8_t* row = grey.row((window.y0 + y) * side) + (window.x0 + x) * side;
+        float sum = 0.0F;
+        Certainty certainty = nothing;
+        for (int j = 0; j < side; ++j, row += grey.stride()) {
+          for (int i = 0; i < side; ++i) {
+            sum += linear[row[i]];
+            certainty.Add(row[i]);
+          }
+        }
+        const std::size_t at = static_cast<std::size_t>(y) * window.width + x;
+        seen->value[at] = sum * share;
+        seen->certainty[at] = certainty.OfMean(share);
+      }
+    }
+  };
+  if (window.level == 0) {
+    take(std::integral_constant<int, 1>{});  // The loops over a square fall away.
+  } else {
+    take(1 << window.level);
+  }
+}
+
 }  // namespace
 
 void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
                       const PixelWindow& window, SeenWindow* seen, Clipping clipping) {
   LookUpRays(lens, window, &seen->rays);
   seen->grey = grey;
-  seen->value.resize(window.size());
-  seen->certainty.resize(window.size());
-  const auto& linear = LinearFromSrgb8();
-  const auto& certainty = CertaintyOfCode();
-  if (window.level == 0) {
-    for (int y = 0; y < window.height; ++y) {
-      const std::uint8_t* row = grey.row(window.y0 + y) + window.x0;
-      const std::size_t at = static_cast<std::size_t>(y) * window.width;
-      for (int x = 0; x < window.width; ++x) {
-        seen->value[at + x] = linear[row[x]];
-        seen->certainty[at + x] = certainty[row[x]];
-      }
-    }
-    return;
-  }
-  const int side = 1 << window.level;
-  const float share = 1.0F / static_cast<float>(side * side);
-  for (int y = 0; y < window.height; ++y) {
-    for (int x = 0; x < window.width; ++x) {
-      float sum = 0.0F, least = std::numeric_limits<float>::max(), most = 0.0F, certain = 0.0F;
-      for (int j = 0; j < side; ++j) {
-        const std::uint8_t* row = grey.row((window.y0 + y) * side + j) + (window.x0 + x) * side;
-        for (int i = 0; i < side; ++i) {
-          sum += linear[row[i]];
-          least = std::min(least, certainty[row[i]]);
-          most = std::max(most, certainty[row[i]]);
-          certain += certainty[std::min(row[i], kBrightest)];
-        }
-      }
-      const std::size_t at = static_cast<std::size_t>(y) * window.width + x;
-      seen->value[at] = sum * share;
-      seen->certainty[at] =
-          clipping == Clipping::kByLight || !(most > 0.0F) ? least : certain * share;
-    }
-  }
+  TakeMeans(grey, window, CertaintyByNoise(clipping), seen);
 }
 
 void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
@@ -90,28 +120,7 @@ void TakeEvenWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
                     const PixelWindow& window, SeenWindow* seen) {
   LookUpRays(lens, window, &seen->rays);
   seen->grey = {};
-  seen->value.resize(window.size());
-  seen->certainty.resize(window.size());
-  const auto& linear = LinearFromSrgb8();
-  const int side = 1 << window.level;
-  const float share = 1.0F / static_cast<float>(side * side);
-  for (int y = 0; y < window.height; ++y) {
-    float* value = &seen->value[static_cast<std::size_t>(y) * window.width];
-    float* certain = &seen->certainty[static_cast<std::size_t>(y) * window.width];
-    for (int x = 0; x < window.width; ++x) {
-      const std::uint8_t* block = grey.row((window.y0 + y) * side) + (window.x0 + x) * side;
-      float sum = 0.0F;
-      std::uint8_t brightest = 0;
-      for (int j = 0; j < side; ++j, block += grey.stride()) {
-        for (int i = 0; i < side; ++i) {
-          sum += linear[block[i]];
-          brightest = std::max(brightest, block[i]);
-        }
-      }
-      value[x] = sum * share;
-      certain[x] = brightest > kBrightest ? 0.0F : 1.0F;
-    }
-  }
+  TakeMeans(grey, window, EvenCertainty(), seen);
 }
 
 std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plane_from_ideal,
