@@ -1,11 +1,11 @@
 #include "tracker/print_alignment.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/srgb.h"
+#include "tracker/corner_covariance.h"
 #include "tracker/homography.h"
 #include "tracker/print_fit.h"
 #include "tracker/print_pixels.h"
@@ -62,29 +62,14 @@ std::optional<Levels> FitLevels(const PrintPattern& pattern, const Mat3& rays_fr
 
 void FillCorners(const CameraModel& camera, const PrintFit& fit, PrintAlignment* alignment) {
   const Mat3& rays_from_print = fit.state().rays_from_print;
-  Eigen::Matrix<double, 8, 8> corners_by_motion;
+  const auto pixel_of = [&](Vec2 unit) { return PixelOfPrint(camera, rays_from_print, unit); };
+  std::array<FittedCorner, 4> corners;
   for (int i = 0; i < 4; ++i) {
-    const Vec2 corner = kSquareCorners[i];
-    alignment->corners_px[i] = PixelOfPrint(camera, rays_from_print, corner);
-    constexpr double kStep = 1e-5;
-    const Vec2 by_u = (PixelOfPrint(camera, rays_from_print, corner + Vec2{kStep, 0}) -
-                       PixelOfPrint(camera, rays_from_print, corner - Vec2{kStep, 0})) *
-                      (0.5 / kStep);
-    const Vec2 by_v = (PixelOfPrint(camera, rays_from_print, corner + Vec2{0, kStep}) -
-                       PixelOfPrint(camera, rays_from_print, corner - Vec2{0, kStep})) *
-                      (0.5 / kStep);
-    const double u = corner.x, v = corner.y;
-    const std::array<double, 8> flow_u{1, u, v, 0, 0, 0, -u * u, -u * v};
-    const std::array<double, 8> flow_v{0, 0, 0, 1, u, v, -u * v, -v * v};
-    for (int k = 0; k < 8; ++k) {
-      corners_by_motion(2 * i, k) = by_u.x * flow_u[k] + by_v.x * flow_v[k];
-      corners_by_motion(2 * i + 1, k) = by_u.y * flow_u[k] + by_v.y * flow_v[k];
-    }
+    corners[i] = CornerAt(kSquareCorners[i], pixel_of);
+    alignment->corners_px[i] = corners[i].pixel;
   }
-  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(
-      alignment->corner_covariance_px2.data()) =
-      corners_by_motion * fit.MotionCovariance() * corners_by_motion.transpose() +
-      kSystematicCorner_px * kSystematicCorner_px * Eigen::Matrix<double, 8, 8>::Identity();
+  alignment->corner_covariance_px2 =
+      CovarianceOfCorners(corners, fit.MotionCovariance(), kSystematicCorner_px);
 }
 
 /// How far a corner may lie from where the detector saw it.

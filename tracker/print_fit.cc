@@ -220,11 +220,14 @@ double PrintFit::CorrelationFactor(const BlockGradients& blocks,
   return std::max(1.0, plain.ldlt().solve(sandwich).trace() / kHomographyParameters);
 }
 
-Eigen::Matrix<double, 8, 8> PrintFit::MotionCovariance() const {
+std::array<double, 64> PrintFit::MotionCovariance() const {
   const Eigen::Index parameters = fitted_.gradient.size();
   const Eigen::MatrixXd covariance =
       fitted_.hessian.ldlt().solve(Eigen::MatrixXd::Identity(parameters, parameters));
-  return covariance.topLeftCorner<8, 8>() * CorrelationFactor(blocks_, covariance);
+  std::array<double, 64> motion{};
+  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(motion.data()) =
+      covariance.topLeftCorner<8, 8>() * CorrelationFactor(blocks_, covariance);
+  return motion;
 }
 
 }  // namespace pleinair::tracker

@@ -3,6 +3,7 @@
 // Internal: between the .cc files of this module; not installed.
 
 #include <Eigen/Dense>
+#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -31,8 +32,8 @@ class PrintFit {
   /// Share of the pixels that look as predicted.
   double AgreeingShare() const;
   /// Covariance of the homography's motion: rays_from_print (I + Δ), Δ's first eight entries by
-  /// row, but for translation before the linear part: (Δ02 Δ00 Δ01 Δ12 Δ10 Δ11 Δ20 Δ21).
-  Eigen::Matrix<double, 8, 8> MotionCovariance() const;
+  /// row, but for translation before the linear part: (Δ02 Δ00 Δ01 Δ12 Δ10 Δ11 Δ20 Δ21). Row-major.
+  std::array<double, 64> MotionCovariance() const;
 
  private:
   struct NormalEquations {

@@ -1,16 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
 
-#include "base/srgb.h"
 #include "tests/tracker/alignment_scene.h"
 #include "tests/tracker/counted_memory.h"
-#include "tracker/homography.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -24,21 +21,6 @@ AlignmentView RandomView(double side_px, std::mt19937* random) {
   view.tilt_axis = Radians(3.0 * unit(*random));
   view.roll = Radians(3.0 * unit(*random));
   return view;
-}
-
-bool FitWhole(const AlignmentScene& scene, SeenWindow* seen, BlockFit* fit, BlockFitState* state,
-              bool fit_light = false) {
-  TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, seen);
-  BlockFitOptions options;
-  options.steps = 6;
-  options.fit_blur = true;
-  options.fit_light = fit_light;
-  double side = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    side = std::max(side, Norm(scene.truth[i] - scene.truth[(i + 1) % 4]));
-  }
-  return fit->Run(scene.print(), PrintPart::kWhole, *seen, BlockFit::BlocksAlong(1.2 * side, 14.0),
-                  options, state);
 }
 
 struct Errors {
@@ -159,116 +141,6 @@ TEST(BlockFit, FindsMarkersOfWhichHalfIsCovered) {
     // The covered corners hang on the others: four times as far out of what is seen.
     EXPECT_LT(errors.rms, 0.4) << side;
     EXPECT_LT(Norm(errors.mean), 0.1) << side;
-  }
-}
-
-/// Normalised estimation error squared over 8 degrees of freedom, mean of so many pictures: 1 if
-/// the covariance were exact.
-double MeanNees(double side_px, const RenderingOptions& rendering, int pictures,
-                void (*spoil)(AlignmentScene*, std::uint32_t seed)) {
-  AlignmentView view;
-  view.side_px = side_px;
-  SeenWindow seen;
-  BlockFit fit;
-  double nees = 0.0;
-  for (int k = 0; k < pictures; ++k) {
-    RenderingOptions options = rendering;
-    options.seed = static_cast<std::uint32_t>(k + 1);
-    // Another place in the pixels each time.
-    view.centre_px = {158.0 + 0.13 * k, 121.0 - 0.29 * k};
-    AlignmentScene scene = MakeScene(view, options);
-    if (spoil != nullptr) spoil(&scene, options.seed);
-    BlockFitState state = scene.Guess(0.4);
-    EXPECT_TRUE(FitWhole(scene, &seen, &fit, &state));
-    const std::array<Vec2, 4> found = scene.Corners(state);
-    Eigen::Matrix<double, 8, 1> error;
-    Eigen::Matrix<double, 8, 8> corners_by_motion;
-    for (int i = 0; i < 4; ++i) {
-      error[2 * i] = found[i].x - scene.truth[i].x;
-      error[2 * i + 1] = found[i].y - scene.truth[i].y;
-      const double u = kSquareCorners[i].x, v = -kSquareCorners[i].y;
-      const auto pixel = [&](Vec2 unit) {
-        return scene.lens->PixelOfIdeal(
-            Apply(Adjugate(state.modules_from_ideal), {24 + 20 * unit.x, 24 + 20 * unit.y}));
-      };
-      constexpr double kStep = 1e-4;
-      const Vec2 by_u = (pixel({u + kStep, v}) - pixel({u - kStep, v})) * (0.5 / kStep);
-      const Vec2 by_v = (pixel({u, v + kStep}) - pixel({u, v - kStep})) * (0.5 / kStep);
-      const std::array<double, 8> flow_u{1, u, v, 0, 0, 0, -u * u, -u * v};
-      const std::array<double, 8> flow_v{0, 0, 0, 1, u, v, -u * v, -v * v};
-      for (int m = 0; m < 8; ++m) {
-        corners_by_motion(2 * i, m) = by_u.x * flow_u[m] + by_v.x * flow_v[m];
-        corners_by_motion(2 * i + 1, m) = by_u.y * flow_u[m] + by_v.y * flow_v[m];
-      }
-    }
-    const std::array<double, 64> motion = fit.MotionCovariance();
-    const Eigen::Matrix<double, 8, 8> covariance =
-        corners_by_motion *
-        Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(motion.data()) *
-        corners_by_motion.transpose();
-    nees += error.dot(covariance.ldlt().solve(error)) / 8.0 / pictures;
-  }
-  return nees;
-}
-
-TEST(BlockFit, StatesTheCovarianceOfItsCorners) {
-  // Noise that the residuals do not know of (the raster's approximation, rounding to codes) makes
-  // the mean larger, what is kept in reserve smaller.
-  for (const double side : {42.0, 120.0}) {
-    const double nees = MeanNees(side, {.blur_px = 0.6, .noise_codes = 4.0, .light = {}}, 24, {});
-    EXPECT_GT(nees, 0.4) << side;
-    EXPECT_LT(nees, 1.7) << side;
-  }
-}
-
-// What goes together in neighbouring pixels, a blur that is no Gaussian, noise as large as robust
-// weights allow: with all residuals counted as independent the means were 12, 11, 2.2 and 78.
-TEST(BlockFit, StatesACovarianceThatIsNotTooNarrowWhereTheModelIsWrong) {
-  const auto noise = [](AlignmentScene*, std::uint32_t) {};
-  const auto texture = [](AlignmentScene* scene, std::uint32_t seed) {
-    constexpr int kGrain = 5;
-    std::mt19937 random(seed);
-    std::normal_distribution<double> normal(0.0, 12.0);
-    std::vector<double> grain(100 * 100);
-    for (double& value : grain) value = normal(random);
-    for (int y = 0; y < scene->picture.height(); ++y) {
-      for (int x = 0; x < scene->picture.width(); ++x) {
-        const double code = scene->picture(x, y) + grain[y / kGrain * 100 + x / kGrain];
-        scene->picture(x, y) = static_cast<std::uint8_t>(std::clamp(code, 0.0, 250.0));
-      }
-    }
-  };
-  const auto cover = [](AlignmentScene* scene, std::uint32_t seed) {
-    std::mt19937 random(seed);
-    for (int y = 0; y < scene->picture.height(); ++y) {
-      for (int x = 0; x < 140 + static_cast<int>(seed); ++x) {
-        scene->picture(x, y) = static_cast<std::uint8_t>(120 + random() % 16);
-      }
-    }
-  };
-  const auto motion = [](AlignmentScene* scene, std::uint32_t) {
-    const GreyImage still = scene->picture;
-    for (int y = 0; y < still.height(); ++y) {
-      for (int x = 3; x + 3 < still.width(); ++x) {
-        double light = 0.0;
-        for (int d = -3; d <= 3; ++d) light += LinearFromSrgb8()[still(x + d, y)] / 7.0;
-        scene->picture(x, y) =
-            static_cast<std::uint8_t>(std::lround(255.0 * SrgbFromLinear(light)));
-      }
-    }
-  };
-  struct Case {
-    const char* name;
-    double noise_codes, most;
-    void (*spoil)(AlignmentScene*, std::uint32_t);
-  };
-  for (const Case& c : {Case{"noise", 35.0, 2.2, noise}, Case{"texture", 2.0, 2.2, texture},
-                        Case{"cover", 2.0, 1.5, cover}, Case{"motion", 2.0, 3.6, motion}}) {
-    const double nees =
-        MeanNees(120.0, {.blur_px = 0.6, .noise_codes = c.noise_codes, .light = {}}, 12, c.spoil);
-    RecordProperty(c.name, std::to_string(nees));
-    EXPECT_GT(nees, 0.15) << c.name;
-    EXPECT_LT(nees, c.most) << c.name;
   }
 }
 

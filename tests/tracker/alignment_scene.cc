@@ -77,4 +77,19 @@ AlignmentScene MakeScene(const AlignmentView& view, const RenderingOptions& opti
   return scene;
 }
 
+bool FitWhole(const AlignmentScene& scene, SeenWindow* seen, BlockFit* fit, BlockFitState* state,
+              bool fit_light) {
+  TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, seen);
+  BlockFitOptions options;
+  options.steps = 6;
+  options.fit_blur = true;
+  options.fit_light = fit_light;
+  double side = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    side = std::max(side, Norm(scene.truth[i] - scene.truth[(i + 1) % 4]));
+  }
+  return fit->Run(scene.print(), PrintPart::kWhole, *seen, BlockFit::BlocksAlong(1.2 * side, 14.0),
+                  options, state);
+}
+
 }  // namespace pleinair::tracker

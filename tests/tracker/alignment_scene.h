@@ -40,4 +40,9 @@ struct AlignmentView {
 
 AlignmentScene MakeScene(const AlignmentView& view, const RenderingOptions& options);
 
+/// Fits the whole print, its blur and, if asked for, light's slope, from `state` on. `seen` and
+/// `fit` are left for looking at. False where the fit fails.
+bool FitWhole(const AlignmentScene& scene, SeenWindow* seen, BlockFit* fit, BlockFitState* state,
+              bool fit_light = false);
+
 }  // namespace pleinair::tracker

@@ -1,7 +1,7 @@
 # Tests and benchmark of tracker/alignment/.
 pleinair_test(alignment_test
-  SOURCES alignment_fit_test.cc alignment_raster_test.cc alignment_scene.cc
-          alignment_tiles_test.cc counted_memory.cc
+  SOURCES alignment_covariance_test.cc alignment_fit_test.cc alignment_raster_test.cc
+          alignment_scene.cc alignment_tiles_test.cc counted_memory.cc
   LIBS pleinair_marker_rendering Eigen3::Eigen hwy::hwy)
 if(PLEINAIR_BENCHMARKS)
   find_package(benchmark REQUIRED)

@@ -1,9 +1,9 @@
 #include "tracker/picture_target/target_reader.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "tracker/corner_covariance.h"
 #include "tracker/homography.h"
 #include "tracker/picture_target/picture_target.h"
 
@@ -213,30 +213,16 @@ void TargetReader::Corners(const TargetReading& reading, double half_u, double h
                            std::array<Vec2, 4>* corners_px,
                            CornerCovariance* covariance_px2) const {
   const Mat3 ideal_from_target = Adjugate(reading.target_from_ideal);
-  const auto pixel_of = [&](double u, double v) {
-    return lens_.PixelOfIdeal(Apply(ideal_from_target, {kHalf + kHalf * u, kHalf + kHalf * v}));
+  const auto pixel_of = [&](Vec2 unit_down) {
+    return lens_.PixelOfIdeal(
+        Apply(ideal_from_target, {kHalf + kHalf * unit_down.x, kHalf + kHalf * unit_down.y}));
   };
-  // How the corners follow the eight motions.
-  Eigen::Matrix<double, 8, 8> corners_by_motion;
+  std::array<FittedCorner, 4> corners;
   for (int i = 0; i < 4; ++i) {
-    const double u = half_u * kSquareCorners[i].x, v = -half_v * kSquareCorners[i].y;
-    (*corners_px)[i] = pixel_of(u, v);
-    constexpr double kStep = 1e-4;
-    const Vec2 by_u = (pixel_of(u + kStep, v) - pixel_of(u - kStep, v)) * (0.5 / kStep);
-    const Vec2 by_v = (pixel_of(u, v + kStep) - pixel_of(u, v - kStep)) * (0.5 / kStep);
-    const std::array<double, 8> flow_u{1, u, v, 0, 0, 0, -u * u, -u * v};
-    const std::array<double, 8> flow_v{0, 0, 0, 1, u, v, -u * v, -v * v};
-    for (int k = 0; k < 8; ++k) {
-      corners_by_motion(2 * i, k) = by_u.x * flow_u[k] + by_v.x * flow_v[k];
-      corners_by_motion(2 * i + 1, k) = by_u.y * flow_u[k] + by_v.y * flow_v[k];
-    }
+    corners[i] = CornerAt({half_u * kSquareCorners[i].x, -half_v * kSquareCorners[i].y}, pixel_of);
+    (*corners_px)[i] = corners[i].pixel;
   }
-  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(covariance_px2->data()) =
-      corners_by_motion *
-          Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(
-              motion_covariance_.data()) *
-          corners_by_motion.transpose() +
-      kSystematicCorner_px * kSystematicCorner_px * Eigen::Matrix<double, 8, 8>::Identity();
+  *covariance_px2 = CovarianceOfCorners(corners, motion_covariance_, kSystematicCorner_px);
 }
 
 }  // namespace pleinair::tracker

@@ -1,12 +1,12 @@
 #include "tracker/surf_golay/sg_reading.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
+#include "tracker/corner_covariance.h"
 #include "tracker/homography.h"
 #include "tracker/surf_golay/print_square.h"
-#include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -14,8 +14,6 @@ namespace {
 constexpr double kLeastTelling = 0.15;  ///< Blocks that count at least, as a share of all.
 /// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
 constexpr double kSystematicCorner_px = 0.002;
-
-constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kPrint;
 
 /// Correlation of the blocks that do not touch the print's edge, by their contrast.
 double InnerCorrelation(const BlockFit& fit) {
@@ -83,32 +81,18 @@ void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState&
   reading->modules_from_ideal = state.modules_from_ideal;
   reading->blur_px = state.blur_px;
   DescribeLooks(fit, reading);
-  // The corners and how they follow the eight motions.
+  // The corners, their plane's second axis down as the fit has it.
   const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
   const auto pixel_of = [&](Vec2 unit_down) {
-    return lens.PixelOfIdeal(
-        Apply(ideal_from_modules, {kMiddle + kHalf * unit_down.x, kMiddle + kHalf * unit_down.y}));
+    return lens.PixelOfIdeal(Apply(ideal_from_modules, ModulesOfUnit({unit_down.x, -unit_down.y})));
   };
-  Eigen::Matrix<double, 8, 8> corners_by_motion;
+  std::array<FittedCorner, 4> corners;
   for (int i = 0; i < 4; ++i) {
-    const double u = kSquareCorners[i].x, v = -kSquareCorners[i].y;
-    reading->corners_px[i] = pixel_of({u, v});
-    constexpr double kStep = 1e-4;
-    const Vec2 by_u = (pixel_of({u + kStep, v}) - pixel_of({u - kStep, v})) * (0.5 / kStep);
-    const Vec2 by_v = (pixel_of({u, v + kStep}) - pixel_of({u, v - kStep})) * (0.5 / kStep);
-    const std::array<double, 8> flow_u{1, u, v, 0, 0, 0, -u * u, -u * v};
-    const std::array<double, 8> flow_v{0, 0, 0, 1, u, v, -u * v, -v * v};
-    for (int k = 0; k < 8; ++k) {
-      corners_by_motion(2 * i, k) = by_u.x * flow_u[k] + by_v.x * flow_v[k];
-      corners_by_motion(2 * i + 1, k) = by_u.y * flow_u[k] + by_v.y * flow_v[k];
-    }
+    corners[i] = CornerAt({kSquareCorners[i].x, -kSquareCorners[i].y}, pixel_of);
+    reading->corners_px[i] = corners[i].pixel;
   }
-  const std::array<double, 64> motion = fit.MotionCovariance();
-  const Eigen::Matrix<double, 8, 8> by_motion = corners_by_motion.lazyProduct(
-      Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(motion.data()));
-  Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(reading->corner_covariance_px2.data()) =
-      by_motion.lazyProduct(corners_by_motion.transpose()) +
-      kSystematicCorner_px * kSystematicCorner_px * Eigen::Matrix<double, 8, 8>::Identity();
+  reading->corner_covariance_px2 =
+      CovarianceOfCorners(corners, fit.MotionCovariance(), kSystematicCorner_px);
 }
 
 }  // namespace pleinair::tracker
