@@ -15,8 +15,11 @@ constexpr double kTouchingM = 0.02;
 constexpr double kLeastSine = 0.3;
 constexpr double kShortestM = 0.02;
 constexpr std::uint32_t kFewSegments = 4;
-// Finding pairs of so many takes a tenth of a second; phantoms of more have vertices enough.
-constexpr std::size_t kMostTriangles = 50'000;
+// What finding them may take: boxes compared, and of those that overlap, triangles. Each of the two
+// takes some tenths of a second; bundled scenes need a thousandth of it.
+constexpr std::size_t kMostTriangles = 200'000, kMostBoxes = 50'000'000, kMostPairs = 200'000;
+// Ends of lines that are thought equal lie no farther apart than this.
+constexpr double kSamePlaceM = 1e-3;
 
 struct Triangle {
   std::array<Vec3, 3> corners;
@@ -41,18 +44,41 @@ Vec3 LongestAxis(Vec3 size) {
   return size.y >= size.z ? Vec3{0.0, 1.0, 0.0} : Vec3{0.0, 0.0, 1.0};
 }
 
-std::vector<Triangle> CoarseTriangles(const std::vector<SurfaceMesh>& surfaces, double finest_m) {
-  std::vector<Triangle> triangles;
+/// Those with an edge that a contact would shorten, and those without.
+struct Triangles {
+  std::vector<Triangle> coarse, fine;
+};
+
+bool IsCoarse(const std::array<std::array<float, 3>, 3>& corners,
+              const ContactLines::FinestEdge& finest_edge) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &a = corners[i], &b = corners[(i + 1) % 3];
+    const std::array<float, 3> middle{(a[0] + b[0]) * 0.5F, (a[1] + b[1]) * 0.5F,
+                                      (a[2] + b[2]) * 0.5F};
+    if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > finest_edge(middle)) return true;
+  }
+  return false;
+}
+
+/// The phantoms'; none where they are too many.
+Triangles PhantomTriangles(const std::vector<SurfaceMesh>& surfaces,
+                           const ContactLines::FinestEdge& finest_edge) {
+  Triangles triangles;
+  std::size_t count = 0;
+  for (const SurfaceMesh& surface : surfaces) {
+    if (surface.is_phantom) count += surface.indices.size() / 3;
+  }
+  if (count > kMostTriangles) return triangles;
   for (const SurfaceMesh& surface : surfaces) {
     if (!surface.is_phantom) continue;
     for (std::size_t t = 0; t + 2 < surface.indices.size(); t += 3) {
+      std::array<std::array<float, 3>, 3> positions;
       Triangle triangle;
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto& p = surface.positions[surface.indices[t + c]];
+        const auto& p = positions[c] = surface.positions[surface.indices[t + c]];
         triangle.corners[c] = {p[0], p[1], p[2]};
       }
       const auto& [a, b, c] = triangle.corners;
-      if (std::max({Norm(a - b), Norm(b - c), Norm(c - a)}) <= finest_m) continue;
       const Vec3 across = Cross(b - a, c - a);
       if (!(Norm(across) > 0.0)) continue;
       triangle.normal = Normalized(across);
@@ -60,7 +86,7 @@ std::vector<Triangle> CoarseTriangles(const std::vector<SurfaceMesh>& surfaces, 
       const Vec3 around{kTouchingM, kTouchingM, kTouchingM};
       triangle.low = Least(Least(a, b), c) - around;
       triangle.high = Most(Most(a, b), c) + around;
-      triangles.push_back(triangle);
+      (IsCoarse(positions, finest_edge) ? triangles.coarse : triangles.fine).push_back(triangle);
     }
   }
   return triangles;
@@ -120,33 +146,101 @@ double DistanceToSegment(const ContactLines::Segment& segment, Vec3 point) {
   return Norm(segment.from + along * share - point);
 }
 
-}  // namespace
-
-ContactLines::ContactLines(const std::vector<SurfaceMesh>& surfaces, double finest_m) {
-  std::vector<Triangle> triangles = CoarseTriangles(surfaces, finest_m);
-  if (triangles.empty() || triangles.size() > kMostTriangles) return;
-  Vec3 low = triangles[0].low, high = triangles[0].high;
-  for (const Triangle& triangle : triangles) {
-    low = Least(low, triangle.low);
-    high = Most(high, triangle.high);
+/// Finds the contacts of pairs by sweeping over boxes sorted along an axis.
+class ContactSweep {
+ public:
+  /// False where there is too much to do.
+  bool Run(Triangles* triangles) {
+    Vec3 low = triangles->coarse[0].low, high = triangles->coarse[0].high;
+    for (const Triangle& triangle : triangles->coarse) {
+      low = Least(low, triangle.low);
+      high = Most(high, triangle.high);
+    }
+    axis_ = LongestAxis(high - low);
+    for (auto* list : {&triangles->coarse, &triangles->fine}) {
+      std::stable_sort(list->begin(), list->end(), [this](const Triangle& a, const Triangle& b) {
+        return Start(a) < Start(b);
+      });
+    }
+    const auto &coarse = triangles->coarse, &fine = triangles->fine;
+    for (auto a = coarse.begin(); a != coarse.end(); ++a) {
+      const auto beside =
+          std::lower_bound(fine.begin(), fine.end(), Start(*a),
+                           [this](const Triangle& b, double start) { return Start(b) < start; });
+      if (!Meet(*a, a + 1, coarse.end()) || !Meet(*a, beside, fine.end())) return false;
+    }
+    return std::all_of(fine.begin(), fine.end(), [&](const Triangle& a) {
+      const auto beside =
+          std::upper_bound(coarse.begin(), coarse.end(), Start(a),
+                           [this](double start, const Triangle& b) { return start < Start(b); });
+      return Meet(a, beside, coarse.end());
+    });
   }
-  const Vec3 axis = LongestAxis(high - low);
-  std::sort(triangles.begin(), triangles.end(), [&](const Triangle& a, const Triangle& b) {
-    return Dot(a.low, axis) < Dot(b.low, axis);
-  });
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const Triangle& a = triangles[i];
-    const double last = Dot(a.high, axis);
-    for (std::size_t j = i + 1; j < triangles.size() && Dot(triangles[j].low, axis) <= last; ++j) {
-      const Triangle& b = triangles[j];
-      if (b.low.x > a.high.x || a.low.x > b.high.x || b.low.y > a.high.y || a.low.y > b.high.y ||
-          b.low.z > a.high.z || a.low.z > b.high.z) {
+
+  std::vector<ContactLines::Segment>& segments() { return segments_; }
+
+ private:
+  using Iterator = std::vector<Triangle>::const_iterator;
+
+  double Start(const Triangle& triangle) const { return Dot(triangle.low, axis_); }
+
+  /// With those that start later, as far as `a` reaches.
+  bool Meet(const Triangle& a, Iterator b, Iterator end) {
+    const double last = Dot(a.high, axis_);
+    for (; b != end && Start(*b) <= last; ++b) {
+      if (++boxes_ > kMostBoxes) return false;
+      if (b->low.x > a.high.x || a.low.x > b->high.x || b->low.y > a.high.y ||
+          a.low.y > b->high.y || b->low.z > a.high.z || a.low.z > b->high.z) {
         continue;
       }
-      if (const auto segment = ContactOf(a, b)) segments_.push_back(*segment);
+      if (++pairs_ > kMostPairs) return false;
+      if (const auto segment = ContactOf(a, *b)) segments_.push_back(*segment);
     }
+    return true;
   }
-  if (segments_.empty()) return;
+
+  Vec3 axis_;
+  std::size_t boxes_ = 0, pairs_ = 0;
+  std::vector<ContactLines::Segment> segments_;
+};
+
+/// Leaves one of those with the same ends, whichever way they run.
+void DropDuplicates(std::vector<ContactLines::Segment>* segments) {
+  using Place = std::array<double, 3>;
+  struct Keyed {
+    std::array<Place, 2> ends;
+    ContactLines::Segment segment;
+  };
+  std::vector<Keyed> keyed;
+  keyed.reserve(segments->size());
+  for (const ContactLines::Segment& segment : *segments) {
+    const auto rounded = [](Vec3 p) {
+      const auto round = [](double v) { return std::round(v / kSamePlaceM); };
+      return Place{round(p.x), round(p.y), round(p.z)};
+    };
+    std::array<Place, 2> ends{rounded(segment.from), rounded(segment.to)};
+    if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
+    keyed.push_back({ends, segment});
+  }
+  std::stable_sort(keyed.begin(), keyed.end(),
+                   [](const Keyed& a, const Keyed& b) { return a.ends < b.ends; });
+  const auto end = std::unique(keyed.begin(), keyed.end(),
+                               [](const Keyed& a, const Keyed& b) { return a.ends == b.ends; });
+  segments->clear();
+  for (auto it = keyed.begin(); it != end; ++it) segments->push_back(it->segment);
+}
+
+}  // namespace
+
+ContactLines::ContactLines(const std::vector<SurfaceMesh>& surfaces,
+                           const FinestEdge& finest_edge) {
+  Triangles triangles = PhantomTriangles(surfaces, finest_edge);
+  if (triangles.coarse.empty()) return;
+  ContactSweep sweep;
+  if (!sweep.Run(&triangles)) return;
+  DropDuplicates(&sweep.segments());
+  if (sweep.segments().empty() || sweep.segments().size() > kMostSegments) return;
+  segments_ = std::move(sweep.segments());
   nodes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(segments_.size()), 0});
   Divide(0);
 }

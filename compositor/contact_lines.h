@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/vector.h"
@@ -14,13 +16,26 @@ namespace pleinair::compositor {
 /// a small part of the surfaces' size.
 class ContactLines {
  public:
-  /// Of the phantoms among `surfaces`, those of their triangles whose edges are longer than
-  /// `finest_m`: what is finer needs no more vertices. Marker coordinates, metres.
-  ContactLines(const std::vector<SurfaceMesh>& surfaces, double finest_m);
+  /// Longest edge that is fine enough about a point though surfaces meet there, metres.
+  using FinestEdge = std::function<double(const std::array<float, 3>& point)>;
+
+  /// Without lines: nothing meets.
+  ContactLines() = default;
+  /// Of the phantoms among `surfaces`. Of two triangles that meet, one at least has an edge longer
+  /// than `finest_edge` at its middle: where both are finer nothing needs more vertices, as among a
+  /// tree's leaves. Marker coordinates, metres.
+  ///
+  /// None at all where finding them would take long or they would be more than `kMostSegments`:
+  /// time and memory are bounded whatever the phantoms are. Which scenes those are depends on the
+  /// surfaces alone, not on the machine.
+  ContactLines(const std::vector<SurfaceMesh>& surfaces, const FinestEdge& finest_edge);
+
+  static constexpr std::size_t kMostSegments = 4'000;
 
   struct Segment {
     Vec3 from, to;
   };
+  /// Each once, however many triangles lie on it.
   const std::vector<Segment>& segments() const { return segments_; }
 
   /// Whether a line lies within `reach_m` of a point.

@@ -17,14 +17,24 @@ namespace {
 // from there.
 constexpr double kContactShare = 0.35, kContactGrowth = 0.8;
 
+/// How long edges may be about a point, metres.
+struct EdgeLengths {
+  const ObjectDistance& distance;
+  double near_m;
+  double growth_per_m;
+
+  double InTheOpen(const std::array<float, 3>& point) const {
+    return near_m + growth_per_m * distance(point);
+  }
+  double AtContact(double in_the_open) const {
+    return std::max(near_m, kContactShare * in_the_open);
+  }
+};
+
 class Refiner {
  public:
-  Refiner(const ObjectDistance& distance, const ContactLines& contacts, double near_edge_m,
-          double growth_per_m)
-      : distance_(distance),
-        contacts_(contacts),
-        near_edge_m_(near_edge_m),
-        growth_per_m_(growth_per_m) {}
+  Refiner(const EdgeLengths& lengths, const ContactLines& contacts)
+      : lengths_(lengths), contacts_(contacts) {}
 
   /// Splits until every edge fits; false when more than `max_vertices` would be needed.
   bool Refine(SurfaceMesh* surface, std::size_t max_vertices) const {
@@ -44,12 +54,12 @@ class Refiner {
 
   bool TooLong(const std::array<float, 3>& a, const std::array<float, 3>& b) const {
     const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    if (length <= near_edge_m_) return false;
+    if (length <= lengths_.near_m) return false;
     const std::array<float, 3> middle = Midpoint(a, b);
-    const double open = near_edge_m_ + growth_per_m_ * distance_(middle);
+    const double open = lengths_.InTheOpen(middle);
     if (length > open) return true;
     // At a contact a share of that, and more the farther from it.
-    const double finest = std::max(near_edge_m_, kContactShare * open);
+    const double finest = lengths_.AtContact(open);
     return length > finest && contacts_.IsWithin(middle, (length - finest) / kContactGrowth);
   }
 
@@ -126,10 +136,8 @@ class Refiner {
     return changed;
   }
 
-  const ObjectDistance& distance_;
+  const EdgeLengths& lengths_;
   const ContactLines& contacts_;
-  double near_edge_m_;
-  double growth_per_m_;
 };
 
 std::size_t CountVertices(const std::vector<SurfaceMesh>& surfaces) {
@@ -138,28 +146,35 @@ std::size_t CountVertices(const std::vector<SurfaceMesh>& surfaces) {
   return count;
 }
 
+/// False, and `surfaces` as they were, when more than `max_vertices` would be needed.
+bool RefineAll(const Refiner& refiner, std::size_t max_vertices,
+               std::vector<SurfaceMesh>* surfaces) {
+  std::vector<SurfaceMesh> refined = *surfaces;
+  std::size_t used = 0;
+  for (SurfaceMesh& surface : refined) {
+    if (used >= max_vertices || !refiner.Refine(&surface, max_vertices - used)) return false;
+    used += surface.positions.size();
+  }
+  *surfaces = std::move(refined);
+  return true;
+}
+
 }  // namespace
 
 void Tessellate(const TessellationOptions& options, std::vector<SurfaceMesh>* surfaces) {
   if (CountVertices(*surfaces) >= options.max_vertices) return;
   const ObjectDistance distance(*surfaces);
-  const ContactLines contacts(*surfaces, options.near_edge_m);
-  double scale = 1.0;
-  for (int coarser = 0; coarser < 34; ++coarser, scale *= 1.5) {  // Up to a million times.
-    const Refiner refiner(distance, contacts, options.near_edge_m * scale,
-                          options.growth_per_m * scale);
-    std::vector<SurfaceMesh> refined = *surfaces;
-    bool fits = true;
-    std::size_t used = 0;
-    for (SurfaceMesh& surface : refined) {
-      fits = used < options.max_vertices && refiner.Refine(&surface, options.max_vertices - used);
-      if (!fits) break;
-      used += surface.positions.size();
-    }
-    if (fits) {
-      *surfaces = std::move(refined);
-      return;
-    }
+  EdgeLengths lengths{distance, options.near_edge_m, options.growth_per_m};
+  const ContactLines contacts(*surfaces, [&lengths](const std::array<float, 3>& point) {
+    return lengths.AtContact(lengths.InTheOpen(point));
+  });
+  if (RefineAll({lengths, contacts}, options.max_vertices, surfaces)) return;
+  // Contacts are not worth coarser triangles everywhere else.
+  const ContactLines none;
+  for (int coarser = 0; coarser < 34; ++coarser) {  // Up to a million times.
+    if (RefineAll({lengths, none}, options.max_vertices, surfaces)) return;
+    lengths.near_m *= 1.5;
+    lengths.growth_per_m *= 1.5;
   }
 }
 

@@ -103,6 +103,29 @@ TEST(Tessellation, StaysBelowItsLimit) {
   EXPECT_GT(count, 500U);
 }
 
+TEST(Tessellation, IsNotMadeCoarserByContacts) {
+  // The wall's foot takes more vertices than there are: it goes without, and nothing else changes.
+  std::vector<SurfaceMesh> apart = Scene(), touching = Scene();
+  const auto count = [](const std::vector<SurfaceMesh>& surfaces) {
+    std::size_t vertices = 0;
+    for (const SurfaceMesh& surface : surfaces) vertices += surface.positions.size();
+    return vertices;
+  };
+  for (auto* scene : {&apart, &touching}) {
+    const double gap = scene == &apart ? 0.05 : 0.0;
+    for (SurfaceMesh& surface : OrientedSurfaces(
+             Phantom(BoxModel({1.2, -5.0, gap}, {1.5, 5.0, 2.0}, {0.5F, 0.5F, 0.5F})), 2)) {
+      scene->push_back(std::move(surface));
+    }
+  }
+  std::vector<SurfaceMesh> whole = touching, limited = touching;
+  Tessellate({}, &apart);
+  Tessellate({}, &whole);
+  ASSERT_GT(count(whole), count(apart) + 500);
+  Tessellate({.max_vertices = count(whole) - 100}, &limited);
+  EXPECT_EQ(limited[0].positions, apart[0].positions);
+}
+
 TEST(Tessellation, LeavesFineSurfacesAlone) {
   std::vector<SurfaceMesh> surfaces = Scene();
   Tessellate({}, &surfaces);
