@@ -149,7 +149,7 @@ class Gatherer {
   }
 
   static std::uint16_t Quantized(float weight) {
-    return static_cast<std::uint16_t>(std::clamp(weight, 0.0F, 1.0F) * 65535.0F + 0.5F);
+    return static_cast<std::uint16_t>(std::lround(std::clamp(weight, 0.0F, 1.0F) * 65535.0F));
   }
 
   const LightScene& scene_;

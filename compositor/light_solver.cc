@@ -209,7 +209,7 @@ class EmbreeLightSolver : public LightSolver {
 
 }  // namespace
 
-Result<std::unique_ptr<LightSolver>> LightSolver::Create(std::vector<PlacedModel> scene,
+Result<std::unique_ptr<LightSolver>> LightSolver::Create(const std::vector<PlacedModel>& scene,
                                                          const LightSolverOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(LightScene light_scene, LightScene::Create(scene, options));
   return std::make_unique<EmbreeLightSolver>(std::move(light_scene), options);

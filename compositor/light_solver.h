@@ -74,7 +74,7 @@ struct PhantomSurface {
 class LightSolver {
  public:
   /// Tessellates and builds the ray scene. Errors: an empty or degenerate geometry.
-  static Result<std::unique_ptr<LightSolver>> Create(std::vector<PlacedModel> scene,
+  static Result<std::unique_ptr<LightSolver>> Create(const std::vector<PlacedModel>& scene,
                                                      const LightSolverOptions& options);
   virtual ~LightSolver() = default;
 
@@ -84,7 +84,8 @@ class LightSolver {
   std::vector<LitMesh> Solve(const sky::SkyModel& daylight, const Mat3& marker_from_world) const {
     return SolveUnderTrees(daylight, marker_from_world, {});
   }
-  /// As Solve(); of the sun, surfaces reflect what `sunlight` leaves it.
+  /// As Solve(); of the sun, surfaces reflect what `sunlight` leaves it. A map without cells, as
+  /// made by default, stands for no trees.
   virtual std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel& daylight,
                                                const Mat3& marker_from_world,
                                                const SeenSunlight& sunlight) const = 0;

@@ -6,6 +6,8 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/srgb.h"
