@@ -11,9 +11,9 @@ namespace pleinair::compositor {
 
 /// A spot's logarithmic brightness, and where it lies.
 struct ShadeSpot {
-  double value = 0.0;
-  std::array<double, 2> colour{};  ///< Red and blue against green.
-  Vec3 point;
+  double value = 0.0;              ///< Mean of the logarithms of linear red, green and blue.
+  std::array<double, 2> colour{};  ///< Logarithms of red and blue over green.
+  Vec3 point;                      ///< Marker coordinates, metres.
 };
 
 /// Two levels of brightness, by two-means.
@@ -28,11 +28,12 @@ struct TwoLevels {
 struct ShadeCell {
   std::vector<ShadeSpot> spots;
   std::vector<double> in_sun;           // Values of the spots that the model has in the sun.
-  bool lit = false, unlit = false;      // Some spot that the model has in the sun; not.
+  bool lit = false;                     // Whether the model has some spot in the sun,
+  bool unlit = false;                   // and whether some in the shade.
   double depth = 0.0;                   // Of a shadow there, logarithmic, green.
   std::array<double, 2> colour_step{};  // Red and blue against green.
   int surface = 0;
-  std::array<double, 3> normal{};
+  std::array<double, 3> normal{};  // Of its surface, unit, marker coordinates, towards the eye.
 
   double Median() const { return spots[spots.size() / 2].value; }  // They are sorted.
 };

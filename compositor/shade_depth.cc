@@ -24,7 +24,7 @@ constexpr double kSmallestStep = 0.25;
 constexpr double kCommonDoubt = 0.25;
 
 /// The strength of the sky, of the model's, with which `contrast` would be that of all the sun and
-/// none; nothing where even a black sky leaves less.
+/// none; not above 0 where even a black sky would leave less contrast.
 double ScaleOf(double contrast, double sun, double sky, double reflected) {
   return (sun / std::expm1(contrast) - reflected) / sky;
 }
@@ -32,19 +32,19 @@ double ScaleOf(double contrast, double sun, double sky, double reflected) {
 }  // namespace
 
 SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& shade,
-                             const sky::SkyModel& day, const Mat3& marker_from_world) {
+                             const sky::SkyModel& daylight, const Mat3& marker_from_world) {
   SunSkyReading reading;
-  const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
+  const Vec3 to_sun = marker_from_world * daylight.ToSun().xyz;
   // By plane, since that is how ambient light is asked for.
   std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
   for (std::size_t i = 0; i < shade.crossings.size(); ++i) {
     const Vec3 n = shade.crossings[i].normal;
     by_normal[{n.x, n.y, n.z}].push_back(i);
   }
-  const ScaledDaylight sky_alone(day, {1, 1, 1}, {});
+  const ScaledDaylight sky_alone(daylight, {1, 1, 1}, {});
   // What reflects lies in the same shade, as far as it goes.
   const double sunlit = 1.0 - shade.shaded;
-  const ScaledDaylight sun_alone(day, {}, {sunlit, sunlit, sunlit});
+  const ScaledDaylight sun_alone(daylight, {}, {sunlit, sunlit, sunlit});
   struct Place {
     LinearRgb log_scale;
     double depth = 0.0;
@@ -59,7 +59,7 @@ SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& s
         solver.AmbientPhantomsOnly(points, normal, sky_alone, marker_from_world, kPaths);
     const auto reflected =
         solver.AmbientPhantomsOnly(points, normal, sun_alone, marker_from_world, kPaths);
-    const LinearRgb sun = day.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun));
+    const LinearRgb sun = daylight.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun));
     for (std::size_t k = 0; k < members.size(); ++k) {
       const LinearRgb& contrast = shade.crossings[members[k]].contrast;
       if (std::min({contrast.r, contrast.g, contrast.b}) < kSmallestStep) continue;
@@ -74,9 +74,7 @@ SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& s
   if (places.size() < kFewestPlaces) return reading;
   std::sort(places.begin(), places.end(),
             [](const Place& a, const Place& b) { return a.depth < b.depth; });
-  places.resize(std::max<std::size_t>(
-      kFewestPlaces / 2,
-      static_cast<std::size_t>(kDeepShare * static_cast<double>(places.size()))));
+  places.resize(static_cast<std::size_t>(kDeepShare * static_cast<double>(places.size())));
   const auto middle = [&](auto channel) {
     std::vector<double> values;
     values.reserve(places.size());
@@ -86,7 +84,6 @@ SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& s
   const double green = middle([](LinearRgb c) { return c.g; });
   reading.sun = SunSkyReading::Sun::kShines;
   reading.agreeing = static_cast<int>(places.size());
-  reading.share_with_contrast = 1.0;
   reading.sky_scale = {std::exp(middle([](LinearRgb c) { return c.r; })), std::exp(green),
                        std::exp(middle([](LinearRgb c) { return c.b; }))};
   double square = 0.0;

@@ -16,7 +16,7 @@ namespace pleinair::compositor {
 /// shows that a part is not.
 struct ShadeCrossing {
   Point<Marker> middle;
-  Vec3 normal;
+  Vec3 normal;         ///< Of its surface, unit, marker coordinates, towards the eye.
   LinearRgb contrast;  ///< Logarithm of the bright part's light over the dark one's, a channel.
 };
 
