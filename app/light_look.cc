@@ -31,7 +31,9 @@ LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
   return shade((least + most) / 2);
 }
 
-// Of the words' sky, under which the shade of trees is looked for first.
+// How much stronger than the words' sky that is under which the shade of trees is looked for first,
+// before its strength is known. A guess: words miss haze more often than anything else, shallower
+// shade is found under a stronger sky only, and deeper shade under either.
 constexpr LinearRgb kHazierSky{2.0, 2.0, 2.0};
 
 bool MayShine(devices::Cloudiness stated) {
@@ -106,6 +108,8 @@ FoundLight LightLook::Settle() const {
   const bool may_shine = MayShine(scene_.cloudiness);
   const bool edges_hidden = may_shine && shade.CastBySun() && shade.HidesEdges();
   if (reading.sun == Sun::kHidden && !edges_hidden) {
+    // Who gives the ratio says that the sun shines; where it does is not seen, nor then its shade.
+    if (overridden) return found;
     const auto overcast = OvercastSky();
     const auto contrast = [&] {
       return compositor::FindPlaneContrast(*solver_, samples_,
@@ -114,7 +118,7 @@ FoundLight LightLook::Settle() const {
     };
     light.sun_doubtful = shade.CastBySun() || contrast() > kMostPlaneContrast;
     // Where the sun stands is doubtful, too: what lies in its shade would be a guess.
-    if (light.sun_doubtful || overridden) return found;
+    if (light.sun_doubtful) return found;
     light.sun_source = MeasuredLight::Source::kMeasured;
     found.skies.source = overcast;
     return found;

@@ -98,8 +98,7 @@ std::string MeasuredCards(const MeasuredLight& light) {
   if (light.sun_source == Source::kShade) {
     from = fmt::format(
         "sun over sky on level ground, ± {:.0f} %, from how deep the shade of trees is at {} "
-        "places "
-        "in {} frames; the scene says {:.2f}",
+        "places in {} frames; the scene says {:.2f}",
         light.sun_to_sky_error * 100, light.shade_places, light.frames, light.sun_to_sky_stated);
   }
   std::string html = Card(sun, from);

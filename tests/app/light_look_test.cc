@@ -19,7 +19,8 @@ const PhotographedYard& Yard() {
 }
 
 /// What a sunny yard tells where the scene has the sun `off_deg` beside its place.
-FoundLight Settle(double off_deg, const PhotographedYard::Light& light) {
+FoundLight Settle(double off_deg, const PhotographedYard::Light& light,
+                  const LightOverrides& overrides = {}) {
   const PhotographedYard& yard = Yard();
   devices::SceneDescription scene;
   scene.place_time.latitude_deg = 50.0;
@@ -31,9 +32,15 @@ FoundLight Settle(double off_deg, const PhotographedYard::Light& light) {
   scene.marker.heading =
       Radians(std::atan2(seen.y, seen.x) - std::atan2(sun.y, sun.x)) + FromDegrees(off_deg);
   const std::shared_ptr<const compositor::LightSolver> solver(&yard.solver(), [](const auto*) {});
-  LightLook look(solver, yard.camera(), yard.print(), scene, {}, time, {});
+  LightLook look(solver, yard.camera(), yard.print(), scene, overrides, time, {});
   for (const int i : {0, 1}) look.Add(yard.Photograph(i, light).view(), PhotographedYard::Pose(i));
   return look.Settle();
+}
+
+LightOverrides SunToSkyOf(double ratio) {
+  LightOverrides overrides;
+  overrides.sun_to_sky = ratio;
+  return overrides;
 }
 
 TEST(LightLook, SeesThatTheSunShines) {
@@ -77,6 +84,23 @@ TEST(LightLook, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
   const double stated = off(*StatedSky(words), {1, 1, 1});
   EXPECT_GT(stated, 0.8);
   EXPECT_LT(off(*hazy.skies.source, hazy.skies.scale), 0.5 * stated);
+}
+
+TEST(LightLook, KeepsTheMapUnderAGivenRatio) {
+  const PhotographedYard& yard = Yard();
+  const auto leaves = [&](Vec3 p) { return std::sin(9 * p.x) * std::sin(11 * p.y) > 0.0; };
+  const FoundLight found = Settle(0.0, {.shaded = leaves}, SunToSkyOf(2.0));
+  EXPECT_FALSE(found.measured.sun_doubtful);
+  EXPECT_NE(found.skies.sunlight, nullptr);
+  ASSERT_NE(found.skies.source, nullptr);
+  EXPECT_GT(found.skies.source->ForSun(yard.model().ToSun(), 1.0)->SunNormalIrradiance().g, 0.0);
+}
+
+TEST(LightLook, DoubtsNoSunThatIsGiven) {
+  // Elsewhere than the shadows say: doubtful as the words have it, not as the user does.
+  const FoundLight found = Settle(60.0, {}, SunToSkyOf(2.0));
+  EXPECT_FALSE(found.measured.sun_doubtful);
+  EXPECT_EQ(found.skies.sunlight, nullptr);
 }
 
 TEST(LightLook, BelievesTheWordsAloneWhereTheSunStandsElsewhere) {
