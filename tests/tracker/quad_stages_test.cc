@@ -4,12 +4,15 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <vector>
 
 #include "tracker/quads/dark_components.h"
 #include "tracker/quads/dark_mask.h"
+#include "tracker/quads/quad_box.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -161,6 +164,77 @@ TEST(DarkComponents, AreThoseOfAFloodFill) {
       }
       EXPECT_EQ(found, Filled(mask)) << width << " wide, " << dark_of_ten << " of ten dark";
     }
+  }
+}
+
+/// A square of `side_px` turned about the middle of a picture.
+Quad TurnedSquare(double side_px, double turn_deg, double middle_px) {
+  Quad quad{};
+  for (int i = 0; i < 4; ++i) {
+    const double angle = (turn_deg + 45.0 + 90.0 * i) * std::numbers::pi / 180.0;
+    quad.corners_px[i] = Vec2{middle_px, middle_px} +
+                         Vec2{std::cos(angle), std::sin(angle)} * (side_px * std::sqrt(0.5));
+  }
+  return quad;
+}
+
+/// What is dark at half size of such a square, black on white, its edge blurred over 3 px.
+DarkComponent SeenAtHalfSize(const Quad& square, double side_px) {
+  const Vec2 middle = (square.corners_px[0] + square.corners_px[2]) * 0.5;
+  const Vec2 along = (square.corners_px[1] - square.corners_px[0]) * (1.0 / side_px);
+  const int size = static_cast<int>(2.0 * middle.x);
+  GreyImage picture(size, size);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Vec2 at{x - middle.x, y - middle.y};
+      // Light is the product of what both edges let through.
+      const auto dark = [&](double from_middle) {
+        return std::clamp(0.5 + (0.5 * side_px - std::fabs(from_middle)) / 3.0, 0.0, 1.0);
+      };
+      const double share =
+          dark(at.x * along.x + at.y * along.y) * dark(at.x * along.y - at.y * along.x);
+      picture(x, y) = static_cast<std::uint8_t>(230.0 - 200.0 * share);
+    }
+  }
+  GreyImage half;
+  HalveImage(picture.view(), ScalarDarkMaskKernels(), &half);
+  DarkMaskBuffers buffers;
+  BitMask mask;
+  ComputeDarkMask(half.view(), {150, 1, 2}, ScalarDarkMaskKernels(), &buffers, &mask);
+  DarkComponents components;
+  components.Find(mask);
+  // The rim alone is dark beside its neighbourhood; what lies within it is none.
+  return *std::ranges::max_element(components.components(), {}, [](const DarkComponent& component) {
+    return component.max_x - component.min_x;
+  });
+}
+
+TEST(QuadBox, IsFilledByATurnedSquareSeenAgainAtHalfSize) {
+  for (const double side : {60.0, 110.0, 300.0}) {
+    for (const double turn : {0.0, 5.0, 17.0, 45.0, 70.0}) {
+      const Quad square = TurnedSquare(side, turn, 0.75 * side + 20.0);
+      EXPECT_TRUE(FillsBoxOf(square, SeenAtHalfSize(square, side), 2)) << side << " px, " << turn;
+    }
+  }
+}
+
+TEST(QuadBox, IsNotFilledByWhatEndsElsewhereHoweverLargeTheSquare) {
+  for (const double side : {60.0, 300.0, 1000.0}) {
+    const Quad square = TurnedSquare(side, 0.0, side);
+    const auto fills = [&](int inset) {  // Pixels of half size, on one side only.
+      const int first = static_cast<int>(std::lround(0.25 * side));
+      const int last = static_cast<int>(std::lround(0.75 * side)) - 1;
+      DarkComponent component{};
+      component.min_x = first + inset;
+      component.min_y = first;
+      component.max_x = component.max_y = last;
+      return FillsBoxOf(square, component, 2);
+    };
+    EXPECT_TRUE(fills(0)) << side;
+    EXPECT_TRUE(fills(1)) << side;
+    // 6 px, where another outline may be meant: a print's rim is a tenth of it wide.
+    EXPECT_FALSE(fills(3)) << side;
+    EXPECT_FALSE(fills(-3)) << side;
   }
 }
 

@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "tracker/quads/dark_components.h"
 #include "tracker/quads/dark_mask.h"
+#include "tracker/quads/quad_box.h"
 #include "tracker/quads/quad_edges.h"
 #include "tracker/quads/quad_outline.h"
 
@@ -24,8 +25,6 @@ constexpr DarkContrast kShadowEdges{.codes = 150, .halvings = 1, .eighths = 2};
 
 constexpr float kLeastContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
 constexpr float kLeastSide = 0.12F;
-/// Boxes around squares that differ by so little on each side, as a share, are of one.
-constexpr double kSameBox = 0.04;
 /// Prints reach it below 13 px, where rim and quiet zone blur into each other, or where noise is a
 /// third of their difference.
 constexpr float kGreatestDoubt = 0.8F;
@@ -43,25 +42,6 @@ double Area(const Quad& quad) {
 bool Plausible(const RimEvidence& evidence, float greatest_doubt) {
   return evidence.contrast >= kLeastContrast && evidence.least_side >= kLeastSide &&
          evidence.Doubt() <= greatest_doubt;
-}
-
-/// Whether a dark component of a picture reduced `scale` times fills the box around a square that
-/// has been found: most squares are found again at half size, and their outlines cost the most.
-bool Fills(const DarkComponent& component, int scale, const Quad& quad) {
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-  for (const Vec2& corner : quad.corners_px) {
-    left = std::min(left, corner.x);
-    right = std::max(right, corner.x);
-    top = std::min(top, corner.y);
-    bottom = std::max(bottom, corner.y);
-  }
-  // The corners of squares that are turned are lost by thresholds.
-  const double tolerance = scale + kSameBox * std::max(right - left, bottom - top);
-  const auto edge = [&](int pixel) { return pixel * scale - 0.5; };
-  return std::fabs(edge(component.min_x) - left) < tolerance &&
-         std::fabs(edge(component.max_x + 1) - right) < tolerance &&
-         std::fabs(edge(component.min_y) - top) < tolerance &&
-         std::fabs(edge(component.max_y + 1) - bottom) < tolerance;
 }
 
 /// The same square found twice.
@@ -111,7 +91,8 @@ void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale
         c.max_x == level.width() - 1 || c.max_y == level.height() - 1) {
       continue;
     }
-    if (std::ranges::any_of(*quads, [&](const Quad& q) { return Fills(c, scale, q); })) continue;
+    if (std::ranges::any_of(*quads, [&](const Quad& q) { return FillsBoxOf(q, c, scale); }))
+      continue;
     const auto outline_found = outline.Fit(components.runs(), c, least_side);
     if (!outline_found) continue;
     Quad quad{*outline_found, 0.0F};
