@@ -27,6 +27,8 @@ constexpr double kUndecided = 9.0;
 /// standard deviation, and the step that gained them leaves a small part of that.
 constexpr int kMostSteps = 60;
 constexpr double kFirstDamping = 1e-6, kMostDamping = 1e12, kStill = 1e-9, kNoGain = 1e-8;
+/// … of which a step is as good as without any.
+constexpr double kLittleDamping = 1e-3;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
@@ -136,7 +138,9 @@ class PlanarPoseProblem {
         damping = std::max(10.0 * damping, 1e-3);
         continue;
       }
-      const bool same = here.cost - there.cost <= kNoGain * (1.0 + here.cost);
+      // A step that damping holds back gains little anywhere.
+      const bool same =
+          damping <= kLittleDamping && here.cost - there.cost <= kNoGain * (1.0 + here.cost);
       pose = moved;
       here = there;
       damping *= 0.1;
