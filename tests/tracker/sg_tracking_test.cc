@@ -125,6 +125,28 @@ TEST_F(SgTracking, SeesAtOnceThatAnotherNumberHangsInTheSamePlace) {
   }
 }
 
+// The last step of a fit may be 0.06 px, which leaves a fortieth of itself: followed again through
+// the same picture, from where it was found, a marker stays where it is.
+TEST(SgTrackingAgain, FindsAMarkerOfAnySizeWhereItFindsItAgain) {
+  const CameraModel camera = SgCamera(160, 150);
+  for (const double side_px : {50.0, 58.0, 90.0}) {
+    SCOPED_TRACE(testing::Message() << "edge " << side_px << " px");
+    const auto tracker = MakeSgTracker(camera, {.consecutive_frames = true});
+    const auto picture = [&](Vec2 centre_px) {
+      const RenderedMarker marker = SgMarkerAt(camera, 17, centre_px, side_px, 25, 40, 10);
+      return RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = 41});
+    };
+    Track(tracker.get(), picture({80, 75}));
+    const GreyImage moved = picture({81.7, 76.1});
+    const auto first = Track(tracker.get(), moved);
+    ASSERT_EQ(first.size(), 1U) << Summary(first);
+    std::vector<Sighting> last;
+    for (int frame = 0; frame < 6; ++frame) last = Track(tracker.get(), moved);
+    ASSERT_EQ(last.size(), 1U) << Summary(last);
+    EXPECT_LT(CornerRms(first[0], last[0].detection.corners_px), 0.003);
+  }
+}
+
 TEST_F(SgTracking, NeverMistakesAMarkerForItsNeighbour) {
   // Two markers side by side; they change places while both are covered.
   for (int frame = 0; frame < 12; ++frame) {
