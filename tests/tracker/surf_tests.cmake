@@ -1,8 +1,8 @@
 # Tests and benchmark of tracker/surf/.
 find_package(hwy REQUIRED)
 pleinair_test(surf_test
-  SOURCES counted_memory.cc surf_allocation_test.cc surf_kernels_test.cc surf_reference.cc surf_test.cc
-          surf_test_pictures.cc
+  SOURCES counted_memory.cc keypoint_selection_test.cc surf_allocation_test.cc surf_kernels_test.cc
+          surf_reference.cc surf_test.cc surf_test_pictures.cc
   LIBS pleinair::tracker hwy::hwy)
 
 # Time, repeatability and matching against OpenCV's SIFT, ORB and AKAZE and, if there, dlib's SURF.

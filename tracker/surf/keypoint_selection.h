@@ -11,8 +11,7 @@ namespace pleinair::tracker {
 /// Keeps at most `max_keypoints`, strongest first. Where there are more, every bucket of
 /// `bucket_px` px keeps its strongest up to one number common to all, so that a busy background
 /// does not use up the keypoints; what is left over goes to the strongest of the rest. Without
-/// buckets
-/// (`bucket_px` <= 0) simply the strongest.
+/// buckets (`bucket_px` <= 0) simply the strongest.
 class KeypointSelection {
  public:
   void KeepFairShares(int width, int height, int bucket_px, int max_keypoints,
