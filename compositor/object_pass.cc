@@ -73,6 +73,7 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
   glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
   glDisable(GL_SCISSOR_TEST);
 }
 

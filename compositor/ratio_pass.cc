@@ -64,6 +64,7 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
   glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisablei(GL_BLEND, 1);
   glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
 }
 
 }  // namespace pleinair::compositor

@@ -29,9 +29,10 @@ class RatioPass {
     bool look = true;      ///< Composer::LookForShade().
     double board_m = 0.0;  ///< Composer::SetMarkerBoard().
   };
-  /// Shades what DrawSurfaces() found, once the objects are drawn; leaves depth and
-  /// blending as glEnable(GL_DEPTH_TEST) finds them. CameraPicture::BindForShading(2, 3, 4) and the
-  /// map of the sunlight at unit 5 must have been bound.
+  /// Shades what DrawSurfaces() found, once the objects are drawn.
+  /// CameraPicture::BindForShading(2, 3, 4), the shadow maps and the map of the sunlight at unit 5
+  /// must have been bound, and GL_DEPTH_TEST be enabled and GL_CULL_FACE not. Binds textures of its
+  /// own to units 0, 1, 6 and 7; leaves the depth written and tested with GL_LESS, and no blending.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
             const SurfacePrograms& programs, const DrawnFrame& frame, const Shade& shade) const;
 

@@ -11,8 +11,13 @@ SunFootprint::SunFootprint(const SunWindow& window)
 
 SunFootprint::Cells SunFootprint::CellsOf(const glm::vec2& low, const glm::vec2& high) const {
   const glm::vec2 last(kCells - 1);
-  const glm::ivec2 from(glm::clamp(glm::floor(low * cells_per_unit_), glm::vec2(0.0F), last));
-  const glm::ivec2 to(glm::clamp(glm::floor(high * cells_per_unit_), glm::vec2(0.0F), last));
+  const glm::vec2 low_cell = glm::clamp(glm::floor(low * cells_per_unit_), glm::vec2(0.0F), last);
+  const glm::vec2 high_cell = glm::clamp(glm::floor(high * cells_per_unit_), glm::vec2(0.0F), last);
+  // Of what is no number, or upside down, it is not known where it lies.
+  if (!(low_cell.x <= high_cell.x && low_cell.y <= high_cell.y)) {
+    return {0, kCells - 1, ~std::uint64_t{0}};
+  }
+  const glm::ivec2 from(low_cell), to(high_cell);
   return {from.y, to.y, (~std::uint64_t{0} >> (kCells - 1 - (to.x - from.x))) << from.x};
 }
 

@@ -10,7 +10,7 @@ namespace pleinair::compositor {
 /// shadows::ShadowSliceUniforms has it.
 struct SunWindow {
   glm::vec4 u_from_marker{0.0F}, v_from_marker{0.0F};
-  float side = 0.0F;       ///< Of the square, from 0 on.
+  float side = 0.0F;       ///< Of the square, from 0 on: texels of the finest shadow map.
   glm::vec3 to_sun{0.0F};  ///< Unit; zero without a sun.
   float reach_m = 0.0F;    ///< How far beside an object's own its penumbra may lie.
   bool operator==(const SunWindow&) const = default;
@@ -20,6 +20,7 @@ struct SunWindow {
     const glm::vec4 inside(0.0F, 0.0F, 0.0F, 1.0F);
     return {inside, inside, 2.0F, to_sun};
   }
+  /// Where a point's ray crosses the square, in the units of `side`.
   glm::vec2 At(const glm::vec3& position_m) const {
     return {glm::dot(u_from_marker, glm::vec4(position_m, 1.0F)),
             glm::dot(v_from_marker, glm::vec4(position_m, 1.0F))};
@@ -37,9 +38,10 @@ class SunFootprint {
   /// Nothing of `window`, which has a side.
   explicit SunFootprint(const SunWindow& window);
 
-  /// An object may lie between two corners.
+  /// An object may lie between two corners, both as SunWindow::At() has them; anywhere, if one is
+  /// not finite or `low` lies beyond `high`.
   void Include(const glm::vec2& low, const glm::vec2& high);
-  /// Whether something between two corners may be shaded.
+  /// Whether something between two such corners may be shaded.
   bool Touches(const glm::vec2& low, const glm::vec2& high) const;
 
  private:

@@ -1,7 +1,7 @@
 #version 450 core
 // What of a pixel is to be shaded: the triangles that its samples show, one for each sheet of a real
-// surface, with the samples that show that sheet. The pixel's depth says what may change
-// of it, for the passes that shade: ChangingTriangles::Change, the most of its samples.
+// surface, with the samples that show that sheet. The pixel's depth says what may change of it, for
+// the passes that shade: ChangingTriangles::Change, the most of its samples.
 
 #include "compositor/shaders/triangle_table.glsl"
 
@@ -24,7 +24,7 @@ void main() {
     uint id = left.x != 0u ? left.x : left.y != 0u ? left.y : left.z != 0u ? left.z : left.w;
     uvec4 same_id = uvec4(equal(left, uvec4(id)));
     left *= 1u - same_id;
-    uvec4 triangle = TriangleOf(max(id, 1u));
+    uvec4 triangle = TriangleOf(id);
     bvec4 same_sheet = equal(sheets, uvec4(SheetOf(triangle)));
     bool known = any(same_sheet);
     uvec4 slot = uvec4(known ? same_sheet : equal(ivec4(found), ivec4(0, 1, 2, 3)));

@@ -33,7 +33,7 @@ void main() {
     left *= 1u - samples;
     bool shown = id != 0u;
     id &= ~kObjectBit;
-    uvec4 triangle = TriangleOf(max(id, 1u));
+    uvec4 triangle = TriangleOf(id);
     uint sheet = SheetOf(triangle);
     SurfaceRecord record = RecordOf(int(ValueOfSheet(int(sheet))));
     SeenSurface here =

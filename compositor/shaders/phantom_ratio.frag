@@ -1,7 +1,8 @@
 #version 450 core
 // What the virtual objects change of the real surfaces' light in a pixel, see differential.glsl: the
-// mean over its samples, 1 where an object is in front, each sheet of a surface (changing_pixels.frag) shaded once. Drawn with
-// SUN_MAY_CHANGE, SKY_CHANGES or NO_SUN: compositor/changing_triangles.h.
+// mean over its samples, 1 where an object is in front, each sheet of a surface
+// (changing_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE, SKY_CHANGES or NO_SUN:
+// compositor/changing_triangles.h.
 // HAZE: so far away that the air before the surface counts.
 
 #include "compositor/shaders/aerial_fog.glsl"

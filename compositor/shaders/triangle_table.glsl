@@ -9,7 +9,10 @@ layout(binding = 6) uniform sampler2D u_vertices;    // Three texels each.
 // By sheet: of a real surface its green albedo, of an object's the surface's number.
 layout(binding = 7) uniform sampler2D u_sheet_values;
 
-uvec4 TriangleOf(uint id) { return texelFetch(u_triangles, TexelOfTriangle(int(id) - 1), 0); }
+// From 1 on. Of 0, no triangle, the first: what is fetched for it is not used, but must be there.
+uvec4 TriangleOf(uint id) {
+  return texelFetch(u_triangles, TexelOfTriangle(int(max(id, 1u)) - 1), 0);
+}
 
 float ValueOfSheet(int sheet) { return texelFetch(u_sheet_values, TexelOfTriangle(sheet), 0).r; }
 

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <utility>
+
 #include "compositor/facing_triangles.h"
 #include "compositor/triangle_table.h"
 
@@ -72,6 +75,23 @@ TEST(ChangingTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {
   EXPECT_EQ(sunlit(0.0F, {0.3F, 0.7F}, {0.4F, 0.9F}), 0) << "beyond it";
   EXPECT_EQ(sunlit(0.25F, {0.8F, 0.1F}, {0.9F, 0.2F}), 1) << "within reach of it";
   EXPECT_EQ(sunlit(0.0F, {-0.5F, -0.5F}, {1.5F, 1.5F}), 1) << "larger than the window";
+}
+
+TEST(ChangingTriangles, AreAllWhereAnObjectLiesNobodyKnowsWhere) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const auto& [low, high] : {std::pair{glm::vec2(nan), glm::vec2(nan)},
+                                  {glm::vec2(nan, 0.0F), glm::vec2(0.1F)},
+                                  {glm::vec2(0.0F), glm::vec2(0.1F, nan)},
+                                  {glm::vec2(0.9F), glm::vec2(0.1F)}}) {
+    SunFootprint objects(kWindow);
+    EXPECT_FALSE(objects.Touches({0.5F, 0.5F}, {0.6F, 0.6F}));
+    objects.Include(low, high);
+    EXPECT_TRUE(objects.Touches({0.0F, 0.0F}, {0.01F, 0.01F}));
+    EXPECT_TRUE(objects.Touches({0.99F, 0.99F}, {1.0F, 1.0F}));
+  }
+  SunFootprint objects(kWindow);
+  objects.Include({0.3F, 0.3F}, {0.4F, 0.35F});
+  EXPECT_TRUE(objects.Touches({nan, nan}, {nan, nan}));
 }
 
 TEST(FacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {

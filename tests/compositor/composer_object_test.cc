@@ -1,15 +1,21 @@
 // What a virtual object shows in a pixel: its material, texture and pieces of surface.
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "base/srgb.h"
 #include "compositor/composer.h"
+#include "compositor/seen_sunlight.h"
 #include "tests/compositor/composer_scene.h"
 
 namespace pleinair::compositor {
@@ -113,6 +119,76 @@ TEST(Composer, MirrorsTheSkyInPolishedMetal) {
   const RgbImage composed = Compose({Place(plate, false)}, EvenPicture(0));
   // The sun, 45° off, is mirrored elsewhere.
   EXPECT_NEAR(SeenAt(composed, {0, 0, 0.1}), kGain * 0.7 * kSkyLux * std::numbers::inv_pi, 0.01);
+}
+
+TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
+  // A black plate shows its coat alone. The sun, 45° off, is mirrored elsewhere but by a rough one.
+  const auto seen = [](float roughness, float f0, double sun_lux) {
+    Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
+    plate.materials[0].roughness = roughness;
+    plate.materials[0].specular_f0 = f0;
+    return SeenAt(Compose({Place(plate, false)}, EvenPicture(0), kCamera, sun_lux), {0, 0, 0.1});
+  };
+  EXPECT_NEAR(seen(0.1F, 0.5F, kSunLux), 0.5 * kGain * kSkyLux * std::numbers::inv_pi, 0.01);
+  EXPECT_GT(seen(0.5F, 0.1F, kSunLux), seen(0.5F, 0.1F, 0.0) + 0.02);
+}
+
+TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
+  // A board 1.5 m above the ground, south of what the camera sees, turned so that its edges lie at
+  // every place of the window's cells. A map that leaves all of the sun makes the composer draw all
+  // of the window as it may change.
+  constexpr double kCos = 0.955, kSin = 0.296;
+  const Model board = MakeBox({-0.6, -0.15, 0}, {0.6, 0.15, 0.02}, 0.5F);
+  const PlacedModel turned{std::make_shared<const Model>(board),
+                           {{kCos, -kSin, 0, kSin, kCos, 0, 0, 0, 1}},
+                           {0, -1.5, 1.5},
+                           false};
+  const std::vector<PlacedModel> scene{kGround, turned};
+  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+  auto composer = Composer::Create(kCamera, scene, {});
+  ASSERT_TRUE(solver.has_value());
+  ASSERT_TRUE(composer.has_value());
+  const testing::SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  (*composer)->LookForShade(false);
+  const auto compose = [&] {
+    return (*composer)->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+  };
+  const auto footprint = compose();
+  auto sunny = std::make_shared<SeenSunlight>();
+  sunny->across_x = {1, 0, 0};
+  sunny->across_y = {0, 1, 0};
+  sunny->cell_m = 1.0;
+  sunny->width = sunny->height = 1;
+  sunny->share = {1.0F};
+  ASSERT_TRUE((*composer)->SetSunlight(sunny));
+  const auto whole = compose();
+  ASSERT_TRUE(footprint.has_value());
+  ASSERT_TRUE(whole.has_value());
+  EXPECT_LT(SeenAt(*footprint, {0, 0, 0}), 0.4 * LinearFromSrgb8()[200]);
+  int most = 0;
+  for (std::size_t i = 0; i < whole->size(); ++i) {
+    most = std::max(most, std::abs(footprint->data()[i] - whole->data()[i]));
+  }
+  EXPECT_LE(most, 1) << "codes";
+}
+
+TEST(Composer, LeavesDepthAndBlendingAsDrawingBegins) {
+  auto composer = Composer::Create(kCamera, {kCube}, {});
+  const auto solver = LightSolver::Create({kCube}, {.rays_per_vertex = 16});
+  ASSERT_TRUE(composer.has_value());
+  ASSERT_TRUE(solver.has_value());
+  const testing::SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  ASSERT_TRUE((*composer)->Compose(EvenPicture(77).view(), kFromAbove, {kGain, kGain, kGain}));
+  GLint depth_function = 0;
+  glGetIntegerv(GL_DEPTH_FUNC, &depth_function);
+  EXPECT_EQ(depth_function, GL_LESS);
+  GLboolean writes_depth = GL_FALSE;
+  glGetBooleanv(GL_DEPTH_WRITEMASK, &writes_depth);
+  EXPECT_TRUE(writes_depth);
+  EXPECT_FALSE(glIsEnabledi(GL_BLEND, 1));
+  EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
 }
 
 TEST(Composer, ShadesAMovedModelWhereItStandsNow) {
