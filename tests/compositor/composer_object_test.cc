@@ -134,16 +134,37 @@ TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
 }
 
 TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
-  // A board 1.5 m above the ground, south of what the camera sees, turned so that its edges lie at
-  // every place of the window's cells. A map that leaves all of the sun makes the composer draw all
-  // of the window as it may change.
+  // A board 6 m above the ground, whose shadow's edge is 8 cm wide, turned so that it lies at every
+  // place of the window's cells; triangles are of a cell's size. A map that leaves all of the sun
+  // makes the composer draw all of the window as it may change.
+  Model ground = MakeBox({-1, -1, 0}, {1, 1, 0}, 0.3F);
+  Mesh& grid = ground.meshes[0];
+  const std::array<float, 3> up = grid.normals[0];
+  constexpr int kSide = 40;
+  grid.positions.clear();
+  grid.indices.clear();
+  for (int y = 0; y <= kSide; ++y) {
+    for (int x = 0; x <= kSide; ++x) {
+      grid.positions.push_back({0.05F * static_cast<float>(x - kSide / 2),
+                                0.05F * static_cast<float>(y - kSide / 2), 0.0F});
+    }
+  }
+  grid.normals.assign(grid.positions.size(), up);
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      const std::uint32_t i = y * (kSide + 1) + x;
+      for (const std::uint32_t corner : {0U, 1U, kSide + 2U, 0U, kSide + 2U, kSide + 1U}) {
+        grid.indices.push_back(i + corner);
+      }
+    }
+  }
   constexpr double kCos = 0.955, kSin = 0.296;
   const Model board = MakeBox({-0.6, -0.15, 0}, {0.6, 0.15, 0.02}, 0.5F);
   const PlacedModel turned{std::make_shared<const Model>(board),
                            {{kCos, -kSin, 0, kSin, kCos, 0, 0, 0, 1}},
-                           {0, -1.5, 1.5},
+                           {0, -6, 6},
                            false};
-  const std::vector<PlacedModel> scene{kGround, turned};
+  const std::vector<PlacedModel> scene{Place(ground, true), turned};
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
   auto composer = Composer::Create(kCamera, scene, {});
   ASSERT_TRUE(solver.has_value());
