@@ -128,11 +128,13 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share, bool known
   if (known_light) return;
   // Noise is no outlier; what lies on the print is, and makes some blocks look noisier than others.
   double share = robust_share;
+  noise_share_ = 0.0;
   if (!noise_shares_.empty()) {
     const auto quartile =
         noise_shares_.begin() + static_cast<std::ptrdiff_t>(noise_shares_.size() / 4);
     std::nth_element(noise_shares_.begin(), quartile, noise_shares_.end());
-    share = std::max(share, kRobustNoises * *quartile);
+    noise_share_ = *quartile;
+    share = std::max(share, kRobustNoises * noise_share_);
   }
   robust_share_ = share;
   for (BlockLight& light : sums_->lights) {
@@ -327,6 +329,16 @@ bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow
   }
   if (options.tell_blocks) sums_->blocks.WriteBlocks(seen, &block_of_);
   return solved;
+}
+
+void BlockFit::ExpectCertainty(SeenWindow* seen) {
+  sums_->blocks.WriteBlocks(*seen, &block_of_);
+  for (std::size_t n = 0; n < seen->certainty.size(); ++n) {
+    if (block_of_[n] < 0 || !(seen->certainty[n] > 0.0F)) continue;
+    const BlockLight& light = sums_->lights[block_of_[n]];
+    if (!(light.gain > 0.0F)) continue;
+    seen->certainty[n] = CertaintyOfLight(light.offset + light.gain * picture_.white[n]);
+  }
 }
 
 double BlockFit::Correlation() const {

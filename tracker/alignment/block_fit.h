@@ -84,6 +84,11 @@ class BlockFit {
   float Belief(std::size_t pixel, const SeenWindow& seen) const {
     return seen.certainty[pixel] > 0.0F ? weight_[pixel] / seen.certainty[pixel] : 0.0F;
   }
+  /// Noise of the quieter blocks in shares of white, as the last Run with unknown light found it.
+  double noise_share() const { return noise_share_; }
+  /// After Run: makes each pixel that counts as certain as the light that is predicted of it. A
+  /// code's own certainty follows its noise, which biases a fit where there is much of it.
+  void ExpectCertainty(SeenWindow* seen);
   /// Share-weighted correlation over all blocks that have contrast: 1 is perfect.
   double Correlation() const;
   /// Covariance of the eight motions (see block_fit_covariance.cc) from what is left over;
@@ -121,6 +126,7 @@ class BlockFit {
   int modules_ = 0, edge_modules_ = 0;
   double least_contrast_ = 0.0;
   double robust_share_ = 0.0;  ///< Residual, in shares of white, at which a pixel loses half.
+  double noise_share_ = 0.0;   ///< First quartile of the blocks' noise, in shares of white.
   double blur_px_ = 0.0;       ///< In the picture's pixels, of the last prediction.
   std::vector<PrintBlock> blocks_;
   std::vector<double> noise_shares_;

@@ -94,6 +94,8 @@ void TakeMeans(ImageView<const std::uint8_t> grey, const PixelWindow& window,
 
 }  // namespace
 
+float CertaintyOfLight(float linear) { return CertaintyOfCode()[Srgb8FromLinear(linear)]; }
+
 void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
                       const PixelWindow& window, SeenWindow* seen, Clipping clipping) {
   LookUpRays(lens, window, &seen->rays);

@@ -23,6 +23,9 @@ struct SeenWindow {
 /// takes some there, but not all of a reduced pixel's, their mean is still right enough.
 enum class Clipping { kByLight, kByNoise };
 
+/// The certainty that TakeLinearWindow gives to a code of so much light; 0 where it is clipped.
+float CertaintyOfLight(float linear);
+
 /// Takes a window out of a picture, in linear light; reduced pixels are means of squares of the
 /// picture's. Codes that are clipped by light are not to be used; the certainty is that of even
 /// noise in codes, which is how cameras' noise looks after the sRGB curve.

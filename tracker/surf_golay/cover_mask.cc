@@ -7,7 +7,7 @@ namespace pleinair::tracker {
 namespace {
 
 /// Predicted shares of white well inside a shape, and seen ones that are of the other colour there.
-constexpr float kWhite = 0.95F, kBlack = 0.05F, kDark = 0.6F;
+constexpr float kWhite = 0.95F, kBlack = 0.05F, kDark = 0.6F, kDarkest = 0.2F;
 /// The same on edges that tell.
 constexpr float kEdgeWhite = 0.35F, kEdgeBlack = 0.5F, kEdgeNoise = 0.1F;
 /// Ink is as dark in the shade as it is in the light: what is lighter by more than noise is none.
@@ -30,11 +30,14 @@ void CoverMask::TakeShares(const PrintPattern& pattern, const BlockFit& fit,
         static_cast<float>((value_[n] / white - light.black_share) / (1.0 - light.black_share));
   }
   share_ = seen->value;
+  noisy_dark_ = std::clamp(1.0F - kNoises * static_cast<float>(light.white_noise), kDarkest, kDark);
   least_light_ =
       std::clamp(kNoises * static_cast<float>(light.black_noise), kLeastLight, kMostLight);
 }
 
-void CoverMask::Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow* seen) {
+void CoverMask::Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow* seen,
+                    Dark darkness) {
+  const float dark = darkness == Dark::kBeyondNoise ? noisy_dark_ : kDark;
   const int width = seen->rays.window.width, height = seen->rays.window.height;
   const int reach =
       1 + static_cast<int>(std::ceil(kReachSigmas * std::hypot(kPixelSigma_px, blur_px)));
@@ -45,9 +48,9 @@ void CoverMask::Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow
     const float share = share_[n];
     covered_[n] =
         edges == Edges::kTell
-            ? (predicted > kEdgeWhite && share < kDark * predicted - kEdgeNoise) ||
+            ? (predicted > kEdgeWhite && share < dark * predicted - kEdgeNoise) ||
                   (predicted < kEdgeBlack && share > predicted + least_light_)
-            : (predicted > kWhite && share < kDark) || (predicted < kBlack && share > least_light_);
+            : (predicted > kWhite && share < dark) || (predicted < kBlack && share > least_light_);
   }
   // Along rows, then along columns, each pixel keeps those within reach from counting.
   const auto spread = [&](const std::vector<unsigned char>& from, int count, int step, int lines,

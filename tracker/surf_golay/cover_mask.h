@@ -27,9 +27,14 @@ class CoverMask {
   /// of a pixel where it is predicted, in plain light.
   enum class Edges { kUnsure, kTell };
 
+  /// How dark a pixel on white is covered: darker than white plainly is, or than noise makes it,
+  /// too. The latter keeps dark noise, without which white would be taken for too bright.
+  enum class Dark { kPlain, kBeyondNoise };
+
   /// Makes covered pixels of the window count for nothing, by what `fit` predicted last of a
   /// picture of this blur (standard deviation, the window's pixels).
-  void Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow* seen);
+  void Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow* seen,
+           Dark darkness = Dark::kPlain);
 
   /// Gives the window its values back.
   void GiveValuesBack(SeenWindow* seen) const { seen->value = value_; }
@@ -39,6 +44,7 @@ class CoverMask {
  private:
   std::vector<float> value_, share_, certainty_;
   float least_light_ = 0.0F;  ///< Share of white that is no ink.
+  float noisy_dark_ = 0.0F;   ///< Share of white below which white is no noise (kBeyondNoise).
   std::vector<unsigned char> covered_, beside_;
 };
 

@@ -103,12 +103,14 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
     Candidate candidate;
     candidate.detection.family = "sg";
     candidate.detection.id = reading.number;
-    candidate.detection.corners_px = reading.corners_px;
+    const SgCorners& corners =
+        reading.corners_through_noise ? *reading.corners_through_noise : reading.corners;
+    candidate.detection.corners_px = corners.px;
     candidate.detection.visible_fraction = reading.visible_fraction;
     candidate.detection.path = found.path;
     candidate.detection.visibility_side = reading.blocks_along;
     candidate.detection.visibility = reading.visible;
-    candidate.corner_covariance_px2 = reading.corner_covariance_px2;
+    candidate.corner_covariance_px2 = corners.covariance_px2;
     candidates.push_back(std::move(candidate));
   }
   return candidates;
@@ -165,7 +167,7 @@ std::array<ProbedOrientation, 2> SgDetector::Probe(std::array<Vec2, 4> corners_p
 bool SgDetector::RightWayRound(const SgReading& reading) {
   // Rim and margin look the same from all sides, and a turned content reads as some other word: the
   // border's shapes must fit better this way round than any other.
-  const ProbedOrientation best = Probe(reading.corners_px)[0];
+  const ProbedOrientation best = Probe(reading.corners.px)[0];
   if (best.first_corner != 0 || best.mirrored) return false;
   // Edges of covers pass for the print's rim, but not for its border's shapes.
   return reading.visible_fraction >= kSurelyVisible || best.correlation >= kShiftedCorrelation;
@@ -179,7 +181,7 @@ double SgDetector::UprightCorrelation(const BlockFitState& state) {
 std::optional<SgReading> SgDetector::ReadAsGuessed(const BlockFitState& guess) {
   std::optional<SgReading> reading = reader_.ReadAsGuessed(guess);
   if (!reading) return reading;
-  const double correlation = Probe(reading->corners_px)[0].correlation;
+  const double correlation = Probe(reading->corners.px)[0].correlation;
   if (!IsProved(reading->proof_bits, reading->visible_fraction, correlation)) reading.reset();
   return reading;
 }

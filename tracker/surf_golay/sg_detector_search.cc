@@ -52,7 +52,7 @@ bool SgDetector::FindBySurf(BorderSearch::Sizes sizes, bool refill) {
   bool any = false;
   for (bool more = true; more; refill = true) {
     taken_.clear();
-    for (const Found& found : found_) taken_.push_back(found.reading.corners_px);
+    for (const Found& found : found_) taken_.push_back(found.reading.corners.px);
     search_->Find(grey_, taken_, sizes, refill, &guesses_);
     tried_.clear();
     // As long as guesses turn out to be markers, more of them may.

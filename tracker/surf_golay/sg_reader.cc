@@ -30,6 +30,10 @@ constexpr double kLeastVisibleBorder = 0.06;
 constexpr int kReadSteps = 4;
 /// Corners that far apart put a cell's middle where it was: cells need not be read again.
 constexpr double kSameCells_modules = 0.5;
+/// Noise, in shares of white, from which on pixels are weighed by what is predicted of them, and
+/// steps of the fit with these weights.
+constexpr double kPlainNoise = 0.02;
+constexpr int kNoisySteps = 3;
 constexpr int kFollowSteps = 4;
 constexpr std::array<double, 2> kFollowBlurs_px{0.9, 0.3};
 /// Mean correlation of the content's blocks that makes a followed marker's number sure, and likely.
@@ -304,6 +308,22 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
   return reading;
 }
 
+bool SgReader::IsNoisy() {
+  return fit_.noise_share() >= kPlainNoise && noise_meter_.Share(fit_, seen_) >= kPlainNoise;
+}
+
+void SgReader::MeasureThroughNoise(int number, BlockFitOptions options, BlockFitState state,
+                                   SgReading* reading) {
+  fit_.ExpectCertainty(&seen_);
+  options.steps = kNoisySteps;
+  // What the first fit found is still to be judged.
+  if (!other_fit_.Run(Print(number), PrintPart::kWhole, seen_, fit_.blocks_along(), options,
+                      &state)) {
+    return;
+  }
+  reading->corners_through_noise = CornersOfFit(lens_, other_fit_, state);
+}
+
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess, double done_px) {
   const double side = windows_.SidePx(guess.modules_from_ideal);
   if (side < kLeastSide_px) return std::nullopt;
@@ -323,6 +343,7 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   SgReading reading;
   reading.number = number;
   DescribeFit(lens_, fit_, state, &reading);
+  if (IsNoisy()) MeasureThroughNoise(number, options, state, &reading);
   return reading;
 }
 

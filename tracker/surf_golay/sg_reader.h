@@ -17,6 +17,7 @@
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
 #include "tracker/surf_golay/cover_mask.h"
+#include "tracker/surf_golay/pixel_noise.h"
 #include "tracker/surf_golay/print_windows.h"
 #include "tracker/surf_golay/sg_reading.h"
 
@@ -81,6 +82,12 @@ class SgReader {
   bool ReadNumber(const BlockFitState& state, SgReading* reading);
   /// Moves a state to where the content alone fits best.
   bool FitContent(int number, BlockFitState* state);
+  /// Whether the print that was fitted last is so noisy that its pixels' own certainties mislead.
+  bool IsNoisy();
+  /// Fits a print that was fitted last once more, its pixels as certain as what is predicted of
+  /// them, and adds its corners to the reading. The first fit and the rest of the reading stay.
+  void MeasureThroughNoise(int number, BlockFitOptions options, BlockFitState state,
+                           SgReading* reading);
   /// Makes the pixels of the window that do not show the content count for nothing.
   void KeepContent(const PixelWindow& window, const Mat3& modules_from_ideal);
   /// Measures a print again of which something is covered, by what surely is not.
@@ -98,10 +105,11 @@ class SgReader {
   SeenWindow seen_;
   BlockFit fit_;
   SeenWindow other_seen_;  ///< Where a fit at another size waits.
-  BlockFit other_fit_;
+  BlockFit other_fit_;     ///< … or one is made whose light and looks count for nothing.
   PrintLightMeter light_meter_;
   CellReader cell_reader_;
   CoverMask cover_;
+  PixelNoiseMeter noise_meter_;
   PrintPattern blank_;
   PrintPattern print_;
   int print_number_ = -1;

@@ -118,6 +118,10 @@ std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockF
   SgReading reading;
   reading.number = number;
   DescribeFit(lens_, fit_, state, &reading);
+  if (IsNoisy()) {
+    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_, CoverMask::Dark::kBeyondNoise);
+    MeasureThroughNoise(number, options, state, &reading);
+  }
   cover_.LiftFrom(&seen_);
   fit_.Evaluate(print, PrintPart::kWhole, seen_, blocks, state);
   DescribeLooks(fit_, &reading);

@@ -81,6 +81,11 @@ void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState&
   reading->modules_from_ideal = state.modules_from_ideal;
   reading->blur_px = state.blur_px;
   DescribeLooks(fit, reading);
+  reading->corners = CornersOfFit(lens, fit, state);
+}
+
+SgCorners CornersOfFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state) {
+  SgCorners told;
   // The corners, their plane's second axis down as the fit has it.
   const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
   const auto pixel_of = [&](Vec2 unit_down) {
@@ -89,10 +94,10 @@ void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState&
   std::array<FittedCorner, 4> corners;
   for (int i = 0; i < 4; ++i) {
     corners[i] = CornerAt({kSquareCorners[i].x, -kSquareCorners[i].y}, pixel_of);
-    reading->corners_px[i] = corners[i].pixel;
+    told.px[i] = corners[i].pixel;
   }
-  reading->corner_covariance_px2 =
-      CovarianceOfCorners(corners, fit.MotionCovariance(), kSystematicCorner_px);
+  told.covariance_px2 = CovarianceOfCorners(corners, fit.MotionCovariance(), kSystematicCorner_px);
+  return told;
 }
 
 }  // namespace pleinair::tracker

@@ -3,6 +3,7 @@
 // Internal: between the .cc files of this module; not installed.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "base/vector.h"
@@ -11,13 +12,21 @@
 
 namespace pleinair::tracker {
 
+/// Corners of a print in a picture and how sure they are.
+struct SgCorners {
+  std::array<Vec2, 4> px;  ///< Top-left, then clockwise as the print is read.
+  std::array<double, 64> covariance_px2{};
+};
+
 /// An S-G marker that has been read, measured and verified.
 struct SgReading {
   int number = 0;
-  Mat3 modules_from_ideal;         ///< Homography from ideal pixels to modules of the print.
-  double blur_px = 0.0;            ///< Standard deviation beyond the pixel's square.
-  std::array<Vec2, 4> corners_px;  ///< Top-left, then clockwise as the print is read.
-  std::array<double, 64> corner_covariance_px2{};
+  Mat3 modules_from_ideal;  ///< Homography from ideal pixels to modules of the print.
+  double blur_px = 0.0;     ///< Standard deviation beyond the pixel's square.
+  SgCorners corners;
+  /// As `corners` where pixels are noisy, by a further fit. To be told: all that is decided about a
+  /// reading is decided by what else it says.
+  std::optional<SgCorners> corners_through_noise;
   double visible_fraction = 0.0;  ///< Share of the print that looks as predicted.
   double whole_correlation = 0.0;
   double inner_correlation = 0.0;  ///< Of the blocks that do not touch the print's edge.
@@ -31,6 +40,9 @@ struct SgReading {
 /// looks as predicted and where it is seen. Not the number, its margin and its proof.
 void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state,
                  SgReading* reading);
+
+/// Where a fit of the whole print puts its corners.
+SgCorners CornersOfFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state);
 
 /// Writes down only how well the whole print looks as predicted and where it is seen.
 void DescribeLooks(const BlockFit& fit, SgReading* reading);

@@ -1,0 +1,46 @@
+#include "tracker/surf_golay/pixel_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pleinair::tracker {
+namespace {
+
+/// Predicted shares of white that far apart are the same.
+constexpr float kEven = 0.02F;
+/// Median of |x - y| of two Gaussian numbers over their standard deviation: √2 Φ⁻¹(3/4).
+constexpr double kMedianDifference = 0.9539;
+
+template <typename T>
+T Median(std::vector<T>* values) {
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  return *middle;
+}
+
+}  // namespace
+
+double PixelNoiseMeter::Share(const BlockFit& fit, const SeenWindow& seen) {
+  gains_.clear();
+  gains_.reserve(fit.blocks().size());
+  for (const PrintBlock& block : fit.blocks()) {
+    if (block.gain > 0.0) gains_.push_back(block.gain);
+  }
+  differences_.clear();
+  differences_.reserve(seen.value.size());
+  const int width = seen.rays.window.width, height = seen.rays.window.height;
+  const std::vector<float>& white = fit.picture().white;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x + 1 < width; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y) * width + x;
+      if (!(seen.certainty[at] > 0.0F && seen.certainty[at + 1] > 0.0F)) continue;
+      if (std::fabs(white[at] - white[at + 1]) > kEven) continue;
+      differences_.push_back(std::fabs(seen.value[at] - seen.value[at + 1]));
+    }
+  }
+  if (differences_.empty() || gains_.empty()) return 0.0;
+  return Median(&differences_) / (kMedianDifference * Median(&gains_));
+}
+
+}  // namespace pleinair::tracker
