@@ -27,8 +27,6 @@ using testing::UniformDay;
 const std::string kFolder = PLEINAIR_SOURCE_DIR "/recordings/courtyard_midday/";
 // The truths' own noise is 0.8 % RMS, told against 8,192 paths.
 constexpr std::uint32_t kPaths = 512;
-// For the test's time fewer rays than the program's 256, of which the errors here are most.
-constexpr int kTracedRays = 64, kCoefficientRays = 128;
 
 /// Brighter towards the horizon and the sun.
 class Day : public UniformDay {
@@ -51,7 +49,7 @@ std::vector<Ray> LinesOfSight() {
   std::ifstream file(kFolder + "truth.tum");
   std::string line;
   for (int frame = -1; std::getline(file, line);) {
-    if (line[0] == '#') continue;
+    if (line.starts_with('#')) continue;
     ++frame;
     if (frame != 36 && frame != 72) continue;
     // x_marker = R(q) x_camera + t.
@@ -160,8 +158,9 @@ TEST(CourtyardLight, AgreesWithPathsFollowedOneByOneToThreePercent) {
   const auto shared_phantom = std::make_shared<const Model>(*phantom);
   const auto shared_object = std::make_shared<const Model>(*object);
   const Day day;
-  const auto solver = LightSolver::Create({Phantom(shared_phantom), testing::Object(shared_object)},
-                                          {.rays_per_vertex = kTracedRays});
+  // As the program has them.
+  const auto solver =
+      LightSolver::Create({Phantom(shared_phantom), testing::Object(shared_object)}, {});
   // The oracles follow paths to their end; they know no virtual objects: one is told that it is
   // real.
   const LightSolverOptions to_the_end{.bounces = 12, .near_edge_m = 5.0};
@@ -170,8 +169,8 @@ TEST(CourtyardLight, AgreesWithPathsFollowedOneByOneToThreePercent) {
   const auto without = LightSolver::Create({Phantom(shared_phantom)}, to_the_end);
   ASSERT_TRUE(solver && with && without);
   const std::vector<LitMesh> traced = (*solver)->Solve(day, Mat3{});
-  const std::vector<LitMesh> relit = (*solver)->Relight(
-      (*solver)->Coefficients({0, 0, 1}, {.rays_per_vertex = kCoefficientRays}, {}), day, Mat3{});
+  const std::vector<LitMesh> relit =
+      (*solver)->Relight((*solver)->Coefficients({0, 0, 1}, {}, {}), day, Mat3{});
   const std::vector<Place> places = PlacesSeen(traced);
   const std::vector<LinearRgb> truths_with = Truths(**with, places, day);
   const std::vector<LinearRgb> truths_without = Truths(**without, places, day);
