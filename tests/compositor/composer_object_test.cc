@@ -140,13 +140,13 @@ TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
   Model ground = MakeBox({-1, -1, 0}, {1, 1, 0}, 0.3F);
   Mesh& grid = ground.meshes[0];
   const std::array<float, 3> up = grid.normals[0];
-  constexpr int kSide = 40;
+  constexpr int kHalf = 20, kSide = 2 * kHalf;
   grid.positions.clear();
   grid.indices.clear();
   for (int y = 0; y <= kSide; ++y) {
     for (int x = 0; x <= kSide; ++x) {
-      grid.positions.push_back({0.05F * static_cast<float>(x - kSide / 2),
-                                0.05F * static_cast<float>(y - kSide / 2), 0.0F});
+      grid.positions.push_back(
+          {0.05F * static_cast<float>(x - kHalf), 0.05F * static_cast<float>(y - kHalf), 0.0F});
     }
   }
   grid.normals.assign(grid.positions.size(), up);
