@@ -38,6 +38,17 @@ const double kLevelLux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
 /// Display-linear value of a level face of so much reflectance.
 double Level(double albedo) { return kGain * albedo * kLevelLux * std::numbers::inv_pi; }
 
+/// Draws the scene in the southern sun. No shade of trees is looked for: then what no object hides
+/// from the sun is not asked for it.
+std::unique_ptr<Composer> ComposerInTheSun(const std::vector<PlacedModel>& scene) {
+  static const testing::SouthernSun light;
+  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+  auto composer = Composer::Create(kCamera, scene, {});
+  EXPECT_TRUE(composer.value()->SetLight(solver.value()->Solve(light, Mat3{}), light, Mat3{}));
+  composer.value()->LookForShade(false);
+  return std::move(composer.value());
+}
+
 /// A level square of a metre whose texture's u runs along x, v against y; 0.1 m above the marker.
 Model TexturedSquare(Image<std::uint8_t> texture) {
   Model square = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 1.0F);
@@ -165,15 +176,9 @@ TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
                            {0, -6, 6},
                            false};
   const std::vector<PlacedModel> scene{Place(ground, true), turned};
-  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
-  auto composer = Composer::Create(kCamera, scene, {});
-  ASSERT_TRUE(solver.has_value());
-  ASSERT_TRUE(composer.has_value());
-  const testing::SouthernSun light;
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
-  (*composer)->LookForShade(false);
+  const auto composer = ComposerInTheSun(scene);
   const auto compose = [&] {
-    return (*composer)->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+    return composer->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
   };
   const auto footprint = compose();
   auto sunny = std::make_shared<SeenSunlight>();
@@ -182,7 +187,7 @@ TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
   sunny->cell_m = 1.0;
   sunny->width = sunny->height = 1;
   sunny->share = {1.0F};
-  ASSERT_TRUE((*composer)->SetSunlight(sunny));
+  ASSERT_TRUE(composer->SetSunlight(sunny));
   const auto whole = compose();
   ASSERT_TRUE(footprint.has_value());
   ASSERT_TRUE(whole.has_value());
@@ -236,16 +241,10 @@ TEST(Composer, MovesTheShadowOfAModelThatTurnsWithinItsBox) {
   Model posts = MakeBox({-0.35, -0.35, 0.001}, {-0.25, -0.25, 0.2}, 0.5F);
   posts.meshes.push_back(MakeBox({0.25, 0.25, 0.001}, {0.35, 0.35, 0.2}, 0.5F).meshes[0]);
   const std::vector<PlacedModel> scene{kGround, Place(posts, false)};
-  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
-  auto composer = Composer::Create(kCamera, scene, {});
-  ASSERT_TRUE(solver.has_value());
-  ASSERT_TRUE(composer.has_value());
-  const testing::SouthernSun light;
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
-  (*composer)->LookForShade(false);  // Then what no object hides from the sun is not asked for it.
+  const auto composer = ComposerInTheSun(scene);
   const auto shares = [&] {
     const auto composed =
-        (*composer)->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+        composer->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
     EXPECT_TRUE(composed);
     const double before = LinearFromSrgb8()[200];
     return std::pair{SeenAt(*composed, {-0.3, -0.16, 0}) / before,
@@ -254,7 +253,7 @@ TEST(Composer, MovesTheShadowOfAModelThatTurnsWithinItsBox) {
   const auto [shaded, lit] = shares();
   EXPECT_LT(shaded, 0.4);
   EXPECT_GT(lit, 0.9);
-  (*composer)->MoveModel(1, {{0, -1, 0, 1, 0, 0, 0, 0, 1}}, {0, 0, 0});
+  composer->MoveModel(1, {{0, -1, 0, 1, 0, 0, 0, 0, 1}}, {0, 0, 0});
   const auto [lit_now, shaded_now] = shares();
   EXPECT_LT(shaded_now, 0.4);
   EXPECT_GT(lit_now, 0.7) << "its light stays until it is made anew";
