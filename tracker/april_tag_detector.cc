@@ -80,8 +80,8 @@ class AprilTagDetector final : public MarkerDetector {
   explicit AprilTagDetector(const std::vector<const Family*>& families)
       : detector_(apriltag_detector_create()) {
     // Version 3.3 mixes pixel origins when it decimates or refines edges; without both, all its
-    // corners have pixel centres at .5 (tests/tracker/marker_bias_test.cc). One thread: its list
-    // would otherwise depend on their timing.
+    // corners have pixel centres at .5 (tests/tracker/april_tag_detector_test.cc). One thread: its
+    // list would otherwise depend on their timing.
     detector_->quad_decimate = 1.0F;
     detector_->refine_edges = false;
     detector_->nthreads = 1;

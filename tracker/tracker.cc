@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -18,7 +19,8 @@ namespace pleinair::tracker {
 namespace {
 
 /// What AprilTag's corners are worth where the print's own pixels give none better: on sRGB grey
-/// its edges lie a third of a pixel inside the black square (tests/tracker/marker_bias_test.cc).
+/// its edges lie a third of a pixel inside the black square
+/// (tests/tracker/print_alignment_test.cc).
 constexpr double kRawCornerSigma_px = 0.4;
 
 class DetectingTracker final : public Tracker {
@@ -140,9 +142,16 @@ Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
     return InputError("", "the marker's size must be positive",
                       "give the edge of its outer black square");
   }
+  if (!options.families.empty() &&
+      (options.marker_size_m < kSmallestMarker_m || options.marker_size_m > kLargestMarker_m)) {
+    return InputError("", "the marker would be smaller than 0.1 mm or larger than 1 km",
+                      "give the edge of its outer black square in its unit");
+  }
+  const double bent = std::accumulate(camera.distortion.begin(), camera.distortion.end(), 0.0);
   if (camera.width <= 0 || camera.height <= 0 || !(camera.fx > 0.0) || !(camera.fy > 0.0) ||
-      !std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy)) {
-    return InputError("", "the camera has no usable size or focal length", "calibrate it");
+      !std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy + bent)) {
+    return InputError("", "the camera has no usable size, focal length or distortion",
+                      "calibrate it");
   }
   if (options.families.empty() && options.targets.empty()) {
     return InputError("", "no marker family to look for", "name one, for example tag36h11");

@@ -28,6 +28,9 @@ struct SgOptions {
 
 struct PictureTarget;
 
+/// Edges of markers that can be meant; beyond them poses are lost in rounding.
+inline constexpr double kSmallestMarker_m = 1e-4, kLargestMarker_m = 1e3;
+
 struct TrackerOptions {
   std::vector<std::string> families{"tag36h11"};  ///< Which markers to look for.
   double marker_size_m = 0.0;  ///< Edge of the outer black square of markers of these families.

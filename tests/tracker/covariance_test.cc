@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/tracker/marker_rendering.h"
+#include "tests/tracker/pose_error.h"
 #include "tracker/april_tag_detector.h"
 #include "tracker/planar_pose.h"
 #include "tracker/tracker.h"
@@ -14,21 +15,7 @@
 namespace pleinair::tracker {
 namespace {
 
-using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
-
-/// camera_from_marker(estimate) = (Exp(w) R_true, t_true + d): w and d in the camera frame.
-Eigen::Matrix<double, 6, 1> PoseError(const Transform<Camera, Marker>& estimate,
-                                      const Transform<Camera, Marker>& truth) {
-  const Eigen::Matrix3d difference =
-      Eigen::Map<const RowMajor3>(estimate.rotation.m.data()) *
-      Eigen::Map<const RowMajor3>(truth.rotation.m.data()).transpose();
-  const Eigen::AngleAxisd turn(difference);
-  const Vec3 d = estimate.translation_m - truth.translation_m;
-  Eigen::Matrix<double, 6, 1> error;
-  error << turn.angle() * turn.axis(), d.x, d.y, d.z;
-  return error;
-}
 
 double Nees(const PoseEstimate& estimate, const Transform<Camera, Marker>& truth) {
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(

@@ -84,8 +84,10 @@ INSTANTIATE_TEST_SUITE_P(PlanarPose, PoseRefinement,
                                          Seen{"Tilted", 120, 50}, Seen{"Steep", 60, 78}),
                          [](const auto& seen) { return seen.param.name; });
 
-// So little beside what noise moves the corners by counts for nothing.
-TEST_P(PoseRefinement, EndsATwoHundredthOfTheCornersErrorFromTheMinimum) {
+// A step that gains 1e-8 of χ² moves the corners by a ten-thousandth of their error: the pose ends
+// about so near to the minimum, however the camera sees the marker, and no run of short steps stops
+// on the way to it.
+TEST_P(PoseRefinement, EndsTwoTenThousandthsOfTheCornersErrorFromTheMinimum) {
   CameraModel camera{.width = 640, .height = 480, .fx = 600, .fy = 605, .cx = 322, .cy = 238};
   camera.distortion = {-0.13, 0.045, 0.0006, -0.0004, 0, 0, 0, 0};
   std::mt19937 random(31);
@@ -102,7 +104,7 @@ TEST_P(PoseRefinement, EndsATwoHundredthOfTheCornersErrorFromTheMinimum) {
           EstimatePlanarPose(camera, corners, IsotropicCornerCovariance(sigma_px), marker.size);
       ASSERT_TRUE(pose.has_value());
       EXPECT_LT(FromTheMinimum(camera, marker, corners, sigma_px, pose->best.camera_from_marker),
-                5e-3)
+                2e-4 * std::sqrt(1.0 + pose->best.chi2))
           << draw;
     }
   }

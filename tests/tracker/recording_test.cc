@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "tests/tracker/pose_error.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::tracker {
@@ -57,20 +58,6 @@ double Percentile(std::vector<double> values, double share) {
 
 double Mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-/// camera_from_marker(estimate) = (Exp(w) R_true, t_true + d): w (rad) and d (m), camera frame.
-Eigen::Matrix<double, 6, 1> PoseError(const Transform<Camera, Marker>& estimate,
-                                      const Transform<Camera, Marker>& truth) {
-  using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Eigen::Matrix3d difference =
-      Eigen::Map<const RowMajor3>(estimate.rotation.m.data()) *
-      Eigen::Map<const RowMajor3>(truth.rotation.m.data()).transpose();
-  const Eigen::AngleAxisd turn(difference);
-  const Vec3 d = estimate.translation_m - truth.translation_m;
-  Eigen::Matrix<double, 6, 1> error;
-  error << turn.angle() * turn.axis(), d.x, d.y, d.z;
-  return error;
 }
 
 class Courtyard : public testing::TestWithParam<Bundled> {};

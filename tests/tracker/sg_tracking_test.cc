@@ -147,6 +147,31 @@ TEST(SgTrackingAgain, FindsAMarkerOfAnySizeWhereItFindsItAgain) {
   }
 }
 
+// From its quadrilateral's corners, tenths of a pixel away, a print is fitted in one or two steps.
+// What they leave of a large one must be less than noise moves it by, 0.002 px: a longer step that
+// was the last would leave up to ten times as much.
+TEST(SgTrackingAgain, FindsALargeMarkerAtOnceWhereItStaysWhenFollowed) {
+  const CameraModel camera = SgCamera(280, 260);
+  for (const double side_px : {120.0, 170.0}) {
+    for (int way = 0; way < 6; ++way) {
+      SCOPED_TRACE(testing::Message() << "edge " << side_px << " px, way round " << way);
+      const RenderedMarker marker = SgMarkerAt(camera, 17, {142.5 - 0.7 * way, 130.0 + 0.4 * way},
+                                               side_px, 25, 40 + 20 * way, 10 + 30 * way);
+      const GreyImage picture =
+          RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = 41});
+      const auto tracker =
+          MakeSgTracker(camera, {.strategy = SgStrategy::kFast, .consecutive_frames = true});
+      const auto first = Track(tracker.get(), picture);
+      ASSERT_EQ(first.size(), 1U) << Summary(first);
+      EXPECT_STREQ(PathName(first[0].detection.path), "fast");
+      std::vector<Sighting> last;
+      for (int frame = 0; frame < 6; ++frame) last = Track(tracker.get(), picture);
+      ASSERT_EQ(last.size(), 1U) << Summary(last);
+      EXPECT_LT(CornerRms(first[0], last[0].detection.corners_px), 0.002);
+    }
+  }
+}
+
 TEST_F(SgTracking, NeverMistakesAMarkerForItsNeighbour) {
   // Two markers side by side; they change places while both are covered.
   for (int frame = 0; frame < 12; ++frame) {

@@ -114,7 +114,7 @@ TEST(Tracker, RefusesAPictureOfAnotherSizeThanItsCamera) {
 
 TEST(Tracker, RefusesOptionsThatCannotBeMeant) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double size_m : {0.0, -0.1, nan}) {
+  for (const double size_m : {0.0, -0.1, nan, 1e-9, 1e9}) {
     EXPECT_FALSE(Tracker::Create(Camera320(), {.marker_size_m = size_m}).has_value());
   }
   EXPECT_FALSE(Tracker::Create(Camera320(), {.families = {}, .marker_size_m = 0.1}).has_value());
@@ -124,6 +124,9 @@ TEST(Tracker, RefusesOptionsThatCannotBeMeant) {
   camera.fx = 0.0;
   EXPECT_FALSE(Tracker::Create(camera, {.marker_size_m = 0.1}).has_value());
   camera.fx = nan;
+  EXPECT_FALSE(Tracker::Create(camera, {.marker_size_m = 0.1}).has_value());
+  camera = Camera320();
+  camera.distortion[2] = nan;
   EXPECT_FALSE(Tracker::Create(camera, {.marker_size_m = 0.1}).has_value());
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "tracker/alignment/block_fit_sums.h"
-#include "tracker/alignment/light_elimination.h"
 #include "tracker/alignment/surroundings.h"
 #include "tracker/homography.h"
 
@@ -21,31 +20,13 @@ constexpr double kLeastWeight = 0.02;
 constexpr double kRobustNoises = 1.0;  ///< Standard deviations at which a pixel loses half.
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
 constexpr float kMostReach_modules = 2.4F;
-constexpr double kLeastBlur_px = 0.25, kMostBlur_px = 6.0;
-/// Change of the blur that is none, in pixels.
-constexpr double kStillBlur_px = 0.02;
+constexpr double kDamping = 1e-5;
 /// Logarithm of light by half an edge; and how independent both slopes must be.
 constexpr double kMostSlope = 3.0, kLeastSlopeDeterminant = 1e-3;
 /// Correlation of a print that lies open: what covers others passes for a slope.
 constexpr double kPlainCorrelation = 0.9;
 /// Tiles of 4×4 pixels where blocks and the print itself are so many pixels wide at least.
 constexpr double kLeastBlockOfTiles_px = 7.0, kLeastPrintOfTiles_px = 24.0;
-
-/// Lengths of the print's square's sides, in ideal pixels.
-struct Sides {
-  double mean = 0.0, shortest = 0.0;
-};
-
-Sides SidesOf(const Mat3& ideal_from_unit) {
-  Sides sides{0.0, 1e9};
-  for (int i = 0; i < 4; ++i) {
-    const double side = Norm(Apply(ideal_from_unit, kSquareCorners[i]) -
-                             Apply(ideal_from_unit, kSquareCorners[(i + 1) % 4]));
-    sides.mean += 0.25 * side;
-    sides.shortest = std::min(sides.shortest, side);
-  }
-  return sides;
-}
 
 /// From the print's middle in half edges, y down, to modules from its top-left corner.
 Mat3 ModulesFromUnit(const PrintPattern& pattern) {
@@ -145,29 +126,11 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share, bool known
 void BlockFit::AddUp(const SeenWindow& seen, const BlockFitOptions& options) {
   sums_->blocks.Motions(seen, picture_, sums_->lights, options.fit_blur, &weight_, &sums_->products,
                         &sums_->motions);
-  gradient_ = sums_->products.jr;
-  for (int a = 0, at = 0; a < kParameters; ++a) {
-    for (int b = 0; b <= a; ++b) hessian_[a * kParameters + b] = sums_->products.jj[at++];
-  }
-  // Gain and offset of each block are eliminated (Schur's complement): J loses what a change of
-  // them could do as well.
+  equations_ = MotionEquations(sums_->products);
   for (std::size_t k = 0; !options.known_light && k < blocks_.size(); ++k) {
-    const BlockMotions& sum = sums_->motions[k];
-    const LightElimination eliminate(sum);
-    if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
-    const double gain = blocks_[k].gain;
-    for (int a = 0; a < kParameters; ++a) {
-      const double on_white = eliminate.OnPattern(sum.j[a], sum.pj[a]);
-      const double on_one = eliminate.OnOne(sum.j[a], sum.pj[a]);
-      gradient_[a] -= gain * (on_white * sum.rp + on_one * sum.r);
-      for (int b = 0; b <= a; ++b) {
-        hessian_[a * kParameters + b] -= gain * gain * (on_white * sum.pj[b] + on_one * sum.j[b]);
-      }
-    }
+    if (blocks_[k].weight > 0.0) equations_.EliminateLight(sums_->motions[k], blocks_[k].gain);
   }
-  for (int a = 0; a < kParameters; ++a) {
-    for (int b = 0; b < a; ++b) hessian_[b * kParameters + a] = hessian_[a * kParameters + b];
-  }
+  equations_.Mirror();
 }
 
 void BlockFit::EliminateSlope() {
@@ -178,8 +141,8 @@ void BlockFit::EliminateSlope() {
   const Eigen::Map<const Eigen::Matrix2d> own(slopes.own[0].data());
   const Eigen::Map<const Eigen::Vector2d> right(slopes.right.data());
   const Eigen::Map<const Eigen::Matrix<double, kParameters, 2>> with(slopes.with[0].data());
-  Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>> hessian(hessian_.data());
-  Eigen::Map<Eigen::Matrix<double, kParameters, 1>> gradient(gradient_.data());
+  Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>> hessian(equations_.hessian.data());
+  Eigen::Map<Eigen::Matrix<double, kParameters, 1>> gradient(equations_.gradient.data());
   const Eigen::Matrix2d inverse = own.inverse();
   slopes.known = own.determinant() > kLeastSlopeDeterminant * own(0, 0) * own(1, 1) &&
                  own(0, 0) > 0.0 && inverse.allFinite();
@@ -222,7 +185,7 @@ void BlockFit::Start(const PrintPattern& pattern, const SeenWindow& seen, int bl
       static_cast<double>(clipped) > kMuchClipped * static_cast<double>(weight_.size())
           ? kLeastClippedContrast
           : kLeastBlockContrast;
-  const Sides sides = SidesOf(Adjugate(UnitFromModules(pattern) * state.modules_from_ideal));
+  const SquareSides sides = SidesOf(Adjugate(UnitFromModules(pattern) * state.modules_from_ideal));
   const double shortest = sides.shortest / seen.rays.window.Scale();
   const double block_px = shortest * pattern.modules / pattern.edge_modules / blocks_along_;
   tile_ = shortest >= kLeastPrintOfTiles_px && block_px >= kLeastBlockOfTiles_px ? 4 : 2;
@@ -238,62 +201,19 @@ void BlockFit::Evaluate(const PrintPattern& pattern, PrintPart part, const SeenW
 
 bool BlockFit::Move(const PrintPattern& pattern, const BlockFitOptions& options, double scale,
                     BlockFitState* state, bool* done, bool* still) {
-  Eigen::Matrix<double, kParameters, kParameters> hessian =
-      Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>>(hessian_.data());
-  Eigen::Matrix<double, kParameters, 1> gradient =
-      Eigen::Map<Eigen::Matrix<double, kParameters, 1>>(gradient_.data());
-  const double size = hessian.topLeftCorner<kMotions, kMotions>().trace() / kMotions;
-  if (!(size > 0.0)) return false;
-  hessian.diagonal().head<kMotions>().array() += 1e-5 * size;
-  const auto hold = [&](int parameter) {
-    hessian.row(parameter).setZero();
-    hessian.col(parameter).setZero();
-    hessian(parameter, parameter) = 1.0;
-    gradient[parameter] = 0.0;
-  };
-  if (!options.fit_projection) {
-    hold(6);
-    hold(7);
-  }
-  if (!options.fit_blur) {
-    hold(kMotions);
-  } else {
-    hessian(kMotions, kMotions) *= 1.05;
-    hessian(kMotions, kMotions) += 1e-12;
-  }
-  Eigen::Matrix<double, kParameters, 1> move = hessian.ldlt().solve(gradient);
-  if (!move.allFinite()) return false;
-  // How far the square's corners go, in the window's pixels.
-  const Mat3 unit_from_modules = UnitFromModules(pattern);
-  const double side_px =
-      SidesOf(Adjugate(unit_from_modules * state->modules_from_ideal)).mean / scale;
-  double moved_px = 0.0;
-  for (const Vec2& corner : kSquareCorners) {
-    const double u = corner.x, v = corner.y;
-    const double projective = move[6] * u + move[7] * v;
-    moved_px = std::max(moved_px, std::hypot(move[0] + move[1] * u + move[2] * v - projective * u,
-                                             move[3] + move[4] * u + move[5] * v - projective * v) *
-                                      0.5 * side_px);
-  }
-  // The prediction is good for a fraction of the smallest shapes.
-  const double farthest = std::max(1.0, 0.06 * side_px);
-  if (moved_px > farthest) move.head<kMotions>() *= farthest / moved_px;
-  const Mat3 motion{
-      {1.0 + move[1], move[2], move[0], move[4], 1.0 + move[5], move[3], move[6], move[7], 1.0}};
-  state->modules_from_ideal = ModulesFromUnit(pattern) *
-                              (Adjugate(motion) * (unit_from_modules * state->modules_from_ideal));
-  if (options.fit_light) {
-    std::array<double, kParameters> moved;
-    Eigen::Map<Eigen::Matrix<double, kParameters, 1>>(moved.data()) = move;
-    MoveSlope(moved);
-  }
-  *done = moved_px < options.done_px;
+  const Mat3 unit_from_ideal = UnitFromModules(pattern) * state->modules_from_ideal;
+  const std::optional<MotionStep> step = SolveMotion(
+      equations_,
+      {.damping = kDamping, .fit_projection = options.fit_projection, .fit_blur = options.fit_blur},
+      SidesOf(Adjugate(unit_from_ideal)).mean / scale);
+  if (!step) return false;
+  state->modules_from_ideal =
+      ModulesFromUnit(pattern) * (step->BeforeFromAfter() * unit_from_ideal);
+  if (options.fit_light) MoveSlope(step->move);
+  *done = step->moved_px < options.done_px;
   *still = *done;
   if (options.fit_blur) {
-    const double blur = state->blur_px / scale;
-    const double change = std::clamp(move[kMotions], -0.5 * blur * blur - 0.05, blur * blur + 0.3);
-    const double fitted =
-        std::clamp(std::sqrt(std::max(0.0, blur * blur + change)), kLeastBlur_px, kMostBlur_px);
+    const double blur = state->blur_px / scale, fitted = step->Blur(blur);
     *still = *done && std::fabs(fitted - blur) < kStillBlur_px;
     state->blur_px = fitted * scale;
   }

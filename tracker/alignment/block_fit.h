@@ -7,6 +7,7 @@
 
 #include "base/vector.h"
 #include "tracker/alignment/lens_grid.h"
+#include "tracker/alignment/motion_equations.h"
 #include "tracker/alignment/print_raster.h"
 #include "tracker/alignment/seen_window.h"
 #include "tracker/print_pattern.h"
@@ -102,8 +103,8 @@ class BlockFit {
  private:
   static constexpr int kMostBlocksAlong = 8;
   static constexpr int kMostBlocks = kMostBlocksAlong * kMostBlocksAlong;
-  static constexpr int kMotions = 8;
-  static constexpr int kParameters = kMotions + 1;  // … and the variance of the blur.
+  static constexpr int kMotions = kFitMotions;
+  static constexpr int kParameters = kFitParameters;
 
   struct Sums;  // What block_sums.h adds up; in block_fit_sums.h.
   void Start(const PrintPattern& pattern, const SeenWindow& seen, int blocks_along,
@@ -133,8 +134,7 @@ class BlockFit {
   std::vector<std::int16_t> block_of_;
   std::vector<float> weight_;
   std::unique_ptr<Sums> sums_;
-  std::array<double, kParameters * kParameters> hessian_{};
-  std::array<double, kParameters> gradient_{};
+  MotionEquations equations_;
 };
 
 }  // namespace pleinair::tracker

@@ -56,7 +56,7 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
     known += tells * KnownShare(block.noise / (block.gain * robust_share_));
     tells_all += tells;
   }
-  Square hessian = Eigen::Map<const Square>(hessian_.data());
+  Square hessian = Eigen::Map<const Square>(equations_.hessian.data());
   // What was not fitted is known.
   const bool blur = hessian(kMotions, kMotions) > 0.0;
   if (!blur) hessian(kMotions, kMotions) = 1.0;

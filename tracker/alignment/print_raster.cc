@@ -1,12 +1,11 @@
 #include "tracker/alignment/print_raster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "tracker/alignment/raster_kernels.h"
+#include "tracker/alignment/raster_rows.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -33,7 +32,12 @@ void LookUpRays(const LensGrid& lens, const PixelWindow& window, WindowRays* ray
   }
 }
 
-PrintRaster::PrintRaster() : kernels_(&SimdRasterKernels()) {}
+PrintRaster::PrintRaster() : PrintRaster(SimdRasterKernels()) {}
+PrintRaster::PrintRaster(const RasterKernels& kernels)
+    : kernels_(&kernels), rows_(std::make_unique<RasterRows>()) {}
+PrintRaster::~PrintRaster() = default;
+PrintRaster::PrintRaster(PrintRaster&&) noexcept = default;
+PrintRaster& PrintRaster::operator=(PrintRaster&&) noexcept = default;
 
 void PrintRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   // The box of each sample and the bins of the kernel blur as well: their variances are taken off.
@@ -150,66 +154,27 @@ void PrintRaster::RenderRows(const PrintPattern& pattern, const Mat3& modules_fr
                              const WindowRays& rays, double blur_px, bool everywhere, PrintMap* map,
                              PrintPicture* picture, std::vector<RowRange>* ranges) {
   const PixelWindow& window = rays.window;
-  const std::size_t pixels = window.size();
-  for (auto* values : {&map->column, &map->row, &map->column_x, &map->column_y, &map->row_x,
-                       &map->row_y, &picture->white, &picture->white_x, &picture->white_y}) {
-    values->resize(pixels);
-  }
-  ranges->resize(static_cast<std::size_t>(std::max(window.height, 0)));
+  RasterRows::Resize(window, map, picture, ranges);
   if (window.empty()) return;
   SetNodes(pattern);
   const int per_pixel = SamplesPerPixel(pattern, modules_from_ideal, rays, blur_px);
   int pad = 0;
   SetKernel(blur_px, per_pixel, &pad);
   const BlurTaps taps{kernel_.data(), kernel_slope_.data(), per_pixel, 2 * pad + 1};
-  const int all_taps = taps.pixels * per_pixel;
-
-  // Rows as long as vectors like them; the blurred ones are a ring of as many as there are taps.
-  const int count = window.width + 2 * pad;
-  const int row = (count + 2 * kRowSlack - 1) / kRowSlack * kRowSlack;
-  map_rows_.resize(static_cast<std::size_t>(6) * row);
-  samples_.resize(static_cast<std::size_t>(per_pixel) * per_pixel * row);
-  blurred_.resize(static_cast<std::size_t>(all_taps) * row);
-  blurred_x_.resize(blurred_.size());
-  rows_.resize(all_taps);
-  rows_x_.resize(all_taps);
-  float* scratch = map_rows_.data();
-  const MapRow here{scratch,           scratch + row,     scratch + 2 * row,
-                    scratch + 3 * row, scratch + 4 * row, scratch + 5 * row};
-
-  // Single precision is enough with the window's middle as the origin.
-  const int stride = window.width + 2 * kWindowBorder;
-  const std::size_t middle =
-      (static_cast<std::size_t>(window.height) / 2 + kWindowBorder) * stride + stride / 2;
-  const bool has_origin = std::isfinite(rays.x[middle]) && std::isfinite(rays.y[middle]);
-  const float origin_x = has_origin ? rays.x[middle] : 0.0F;
-  const float origin_y = has_origin ? rays.y[middle] : 0.0F;
-  const Mat3 from_origin = modules_from_ideal * Mat3{{1, 0, origin_x, 0, 1, origin_y, 0, 0, 1}};
-  std::array<float, 9> homography{};
-  for (int i = 0; i < 9; ++i)
-    homography[i] = static_cast<float>(from_origin.m[i] / from_origin.m[8]);
+  rows_->Start(modules_from_ideal, rays, pad, per_pixel);
+  const int count = rows_->count();
   const NodeTable table{nodes_.data(), pattern.modules + 1};
   const float modules = static_cast<float>(pattern.modules);
 
   for (int y = -pad; y < window.height + pad; ++y) {
-    const std::size_t from =
-        static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder - pad;
-    kernels_->map({&rays.x[from], &rays.y[from], stride, origin_x, origin_y}, homography.data(),
-                  count, here);
+    const MapRow& here = rows_->Look(*kernels_, rays, y);
     RowRanges of_print{{0, count}, {0, count}};
     if (!everywhere) {
       of_print = kernels_->ranges(here, modules, kAroundPrint_px,
                                   static_cast<float>(pad) + kAroundPrint_px + 1.0F, count);
     }
     if (y >= 0 && y < window.height) {
-      const std::size_t to = static_cast<std::size_t>(y) * window.width;
-      const std::size_t bytes = static_cast<std::size_t>(window.width) * sizeof(float);
-      std::memcpy(&map->column[to], here.column + pad, bytes);
-      std::memcpy(&map->row[to], here.row + pad, bytes);
-      std::memcpy(&map->column_x[to], here.column_x + pad, bytes);
-      std::memcpy(&map->column_y[to], here.column_y + pad, bytes);
-      std::memcpy(&map->row_x[to], here.row_x + pad, bytes);
-      std::memcpy(&map->row_y[to], here.row_y + pad, bytes);
+      rows_->Keep(y, map);
       RowRange& range = (*ranges)[y];
       range = {0, window.width};
       if (!everywhere) {
@@ -217,66 +182,58 @@ void PrintRaster::RenderRows(const PrintPattern& pattern, const Mat3& modules_fr
         range.end = std::clamp(of_print.near.end - pad, range.begin, window.width);
       }
     }
-    SampleRow(here, table, taps, of_print.far, count, row, y + pad);
+    SampleRow(here, table, taps, of_print.far, count, y + pad);
     if (y < pad) continue;
-    const int out = y - pad;
-    for (int k = 0; k < all_taps; ++k) {
-      const std::size_t at = static_cast<std::size_t>((out * per_pixel + k) % all_taps) * row;
-      rows_[k] = &blurred_[at];
-      rows_x_[k] = &blurred_x_[at];
-    }
-    WriteRow(taps, (*ranges)[out], window.width, static_cast<std::size_t>(out) * window.width,
-             picture);
+    WriteRow(taps, y - pad, (*ranges)[y - pad], window.width, picture);
   }
 }
 
 void PrintRaster::SampleRow(const MapRow& map, const NodeTable& table, const BlurTaps& taps,
-                            RowRange sampled, int count, int row, int index) {
+                            RowRange sampled, int count, int index) {
   const int per_pixel = taps.per_pixel, pad = taps.pixels / 2;
-  const int width = count - 2 * pad, all_taps = taps.pixels * per_pixel;
+  const int width = count - 2 * pad, row = rows_->stride();
   // White where nothing is sampled.
   const int begin = sampled.begin, end = sampled.end;
   const int drawn = std::max(0, end - begin);
   if (drawn > 0) {
     kernels_->sample({map.column + begin, map.row + begin, map.column_x + begin,
                       map.column_y + begin, map.row_x + begin, map.row_y + begin},
-                     table, per_pixel, drawn, row, &samples_[begin]);
+                     table, per_pixel, drawn, row, rows_->samples(0) + begin);
   }
   // … as far as the blur reaches.
   const int white_begin = std::max(0, begin - 2 * pad), white_end = std::min(count, end + 2 * pad);
   for (int s = 0; s < per_pixel * per_pixel && drawn > 0; ++s) {
-    float* samples = &samples_[static_cast<std::size_t>(s) * row];
+    float* samples = rows_->samples(s);
     std::fill(samples + white_begin, samples + begin, 1.0F);
     std::fill(samples + end, samples + white_end, 1.0F);
   }
   for (int j = 0; j < per_pixel; ++j) {
-    const std::size_t at = static_cast<std::size_t>((index * per_pixel + j) % all_taps) * row;
+    float* const blurred = rows_->blurred(index * per_pixel + j);
+    float* const blurred_x = rows_->blurred_x(index * per_pixel + j);
     if (drawn == 0) {
-      std::fill_n(&blurred_[at], width, 1.0F);
-      std::fill_n(&blurred_x_[at], width, 0.0F);
+      std::fill_n(blurred, width, 1.0F);
+      std::fill_n(blurred_x, width, 0.0F);
       continue;
     }
     const int first = std::max(0, begin - 2 * pad), last = std::min(width, end);
-    std::fill_n(&blurred_[at], first, 1.0F);
-    std::fill_n(&blurred_x_[at], first, 0.0F);
-    kernels_->along_row(&samples_[static_cast<std::size_t>(j) * per_pixel * row + first], row, taps,
-                        last - first, &blurred_[at + first], &blurred_x_[at + first]);
-    std::fill(&blurred_[at + last], &blurred_[at] + width, 1.0F);
-    std::fill(&blurred_x_[at + last], &blurred_x_[at] + width, 0.0F);
+    std::fill_n(blurred, first, 1.0F);
+    std::fill_n(blurred_x, first, 0.0F);
+    kernels_->along_row(rows_->samples(j * per_pixel) + first, row, taps, last - first,
+                        blurred + first, blurred_x + first);
+    std::fill(blurred + last, blurred + width, 1.0F);
+    std::fill(blurred_x + last, blurred_x + width, 0.0F);
   }
 }
 
-void PrintRaster::WriteRow(const BlurTaps& taps, RowRange range, int width, std::size_t at,
+void PrintRaster::WriteRow(const BlurTaps& taps, int y, RowRange range, int width,
                            PrintPicture* picture) {
+  const std::size_t at = static_cast<std::size_t>(y) * width;
   // Wide enough for a whole vector, if the window is.
   if (range.end > range.begin) {
     range.end = std::min(width, std::max(range.end, range.begin + kRowSlack));
     range.begin = std::max(0, std::min(range.begin, range.end - kRowSlack));
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      rows_[k] += range.begin;
-      rows_x_[k] += range.begin;
-    }
-    kernels_->along_column(rows_.data(), rows_x_.data(), taps, range.end - range.begin,
+    rows_->Gather(y, range.begin);
+    kernels_->along_column(rows_->rows(), rows_->rows_x(), taps, range.end - range.begin,
                            &picture->white[at + range.begin], &picture->white_x[at + range.begin],
                            &picture->white_y[at + range.begin]);
   }

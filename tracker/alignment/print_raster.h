@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/vector.h"
@@ -55,6 +56,7 @@ struct BlurTaps;
 struct MapRow;
 struct NodeTable;
 struct RasterKernels;
+class RasterRows;
 
 /// Predicts pictures of prints. Buffers are kept, so that nothing is allocated after the largest
 /// window was seen.
@@ -66,7 +68,10 @@ class PrintRaster {
  public:
   PrintRaster();
   /// With the kernels to work with, for tests.
-  explicit PrintRaster(const RasterKernels& kernels) : kernels_(&kernels) {}
+  explicit PrintRaster(const RasterKernels& kernels);
+  ~PrintRaster();
+  PrintRaster(PrintRaster&&) noexcept;
+  PrintRaster& operator=(PrintRaster&&) noexcept;
 
   /// `modules_from_ideal`: homography from ideal pixels to modules. `blur_px`: standard deviation
   /// of the blur beyond the pixel's own square, in (reduced) pixels of the window. Beyond the print
@@ -86,19 +91,17 @@ class PrintRaster {
                   PrintPicture* picture, std::vector<RowRange>* ranges);
   /// Samples and blurs along the row; `index` counts rows from the first one of the border.
   void SampleRow(const MapRow& map, const NodeTable& table, const BlurTaps& taps, RowRange sampled,
-                 int count, int row, int index);
-  void WriteRow(const BlurTaps& taps, RowRange range, int width, std::size_t at,
-                PrintPicture* picture);
+                 int count, int index);
+  void WriteRow(const BlurTaps& taps, int y, RowRange range, int width, PrintPicture* picture);
   void SetKernel(double blur_px, int per_pixel, int* pad);
   void SetNodes(const PrintPattern& pattern);
   int SamplesPerPixel(const PrintPattern& pattern, const Mat3& modules_from_ideal,
                       const WindowRays& rays, double blur_px) const;
 
   const RasterKernels* kernels_;
-  std::vector<float> map_rows_, samples_, blurred_, blurred_x_;
+  std::unique_ptr<RasterRows> rows_;
   std::vector<float> kernel_, kernel_slope_;
   std::vector<double> below_, primitive_;  ///< Φ(x/σ) and its integral at the kernel's bins' edges.
-  std::vector<const float*> rows_, rows_x_;
   std::vector<RowRange> all_;
   /// The print whose nodes these are.
   std::vector<std::uint8_t> nodes_of_;

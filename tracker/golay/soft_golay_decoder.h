@@ -49,6 +49,8 @@ class SoftGolayDecoder {
 
   /// How many different numbers are in use: 1…4096.
   int NumbersInUse() const;
+  /// The numbers in use in rising order; none where all 4,096 are.
+  std::span<const std::uint16_t> ListedNumbers() const { return numbers_in_use_; }
 
   SoftGolayDecoding Decode(const CellLikelihoods& cells) const;
 

@@ -13,15 +13,10 @@
 namespace pleinair::tracker {
 namespace {
 
-// The motions, on the target's square with corners (±1, ±1), y down: x' = (I + M) x with
-// M = (m1 m2 m0; m4 m5 m3; m6 m7 0).
-
 constexpr int kLeastBlocksAlong = 3, kMostBlocksAlong = 12;
 constexpr int kLeastBlockPixels = 6;
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
 constexpr float kMostReach = 3.2F;  ///< Of small targets too little would be left otherwise.
-constexpr double kLeastBlur_px = 0.25, kMostBlur_px = 6.0;
-constexpr double kStillBlur_px = 0.02;  ///< Change of the blur that is none.
 /// Residual at which a pixel keeps a quarter of its weight: so many times what is usually left over
 /// of blocks that fit, but no more and no less than so many standard deviations of the predicted
 /// light, and no less than what noise does.
@@ -32,28 +27,13 @@ constexpr double kTellingOverNoise = 1.5;
 /// Tiles of 4×4 pixels where blocks and the target itself are so many pixels wide at least.
 constexpr double kLeastBlockOfTiles_px = 7.0, kLeastTargetOfTiles_px = 24.0;
 constexpr double kDamping = 1e-7;
-/// The prediction is good for a fraction of the target's side, in one step.
-constexpr double kFarthestStep = 0.06;
 
 constexpr double kHalf = 0.5 * kTargetSide;
 constexpr Mat3 kTargetFromUnit{{kHalf, 0, kHalf, 0, kHalf, kHalf, 0, 0, 1}};
 constexpr Mat3 kUnitFromTarget{{1 / kHalf, 0, -1, 0, 1 / kHalf, -1, 0, 0, 1}};
 
-/// Lengths of the target's sides, in ideal pixels.
-struct Sides {
-  double mean = 0.0, shortest = 1e9;
-};
-
-Sides SidesOf(const Mat3& target_from_ideal) {
-  const Mat3 ideal_from_unit = Adjugate(kUnitFromTarget * target_from_ideal);
-  Sides sides;
-  for (int i = 0; i < 4; ++i) {
-    const double side = Norm(Apply(ideal_from_unit, kSquareCorners[i]) -
-                             Apply(ideal_from_unit, kSquareCorners[(i + 1) % 4]));
-    sides.mean += 0.25 * side;
-    sides.shortest = std::min(sides.shortest, side);
-  }
-  return sides;
+SquareSides SidesOfTarget(const Mat3& target_from_ideal) {
+  return SidesOf(Adjugate(kUnitFromTarget * target_from_ideal));
 }
 
 /// What BlockSums wants to know of a print: its side.
@@ -150,83 +130,30 @@ void PictureFit::FitLevels(const SeenWindow& seen, double least_weight) {
 void PictureFit::AddUp(const SeenWindow& seen, bool blur) {
   sums_->blocks.Motions(seen, picture_, sums_->lights, blur, &weight_, &sums_->products,
                         &sums_->motions);
-  gradient_ = sums_->products.jr;
-  for (int a = 0, at = 0; a < kParameters; ++a) {
-    for (int b = 0; b <= a; ++b) hessian_[a * kParameters + b] = sums_->products.jj[at++];
-  }
-  // Gain and offset of each block are eliminated (Schur's complement): J loses what a change of
-  // them could do as well.
+  equations_ = MotionEquations(sums_->products);
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    const BlockMotions& sum = sums_->motions[k];
-    const LightElimination eliminate(sum);
-    if (!(blocks_[k].weight > 0.0) || !eliminate.possible) continue;
-    const double gain = blocks_[k].gain;
-    for (int a = 0; a < kParameters; ++a) {
-      const double on_picture = eliminate.OnPattern(sum.j[a], sum.pj[a]);
-      const double on_one = eliminate.OnOne(sum.j[a], sum.pj[a]);
-      gradient_[a] -= gain * (on_picture * sum.rp + on_one * sum.r);
-      for (int b = 0; b <= a; ++b) {
-        hessian_[a * kParameters + b] -= gain * gain * (on_picture * sum.pj[b] + on_one * sum.j[b]);
-      }
-    }
+    if (blocks_[k].weight > 0.0) equations_.EliminateLight(sums_->motions[k], blocks_[k].gain);
   }
-  for (int a = 0; a < kParameters; ++a) {
-    for (int b = 0; b < a; ++b) hessian_[b * kParameters + a] = hessian_[a * kParameters + b];
-  }
+  equations_.Mirror();
 }
 
 bool PictureFit::Move(const PictureFitOptions& options, double scale, PictureFitState* state,
                       bool* still) {
-  Eigen::Matrix<double, kParameters, kParameters> hessian =
-      Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>>(hessian_.data());
-  Eigen::Matrix<double, kParameters, 1> gradient =
-      Eigen::Map<Eigen::Matrix<double, kParameters, 1>>(gradient_.data());
-  const double size = hessian.topLeftCorner<kMotions, kMotions>().trace() / kMotions;
-  if (!(size > 0.0)) return false;
-  hessian.diagonal().head<kMotions>().array() += kDamping * size;
-  const auto hold = [&](int parameter) {
-    hessian.row(parameter).setZero();
-    hessian.col(parameter).setZero();
-    hessian(parameter, parameter) = 1.0;
-    gradient[parameter] = 0.0;
-  };
-  if (!options.fit_projection) {
-    hold(6);
-    hold(7);
-  }
-  if (!options.fit_blur) {
-    hold(kMotions);
-  } else {
-    hessian(kMotions, kMotions) = 1.05 * hessian(kMotions, kMotions) + 1e-12;
-  }
-  Eigen::Matrix<double, kParameters, 1> move = hessian.ldlt().solve(gradient);
-  if (!move.allFinite()) return false;
-  // How far the corners go, in the window's pixels.
-  const double side_px = SidesOf(state->target_from_ideal).mean / scale;
-  double moved_px = 0.0;
-  for (const Vec2& corner : kSquareCorners) {
-    const double u = corner.x, v = corner.y, projective = move[6] * u + move[7] * v;
-    moved_px = std::max(moved_px, std::hypot(move[0] + move[1] * u + move[2] * v - projective * u,
-                                             move[3] + move[4] * u + move[5] * v - projective * v) *
-                                      0.5 * side_px);
-  }
-  const double farthest = std::max(1.0, kFarthestStep * side_px);
-  if (!std::isfinite(moved_px)) return false;
-  if (moved_px > farthest) move.head<kMotions>() *= farthest / moved_px;
-  const Mat3 motion{
-      {1.0 + move[1], move[2], move[0], move[4], 1.0 + move[5], move[3], move[6], move[7], 1.0}};
-  Mat3 moved = kTargetFromUnit * (Adjugate(motion) * (kUnitFromTarget * state->target_from_ideal));
+  const std::optional<MotionStep> step = SolveMotion(
+      equations_,
+      {.damping = kDamping, .fit_projection = options.fit_projection, .fit_blur = options.fit_blur},
+      SidesOfTarget(state->target_from_ideal).mean / scale);
+  if (!step) return false;
+  Mat3 moved =
+      kTargetFromUnit * (step->BeforeFromAfter() * (kUnitFromTarget * state->target_from_ideal));
   for (double& entry : moved.m) entry /= moved.m[8];
   for (const double entry : moved.m) {
     if (!std::isfinite(entry)) return false;
   }
   state->target_from_ideal = moved;
-  *still = moved_px < options.done_px;
+  *still = step->moved_px < options.done_px;
   if (options.fit_blur) {
-    const double blur = state->blur_px / scale;
-    const double change = std::clamp(move[kMotions], -0.5 * blur * blur - 0.05, blur * blur + 0.3);
-    const double fitted =
-        std::clamp(std::sqrt(std::max(0.0, blur * blur + change)), kLeastBlur_px, kMostBlur_px);
+    const double blur = state->blur_px / scale, fitted = step->Blur(blur);
     *still = *still && std::fabs(fitted - blur) < kStillBlur_px;
     state->blur_px = fitted * scale;
   }
@@ -241,7 +168,7 @@ bool PictureFit::Run(const PicturePyramid& pyramid, const SeenWindow& seen, int 
   blocks_.resize(blocks);
   sums_->lights.assign(blocks, BlockLight{});
   weight_ = seen.certainty;
-  const double shortest = SidesOf(state->target_from_ideal).shortest / scale;
+  const double shortest = SidesOfTarget(state->target_from_ideal).shortest / scale;
   tile_ = shortest >= kLeastTargetOfTiles_px && shortest / blocks_along_ >= kLeastBlockOfTiles_px
               ? 4
               : 2;
@@ -344,7 +271,7 @@ std::array<double, 64> PictureFit::MotionCovariance() const {
     count += blocks_[k].pixels * blocks_[k].weight;
   }
   Eigen::Matrix<double, kMotions, kMotions> hessian =
-      Eigen::Map<const Eigen::Matrix<double, kParameters, kParameters>>(hessian_.data())
+      Eigen::Map<const Eigen::Matrix<double, kParameters, kParameters>>(equations_.hessian.data())
           .topLeftCorner<kMotions, kMotions>();
   const double variance = residual / std::max(1.0, count - kParameters);
   std::array<double, 64> covariance{};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "tracker/alignment/motion_equations.h"
 #include "tracker/alignment/print_raster.h"
 #include "tracker/alignment/seen_window.h"
 #include "tracker/picture_target/picture_pyramid.h"
@@ -82,8 +83,8 @@ class PictureFit {
   static constexpr double kLeastContrast = 0.01;
 
  private:
-  static constexpr int kMotions = 8;
-  static constexpr int kParameters = kMotions + 1;  // … and the variance of the blur.
+  static constexpr int kMotions = kFitMotions;
+  static constexpr int kParameters = kFitParameters;
 
   struct Sums;
   void Predict(const PicturePyramid& pyramid, const SeenWindow& seen, const PictureFitState& state);
@@ -108,8 +109,7 @@ class PictureFit {
   std::vector<Detail> details_;
   std::vector<double> rests_;  ///< What is left over of each block that fits, of its contrast.
   std::unique_ptr<Sums> sums_;
-  std::array<double, kParameters * kParameters> hessian_{};
-  std::array<double, kParameters> gradient_{};
+  MotionEquations equations_;
 };
 
 }  // namespace pleinair::tracker

@@ -1,12 +1,11 @@
 #include "tracker/picture_target/picture_raster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "tracker/alignment/raster_kernels.h"
+#include "tracker/alignment/raster_rows.h"
 #include "tracker/picture_target/picture_target.h"
 
 namespace pleinair::tracker {
@@ -61,7 +60,11 @@ void Sample(const MapRow& map, const Image<float>& level, Vec2 texels_per_unit, 
 
 }  // namespace
 
-PictureRaster::PictureRaster() : kernels_(&SimdRasterKernels()) {}
+PictureRaster::PictureRaster()
+    : kernels_(&SimdRasterKernels()), rows_(std::make_unique<RasterRows>()) {}
+PictureRaster::~PictureRaster() = default;
+PictureRaster::PictureRaster(PictureRaster&&) noexcept = default;
+PictureRaster& PictureRaster::operator=(PictureRaster&&) noexcept = default;
 
 void PictureRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   const double bin = 1.0 / per_pixel;
@@ -129,11 +132,7 @@ void PictureRaster::Render(const PicturePyramid& pyramid, const Mat3& target_fro
                            const WindowRays& rays, double blur_px, PrintMap* map,
                            PrintPicture* picture, std::vector<RowRange>* ranges) {
   const PixelWindow& window = rays.window;
-  for (auto* values : {&map->column, &map->row, &map->column_x, &map->column_y, &map->row_x,
-                       &map->row_y, &picture->white, &picture->white_x, &picture->white_y}) {
-    values->resize(window.size());
-  }
-  ranges->resize(static_cast<std::size_t>(std::max(window.height, 0)));
+  RasterRows::Resize(window, map, picture, ranges);
   if (window.empty()) return;
   const Sampling sampling = ChooseSampling(pyramid, target_from_ideal, rays, blur_px);
   const Image<float>& level = pyramid.level(sampling.level);
@@ -143,51 +142,16 @@ void PictureRaster::Render(const PicturePyramid& pyramid, const Mat3& target_fro
   int pad = 0;
   SetKernel(blur_px, per_pixel, &pad);
   const BlurTaps taps{kernel_.data(), kernel_slope_.data(), per_pixel, 2 * pad + 1};
-  const int all_taps = taps.pixels * per_pixel;
-
-  // Rows as long as vectors like them; the blurred ones are a ring of as many as there are taps.
-  const int count = window.width + 2 * pad;
-  const int row = (count + 2 * kRowSlack - 1) / kRowSlack * kRowSlack;
-  map_rows_.resize(static_cast<std::size_t>(6) * row);
-  samples_.resize(static_cast<std::size_t>(per_pixel) * per_pixel * row);
-  blurred_.resize(static_cast<std::size_t>(all_taps) * row);
-  blurred_x_.resize(blurred_.size());
-  rows_.resize(all_taps);
-  rows_x_.resize(all_taps);
-  float* scratch = map_rows_.data();
-  const MapRow here{scratch,           scratch + row,     scratch + 2 * row,
-                    scratch + 3 * row, scratch + 4 * row, scratch + 5 * row};
-
-  // Single precision is enough with the window's middle as the origin.
-  const int stride = window.width + 2 * kWindowBorder;
-  const std::size_t middle =
-      (static_cast<std::size_t>(window.height) / 2 + kWindowBorder) * stride + stride / 2;
-  const bool has_origin = std::isfinite(rays.x[middle]) && std::isfinite(rays.y[middle]);
-  const float origin_x = has_origin ? rays.x[middle] : 0.0F;
-  const float origin_y = has_origin ? rays.y[middle] : 0.0F;
-  const Mat3 from_origin = target_from_ideal * Mat3{{1, 0, origin_x, 0, 1, origin_y, 0, 0, 1}};
-  std::array<float, 9> homography{};
-  for (int i = 0; i < 9; ++i) {
-    homography[i] = static_cast<float>(from_origin.m[i] / from_origin.m[8]);
-  }
+  rows_->Start(target_from_ideal, rays, pad, per_pixel);
+  const int count = rows_->count();
   constexpr auto kSide = static_cast<float>(kTargetSide);
 
   for (int y = -pad; y < window.height + pad; ++y) {
-    const std::size_t from =
-        static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder - pad;
-    kernels_->map({&rays.x[from], &rays.y[from], stride, origin_x, origin_y}, homography.data(),
-                  count, here);
+    const MapRow& here = rows_->Look(*kernels_, rays, y);
     const RowRanges of_target = kernels_->ranges(
         here, kSide, kAround_px, static_cast<float>(pad) + kAround_px + 1.0F, count);
     if (y >= 0 && y < window.height) {
-      const std::size_t to = static_cast<std::size_t>(y) * window.width;
-      const std::size_t bytes = static_cast<std::size_t>(window.width) * sizeof(float);
-      std::memcpy(&map->column[to], here.column + pad, bytes);
-      std::memcpy(&map->row[to], here.row + pad, bytes);
-      std::memcpy(&map->column_x[to], here.column_x + pad, bytes);
-      std::memcpy(&map->column_y[to], here.column_y + pad, bytes);
-      std::memcpy(&map->row_x[to], here.row_x + pad, bytes);
-      std::memcpy(&map->row_y[to], here.row_y + pad, bytes);
+      rows_->Keep(y, map);
       RowRange& range = (*ranges)[y];
       range.begin = std::clamp(of_target.near.begin - pad, 0, window.width);
       range.end = std::clamp(of_target.near.end - pad, range.begin, window.width);
@@ -197,27 +161,23 @@ void PictureRaster::Render(const PicturePyramid& pyramid, const Mat3& target_fro
     if (drawn > 0) {
       Sample({here.column + begin, here.row + begin, here.column_x + begin, here.column_y + begin,
               here.row_x + begin, here.row_y + begin},
-             level, texels_per_unit, per_pixel, drawn, row, &samples_[begin]);
+             level, texels_per_unit, per_pixel, drawn, rows_->stride(), rows_->samples(0) + begin);
     }
     for (int s = 0; s < per_pixel * per_pixel; ++s) {
-      float* samples = &samples_[static_cast<std::size_t>(s) * row];
+      float* samples = rows_->samples(s);
       std::fill(samples, samples + begin, 0.0F);
       std::fill(samples + begin + drawn, samples + count, 0.0F);
     }
     for (int j = 0; j < per_pixel; ++j) {
-      const std::size_t at = static_cast<std::size_t>(((y + pad) * per_pixel + j) % all_taps) * row;
-      kernels_->along_row(&samples_[static_cast<std::size_t>(j) * per_pixel * row], row, taps,
-                          window.width, &blurred_[at], &blurred_x_[at]);
+      const int to = (y + pad) * per_pixel + j;
+      kernels_->along_row(rows_->samples(j * per_pixel), rows_->stride(), taps, window.width,
+                          rows_->blurred(to), rows_->blurred_x(to));
     }
     if (y < pad) continue;
     const int out = y - pad;
-    for (int k = 0; k < all_taps; ++k) {
-      const std::size_t at = static_cast<std::size_t>((out * per_pixel + k) % all_taps) * row;
-      rows_[k] = &blurred_[at];
-      rows_x_[k] = &blurred_x_[at];
-    }
+    rows_->Gather(out, 0);
     const std::size_t at = static_cast<std::size_t>(out) * window.width;
-    kernels_->along_column(rows_.data(), rows_x_.data(), taps, window.width, &picture->white[at],
+    kernels_->along_column(rows_->rows(), rows_->rows_x(), taps, window.width, &picture->white[at],
                            &picture->white_x[at], &picture->white_y[at]);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/vector.h"
@@ -8,6 +9,7 @@
 
 namespace pleinair::tracker {
 
+class RasterRows;
 struct RasterKernels;
 
 /// Predicts what a camera sees of a target's picture, as PrintRaster does of a print of modules:
@@ -17,6 +19,9 @@ struct RasterKernels;
 class PictureRaster {
  public:
   PictureRaster();
+  ~PictureRaster();
+  PictureRaster(PictureRaster&&) noexcept;
+  PictureRaster& operator=(PictureRaster&&) noexcept;
 
   /// `target_from_ideal`: homography from ideal pixels to target units. `blur_px`: standard
   /// deviation of the blur beyond the pixel's own square, in pixels of the window. `map` has target
@@ -35,9 +40,8 @@ class PictureRaster {
   void SetKernel(double blur_px, int per_pixel, int* pad);
 
   const RasterKernels* kernels_;
-  std::vector<float> map_rows_, samples_, blurred_, blurred_x_;
+  std::unique_ptr<RasterRows> rows_;
   std::vector<float> kernel_, kernel_slope_;
-  std::vector<const float*> rows_, rows_x_;
 };
 
 }  // namespace pleinair::tracker

@@ -21,6 +21,10 @@ double CellBits(float likelihood, bool printed_white) {
   return 1.0 - std::log2(1.0 + std::exp(-right));
 }
 
+/// What it takes off where a cell that is plainly of the other colour lies straight between two
+/// that the cover hides: few things have holes there.
+constexpr double kSeenBetween_bits = 2.0;
+
 /// The cells of a set that hang together with one of them, corners included.
 std::uint32_t HangingTogether(std::uint32_t cells, int from) {
   std::uint32_t reached = 1U << from;
@@ -43,6 +47,32 @@ std::uint32_t HangingTogether(std::uint32_t cells, int from) {
   return reached;
 }
 
+/// Whether the straight line from the middle of one cell to that of another passes near the middle
+/// of a third: within 0.36 of a cell's side, so that a cover of both hides most of it.
+constexpr bool LiesBetween(int cell, int one, int other) {
+  const int along_x = sg::CodeCellColumn(other) - sg::CodeCellColumn(one);
+  const int along_y = sg::CodeCellRow(other) - sg::CodeCellRow(one);
+  const int to_x = sg::CodeCellColumn(cell) - sg::CodeCellColumn(one);
+  const int to_y = sg::CodeCellRow(cell) - sg::CodeCellRow(one);
+  const int length2 = along_x * along_x + along_y * along_y;
+  const int along = along_x * to_x + along_y * to_y, beside = along_x * to_y - along_y * to_x;
+  return along > 0 && along < length2 && 100 * beside * beside < 13 * length2;
+}
+
+using CellsBetween = std::array<std::array<std::uint32_t, sg::kCodeCells>, sg::kCodeCells>;
+constexpr CellsBetween FindCellsBetween() {
+  CellsBetween between{};
+  for (int one = 0; one < sg::kCodeCells; ++one) {
+    for (int other = 0; other < sg::kCodeCells; ++other) {
+      for (int cell = 0; cell < sg::kCodeCells; ++cell) {
+        if (LiesBetween(cell, one, other)) between[one][other] |= 1U << cell;
+      }
+    }
+  }
+  return between;
+}
+constexpr CellsBetween kBetween = FindCellsBetween();
+
 }  // namespace
 
 double EvidenceBits(const CellLikelihoods& likelihoods, int number) {
@@ -54,29 +84,52 @@ double EvidenceBits(const CellLikelihoods& likelihoods, int number) {
   return bits;
 }
 
-std::optional<double> EvidenceBitsUnderCover(const CellLikelihoods& likelihoods, int number) {
-  const GolayWord word = PrintedWord(number);
-  std::uint32_t looks_white = 0, looks_black = 0, wrong = 0;
-  double bits = 0.0, dearest = 0.0;
+EvidenceUnderCover::EvidenceUnderCover(const CellLikelihoods& likelihoods) {
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    const bool printed_white = (word >> k & 1U) != 0;
-    if (likelihoods[k] > 0.0F) looks_white |= 1U << k;
-    if (likelihoods[k] < 0.0F) looks_black |= 1U << k;
-    const double cell = CellBits(likelihoods[k], printed_white);
-    if (printed_white ? likelihoods[k] < 0.0F : likelihoods[k] > 0.0F) {
-      wrong |= 1U << k;
-      // The dearest is paid for in full, the others as a cover's.
-      const double other = std::max(dearest, cell);
-      dearest = std::min(dearest, cell);
-      bits += std::max(kUnderCover_bits, other);
-    } else {
-      bits += cell;
+    white_bits_[k] = CellBits(likelihoods[k], true);
+    black_bits_[k] = CellBits(likelihoods[k], false);
+    if (likelihoods[k] > 0.0F) looks_white_ |= 1U << k;
+    if (likelihoods[k] < 0.0F) looks_black_ |= 1U << k;
+  }
+  for (const CellSet alike : {looks_white_, looks_black_}) {
+    for (CellSet left = alike; left != 0;) {
+      const CellSet together = HangingTogether(alike, std::countr_zero(left));
+      for (CellSet cells = together; cells != 0; cells &= cells - 1) {
+        together_[std::countr_zero(cells)] = together;
+      }
+      left &= ~together;
     }
   }
-  if (std::popcount(wrong) < 2) return std::nullopt;
-  const int first = std::countr_zero(wrong);
-  const std::uint32_t alike = (looks_white >> first & 1U) != 0 ? looks_white : looks_black;
-  if ((wrong & ~HangingTogether(alike, first)) != 0) return std::nullopt;
+}
+
+std::optional<double> EvidenceUnderCover::Bits(int number) const {
+  const GolayWord word = PrintedWord(number);
+  const CellSet wrong = (looks_white_ & ~word) | (looks_black_ & word);
+  if (std::popcount(wrong) < 2 || (wrong & ~together_[std::countr_zero(wrong)]) != 0) {
+    return std::nullopt;
+  }
+  double bits = 0.0, dearest = 0.0;
+  CellSet between = 0;
+  for (int k = 0; k < sg::kCodeCells; ++k) {
+    const double cell = (word >> k & 1U) != 0 ? white_bits_[k] : black_bits_[k];
+    if ((wrong >> k & 1U) == 0) {
+      bits += cell;
+      continue;
+    }
+    // The dearest is paid for in full, the others as a cover's.
+    bits += std::max(kUnderCover_bits, std::max(dearest, cell));
+    dearest = std::min(dearest, cell);
+    for (CellSet others = wrong >> k >> 1 << k << 1; others != 0; others &= others - 1) {
+      between |= kBetween[k][std::countr_zero(others)];
+    }
+  }
+  const bool white_cover = (wrong & looks_white_) != 0;
+  for (CellSet cells = between & (white_cover ? looks_black_ : looks_white_); cells != 0;
+       cells &= cells - 1) {
+    const int k = std::countr_zero(cells);
+    // As far as it is plain.
+    bits -= kSeenBetween_bits * std::max(0.0, white_cover ? black_bits_[k] : white_bits_[k]);
+  }
   return bits + dearest;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "tracker/golay/golay_code.h"
 #include "tracker/surf_golay/cell_evidence.h"
@@ -76,11 +77,29 @@ double AmbiguityBits(const CellLikelihoods& likelihoods, int number,
   return beyond < kAlikeByChance_bits.size() ? kAlikeByChance_bits[beyond] : 0.0;
 }
 
-std::optional<double> ProofBitsUnderCover(const CellLikelihoods& likelihoods, int number,
-                                          int numbers_in_use, const SoftGolayDecoder& all_numbers) {
-  const std::optional<double> bits = EvidenceBitsUnderCover(likelihoods, number);
-  if (!bits || all_numbers.Decode(likelihoods).agreement > kAnotherLiesOpen) return std::nullopt;
-  return *bits - std::log2(numbers_in_use) - ChequeredDoubtBits(number);
+std::optional<CoveredNumber> ReadUnderCover(const CellLikelihoods& likelihoods,
+                                            const SoftGolayDecoder& numbers_in_use,
+                                            const SoftGolayDecoder& all_numbers) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const EvidenceUnderCover under_cover(likelihoods);
+  int best_number = 0;
+  bool covered = false;
+  double best = kNone, second = kNone;
+  for (const int number : numbers_in_use.ListedNumbers()) {
+    const double open = EvidenceBits(likelihoods, number);
+    const double hidden = under_cover.Bits(number).value_or(kNone);
+    const double bits = std::max(open, hidden);
+    second = std::max(second, std::min(best, bits));
+    if (bits <= best) continue;
+    best = bits;
+    best_number = number;
+    covered = hidden > open;
+  }
+  if (!covered || all_numbers.Decode(likelihoods).agreement > kAnotherLiesOpen) return std::nullopt;
+  return CoveredNumber{
+      best_number,
+      best - std::log2(numbers_in_use.NumbersInUse()) - ChequeredDoubtBits(best_number),
+      best - second};
 }
 
 bool IsProved(double proof_bits, double visible_fraction, double border_correlation) {

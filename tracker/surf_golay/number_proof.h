@@ -25,11 +25,22 @@ double ProofBits(const CellLikelihoods& likelihoods, int number, int numbers_in_
 double AmbiguityBits(const CellLikelihoods& likelihoods, int number,
                      const SoftGolayDecoder& all_numbers);
 
-/// As ProofBits where what is wrong may lie under one cover (EvidenceBitsUnderCover). Nothing where
-/// the cells look like the print of another number that lies open; `all_numbers`: the decoder of
-/// every number, in use or not.
-std::optional<double> ProofBitsUnderCover(const CellLikelihoods& likelihoods, int number,
-                                          int numbers_in_use, const SoftGolayDecoder& all_numbers);
+/// A number in use, read where something that looks like ink or paper may lie on its cells.
+struct CoveredNumber {
+  int number = 0;
+  double proof_bits = 0.0;
+  /// How many bits more tell for it than for any other number in use, lying open or under such a
+  /// cover; infinite where no other is in use.
+  double apart_bits = 0.0;
+};
+
+/// The number that all wrong cells under one cover tell most for (EvidenceUnderCover). Nothing
+/// where more tells for one that lies open, where the cells look like the print of another number
+/// that does, or where all numbers are in use; `all_numbers`: the decoder of every number, in use
+/// or not.
+std::optional<CoveredNumber> ReadUnderCover(const CellLikelihoods& likelihoods,
+                                            const SoftGolayDecoder& numbers_in_use,
+                                            const SoftGolayDecoder& all_numbers);
 
 /// Whether so many bits make a reading a marker where that share of the print looks as predicted:
 /// the less of it does, the more are needed. `border_correlation`: of single pixels, 0 where

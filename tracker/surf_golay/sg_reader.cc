@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "tracker/homography.h"
@@ -42,9 +43,16 @@ constexpr double kContentSure = 0.9, kContentRight = 0.4;
 constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F;
 /// … and that of one that is plain to see: eight cells of 6 nats, either way, at least.
 constexpr float kPlainMargin = 96.0F;
+/// Wrong cells from which on something may cover them, how much more must tell for a number that is
+/// read beneath it than for the next, and what a bit is as a margin (SoftGolayDecoding::margin).
+constexpr int kFewestHidden = 2;
+constexpr double kLeastApart_bits = 8.0, kMarginPerBit = 2.0 * std::numbers::ln2;
 /// Share of the border that tells the light over the whole print; and what it takes off a proof
 /// that the cells themselves had to tell it.
 constexpr double kTellsLight = 0.8, kSplitDoubt_bits = 2.0;
+/// The same where so much of the border shows a light without clipping and edges of shadows: cells
+/// that part otherwise contradict it, and what covers half of them has a colour of its own.
+constexpr double kShowsLight = 0.5, kSplitAgainstLight_bits = 6.0;
 constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
 /// Share of a print that must be seen at least where its number is known, and where nothing tells
 /// that it is still that.
@@ -210,26 +218,28 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
   bool read = false;
   const auto decode = [&](const CellLikelihoods& likelihoods, double doubt_bits) {
     const SoftGolayDecoding decoding = decoder_.Decode(likelihoods);
+    const auto take = [&](int number, float margin, double bits) {
+      if (margin < kLeastMargin || (read && bits <= reading->proof_bits)) return;
+      read = true;
+      reading->number = number;
+      reading->margin = margin;
+      reading->proof_bits = bits;
+    };
     // A number in use must not be one that many others would beat.
-    float margin = decoding.margin - decoding.shortfall;
-    double bits = ProofBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - doubt_bits -
-                  AmbiguityBits(likelihoods, decoding.number, any_number_);
-    if (border_visible >= kTellsLight && decoding.margin > 2.0F * kLeastMargin &&
-        decoder_.NumbersInUse() <= kFewestNumbersProved) {
-      // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
-      // or paper lies on it.
-      if (const auto covered = ProofBitsUnderCover(likelihoods, decoding.number,
-                                                   decoder_.NumbersInUse(), any_number_)) {
-        margin = decoding.margin;
-        bits = std::max(bits, *covered - doubt_bits);
-      }
+    take(decoding.number, decoding.margin - decoding.shortfall,
+         ProofBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - doubt_bits -
+             AmbiguityBits(likelihoods, decoding.number, any_number_));
+    if (border_visible < kTellsLight || decoding.disagreements < kFewestHidden ||
+        decoder_.NumbersInUse() > kFewestNumbersProved) {
+      return;
     }
-    if (margin < kLeastMargin) return;
-    if (read && bits <= reading->proof_bits) return;
-    read = true;
-    reading->number = decoding.number;
-    reading->margin = margin;
-    reading->proof_bits = bits;
+    // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
+    // or paper lies on it.
+    const auto covered = ReadUnderCover(likelihoods, decoder_, any_number_);
+    if (covered && covered->apart_bits >= kLeastApart_bits) {
+      take(covered->number, static_cast<float>(kMarginPerBit * covered->apart_bits),
+           covered->proof_bits - doubt_bits);
+    }
   };
   // Several explanations of the light; the one that proves its number best is taken.
   for (const bool brightest : {false, true}) {
@@ -241,8 +251,12 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
     if (read && reading->margin > kSafeMargin) break;
     // Where the border shows the light well, a cell that is neither black nor white is covered.
     if (border_visible < kTellsLight || light.white_clips || light.has_edge) {
+      const bool against_light =
+          border_visible > kShowsLight && !light.white_clips && !light.has_edge;
       const CellSplits splits = SplitCells(cells);
-      for (int i = 0; i < splits.count; ++i) decode(splits.likelihoods[i], kSplitDoubt_bits);
+      for (int i = 0; i < splits.count; ++i) {
+        decode(splits.likelihoods[i], against_light ? kSplitAgainstLight_bits : kSplitDoubt_bits);
+      }
     }
     if (!cells.glaring || border_visible < kShowsGlare) continue;
     if (read && reading->margin > kSafeMargin) break;

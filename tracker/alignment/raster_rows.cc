@@ -1,0 +1,83 @@
+#include "tracker/alignment/raster_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pleinair::tracker {
+
+void RasterRows::Resize(const PixelWindow& window, PrintMap* map, PrintPicture* picture,
+                        std::vector<RowRange>* ranges) {
+  for (auto* values : {&map->column, &map->row, &map->column_x, &map->column_y, &map->row_x,
+                       &map->row_y, &picture->white, &picture->white_x, &picture->white_y}) {
+    values->resize(window.size());
+  }
+  ranges->resize(static_cast<std::size_t>(std::max(window.height, 0)));
+}
+
+void RasterRows::Start(const Mat3& print_from_ideal, const WindowRays& rays, int pad,
+                       int per_pixel) {
+  const PixelWindow& window = rays.window;
+  width_ = window.width;
+  pad_ = pad;
+  per_pixel_ = per_pixel;
+  all_taps_ = (2 * pad + 1) * per_pixel;
+  // Rows as long as vectors like them; the blurred ones are a ring of as many as there are taps.
+  count_ = width_ + 2 * pad;
+  stride_ = (count_ + 2 * kRowSlack - 1) / kRowSlack * kRowSlack;
+  map_rows_.resize(static_cast<std::size_t>(6) * stride_);
+  samples_.resize(static_cast<std::size_t>(per_pixel) * per_pixel * stride_);
+  blurred_.resize(static_cast<std::size_t>(all_taps_) * stride_);
+  blurred_x_.resize(blurred_.size());
+  rows_.resize(all_taps_);
+  rows_x_.resize(all_taps_);
+  float* scratch = map_rows_.data();
+  here_ = {scratch,
+           scratch + stride_,
+           scratch + 2 * stride_,
+           scratch + 3 * stride_,
+           scratch + 4 * stride_,
+           scratch + 5 * stride_};
+
+  // Single precision is enough with the window's middle as the origin.
+  const int rays_stride = width_ + 2 * kWindowBorder;
+  const std::size_t middle =
+      (static_cast<std::size_t>(window.height) / 2 + kWindowBorder) * rays_stride + rays_stride / 2;
+  const bool has_origin = std::isfinite(rays.x[middle]) && std::isfinite(rays.y[middle]);
+  origin_x_ = has_origin ? rays.x[middle] : 0.0F;
+  origin_y_ = has_origin ? rays.y[middle] : 0.0F;
+  const Mat3 from_origin = print_from_ideal * Mat3{{1, 0, origin_x_, 0, 1, origin_y_, 0, 0, 1}};
+  for (int i = 0; i < 9; ++i) {
+    homography_[i] = static_cast<float>(from_origin.m[i] / from_origin.m[8]);
+  }
+}
+
+const MapRow& RasterRows::Look(const RasterKernels& kernels, const WindowRays& rays, int y) {
+  const int rays_stride = width_ + 2 * kWindowBorder;
+  const std::size_t from =
+      static_cast<std::size_t>(y + kWindowBorder) * rays_stride + kWindowBorder - pad_;
+  kernels.map({&rays.x[from], &rays.y[from], rays_stride, origin_x_, origin_y_}, homography_.data(),
+              count_, here_);
+  return here_;
+}
+
+void RasterRows::Keep(int y, PrintMap* map) const {
+  const std::size_t to = static_cast<std::size_t>(y) * width_;
+  const std::size_t bytes = static_cast<std::size_t>(width_) * sizeof(float);
+  std::memcpy(&map->column[to], here_.column + pad_, bytes);
+  std::memcpy(&map->row[to], here_.row + pad_, bytes);
+  std::memcpy(&map->column_x[to], here_.column_x + pad_, bytes);
+  std::memcpy(&map->column_y[to], here_.column_y + pad_, bytes);
+  std::memcpy(&map->row_x[to], here_.row_x + pad_, bytes);
+  std::memcpy(&map->row_y[to], here_.row_y + pad_, bytes);
+}
+
+void RasterRows::Gather(int y, int begin) {
+  for (int k = 0; k < all_taps_; ++k) {
+    const std::size_t at = InRing(y * per_pixel_ + k) + begin;
+    rows_[k] = &blurred_[at];
+    rows_x_[k] = &blurred_x_[at];
+  }
+}
+
+}  // namespace pleinair::tracker

@@ -1,0 +1,58 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <array>
+#include <vector>
+
+#include "base/vector.h"
+#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/raster_kernels.h"
+
+namespace pleinair::tracker {
+
+/// What rasters of prints and of pictures have in common: where each row of a window looks on the
+/// print, the samples along it, and the ring of blurred rows that the columns' blur works on.
+/// Buffers are kept, so that nothing is allocated after the largest window was seen.
+class RasterRows {
+ public:
+  /// Gives a raster's results the window's size.
+  static void Resize(const PixelWindow& window, PrintMap* map, PrintPicture* picture,
+                     std::vector<RowRange>* ranges);
+
+  /// `print_from_ideal`: homography from ideal pixels to the print. `pad`: how far the blur
+  /// reaches, in pixels; `per_pixel`: samples along each side of a pixel.
+  void Start(const Mat3& print_from_ideal, const WindowRays& rays, int pad, int per_pixel);
+
+  /// Pixels of a row with the blur's reach on either side, and how far apart rows lie.
+  int count() const { return count_; }
+  int stride() const { return stride_; }
+
+  /// Where the row y of the window looks, from -pad on. Valid until the next row is asked for.
+  const MapRow& Look(const RasterKernels& kernels, const WindowRays& rays, int y);
+  /// Puts what Look said down where the window has the row.
+  void Keep(int y, PrintMap* map) const;
+
+  /// Samples j across and i along, as SampleRow kernels have them: rows i + j per_pixel.
+  float* samples(int row) { return &samples_[static_cast<std::size_t>(row) * stride_]; }
+  /// Of the ring: sample row `row` counts from the first of row -pad on.
+  float* blurred(int row) { return &blurred_[InRing(row)]; }
+  float* blurred_x(int row) { return &blurred_x_[InRing(row)]; }
+
+  /// The taps' rows of the ring around row `y` of the window, from its column `begin` on.
+  void Gather(int y, int begin);
+  const float* const* rows() const { return rows_.data(); }
+  const float* const* rows_x() const { return rows_x_.data(); }
+
+ private:
+  std::size_t InRing(int row) const { return static_cast<std::size_t>(row % all_taps_) * stride_; }
+
+  int width_ = 0, pad_ = 0, per_pixel_ = 1, all_taps_ = 1, count_ = 0, stride_ = 0;
+  float origin_x_ = 0.0F, origin_y_ = 0.0F;
+  std::array<float, 9> homography_{};  ///< From rays relative to the origin.
+  MapRow here_{};
+  std::vector<float> map_rows_, samples_, blurred_, blurred_x_;
+  std::vector<const float*> rows_, rows_x_;
+};
+
+}  // namespace pleinair::tracker
