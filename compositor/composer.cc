@@ -15,7 +15,6 @@
 #include "compositor/drawn_frame.h"
 #include "compositor/embedded_shaders.h"
 #include "compositor/environment_map.h"
-#include "compositor/ground_radiance.h"
 #include "compositor/object_pass.h"
 #include "compositor/ratio_pass.h"
 #include "compositor/render_camera.h"
@@ -56,7 +55,7 @@ class GlComposer : public Composer {
     surfaces_.Move(placed_model, linear, translation_m);
   }
   Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
-                        const Mat3& marker_from_world) override;
+                        const Mat3& marker_from_world, LinearRgb from_below) override;
   void SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) override;
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
@@ -194,13 +193,12 @@ Result<const SurfacePrograms*> GlComposer::ProgramsFor(const DrawnFrame& frame) 
 }
 
 Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
-                                  const Mat3& marker_from_world) {
+                                  const Mat3& marker_from_world, LinearRgb from_below) {
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   SetSun(day, marker_from_world);
   air_ = AerialFog(day, marker_from_world);
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(lit));
-  const EnvironmentMap map = BuildEnvironmentMap(
-      day, marker_from_world, MeanGroundRadiance(lit, scene_, sun_normal_, to_sun_));
+  const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
     environment_.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
   }

@@ -67,9 +67,10 @@ class Composer {
   /// Lets another thread draw from now on.
   virtual void LetGo() = 0;
 
-  /// The light from now on. `lit` is what a LightSolver made of the same scene and daylight.
+  /// The light from now on. `lit` is what a LightSolver made of the same scene and daylight, and
+  /// `from_below` its RadianceFromBelow(), which glossy surfaces mirror below the horizon.
   virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& daylight,
-                                const Mat3& marker_from_world) = 0;
+                                const Mat3& marker_from_world, LinearRgb from_below) = 0;
 
   /// Moves the sun itself, between two calls of SetLight: shadows follow it without jumps, while
   /// the light among surfaces, which costs more, stays.

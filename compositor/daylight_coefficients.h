@@ -49,6 +49,7 @@ struct DaylightCoefficients {
   CoefficientMatrix without;  ///< The phantoms alone; rows of virtual objects are 0.
   int reflections = 0;        ///< Followed until they had converged.
   bool from_cache = false;
+  bool kept = true;  ///< False: the cache that they were to be put into could not take them.
 
   SkyPatches Patches() const { return {up, division}; }
 };

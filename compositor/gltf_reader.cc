@@ -13,6 +13,8 @@
 #include "base/vector.h"
 #include "compositor/gltf_accessor.h"
 #include "compositor/gltf_files.h"
+#include "compositor/gltf_placement.h"
+#include "compositor/gltf_texture_transform.h"
 #include "compositor/model_limits.h"
 #include "compositor/texture_decoder.h"
 
@@ -26,55 +28,9 @@ const std::set<std::string>& KnownExtensions() {
       "KHR_materials_clearcoat", "KHR_materials_sheen",
       "KHR_materials_volume",    "KHR_materials_transmission",
       "KHR_materials_unlit",     "KHR_materials_emissive_strength",
-      "KHR_mesh_quantization",   "KHR_lights_punctual"};
+      "KHR_mesh_quantization",   "KHR_lights_punctual",
+      "KHR_texture_transform"};
   return known;
-}
-
-/// Affine map of a node.
-struct Placement {
-  Mat3 linear;
-  Vec3 translation_m;
-  Placement operator*(const Placement& inner) const {
-    return {linear * inner.linear, linear * inner.translation_m + translation_m};
-  }
-};
-
-// glTF's y-up, −z-forward axes to ours: z up.
-constexpr Placement kUpright{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {}};
-
-Mat3 RotationFromQuaternion(double x, double y, double z, double w) {
-  const double norm = std::sqrt(x * x + y * y + z * z + w * w);
-  if (!(norm > 0.0)) return {};
-  x /= norm, y /= norm, z /= norm, w /= norm;
-  return {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 2 * (x * y + z * w),
-           1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 2 * (x * z - y * w), 2 * (y * z + x * w),
-           1 - 2 * (x * x + y * y)}};
-}
-
-Placement PlacementOf(const tinygltf::Node& node) {
-  Placement placement;
-  if (const auto& m = node.matrix; m.size() == 16) {  // Column-major.
-    placement.linear = {{m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}};
-    placement.translation_m = {m[12], m[13], m[14]};
-    return placement;
-  }
-  if (const auto& q = node.rotation; q.size() == 4) {
-    placement.linear = RotationFromQuaternion(q[0], q[1], q[2], q[3]);
-  }
-  if (const auto& s = node.scale; s.size() == 3) {
-    placement.linear = placement.linear * Mat3{{s[0], 0, 0, 0, s[1], 0, 0, 0, s[2]}};
-  }
-  if (const auto& t = node.translation; t.size() == 3) {
-    placement.translation_m = {t[0], t[1], t[2]};
-  }
-  return placement;
-}
-
-bool IsFinite(const Placement& placement) {
-  const Vec3 t = placement.translation_m;
-  double sum = t.x + t.y + t.z;
-  for (const double value : placement.linear.m) sum += value;
-  return std::isfinite(sum);
 }
 
 /// Pictures that come as files or data URIs, still encoded, by index. Those in buffer views are
@@ -150,14 +106,17 @@ class GltfReader {
     return index >= 0 && static_cast<std::size_t>(index) < count;
   }
 
-  /// Index into the model's textures of a glTF texture's picture.
-  Result<int> Texture(int texture) {
+  /// Index into the model's textures of a glTF texture's picture. Colours are decoded from sRGB and
+  /// other numbers are not, so that a picture of both stands there twice.
+  Result<int> Texture(int texture, bool color = true) {
     if (!InRange(texture, gltf_.textures.size())) return Fail("refers to a texture out of range");
     const int image = gltf_.textures[static_cast<std::size_t>(texture)].source;
     if (!InRange(image, gltf_.images.size())) {
       return Fail("texture " + std::to_string(texture) + " has no PNG or JPEG picture");
     }
-    if (const auto known = textures_.find(image); known != textures_.end()) return known->second;
+    if (const auto known = textures_.find({image, color}); known != textures_.end()) {
+      return known->second;
+    }
     const tinygltf::Image& source = gltf_.images[static_cast<std::size_t>(image)];
     const std::string name = where_ + ", image " + std::to_string(image);
     std::span<const std::byte> bytes;
@@ -172,7 +131,7 @@ class GltfReader {
     PLEINAIR_ASSIGN_OR_RETURN(auto pixels, DecodeTexture(bytes, name));
     model_.textures.push_back(std::move(pixels));
     const int index = static_cast<int>(model_.textures.size()) - 1;
-    textures_.emplace(image, index);
+    textures_.emplace(std::pair{image, color}, index);
     return index;
   }
 
@@ -181,7 +140,12 @@ class GltfReader {
     material.name = source.name;
     material.double_sided = source.doubleSided;
     material.specular_f0 = kDielectricF0;
+    material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutOut
+                     : source.alphaMode == "BLEND" ? Material::Alpha::kBlended
+                                                   : Material::Alpha::kIgnored;
+    material.alpha_cutoff = Clamped(source.alphaCutoff);
     const auto& pbr = source.pbrMetallicRoughness;
+    if (pbr.baseColorFactor.size() == 4) material.opacity = Clamped(pbr.baseColorFactor[3]);
     for (std::size_t c = 0; c < 3 && c < pbr.baseColorFactor.size(); ++c) {
       material.base_color[c] = Clamped(pbr.baseColorFactor[c]);
     }
@@ -190,24 +154,35 @@ class GltfReader {
     if (pbr.baseColorTexture.index >= 0) {
       PLEINAIR_ASSIGN_OR_RETURN(material.base_color_texture, Texture(pbr.baseColorTexture.index));
     }
-    uv_sets_.push_back(pbr.baseColorTexture.texCoord);
-    if (pbr.metallicRoughnessTexture.index >= 0) {
-      PLEINAIR_ASSIGN_OR_RETURN(const int texture, Texture(pbr.metallicRoughnessTexture.index));
-      // Green is roughness, blue metallic, both linear.
-      const Image<std::uint8_t>& image = model_.textures[static_cast<std::size_t>(texture)];
-      double roughness = 0.0, metallic = 0.0;
-      for (int y = 0; y < image.height(); ++y) {
-        for (int x = 0; x < image.width(); ++x) {
-          roughness += image(x, y, 1);
-          metallic += image(x, y, 2);
-        }
+    UvMap uv_map = UvMapOf(pbr.baseColorTexture);
+    if (const auto& texture = pbr.metallicRoughnessTexture; texture.index >= 0) {
+      const UvMap of_coat = UvMapOf(texture);
+      PLEINAIR_ASSIGN_OR_RETURN(const int coat, Texture(texture.index, false));
+      if (material.base_color_texture < 0) uv_map = of_coat;
+      if (of_coat == uv_map) {
+        material.metallic_roughness_texture = coat;
+      } else {
+        // A surface has one set of texture coordinates here.
+        TakeMean(model_.textures[static_cast<std::size_t>(coat)], &material);
       }
-      const double scale = 1.0 / (255.0 * image.width() * image.height());
-      material.roughness *= static_cast<float>(roughness * scale);
-      material.metallic *= static_cast<float>(metallic * scale);
     }
+    uv_maps_.push_back(uv_map);
     model_.materials.push_back(std::move(material));
     return {};
+  }
+
+  /// Green is roughness, blue metallic, both linear.
+  static void TakeMean(const Image<std::uint8_t>& image, Material* material) {
+    double roughness = 0.0, metallic = 0.0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        roughness += image(x, y, 1);
+        metallic += image(x, y, 2);
+      }
+    }
+    const double scale = 1.0 / (255.0 * image.width() * image.height());
+    material->roughness *= static_cast<float>(roughness * scale);
+    material->metallic *= static_cast<float>(metallic * scale);
   }
 
   static float Clamped(double value) {
@@ -218,7 +193,7 @@ class GltfReader {
   Result<void> ReadNodes() {
     struct Visit {
       int node;
-      Placement placement;
+      GltfPlacement placement;
     };
     std::vector<Visit> to_visit;
     const int scene = gltf_.defaultScene >= 0 ? gltf_.defaultScene : 0;
@@ -249,7 +224,7 @@ class GltfReader {
       }
       seen[index] = true;
       const tinygltf::Node& node = gltf_.nodes[index];
-      const Placement placement = visit.placement * PlacementOf(node);
+      const GltfPlacement placement = visit.placement * PlacementOf(node);
       if (!IsFinite(placement)) {
         return Fail("the placement of node " + std::to_string(index) + " is not finite");
       }
@@ -261,7 +236,7 @@ class GltfReader {
     return {};
   }
 
-  Result<void> ReadMesh(int mesh, const Placement& placement) {
+  Result<void> ReadMesh(int mesh, const GltfPlacement& placement) {
     if (!InRange(mesh, gltf_.meshes.size())) return Fail("refers to a mesh out of range");
     const tinygltf::Mesh& source = gltf_.meshes[static_cast<std::size_t>(mesh)];
     for (const tinygltf::Primitive& primitive : source.primitives) {
@@ -271,7 +246,7 @@ class GltfReader {
   }
 
   Result<void> ReadPrimitive(const std::string& name, const tinygltf::Primitive& primitive,
-                             const Placement& placement) {
+                             const GltfPlacement& placement) {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     const auto position = primitive.attributes.find("POSITION");
     if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) return {};
@@ -292,13 +267,19 @@ class GltfReader {
         return Fail("a mesh has more or fewer normals than positions");
       }
     }
-    const int uv_set =
-        primitive.material >= 0 ? uv_sets_[static_cast<std::size_t>(primitive.material)] : 0;
-    if (const auto uv = primitive.attributes.find("TEXCOORD_" + std::to_string(uv_set));
+    const UvMap uv_map =
+        primitive.material >= 0 ? uv_maps_[static_cast<std::size_t>(primitive.material)] : UvMap{};
+    if (const auto uv = primitive.attributes.find("TEXCOORD_" + std::to_string(uv_map.set));
         uv != primitive.attributes.end()) {
       PLEINAIR_ASSIGN_OR_RETURN(mesh.uvs, ReadGltfFloats<2>(gltf_, uv->second, where_));
       if (mesh.uvs.size() != mesh.positions.size()) {
         return Fail("a mesh has more or fewer texture coordinates than positions");
+      }
+      for (auto& uv_of_vertex : mesh.uvs) {
+        uv_of_vertex = uv_map(uv_of_vertex);
+        if (!IsWithinReach(uv_of_vertex)) {
+          return Fail("KHR_texture_transform takes texture coordinates beyond 1e8");
+        }
       }
     }
     PLEINAIR_RETURN_IF_ERROR(ReadTriangles(primitive, mode, &mesh));
@@ -337,7 +318,7 @@ class GltfReader {
     return {};
   }
 
-  Result<void> Place(const Placement& placement, Mesh* mesh) const {
+  Result<void> Place(const GltfPlacement& placement, Mesh* mesh) const {
     for (auto& p : mesh->positions) {
       const Vec3 placed = placement.linear * Vec3{p[0], p[1], p[2]} + placement.translation_m;
       if (!(std::fabs(placed.x) + std::fabs(placed.y) + std::fabs(placed.z) < 1e8)) {
@@ -372,8 +353,8 @@ class GltfReader {
   tinygltf::Model gltf_;
   EncodedImages encoded_;
   Model model_;
-  std::map<int, int> textures_;  ///< Model's texture by glTF image.
-  std::vector<int> uv_sets_;     ///< By material, of the base colour texture.
+  std::map<std::pair<int, bool>, int> textures_;  ///< Model's texture by glTF image and use.
+  std::vector<UvMap> uv_maps_;                    ///< By material.
   std::size_t vertex_count_ = 0;
   std::size_t triangle_count_ = 0;
 };

@@ -17,8 +17,18 @@ constexpr std::size_t kMostFaces = std::size_t{1} << 26;
 
 Vec3 ToVec3(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
-/// Linear mean of a texture, pixels sampled on a grid of at most 256 × 256.
-std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture) {
+/// How much of a surface is where its texture has so much alpha.
+double ShareThere(std::uint8_t alpha, const Material& material) {
+  if (material.alpha == Material::Alpha::kCutOut) {
+    return material.opacity * static_cast<float>(alpha) >= 255.0F * material.alpha_cutoff ? 1.0
+                                                                                          : 0.0;
+  }
+  return material.alpha == Material::Alpha::kBlended ? alpha / 255.0 : 1.0;
+}
+
+/// Linear mean of a texture, pixels sampled on a grid of at most 256 × 256. What a material cuts
+/// out does not count, and of what is glass the share that is there.
+std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture, const Material& material) {
   const auto& linear = LinearFromSrgb8();
   const int step_x = std::max(1, texture.width() / 256);
   const int step_y = std::max(1, texture.height() / 256);
@@ -26,16 +36,21 @@ std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture) {
   double count = 0.0;
   for (int y = step_y / 2; y < texture.height(); y += step_y) {
     for (int x = step_x / 2; x < texture.width(); x += step_x) {
-      for (int c = 0; c < 3; ++c) sum[c] += linear[texture(x, y, texture.channels() > 2 ? c : 0)];
-      ++count;
+      const double share = texture.channels() == 4 ? ShareThere(texture(x, y, 3), material) : 1.0;
+      for (int c = 0; c < 3; ++c) {
+        sum[c] += share * linear[texture(x, y, texture.channels() > 2 ? c : 0)];
+      }
+      count += share;
     }
   }
   std::array<float, 3> mean{};
-  for (int c = 0; c < 3; ++c) mean[c] = static_cast<float>(sum[c] / std::max(1.0, count));
+  for (int c = 0; c < 3 && count > 0.0; ++c) mean[c] = static_cast<float>(sum[c] / count);
   return mean;
 }
 
-std::array<float, 3> DiffuseAlbedo(const Model& model, int material_index) {
+/// A metal sends as much light back as a matt surface of its colour, if to other places: without it
+/// a polished thing would blacken what it stands on.
+std::array<float, 3> ReflectanceOf(const Model& model, int material_index) {
   if (material_index < 0 || static_cast<std::size_t>(material_index) >= model.materials.size()) {
     return {Material{}.base_color};
   }
@@ -44,11 +59,11 @@ std::array<float, 3> DiffuseAlbedo(const Model& model, int material_index) {
   const int texture = material.base_color_texture;
   if (texture >= 0 && static_cast<std::size_t>(texture) < model.textures.size() &&
       !model.textures[texture].empty()) {
-    const std::array<float, 3> mean = MeanColor(model.textures[texture]);
+    const std::array<float, 3> mean = MeanColor(model.textures[texture], material);
     for (int c = 0; c < 3; ++c) albedo[c] *= mean[c];
   }
   // An albedo of 1 or more would never let the light die away.
-  for (float& value : albedo) value = std::clamp(value * (1.0F - material.metallic), 0.0F, 0.98F);
+  for (float& value : albedo) value = std::clamp(value, 0.0F, 0.98F);
   return albedo;
 }
 
@@ -228,7 +243,7 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
     }
     ray_meshes.push_back({surface.positions, surface.indices, surface.is_phantom});
     const std::array<float, 3> albedo =
-        DiffuseAlbedo(*models[surface.placed_model].model, surface.material);
+        ReflectanceOf(*models[surface.placed_model].model, surface.material);
     const auto front = static_cast<int>(scene.sheets.size());
     AddFaces(surface, groups.get(), static_cast<std::uint32_t>(front), &scene);
     const bool closed = surface.closed;

@@ -24,7 +24,7 @@ struct LightSolverOptions;
 struct LightScene {
   struct Sheet {
     SurfaceMesh mesh;
-    std::array<float, 3> albedo{};  ///< Diffuse, linear; texture averaged; metals have none.
+    std::array<float, 3> albedo{};  ///< Linear; texture averaged; a metal's colour.
     std::uint32_t first_patch = 0, patch_count = 0;
     int twin = -1;                                 ///< The other side's sheet.
     std::shared_ptr<const SurfacePatches> groups;  ///< Null: each vertex is a patch.

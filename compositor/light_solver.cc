@@ -1,6 +1,7 @@
 #include "compositor/light_solver.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -57,7 +58,9 @@ class EmbreeLightSolver : public LightSolver {
     }
     DaylightCoefficients computed = ComputeCoefficients(scene_, up, options, progress);
     const bool stopped = options.stop != nullptr && *options.stop;
-    if (!options.cache.empty() && !stopped) WriteCoefficients(options.cache, hash, computed);
+    if (!options.cache.empty() && !stopped) {
+      computed.kept = WriteCoefficients(options.cache, hash, computed);
+    }
     return computed;
   }
 
@@ -123,15 +126,53 @@ class EmbreeLightSolver : public LightSolver {
     const LinearRgb sun = day.SunNormalIrradiance();
     std::vector<LinearRgb> ambient(points.size());
     ParallelFor(points.size(), options_.threads, [&](std::size_t i) {
-      ambient[i] = FollowPaths(points[i].xyz, frame, sky, sun_frame, sun, paths);
+      ambient[i] = FollowPaths(points[i].xyz, frame, sky, sun_frame, sun, {}, paths);
     });
     return ambient;
   }
 
+  LinearRgb RadianceFromBelow(const sky::SkyModel& day, const Mat3& marker_from_world,
+                              const SeenSunlight& sunlight) const override {
+    const std::vector<Vec3> middles = ObjectMiddles();
+    if (middles.empty()) return {};
+    const SkyTable sky(day, marker_from_world, kLandAlbedo);
+    const TangentFrame sun_frame(marker_from_world * day.ToSun().xyz);
+    const TangentFrame down(marker_from_world * Vec3{0.0, 0.0, -1.0});
+    LinearRgb irradiance;
+    for (const Vec3 middle : middles) {
+      irradiance = irradiance + FollowPaths(middle, down, sky, sun_frame, day.SunNormalIrradiance(),
+                                            sunlight, kMeterPaths);
+    }
+    return irradiance * (std::numbers::inv_pi / static_cast<double>(middles.size()));
+  }
+
  private:
+  /// The middles of the boxes around the virtual objects.
+  std::vector<Vec3> ObjectMiddles() const {
+    struct Box {
+      Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+    };
+    std::map<int, Box> boxes;
+    for (const LightScene::Sheet& sheet : scene_.sheets) {
+      if (sheet.mesh.is_phantom) continue;
+      Box& box = boxes[sheet.mesh.placed_model];
+      for (const auto& [x, y, z] : sheet.mesh.positions) {
+        box.low = {std::min<double>(box.low.x, x), std::min<double>(box.low.y, y),
+                   std::min<double>(box.low.z, z)};
+        box.high = {std::max<double>(box.high.x, x), std::max<double>(box.high.y, y),
+                    std::max<double>(box.high.z, z)};
+      }
+    }
+    std::vector<Vec3> middles;
+    middles.reserve(boxes.size());
+    for (const auto& [model, box] : boxes) middles.push_back((box.low + box.high) * 0.5);
+    return middles;
+  }
+
   /// Irradiance at a point whose surface has `frame`, by paths through the phantoms.
   LinearRgb FollowPaths(Vec3 point, const TangentFrame& frame, const SkyTable& sky,
-                        const TangentFrame& sun_frame, LinearRgb sun, std::uint32_t paths) const {
+                        const TangentFrame& sun_frame, LinearRgb sun, const SeenSunlight& sunlight,
+                        std::uint32_t paths) const {
     LinearRgb sum;
     for (std::uint32_t path = 0; path < paths; ++path) {
       Vec3 origin = point + frame.normal * kRayOffsetM;
@@ -154,7 +195,7 @@ class EmbreeLightSolver : public LightSolver {
         const double cosine = Dot(at_hit.normal, sun_frame.normal);
         const Vec3 to_sun = SunDiscDirection(sun_frame, RandomPoint(seed, 1));
         if (cosine > 0.0 && !scene_.rays->Occluded(RayTargets::kPhantoms, origin, to_sun)) {
-          sum = sum + throughput * sun * (cosine / std::numbers::pi);
+          sum = sum + throughput * sun * (sunlight.At(origin) * cosine / std::numbers::pi);
         }
         direction = CosineDirection(at_hit, RandomPoint(seed, 3));
       }

@@ -119,6 +119,13 @@ class LightSolver {
                                                      const Mat3& marker_from_world,
                                                      std::uint32_t paths = kMeterPaths) const = 0;
 
+  /// Mean radiance that comes from below the horizon to where the virtual objects stand: of the
+  /// phantoms in sun and shade, textures as their mean, and of the land where they end, seen from
+  /// the middle of each object and averaged. For glossy reflections. `sunlight` as above. cd/m²,
+  /// linear Rec.709; black without an object.
+  virtual LinearRgb RadianceFromBelow(const sky::SkyModel& daylight, const Mat3& marker_from_world,
+                                      const SeenSunlight& sunlight = {}) const = 0;
+
   static constexpr std::uint32_t kMeterPaths = 2048;
 };
 

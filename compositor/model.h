@@ -14,13 +14,22 @@ namespace pleinair::compositor {
 
 /// A surface material, metallic–roughness; colours linear Rec.709.
 struct Material {
+  /// What the alpha of base colour and texture means, as in glTF: nothing; where it is below
+  /// `alpha_cutoff`, a hole; how much of what lies behind is hidden.
+  enum class Alpha { kIgnored, kCutOut, kBlended };
+
   std::string name;
   std::array<float, 3> base_color{0.8F, 0.8F, 0.8F};
+  float opacity = 1.0F;  ///< Alpha of the base colour.
+  Alpha alpha = Alpha::kCutOut;
+  float alpha_cutoff = 0.5F;
   float metallic = 0.0F;
   float roughness = 1.0F;
   float specular_f0 = 0.0F;  ///< Normal reflectance of the dielectric coat; 0 is purely diffuse.
   bool double_sided = false;
   int base_color_texture = -1;  ///< Index into Model::textures, -1 for none.
+  /// The same; green times roughness, blue times metallic, both linear.
+  int metallic_roughness_texture = -1;
 };
 
 /// Three corners a triangle, no sharing of vertices between materials required.
@@ -38,7 +47,7 @@ struct Model {
   std::filesystem::path file;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
-  std::vector<Image<std::uint8_t>> textures;  ///< sRGB-encoded, 3 or 4 channels.
+  std::vector<Image<std::uint8_t>> textures;  ///< As in the file, 3 or 4 channels.
 };
 
 enum class NormalsMode { kFromFile, kFlat, kSmooth };

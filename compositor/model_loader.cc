@@ -1,6 +1,7 @@
 #include <new>
 #include <utility>
 
+#include "compositor/cut_out.h"
 #include "compositor/gltf_reader.h"
 #include "compositor/mesh_normals.h"
 #include "compositor/model.h"
@@ -25,6 +26,11 @@ Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& o
     ApplyNormals(options.normals, &model);
     if (model.meshes.empty()) {
       return InputError(file.string(), "all its triangles are degenerate", "export it again");
+    }
+    CutHoles(&model);
+    if (model.meshes.empty()) {
+      return InputError(file.string(), "nothing of it can be seen: its textures are transparent",
+                        "check their alpha");
     }
     return model;
   } catch (const std::bad_alloc&) {

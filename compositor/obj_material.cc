@@ -90,6 +90,15 @@ class MtlParser {
     } else if (keyword == "Pm") {
       PLEINAIR_ASSIGN_OR_RETURN(const float metallic, Number());
       material.metallic = std::clamp(metallic, 0.0F, 1.0F);
+    } else if (keyword == "d" || keyword == "Tr") {
+      if (lines_.Rest().starts_with("-halo")) lines_.Word();
+      PLEINAIR_ASSIGN_OR_RETURN(const float value, Number());
+      const float opacity = keyword == "d" ? value : 1.0F - value;
+      // Programs that take Tr for d write 0 for what is opaque; nobody writes what cannot be seen.
+      if (opacity > 0.0F && opacity < 1.0F) {
+        material.opacity = opacity;
+        material.alpha = Material::Alpha::kBlended;
+      }
     } else if (keyword == "illum") {
       PLEINAIR_ASSIGN_OR_RETURN(const float illumination, Number());
       draft_->illumination = static_cast<int>(illumination);

@@ -18,6 +18,11 @@ Result<ObjectPass> ObjectPass::Create() {
                              .fragment = "compositor/shaders/triangle_id.frag",
                              .defines = {"OBJECT", "TEXTURED"}}));
   PLEINAIR_ASSIGN_OR_RETURN(
+      pass.alpha_id_program_,
+      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                             .fragment = "compositor/shaders/triangle_id.frag",
+                             .defines = {"OBJECT", "TEXTURED", "ALPHA"}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
       pass.sort_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                              .fragment = "compositor/shaders/object_pixels.frag"}));
@@ -28,10 +33,13 @@ Result<ObjectPass> ObjectPass::Create() {
 void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                               const DrawnFrame& frame) const {
   const bool textured = surfaces.HasTextures();
-  const gl::GlProgram& id_program = textured ? textured_id_program_ : id_program_;
+  const gl::GlProgram& id_program = surfaces.HasAlpha() ? alpha_id_program_
+                                    : textured          ? textured_id_program_
+                                                        : id_program_;
   targets.BeginObjectIds(textured);
   id_program.Use();
   id_program.Set("u_clip_from_marker", frame.clip_from_marker);
+  id_program.Set("u_samples", targets.samples());
   surfaces.DrawObjects(id_program);
 }
 

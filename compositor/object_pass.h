@@ -35,7 +35,7 @@ class ObjectPass {
             const gl::GlTexture& environment, const PixelRect& within) const;
 
  private:
-  gl::GlProgram id_program_, textured_id_program_, sort_program_;
+  gl::GlProgram id_program_, textured_id_program_, alpha_id_program_, sort_program_;
   gl::GlVertexArray no_attributes_;
 };
 

@@ -1,11 +1,27 @@
 #include "compositor/scene_surfaces.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
 
 namespace pleinair::compositor {
+
+namespace {
+
+/// Whether a material does not cover all that it is drawn on.
+bool IsSeenThrough(const Model& model, const Material& material) {
+  if (material.alpha == Material::Alpha::kIgnored) return false;
+  const int texture = material.base_color_texture;
+  return material.opacity < 1.0F ||
+         (texture >= 0 && model.textures[static_cast<std::size_t>(texture)].channels() == 4);
+}
+
+/// Whether it differs from place to place.
+bool IsTextured(const Material& material) {
+  return material.base_color_texture >= 0 || material.metallic_roughness_texture >= 0;
+}
+
+}  // namespace
 
 Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scene) {
   SceneSurfaces surfaces;
@@ -16,11 +32,12 @@ Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scen
   for (const PlacedModel& placed : scene) {
     PLEINAIR_ASSIGN_OR_RETURN(auto textures, UploadTextures(*placed.model));
     surfaces.model_textures_.push_back(std::move(textures));
-    surfaces.has_textures_ =
-        surfaces.has_textures_ ||
-        (!placed.is_phantom &&
-         std::any_of(placed.model->materials.begin(), placed.model->materials.end(),
-                     [](const Material& m) { return m.base_color_texture >= 0; }));
+    if (placed.is_phantom) continue;
+    for (const Material& material : placed.model->materials) {
+      const bool alpha = IsSeenThrough(*placed.model, material);
+      surfaces.has_alpha_ = surfaces.has_alpha_ || alpha;
+      surfaces.has_textures_ = surfaces.has_textures_ || alpha || IsTextured(material);
+    }
   }
   return surfaces;
 }
@@ -195,8 +212,17 @@ void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
   program.Set("u_step", 1);
   for (const SurfaceBuffers& surface : surfaces_) {
     if (surface.is_phantom()) continue;
-    const int texture = MaterialOf(surface).base_color_texture;
-    (texture >= 0 ? model_textures_[surface.placed_model()][texture] : white_).Bind(0);
+    const Material& material = MaterialOf(surface);
+    const auto& textures = model_textures_[surface.placed_model()];
+    const auto bind = [&](int texture, int unit) {
+      (texture >= 0 ? textures[static_cast<std::size_t>(texture)] : white_).Bind(unit);
+    };
+    bind(material.base_color_texture, 0);
+    bind(material.metallic_roughness_texture, 1);
+    program.Set("u_alpha", static_cast<int>(material.alpha));
+    program.Set("u_opacity", material.opacity);
+    program.Set("u_alpha_cutoff", material.alpha_cutoff);
+    program.Set("u_surface", static_cast<int>(object));
     program.Set("u_marker_from_lit", glm::mat4(moved_[surface.placed_model()]));
     program.Set("u_first_id", object_table_.first_id(object));
     surface.Draw();

@@ -55,8 +55,10 @@ class SceneSurfaces {
   const TriangleTable& object_triangles() const { return object_table_; }
   /// By the values of object_triangles().
   const SurfaceRecords& object_records() const { return object_records_; }
-  /// Some of the objects have textures.
+  /// Some of the objects have textures or alpha.
   bool HasTextures() const { return has_textures_; }
+  /// Some have holes or are glass.
+  bool HasAlpha() const { return has_alpha_; }
   /// Draws everything with `program`, which is in use: places alone.
   void Draw(const gl::GlProgram& program) const;
 
@@ -69,7 +71,7 @@ class SceneSurfaces {
   }
 
   std::vector<PlacedModel> scene_;
-  bool has_textures_ = false;
+  bool has_textures_ = false, has_alpha_ = false;
   gl::GlTexture white_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
   std::vector<SurfaceBuffers> surfaces_;

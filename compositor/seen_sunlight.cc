@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 
 #include "base/units.h"
 #include "compositor/light_samples.h"
@@ -42,12 +43,23 @@ std::vector<double> FillGaps(const Level& level) {
     }
   }
   const std::vector<double> about = FillGaps(coarse);
+  // Between the middles of the coarser cells linear, so that their edges do not show.
+  const auto about_at = [&](int x, int y) {
+    const auto halves = [](int fine, int cells) {
+      const double at = std::clamp((fine + 0.5) / 2 - 0.5, 0.0, cells - 1.0);
+      const int low = static_cast<int>(at);
+      return std::tuple{low, std::min(low + 1, cells - 1), at - low};
+    };
+    const auto [left, right, u] = halves(x, coarse.width);
+    const auto [top, bottom, v] = halves(y, coarse.height);
+    return (1 - v) * ((1 - u) * about[coarse.At(left, top)] + u * about[coarse.At(right, top)]) +
+           v * ((1 - u) * about[coarse.At(left, bottom)] + u * about[coarse.At(right, bottom)]);
+  };
   std::vector<double> filled(level.Size());
   for (int y = 0; y < level.height; ++y) {
     for (int x = 0; x < level.width; ++x) {
       const std::size_t i = level.At(x, y);
-      filled[i] = (level.sum[i] + kNeighbours * about[coarse.At(x / 2, y / 2)]) /
-                  (level.weight[i] + kNeighbours);
+      filled[i] = (level.sum[i] + kNeighbours * about_at(x, y)) / (level.weight[i] + kNeighbours);
     }
   }
   return filled;

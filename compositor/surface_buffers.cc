@@ -1,5 +1,6 @@
 #include "compositor/surface_buffers.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -64,12 +65,16 @@ void SurfaceBuffers::Draw(int begin, int end) const {
 Result<std::vector<gl::GlTexture>> UploadTextures(const Model& model) {
   std::vector<gl::GlTexture> textures;
   textures.reserve(model.textures.size());
-  for (const Image<std::uint8_t>& picture : model.textures) {
+  for (std::size_t i = 0; i < model.textures.size(); ++i) {
+    const Image<std::uint8_t>& picture = model.textures[i];
+    const bool linear = std::any_of(
+        model.materials.begin(), model.materials.end(),
+        [&](const Material& m) { return m.metallic_roughness_texture == static_cast<int>(i); });
     const auto longest = static_cast<unsigned>(std::max(picture.width(), picture.height()));
     PLEINAIR_ASSIGN_OR_RETURN(
         gl::GlTexture texture,
-        gl::GlTexture::Create2D(GL_SRGB8_ALPHA8, picture.width(), picture.height(),
-                                static_cast<int>(std::bit_width(longest))));
+        gl::GlTexture::Create2D(linear ? GL_RGBA8 : GL_SRGB8_ALPHA8, picture.width(),
+                                picture.height(), static_cast<int>(std::bit_width(longest))));
     texture.Upload(picture.channels() == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, picture.data());
     texture.GenerateMipmaps();
     texture.SetFilter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);

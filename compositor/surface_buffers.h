@@ -41,7 +41,8 @@ class SurfaceBuffers {
   gl::GlVertexArray vertex_array_;
 };
 
-/// A model's textures as the renderer samples them: sRGB decoded, mip-mapped, repeating.
+/// A model's textures as the renderer samples them: those of colours decoded from sRGB, mip-mapped,
+/// repeating.
 Result<std::vector<gl::GlTexture>> UploadTextures(const Model& model);
 
 }  // namespace pleinair::compositor

@@ -6,7 +6,7 @@
 //     #include "gl/glsl_as_cpp.h"
 //     namespace glsl {
 //     using namespace glm;  // NOLINT: the point of the shim
-//     #include "shadows/shaders/sun_penumbra.glsl"
+//     #include "shadows/shaders/shadow_sun_disc.glsl"
 //     }
 //
 // The .glsl guards itself with #ifndef, gives every function's parameters by value, and writes

@@ -2,7 +2,8 @@
 // Which triangle a sample of the picture shows: its number in a table of
 // compositor/triangle_table.h, from 1 on. 0: nothing that changes.
 //
-// OBJECT: of a virtual object. TEXTURED: with what its texture leaves of the base colour, too.
+// OBJECT: of a virtual object. TEXTURED: with what its textures leave of base colour, roughness and
+// metallic, too. ALPHA: only on the samples that its alpha covers.
 
 #include "compositor/shaders/triangle_layout.glsl"
 
@@ -12,9 +13,56 @@ uniform int u_step;  // 1; 0 where a whole draw is one number.
 layout(location = 0) out uint out_id;
 
 #ifdef TEXTURED
+#include "compositor/shaders/texel_code.glsl"
+
 in vec2 v_uv;
 layout(binding = 0) uniform sampler2D u_base_color_texture;
+layout(binding = 1) uniform sampler2D u_metallic_roughness_texture;
 layout(location = 1) out vec4 out_texel;
+
+#ifdef ALPHA
+uniform int u_alpha;  // Material::Alpha: 0 ignored, 1 cut out, 2 blended.
+uniform float u_opacity;
+uniform float u_alpha_cutoff;
+uniform int u_samples;  // A pixel, 4 at most.
+uniform int u_surface;  // A number of its own for each surface.
+
+// From 0 to 1, evenly spread over any few pixels side by side (Bayer 1973).
+float Dither(ivec2 pixel) {
+  const int kBayer[16] = int[16](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
+  return (float(kBayer[(pixel.x & 3) + 4 * (pixel.y & 3)]) + 0.5) / 16.0;
+}
+
+// Any of the samples: another order in each pixel and surface, so that one does not hide the next.
+int FirstSample(ivec2 pixel) {
+  uint h = uint(pixel.x) * 0x9E3779B1u + uint(pixel.y) * 0x85EBCA77u + uint(u_surface) * 0xC2B2AE3Du;
+  h = (h ^ h >> 15u) * 0x2C1B3C6Du;
+  return int(h >> 30u);
+}
+
+// Alpha is asked at each sample. As much of glass is there as samples whose thresholds it exceeds
+// (screen-door transparency, in place of an order). Of holes there is one threshold, but where texels
+// are finer than pixels alpha is already the mean over them.
+int SamplesCovered() {
+  // Of 4 a pixel, as all renderers have them.
+  const vec2 kPlaces[4] =
+      vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec2 step_x = dFdx(v_uv), step_y = dFdy(v_uv);
+  float minified = clamp(0.5 * textureQueryLod(u_base_color_texture, v_uv).x, 0.0, 1.0);
+  float dither = u_alpha == 2 ? Dither(pixel) : 0.5;
+  int first = FirstSample(pixel), covered = 0;
+  for (int i = 0; i < u_samples; ++i) {
+    vec2 aside = kPlaces[i] - 0.5;
+    float alpha =
+        u_opacity * texture(u_base_color_texture, v_uv + aside.x * step_x + aside.y * step_y).a;
+    float spread = (float((i + first) % u_samples) + dither) / float(u_samples);
+    float threshold = u_alpha == 2 ? spread : mix(u_alpha_cutoff, spread, minified);
+    covered |= alpha >= threshold || u_alpha == 0 ? 1 << i : 0;
+  }
+  return covered;
+}
+#endif
 #endif
 
 void main() {
@@ -23,7 +71,11 @@ void main() {
   out_id |= kObjectBit;
 #endif
 #ifdef TEXTURED
-  out_texel = texture(u_base_color_texture, v_uv);
-  if (out_texel.a < 0.5) discard;  // Cut-out leaves and fences; blending needs an order.
+  vec4 texel = texture(u_base_color_texture, v_uv);
+  vec2 coat = texture(u_metallic_roughness_texture, v_uv).gb;
+  out_texel = vec4(texel.rgb, CodeOfCoat(coat.x, coat.y));
+#ifdef ALPHA
+  gl_SampleMask[0] = SamplesCovered();
+#endif
 #endif
 }

@@ -27,6 +27,7 @@ uniform vec3 u_fog_inscattered[kFogSplits];
 layout(binding = 0) uniform usampler2D u_seen;  // Of object_pixels.frag.
 layout(binding = 3) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
 #ifdef TEXTURED
+#include "compositor/shaders/texel_code.glsl"
 layout(binding = 4) uniform sampler2DMS u_texels;
 #endif
 
@@ -45,22 +46,28 @@ vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
   return mix(low, high, fract(level));
 }
 
-// Times its texture: the mean of the samples that show the piece.
-vec3 BaseColor(SurfaceRecord record, vec4 samples) {
 #ifdef TEXTURED
-  vec3 texel = vec3(0.0);
+// The material times its textures: the mean of the samples that show the piece.
+SurfaceRecord Textured(SurfaceRecord record, vec4 samples) {
+  vec3 color = vec3(0.0);
+  vec2 coat = vec2(0.0);
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  for (int i = 0; i < int(u_samples); ++i) texel += samples[i] * texelFetch(u_texels, pixel, i).rgb;
-  return record.base_color * texel / max(dot(samples, vec4(1.0)), 1.0);
-#else
-  return record.base_color;
-#endif
+  for (int i = 0; i < int(u_samples); ++i) {
+    vec4 texel = texelFetch(u_texels, pixel, i);
+    color += samples[i] * texel.rgb;
+    coat += samples[i] * CoatOfCode(texel.a);
+  }
+  float share = 1.0 / max(dot(samples, vec4(1.0)), 1.0);
+  record.base_color *= color * share;
+  record.roughness *= coat.x * share;
+  record.metallic *= coat.y * share;
+  return record;
 }
+#endif
 
-vec3 ColorOf(SeenSurface surface, SurfaceRecord record, vec4 samples) {
+vec3 ColorOf(SeenSurface surface, SurfaceRecord record) {
   vec3 normal = surface.normal;
   vec3 to_eye = normalize(u_eye_m - surface.position_m);
-  vec3 base_color = BaseColor(record, samples);
 
 #ifdef NO_SUN
   vec3 sun = vec3(0.0);
@@ -72,10 +79,10 @@ vec3 ColorOf(SeenSurface surface, SurfaceRecord record, vec4 samples) {
   vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);
 #endif
 
-  vec3 diffuse = base_color * (1.0 - record.metallic) * (1.0 - record.dielectric_f0);
+  vec3 diffuse = record.base_color * (1.0 - record.metallic) * (1.0 - record.dielectric_f0);
   vec3 radiance = diffuse * (sun + surface.ambient_with) / kPi;
 
-  vec3 f0 = mix(vec3(record.dielectric_f0), base_color, record.metallic);
+  vec3 f0 = mix(vec3(record.dielectric_f0), record.base_color, record.metallic);
   if (max(max(f0.r, f0.g), f0.b) > 0.0) {
     float n_dot_v = max(dot(normal, to_eye), 1e-4);
 #ifndef NO_SUN
@@ -104,7 +111,10 @@ void main() {
     SeenSurface surface =
         SurfaceSeen(Moved(VertexOf(triangle.x), record), Moved(VertexOf(triangle.y), record),
                     Moved(VertexOf(triangle.z), record), gl_FragCoord.xy);
-    sum += dot(samples, vec4(1.0)) * vec4(ColorOf(surface, record, samples), 1.0);
+#ifdef TEXTURED
+    record = Textured(record, samples);
+#endif
+    sum += dot(samples, vec4(1.0)) * vec4(ColorOf(surface, record), 1.0);
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
   out_color = sum / u_samples;

@@ -1,5 +1,5 @@
 // Preetham's sky, the twin of sky/perez.h (which has the equations and their sources). Pure
-// functions of numbers: included by shaders, and compiled as C++ by tests/sky/sky_perez_glsl_test.cc,
+// functions of numbers: included by shaders, and compiled as C++ by tests/sky/sky_glsl_test.cc,
 // which holds them to the C++ within 1e-4.
 //
 //   PerezSky sky = PerezSkyCreate(turbidity, to_sun);            // once a moment, or on the CPU

@@ -15,20 +15,6 @@
 namespace pleinair::compositor {
 namespace {
 
-using testing::Compose;
-using testing::EvenPicture;
-using testing::kCamera;
-using testing::kCube;
-using testing::kFromAbove;
-using testing::kGain;
-using testing::kGround;
-using testing::kSkyLux;
-using testing::kSunLux;
-using testing::MakeBox;
-using testing::Place;
-using testing::SeenAt;
-using testing::SouthernSun;
-
 /// The same light in air so thick that half of what is three metres away is seen.
 class HazySouthernSun : public SouthernSun {
  public:
@@ -52,7 +38,7 @@ TEST(Composer, SeesTheObjectThroughAsMuchFogAsItIsToldTo) {
     ComposerOptions options;
     options.fog.fill(fog);
     EXPECT_TRUE((*composer)->SetOptions(options));
-    EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}));
+    EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}, (*solver)->RadianceFromBelow(day, Mat3{})));
     const auto composed =
         (*composer)->Compose(EvenPicture(128).view(), kFromAbove, {kGain, kGain, kGain});
     return SeenAt(*composed, {0, 0, 0.3});
@@ -79,7 +65,8 @@ TEST(Composer, DrawsFogOfDifferentPartitionsWithoutASeam) {
   options.fog = {0.0, 0.06, 0.005, 0.02};
   auto composer = Composer::Create(kCamera, scene, options);
   ASSERT_TRUE(composer.has_value());
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(day, Mat3{}), day, Mat3{}));
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(day, Mat3{}), day, Mat3{},
+                                    (*solver)->RadianceFromBelow(day, Mat3{})));
   const auto composed =
       (*composer)->Compose(EvenPicture(0).view(), eye_level, {kGain, kGain, kGain});
   ASSERT_TRUE(composed.has_value());
@@ -139,7 +126,7 @@ TEST(Composer, FadesAShadowOnARealSurface200MetresAwayAsHazeFadesARealOne) {
   const auto lit = (*solver)->Solve(day, Mat3{});
   auto composer = Composer::Create(kCamera, scene, {});
   ASSERT_TRUE(composer.has_value());
-  ASSERT_TRUE((*composer)->SetLight(lit, day, Mat3{}));
+  ASSERT_TRUE((*composer)->SetLight(lit, day, Mat3{}, (*solver)->RadianceFromBelow(day, Mat3{})));
   const auto shadow = [&](double picture, double fog) {
     ComposerOptions options;
     options.fog.fill(fog);

@@ -21,19 +21,6 @@
 namespace pleinair::compositor {
 namespace {
 
-using testing::Compose;
-using testing::EvenPicture;
-using testing::kCamera;
-using testing::kCube;
-using testing::kFromAbove;
-using testing::kGain;
-using testing::kGround;
-using testing::kSkyLux;
-using testing::kSunLux;
-using testing::MakeBox;
-using testing::Place;
-using testing::SeenAt;
-
 const double kLevelLux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
 /// Display-linear value of a level face of so much reflectance.
 double Level(double albedo) { return kGain * albedo * kLevelLux * std::numbers::inv_pi; }
@@ -41,10 +28,11 @@ double Level(double albedo) { return kGain * albedo * kLevelLux * std::numbers::
 /// Draws the scene in the southern sun. No shade of trees is looked for: then what no object hides
 /// from the sun is not asked for it.
 std::unique_ptr<Composer> ComposerInTheSun(const std::vector<PlacedModel>& scene) {
-  static const testing::SouthernSun light;
+  static const SouthernSun light;
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
   auto composer = Composer::Create(kCamera, scene, {});
-  EXPECT_TRUE(composer.value()->SetLight(solver.value()->Solve(light, Mat3{}), light, Mat3{}));
+  EXPECT_TRUE(composer.value()->SetLight(solver.value()->Solve(light, Mat3{}), light, Mat3{},
+                                         solver.value()->RadianceFromBelow(light, Mat3{})));
   composer.value()->LookForShade(false);
   return std::move(composer.value());
 }
@@ -76,6 +64,84 @@ TEST(Composer, ColoursAnObjectByItsTextureAndLeavesTheCameraWhatIsCutOut) {
   EXPECT_EQ(SeenAt(composed, {-0.35, 0.35, 0.1}), LinearFromSrgb8()[77]);
   // An object without a texture beside it keeps its own colour.
   EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), Level(0.5), 0.02);
+}
+
+TEST(Composer, TellsMetalFromPaintByTheTexture) {
+  constexpr int kSide = 64;
+  Model plate = TexturedSquare(Image<std::uint8_t>(kSide, kSide, 3));
+  plate.materials[0].base_color_texture = -1;
+  plate.materials[0].metallic_roughness_texture = 0;
+  plate.materials[0].base_color = {0.7F, 0.7F, 0.7F};
+  plate.materials[0].metallic = 1.0F;
+  plate.materials[0].roughness = 0.5F;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      plate.textures[0](x, y, 1) = 51;  // A roughness of 0.1, linear.
+      plate.textures[0](x, y, 2) = x < kSide / 2 ? 255 : 0;
+    }
+  }
+  const RgbImage composed = Compose({Place(plate, false)}, EvenPicture(0));
+  // The sun, 45° off, is mirrored elsewhere but by a rougher surface.
+  EXPECT_NEAR(SeenAt(composed, {-0.3, 0, 0.1}), kGain * 0.7 * kSkyLux * std::numbers::inv_pi, 0.01);
+  EXPECT_NEAR(SeenAt(composed, {0.3, 0, 0.1}), Level(0.7), 0.01);
+}
+
+/// Mean over the middle of a picture, of that of the light behind which a scene lets through; its
+/// surfaces are black.
+double LetThrough(const std::vector<PlacedModel>& scene) {
+  constexpr std::uint8_t kBehind = 200;
+  const RgbImage composed = Compose(scene, EvenPicture(kBehind));
+  double sum = 0.0;
+  constexpr int kHalf = 16;
+  for (int y = 120 - kHalf; y < 120 + kHalf; ++y) {
+    for (int x = 160 - kHalf; x < 160 + kHalf; ++x) sum += LinearFromSrgb8()[composed(x, y, 1)];
+  }
+  return sum / (4 * kHalf * kHalf) / LinearFromSrgb8()[kBehind];
+}
+
+TEST(Composer, ShowsThroughGlassWhatLiesBehind) {
+  const auto pane = [](float opacity, float height, Material::Alpha alpha) {
+    Model glass = MakeBox({-0.5, -0.5, height}, {0.5, 0.5, height}, 0.0F);
+    glass.materials[0].opacity = opacity;
+    glass.materials[0].alpha = alpha;
+    return Place(glass, false);
+  };
+  using Alpha = Material::Alpha;
+  for (const float opacity : {0.1F, 0.3F, 0.5F, 0.9F}) {
+    EXPECT_NEAR(LetThrough({pane(opacity, 0.1F, Alpha::kBlended)}), 1.0F - opacity, 0.02);
+  }
+  // Samples tell it: of two panes the second does not hide behind the first.
+  const double both =
+      LetThrough({pane(0.5F, 0.1F, Alpha::kBlended), pane(0.5F, 0.3F, Alpha::kBlended)});
+  EXPECT_NEAR(both, 0.25, 0.03);
+  EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kIgnored)}), 0.0);
+  EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kCutOut)}), 1.0);
+}
+
+TEST(Composer, DrawsTheEdgesOfHolesAsFineAsThoseOfSurfaces) {
+  // Where a hole's edge lies, in pixels, by how much a row of pixels is covered; the square is
+  // moved by parts of a pixel.
+  constexpr int kSide = 64, kRow = 120, kFirst = 130, kLast = 190;
+  Image<std::uint8_t> texture(kSide, kSide, 4);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) texture(x, y, 3) = x < kSide / 2 ? 0 : 255;
+  }
+  const auto square = std::make_shared<const Model>(TexturedSquare(std::move(texture)));
+  const double pixel_m = 2.9 / kCamera.fx;
+  const auto covered = [&](double shift_px) {
+    const PlacedModel placed{square, Mat3{}, {shift_px * pixel_m, 0, 0}, false};
+    const RgbImage composed = Compose({placed}, EvenPicture(200));
+    double sum = 0.0;
+    for (int x = kFirst; x < kLast; ++x) {
+      sum += 1.0 - LinearFromSrgb8()[composed(x, kRow, 1)] / LinearFromSrgb8()[200];
+    }
+    return sum;
+  };
+  const double first = covered(0.0);
+  EXPECT_NEAR(first, kLast - kCamera.cx - 0.5, 0.3);
+  for (const double shift : {0.25, 0.5, 0.75, 1.0}) {
+    EXPECT_NEAR(covered(shift), first - shift, 0.15) << shift;
+  }
 }
 
 TEST(Composer, SeesTheMeanOfATextureThatIsFinerThanPixels) {
@@ -204,8 +270,9 @@ TEST(Composer, LeavesDepthAndBlendingAsDrawingBegins) {
   const auto solver = LightSolver::Create({kCube}, {.rays_per_vertex = 16});
   ASSERT_TRUE(composer.has_value());
   ASSERT_TRUE(solver.has_value());
-  const testing::SouthernSun light;
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  const SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
+                                    (*solver)->RadianceFromBelow(light, Mat3{})));
   ASSERT_TRUE((*composer)->Compose(EvenPicture(77).view(), kFromAbove, {kGain, kGain, kGain}));
   GLint depth_function = 0;
   glGetIntegerv(GL_DEPTH_FUNC, &depth_function);
@@ -222,8 +289,9 @@ TEST(Composer, ShadesAMovedModelWhereItStandsNow) {
   auto composer = Composer::Create(kCamera, {kCube}, {});
   ASSERT_TRUE(solver.has_value());
   ASSERT_TRUE(composer.has_value());
-  const testing::SouthernSun light;
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  const SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
+                                    (*solver)->RadianceFromBelow(light, Mat3{})));
   const RgbImage picture = EvenPicture(77);
   ASSERT_TRUE((*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain}));
   // Half as large, a quarter turned and 0.4 m aside.

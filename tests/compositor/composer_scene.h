@@ -15,7 +15,7 @@
 #include "base/srgb.h"
 #include "compositor/composer.h"
 
-namespace pleinair::compositor::testing {
+namespace pleinair::compositor {
 
 inline constexpr double kSkyLux = 20000, kSunLux = 80000;
 
@@ -94,7 +94,8 @@ inline RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& p
   if (!composer) ADD_FAILURE() << composer.error().Message();
   (*composer)->LookForShade(look_for_shade);
   const SouthernSun light(sun_lux);
-  const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{});
+  const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
+                                         (*solver)->RadianceFromBelow(light, Mat3{}));
   if (!set) ADD_FAILURE() << set.error().Message();
   if (const auto looks = (*composer)->SetLook(look); !looks) {
     ADD_FAILURE() << looks.error().Message();
@@ -117,4 +118,4 @@ inline double SeenAt(const RgbImage& picture, Vec3 point, const CameraModel& cam
                                    static_cast<int>(std::lround(pixel.y)), 1)];
 }
 
-}  // namespace pleinair::compositor::testing
+}  // namespace pleinair::compositor

@@ -19,19 +19,6 @@
 namespace pleinair::compositor {
 namespace {
 
-using testing::Compose;
-using testing::EvenPicture;
-using testing::kCamera;
-using testing::kCube;
-using testing::kFromAbove;
-using testing::kGain;
-using testing::kGround;
-using testing::kSkyLux;
-using testing::kSunLux;
-using testing::MakeBox;
-using testing::Place;
-using testing::SeenAt;
-
 TEST(Composer, KeepsTheBytesThatNoVirtualThingTouches) {
   RgbImage noise(kCamera.width, kCamera.height, 3);
   std::mt19937 random(7);
@@ -111,8 +98,9 @@ TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
   const auto composer = Composer::Create(kCamera, {kGround, kCube}, {});
   ASSERT_TRUE(solver);
   ASSERT_TRUE(composer);
-  const testing::SouthernSun light;
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  const SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
+                                    (*solver)->RadianceFromBelow(light, Mat3{})));
   // On the ground the tree's shade ends north of the cube, where the cube's shadow falls: its west
   // half lies in shade.
   const Vec3 to_sun = light.ToSun().xyz;
@@ -236,12 +224,13 @@ TEST(Composer, DrawsShadowMapsOfTheSizesAskedFor) {
 
 TEST(Composer, DrawsAfterAChangeOfOptionsAsOneMadeWithThem) {
   const std::vector<PlacedModel> scene{kGround, kCube};
-  const testing::SouthernSun light;
+  const SouthernSun light;
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
   ASSERT_TRUE(solver.has_value());
   auto composer = Composer::Create(kCamera, scene, {});
   ASSERT_TRUE(composer.has_value());
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{}));
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
+                                    (*solver)->RadianceFromBelow(light, Mat3{})));
   const RgbImage picture = EvenPicture(200);
   // Maps stay as they are, are drawn finer because the picture is (1280 pixels wide), then coarser
   // as asked, by another method and by the first one again.

@@ -34,6 +34,8 @@ struct TriangleFile {
   std::string position_accessor =
       R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,0]})";
   std::string extra;
+  /// Of the material: what stands beside its roughness, and beside its name.
+  std::string coat, alpha, color_texture = R"({"index":0})";
 
   std::string Buffer() const {
     std::string buffer = Bytes(positions) + Bytes(uvs) + Bytes(indices);
@@ -44,9 +46,12 @@ struct TriangleFile {
   std::string Json(const std::string& buffer_uri) const {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + node +
            R"(],"meshes":[{"name":"leaf","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},)"
-           R"("indices":2,"material":0}]}],"materials":[{"name":"green","doubleSided":true,)"
-           R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],"metallicFactor":0,)"
-           R"("roughnessFactor":0.3,"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)"
+           R"("indices":2,"material":0}]}],"materials":[{"name":"green","doubleSided":true,)" +
+           alpha +
+           R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,0.75],"metallicFactor":1,)"
+           R"("roughnessFactor":0.3,)" +
+           coat + R"("baseColorTexture":)" + color_texture +
+           R"(}}],"textures":[{"source":0}],)"
            R"("images":[{"bufferView":3,"mimeType":"image/png"}],"accessors":[)" +
            position_accessor +
            R"(,{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"},)" + index_accessor +
@@ -106,6 +111,65 @@ TEST(GltfModel, ReadsGeometryMaterialAndTexture) {
   EXPECT_FLOAT_EQ(material.specular_f0, 0.04F);
   ASSERT_EQ(material.base_color_texture, 0);
   EXPECT_EQ(model->textures[0](0, 0, 1), 128);
+}
+
+TEST(GltfModel, ReadsWhatAlphaMeans) {
+  TriangleFile file;
+  const auto material = [&] { return file.Load()->materials[0]; };
+  EXPECT_EQ(material().alpha, Material::Alpha::kIgnored);
+  file.alpha = R"("alphaMode":"MASK","alphaCutoff":0.25,)";
+  EXPECT_EQ(material().alpha, Material::Alpha::kCutOut);
+  EXPECT_FLOAT_EQ(material().alpha_cutoff, 0.25F);
+  file.alpha = R"("alphaMode":"BLEND",)";
+  EXPECT_EQ(material().alpha, Material::Alpha::kBlended);
+  EXPECT_FLOAT_EQ(material().opacity, 0.75F);
+}
+
+TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
+  TriangleFile file;
+  file.coat = R"("metallicRoughnessTexture":{"index":0},)";
+  auto model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  const Material& material = model->materials[0];
+  // One picture, read as colour and as numbers.
+  ASSERT_EQ(model->textures.size(), 2U);
+  EXPECT_NE(material.metallic_roughness_texture, material.base_color_texture);
+  EXPECT_FLOAT_EQ(material.metallic, 1.0F);
+  EXPECT_FLOAT_EQ(material.roughness, 0.3F);
+  // With texture coordinates of its own, as its mean.
+  file.coat = R"("metallicRoughnessTexture":{"index":0,"texCoord":1},)";
+  model = file.Load();
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->materials[0].metallic_roughness_texture, -1);
+  EXPECT_FLOAT_EQ(model->materials[0].roughness, 0.3F * 128 / 255);
+}
+
+TEST(GltfModel, MovesTextureCoordinatesAsTheFileAsks) {
+  TriangleFile file;
+  file.extra = R"(,"extensionsUsed":["KHR_texture_transform"],)"
+               R"("extensionsRequired":["KHR_texture_transform"])";
+  file.color_texture = R"({"index":0,"extensions":{"KHR_texture_transform":{)"
+                       R"("offset":[0.5,1],"scale":[2,3],"rotation":1.5707963267948966}}})";
+  const auto model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  const Mesh& mesh = model->meshes[0];
+  // As the extension's text and example have it, a quarter turn takes (u, v) to (v, −u); the matrix
+  // printed there turns the other way.
+  EXPECT_NEAR(mesh.uvs[mesh.indices[1]][0], 0.5, 1e-6);
+  EXPECT_NEAR(mesh.uvs[mesh.indices[1]][1], 1.0 - 2.0, 1e-6);
+  EXPECT_NEAR(mesh.uvs[mesh.indices[2]][0], 0.5 + 3.0, 1e-6);
+  EXPECT_NEAR(mesh.uvs[mesh.indices[2]][1], 1.0, 1e-6);
+}
+
+TEST(GltfModel, RefusesToMoveTextureCoordinatesOutOfTheWorld) {
+  TriangleFile file;
+  file.extra = R"(,"extensionsUsed":["KHR_texture_transform"])";
+  file.color_texture = R"({"index":0,"extensions":{"KHR_texture_transform":{)"
+                       R"("scale":[1e308,1e308],"rotation":0.5}}})";
+  const auto model = file.Load();
+  ASSERT_FALSE(model);
+  EXPECT_NE(model.error().Message().find("KHR_texture_transform"), std::string::npos)
+      << model.error().Message();
 }
 
 TEST(GltfModel, ReadsTheBinaryForm) {

@@ -50,6 +50,10 @@ class HalfShadow : public LightSolver {
                                              std::uint32_t) const override {
     return std::vector<LinearRgb>(points.size(), {kAmbientLux, kAmbientLux, kAmbientLux});
   }
+  LinearRgb RadianceFromBelow(const sky::SkyModel&, const Mat3&,
+                              const SeenSunlight&) const override {
+    return {};
+  }
 
  private:
   double shadow_to_x_m_;

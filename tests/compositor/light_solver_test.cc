@@ -222,6 +222,18 @@ TEST(LightSolver, TintsTheGroundBesideASunlitRedWall) {
   EXPECT_NEAR(near.without[0], near.without[1], 1e-3F * near.without[1]);
 }
 
+TEST(LightSolver, LetsAMetalSendAsMuchLightBackAsAMattThingOfItsColour) {
+  const auto beside = [](float metallic) {
+    auto box = BoxModel({-0.1, -1.0, 0.0}, {0.0, 1.0, 1.0}, {0.9F, 0.6F, 0.3F});
+    box->materials[0].metallic = metallic;
+    const auto meshes = MakeSolver({Phantom(Ground(4.0, {0.3F, 0.3F, 0.3F})), Object(box)})
+                            ->Solve(UniformDay({1e3, 1e3, 1e3}), Mat3{});
+    return Nearest(meshes, {0.1, 0.0, 0.0}, kUp).with;
+  };
+  EXPECT_EQ(beside(1.0F), beside(0.0F));
+  EXPECT_GT(beside(1.0F)[0], 1.1F * beside(1.0F)[2]);
+}
+
 TEST(LightSolver, WarmsTheSunsSideOfABodyAtDawnAndLeavesTheOtherBlue) {
   // Grey all over, under the clear sky that scenes get, the sun 4 degrees high in the east.
   const auto sky = sky::CreateDaylight({sky::SkyCondition::kClear, 0.0});

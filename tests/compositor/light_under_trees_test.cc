@@ -1,6 +1,8 @@
 // What surfaces reflect where trees that no phantom stands for keep a part of the sun from them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "compositor/light_solver.h"
@@ -46,6 +48,27 @@ TEST(LightUnderTrees, SendsBackFromTheGroundTheSunThatTreesLeaveIt) {
   const float land = on_side(0.0);
   EXPECT_LT(land, 0.15F * open);
   EXPECT_NEAR(on_side(0.5), 0.5 * (open + land), 0.03 * open);  // Rays' noise.
+}
+
+TEST(LightUnderTrees, IsEvenBetweenSpotsThatLieFarApart) {
+  // Grazed ground shows fewer spots along the line of sight than the map has cells: the sun that
+  // grows across them grows between them, too.
+  const auto share = [](Vec3 at) { return 0.5 + 0.4 * at.y; };
+  std::vector<SunlitSpot> spots;
+  for (int i = 0; i < 100; ++i) {
+    for (int j = 0; j <= 25; ++j) {
+      const Vec3 at{-1.0 + 0.02 * i, -1.0 + 0.08 * j, 0.0};
+      spots.push_back({at, share(at), 0.01});
+    }
+  }
+  const SeenSunlight map = MapSeenSunlight({0, 0, 1}, spots);
+  ASSERT_NEAR(map.cell_m, 0.02, 1e-9);
+  double farthest = 0.0;
+  for (int i = 0; i < 140; ++i) {
+    const Vec3 at{0.013, -0.7 + 0.01 * i, 0.0};
+    farthest = std::max(farthest, std::fabs(map.At(at) - share(at)));
+  }
+  EXPECT_LT(farthest, 0.02);  // Of 0.032 from one row of spots to the next.
 }
 
 }  // namespace

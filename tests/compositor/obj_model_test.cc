@@ -92,7 +92,7 @@ TEST(ObjModel, GroupsFacesByNameAndMaterial) {
   const TemporaryFolder folder;
   folder.Write("two.mtl",
                "newmtl red brick\nKd 0.5 0.1 0.05\nillum 1\nKs 1 1 1\nd 0.5\nTr 0.5\n"
-               "newmtl coat\nKd 0.2\nKs 0.04 0.04 0.04\nNs 98\nillum 2\nPm 0.25\n");
+               "newmtl coat\nKd 0.2\nd 0\nKs 0.04 0.04 0.04\nNs 98\nillum 2\nPm 0.25\n");
   const auto file = folder.Write(
       "model.obj",
       std::string("mtllib two.mtl\no wall\n") + kSquare +
@@ -106,10 +106,13 @@ TEST(ObjModel, GroupsFacesByNameAndMaterial) {
   EXPECT_EQ(brick.name, "red brick");
   EXPECT_EQ(brick.base_color, (std::array<float, 3>{0.5F, 0.1F, 0.05F})) << "Kd is linear";
   EXPECT_EQ(brick.specular_f0, 0.0F) << "illum 1 has no highlight";
+  EXPECT_EQ(brick.alpha, Material::Alpha::kBlended);
+  EXPECT_EQ(brick.opacity, 0.5F);
   const Material& coat = model->materials[model->meshes[1].material];
   EXPECT_NEAR(coat.specular_f0, 0.04F, 1e-6F);
   EXPECT_NEAR(coat.roughness, std::pow(0.02, 0.25), 1e-5);
   EXPECT_EQ(coat.metallic, 0.25F);
+  EXPECT_EQ(coat.opacity, 1.0F) << "d taken for Tr";
   EXPECT_EQ(coat.base_color, (std::array<float, 3>{0.2F, 0.2F, 0.2F}));
 }
 

@@ -18,6 +18,7 @@ using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 #include "compositor/shaders/differential.glsl"
 #include "compositor/shaders/plane_hit.glsl"
 #include "compositor/shaders/srgb_transfer.glsl"
+#include "compositor/shaders/texel_code.glsl"
 #include "compositor/shaders/triangle_layout.glsl"
 }  // namespace glsl
 
@@ -141,6 +142,19 @@ TEST(DifferentialRatio, NeverDarkensARealShadowTwiceNorLightensIt) {
   EXPECT_EQ(glsl::DifferentialRatio(ambient, ambient, sun, 0.0F, 0.0F), glm::vec3(1.0F));
   // A shadow map's rounding may claim more sun with the objects than without.
   EXPECT_EQ(glsl::DifferentialRatio(ambient, ambient, sun, 1.0F, 0.3F), glm::vec3(1.0F));
+}
+
+TEST(TexelCode, KeepsRoughnessAndMetallicApart) {
+  for (int i = 0; i <= 127; ++i) {
+    for (int k = 0; k <= 15; ++k) {
+      const float roughness = static_cast<float>(i) / 127.0F, metallic = static_cast<float>(k) / 15;
+      const float code = glsl::CodeOfCoat(roughness, metallic);
+      // Integers up to this are exact in 16 bits.
+      EXPECT_LT(code, 2048.0F);
+      EXPECT_NEAR(glsl::CoatOfCode(code).x, roughness, 1e-6);
+      EXPECT_NEAR(glsl::CoatOfCode(code).y, metallic, 1e-6);
+    }
+  }
 }
 
 TEST(TriangleLayout, IsReadAsItIsWritten) {

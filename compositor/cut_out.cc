@@ -1,0 +1,260 @@
+#include "compositor/cut_out.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr int kMostHalvings = 6;
+constexpr double kFinest_texels = 2.0;
+// Coordinates beyond this many repetitions of a texture have lost their texels to rounding.
+constexpr double kMostRepetitions = 4096.0;
+// What a triangle's box is asked for: so many cells of a level at most, along each axis.
+constexpr int kMostCells = 4;
+
+/// The least and the most alpha in the cells of a texture, each level's twice as wide.
+class AlphaLevels {
+ public:
+  explicit AlphaLevels(const Image<std::uint8_t>& texture)
+      : width_(texture.width()), height_(texture.height()) {
+    Level level(width_, height_);
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        level.Include(x, y, {texture(x, y, 3), texture(x, y, 3)});
+      }
+    }
+    levels_.push_back(std::move(level));
+    while (levels_.back().width > 1 || levels_.back().height > 1) {
+      const Level& fine = levels_.back();
+      Level coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
+      for (int y = 0; y < fine.height; ++y) {
+        for (int x = 0; x < fine.width; ++x) coarse.Include(x / 2, y / 2, fine.At(x, y));
+      }
+      levels_.push_back(std::move(coarse));
+    }
+  }
+
+  struct Range {
+    std::uint8_t least = 255, most = 0;
+    void Include(Range other) {
+      least = std::min(least, other.least);
+      most = std::max(most, other.most);
+    }
+  };
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// All of it.
+  Range Whole() const { return levels_.back().At(0, 0); }
+
+  /// Of a box of texels, both ends included, the texture repeated.
+  Range Of(std::array<std::int64_t, 2> low, std::array<std::int64_t, 2> high) const {
+    Range range;
+    for (const auto& [x0, x1] : Wrapped(low[0], high[0], width_)) {
+      for (const auto& [y0, y1] : Wrapped(low[1], high[1], height_)) {
+        std::size_t l = 0;
+        while (std::max(x1 - x0, y1 - y0) >> l >= kMostCells && l + 1 < levels_.size()) ++l;
+        for (int y = y0 >> l; y <= y1 >> l; ++y) {
+          for (int x = x0 >> l; x <= x1 >> l; ++x) range.Include(levels_[l].At(x, y));
+        }
+      }
+    }
+    return range;
+  }
+
+ private:
+  struct Level {
+    Level(int w, int h) : width(w), height(h), ranges(static_cast<std::size_t>(w) * h) {}
+    Range At(int x, int y) const { return ranges[static_cast<std::size_t>(y) * width + x]; }
+    void Include(int x, int y, Range range) {
+      ranges[static_cast<std::size_t>(y) * width + x].Include(range);
+    }
+    int width, height;
+    std::vector<Range> ranges;
+  };
+
+  /// An interval of texels on a texture that repeats, as intervals of its own texels.
+  static std::vector<std::pair<int, int>> Wrapped(std::int64_t low, std::int64_t high, int size) {
+    if (high - low >= size) return {{0, size - 1}};
+    const auto first = static_cast<int>((low % size + size) % size);
+    const int last = first + static_cast<int>(high - low);
+    if (last < size) return {{first, last}};
+    return {{first, size - 1}, {0, last - size}};
+  }
+
+  int width_, height_;
+  std::vector<Level> levels_;
+};
+
+struct Piece {
+  std::array<std::uint32_t, 3> corners{};
+  int halvings = 0;
+  double size_texels = 0.0;
+  bool operator<(const Piece& other) const { return size_texels < other.size_texels; }
+};
+
+/// Divides the triangles of one mesh.
+class Cutter {
+ public:
+  Cutter(const Material& material, const AlphaLevels& alpha, Mesh* mesh)
+      : cutoff_(255.0 * material.alpha_cutoff),
+        opacity_(material.opacity),
+        alpha_(alpha),
+        mesh_(*mesh) {}
+
+  void Cut(std::size_t most_triangles) {
+    for (std::size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
+      Sort({{mesh_.indices[i], mesh_.indices[i + 1], mesh_.indices[i + 2]}, 0, 0.0});
+    }
+    while (!pieces_.empty() && pieces_.size() + whole_.size() / 3 + 3 <= most_triangles) {
+      const Piece piece = pieces_.top();
+      pieces_.pop();
+      const auto [a, b, c] = piece.corners;
+      const std::uint32_t ab = Middle(a, b), bc = Middle(b, c), ca = Middle(c, a);
+      const std::array<std::array<std::uint32_t, 3>, 4> parts{
+          {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}};
+      for (const auto& part : parts) Sort({part, piece.halvings + 1, 0.0});
+    }
+    for (; !pieces_.empty(); pieces_.pop()) Keep(pieces_.top());
+    mesh_.indices = std::move(whole_);
+  }
+
+ private:
+  void Keep(const Piece& piece) {
+    whole_.insert(whole_.end(), piece.corners.begin(), piece.corners.end());
+  }
+
+  /// Keeps what has no hole, drops what is one, and leaves the rest to be divided.
+  void Sort(Piece piece) {
+    std::array<double, 2> low{1e300, 1e300}, high{-1e300, -1e300};
+    const std::array<int, 2> size{alpha_.width(), alpha_.height()};
+    for (const std::uint32_t corner : piece.corners) {
+      for (int k = 0; k < 2; ++k) {
+        // Texels' middles lie at halves.
+        const double at = static_cast<double>(mesh_.uvs[corner][k]) * size[k] - 0.5;
+        low[k] = std::min(low[k], at);
+        high[k] = std::max(high[k], at);
+      }
+    }
+    for (const std::uint32_t corner : piece.corners) {
+      for (const float coordinate : mesh_.uvs[corner]) {
+        if (!std::isfinite(coordinate)) return Keep(piece);
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      if (!(low[k] > -kMostRepetitions * size[k] && high[k] < kMostRepetitions * size[k])) {
+        return Keep(piece);
+      }
+    }
+    // Between texels alpha is interpolated.
+    const auto floor_of = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
+    const AlphaLevels::Range range = alpha_.Of({floor_of(low[0]), floor_of(low[1])},
+                                               {floor_of(high[0]) + 1, floor_of(high[1]) + 1});
+    if (opacity_ * range.most < cutoff_) return;
+    piece.size_texels = std::max(high[0] - low[0], high[1] - low[1]);
+    if (opacity_ * range.least >= cutoff_ || piece.halvings == kMostHalvings ||
+        piece.size_texels < kFinest_texels) {
+      return Keep(piece);
+    }
+    pieces_.push(piece);
+  }
+
+  /// The vertex halfway between two; the same for the triangles on either side of an edge.
+  std::uint32_t Middle(std::uint32_t a, std::uint32_t b) {
+    const auto [found, is_new] =
+        middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh_.positions.size()));
+    if (!is_new) return found->second;
+    std::array<float, 3> position{}, normal{};
+    float norm = 0.0F;
+    for (int k = 0; k < 3; ++k) {
+      position[k] = 0.5F * (mesh_.positions[a][k] + mesh_.positions[b][k]);
+      normal[k] = mesh_.normals[a][k] + mesh_.normals[b][k];
+      norm += normal[k] * normal[k];
+    }
+    if (norm > 0.0F) {
+      for (float& value : normal) value /= std::sqrt(norm);
+    } else {
+      normal = mesh_.normals[a];
+    }
+    const std::array<float, 2> uv{0.5F * (mesh_.uvs[a][0] + mesh_.uvs[b][0]),
+                                  0.5F * (mesh_.uvs[a][1] + mesh_.uvs[b][1])};
+    mesh_.positions.push_back(position);
+    mesh_.normals.push_back(normal);
+    mesh_.uvs.push_back(uv);
+    return found->second;
+  }
+
+  double cutoff_, opacity_;
+  const AlphaLevels& alpha_;
+  Mesh& mesh_;
+  std::priority_queue<Piece> pieces_;
+  std::vector<std::uint32_t> whole_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
+};
+
+/// Drops vertices that no triangle has.
+void DropUnused(Mesh* mesh) {
+  constexpr std::uint32_t kUnused = ~0U;
+  std::vector<std::uint32_t> moved(mesh->positions.size(), kUnused);
+  for (const std::uint32_t index : mesh->indices) moved[index] = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < moved.size(); ++i) {
+    if (moved[i] == kUnused) continue;
+    mesh->positions[count] = mesh->positions[i];
+    mesh->normals[count] = mesh->normals[i];
+    mesh->uvs[count] = mesh->uvs[i];
+    moved[i] = count++;
+  }
+  mesh->positions.resize(count);
+  mesh->normals.resize(count);
+  mesh->uvs.resize(count);
+  for (std::uint32_t& index : mesh->indices) index = moved[index];
+}
+
+/// No alpha of a texture makes more of a surface than its material's own.
+bool IsWhollyCutOut(const Material& material) {
+  return material.alpha == Material::Alpha::kCutOut && material.opacity < material.alpha_cutoff;
+}
+
+/// The texture that may cut holes into a mesh, or -1.
+int HolesOf(const Model& model, const Mesh& mesh) {
+  const Material& material = model.materials[static_cast<std::size_t>(mesh.material)];
+  const int texture = material.base_color_texture;
+  if (material.alpha != Material::Alpha::kCutOut || texture < 0 || mesh.uvs.empty()) return -1;
+  return model.textures[static_cast<std::size_t>(texture)].channels() == 4 ? texture : -1;
+}
+
+}  // namespace
+
+void CutHoles(Model* model, std::size_t most_added) {
+  std::map<int, AlphaLevels> levels;
+  for (Mesh& mesh : model->meshes) {
+    if (IsWhollyCutOut(model->materials[static_cast<std::size_t>(mesh.material)])) {
+      mesh.indices.clear();
+    }
+    const int texture = HolesOf(*model, mesh);
+    if (texture < 0) continue;
+    const auto& picture = model->textures[static_cast<std::size_t>(texture)];
+    const AlphaLevels& alpha = levels.try_emplace(texture, picture).first->second;
+    const Material& material = model->materials[static_cast<std::size_t>(mesh.material)];
+    if (material.opacity * static_cast<float>(alpha.Whole().least) >=
+        255.0F * material.alpha_cutoff) {
+      continue;
+    }
+    const std::size_t before = mesh.indices.size() / 3;
+    Cutter(material, alpha, &mesh).Cut(before + most_added);
+    DropUnused(&mesh);
+    const std::size_t after = mesh.indices.size() / 3;
+    most_added -= std::min(most_added, after > before ? after - before : 0);
+  }
+  std::erase_if(model->meshes, [](const Mesh& mesh) { return mesh.indices.empty(); });
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,30 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include "base/vector.h"
+
+namespace tinygltf {
+class Node;
+}
+
+namespace pleinair::compositor {
+
+/// Affine map of a node: metres, its parent from its own coordinates.
+struct GltfPlacement {
+  Mat3 linear;
+  Vec3 translation_m;
+  GltfPlacement operator*(const GltfPlacement& inner) const {
+    return {linear * inner.linear, linear * inner.translation_m + translation_m};
+  }
+};
+
+/// glTF's y-up, −z-forward axes to ours: z up.
+inline constexpr GltfPlacement kUpright{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {}};
+
+/// What a node's matrix, or its rotation, scale and translation, say (glTF 2.0, section 3.5.2).
+GltfPlacement PlacementOf(const tinygltf::Node& node);
+
+bool IsFinite(const GltfPlacement& placement);
+
+}  // namespace pleinair::compositor

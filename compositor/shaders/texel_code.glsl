@@ -1,0 +1,19 @@
+#ifndef COMPOSITOR_TEXEL_CODE_GLSL
+#define COMPOSITOR_TEXEL_CODE_GLSL
+// Roughness and metallic in one number of 16-bit floating point, whose integers are exact to 2048.
+// Numbers alone; compiled as C++ too (gl/glsl_as_cpp.h, tests/compositor/shader_twins_test.cc).
+
+const float kRoughnessSteps = 127.0f, kMetallicSteps = 15.0f;
+
+float CodeOfCoat(float roughness, float metallic) {
+  return floor(roughness * kRoughnessSteps + 0.5f) * (kMetallicSteps + 1.0f) +
+         floor(metallic * kMetallicSteps + 0.5f);
+}
+// Of a code, roughness and metallic.
+vec2 CoatOfCode(float code) {
+  float roughness = floor(code / (kMetallicSteps + 1.0f));
+  return vec2(roughness / kRoughnessSteps,
+              (code - roughness * (kMetallicSteps + 1.0f)) / kMetallicSteps);
+}
+
+#endif
