@@ -30,7 +30,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  pleinair board -o board.pdf\n"
     "      4 x 5 markers of 36 mm on A4, and board.json, which says where each corner lies\n"
-    "  pleinair board --columns 6 --rows 4 --first 100 --size-mm 50 --page A3-landscape -o "
+    "  pleinair board --columns 6 --rows 4 --first 100 --size-mm 50 --page A2-landscape -o "
     "big.svg\n"
     "  pleinair board --chessboard 9x6 -o chess.pdf\n"
     "      9 x 6 inner corners, squares as large as the page takes\n"
@@ -154,6 +154,10 @@ Result<Printed> PrintSquares(const Options& options, PageSize page) {
 }
 
 Result<void> Run(const Options& options) {
+  PLEINAIR_RETURN_IF_ERROR(CheckLength("--size-mm", options.board.size_mm));
+  PLEINAIR_RETURN_IF_ERROR(CheckLength("--gap-mm", options.gap_mm.value_or(0.0)));
+  PLEINAIR_RETURN_IF_ERROR(CheckLength("--square-mm", options.square_mm.value_or(0.0)));
+  PLEINAIR_RETURN_IF_ERROR(CheckLength("--marker-mm", options.marker_mm.value_or(0.0)));
   if (options.output.empty()) {
     return InputError("--output", "the name is empty", "name a file, for example board.pdf");
   }

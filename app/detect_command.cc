@@ -1,6 +1,6 @@
 #include "app/detect_command.h"
 
-#include <charconv>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -12,6 +12,7 @@
 
 #include "app/command.h"
 #include "app/marker_numbers.h"
+#include "app/option_use.h"
 #include "app/pose_json.h"
 #include "devices/calibration.h"
 #include "devices/picture_file.h"
@@ -62,6 +63,13 @@ Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
                     "use the calibration of this camera at this resolution");
 }
 
+/// Options that say how S-G markers are found, where none are looked for.
+Result<void> CheckUseOfOptions(const CLI::App& command, const DetectArguments& arguments) {
+  const bool sg = arguments.size_mm != 0.0 && std::ranges::count(arguments.families, "sg") > 0;
+  return RefuseUnusedOptions(command,
+                             {{"--strategy", sg, "S-G markers"}, {"--numbers", sg, "S-G markers"}});
+}
+
 }  // namespace
 
 Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
@@ -70,6 +78,11 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
   if (!only_targets && (!(arguments.size_mm > 0.0) || !std::isfinite(arguments.size_mm))) {
     return InputError("--size-mm", "the marker's size must be positive",
                       "give the edge of its outer black square in millimetres with --size-mm");
+  }
+  if (!only_targets && (arguments.size_mm < tracker::kSmallestMarker_m * 1e3 ||
+                        arguments.size_mm > tracker::kLargestMarker_m * 1e3)) {
+    return InputError("--size-mm", "the marker would be smaller than 0.1 mm or larger than 1 km",
+                      "give the edge of its outer black square in millimetres");
   }
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::SgStrategy strategy, StrategyOf(arguments.strategy));
   PLEINAIR_ASSIGN_OR_RETURN(std::vector<int> numbers, MarkerNumbersOf(arguments.numbers));
@@ -143,7 +156,10 @@ void AddDetectCommand(CLI::App& app, CommandResult& result) {
       ->needs(size);
   // What `detect` prints is JSON in any case; the flag is there for scripts that pass it always.
   command->add_flag("--json")->description("One JSON object a line (the only form)");
-  command->callback([arguments, &result] { result.status = RunDetect(*arguments, std::cout); });
+  command->callback([command, arguments, &result] {
+    result.status = CheckUseOfOptions(*command, *arguments);
+    if (result.status) result.status = RunDetect(*arguments, std::cout);
+  });
 }
 
 }  // namespace pleinair::app

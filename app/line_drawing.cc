@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/markup.h"
 #include "app/sinks/picture_writer.h"
 
 namespace pleinair::app {
@@ -25,14 +26,6 @@ std::string Number(double value) {
 }
 
 std::string Hex(DrawingColour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
-
-std::string EscapeXml(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return escaped;
-}
 
 /// The parts of a line that dashes cover.
 std::vector<std::vector<Vec2>> CutDashes(const std::vector<Vec2>& points) {
@@ -126,7 +119,7 @@ std::string DrawingSvg(const LineDrawing& drawing, int width_px) {
       "viewBox=\"0 0 {} {}\">\n<title>{}</title>\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"#fff\"/>\n<g fill=\"none\" stroke-linejoin=\"round\">\n",
       width_px, Number(height_px), Number(drawing.width), Number(drawing.height),
-      EscapeXml(drawing.title));
+      EscapeMarkup(drawing.title));
   auto out = std::back_inserter(svg);
   for (const DrawingLine& line : drawing.lines) {
     if (line.points.size() < 2) continue;
@@ -156,7 +149,7 @@ std::string DrawingSvg(const LineDrawing& drawing, int width_px) {
     fmt::format_to(out,
                    "<text {0} stroke=\"#fff\" stroke-width=\"{1}\" stroke-linejoin=\"round\">{2}"
                    "</text><text {0} fill=\"{3}\">{2}</text>\n",
-                   place, Number(kHalo * text.size), EscapeXml(text.text), Hex(text.colour));
+                   place, Number(kHalo * text.size), EscapeMarkup(text.text), Hex(text.colour));
   }
   return svg + "</g>\n</svg>\n";
 }

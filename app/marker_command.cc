@@ -35,7 +35,7 @@ constexpr const char* kExamples =
     "  pleinair marker 0-9 --size-mm 90 -o ten.pdf\n"
     "      one file with ten pages\n"
     "  pleinair marker 17 --size-mm 200 --page A3 -o marker.svg\n"
-    "  pleinair marker 0-49 --png --pixels 960 -o 'prints/{id}.png' --json\n"
+    "  pleinair marker 0-49 --png --pixels 960 -o 'print-{id}.png' --json\n"
     "      the bare prints with their white margin, and where in each the black square lies\n"
     "The size is the outer edge of the black square, not of the paper.\n";
 
@@ -159,6 +159,7 @@ bool GivesOneName(const std::string& output) {
 
 Result<void> Run(const Options& options) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<int> numbers, ParseMarkerNumbers(options.ids));
+  PLEINAIR_RETURN_IF_ERROR(CheckLength("--size-mm", options.size_mm));
   if (options.output.empty()) {
     return InputError("--output", "the name is empty", "name a file, for example marker.pdf");
   }

@@ -22,7 +22,9 @@ ProgressBar::ProgressBar(std::string label, std::optional<std::int64_t> total, s
       unit_(std::move(unit)),
       is_drawn_(alive++ == 0 && isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
-      last_drawn_(start_) {}
+      last_drawn_(start_) {
+  if (is_drawn_) Draw(0.0);
+}
 
 ProgressBar::~ProgressBar() {
   --alive;
@@ -34,7 +36,10 @@ void ProgressBar::Advance() {
   const auto now = Clock::now();
   if (!is_drawn_ || now - last_drawn_ < kRedraw) return;
   last_drawn_ = now;
-  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  Draw(std::chrono::duration<double>(now - start_).count());
+}
+
+void ProgressBar::Draw(double elapsed_s) const {
   std::cerr << "\r\033[K" << Line(label_, done_, total_, elapsed_s, unit_) << std::flush;
 }
 

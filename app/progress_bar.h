@@ -7,8 +7,8 @@
 
 namespace pleinair::app {
 
-/// A bar on standard error, drawn only on a terminal and at most ten times a second; its line is
-/// wiped when it goes. Of several that live at once only the first is drawn.
+/// A bar on standard error, drawn only on a terminal, empty at first and then at most ten times a
+/// second; its line is wiped when it goes. Of several that live at once only the first is drawn.
 class ProgressBar {
  public:
   /// `unit`: what is counted, in the plural.
@@ -25,6 +25,8 @@ class ProgressBar {
                           const std::string& unit = "frames");
 
  private:
+  void Draw(double elapsed_s) const;
+
   using Clock = std::chrono::steady_clock;
   std::string label_;
   std::optional<std::int64_t> total_;

@@ -98,6 +98,7 @@ class Replayer {
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
     PLEINAIR_RETURN_IF_ERROR(LookAtLight());
+    TraceLight();
     PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
     PLEINAIR_RETURN_IF_ERROR(ComposeFrames(std::move(recording.frames)));
     PLEINAIR_RETURN_IF_ERROR(DrawDay());
@@ -172,6 +173,12 @@ class Replayer {
       return 0;
     });
     return {};
+  }
+
+  /// Before frames are composed, so that it has a bar of its own.
+  void TraceLight() {
+    if (options_.light_cache.empty() || report_.path.empty() || scene_.objects.empty()) return;
+    times_.Measure("trace light", [&] { return renderer_->Coefficients() != nullptr; });
   }
 
   void Resize(devices::Frame& frame) {
@@ -307,13 +314,14 @@ class Replayer {
   }
 
   Result<void> WriteReports() {
-    if (report_.light && report_.light->gain_is_guessed) {
-      report_.warnings.emplace_back(
-          "The marker could not be read as a light meter in any frame: the camera's gain is a "
-          "guess. Set it in the scene if the brightness is wrong.");
+    if (renderer_->FailedToKeepLight()) {
+      report_.warnings.push_back(
+          fmt::format("The daylight coefficients could not be written to {}: the next replay will "
+                      "trace them again.",
+                      options_.light_cache.string()));
     }
     if (report_.light) {
-      for (std::string& sentence : LightWarnings(report_.light->measured)) {
+      for (std::string& sentence : LightWarnings(*report_.light)) {
         report_.warnings.push_back(std::move(sentence));
       }
     }
@@ -342,6 +350,13 @@ class Replayer {
   ReplayReport report_;
 };
 
+/// Daylight coefficients are kept in a folder.
+Result<void> CheckLightCache(const fs::path& cache) {
+  std::error_code error;
+  if (cache.empty() || fs::is_directory(cache, error) || !fs::exists(cache, error)) return {};
+  return InputError(cache.string(), "is no folder", "name one for --light-cache, or a new name");
+}
+
 /// Outputs must not replace what is being read.
 Result<void> CheckOutputIsApart(const ReplayOptions& options) {
   std::error_code error;
@@ -361,6 +376,7 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   if (!fs::exists(options.recording, error)) {
     return InputError(options.recording.string(), "does not exist", "check the name");
   }
+  PLEINAIR_RETURN_IF_ERROR(CheckLightCache(options.light_cache));
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.output));
   return Replayer(options, std::move(folder)).Run();

@@ -13,6 +13,10 @@ constexpr std::size_t kMostKinds = 8;
 // Sun over sky on level ground below which nobody speaks of a sun.
 constexpr double kNoticeableSun = 0.1;
 constexpr double kNoticeableTurnDeg = 1.0;
+// Where exposure is locked the gain stays within some hundredths.
+constexpr double kNoticeableGainChange = 1.3;
+// Civil dusk has ended: nobody films by this light.
+constexpr double kNightDeg = -6.0;
 
 /// The scene's marker in words: "sg_17", "tag36h11", "number 5", "no family or number named".
 std::string Described(const devices::MarkerDescription& marker) {
@@ -90,8 +94,28 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Sessio
   return warnings;
 }
 
-std::vector<std::string> LightWarnings(const MeasuredLight& light) {
+std::vector<std::string> LightWarnings(const LightSummary& summary) {
+  const MeasuredLight& light = summary.measured;
   std::vector<std::string> warnings;
+  if (summary.gain_is_guessed) {
+    warnings.emplace_back(
+        "The marker could not be read as a light meter in any frame: the camera's gain is a guess. "
+        "Set it in the scene if the brightness is wrong.");
+  }
+  if (summary.gain_change > kNoticeableGainChange) {
+    warnings.push_back(fmt::format(
+        "The marker's brightness changed by a factor of {:.1f}. That is taken for the camera's "
+        "exposure, sun and sky for the same throughout: if a cloud passed, shadows are too deep or "
+        "too faint before or after it. Replay the parts one by one, or lock the exposure.",
+        summary.gain_change));
+  }
+  const double elevation_deg = ToDegrees(summary.sun.elevation);
+  if (elevation_deg < kNightDeg) {
+    warnings.push_back(fmt::format(
+        "At the scene's time it is night there: the sun stands {:.1f} degrees below the horizon. "
+        "Check place, time and the time's offset from UTC.",
+        -elevation_deg));
+  }
   const bool measured = light.sun_source == MeasuredLight::Source::kMeasured;
   if (measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun) {
     warnings.push_back(fmt::format(

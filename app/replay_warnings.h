@@ -31,7 +31,8 @@ class FrameWarnings {
 std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Session& session,
                                         const devices::SceneDescription& scene);
 
-/// Where the light that was measured is far from what the scene says.
-std::vector<std::string> LightWarnings(const MeasuredLight& light);
+/// Where the light that was measured is far from what the scene says, cannot be what the frames
+/// show, or was not measured.
+std::vector<std::string> LightWarnings(const LightSummary& summary);
 
 }  // namespace pleinair::app

@@ -42,10 +42,12 @@ SceneLight::SceneLight(const LightOrder& light_order)
       model(order.skies.source->ForSun(sun.ToSun(), sun.distance_au)),
       daylight(*model, order.skies.scale, {1.0, 1.0, 1.0}),
       meshes(LightAmongSurfaces(order, daylight, marker_from_world)) {
-  const auto& sunlight = order.skies.sunlight;
+  auto& sunlight = order.skies.sunlight;
   if (sunlight && !sunlight->HoldsFor(marker_from_world * model->ToSun().xyz)) {
-    order.skies.sunlight.reset();  // At another hour trees shade other places.
+    sunlight.reset();  // At another hour trees shade other places.
   }
+  from_below = order.solver->RadianceFromBelow(daylight, marker_from_world,
+                                               sunlight ? *sunlight : compositor::SeenSunlight{});
   if (order.print.size_m <= 0.0) return;
   meter.emplace(order.print, *order.solver, daylight, marker_from_world, order.response);
 }

@@ -60,6 +60,7 @@ struct SceneLight {
   std::shared_ptr<const sky::SkyModel> model;
   compositor::ScaledDaylight daylight;
   std::vector<compositor::LitMesh> meshes;
+  LinearRgb from_below;                         ///< LightSolver::RadianceFromBelow().
   std::optional<compositor::LightMeter> meter;  ///< Where the order knows a print.
   std::vector<ObjectPlace> objects;  ///< Where they stood; empty: as the scene describes them.
 };

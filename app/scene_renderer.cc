@@ -190,7 +190,8 @@ Result<void> SceneRenderer::TakeLight(std::shared_ptr<const SceneLight> light) {
   guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
   composer_->LookForShade(light->order.skies.other_shade);
   PLEINAIR_RETURN_IF_ERROR(composer_->SetSunlight(light->order.skies.sunlight));
-  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(light->meshes, daylight, marker_from_world));
+  PLEINAIR_RETURN_IF_ERROR(
+      composer_->SetLight(light->meshes, daylight, marker_from_world, light->from_below));
   meter_ = light->meter;
   solver_ = light->order.solver;
   lit_ = std::move(light);
@@ -280,6 +281,16 @@ void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
   summary_.gain = {MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.r; }),
                    MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.g; }),
                    MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.b; })};
+  const LinearRgb& gain = summary_.gain;
+  // A median of a few readings may still be that of a single bad one.
+  if (recent_gains_.size() < kGainWindow || !(std::min({gain.r, gain.g, gain.b}) > 0.0)) return;
+  if (!(most_gain_.r > 0.0)) least_gain_ = most_gain_ = gain;
+  least_gain_ = {std::min(least_gain_.r, gain.r), std::min(least_gain_.g, gain.g),
+                 std::min(least_gain_.b, gain.b)};
+  most_gain_ = {std::max(most_gain_.r, gain.r), std::max(most_gain_.g, gain.g),
+                std::max(most_gain_.b, gain.b)};
+  const LinearRgb change = most_gain_ / least_gain_;
+  summary_.gain_change = std::max({change.r, change.g, change.b});
 }
 
 Result<void> SceneRenderer::UpdateLook(ImageView<const std::uint8_t> rgb,

@@ -39,8 +39,10 @@ struct LightSummary {
   sky::SunPosition sun;
   double sun_normal_lux = 0.0;
   double sky_horizontal_lux = 0.0;
-  LinearRgb gain;                ///< Display-linear value per cd/m².
-  double gain_spread = 0.0;      ///< Relative; of the last frame that the marker could be read in.
+  LinearRgb gain;            ///< Display-linear value per cd/m².
+  double gain_spread = 0.0;  ///< Relative; of the last frame that the marker could be read in.
+  /// How much the brightest gain in use is above the darkest, of the channel that changed most.
+  double gain_change = 1.0;
   int readings = 0;              ///< Frames in which the marker served as a light meter.
   bool gain_is_guessed = false;  ///< No frame could be read and the scene gives no gain.
   /// Blur and grain of the last frames; nothing where they are not matched or cannot be read.
@@ -71,6 +73,8 @@ class SceneRenderer {
   /// From now on the light among surfaces comes from daylight coefficients that are kept in a
   /// folder: slow once, then some milliseconds for any moment. Shows a bar while it computes.
   void KeepLightIn(const std::filesystem::path& folder) { light_cache_ = folder; }
+  /// Whether coefficients were computed for that folder which could not be written there.
+  bool FailedToKeepLight() const { return coefficients_ && !coefficients_->kept; }
 
   /// How finely and how far daylight coefficients follow light: compositor::CoefficientOptions.
   void FollowLight(int sky_division, double convergence) {
@@ -165,6 +169,7 @@ class SceneRenderer {
   bool hold_gain_ = false;
   bool light_from_outside_ = false;
   std::deque<LinearRgb> recent_gains_;  // Of the last frames, for the running median.
+  LinearRgb least_gain_, most_gain_;    // Since the first reading.
   LinearRgb guessed_gain_;
   bool match_look_ = true;
   int frames_to_look_ = 0;  // Until the blur is measured again.

@@ -42,7 +42,8 @@ function(pleinair_test name)
   target_compile_definitions(${name} PRIVATE
     PLEINAIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PLEINAIR_BINARY_DIR="${PROJECT_BINARY_DIR}")
   pleinair_configure_target(${name})
-  # What a test says takes longer to compile than to run; the code under test keeps its optimisation.
+  # What a test says takes longer to compile than to run; the code under test keeps its optimisation
+  # (not so at -O0: the linker would take inline functions of libraries from the test's objects).
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/markup.h"
 #include "app/sinks/line_plot.h"
-#include "app/sinks/report_html.h"
 
 namespace pleinair::app {
 namespace {
@@ -20,15 +20,15 @@ std::string Head(const std::string& title) {
   return fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">"
       "<text class=\"title\" x=\"{:.0f}\" y=\"16\">{}</text>",
-      kWidth, kHeight, EscapeHtml(title), kLeft, EscapeHtml(title));
+      kWidth, kHeight, EscapeMarkup(title), kLeft, EscapeMarkup(title));
 }
 
 /// Horizontal lines with their values.
 std::string Grid(double top) {
   const double step = TickStep(0.0, top, 4);
   std::string svg;
-  for (double y = 0.0; y <= top * (1 + 1e-9); y += step) {
-    const double at = ToY(y / top);
+  for (int line = 0; line * step <= top * (1 + 1e-9); ++line) {
+    const double y = line * step, at = ToY(y / top);
     svg += fmt::format(
         "<line class=\"grid\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>"
         "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{:.4g}</text>",
@@ -43,7 +43,7 @@ std::string Legend(const std::vector<std::string>& names) {
   for (std::size_t i = names.size(); i-- > 0;) {
     svg +=
         fmt::format("<text class=\"legend{}\" text-anchor=\"end\" x=\"{:.0f}\" y=\"16\">{}</text>",
-                    i, x, EscapeHtml(names[i]));
+                    i, x, EscapeMarkup(names[i]));
     x -= 16.0 + 7.0 * static_cast<double>(names[i].size());
   }
   return svg;
@@ -73,11 +73,11 @@ std::string LevelChartSvg(const std::string& title, const std::string& level_nam
   for (std::size_t i = 0; i < levels.size(); ++i) {
     svg += fmt::format(
         "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", to_x(i),
-        kHeight - kBottom + 16, EscapeHtml(levels[i]));
+        kHeight - kBottom + 16, EscapeMarkup(levels[i]));
   }
   svg +=
       fmt::format("<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>",
-                  0.5 * (kLeft + kWidth - kRight), kHeight - 8, EscapeHtml(level_name));
+                  0.5 * (kLeft + kWidth - kRight), kHeight - 8, EscapeMarkup(level_name));
   std::vector<std::string> names;
   for (std::size_t s = 0; s < series.size(); ++s) {
     const LevelSeries& one = series[s];
@@ -114,10 +114,11 @@ std::string CellMapSvg(const std::string& title, int columns, int rows,
   std::string svg = fmt::format(
       "<svg class=\"plot\" style=\"max-width:{:.0f}px\" viewBox=\"0 0 {:.0f} {:.0f}\" "
       "role=\"img\" aria-label=\"{}\"><text class=\"title\" x=\"10\" y=\"18\">{}</text>",
-      1.5 * width, width, height, EscapeHtml(title), EscapeHtml(title));
+      1.5 * width, width, height, EscapeMarkup(title), EscapeMarkup(title));
   for (int i = 0; i < columns * rows; ++i) {
     const double value = values[i];
-    const double x = 10.0 + i % columns * kCell, y = 30.0 + i / columns * kCell;
+    const int column = i % columns, row = i / columns;
+    const double x = 10.0 + column * kCell, y = 30.0 + row * kCell;
     if (!std::isfinite(value)) continue;
     svg += fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#c2452d\" "

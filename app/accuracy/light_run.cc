@@ -8,9 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "app/base64.h"
 #include "app/picture_comparison.h"
 #include "app/replay.h"
-#include "app/sinks/report_html.h"
 #include "app/true_pictures.h"
 #include "base/atomic_file.h"
 

@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/sinks/report_html.h"
+#include "app/markup.h"
 
 namespace pleinair::app {
 namespace {
 
 std::string Row(const accuracy::LightSummary& light) {
-  std::string row =
-      fmt::format("<tr><td>{}</td><td>{}</td>",
-                  light.recording.empty() ? "mean of the recordings" : EscapeHtml(light.recording),
-                  light.pictures);
+  std::string row = fmt::format(
+      "<tr><td>{}</td><td>{}</td>",
+      light.recording.empty() ? "mean of the recordings" : EscapeMarkup(light.recording),
+      light.pictures);
   for (const accuracy::LightFigure& figure : light.figures) {
     if (figure.count == 0) {
       row += "<td>–</td>";
@@ -36,7 +36,7 @@ double Badness(const LightPicture& picture) {
 }
 
 std::string Figures(const LightPicture& picture) {
-  const std::string name = EscapeHtml(picture.record.recording + ", " + picture.record.picture);
+  const std::string name = EscapeMarkup(picture.record.recording + ", " + picture.record.picture);
   std::string html;
   const auto add = [&](const std::string& jpeg, const char* what) {
     html += fmt::format(

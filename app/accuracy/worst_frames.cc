@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "app/accuracy/accuracy_run.h"
+#include "app/base64.h"
+#include "app/markup.h"
 #include "app/sinks/picture_writer.h"
-#include "app/sinks/report_html.h"
 
 namespace pleinair::app {
 namespace {
@@ -73,8 +74,8 @@ std::string PictureHtml(const Bad& bad, const GreyImage& grey) {
   return fmt::format(
       "<figure><div class=\"worst\"><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\">"
       "<svg viewBox=\"0 0 {2} {3}\">{4}</svg></div><figcaption>{0}: {5}</figcaption></figure>\n",
-      EscapeHtml(bad.record->name), Base64(EncodeJpeg(rgb.view(), grey.width(), kQuality)),
-      grey.width(), grey.height(), outlines, EscapeHtml(bad.why));
+      EscapeMarkup(bad.record->name), Base64(EncodeJpeg(rgb.view(), grey.width(), kQuality)),
+      grey.width(), grey.height(), outlines, EscapeMarkup(bad.why));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/sinks/report_html.h"
+#include "app/base64.h"
 #include "base/little_endian.h"
 
 namespace pleinair::app {

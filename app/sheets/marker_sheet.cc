@@ -26,6 +26,11 @@ constexpr const char* kSizeDefinition = "Size: the outer edge of the black squar
 
 }  // namespace
 
+Result<void> CheckLength(const std::string& option, double length_mm) {
+  if (!std::isnan(length_mm)) return {};
+  return InputError(option, "\"nan\" is no length", "give it in millimetres");
+}
+
 Result<Sheet> MarkerSheet(int number, double size_mm, PageSize page) {
   Sheet sheet;
   sheet.page = page;

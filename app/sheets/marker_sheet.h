@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "app/sheets/sheet.h"
@@ -12,6 +13,9 @@ namespace pleinair::app {
 /// Edges that can be printed: modules of 0.1 mm at least, and a page that a PDF can hold.
 constexpr double kSmallestMarker_mm = 4.0;
 constexpr double kLargestMarker_mm = 4000.0;
+
+/// Errors (input): a length from the command line that is no number; ranges let "nan" pass.
+Result<void> CheckLength(const std::string& option, double length_mm);
 
 /// Corners of a marker's outer black square on its page: from top-left, clockwise.
 using CornersOnPage = std::array<Vec2, 4>;

@@ -1,15 +1,13 @@
 #include "app/sheets/sheet_raster.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
-#include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "app/png_rows.h"
 #include "base/srgb.h"
 
 namespace pleinair::app {
@@ -99,33 +97,6 @@ void DrawText(const SheetText& text, cv::Mat* picture) {
               cv::LINE_AA);
 }
 
-/// libpng reports failures by longjmp: nothing with a destructor may live between here and there.
-bool WriteGrayRows(std::FILE* file, const ImageView<const std::uint8_t>& gray,
-                   png_uint_32 pixels_per_metre) {
-  const auto silent = [](png_structp, png_const_charp) {};
-  png_structp png = png_create_write_struct(
-      PNG_LIBPNG_VER_STRING, nullptr,
-      [](png_structp failed, png_const_charp) { png_longjmp(failed, 1); }, silent);
-  if (png == nullptr) return false;
-  png_infop info = png_create_info_struct(png);
-  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
-    png_destroy_write_struct(&png, &info);
-    return false;
-  }
-  png_init_io(png, file);
-  png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(gray.width()),
-               static_cast<png_uint_32>(gray.height()), 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
-  png_set_pHYs(png, info, pixels_per_metre, pixels_per_metre, PNG_RESOLUTION_METER);
-  png_write_info(png, info);
-  for (int y = 0; y < gray.height(); ++y) png_write_row(png, gray.row(y));
-  png_write_end(png, info);
-  png_destroy_write_struct(&png, &info);
-  return true;
-}
-
 }  // namespace
 
 Image<std::uint8_t> RasterizeSheet(const Sheet& sheet) {
@@ -162,7 +133,8 @@ Result<std::string> EncodeGrayPng(ImageView<const std::uint8_t> gray, double pix
   std::FILE* file = open_memstream(&bytes, &size);
   bool good = file != nullptr;
   if (good) {
-    good = WriteGrayRows(file, gray, static_cast<png_uint_32>(std::lround(pixels_per_metre)));
+    const auto density = static_cast<std::uint32_t>(std::lround(pixels_per_metre));
+    good = WritePngRows(gray, {.pixels_per_metre = density}, file);
     good = std::fclose(file) == 0 && good;
   }
   std::string encoded;

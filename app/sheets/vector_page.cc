@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/markup.h"
 #include "app/sheets/print_outline.h"
 
 namespace pleinair::app {
@@ -27,26 +28,6 @@ std::string EscapePdf(const std::string& text) {
   for (const char c : text) {
     if (c == '(' || c == ')' || c == '\\') escaped += '\\';
     escaped += c;
-  }
-  return escaped;
-}
-
-std::string EscapeXml(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      default:
-        escaped += c;
-    }
   }
   return escaped;
 }
@@ -127,7 +108,7 @@ std::string WriteSvg(const Sheet& sheet) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{0}mm\" "
       "height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n<title>{2}</title>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-      width, height, EscapeXml(sheet.title));
+      width, height, EscapeMarkup(sheet.title));
   auto out = std::back_inserter(svg);
   for (const SheetPrint& print : sheet.prints) {
     fmt::format_to(out,
@@ -160,7 +141,7 @@ std::string WriteSvg(const Sheet& sheet) {
                    "<text x=\"{}\" y=\"{}\" font-family=\"Helvetica, Arial, sans-serif\" "
                    "font-size=\"{}\" xml:space=\"preserve\">{}</text>\n",
                    Number(text.baseline_mm.x), Number(text.baseline_mm.y), Number(text.size_mm),
-                   EscapeXml(text.text));
+                   EscapeMarkup(text.text));
   }
   return svg + "</svg>\n";
 }

@@ -1,47 +1,17 @@
 #include "app/sinks/picture_writer.h"
 
-#include <png.h>
-
 #include <cerrno>
-#include <csetjmp>
 #include <cstdio>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <system_error>
 
+#include "app/png_rows.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {
 namespace {
-
-/// libpng reports failures by longjmp: nothing with a destructor may live between here and there.
-bool WritePngRows(std::FILE* file, png_const_bytep first_row, std::ptrdiff_t stride,
-                  png_uint_32 width, png_uint_32 height) {
-  const auto silent = [](png_structp, png_const_charp) {};
-  png_structp png = png_create_write_struct(
-      PNG_LIBPNG_VER_STRING, nullptr,
-      [](png_structp failed, png_const_charp) { png_longjmp(failed, 1); }, silent);
-  if (png == nullptr) return false;
-  png_infop info = png_create_info_struct(png);
-  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
-    png_destroy_write_struct(&png, &info);
-    return false;
-  }
-  png_init_io(png, file);
-  png_set_compression_level(png, 3);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
-  png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
-  png_write_info(png, info);
-  for (png_uint_32 y = 0; y < height; ++y) {
-    png_write_row(png, first_row + static_cast<std::ptrdiff_t>(y) * stride);
-  }
-  png_write_end(png, info);
-  png_destroy_write_struct(&png, &info);
-  return true;
-}
 
 cv::Mat Wrap(ImageView<const std::uint8_t> rgb) {
   // OpenCV has no const view; nobody writes through this one.
@@ -56,8 +26,7 @@ Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::ui
   errno = 0;
   std::FILE* out = std::fopen(file.c_str(), "wb");
   if (out == nullptr) return tl::make_unexpected(WriteError(file, errno));
-  bool good = WritePngRows(out, rgb.data(), rgb.stride(), static_cast<png_uint_32>(rgb.width()),
-                           static_cast<png_uint_32>(rgb.height()));
+  bool good = WritePngRows(rgb, {.fast = true}, out);
   int error_number = errno;
   if (std::fclose(out) != 0 && good) {
     good = false;

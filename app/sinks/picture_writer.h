@@ -10,8 +10,7 @@
 namespace pleinair::app {
 
 /// Writes an 8-bit RGB picture as PNG with an sRGB chunk and nothing that varies between runs.
-/// Level 3 of zlib: a third of the default's time for a few per cent more bytes. Errors as
-/// WriteError, without leaving a file.
+/// Errors as WriteError, without leaving a file.
 Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::uint8_t> rgb);
 
 /// A picture as JPEG bytes, quality 0…100, at most `max_width` wide: for the report.

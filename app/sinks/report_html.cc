@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "app/base64.h"
+#include "app/markup.h"
 #include "app/sinks/line_plot.h"
 #include "app/sinks/page_style.h"
 #include "base/units.h"
@@ -19,8 +21,8 @@ for(const input of document.querySelectorAll('input[type=range]'))
 )";
 
 std::string Card(const std::string& figure, const std::string& caption) {
-  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", EscapeHtml(figure),
-                     EscapeHtml(caption));
+  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", EscapeMarkup(figure),
+                     EscapeMarkup(caption));
 }
 
 std::string Pictures(const ReplayReport& report) {
@@ -127,8 +129,9 @@ std::string Light(const ReplayReport& report) {
   html += Card(fmt::format("{:.3g} {:.3g} {:.3g}", light.gain.r, light.gain.g, light.gain.b),
                light.gain_is_guessed
                    ? "camera gain (r g b per cd/m²), guessed"
-                   : fmt::format("camera gain (r g b per cd/m²), {} readings, spread {:.1f} %",
-                                 light.readings, light.gain_spread * 100));
+                   : fmt::format("camera gain (r g b per cd/m²), {} readings, spread {:.1f} %, "
+                                 "changed by a factor of {:.2f}",
+                                 light.readings, light.gain_spread * 100, light.gain_change));
   if (light.look) {
     html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.look->blur_px,
                              1000 * light.look->NoiseSigma(1, kMediumLight)),
@@ -139,56 +142,14 @@ std::string Light(const ReplayReport& report) {
 
 }  // namespace
 
-std::string EscapeHtml(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
-std::string Base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned word = static_cast<unsigned>(bytes[i]) << 16;
-    if (count > 1) word |= static_cast<unsigned>(bytes[i + 1]) << 8;
-    if (count > 2) word |= bytes[i + 2];
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? kAlphabet[(word >> (18 - 6 * k)) & 63] : '=';
-    }
-  }
-  return text;
-}
-
 std::string ReportHtml(const ReplayReport& report) {
   const PoseStatistics poses = SummarizePath(report.path);
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
-  html += "<title>pleinair: " + EscapeHtml(report.recording) + "</title><style>";
-  html += std::string(kPageStyle) + "</style></head><body>\n<h1>" + EscapeHtml(report.recording) +
-          "</h1>\n<p class=\"lead\">composed by pleinair " + EscapeHtml(report.version) +
-          ": <code>" + EscapeHtml(report.command) + "</code></p>\n<div class=\"cards\">\n";
+  html += "<title>pleinair: " + EscapeMarkup(report.recording) + "</title><style>";
+  html += std::string(kPageStyle) + "</style></head><body>\n<h1>" + EscapeMarkup(report.recording) +
+          "</h1>\n<p class=\"lead\">composed by pleinair " + EscapeMarkup(report.version) +
+          ": <code>" + EscapeMarkup(report.command) + "</code></p>\n<div class=\"cards\">\n";
   html += Card(fmt::format("{} of {}", report.path.size(), report.frames), "frames with a pose");
   html += Card(report.anchor ? report.anchor->ToString() : "none", "marker that anchors the scene");
   html += Card(fmt::format("{}×{}, {:.4g} Hz", report.width, report.height, report.frame_rate_hz),
@@ -212,7 +173,7 @@ std::string ReportHtml(const ReplayReport& report) {
   if (!report.warnings.empty()) {
     html += "<h2>Warnings</h2>\n<ul class=\"warnings\">\n";
     for (const std::string& warning : report.warnings) {
-      html += "<li>" + EscapeHtml(warning) + "</li>\n";
+      html += "<li>" + EscapeMarkup(warning) + "</li>\n";
     }
     html += "</ul>\n";
   }
@@ -228,7 +189,7 @@ std::string ReportHtml(const ReplayReport& report) {
   for (const StageTimes::Summary& stage : report.timings) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.1f}</td></tr>\n",
-        EscapeHtml(stage.stage), stage.runs, stage.median_ms, stage.p95_ms,
+        EscapeMarkup(stage.stage), stage.runs, stage.median_ms, stage.p95_ms,
         FramesPerSecond(report, stage));
   }
   return html + "</table>\n<script>" + kScript + "</script></body></html>\n";

@@ -70,6 +70,7 @@ Json LightJson(const LightSummary& light) {
           {"sky_horizontal_lux", Rounded(light.sky_horizontal_lux)},
           {"gain_rgb", {Rounded(light.gain.r), Rounded(light.gain.g), Rounded(light.gain.b)}},
           {"gain_relative_spread", Rounded(light.gain_spread)},
+          {"gain_change", Rounded(light.gain_change)},
           {"gain_readings", light.readings},
           {"gain_is_guessed", light.gain_is_guessed},
           {"look", light.look ? LookJson(*light.look) : Json()},

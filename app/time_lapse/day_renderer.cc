@@ -72,7 +72,7 @@ Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_fro
     mesh.ambient_without.clear();
   }
   PLEINAIR_RETURN_IF_ERROR(
-      composer_->SetLight(light.meshes, light.daylight, light.marker_from_world));
+      composer_->SetLight(light.meshes, light.daylight, light.marker_from_world, light.from_below));
   return composer_->Compose(Far(light, camera_from_marker, gain).view(), camera_from_marker, gain);
 }
 

@@ -10,11 +10,11 @@
 #include <system_error>
 #include <utility>
 
+#include "app/base64.h"
 #include "app/interrupt.h"
 #include "app/line_drawing.h"
 #include "app/progress_bar.h"
 #include "app/sinks/picture_writer.h"
-#include "app/sinks/report_html.h"
 #include "app/sinks/video_writer.h"
 #include "base/atomic_file.h"
 

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace pleinair::app {
+
+/// Text made safe for HTML and XML (SVG), in elements and in quoted attributes.
+std::string EscapeMarkup(std::string_view text);
+
+}  // namespace pleinair::app
