@@ -277,7 +277,8 @@ TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
     edit.later_s = later_s;
     edit.heading_deg = heading_deg;
     (*light)->SetEdit(edit);
-    for (int i = 0; i < 5000; ++i) {
+    // A sanitized build on a busy machine takes some ten seconds a light.
+    for (int i = 0; i < 60'000; ++i) {
       const auto newest = (*light)->Take();
       if (newest && newest->order.time == setup.time.PlusSeconds(later_s) &&
           std::fabs(ToDegrees(newest->order.marker.heading) - heading_deg) < 1e-9) {

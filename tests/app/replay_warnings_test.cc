@@ -49,5 +49,18 @@ TEST(MarkerWarnings, SayWhatWasLookedForInVain) {
   EXPECT_THAT(WhereNothingWasSeen({}, {}), HasSubstr("Seen: tag36h11_4."));
 }
 
+TEST(LightWarnings, SayWhatTheLightCannotBe) {
+  LightSummary light;
+  light.sun.elevation = FromDegrees(30);
+  EXPECT_THAT(LightWarnings(light), IsEmpty());
+  light.gain_change = 2.5;
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("changed by a factor of 2.5")));
+  light.gain_change = 1.1;
+  light.sun.elevation = FromDegrees(-5);
+  EXPECT_THAT(LightWarnings(light), IsEmpty());
+  light.sun.elevation = FromDegrees(-12);
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("12.0 degrees below the horizon")));
+}
+
 }  // namespace
 }  // namespace pleinair::app

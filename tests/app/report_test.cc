@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/base64.h"
 #include "app/sinks/line_plot.h"
 #include "app/sinks/report_html.h"
 #include "app/sinks/report_json.h"

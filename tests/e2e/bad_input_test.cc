@@ -165,6 +165,16 @@ TEST(BadInput, OptionsOfDaylightCoefficientsAreRefusedWhereNoneAreTraced) {
   }
 }
 
+TEST(BadInput, AFileInPlaceOfTheLightCacheIsRefused) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, false);
+  WriteFile(folder / "cache", "a file");
+  ExpectRefused(RunPleinair({"replay", folder / "site", "-o", folder / "out", "--light-cache",
+                             folder / "cache"}),
+                "cache: is no folder");
+  EXPECT_EQ(ReadFile(folder / "cache"), "a file");
+}
+
 TEST(BadInput, TheRecordingIsNotOverwrittenByItsReplay) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, false);
@@ -220,7 +230,7 @@ TEST(BadInput, AReplayInterruptedSeveralTimesLeavesNothing) {
   // Once it has begun to write (or, should it never, after a while).
   const RunResult run = RunCommandLine(
       {"sh", "-c",
-       std::string(PLEINAIR_PROGRAM) + " replay '" + std::string(folder / "site") + "' -o '" + out +
+       PleinairProgram() + " replay '" + std::string(folder / "site") + "' -o '" + out +
            "' & n=0; until ls -d '" + out +
            "'/.pleinair.part* >/dev/null 2>&1 || [ $((n += 1)) -gt 5000 ]; do :; done; "
            "kill -INT $!; kill -TERM $!; kill -INT $!; wait $!"});
@@ -241,9 +251,9 @@ TEST(BadInput, AFullDiskEndsTheReplayAndLeavesNothing) {
     GTEST_SKIP() << "this machine lets nobody mount a small disk";
   }
   for (const char* option : {"--frames", "--json"}) {
-    const RunResult run = in_small_disk(std::string(PLEINAIR_PROGRAM) + " replay '" +
-                                        std::string(folder / "site") + "' -o '" + disk + "/out' " +
-                                        option + "; code=$?; ls -A '" + disk + "'; exit $code");
+    const RunResult run =
+        in_small_disk(PleinairProgram() + " replay '" + std::string(folder / "site") + "' -o '" +
+                      disk + "/out' " + option + "; code=$?; ls -A '" + disk + "'; exit $code");
     ExpectRefused(run, "No space left on device", 1);
     EXPECT_THAT(run.err, HasSubstr(disk + "/out/"));
     EXPECT_THAT(run.out, IsEmpty());  // Nothing left on the disk.

@@ -4,8 +4,8 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "command_output.h"
 #include "refusal.h"
 #include "run_program.h"
 
@@ -17,11 +17,7 @@ using ::testing::Contains;
 
 std::map<std::string, json> RowsByMethod(const std::string& output) {
   std::map<std::string, json> rows;
-  std::istringstream lines(output);
-  for (std::string line; std::getline(lines, line);) {
-    const json row = json::parse(line);
-    rows[row.at("method")] = row;
-  }
+  for (const json& row : JsonLines(output)) rows[row.at("method")] = row;
   return rows;
 }
 

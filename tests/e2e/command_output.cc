@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "run_program.h"
-
 namespace pleinair::e2e {
 namespace {
 
@@ -25,6 +23,19 @@ nlohmann::json RunJson(std::vector<std::string> arguments) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1) << run.out;
   return nlohmann::json::parse(run.out, nullptr, false);
+}
+
+std::vector<nlohmann::json> JsonLines(const std::string& text) {
+  const std::vector<std::string> lines = Lines(text);
+  std::vector<nlohmann::json> values(lines.size());
+  std::ranges::transform(lines, values.begin(),
+                         [](const std::string& line) { return nlohmann::json::parse(line); });
+  return values;
+}
+
+std::vector<nlohmann::json> JsonLines(const RunResult& run) {
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  return JsonLines(run.out);
 }
 
 std::vector<std::string> Lines(const std::string& text) { return Split(text, '\n'); }

@@ -4,10 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "run_program.h"
+
 namespace pleinair::e2e {
 
 /// `pleinair ARGUMENTS --json`, which must succeed and print one line.
 nlohmann::json RunJson(std::vector<std::string> arguments);
+
+/// One JSON value a line.
+std::vector<nlohmann::json> JsonLines(const std::string& text);
+/// The same of what a run printed, which must have succeeded.
+std::vector<nlohmann::json> JsonLines(const RunResult& run);
 
 /// What stands between line feeds, and between the commas of a line.
 std::vector<std::string> Lines(const std::string& text);

@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "command_output.h"
 #include "run_program.h"
 
 namespace pleinair::e2e {
@@ -18,13 +19,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
-
-std::vector<nlohmann::json> JsonLines(const std::string& text) {
-  std::vector<nlohmann::json> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(nlohmann::json::parse(line));
-  return lines;
-}
 
 TEST(Live, ARecordingMadeLiveReplaysToTheSameSightings) {
   const TemporaryFolder folder;

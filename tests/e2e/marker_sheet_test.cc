@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "command_output.h"
 #include "refusal.h"
 #include "run_program.h"
 
@@ -51,13 +52,6 @@ double BlackAlong(const cv::Mat& line) {
   return black_px / kPixelsPerMm;
 }
 
-std::vector<nlohmann::json> Lines(const std::string& text) {
-  std::vector<nlohmann::json> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(nlohmann::json::parse(line));
-  return lines;
-}
-
 class PrintedSheet : public ::testing::TestWithParam<double> {};
 
 TEST_P(PrintedSheet, IsTrueToScaleAndTheSameAsPdfSvgAndPng) {
@@ -68,7 +62,7 @@ TEST_P(PrintedSheet, IsTrueToScaleAndTheSameAsPdfSvgAndPng) {
     const RunResult run = RunPleinair(
         {"marker", "1234", "--size-mm", size, "--page", "130x125", "-o", folder / name, "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    told = Lines(run.out).at(0);
+    told = JsonLines(run.out).at(0);
   }
   const auto corner = [&](int i, int axis) {
     return told["corners_on_page_mm"][i][axis].get<double>();
@@ -139,7 +133,7 @@ TEST(MarkerSheet, OfSeveralNumbersIsOnePdfOrOneFileEach) {
   const TemporaryFolder folder;
   const RunResult pdf = RunPleinair({"marker", "3", "7-8", "-o", folder / "all.pdf", "--json"});
   ASSERT_EQ(pdf.exit_code, 0) << pdf.err;
-  const auto lines = Lines(pdf.out);
+  const auto lines = JsonLines(pdf.out);
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[2]["id"], 8);
   EXPECT_EQ(lines[2]["page"], 3);
@@ -158,7 +152,7 @@ TEST(MarkerPicture, IsTheBarePrintAndSaysItsEdgeFraction) {
   const RunResult run =
       RunPleinair({"marker", "5", "--png", "--pixels", "480", "-o", folder / "m.png", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto line = Lines(run.out).at(0);
+  const auto line = JsonLines(run.out).at(0);
   EXPECT_EQ(line["id"], 5);
   EXPECT_EQ(line["pixels"], 480);
   EXPECT_DOUBLE_EQ(line["edge_fraction"].get<double>(), 40.0 / 48.0);
@@ -177,7 +171,7 @@ TEST(Board, StandsOnThePageWhereItsDescriptionSays) {
       RunPleinair({"board", "--columns", "2", "--rows", "2", "--first", "9", "--size-mm", "35",
                    "--gap-mm", "10", "--page", "150x160", "-o", folder / "b.pdf", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(Lines(run.out).at(0)["count"], 4);
+  EXPECT_EQ(JsonLines(run.out).at(0)["count"], 4);
   const auto board = nlohmann::json::parse(ReadFile(folder / "b.json"));
   ASSERT_EQ(board["markers"].size(), 4U);
   const cv::Mat page = DrawPdf(folder / "b.pdf");
@@ -206,7 +200,7 @@ TEST(Board, HasSquaresTrueToScaleWhereAChessboardIsAskedFor) {
   const RunResult run = RunPleinair(
       {"board", "--chessboard", "9x6", "--square-mm", "15", "-o", folder / "c.pdf", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(Lines(run.out).at(0)["square_mm"], 15.0);
+  EXPECT_EQ(JsonLines(run.out).at(0)["square_mm"], 15.0);
   const cv::Mat page = DrawPdf(folder / "c.pdf");
   // Through the middle of the first row: 10 mm of page, half a square of white, half of a square.
   EXPECT_NEAR(BlackAlong(page.row(static_cast<int>(25.0 * kPixelsPerMm))), 5 * 15.0, 0.1);
@@ -222,6 +216,27 @@ TEST(Board, DoesNotReplaceAFileThatIsNoDescription) {
   EXPECT_EQ(ReadFile(folder / "b.json"), "{\"precious\": 1}");
   ASSERT_EQ(RunPleinair({"board", "-o", folder / "c.pdf"}).exit_code, 0);
   EXPECT_EQ(RunPleinair({"board", "-o", folder / "c.pdf"}).exit_code, 0);
+}
+
+// Whoever copies a line from the help gets what it promises.
+TEST(SheetHelp, HasExamplesThatRunAsTheyStand) {
+  for (const char* command : {"marker", "board"}) {
+    std::istringstream help(RunPleinair({command, "--help"}).out);
+    int examples = 0;
+    for (std::string line; std::getline(help, line);) {
+      const std::string program = "  pleinair ";
+      if (!line.starts_with(program)) continue;
+      ++examples;
+      const TemporaryFolder folder;
+      const RunResult run =
+          RunCommandLine({"sh", "-c",
+                          "cd '" + std::string(folder.path()) + "' && " + PleinairProgram() + " " +
+                              line.substr(program.size())});
+      EXPECT_EQ(run.exit_code, 0) << line << "\n" << run.err;
+      EXPECT_FALSE(Listing(folder.path()).empty()) << line;
+    }
+    EXPECT_GE(examples, 4) << command;
+  }
 }
 
 struct BadUse {
@@ -255,8 +270,15 @@ INSTANTIATE_TEST_SUITE_P(
                {"marker", "17", "--size-mm", "200", "-o", "OUT/m.pdf"},
                "--page A3"},
         BadUse{"SizeOfZero", {"marker", "17", "--size-mm", "0", "-o", "OUT/m.pdf"}, "--size-mm"},
-        BadUse{
-            "SizeNotANumber", {"marker", "17", "--size-mm", "nan", "-o", "OUT/m.pdf"}, "--size-mm"},
+        BadUse{"SizeNotANumber",
+               {"marker", "17", "--size-mm", "nan", "-o", "OUT/m.pdf"},
+               "--size-mm: \"nan\" is no length"},
+        BadUse{"BoardOfNoSize",
+               {"board", "--size-mm", "nan", "-o", "OUT/b.pdf"},
+               "--size-mm: \"nan\" is no length"},
+        BadUse{"BoardWithNoSquares",
+               {"board", "--chessboard", "9x6", "--square-mm", "nan", "-o", "OUT/b.pdf"},
+               "--square-mm: \"nan\" is no length"},
         BadUse{"UnknownPage", {"marker", "17", "--page", "A17", "-o", "OUT/m.pdf"}, "A17"},
         BadUse{"UnknownEnding", {"marker", "17", "-o", "OUT/m.gif"}, ".gif"},
         BadUse{"EndingAgainstOption", {"marker", "17", "--svg", "-o", "OUT/m.png"}, "--svg"},

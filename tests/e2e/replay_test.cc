@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 #include <utility>
 
+#include "command_output.h"
 #include "run_program.h"
 #include "tum_file.h"
 
@@ -122,6 +122,52 @@ TEST(Replay, TracesDaylightAsFinelyAndAsFarAsAsked) {
   EXPECT_NE(fewer_reflections.substr(as_is.size() / 2), as_is.substr(as_is.size() / 2));
 }
 
+TEST(Replay, ShowsOnATerminalHowFarItIs) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, true);
+  // A terminal of its own (util-linux).
+  const std::string command = PleinairProgram() + " replay '" + (folder / "site").string() +
+                              "' -o '" + (folder / "out").string() +
+                              "' --no-video --light stated --light-patches 1000 --light-cache '" +
+                              (folder / "cache").string() + "'";
+  const RunResult run = RunCommandLine({"script", "-qec", command, "/dev/null"});
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  for (const char* bar :
+       {"Finding markers [...", "Tracing light [...", "Tracing light [#", "Composing [..."}) {
+    EXPECT_THAT(run.out, HasSubstr(bar));
+  }
+}
+
+TEST(Replay, SaysThatTheLightChangedMeanwhile) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, true);
+  const auto warning = [&] {
+    const RunResult run =
+        RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video", "--light",
+                     "stated", "--light-patches", "1000"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_THAT(warning(), Not(HasSubstr("brightness changed")));
+  // Half the light, about.
+  const std::string first = folder / "site/frames/0000.jpg";
+  cv::Mat picture = cv::imread(first);
+  ASSERT_FALSE(picture.empty());
+  ASSERT_TRUE(cv::imwrite(first, picture * 0.73));
+  EXPECT_THAT(warning(), HasSubstr("brightness changed by a factor of 2"));
+}
+
+TEST(Replay, SaysThatTheLightCouldNotBeKept) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, true);
+  // /proc refuses new folders to everybody, also to root.
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video", "--light",
+                   "stated", "--light-patches", "1000", "--light-cache", "/proc/pleinair"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("could not be written to /proc/pleinair"));
+}
+
 TEST(Replay, RecoversTheCamerasTruePathOfTheBundledRecording) {
   const TemporaryFolder folder;
   WriteFile(folder / "empty.toml", R"(time = "2025-09-14T11:05:00Z"
@@ -220,12 +266,10 @@ TEST(Replay, LeavesFramesWithoutAMarkerAsTheyAreAndSaysSo) {
   const cv::Mat before = cv::imread(folder / "site/frames/0001.jpg");
   const cv::Mat after = cv::imread(folder / "out/frames/0001.png");
   EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0.0);
-  std::istringstream lines(ReadFile(folder / "out/detections.jsonl"));
-  std::vector<std::size_t> markers;
-  for (std::string line; std::getline(lines, line);) {
-    markers.push_back(nlohmann::json::parse(line)["markers"].size());
-  }
-  EXPECT_THAT(markers, ElementsAre(1, 0));
+  const auto frames = JsonLines(ReadFile(folder / "out/detections.jsonl"));
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].at("markers").size(), 1U);
+  EXPECT_EQ(frames[1].at("markers").size(), 0U);
 }
 
 TEST(Replay, SaysThatWithoutPhantomsNothingTakesTheShadow) {
@@ -288,8 +332,7 @@ TEST(Command, SaysItsVersion) {
 }
 
 TEST(Command, FailsWhereItsResultCannotBePrinted) {
-  const RunResult run =
-      RunCommandLine({"sh", "-c", std::string(PLEINAIR_PROGRAM) + " --help >/dev/full"});
+  const RunResult run = RunCommandLine({"sh", "-c", PleinairProgram() + " --help >/dev/full"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("No space left on device"));
 }

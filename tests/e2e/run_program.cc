@@ -36,8 +36,13 @@ RunResult RunCommandLine(const std::vector<std::string>& arguments, const std::s
   return result;
 }
 
+std::string PleinairProgram() {
+  const char* const other = std::getenv("PLEINAIR_PROGRAM");
+  return other != nullptr ? other : PLEINAIR_PROGRAM;
+}
+
 RunResult RunPleinair(std::vector<std::string> arguments, const std::string& prefix) {
-  arguments.insert(arguments.begin(), PLEINAIR_PROGRAM);
+  arguments.insert(arguments.begin(), PleinairProgram());
   return RunCommandLine(arguments, prefix);
 }
 

@@ -17,7 +17,11 @@ struct RunResult {
 /// before it ("ulimit -f 64;").
 RunResult RunCommandLine(const std::vector<std::string>& arguments, const std::string& prefix = "");
 
-/// `pleinair` as built, with arguments.
+/// The program under test: the environment's PLEINAIR_PROGRAM (one built with sanitizers, say),
+/// else the one of the tests' own build.
+std::string PleinairProgram();
+
+/// That program, with arguments.
 RunResult RunPleinair(std::vector<std::string> arguments, const std::string& prefix = "");
 
 /// A folder that goes when the test ends.

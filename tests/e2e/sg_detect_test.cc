@@ -9,9 +9,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
 #include "base/srgb.h"
+#include "command_output.h"
 #include "run_program.h"
 
 namespace pleinair::e2e {
@@ -78,14 +78,6 @@ class SgDetect : public ::testing::Test {
     return RunPleinair(arguments);
   }
 
-  static std::vector<json> Lines(const RunResult& run) {
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    std::vector<json> lines;
-    std::istringstream stream(run.out);
-    for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
-    return lines;
-  }
-
   const TemporaryFolder folder_;
   cv::Mat print_;
 };
@@ -94,7 +86,7 @@ TEST_F(SgDetect, TellsNumberCornersPoseAndVisibilityOfAPrintedMarker) {
   const std::string picture = Save("whole.png", With({70, 40}));
   const RunResult run = Detect({picture});
   EXPECT_THAT(run.err, IsEmpty());
-  const auto lines = Lines(run);
+  const auto lines = JsonLines(run);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].at("file"), picture);
   EXPECT_GT(lines[0].at("milliseconds").get<double>(), 0.0);
@@ -139,7 +131,7 @@ TEST_F(SgDetect, FindsACoveredBorderByItsKeypointsUnlessToldToBeFast) {
   covered(cv::Rect(60, 30, 65, 260)).setTo(150);  // The left side with its rim.
   const std::string picture = Save("covered.png", covered);
   for (const char* strategy : {"hybrid", "surf-golay"}) {
-    const auto markers = Lines(Detect({picture, "--strategy", strategy})).at(0).at("markers");
+    const auto markers = JsonLines(Detect({picture, "--strategy", strategy})).at(0).at("markers");
     ASSERT_EQ(markers.size(), 1U) << strategy;
     EXPECT_EQ(markers[0]["id"], 17);
     EXPECT_EQ(markers[0]["path"], "surf-golay");
@@ -151,24 +143,24 @@ TEST_F(SgDetect, FindsACoveredBorderByItsKeypointsUnlessToldToBeFast) {
       EXPECT_GT(visibility["values"][(row + 1) * side - 1].get<double>(), 0.7) << "right end";
     }
   }
-  EXPECT_THAT(Lines(Detect({picture, "--strategy", "fast"})).at(0).at("markers"), IsEmpty());
+  EXPECT_THAT(JsonLines(Detect({picture, "--strategy", "fast"})).at(0).at("markers"), IsEmpty());
 }
 
 TEST_F(SgDetect, ReportsOnlyNumbersInUse) {
   const std::string picture = Save("whole.png", With({70, 40}));
   for (const char* numbers : {"17", "0-49", "1,2,17", "17-17"}) {
-    const auto markers = Lines(Detect({picture, "--numbers", numbers})).at(0).at("markers");
+    const auto markers = JsonLines(Detect({picture, "--numbers", numbers})).at(0).at("markers");
     ASSERT_EQ(markers.size(), 1U) << numbers;
     EXPECT_EQ(markers[0]["id"], 17);
   }
   for (const char* numbers : {"0-16", "18", "1000-2000"}) {
-    EXPECT_THAT(Lines(Detect({picture, "--numbers", numbers})).at(0).at("markers"), IsEmpty())
+    EXPECT_THAT(JsonLines(Detect({picture, "--numbers", numbers})).at(0).at("markers"), IsEmpty())
         << numbers;
   }
 }
 
 TEST_F(SgDetect, FollowsAMarkerAndSaysSinceWhenItIsLost) {
-  const auto lines = Lines(
+  const auto lines = JsonLines(
       Detect({Save("0.png", With({70, 40})), Save("1.png", With({72, 41})), Save("2.png", Grey()),
               Save("3.png", Grey()), Save("4.png", With({110, 45})), "--track"}));
   ASSERT_EQ(lines.size(), 5U);
@@ -194,8 +186,21 @@ TEST_F(SgDetect, WarnsOfAMirroredPrint) {
   cv::Mat mirrored;
   cv::flip(With({70, 40}), mirrored, 1);
   const RunResult run = Detect({Save("mirrored.png", mirrored)});
-  EXPECT_THAT(Lines(run).at(0).at("markers"), IsEmpty());
+  EXPECT_THAT(JsonLines(run).at(0).at("markers"), IsEmpty());
   EXPECT_THAT(run.err, AllOf(HasSubstr("mirrored.png"), HasSubstr("mirrored"), HasSubstr("17")));
+}
+
+TEST_F(SgDetect, RefusesOptionsOfSgMarkersWhereNoneAreLookedFor) {
+  const std::string picture = Save("whole.png", With({70, 40}));
+  for (const auto& [option, value] :
+       {std::pair{"--numbers", "17"}, std::pair{"--strategy", "fast"}}) {
+    const RunResult run =
+        RunPleinair({"detect", picture, "--family", "tag36h11", "--size-mm", "140", "--calibration",
+                     folder_ / "camera.yaml", option, value});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, AllOf(HasSubstr(option), HasSubstr("has no effect here")));
+    EXPECT_THAT(run.out, IsEmpty());
+  }
 }
 
 TEST_F(SgDetect, RefusesStrategiesAndNumbersThatDoNotExist) {

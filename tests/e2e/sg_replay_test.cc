@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
+#include "command_output.h"
 #include "run_program.h"
 #include "tum_file.h"
 
@@ -40,10 +40,7 @@ json Report(const TemporaryFolder& folder) {
 }
 
 std::vector<json> Detections(const TemporaryFolder& folder) {
-  std::istringstream lines(ReadFile(folder / "out/detections.jsonl"));
-  std::vector<json> detections;
-  for (std::string line; std::getline(lines, line);) detections.push_back(json::parse(line));
-  return detections;
+  return JsonLines(ReadFile(folder / "out/detections.jsonl"));
 }
 
 /// What is left to say of a marker whose print was exchanged for another.

@@ -61,7 +61,7 @@ TEST(Sky, LeavesNothingOfAnInterruptedFilm) {
   // Once it has begun to write (or, should it never, after a while).
   const RunResult run = RunCommandLine(
       {"sh", "-c",
-       std::string(PLEINAIR_PROGRAM) +
+       PleinairProgram() +
            " sky --at 50,14 --day 2025-06-21 --utc-offset Z --step 60 --size 256 --model perez -o "
            "'" +
            out + "' & n=0; until ls '" + folder.path().string() +

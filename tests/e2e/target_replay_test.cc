@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 #include <vector>
 
+#include "command_output.h"
 #include "poster.h"
 #include "refusal.h"
 #include "run_program.h"
@@ -90,9 +90,7 @@ TEST(TargetReplay, FollowsAPictureAndComposesOnItThroughCoversAndLoss) {
     EXPECT_LT(ErrorOf(pose, *true_pose).rotation_deg, 0.2) << pose.time_s;
     EXPECT_LT(ErrorOf(pose, *true_pose).position_share, 0.003) << pose.time_s;
   }
-  std::istringstream lines(ReadFile(folder / "out/detections.jsonl"));
-  std::vector<json> frames;
-  for (std::string line; std::getline(lines, line);) frames.push_back(json::parse(line));
+  const std::vector<json> frames = JsonLines(ReadFile(folder / "out/detections.jsonl"));
   ASSERT_EQ(frames.size(), 8U);
   EXPECT_EQ(frames[0]["markers"][0]["path"], "surf-golay");
   EXPECT_EQ(frames[1]["markers"][0]["path"], "tracked");

@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
+#include "command_output.h"
 #include "poster.h"
 #include "refusal.h"
 #include "run_program.h"
@@ -65,14 +65,6 @@ class Target : public ::testing::Test {
     return RunPleinair(arguments);
   }
 
-  static std::vector<json> Lines(const RunResult& run) {
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    std::vector<json> lines;
-    std::istringstream stream(run.out);
-    for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
-    return lines;
-  }
-
   const TemporaryFolder folder_;
   cv::Mat poster_;
 };
@@ -80,7 +72,7 @@ class Target : public ::testing::Test {
 TEST_F(Target, IsMadeRatedAndFound) {
   const RunResult made = Make({"--json", "--preview", folder_ / "features.png"});
   EXPECT_THAT(made.err, IsEmpty());
-  const auto ratings = Lines(made);
+  const auto ratings = JsonLines(made);
   ASSERT_EQ(ratings.size(), 1U);
   EXPECT_EQ(ratings[0].at("name"), "poster");
   EXPECT_EQ(ratings[0].at("file"), (folder_ / "poster.target").string());
@@ -99,7 +91,7 @@ TEST_F(Target, IsMadeRatedAndFound) {
   const std::string picture = Save("wall.png", With({110, 60}, poster_));
   const RunResult run = Detect({picture});
   EXPECT_THAT(run.err, IsEmpty());
-  const auto lines = Lines(run);
+  const auto lines = JsonLines(run);
   ASSERT_EQ(lines.size(), 1U);
   ASSERT_EQ(lines[0].at("markers").size(), 1U);
   const json& marker = lines[0]["markers"][0];
@@ -132,7 +124,7 @@ TEST_F(Target, IsMadeRatedAndFound) {
 
 TEST_F(Target, IsFollowedAndSaidToBeLost) {
   ASSERT_EQ(Make({"--name", "Plakát"}).exit_code, 0);
-  const auto lines = Lines(
+  const auto lines = JsonLines(
       Detect({Save("0.png", With({100, 60}, poster_)), Save("1.png", With({104, 62}, poster_)),
               Save("2.png", With({104, 62}, Poster(7))), Save("3.png", With({150, 90}, poster_)),
               "--track"}));
@@ -165,7 +157,7 @@ TEST_F(Target, WarnsOfAMirroredPrint) {
   cv::Mat mirrored;
   cv::flip(With({110, 60}, poster_), mirrored, 1);
   const RunResult run = Detect({Save("mirrored.png", mirrored)});
-  EXPECT_THAT(Lines(run).at(0).at("markers"), IsEmpty());
+  EXPECT_THAT(JsonLines(run).at(0).at("markers"), IsEmpty());
   EXPECT_THAT(run.err,
               AllOf(HasSubstr("mirrored.png"), HasSubstr("poster"), HasSubstr("mirrored")));
 }

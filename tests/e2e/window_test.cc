@@ -104,7 +104,7 @@ class Window : public testing::Test {
   void Open(const std::string& arguments) {
     session_.emplace(
         fmt::format("env DISPLAY={} {} live --pictures '{}' {} {} 2>'{}'", display_,
-                    PLEINAIR_PROGRAM, (folder_ / "pictures").string(),
+                    PleinairProgram(), (folder_ / "pictures").string(),
                     arguments.find("--window") == std::string::npos ? "--window 1280x800" : "",
                     arguments, (folder_ / "err").string()));
     ASSERT_TRUE(Until([&] {
