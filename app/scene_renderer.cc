@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/progress_bar.h"
+#include "base/quantile.h"
 #include "compositor/marker_print.h"
 #include "compositor/scaled_daylight.h"
 #include "devices/response_file.h"
@@ -14,9 +15,6 @@
 namespace pleinair::app {
 namespace {
 
-// Frames over which the exposure is a running median: long enough to still a flickering reading,
-// short enough to follow a camera's automatic exposure.
-constexpr std::size_t kGainWindow = 15;
 // Blur and grain change slowly: read in every so many frames, medians over so many readings.
 constexpr int kLookStep = 5;
 constexpr std::size_t kLookWindow = 5;
@@ -40,16 +38,6 @@ compositor::NormalsMode NormalsOf(devices::Shading shading) {
       return compositor::NormalsMode::kSmooth;
   }
   return compositor::NormalsMode::kFromFile;
-}
-
-template <typename T, typename Value>
-double MedianOf(const std::deque<T>& readings, const Value& value) {
-  std::vector<double> values;
-  values.reserve(readings.size());
-  for (const T& reading : readings) values.push_back(value(reading));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -265,32 +253,16 @@ void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
     return;
   }
   // Held once there is a reading to hold.
-  if (hold_gain_ && !recent_gains_.empty()) return;
+  if (hold_gain_ && !gains_.empty()) return;
   const auto reading = meter_ ? meter_->Measure(rgb, camera_, camera_from_marker) : std::nullopt;
   if (reading) {
-    recent_gains_.push_back(reading->gain * skies_.print_shade);
-    if (recent_gains_.size() > kGainWindow) recent_gains_.pop_front();
+    gains_.Add(reading->gain * skies_.print_shade);
     summary_.gain_spread = reading->spread;
     ++summary_.readings;
   }
-  if (recent_gains_.empty()) {
-    summary_.gain = guessed_gain_;
-    summary_.gain_is_guessed = true;
-    return;
-  }
-  summary_.gain = {MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.r; }),
-                   MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.g; }),
-                   MedianOf(recent_gains_, [](const LinearRgb& gain) { return gain.b; })};
-  const LinearRgb& gain = summary_.gain;
-  // A median of a few readings may still be that of a single bad one.
-  if (recent_gains_.size() < kGainWindow || !(std::min({gain.r, gain.g, gain.b}) > 0.0)) return;
-  if (!(most_gain_.r > 0.0)) least_gain_ = most_gain_ = gain;
-  least_gain_ = {std::min(least_gain_.r, gain.r), std::min(least_gain_.g, gain.g),
-                 std::min(least_gain_.b, gain.b)};
-  most_gain_ = {std::max(most_gain_.r, gain.r), std::max(most_gain_.g, gain.g),
-                std::max(most_gain_.b, gain.b)};
-  const LinearRgb change = most_gain_ / least_gain_;
-  summary_.gain_change = std::max({change.r, change.g, change.b});
+  summary_.gain_is_guessed = gains_.empty();
+  summary_.gain = gains_.empty() ? guessed_gain_ : gains_.Gain();
+  summary_.gain_change = gains_.Change();
 }
 
 Result<void> SceneRenderer::UpdateLook(ImageView<const std::uint8_t> rgb,
@@ -304,7 +276,11 @@ Result<void> SceneRenderer::UpdateLook(ImageView<const std::uint8_t> rgb,
   recent_looks_.push_back(*seen);
   if (recent_looks_.size() > kLookWindow) recent_looks_.pop_front();
   PictureLook look;
-  const auto median = [&](const auto& value) { return MedianOf(recent_looks_, value); };
+  const auto median = [&](const auto& value) {
+    std::vector<double> values(recent_looks_.size());
+    std::transform(recent_looks_.begin(), recent_looks_.end(), values.begin(), value);
+    return Median(std::move(values));
+  };
   look.blur_px = median([](const PictureLook& l) { return l.blur_px; });
   for (int c = 0; c < 3; ++c) {
     look.noise_constant[c] = median([c](const PictureLook& l) { return l.noise_constant[c]; });

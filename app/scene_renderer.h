@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/gain_history.h"
 #include "app/light_look.h"
 #include "app/measured_sky.h"
 #include "app/scene_edit.h"
@@ -41,7 +42,7 @@ struct LightSummary {
   double sky_horizontal_lux = 0.0;
   LinearRgb gain;            ///< Display-linear value per cd/m².
   double gain_spread = 0.0;  ///< Relative; of the last frame that the marker could be read in.
-  /// How much the brightest gain in use is above the darkest, of the channel that changed most.
+  /// See GainHistory::Change().
   double gain_change = 1.0;
   int readings = 0;              ///< Frames in which the marker served as a light meter.
   bool gain_is_guessed = false;  ///< No frame could be read and the scene gives no gain.
@@ -168,8 +169,7 @@ class SceneRenderer {
   bool heading_is_edited_ = false;
   bool hold_gain_ = false;
   bool light_from_outside_ = false;
-  std::deque<LinearRgb> recent_gains_;  // Of the last frames, for the running median.
-  LinearRgb least_gain_, most_gain_;    // Since the first reading.
+  GainHistory gains_;
   LinearRgb guessed_gain_;
   bool match_look_ = true;
   int frames_to_look_ = 0;  // Until the blur is measured again.

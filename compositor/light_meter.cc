@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/quantile.h"
 #include "compositor/linear_sample.h"
-#include "compositor/quantile.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/quantile.h"
 #include "base/vector.h"
-#include "compositor/quantile.h"
 
 namespace pleinair::compositor {
 namespace {

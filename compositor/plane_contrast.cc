@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/quantile.h"
+#include "base/quantile.h"
 
 namespace pleinair::compositor {
 namespace {

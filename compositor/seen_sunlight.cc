@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <tuple>
 
+#include "base/quantile.h"
 #include "base/units.h"
 #include "compositor/light_samples.h"
-#include "compositor/quantile.h"
 
 namespace pleinair::compositor {
 namespace {

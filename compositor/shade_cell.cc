@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compositor/quantile.h"
+#include "base/quantile.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "compositor/quantile.h"
+#include "base/quantile.h"
 #include "compositor/scaled_daylight.h"
 
 namespace pleinair::compositor {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/quantile.h"
 #include "compositor/parallel_for.h"
-#include "compositor/quantile.h"
 #include "compositor/scaled_daylight.h"
 #include "compositor/shade_cell.h"
 

@@ -10,6 +10,7 @@
 
 #include "app/bench/recording_scene.h"
 #include "app/bench/shadow_truth.h"
+#include "base/quantile.h"
 #include "gl/egl_context.h"
 
 namespace pleinair::app {
@@ -24,11 +25,6 @@ constexpr double kCreepPxAFrame = 0.1;
 // A pixel, as the compositor has it.
 constexpr int kCreepSamples = 4;
 constexpr int kFramesARound = 2;
-
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
 
 Result<BenchScene> MakeScene(const std::string& name, const ShadowBenchOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;

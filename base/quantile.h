@@ -1,12 +1,10 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
-
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
-namespace pleinair::compositor {
+namespace pleinair {
 
 /// The value that a share `q`, 0 to 1, of the others lie below, without interpolation; for even
 /// counts the lower of the two in the middle. At least one value, none of them NaN.
@@ -24,4 +22,4 @@ inline double Median(std::vector<double> values) {
   return *middle;
 }
 
-}  // namespace pleinair::compositor
+}  // namespace pleinair
