@@ -17,17 +17,7 @@ double StraightEdge(double u) {
   return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-class ShadowAccuracy : public ShadowScene {
- protected:
-  ShadowMaps Region(const glm::dvec3& to_sun, const Box& focus, const ShadowMapOptions& options) {
-    auto maps = ShadowMaps::Create(options);
-    EXPECT_TRUE(maps.has_value()) << maps.error().Message();
-    const auto drawn = maps->UpdateForRegion(Casters(), AsDirection(to_sun), focus);
-    EXPECT_TRUE(drawn.has_value()) << drawn.error().Message();
-    return std::move(*maps);
-  }
-  void AddGround() { AddQuad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}); }
-};
+class ShadowAccuracy : public ShadowScene {};
 
 // 9.3 mm of penumbra a metre of height. Tolerance: 48 taps and the map's texels.
 TEST_F(ShadowAccuracy, OfAStraightEdgeIsCloseToTheClosedForm) {

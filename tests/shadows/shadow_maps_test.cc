@@ -20,7 +20,7 @@ class ShadowMapsTest : public ShadowScene {
   void SetUp() override {
     ShadowScene::SetUp();
     options_.resolutions = {256, 256, 256, 256};
-    AddQuad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0});
+    AddGround();
     AddBox({-0.2, -0.2, 0}, {0.2, 0.2, 0.5});
     focus_.Include({-0.2, -0.2, 0});
     focus_.Include({0.2, 0.2, 0.5});

@@ -27,6 +27,15 @@ void main() {
 
 }  // namespace
 
+ShadowMaps ShadowScene::Region(const glm::dvec3& to_sun, const Box& focus,
+                               const ShadowMapOptions& options) const {
+  auto maps = ShadowMaps::Create(options);
+  EXPECT_TRUE(maps.has_value()) << maps.error().Message();
+  const auto drawn = maps->UpdateForRegion(Casters(), AsDirection(to_sun), focus);
+  EXPECT_TRUE(drawn.has_value()) << drawn.error().Message();
+  return std::move(*maps);
+}
+
 void ShadowScene::AddMesh(const std::vector<glm::vec3>& positions,
                           const std::vector<unsigned>& indices) {
   Mesh& mesh = meshes_.emplace_back();

@@ -31,6 +31,8 @@ class ShadowScene : public gl::GlTest {
   /// Adds a solid box, or a parallelogram (never casts on itself).
   void AddBox(const glm::dvec3& low, const glm::dvec3& high);
   void AddQuad(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b);
+  /// A ground of 16 m × 16 m around the origin.
+  void AddGround() { AddQuad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}); }
   std::vector<ShadowCaster> Casters() const;
   Box Bounds() const;
   void ClearScene() {
@@ -38,6 +40,9 @@ class ShadowScene : public gl::GlTest {
     triangles_.clear();
   }
 
+  /// Maps of the scene drawn for `focus` and a sun in that direction.
+  ShadowMaps Region(const glm::dvec3& to_sun, const Box& focus,
+                    const ShadowMapOptions& options = {}) const;
   /// Visibility from the maps at each point of the plane.
   std::vector<float> Visibility(const ShadowMaps& maps, const ProbePlane& plane);
   std::vector<float> Visibility(const FadingShadowMaps& maps, const ProbePlane& plane);

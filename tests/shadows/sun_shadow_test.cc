@@ -16,17 +16,7 @@ Box Around(const glm::dvec3& low, const glm::dvec3& high) {
   return box;
 }
 
-class SunShadow : public ShadowScene {
- protected:
-  ShadowMaps Region(const glm::dvec3& to_sun, const Box& focus, ShadowMapOptions options = {}) {
-    auto maps = ShadowMaps::Create(options);
-    EXPECT_TRUE(maps.has_value()) << maps.error().Message();
-    const auto drawn = maps->UpdateForRegion(Casters(), AsDirection(to_sun), focus);
-    EXPECT_TRUE(drawn.has_value()) << drawn.error().Message();
-    return std::move(*maps);
-  }
-  void AddGround() { AddQuad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}); }
-};
+class SunShadow : public ShadowScene {};
 
 TEST_F(SunShadow, LeavesALitPlaneFullyLitByEveryMethod) {
   AddGround();

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/tracker/alignment_scene.h"
+#include "tests/tracker/on_every_target.h"
 #include "tracker/alignment/raster_kernels.h"
 #include "tracker/alignment/reduced_pictures.h"
 #include "tracker/homography.h"
@@ -183,17 +184,7 @@ TEST(PrintRaster, RendersThePrintAloneAsWithItsSurroundings) {
   }
 }
 
-class RasterOnEveryTarget : public testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
+class RasterOnEveryTarget : public OnEveryTarget {};
 
 TEST_P(RasterOnEveryTarget, DrawsWhatTheScalarReferenceDraws) {
   for (const double side : {12.0, 60.0}) {

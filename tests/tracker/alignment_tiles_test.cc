@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/tracker/alignment_scene.h"
+#include "tests/tracker/on_every_target.h"
 #include "tracker/alignment/block_sums.h"
 
 namespace pleinair::tracker {
@@ -57,17 +58,7 @@ Results Sum(const Data& data, BlockSums sums, int tile, bool blur) {
   return results;
 }
 
-class TilesOnEveryTarget : public testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
+class TilesOnEveryTarget : public OnEveryTarget {};
 
 TEST_P(TilesOnEveryTarget, AddUpAsTheScalarReferenceDoes) {
   for (const int width : {0, 1, 5, 16, 19, 63}) {

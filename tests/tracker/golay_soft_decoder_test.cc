@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/tracker/on_every_target.h"
 #include "tracker/golay/golay_scores.h"
 #include "tracker/golay/soft_golay_decoder.h"
 
@@ -66,18 +67,7 @@ GolayWord RandomPattern(std::mt19937& random, int weight) {
   return pattern;
 }
 
-/// Each instruction set that this machine has.
-class GolayScoresOnEveryTarget : public ::testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
+class GolayScoresOnEveryTarget : public OnEveryTarget {};
 
 TEST_P(GolayScoresOnEveryTarget, EqualTheScalarSumsOfEveryWord) {
   std::mt19937 random(2);

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/tracker/on_every_target.h"
 #include "tracker/quads/dark_components.h"
 #include "tracker/quads/dark_mask.h"
 #include "tracker/quads/quad_box.h"
@@ -30,18 +31,7 @@ GreyImage UnevenNoise(int width, int height, unsigned seed) {
   return picture;
 }
 
-/// Once for each set of instructions that was built and that this machine has.
-class DarkMaskVectors : public testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(GetParam());
-  }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
-  }
-};
+class DarkMaskVectors : public OnEveryTarget {};
 
 TEST_P(DarkMaskVectors, GiveWhatTheScalarReferenceGives) {
   for (const int width : {4, 15, 16, 31, 60, 64, 66, 127, 128, 200, 321}) {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
+#include "on_every_target.h"
 #include "surf_reference.h"
 #include "surf_test_pictures.h"
 #include "tracker/surf/box_levels.h"
@@ -26,18 +27,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Runs each test with one instruction set.
-class SurfKernels : public testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(GetParam());
-  }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
-  }
-};
+class SurfKernels : public OnEveryTarget {};
 
 INSTANTIATE_TEST_SUITE_P(EveryTarget, SurfKernels,
                          testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
