@@ -1,0 +1,172 @@
+"""Renders a made recording with ground truth (README.md beside this file):
+
+    blender -b --python tools/made_scenes/make_recording.py -- park --seed 3 -o park-3
+"""
+import argparse
+import json
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import bpy
+import cv2
+import numpy as np
+from mathutils import Matrix
+
+import daylight
+import pictures
+import recording_files as files
+import surfaces
+from objects import SMOOTH
+from places import PLACES
+
+REPOSITORY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+FRAMES_PER_S = 10
+SENSOR_MM = 36.0
+
+
+def asked():
+    parser = argparse.ArgumentParser(prog="make_recording.py")
+    parser.add_argument("place", choices=sorted(PLACES))
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("-o", "--out", required=True)
+    parser.add_argument("--frames", type=int, default=4)
+    parser.add_argument("--key-frames", type=int, nargs="*", default=[1])
+    parser.add_argument("--size", type=int, nargs=2, default=[400, 300])
+    parser.add_argument(
+        "--key-samples", type=int, default=128, help="a pixel, background and truth"
+    )
+    parser.add_argument("--samples", type=int, default=24, help="a pixel of the other frames")
+    parser.add_argument(
+        "--marker-of",
+        help="recording whose marker.png is printed (of the bundled two: by the seed)",
+    )
+    return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
+
+
+def the_marker(options):
+    """(picture, what scene.json says of it)."""
+    bundled = ("courtyard_midday", "courtyard_tag36h11")[options.seed % 2]
+    folder = options.marker_of or os.path.join(REPOSITORY, "recordings", bundled)
+    with open(os.path.join(folder, "scene.json")) as file:
+        said = json.load(file)["marker"]
+    said = {key: said.get(key, "") for key in ("edge_fraction", "what")}
+    return os.path.join(folder, "marker.png"), said
+
+
+def set_camera(place, size):
+    """The camera, its lens as OpenCV's pinhole: (0, 0) is the first pixel's centre."""
+    camera = bpy.data.cameras.new("camera")
+    camera.sensor_width, camera.sensor_fit = SENSOR_MM, "HORIZONTAL"
+    camera.lens = place.focal_px * SENSOR_MM / size[0]
+    camera.shift_x = (size[0] / 2 - (place.centre_px[0] + 0.5)) / size[0]
+    camera.shift_y = ((place.centre_px[1] + 0.5) - size[1] / 2) / size[0]
+    camera.clip_start, camera.clip_end = 0.01, 1000.0
+    stand = bpy.data.objects.new("camera", camera)
+    bpy.context.scene.collection.objects.link(stand)
+    bpy.context.scene.camera = stand
+    bpy.context.scene.render.resolution_x, bpy.context.scene.render.resolution_y = size
+    return stand
+
+
+def stand_at(stand, pose):
+    """Blender's camera looks along -z with y up, OpenCV's along z with y down."""
+    turn = pose[:, :3].T
+    world = np.eye(4)
+    world[:3, :3] = turn * (1, -1, -1)
+    world[:3, 3] = -turn @ pose[:, 3]
+    stand.matrix_world = Matrix(world.tolist())
+
+
+def touched(place, pose, size):
+    """Part of the picture that the object can change, left, top, right, bottom: itself and what it
+    darkens on the ground, with a border of a sixth of the picture for its surroundings."""
+    points = place.mesh.points
+    foot = points * (1, 1, 0) + (0, 0, place.ground_z)
+    seen = [points, foot]
+    if place.sky.sun_to_sky > 0:
+        seen.append(foot - (points - foot)[:, 2:] * (place.to_sun / place.to_sun[2] * (1, 1, 0)))
+    at = np.concatenate(seen) @ pose[:, :3].T + pose[:, 3]
+    at = at[at[:, 2] > 0.05]
+    pixels = place.focal_px * at[:, :2] / at[:, 2:] + place.centre_px
+    low = np.clip(pixels.min(axis=0) / size - 1 / 6, 0, 1)
+    high = np.clip(pixels.max(axis=0) / size + 1 / 6, 0, 1)
+    return (*low, *high)
+
+
+def write_models(out, place, virtual):
+    stand_ins = [s for s in place.surfaces if s.phantom is not None]
+    parts = [(s.name, s.pattern.name, s.phantom) for s in stand_ins]
+    files.write_obj(f"{out}/phantom.obj", "phantom.mtl", parts)
+    albedos = {s.pattern.name: s.pattern.mean_albedo for s in stand_ins}
+    files.write_mtl(f"{out}/phantom.mtl", albedos)
+    normals = [v.normal for v in virtual.data.vertices] if place.kind in SMOOTH else None
+    files.write_obj(f"{out}/object.obj", "object.mtl", [("virtual", "object", place.mesh)], normals)
+    files.write_mtl(f"{out}/object.mtl", {"object": place.albedo})
+
+
+def key_frame(out, frame, background, truth, mask, gain):
+    """Writes a key frame's pictures; what scene.json says of them."""
+    shadow = pictures.darkened(truth, background, mask)
+    stem = f"key/{frame:04d}_"
+    cv2.imwrite(f"{out}/{stem}background.png", pictures.encoded(background * gain))
+    cv2.imwrite(f"{out}/{stem}truth.png", pictures.encoded(truth * gain))
+    cv2.imwrite(f"{out}/{stem}objmask.png", mask)
+    cv2.imwrite(f"{out}/{stem}shadow.png", shadow)
+    said = {"frame": frame, "background": stem + "background.png", "truth": stem + "truth.png"}
+    said.update({"object_mask": stem + "objmask.png", "shadow": stem + "shadow.png"})
+    said["stats"] = {"object_px": int((mask > 127).sum()), "shadow_px": int((shadow > 0).sum())}
+    return said
+
+
+def main():
+    options = asked()
+    out = os.path.abspath(options.out)
+    for folder in ("frames", "key"):
+        os.makedirs(f"{out}/{folder}", exist_ok=True)
+    random = np.random.default_rng([options.seed, sorted(PLACES).index(options.place)])
+    place = PLACES[options.place](random, options.frames, tuple(options.size))
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    pictures.set_up()
+    sky, sun, level_sky, scale = daylight.light_place(place)
+    for surface in place.surfaces:
+        surfaces.add_surface(surface)
+    marker_picture, marker = the_marker(options)
+    surfaces.add_marker(marker_picture, place.square_m / marker["edge_fraction"])
+    virtual = surfaces.add_mesh(
+        "virtual", place.mesh, surfaces.diffuse("object", place.albedo), smooth=place.kind in SMOOTH
+    )
+    stand = set_camera(place, options.size)
+
+    level = level_sky + sun * place.to_sun[2]
+    gain = place.cast * place.brightness * np.pi / (surfaces.PAPER * level)
+    poses = [files.marker_to_camera(*view) for view in place.views]
+    key_frames = []
+    for frame, pose in enumerate(poses):
+        stand_at(stand, pose)
+        is_key = frame in options.key_frames
+        virtual.hide_render = True
+        background = pictures.rendered(options.key_samples if is_key else options.samples, frame)
+        pictures.write_jpeg(f"{out}/frames/{frame:04d}.jpg", pictures.encoded(background * gain))
+        if is_key:
+            virtual.hide_render = False
+            within = touched(place, pose, options.size)
+            truth = pictures.rendered(options.key_samples, frame, within)
+            truth = np.where(truth.max(axis=2, keepdims=True) > 0, truth, background)
+            mask = pictures.object_mask(virtual)
+            key_frames.append(key_frame(out, frame, background, truth, mask, gain))
+
+    cv2.imwrite(f"{out}/sky_truth.exr", (sky * gain)[..., ::-1].astype(np.float32))
+    cv2.imwrite(f"{out}/marker.png", cv2.imread(marker_picture))
+    write_models(out, place, virtual)
+    files.write_truth(f"{out}/truth.tum", poses, FRAMES_PER_S)
+    footage = files.Footage(tuple(options.size), FRAMES_PER_S, poses)
+    files.write_recording(f"{out}/recording.json", place, footage)
+    light = files.Light(sun * gain, level_sky * gain, gain, scale)
+    files.write_scene(f"{out}/scene.json", place, footage, marker, light, key_frames)
+
+
+if __name__ == "__main__":
+    main()
