@@ -36,7 +36,9 @@ constexpr double kSameCells_modules = 0.5;
 constexpr double kPlainNoise = 0.02;
 constexpr int kNoisySteps = 3;
 constexpr int kFollowSteps = 4;
-constexpr std::array<double, 2> kFollowBlurs_px{0.9, 0.3};
+constexpr double kFarFollowBlur_px = 0.9, kFollowBlur_px = 0.3;
+/// Correlation of a followed print that surely is where it was looked for.
+constexpr double kExpected = 0.95;
 /// Mean correlation of the content's blocks that makes a followed marker's number sure, and likely.
 constexpr double kContentSure = 0.9, kContentRight = 0.4;
 /// How much likelier than the next the number of a marker must be, in nats.
@@ -176,12 +178,15 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
   options.steps = kFollowSteps;
   options.done_px = 0.1;
   const int blocks = BlockFit::BlocksAlong(1.2 * side / scale, kCoarseBlock_px);
-  // Much blur finds a print from farther away, less of it nearer to where it is.
-  for (const double blur_px : kFollowBlurs_px) {
+  const auto fit = [&](double blur_px) {
     state.blur_px = std::max(guess.blur_px, blur_px * scale);
-    if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state)) {
-      return std::nullopt;
-    }
+    return fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state);
+  };
+  // Much blur finds a print from farther away, less of it nearer to where it is, which mostly is
+  // where it was expected.
+  if (!fit(kFollowBlur_px) || fit_.Correlation() < kExpected) {
+    state = guess;
+    if (!fit(kFarFollowBlur_px) || !fit(kFollowBlur_px)) return std::nullopt;
   }
   state.blur_px = guess.blur_px;
   std::optional<SgReading> reading = Measure(number, state, LastStepPx(side));
