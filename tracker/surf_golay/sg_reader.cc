@@ -65,7 +65,7 @@ constexpr double kMiddle = 0.5 * sg::kPrint;
 /// of itself. Of large prints, whose corners are told best, that must be less; of small ones noise
 /// moves the corners by more.
 double LastStepPx(double side_px) {
-  constexpr double kSmall_px = 60.0, kLarge_px = 130.0;
+  constexpr double kSmall_px = 90.0, kLarge_px = 130.0;
   return side_px < kSmall_px ? 0.06 : side_px < kLarge_px ? 0.04 : 0.02;
 }
 
