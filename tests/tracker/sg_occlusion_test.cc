@@ -229,6 +229,32 @@ TEST(SgOcclusion, FindsMarkersCrossedByAHardShadowOfOneToSixteen) {
 }
 
 // Light that changes within blocks draws the corners, also where something lies on the print.
+// In the shade noise is large, and what is predicted of it certain: light from beyond the edge in
+// the same block must not be taken for as certain. (So it drew corners by up to 4 px.)
+TEST(SgOcclusion, MeasuresANoisyPrintInTheShadeOfAHardEdge) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  const auto tracker = MakeSgTracker(camera);
+  const Vec2 centre{80, 75};
+  std::uint32_t seed = 1;
+  for (const double edge_px : {27.0, 38.0}) {
+    for (const double angle : {0.6, 2.2, 3.8, 5.4}) {
+      SCOPED_TRACE(testing::Message()
+                   << "light " << edge_px << " px from the middle, at " << angle);
+      const RenderedMarker marker =
+          SgMarkerAt(camera, 493, centre, 110, 25, 100.0 * seed, 25.0 * seed);
+      RenderingOptions options{.blur_px = 0.5, .noise_codes = 3.5, .seed = seed++};
+      options.light = [=](Vec2 pixel) {
+        const Vec2 from = pixel - centre;
+        return from.x * std::cos(angle) + from.y * std::sin(angle) > edge_px ? 1.0 : 1.0 / 32;
+      };
+      const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found[0].detection.id, 493);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.25);
+    }
+  }
+}
+
 TEST(SgOcclusion, MeasuresAPrintWithACoveredCornerUnderAGradient) {
   const CameraModel camera = SgCamera();
   const auto tracker = MakeSgTracker(camera);

@@ -20,6 +20,8 @@ constexpr double kLeastWeight = 0.02;
 constexpr double kRobustNoises = 1.0;  ///< Standard deviations at which a pixel loses half.
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
 constexpr float kMostReach_modules = 2.4F;
+/// How much brighter than predicted, in whites, noise makes no pixel.
+constexpr float kFarBrighter = 2.0F;
 constexpr double kDamping = 1e-5;
 /// Logarithm of light by half an edge; and how independent both slopes must be.
 constexpr double kMostSlope = 3.0, kLeastSlopeDeterminant = 1e-3;
@@ -257,7 +259,10 @@ void BlockFit::ExpectCertainty(SeenWindow* seen) {
     if (block_of_[n] < 0 || !(seen->certainty[n] > 0.0F)) continue;
     const BlockLight& light = sums_->lights[block_of_[n]];
     if (!(light.gain > 0.0F)) continue;
-    seen->certainty[n] = CertaintyOfLight(light.offset + light.gain * picture_.white[n]);
+    const float expected = light.offset + light.gain * picture_.white[n];
+    // What lies beyond a shadow's edge is not as certain as the shade.
+    if (seen->value[n] > expected + kFarBrighter * light.gain) continue;
+    seen->certainty[n] = CertaintyOfLight(expected);
   }
 }
 
