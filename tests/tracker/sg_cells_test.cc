@@ -183,6 +183,34 @@ TEST(SgCells, ShowAroundTheCoreOfAHighlight) {
   EXPECT_GT(decoding.margin, 8.0F);
 }
 
+// The border beside the content, which is known, tells the light on cells of which nearly nothing
+// is left; and a cell that is whiter than white with it is white under more of it.
+TEST(SgCells, ShowAroundHighlightsByWhatIsKnownBesideThem) {
+  // Of what glare leaves, so much must tell; without the border beside the content the margins of
+  // the first two are 8 and 10, with cells that are whiter than white those of the others 49
+  // and 23.
+  struct {
+    Vec2 middle;
+    double radius_px;
+    float least_margin;
+  } constexpr kSpots[] = {
+      {{90, 65}, 24, 15.0F}, {{70, 85}, 24, 15.0F}, {{50, 65}, 16, 60.0F}, {{70, 65}, 16, 35.0F}};
+  const CameraModel camera = SgCamera(160, 150, 300);
+  for (const auto& spot : kSpots) {
+    SCOPED_TRACE(testing::Message() << "spot at " << spot.middle.x << ", " << spot.middle.y);
+    RenderingOptions options{.blur_px = 0.7, .noise_codes = 2.0};
+    options.glare = [&](Vec2 pixel) {
+      const double away = Norm(pixel - spot.middle) / spot.radius_px;
+      return 1.6 * std::exp(-std::numbers::ln2 * std::pow(away, 4.0));
+    };
+    const ReadCells cells(camera, Marker(camera, 110), options, true);
+    ASSERT_TRUE(cells.ok());
+    const SoftGolayDecoding decoding = SoftGolayDecoder().Decode(cells->likelihoods);
+    EXPECT_EQ(decoding.number, kNumber);
+    EXPECT_GT(decoding.margin, spot.least_margin);
+  }
+}
+
 TEST(SgCells, AreReadWhereWhiteClips) {
   const CameraModel camera = SgCamera(160, 150, 300);
   for (const double exposure : {2.0, 4.0, 8.0}) {

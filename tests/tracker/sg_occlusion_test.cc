@@ -297,6 +297,29 @@ TEST(SgOcclusion, FindsMarkersWithGlareOnAFifth) {
   }
 }
 
+// Twelve plain cells pick one of 4,096 numbers and prove nothing beyond; on a border that is
+// plainly a marker's they are enough, where light drowns the others.
+TEST(SgOcclusion, ReadsTheNumberWhereGlareLeavesHalfOfTheCells) {
+  struct {
+    Vec2 middle;
+    double radius_px;
+  } constexpr kSpots[] = {{{58, 86}, 36}, {{113, 75}, 39}, {{102, 97}, 39}};
+  const CameraModel camera = SgCamera(160, 150, 300);
+  const auto tracker = MakeSgTracker(camera);
+  const RenderedMarker marker = SgMarkerAt(camera, 1465, {80, 75}, 110, 20, 50, 8);
+  for (const auto& spot : kSpots) {
+    SCOPED_TRACE(testing::Message() << "spot at " << spot.middle.x << ", " << spot.middle.y);
+    RenderingOptions options{.blur_px = 0.55, .noise_codes = 0.7};
+    options.glare = [&](Vec2 pixel) {
+      return 1.6 * std::exp2(-std::pow(Norm(pixel - spot.middle) / spot.radius_px, 4.0));
+    };
+    const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 1465);
+    EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.2);
+  }
+}
+
 TEST(SgOcclusion, TellsWhichPartsOfThePrintAreSeen) {
   const CameraModel camera = SgCamera(360, 330);
   const auto tracker = MakeSgTracker(camera);

@@ -24,6 +24,7 @@ constexpr double kWhiteClips = 0.93;
 /// In the core of a highlight noise and compression leave some pixels just below the brightest.
 constexpr float kNearlyClips = 0.92F;
 constexpr double kRidge = 1e-4;
+constexpr double kKnown_px = 1000.0;  ///< Pixels that a share that is known counts as.
 constexpr double kLeastSeen_px = 0.3;
 /// A pixel that sees so much of one cell is a witness of its own; those of a cell together are
 /// worth a few independent ones, since what covers a cell covers neighbouring pixels alike.
@@ -33,15 +34,17 @@ constexpr double kPixelCovered = 0.3, kWitnesses = 1.3, kFewestWitnesses = 6.0;
 constexpr double kMimicry = 0.6;
 constexpr int kRoundsWhenClipped = 3;
 
-/// Glare is told at nodes half a cell apart, from half a cell before the content to half beyond.
-constexpr int kGlareNodes = 2 * sg::kCells + 3;
+/// Glare is told at nodes half a cell apart, from a cell before the content to one beyond: the
+/// border there is known, and tells it where cells are drowned.
+constexpr double kGlareReach = sg::kCell;
+constexpr int kGlareNodes = 2 * sg::kCells + 5;
 constexpr std::array<int, 4> kNodeSteps{0, 1, kGlareNodes, kGlareNodes + 1};
 constexpr double kGlaring = 1.12;  ///< Share of white of a cell that glares,
 constexpr int kFewestGlaring = 2;  ///< … and how many must.
 constexpr double kGlareBend = 0.02, kGlareSize = 0.00003;
 
 double GlareNode(double module) {
-  return (module - (sg::kQuiet + sg::kContent - 0.5 * sg::kCell)) / (0.5 * sg::kCell);
+  return (module - (sg::kQuiet + sg::kContent - kGlareReach)) / (0.5 * sg::kCell);
 }
 
 /// Φ(z), the normal distribution function, between values 1/64 apart: right to 1e-5.
@@ -78,7 +81,7 @@ void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const Se
   const double blur = state.blur_px / seen.rays.window.Scale();
   const double variance_px2 = blur * blur + 1.0 / 12.0;
   const double middle = 0.5 * blank.modules, per_half = 2.0 / blank.edge_modules;
-  const double reach_modules = 0.5 * sg::kCells * sg::kCell;
+  const double reach_modules = 0.5 * sg::kCells * sg::kCell + (with_glare ? kGlareReach : 0.0);
   for (std::size_t n = 0; n < seen.value.size(); ++n) {
     const double c = fit.map().column[n], r = fit.map().row[n];
     const double sigma_c =
@@ -112,7 +115,7 @@ void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const Se
         pixel.share[pixel.cells++] = static_cast<float>(part);
       }
     }
-    if (pixel.cells == 0) continue;
+    if (pixel.cells == 0 && !with_glare) continue;
     const double gx = GlareNode(c), gy = GlareNode(r);
     const int nx = std::clamp(static_cast<int>(gx), 0, kGlareNodes - 2);
     const int ny = std::clamp(static_cast<int>(gy), 0, kGlareNodes - 2);
@@ -131,7 +134,22 @@ double CellReader::GlareAt(const Pixel& pixel, const Eigen::VectorXd& found) {
   return glare;
 }
 
-bool CellReader::Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd* inverse) {
+bool CellReader::SolveWithGlare(Eigen::VectorXd* found, Eigen::MatrixXd* inverse) {
+  // No cell is whiter than white: what is left of one that is belongs to the glare.
+  CellFlags white{};
+  for (bool more = true; more;) {
+    if (!Solve(true, white, found, inverse)) return false;
+    more = false;
+    for (int k = 0; k < sg::kCodeCells; ++k) {
+      if (white[k] || (*found)[k] <= kGlaring) continue;
+      white[k] = more = true;
+    }
+  }
+  return true;
+}
+
+bool CellReader::Solve(bool with_glare, const CellFlags& known_white, Eigen::VectorXd* found,
+                       Eigen::MatrixXd* inverse) {
   const int unknowns = sg::kCodeCells + (with_glare ? kGlareNodes * kGlareNodes : 0);
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
   bool clipped = false;
@@ -156,6 +174,7 @@ bool CellReader::Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd*
       normal.topLeftCorner(sg::kCodeCells, sg::kCodeCells).trace() / sg::kCodeCells;
   const double ridge = kRidge * pixels_a_cell + 1e-9;
   normal.diagonal().head(sg::kCodeCells).array() += ridge;
+  for (int k = 0; k < sg::kCodeCells; ++k) normal(k, k) += known_white[k] ? kKnown_px : 0.0;
   if (with_glare) {
     // Glare is smooth: its second differences are small; and it is mostly not there.
     const double bend = kGlareBend * pixels_a_cell, size = kGlareSize * pixels_a_cell;
@@ -179,6 +198,7 @@ bool CellReader::Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd*
   for (int round = 0; round < (clipped ? kRoundsWhenClipped : 1); ++round) {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
     right.head(sg::kCodeCells).setConstant(0.5 * ridge);
+    for (int k = 0; k < sg::kCodeCells; ++k) right[k] += known_white[k] ? kKnown_px : 0.0;
     for (Pixel& pixel : pixels_) {
       if (round > 0 && pixel.least >= 0.0F) {
         // What a clipped pixel would show: what the cells found so far predict, if that clips.
@@ -209,7 +229,7 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
   if (pixels_.empty()) return;
   Eigen::VectorXd found;
   Eigen::MatrixXd inverse;
-  if (!Solve(with_glare, &found, &inverse)) return;
+  if (!(with_glare ? SolveWithGlare(&found, &inverse) : Solve(false, {}, &found, &inverse))) return;
   int glaring = 0;
   for (int k = 0; k < sg::kCodeCells; ++k) glaring += found[k] > kGlaring;
   reading->glaring = !light.white_clips && glaring >= kFewestGlaring;

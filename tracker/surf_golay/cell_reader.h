@@ -52,8 +52,11 @@ class CellReader {
   };
   void Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
               const BlockFitState& state, const PrintLight& light, bool with_glare);
+  using CellFlags = std::array<bool, sg::kCodeCells>;
   /// Least squares of the cells' shares, and of smooth glare on top where asked.
-  bool Solve(bool with_glare, Eigen::VectorXd* found, Eigen::MatrixXd* inverse);
+  bool Solve(bool with_glare, const CellFlags& known_white, Eigen::VectorXd* found,
+             Eigen::MatrixXd* inverse);
+  bool SolveWithGlare(Eigen::VectorXd* found, Eigen::MatrixXd* inverse);
   static double GlareAt(const Pixel& pixel, const Eigen::VectorXd& found);
   /// How likely each cell is black, white or covered, given what the cells around it look like.
   /// Deviation of a cell's share of white that no noise tells.

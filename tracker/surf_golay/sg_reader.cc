@@ -55,6 +55,10 @@ constexpr double kTellsLight = 0.8, kSplitDoubt_bits = 2.0;
 /// The same where so much of the border shows a light without clipping and edges of shadows: cells
 /// that part otherwise contradict it, and what covers half of them has a colour of its own.
 constexpr double kShowsLight = 0.5, kSplitAgainstLight_bits = 6.0;
+/// What glare takes off the proof where the border is plainly a marker's: nothing lies on the cells
+/// that it drowns, so that twelve plain ones are enough, and the blocks that it touches look less
+/// like the print without being covered.
+constexpr double kDrowned_bits = 1.0;
 constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
 /// Share of a print that must be seen at least where its number is known, and where nothing tells
 /// that it is still that.
@@ -266,7 +270,7 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
     if (!cells.glaring || border_visible < kShowsGlare) continue;
     if (read && reading->margin > kSafeMargin) break;
     cell_reader_.Read(blank_, fit_, seen_, state, light, true, &cells);
-    decode(cells.likelihoods, 0.0);
+    decode(cells.likelihoods, border_visible < kTellsLight ? 0.0 : -kDrowned_bits);
   }
   return read;
 }
