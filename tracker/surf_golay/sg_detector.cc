@@ -133,7 +133,18 @@ std::array<Vec2, 4> SgDetector::CornersPx(const Mat3& modules_from_ideal) const 
   return corners;
 }
 
+bool SgDetector::ContradictsBorder(const SgReading& reading) const {
+  if (reading.visible_fraction >= kSurelyVisible) return false;
+  const std::array<Vec2, 4> corners = SquareCornersIdeal(reading.modules_from_ideal);
+  return std::ranges::any_of(reader_.UnreadBorders(), [&](const Mat3& unread) {
+    const std::array<Vec2, 4> open = SquareCornersIdeal(unread);
+    return Inside(open, CentreOf(corners)) &&
+           FarthestApart(open, corners) > kOtherPlace * LongestSide(open);
+  });
+}
+
 bool SgDetector::Add(const SgReading& reading, DetectionPath path) {
+  if (ContradictsBorder(reading)) return false;
   // Two prints cannot lie in one place: the one of which more is seen is there.
   const std::array<Vec2, 4> corners = SquareCornersIdeal(reading.modules_from_ideal);
   for (Found& found : found_) {

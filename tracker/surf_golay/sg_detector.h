@@ -71,6 +71,8 @@ class SgDetector final : public MarkerDetector {
 
   /// Of the side: two fits that ended so near to each other are one.
   static constexpr double kSamePlace = 0.04;
+  /// … and two that are so far apart are surely not.
+  static constexpr double kOtherPlace = 0.15;
   /// A marker of which less is seen may be a little beside: other guesses there are read as well.
   static constexpr double kSurelyVisible = 0.5;
 
@@ -92,6 +94,9 @@ class SgDetector final : public MarkerDetector {
   /// Correlation of the border's pixels this way round; 0 where another is better.
   double UprightCorrelation(const BlockFitState& state);
   bool Add(const SgReading& reading, DetectionPath path);
+  /// Whether a reading of which little is seen lies, otherwise, where the border of a marker lies
+  /// open: what covers its cells then passed for another's.
+  bool ContradictsBorder(const SgReading& reading) const;
   /// Whether a marker was found there already, of which so much is seen or that lies just so.
   bool Taken(const Mat3& modules_from_ideal, double visible = 0.0) const;
   std::array<Vec2, 4> CornersPx(const Mat3& modules_from_ideal) const;

@@ -28,6 +28,7 @@ constexpr double kPlainVisible = 0.985;
 constexpr double kLeastSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
 constexpr double kLeastVisibleBorder = 0.06;
+constexpr double kOpenBorder = 0.9;  ///< Share that looks right of a border that nothing covers.
 constexpr int kReadSteps = 4;
 /// Corners that far apart put a cell's middle where it was: cells need not be read again.
 constexpr double kSameCells_modules = 0.5;
@@ -98,6 +99,7 @@ bool Explains(const SgReading& reading, const SgReading& other) {
 void SgReader::SetPicture(ImageView<const std::uint8_t> grey) {
   grey_ = grey;
   plain_blur_px_ = kFirstBlur_px;
+  unread_borders_.clear();
   windows_.SetPicture(grey);
   if (blank_.modules == 0) blank_ = SgPrintOfWord(0);
 }
@@ -225,7 +227,8 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
 bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
   const double border_visible = VisibleBorder();
   bool read = false;
-  const auto decode = [&](const CellLikelihoods& likelihoods, double doubt_bits) {
+  const auto decode = [&](const CellLikelihoods& likelihoods, double doubt_bits,
+                          const CellLikelihoods* by_light = nullptr) {
     const SoftGolayDecoding decoding = decoder_.Decode(likelihoods);
     const auto take = [&](int number, float margin, double bits) {
       if (margin < kLeastMargin || (read && bits <= reading->proof_bits)) return;
@@ -237,7 +240,8 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
     // A number in use must not be one that many others would beat.
     take(decoding.number, decoding.margin - decoding.shortfall,
          ProofBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - doubt_bits -
-             AmbiguityBits(likelihoods, decoding.number, any_number_));
+             AmbiguityBits(by_light != nullptr ? *by_light : likelihoods, decoding.number,
+                           any_number_));
     if (border_visible < kTellsLight || decoding.disagreements < kFewestHidden ||
         decoder_.NumbersInUse() > kFewestNumbersProved) {
       return;
@@ -264,7 +268,12 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
           border_visible > kShowsLight && !light.white_clips && !light.has_edge;
       const CellSplits splits = SplitCells(cells);
       for (int i = 0; i < splits.count; ++i) {
-        decode(splits.likelihoods[i], against_light ? kSplitAgainstLight_bits : kSplitDoubt_bits);
+        if (against_light) {
+          // What the light says is covered leaves open which of two prints lies there.
+          decode(splits.likelihoods[i], kSplitAgainstLight_bits, &cells.likelihoods);
+        } else {
+          decode(splits.likelihoods[i], kSplitDoubt_bits);
+        }
       }
     }
     if (!cells.glaring || border_visible < kShowsGlare) continue;
@@ -306,7 +315,10 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
   SgReading number;
   // Where nearly all of the border is covered no block of it may look right as a whole.
   if (border_steps > 0 && VisibleBorder() < kLeastVisibleBorder) return std::nullopt;
-  if (!ReadNumber(state, &number)) return std::nullopt;
+  if (!ReadNumber(state, &number)) {
+    if (VisibleBorder() > kOpenBorder) unread_borders_.push_back(state.modules_from_ideal);
+    return std::nullopt;
+  }
   std::optional<SgReading> reading = Measure(number.number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kWholeEnough) {

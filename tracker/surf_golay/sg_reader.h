@@ -62,6 +62,10 @@ class SgReader {
   /// to those who can look at the border's pixels.
   std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess) { return Read(guess, 0); }
 
+  /// Where borders of this picture lie open (modules from ideal pixels) of which the cells told no
+  /// number.
+  std::span<const Mat3> UnreadBorders() const { return unread_borders_; }
+
   /// Measures a print whose number is known from a guess that is right to about a pixel, until a
   /// step moves no corner farther than `done_px`.
   std::optional<SgReading> Measure(int number, const BlockFitState& guess, double done_px = 0.01);
@@ -113,6 +117,7 @@ class SgReader {
   PrintPattern blank_;
   PrintPattern print_;
   int print_number_ = -1;
+  std::vector<Mat3> unread_borders_;
   /// That of the last plain print of this picture: others are as far away or as much in motion.
   double plain_blur_px_ = 0.0;
 };
