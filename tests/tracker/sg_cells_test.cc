@@ -211,6 +211,22 @@ TEST(SgCells, ShowAroundHighlightsByWhatIsKnownBesideThem) {
   }
 }
 
+// Paper near the brightest that the picture can hold looks no whiter than white where it glares.
+TEST(SgCells, GlareWhereLightDrownsThem) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  RenderedMarker marker = Marker(camera, 110);
+  marker.white = 0.9;
+  RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0};
+  EXPECT_FALSE(ReadCells(camera, marker, options)->glaring);
+  options.glare = [](Vec2 pixel) {
+    return 1.6 * std::exp2(-std::pow(Norm(pixel - Vec2{80, 45}) / 19.0, 4.0));
+  };
+  EXPECT_TRUE(ReadCells(camera, marker, options)->glaring);
+  const ReadCells glared(camera, marker, options, true);
+  EXPECT_EQ(NumberOf(*glared), kNumber);
+  EXPECT_EQ(PlainlyWrong(*glared), 0);
+}
+
 TEST(SgCells, AreReadWhereWhiteClips) {
   const CameraModel camera = SgCamera(160, 150, 300);
   for (const double exposure : {2.0, 4.0, 8.0}) {

@@ -297,6 +297,25 @@ TEST(SgOcclusion, FindsMarkersWithGlareOnAFifth) {
   }
 }
 
+// What the content alone tells may lie far off where most of it is drowned, and be cut into other
+// blocks, which explain no more than those of the border's fit.
+TEST(SgOcclusion, MeasuresAnOpenBorderWithGlareOnTheCells) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  const auto tracker = MakeSgTracker(camera);
+  const RenderedMarker marker = SgMarkerAt(camera, 1141, {80, 75}, 110, 20, 50, 8);
+  for (const Vec2 middle : {Vec2{56, 75}, Vec2{56, 87}, Vec2{68, 87}}) {
+    SCOPED_TRACE(testing::Message() << "spot at " << middle.x << ", " << middle.y);
+    RenderingOptions options{.blur_px = 0.55, .noise_codes = 0.7};
+    options.glare = [=](Vec2 pixel) {
+      return 1.6 * std::exp2(-std::pow(Norm(pixel - middle) / 19.0, 4.0));
+    };
+    const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 1141);
+    EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.03);
+  }
+}
+
 // Twelve plain cells pick one of 4,096 numbers and prove nothing beyond; on a border that is
 // plainly a marker's they are enough, where light drowns the others.
 TEST(SgOcclusion, ReadsTheNumberWhereGlareLeavesHalfOfTheCells) {

@@ -78,6 +78,7 @@ void ColumnShares(double at, double sigma, std::array<double, sg::kCells>* share
 void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
                         const BlockFitState& state, const PrintLight& light, bool with_glare) {
   pixels_.clear();
+  drowned_ = false;
   const double blur = state.blur_px / seen.rays.window.Scale();
   const double variance_px2 = blur * blur + 1.0 / 12.0;
   const double middle = 0.5 * blank.modules, per_half = 2.0 / blank.edge_modules;
@@ -95,7 +96,10 @@ void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const Se
     const double u = (c - middle) * per_half, v = (r - middle) * per_half;
     const double white = light.White(u, v), black = light.black_share * white;
     const bool clipped = !(seen.certainty[n] > 0.0F);
-    if (clipped && (with_glare || white < kWhiteClips)) continue;
+    if (clipped && (with_glare || white < kWhiteClips)) {
+      drowned_ = true;
+      continue;
+    }
     if (with_glare && seen.value[n] > kNearlyClips) continue;
     const double known = fit.picture().white[n];
     const double share = (seen.value[n] - black) / (white - black);
@@ -232,7 +236,6 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
   if (!(with_glare ? SolveWithGlare(&found, &inverse) : Solve(false, {}, &found, &inverse))) return;
   int glaring = 0;
   for (int k = 0; k < sg::kCodeCells; ++k) glaring += found[k] > kGlaring;
-  reading->glaring = !light.white_clips && glaring >= kFewestGlaring;
   const Eigen::VectorXd& white = found;
 
   // A pixel's noise depends on whether it sees black or white.
@@ -288,6 +291,9 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
       reading->witness[k] = static_cast<float>(kWitnesses * witness[k] / whole[k]);
     }
   }
+  // Light that drowns cells wholly may leave little on those around them.
+  for (int k = 0; k < sg::kCodeCells; ++k) glaring += drowned_ && !reading->seen[k];
+  reading->glaring = !light.white_clips && glaring >= kFewestGlaring;
   for (int k = 0; k < sg::kCodeCells; ++k) glare[k] /= std::max(1.0, seen_share[k]);
   Judge(systematic, glare, reading);
 }

@@ -23,8 +23,8 @@ struct CellReading {
   std::array<float, sg::kCodeCells> witness{};    ///< Log-likelihood ratio by single pixels.
   std::array<bool, sg::kCodeCells> seen{};        ///< Any pixel tells of it.
   CellLikelihoods likelihoods{};
-  bool glaring =
-      false;  ///< Some cells are whiter than white: light that a shiny print throws back.
+  bool glaring = false;  ///< Some cells are whiter than white or drowned: light that a shiny print
+                         ///< throws back.
 };
 
 /// Reads the cells of a print whose border has been fitted. The picture is linear in the cells'
@@ -67,6 +67,7 @@ class CellReader {
                     CellReading* reading);
 
   std::vector<Pixel> pixels_;
+  bool drowned_ = false;  ///< Some pixels are brighter than white and than the picture can hold.
 };
 
 }  // namespace pleinair::tracker

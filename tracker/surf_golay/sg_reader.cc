@@ -327,6 +327,8 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
     BlockFitState by_content = state;
     if (FitContent(number.number, &by_content)) {
       std::optional<SgReading> other = Measure(number.number, by_content);
+      // From a guess of another size it was cut into other blocks, which compare with none.
+      if (other && other->blocks_along != reading->blocks_along) LookAgain(&*other);
       if (other && Explains(*other, *reading)) reading = std::move(other);
     }
   }
@@ -341,6 +343,14 @@ std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_s
   reading->margin = number.margin;
   reading->proof_bits = number.proof_bits;
   return reading;
+}
+
+void SgReader::LookAgain(SgReading* reading) {
+  const BlockFitState state{reading->modules_from_ideal, reading->blur_px};
+  PixelWindow window;
+  if (!windows_.TakeFine(state, &window, &seen_)) return;
+  fit_.Evaluate(Print(reading->number), PrintPart::kWhole, seen_, FineBlocks(window, state), state);
+  DescribeLooks(fit_, reading);
 }
 
 bool SgReader::IsNoisy() {

@@ -86,6 +86,8 @@ class SgReader {
   bool ReadNumber(const BlockFitState& state, SgReading* reading);
   /// Moves a state to where the content alone fits best.
   bool FitContent(int number, BlockFitState* state);
+  /// Describes how a print that was measured looks anew, in blocks that go by where it was found.
+  void LookAgain(SgReading* reading);
   /// Whether the print that was fitted last is so noisy that its pixels' own certainties mislead.
   bool IsNoisy();
   /// Fits a print that was fitted last once more, its pixels as certain as what is predicted of
