@@ -33,11 +33,11 @@ def asked():
     parser.add_argument("-o", "--out", required=True)
     parser.add_argument("--frames", type=int, default=4)
     parser.add_argument("--key-frames", type=int, nargs="*", default=[1])
-    parser.add_argument("--size", type=int, nargs=2, default=[400, 300])
+    parser.add_argument("--size", type=int, nargs=2, default=[480, 360])
     parser.add_argument(
-        "--key-samples", type=int, default=128, help="a pixel, background and truth"
+        "--key-samples", type=int, default=192, help="a pixel about a key frame's object"
     )
-    parser.add_argument("--samples", type=int, default=24, help="a pixel of the other frames")
+    parser.add_argument("--samples", type=int, default=32, help="a pixel elsewhere")
     parser.add_argument(
         "--marker-of",
         help="recording whose marker.png is printed (of the bundled two: by the seed)",
@@ -148,14 +148,15 @@ def main():
         stand_at(stand, pose)
         is_key = frame in options.key_frames
         virtual.hide_render = True
-        background = pictures.rendered(options.key_samples if is_key else options.samples, frame)
+        background = pictures.rendered(options.samples, frame)
+        within = touched(place, pose, options.size)
+        if is_key:
+            background = pictures.with_part(background, options.key_samples, frame, within)
         pictures.write_jpeg(f"{out}/frames/{frame:04d}.jpg", pictures.encoded(background * gain))
         if is_key:
             virtual.hide_render = False
-            within = touched(place, pose, options.size)
-            truth = pictures.rendered(options.key_samples, frame, within)
-            truth = np.where(truth.max(axis=2, keepdims=True) > 0, truth, background)
-            mask = pictures.object_mask(virtual)
+            truth = pictures.with_part(background, options.key_samples, frame, within)
+            mask = pictures.object_mask(virtual, within)
             key_frames.append(key_frame(out, frame, background, truth, mask, gain))
 
     cv2.imwrite(f"{out}/sky_truth.exr", (sky * gain)[..., ::-1].astype(np.float32))

@@ -34,8 +34,8 @@ def blocks(random):
 
 def chair(random):
     seat, back, leg = random.uniform(0.4, 0.5), random.uniform(0.85, 1.0), 0.05
-    parts = [box(0.46, 0.46, 0.04), box(0.46, 0.04, back - seat).moved((0, 0.21, 0))]
-    parts = [part.moved((0, 0, seat)) for part in parts]
+    rest = box(0.46, 0.04, back - seat - 0.04).moved((0, 0.21, 0.04))
+    parts = [part.moved((0, 0, seat)) for part in (box(0.46, 0.46, 0.04), rest)]
     for x in (-0.2, 0.2):
         for y in (-0.2, 0.2):
             parts.append(box(leg, leg, seat).moved((x, y, 0)))

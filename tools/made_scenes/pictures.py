@@ -40,6 +40,12 @@ def rendered(samples, seed, within=None):
         return cv2.imread(scene.render.filepath, cv2.IMREAD_UNCHANGED)[..., ::-1].astype(np.float64)
 
 
+def with_part(picture, samples, seed, within):
+    """`picture` with the part `within` rendered anew."""
+    part = rendered(samples, seed, within)
+    return np.where(part.max(axis=2, keepdims=True) > 0, part, picture)
+
+
 def encoded(linear):
     """8 bit sRGB (IEC 61966-2-1), clipped, as OpenCV wants it: b g r."""
     x = np.clip(linear, 0, 1)
@@ -51,7 +57,7 @@ def write_jpeg(path, picture):
     cv2.imwrite(path, picture, [cv2.IMWRITE_JPEG_QUALITY, 95])  # OpenCV's default: 4:2:0.
 
 
-def object_mask(virtual, samples=16):
+def object_mask(virtual, within, samples=16):
     """Coverage by the object alone, 0..255: it glows, everything else is black."""
     kept, world = {}, bpy.context.scene.world
     bpy.context.scene.world = bpy.data.worlds.new("black")
@@ -63,7 +69,7 @@ def object_mask(virtual, samples=16):
         if thing.type == "MESH":
             kept[thing.name] = thing.data.materials[0]
             thing.data.materials[0] = glow(1.0 if thing == virtual else 0.0)
-    mask = rendered(samples, 0)[..., 1]
+    mask = rendered(samples, 0, within)[..., 1]
     for name, material in kept.items():
         bpy.data.objects[name].data.materials[0] = material
     for lamp in lamps:
