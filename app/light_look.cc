@@ -1,9 +1,12 @@
 #include "app/light_look.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "compositor/plane_contrast.h"
+#include "compositor/scaled_daylight.h"
 #include "compositor/shade_depth.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
@@ -17,6 +20,10 @@ namespace {
 constexpr double kSurelyShaded = 1.5;
 // Logarithmic, between planes of one material: what an overcast sky may leave unexplained.
 constexpr double kMostPlaneContrast = 0.6;
+// The same, of planes that an overcast sky explains: patterns, bumps and stated places of phantoms.
+constexpr double kPlaneContrastUnderCloud = 0.3;
+// Skies that a sun may have beside it, of the words': as they say, and in haze.
+constexpr std::array kSkiesWithSun{1.0, 2.0, 4.0};
 
 /// Open light over that on a print that has the sky and a part of the sun, so much that the mean of
 /// the channels is `open_gain`: shade is not only darker but bluer. 1 without a sun.
@@ -106,19 +113,34 @@ FoundLight LightLook::Settle() const {
                                : reading.sky_scale;
   compositor::UnmodelledShade shade = shade_under(scale);
   const bool may_shine = MayShine(scene_.cloudiness);
+  const auto plane_contrast = [&](const sky::SkyModel& day) {
+    return compositor::FindPlaneContrast(*solver_, samples_, day, MarkerFromWorld(marker));
+  };
+  const auto overcast = OvercastSky();
+  const auto contrast_under_cloud = [&] {
+    return plane_contrast(*overcast->ForSun(sun_.ToSun(), sun_.distance_au));
+  };
   const bool edges_hidden = may_shine && shade.CastBySun() && shade.HidesEdges();
   if (reading.sun == Sun::kHidden && !edges_hidden) {
     // Who gives the ratio says that the sun shines; where it does is not seen, nor then its shade.
     if (overridden) return found;
-    const auto overcast = OvercastSky();
-    const auto contrast = [&] {
-      return compositor::FindPlaneContrast(*solver_, samples_,
-                                           *overcast->ForSun(sun_.ToSun(), sun_.distance_au),
-                                           MarkerFromWorld(marker));
-    };
-    light.sun_doubtful = shade.CastBySun() || contrast() > kMostPlaneContrast;
+    light.sun_doubtful = shade.CastBySun() || contrast_under_cloud() > kMostPlaneContrast;
     // Where the sun stands is doubtful, too: what lies in its shade would be a guess.
     if (light.sun_doubtful) return found;
+    light.sun_source = MeasuredLight::Source::kMeasured;
+    found.skies.source = overcast;
+    return found;
+  }
+  // Too few edges to tell, behind a house, say: planes that are lit as no sun would tell as well.
+  const auto denied = [&](double sky) {
+    const LinearRgb strength{sky, sky, sky};
+    return plane_contrast(compositor::ScaledDaylight(*day_, strength, {1.0, 1.0, 1.0})) >
+           kMostPlaneContrast;
+  };
+  if (!overridden && may_shine && reading.sun == Sun::kUnknown && !shade.CastBySun() &&
+      contrast_under_cloud() < kPlaneContrastUnderCloud &&
+      std::all_of(kSkiesWithSun.begin(), kSkiesWithSun.end(), denied)) {
+    light.edges_agreeing = 0;
     light.sun_source = MeasuredLight::Source::kMeasured;
     found.skies.source = overcast;
     return found;

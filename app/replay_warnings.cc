@@ -117,7 +117,12 @@ std::vector<std::string> LightWarnings(const LightSummary& summary) {
         -elevation_deg));
   }
   const bool measured = light.sun_source == MeasuredLight::Source::kMeasured;
-  if (measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun) {
+  const bool denied = measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun;
+  if (denied && light.edges_agreeing == 0) {
+    warnings.push_back(
+        "Planes of one material are lit as no sun would: the sky is taken as overcast. If the sun "
+        "shone, check place, time and heading, or give --sun-to-sky.");
+  } else if (denied) {
     warnings.push_back(fmt::format(
         "No shadow lies where the phantoms would cast one ({} places looked at): the sky is taken "
         "as overcast. If the sun shone, check place, time and heading, or give --sun-to-sky.",

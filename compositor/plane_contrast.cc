@@ -27,6 +27,7 @@ constexpr std::uint32_t kPaths = 128;
 double FindPlaneContrast(const LightSolver& solver, const SurfaceSamples& samples,
                          const sky::SkyModel& day, const Mat3& marker_from_world) {
   const auto& all = samples.samples();
+  const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
   std::map<std::pair<int, Rgb>, std::vector<std::uint32_t>> planes;
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     if (all[i].frames == 0 || all[i].surface < 0) continue;
@@ -41,10 +42,13 @@ double FindPlaneContrast(const LightSolver& solver, const SurfaceSamples& sample
       probes.push_back(all[spots[(2 * i + 1) * spots.size() / (2 * kProbes)]].point);
     }
     const auto& [x, y, z] = key.second;
+    const double sun = day.SunNormalIrradiance().g * std::max(0.0, Dot(Vec3{x, y, z}, to_sun));
+    const auto ambient =
+        solver.AmbientPhantomsOnly(probes, {x, y, z}, day, marker_from_world, kPaths);
     std::vector<double> modelled, seen;
-    for (const LinearRgb& light :
-         solver.AmbientPhantomsOnly(probes, {x, y, z}, day, marker_from_world, kPaths)) {
-      modelled.push_back(std::log(std::max(light.g, 1e-9)));
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      const double open = sun > 0.0 ? solver.SunVisibilityPhantomsOnly(probes[i], to_sun) : 0.0;
+      modelled.push_back(std::log(std::max(ambient[i].g + sun * open, 1e-9)));
     }
     for (const std::uint32_t spot : spots) seen.push_back(all[spot].log_rgb[1]);
     const double off = Median(seen) - Median(modelled);

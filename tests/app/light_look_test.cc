@@ -20,15 +20,15 @@ const PhotographedYard& Yard() {
 
 /// What a sunny yard tells where the scene has the sun `off_deg` beside its place.
 FoundLight Settle(double off_deg, const PhotographedYard::Light& light,
-                  const LightOverrides& overrides = {}) {
+                  const LightOverrides& overrides = {},
+                  const char* said_time = "2025-09-14T13:50:00Z") {
   const PhotographedYard& yard = Yard();
   devices::SceneDescription scene;
   scene.place_time.latitude_deg = 50.0;
   scene.cloudiness = devices::Cloudiness::kClear;
-  const UtcTime time = *UtcTime::Parse("2025-09-14T13:50:00Z");
-  // The yard's sun stands as high as this one, about; the heading puts it where it stands.
+  const UtcTime time = *UtcTime::Parse(said_time);
+  // The yard's sun stands as high as at 13:50, about; the heading puts it where it stands.
   const Vec3 sun = SunOver(scene.place_time, time).ToSun().xyz, seen = yard.ToSun();
-  EXPECT_NEAR(sun.z, seen.z, 0.05);
   scene.marker.heading =
       Radians(std::atan2(seen.y, seen.x) - std::atan2(sun.y, sun.x)) + FromDegrees(off_deg);
   const std::shared_ptr<const compositor::LightSolver> solver(&yard.solver(), [](const auto*) {});
@@ -56,6 +56,20 @@ TEST(LightLook, SeesThatNoSunShines) {
   EXPECT_FALSE(found.measured.sun_doubtful);
   EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kMeasured);
   EXPECT_EQ(found.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
+}
+
+TEST(LightLook, SeesByPlanesThatNoSunShinesWhereAllLiesBehindAWall) {
+  // The scene's sun stands low behind the yard's wall: hardly an edge of a shadow is in view.
+  const auto settle = [](const PhotographedYard::Light& light) {
+    return Settle(245.0, light, {}, "2025-09-14T16:45:00Z");
+  };
+  const FoundLight veiled = settle({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  EXPECT_LT(veiled.measured.edges, 3);
+  EXPECT_EQ(veiled.measured.sun_source, MeasuredLight::Source::kMeasured);
+  ASSERT_NE(veiled.skies.source, nullptr);
+  EXPECT_EQ(veiled.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
+  // Under a sun that stands elsewhere planes are not lit as by clouds either.
+  EXPECT_EQ(settle({}).measured.sun_source, MeasuredLight::Source::kStated);
 }
 
 TEST(LightLook, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {

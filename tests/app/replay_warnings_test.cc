@@ -53,6 +53,13 @@ TEST(LightWarnings, SayWhatTheLightCannotBe) {
   LightSummary light;
   light.sun.elevation = FromDegrees(30);
   EXPECT_THAT(LightWarnings(light), IsEmpty());
+  light.measured.sun_source = MeasuredLight::Source::kMeasured;
+  light.measured.sun_shines = false;
+  light.measured.sun_to_sky_stated = 4.0;
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("Planes of one material")));
+  light.measured.edges = light.measured.edges_agreeing = 9;
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("(9 places looked at)")));
+  light.measured = {};
   light.gain_change = 2.5;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("changed by a factor of 2.5")));
   light.gain_change = 1.1;
