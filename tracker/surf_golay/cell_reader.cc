@@ -115,7 +115,7 @@ void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const Se
         const double part = rows[j] * columns[i];
         const int cell = sg::CodeCell(i, j);
         if (part < 0.02 || cell < 0 || pixel.cells == 9) continue;
-        pixel.cell[pixel.cells] = static_cast<std::int8_t>(cell);
+        pixel.cell[pixel.cells] = static_cast<std::uint8_t>(cell);
         pixel.share[pixel.cells++] = static_cast<float>(part);
       }
     }

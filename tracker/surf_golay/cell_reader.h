@@ -42,7 +42,7 @@ class CellReader {
 
  private:
   struct Pixel {
-    std::array<std::int8_t, 9> cell;
+    std::array<std::uint8_t, 9> cell;
     std::array<float, 9> share;
     int cells = 0;
     float value = 0.0F;
