@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <queue>
 #include <utility>
@@ -235,6 +236,7 @@ int HolesOf(const Model& model, const Mesh& mesh) {
 
 void CutHoles(Model* model, std::size_t most_added) {
   std::map<int, AlphaLevels> levels;
+  std::vector<Mesh> drawn;
   for (Mesh& mesh : model->meshes) {
     if (IsWhollyCutOut(model->materials[static_cast<std::size_t>(mesh.material)])) {
       mesh.indices.clear();
@@ -249,12 +251,18 @@ void CutHoles(Model* model, std::size_t most_added) {
       continue;
     }
     const std::size_t before = mesh.indices.size() / 3;
+    Mesh whole = mesh;
     Cutter(material, alpha, &mesh).Cut(before + most_added);
     DropUnused(&mesh);
     const std::size_t after = mesh.indices.size() / 3;
     most_added -= std::min(most_added, after > before ? after - before : 0);
+    if (mesh.indices.empty()) continue;
+    mesh.role = MeshRole::kLight;
+    whole.role = MeshRole::kDrawn;
+    drawn.push_back(std::move(whole));
   }
   std::erase_if(model->meshes, [](const Mesh& mesh) { return mesh.indices.empty(); });
+  std::move(drawn.begin(), drawn.end(), std::back_inserter(model->meshes));
 }
 
 }  // namespace pleinair::compositor

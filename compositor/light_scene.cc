@@ -215,6 +215,9 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
   for (std::size_t i = 0; i < models.size(); ++i) {
     PLEINAIR_RETURN_IF_ERROR(CheckModel(models[i]));
     for (SurfaceMesh& surface : OrientedSurfaces(models[i], static_cast<int>(i))) {
+      // Of phantoms nothing but their light is drawn.
+      if (surface.is_phantom && surface.role == MeshRole::kDrawn) continue;
+      if (surface.is_phantom) surface.role = MeshRole::kAll;
       surfaces.push_back(std::move(surface));
     }
   }
@@ -241,11 +244,13 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
     if (divided[i].count > 0) {
       groups = std::make_shared<const SurfacePatches>(std::move(divided[i]));
     }
-    ray_meshes.push_back({surface.positions, surface.indices, surface.is_phantom});
     const std::array<float, 3> albedo =
         ReflectanceOf(*models[surface.placed_model].model, surface.material);
     const auto front = static_cast<int>(scene.sheets.size());
-    AddFaces(surface, groups.get(), static_cast<std::uint32_t>(front), &scene);
+    if (surface.role != MeshRole::kDrawn) {
+      ray_meshes.push_back({surface.positions, surface.indices, surface.is_phantom});
+      AddFaces(surface, groups.get(), static_cast<std::uint32_t>(front), &scene);
+    }
     const bool closed = surface.closed;
     SurfaceMesh back = closed ? SurfaceMesh{} : OtherSide(surface);
     AddSheet(std::move(surface), albedo, groups, &scene);

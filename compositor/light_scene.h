@@ -44,7 +44,7 @@ struct LightScene {
   };
 
   std::vector<Sheet> sheets;
-  std::vector<Face> faces;
+  std::vector<Face> faces;                ///< None of what is drawn alone.
   std::vector<std::uint32_t> first_face;  ///< By mesh of the ray scene.
   std::uint32_t patch_count = 0;
   std::vector<Spot> spots;               ///< By patch.

@@ -235,6 +235,7 @@ class EmbreeLightSolver : public LightSolver {
     mesh.is_phantom = sheet.mesh.is_phantom;
     mesh.placed_model = sheet.mesh.placed_model;
     mesh.material = sheet.mesh.material;
+    mesh.role = sheet.mesh.role;
     mesh.positions = sheet.mesh.positions;
     mesh.normals = sheet.mesh.normals;
     mesh.uvs = sheet.mesh.uvs;

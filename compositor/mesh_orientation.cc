@@ -213,12 +213,15 @@ class SurfaceBuilder {
   Welder<8> welder_;
 };
 
+/// Of the meshes that are drawn alone, or of all others.
 std::vector<Triangle> CollectTriangles(const Model& model,
-                                       const std::vector<PlacedVertices>& placed) {
+                                       const std::vector<PlacedVertices>& placed,
+                                       bool drawn_alone) {
   std::vector<Triangle> triangles;
   Welder<3> welder;
   for (std::uint32_t m = 0; m < model.meshes.size(); ++m) {
     const Mesh& mesh = model.meshes[m];
+    if ((mesh.role == MeshRole::kDrawn) != drawn_alone) continue;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       Triangle triangle;
       triangle.mesh = m;
@@ -240,16 +243,14 @@ std::vector<Triangle> CollectTriangles(const Model& model,
   return triangles;
 }
 
-}  // namespace
-
-std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_index) {
-  const Model& model = *placed.model;
-  std::vector<PlacedVertices> vertices;
-  for (const Mesh& mesh : model.meshes) vertices.push_back(Place(mesh, placed));
-  std::vector<Triangle> triangles = CollectTriangles(model, vertices);
+/// Turns the triangles as their neighbours and volumes ask for; whether each of their components
+/// is closed.
+std::vector<bool> Orient(const std::vector<PlacedVertices>& vertices,
+                         std::vector<Triangle>* to_turn) {
+  std::vector<Triangle>& triangles = *to_turn;
   const std::vector<EdgeUse> edges = SortedEdges(triangles);
   const std::uint32_t count = FloodComponents(edges, &triangles);
-  const std::vector<bool> closed = ClosedComponents(edges, triangles, count);
+  std::vector<bool> closed = ClosedComponents(edges, triangles, count);
 
   // Six times the enclosed volume (divergence theorem), and how far the file's normals agree.
   std::vector<double> volume(count), agreement(count);
@@ -264,16 +265,31 @@ std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_
     volume[c] += sign * Dot(corner - reference[c], triangle.area_normal);
     agreement[c] += sign * triangle.agreement;
   }
+  for (Triangle& triangle : triangles) {
+    const std::uint32_t c = triangle.component;
+    if ((closed[c] ? volume[c] : agreement[c]) < 0.0) triangle.flip = !triangle.flip;
+  }
+  return closed;
+}
 
+}  // namespace
+
+std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_index) {
+  const Model& model = *placed.model;
+  std::vector<PlacedVertices> vertices;
+  for (const Mesh& mesh : model.meshes) vertices.push_back(Place(mesh, placed));
   std::vector<SurfaceMesh> surfaces;
   std::vector<std::vector<SurfaceBuilder>> builders;
   for (std::size_t m = 0; m < model.meshes.size(); ++m) {
     builders.emplace_back(2, SurfaceBuilder(model.meshes[m], vertices[m]));
   }
-  for (Triangle& triangle : triangles) {
-    const std::uint32_t c = triangle.component;
-    if ((closed[c] ? volume[c] : agreement[c]) < 0.0) triangle.flip = !triangle.flip;
-    builders[triangle.mesh][closed[c] ? 1 : 0].Add(triangle);
+  for (const bool drawn_alone : {false, true}) {
+    std::vector<Triangle> triangles = CollectTriangles(model, vertices, drawn_alone);
+    const std::vector<bool> closed = Orient(vertices, &triangles);
+    for (const Triangle& triangle : triangles) {
+      const bool is_body = closed[triangle.component] && !drawn_alone;
+      builders[triangle.mesh][is_body ? 1 : 0].Add(triangle);
+    }
   }
   for (std::size_t m = 0; m < model.meshes.size(); ++m) {
     for (int kind = 0; kind < 2; ++kind) {
@@ -282,6 +298,7 @@ std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_
       surface.is_phantom = placed.is_phantom;
       surface.placed_model = placed_index;
       surface.material = model.meshes[m].material;
+      surface.role = model.meshes[m].role;
       surface.closed = kind == 1;
       surfaces.push_back(std::move(surface));
     }

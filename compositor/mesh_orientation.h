@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "compositor/model.h"
 
 namespace pleinair::compositor {
 
@@ -14,6 +15,7 @@ struct SurfaceMesh {
   bool is_phantom = false;
   int placed_model = 0;
   int material = 0;
+  MeshRole role = MeshRole::kAll;
   /// Closed bodies enclose a volume and are seen from outside only; the others from both sides.
   bool closed = false;
   std::vector<std::array<float, 3>> positions;
@@ -27,7 +29,8 @@ struct PlacedModel;
 /// Places a model's meshes and makes their winding trustworthy: neighbours agree, closed bodies
 /// face outwards, open surfaces as most of their area does. Normals follow the winding; equal
 /// corners become one vertex; triangles without area are left out. Each mesh yields at most two
-/// surfaces, what belongs to closed bodies and what does not; a body may span several meshes.
+/// surfaces, what belongs to closed bodies and what does not; a body may span several meshes. What
+/// is drawn with holes (MeshRole::kDrawn) is no closed body: they show its inside.
 std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_index);
 
 }  // namespace pleinair::compositor

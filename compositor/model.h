@@ -32,10 +32,15 @@ struct Material {
   int metallic_roughness_texture = -1;
 };
 
+/// A surface with holes stands in a model twice: as it is drawn, where alpha tells the holes, and
+/// as light and shadows meet it, with the holes cut out (compositor/cut_out.h).
+enum class MeshRole { kAll, kDrawn, kLight };
+
 /// Three corners a triangle, no sharing of vertices between materials required.
 struct Mesh {
   std::string name;
   int material = 0;
+  MeshRole role = MeshRole::kAll;
   std::vector<std::array<float, 3>> positions;  ///< Metres, model coordinates.
   std::vector<std::array<float, 3>> normals;    ///< Unit, one a position.
   std::vector<std::array<float, 2>> uvs;        ///< Empty, or one a position; v down.

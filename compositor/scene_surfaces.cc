@@ -64,7 +64,7 @@ Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
       green_albedos.push_back(even ? material.base_color[1] : 0.0F);
       phantom_triangles_.emplace_back(mesh);
       phantoms.push_back(&mesh);
-    } else {
+    } else if (surfaces_.back().IsDrawnObject()) {
       object_numbers.push_back(static_cast<float>(objects.size()));
       object_triangles_.emplace_back(mesh);
       object_positions_.emplace_back();
@@ -112,6 +112,7 @@ void SceneSurfaces::PlaceCasters() {
       caster.bounds.Include(glm::dvec3(caster.marker_from_model * point));
     }
     bounds_.Include(caster.bounds);
+    if (!surface.CastsShadow()) continue;
     if (surface.is_phantom()) {
       phantom_casters_.push_back(caster);
     } else {
@@ -127,7 +128,7 @@ SunFootprint SceneSurfaces::FootprintOf(const SunWindow& window) const {
   std::size_t object = 0;
   std::vector<glm::vec2> at;
   for (const SurfaceBuffers& surface : surfaces_) {
-    if (surface.is_phantom()) continue;
+    if (!surface.IsDrawnObject()) continue;
     const glm::mat4 moved(moved_[surface.placed_model()]);
     at.clear();
     for (const glm::vec3& position : object_positions_[object]) {
@@ -184,7 +185,7 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
   std::vector<SortedTriangles> sorted;
   sorted.reserve(object_triangles_.size());
   for (SurfaceBuffers& surface : surfaces_) {
-    if (surface.is_phantom()) continue;
+    if (!surface.IsDrawnObject()) continue;
     // Angles stay where a model is moved, but a scale does not.
     const glm::dmat3 moved(moved_[surface.placed_model()]);
     const glm::dvec3 lit_to_sun = glm::transpose(moved) * glm::dvec3(to_sun);
@@ -211,7 +212,7 @@ void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
   std::size_t object = 0;
   program.Set("u_step", 1);
   for (const SurfaceBuffers& surface : surfaces_) {
-    if (surface.is_phantom()) continue;
+    if (!surface.IsDrawnObject()) continue;
     const Material& material = MaterialOf(surface);
     const auto& textures = model_textures_[surface.placed_model()];
     const auto bind = [&](int texture, int unit) {

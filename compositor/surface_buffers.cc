@@ -32,6 +32,7 @@ Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
   surface.is_phantom_ = mesh.is_phantom;
   surface.placed_model_ = mesh.placed_model;
   surface.material_ = mesh.material;
+  surface.role_ = mesh.role;
   surface.index_count_ = static_cast<int>(mesh.indices.size());
   PLEINAIR_ASSIGN_OR_RETURN(surface.vertices_,
                             gl::GlBuffer::FromSpan(std::span<const Vertex>(vertices)));

@@ -26,6 +26,9 @@ class SurfaceBuffers {
   /// Draws the indices from `begin` to before `end`.
   void Draw(int begin, int end) const;
   bool is_phantom() const { return is_phantom_; }
+  /// Of a virtual object, and to be seen.
+  bool IsDrawnObject() const { return !is_phantom_ && role_ != MeshRole::kLight; }
+  bool CastsShadow() const { return role_ != MeshRole::kDrawn; }
   int placed_model() const { return placed_model_; }
   int material() const { return material_; }
   const gl::GlVertexArray& vertex_array() const { return vertex_array_; }
@@ -35,6 +38,7 @@ class SurfaceBuffers {
   bool is_phantom_ = false;
   int placed_model_ = 0;
   int material_ = 0;
+  MeshRole role_ = MeshRole::kAll;
   int index_count_ = 0;
   gl::GlBuffer vertices_;
   gl::GlBuffer indices_;

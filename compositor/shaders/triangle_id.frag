@@ -40,22 +40,27 @@ int FirstSample(ivec2 pixel) {
   return int(h >> 30u);
 }
 
-// Alpha is asked at each sample. As much of glass is there as samples whose thresholds it exceeds
-// (screen-door transparency, in place of an order). Of holes there is one threshold, but where texels
-// are finer than pixels alpha is already the mean over them.
+// Alpha is asked at each sample, as the mean over what of a pixel is its own, so that holes' edges
+// stay as sharp with distance as those of surfaces. As much of glass is there as samples whose
+// thresholds it exceeds (screen-door transparency, in place of an order). Of holes there is one
+// threshold, but where texels are finer than what a sample stands for, alpha is already how much of
+// that is there.
 int SamplesCovered() {
   // Of 4 a pixel, as all renderers have them.
   const vec2 kPlaces[4] =
       vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 step_x = dFdx(v_uv), step_y = dFdy(v_uv);
-  float minified = clamp(0.5 * textureQueryLod(u_base_color_texture, v_uv).x, 0.0, 1.0);
+  float side = inversesqrt(float(u_samples));  // Of a sample's share of the pixel.
+  float minified =
+      clamp(textureQueryLod(u_base_color_texture, v_uv).y + log2(side), 0.0, 1.0);
   float dither = u_alpha == 2 ? Dither(pixel) : 0.5;
   int first = FirstSample(pixel), covered = 0;
   for (int i = 0; i < u_samples; ++i) {
     vec2 aside = kPlaces[i] - 0.5;
+    vec2 uv = v_uv + aside.x * step_x + aside.y * step_y;
     float alpha =
-        u_opacity * texture(u_base_color_texture, v_uv + aside.x * step_x + aside.y * step_y).a;
+        u_opacity * textureGrad(u_base_color_texture, uv, side * step_x, side * step_y).a;
     float spread = (float((i + first) % u_samples) + dither) / float(u_samples);
     float threshold = u_alpha == 2 ? spread : mix(u_alpha_cutoff, spread, minified);
     covered |= alpha >= threshold || u_alpha == 0 ? 1 << i : 0;

@@ -15,6 +15,7 @@
 
 #include "base/srgb.h"
 #include "compositor/composer.h"
+#include "compositor/cut_out.h"
 #include "compositor/seen_sunlight.h"
 #include "tests/compositor/composer_scene.h"
 
@@ -88,15 +89,19 @@ TEST(Composer, TellsMetalFromPaintByTheTexture) {
 
 /// Mean over the middle of a picture, of that of the light behind which a scene lets through; its
 /// surfaces are black.
-double LetThrough(const std::vector<PlacedModel>& scene) {
+double LetThrough(const std::vector<PlacedModel>& scene, const CameraModel& camera = kCamera) {
   constexpr std::uint8_t kBehind = 200;
-  const RgbImage composed = Compose(scene, EvenPicture(kBehind));
+  RgbImage picture(camera.width, camera.height, 3);
+  std::fill_n(picture.data(), picture.size(), kBehind);
+  const RgbImage composed = Compose(scene, picture, camera);
   double sum = 0.0;
-  constexpr int kHalf = 16;
-  for (int y = 120 - kHalf; y < 120 + kHalf; ++y) {
-    for (int x = 160 - kHalf; x < 160 + kHalf; ++x) sum += LinearFromSrgb8()[composed(x, y, 1)];
+  const int half = camera.width / 20, middle_x = camera.width / 2, middle_y = camera.height / 2;
+  for (int y = middle_y - half; y < middle_y + half; ++y) {
+    for (int x = middle_x - half; x < middle_x + half; ++x) {
+      sum += LinearFromSrgb8()[composed(x, y, 1)];
+    }
   }
-  return sum / (4 * kHalf * kHalf) / LinearFromSrgb8()[kBehind];
+  return sum / (4 * half * half) / LinearFromSrgb8()[kBehind];
 }
 
 TEST(Composer, ShowsThroughGlassWhatLiesBehind) {
@@ -142,6 +147,86 @@ TEST(Composer, DrawsTheEdgesOfHolesAsFineAsThoseOfSurfaces) {
   for (const double shift : {0.25, 0.5, 0.75, 1.0}) {
     EXPECT_NEAR(covered(shift), first - shift, 0.15) << shift;
   }
+}
+
+TEST(Composer, CoversAsMuchOfAMinifiedCardAsItsTextureDoes) {
+  // 24 × 24 cells of a card that is 16 pixels wide; light meets it with the holes cut out.
+  constexpr int kSide = 128, kCell = 16, kRepeats = 3;
+  const CameraModel small{.width = 80, .height = 60, .fx = 75, .fy = 75, .cx = 39.5, .cy = 29.5};
+  Image<std::uint8_t> texture(kSide, kSide, 4);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) texture(x, y, 3) = (x / kCell + y / kCell) % 2 == 0 ? 255 : 0;
+  }
+  Model card = TexturedSquare(std::move(texture));
+  card.materials[0].base_color = {0, 0, 0};
+  const Mesh square = std::exchange(card.meshes[0], {});
+  Mesh& mesh = card.meshes[0];
+  for (int tile = 0; tile < kRepeats * kRepeats; ++tile) {
+    for (const std::uint32_t index : square.indices) {
+      mesh.indices.push_back(index + static_cast<std::uint32_t>(mesh.positions.size()));
+    }
+    for (auto [x, y, z] : square.positions) {
+      const float across = static_cast<float>(tile % kRepeats) - 1.0F;
+      const float along = static_cast<float>(tile / kRepeats) - 1.0F;
+      mesh.positions.push_back({0.2F * (x + across), 0.2F * (y + along), z});
+    }
+    mesh.normals.insert(mesh.normals.end(), square.normals.begin(), square.normals.end());
+    mesh.uvs.insert(mesh.uvs.end(), square.uvs.begin(), square.uvs.end());
+  }
+  CutHoles(&card);
+  ASSERT_EQ(card.meshes.size(), 2U);
+  EXPECT_NEAR(LetThrough({Place(card, false)}, small), 0.5, 0.03);
+  // Drawn as the light meets it, the holes would count twice.
+  card.meshes.pop_back();
+  card.meshes[0].role = MeshRole::kAll;
+  EXPECT_GT(LetThrough({Place(card, false)}, small), 0.56);
+}
+
+TEST(Composer, ShadesTheGroundByWhatIsLeftOfACardAlone) {
+  constexpr int kSide = 64;
+  Image<std::uint8_t> texture(kSide, kSide, 4);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const bool hole = std::max(std::abs(x - kSide / 2), std::abs(y - kSide / 2)) < kSide / 4;
+      texture(x, y, 3) = hole ? 0 : 255;
+    }
+  }
+  Model card = TexturedSquare(std::move(texture));
+  CutHoles(&card);
+  const RgbImage composed = Compose({kGround, Place(card, false)}, EvenPicture(150), kCamera,
+                                    kSunLux, {}, {}, /*look_for_shade=*/false);
+  const double lit = LinearFromSrgb8()[150];
+  // The sun, 45° high in the south, comes through the hole to the ground seen through it.
+  EXPECT_GT(SeenAt(composed, {0, 0.1, 0}), 0.75 * lit);
+  EXPECT_LT(SeenAt(composed, {0, 0.57, 0}), 0.4 * lit);
+}
+
+TEST(Composer, KeepsTheEdgesOfHolesSharpWhereTexelsAreFinerThanPixels) {
+  // Ten texels a pixel. Pixels that are neither covered nor free, over places of a straight edge
+  // that lies within a texel of the minified texture.
+  constexpr int kSide = 1024, kRow = 120, kFirst = 130, kLast = 190, kPlaces = 4;
+  constexpr int kHole = kSide / 2 + 3;
+  Image<std::uint8_t> texture(kSide, kSide, 4);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) texture(x, y, 3) = x < kHole ? 0 : 255;
+  }
+  const auto square = std::make_shared<const Model>(TexturedSquare(std::move(texture)));
+  const double pixel_m = 2.9 / kCamera.fx, bright = LinearFromSrgb8()[200];
+  int between = 0;
+  double covered = 0.0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const PlacedModel placed{square, Mat3{}, {i * pixel_m / kPlaces, 0, 0}, false};
+    const RgbImage composed = Compose({placed}, EvenPicture(200));
+    for (int x = kFirst; x < kLast; ++x) {
+      const double share = 1.0 - LinearFromSrgb8()[composed(x, kRow, 1)] / bright;
+      const double full = 1.0 - LinearFromSrgb8()[composed(kLast, kRow, 1)] / bright;
+      covered += share / full;
+      between += share > 0.02 * full && share < 0.98 * full ? 1 : 0;
+    }
+    covered += static_cast<double>(i) / kPlaces;  // As far as it was moved.
+  }
+  EXPECT_LE(between, 3);
+  EXPECT_NEAR(covered / kPlaces, kLast - kCamera.cx - 0.5 - (kHole / 1024.0 - 0.5) / pixel_m, 0.15);
 }
 
 TEST(Composer, SeesTheMeanOfATextureThatIsFinerThanPixels) {

@@ -41,11 +41,13 @@ bool LeftHalf(double u, double) { return u < 0.5; }
 bool Everywhere(double, double) { return true; }
 bool Nowhere(double, double) { return false; }
 
-/// Area of what is left, and the part of it for which `inside` says so of a triangle's middle.
+/// Area of what is left for the light, and the part of it for which `inside` says so of a
+/// triangle's middle.
 template <typename Inside>
 double Area(const Model& model, const Inside& inside) {
   double area = 0.0;
   for (const Mesh& mesh : model.meshes) {
+    if (mesh.role == MeshRole::kDrawn) continue;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
       Vec3 p[3];
       for (int c = 0; c < 3; ++c) {
@@ -74,6 +76,11 @@ TEST(CutHoles, LeavesWhatIsNoHole) {
             0.0);
   EXPECT_NEAR(Area(card, [](double x, double y) { return !RoundHole(x, y); }), 1.0 - hole, 0.01);
   EXPECT_LT(card.meshes[0].indices.size() / 3, 2000U);
+  // What is drawn is whole.
+  ASSERT_EQ(card.meshes.size(), 2U);
+  EXPECT_EQ(card.meshes[0].role, MeshRole::kLight);
+  EXPECT_EQ(card.meshes[1].role, MeshRole::kDrawn);
+  EXPECT_EQ(card.meshes[1].indices, Card(1.0F, RoundHole).meshes[0].indices);
 }
 
 TEST(CutHoles, FollowsATextureThatRepeats) {
