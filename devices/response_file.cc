@@ -1,8 +1,11 @@
 #include "devices/response_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -62,6 +65,31 @@ Result<CameraResponse> SampledResponse(const JsonFields& fields) {
   return *std::move(response);
 }
 
+/// What a response of a kind is made of; of a kind that is not known, all there is.
+std::span<const std::string_view> KeysOf(std::string_view kind) {
+  static constexpr std::array<std::string_view, 7> kAll{"response", "encoded", "light", "red",
+                                                        "green",    "blue",    "gamma"};
+  static constexpr std::array<std::string_view, 2> kPower{"response", "gamma"};
+  const std::span<const std::string_view> all(kAll);
+  if (kind == "srgb") return all.first(1);
+  if (kind == "samples") return all.first(6);
+  if (kind == "gamma") return kPower;
+  return all;
+}
+
+/// A key that nobody reads is a slip of the pen.
+Result<void> CheckKeys(const Json& document, const JsonFields& fields,
+                       std::span<const std::string_view> known) {
+  if (!document.is_object()) return {};
+  for (const auto& [key, value] : document.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string names;
+    for (const std::string_view name : known) names.append(names.empty() ? "" : ", ").append(name);
+    return fields.Fail(key.substr(0, 64), "is not known here", "known are " + names);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<CameraResponse> ReadCameraResponse(const std::filesystem::path& file) {
@@ -70,6 +98,7 @@ Result<CameraResponse> ReadCameraResponse(const std::filesystem::path& file) {
   PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseJson(bytes, name));
   const JsonFields fields(document, name);
   PLEINAIR_ASSIGN_OR_RETURN(const auto kind, fields.Text("response"));
+  PLEINAIR_RETURN_IF_ERROR(CheckKeys(document, fields, KeysOf(kind.value_or(""))));
   if (kind == "srgb") return CameraResponse();
   if (kind == "samples") return SampledResponse(fields);
   if (kind != "gamma") {

@@ -68,6 +68,10 @@ TEST_F(ResponseFile, RefusesWhatIsNoResponse) {
               HasSubstr("rise"));
   EXPECT_THAT(Refusal(R"({"response": "samples", "encoded": [0, 0.5, 1], "light": [0, 0.7, 0.6]})"),
               HasSubstr("rise"));
+  EXPECT_THAT(Refusal(R"({"response": "gamma", "gama": 2.2})"), HasSubstr("\"gama\" is not known"));
+  EXPECT_THAT(Refusal(R"({"response": "gamma", "gamma": 2.2, "light": [0, 1]})"),
+              HasSubstr("\"light\" is not known"));
+  EXPECT_THAT(Refusal(R"({"response": "srgb", "gamma": 2.2})"), HasSubstr("known are response"));
   EXPECT_FALSE(ReadCameraResponse("nowhere/response.json"));
 }
 
