@@ -143,7 +143,8 @@ class GltfReader {
     material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutOut
                      : source.alphaMode == "BLEND" ? Material::Alpha::kBlended
                                                    : Material::Alpha::kIgnored;
-    material.alpha_cutoff = Clamped(source.alphaCutoff);
+    // Beyond 1 all of it is cut out (glTF 2.0, 3.9.4): how far beyond does not matter.
+    material.alpha_cutoff = 2.0F * Clamped(source.alphaCutoff / 2.0);
     const auto& pbr = source.pbrMetallicRoughness;
     if (pbr.baseColorFactor.size() == 4) material.opacity = Clamped(pbr.baseColorFactor[3]);
     for (std::size_t c = 0; c < 3 && c < pbr.baseColorFactor.size(); ++c) {

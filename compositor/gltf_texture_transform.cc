@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pleinair::compositor {
 namespace {
@@ -15,8 +16,12 @@ constexpr float kFarthestUv = 1e8F;
 std::array<float, 2> UvMap::operator()(const std::array<float, 2>& uv) const {
   const double c = std::cos(rotation_rad), s = std::sin(rotation_rad);
   const double u = scale[0] * uv[0], v = scale[1] * uv[1];
-  return {static_cast<float>(offset[0] + c * u + s * v),
-          static_cast<float>(offset[1] - s * u + c * v)};
+  // What no float holds is out of reach like what is too far, and no number at all.
+  const auto narrowed = [](double value) {
+    return std::fabs(value) <= kFarthestUv ? static_cast<float>(value)
+                                           : std::numeric_limits<float>::infinity();
+  };
+  return {narrowed(offset[0] + c * u + s * v), narrowed(offset[1] - s * u + c * v)};
 }
 
 UvMap UvMapOf(const tinygltf::TextureInfo& texture) {

@@ -18,6 +18,7 @@ struct UvMap {
   double rotation_rad = 0.0;
   bool operator==(const UvMap&) const = default;
 
+  /// Infinite where IsWithinReach() would refuse it.
   std::array<float, 2> operator()(const std::array<float, 2>& uv) const;
 };
 

@@ -125,6 +125,15 @@ TEST(GltfModel, ReadsWhatAlphaMeans) {
   EXPECT_FLOAT_EQ(material().opacity, 0.75F);
 }
 
+TEST(GltfModel, SeesNothingOfWhatIsCutOutWholly) {
+  TriangleFile file;
+  file.alpha = R"("alphaMode":"MASK","alphaCutoff":1.5,)";
+  file.color_texture = R"({"index":0}, "baseColorFactor":[1,1,1,1])";
+  EXPECT_THAT(ErrorOf(file), HasSubstr("transparent"));
+  file.alpha = R"("alphaMode":"MASK","alphaCutoff":1,)";
+  EXPECT_TRUE(file.Load());
+}
+
 TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
   TriangleFile file;
   file.coat = R"("metallicRoughnessTexture":{"index":0},)";
