@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracker/golay/golay_code.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
 
@@ -72,6 +73,8 @@ std::string Summary(const std::vector<Sighting>& sightings) {
   }
   return "[" + text + "]";
 }
+
+bool IsWhite(int number, int cell) { return (PrintedWord(number) >> cell & 1U) != 0; }
 
 Vec2 ModulesOf(Vec2 at) { return {0.5 * sg::kEdge * (1.0 + at.x), 0.5 * sg::kEdge * (1.0 - at.y)}; }
 

@@ -40,6 +40,9 @@ double RotationApart_deg(const Mat3& a, const Mat3& b);
 /// "[17 surf-golay at 81,70 60 %]": what a failed test shows of a list of sightings.
 std::string Summary(const std::vector<Sighting>& sightings);
 
+/// Whether a cell of the code is printed white in the marker of that number.
+bool IsWhite(int number, int cell);
+
 /// A point of the print (half edges, y up) in modules of the black square, from its top-left.
 Vec2 ModulesOf(Vec2 at);
 

@@ -18,7 +18,7 @@ pleinair_test(sg_tracking_test
   SOURCES counted_memory.cc sg_memory_test.cc sg_tracking_test.cc
   LIBS pleinair_sg_test_scenes Eigen3::Eigen)
 pleinair_test(sg_cells_test
-  SOURCES sg_cells_test.cc vote_agreement_test.cc
+  SOURCES number_proof_test.cc sg_cells_test.cc vote_agreement_test.cc
   LIBS pleinair_sg_test_scenes Eigen3::Eigen)
 if(PLEINAIR_BENCHMARKS)
   find_package(benchmark REQUIRED)
