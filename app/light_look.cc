@@ -71,11 +71,30 @@ void LightLook::Add(ImageView<const std::uint8_t> rgb,
   samples_.AddFrame(rgb, camera_from_marker, gain_);
 }
 
+void LightLook::SettleAsStated(FoundLight* found) const {
+  const auto skies = StatedSky(scene_);
+  const auto day = skies->ForSun(sun_.ToSun(), sun_.distance_au);
+  const double ratio = SunToSky(*day);
+  // Without a sun there is no shade to be found.
+  if (ratio <= 0.0 || overrides_.sun_to_sky.value_or(ratio) <= 0.0) return;
+  const double sky_scale = ratio / overrides_.sun_to_sky.value_or(ratio);
+  const compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
+      *solver_, samples_, meter_, *day, MarkerFromWorld(scene_.marker),
+      LinearRgb{1, 1, 1} * sky_scale);
+  if (shade.sunlit == 0) return;
+  found->skies = {skies, {1.0, 1.0, 1.0}, shade.Matters()};
+  found->measured.shaded = shade.shaded;
+}
+
 FoundLight LightLook::Settle() const {
   FoundLight found;
   found.heading = scene_.marker.heading;
   MeasuredLight& light = found.measured;
   light.frames = samples_.frames();
+  if (overrides_.as_stated) {
+    SettleAsStated(&found);
+    return found;
+  }
   devices::MarkerDescription marker = scene_.marker;
   const Mat3 stated = MarkerFromWorld(marker);
   if (!overrides_.heading_deg) {

@@ -34,10 +34,13 @@ class LightLook {
   void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker);
   int frames() const { return samples_.frames(); }
 
-  /// Draws the conclusions. Takes a second or two.
+  /// Draws the conclusions, as far as the overrides leave any. Takes a second or two.
   FoundLight Settle() const;
 
  private:
+  /// Where nothing is to be measured: whether anything but phantoms shades the ground all the same.
+  void SettleAsStated(FoundLight* found) const;
+
   std::shared_ptr<const compositor::LightSolver> solver_;
   CameraModel camera_;
   devices::SceneDescription scene_;

@@ -18,7 +18,8 @@ inline constexpr double kHighestSunToSky = 20.0;
 
 /// What the user says of the light, in place of what the frames show.
 struct LightOverrides {
-  bool as_stated = false;            ///< Measure nothing but the gain: believe the scene.
+  /// Measure nothing but the gain and whether trees shade the ground: believe the scene.
+  bool as_stated = false;
   std::optional<double> sun_to_sky;  ///< Sun's illuminance of level ground over the sky's; 0: none.
   std::optional<double> heading_deg;  ///< Of the marker, as in the scene.
   /// Where light is gathered, at most (compositor::LightSolverOptions).

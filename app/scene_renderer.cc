@@ -95,10 +95,7 @@ void SceneRenderer::SetMarkerPrint(const compositor::MarkerPrint& print) {
   meter_.emplace(print_, *solver_, lit_->daylight, MarkerFromWorld(scene_.marker), response_);
 }
 
-bool SceneRenderer::CanMeasureLight() const {
-  return composer_ && !overrides_.as_stated && !scene_.phantoms.empty() &&
-         !(overrides_.sun_to_sky && overrides_.heading_deg);
-}
+bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phantoms.empty(); }
 
 void SceneRenderer::LookAtLight(ImageView<const std::uint8_t> rgb,
                                 const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {

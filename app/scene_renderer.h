@@ -90,7 +90,8 @@ class SceneRenderer {
   /// that is made elsewhere it counts from the next on.
   void SetMarkerPrint(const compositor::MarkerPrint& print);
 
-  /// Whether frames can tell more of the light than the scene and the user do.
+  /// Whether frames can tell more of the light than the scene and the user do: at least whether
+  /// anything but phantoms shades the ground.
   bool CanMeasureLight() const;
 
   /// Looks at a frame for the phantoms' own shadows, before the first is rendered. All the frames

@@ -160,6 +160,8 @@ LightOrder LiveLight::OrderFor(const Wanted& wanted) {
     if (source) skies_ = {*std::move(source), {1.0, 1.0, 1.0}};
     skies_of_ = wanted.edit.sky;
   }
+  // Whether trees shade the ground is no matter of the air; with another north they would seem to.
+  if (wanted.edit.sky) skies_.other_shade = wanted.edit.heading_deg || found_skies_.other_shade;
   return {wanted.time.PlusSeconds(wanted.edit.later_s),
           scene.place_time,
           scene.marker,
@@ -182,9 +184,7 @@ void LiveLight::Make(const Wanted& wanted) {
 
 /// Whether what frames show is the light that the scene is drawn in: not of another time or place.
 bool LiveLight::MayLook(const Wanted& wanted) const {
-  const LightOverrides& overrides = setup_.overrides;
-  return !overrides.as_stated && !(overrides.sun_to_sky && overrides.heading_deg) &&
-         !setup_.scene.phantoms.empty() && wanted.print.size_m > 0.0 &&
+  return !setup_.scene.phantoms.empty() && wanted.print.size_m > 0.0 &&
          !(wanted.edit.sky && wanted.edit.heading_deg) && wanted.edit.later_s == 0.0 &&
          wanted.edit.latitude_deg == setup_.scene.place_time.latitude_deg &&
          wanted.edit.longitude_deg == setup_.scene.place_time.longitude_deg;

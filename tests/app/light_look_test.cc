@@ -110,6 +110,45 @@ TEST(LightLook, KeepsTheMapUnderAGivenRatio) {
   EXPECT_GT(found.skies.source->ForSun(yard.model().ToSun(), 1.0)->SunNormalIrradiance().g, 0.0);
 }
 
+/// How pixels are asked for shade where the user says of the light what `overrides` has.
+DaySkies GivenSkies(const LightOverrides& overrides, const PhotographedYard::Light& light) {
+  const FoundLight found = Settle(0.0, light, overrides);
+  EXPECT_EQ(found.measured.heading_source, MeasuredLight::Source::kStated);
+  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kStated);
+  EXPECT_EQ(found.measured.heading_offset.value(), 0.0);
+  EXPECT_NE(found.skies.source, nullptr);
+  return found.skies;
+}
+
+TEST(LightLook, AsksUnderAStatedLightForShadeAlone) {
+  LightOverrides stated;
+  stated.as_stated = true;
+  const DaySkies open = GivenSkies(stated, {});
+  EXPECT_FALSE(open.other_shade) << "joints and edges would look shaded";
+  EXPECT_EQ(open.scale, (LinearRgb{1, 1, 1}));
+  const DaySkies hazy = GivenSkies(stated, {.sky_scale = {1.5, 1.5, 1.5}});
+  EXPECT_FALSE(hazy.other_shade);
+  const auto of = [](const DaySkies& skies) {
+    return skies.source->ForSun({{0.6, 0.0, 0.8}}, 1.0)->SkyHorizontalIrradiance();
+  };
+  EXPECT_EQ(of(hazy), of(open)) << "measured, though it is stated";
+  const auto leaves = [](Vec3 p) { return std::sin(9 * p.x) * std::sin(11 * p.y) > 0.0; };
+  const DaySkies shaded = GivenSkies(stated, {.shaded = leaves});
+  EXPECT_TRUE(shaded.other_shade);
+  EXPECT_EQ(shaded.sunlight, nullptr);
+  EXPECT_EQ(shaded.print_shade, (LinearRgb{1, 1, 1}));
+}
+
+TEST(LightLook, AsksForShadeWhereRatioAndHeadingAreGiven) {
+  LightOverrides given = SunToSkyOf(3.0);
+  given.heading_deg = 0.0;  // That it is given counts; the scene has it already.
+  EXPECT_FALSE(GivenSkies(given, {}).other_shade);
+  const auto leaves = [](Vec3 p) { return std::sin(9 * p.x) * std::sin(11 * p.y) > 0.0; };
+  const DaySkies shaded = GivenSkies(given, {.shaded = leaves});
+  EXPECT_TRUE(shaded.other_shade);
+  EXPECT_NE(shaded.sunlight, nullptr);
+}
+
 TEST(LightLook, DoubtsNoSunThatIsGiven) {
   // Elsewhere than the shadows say: doubtful as the words have it, not as the user does.
   const FoundLight found = Settle(60.0, {}, SunToSkyOf(2.0));
