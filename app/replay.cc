@@ -78,6 +78,7 @@ class Replayer {
     if (options_.time_lapse) {
       PLEINAIR_ASSIGN_OR_RETURN(day_moments_, MomentsOf(*options_.time_lapse, scene_.place_time));
     }
+    PLEINAIR_RETURN_IF_ERROR(CheckFrameOfDay(recording.frames->FrameCount()));
     PLEINAIR_RETURN_IF_ERROR(CheckExports(options_.exports, output_camera_));
     PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(scene_));
     auto tracker = tracker::Tracker::Create(recording.camera, tracking);
@@ -142,6 +143,7 @@ class Replayer {
         ExportPath({std::move(path), scene_, std::exchange(found_->messages, {})}, options_.exports,
                    folder_.staging()));
     report_.outputs.insert(report_.outputs.end(), exported.begin(), exported.end());
+    if (options_.time_lapse && DrawsDay()) PLEINAIR_RETURN_IF_ERROR(ViewOfDay());
     Warn();
     pictured_ = ReportFrames(report_.path, report_.frames);
     return {};
@@ -278,6 +280,18 @@ class Replayer {
          EncodeJpeg(composed, kReportPictureWidth_px, kReportJpegQuality)});
   }
 
+  /// Whether the recording has the frame that the time-lapse is to be seen from, where it is known
+  /// how many it has.
+  Result<void> CheckFrameOfDay(std::optional<std::int64_t> frames) const {
+    const auto frame = options_.time_lapse ? options_.time_lapse->frame : std::nullopt;
+    if (!frame || !frames || *frame < *frames) return {};
+    return InputError("--time-lapse-frame",
+                      fmt::format("frame {} lies beyond the recording's {}", *frame, *frames),
+                      "name one of 0 to " + std::to_string(*frames - 1));
+  }
+
+  bool DrawsDay() const { return !report_.path.empty() && !scene_.objects.empty(); }
+
   /// The observation whose camera the time-lapse looks through.
   Result<Observation> ViewOfDay() const {
     const auto& path = report_.path;
@@ -292,7 +306,7 @@ class Replayer {
 
   Result<void> DrawDay() {
     if (!options_.time_lapse) return {};
-    if (report_.path.empty() || scene_.objects.empty()) {
+    if (!DrawsDay()) {
       report_.warnings.emplace_back(
           "There is no time-lapse: it needs a virtual object and a frame with a pose.");
       return {};

@@ -98,6 +98,25 @@ TEST(Replay, TakesTheLightThatTheUserGives) {
             2);
 }
 
+TEST(Replay, RefusesADayFromAFrameThatCannotShowIt) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, true);
+  const auto refusal = [&](const char* frame) {
+    const RunResult run = RunPleinair({"replay", folder / "site", "-o", folder / "out",
+                                       "--time-lapse", "day", "--time-lapse-frame", frame});
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    return run.err;
+  };
+  const cv::Mat blank(480, 640, CV_8UC3, cv::Scalar(90, 120, 150));
+  cv::imwrite(folder / "site/frames/0001.jpg", blank);
+  EXPECT_THAT(refusal("1"), HasSubstr("frame 1 has no pose"));
+  // Told before anything is done: nobody has come upon the bad model yet.
+  WriteFile(folder / "site/object.obj", "v 0 0 0\n");
+  EXPECT_THAT(refusal("2"), HasSubstr("frame 2 lies beyond the recording's 2"));
+  EXPECT_THAT(refusal("1"), HasSubstr("object.obj"));
+}
+
 TEST(Replay, TracesDaylightAsFinelyAndAsFarAsAsked) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
