@@ -202,6 +202,9 @@ class Replayer {
       report_.warnings.push_back(
           fmt::format("{} frames were lost when this was recorded.", found_->lost_frames));
     }
+    for (std::string& sentence : ModelWarnings(renderer_->placed())) {
+      report_.warnings.push_back(std::move(sentence));
+    }
     if (scene_.objects.empty()) {
       report_.warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
     } else if (scene_.phantoms.empty()) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 
 namespace pleinair::app {
 namespace {
@@ -90,6 +92,23 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Sessio
     warnings.push_back(fmt::format(
         "In {} frames the marker is too small or too frontal to tell its tilt for certain.",
         ambiguous));
+  }
+  return warnings;
+}
+
+std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel>& models) {
+  std::vector<std::string> warnings;
+  std::set<std::filesystem::path> said;
+  for (const compositor::PlacedModel& placed : models) {
+    std::set<std::string> left_out = compositor::LeftOut(*placed.model);
+    // Of a phantom nothing counts but the light that it reflects.
+    if (placed.is_phantom) {
+      std::erase_if(left_out,
+                    [](const std::string& what) { return what != compositor::kVertexColors; });
+    }
+    if (left_out.empty() || !said.insert(placed.model->file).second) continue;
+    warnings.push_back(fmt::format("Of {} this is left out: {}.", placed.model->file.string(),
+                                   fmt::join(left_out, ", ")));
   }
   return warnings;
 }

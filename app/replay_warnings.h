@@ -6,6 +6,7 @@
 
 #include "app/session.h"
 #include "app/sinks/report.h"
+#include "compositor/light_solver.h"
 #include "devices/scene_description.h"
 
 namespace pleinair::app {
@@ -30,6 +31,9 @@ class FrameWarnings {
 /// What the user should know of how a replay's markers were found, a sentence each.
 std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Session& session,
                                         const devices::SceneDescription& scene);
+
+/// What models' files have that does not show, a sentence a file.
+std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel>& models);
 
 /// Where the light that was measured is far from what the scene says, cannot be what the frames
 /// show, or was not measured.

@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <set>
 #include <utility>
 
-#include "base/srgb.h"
 #include "base/vector.h"
 #include "compositor/gltf_accessor.h"
 #include "compositor/gltf_files.h"
+#include "compositor/gltf_materials.h"
 #include "compositor/gltf_placement.h"
 #include "compositor/gltf_texture_transform.h"
 #include "compositor/model_limits.h"
-#include "compositor/texture_decoder.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -33,14 +31,10 @@ const std::set<std::string>& KnownExtensions() {
   return known;
 }
 
-/// Pictures that come as files or data URIs, still encoded, by index. Those in buffer views are
-/// read later: tinygltf does not check where they end.
-using EncodedImages = std::map<int, std::vector<unsigned char>>;
-
 bool KeepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, int, int,
                  const unsigned char* bytes, int size, void* user) {
   if (image->bufferView < 0 && size > 0) {
-    (*static_cast<EncodedImages*>(user))[index].assign(bytes, bytes + size);
+    (*static_cast<EncodedGltfImages*>(user))[index].assign(bytes, bytes + size);
   }
   return true;
 }
@@ -60,20 +54,14 @@ class GltfReader {
                           "export the model without it");
       }
     }
-    for (const tinygltf::Material& material : gltf_.materials) {
-      PLEINAIR_RETURN_IF_ERROR(ReadMaterial(material));
-    }
-    model_.materials.push_back({});  // For primitives without one.
-    model_.materials.back().specular_f0 = kDielectricF0;
+    PLEINAIR_ASSIGN_OR_RETURN(uv_maps_, ReadGltfMaterials(gltf_, encoded_, file_, &model_));
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
     if (model_.meshes.empty()) return Fail("its scene has no triangles");
+    if (!gltf_.animations.empty()) model_.left_out.insert("animations");
     return std::move(model_);
   }
 
  private:
-  // glTF 2.0, appendix B.2.2: dielectrics have an index of refraction of 1.5.
-  static constexpr float kDielectricF0 = 0.04F;
-
   tl::unexpected<Error> Fail(std::string what) const {
     return InputError(where_, std::move(what), "repair the model or export it again");
   }
@@ -104,90 +92,6 @@ class GltfReader {
 
   static bool InRange(int index, std::size_t count) {
     return index >= 0 && static_cast<std::size_t>(index) < count;
-  }
-
-  /// Index into the model's textures of a glTF texture's picture. Colours are decoded from sRGB and
-  /// other numbers are not, so that a picture of both stands there twice.
-  Result<int> Texture(int texture, bool color = true) {
-    if (!InRange(texture, gltf_.textures.size())) return Fail("refers to a texture out of range");
-    const int image = gltf_.textures[static_cast<std::size_t>(texture)].source;
-    if (!InRange(image, gltf_.images.size())) {
-      return Fail("texture " + std::to_string(texture) + " has no PNG or JPEG picture");
-    }
-    if (const auto known = textures_.find({image, color}); known != textures_.end()) {
-      return known->second;
-    }
-    const tinygltf::Image& source = gltf_.images[static_cast<std::size_t>(image)];
-    const std::string name = where_ + ", image " + std::to_string(image);
-    std::span<const std::byte> bytes;
-    if (source.bufferView >= 0) {
-      PLEINAIR_ASSIGN_OR_RETURN(bytes, GltfViewBytes(gltf_, source.bufferView, name));
-    } else if (const auto found = encoded_.find(image); found != encoded_.end()) {
-      bytes = std::as_bytes(std::span(found->second));
-    } else {
-      return InputError((file_.parent_path() / source.uri).string(), "texture does not exist",
-                        "put it beside the model " + where_);
-    }
-    PLEINAIR_ASSIGN_OR_RETURN(auto pixels, DecodeTexture(bytes, name));
-    model_.textures.push_back(std::move(pixels));
-    const int index = static_cast<int>(model_.textures.size()) - 1;
-    textures_.emplace(std::pair{image, color}, index);
-    return index;
-  }
-
-  Result<void> ReadMaterial(const tinygltf::Material& source) {
-    Material material;
-    material.name = source.name;
-    material.double_sided = source.doubleSided;
-    material.specular_f0 = kDielectricF0;
-    material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutOut
-                     : source.alphaMode == "BLEND" ? Material::Alpha::kBlended
-                                                   : Material::Alpha::kIgnored;
-    // Beyond 1 all of it is cut out (glTF 2.0, 3.9.4): how far beyond does not matter.
-    material.alpha_cutoff = 2.0F * Clamped(source.alphaCutoff / 2.0);
-    const auto& pbr = source.pbrMetallicRoughness;
-    if (pbr.baseColorFactor.size() == 4) material.opacity = Clamped(pbr.baseColorFactor[3]);
-    for (std::size_t c = 0; c < 3 && c < pbr.baseColorFactor.size(); ++c) {
-      material.base_color[c] = Clamped(pbr.baseColorFactor[c]);
-    }
-    material.metallic = Clamped(pbr.metallicFactor);
-    material.roughness = Clamped(pbr.roughnessFactor);
-    if (pbr.baseColorTexture.index >= 0) {
-      PLEINAIR_ASSIGN_OR_RETURN(material.base_color_texture, Texture(pbr.baseColorTexture.index));
-    }
-    UvMap uv_map = UvMapOf(pbr.baseColorTexture);
-    if (const auto& texture = pbr.metallicRoughnessTexture; texture.index >= 0) {
-      const UvMap of_coat = UvMapOf(texture);
-      PLEINAIR_ASSIGN_OR_RETURN(const int coat, Texture(texture.index, false));
-      if (material.base_color_texture < 0) uv_map = of_coat;
-      if (of_coat == uv_map) {
-        material.metallic_roughness_texture = coat;
-      } else {
-        // A surface has one set of texture coordinates here.
-        TakeMean(model_.textures[static_cast<std::size_t>(coat)], &material);
-      }
-    }
-    uv_maps_.push_back(uv_map);
-    model_.materials.push_back(std::move(material));
-    return {};
-  }
-
-  /// Green is roughness, blue metallic, both linear.
-  static void TakeMean(const Image<std::uint8_t>& image, Material* material) {
-    double roughness = 0.0, metallic = 0.0;
-    for (int y = 0; y < image.height(); ++y) {
-      for (int x = 0; x < image.width(); ++x) {
-        roughness += image(x, y, 1);
-        metallic += image(x, y, 2);
-      }
-    }
-    const double scale = 1.0 / (255.0 * image.width() * image.height());
-    material->roughness *= static_cast<float>(roughness * scale);
-    material->metallic *= static_cast<float>(metallic * scale);
-  }
-
-  static float Clamped(double value) {
-    return value > 0.0 ? static_cast<float>(std::min(value, 1.0)) : 0.0F;  // Also NaN.
   }
 
   /// Walks the default scene's nodes. glTF's nodes form trees: none has two parents.
@@ -229,7 +133,10 @@ class GltfReader {
       if (!IsFinite(placement)) {
         return Fail("the placement of node " + std::to_string(index) + " is not finite");
       }
-      if (node.mesh >= 0) PLEINAIR_RETURN_IF_ERROR(ReadMesh(node.mesh, placement));
+      if (node.mesh >= 0) {
+        if (node.skin >= 0) model_.left_out.insert("skins");
+        PLEINAIR_RETURN_IF_ERROR(ReadMesh(node.mesh, placement));
+      }
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
         to_visit.push_back({*child, placement});
       }
@@ -250,7 +157,10 @@ class GltfReader {
                              const GltfPlacement& placement) {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     const auto position = primitive.attributes.find("POSITION");
+    if (mode < TINYGLTF_MODE_TRIANGLES) model_.left_out.insert("points and lines");
     if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) return {};
+    if (primitive.attributes.contains("COLOR_0")) model_.left_out.insert(kVertexColors);
+    if (!primitive.targets.empty()) model_.left_out.insert("morph targets");
     Mesh mesh;
     mesh.name = name;
     PLEINAIR_ASSIGN_OR_RETURN(mesh.positions, ReadGltfFloats<3>(gltf_, position->second, where_));
@@ -352,10 +262,9 @@ class GltfReader {
   const std::filesystem::path& file_;
   std::string where_;
   tinygltf::Model gltf_;
-  EncodedImages encoded_;
+  EncodedGltfImages encoded_;
   Model model_;
-  std::map<std::pair<int, bool>, int> textures_;  ///< Model's texture by glTF image and use.
-  std::vector<UvMap> uv_maps_;                    ///< By material.
+  std::vector<UvMap> uv_maps_;  ///< By material.
   std::size_t vertex_count_ = 0;
   std::size_t triangle_count_ = 0;
 };

@@ -17,8 +17,9 @@ bool LooksLikeGltf(std::string_view content);
 /// (x, y, z) becomes (x, −z, y). Metres stay metres. Base colour, metallic and
 /// roughness (factors and textures, of one set of texture coordinates; where there are two, the
 /// mean of the second texture), alphaMode, alphaCutoff, doubleSided and KHR_texture_transform are
-/// read; colours of vertices, normal maps, emission, other extensions of materials, skins,
-/// animations and cameras are passed over.
+/// read. Colours of vertices, normal maps, emission, other extensions of materials, skins, morph
+/// targets, animations, points and lines are left out, which Model::left_out and
+/// Material::left_out say; cameras and lamps are passed over.
 /// Errors: cut short, references out of range, nodes that contain themselves, values that are not
 /// finite, textures missing or too large, a required extension that is not known.
 Result<Model> ParseGltf(const std::string& content, const std::filesystem::path& file);

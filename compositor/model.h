@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct Material {
   int base_color_texture = -1;  ///< Index into Model::textures, -1 for none.
   /// The same; green times roughness, blue times metallic, both linear.
   int metallic_roughness_texture = -1;
+  /// What the file says of it that is not drawn, in words: "normal maps".
+  std::set<std::string> left_out;
 };
 
 /// A surface with holes stands in a model twice: as it is drawn, where alpha tells the holes, and
@@ -53,7 +56,16 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Image<std::uint8_t>> textures;  ///< As in the file, 3 or 4 channels.
+  /// What the file has besides its materials that is not drawn, in words: "animations".
+  std::set<std::string> left_out;
 };
+
+/// Among what is left out.
+inline constexpr const char* kVertexColors = "colours of vertices";
+
+/// All that a model's file has and that is not drawn, of materials that are in use, in words and
+/// ordered. For the user to know: docs/formats.md says what is read.
+std::set<std::string> LeftOut(const Model& model);
 
 enum class NormalsMode { kFromFile, kFlat, kSmooth };
 

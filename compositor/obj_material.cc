@@ -104,8 +104,33 @@ class MtlParser {
       draft_->illumination = static_cast<int>(illumination);
     } else if (keyword == "map_Kd") {
       PLEINAIR_ASSIGN_OR_RETURN(material.base_color_texture, Texture());
+    } else {
+      NoteLeftOut(keyword);
     }
     return {};
+  }
+
+  void NoteLeftOut(std::string_view keyword) {
+    static const std::map<std::string_view, const char*> kNames = {
+        {"Ke", "emission"},
+        {"map_Ke", "emission"},
+        {"bump", "normal maps"},
+        {"map_bump", "normal maps"},
+        {"map_Bump", "normal maps"},
+        {"norm", "normal maps"},
+        {"map_d", "pictures of transparency (map_d)"},
+        {"map_Ks", "pictures of gloss and metal"},
+        {"map_Ns", "pictures of gloss and metal"},
+        {"map_Pr", "pictures of gloss and metal"},
+        {"map_Pm", "pictures of gloss and metal"}};
+    const auto found = kNames.find(keyword);
+    if (found == kNames.end()) return;
+    if (keyword == "Ke") {
+      // Most programs write one of zero.
+      const auto color = Color();
+      if (!color || *color == std::array<float, 3>{}) return;
+    }
+    draft_->material.left_out.insert(found->second);
   }
 
   /// The file's name stands last, after options such as "-s 1 1 1"; it may contain blanks.

@@ -68,7 +68,14 @@ class ObjParser {
   }
 
   Result<void> Statement(std::string_view keyword) {
-    if (keyword == "v") return Vector<3>(&positions_, 3);
+    if (keyword == "v") {
+      PLEINAIR_RETURN_IF_ERROR(Vector<3>(&positions_, 3));
+      // Beyond the place, its weight at most; colours are three more.
+      if (!lines_.Word().empty() && !lines_.Word().empty()) {
+        model_.left_out.insert(kVertexColors);
+      }
+      return {};
+    }
     if (keyword == "vn") return Vector<3>(&normals_, 3);
     if (keyword == "vt") return Vector<2>(&uvs_, 1);
     if (keyword == "f") return Face();

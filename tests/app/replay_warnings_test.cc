@@ -41,6 +41,27 @@ std::string WhereNothingWasSeen(std::optional<std::string> family, std::optional
   return warnings.empty() ? "" : warnings[0];
 }
 
+TEST(ModelWarnings, SayOnceOfAFileWhatOfItDoesNotShow) {
+  compositor::Model model;
+  model.file = "lamp.glb";
+  model.materials.resize(2);
+  model.materials[0].left_out = {"normal maps", "emission"};
+  model.materials[1].left_out = {"KHR_materials_sheen"};  // Of nothing.
+  model.meshes.emplace_back();
+  const auto place = [](const compositor::Model& of, bool is_phantom) {
+    compositor::PlacedModel placed;
+    placed.model = std::make_shared<const compositor::Model>(of);
+    placed.is_phantom = is_phantom;
+    return placed;
+  };
+  EXPECT_THAT(ModelWarnings({place(model, false), place(model, false)}),
+              ElementsAre("Of lamp.glb this is left out: emission, normal maps."));
+  EXPECT_THAT(ModelWarnings({place(model, true)}), IsEmpty());
+  model.left_out = {compositor::kVertexColors};
+  EXPECT_THAT(ModelWarnings({place(model, true)}),
+              ElementsAre("Of lamp.glb this is left out: colours of vertices."));
+}
+
 TEST(MarkerWarnings, SayWhatWasLookedForInVain) {
   EXPECT_THAT(WhereNothingWasSeen("tag25h9", 2), HasSubstr("(tag25h9_2) was seen in no frame"));
   EXPECT_THAT(WhereNothingWasSeen("tag25h9", 2), Not(HasSubstr("S-G")));

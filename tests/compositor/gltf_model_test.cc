@@ -12,7 +12,9 @@
 namespace pleinair::compositor {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::MakePng;
 using testing::PngHeader;
 using testing::TemporaryFolder;
@@ -34,8 +36,8 @@ struct TriangleFile {
   std::string position_accessor =
       R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,0]})";
   std::string extra;
-  /// Of the material: what stands beside its roughness, and beside its name.
-  std::string coat, alpha, color_texture = R"({"index":0})";
+  /// What stands beside the material's roughness, beside its name, and after the attributes.
+  std::string coat, alpha, attributes, color_texture = R"({"index":0})";
 
   std::string Buffer() const {
     std::string buffer = Bytes(positions) + Bytes(uvs) + Bytes(indices);
@@ -45,7 +47,9 @@ struct TriangleFile {
 
   std::string Json(const std::string& buffer_uri) const {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + node +
-           R"(],"meshes":[{"name":"leaf","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},)"
+           R"(],"meshes":[{"name":"leaf","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1)" +
+           attributes +
+           R"(},)"
            R"("indices":2,"material":0}]}],"materials":[{"name":"green","doubleSided":true,)" +
            alpha +
            R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,0.75],"metallicFactor":1,)"
@@ -151,6 +155,27 @@ TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
   ASSERT_TRUE(model);
   EXPECT_EQ(model->materials[0].metallic_roughness_texture, -1);
   EXPECT_FLOAT_EQ(model->materials[0].roughness, 0.3F * 128 / 255);
+  EXPECT_EQ(model->textures.size(), 1U) << "the picture is kept though nothing is drawn with it";
+}
+
+TEST(GltfModel, TellsWhatItLeavesOut) {
+  TriangleFile file;
+  EXPECT_THAT(LeftOut(*file.Load()), IsEmpty());
+  file.alpha = R"("normalTexture":{"index":0},"emissiveFactor":[0,0,0],)";
+  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("normal maps"));
+  file.alpha = R"("emissiveFactor":[0,2,0],"extensions":{"KHR_materials_transmission":)"
+               R"({"transmissionFactor":1},"KHR_materials_emissive_strength":{}},)";
+  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("KHR_materials_transmission", "emission"));
+  file = {};
+  file.attributes = R"(,"COLOR_0":0)";
+  file.node = R"({"mesh":0,"skin":0})";
+  file.extra = R"(,"skins":[{"joints":[0]}],"animations":[{"channels":[],"samplers":[]}])";
+  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("animations", "colours of vertices", "skins"));
+  // Nobody sees a material that nothing has.
+  file = {};
+  file.color_texture = R"({"index":0}}},{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{)"
+                       R"("metallicFactor":1)";
+  EXPECT_THAT(LeftOut(*file.Load()), IsEmpty());
 }
 
 TEST(GltfModel, MovesTextureCoordinatesAsTheFileAsks) {

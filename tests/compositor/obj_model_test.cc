@@ -10,7 +10,9 @@
 namespace pleinair::compositor {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::MakePng;
 using testing::PngHeader;
 using testing::TemporaryFolder;
@@ -114,6 +116,22 @@ TEST(ObjModel, GroupsFacesByNameAndMaterial) {
   EXPECT_EQ(coat.metallic, 0.25F);
   EXPECT_EQ(coat.opacity, 1.0F) << "d taken for Tr";
   EXPECT_EQ(coat.base_color, (std::array<float, 3>{0.2F, 0.2F, 0.2F}));
+}
+
+TEST(ObjModel, TellsWhatItLeavesOut) {
+  const TemporaryFolder folder;
+  const auto left_out = [&](const std::string& material, const std::string& points) {
+    folder.Write("one.mtl", "newmtl a\nKd 0.5 0.5 0.5\n" + material);
+    return LeftOut(
+        *LoadModel(folder.Write("model.obj", "mtllib one.mtl\n" + points + "usemtl a\nf 1 2 3\n")));
+  };
+  const std::string plain = "v 0 0 0 1\nv 1 0 0\nv 1 1 0\n";
+  EXPECT_THAT(left_out("Ke 0 0 0\nNi 1.45\nKa 1 1 1\n", plain), IsEmpty());
+  EXPECT_THAT(left_out("Ke 0 0 0.5\nmap_Bump -bm 0.2 bumps.png\n", plain),
+              ElementsAre("emission", "normal maps"));
+  EXPECT_THAT(left_out("newmtl b\nKe 1 1 1\n", plain), IsEmpty()) << "nothing has it";
+  EXPECT_THAT(left_out("", "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\n"),
+              ElementsAre("colours of vertices"));
 }
 
 TEST(ObjModel, KeepsNormalsOfTheFileUnlessAskedForOthers) {

@@ -1,0 +1,16 @@
+#include <cstddef>
+
+#include "compositor/model.h"
+
+namespace pleinair::compositor {
+
+std::set<std::string> LeftOut(const Model& model) {
+  std::set<std::string> words = model.left_out;
+  for (const Mesh& mesh : model.meshes) {
+    const auto& of_material = model.materials[static_cast<std::size_t>(mesh.material)].left_out;
+    words.insert(of_material.begin(), of_material.end());
+  }
+  return words;
+}
+
+}  // namespace pleinair::compositor
