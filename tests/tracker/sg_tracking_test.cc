@@ -196,6 +196,29 @@ TEST_F(SgTracking, NeverMistakesAMarkerForItsNeighbour) {
   }
 }
 
+TEST(SgTrackingAgain, FollowsAMarkerThatJumpsToNoPlaceWhereItIsNot) {
+  const CameraModel camera = SgCamera();
+  // Small and seen from low: a fit that begins beside it may find a part of it elsewhere, as it did
+  // after these of sixty jumps.
+  for (const int jump : {17, 20, 30, 40, 43, 47}) {
+    SCOPED_TRACE(testing::Message() << "jump " << jump);
+    const auto tracker = MakeSgTracker(camera, {.consecutive_frames = true});
+    const auto track = [&](Vec2 centre, double turn_deg, unsigned seed) {
+      const RenderedMarker marker = SgMarkerAt(camera, 17, centre, 62, 58, 0, turn_deg);
+      const auto found = Track(
+          tracker.get(),
+          RenderMarkers(camera, {marker}, {.blur_px = 0.6, .noise_codes = 3.0, .seed = seed}));
+      ASSERT_EQ(found.size(), 1U) << Summary(found);
+      EXPECT_GT(found[0].detection.visible_fraction, 0.6);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.6);
+    };
+    track({120, 110}, 10, 1 + jump);
+    const double angle = 0.7 * jump, far_px = 2.0 + 0.2 * jump;
+    track({120 + far_px * std::cos(angle), 110 + far_px * std::sin(angle)},
+          10 + 14 * std::sin(1.3 * jump), 100 + jump);
+  }
+}
+
 TEST_F(SgTracking, FindsAMarkerThatComesIntoViewBesideAnother) {
   int first_seen = -1;
   for (int frame = 0; frame < 20; ++frame) {

@@ -21,6 +21,9 @@ constexpr int kFastEvery = 5, kSearchEvery = 30, kMissingSearchEvery = 15;
 /// each of the first few and then now and then.
 constexpr int kForgetAfter = 90, kSearchAtOnce = 5;
 constexpr double kTrackedVisible = 0.12;
+/// Where so little is left of what the frame before showed, the marker may have jumped and be
+/// followed to a wrong place, rather than a cover have come.
+constexpr double kCoveredAtOnce = 0.85;
 /// Correlation of its border, pixel by pixel, below which a marker of which not even so much is
 /// seen (kSurelyVisible) is a little beside. (Of 108 the one that was had .16, of the others none
 /// less than .34.)
@@ -76,7 +79,7 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
       if (fast) FindFast();
       if (search) SearchPicture();
     } else {
-      Track();
+      const std::vector<SgReading> doubtful = Track();
       const auto missing = [&](bool at_once) {
         return std::any_of(known_.begin(), known_.end(), [&](const Known& known) {
           return (!at_once || known.frames_unseen < kSearchAtOnce) &&
@@ -86,6 +89,7 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
         });
       };
       if (fast && (known_.empty() || missing(false) || frame_ % kFastEvery == 0)) FindFast();
+      for (const SgReading& reading : doubtful) Add(reading, DetectionPath::kTracked);
       if (search && missing(true)) {
         FindBySurf(BorderSearch::Sizes::kLarge);
         if (missing(true)) FindBySurf(BorderSearch::Sizes::kAll);
@@ -237,7 +241,8 @@ void SgDetector::FindFast() {
   for (const Quad& quad : seen_quads_) TryQuad(quad);
 }
 
-void SgDetector::Track() {
+std::vector<SgReading> SgDetector::Track() {
+  std::vector<SgReading> doubtful;
   for (const Known& known : known_) {
     std::array<Vec2, 4> corners = known.corners_ideal;
     if (known.has_velocity && known.frames_unseen == 0) {
@@ -247,10 +252,18 @@ void SgDetector::Track() {
     state.modules_from_ideal = ModulesFromSquareCorners(corners);
     state.blur_px = known.blur_px;
     const std::optional<SgReading> reading = reader_.Follow(known.number, state);
-    if (reading && reading->visible_fraction >= kTrackedVisible) {
+    if (!reading || reading->visible_fraction < kTrackedVisible) continue;
+    const bool covered_at_once =
+        reading->visible_fraction < kCoveredAtOnce * known.visible_fraction;
+    const bool searched_anyway =
+        reading->visible_fraction < kSurelyVisible && frame_ % kFastEvery == 0;
+    if (covered_at_once || searched_anyway) {
+      doubtful.push_back(*reading);
+    } else {
       Add(*reading, DetectionPath::kTracked);
     }
   }
+  return doubtful;
 }
 
 void SgDetector::Remember() {
@@ -268,13 +281,15 @@ void SgDetector::Remember() {
       }
     }
     if (same == nullptr) {
-      known_.push_back({reading.number, corners, {}, false, reading.blur_px, 0});
+      known_.push_back(
+          {reading.number, corners, {}, false, reading.blur_px, 0, reading.visible_fraction});
       continue;
     }
     same->has_velocity = same->frames_unseen == 1;
     for (int i = 0; i < 4; ++i) same->velocity[i] = corners[i] - same->corners_ideal[i];
     same->corners_ideal = corners;
     same->blur_px = reading.blur_px;
+    same->visible_fraction = reading.visible_fraction;
     same->frames_unseen = 0;
   }
   std::erase_if(known_, [](const Known& known) { return known.frames_unseen > kForgetAfter; });

@@ -54,6 +54,7 @@ class SgDetector final : public MarkerDetector {
     bool has_velocity = false;
     double blur_px = 0.7;
     int frames_unseen = 0;
+    double visible_fraction = 0.0;
   };
 
   /// A guess after the first steps of its fit.
@@ -78,7 +79,9 @@ class SgDetector final : public MarkerDetector {
 
   /// The best ways round for a print whose square has these corners, clockwise; by pixels alone.
   std::array<ProbedOrientation, 2> Probe(std::array<Vec2, 4> corners_px);
-  void Track();
+  /// Follows the markers of the frames before. Returns those that may lie elsewhere: what is found
+  /// anew counts as well.
+  std::vector<SgReading> Track();
   void FindFast();
   /// By the border and the cells: all that is there beside what was found; where nothing was, the
   /// dearer ways only as long as the cheaper ones find nothing.
