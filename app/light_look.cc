@@ -22,6 +22,11 @@ constexpr double kSurelyShaded = 1.5;
 constexpr double kMostPlaneContrast = 0.6;
 // The same, of planes that an overcast sky explains: patterns, bumps and stated places of phantoms.
 constexpr double kPlaneContrastUnderCloud = 0.3;
+// Planes of several materials, compared by their stated colours: of so many, facing so many ways.
+// Logarithmic, root mean square: at least so much must be unexplained under each sun, and so many
+// times what is under clouds. Rough colours add to both alike.
+constexpr int kFewestSurfaces = 4, kFewestDirections = 3;
+constexpr double kLeastAmongPlanes = 0.2, kTimesWorse = 2.0;
 // Skies that a sun may have beside it, of the words': as they say, and in haze.
 constexpr std::array kSkiesWithSun{1.0, 2.0, 4.0};
 
@@ -42,6 +47,35 @@ LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
 // before its strength is known. A guess: words miss haze more often than anything else, shallower
 // shade is found under a stronger sky only, and deeper shade under either.
 constexpr LinearRgb kHazierSky{2.0, 2.0, 2.0};
+
+/// How planes agree with the words' sun beside each of kSkiesWithSun.
+template <typename Contrast>
+std::vector<compositor::PlaneContrast> SunlitContrasts(const Contrast& contrast_under,
+                                                       const sky::SkyModel& day) {
+  std::vector<compositor::PlaneContrast> contrasts;
+  contrasts.reserve(kSkiesWithSun.size());
+  for (const double sky : kSkiesWithSun) {
+    contrasts.push_back(
+        contrast_under(compositor::ScaledDaylight(day, LinearRgb{1, 1, 1} * sky, {1.0, 1.0, 1.0})));
+  }
+  return contrasts;
+}
+
+/// Whether planes agree with an overcast sky and with none that has a sun: those of one material
+/// by themselves, or those of several materials by their stated colours.
+bool IsLitByCloudsAlone(const compositor::PlaneContrast& clouds,
+                        const std::vector<compositor::PlaneContrast>& sunlit) {
+  const bool within = clouds.within < kPlaneContrastUnderCloud &&
+                      std::all_of(sunlit.begin(), sunlit.end(),
+                                  [](const auto& sun) { return sun.within > kMostPlaneContrast; });
+  const bool comparable =
+      clouds.surfaces >= kFewestSurfaces && clouds.directions >= kFewestDirections;
+  const bool among =
+      comparable && std::all_of(sunlit.begin(), sunlit.end(), [&](const auto& sun) {
+        return sun.among > kLeastAmongPlanes && sun.among > kTimesWorse * clouds.among;
+      });
+  return within || among;
+}
 
 bool MayShine(devices::Cloudiness stated) {
   return stated == devices::Cloudiness::kClear || stated == devices::Cloudiness::kHazy;
@@ -143,7 +177,7 @@ FoundLight LightLook::Settle() const {
   if (reading.sun == Sun::kHidden && !edges_hidden) {
     // Who gives the ratio says that the sun shines; where it does is not seen, nor then its shade.
     if (overridden) return found;
-    light.sun_doubtful = shade.CastBySun() || contrast_under_cloud() > kMostPlaneContrast;
+    light.sun_doubtful = shade.CastBySun() || contrast_under_cloud().within > kMostPlaneContrast;
     // Where the sun stands is doubtful, too: what lies in its shade would be a guess.
     if (light.sun_doubtful) return found;
     light.sun_source = MeasuredLight::Source::kMeasured;
@@ -151,14 +185,8 @@ FoundLight LightLook::Settle() const {
     return found;
   }
   // Too few edges to tell, behind a house, say: planes that are lit as no sun would tell as well.
-  const auto denied = [&](double sky) {
-    const LinearRgb strength{sky, sky, sky};
-    return plane_contrast(compositor::ScaledDaylight(*day_, strength, {1.0, 1.0, 1.0})) >
-           kMostPlaneContrast;
-  };
   if (!overridden && may_shine && reading.sun == Sun::kUnknown && !shade.CastBySun() &&
-      contrast_under_cloud() < kPlaneContrastUnderCloud &&
-      std::all_of(kSkiesWithSun.begin(), kSkiesWithSun.end(), denied)) {
+      IsLitByCloudsAlone(contrast_under_cloud(), SunlitContrasts(plane_contrast, *day_))) {
     light.edges_agreeing = 0;
     light.sun_source = MeasuredLight::Source::kMeasured;
     found.skies.source = overcast;

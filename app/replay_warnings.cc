@@ -139,7 +139,7 @@ std::vector<std::string> LightWarnings(const LightSummary& summary) {
   const bool denied = measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun;
   if (denied && light.edges_agreeing == 0) {
     warnings.push_back(
-        "Planes of one material are lit as no sun would: the sky is taken as overcast. If the sun "
+        "Planes are lit as no sun would light them: the sky is taken as overcast. If the sun "
         "shone, check place, time and heading, or give --sun-to-sky.");
   } else if (denied) {
     warnings.push_back(fmt::format(

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -15,49 +14,85 @@
 namespace pleinair::compositor {
 namespace {
 
-using Rgb = std::array<double, 3>;
-
 constexpr std::size_t kFewestSpots = 40;
 // Where the model is asked, spread over the spots of a plane.
 constexpr std::size_t kProbes = 12;
 constexpr std::uint32_t kPaths = 128;
 
+// Between normals that count as one direction (30°), and of planes that count as one, whose normals
+// differ by rounding.
+constexpr double kOneDirection = 0.866, kOnePlane_steps = 1e3;
+
+/// A plane of a surface by its surface and its rounded normal.
+using PlaneKey = std::pair<int, std::array<int, 3>>;
+
+PlaneKey KeyOf(const SurfaceSample& spot) {
+  const auto rounded = [](double value) {
+    return static_cast<int>(std::lround(value * kOnePlane_steps));
+  };
+  return {spot.surface, {rounded(spot.normal.x), rounded(spot.normal.y), rounded(spot.normal.z)}};
+}
+
+/// Root mean square about the mean of means; what is in a list counts as much as one.
+double SpreadOf(const std::map<int, std::vector<double>>& values) {
+  double sum = 0.0, square = 0.0;
+  for (const auto& [surface, list] : values) {
+    for (const double value : list) {
+      sum += value / static_cast<double>(list.size());
+      square += value * value / static_cast<double>(list.size());
+    }
+  }
+  const double mean = sum / static_cast<double>(values.size());
+  return std::sqrt(std::max(0.0, square / static_cast<double>(values.size()) - mean * mean));
+}
+
 }  // namespace
 
-double FindPlaneContrast(const LightSolver& solver, const SurfaceSamples& samples,
-                         const sky::SkyModel& day, const Mat3& marker_from_world) {
+PlaneContrast FindPlaneContrast(const LightSolver& solver, const SurfaceSamples& samples,
+                                const sky::SkyModel& day, const Mat3& marker_from_world) {
   const auto& all = samples.samples();
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
-  std::map<std::pair<int, Rgb>, std::vector<std::uint32_t>> planes;
+  std::map<PlaneKey, std::vector<std::uint32_t>> planes;
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (all[i].frames == 0 || all[i].surface < 0) continue;
-    const Vec3 n = all[i].normal;
-    planes[{all[i].surface, {n.x, n.y, n.z}}].push_back(i);
+    if (all[i].frames > 0) planes[KeyOf(all[i])].push_back(i);
   }
-  std::map<int, std::pair<double, double>> range;  // By surface: least and most beside the model.
+  PlaneContrast contrast;
+  std::map<int, std::vector<double>> off;      // By surface, of its planes: beside the model,
+  std::map<int, std::vector<double>> off_all;  // … and beside its stated colour.
+  std::vector<Vec3> directions;
   for (const auto& [key, spots] : planes) {
     if (spots.size() < kFewestSpots) continue;
+    const SurfaceSample& first = all[spots.front()];
     std::vector<Point<Marker>> probes;
     for (std::size_t i = 0; i < kProbes; ++i) {
       probes.push_back(all[spots[(2 * i + 1) * spots.size() / (2 * kProbes)]].point);
     }
-    const auto& [x, y, z] = key.second;
-    const double sun = day.SunNormalIrradiance().g * std::max(0.0, Dot(Vec3{x, y, z}, to_sun));
+    const double sun = day.SunNormalIrradiance().g * std::max(0.0, Dot(first.normal, to_sun));
     const auto ambient =
-        solver.AmbientPhantomsOnly(probes, {x, y, z}, day, marker_from_world, kPaths);
+        solver.AmbientPhantomsOnly(probes, first.normal, day, marker_from_world, kPaths);
     std::vector<double> modelled, seen;
     for (std::size_t i = 0; i < probes.size(); ++i) {
       const double open = sun > 0.0 ? solver.SunVisibilityPhantomsOnly(probes[i], to_sun) : 0.0;
       modelled.push_back(std::log(std::max(ambient[i].g + sun * open, 1e-9)));
     }
     for (const std::uint32_t spot : spots) seen.push_back(all[spot].log_rgb[1]);
-    const double off = Median(seen) - Median(modelled);
-    const auto [at, is_new] = range.try_emplace(key.first, off, off);
-    at->second = {std::min(at->second.first, off), std::max(at->second.second, off)};
+    const double beside = Median(seen) - Median(modelled);
+    if (first.surface >= 0) off[first.surface].push_back(beside);
+    if (first.albedo.g <= 0.0) continue;
+    off_all[first.surface].push_back(beside - std::log(first.albedo.g));
+    if (std::none_of(directions.begin(), directions.end(),
+                     [&](Vec3 other) { return Dot(other, first.normal) > kOneDirection; })) {
+      directions.push_back(first.normal);
+    }
   }
-  return std::accumulate(range.begin(), range.end(), 0.0, [](double most, const auto& surface) {
-    return std::max(most, surface.second.second - surface.second.first);
-  });
+  for (const auto& [surface, values] : off) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    contrast.within = std::max(contrast.within, *most - *least);
+  }
+  contrast.surfaces = static_cast<int>(off_all.size());
+  contrast.directions = static_cast<int>(directions.size());
+  if (!off_all.empty()) contrast.among = SpreadOf(off_all);
+  return contrast;
 }
 
 }  // namespace pleinair::compositor

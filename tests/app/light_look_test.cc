@@ -72,6 +72,18 @@ TEST(LightLook, SeesByPlanesThatNoSunShinesWhereAllLiesBehindAWall) {
   EXPECT_EQ(settle({}).measured.sun_source, MeasuredLight::Source::kStated);
 }
 
+TEST(LightLook, SeesByStatedColoursThatNoSunShinesWherePlanesOfOneMaterialDoNotTell) {
+  // Beside the wall, in view of another part of the sky.
+  const auto settle = [](PhotographedYard::Light light) {
+    light.colours_as_stated = true;
+    return Settle(230.0, light, {}, "2025-09-14T16:45:00Z").measured;
+  };
+  const MeasuredLight veiled = settle({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  EXPECT_LT(veiled.edges, 3);
+  EXPECT_EQ(veiled.sun_source, MeasuredLight::Source::kMeasured);
+  EXPECT_EQ(settle({}).sun_source, MeasuredLight::Source::kStated);
+}
+
 TEST(LightLook, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
   const PhotographedYard& yard = Yard();
   const auto tree = [&](Vec3 p) {

@@ -70,6 +70,9 @@ class PhotographedYard {
     double sun_scale = 1.0;
     /// Whether something that no phantom stands for keeps the sun from a point.
     std::function<bool(Vec3)> shaded = [](Vec3) { return false; };
+    /// Whether things have the colours that the model states of them, the print its white;
+    /// otherwise they all have one, patterned.
+    bool colours_as_stated = false;
   };
 
   /// Where the camera stands for picture 0, 1, …
@@ -95,7 +98,8 @@ class PhotographedYard {
                                   Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1}));
         if (!seen) continue;
         const LinearRgb e = Irradiance(*seen, light, sun);
-        const LinearRgb radiance = e * Albedo(*seen) * (1 / std::numbers::pi);
+        const LinearRgb albedo = light.colours_as_stated ? StatedAlbedo(*seen) : Albedo(*seen);
+        const LinearRgb radiance = e * albedo * (1 / std::numbers::pi);
         image(x, y, 0) = Srgb8FromLinear(radiance.r * kGain);
         image(x, y, 1) = Srgb8FromLinear(radiance.g * kGain);
         image(x, y, 2) = Srgb8FromLinear(radiance.b * kGain);
@@ -124,6 +128,13 @@ class PhotographedYard {
     };
     const double grey = 0.25 + 0.12 * tile(0.4) + 0.08 * tile(0.03);
     return {grey, 0.95 * grey, 0.85 * grey};
+  }
+
+  LinearRgb StatedAlbedo(const PhantomSurface& at) const {
+    const Vec3 p = at.point.xyz;
+    const bool on_print =
+        std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < print_.board_size_m / 2;
+    return on_print ? LinearRgb{1, 1, 1} * print_.albedo_white : at.albedo;
   }
 
   LinearRgb Irradiance(const PhantomSurface& at, const Light& light,

@@ -193,7 +193,7 @@ TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
     }
     // The overcast sky's model has no sun.
     const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
-    return FindPlaneContrast(yard.solver(), samples, overcast, Mat3{});
+    return FindPlaneContrast(yard.solver(), samples, overcast, Mat3{}).within;
   };
   const double veiled = contrast(*yard_, {.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled, 0.3);
@@ -203,6 +203,27 @@ TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
   EXPECT_LT(contrast(*yard_, {}), 0.6);
   // High over the yard, or behind what is in view, it is told.
   EXPECT_GT(contrast(PhotographedYard({-0.2, 0.3, 0.9}), {}), 0.6);
+}
+
+TEST_F(ShadowLight, MakesPlanesOfSeveralMaterialsDifferFromTheirStatedColours) {
+  const PhotographedYard yard({-0.2, 0.3, 0.9});
+  const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
+  const auto among = [&](const PhotographedYard::Light& light, const sky::SkyModel& day) {
+    SurfaceSamples samples(yard.solver(), yard.camera(), yard.print());
+    samples.AddFrame(yard.Photograph(0, light).view(), PhotographedYard::Pose(0), {1, 1, 1});
+    const PlaneContrast contrast = FindPlaneContrast(yard.solver(), samples, day, Mat3{});
+    // Ground, wall, block and print; upwards, forwards and sideways.
+    EXPECT_GE(contrast.surfaces, 4);
+    EXPECT_GE(contrast.directions, 3);
+    return contrast.among;
+  };
+  const PhotographedYard::Light veiled{
+      .sky_scale = {3, 3, 3}, .sun_scale = 0.0, .colours_as_stated = true};
+  EXPECT_LT(among(veiled, overcast), 0.12);
+  EXPECT_GT(among(veiled, yard.model()), 0.25);
+  const PhotographedYard::Light sunny{.colours_as_stated = true};
+  EXPECT_LT(among(sunny, yard.model()), 0.12);
+  EXPECT_GT(among(sunny, overcast), 0.25);
 }
 
 TEST_F(ShadowLight, TellsHowMuchLiesInTheShadeOfTrees) {
