@@ -77,7 +77,7 @@ TEST(LightWarnings, SayWhatTheLightCannotBe) {
   light.measured.sun_source = MeasuredLight::Source::kMeasured;
   light.measured.sun_shines = false;
   light.measured.sun_to_sky_stated = 4.0;
-  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("Planes of one material")));
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("Planes are lit as no sun")));
   light.measured.edges = light.measured.edges_agreeing = 9;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("(9 places looked at)")));
   light.measured = {};
