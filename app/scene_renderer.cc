@@ -44,8 +44,9 @@ compositor::NormalsMode NormalsOf(devices::Shading shading) {
 
 Result<compositor::PlacedModel> PlaceModel(const devices::ModelReference& reference,
                                            bool is_phantom) {
-  PLEINAIR_ASSIGN_OR_RETURN(compositor::Model model,
-                            compositor::LoadModel(reference.file, {NormalsOf(reference.shading)}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      compositor::Model model,
+      compositor::LoadModel(reference.file, {NormalsOf(reference.shading), is_phantom}));
   return compositor::PlacedModel{
       std::make_shared<const compositor::Model>(std::move(model)),
       LinearOf({reference.translation_m, reference.rotation_deg, reference.scale}),

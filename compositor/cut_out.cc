@@ -13,6 +13,8 @@
 namespace pleinair::compositor {
 namespace {
 
+// Glass is there for light and shadows where it hides so much at least of what lies behind.
+constexpr float kDenseGlass = 0.5F;
 constexpr int kMostHalvings = 6;
 constexpr double kFinest_texels = 2.0;
 // Coordinates beyond this many repetitions of a texture have lost their texels to rounding.
@@ -94,6 +96,11 @@ class AlphaLevels {
   std::vector<Level> levels_;
 };
 
+/// The alpha below which there is nothing of a surface, for light and shadows.
+float CutoffOf(const Material& material) {
+  return material.alpha == Material::Alpha::kBlended ? kDenseGlass : material.alpha_cutoff;
+}
+
 struct Piece {
   std::array<std::uint32_t, 3> corners{};
   int halvings = 0;
@@ -105,7 +112,7 @@ struct Piece {
 class Cutter {
  public:
   Cutter(const Material& material, const AlphaLevels& alpha, Mesh* mesh)
-      : cutoff_(255.0 * material.alpha_cutoff),
+      : cutoff_(255.0 * CutoffOf(material)),
         opacity_(material.opacity),
         alpha_(alpha),
         mesh_(*mesh) {}
@@ -221,14 +228,14 @@ void DropUnused(Mesh* mesh) {
 
 /// No alpha of a texture makes more of a surface than its material's own.
 bool IsWhollyCutOut(const Material& material) {
-  return material.alpha == Material::Alpha::kCutOut && material.opacity < material.alpha_cutoff;
+  return material.alpha != Material::Alpha::kIgnored && material.opacity < CutoffOf(material);
 }
 
 /// The texture that may cut holes into a mesh, or -1.
 int HolesOf(const Model& model, const Mesh& mesh) {
   const Material& material = model.materials[static_cast<std::size_t>(mesh.material)];
   const int texture = material.base_color_texture;
-  if (material.alpha != Material::Alpha::kCutOut || texture < 0 || mesh.uvs.empty()) return -1;
+  if (material.alpha == Material::Alpha::kIgnored || texture < 0 || mesh.uvs.empty()) return -1;
   return model.textures[static_cast<std::size_t>(texture)].channels() == 4 ? texture : -1;
 }
 
@@ -238,16 +245,21 @@ void CutHoles(Model* model, std::size_t most_added) {
   std::map<int, AlphaLevels> levels;
   std::vector<Mesh> drawn;
   for (Mesh& mesh : model->meshes) {
-    if (IsWhollyCutOut(model->materials[static_cast<std::size_t>(mesh.material)])) {
-      mesh.indices.clear();
+    const Material& material = model->materials[static_cast<std::size_t>(mesh.material)];
+    const bool is_glass = material.alpha == Material::Alpha::kBlended;
+    if (IsWhollyCutOut(material)) {
+      if (is_glass) {
+        mesh.role = MeshRole::kDrawn;
+      } else {
+        mesh.indices.clear();
+      }
+      continue;
     }
     const int texture = HolesOf(*model, mesh);
     if (texture < 0) continue;
     const auto& picture = model->textures[static_cast<std::size_t>(texture)];
     const AlphaLevels& alpha = levels.try_emplace(texture, picture).first->second;
-    const Material& material = model->materials[static_cast<std::size_t>(mesh.material)];
-    if (material.opacity * static_cast<float>(alpha.Whole().least) >=
-        255.0F * material.alpha_cutoff) {
+    if (material.opacity * static_cast<float>(alpha.Whole().least) >= 255.0F * CutoffOf(material)) {
       continue;
     }
     const std::size_t before = mesh.indices.size() / 3;
@@ -256,7 +268,7 @@ void CutHoles(Model* model, std::size_t most_added) {
     DropUnused(&mesh);
     const std::size_t after = mesh.indices.size() / 3;
     most_added -= std::min(most_added, after > before ? after - before : 0);
-    if (mesh.indices.empty()) continue;
+    if (mesh.indices.empty() && !is_glass) continue;
     mesh.role = MeshRole::kLight;
     whole.role = MeshRole::kDrawn;
     drawn.push_back(std::move(whole));

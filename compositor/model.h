@@ -71,6 +71,9 @@ enum class NormalsMode { kFromFile, kFlat, kSmooth };
 
 struct ModelOptions {
   NormalsMode normals = NormalsMode::kFromFile;  ///< kFromFile: flat where the file has none.
+  /// Whether glass is taken for opaque: of phantoms, which are often made seen through to see what
+  /// they stand for.
+  bool opaque_glass = false;
 };
 
 /// Loads OBJ (with its MTL) or glTF 2.0 (.gltf/.glb), by content.

@@ -27,6 +27,11 @@ Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& o
     if (model.meshes.empty()) {
       return InputError(file.string(), "all its triangles are degenerate", "export it again");
     }
+    for (Material& material : model.materials) {
+      if (options.opaque_glass && material.alpha == Material::Alpha::kBlended) {
+        material.alpha = Material::Alpha::kIgnored;
+      }
+    }
     CutHoles(&model);
     if (model.meshes.empty()) {
       return InputError(file.string(), "nothing of it can be seen: its textures are transparent",

@@ -102,12 +102,10 @@ TEST(CutHoles, ChangesNothingWhereNoHoleIsCut) {
   Model card = Card(1.0F, Nowhere);
   CutHoles(&card);
   EXPECT_EQ(card.meshes[0].indices.size(), 6U);
-  for (const auto alpha : {Material::Alpha::kIgnored, Material::Alpha::kBlended}) {
-    card = Card(1.0F, RoundHole);
-    card.materials[0].alpha = alpha;
-    CutHoles(&card);
-    EXPECT_EQ(card.meshes[0].indices.size(), 6U);
-  }
+  card = Card(1.0F, RoundHole);
+  card.materials[0].alpha = Material::Alpha::kIgnored;
+  CutHoles(&card);
+  EXPECT_EQ(card.meshes[0].indices.size(), 6U);
   // Whatever the file has for coordinates.
   card = Card(1.0F, RoundHole);
   card.meshes[0].uvs[0] = {1e30F, -1e30F};
@@ -118,6 +116,34 @@ TEST(CutHoles, ChangesNothingWhereNoHoleIsCut) {
   for (auto& uv : card.meshes[0].uvs) uv = {nan, nan};
   CutHoles(&card);
   EXPECT_EQ(card.meshes[0].indices.size(), 6U);
+}
+
+TEST(CutHoles, LetsLightThroughGlassThatHidesLessThanHalf) {
+  const auto card_of = [](float opacity, bool (*is_hole)(double, double)) {
+    Model card = Card(1.0F, is_hole);
+    card.materials[0].alpha = Material::Alpha::kBlended;
+    card.materials[0].alpha_cutoff = 0.1F;  // Says nothing of glass.
+    card.materials[0].opacity = opacity;
+    CutHoles(&card);
+    return card;
+  };
+  const auto drawn = [](const Model& card) {
+    std::size_t indices = 0;
+    for (const Mesh& mesh : card.meshes) {
+      if (mesh.role != MeshRole::kLight) indices += mesh.indices.size();
+    }
+    return indices;
+  };
+  EXPECT_DOUBLE_EQ(Area(card_of(0.6F, Nowhere)), 1.0);
+  EXPECT_DOUBLE_EQ(Area(card_of(0.4F, Nowhere)), 0.0);
+  EXPECT_NEAR(Area(card_of(0.9F, RoundHole)), 1.0 - std::numbers::pi * 0.3 * 0.3, 0.05);
+  EXPECT_DOUBLE_EQ(Area(card_of(0.9F, Everywhere)), 0.0);
+  // All of it is drawn as it is, as thin as may be.
+  for (const float opacity : {0.9F, 0.4F}) {
+    for (const auto is_hole : {Nowhere, RoundHole, Everywhere}) {
+      EXPECT_EQ(drawn(card_of(opacity, is_hole)), 6U);
+    }
+  }
 }
 
 TEST(CutHoles, TakesOutWhatItsMaterialAloneCutsOut) {

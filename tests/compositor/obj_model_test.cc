@@ -118,6 +118,17 @@ TEST(ObjModel, GroupsFacesByNameAndMaterial) {
   EXPECT_EQ(coat.base_color, (std::array<float, 3>{0.2F, 0.2F, 0.2F}));
 }
 
+TEST(ObjModel, TakesGlassForOpaqueWhereAsked) {
+  const TemporaryFolder folder;
+  folder.Write("thin.mtl", "newmtl a\nKd 0.5 0.5 0.5\nd 0.2\n");
+  const auto file =
+      folder.Write("model.obj", std::string("mtllib thin.mtl\n") + kSquare + "usemtl a\nf 1 2 3\n");
+  EXPECT_EQ(LoadModel(file)->meshes[0].role, MeshRole::kDrawn) << "it casts no shadow";
+  const auto phantom = LoadModel(file, {.opaque_glass = true});
+  ASSERT_TRUE(phantom);
+  EXPECT_EQ(phantom->meshes[0].role, MeshRole::kAll);
+}
+
 TEST(ObjModel, TellsWhatItLeavesOut) {
   const TemporaryFolder folder;
   const auto left_out = [&](const std::string& material, const std::string& points) {
