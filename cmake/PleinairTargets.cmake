@@ -20,6 +20,8 @@ function(pleinair_configure_target target)
     target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=${sanitizers}>)
     if("undefined" IN_LIST PLEINAIR_SANITIZE)
       target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-fno-sanitize-recover=undefined>)
+      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:
+        -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/scripts/sanitizers/library_headers.ignore>)
     endif()
   endif()
 endfunction()
