@@ -190,7 +190,8 @@ std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOp
     add_all(sheet.mesh.indices);
     add_all(sheet.albedo);
     if (sheet.groups) add_all(sheet.groups->patch_of);
-    const std::int32_t flags[] = {sheet.mesh.is_phantom, sheet.mesh.closed, sheet.twin};
+    const std::int32_t flags[] = {sheet.mesh.is_phantom, sheet.mesh.closed, sheet.twin,
+                                  sheet.mesh.role == MeshRole::kDrawn};
     add(flags, sizeof flags);
   }
   return hash;

@@ -7,6 +7,7 @@
 
 #include "base/srgb.h"
 #include "compositor/light_solver.h"
+#include "compositor/loose_leaves.h"
 #include "compositor/tessellation.h"
 
 namespace pleinair::compositor {
@@ -217,8 +218,14 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
     for (SurfaceMesh& surface : OrientedSurfaces(models[i], static_cast<int>(i))) {
       // Of phantoms nothing but their light is drawn.
       if (surface.is_phantom && surface.role == MeshRole::kDrawn) continue;
-      if (surface.is_phantom) surface.role = MeshRole::kAll;
-      surfaces.push_back(std::move(surface));
+      if (surface.is_phantom) {
+        surface.role = MeshRole::kAll;
+        if (auto leaves = TakeLooseLeaves(&surface)) {
+          leaves->role = MeshRole::kDrawn;
+          surfaces.push_back(*std::move(leaves));
+        }
+      }
+      if (!surface.indices.empty()) surfaces.push_back(std::move(surface));
     }
   }
   if (surfaces.empty()) {

@@ -38,7 +38,8 @@ struct LitMesh {
   bool is_phantom = false;
   int placed_model = 0;  ///< Index into the scene's list of placed models.
   int material = 0;      ///< Index into that model's materials.
-  /// kDrawn casts no shadow, kLight is not drawn. Phantoms are kAll.
+  /// kDrawn casts no shadow, kLight is not drawn. Phantoms are kAll, their loose leaves kDrawn
+  /// (compositor/loose_leaves.h).
   MeshRole role = MeshRole::kAll;
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;
