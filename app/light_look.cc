@@ -173,7 +173,10 @@ FoundLight LightLook::Settle() const {
   const auto contrast_under_cloud = [&] {
     return plane_contrast(*overcast->ForSun(sun_.ToSun(), sun_.distance_au));
   };
-  const bool edges_hidden = may_shine && shade.CastBySun() && shade.HidesEdges();
+  // Soft shade is wide where it is looked for as shallow as haze makes it, too.
+  const bool edges_hidden =
+      may_shine && shade.HidesEdges() &&
+      (shade.CastBySun() || shade.IsWide() || shade_under(kHazierSky).IsWide());
   if (reading.sun == Sun::kHidden && !edges_hidden) {
     // Who gives the ratio says that the sun shines; where it does is not seen, nor then its shade.
     if (overridden) return found;
@@ -207,6 +210,7 @@ FoundLight LightLook::Settle() const {
       }
     }
     scale = WeighedScale(edges, scene_.cloudiness, &light.sun_to_sky_error);
+    if (light.sun_source == MeasuredLight::Source::kShade) shade = shade_under(scale);
   } else if (!overridden) {
     if (!may_shine || shade.sunlit == 0) return found;
     // Half as deep a shade as the words have it is looked for, too: haze is what they miss.

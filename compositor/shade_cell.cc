@@ -48,6 +48,18 @@ bool ChangesColourAsShadowsDo(const ShadeCell& cell, const TwoLevels& levels) {
   return true;
 }
 
+/// The spot nearest to the middle of them all.
+Point<Marker> NearestToMiddle(const ShadeCell& cell) {
+  Vec3 middle;
+  for (const ShadeSpot& spot : cell.spots) middle = middle + spot.point;
+  middle = middle * (1.0 / static_cast<double>(cell.spots.size()));
+  const auto nearest = std::min_element(cell.spots.begin(), cell.spots.end(),
+                                        [&](const ShadeSpot& a, const ShadeSpot& b) {
+                                          return Norm(a.point - middle) < Norm(b.point - middle);
+                                        });
+  return {nearest->point};
+}
+
 }  // namespace
 
 TwoLevels SplitInTwo(const std::vector<ShadeSpot>& sorted) {
@@ -84,13 +96,6 @@ bool IsCrossed(const ShadeCell& cell, const TwoLevels& levels) {
 }
 
 ShadeCrossing CrossingOf(const ShadeCell& cell, const TwoLevels& levels) {
-  Vec3 middle;
-  for (const ShadeSpot& spot : cell.spots) middle = middle + spot.point;
-  middle = middle * (1.0 / static_cast<double>(cell.spots.size()));
-  const auto nearest = std::min_element(cell.spots.begin(), cell.spots.end(),
-                                        [&](const ShadeSpot& a, const ShadeSpot& b) {
-                                          return Norm(a.point - middle) < Norm(b.point - middle);
-                                        });
   const auto median = [&](std::size_t from, std::size_t to, auto value) {
     std::vector<double> values;
     for (std::size_t i = from; i < to; ++i) values.push_back(value(cell.spots[i]));
@@ -104,7 +109,14 @@ ShadeCrossing CrossingOf(const ShadeCell& cell, const TwoLevels& levels) {
   const double blue = step([](const ShadeSpot& spot) { return spot.colour[1]; });
   const double green = mean - (red + blue) / 3;
   const Vec3 normal{cell.normal[0], cell.normal[1], cell.normal[2]};
-  return {{nearest->point}, normal, {green + red, green, green + blue}};
+  return {NearestToMiddle(cell), normal, {green + red, green, green + blue}};
+}
+
+ShadeCrossing DeepPlaceOf(const ShadeCell& cell, double contrast) {
+  const double green = cell.depth;
+  const LinearRgb depth{green + cell.colour_step[0], green, green + cell.colour_step[1]};
+  const Vec3 normal{cell.normal[0], cell.normal[1], cell.normal[2]};
+  return {NearestToMiddle(cell), normal, depth * (3 * contrast / (depth.r + depth.g + depth.b))};
 }
 
 }  // namespace pleinair::compositor

@@ -47,4 +47,8 @@ bool IsCrossed(const ShadeCell& cell, const TwoLevels& levels);
 /// What a crossed cell shows.
 ShadeCrossing CrossingOf(const ShadeCell& cell, const TwoLevels& levels);
 
+/// A cell that lies wholly in shade, darker than in the open by `contrast` (logarithmic, mean of
+/// the channels), which is divided among the channels as the model's shadow is.
+ShadeCrossing DeepPlaceOf(const ShadeCell& cell, double contrast);
+
 }  // namespace pleinair::compositor

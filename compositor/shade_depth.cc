@@ -29,21 +29,21 @@ double ScaleOf(double contrast, double sun, double sky, double reflected) {
   return (sun / std::expm1(contrast) - reflected) / sky;
 }
 
-}  // namespace
-
-SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& shade,
-                             const sky::SkyModel& daylight, const Mat3& marker_from_world) {
+/// How strong the sky is, from how deep the shade is at these places.
+SunSkyReading ReadPlaces(const LightSolver& solver, const std::vector<ShadeCrossing>& crossings,
+                         double shaded, const sky::SkyModel& daylight,
+                         const Mat3& marker_from_world) {
   SunSkyReading reading;
   const Vec3 to_sun = marker_from_world * daylight.ToSun().xyz;
   // By plane, since that is how ambient light is asked for.
   std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
-  for (std::size_t i = 0; i < shade.crossings.size(); ++i) {
-    const Vec3 n = shade.crossings[i].normal;
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    const Vec3 n = crossings[i].normal;
     by_normal[{n.x, n.y, n.z}].push_back(i);
   }
   const ScaledDaylight sky_alone(daylight, {1, 1, 1}, {});
   // What reflects lies in the same shade, as far as it goes.
-  const double sunlit = 1.0 - shade.shaded;
+  const double sunlit = 1.0 - shaded;
   const ScaledDaylight sun_alone(daylight, {}, {sunlit, sunlit, sunlit});
   struct Place {
     LinearRgb log_scale;
@@ -54,14 +54,14 @@ SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& s
     const Vec3 normal{n[0], n[1], n[2]};
     std::vector<Point<Marker>> points;
     points.reserve(members.size());
-    for (const std::size_t i : members) points.push_back(shade.crossings[i].middle);
+    for (const std::size_t i : members) points.push_back(crossings[i].middle);
     const auto sky =
         solver.AmbientPhantomsOnly(points, normal, sky_alone, marker_from_world, kPaths);
     const auto reflected =
         solver.AmbientPhantomsOnly(points, normal, sun_alone, marker_from_world, kPaths);
     const LinearRgb sun = daylight.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun));
     for (std::size_t k = 0; k < members.size(); ++k) {
-      const LinearRgb& contrast = shade.crossings[members[k]].contrast;
+      const LinearRgb& contrast = crossings[members[k]].contrast;
       if (std::min({contrast.r, contrast.g, contrast.b}) < kSmallestStep) continue;
       const double r = ScaleOf(contrast.r, sun.r, sky[k].r, reflected[k].r);
       const double g = ScaleOf(contrast.g, sun.g, sky[k].g, reflected[k].g);
@@ -91,6 +91,17 @@ SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& s
   const auto count = static_cast<double>(places.size());
   reading.log_uncertainty = std::sqrt(square / count / count + kCommonDoubt * kCommonDoubt);
   return reading;
+}
+
+}  // namespace
+
+SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& shade,
+                             const sky::SkyModel& daylight, const Mat3& marker_from_world) {
+  const SunSkyReading reading =
+      ReadPlaces(solver, shade.crossings, shade.shaded, daylight, marker_from_world);
+  if (reading.sun == SunSkyReading::Sun::kShines) return reading;
+  if (!shade.open_gain_agreed && !shade.IsWide()) return reading;
+  return ReadPlaces(solver, shade.deepest, shade.shaded, daylight, marker_from_world);
 }
 
 }  // namespace pleinair::compositor

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/quantile.h"
+#include "compositor/open_levels.h"
 #include "compositor/parallel_for.h"
-#include "compositor/scaled_daylight.h"
 #include "compositor/shade_cell.h"
 
 namespace pleinair::compositor {
@@ -22,9 +22,8 @@ using Rgb = std::array<double, 3>;
 
 constexpr double kGrazing = 0.2;
 constexpr std::size_t kFewestSpots = 12;
-// Shade: darker by this share of a shadow's depth than the surface's sunlit places, of which so
-// many are darker.
-constexpr double kShadeDepth = 0.5, kSunlitQuantile = 0.8;
+// Of the cells that the model has in the sun, the darkest beside their surface's open level.
+constexpr double kDeepestShare = 0.4;
 
 // Beside a phantom's own edge: so many spots in the sun; darker by this share of a shadow's depth
 // than the brightest places, of which so many are darker, for leaves leave a part of the sun.
@@ -35,121 +34,13 @@ constexpr double kDimDepth = 0.25, kOpenQuantile = 0.9;
 // that are darker or brighter than their mean and true half-light look alike.
 constexpr double kNoSun = 0.1, kAllSun = 0.9;
 
-/// The light on surfaces in the open sun, phantoms about them as they are.
-class OpenLight {
- public:
-  OpenLight(const LightSolver& solver, const LightMeter& meter, const sky::SkyModel& day,
-            const Mat3& marker_from_world, LinearRgb sky_scale)
-      : solver_(solver),
-        day_(day, sky_scale, {1, 1, 1}),
-        marker_from_world_(marker_from_world),
-        to_sun_(Normalized(marker_from_world * day.ToSun().xyz)),
-        log_unit_(MeanLog(meter.light_on_print())),
-        sun_on_print_(meter.in_sun() ? SunOn({0, 0, 1}) : LinearRgb{}),
-        ambient_on_print_(Ambient(meter.places(), {0, 0, 1})) {}
-
-  Vec3 to_sun() const { return to_sun_; }
-  LinearRgb sky() const { return day_.SkyHorizontalIrradiance(); }
-  /// Mean logarithm of the light that the meter takes to be on the print, the samples' unit.
-  double log_unit() const { return log_unit_; }
-  LinearRgb sun_on_print() const { return sun_on_print_; }
-  LinearRgb ambient_on_print() const { return ambient_on_print_; }
-
-  LinearRgb SunOn(Vec3 normal) const {
-    return day_.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun_));
-  }
-  /// Mean over places that face `normal`, of which a few are asked.
-  LinearRgb Ambient(const std::vector<Point<Marker>>& places, Vec3 normal) const {
-    constexpr std::size_t kProbes = 12;
-    constexpr std::uint32_t kPaths = 256;
-    std::vector<Point<Marker>> probes;
-    for (std::size_t i = 0; i < kProbes && !places.empty(); ++i) {
-      probes.push_back(places[(2 * i + 1) * places.size() / (2 * kProbes)]);
-    }
-    LinearRgb sum;
-    for (const LinearRgb& light :
-         solver_.AmbientPhantomsOnly(probes, normal, day_, marker_from_world_, kPaths)) {
-      sum = sum + light;
-    }
-    return sum * (1.0 / kProbes);
-  }
-
- private:
-  const LightSolver& solver_;
-  ScaledDaylight day_;
-  Mat3 marker_from_world_;
-  Vec3 to_sun_;
-  double log_unit_;
-  LinearRgb sun_on_print_, ambient_on_print_;
-};
-
-/// A plane of one material, as far as the model has it in the sun.
-struct OpenSurface {
-  std::vector<double> medians;  ///< Of its cells' logarithmic brightness.
-  std::vector<double> tops;     ///< Of each cell, what a quarter of its spots exceeds.
-  double depth = 0.0;           ///< Of a shadow there, logarithmic.
-  double level = 0.0;           ///< Brightness in the open sun: of the cells that are not in shade.
-};
-using OpenSurfaces = std::map<std::pair<int, Rgb>, OpenSurface>;
-
-constexpr std::size_t kFewestCells = 4;
-// The brightest places of a surface, and how much brighter than its mean a pattern makes them.
-constexpr double kOpenTop = 0.95, kPattern = 0.15;
-// Logarithmic: how near surfaces' gains must be to agree.
-constexpr double kAgreement = 0.26;
-
-/// The brightness of each surface in the open sun, and what gain of the camera they tell of:
-/// median over their cells, since colours are stated roughly and grass reflects less than its
-/// blades. Gives its logarithm.
-double FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,
-                      const SurfaceSamples& samples, OpenSurfaces* surfaces, bool* agreed) {
-  struct Places {
-    LinearRgb albedo;
-    std::vector<Point<Marker>> lit;
-  };
-  std::map<std::pair<int, Rgb>, Places> places;
-  for (std::size_t i = 0; i < samples.samples().size(); ++i) {
-    if (reached[i] == 0) continue;
-    const SurfaceSample& spot = samples.samples()[i];
-    Places& of = places[{spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}}];
-    of.albedo = spot.albedo;
-    of.lit.push_back(spot.point);
-  }
-  const LinearRgb on_print = light.sun_on_print() + light.ambient_on_print();
-  std::vector<double> gains;
-  std::map<Rgb, std::vector<double>> by_colour;
-  for (auto& [key, surface] : *surfaces) {
-    const double shade = Quantile(surface.medians, kSunlitQuantile) - kShadeDepth * surface.depth;
-    std::vector<double> open;
-    std::copy_if(surface.medians.begin(), surface.medians.end(), std::back_inserter(open),
-                 [&](double value) { return value >= shade; });
-    // Where leaves leave half-light everywhere, few places lie in the open.
-    surface.level = std::max(Quantile(open, 0.5), Quantile(surface.tops, kOpenTop) - kPattern);
-    const auto& [albedo, lit] = places.at(key);
-    if (open.size() < kFewestCells || std::min({albedo.r, albedo.g, albedo.b}) <= 0.0) continue;
-    const Vec3 normal{key.second[0], key.second[1], key.second[2]};
-    const LinearRgb on_surface = light.SunOn(normal) + light.Ambient(lit, normal);
-    const double predicted =
-        light.log_unit() + MeanLog(on_surface / on_print * albedo * (1 / std::numbers::pi));
-    gains.insert(gains.end(), open.size(), surface.level - predicted);
-    by_colour[{albedo.r, albedo.g, albedo.b}].push_back(surface.level - predicted);
-  }
-  if (gains.empty()) return 0.0;
-  const double gain = Quantile(gains, 0.5);
-  *agreed = std::count_if(by_colour.begin(), by_colour.end(), [&](const auto& colour) {
-              return std::fabs(Quantile(colour.second, 0.5) - gain) < kAgreement;
-            }) > 1;
-  return gain;
-}
-
 /// How much of the sun is on every spot that the model has in the sun.
 void MapSunlight(const OpenLight& light, const std::vector<std::uint8_t>& reached,
-                 const SurfaceSamples& samples, OpenSurfaces* surfaces, UnmodelledShade* shade) {
-  const double log_gain =
-      FindOpenLevels(light, reached, samples, surfaces, &shade->open_gain_agreed);
-  shade->open_gain = std::exp(log_gain);
+                 const SurfaceSamples& samples, const OpenSurfaces& surfaces,
+                 UnmodelledShade* shade) {
   shade->sun_on_print = light.sun_on_print();
   shade->ambient_on_print = light.ambient_on_print();
+  const double log_gain = std::log(shade->open_gain);
   std::vector<SunlitSpot> spots;
   for (std::size_t i = 0; i < samples.samples().size(); ++i) {
     const SurfaceSample& spot = samples.samples()[i];
@@ -158,8 +49,8 @@ void MapSunlight(const OpenLight& light, const std::vector<std::uint8_t>& reache
                    std::log(spot.albedo.g / std::numbers::pi);  // Of the print's white.
     if (spot.surface >= 0) {
       const auto found =
-          surfaces->find({spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}});
-      if (found == surfaces->end() || found->second.medians.size() < kFewestCells) continue;
+          surfaces.find({spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}});
+      if (found == surfaces.end() || found->second.medians.size() < kFewestCells) continue;
       level = found->second.level;
     }
     const double brightness = (spot.log_rgb[0] + spot.log_rgb[1] + spot.log_rgb[2]) / 3;
@@ -176,16 +67,56 @@ void MapSunlight(const OpenLight& light, const std::vector<std::uint8_t>& reache
 void CountShadedEdges(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
                       UnmodelledShade* shade) {
   int shaded = 0;
+  shade->beside_edges = 0;
   for (const ShadeCell& cell : cells) {
     const auto surface = sunlit.find({cell.surface, cell.normal});
     if (!cell.unlit || cell.in_sun.size() < kFewestBesideEdge || surface == sunlit.end()) continue;
-    const double open = Quantile(surface->second.medians, kOpenQuantile);
+    const double open = surface->second.all_shaded
+                            ? surface->second.level
+                            : Quantile(surface->second.medians, kOpenQuantile);
     ++shade->beside_edges;
     shaded += Quantile(cell.in_sun, 0.5) < open - kDimDepth * cell.depth ? 1 : 0;
   }
   if (shade->beside_edges > 0) {
     shade->edges_shaded = static_cast<double>(shaded) / shade->beside_edges;
   }
+}
+
+/// Looks at the places that the model has in the sun.
+void CountShaded(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
+                 UnmodelledShade* shade) {
+  int shaded = 0;
+  shade->sunlit = 0;
+  for (const ShadeCell& cell : cells) {
+    if (!cell.lit || cell.unlit) continue;
+    const double level = sunlit.at({cell.surface, cell.normal}).SunlitLevel();
+    ++shade->sunlit;
+    shaded += cell.Median() < level - kShadeDepth * cell.depth ? 1 : 0;
+  }
+  if (shade->sunlit > 0) shade->shaded = static_cast<double>(shaded) / shade->sunlit;
+}
+
+/// The darkest places beside their surfaces' open levels.
+std::vector<ShadeCrossing> DeepestPlaces(const std::vector<ShadeCell>& cells,
+                                         const OpenSurfaces& sunlit) {
+  struct Place {
+    double contrast = 0.0;
+    const ShadeCell* cell = nullptr;
+  };
+  std::vector<Place> places;
+  for (const ShadeCell& cell : cells) {
+    if (!cell.lit || cell.unlit) continue;
+    const OpenSurface& surface = sunlit.at({cell.surface, cell.normal});
+    if (surface.medians.size() < kFewestCells) continue;
+    places.push_back({surface.level - cell.Median(), &cell});
+  }
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.contrast > b.contrast; });
+  places.resize(static_cast<std::size_t>(kDeepestShare * static_cast<double>(places.size())));
+  std::vector<ShadeCrossing> deepest;
+  deepest.reserve(places.size());
+  for (const auto& [contrast, cell] : places) deepest.push_back(DeepPlaceOf(*cell, contrast));
+  return deepest;
 }
 
 }  // namespace
@@ -224,7 +155,7 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
     cell.normal = {spot.normal.x, spot.normal.y, spot.normal.z};
   }
   std::erase_if(cells, [](const ShadeCell& cell) { return cell.spots.size() < kFewestSpots; });
-  int edges = 0, shaded = 0;
+  int edges = 0;
   // Medians of the cells that the model has in the sun, by plane and material.
   OpenSurfaces sunlit;
   for (ShadeCell& cell : cells) {
@@ -238,24 +169,24 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
     OpenSurface& surface = sunlit[{cell.surface, cell.normal}];
     surface.medians.push_back(cell.Median());
     surface.tops.push_back(cell.spots[cell.spots.size() * 3 / 4].value);
+    surface.depth = cell.depth;
     if (crossed) shade.crossings.push_back(CrossingOf(cell, levels));
   }
-  for (const ShadeCell& cell : cells) {
-    if (!cell.lit || cell.unlit) continue;
-    OpenSurface& surface = sunlit[{cell.surface, cell.normal}];
-    surface.depth = cell.depth;
-    const double level = Quantile(surface.medians, kSunlitQuantile);
-    ++shade.sunlit;
-    shaded += cell.Median() < level - kShadeDepth * cell.depth ? 1 : 0;
-  }
-  CountShadedEdges(cells, sunlit, &shade);
   if (shade.places > 0) shade.edges = static_cast<double>(edges) / shade.places;
-  if (shade.sunlit > 0) shade.shaded = static_cast<double>(shaded) / shade.sunlit;
   shade.crossed = edges;
-  if (shade.Matters() && !meter.places().empty()) {
-    MapSunlight({solver, meter, day, marker_from_world, sky_scale}, reached, samples, &sunlit,
-                &shade);
-  }
+  CountShaded(cells, sunlit, &shade);
+  CountShadedEdges(cells, sunlit, &shade);
+  const bool is_shaded = shade.Matters() || shade.HidesEdges();
+  if (!is_shaded || meter.places().empty()) return shade;
+  const OpenLight light(solver, meter, day, marker_from_world, sky_scale);
+  const OpenGain gain = FindOpenLevels(light, reached, samples, is_shaded, &sunlit);
+  shade.open_gain = std::exp(gain.log);
+  shade.open_gain_agreed = gain.agreed;
+  // Once more, with the levels of surfaces that have no part in the open.
+  CountShaded(cells, sunlit, &shade);
+  CountShadedEdges(cells, sunlit, &shade);
+  shade.deepest = DeepestPlaces(cells, sunlit);
+  if (shade.Matters()) MapSunlight(light, reached, samples, sunlit, &shade);
   return shade;
 }
 
@@ -263,6 +194,11 @@ bool UnmodelledShade::CastBySun() const {
   constexpr int kFewestEdges = 3;
   constexpr double kSmallestShare = 0.008;
   return crossed >= kFewestEdges && edges >= kSmallestShare;
+}
+
+bool UnmodelledShade::IsWide() const {
+  constexpr double kSmallestShare = 0.15;
+  return shaded >= kSmallestShare;
 }
 
 bool UnmodelledShade::HidesEdges() const {

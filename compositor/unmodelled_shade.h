@@ -39,10 +39,16 @@ struct UnmodelledShade {
   LinearRgb sun_on_print, ambient_on_print;
   SeenSunlight sunlight;  ///< Where Matters().
   std::vector<ShadeCrossing> crossings;
+  /// The darkest of the cells that the model has wholly in the sun, beside the light in the open:
+  /// where no edge shows how deep the shade is. Where something shades what is in view.
+  std::vector<ShadeCrossing> deepest;
 
   /// Whether the edges are more than chance and things that no phantom stands for bring about: a
   /// sun must cast them.
   bool CastBySun() const;
+  /// Whether so much is so dark that hardly anything but a sun's shade makes it so, though a crown
+  /// leaves no sharp edge.
+  bool IsWide() const;
   /// Whether what casts them keeps the sun from the phantoms' own shadows, too, which then show no
   /// edge under whatever sun; where the sun is thought to stand elsewhere than it does, most of
   /// these places lie in the open.

@@ -152,6 +152,7 @@ TEST_F(ShadowLight, TellsTheSkyBesideTheSunFromHowDeepTheShadeOfTreesIs) {
   }
   // Without trees there is nothing to read.
   const UnmodelledShade open = Shade(Look({}), yard_->model(), yard_->solver());
+  EXPECT_FALSE(open.IsWide());
   EXPECT_EQ(ReadShadeDepth(yard_->solver(), open, yard_->model(), Mat3{}).sun,
             SunSkyReading::Sun::kUnknown);
 }
@@ -228,6 +229,7 @@ TEST_F(ShadowLight, MakesPlanesOfSeveralMaterialsDifferFromTheirStatedColours) {
 
 TEST_F(ShadowLight, TellsHowMuchLiesInTheShadeOfTrees) {
   const UnmodelledShade open = Shade(Look({}), yard_->model(), yard_->solver());
+  EXPECT_FALSE(open.IsWide());
   EXPECT_GT(open.sunlit, 100);
   EXPECT_FALSE(open.Matters()) << open.shaded;
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
@@ -254,9 +256,9 @@ TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
   const UnmodelledShade shade = Shade(Look({.shaded = tree}), yard_->model(), yard_->solver());
   ASSERT_TRUE(shade.Matters());
   int right = 0, points = 0;
-  for (double x = -0.8; x <= 0.8; x += 0.1) {
-    for (double y = -0.8; y <= 0.25; y += 0.1) {
-      const Vec3 ground{x, y, 0.0};
+  for (int column = -8; column <= 8; ++column) {
+    for (int row = -8; row <= 2; ++row) {
+      const Vec3 ground{0.1 * column, 0.1 * row, 0.0};
       if (!yard_->solver().ReachesPhantomsOnly({ground}, to_sun)) continue;
       // On the way to the ground, where something virtual would be.
       for (const double above : {0.0, 0.3, 0.6}) {
@@ -294,6 +296,54 @@ TEST_F(ShadowLight, TellsFromTheGroundHowMuchDarkerThanTheSunThePrintIs) {
   // The stated colours are not the paving's own.
   EXPECT_NEAR(shade.open_gain * kOnPrint, 1.0, 0.12);
   EXPECT_NEAR(shade.sun_on_print.g, yard_->model().SunNormalIrradiance().g * yard_->ToSun().z, 1.0);
+}
+
+/// The yard as a print in the shade of a tree has it: its gain is too high by that shade's depth.
+SurfaceSamples FromAShadedPrint(const PhotographedYard& yard, PhotographedYard::Light light,
+                                double* true_gain) {
+  light.colours_as_stated = true;
+  SurfaceSamples samples(yard.solver(), yard.camera(), yard.print());
+  const double sun = yard.model().SunNormalIrradiance().g * yard.ToSun().z;
+  const double sky = yard.model().SkyHorizontalIrradiance().g;
+  *true_gain = (sun + sky) / sky;
+  const double gain = PhotographedYard::kGain / *true_gain;
+  for (const int i : {0, 1}) {
+    samples.AddFrame(yard.Photograph(i, light).view(), PhotographedYard::Pose(i),
+                     {gain, gain, gain});
+  }
+  return samples;
+}
+
+TEST_F(ShadowLight, TellsByOtherSurfacesThatPrintAndGroundLieInShadeAsAWhole) {
+  // On the ground there is nothing to compare with; a part of what stands on it has the sun.
+  double true_gain = 0.0;
+  const SurfaceSamples samples = FromAShadedPrint(
+      *yard_, {.shaded = [](Vec3 p) { return p.z < 0.02 || p.x < -0.5; }}, &true_gain);
+  const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
+  EXPECT_NEAR(shade.open_gain / true_gain, 1.0, 0.15);
+  EXPECT_TRUE(shade.open_gain_agreed);
+  EXPECT_GT(shade.shaded, 0.7);
+  EXPECT_TRUE(shade.IsWide());
+  ASSERT_FALSE(shade.sunlight.share.empty());
+  EXPECT_LT(shade.sunlight.At({0.2, -0.3, 0.0}), 0.2) << "beside the print";
+  // How deep the shade is tells the sky's strength, though no edge of it is to be seen.
+  UnmodelledShade edgeless = shade;
+  edgeless.crossings.clear();
+  const SunSkyReading reading = ReadShadeDepth(yard_->solver(), edgeless, yard_->model(), Mat3{});
+  ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
+  EXPECT_NEAR(reading.sky_scale.g, 1.0, 0.25);
+  EXPECT_NEAR(reading.sky_scale.b / reading.sky_scale.r, 1.0, 0.15) << "it has the model's colour";
+}
+
+TEST_F(ShadowLight, BelievesThePrintWhereTheGroundShowsSunAndShade) {
+  // Half the ground lies in a tree's shade, the print does not; the bricks are brighter than said.
+  const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
+  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print());
+  for (const int i : {0, 1}) {
+    samples.AddFrame(yard_->Photograph(i, {.shaded = tree}).view(), PhotographedYard::Pose(i),
+                     LinearRgb{1, 1, 1} * PhotographedYard::kGain);
+  }
+  EXPECT_NEAR(Shade(samples, yard_->model(), yard_->solver()).open_gain, 1.0, 0.15);
 }
 
 TEST(UnmodelledShade, TellsHowMuchDarkerThanTheSunAPrintOnAWallIs) {

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/frames.h"
+#include "base/vector.h"
+#include "compositor/light_meter.h"
+#include "compositor/light_solver.h"
+#include "compositor/scaled_daylight.h"
+#include "compositor/surface_samples.h"
+#include "sky/sky_model.h"
+
+namespace pleinair::compositor {
+
+/// Of a surface's places that the model has in the sun, a spot is taken for shaded where it is
+/// darker than the open ones by this share of a shadow's depth.
+inline constexpr double kShadeDepth = 0.5;
+
+/// The light on surfaces in the open sun, phantoms about them as they are. cd/m² times steradian;
+/// marker coordinates.
+class OpenLight {
+ public:
+  OpenLight(const LightSolver& solver, const LightMeter& meter, const sky::SkyModel& day,
+            const Mat3& marker_from_world, LinearRgb sky_scale);
+
+  Vec3 to_sun() const { return to_sun_; }
+  LinearRgb sky() const { return day_.SkyHorizontalIrradiance(); }
+  /// Mean logarithm of the light that the meter takes to be on the print, the samples' unit.
+  double log_unit() const { return log_unit_; }
+  LinearRgb sun_on_print() const { return sun_on_print_; }
+  LinearRgb ambient_on_print() const { return ambient_on_print_; }
+
+  LinearRgb SunOn(Vec3 normal) const;
+  /// Mean over places that face `normal`, of which a few are asked.
+  LinearRgb Ambient(const std::vector<Point<Marker>>& places, Vec3 normal) const;
+
+ private:
+  const LightSolver& solver_;
+  ScaledDaylight day_;
+  Mat3 marker_from_world_;
+  Vec3 to_sun_;
+  double log_unit_;
+  LinearRgb sun_on_print_, ambient_on_print_;
+};
+
+/// A plane of one material, as far as the model has it in the sun. Brightness is the mean of the
+/// logarithms of linear red, green and blue.
+struct OpenSurface {
+  std::vector<double> medians;  ///< Of its cells.
+  std::vector<double> tops;     ///< Of each cell, what a quarter of its spots exceeds.
+  double depth = 0.0;           ///< Of a shadow there, logarithmic.
+  double level = 0.0;           ///< In the open sun.
+  /// Whether none of it lies there: the level is then what other surfaces tell.
+  bool all_shaded = false;
+
+  /// What cells are compared with to tell whether they are shaded.
+  double SunlitLevel() const;
+};
+
+/// By surface and normal.
+using OpenSurfaces = std::map<std::pair<int, std::array<double, 3>>, OpenSurface>;
+
+/// What surfaces in the open sun tell of the camera's gain.
+struct OpenGain {
+  double log = 0.0;  ///< Over the frames' own gain; above 0 where the print has less than the sun.
+  /// Whether surfaces of two stated colours tell nearly that: one colour may be wrong.
+  bool agreed = false;
+};
+
+/// Finds how bright each surface is in the open sun, and what gain that tells of: a median over
+/// cells, since colours are stated roughly and grass reflects less than its blades.
+///
+/// With `is_shaded` (something that no phantom stands for keeps the sun from a part of what is in
+/// view) surfaces need not have a part in the open. Where some are much brighter than their colour
+/// allows beside the print, and so is no less than a twentieth of what is seen, the print lies in
+/// shade: the gain is theirs, and surfaces that are darker than that by more than colours are
+/// misjudged lie in shade as a whole. The cause of a surface that is too bright can hardly be its
+/// stated colour; of one that is too dark it can.
+///
+/// `reached`, of each sample: whether the model has it in the sun.
+OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,
+                        const SurfaceSamples& samples, bool is_shaded, OpenSurfaces* surfaces);
+
+/// Cells that a surface's level needs.
+inline constexpr std::size_t kFewestCells = 4;
+
+}  // namespace pleinair::compositor
