@@ -82,18 +82,28 @@ void CountShadedEdges(const std::vector<ShadeCell>& cells, const OpenSurfaces& s
   }
 }
 
+/// The share of the cells that the model has wholly in the sun that are darker than their
+/// surface's `level` by so much as shade.
+template <typename Level>
+double ShadedShare(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
+                   const Level& level, int* count) {
+  int shaded = 0;
+  *count = 0;
+  for (const ShadeCell& cell : cells) {
+    if (!cell.lit || cell.unlit) continue;
+    ++*count;
+    const double open = level(sunlit.at({cell.surface, cell.normal}));
+    shaded += cell.Median() < open - kShadeDepth * cell.depth ? 1 : 0;
+  }
+  return *count > 0 ? static_cast<double>(shaded) / *count : 0.0;
+}
+
 /// Looks at the places that the model has in the sun.
 void CountShaded(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
                  UnmodelledShade* shade) {
-  int shaded = 0;
-  shade->sunlit = 0;
-  for (const ShadeCell& cell : cells) {
-    if (!cell.lit || cell.unlit) continue;
-    const double level = sunlit.at({cell.surface, cell.normal}).SunlitLevel();
-    ++shade->sunlit;
-    shaded += cell.Median() < level - kShadeDepth * cell.depth ? 1 : 0;
-  }
-  if (shade->sunlit > 0) shade->shaded = static_cast<double>(shaded) / shade->sunlit;
+  shade->shaded = ShadedShare(
+      cells, sunlit, [](const OpenSurface& surface) { return surface.SunlitLevel(); },
+      &shade->sunlit);
 }
 
 /// The darkest places beside their surfaces' open levels.
@@ -185,6 +195,8 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   // Once more, with the levels of surfaces that have no part in the open.
   CountShaded(cells, sunlit, &shade);
   CountShadedEdges(cells, sunlit, &shade);
+  shade.dim = ShadedShare(
+      cells, sunlit, [](const OpenSurface& surface) { return surface.level; }, &shade.sunlit);
   shade.deepest = DeepestPlaces(cells, sunlit);
   if (shade.Matters()) MapSunlight(light, reached, samples, sunlit, &shade);
   return shade;
@@ -198,7 +210,7 @@ bool UnmodelledShade::CastBySun() const {
 
 bool UnmodelledShade::IsWide() const {
   constexpr double kSmallestShare = 0.15;
-  return shaded >= kSmallestShare;
+  return dim >= kSmallestShare;
 }
 
 bool UnmodelledShade::HidesEdges() const {

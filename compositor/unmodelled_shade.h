@@ -28,6 +28,7 @@ struct UnmodelledShade {
   double edges = 0.0;         ///< Their share.
   int sunlit = 0;             ///< Cells that the model has wholly in the sun.
   double shaded = 0.0;        ///< Share of them that lie in shade.
+  double dim = 0.0;           ///< The same beside their surfaces' open levels, which few may reach.
   int beside_edges = 0;       ///< Places on the sunny side of the phantoms' own shadows.
   double edges_shaded = 0.0;  ///< Share of them that lie in shade all the same.
   /// Gain of the camera that phantoms' places in the open sun tell of, over that of the frames:
