@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <set>
 
 namespace pleinair::app {
@@ -97,8 +99,8 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Sessio
 }
 
 std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel>& models) {
-  std::vector<std::string> warnings;
-  std::set<std::filesystem::path> said;
+  // By file: one may stand for both a phantom and an object.
+  std::map<std::filesystem::path, std::set<std::string>> by_file;
   for (const compositor::PlacedModel& placed : models) {
     std::set<std::string> left_out = compositor::LeftOut(*placed.model);
     // Of a phantom nothing counts but the light that it reflects.
@@ -106,9 +108,16 @@ std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel
       std::erase_if(left_out,
                     [](const std::string& what) { return what != compositor::kVertexColors; });
     }
-    if (left_out.empty() || !said.insert(placed.model->file).second) continue;
-    warnings.push_back(fmt::format("Of {} this is left out: {}.", placed.model->file.string(),
-                                   fmt::join(left_out, ", ")));
+    by_file[placed.model->file].merge(left_out);
+  }
+  std::vector<std::string> warnings;
+  for (auto& [file, left_out] : by_file) {
+    if (left_out.empty()) continue;
+    const std::size_t more = left_out.size() - std::min(left_out.size(), kMostKinds);
+    for (std::size_t i = 0; i < more; ++i) left_out.erase(std::prev(left_out.end()));
+    warnings.push_back(fmt::format("Of {} this is not drawn: {}{}.", file.string(),
+                                   fmt::join(left_out, ", "),
+                                   more > 0 ? fmt::format(" and {} more", more) : ""));
   }
   return warnings;
 }

@@ -14,8 +14,6 @@
 namespace pleinair::compositor {
 namespace {
 
-// glTF 2.0, appendix B.2.2: dielectrics have an index of refraction of 1.5.
-constexpr float kDielectricF0 = 0.04F;
 // Of an extension, in messages.
 constexpr std::size_t kLongestName = 64;
 
@@ -31,6 +29,7 @@ class MaterialReader {
     }
     model_.materials.push_back({});  // For primitives without one.
     model_.materials.back().specular_f0 = kDielectricF0;
+    model_.materials.back().base_under_coat = 1.0F - kDielectricF0;
     return std::move(uv_maps_);
   }
 
@@ -86,6 +85,7 @@ class MaterialReader {
     material.name = source.name;
     material.double_sided = source.doubleSided;
     material.specular_f0 = kDielectricF0;
+    material.base_under_coat = 1.0F - kDielectricF0;
     material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutOut
                      : source.alphaMode == "BLEND" ? Material::Alpha::kBlended
                                                    : Material::Alpha::kIgnored;
@@ -128,8 +128,16 @@ class MaterialReader {
     for (const auto& [extension, value] : source.extensions) {
       // How strong an emission is of which that was said already.
       if (extension == "KHR_materials_emissive_strength") continue;
-      material->left_out.insert(extension.substr(0, kLongestName));
+      material->left_out.insert(Shortened(extension));
     }
+  }
+
+  /// Whole letters of UTF-8.
+  static std::string Shortened(const std::string& name) {
+    if (name.size() <= kLongestName) return name;
+    std::size_t end = kLongestName;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+    return name.substr(0, end);
   }
 
   /// Multiplies by a texture's mean: green is roughness, blue metallic, both linear.

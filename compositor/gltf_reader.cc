@@ -157,7 +157,7 @@ class GltfReader {
                              const GltfPlacement& placement) {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     const auto position = primitive.attributes.find("POSITION");
-    if (mode < TINYGLTF_MODE_TRIANGLES) model_.left_out.insert("points and lines");
+    if (mode < TINYGLTF_MODE_TRIANGLES) model_.left_out.insert(kPointsAndLines);
     if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) return {};
     if (primitive.attributes.contains("COLOR_0")) model_.left_out.insert(kVertexColors);
     if (!primitive.targets.empty()) model_.left_out.insert("morph targets");

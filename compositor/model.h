@@ -13,6 +13,9 @@
 
 namespace pleinair::compositor {
 
+/// Normal reflectance of a clear coat with a refractive index of 1.5 (glTF 2.0, appendix B.2).
+inline constexpr float kDielectricF0 = 0.04F;
+
 /// A surface material, metallic–roughness; colours linear Rec.709.
 struct Material {
   /// What the alpha of base colour and texture means, as in glTF: nothing; where it is below
@@ -27,6 +30,9 @@ struct Material {
   float metallic = 0.0F;
   float roughness = 1.0F;
   float specular_f0 = 0.0F;  ///< Normal reflectance of the dielectric coat; 0 is purely diffuse.
+  /// What the coat leaves of the light that the base colour reflects. MTL adds `Ks` to `Kd`; glTF
+  /// mixes them (specification 2.0, appendix B.3), here by the coat's normal reflectance.
+  float base_under_coat = 1.0F;
   bool double_sided = false;
   int base_color_texture = -1;  ///< Index into Model::textures, -1 for none.
   /// The same; green times roughness, blue times metallic, both linear.
@@ -62,6 +68,7 @@ struct Model {
 
 /// Among what is left out.
 inline constexpr const char* kVertexColors = "colours of vertices";
+inline constexpr const char* kPointsAndLines = "points and lines";
 
 /// All that a model's file has and that is not drawn, of materials that are in use, in words and
 /// ordered. For the user to know: docs/formats.md says what is read.

@@ -118,6 +118,12 @@ class MtlParser {
         {"map_bump", "normal maps"},
         {"map_Bump", "normal maps"},
         {"norm", "normal maps"},
+        {"disp", "displacement"},
+        {"refl", "pictures of surroundings"},
+        {"map_refl", "pictures of surroundings"},
+        {"decal", "decals"},
+        {"Pc", "clear coats"},
+        {"Ps", "sheen"},
         {"map_d", "pictures of transparency (map_d)"},
         {"map_Ks", "pictures of gloss and metal"},
         {"map_Ns", "pictures of gloss and metal"},
@@ -125,8 +131,8 @@ class MtlParser {
         {"map_Pm", "pictures of gloss and metal"}};
     const auto found = kNames.find(keyword);
     if (found == kNames.end()) return;
-    if (keyword == "Ke") {
-      // Most programs write one of zero.
+    if (keyword == "Ke" || keyword == "Pc" || keyword == "Ps") {
+      // Most programs write them of zero.
       const auto color = Color();
       if (!color || *color == std::array<float, 3>{}) return;
     }
@@ -181,6 +187,11 @@ class MtlParser {
     if (draft_->specular && draft_->illumination >= 2) {
       const auto& ks = *draft_->specular;
       material.specular_f0 = std::min((ks[0] + ks[1] + ks[2]) / 3.0F, 0.08F);
+    }
+    // Who states roughness or metal means a surface of that kind, whose coat is glTF's.
+    const bool physical = draft_->roughness.has_value() || material.metallic > 0.0F;
+    if (!draft_->specular && physical && draft_->illumination >= 2) {
+      material.specular_f0 = kDielectricF0;
     }
     if (draft_->exponent) {
       // Blinn–Phong exponent to GGX roughness: alpha² = 2/(n+2), alpha = roughness²

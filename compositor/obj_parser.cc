@@ -57,6 +57,8 @@ class ObjParser {
       // Texture coordinates that no face of the mesh has are no use to anybody.
       if (!has_uvs_[static_cast<std::size_t>(&mesh - model_.meshes.data())]) mesh.uvs.clear();
     }
+    if (has_colors_) model_.left_out.insert(kVertexColors);
+    if (has_lines_) model_.left_out.insert(kPointsAndLines);
     return std::move(model_);
   }
 
@@ -71,14 +73,13 @@ class ObjParser {
     if (keyword == "v") {
       PLEINAIR_RETURN_IF_ERROR(Vector<3>(&positions_, 3));
       // Beyond the place, its weight at most; colours are three more.
-      if (!lines_.Word().empty() && !lines_.Word().empty()) {
-        model_.left_out.insert(kVertexColors);
-      }
+      has_colors_ |= !lines_.Word().empty() && !lines_.Word().empty();
       return {};
     }
     if (keyword == "vn") return Vector<3>(&normals_, 3);
     if (keyword == "vt") return Vector<2>(&uvs_, 1);
     if (keyword == "f") return Face();
+    has_lines_ |= keyword == "l" || keyword == "p";
     if (keyword == "o" || keyword == "g") {
       name_ = std::string(lines_.Rest());
       current_mesh_.reset();
@@ -257,6 +258,7 @@ class ObjParser {
   const std::filesystem::path& file_;
   const ObjCompanions& companions_;
   Model model_;
+  bool has_colors_ = false, has_lines_ = false;
   std::vector<std::array<float, 3>> positions_, normals_;
   std::vector<std::array<float, 2>> uvs_;
   std::vector<bool> has_uvs_;  ///< By mesh.

@@ -112,12 +112,9 @@ void SceneSurfaces::PlaceCasters() {
       caster.bounds.Include(glm::dvec3(caster.marker_from_model * point));
     }
     bounds_.Include(caster.bounds);
+    if (!surface.is_phantom()) object_bounds_.Include(caster.bounds);
     if (!surface.CastsShadow()) continue;
-    if (surface.is_phantom()) {
-      phantom_casters_.push_back(caster);
-    } else {
-      object_bounds_.Include(caster.bounds);
-    }
+    if (surface.is_phantom()) phantom_casters_.push_back(caster);
     casters_.push_back(caster);
   }
 }

@@ -10,6 +10,7 @@ struct SurfaceRecord {
   vec3 base_color;  // Linear reflectance, before its texture.
   float metallic, roughness;
   float dielectric_f0;       // Normal reflectance of the coat; 0: purely diffuse.
+  float base_under_coat;     // What the coat leaves of the base colour's light.
   vec4 row_x, row_y, row_z;  // Marker from where it was lit. Angles stay.
 };
 
@@ -17,7 +18,8 @@ SurfaceRecord RecordOf(int surface) {
   ivec2 at = TexelOfSurface(surface);
   vec4 color = texelFetch(u_surfaces, at, 0);
   vec4 coat = texelFetch(u_surfaces, at + ivec2(1, 0), 0);
-  return SurfaceRecord(color.rgb, color.a, coat.x, coat.y, texelFetch(u_surfaces, at + ivec2(2, 0), 0),
+  return SurfaceRecord(color.rgb, color.a, coat.x, coat.y, coat.z,
+                       texelFetch(u_surfaces, at + ivec2(2, 0), 0),
                        texelFetch(u_surfaces, at + ivec2(3, 0), 0),
                        texelFetch(u_surfaces, at + ivec2(4, 0), 0));
 }

@@ -79,7 +79,7 @@ vec3 ColorOf(SeenSurface surface, SurfaceRecord record) {
   vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);
 #endif
 
-  vec3 diffuse = record.base_color * (1.0 - record.metallic) * (1.0 - record.dielectric_f0);
+  vec3 diffuse = record.base_color * (1.0 - record.metallic) * record.base_under_coat;
   vec3 radiance = diffuse * (sun + surface.ambient_with) / kPi;
 
   vec3 f0 = mix(vec3(record.dielectric_f0), record.base_color, record.metallic);

@@ -55,11 +55,11 @@ TEST(ModelWarnings, SayOnceOfAFileWhatOfItDoesNotShow) {
     return placed;
   };
   EXPECT_THAT(ModelWarnings({place(model, false), place(model, false)}),
-              ElementsAre("Of lamp.glb this is left out: emission, normal maps."));
+              ElementsAre("Of lamp.glb this is not drawn: emission, normal maps."));
   EXPECT_THAT(ModelWarnings({place(model, true)}), IsEmpty());
   model.left_out = {compositor::kVertexColors};
   EXPECT_THAT(ModelWarnings({place(model, true)}),
-              ElementsAre("Of lamp.glb this is left out: colours of vertices."));
+              ElementsAre("Of lamp.glb this is not drawn: colours of vertices."));
 }
 
 TEST(MarkerWarnings, SayWhatWasLookedForInVain) {

@@ -123,6 +123,15 @@ TEST(Composer, ShowsThroughGlassWhatLiesBehind) {
   EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kCutOut)}), 1.0);
 }
 
+TEST(Composer, DrawsWhatCastsNoShadow) {
+  // As thin glass stands in a model, alone in the scene.
+  Model pane = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
+  pane.materials[0].opacity = 0.3F;
+  pane.materials[0].alpha = Material::Alpha::kBlended;
+  pane.meshes[0].role = MeshRole::kDrawn;
+  EXPECT_NEAR(LetThrough({Place(pane, false)}), 0.7, 0.02);
+}
+
 TEST(Composer, DrawsTheEdgesOfHolesAsFineAsThoseOfSurfaces) {
   // Where a hole's edge lies, in pixels, by how much a row of pixels is covered; the square is
   // moved by parts of a pixel.
@@ -293,6 +302,20 @@ TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
   };
   EXPECT_NEAR(seen(0.1F, 0.5F, kSunLux), 0.5 * kGain * kSkyLux * std::numbers::inv_pi, 0.01);
   EXPECT_GT(seen(0.5F, 0.1F, kSunLux), seen(0.5F, 0.1F, 0.0) + 0.02);
+}
+
+TEST(Composer, AddsACoatToWhatItLeavesOfTheColour) {
+  const auto seen = [](float f0, float left) {
+    Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.4F);
+    plate.materials[0].roughness = 0.1F;
+    plate.materials[0].specular_f0 = f0;
+    plate.materials[0].base_under_coat = left;
+    return SeenAt(Compose({Place(plate, false)}, EvenPicture(0)), {0, 0, 0.1});
+  };
+  const double bare = seen(0.0F, 1.0F);
+  const double coat = 0.1 * kGain * kSkyLux * std::numbers::inv_pi;
+  EXPECT_NEAR(seen(0.1F, 1.0F), bare + coat, 0.006);
+  EXPECT_NEAR(seen(0.1F, 0.9F), 0.9 * bare + coat, 0.006);
 }
 
 TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {

@@ -113,9 +113,25 @@ TEST(ObjModel, GroupsFacesByNameAndMaterial) {
   const Material& coat = model->materials[model->meshes[1].material];
   EXPECT_NEAR(coat.specular_f0, 0.04F, 1e-6F);
   EXPECT_NEAR(coat.roughness, std::pow(0.02, 0.25), 1e-5);
+  EXPECT_EQ(coat.base_under_coat, 1.0F) << "MTL adds Ks to Kd";
   EXPECT_EQ(coat.metallic, 0.25F);
   EXPECT_EQ(coat.opacity, 1.0F) << "d taken for Tr";
   EXPECT_EQ(coat.base_color, (std::array<float, 3>{0.2F, 0.2F, 0.2F}));
+}
+
+TEST(ObjModel, GivesASurfaceOfStatedRoughnessACoat) {
+  const TemporaryFolder folder;
+  folder.Write("two.mtl",
+               "newmtl smooth\nKd 0.2\nPr 0.25\nillum 2\nnewmtl matt\nKd 0.2\nPr 0.25\nillum 1\n");
+  const auto model =
+      LoadModel(folder.Write("model.obj", std::string("mtllib two.mtl\nl 1 2\n") + kSquare +
+                                              "usemtl smooth\nf 1 2 3\nusemtl matt\nf 1 3 4\n"));
+  ASSERT_TRUE(model) << model.error().Message();
+  const Material& smooth = model->materials[model->meshes[0].material];
+  EXPECT_EQ(smooth.specular_f0, kDielectricF0);
+  EXPECT_EQ(smooth.roughness, 0.25F);
+  EXPECT_EQ(model->materials[model->meshes[1].material].specular_f0, 0.0F);
+  EXPECT_EQ(model->left_out, std::set<std::string>{kPointsAndLines});
 }
 
 TEST(ObjModel, TakesGlassForOpaqueWhereAsked) {
