@@ -15,9 +15,6 @@
 namespace pleinair::app {
 namespace {
 
-// A print this much darker than the ground in the open lies in shade, even if evenly: no stated
-// colour is believed to be so far off.
-constexpr double kSurelyShaded = 1.5;
 // Logarithmic, between planes of one material: what an overcast sky may leave unexplained.
 constexpr double kMostPlaneContrast = 0.6;
 // The same, of planes that an overcast sky explains: patterns, bumps and stated places of phantoms.
@@ -234,8 +231,7 @@ FoundLight LightLook::Settle() const {
   if (!shade.Matters()) return found;
   found.skies.sunlight =
       std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
-  if (2 * dappled_ > samples_.frames() ||
-      (shade.open_gain > kSurelyShaded && shade.open_gain_agreed)) {
+  if (2 * dappled_ > samples_.frames() || shade.ShadesPrint()) {
     found.skies.print_shade =
         PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
   }

@@ -244,7 +244,7 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
       DividedIntoPatches(surfaces, tessellation, options.max_patches, options.threads);
 
   LightScene scene;
-  std::vector<RayMesh> ray_meshes;
+  std::vector<RayMesh> ray_meshes, leaf_meshes;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     SurfaceMesh& surface = surfaces[i];
     std::shared_ptr<const SurfacePatches> groups;
@@ -254,6 +254,9 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
     const std::array<float, 3> albedo =
         ReflectanceOf(*models[surface.placed_model].model, surface.material);
     const auto front = static_cast<int>(scene.sheets.size());
+    if (surface.role == MeshRole::kDrawn && surface.is_phantom) {
+      leaf_meshes.push_back({surface.positions, surface.indices, true});
+    }
     if (surface.role != MeshRole::kDrawn) {
       ray_meshes.push_back({surface.positions, surface.indices, surface.is_phantom});
       AddFaces(surface, groups.get(), static_cast<std::uint32_t>(front), &scene);
@@ -274,6 +277,10 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
                       "use simpler models");
   }
   PLEINAIR_ASSIGN_OR_RETURN(scene.rays, RayScene::Create(ray_meshes, LargestModel(models)));
+  if (!leaf_meshes.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(scene.loose_leaves,
+                              RayScene::Create(leaf_meshes, LargestModel(models)));
+  }
   return scene;
 }
 

@@ -50,6 +50,7 @@ struct LightScene {
   std::vector<Spot> spots;               ///< By patch.
   std::vector<std::uint32_t> spot_ends;  ///< One past each patch's last spot.
   std::unique_ptr<RayScene> rays;
+  std::unique_ptr<RayScene> loose_leaves;  ///< Of phantoms, which hide what is seen; may be null.
 
   const Face& FaceOf(const RayHit& hit) const { return faces[first_face[hit.mesh] + hit.triangle]; }
 

@@ -105,15 +105,25 @@ class EmbreeLightSolver : public LightSolver {
   }
 
   std::optional<PhantomSurface> FirstPhantom(Point<Marker> eye, Vec3 direction) const override {
-    RayHit hit;
-    if (!scene_.rays->Intersect(RayTargets::kPhantoms, eye.xyz, direction, &hit)) return {};
+    RayHit hit, leaf;
+    const bool found = scene_.rays->Intersect(RayTargets::kPhantoms, eye.xyz, direction, &hit);
+    if (scene_.loose_leaves != nullptr &&
+        scene_.loose_leaves->Intersect(RayTargets::kPhantoms, eye.xyz, direction, &leaf) &&
+        (!found || leaf.distance_m < hit.distance_m)) {
+      PhantomSurface surface;
+      surface.point = {eye.xyz + direction * leaf.distance_m};
+      surface.is_loose_leaf = true;
+      return surface;
+    }
+    if (!found) return {};
     const LightScene::Face& face = scene_.FaceOf(hit);
     const int side = hit.back ? 1 : 0;
     const auto& albedo = scene_.sheets[face.sheet].albedo;
     return PhantomSurface{{eye.xyz + direction * hit.distance_m},
                           hit.back ? -face.normal : face.normal,
                           static_cast<int>(face.sheet) * 2 + side,
-                          {albedo[0], albedo[1], albedo[2]}};
+                          {albedo[0], albedo[1], albedo[2]},
+                          false};
   }
 
   std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3 normal,

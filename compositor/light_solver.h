@@ -70,6 +70,9 @@ struct PhantomSurface {
   Vec3 normal;         ///< Unit, towards the eye.
   int surface = 0;     ///< Equal for points of one side of one surface of one material.
   LinearRgb albedo{};  ///< That the phantom states, textures as their mean.
+  /// Of a phantom's loose leaves (loose_leaves.h): what is seen there is a leaf or what stands
+  /// behind, and tells of no surface. Only `point` is set.
+  bool is_loose_leaf = false;
 };
 
 /// Computes where the day's light goes among phantoms and virtual objects (Embree). Keeps the ray

@@ -14,9 +14,10 @@ namespace pleinair::compositor {
 /// leaves hide what stands behind them, but what shade they cast would be a guess.
 ///
 /// Leaves are pieces of up to 0.5 m (the longest side of its box) that touch nothing else of their
-/// surface, where there are 50 of them or more and these lie about in all three directions, farther
-/// than half their size. So a hedge, a crown of leaves or of cards is taken; blades that
-/// stand on one lawn, a fence's links, slabs and bricks lie in one plane and are not.
+/// surface, where there are 50 of them or more, these lie about in all three directions, farther
+/// than half their size, and face other ways than those next to them. So a hedge, a crown of leaves
+/// or of cards is taken; blades that stand on one lawn, a fence's links, tiles, slabs and bricks
+/// are not.
 std::optional<SurfaceMesh> TakeLooseLeaves(SurfaceMesh* surface);
 
 }  // namespace pleinair::compositor

@@ -18,13 +18,15 @@ constexpr double kSunlitQuantile = 0.8;
 constexpr double kOpenTop = 0.95, kPattern = 0.15;
 // Logarithmic: how near surfaces' gains must be to agree.
 constexpr double kAgreement = 0.26;
-// Logarithmic: how much too bright beside the print surfaces of two colours must be, or of one,
-// for the print to be taken for shaded, and of how many cells, or of which share of all.
-constexpr double kTooBright = 0.405, kTooBrightAlone = 0.69;
+// Logarithmic: how much too bright beside the print surfaces of two colours must be (1.5 times), or
+// of one (twice), for the print to be taken for shaded, and of how many cells, or of which share.
+constexpr double kTooBright = 0.405, kTooBrightAlone = 0.693;
 constexpr std::size_t kFewestBrightCells = 8;
 constexpr double kLeastBrightShare = 0.05;
 // Of the cells of a surface that is said to have a part in the open.
 constexpr double kLeastOpenShare = 0.25;
+// Cells in shade with which a surface contradicts one colour alone.
+constexpr std::ptrdiff_t kFewestShadedCells = 3;
 // Logarithmic: darker than the brighter ones by more than colours are misjudged.
 constexpr double kSurelyDarker = 0.5;
 
@@ -59,17 +61,27 @@ bool ColoursAgree(const std::vector<Told>& surfaces, double gain) {
          }) > 1;
 }
 
+/// Whether a surface's cells show sun and shade: a few in shade, or a good part.
+bool ShowsBoth(const OpenSurface& surface, bool few) {
+  const double deep = kShadeDepth * surface.depth;
+  if (!few) return Quantile(surface.medians, 0.9) - Quantile(surface.medians, 0.1) > deep;
+  return std::count_if(surface.medians.begin(), surface.medians.end(), [&](double median) {
+           return median < surface.level - deep;
+         }) >= kFewestShadedCells;
+}
+
 /// Whether a darker surface shows both places in the open and some in shade, so that it does not
-/// lie in shade as a whole: against one colour alone, or against more by not much fewer cells.
+/// lie in shade as a whole: against one colour alone by a few of them, against more by a good part
+/// and in not much fewer cells.
 bool IsContradicted(const std::vector<Told>& surfaces, double gain, bool agreed,
                     std::size_t bright_cells) {
   const std::size_t fewest =
       agreed ? std::max(bright_cells / 2, kFewestBrightCells) : kFewestBrightCells;
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const Told& told) {
-    const auto& medians = told.surface->medians;
+    const auto cells = static_cast<double>(told.surface->medians.size());
     return told.gain < gain - kAgreement && told.open >= fewest &&
-           static_cast<double>(told.open) > kLeastOpenShare * static_cast<double>(medians.size()) &&
-           Quantile(medians, 0.9) - Quantile(medians, 0.1) > kShadeDepth * told.surface->depth;
+           static_cast<double>(told.open) > kLeastOpenShare * cells &&
+           ShowsBoth(*told.surface, !agreed);
   });
 }
 
@@ -132,32 +144,31 @@ double OpenSurface::SunlitLevel() const {
 }
 
 OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,
-                        const SurfaceSamples& samples, bool is_shaded, OpenSurfaces* surfaces) {
+                        const SurfaceSamples& samples, OpenSurfaces* surfaces) {
   struct Places {
     LinearRgb albedo;
     std::vector<Point<Marker>> lit;
   };
-  std::map<std::pair<int, Rgb>, Places> places;
+  std::map<SurfacePlane, Places> places;
   for (std::size_t i = 0; i < samples.samples().size(); ++i) {
     if (reached[i] == 0) continue;
     const SurfaceSample& spot = samples.samples()[i];
-    Places& of = places[{spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}}];
+    Places& of = places[PlaneOf(spot.surface, spot.normal)];
     of.albedo = spot.albedo;
     of.lit.push_back(spot.point);
   }
   const LinearRgb on_print = light.sun_on_print() + light.ambient_on_print();
   std::vector<Told> all;
-  for (auto& [key, surface] : *surfaces) {
+  for (auto& [plane, surface] : *surfaces) {
     const double shade = Quantile(surface.medians, kSunlitQuantile) - kShadeDepth * surface.depth;
     std::vector<double> open;
     std::copy_if(surface.medians.begin(), surface.medians.end(), std::back_inserter(open),
                  [&](double value) { return value >= shade; });
     // Where leaves leave half-light everywhere, few places lie in the open.
     surface.level = std::max(Quantile(open, 0.5), Quantile(surface.tops, kOpenTop) - kPattern);
-    const auto& [albedo, lit] = places.at(key);
+    const auto& [albedo, lit] = places.at(plane);
     if (open.size() < kFewestCells || std::min({albedo.r, albedo.g, albedo.b}) <= 0.0) continue;
-    const Vec3 normal{key.second[0], key.second[1], key.second[2]};
-    const LinearRgb on_surface = light.SunOn(normal) + light.Ambient(lit, normal);
+    const LinearRgb on_surface = light.SunOn(surface.normal) + light.Ambient(lit, surface.normal);
     const double predicted =
         light.log_unit() + MeanLog(on_surface / on_print * albedo * (1 / std::numbers::pi));
     const double least = surface.level - kAgreement;
@@ -169,15 +180,13 @@ OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>&
                    surface.level - predicted,
                    static_cast<std::size_t>(std::max<std::ptrdiff_t>(near, 1))});
   }
-  if (is_shaded) {
-    if (const OpenGain brightest = BrightestGain(all); brightest.log > 0.0) {
-      for (const Told& told : all) {
-        if (told.gain > brightest.log - kSurelyDarker) continue;
-        told.surface->all_shaded = true;
-        told.surface->level = told.predicted + brightest.log;
-      }
-      return brightest;
+  if (const OpenGain brightest = BrightestGain(all); brightest.log > 0.0) {
+    for (const Told& told : all) {
+      if (told.gain > brightest.log - kSurelyDarker) continue;
+      told.surface->all_shaded = true;
+      told.surface->level = told.predicted + brightest.log;
     }
+    return brightest;
   }
   const double gain = MedianGain(all);
   return {gain, !all.empty() && ColoursAgree(all, gain)};

@@ -51,6 +51,7 @@ class OpenLight {
 /// A plane of one material, as far as the model has it in the sun. Brightness is the mean of the
 /// logarithms of linear red, green and blue.
 struct OpenSurface {
+  Vec3 normal;
   std::vector<double> medians;  ///< Of its cells.
   std::vector<double> tops;     ///< Of each cell, what a quarter of its spots exceeds.
   double depth = 0.0;           ///< Of a shadow there, logarithmic.
@@ -62,29 +63,29 @@ struct OpenSurface {
   double SunlitLevel() const;
 };
 
-/// By surface and normal.
-using OpenSurfaces = std::map<std::pair<int, std::array<double, 3>>, OpenSurface>;
+using OpenSurfaces = std::map<SurfacePlane, OpenSurface>;
 
 /// What surfaces in the open sun tell of the camera's gain.
 struct OpenGain {
   double log = 0.0;  ///< Over the frames' own gain; above 0 where the print has less than the sun.
-  /// Whether surfaces of two stated colours tell nearly that: one colour may be wrong.
+  /// Whether surfaces of two stated colours tell nearly that, for one may be wrong, or one does of
+  /// which that can hardly be.
   bool agreed = false;
 };
 
 /// Finds how bright each surface is in the open sun, and what gain that tells of: a median over
 /// cells, since colours are stated roughly and grass reflects less than its blades.
 ///
-/// With `is_shaded` (something that no phantom stands for keeps the sun from a part of what is in
-/// view) surfaces need not have a part in the open. Where some are much brighter than their colour
-/// allows beside the print, and so is no less than a twentieth of what is seen, the print lies in
-/// shade: the gain is theirs, and surfaces that are darker than that by more than colours are
+/// To be asked where something that no phantom stands for keeps the sun from a part of what is in
+/// view; surfaces need not have a part in the open. Where some are much brighter than their colour
+/// allows beside the print, and have a twentieth of the cells near their surfaces' levels, the print
+/// lies in shade: the gain is theirs, and surfaces that are darker than that by more than colours are
 /// misjudged lie in shade as a whole. The cause of a surface that is too bright can hardly be its
 /// stated colour; of one that is too dark it can.
 ///
 /// `reached`, of each sample: whether the model has it in the sun.
 OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,
-                        const SurfaceSamples& samples, bool is_shaded, OpenSurfaces* surfaces);
+                        const SurfaceSamples& samples, OpenSurfaces* surfaces);
 
 /// Cells that a surface's level needs.
 inline constexpr std::size_t kFewestCells = 4;

@@ -19,19 +19,8 @@ constexpr std::size_t kFewestSpots = 40;
 constexpr std::size_t kProbes = 12;
 constexpr std::uint32_t kPaths = 128;
 
-// Between normals that count as one direction (30°), and of planes that count as one, whose normals
-// differ by rounding.
-constexpr double kOneDirection = 0.866, kOnePlane_steps = 1e3;
-
-/// A plane of a surface by its surface and its rounded normal.
-using PlaneKey = std::pair<int, std::array<int, 3>>;
-
-PlaneKey KeyOf(const SurfaceSample& spot) {
-  const auto rounded = [](double value) {
-    return static_cast<int>(std::lround(value * kOnePlane_steps));
-  };
-  return {spot.surface, {rounded(spot.normal.x), rounded(spot.normal.y), rounded(spot.normal.z)}};
-}
+// Between normals that count as one direction (30°).
+constexpr double kOneDirection = 0.866;
 
 /// Root mean square about the mean of means; what is in a list counts as much as one.
 double SpreadOf(const std::map<int, std::vector<double>>& values) {
@@ -52,15 +41,15 @@ PlaneContrast FindPlaneContrast(const LightSolver& solver, const SurfaceSamples&
                                 const sky::SkyModel& day, const Mat3& marker_from_world) {
   const auto& all = samples.samples();
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
-  std::map<PlaneKey, std::vector<std::uint32_t>> planes;
+  std::map<SurfacePlane, std::vector<std::uint32_t>> planes;
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (all[i].frames > 0) planes[KeyOf(all[i])].push_back(i);
+    if (all[i].frames > 0) planes[PlaneOf(all[i].surface, all[i].normal)].push_back(i);
   }
   PlaneContrast contrast;
   std::map<int, std::vector<double>> off;      // By surface, of its planes: beside the model,
   std::map<int, std::vector<double>> off_all;  // … and beside its stated colour.
   std::vector<Vec3> directions;
-  for (const auto& [key, spots] : planes) {
+  for (const auto& [plane, spots] : planes) {
     if (spots.size() < kFewestSpots) continue;
     const SurfaceSample& first = all[spots.front()];
     std::vector<Point<Marker>> probes;
@@ -79,7 +68,7 @@ PlaneContrast FindPlaneContrast(const LightSolver& solver, const SurfaceSamples&
     const double beside = Median(seen) - Median(modelled);
     if (first.surface >= 0) off[first.surface].push_back(beside);
     if (first.albedo.g <= 0.0) continue;
-    off_all[first.surface].push_back(beside - std::log(first.albedo.g));
+    off_all[plane.first].push_back(beside - std::log(first.albedo.g));
     if (std::none_of(directions.begin(), directions.end(),
                      [&](Vec3 other) { return Dot(other, first.normal) > kOneDirection; })) {
       directions.push_back(first.normal);

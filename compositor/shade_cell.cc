@@ -108,15 +108,14 @@ ShadeCrossing CrossingOf(const ShadeCell& cell, const TwoLevels& levels) {
   const double red = step([](const ShadeSpot& spot) { return spot.colour[0]; });
   const double blue = step([](const ShadeSpot& spot) { return spot.colour[1]; });
   const double green = mean - (red + blue) / 3;
-  const Vec3 normal{cell.normal[0], cell.normal[1], cell.normal[2]};
-  return {NearestToMiddle(cell), normal, {green + red, green, green + blue}};
+  return {NearestToMiddle(cell), cell.normal, {green + red, green, green + blue}};
 }
 
 ShadeCrossing DeepPlaceOf(const ShadeCell& cell, double contrast) {
   const double green = cell.depth;
   const LinearRgb depth{green + cell.colour_step[0], green, green + cell.colour_step[1]};
-  const Vec3 normal{cell.normal[0], cell.normal[1], cell.normal[2]};
-  return {NearestToMiddle(cell), normal, depth * (3 * contrast / (depth.r + depth.g + depth.b))};
+  return {NearestToMiddle(cell), cell.normal,
+          depth * (3 * contrast / (depth.r + depth.g + depth.b))};
 }
 
 }  // namespace pleinair::compositor

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "compositor/surface_samples.h"
 #include "compositor/unmodelled_shade.h"
 
 namespace pleinair::compositor {
@@ -33,8 +34,9 @@ struct ShadeCell {
   double depth = 0.0;                   // Of a shadow there, logarithmic, green.
   std::array<double, 2> colour_step{};  // Red and blue against green.
   int surface = 0;
-  std::array<double, 3> normal{};  // Of its surface, unit, marker coordinates, towards the eye.
+  Vec3 normal;  // Of its surface, unit, marker coordinates, towards the eye.
 
+  SurfacePlane Plane() const { return PlaneOf(surface, normal); }
   double Median() const { return spots[spots.size() / 2].value; }  // They are sorted.
 };
 

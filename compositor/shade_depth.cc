@@ -100,7 +100,7 @@ SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& s
   const SunSkyReading reading =
       ReadPlaces(solver, shade.crossings, shade.shaded, daylight, marker_from_world);
   if (reading.sun == SunSkyReading::Sun::kShines) return reading;
-  if (!shade.open_gain_agreed && !shade.IsWide()) return reading;
+  if (!shade.IsWide() && !shade.ShadesPrint()) return reading;
   return ReadPlaces(solver, shade.deepest, shade.shaded, daylight, marker_from_world);
 }
 

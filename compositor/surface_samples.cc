@@ -22,7 +22,17 @@ constexpr double kBoardMarginM = 0.02;
 constexpr int kPrintSurface = -1;
 constexpr int kPrintSpots = 96;  // A side of the board.
 
+constexpr double kPlaneSteps = 1e3;
+
 }  // namespace
+
+SurfacePlane PlaneOf(int surface, Vec3 normal) {
+  const auto rounded = [](double value) {
+    return static_cast<int>(std::lround(value * kPlaneSteps));
+  };
+  return {std::max(surface, kPrintSurface),
+          {rounded(normal.x), rounded(normal.y), rounded(normal.z)}};
+}
 
 SurfaceSamples::SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
                                const MarkerPrint& print, const CameraResponse& response)
@@ -60,7 +70,7 @@ bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
 }
 
 void SurfaceSamples::AddSpot(const PhantomSurface& spot, double distance_m) {
-  const auto& [point, normal, surface, albedo] = spot;
+  const auto& [point, normal, surface, albedo, is_loose_leaf] = spot;
   SurfaceSample sample;
   sample.point = point;
   sample.normal = normal;
@@ -130,7 +140,7 @@ void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
           UndistortPixel(camera_, {column * step + step / 2.0, row * step + step / 2.0});
       const Vec3 direction = Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1.0});
       const auto seen = solver_.FirstPhantom(eye, direction);
-      if (!seen || IsOnBoard(seen->point)) continue;
+      if (!seen || seen->is_loose_leaf || IsOnBoard(seen->point)) continue;
       AddSpot(*seen, Norm(seen->point.xyz - eye.xyz));
       Observe(rgb, pose, gain, &samples_.back(), &pixel);
     }

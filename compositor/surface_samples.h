@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "base/camera_model.h"
@@ -26,6 +27,12 @@ struct SurfaceSample {
   std::uint32_t cell = 0;           ///< Spots of one cell: neighbours on one material and plane.
   int frames = 0;                   ///< That show it unclipped.
 };
+
+/// A plane of one material: PhantomSurface's surface, all of the print's white being one, and the
+/// normal in thousandths, since those of one plane differ by rounding.
+using SurfacePlane = std::pair<int, std::array<int, 3>>;
+
+SurfacePlane PlaneOf(int surface, Vec3 normal);
 
 /// What frames show of the phantoms' surfaces and of the print's white, spread over the surfaces
 /// themselves, so that several frames of a moving camera add up. Sun and weather must be the same

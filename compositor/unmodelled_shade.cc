@@ -48,8 +48,7 @@ void MapSunlight(const OpenLight& light, const std::vector<std::uint8_t>& reache
     double level = std::max(0.0, log_gain) + light.log_unit() +
                    std::log(spot.albedo.g / std::numbers::pi);  // Of the print's white.
     if (spot.surface >= 0) {
-      const auto found =
-          surfaces.find({spot.surface, {spot.normal.x, spot.normal.y, spot.normal.z}});
+      const auto found = surfaces.find(PlaneOf(spot.surface, spot.normal));
       if (found == surfaces.end() || found->second.medians.size() < kFewestCells) continue;
       level = found->second.level;
     }
@@ -69,7 +68,7 @@ void CountShadedEdges(const std::vector<ShadeCell>& cells, const OpenSurfaces& s
   int shaded = 0;
   shade->beside_edges = 0;
   for (const ShadeCell& cell : cells) {
-    const auto surface = sunlit.find({cell.surface, cell.normal});
+    const auto surface = sunlit.find(cell.Plane());
     if (!cell.unlit || cell.in_sun.size() < kFewestBesideEdge || surface == sunlit.end()) continue;
     const double open = surface->second.all_shaded
                             ? surface->second.level
@@ -92,7 +91,7 @@ double ShadedShare(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunl
   for (const ShadeCell& cell : cells) {
     if (!cell.lit || cell.unlit) continue;
     ++*count;
-    const double open = level(sunlit.at({cell.surface, cell.normal}));
+    const double open = level(sunlit.at(cell.Plane()));
     shaded += cell.Median() < open - kShadeDepth * cell.depth ? 1 : 0;
   }
   return *count > 0 ? static_cast<double>(shaded) / *count : 0.0;
@@ -116,7 +115,7 @@ std::vector<ShadeCrossing> DeepestPlaces(const std::vector<ShadeCell>& cells,
   std::vector<Place> places;
   for (const ShadeCell& cell : cells) {
     if (!cell.lit || cell.unlit) continue;
-    const OpenSurface& surface = sunlit.at({cell.surface, cell.normal});
+    const OpenSurface& surface = sunlit.at(cell.Plane());
     if (surface.medians.size() < kFewestCells) continue;
     places.push_back({surface.level - cell.Median(), &cell});
   }
@@ -162,7 +161,7 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
     cell.depth = depths[1];
     cell.colour_step = {depths[0] - depths[1], depths[2] - depths[1]};
     cell.surface = spot.surface;
-    cell.normal = {spot.normal.x, spot.normal.y, spot.normal.z};
+    cell.normal = spot.normal;
   }
   std::erase_if(cells, [](const ShadeCell& cell) { return cell.spots.size() < kFewestSpots; });
   int edges = 0;
@@ -176,7 +175,8 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
     const bool crossed = IsCrossed(cell, levels);
     edges += crossed ? 1 : 0;
     if (!cell.lit || cell.unlit) continue;
-    OpenSurface& surface = sunlit[{cell.surface, cell.normal}];
+    OpenSurface& surface = sunlit[cell.Plane()];
+    surface.normal = cell.normal;
     surface.medians.push_back(cell.Median());
     surface.tops.push_back(cell.spots[cell.spots.size() * 3 / 4].value);
     surface.depth = cell.depth;
@@ -186,10 +186,9 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   shade.crossed = edges;
   CountShaded(cells, sunlit, &shade);
   CountShadedEdges(cells, sunlit, &shade);
-  const bool is_shaded = shade.Matters() || shade.HidesEdges();
-  if (!is_shaded || meter.places().empty()) return shade;
+  if ((!shade.Matters() && !shade.HidesEdges()) || meter.places().empty()) return shade;
   const OpenLight light(solver, meter, day, marker_from_world, sky_scale);
-  const OpenGain gain = FindOpenLevels(light, reached, samples, is_shaded, &sunlit);
+  const OpenGain gain = FindOpenLevels(light, reached, samples, &sunlit);
   shade.open_gain = std::exp(gain.log);
   shade.open_gain_agreed = gain.agreed;
   // Once more, with the levels of surfaces that have no part in the open.
@@ -211,6 +210,11 @@ bool UnmodelledShade::CastBySun() const {
 bool UnmodelledShade::IsWide() const {
   constexpr double kSmallestShare = 0.15;
   return dim >= kSmallestShare;
+}
+
+bool UnmodelledShade::ShadesPrint() const {
+  constexpr double kDarker = 1.5;
+  return open_gain_agreed && open_gain > kDarker;
 }
 
 bool UnmodelledShade::HidesEdges() const {

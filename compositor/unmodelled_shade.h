@@ -34,7 +34,7 @@ struct UnmodelledShade {
   /// Gain of the camera that phantoms' places in the open sun tell of, over that of the frames:
   /// above 1 where the print, or the brightest of it, has less than the open sun.
   double open_gain = 1.0;
-  /// Whether surfaces of two stated colours at least tell nearly that: one colour may be wrong.
+  /// Whether that is believed (OpenGain::agreed).
   bool open_gain_agreed = false;
   /// Where Matters(): the sun's light on the print in the open and all other, as phantoms leave it.
   LinearRgb sun_on_print, ambient_on_print;
@@ -50,6 +50,9 @@ struct UnmodelledShade {
   /// Whether so much is so dark that hardly anything but a sun's shade makes it so, though a crown
   /// leaves no sharp edge.
   bool IsWide() const;
+  /// Whether the print is so much darker than what lies in the open that it must lie in shade, even
+  /// if evenly: no stated colour is believed to be so far off.
+  bool ShadesPrint() const;
   /// Whether what casts them keeps the sun from the phantoms' own shadows, too, which then show no
   /// edge under whatever sun; where the sun is thought to stand elsewhere than it does, most of
   /// these places lie in the open.

@@ -77,6 +77,42 @@ TEST(LooseLeaves, AreNotWhatLiesInOnePlane) {
   EXPECT_FALSE(LeavesOf(links, &rest));
 }
 
+TEST(LooseLeaves, AreNotTilesOfARoofOrBricksRoundACorner) {
+  Mesh roof, wall;
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 10; ++k) {
+      for (const double side : {-1.0, 1.0}) {
+        const Vec3 along{0.3, 0, 0}, down{0, side * 0.25, -0.17};
+        const Vec3 at = Vec3{0.31 * i, 0, 3} + down * (1.03 * k + 0.1);
+        AddQuad(&roof, {at, at + along, at + along + down, at + down});
+      }
+      const Vec3 up{0, 0, 0.06}, in_x{0.2, 0, 0}, in_y{0, 0.2, 0};
+      const Vec3 x{0.21 * i, 0, 0.07 * k}, y{0, 0.21 * i, 0.07 * k};
+      AddQuad(&wall, {x, x + in_x, x + in_x + up, x + up});
+      AddQuad(&wall, {y, y + up, y + in_y + up, y + in_y});
+    }
+  }
+  SurfaceMesh rest;
+  EXPECT_FALSE(LeavesOf(roof, &rest));
+  EXPECT_FALSE(LeavesOf(wall, &rest));
+}
+
+TEST(LooseLeaves, HideWhatStandsBehindFromWhatIsMeasured) {
+  const auto solver = LightSolver::Create(
+      {{Ground(3, {0.3F, 0.3F, 0.3F}), {}, {}, true},
+       {ModelOf(Scattered(4000, 0.2, {0, 0, 2}, {1, 1, 0.6}), {0.1F, 0.2F, 0.05F}), {}, {}, true}},
+      {});
+  ASSERT_TRUE(solver);
+  const auto through = (*solver)->FirstPhantom({{0, 0, 5}}, {0, 0, -1});
+  ASSERT_TRUE(through);
+  EXPECT_TRUE(through->is_loose_leaf);
+  EXPECT_GT(through->point.xyz.z, 1.2);
+  const auto beside = (*solver)->FirstPhantom({{2, 2, 5}}, {0, 0, -1});
+  ASSERT_TRUE(beside);
+  EXPECT_FALSE(beside->is_loose_leaf);
+  EXPECT_NEAR(beside->point.xyz.z, 0.0, 1e-6);
+}
+
 TEST(LooseLeaves, LetSunAndSkyThroughAndAreDrawnAllTheSame) {
   // So dense that hardly a ray from the middle of the ground would pass.
   const Mesh crown = Scattered(4000, 0.2, {0, 0, 2}, {1, 1, 0.6});
