@@ -92,13 +92,13 @@ Result<void> ReadModel(const JsonFields& model, std::vector<ModelReference>* mod
   return {};
 }
 
-// What words are there of the weather ("CIE overcast" as a model says it too). The amounts in `sky`
-// are ground truth and are not read.
+// What words are there of the weather. Amounts and the model in `sky` are ground truth and are not
+// read.
 std::optional<Cloudiness> SkyInWords(const JsonFields& fields) {
   std::string words = fields.TextOr("name");
   for (const char* key : {"cloudiness", "weather", "sky"}) words += "; " + fields.TextOr(key);
   for (const char* block : {"sky", "place_time"}) {
-    for (const char* key : {"clouds", "cloudiness", "condition", "weather", "model"}) {
+    for (const char* key : {"clouds", "cloudiness", "condition", "weather"}) {
       words += "; " + fields.Object(block).TextOr(key);
     }
   }

@@ -86,6 +86,10 @@ TEST(SceneJson, SkyIsFoundInItsWordsWherever) {
   EXPECT_EQ(SkyOf(R"({"place_time": {"weather": "overcast"}})"), Cloudiness::kOvercast);
 }
 
+TEST(SceneJson, TheSkyThatARenderingWasLitWithIsNotRead) {
+  EXPECT_EQ(SkyOf(R"({"sky": {"model": "CIE overcast"}})"), std::nullopt);
+}
+
 TEST(SceneJson, UnknownSkyWordsLeaveTheDefault) {
   EXPECT_EQ(SkyOf(Replaced(kScene, "none", "cumulonimbus")), std::nullopt);
   const Result<SceneFacts> facts = ParseSceneJson(Replaced(kScene, "\"none\"", "7"), "scene.json");
