@@ -78,7 +78,7 @@ class Replayer {
     if (options_.time_lapse) {
       PLEINAIR_ASSIGN_OR_RETURN(day_moments_, MomentsOf(*options_.time_lapse, scene_.place_time));
     }
-    PLEINAIR_RETURN_IF_ERROR(CheckFrameOfDay(recording.frames->FrameCount()));
+    PLEINAIR_RETURN_IF_ERROR(CheckFrameOfDay(*recording.frames));
     PLEINAIR_RETURN_IF_ERROR(CheckExports(options_.exports, output_camera_));
     PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(scene_));
     auto tracker = tracker::Tracker::Create(recording.camera, tracking);
@@ -285,12 +285,15 @@ class Replayer {
 
   /// Whether the recording has the frame that the time-lapse is to be seen from, where it is known
   /// how many it has.
-  Result<void> CheckFrameOfDay(std::optional<std::int64_t> frames) const {
-    const auto frame = options_.time_lapse ? options_.time_lapse->frame : std::nullopt;
-    if (!frame || !frames || *frame < *frames) return {};
+  Result<void> CheckFrameOfDay(const devices::FrameSource& source) const {
+    if (!options_.time_lapse || !options_.time_lapse->frame || !source.CountsExactly()) return {};
+    const std::int64_t frame = *options_.time_lapse->frame;
+    const std::optional<std::int64_t> frames = source.FrameCount();
+    if (!frames || frame < *frames) return {};
     return InputError("--time-lapse-frame",
-                      fmt::format("frame {} lies beyond the recording's {}", *frame, *frames),
-                      "name one of 0 to " + std::to_string(*frames - 1));
+                      fmt::format("frame {} lies beyond the recording's {}", frame, *frames),
+                      *frames > 0 ? fmt::format("name one of 0 to {}", *frames - 1)
+                                  : "leave it out");
   }
 
   bool DrawsDay() const { return !report_.path.empty() && !scene_.objects.empty(); }

@@ -22,6 +22,9 @@ class FrameSource {
 
   /// How many frames there will be, where that is known (recordings).
   virtual std::optional<std::int64_t> FrameCount() const = 0;
+
+  /// Whether that is what will come, rather than a container's estimate.
+  virtual bool CountsExactly() const { return true; }
 };
 
 }  // namespace pleinair::devices

@@ -60,6 +60,8 @@ class VideoFile : public FrameSource {
     return facts_.frame_count ? std::optional<std::int64_t>(*facts_.frame_count) : std::nullopt;
   }
 
+  bool CountsExactly() const override { return promised_exactly_; }
+
  private:
   // Whether the end came where it should.
   Result<std::optional<Frame>> End() const {
