@@ -160,7 +160,8 @@ LightOrder LiveLight::OrderFor(const Wanted& wanted) {
     if (source) skies_ = {*std::move(source), {1.0, 1.0, 1.0}};
     skies_of_ = wanted.edit.sky;
   }
-  // Whether trees shade the ground is no matter of the air; with another north they would seem to.
+  // Whether trees shade the ground is no matter of the air. With a heading given as well nothing is
+  // looked at anew (MayLook), and what shades it under that one is not known.
   if (wanted.edit.sky) skies_.other_shade = wanted.edit.heading_deg || found_skies_.other_shade;
   return {wanted.time.PlusSeconds(wanted.edit.later_s),
           scene.place_time,

@@ -89,6 +89,7 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
         });
       };
       if (fast && (known_.empty() || missing(false) || frame_ % kFastEvery == 0)) FindFast();
+      if (!fast && !doubtful.empty()) FindBySurf(BorderSearch::Sizes::kLarge);
       for (const SgReading& reading : doubtful) Add(reading, DetectionPath::kTracked);
       if (search && missing(true)) {
         FindBySurf(BorderSearch::Sizes::kLarge);
