@@ -198,6 +198,7 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
   SetSun(day, marker_from_world);
   air_ = AerialFog(day, marker_from_world);
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(lit));
+  if (!surfaces_.HasGloss()) return {};  // Nothing looks it up.
   const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
     environment_.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "compositor/sky_table.h"
+
 namespace pleinair::compositor {
 namespace {
 
@@ -32,10 +34,12 @@ double RadicalInverse(std::uint32_t bits) {
 
 EnvironmentMap BuildEnvironmentMap(const sky::SkyModel& day, const Mat3& marker_from_world,
                                    LinearRgb ground_radiance) {
-  const Mat3 world_from_marker = marker_from_world.Transposed();
+  // Asked for hundreds of thousands of directions; its land is not.
+  const SkyTable sky(day, marker_from_world, 0.0);
   const auto radiance = [&](Vec3 direction_in_marker) {
-    const Vec3 direction = world_from_marker * direction_in_marker;
-    return direction.z > 0.0 ? day.SkyRadiance({direction}) : ground_radiance;
+    if (sky.SineElevation(direction_in_marker) <= 0.0) return ground_radiance;
+    const auto [r, g, b] = sky.Radiance(direction_in_marker);
+    return LinearRgb{r, g, b};
   };
   EnvironmentMap map;
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {

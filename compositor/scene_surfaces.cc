@@ -119,6 +119,13 @@ void SceneSurfaces::PlaceCasters() {
   }
 }
 
+bool SceneSurfaces::HasGloss() const {
+  return std::any_of(surfaces_.begin(), surfaces_.end(), [this](const SurfaceBuffers& surface) {
+    const Material& material = MaterialOf(surface);
+    return surface.IsDrawnObject() && (material.specular_f0 > 0.0F || material.metallic > 0.0F);
+  });
+}
+
 SunFootprint SceneSurfaces::FootprintOf(const SunWindow& window) const {
   if (window.side == 0.0F) return {};
   SunFootprint footprint(window);

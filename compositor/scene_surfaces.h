@@ -57,6 +57,8 @@ class SceneSurfaces {
   const SurfaceRecords& object_records() const { return object_records_; }
   /// Some of the objects have textures or alpha.
   bool HasTextures() const { return has_textures_; }
+  /// Whether some drawn object mirrors its surroundings: a metal's or a coat's.
+  bool HasGloss() const;
   /// Some have holes or are glass.
   bool HasAlpha() const { return has_alpha_; }
   /// Draws everything with `program`, which is in use: places alone.
