@@ -99,7 +99,7 @@ class Replayer {
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
     PLEINAIR_RETURN_IF_ERROR(LookAtLight());
-    TraceLight();
+    PLEINAIR_RETURN_IF_ERROR(TraceLight());
     PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
     PLEINAIR_RETURN_IF_ERROR(ComposeFrames(std::move(recording.frames)));
     PLEINAIR_RETURN_IF_ERROR(DrawDay());
@@ -178,9 +178,14 @@ class Replayer {
   }
 
   /// Before frames are composed, so that it has a bar of its own.
-  void TraceLight() {
-    if (options_.light_cache.empty() || report_.path.empty() || scene_.objects.empty()) return;
-    times_.Measure("trace light", [&] { return renderer_->Coefficients() != nullptr; });
+  Result<void> TraceLight() {
+    if (report_.path.empty() || scene_.objects.empty()) return {};
+    if (!options_.light_cache.empty()) {
+      times_.Measure("trace light", [&] { return renderer_->Coefficients() != nullptr; });
+    }
+    const ProgressBar bar("Tracing light", 1, "sun");
+    return times_.Measure("light",
+                          [&] { return renderer_->PrepareLight(MomentOf(report_.path.front())); });
   }
 
   void Resize(devices::Frame& frame) {
@@ -189,7 +194,8 @@ class Replayer {
         "resize", [&] { return ResizeRgb(frame.rgb.view(), report_.width, report_.height); });
   }
 
-  UtcTime MomentOf(const devices::Frame& frame) const {
+  template <typename Timed>
+  UtcTime MomentOf(const Timed& frame) const {
     return UtcTime(scene_.place_time.start.nanoseconds_since_1970() + frame.timestamp_ns);
   }
 
@@ -290,10 +296,10 @@ class Replayer {
     const std::int64_t frame = *options_.time_lapse->frame;
     const std::optional<std::int64_t> frames = source.FrameCount();
     if (!frames || frame < *frames) return {};
-    return InputError("--time-lapse-frame",
-                      fmt::format("frame {} lies beyond the recording's {}", frame, *frames),
-                      *frames > 0 ? fmt::format("name one of 0 to {}", *frames - 1)
-                                  : "leave it out");
+    return InputError(
+        "--time-lapse-frame",
+        fmt::format("frame {} lies beyond the recording's {}", frame, *frames),
+        *frames > 0 ? fmt::format("name one of 0 to {}", *frames - 1) : "leave it out");
   }
 
   bool DrawsDay() const { return !report_.path.empty() && !scene_.objects.empty(); }

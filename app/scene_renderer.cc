@@ -185,6 +185,11 @@ Result<void> SceneRenderer::TakeLight(std::shared_ptr<const SceneLight> light) {
   return {};
 }
 
+Result<void> SceneRenderer::PrepareLight(UtcTime time) {
+  if (!composer_) return {};
+  return UpdateLight(time.PlusSeconds(later_s_));
+}
+
 Result<void> SceneRenderer::UseLight(std::shared_ptr<const SceneLight> light) {
   if (!composer_) return {};
   if (!lit_) OverrideLight(light->sun);

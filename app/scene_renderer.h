@@ -110,6 +110,9 @@ class SceneRenderer {
   /// bar, or read from the folder of KeepLightIn(). Not where there is nothing to draw.
   std::shared_ptr<const compositor::DaylightCoefficients> Coefficients();
 
+  /// Makes the light of a moment that Render() would make for its first frame.
+  Result<void> PrepareLight(UtcTime time);
+
   /// Takes a light over that was made elsewhere; from then on Render() only moves the sun and
   /// leaves new light to others.
   Result<void> UseLight(std::shared_ptr<const SceneLight> light);
