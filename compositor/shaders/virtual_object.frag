@@ -93,8 +93,11 @@ vec3 ColorOf(SeenSurface surface, SurfaceRecord record) {
                      VisibilitySmith(n_dot_v, max(n_dot_l, 1e-4), alpha));
     radiance += specular * sun;
 #endif
+    // Of the sky, phantoms and objects hide as much from the mirrored light as from all that arrives.
+    vec3 open = max(PrefilteredEnvironment(normal, 1.0) * kPi, vec3(1e-6));
     radiance += EnvironmentBrdf(f0, record.roughness, n_dot_v) *
-                PrefilteredEnvironment(reflect(-to_eye, normal), record.roughness);
+                PrefilteredEnvironment(reflect(-to_eye, normal), record.roughness) *
+                clamp(surface.ambient_with / open, 0.0, 2.0);
   }
   FogAir air = FogUpTo(distance(u_eye_m, surface.position_m), u_fog_split_m, u_fog_optical_depth,
                        u_fog_inscattered);
