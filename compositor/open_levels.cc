@@ -139,6 +139,19 @@ LinearRgb OpenLight::Ambient(const std::vector<Point<Marker>>& places, Vec3 norm
   return sum * (1.0 / kProbes);
 }
 
+std::vector<double> OpenSurface::SunlitCells() const {
+  const double shade = Quantile(medians, kSunlitQuantile) - kShadeDepth * depth;
+  std::vector<double> open;
+  std::copy_if(medians.begin(), medians.end(), std::back_inserter(open),
+               [&](double value) { return value >= shade; });
+  return open;
+}
+
+double OpenSurface::BrightLevel() const {
+  // Where leaves leave half-light everywhere, few places lie in the open.
+  return std::max(Quantile(SunlitCells(), 0.5), Quantile(tops, kOpenTop) - kPattern);
+}
+
 double OpenSurface::SunlitLevel() const {
   return all_shaded ? level : Quantile(medians, kSunlitQuantile);
 }
@@ -160,14 +173,11 @@ OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>&
   const LinearRgb on_print = light.sun_on_print() + light.ambient_on_print();
   std::vector<Told> all;
   for (auto& [plane, surface] : *surfaces) {
-    const double shade = Quantile(surface.medians, kSunlitQuantile) - kShadeDepth * surface.depth;
-    std::vector<double> open;
-    std::copy_if(surface.medians.begin(), surface.medians.end(), std::back_inserter(open),
-                 [&](double value) { return value >= shade; });
-    // Where leaves leave half-light everywhere, few places lie in the open.
-    surface.level = std::max(Quantile(open, 0.5), Quantile(surface.tops, kOpenTop) - kPattern);
+    surface.level = surface.BrightLevel();
     const auto& [albedo, lit] = places.at(plane);
-    if (open.size() < kFewestCells || std::min({albedo.r, albedo.g, albedo.b}) <= 0.0) continue;
+    if (surface.SunlitCells().size() < kFewestCells ||
+        std::min({albedo.r, albedo.g, albedo.b}) <= 0.0)
+      continue;
     const LinearRgb on_surface = light.SunOn(surface.normal) + light.Ambient(lit, surface.normal);
     const double predicted =
         light.log_unit() + MeanLog(on_surface / on_print * albedo * (1 / std::numbers::pi));

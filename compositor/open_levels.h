@@ -59,6 +59,10 @@ struct OpenSurface {
   /// Whether none of it lies there: the level is then what other surfaces tell.
   bool all_shaded = false;
 
+  /// Medians of those that are no darker than most by a shadow's depth.
+  std::vector<double> SunlitCells() const;
+  /// What its brightest places tell of the open sun, few though they may be.
+  double BrightLevel() const;
   /// What cells are compared with to tell whether they are shaded.
   double SunlitLevel() const;
 };
@@ -78,10 +82,10 @@ struct OpenGain {
 ///
 /// To be asked where something that no phantom stands for keeps the sun from a part of what is in
 /// view; surfaces need not have a part in the open. Where some are much brighter than their colour
-/// allows beside the print, and have a twentieth of the cells near their surfaces' levels, the print
-/// lies in shade: the gain is theirs, and surfaces that are darker than that by more than colours are
-/// misjudged lie in shade as a whole. The cause of a surface that is too bright can hardly be its
-/// stated colour; of one that is too dark it can.
+/// allows beside the print, and have a twentieth of the cells near their surfaces' levels, the
+/// print lies in shade: the gain is theirs, and surfaces that are darker than that by more than
+/// colours are misjudged lie in shade as a whole. The cause of a surface that is too bright can
+/// hardly be its stated colour; of one that is too dark it can.
 ///
 /// `reached`, of each sample: whether the model has it in the sun.
 OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,

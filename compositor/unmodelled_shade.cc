@@ -97,12 +97,16 @@ double ShadedShare(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunl
   return *count > 0 ? static_cast<double>(shaded) / *count : 0.0;
 }
 
-/// Looks at the places that the model has in the sun.
+/// Looks at the places that the model has in the sun. Of a ground that hardly has a place in the
+/// open its few brightest tell: most of it is as dark as the rest, but not as all the sun.
 void CountShaded(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
                  UnmodelledShade* shade) {
   shade->shaded = ShadedShare(
       cells, sunlit, [](const OpenSurface& surface) { return surface.SunlitLevel(); },
       &shade->sunlit);
+  shade->dim = ShadedShare(
+      cells, sunlit, [](const OpenSurface& surface) { return surface.level; }, &shade->sunlit);
+  if (shade->IsWide()) shade->shaded = std::max(shade->shaded, shade->dim);
 }
 
 /// The darkest places beside their surfaces' open levels.
@@ -184,6 +188,7 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   }
   if (shade.places > 0) shade.edges = static_cast<double>(edges) / shade.places;
   shade.crossed = edges;
+  for (auto& [plane, surface] : sunlit) surface.level = surface.BrightLevel();
   CountShaded(cells, sunlit, &shade);
   CountShadedEdges(cells, sunlit, &shade);
   if ((!shade.Matters() && !shade.HidesEdges()) || meter.places().empty()) return shade;
@@ -194,8 +199,6 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   // Once more, with the levels of surfaces that have no part in the open.
   CountShaded(cells, sunlit, &shade);
   CountShadedEdges(cells, sunlit, &shade);
-  shade.dim = ShadedShare(
-      cells, sunlit, [](const OpenSurface& surface) { return surface.level; }, &shade.sunlit);
   shade.deepest = DeepestPlaces(cells, sunlit);
   if (shade.Matters()) MapSunlight(light, reached, samples, sunlit, &shade);
   return shade;
