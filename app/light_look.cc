@@ -88,6 +88,7 @@ LightLook::LightLook(std::shared_ptr<const compositor::LightSolver> solver,
       camera_(camera),
       scene_(scene),
       overrides_(overrides),
+      time_(time),
       sun_(SunOver(scene.place_time, time)),
       day_(SunlitSky(scene)->ForSun(sun_.ToSun(), sun_.distance_au)),
       samples_(*solver_, camera, print, response),
@@ -117,7 +118,54 @@ void LightLook::SettleAsStated(FoundLight* found) const {
   found->measured.shaded = shade.shaded;
 }
 
-FoundLight LightLook::Settle() const {
+/// Where leaves and the like shade the ground, and whether they shade the print.
+void LightLook::TakeShade(compositor::UnmodelledShade shade, FoundLight* found) const {
+  found->skies.sunlight =
+      std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
+  if (2 * dappled_ > samples_.frames() || shade.ShadesPrint()) {
+    found->skies.print_shade =
+        PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
+  }
+  found->measured.print_shade = std::exp(MeanLog(found->skies.print_shade));
+}
+
+void LightLook::UseHeading(const LightMemory& memory, FoundLight* found) const {
+  const auto known = overrides_.heading_deg ? std::nullopt : memory.Heading(time_);
+  const HeadingOffset offset = known.value_or(HeadingOffset{});
+  found->heading = Radians(scene_.marker.heading.value() + offset.offset.value());
+  found->measured.heading_offset = offset.offset;
+  found->measured.heading_error = offset.error;
+  found->measured.heading_source =
+      known ? MeasuredLight::Source::kMeasured : MeasuredLight::Source::kStated;
+}
+
+compositor::SunSkyReading LightLook::SettleHeading(LightMemory* memory, FoundLight* found) const {
+  devices::MarkerDescription marker = scene_.marker;
+  const Mat3 stated = MarkerFromWorld(marker);
+  LightMemory with_reading = *memory;
+  if (!overrides_.heading_deg) {
+    const Vec3 up = stated * Vec3{0.0, 0.0, 1.0};
+    if (const auto heading =
+            compositor::ReadHeading(*solver_, samples_, up, stated * day_->ToSun().xyz)) {
+      with_reading.AddHeading(WeighedHeading(*heading), time_);
+    }
+  }
+  UseHeading(with_reading, found);
+  marker.heading = found->heading;
+  const compositor::SunSkyReading reading = compositor::ReadSunAndSky(
+      compositor::FindShadowEdges(*solver_, samples_, *day_, MarkerFromWorld(marker)));
+  if (reading.sun == compositor::SunSkyReading::Sun::kShines) {
+    *memory = with_reading;
+  } else {
+    // Without a sun it was not shadows that the heading was read from.
+    UseHeading(*memory, found);
+  }
+  found->measured.edges = reading.edges;
+  found->measured.edges_agreeing = reading.agreeing;
+  return reading;
+}
+
+FoundLight LightLook::Settle(LightMemory* memory) const {
   FoundLight found;
   found.heading = scene_.marker.heading;
   MeasuredLight& light = found.measured;
@@ -126,47 +174,37 @@ FoundLight LightLook::Settle() const {
     SettleAsStated(&found);
     return found;
   }
-  devices::MarkerDescription marker = scene_.marker;
-  const Mat3 stated = MarkerFromWorld(marker);
-  if (!overrides_.heading_deg) {
-    const Vec3 up = stated * Vec3{0.0, 0.0, 1.0};
-    if (const auto heading =
-            compositor::ReadHeading(*solver_, samples_, up, stated * day_->ToSun().xyz)) {
-      WeighHeading(*heading, &light);
-      marker.heading = Radians(found.heading.value() + light.heading_offset.value());
-    }
-  }
-  const compositor::SunSkyReading reading = compositor::ReadSunAndSky(
-      compositor::FindShadowEdges(*solver_, samples_, *day_, MarkerFromWorld(marker)));
-  light.edges = reading.edges;
-  light.edges_agreeing = reading.agreeing;
+  const compositor::SunSkyReading reading = SettleHeading(memory, &found);
   using Sun = compositor::SunSkyReading::Sun;
-  if (reading.sun != Sun::kShines && light.heading_source == MeasuredLight::Source::kMeasured) {
-    // Without a sun it was not shadows that the heading was read from.
-    marker.heading = found.heading;
-    light.heading_offset = light.heading_error = {};
-    light.heading_source = MeasuredLight::Source::kStated;
-  }
-  found.heading = marker.heading;
+  devices::MarkerDescription marker = scene_.marker;
+  marker.heading = found.heading;
   const auto shade_under = [&](LinearRgb sky_scale) {
     return compositor::FindUnmodelledShade(*solver_, samples_, meter_, *day_,
                                            MarkerFromWorld(marker), sky_scale);
   };
-  const auto sky_of = [&](LinearRgb sky_scale) {
-    const LinearRgb share =
-        day_->SkyHorizontalIrradiance() / day_->SunNormalIrradiance() * sky_scale;
-    return SkyWithShare(share, day_->ToSun(), sun_.distance_au);
-  };
   const bool overridden = overrides_.sun_to_sky.has_value();
   if (overridden && *overrides_.sun_to_sky <= 0.0) return found;
-  LinearRgb scale = overridden ? LinearRgb{1, 1, 1} * (SunToSky(*day_) / *overrides_.sun_to_sky)
-                               : reading.sky_scale;
+  LinearRgb scale = reading.sky_scale;
+  const auto known = overridden ? std::nullopt : memory->SkyBesideSun(time_);
+  if (known && reading.sun != Sun::kShines) scale = known->scale;
+  if (overridden) scale = LinearRgb{1, 1, 1} * (SunToSky(*day_) / *overrides_.sun_to_sky);
   compositor::UnmodelledShade shade = shade_under(scale);
   const bool may_shine = MayShine(scene_.cloudiness);
   const auto plane_contrast = [&](const sky::SkyModel& day) {
     return compositor::FindPlaneContrast(*solver_, samples_, day, MarkerFromWorld(marker));
   };
   const auto overcast = OvercastSky();
+  const auto settle_overcast = [&] {
+    light.sun_source = MeasuredLight::Source::kMeasured;
+    found.skies.source = overcast;
+    memory->AddClouds();
+    memory->Keep(light, found.skies);
+    return found;
+  };
+  const auto settle_as_before = [&] {
+    memory->Recall(time_, &light, &found.skies);
+    return found;
+  };
   const auto contrast_under_cloud = [&] {
     return plane_contrast(*overcast->ForSun(sun_.ToSun(), sun_.distance_au));
   };
@@ -179,19 +217,21 @@ FoundLight LightLook::Settle() const {
     if (overridden) return found;
     light.sun_doubtful = shade.CastBySun() || contrast_under_cloud().within > kMostPlaneContrast;
     // Where the sun stands is doubtful, too: what lies in its shade would be a guess.
-    if (light.sun_doubtful) return found;
-    light.sun_source = MeasuredLight::Source::kMeasured;
-    found.skies.source = overcast;
-    return found;
+    if (light.sun_doubtful) return settle_as_before();
+    return settle_overcast();
   }
   // Too few edges to tell, behind a house, say: planes that are lit as no sun would tell as well.
   if (!overridden && may_shine && reading.sun == Sun::kUnknown && !shade.CastBySun() &&
       IsLitByCloudsAlone(contrast_under_cloud(), SunlitContrasts(plane_contrast, *day_))) {
     light.edges_agreeing = 0;
-    light.sun_source = MeasuredLight::Source::kMeasured;
-    found.skies.source = overcast;
-    return found;
+    return settle_overcast();
   }
+  const auto use_sun = [&](const compositor::SunSkyReading& seen) {
+    memory->AddSun(WeighedScale(seen, scene_.cloudiness), time_);
+    const auto with_seen = memory->SkyBesideSun(time_);
+    scale = with_seen->scale;
+    light.sun_to_sky_error = with_seen->relative_error;
+  };
   if (!overridden && reading.sun == Sun::kShines) {
     light.sun_source = MeasuredLight::Source::kMeasured;
     compositor::SunSkyReading edges = reading;
@@ -206,10 +246,10 @@ FoundLight LightLook::Settle() const {
         light.shade_places = depth.agreeing;
       }
     }
-    scale = WeighedScale(edges, scene_.cloudiness, &light.sun_to_sky_error);
+    use_sun(edges);
     if (light.sun_source == MeasuredLight::Source::kShade) shade = shade_under(scale);
   } else if (!overridden) {
-    if (!may_shine || shade.sunlit == 0) return found;
+    if (!may_shine || shade.sunlit == 0) return settle_as_before();
     // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
     const compositor::UnmodelledShade probe = shade_under(kHazierSky);
     const compositor::SunSkyReading depth =
@@ -217,25 +257,22 @@ FoundLight LightLook::Settle() const {
     if (probe.Matters() && depth.sun == Sun::kShines) {
       light.sun_source = MeasuredLight::Source::kShade;
       light.shade_places = depth.agreeing;
-      scale = WeighedScale(depth, scene_.cloudiness, &light.sun_to_sky_error);
+      use_sun(depth);
       shade = shade_under(scale);
     }
   }
-  if (!overridden && light.sun_source == MeasuredLight::Source::kStated) {
-    found.skies = {StatedSky(scene_), {1.0, 1.0, 1.0}, shade.Matters()};
-  } else {
-    const MeasuredSky sky = sky_of(scale);
+  const bool told = overridden || light.sun_source != MeasuredLight::Source::kStated;
+  if (!told && memory->SawClouds()) return settle_as_before();
+  if (!told) memory->RecallReasons(time_, &light);
+  if (told || known) {
+    const MeasuredSky sky = SkyScaledBesideSun(*day_, scale, sun_.distance_au);
     found.skies = {sky.skies, sky.sky_scale, shade.Matters()};
+  } else {
+    found.skies = {StatedSky(scene_), {1.0, 1.0, 1.0}, shade.Matters()};
   }
   light.shaded = shade.shaded;
-  if (!shade.Matters()) return found;
-  found.skies.sunlight =
-      std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
-  if (2 * dappled_ > samples_.frames() || shade.ShadesPrint()) {
-    found.skies.print_shade =
-        PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
-  }
-  light.print_shade = std::exp(MeanLog(found.skies.print_shade));
+  if (shade.Matters()) TakeShade(std::move(shade), &found);
+  if (!overridden) memory->Keep(light, found.skies);
   return found;
 }
 

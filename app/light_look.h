@@ -3,13 +3,16 @@
 #include <cstdint>
 #include <memory>
 
+#include "app/light_memory.h"
 #include "app/measured_sky.h"
 #include "app/scene_light.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/image.h"
 #include "compositor/light_meter.h"
+#include "compositor/shadow_contrast.h"
 #include "compositor/surface_samples.h"
+#include "compositor/unmodelled_shade.h"
 #include "devices/scene_description.h"
 
 namespace pleinair::app {
@@ -18,7 +21,7 @@ namespace pleinair::app {
 struct FoundLight {
   MeasuredLight measured;
   Radians heading;  ///< Of the marker.
-  /// Null source: the frames did not tell, the scene's words hold.
+  /// Null source: no frames have told yet, the scene's words hold.
   DaySkies skies;
 };
 
@@ -34,10 +37,15 @@ class LightLook {
   void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker);
   int frames() const { return samples_.frames(); }
 
-  /// Draws the conclusions, as far as the overrides leave any. Takes a second or two.
-  FoundLight Settle() const;
+  /// Draws the conclusions, as far as the overrides leave any. Takes a second or two. `memory`:
+  /// of earlier looks in the same scene, whose readings count as well; gets this look's.
+  FoundLight Settle(LightMemory* memory) const;
 
  private:
+  /// The heading, with what it makes of the shadows' edges.
+  compositor::SunSkyReading SettleHeading(LightMemory* memory, FoundLight* found) const;
+  void TakeShade(compositor::UnmodelledShade shade, FoundLight* found) const;
+  void UseHeading(const LightMemory& memory, FoundLight* found) const;
   /// Where nothing is to be measured: whether anything but phantoms shades the ground all the same.
   void SettleAsStated(FoundLight* found) const;
 
@@ -45,6 +53,7 @@ class LightLook {
   CameraModel camera_;
   devices::SceneDescription scene_;
   LightOverrides overrides_;
+  UtcTime time_;
   sky::SunPosition sun_;
   std::unique_ptr<sky::SkyModel> day_;  // With a sun, whatever the scene says.
   compositor::SurfaceSamples samples_;

@@ -105,8 +105,12 @@ MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double
   return measured;
 }
 
-LinearRgb WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated,
-                       double* relative_error) {
+MeasuredSky SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double sun_distance_au) {
+  const LinearRgb share = day.SkyHorizontalIrradiance() / day.SunNormalIrradiance();
+  return SkyWithShare(share * scale, day.ToSun(), sun_distance_au);
+}
+
+SkyScale WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated) {
   const LinearRgb& s = reading.sky_scale;
   const double log_r = std::log(s.r), log_g = std::log(s.g), log_b = std::log(s.b);
   // Rec.709's weights, as everywhere for luminance.
@@ -117,18 +121,18 @@ LinearRgb WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudi
   const double doubt = DoubtOf(stated);
   const double mean = log_mean * share(doubt, reading.log_uncertainty);
   const double color = share(kModelColorDoubt, kMeasuredColorDoubt);
-  *relative_error = reading.log_uncertainty * std::sqrt(share(doubt, reading.log_uncertainty));
-  return {std::exp(mean + color * (log_r - log_mean)), std::exp(mean + color * (log_g - log_mean)),
-          std::exp(mean + color * (log_b - log_mean))};
+  return {
+      {std::exp(mean + color * (log_r - log_mean)), std::exp(mean + color * (log_g - log_mean)),
+       std::exp(mean + color * (log_b - log_mean))},
+      reading.log_uncertainty * std::sqrt(share(doubt, reading.log_uncertainty))};
 }
 
-void WeighHeading(const compositor::HeadingReading& reading, MeasuredLight* light) {
+HeadingOffset WeighedHeading(const compositor::HeadingReading& reading) {
   const double measured = ToDegrees(reading.uncertainty);
   const double trust = kHeadingDoubtDeg * kHeadingDoubtDeg /
                        (kHeadingDoubtDeg * kHeadingDoubtDeg + measured * measured);
-  light->heading_offset = FromDegrees(ToDegrees(reading.offset) * trust);
-  light->heading_error = FromDegrees(measured * std::sqrt(trust));
-  light->heading_source = MeasuredLight::Source::kMeasured;
+  return {FromDegrees(ToDegrees(reading.offset) * trust),
+          FromDegrees(measured * std::sqrt(trust))};
 }
 
 }  // namespace pleinair::app

@@ -64,14 +64,26 @@ std::shared_ptr<const sky::SkySource> OvercastSky();
 /// surface facing it: haze and then clouds are added until the luminances agree, so that the shape
 /// of the sky follows; what a channel still lacks goes into `sky_scale`.
 MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au);
+/// The same, of a day's model with the sky so much stronger beside the sun.
+MeasuredSky SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double sun_distance_au);
 
-/// A measured scale of the sky's light beside the sun, weighed against how sure the scene's words
-/// are.
-LinearRgb WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated,
-                       double* relative_error);
+/// How much stronger the sky is beside the sun than SunlitSky() has it.
+struct SkyScale {
+  LinearRgb scale{1.0, 1.0, 1.0};
+  double relative_error = 0.0;  ///< One standard deviation.
+};
+
+/// A measured scale, weighed against how sure the scene's words are.
+SkyScale WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated);
+
+/// What is to be added to a stated heading.
+struct HeadingOffset {
+  Radians offset;
+  Radians error;  ///< One standard deviation.
+};
 
 /// A measured turn of the heading, weighed against a compass.
-void WeighHeading(const compositor::HeadingReading& reading, MeasuredLight* light);
+HeadingOffset WeighedHeading(const compositor::HeadingReading& reading);
 
 /// Sun on level ground over sky.
 double SunToSky(const sky::SkyModel& day);

@@ -109,7 +109,8 @@ void SceneRenderer::LookAtLight(ImageView<const std::uint8_t> rgb,
 
 void SceneRenderer::SettleLight() {
   if (!look_) return;
-  const FoundLight found = look_->Settle();
+  LightMemory of_no_other_look;
+  const FoundLight found = look_->Settle(&of_no_other_look);
   look_.reset();
   summary_.measured = found.measured;
   scene_.marker.heading = found.heading;

@@ -206,7 +206,7 @@ void LiveLight::Look(const Shown& shown, const Wanted& wanted) {
     progress_.measuring = true;
   }
   if (look_->frames() < kLightFrames) return;
-  const FoundLight found = look_->Settle();
+  const FoundLight found = look_->Settle(&memory_);
   look_.reset();
   found_skies_ = found.skies;
   heading_ = found.heading;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/light_look.h"
+#include "app/light_memory.h"
 #include "app/scene_edit.h"
 #include "app/scene_light.h"
 #include "base/camera_model.h"
@@ -25,7 +26,8 @@ namespace pleinair::app {
 /// of sun and sky. The first lights are traced with few rays; meanwhile daylight coefficients are
 /// computed, from which each further light takes milliseconds. A moved object begins this anew;
 /// until its next light is there it is drawn with the last. Then the frames are looked at for
-/// the phantoms' shadows, as replay does, and again every minute.
+/// the phantoms' shadows, as replay does, and again every minute; LightMemory has what they tell
+/// together.
 class LiveLight {
  public:
   struct Setup {
@@ -102,6 +104,7 @@ class LiveLight {
   std::shared_ptr<const compositor::LightSolver> wanted_for_;  // Their scene, ordered.
   DaySkies skies_;
   std::optional<SceneEdit::Sky> skies_of_;  // The edit's air that they were made for.
+  LightMemory memory_;  // Of the looks so far; heading and skies are its last conclusions.
   DaySkies found_skies_;
   Radians heading_;
   std::unique_ptr<LightLook> look_;

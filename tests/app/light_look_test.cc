@@ -34,7 +34,8 @@ FoundLight Settle(double off_deg, const PhotographedYard::Light& light,
   const std::shared_ptr<const compositor::LightSolver> solver(&yard.solver(), [](const auto*) {});
   LightLook look(solver, yard.camera(), yard.print(), scene, overrides, time, {});
   for (const int i : {0, 1}) look.Add(yard.Photograph(i, light).view(), PhotographedYard::Pose(i));
-  return look.Settle();
+  LightMemory memory;
+  return look.Settle(&memory);
 }
 
 LightOverrides SunToSkyOf(double ratio) {
