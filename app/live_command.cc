@@ -17,6 +17,7 @@
 
 #include "app/command.h"
 #include "app/interrupt.h"
+#include "app/light_options.h"
 #include "app/live/live_messages.h"
 #include "app/live/live_report.h"
 #include "app/live/live_session.h"
@@ -60,7 +61,7 @@ struct Arguments {
   std::string output;
   std::vector<std::string> exports;
   std::optional<double> report_every_s;
-  std::string light = "measured";
+  LightOptions light;
   std::optional<double> seconds, rate_hz, exposure_s, gain, white_balance_k, focus;
   bool headless = false, lossless = false, loop = false, json = false, lock = false;
   bool shadow_debug = false;
@@ -92,6 +93,9 @@ std::vector<devices::ControlWish> ControlsOf(const Arguments& arguments) {
 Result<void> CheckOptions(const CLI::App& command, const Arguments& arguments, bool is_file) {
   constexpr const char* kCameras = "cameras, not to recordings";
   constexpr const char* kWindow = "the window";
+  constexpr const char* kCoefficients =
+      "daylight coefficients, which --lossless has with --light-cache alone";
+  const bool coefficients = !arguments.lossless || !arguments.light.cache.empty();
   PLEINAIR_RETURN_IF_ERROR(RefuseUnusedOptions(
       command, {{"--format", !is_file, kCameras},
                 {"--lock", !is_file, kCameras},
@@ -100,11 +104,14 @@ Result<void> CheckOptions(const CLI::App& command, const Arguments& arguments, b
                 {"--hold-white-balance", !is_file, kCameras},
                 {"--hold-focus", !is_file, kCameras},
                 {"--loop", is_file, "recordings"},
+                {"--sky-division", coefficients, kCoefficients},
+                {"--convergence", coefficients, kCoefficients},
                 {"--rate", !arguments.lossless, "sessions at a camera's pace, without --lossless"},
                 {"--window", !arguments.headless, kWindow},
                 {"--ui-scale", !arguments.headless, kWindow},
                 {"--pictures", !arguments.headless, kWindow},
                 {"--screenshot", arguments.headless, "--headless; in the window press Ctrl+S"}}));
+  PLEINAIR_RETURN_IF_ERROR(CheckLightCache(arguments.light.cache));
   if (arguments.screenshot.empty()) return {};
   const std::filesystem::path folder = std::filesystem::path(arguments.screenshot).parent_path();
   std::error_code error;
@@ -208,6 +215,7 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   options.camera = source.lens;
   options.scene = scene;
   options.drawing.show_shadow_maps = arguments.shadow_debug;
+  options.convergence = arguments.light.convergence;
   options.live_camera = source.camera;
   options.seconds = arguments.seconds;
   options.ui_scale = arguments.ui_scale;
@@ -256,11 +264,11 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   KeepNoFreedPictures();
   LiveOptions options;
   options.camera = source.lens;
-  options.scene = *source.scene;
+  options.light = arguments.light;
+  options.scene = WithGiven(*source.scene, arguments.light);
   options.composer.show_shadow_maps = arguments.shadow_debug;
-  const devices::SceneDescription scene = *source.scene;
+  const devices::SceneDescription scene = options.scene;
   options.shown_elsewhere = !arguments.headless;
-  options.light.as_stated = arguments.light == "stated";
   options.lossless = arguments.lossless;
   PLEINAIR_ASSIGN_OR_RETURN(options.start, StartOf(arguments, source));
   if (!arguments.record.empty()) options.record = arguments.record;
@@ -285,6 +293,9 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   session->Stop();
   if (const auto interval = report.Finish(*session)) Tell(*interval, arguments.json);
   Tell(session->statistics(), arguments.json);
+  if (session->FailedToKeepLight()) {
+    std::cerr << "warning: " << CouldNotKeepLight(arguments.light.cache) << '\n';
+  }
   if (!last) return tl::make_unexpected(last.error());
   if (!arguments.screenshot.empty()) {
     if (last->empty()) {
@@ -336,12 +347,7 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                    "Default: 60 with --json, else 0")
       ->check(NumberRange(0.0, 1e9));
   command->add_option("--screenshot", a.screenshot, "At the end, write the last picture as PNG");
-  command
-      ->add_option("--light", a.light,
-                   "measured: sun, sky and heading from the shadows that phantoms cast; stated: as "
-                   "the scene says")
-      ->check(CLI::IsMember({"measured", "stated"}))
-      ->capture_default_str();
+  AddLightOptions(*command, a.light);
   command->add_flag("--shadow-debug", a.shadow_debug,
                     "Tint what each partition of the shadow maps serves and show the maps (in the "
                     "window: M)");

@@ -110,6 +110,15 @@ MeasuredSky SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double
   return SkyWithShare(share * scale, day.ToSun(), sun_distance_au);
 }
 
+std::optional<MeasuredSky> GivenSky(const devices::SceneDescription& scene,
+                                    const LightOverrides& overrides, const sky::SunPosition& sun) {
+  if (!overrides.sun_to_sky) return std::nullopt;
+  if (*overrides.sun_to_sky <= 0.0 || sun.ToSun().xyz.z <= 0.0) return MeasuredSky{OvercastSky()};
+  const auto day = SunlitSky(scene)->ForSun(sun.ToSun(), sun.distance_au);
+  const double scale = SunToSky(*day) / *overrides.sun_to_sky;
+  return SkyScaledBesideSun(*day, {scale, scale, scale}, sun.distance_au);
+}
+
 SkyScale WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated) {
   const LinearRgb& s = reading.sky_scale;
   const double log_r = std::log(s.r), log_g = std::log(s.g), log_b = std::log(s.b);
@@ -121,18 +130,16 @@ SkyScale WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudin
   const double doubt = DoubtOf(stated);
   const double mean = log_mean * share(doubt, reading.log_uncertainty);
   const double color = share(kModelColorDoubt, kMeasuredColorDoubt);
-  return {
-      {std::exp(mean + color * (log_r - log_mean)), std::exp(mean + color * (log_g - log_mean)),
-       std::exp(mean + color * (log_b - log_mean))},
-      reading.log_uncertainty * std::sqrt(share(doubt, reading.log_uncertainty))};
+  return {{std::exp(mean + color * (log_r - log_mean)), std::exp(mean + color * (log_g - log_mean)),
+           std::exp(mean + color * (log_b - log_mean))},
+          reading.log_uncertainty * std::sqrt(share(doubt, reading.log_uncertainty))};
 }
 
 HeadingOffset WeighedHeading(const compositor::HeadingReading& reading) {
   const double measured = ToDegrees(reading.uncertainty);
   const double trust = kHeadingDoubtDeg * kHeadingDoubtDeg /
                        (kHeadingDoubtDeg * kHeadingDoubtDeg + measured * measured);
-  return {FromDegrees(ToDegrees(reading.offset) * trust),
-          FromDegrees(measured * std::sqrt(trust))};
+  return {FromDegrees(ToDegrees(reading.offset) * trust), FromDegrees(measured * std::sqrt(trust))};
 }
 
 }  // namespace pleinair::app

@@ -10,6 +10,7 @@
 #include "compositor/shadow_heading.h"
 #include "devices/scene_description.h"
 #include "sky/sky_model.h"
+#include "sky/sun_position.h"
 
 namespace pleinair::app {
 
@@ -66,6 +67,10 @@ std::shared_ptr<const sky::SkySource> OvercastSky();
 MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au);
 /// The same, of a day's model with the sky so much stronger beside the sun.
 MeasuredSky SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double sun_distance_au);
+
+/// The sky that the user gives for a sun; nothing where he says nothing of it.
+std::optional<MeasuredSky> GivenSky(const devices::SceneDescription& scene,
+                                    const LightOverrides& overrides, const sky::SunPosition& sun);
 
 /// How much stronger the sky is beside the sun than SunlitSky() has it.
 struct SkyScale {

@@ -59,8 +59,7 @@ class Replayer {
       return InputError(options_.recording.string(), "has no scene",
                         "write one (docs/formats.md) and give it with --scene");
     }
-    scene_ = *recording.scene;
-    if (!options_.camera_response.empty()) scene_.camera_response = options_.camera_response;
+    scene_ = WithGiven(*recording.scene, options_.light);
     report_.recording = options_.recording.string();
     report_.command = options_.command;
     report_.version = PLEINAIR_VERSION;
@@ -92,9 +91,6 @@ class Replayer {
     // Models are loaded before a long search for markers begins: their errors come at once.
     PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_,
                                                                options_.composer, options_.light));
-    if (!options_.light_cache.empty()) renderer_->KeepLightIn(options_.light_cache);
-    renderer_->FollowLight(options_.sky_division, options_.convergence);
-    renderer_->MatchLook(options_.match_look);
     PLEINAIR_RETURN_IF_ERROR(SeekMarkers(std::move(recording), **tracker));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
@@ -180,7 +176,7 @@ class Replayer {
   /// Before frames are composed, so that it has a bar of its own.
   Result<void> TraceLight() {
     if (report_.path.empty() || scene_.objects.empty()) return {};
-    if (!options_.light_cache.empty()) {
+    if (!options_.light.cache.empty()) {
       times_.Measure("trace light", [&] { return renderer_->Coefficients() != nullptr; });
     }
     const ProgressBar bar("Tracing light", 1, "sun");
@@ -271,7 +267,7 @@ class Replayer {
 
   Result<RgbImage> Render(const devices::Frame& frame, const Observation& seen) {
     compositor::PrintCover cover;
-    if (options_.hands_in_front) cover = CoverOf(scene_.marker, *report_.anchor, seen);
+    if (options_.light.hands_in_front) cover = CoverOf(scene_.marker, *report_.anchor, seen);
     auto composed =
         renderer_->Render(frame.rgb.view(), seen.camera_from_marker, MomentOf(frame), cover);
     if (scene_.objects.empty()) return composed;
@@ -341,10 +337,7 @@ class Replayer {
 
   Result<void> WriteReports() {
     if (renderer_->FailedToKeepLight()) {
-      report_.warnings.push_back(
-          fmt::format("The daylight coefficients could not be written to {}: the next replay will "
-                      "trace them again.",
-                      options_.light_cache.string()));
+      report_.warnings.push_back(CouldNotKeepLight(options_.light.cache));
     }
     if (report_.light) {
       for (std::string& sentence : LightWarnings(*report_.light)) {
@@ -376,13 +369,6 @@ class Replayer {
   ReplayReport report_;
 };
 
-/// Daylight coefficients are kept in a folder.
-Result<void> CheckLightCache(const fs::path& cache) {
-  std::error_code error;
-  if (cache.empty() || fs::is_directory(cache, error) || !fs::exists(cache, error)) return {};
-  return InputError(cache.string(), "is no folder", "name one for --light-cache, or a new name");
-}
-
 /// Outputs must not replace what is being read.
 Result<void> CheckOutputIsApart(const ReplayOptions& options) {
   std::error_code error;
@@ -402,7 +388,7 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   if (!fs::exists(options.recording, error)) {
     return InputError(options.recording.string(), "does not exist", "check the name");
   }
-  PLEINAIR_RETURN_IF_ERROR(CheckLightCache(options.light_cache));
+  PLEINAIR_RETURN_IF_ERROR(CheckLightCache(options.light.cache));
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.output));
   return Replayer(options, std::move(folder)).Run();

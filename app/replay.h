@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "app/measured_sky.h"
+#include "app/light_options.h"
 #include "app/paths/path_files.h"
 #include "app/picture_size.h"
 #include "app/sinks/report.h"
@@ -24,13 +24,7 @@ struct ReplayOptions {
   bool write_video = true;
   std::set<PathFormat> exports;  ///< Forms of the path besides TUM.
   compositor::ComposerOptions composer;
-  LightOverrides light;
-  bool match_look = true;                 ///< Drawn pixels get the frames' blur and grain.
-  bool hands_in_front = false;            ///< What covers the marker is before the virtual objects.
-  std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as the scene says.
-  std::filesystem::path light_cache;      ///< Folder for daylight coefficients; empty: without.
-  int sky_division = 1;             ///< Of Tregenza's patches: compositor::CoefficientOptions.
-  double convergence = 0.01;        ///< The same.
+  LightOptions light;
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
   std::optional<TimeLapseOptions> time_lapse;  ///< A day of the scene besides.
   std::string command;                         ///< For the report.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/light_options.h"
 #include "app/number_range.h"
 #include "app/option_use.h"
 #include "app/replay.h"
@@ -47,13 +48,13 @@ constexpr const char* kExamples =
 /// As the parser filled it in.
 struct Arguments {
   ReplayOptions options;
-  std::string recording, output, scene, calibration, response, size, shader_directory;
+  std::string recording, output, scene, calibration, size, shader_directory;
   std::vector<std::string> exports;
   std::vector<double> fog;
   std::string time_lapse, every = "10min";
   std::optional<std::int64_t> time_lapse_frame;
   std::vector<int> shadow_sizes;
-  std::string shadows = "disc", light = "measured", look = "matched";
+  std::string shadows = "disc";
   bool no_video = false;
   bool json = false;
 };
@@ -81,31 +82,27 @@ std::string CommandText(const Arguments& arguments) {
       "pleinair replay " + Quoted(arguments.recording) + " -o " + Quoted(arguments.output);
   if (!arguments.scene.empty()) text += " --scene " + Quoted(arguments.scene);
   if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
-  if (!arguments.response.empty()) text += " --response " + Quoted(arguments.response);
+  const LightOptions& light = arguments.options.light;
+  if (!light.camera_response.empty()) {
+    text += " --response " + Quoted(light.camera_response.string());
+  }
   if (arguments.options.write_frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
   for (std::size_t i = 0; i < arguments.exports.size(); ++i) {
     text += (i == 0 ? " --export " : ",") + arguments.exports[i];
   }
-  if (!arguments.options.light_cache.empty()) {
-    text += " --light-cache " + Quoted(arguments.options.light_cache.string());
+  if (!light.cache.empty()) text += " --light-cache " + Quoted(light.cache.string());
+  if (light.sky_division != 1) text += fmt::format(" --sky-division {}", light.sky_division);
+  if (light.convergence != LightOptions{}.convergence) {
+    text += fmt::format(" --convergence {}", light.convergence);
   }
-  if (const int division = arguments.options.sky_division; division != 1) {
-    text += fmt::format(" --sky-division {}", division);
-  }
-  if (const double convergence = arguments.options.convergence;
-      convergence != ReplayOptions{}.convergence) {
-    text += fmt::format(" --convergence {}", convergence);
-  }
-  if (const auto& patches = arguments.options.light.max_patches) {
-    text += " --light-patches " + std::to_string(*patches);
-  }
-  if (arguments.light != "measured") text += " --light " + arguments.light;
-  if (arguments.look != "matched") text += " --look " + arguments.look;
-  if (arguments.options.hands_in_front) text += " --hands";
-  const LightOverrides& light = arguments.options.light;
-  if (light.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *light.sun_to_sky);
-  if (light.heading_deg) text += fmt::format(" --heading {}", *light.heading_deg);
+  const LightOverrides& given = light.overrides;
+  if (given.max_patches) text += " --light-patches " + std::to_string(*given.max_patches);
+  if (given.as_stated) text += " --light stated";
+  if (!light.match_look) text += " --look clean";
+  if (light.hands_in_front) text += " --hands";
+  if (given.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *given.sun_to_sky);
+  if (given.heading_deg) text += fmt::format(" --heading {}", *given.heading_deg);
   if (arguments.shadows != "disc") text += " --shadows " + arguments.shadows;
   const int partitions = arguments.options.composer.shadow_partitions;
   if (partitions != compositor::ComposerOptions{}.shadow_partitions) {
@@ -140,7 +137,7 @@ std::string CommandText(const Arguments& arguments) {
 Result<void> Run(const CLI::App& command, Arguments& arguments) {
   ReplayOptions& options = arguments.options;
   constexpr const char* kCoefficients = "daylight coefficients (--light-cache or --time-lapse)";
-  const bool coefficients = !options.light_cache.empty() || !arguments.time_lapse.empty();
+  const bool coefficients = !options.light.cache.empty() || !arguments.time_lapse.empty();
   PLEINAIR_RETURN_IF_ERROR(
       RefuseUnusedOptions(command, {{"--sky-division", coefficients, kCoefficients},
                                     {"--convergence", coefficients, kCoefficients}}));
@@ -148,8 +145,6 @@ Result<void> Run(const CLI::App& command, Arguments& arguments) {
   options.output = arguments.output;
   if (!arguments.scene.empty()) options.scene = arguments.scene;
   if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
-  options.camera_response = arguments.response;
-  options.match_look = arguments.look == "matched";
   if (!arguments.size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize("--size", arguments.size));
   }
@@ -161,7 +156,6 @@ Result<void> Run(const CLI::App& command, Arguments& arguments) {
   for (const std::string& name : arguments.exports) {
     options.exports.insert(PathFormatNamed(name).value());
   }
-  options.light.as_stated = arguments.light == "stated";
   options.composer.shadow_method = ShadowMethodsByName().at(arguments.shadows);
   if (!arguments.shader_directory.empty()) {
     gl::ShaderLibrary::SetOverrideDirectory(arguments.shader_directory);
@@ -211,8 +205,6 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
                       "Scene file (TOML or JSON) instead of the recording's own");
   command->add_option("--calibration", arguments->calibration,
                       "Calibration of the lens (own JSON, OpenCV, ROS or Kalibr YAML)");
-  command->add_option("--response", arguments->response,
-                      "Response of the camera (docs/formats.md) instead of the scene's or sRGB");
   command->add_flag("--frames", arguments->options.write_frames,
                     "Also write every frame as a PNG picture");
   command
@@ -223,52 +215,7 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
       ->check(CLI::IsMember({"gltf", "colmap", "colmap-binary", "euroc", "mcap"}))
       ->type_name("FORM,...");
   command->add_option("--size", arguments->size, "Size of the output, WIDTHxHEIGHT in pixels");
-  command
-      ->add_option("--light", arguments->light,
-                   "measured: sun, sky and heading from the shadows that phantoms cast in the "
-                   "frames; stated: as the scene says")
-      ->check(CLI::IsMember({"measured", "stated"}))
-      ->capture_default_str();
-  command->add_option(
-      "--light-cache", arguments->options.light_cache,
-      "Folder for daylight coefficients: traced once for a scene, then any moment's "
-      "light takes milliseconds; for long days and for trying out");
-  command
-      ->add_option("--sky-division", arguments->options.sky_division,
-                   "Daylight coefficients (of --light-cache and --time-lapse) of Tregenza's 145 "
-                   "patches of the sky: 1; or of Reinhart's finer ones, each divided by 2, 3 or 4 "
-                   "a side: sharper reflections of the sun; memory and time grow by the square")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
-  command
-      ->add_option("--convergence", arguments->options.convergence,
-                   "Daylight coefficients: reflections are followed until the last adds less than "
-                   "this share of all light")
-      ->check(NumberRange(0.0001, 0.2))
-      ->capture_default_str();
-  command
-      ->add_option("--light-patches", arguments->options.light.max_patches,
-                   "Places where light is gathered, at most; models of more vertices share it by "
-                   "patches. More are finer and slower [100000]")
-      ->check(CLI::Range(1'000, 10'000'000));
-  command
-      ->add_option("--sun-to-sky", arguments->options.light.sun_to_sky,
-                   "The sun's light on level ground over the sky's, instead of measuring it: 4 on "
-                   "a clear noon, 0.5 in thick haze, 0 where no sun shines")
-      ->check(NumberRange(0.0, kHighestSunToSky));
-  command
-      ->add_option("--heading", arguments->options.light.heading_deg,
-                   "Heading of the marker in degrees, instead of the scene's, and not refined")
-      ->check(NumberRange(-360.0, 360.0));
-  command
-      ->add_option("--look", arguments->look,
-                   "matched: drawn pixels get the blur and the grain of the frames', measured on "
-                   "the marker; clean: they stay as sharp as they are drawn")
-      ->check(CLI::IsMember({"matched", "clean"}))
-      ->capture_default_str();
-  command->add_flag("--hands", arguments->options.hands_in_front,
-                    "What covers part of the marker (S-G markers and picture targets) is before "
-                    "the virtual objects, as far as its colour tells where it ends");
+  AddLightOptions(*command, arguments->options.light);
   command
       ->add_option("--shadows", arguments->shadows,
                    "How shadows' edges are made: disc (the sun's own width), gaussian (the paper's "

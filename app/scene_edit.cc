@@ -34,8 +34,9 @@ Mat3 LinearOf(const ObjectPlace& place) {
 }
 
 SceneEdit UneditedScene(const devices::SceneDescription& scene,
-                        const compositor::ComposerOptions& drawing) {
+                        const compositor::ComposerOptions& drawing, double convergence) {
   SceneEdit edit;
+  edit.convergence = convergence;
   edit.latitude_deg = scene.place_time.latitude_deg;
   edit.longitude_deg = scene.place_time.longitude_deg;
   edit.drawing = drawing;

@@ -49,7 +49,8 @@ struct SceneEdit {
 
 /// The scene as it is described.
 SceneEdit UneditedScene(const devices::SceneDescription& scene,
-                        const compositor::ComposerOptions& drawing);
+                        const compositor::ComposerOptions& drawing,
+                        double convergence = SceneEdit{}.convergence);
 
 /// A description with an edit's places of objects, heading and place; the sky in words stays.
 devices::SceneDescription WithEdit(const devices::SceneDescription& scene, const SceneEdit& edit);

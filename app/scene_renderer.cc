@@ -60,10 +60,9 @@ SceneRenderer::~SceneRenderer() = default;
 
 Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     const CameraModel& camera, const devices::SceneDescription& scene,
-    const compositor::ComposerOptions& options, const LightOverrides& overrides) {
+    const compositor::ComposerOptions& options, const LightOptions& light) {
   std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
-  renderer->overrides_ = overrides;
-  if (overrides.heading_deg) renderer->scene_.marker.heading = FromDegrees(*overrides.heading_deg);
+  renderer->options_ = light;
   std::vector<compositor::PlacedModel>& placed = renderer->placed_;
   for (const devices::ModelReference& phantom : scene.phantoms) {
     PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(phantom, true));
@@ -84,7 +83,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
                             compositor::Composer::Create(camera, placed, composing));
   compositor::LightSolverOptions solving;
-  solving.max_patches = overrides.max_patches.value_or(solving.max_patches);
+  solving.max_patches = light.overrides.max_patches.value_or(solving.max_patches);
   PLEINAIR_ASSIGN_OR_RETURN(renderer->solver_, compositor::LightSolver::Create(placed, solving));
   return renderer;
 }
@@ -101,8 +100,8 @@ bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phanto
 void SceneRenderer::LookAtLight(ImageView<const std::uint8_t> rgb,
                                 const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
   if (!look_) {
-    look_ =
-        std::make_unique<LightLook>(solver_, camera_, print_, scene_, overrides_, time, response_);
+    look_ = std::make_unique<LightLook>(solver_, camera_, print_, scene_, options_.overrides, time,
+                                        response_);
   }
   look_->Add(rgb, camera_from_marker);
 }
@@ -121,24 +120,15 @@ void SceneRenderer::SettleLight() {
 void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
   MeasuredLight& light = summary_.measured;
   light.sun_to_sky_stated = SunToSky(*StatedSky(scene_)->ForSun(sun.ToSun(), sun.distance_au));
-  if (overrides_.heading_deg) {
+  if (options_.overrides.heading_deg) {
     light.heading_source = MeasuredLight::Source::kOverride;
   }
-  if (!overrides_.sun_to_sky) return;
+  const auto given = GivenSky(scene_, options_.overrides, sun);
+  if (!given) return;
   light.sun_source = MeasuredLight::Source::kOverride;
-  const double wanted = *overrides_.sun_to_sky;
-  const Vec3 to_sun = sun.ToSun().xyz;
-  if (wanted <= 0.0 || to_sun.z <= 0.0) {
-    skies_ = {OvercastSky()};
-    return;
-  }
-  const auto day = SunlitSky(scene_)->ForSun(sun.ToSun(), sun.distance_au);
-  const LinearRgb share = day->SkyHorizontalIrradiance() / day->SunNormalIrradiance();
-  const MeasuredSky measured =
-      SkyWithShare(share * (SunToSky(*day) / wanted), sun.ToSun(), sun.distance_au);
   // What lies in the shade of trees was looked for under this sky.
-  skies_.source = measured.skies;
-  skies_.scale = measured.sky_scale;
+  skies_.source = given->skies;
+  skies_.scale = given->sky_scale;
 }
 
 std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficients() {
@@ -150,9 +140,9 @@ std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficie
     for (; done < static_cast<int>(share * kSteps); ++done) bar.Advance();
   };
   compositor::CoefficientOptions options;
-  options.cache = light_cache_;
-  options.division = sky_division_;
-  options.convergence = convergence_;
+  options.cache = options_.cache;
+  options.division = options_.sky_division;
+  options.convergence = options_.convergence;
   coefficients_ = std::make_shared<const compositor::DaylightCoefficients>(solver_->Coefficients(
       MarkerFromWorld(scene_.marker) * Vec3{0.0, 0.0, 1.0}, options, advance));
   return coefficients_;
@@ -240,7 +230,7 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   summary_.sun = SunOver(scene_.place_time, time);
   if (!lit_) OverrideLight(summary_.sun);
   if (!light_from_outside_ && !(lit_ && IsNearSun(lit_->sun, summary_.sun))) {
-    if (!light_cache_.empty()) Coefficients();
+    if (!options_.cache.empty()) Coefficients();
     return TakeLight(std::make_shared<const SceneLight>(OrderLight(time)));
   }
   const auto model = skies_.source->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);
@@ -272,7 +262,7 @@ void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
 Result<void> SceneRenderer::UpdateLook(ImageView<const std::uint8_t> rgb,
                                        const Transform<Camera, Marker>& camera_from_marker) {
   using compositor::PictureLook;
-  if (!match_look_ || frames_to_look_-- > 0) return {};
+  if (!options_.match_look || frames_to_look_-- > 0) return {};
   const auto seen =
       compositor::MeasurePictureLook(rgb, camera_, camera_from_marker, print_, response_);
   if (!seen) return {};

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "app/gain_history.h"
 #include "app/light_look.h"
+#include "app/light_options.h"
 #include "app/measured_sky.h"
 #include "app/scene_edit.h"
 #include "app/scene_light.h"
@@ -66,25 +66,16 @@ class SceneRenderer {
 
   /// Loads the scene's models and prepares their light. Without virtual objects nothing is drawn
   /// and no OpenGL is needed.
+  /// With a cache the light among surfaces comes from daylight coefficients that are kept there:
+  /// slow once, with a bar, then some milliseconds for any moment. `scene`: with what the light
+  /// options give of it (WithGiven()).
   static Result<std::unique_ptr<SceneRenderer>> Create(const CameraModel& camera,
                                                        const devices::SceneDescription& scene,
                                                        const compositor::ComposerOptions& options,
-                                                       const LightOverrides& overrides = {});
+                                                       const LightOptions& light = {});
 
-  /// From now on the light among surfaces comes from daylight coefficients that are kept in a
-  /// folder: slow once, then some milliseconds for any moment. Shows a bar while it computes.
-  void KeepLightIn(const std::filesystem::path& folder) { light_cache_ = folder; }
-  /// Whether coefficients were computed for that folder which could not be written there.
+  /// Whether coefficients were computed for the cache which could not be written there.
   bool FailedToKeepLight() const { return coefficients_ && !coefficients_->kept; }
-
-  /// How finely and how far daylight coefficients follow light: compositor::CoefficientOptions.
-  void FollowLight(int sky_division, double convergence) {
-    sky_division_ = sky_division;
-    convergence_ = convergence;
-  }
-
-  /// Whether drawn pixels get the blur and the grain of the camera's (the default).
-  void MatchLook(bool match) { match_look_ = match; }
 
   /// Which print the frames show, before the first is rendered: it is the light meter. With light
   /// that is made elsewhere it counts from the next on.
@@ -107,7 +98,7 @@ class SceneRenderer {
   LightOrder OrderLight(UtcTime time) const;
 
   /// Where each surface's light comes from, once for all skies: traced on the first call, with a
-  /// bar, or read from the folder of KeepLightIn(). Not where there is nothing to draw.
+  /// bar, or read from the cache. Not where there is nothing to draw.
   std::shared_ptr<const compositor::DaylightCoefficients> Coefficients();
 
   /// Makes the light of a moment that Render() would make for its first frame.
@@ -157,11 +148,8 @@ class SceneRenderer {
   CameraResponse response_;
   devices::SceneDescription scene_;
   compositor::MarkerPrint print_;
-  LightOverrides overrides_;
+  LightOptions options_;  // Without a cache rays are traced for every place of the sun.
   DaySkies skies_;
-  std::filesystem::path light_cache_;  // Empty: rays are traced for every place of the sun.
-  int sky_division_ = 1;
-  double convergence_ = 0.01;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
   std::unique_ptr<LightLook> look_;  // What was seen of the light so far.
   std::vector<compositor::PlacedModel> placed_;
@@ -175,7 +163,6 @@ class SceneRenderer {
   bool light_from_outside_ = false;
   GainHistory gains_;
   LinearRgb guessed_gain_;
-  bool match_look_ = true;
   int frames_to_look_ = 0;  // Until the blur is measured again.
   std::deque<compositor::PictureLook> recent_looks_;
   LightSummary summary_;

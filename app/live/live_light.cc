@@ -37,7 +37,9 @@ LiveLight::LiveLight(Setup setup)
     : setup_(std::move(setup)),
       heading_(setup_.scene.marker.heading),
       wanted_{setup_.edit, setup_.time, {}},
-      next_look_(setup_.time) {}
+      next_look_(setup_.time) {
+  UseGivenSky(setup_.time, &setup_.skies);
+}
 
 Result<std::unique_ptr<LiveLight>> LiveLight::Create(Setup setup) {
   std::unique_ptr<LiveLight> light(new LiveLight(std::move(setup)));
@@ -130,7 +132,7 @@ Result<void> LiveLight::Place(const std::vector<ObjectPlace>& objects) {
   }
   compositor::LightSolverOptions options;
   options.rays_per_vertex = kFewRays;
-  options.max_patches = setup_.overrides.max_patches.value_or(options.max_patches);
+  options.max_patches = setup_.light.overrides.max_patches.value_or(options.max_patches);
   PLEINAIR_ASSIGN_OR_RETURN(solver_, compositor::LightSolver::Create(setup_.placed, options));
   coefficients_.reset();  // They are another scene's.
   made_for_.reset();
@@ -142,6 +144,15 @@ bool LiveLight::NeedsLight(const Wanted& wanted) const {
   const sky::SunPosition sun = SunOver(WithEdit(setup_.scene, wanted.edit).place_time,
                                        wanted.time.PlusSeconds(wanted.edit.later_s));
   return !IsNearSun(made_sun_, sun);
+}
+
+/// What the user says of sun and sky, where he does, under the sun of a moment.
+void LiveLight::UseGivenSky(UtcTime time, DaySkies* skies) const {
+  const auto given =
+      GivenSky(setup_.scene, setup_.light.overrides, SunOver(setup_.scene.place_time, time));
+  if (!given) return;
+  skies->source = given->skies;
+  skies->scale = given->sky_scale;
 }
 
 LightOrder LiveLight::OrderFor(const Wanted& wanted) {
@@ -194,27 +205,31 @@ bool LiveLight::MayLook(const Wanted& wanted) const {
 void LiveLight::Look(const Shown& shown, const Wanted& wanted) {
   if (!MayLook(wanted)) {
     look_.reset();
+    const std::lock_guard lock(mutex_);
+    progress_.frames_in_look = 0;
     return;
   }
   if (!look_) {
     look_ = std::make_unique<LightLook>(solver_, setup_.camera, wanted.print, setup_.scene,
-                                        setup_.overrides, shown.time, setup_.response);
+                                        setup_.light.overrides, shown.time, setup_.response);
   }
   look_->Add(shown.frame->rgb.view(), shown.camera_from_marker);
   {
     const std::lock_guard lock(mutex_);
-    progress_.measuring = true;
+    progress_.frames_in_look = look_->frames();
   }
   if (look_->frames() < kLightFrames) return;
   const FoundLight found = look_->Settle(&memory_);
   look_.reset();
   found_skies_ = found.skies;
+  if (found_skies_.source) UseGivenSky(shown.time, &found_skies_);
   heading_ = found.heading;
   made_for_.reset();
   const std::lock_guard lock(mutex_);
   progress_.measured = found.measured;
-  progress_.measuring = false;
+  progress_.frames_in_look = 0;
   next_look_ = shown.time.PlusSeconds(kBetweenMeasurements_s);
+  shown_.reset();  // It came meanwhile, and would begin the next look too early.
 }
 
 void LiveLight::WantCoefficients(const Wanted& wanted, compositor::CoefficientWorker* worker) {
@@ -222,6 +237,11 @@ void LiveLight::WantCoefficients(const Wanted& wanted, compositor::CoefficientWo
   coefficients_convergence_ = wanted.edit.convergence;
   compositor::CoefficientOptions options;
   options.convergence = coefficients_convergence_;
+  options.division = setup_.light.sky_division;
+  // What is being tried out would fill the disk: each place of an object has a file of its own.
+  const bool as_begun = wanted.edit.objects == setup_.edit.objects &&
+                        wanted.edit.convergence == setup_.edit.convergence;
+  if (as_begun) options.cache = setup_.light.cache;
   worker->Want(solver_, MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0}, options);
 }
 
@@ -235,6 +255,9 @@ void LiveLight::TakeCoefficients(const compositor::CoefficientWorker& worker) {
   if (!newest || newest->solver != solver_ || newest->coefficients == coefficients_) return;
   coefficients_ = newest->coefficients;
   made_for_.reset();
+  if (coefficients_->kept) return;
+  const std::lock_guard lock(mutex_);
+  progress_.failed_to_keep = true;
 }
 
 }  // namespace pleinair::app

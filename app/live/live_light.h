@@ -10,6 +10,7 @@
 
 #include "app/light_look.h"
 #include "app/light_memory.h"
+#include "app/light_options.h"
 #include "app/scene_edit.h"
 #include "app/scene_light.h"
 #include "base/camera_model.h"
@@ -24,8 +25,8 @@ namespace pleinair::app {
 /// Makes the light of a live session, on threads of its own and at low priority, so that no frame
 /// waits for it: anew when the sun has moved, when the scene is edited, and when frames have told
 /// of sun and sky. The first lights are traced with few rays; meanwhile daylight coefficients are
-/// computed, from which each further light takes milliseconds. A moved object begins this anew;
-/// until its next light is there it is drawn with the last. Then the frames are looked at for
+/// computed, from which each further light takes a fraction of a second. A moved object begins this
+/// anew; until its next light is there it is drawn with the last. Then the frames are looked at for
 /// the phantoms' shadows, as replay does, and again every minute; LightMemory has what they tell
 /// together.
 class LiveLight {
@@ -34,9 +35,9 @@ class LiveLight {
     CameraModel camera;
     devices::SceneDescription scene;
     std::vector<compositor::PlacedModel> placed;  ///< Phantoms, then objects.
-    LightOverrides overrides;
+    LightOptions light;
     SceneEdit edit;
-    DaySkies skies;  ///< As stated or overridden.
+    DaySkies skies;  ///< As stated.
     UtcTime time;
     CameraResponse response = {};
   };
@@ -60,9 +61,10 @@ class LiveLight {
   /// How the work is going.
   struct Progress {
     MeasuredLight measured;
-    double heading_deg = 0.0;  ///< Of the marker, in use.
-    bool measuring = false;
-    double coefficients = 0.0;  ///< 0…1: share of the daylight coefficients that is computed.
+    double heading_deg = 0.0;     ///< Of the marker, in use.
+    int frames_in_look = 0;       ///< Looked at since the last measurement; 0: none is under way.
+    double coefficients = 0.0;    ///< 0…1: share of the daylight coefficients that is computed.
+    bool failed_to_keep = false;  ///< Some could not be written to the cache.
   };
   Progress progress() const;
 
@@ -91,6 +93,7 @@ class LiveLight {
   void WantCoefficients(const Wanted& wanted, compositor::CoefficientWorker* worker);
   void TakeCoefficients(const compositor::CoefficientWorker& worker);
   LightOrder OrderFor(const Wanted& wanted);
+  void UseGivenSky(UtcTime time, DaySkies* skies) const;
   bool MayLook(const Wanted& wanted) const;
 
   Setup setup_;  // Its places of models follow the edits.

@@ -79,7 +79,7 @@ Result<void> LiveSession::Prepare() {
     measurer_.emplace(options_.camera, options_.scene.marker.size_m);
   }
   if (options_.lossless) return {};
-  edit_ = UneditedScene(options_.scene, options_.composer);
+  edit_ = UneditedScene(options_.scene, options_.composer, options_.light.convergence);
   if (!renderer_->DrawsObjects()) return {};
   const UtcTime start = options_.start.value_or(WallClock());
   PLEINAIR_ASSIGN_OR_RETURN(
@@ -218,11 +218,14 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   session_.AddFrame(frame->index, frame->timestamp_ns, sightings);
   if (!options_.lossless) session_.ForgetAllBut(kObservationsKept);
   PLEINAIR_RETURN_IF_ERROR(WriteSightings(*frame, sightings));
-  Tracked tracked{std::move(frame), std::nullopt, session_.Anchor()};
+  Tracked tracked{std::move(frame), std::nullopt, session_.Anchor(), {}};
   if (!tracked.anchor) return tracked;
   const std::vector<Observation>& path = session_.Path(*tracked.anchor);
   if (path.back().frame_index == tracked.frame->index) {
     tracked.camera_from_marker = path.back().camera_from_marker;
+    if (options_.light.hands_in_front) {
+      tracked.cover = CoverOf(options_.scene.marker, *tracked.anchor, path.back());
+    }
   }
   return tracked;
 }
@@ -299,8 +302,8 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   if (tracked.camera_from_marker) {
     if (light_) light_->Show(tracked.frame, *tracked.camera_from_marker, moment);
     PLEINAIR_ASSIGN_OR_RETURN(
-        drawn.picture,
-        renderer_->Render(tracked.frame->rgb.view(), *tracked.camera_from_marker, moment));
+        drawn.picture, renderer_->Render(tracked.frame->rgb.view(), *tracked.camera_from_marker,
+                                         moment, tracked.cover));
   } else {
     drawn.picture = tracked.frame->rgb;
   }
@@ -351,6 +354,10 @@ LiveStatistics LiveSession::statistics() const {
   statistics.recorded = recording.recorded;
   statistics.left_out_of_recording = recording.left_out;
   return statistics;
+}
+
+bool LiveSession::FailedToKeepLight() const {
+  return light_ ? light_->progress().failed_to_keep : renderer_->FailedToKeepLight();
 }
 
 std::optional<Error> LiveSession::output_trouble() const {

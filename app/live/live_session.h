@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/light_options.h"
 #include "app/live/hand_over.h"
 #include "app/live/latency_histogram.h"
 #include "app/live/latency_meter.h"
@@ -19,7 +20,6 @@
 #include "app/live/live_output.h"
 #include "app/live/live_statistics.h"
 #include "app/live/recording_switch.h"
-#include "app/measured_sky.h"
 #include "app/print_measurer.h"
 #include "app/scene_renderer.h"
 #include "app/session.h"
@@ -33,9 +33,9 @@ namespace pleinair::app {
 
 struct LiveOptions {
   CameraModel camera;
-  devices::SceneDescription scene;
+  devices::SceneDescription scene;  ///< With what `light` gives of it (WithGiven()).
   compositor::ComposerOptions composer;
-  LightOverrides light;
+  LightOptions light;
   /// UTC of the first frame; nothing: the clock's when it comes.
   std::optional<UtcTime> start;
   /// Every frame is tracked and drawn, in order, however long it takes, and measured as replay
@@ -105,6 +105,8 @@ class LiveSession {
   LatencyHistogram TakeLatencies();
   /// Why recording ended before its time.
   std::optional<Error> recording_trouble() const { return recording_.trouble(); }
+  /// Whether daylight coefficients could not be written to their cache.
+  bool FailedToKeepLight() const;
   /// After the end: why detections or the output could not be written.
   std::optional<Error> output_trouble() const;
 
@@ -114,6 +116,7 @@ class LiveSession {
     FramePtr frame;
     std::optional<Transform<Camera, Marker>> camera_from_marker;
     std::optional<MarkerName> anchor;
+    compositor::PrintCover cover;  ///< Where hands are to be in front.
   };
 
   LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptions options);

@@ -72,7 +72,7 @@ class LiveWindow {
       : session_(session),
         options_(options),
         screen_(screen),
-        state_(WindowState::For(options.scene, options.drawing)) {
+        state_(WindowState::For(options.scene, options.drawing, options.convergence)) {
     state_.camera = options.camera;
     state_.boxes = BoxesOf(session.placed(), options.scene);
     edit_ = state_.edit;

@@ -216,7 +216,7 @@ void ScenePanel::Air(WindowState* state) {
     edit.sky = by_hand ? std::optional(sky) : std::nullopt;
   }
   Hint("Otherwise haze and clouds are as the shadows in the pictures tell, or as the scene says.");
-  if (state->statistics.light.measuring) {
+  if (state->statistics.light.frames_in_look > 0) {
     Quiet("looking at shadows…");
   } else if (measured.sun_source == MeasuredLight::Source::kMeasured) {
     Quiet(state->light.measured.sun_shines

@@ -74,10 +74,10 @@ devices::MarkerDescription WindowState::marker() const {
 }
 
 WindowState WindowState::For(const devices::SceneDescription& scene,
-                             const compositor::ComposerOptions& drawing) {
+                             const compositor::ComposerOptions& drawing, double convergence) {
   WindowState state;
   state.scene = scene;
-  state.edit = state.unedited = UneditedScene(scene, drawing);
+  state.edit = state.unedited = UneditedScene(scene, drawing, convergence);
   state.moment = scene.place_time.start;
   if (state.edit.objects.size() == 1) state.selected = 0;
   state.pole.height_m = scene.marker.size_m;

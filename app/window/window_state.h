@@ -46,7 +46,8 @@ struct WindowState {
   devices::MarkerDescription marker() const;
   /// The scene's state for a new session.
   static WindowState For(const devices::SceneDescription& scene,
-                         const compositor::ComposerOptions& drawing);
+                         const compositor::ComposerOptions& drawing,
+                         double convergence = SceneEdit{}.convergence);
 };
 
 /// Makes the scene that of another time.

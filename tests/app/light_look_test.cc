@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "tests/compositor/photographed_yard.h"
+#include "tests/app/yard_scene.h"
 
 namespace pleinair::app {
 namespace {
@@ -23,14 +23,8 @@ FoundLight Settle(double off_deg, const PhotographedYard::Light& light,
                   const LightOverrides& overrides = {},
                   const char* said_time = "2025-09-14T13:50:00Z") {
   const PhotographedYard& yard = Yard();
-  devices::SceneDescription scene;
-  scene.place_time.latitude_deg = 50.0;
-  scene.cloudiness = devices::Cloudiness::kClear;
   const UtcTime time = *UtcTime::Parse(said_time);
-  // The yard's sun stands as high as at 13:50, about; the heading puts it where it stands.
-  const Vec3 sun = SunOver(scene.place_time, time).ToSun().xyz, seen = yard.ToSun();
-  scene.marker.heading =
-      Radians(std::atan2(seen.y, seen.x) - std::atan2(sun.y, sun.x)) + FromDegrees(off_deg);
+  const devices::SceneDescription scene = YardScene(yard, off_deg, time);
   const std::shared_ptr<const compositor::LightSolver> solver(&yard.solver(), [](const auto*) {});
   LightLook look(solver, yard.camera(), yard.print(), scene, overrides, time, {});
   for (const int i : {0, 1}) look.Add(yard.Photograph(i, light).view(), PhotographedYard::Pose(i));

@@ -3,15 +3,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <thread>
 
-#include "app/live/live_light.h"
 #include "devices/recording.h"
 #include "tests/app/small_camera.h"
-#include "tests/compositor/light_scenes.h"
 
 namespace pleinair::app {
 namespace {
@@ -204,95 +201,6 @@ TEST(LiveSession, SaysSoWhereTheCamerasSizeIsNotTheCalibrations) {
   if (drawn) drawn = (*session)->Draw(milliseconds(0));
   ASSERT_FALSE(drawn);
   EXPECT_THAT(drawn.error().what, testing::HasSubstr("160x120"));
-}
-
-/// A box on level ground.
-LiveLight::Setup BoxOnGround() {
-  using compositor::testing::BoxModel;
-  using compositor::testing::Ground;
-  LiveLight::Setup setup;
-  setup.camera = Options().camera;
-  setup.scene = Options().scene;
-  setup.scene.place_time.start = *Options().start;
-  setup.scene.phantoms.emplace_back();
-  setup.scene.objects.emplace_back();
-  setup.placed = {
-      compositor::testing::Phantom(Ground(0.6, {0.3F, 0.3F, 0.3F})),
-      compositor::testing::Object(BoxModel({0, 0, 0}, {0.3, 0.3, 0.3}, {0.5F, 0.4F, 0.3F}))};
-  setup.edit = UneditedScene(setup.scene, {});
-  setup.skies.source = StatedSky(setup.scene);
-  setup.time = *Options().start;
-  return setup;
-}
-
-TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
-  const LiveLight::Setup setup = BoxOnGround();
-  SceneEdit edit = setup.edit;
-  auto light = LiveLight::Create(setup);
-  ASSERT_TRUE(light) << light.error().Message();
-  std::shared_ptr<const SceneLight> in_use = (*light)->Take();
-  ASSERT_NE(in_use, nullptr) << "the first light is there at once";
-  const auto until_coefficients = [&] {
-    int seen_without = 0;
-    while (!in_use->order.coefficients || in_use->objects != edit.objects) {
-      if (auto newest = (*light)->Take()) in_use = newest;
-      seen_without += in_use->order.coefficients ? 0 : 1;
-      std::this_thread::sleep_for(milliseconds(1));
-    }
-    return seen_without;
-  };
-  EXPECT_GT(until_coefficients(), 0) << "frames were drawn before, by light that was traced";
-  const auto before = in_use;
-  edit.objects[0].translation_m = {-0.3, 0.1, 0.0};
-  (*light)->SetEdit(edit);
-  EXPECT_EQ((*light)->Take(), nullptr) << "asking does not wait; the last light stays";
-  EXPECT_GT(until_coefficients(), 0);
-  EXPECT_NE(in_use->order.solver, before->order.solver);
-  while ((*light)->progress().coefficients < 1.0) std::this_thread::sleep_for(milliseconds(1));
-  (*light)->Stop();
-  // What came of it is what is made from nothing for that place.
-  compositor::CoefficientOptions options;
-  options.convergence = edit.convergence;
-  const auto fresh = in_use->order.solver->Coefficients(
-      MarkerFromWorld(setup.scene.marker) * Vec3{0, 0, 1}, options, {});
-  const auto meshes =
-      in_use->order.solver->Relight(fresh, in_use->daylight, in_use->marker_from_world);
-  ASSERT_EQ(meshes.size(), in_use->meshes.size());
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    EXPECT_EQ(meshes[i].ambient_with, in_use->meshes[i].ambient_with);
-  }
-}
-
-TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
-  LiveLight::Setup setup = BoxOnGround();
-  const Vec3 to_sun =
-      MarkerFromWorld(setup.scene.marker) * SunOver(setup.scene.place_time, setup.time).ToSun().xyz;
-  const std::vector<compositor::SunlitSpot> spots{{{0, 0, 0}, 0.2, 0.01}};
-  setup.skies.sunlight =
-      std::make_shared<const compositor::SeenSunlight>(compositor::MapSeenSunlight(to_sun, spots));
-  auto light = LiveLight::Create(setup);
-  ASSERT_TRUE(light) << light.error().Message();
-  const auto has_map = [&](double later_s, double heading_deg) {
-    SceneEdit edit = setup.edit;
-    edit.later_s = later_s;
-    edit.heading_deg = heading_deg;
-    (*light)->SetEdit(edit);
-    // A sanitized build on a busy machine takes some ten seconds a light.
-    for (int i = 0; i < 60'000; ++i) {
-      const auto newest = (*light)->Take();
-      if (newest && newest->order.time == setup.time.PlusSeconds(later_s) &&
-          std::fabs(ToDegrees(newest->order.marker.heading) - heading_deg) < 1e-9) {
-        return newest->order.skies.sunlight != nullptr;
-      }
-      std::this_thread::sleep_for(milliseconds(1));
-    }
-    ADD_FAILURE() << "no light came";
-    return false;
-  };
-  EXPECT_TRUE(has_map(300, 0)) << "five minutes move the sun by little more than a degree";
-  EXPECT_FALSE(has_map(2 * 3600, 0));
-  EXPECT_TRUE(has_map(299, 0)) << "it is still there for the hour that it was made for";
-  EXPECT_FALSE(has_map(299, 30));
 }
 
 TEST(HandOver, ReplacesWaitsOrRefusesWhenItIsFull) {

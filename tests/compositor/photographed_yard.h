@@ -27,12 +27,7 @@ class PhotographedYard {
                             const Mat3& marker_from_world = {})
       : marker_from_world_(marker_from_world),
         model_(sky, {62e3, 55e3, 44e3}, marker_from_world.Transposed() * to_sun),
-        solver_(*LightSolver::Create(
-            {Phantom(Ground(5.0, {0.35F, 0.33F, 0.30F})),
-             Phantom(BoxModel({-3.0, 1.2, 0.0}, {3.0, 1.4, 1.2}, {0.35F, 0.20F, 0.15F})),
-             Phantom(BoxModel({0.9, -0.9, 0.0}, {0.98, -0.82, 2.2}, {0.25F, 0.25F, 0.25F})),
-             Phantom(BoxModel({-1.4, 0.3, 0.0}, {-0.5, 0.8, 0.3}, {0.4F, 0.4F, 0.38F}))},
-            {.rays_per_vertex = 128, .near_edge_m = 0.1})),
+        solver_(*LightSolver::Create(Phantoms(), {.rays_per_vertex = 128, .near_edge_m = 0.1})),
         sky_(solver_->Solve(ScaledDaylight(model_, {1, 1, 1}, {}), marker_from_world)),
         sun_(solver_->Solve(ScaledDaylight(model_, {}, {1, 1, 1}), marker_from_world)) {
     for (std::size_t m = 0; m < sky_.size(); ++m) {
@@ -41,6 +36,13 @@ class PhotographedYard {
         vertices_[Bin({p[0], p[1], p[2]})].push_back({m, i});
       }
     }
+  }
+
+  static std::vector<PlacedModel> Phantoms() {
+    return {Phantom(Ground(5.0, {0.35F, 0.33F, 0.30F})),
+            Phantom(BoxModel({-3.0, 1.2, 0.0}, {3.0, 1.4, 1.2}, {0.35F, 0.20F, 0.15F})),
+            Phantom(BoxModel({0.9, -0.9, 0.0}, {0.98, -0.82, 2.2}, {0.25F, 0.25F, 0.25F})),
+            Phantom(BoxModel({-1.4, 0.3, 0.0}, {-0.5, 0.8, 0.3}, {0.4F, 0.4F, 0.38F}))};
   }
 
   /// What is known of the day: the model that readings are told in terms of.

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "command_output.h"
 #include "run_program.h"
@@ -69,6 +70,43 @@ TEST(Live, ShowsTheShadowMapsPartitionsWhereAsked) {
   // Red and green, the two partitions' tints, leave less of blue.
   EXPECT_LT(tinted[0], 0.8 * plain[0]);
   EXPECT_LT(tinted[0] / plain[0], tinted[1] / plain[1]);
+}
+
+TEST(Live, TakesTheLightThatTheUserGives) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, /*with_object=*/true);
+  for (const char* name : {"site/frames/0000.jpg", "site/frames/0001.jpg"}) {
+    // Out of focus, so that there is a look to match.
+    cv::Mat picture = cv::imread(folder / name);
+    cv::GaussianBlur(picture, picture, {}, 1.5);
+    ASSERT_TRUE(cv::imwrite(folder / name, picture));
+  }
+  const auto shown = [&](std::vector<std::string> more) {
+    const std::string picture = (folder / "picture.png").string();
+    more.insert(more.begin(), {"live", "--camera", "file:" + (folder / "site").string(),
+                               "--headless", "--lossless", "--screenshot", picture});
+    const RunResult live = RunPleinair(more);
+    EXPECT_EQ(live.exit_code, 0) << live.err;
+    return cv::imread(picture);
+  };
+  const cv::Mat plain = shown({});
+  const auto changed = [&](const std::vector<std::string>& more) {
+    return cv::norm(shown(more), plain, cv::NORM_INF);
+  };
+  EXPECT_GT(changed({"--sun-to-sky", "0"}), 20.0);
+  EXPECT_GT(changed({"--heading", "10"}), 20.0);
+  EXPECT_GT(changed({"--look", "clean"}), 20.0);
+  EXPECT_GT(changed({"--light-cache", folder / "cache", "--sky-division", "2", "--convergence",
+                     "0.2", "--light-patches", "1000", "--hands"}),
+            0.0);
+  EXPECT_EQ(Listing(folder / "cache").size(), 1U);
+  for (const std::vector<std::string>& refused :
+       {std::vector<std::string>{"--sun-to-sky", "-1"}, {"--sky-division", "5"}}) {
+    std::vector<std::string> call = {"live", "--headless", "--camera",
+                                     "file:" + (folder / "site").string()};
+    call.insert(call.end(), refused.begin(), refused.end());
+    EXPECT_EQ(RunPleinair(call).exit_code, 2) << refused[0];
+  }
 }
 
 /// Numbers of a TUM file's lines after the time, by the time.
@@ -175,6 +213,8 @@ TEST(Live, WithoutItsCameraItSaysSoAndEndsWhenItsTimeIsOver) {
 TEST(Live, BadInputIsOneLineThatNamesItAndExitCodeTwo) {
   const TemporaryFolder folder;
   const std::string bundled = "file:" + BundledRecording().string();
+  const std::string file = (folder / "file").string();
+  WriteFile(file, "a file");
   const std::vector<std::pair<std::vector<std::string>, std::string>> calls = {
       {{"--camera", "video0"}, "video0"},
       {{"--camera", "v4l2:/dev/video77"}, "pleinair calibrate"},
@@ -185,6 +225,10 @@ TEST(Live, BadInputIsOneLineThatNamesItAndExitCodeTwo) {
       {{"--camera", bundled, "--format", "YUYV"}, "--format"},
       {{"--camera", bundled, "--hold-exposure", "0.01"}, "--hold-exposure"},
       {{"--camera", bundled, "--window", "640x480"}, "--window"},
+      {{"--camera", bundled, "--lossless", "--sky-division", "2"}, "--sky-division"},
+      {{"--camera", bundled, "--lossless", "--convergence", "0.05"}, "--convergence"},
+      {{"--camera", bundled, "--light-cache", file}, "is no folder"},
+      {{"--camera", bundled, "--response", "/nowhere.json"}, "/nowhere.json"},
       {{"--camera", bundled, "--screenshot", "/nowhere/it.png"}, "/nowhere"},
       {{"--camera", bundled, "--record", "/proc/none"}, "/proc/none"}};
   for (const auto& [arguments, named] : calls) {
