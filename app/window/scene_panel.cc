@@ -11,6 +11,7 @@
 #include "app/local_time.h"
 #include "app/scene_light.h"
 #include "app/window/cities.h"
+#include "app/window/measured_text.h"
 #include "shadows/shadow_method.h"
 
 namespace pleinair::app {
@@ -25,6 +26,7 @@ bool Section(const char* name, bool open) {
 }
 
 void Quiet(const std::string& text) {
+  if (text.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
@@ -205,7 +207,6 @@ void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
 
 void ScenePanel::Air(WindowState* state) {
   SceneEdit& edit = state->edit;
-  const MeasuredLight& measured = state->statistics.light.measured;
   bool by_hand = edit.sky.has_value();
   SceneEdit::Sky sky = edit.sky.value_or(StatedAir(state->scene));
   bool changed = Slider("turbidity", &sky.turbidity, 1.2, 10.0, "%.1f", true);
@@ -218,14 +219,8 @@ void ScenePanel::Air(WindowState* state) {
   Hint("Otherwise haze and clouds are as the shadows in the pictures tell, or as the scene says.");
   if (state->statistics.light.frames_in_look > 0) {
     Quiet("looking at shadows…");
-  } else if (measured.sun_source == MeasuredLight::Source::kMeasured) {
-    Quiet(state->light.measured.sun_shines
-              ? fmt::format("measured: sun {:.1f} times the sky (from {} edges)",
-                            state->light.measured.sun_to_sky, measured.edges_agreeing)
-              : "measured: no sun");
-  } else if (measured.sun_source == MeasuredLight::Source::kShade) {
-    Quiet(fmt::format("measured: sun {:.1f} times the sky (from the shade of trees)",
-                      state->light.measured.sun_to_sky));
+  } else if (!edit.sky) {
+    Quiet(MeasuredSunText(state->light.measured, state->statistics.light.measured));
   }
 }
 
@@ -235,6 +230,7 @@ void ScenePanel::North(WindowState* state) {
   heading -= 360.0 * std::floor(heading / 360.0);
   if (ImGui::InputDouble("heading °", &heading, 0.1, 1.0, "%.2f")) edit.heading_deg = heading;
   Hint("Azimuth of the marker's upper edge, clockwise from true north.");
+  if (!edit.heading_deg) Quiet(MeasuredHeadingText(state->statistics.light.measured));
   bool by_hand = edit.heading_deg.has_value();
   if (ImGui::Checkbox("by hand##north", &by_hand)) {
     edit.heading_deg = by_hand ? std::optional(heading) : std::nullopt;
