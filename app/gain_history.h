@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <deque>
 
 #include "base/vector.h"
@@ -10,7 +11,8 @@ namespace pleinair::app {
 /// one frame after the other, and how much it changed meanwhile.
 class GainHistory {
  public:
-  void Add(const LinearRgb& gain);
+  /// A frame's reading with its relative error, one standard deviation.
+  void Add(const LinearRgb& gain, const LinearRgb& error);
 
   bool empty() const { return recent_.empty(); }
 
@@ -18,13 +20,26 @@ class GainHistory {
   /// itself. At least one reading.
   LinearRgb Gain() const;
 
+  /// Relative standard deviation of Gain(), each channel: what readings scatter from frame to frame
+  /// grows less in a median of many; a frame's own error does not, since the next shows the same
+  /// print. At least one reading.
+  LinearRgb Error() const;
+
   /// The brightest gain over the darkest, of the channel that changed most; 1 until there are more
   /// than five readings. Each is the median of five in a row: two bad ones among them, of a hand
   /// or a highlight, are not taken for a change.
   double Change() const;
 
  private:
-  std::deque<LinearRgb> recent_;
+  struct Reading {
+    LinearRgb gain, error;
+  };
+
+  /// Of the last `count` readings, or of all where there are fewer, each channel by itself.
+  template <typename Value>
+  LinearRgb MedianOfLast(std::size_t count, const Value& value) const;
+
+  std::deque<Reading> recent_;
   LinearRgb least_, most_;  // Of the medians of five.
 };
 

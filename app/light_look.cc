@@ -134,7 +134,7 @@ void LightLook::UseHeading(const LightMemory& memory, FoundLight* found) const {
   const HeadingOffset offset = known.value_or(HeadingOffset{});
   found->heading = Radians(scene_.marker.heading.value() + offset.offset.value());
   found->measured.heading_offset = offset.offset;
-  found->measured.heading_error = offset.error;
+  found->measured.heading_error = known ? std::optional(offset.error) : std::nullopt;
   found->measured.heading_source =
       known ? MeasuredLight::Source::kMeasured : MeasuredLight::Source::kStated;
 }
@@ -162,6 +162,7 @@ compositor::SunSkyReading LightLook::SettleHeading(LightMemory* memory, FoundLig
   }
   found->measured.edges = reading.edges;
   found->measured.edges_agreeing = reading.agreeing;
+  found->measured.edges_with_contrast = reading.share_with_contrast;
   return reading;
 }
 

@@ -46,7 +46,9 @@ void LightMemory::RecallReasons(UtcTime time, MeasuredLight* light) const {
   light->edges = reasons_->edges;
   light->edges_agreeing = reasons_->edges_agreeing;
   light->shade_places = reasons_->shade_places;
-  light->sun_to_sky_error = seen_ == Seen::kSun ? log_sky_.ErrorAt(time) : 0.0;
+  light->edges_with_contrast = reasons_->edges_with_contrast;
+  light->sun_to_sky_error =
+      seen_ == Seen::kSun ? std::optional(log_sky_.ErrorAt(time)) : std::nullopt;
 }
 
 void LightMemory::Recall(UtcTime time, MeasuredLight* light, DaySkies* skies) const {

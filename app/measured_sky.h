@@ -36,12 +36,14 @@ struct MeasuredLight {
   bool sun_shines = true;
   double sun_to_sky = 0.0;         ///< Sun's illuminance of level ground over the sky's.
   double sun_to_sky_stated = 0.0;  ///< The same as the scene's words have it.
-  double sun_to_sky_error = 0.0;   ///< Relative, one standard deviation; 0 of an override.
-  Radians heading_offset;          ///< Added to the stated heading.
-  Radians heading_error;           ///< One standard deviation.
-  int frames = 0;                  ///< Looked at.
+  /// Relative, one standard deviation; nothing where no ratio was measured.
+  std::optional<double> sun_to_sky_error;
+  Radians heading_offset;                ///< Added to the stated heading.
+  std::optional<Radians> heading_error;  ///< One standard deviation; nothing where not measured.
+  int frames = 0;                        ///< Looked at.
   int edges = 0, edges_agreeing = 0;
-  int shade_places = 0;  ///< That the depth of trees' shade was read from; of kShade.
+  double edges_with_contrast = 0.0;  ///< compositor::SunSkyReading::share_with_contrast.
+  int shade_places = 0;              ///< That the depth of trees' shade was read from; of kShade.
   /// No shadow lies where phantoms would cast one, yet there are shadows: neither sun nor overcast
   /// is concluded, nor what lies in shade.
   bool sun_doubtful = false;

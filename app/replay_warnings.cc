@@ -125,7 +125,7 @@ std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel
 std::vector<std::string> LightWarnings(const LightSummary& summary) {
   const MeasuredLight& light = summary.measured;
   std::vector<std::string> warnings;
-  if (summary.gain_is_guessed) {
+  if (summary.gain_source == LightSummary::GainSource::kGuess) {
     warnings.emplace_back(
         "The marker could not be read as a light meter in any frame: the camera's gain is a guess. "
         "Set it in the scene if the brightness is wrong.");

@@ -241,8 +241,9 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
 
 void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
                                const Transform<Camera, Marker>& camera_from_marker) {
-  summary_.gain_is_guessed = false;
+  using GainSource = LightSummary::GainSource;
   if (scene_.exposure_gain) {
+    summary_.gain_source = GainSource::kScene;
     summary_.gain = *scene_.exposure_gain;
     return;
   }
@@ -250,12 +251,14 @@ void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
   if (hold_gain_ && !gains_.empty()) return;
   const auto reading = meter_ ? meter_->Measure(rgb, camera_, camera_from_marker) : std::nullopt;
   if (reading) {
-    gains_.Add(reading->gain * skies_.print_shade);
-    summary_.gain_spread = reading->spread;
+    gains_.Add(reading->gain * skies_.print_shade, reading->error);
     ++summary_.readings;
+    summary_.dappled_readings += reading->dappled ? 1 : 0;
+    summary_.print_lit_share = reading->lit_share;
   }
-  summary_.gain_is_guessed = gains_.empty();
+  summary_.gain_source = gains_.empty() ? GainSource::kGuess : GainSource::kMarker;
   summary_.gain = gains_.empty() ? guessed_gain_ : gains_.Gain();
+  if (!gains_.empty()) summary_.gain_error = gains_.Error();
   summary_.gain_change = gains_.Change();
 }
 

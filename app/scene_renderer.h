@@ -40,16 +40,27 @@ struct LightSummary {
   sky::SunPosition sun;
   double sun_normal_lux = 0.0;
   double sky_horizontal_lux = 0.0;
-  LinearRgb gain;            ///< Display-linear value per cd/m².
-  double gain_spread = 0.0;  ///< Relative; of the last frame that the marker could be read in.
+  /// Who says what the camera's gain is; kGuess: no frame could be read and the scene gives none.
+  enum class GainSource { kMarker, kScene, kGuess };
+  GainSource gain_source = GainSource::kMarker;
+  LinearRgb gain;  ///< Display-linear value per cd/m².
+  /// See GainHistory::Error(); of kMarker.
+  LinearRgb gain_error;
   /// See GainHistory::Change().
   double gain_change = 1.0;
-  int readings = 0;              ///< Frames in which the marker served as a light meter.
-  bool gain_is_guessed = false;  ///< No frame could be read and the scene gives no gain.
+  int readings = 0;          ///< Frames in which the marker served as a light meter.
+  int dappled_readings = 0;  ///< Of these, the ones in which leaves shade it.
+  /// Share of the print that the phantoms leave in the sun, of the last reading.
+  double print_lit_share = 0.0;
   /// Blur and grain of the last frames; nothing where they are not matched or cannot be read.
   std::optional<compositor::PictureLook> look;
   MeasuredLight measured;  ///< Sun, sky and heading.
 };
+
+/// Share of the readings in which leaves shade the print; 0 without any.
+inline double DappledShare(const LightSummary& light) {
+  return light.readings > 0 ? static_cast<double>(light.dappled_readings) / light.readings : 0.0;
+}
 
 /// Milliseconds spent in the last Render(), by stage.
 struct RenderTimes {

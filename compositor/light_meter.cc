@@ -23,6 +23,8 @@ constexpr double kShadowShare = 0.15;
 // Relative spread of a print's light from which on leaves are dappling it.
 constexpr double kDappled = 0.10, kBrightest = 0.9;
 constexpr double kSmallestBandPx = 3.0;
+// A median's standard error over a mean's, of a normal distribution: sqrt(π / 2).
+constexpr double kMedianError = 1.2533;
 
 using Rgb = std::array<double, 3>;
 
@@ -182,7 +184,7 @@ std::optional<LightReading> LightMeter::Measure(
   LightReading reading;
   reading.lit_share = lit_share_;
   reading.pairs = static_cast<int>(samples.size());
-  Rgb gain{};
+  Rgb gain{}, error{};
   for (int c = 0; c < 3; ++c) {
     std::vector<double> values;
     for (const Sample& sample : samples) {
@@ -200,13 +202,16 @@ std::optional<LightReading> LightMeter::Measure(
     if (!(gain[c] > 0.0) || !std::isfinite(gain[c])) return std::nullopt;
     // Interquartile range of a normal distribution: 1.349 standard deviations.
     const double spread = (Quantile(values, 0.75) - Quantile(values, 0.25)) / 1.349 / gain[c];
+    error[c] = kMedianError * spread / std::sqrt(static_cast<double>(values.size()));
     // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
+    // How near is not known, however many pairs there are.
     if (lit >= kMinimumPairs && spread > kDappled) {
       gain[c] = Quantile(values, kBrightest);
+      error[c] = spread;
       reading.dappled = true;
     }
-    reading.spread = std::max(reading.spread, spread);
   }
+  reading.error = {error[0], error[1], error[2]};
   reading.gain = {gain[0], gain[1], gain[2]};
   return reading;
 }

@@ -19,7 +19,9 @@ namespace pleinair::compositor {
 struct LightReading {
   /// Display-linear value per radiance (1 / (cd/m²)), each channel of linear Rec.709.
   LinearRgb gain;
-  double spread = 0.0;     ///< Robust relative standard deviation over the pairs used.
+  /// Of the gain, relative, one standard deviation: from the pairs' scatter, which a median of so
+  /// many leaves little of. What the model's light is wrong by comes on top.
+  LinearRgb error;
   int pairs = 0;           ///< White–black pairs used.
   double lit_share = 0.0;  ///< Share of the print that the phantoms leave in the sun.
   bool dappled = false;    ///< Leaves shade it: its brightest spots alone were used.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "app/base64.h"
 #include "app/markup.h"
@@ -84,6 +85,11 @@ std::string Plots(const ReplayReport& report) {
          LinePlotSvg("Part of the marker that was seen", "%", {visible});
 }
 
+/// ", ± 7 %", or nothing where it is not known.
+std::string PlusMinus(const std::optional<double>& relative_error) {
+  return relative_error ? fmt::format(", ± {:.0f} %", *relative_error * 100) : "";
+}
+
 std::string MeasuredCards(const MeasuredLight& light) {
   using Source = MeasuredLight::Source;
   const std::string sun = light.sun_shines ? fmt::format("{:.2f}", light.sun_to_sky) : "no sun";
@@ -92,24 +98,60 @@ std::string MeasuredCards(const MeasuredLight& light) {
     from = "sun over sky on level ground, as the user says";
   if (light.sun_source == Source::kMeasured) {
     from = fmt::format("{}: {} of {} shadow edges agree, in {} frames; the scene says {:.2f}",
-                       light.sun_shines ? fmt::format("sun over sky on level ground, ± {:.0f} %",
-                                                      light.sun_to_sky_error * 100)
-                                        : "where phantoms would cast shadows",
+                       light.sun_shines
+                           ? "sun over sky on level ground" + PlusMinus(light.sun_to_sky_error)
+                           : "where phantoms would cast shadows",
                        light.edges_agreeing, light.edges, light.frames, light.sun_to_sky_stated);
   }
   if (light.sun_source == Source::kShade) {
     from = fmt::format(
-        "sun over sky on level ground, ± {:.0f} %, from how deep the shade of trees is at {} "
-        "places in {} frames; the scene says {:.2f}",
-        light.sun_to_sky_error * 100, light.shade_places, light.frames, light.sun_to_sky_stated);
+        "sun over sky on level ground{}, from how deep the shade of trees is at {} places in {} "
+        "frames; the scene says {:.2f}",
+        PlusMinus(light.sun_to_sky_error), light.shade_places, light.frames,
+        light.sun_to_sky_stated);
   }
   std::string html = Card(sun, from);
-  if (light.heading_source == Source::kMeasured) {
+  if (light.sun_doubtful) {
+    html += Card("doubtful",
+                 "whether the sun shone: shadows lie elsewhere than phantoms would cast them");
+  }
+  if (light.edges > 0) {
+    html += Card(fmt::format("{:.0f} %", std::fmax(0.0, light.edges_with_contrast) * 100),
+                 fmt::format("of {} edges of phantoms' shadows, by weight, are seen", light.edges));
+  }
+  if (light.heading_source == Source::kMeasured && light.heading_error) {
     html += Card(fmt::format("{:+.2f}° ± {:.2f}°", ToDegrees(light.heading_offset),
-                             ToDegrees(light.heading_error)),
+                             ToDegrees(*light.heading_error)),
                  "added to the marker's heading, from where shadows lie");
   }
   return html;
+}
+
+/// What the camera's gain is and who says so.
+std::string GainCard(const LightSummary& light) {
+  using GainSource = LightSummary::GainSource;
+  const std::string gain =
+      fmt::format("{:.3g} {:.3g} {:.3g}", light.gain.r, light.gain.g, light.gain.b);
+  const std::string what = "camera gain (r g b per cd/m²), ";
+  if (light.gain_source == GainSource::kScene) return Card(gain, what + "as the scene gives it");
+  if (light.gain_source == GainSource::kGuess) return Card(gain, what + "guessed");
+  const LinearRgb& error = light.gain_error;
+  return Card(gain, what + fmt::format("± {:.1f} {:.1f} {:.1f} % by the marker in {} frames, "
+                                       "changed by a factor of {:.2f}",
+                                       error.r * 100, error.g * 100, error.b * 100, light.readings,
+                                       light.gain_change));
+}
+
+/// Whether the sun reaches the marker; nothing where it served as no light meter.
+std::string MarkerCard(const LightSummary& light) {
+  if (light.readings == 0) return "";
+  std::string figure = fmt::format("{:.0f} % in the sun", light.print_lit_share * 100);
+  if (light.print_lit_share <= 0.0) figure = "in shade";
+  if (light.print_lit_share >= 1.0) figure = "in the sun";
+  if (!light.measured.sun_shines) figure = "no sun";
+  return Card(figure, fmt::format("marker, as the phantoms leave it; leaves shade it in {:.0f} % "
+                                  "of frames",
+                                  DappledShare(light) * 100));
 }
 
 std::string Light(const ReplayReport& report) {
@@ -126,12 +168,8 @@ std::string Light(const ReplayReport& report) {
   html += Card(fmt::format("{:.1f} klx", light.sun_normal_lux / 1000), "sun, facing it");
   html += Card(fmt::format("{:.1f} klx", light.sky_horizontal_lux / 1000), "sky, on level ground");
   html += MeasuredCards(light.measured);
-  html += Card(fmt::format("{:.3g} {:.3g} {:.3g}", light.gain.r, light.gain.g, light.gain.b),
-               light.gain_is_guessed
-                   ? "camera gain (r g b per cd/m²), guessed"
-                   : fmt::format("camera gain (r g b per cd/m²), {} readings, spread {:.1f} %, "
-                                 "changed by a factor of {:.2f}",
-                                 light.readings, light.gain_spread * 100, light.gain_change));
+  html += MarkerCard(light);
+  html += GainCard(light);
   if (light.look) {
     html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.look->blur_px,
                              1000 * light.look->NoiseSigma(1, kMediumLight)),

@@ -34,18 +34,40 @@ const char* SourceName(MeasuredLight::Source source) {
   return "stated";
 }
 
+const char* SourceName(LightSummary::GainSource source) {
+  switch (source) {
+    case LightSummary::GainSource::kMarker:
+      return "marker";
+    case LightSummary::GainSource::kScene:
+      return "scene";
+    case LightSummary::GainSource::kGuess:
+      return "guess";
+  }
+  return "guess";
+}
+
+Json ColorJson(const LinearRgb& color) {
+  return {Rounded(color.r), Rounded(color.g), Rounded(color.b)};
+}
+
+/// Null: not known, which 0 would deny.
+Json IfKnown(bool known, double value) { return known ? Json(Rounded(value)) : Json(); }
+
 Json MeasuredJson(const MeasuredLight& light) {
   return {{"sun_shines", light.sun_shines},
           {"sun_to_sky", Rounded(light.sun_to_sky)},
-          {"sun_to_sky_relative_error", Rounded(light.sun_to_sky_error)},
+          {"sun_to_sky_relative_error",
+           IfKnown(light.sun_to_sky_error.has_value(), light.sun_to_sky_error.value_or(0.0))},
           {"sun_to_sky_stated", Rounded(light.sun_to_sky_stated)},
           {"sun_from", SourceName(light.sun_source)},
           {"heading_offset_deg", Rounded(ToDegrees(light.heading_offset))},
-          {"heading_error_deg", Rounded(ToDegrees(light.heading_error))},
+          {"heading_error_deg", IfKnown(light.heading_error.has_value(),
+                                        ToDegrees(light.heading_error.value_or(Radians())))},
           {"heading_from", SourceName(light.heading_source)},
           {"frames", light.frames},
           {"shadow_edges", light.edges},
           {"shadow_edges_agreeing", light.edges_agreeing},
+          {"shadow_edges_with_contrast", IfKnown(light.edges > 0, light.edges_with_contrast)},
           {"shade_places", light.shade_places},
           {"sun_doubtful", light.sun_doubtful},
           {"shaded_without_phantom", Rounded(light.shaded)},
@@ -63,16 +85,21 @@ Json LookJson(const compositor::PictureLook& look) {
 }
 
 Json LightJson(const LightSummary& light) {
+  const bool is_metered = light.gain_source == LightSummary::GainSource::kMarker;
+  // Without a sun a print lies neither in it nor in shade.
+  const bool may_be_lit = light.readings > 0 && light.measured.sun_shines;
   return {{"sun_azimuth_deg", Rounded(ToDegrees(light.sun.azimuth))},
           {"sun_elevation_deg", Rounded(ToDegrees(light.sun.elevation))},
           {"sun_elevation_refracted_deg", Rounded(ToDegrees(light.sun.elevation_refracted))},
           {"sun_normal_lux", Rounded(light.sun_normal_lux)},
           {"sky_horizontal_lux", Rounded(light.sky_horizontal_lux)},
-          {"gain_rgb", {Rounded(light.gain.r), Rounded(light.gain.g), Rounded(light.gain.b)}},
-          {"gain_relative_spread", Rounded(light.gain_spread)},
-          {"gain_change", Rounded(light.gain_change)},
+          {"gain_rgb", ColorJson(light.gain)},
+          {"gain_from", SourceName(light.gain_source)},
+          {"gain_relative_error_rgb", is_metered ? ColorJson(light.gain_error) : Json()},
+          {"gain_change", IfKnown(is_metered, light.gain_change)},
           {"gain_readings", light.readings},
-          {"gain_is_guessed", light.gain_is_guessed},
+          {"marker_in_sun", IfKnown(may_be_lit, light.print_lit_share)},
+          {"marker_dappled", IfKnown(light.readings > 0, DappledShare(light))},
           {"look", light.look ? LookJson(*light.look) : Json()},
           {"measured", MeasuredJson(light.measured)}};
 }

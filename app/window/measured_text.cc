@@ -11,14 +11,15 @@ std::string MeasuredSunText(const MeasuredLight& drawn, const MeasuredLight& mea
   if (!drawn.sun_shines) return "measured: no sun";
   return fmt::format(
       "measured: sun {:.1f} ± {:.1f} times the sky (from {})", drawn.sun_to_sky,
-      drawn.sun_to_sky * measured.sun_to_sky_error,
+      drawn.sun_to_sky * measured.sun_to_sky_error.value_or(0.0),
       by_edges ? fmt::format("{} edges", measured.edges_agreeing) : "the shade of trees");
 }
 
 std::string MeasuredHeadingText(const MeasuredLight& measured) {
   if (measured.heading_source != MeasuredLight::Source::kMeasured) return "";
   return fmt::format("measured: {:+.2f}° ± {:.2f}° from the stated one",
-                     ToDegrees(measured.heading_offset), ToDegrees(measured.heading_error));
+                     ToDegrees(measured.heading_offset),
+                     ToDegrees(measured.heading_error.value_or(Radians())));
 }
 
 }  // namespace pleinair::app

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "app/base64.h"
 #include "app/sinks/line_plot.h"
@@ -97,6 +98,174 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
   ReplayReport report = Example();
   report.recording = "caf\xe9";
   EXPECT_TRUE(nlohmann::json::accept(ReportJson(report)));
+}
+
+using Source = MeasuredLight::Source;
+
+/// A sun, a heading and a gain that frames told of.
+LightSummary MeasuredSummary() {
+  LightSummary light;
+  light.sun.azimuth = FromDegrees(151.2);
+  light.sun.elevation = FromDegrees(41.5);
+  light.sun.elevation_refracted = FromDegrees(41.6);
+  light.sun_normal_lux = 92300.0;
+  light.sky_horizontal_lux = 12700.0;
+  light.gain = {3e-5, 2.5e-5, 2e-5};
+  light.gain_error = {0.011, 0.022, 0.033};
+  light.gain_change = 1.25;
+  light.readings = 40;
+  light.dappled_readings = 10;
+  light.print_lit_share = 0.625;
+  light.measured.sun_source = light.measured.heading_source = Source::kMeasured;
+  light.measured.sun_to_sky = 4.55;
+  light.measured.sun_to_sky_stated = 4.74;
+  light.measured.sun_to_sky_error = 0.07;
+  light.measured.heading_offset = FromDegrees(-1.5);
+  light.measured.heading_error = FromDegrees(0.25);
+  light.measured.frames = 8;
+  light.measured.edges = 45;
+  light.measured.edges_agreeing = 31;
+  light.measured.edges_with_contrast = 0.84;
+  return light;
+}
+
+nlohmann::json JsonOf(const LightSummary& light) {
+  ReplayReport report = Example();
+  report.light = light;
+  return nlohmann::json::parse(ReportJson(report))["light"];
+}
+
+std::string PageOf(const LightSummary& light) {
+  ReplayReport report = Example();
+  report.light = light;
+  return ReportHtml(report);
+}
+
+TEST(ReportLight, StatesWhatWasMeasuredAndHowCertainItIs) {
+  const nlohmann::json json = JsonOf(MeasuredSummary());
+  EXPECT_EQ(json["sun_azimuth_deg"], 151.2);
+  EXPECT_EQ(json["sun_normal_lux"], 92300.0);
+  EXPECT_EQ(json["sky_horizontal_lux"], 12700.0);
+  EXPECT_EQ(json["gain_rgb"], (nlohmann::json{3e-5, 2.5e-5, 2e-5}));
+  EXPECT_EQ(json["gain_from"], "marker");
+  EXPECT_EQ(json["gain_relative_error_rgb"], (nlohmann::json{0.011, 0.022, 0.033}));
+  EXPECT_EQ(json["gain_change"], 1.25);
+  EXPECT_EQ(json["gain_readings"], 40);
+  EXPECT_EQ(json["marker_in_sun"], 0.625);
+  EXPECT_EQ(json["marker_dappled"], 0.25);
+  const nlohmann::json& measured = json["measured"];
+  EXPECT_EQ(measured["sun_to_sky"], 4.55);
+  EXPECT_EQ(measured["sun_to_sky_relative_error"], 0.07);
+  EXPECT_EQ(measured["sun_from"], "measured");
+  EXPECT_EQ(measured["heading_offset_deg"], -1.5);
+  EXPECT_EQ(measured["heading_error_deg"], 0.25);
+  EXPECT_EQ(measured["shadow_edges_agreeing"], 31);
+  EXPECT_EQ(measured["shadow_edges_with_contrast"], 0.84);
+  EXPECT_EQ(measured["sun_doubtful"], false);
+
+  const std::string page = PageOf(MeasuredSummary());
+  EXPECT_THAT(page, HasSubstr("<b>151.2° / 41.6°</b><span>sun: azimuth"));
+  EXPECT_THAT(page, HasSubstr("<b>92.3 klx</b>"));
+  EXPECT_THAT(page, HasSubstr("<b>12.7 klx</b>"));
+  EXPECT_THAT(page, HasSubstr("<b>4.55</b><span>sun over sky on level ground, ± 7 %: 31 of 45 "
+                              "shadow edges agree, in 8 frames; the scene says 4.74"));
+  EXPECT_THAT(page, HasSubstr("<b>84 %</b><span>of 45 edges of phantoms&#39; shadows"));
+  EXPECT_THAT(page, HasSubstr("<b>-1.50° ± 0.25°</b>"));
+  EXPECT_THAT(page, HasSubstr("<b>62 % in the sun</b>"));
+  EXPECT_THAT(page, HasSubstr("leaves shade it in 25 % of frames"));
+  EXPECT_THAT(page, HasSubstr("<b>3e-05 2.5e-05 2e-05</b>"));
+  EXPECT_THAT(page, HasSubstr("± 1.1 2.2 3.3 % by the marker in 40 frames, changed by a factor "
+                              "of 1.25"));
+  EXPECT_THAT(page, Not(HasSubstr("doubtful")));
+}
+
+TEST(ReportLight, StatesTheRatioThatTreesShadeTells) {
+  LightSummary light = MeasuredSummary();
+  light.measured.sun_source = Source::kShade;
+  light.measured.shade_places = 12;
+  light.measured.sun_to_sky_error = 0.21;
+  const nlohmann::json measured = JsonOf(light)["measured"];
+  EXPECT_EQ(measured["sun_from"], "shade");
+  EXPECT_EQ(measured["shade_places"], 12);
+  EXPECT_EQ(measured["sun_to_sky_relative_error"], 0.21);
+  EXPECT_THAT(PageOf(light), HasSubstr("± 21 %, from how deep the shade of trees is at 12 places"));
+}
+
+TEST(ReportLight, ClaimsNoCertaintyOfWhatIsOnlySaid) {
+  LightSummary light = MeasuredSummary();
+  light.measured = {};
+  light.measured.sun_to_sky = 4.74;
+  const nlohmann::json stated = JsonOf(light)["measured"];
+  for (const char* key :
+       {"sun_to_sky_relative_error", "heading_error_deg", "shadow_edges_with_contrast"}) {
+    ASSERT_TRUE(stated.contains(key)) << key;
+    EXPECT_TRUE(stated[key].is_null()) << key;
+  }
+  EXPECT_EQ(stated["sun_from"], "stated");
+  EXPECT_THAT(PageOf(light), HasSubstr("<b>4.74</b><span>sun over sky on level ground, as the "
+                                       "scene says"));
+  EXPECT_THAT(PageOf(light), Not(HasSubstr("edges of phantoms")));
+  light.measured.sun_source = light.measured.heading_source = Source::kOverride;
+  const nlohmann::json given = JsonOf(light)["measured"];
+  EXPECT_EQ(given["sun_from"], "option");
+  EXPECT_TRUE(given["sun_to_sky_relative_error"].is_null());
+  EXPECT_TRUE(given["heading_error_deg"].is_null());
+  EXPECT_THAT(PageOf(light), HasSubstr("sun over sky on level ground, as the user says"));
+}
+
+TEST(ReportLight, SaysWhoGaveTheGain) {
+  LightSummary light = MeasuredSummary();
+  light.readings = light.dappled_readings = 0;
+  for (const auto& [source, name, words] :
+       {std::tuple{LightSummary::GainSource::kScene, "scene", "as the scene gives it"},
+        std::tuple{LightSummary::GainSource::kGuess, "guess", "guessed"}}) {
+    light.gain_source = source;
+    const nlohmann::json json = JsonOf(light);
+    EXPECT_EQ(json["gain_from"], name);
+    for (const char* key :
+         {"gain_relative_error_rgb", "gain_change", "marker_in_sun", "marker_dappled"}) {
+      ASSERT_TRUE(json.contains(key)) << key;
+      EXPECT_TRUE(json[key].is_null()) << key << " of " << name;
+    }
+    const std::string page = PageOf(light);
+    EXPECT_THAT(page, HasSubstr(std::string("camera gain (r g b per cd/m²), ") + words + "<"));
+    EXPECT_THAT(page, Not(HasSubstr("by the marker in")));
+    EXPECT_THAT(page, Not(HasSubstr("marker, as the phantoms leave it")));
+  }
+}
+
+TEST(ReportLight, SaysWhetherTheMarkerLiesInTheSun) {
+  LightSummary light = MeasuredSummary();
+  light.print_lit_share = 1.0;
+  EXPECT_THAT(PageOf(light), HasSubstr("<b>in the sun</b>"));
+  light.print_lit_share = 0.0;
+  EXPECT_EQ(JsonOf(light)["marker_in_sun"], 0.0);
+  EXPECT_THAT(PageOf(light), HasSubstr("<b>in shade</b>"));
+  light.measured.sun_shines = false;
+  EXPECT_TRUE(JsonOf(light)["marker_in_sun"].is_null());
+  EXPECT_THAT(PageOf(light), HasSubstr("<b>no sun</b><span>marker"));
+}
+
+TEST(ReportLight, SaysThatTheSunIsDoubtful) {
+  LightSummary light = MeasuredSummary();
+  light.measured.sun_source = Source::kStated;
+  light.measured.sun_to_sky_error.reset();
+  light.measured.sun_doubtful = true;
+  light.measured.edges_with_contrast = -0.04;
+  EXPECT_EQ(JsonOf(light)["measured"]["sun_doubtful"], true);
+  EXPECT_EQ(JsonOf(light)["measured"]["shadow_edges_with_contrast"], -0.04);
+  EXPECT_THAT(PageOf(light), HasSubstr("<b>doubtful</b><span>whether the sun shone"));
+  EXPECT_THAT(PageOf(light), HasSubstr("<b>0 %</b><span>of 45 edges"));
+}
+
+TEST(ReportLight, SaysThatNoSunShone) {
+  LightSummary light = MeasuredSummary();
+  light.measured.sun_shines = false;
+  light.measured.sun_to_sky = 0.0;
+  light.measured.sun_to_sky_error.reset();
+  EXPECT_TRUE(JsonOf(light)["measured"]["sun_to_sky_relative_error"].is_null());
+  EXPECT_THAT(PageOf(light), HasSubstr("<b>no sun</b><span>where phantoms would cast shadows: 31 "
+                                       "of 45 shadow edges agree"));
 }
 
 TEST(SummarizePath, DoesNotCountStepsAcrossFramesWithoutAPose) {

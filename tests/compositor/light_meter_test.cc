@@ -2,8 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "base/srgb.h"
@@ -101,17 +105,64 @@ TEST(LightMeter, ReadsExposureAndWhiteBalanceOfASunlitPrint) {
   const RgbImage picture = Photograph(kGain, -1.0);
   const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
   ExpectGain(reading, kGain);
-  EXPECT_LT(reading->spread, 0.02);
+  EXPECT_LT(std::max({reading->error.r, reading->error.g, reading->error.b}), 0.005);
+  EXPECT_FALSE(reading->dappled);
+  EXPECT_EQ(reading->lit_share, 1.0);
+}
+
+TEST(LightMeter, TellsHowCertainItsReadingIs) {
+  // More noise in green: gains scatter from picture to picture as each says of itself.
+  constexpr int kPictures = 60;
+  const RgbImage clean = Photograph(kGain, -1.0);
+  const LightMeter meter = MeterFor(-1.0);
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise;
+  LinearRgb said;
+  std::array<double, 3> sum{}, squares{};
+  for (int i = 0; i < kPictures; ++i) {
+    RgbImage picture = Photograph(kGain, -1.0);
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        for (const int c : {0, 1, 2}) {
+          const double code = clean(x, y, c) + (c == 1 ? 8.0 : 4.0) * noise(random);
+          picture(x, y, c) = static_cast<std::uint8_t>(std::lround(code));
+        }
+      }
+    }
+    const auto reading = meter.Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(reading);
+    ASSERT_FALSE(reading->dappled);
+    said = said + reading->error * (1.0 / kPictures);
+    const LinearRgb off = reading->gain / kGain;
+    for (const int c : {0, 1, 2}) {
+      const std::array values{off.r, off.g, off.b};
+      const double value = values[c];
+      sum[c] += value / kPictures;
+      squares[c] += value * value / kPictures;
+    }
+  }
+  EXPECT_GT(said.g, 1.5 * said.r);
+  for (const int c : {0, 1, 2}) {
+    const double scatter = std::sqrt(squares[c] - sum[c] * sum[c]);
+    const std::array all{said.r, said.g, said.b};
+    EXPECT_GT(all[c], 0.7 * scatter) << "channel " << c;
+    EXPECT_LT(all[c], 1.5 * scatter) << "channel " << c;
+  }
 }
 
 TEST(LightMeter, KnowsWhichPartLiesInThePhantomsShadow) {
   const RgbImage picture = Photograph(kGain, 0.05);
-  ExpectGain(MeterFor(0.05).Measure(picture.view(), kCamera, kFromAbove), kGain);
+  const auto reading = MeterFor(0.05).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectGain(reading, kGain);
+  EXPECT_GT(reading->lit_share, 0.2);
+  EXPECT_LT(reading->lit_share, 0.8);
 }
 
 TEST(LightMeter, ReadsAPrintThatLiesWhollyInShadow) {
   const RgbImage picture = Photograph(kGain * 5.0, 1.0);
-  ExpectGain(MeterFor(1.0).Measure(picture.view(), kCamera, kFromAbove), kGain * 5.0);
+  const auto reading = MeterFor(1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectGain(reading, kGain * 5.0);
+  EXPECT_EQ(reading->lit_share, 0.0);
 }
 
 TEST(LightMeter, TakesTheSunlitPartWhenAnUnknownShadowCrossesThePrint) {
@@ -137,7 +188,8 @@ TEST(LightMeter, TakesTheBrightestSpotsUnderLeaves) {
   ASSERT_LT(mean, 0.8) << "the middle of the light is far below the sun";
   const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
   ASSERT_TRUE(reading);
-  EXPECT_GT(reading->spread, 0.10);
+  EXPECT_TRUE(reading->dappled);
+  EXPECT_GT(reading->error.g, 0.10);
   EXPECT_NEAR(reading->gain.r / kGain.r, 1.0, 0.08);
   EXPECT_NEAR(reading->gain.g / kGain.g, 1.0, 0.08);
   EXPECT_NEAR(reading->gain.b / kGain.b, 1.0, 0.08);
