@@ -16,6 +16,7 @@ KeyFrame ReadKeyFrame(int frame);
 struct Score {
   double object = 0.0;  ///< Where the object covers more than half of a pixel.
   double shadow = 0.0;  ///< Where it takes more than 4 % of the light, itself excluded.
+  double around = 0.0;  ///< Both with 25 pixels around them.
 };
 
 /// `leave_out`: where it is not zero nothing is compared; may be empty.
