@@ -109,16 +109,19 @@ class DayOfABox : public ::testing::Test {
   static UtcTime At(double hour_utc) {
     return UtcTime::Parse("2025-06-21T00:00:00Z")->PlusSeconds(3600.0 * hour_utc);
   }
-  RgbImage Picture(double hour_utc) {
+  RgbImage Picture(double hour_utc,
+                   const Transform<Camera, Marker>& camera_from_marker = camera_from_marker_) {
     const UtcTime time = At(hour_utc);
     auto picture =
-        day_->Render(camera_from_marker_, time, GainOfDay(day_->LevelLight(time), brightest_));
+        day_->Render(camera_from_marker, time, GainOfDay(day_->LevelLight(time), brightest_));
     EXPECT_TRUE(picture);
     return picture ? *std::move(picture) : RgbImage(96, 96, 3);
   }
   /// The code of a point of the scene.
-  std::array<double, 3> Code(const RgbImage& picture, Vec3 point) const {
-    const Vec2 px = ProjectToPixel(camera_, camera_from_marker_ * Point<Marker>{point});
+  std::array<double, 3> Code(
+      const RgbImage& picture, Vec3 point,
+      const Transform<Camera, Marker>& camera_from_marker = camera_from_marker_) const {
+    const Vec2 px = ProjectToPixel(camera_, camera_from_marker * Point<Marker>{point});
     const auto* at =
         picture.view().row(static_cast<int>(std::lround(px.y))) + 3 * std::lround(px.x);
     return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
@@ -129,6 +132,11 @@ class DayOfABox : public ::testing::Test {
   /// 4 m above the middle, looking down.
   static inline const Transform<Camera, Marker> camera_from_marker_{{{1, 0, 0, 0, -1, 0, 0, 0, -1}},
                                                                     {0, 0, 4}};
+  /// 4 m away to the east and to the west, 20 cm high, looking at the box.
+  static inline const Transform<Camera, Marker> from_east_{{{0, 1, 0, 0, 0, -1, -1, 0, 0}},
+                                                           {0, 0.2, 4}};
+  static inline const Transform<Camera, Marker> from_west_{{{0, -1, 0, 0, 0, -1, 1, 0, 0}},
+                                                           {0, 0.2, 4}};
   static std::unique_ptr<DayRenderer> day_;
   static LinearRgb brightest_;
 };
@@ -142,7 +150,7 @@ TEST_F(DayOfABox, TurnsTheShadowFromWestToEast) {
   EXPECT_LT(Code(evening, east)[1], 0.7 * Code(evening, west)[1]);
 }
 
-TEST_F(DayOfABox, IsWarmAtSunriseGreyAtNoonAndBlackAtNight) {
+TEST_F(DayOfABox, IsWarmInTheSunAndBlueInTheShadeAtSunriseGreyAtNoonAndBlackAtNight) {
   const Vec3 top{0.0, 0.0, 0.4}, ground{1.0, -1.0, 0.0};
   const RgbImage noon = Picture(11.0), sunrise = Picture(3.3), night = Picture(-1.0);
   const auto grey = Code(noon, top);
@@ -152,8 +160,11 @@ TEST_F(DayOfABox, IsWarmAtSunriseGreyAtNoonAndBlackAtNight) {
   EXPECT_GT(Code(noon, ground)[1], 100.0);
   const auto dawn = Code(sunrise, top);
   EXPECT_LT(dawn[1], 0.9 * grey[1]);
-  const LinearRgb light = day_->LevelLight(At(3.3));
-  EXPECT_EQ(dawn[0] > dawn[2], light.r / brightest_.r > light.b / brightest_.b);
+  // The sun stands in the northeast: the east side has it, the west side has the sky alone.
+  const auto east = Code(Picture(3.3, from_east_), {0.2, 0.0, 0.2}, from_east_);
+  const auto west = Code(Picture(3.3, from_west_), {-0.2, 0.0, 0.2}, from_west_);
+  EXPECT_GT(east[0], 1.3 * east[2]);
+  EXPECT_GT(west[2], 1.1 * west[0]);
   for (const int channel : {0, 1, 2}) EXPECT_EQ(Code(night, top)[channel], 0.0);
 }
 
