@@ -25,6 +25,11 @@ constexpr std::uint32_t kRayBudget = 25'000'000;
 constexpr std::uint32_t kFewestRays = 32;
 constexpr double kShareOfRays = 0.35;  // Of the time, for the progress.
 
+/// Raise it whenever something else is computed for the same geometry and options: rays, sampling,
+/// sky patches, reflections, codes. Otherwise what an older version kept is taken for the present
+/// one's. The form of the file is its own header's matter.
+constexpr std::uint64_t kMethodVersion = 1;
+
 using Straight = std::array<float, kP>;
 
 class Transfer {
@@ -166,8 +171,8 @@ DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
 }
 
 std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOptions& options) {
-  // Fowler, Noll & Vo, FNV-1a; the prefix changes with the form of the file.
-  std::uint64_t hash = 0xCBF29CE484222325ULL ^ 1U;
+  // Fowler, Noll & Vo, FNV-1a.
+  std::uint64_t hash = 0xCBF29CE484222325ULL;
   const auto add = [&](const void* bytes, std::size_t size) {
     const auto* at = static_cast<const unsigned char*>(bytes);
     for (std::size_t i = 0; i < size; ++i) hash = (hash ^ at[i]) * 0x100000001B3ULL;
@@ -177,6 +182,7 @@ std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOp
     add(&count, sizeof count);
     add(values.data(), values.size() * sizeof(values[0]));
   };
+  add(&kMethodVersion, sizeof kMethodVersion);
   const double numbers[] = {up.x,
                             up.y,
                             up.z,

@@ -58,7 +58,8 @@ DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
                                          const CoefficientOptions& options,
                                          const CoefficientProgress& progress);
 
-/// A number that any change of what the coefficients depend on changes: FNV-1a, 64 bits.
+/// A number that any change of what the coefficients depend on changes, the version of the method
+/// among them: FNV-1a, 64 bits.
 std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOptions& options);
 
 /// Writes what ReadCoefficients() reads, "HASH.dlc" in a folder, which is made. A file that cannot
