@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/srgb.h"
+#include "tests/compositor/gentle_response.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -71,7 +72,7 @@ const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 
 /// The print in the light of OverheadSun; left of `shadow_to_x_m` in shadow, and an even veil
 /// added.
 RgbImage Photograph(LinearRgb gain, double shadow_to_x_m, double veil = 0.0,
-                    const MarkerPrint& print = kPrint) {
+                    const MarkerPrint& print = kPrint, const CameraResponse& response = {}) {
   RgbImage picture(kCamera.width, kCamera.height, 3);
   for (int y = 0; y < kCamera.height; ++y) {
     for (int x = 0; x < kCamera.width; ++x) {
@@ -80,16 +81,16 @@ RgbImage Photograph(LinearRgb gain, double shadow_to_x_m, double veil = 0.0,
       const double albedo = distance < print.size_m / 2 ? print.albedo_black : print.albedo_white;
       const double lux = kAmbientLux + (ray.x < shadow_to_x_m ? 0.0 : kSunLux);
       const double radiance = albedo * lux / std::numbers::pi;
-      picture(x, y, 0) = Srgb8FromLinear(gain.r * radiance + veil);
-      picture(x, y, 1) = Srgb8FromLinear(gain.g * radiance + veil);
-      picture(x, y, 2) = Srgb8FromLinear(gain.b * radiance + veil);
+      picture(x, y, 0) = response.Encoded8(gain.r * radiance + veil, 0);
+      picture(x, y, 1) = response.Encoded8(gain.g * radiance + veil, 1);
+      picture(x, y, 2) = response.Encoded8(gain.b * radiance + veil, 2);
     }
   }
   return picture;
 }
 
-LightMeter MeterFor(double predicted_shadow_to_x_m) {
-  return LightMeter(kPrint, HalfShadow(predicted_shadow_to_x_m), OverheadSun(), Mat3{});
+LightMeter MeterFor(double predicted_shadow_to_x_m, const CameraResponse& response = {}) {
+  return LightMeter(kPrint, HalfShadow(predicted_shadow_to_x_m), OverheadSun(), Mat3{}, response);
 }
 
 const LinearRgb kGain{3.0e-5, 2.5e-5, 2.0e-5};
@@ -203,6 +204,19 @@ TEST(LightMeter, CancelsVeilingGlare) {
 TEST(LightMeter, FallsBackToTheBlackWhereTheWhiteIsClipped) {
   const RgbImage picture = Photograph(kGain * 3.0, -1.0);
   ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain * 3.0);
+}
+
+TEST(LightMeter, ReadsCodesByTheCamerasOwnResponse) {
+  const CameraResponse gentle = testing::GentleResponse();
+  // Well exposed, and so bright that the white clips.
+  for (const double exposure : {1.0, 3.0}) {
+    const RgbImage picture = Photograph(kGain * exposure, -1.0, 0.0, kPrint, gentle);
+    ExpectGain(MeterFor(-1.0, gentle).Measure(picture.view(), kCamera, kFromAbove),
+               kGain * exposure);
+    const auto wrong = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(wrong);
+    EXPECT_GT(std::fabs(std::log(wrong->gain.b / (kGain.b * exposure))), 0.15) << exposure;
+  }
 }
 
 TEST(LightMeter, SaysNothingOfAPrintWithBlackOutsideAndWhiteInside) {

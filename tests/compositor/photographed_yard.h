@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/srgb.h"
+#include "base/camera_response.h"
 #include "compositor/light_samples.h"
 #include "compositor/marker_print.h"
 #include "compositor/scaled_daylight.h"
@@ -88,7 +88,7 @@ class PhotographedYard {
     return {rotation, -(rotation * eye)};
   }
 
-  RgbImage Photograph(int picture, const Light& light) const {
+  RgbImage Photograph(int picture, const Light& light, const CameraResponse& response = {}) const {
     const auto marker_from_camera = Pose(picture).Inverse();
     const TangentFrame sun(ToSun());
     RgbImage image(camera_.width, camera_.height, 3);
@@ -102,9 +102,9 @@ class PhotographedYard {
         const LinearRgb e = Irradiance(*seen, light, sun);
         const LinearRgb albedo = light.colours_as_stated ? StatedAlbedo(*seen) : Albedo(*seen);
         const LinearRgb radiance = e * albedo * (1 / std::numbers::pi);
-        image(x, y, 0) = Srgb8FromLinear(radiance.r * kGain);
-        image(x, y, 1) = Srgb8FromLinear(radiance.g * kGain);
-        image(x, y, 2) = Srgb8FromLinear(radiance.b * kGain);
+        image(x, y, 0) = response.Encoded8(radiance.r * kGain, 0);
+        image(x, y, 1) = response.Encoded8(radiance.g * kGain, 1);
+        image(x, y, 2) = response.Encoded8(radiance.b * kGain, 2);
       }
     }
     return image;

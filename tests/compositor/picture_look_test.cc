@@ -8,6 +8,7 @@
 #include <random>
 
 #include "compositor/picture_grain.h"
+#include "tests/compositor/gentle_response.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -33,7 +34,7 @@ struct Photograph {
 };
 
 /// The print on grey ground through a camera: 8 × 8 samples a pixel, Gaussian blur, noise, 8 bits.
-RgbImage Take(const Photograph& how, std::uint32_t seed = 1) {
+RgbImage Take(const Photograph& how, std::uint32_t seed = 1, const CameraResponse& response = {}) {
   const auto from_camera = kPose.Inverse();
   const auto albedo = [&](Vec3 at) {
     const double m = std::max(std::fabs(at.x), std::fabs(at.y));
@@ -86,7 +87,7 @@ RgbImage Take(const Photograph& how, std::uint32_t seed = 1) {
       for (int c = 0; c < 3; ++c) {
         const double l = light(x, y);
         const double sigma = std::sqrt(how.noise_constant + how.noise_slope * l);
-        picture(x, y, c) = Srgb8FromLinear(l + sigma * normal(random));
+        picture(x, y, c) = response.Encoded8(l + sigma * normal(random), c);
       }
     }
   }
@@ -95,6 +96,27 @@ RgbImage Take(const Photograph& how, std::uint32_t seed = 1) {
 
 std::optional<PictureLook> Measure(const Photograph& how) {
   return MeasurePictureLook(Take(how).view(), kCamera, kPose, kPrint, {});
+}
+
+TEST(PictureLook, ReadsCodesByTheCamerasOwnResponse) {
+  const CameraResponse gentle = testing::GentleResponse();
+  const Photograph how{.blur_px = 1.0, .noise_constant = 1e-5, .noise_slope = 2e-4};
+  const auto srgb = Measure(how);
+  const RgbImage picture = Take(how, 1, gentle);
+  const auto read_as = [&](const CameraResponse& response) {
+    return MeasurePictureLook(picture.view(), kCamera, kPose, kPrint, response);
+  };
+  const auto look = read_as(gentle), wrong = read_as({});
+  ASSERT_TRUE(srgb && look && wrong);
+  EXPECT_NEAR(look->blur_px, srgb->blur_px, 0.02);
+  EXPECT_GT(std::fabs(wrong->blur_px - srgb->blur_px), 0.04);
+  constexpr double kBlack = 0.03, kWhite = 0.6;
+  for (const int c : {0, 1, 2}) {
+    for (const double light : {kBlack, kWhite}) {
+      EXPECT_NEAR(look->NoiseSigma(c, light) / srgb->NoiseSigma(c, light), 1.0, 0.04) << c;
+    }
+    EXPECT_LT(wrong->NoiseSigma(c, kBlack), 0.85 * look->NoiseSigma(c, kBlack)) << c;
+  }
 }
 
 TEST(PictureLook, ReadsTheBlurOffThePrintsEdges) {

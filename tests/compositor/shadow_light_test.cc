@@ -9,6 +9,7 @@
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
 #include "compositor/unmodelled_shade.h"
+#include "tests/compositor/gentle_response.h"
 #include "tests/compositor/photographed_yard.h"
 
 namespace pleinair::compositor {
@@ -90,6 +91,23 @@ TEST_F(ShadowLight, LeavesOutPlacesInTheShadowOfATreeThatNoPhantomStandsFor) {
 
 TEST_F(ShadowLight, IsNotMisledByChangingExposure) {
   ExpectScale(Read(Look({}, 2, 0.7)), {1, 1, 1});
+}
+
+TEST_F(ShadowLight, ReadsCodesByTheCamerasOwnResponse) {
+  const CameraResponse gentle = testing::GentleResponse();
+  const auto read_as = [&](const CameraResponse& response) {
+    SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print(), response);
+    for (const int i : {0, 1}) {
+      samples.AddFrame(yard_->Photograph(i, {}, gentle).view(), PhotographedYard::Pose(i),
+                       {1, 1, 1});
+    }
+    return Read(samples);
+  };
+  ExpectScale(read_as(gentle), {1, 1, 1});
+  // Taken for sRGB, whose codes stand for more contrast, the shade is too deep for so much sky.
+  const SunSkyReading wrong = read_as({});
+  ASSERT_EQ(wrong.sun, SunSkyReading::Sun::kShines);
+  EXPECT_LT(wrong.sky_scale.g, 0.85);
 }
 
 TEST_F(ShadowLight, SaysNothingWhereNoPhantomCastsAShadowInView) {
