@@ -18,6 +18,7 @@ extern "C" {
 
 #include "app/command.h"
 #include "base/units.h"
+#include "compositor/render_targets.h"
 #include "devices/calibration.h"
 #include "gl/egl_context.h"
 
@@ -64,10 +65,11 @@ std::vector<Finding> ExamineOpenGl() {
     return {{Verdict::kBad, "OpenGL", context.error().what + "; " + context.error().remedy}};
   }
   const gl::EglContextInfo& info = context->info();
-  return {{Verdict::kGood, "OpenGL",
-           "4.5 core without a display: " + info.renderer + ", " + info.version + " (" +
-               info.vendor + ", EGL platform " + info.platform +
-               (info.software ? ", drawn by the processor)" : ")")}};
+  return {
+      {Verdict::kGood, "OpenGL",
+       "4.5 core without a display: " + info.renderer + ", " + info.version + " (" + info.vendor +
+           ", EGL platform " + info.platform + (info.software ? ", drawn by the processor)" : ")")},
+      ExamineSamples(compositor::RenderTargets::SamplesGiven())};
 }
 
 Finding ExamineVideoEncoder() {
@@ -177,6 +179,17 @@ Result<void> Run(const Options& options) {
 }
 
 }  // namespace
+
+Finding ExamineSamples(int samples) {
+  constexpr int kWanted = compositor::RenderTargets::kWantedSamples;
+  if (samples >= kWanted) {
+    return {Verdict::kGood, "antialiasing", Format("%d samples a pixel", samples)};
+  }
+  return {Verdict::kDoubtful, "antialiasing",
+          Format("%d of %d samples a pixel, so edges of virtual objects are coarse; another driver "
+                 "or LIBGL_ALWAYS_SOFTWARE=1 (slower) gives more",
+                 samples, kWanted)};
+}
 
 std::vector<Finding> ExamineCalibration(const CameraModel& camera) {
   return {{Verdict::kGood, "picture", Format("%d×%d px", camera.width, camera.height)},

@@ -207,6 +207,9 @@ class Replayer {
     for (std::string& sentence : ModelWarnings(renderer_->placed())) {
       report_.warnings.push_back(std::move(sentence));
     }
+    for (std::string& sentence : DrawingWarnings(renderer_->samples())) {
+      report_.warnings.push_back(std::move(sentence));
+    }
     if (scene_.objects.empty()) {
       report_.warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
     } else if (scene_.phantoms.empty()) {

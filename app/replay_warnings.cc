@@ -9,6 +9,8 @@
 #include <map>
 #include <set>
 
+#include "compositor/render_targets.h"
+
 namespace pleinair::app {
 namespace {
 
@@ -120,6 +122,15 @@ std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel
                                    more > 0 ? fmt::format(" and {} more", more) : ""));
   }
   return warnings;
+}
+
+std::vector<std::string> DrawingWarnings(std::optional<int> samples) {
+  constexpr int kWanted = compositor::RenderTargets::kWantedSamples;
+  if (!samples || *samples >= kWanted) return {};
+  return {
+      fmt::format("The renderer gives {} of {} samples a pixel: edges of virtual objects are "
+                  "coarser than the camera's own. 'pleinair doctor' names the renderer.",
+                  *samples, kWanted)};
 }
 
 std::vector<std::string> LightWarnings(const LightSummary& summary) {

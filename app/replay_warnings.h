@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,10 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Sessio
 
 /// What models' files have that does not show, a sentence a file.
 std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel>& models);
+
+/// What the renderer cannot do as well as it should: `samples` a pixel at objects' edges, nothing
+/// where none are drawn.
+std::vector<std::string> DrawingWarnings(std::optional<int> samples);
 
 /// Where the light that was measured is far from what the scene says, cannot be what the frames
 /// show, or was not measured.

@@ -131,6 +131,10 @@ class SceneRenderer {
 
   /// Whether there is anything to draw.
   bool DrawsObjects() const { return composer_ != nullptr; }
+  /// Samples a pixel that objects' edges have; nothing where there is nothing to draw.
+  std::optional<int> samples() const {
+    return composer_ ? std::optional(composer_->samples()) : std::nullopt;
+  }
   /// Phantoms, then objects, as they stand.
   const std::vector<compositor::PlacedModel>& placed() const { return placed_; }
 

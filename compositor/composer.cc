@@ -51,6 +51,7 @@ class GlComposer : public Composer {
 
   Result<void> SetOptions(const ComposerOptions& options) override;
   void LetGo() override { context_.ReleaseCurrent(); }
+  int samples() const override { return targets_.samples(); }
   void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) override {
     surfaces_.Move(placed_model, linear, translation_m);
   }

@@ -64,6 +64,9 @@ class Composer {
   /// translation. The light on it and around it stays, until SetLight().
   virtual void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) = 0;
 
+  /// Samples a rendered pixel that edges have: 4, or what the renderer gives where that is less.
+  virtual int samples() const = 0;
+
   /// Lets another thread draw from now on.
   virtual void LetGo() = 0;
 

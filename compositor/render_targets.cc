@@ -1,28 +1,36 @@
 #include "compositor/render_targets.h"
 
 #include <algorithm>
+#include <array>
 
 namespace pleinair::compositor {
 namespace {
 
-// Mesa's software renderer stops at 4, and so do the shaders.
-constexpr int kSamples = 4;
+constexpr std::array<GLenum, 3> kSampledFormats{GL_R32UI, GL_RGBA16F, GL_DEPTH_COMPONENT32F};
 
 }  // namespace
 
+// More than kWantedSamples are not asked for: Mesa's software renderer stops there, and so do the
+// shaders.
+int RenderTargets::SamplesGiven() {
+  int samples = kWantedSamples;
+  for (const GLenum format : kSampledFormats) {
+    GLint most = 1;
+    glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_SAMPLES, 1, &most);
+    samples = std::min(samples, static_cast<int>(most));
+  }
+  return samples;
+}
+
 Result<RenderTargets> RenderTargets::Create(int width, int height) {
-  GLint most_samples = 1, most_integer_samples = 1;
-  glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
-  glGetIntegerv(GL_MAX_INTEGER_SAMPLES, &most_integer_samples);
-  const int samples =
-      std::min({kSamples, static_cast<int>(most_samples), static_cast<int>(most_integer_samples)});
+  const int samples = SamplesGiven();
   RenderTargets targets;
   const auto create_samples = [&](GLenum format) {
     return gl::GlTexture::Create2DMultisample(format, width, height, samples);
   };
-  PLEINAIR_ASSIGN_OR_RETURN(targets.ids_, create_samples(GL_R32UI));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.texels_, create_samples(GL_RGBA16F));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.depth_samples_, create_samples(GL_DEPTH_COMPONENT32F));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.ids_, create_samples(kSampledFormats[0]));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.texels_, create_samples(kSampledFormats[1]));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.depth_samples_, create_samples(kSampledFormats[2]));
   PLEINAIR_ASSIGN_OR_RETURN(targets.seen_, gl::GlTexture::Create2D(GL_RGBA32UI, width, height));
   targets.seen_.SetFilter(GL_NEAREST, GL_NEAREST);
   PLEINAIR_ASSIGN_OR_RETURN(targets.kinds_,

@@ -30,6 +30,11 @@ class RenderTargets {
   const gl::GlTexture& passed_ratio() const { return passed_ratio_; }
   const gl::GlTexture& passed_objects() const { return passed_objects_; }
 
+  /// Samples a pixel that geometry is meant to have; and those that the renderer whose context is
+  /// current gives it, which may be fewer.
+  static constexpr int kWantedSamples = 4;
+  static int SamplesGiven();
+
   int samples() const { return ids_.samples(); }
   const gl::GlTexture& ids() const { return ids_; }
   const gl::GlTexture& texels() const { return texels_; }

@@ -35,6 +35,13 @@ TEST(Doctor, FindsNothingWrongWithAPlausibleCalibration) {
   }
 }
 
+TEST(Doctor, DoubtsARendererThatGivesEdgesFewSamples) {
+  EXPECT_EQ(ExamineSamples(4).verdict, Verdict::kGood);
+  EXPECT_EQ(ExamineSamples(4).text, "4 samples a pixel");
+  EXPECT_EQ(ExamineSamples(1).verdict, Verdict::kDoubtful);
+  EXPECT_EQ(ExamineSamples(1).text.substr(0, 23), "1 of 4 samples a pixel,");
+}
+
 TEST(Doctor, DoubtsFocalLengthsOfAnotherPictureSize) {
   CameraModel camera = Plausible();
   camera.width = 6400;

@@ -70,6 +70,12 @@ TEST(MarkerWarnings, SayWhatWasLookedForInVain) {
   EXPECT_THAT(WhereNothingWasSeen({}, {}), HasSubstr("Seen: tag36h11_4."));
 }
 
+TEST(DrawingWarnings, SayThatEdgesGetFewSamples) {
+  EXPECT_THAT(DrawingWarnings(std::nullopt), IsEmpty());
+  EXPECT_THAT(DrawingWarnings(4), IsEmpty());
+  EXPECT_THAT(DrawingWarnings(1), ElementsAre(HasSubstr("gives 1 of 4 samples a pixel")));
+}
+
 TEST(LightWarnings, SayWhatTheLightCannotBe) {
   LightSummary light;
   light.sun.elevation = FromDegrees(30);

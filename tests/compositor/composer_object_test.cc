@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -65,6 +66,32 @@ TEST(Composer, ColoursAnObjectByItsTextureAndLeavesTheCameraWhatIsCutOut) {
   EXPECT_EQ(SeenAt(composed, {-0.35, 0.35, 0.1}), LinearFromSrgb8()[77]);
   // An object without a texture beside it keeps its own colour.
   EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), Level(0.5), 0.02);
+}
+
+TEST(Composer, SmoothsASlantedEdgeInFourSteps) {
+  // Black before white, turned a little: in linear light what is left of a pixel's white is what
+  // the square leaves free, in quarters.
+  const double c = std::cos(0.1), s = std::sin(0.1);
+  const PlacedModel square{
+      std::make_shared<const Model>(MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F)),
+      Mat3{{c, -s, 0, s, c, 0, 0, 0, 1}},
+      {},
+      false};
+  constexpr std::uint8_t kWhite = 200;
+  const RgbImage composed = Compose({square}, EvenPicture(kWhite));
+  std::array<int, 5> pixels{};  // By quarters that are covered.
+  for (int y = 0; y < composed.height(); ++y) {
+    for (int x = 0; x < composed.width(); ++x) {
+      const double covered = 1 - LinearFromSrgb8()[composed(x, y, 1)] / LinearFromSrgb8()[kWhite];
+      const auto quarters = std::lround(4 * covered);
+      EXPECT_NEAR(4 * covered, quarters, 0.1) << x << ", " << y;
+      ++pixels[static_cast<std::size_t>(quarters)];
+    }
+  }
+  // Four edges of some hundred pixels.
+  for (const int quarters : {1, 2, 3}) EXPECT_GT(pixels[quarters], 30) << quarters;
+  EXPECT_GT(pixels[0], 1000);
+  EXPECT_GT(pixels[4], 1000);
 }
 
 TEST(Composer, TellsMetalFromPaintByTheTexture) {
