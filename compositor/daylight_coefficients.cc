@@ -12,6 +12,7 @@
 #include "compositor/coefficient_reflection.h"
 #include "compositor/light_gather.h"
 #include "compositor/light_inside.h"
+#include "compositor/light_samples.h"
 #include "compositor/light_scene.h"
 #include "compositor/parallel_for.h"
 
@@ -28,15 +29,20 @@ constexpr double kShareOfRays = 0.35;  // Of the time, for the progress.
 /// Raise it whenever something else is computed for the same geometry and options: rays, sampling,
 /// sky patches, reflections, codes. Otherwise what an older version kept is taken for the present
 /// one's. The form of the file is its own header's matter.
-constexpr std::uint64_t kMethodVersion = 1;
+constexpr std::uint64_t kMethodVersion = 2;
+
+constexpr std::uint32_t kFineSalt = 0xF1;
 
 using Straight = std::array<float, kP>;
 
 class Transfer {
  public:
-  Transfer(const LightScene& scene, const GatheredLight& gathered, int threads)
+  Transfer(const LightScene& scene, const GatheredLight& gathered, const SkyPatches& patches,
+           int threads)
       : scene_(scene),
         gathered_(gathered),
+        patches_(patches),
+        is_phantom_(scene.ArePhantoms()),
         threads_(threads),
         inside_(InsidePatches(scene, gathered, threads)),
         weight_(std::numbers::pi_v<float> / static_cast<float>(gathered.rays)) {}
@@ -83,7 +89,11 @@ class Transfer {
     return total;
   }
 
+  /// Of Tregenza's patches each is met by a few of the rays that were gathered. Of finer ones most
+  /// are met by none, and one that the sun stands in would count for all of its light or for
+  /// nothing: each has a ray of its own.
   std::vector<Straight> StraightLight(int chunk, int k) const {
+    const bool fine = patches_.division() > 1;
     std::vector<Straight> straight(scene_.patch_count);
     ParallelFor(gathered_.blocks.size(), threads_, [&](std::size_t index) {
       const GatheredLight::Block& block = gathered_.blocks[index];
@@ -93,11 +103,32 @@ class Transfer {
         for (; at < block.escape_ends[i]; ++at) {
           const GatheredLight::Escape& escape = block.escapes[at];
           if (escape.patch / kP != chunk || (k == 0 ? escape.with : escape.without) == 0) continue;
+          if (fine && escape.patch != patches_.land()) continue;
           light[escape.patch % kP] += weight_;
+        }
+        if (fine) {
+          AddFinePatches(static_cast<std::uint32_t>(index * GatheredLight::kBlockSize + i), chunk,
+                         k, &light);
         }
       }
     });
     return straight;
+  }
+
+  void AddFinePatches(std::uint32_t at, int chunk, int k, Straight* light) const {
+    if (k == 1 && is_phantom_[at] == 0) return;
+    const RayTargets targets = k == 0 ? RayTargets::kEverything : RayTargets::kPhantoms;
+    const int last = std::min((chunk + 1) * kP, patches_.count());
+    for (int patch = chunk * kP; patch < last; ++patch) {
+      const std::uint32_t seed = Hash(Hash(at, kFineSalt), static_cast<std::uint32_t>(patch));
+      const LightScene::Spot& spot = scene_.AnySpot(at, Hash(seed, 1));
+      const Vec3 direction =
+          patches_.Within(patch, UnitFromHash(Hash(seed, 2)), UnitFromHash(Hash(seed, 3)));
+      const double cosine =
+          Dot(Normalized({spot.normal[0], spot.normal[1], spot.normal[2]}), direction);
+      if (cosine <= 0.0 || scene_.rays->Occluded(targets, spot.origin, direction)) continue;
+      (*light)[patch % kP] = static_cast<float>(cosine * patches_.SolidAngle(patch));
+    }
   }
 
   std::vector<ChunkLight> Reflect(const std::vector<ChunkLight>& arriving, int k) const {
@@ -130,6 +161,8 @@ class Transfer {
 
   const LightScene& scene_;
   const GatheredLight& gathered_;
+  const SkyPatches& patches_;
+  std::vector<std::uint8_t> is_phantom_;
   int threads_;
   std::array<std::vector<std::uint8_t>, 2> inside_;
   float weight_;
@@ -154,7 +187,7 @@ DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
   const GatheredLight gathered = GatherPatches(scene, patches, rays, options.threads, options.stop);
   if (options.stop != nullptr && *options.stop) return coefficients;
   report(kShareOfRays);
-  Transfer transfer(scene, gathered, options.threads);
+  Transfer transfer(scene, gathered, patches, options.threads);
   coefficients.with = CoefficientMatrix(scene.patch_count, patches.total());
   coefficients.without = CoefficientMatrix(scene.patch_count, patches.total());
   const int chunks = coefficients.with.chunks();

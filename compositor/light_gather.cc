@@ -28,8 +28,8 @@ class Gatherer {
            std::optional<Vec3> to_sun, const SeenSunlight* sunlight, int rays)
       : scene_(scene), sky_(sky), patches_(patches), sunlight_(sunlight), rays_(rays) {
     if (to_sun) sun_frame_.emplace(*to_sun);
+    is_phantom_ = scene.ArePhantoms();
     for (const LightScene::Sheet& sheet : scene.sheets) {
-      is_phantom_.insert(is_phantom_.end(), sheet.patch_count, sheet.mesh.is_phantom);
       has_twin_.insert(has_twin_.end(), sheet.patch_count, sheet.twin >= 0);
     }
   }
@@ -44,8 +44,7 @@ class Gatherer {
     for (int i = 0; i < rays_; ++i) {
       const auto ray = static_cast<std::uint32_t>(i);
       // A patch of many spots gathers the mean over them.
-      const LightScene::Spot& spot =
-          scene_.spots[first + (spots > 1 ? Hash(Hash(patch, ray), kSpotSalt) % spots : 0)];
+      const LightScene::Spot& spot = scene_.AnySpot(patch, Hash(Hash(patch, ray), kSpotSalt));
       const Vec3 origin = spot.origin;
       const TangentFrame frame(Normalized({spot.normal[0], spot.normal[1], spot.normal[2]}));
       const Vec3 direction =

@@ -54,6 +54,22 @@ struct LightScene {
 
   const Face& FaceOf(const RayHit& hit) const { return faces[first_face[hit.mesh] + hit.triangle]; }
 
+  /// One of a patch's spots, as a hash says.
+  const Spot& AnySpot(std::uint32_t patch, std::uint32_t hash) const {
+    const std::uint32_t first = patch == 0 ? 0 : spot_ends[patch - 1];
+    return spots[first + hash % (spot_ends[patch] - first)];
+  }
+
+  /// By patch.
+  std::vector<std::uint8_t> ArePhantoms() const {
+    std::vector<std::uint8_t> are;
+    are.reserve(patch_count);
+    for (const Sheet& sheet : sheets) {
+      are.insert(are.end(), sheet.patch_count, sheet.mesh.is_phantom ? 1 : 0);
+    }
+    return are;
+  }
+
   /// The light of a sheet's vertices from that of all patches.
   std::vector<std::array<float, 3>> VertexLight(
       const Sheet& sheet, std::span<const std::array<float, 3>> patch_light) const;

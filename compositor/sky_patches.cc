@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "base/check.h"
@@ -67,6 +68,14 @@ double SkyPatches::SolidAngle(int patch) const {
     return 2 * std::numbers::pi * (std::sin(band.high) - std::sin(band.low)) / band.patches;
   }
   return 2 * std::numbers::pi;
+}
+
+Vec3 SkyPatches::Within(int patch, double across, double up) const {
+  const auto band = std::prev(
+      std::upper_bound(bands_.begin(), bands_.end(), patch,
+                       [](int wanted, const Band& other) { return wanted < other.first; }));
+  const double sine = std::lerp(std::sin(band->low), std::sin(band->high), up);
+  return Direction(std::asin(sine), (patch - band->first + across) / band->patches);
 }
 
 std::vector<LinearRgb> SkyPatches::Radiances(const sky::SkyModel& day,

@@ -24,6 +24,9 @@ class SkyPatches {
   /// The patch that a unit direction (marker coordinates) lies in.
   int At(Vec3 direction) const;
   double SolidAngle(int patch) const;
+  /// A direction within a patch of the sky; even steps of either coordinate, 0…1, are even steps of
+  /// solid angle.
+  Vec3 Within(int patch, double across, double up) const;
 
   /// Mean radiance of every patch, and of the land lying in sun and sky, cd/m².
   std::vector<LinearRgb> Radiances(const sky::SkyModel& day, const Mat3& marker_from_world,
