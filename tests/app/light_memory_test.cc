@@ -95,7 +95,7 @@ TEST(LightMemory, KeepsALightThatIsNotSeenAgain) {
   EXPECT_EQ(light.sun_source, Source::kShade);
   EXPECT_EQ(light.shade_places, 7);
   EXPECT_EQ(light.shaded, 0.3);
-  EXPECT_NEAR(light.sun_to_sky_error, std::hypot(0.06, 0.1 * std::sqrt(5.0)), 1e-9);
+  EXPECT_NEAR(light.sun_to_sky_error.value_or(0.0), std::hypot(0.06, 0.1 * std::sqrt(5.0)), 1e-9);
   EXPECT_EQ(skies.scale, (LinearRgb{1.5, 1.4, 1.3}));
 }
 
