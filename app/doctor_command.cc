@@ -122,13 +122,14 @@ Finding ExamineDistortion(const CameraModel& camera) {
   if (!camera.HasDistortion()) return {Verdict::kGood, "distortion", "none"};
   constexpr int kDirections = 16;
   constexpr double kStep = 0.002;  // In tan(angle).
-  constexpr double kFarthest = 20.0;
+  constexpr int kSteps = 10'000;
   double largest_px = 0.0;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kDirections;
     const double dx = std::cos(angle), dy = std::sin(angle);
     double previous = 0.0;
-    for (double r = kStep; r < kFarthest; r += kStep) {
+    for (int step = 1; step < kSteps; ++step) {
+      const double r = kStep * step;
       double x = 0.0, y = 0.0;
       DistortNormalized(camera, r * dx, r * dy, &x, &y);
       const double outwards = x * dx + y * dy;
