@@ -7,14 +7,11 @@
 #include <cstring>
 #include <limits>
 
+#include "compositor/gltf_error.h"
 #include "compositor/model_limits.h"
 
 namespace pleinair::compositor {
 namespace {
-
-tl::unexpected<Error> Fail(const std::string& where, std::string what) {
-  return InputError(where, std::move(what), "repair the model or export it again");
-}
 
 template <typename T>
 T Load(const std::byte* from) {
@@ -92,21 +89,21 @@ Result<Elements> ElementsOf(const tinygltf::Model& gltf, int view, std::size_t o
   const bool fits = stride >= element_size && stride <= 252 && count <= kMostVertices * 6 &&
                     offset <= bytes.size() && count > 0 &&
                     (count - 1) * stride + element_size <= bytes.size() - offset;
-  if (!fits) return Fail(where, "an accessor reaches beyond its buffer view");
+  if (!fits) return GltfError(where, "an accessor reaches beyond its buffer view");
   return Elements{bytes.subspan(offset), stride};
 }
 
 Result<void> CheckAccessor(const tinygltf::Model& gltf, int index, std::size_t components,
                            const std::string& where) {
   if (index < 0 || static_cast<std::size_t>(index) >= gltf.accessors.size()) {
-    return Fail(where, "refers to accessor " + std::to_string(index) + " of " +
-                           std::to_string(gltf.accessors.size()));
+    return GltfError(where, "refers to accessor " + std::to_string(index) + " of " +
+                                std::to_string(gltf.accessors.size()));
   }
   const tinygltf::Accessor& accessor = gltf.accessors[static_cast<std::size_t>(index)];
   if (ComponentCount(accessor.type) != components || ComponentSize(accessor.componentType) == 0) {
-    return Fail(where, "accessor " + std::to_string(index) + " has another type than its use");
+    return GltfError(where, "accessor " + std::to_string(index) + " has another type than its use");
   }
-  if (accessor.count > kMostTriangles * 3) return Fail(where, "an accessor is too large");
+  if (accessor.count > kMostTriangles * 3) return GltfError(where, "an accessor is too large");
   return {};
 }
 
@@ -131,23 +128,23 @@ Result<std::vector<double>> Components(const tinygltf::Model& gltf, int index,
     for (std::size_t i = 0; i < accessor.count; ++i) copy(elements.At(i), &values[i * components]);
   } else if (accessor.sparse.isSparse) {
     // No bytes in the file stand behind these zeros: do not let a number allocate gigabytes.
-    if (accessor.count > kMostVertices) return Fail(where, "an accessor is too large");
+    if (accessor.count > kMostVertices) return GltfError(where, "an accessor is too large");
     values.resize(accessor.count * components);
   } else {
-    return Fail(where, "accessor " + std::to_string(index) + " has no data");
+    return GltfError(where, "accessor " + std::to_string(index) + " has no data");
   }
   if (!accessor.sparse.isSparse) return values;
 
   const auto& sparse = accessor.sparse;
   if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count ||
       sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
-    return Fail(where, "a sparse accessor is out of range");
+    return GltfError(where, "a sparse accessor is out of range");
   }
   if (sparse.count == 0) return values;
   const auto count = static_cast<std::size_t>(sparse.count);
   const std::size_t index_size = ComponentSize(sparse.indices.componentType);
   if (index_size == 0 || sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) {
-    return Fail(where, "a sparse accessor's indices are not integers");
+    return GltfError(where, "a sparse accessor's indices are not integers");
   }
   PLEINAIR_ASSIGN_OR_RETURN(
       const Elements indices,
@@ -160,7 +157,7 @@ Result<std::vector<double>> Components(const tinygltf::Model& gltf, int index,
   for (std::size_t i = 0; i < count; ++i) {
     const double at = Component(indices.At(i), sparse.indices.componentType, false);
     if (at < 0.0 || at >= static_cast<double>(accessor.count)) {
-      return Fail(where, "a sparse accessor is out of range");
+      return GltfError(where, "a sparse accessor is out of range");
     }
     copy(replacements.At(i), &values[static_cast<std::size_t>(at) * components]);
   }
@@ -172,15 +169,15 @@ Result<std::vector<double>> Components(const tinygltf::Model& gltf, int index,
 Result<std::span<const std::byte>> GltfViewBytes(const tinygltf::Model& gltf, int view_index,
                                                  const std::string& where) {
   if (view_index < 0 || static_cast<std::size_t>(view_index) >= gltf.bufferViews.size()) {
-    return Fail(where, "refers to a buffer view that does not exist");
+    return GltfError(where, "refers to a buffer view that does not exist");
   }
   const tinygltf::BufferView& view = gltf.bufferViews[static_cast<std::size_t>(view_index)];
   if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= gltf.buffers.size()) {
-    return Fail(where, "refers to a buffer that does not exist");
+    return GltfError(where, "refers to a buffer that does not exist");
   }
   const std::vector<unsigned char>& data = gltf.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
-    return Fail(where, "a buffer view reaches beyond its buffer");
+    return GltfError(where, "a buffer view reaches beyond its buffer");
   }
   return std::as_bytes(std::span(data)).subspan(view.byteOffset, view.byteLength);
 }
@@ -189,12 +186,14 @@ template <std::size_t N>
 Result<std::vector<std::array<float, N>>> ReadGltfFloats(const tinygltf::Model& gltf, int accessor,
                                                          const std::string& where) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<double> values, Components(gltf, accessor, N, where));
-  if (values.size() / N > kMostVertices) return Fail(where, "has more than 20 million vertices");
+  if (values.size() / N > kMostVertices) {
+    return GltfError(where, "has more than 20 million vertices");
+  }
   std::vector<std::array<float, N>> elements(values.size() / N);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i]) || std::fabs(values[i]) > 1e8) {
-      return Fail(where, "accessor " + std::to_string(accessor) +
-                             " has a value that is not a finite number below 1e8");
+      return GltfError(where, "accessor " + std::to_string(accessor) +
+                                  " has a value that is not a finite number below 1e8");
     }
     elements[i / N][i % N] = static_cast<float>(values[i]);
   }
@@ -212,7 +211,9 @@ Result<std::vector<std::uint32_t>> ReadGltfIndices(const tinygltf::Model& gltf, 
   std::vector<std::uint32_t> indices;
   indices.reserve(values.size());
   for (const double value : values) {
-    if (!(value >= 0.0 && value < 4294967295.0)) return Fail(where, "an index is out of range");
+    if (!(value >= 0.0 && value < 4294967295.0)) {
+      return GltfError(where, "an index is out of range");
+    }
     indices.push_back(static_cast<std::uint32_t>(value));
   }
   return indices;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "compositor/gltf_accessor.h"
+#include "compositor/gltf_error.h"
 #include "compositor/texture_decoder.h"
 
 namespace pleinair::compositor {
@@ -34,20 +35,14 @@ class MaterialReader {
   }
 
  private:
-  tl::unexpected<Error> Fail(std::string what) const {
-    return InputError(where_, std::move(what), "repair the model or export it again");
-  }
-
-  static bool InRange(int index, std::size_t count) {
-    return index >= 0 && static_cast<std::size_t>(index) < count;
-  }
-
   /// Index of a glTF texture's picture.
   Result<int> PictureOf(int texture) const {
-    if (!InRange(texture, gltf_.textures.size())) return Fail("refers to a texture out of range");
+    if (!IsGltfIndex(texture, gltf_.textures.size())) {
+      return GltfError(where_, "refers to a texture out of range");
+    }
     const int image = gltf_.textures[static_cast<std::size_t>(texture)].source;
-    if (InRange(image, gltf_.images.size())) return image;
-    return Fail("texture " + std::to_string(texture) + " has no PNG or JPEG picture");
+    if (IsGltfIndex(image, gltf_.images.size())) return image;
+    return GltfError(where_, "texture " + std::to_string(texture) + " has no PNG or JPEG picture");
   }
 
   /// A picture, decoded.

@@ -10,6 +10,7 @@
 
 #include "base/vector.h"
 #include "compositor/gltf_accessor.h"
+#include "compositor/gltf_error.h"
 #include "compositor/gltf_files.h"
 #include "compositor/gltf_materials.h"
 #include "compositor/gltf_placement.h"
@@ -56,16 +57,12 @@ class GltfReader {
     }
     PLEINAIR_ASSIGN_OR_RETURN(uv_maps_, ReadGltfMaterials(gltf_, encoded_, file_, &model_));
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
-    if (model_.meshes.empty()) return Fail("its scene has no triangles");
+    if (model_.meshes.empty()) return GltfError(where_, "its scene has no triangles");
     if (!gltf_.animations.empty()) model_.left_out.insert("animations");
     return std::move(model_);
   }
 
  private:
-  tl::unexpected<Error> Fail(std::string what) const {
-    return InputError(where_, std::move(what), "repair the model or export it again");
-  }
-
   Result<void> Parse() {
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(KeepEncoded, &encoded_);
@@ -87,11 +84,7 @@ class GltfReader {
     if (ok) return {};
     std::string first = error.substr(0, error.find('\n'));
     if (first.empty()) first = "unknown cause";
-    return Fail("is not a valid glTF 2.0 file: " + first.substr(0, 200));
-  }
-
-  static bool InRange(int index, std::size_t count) {
-    return index >= 0 && static_cast<std::size_t>(index) < count;
+    return GltfError(where_, "is not a valid glTF 2.0 file: " + first.substr(0, 200));
   }
 
   /// Walks the default scene's nodes. glTF's nodes form trees: none has two parents.
@@ -102,7 +95,7 @@ class GltfReader {
     };
     std::vector<Visit> to_visit;
     const int scene = gltf_.defaultScene >= 0 ? gltf_.defaultScene : 0;
-    if (InRange(scene, gltf_.scenes.size())) {
+    if (IsGltfIndex(scene, gltf_.scenes.size())) {
       for (const int node : gltf_.scenes[static_cast<std::size_t>(scene)].nodes) {
         to_visit.push_back({node, kUpright});
       }
@@ -110,7 +103,9 @@ class GltfReader {
       std::vector<bool> is_child(gltf_.nodes.size());
       for (const tinygltf::Node& node : gltf_.nodes) {
         for (const int child : node.children) {
-          if (InRange(child, gltf_.nodes.size())) is_child[static_cast<std::size_t>(child)] = true;
+          if (IsGltfIndex(child, gltf_.nodes.size())) {
+            is_child[static_cast<std::size_t>(child)] = true;
+          }
         }
       }
       for (std::size_t i = 0; i < gltf_.nodes.size(); ++i) {
@@ -122,16 +117,20 @@ class GltfReader {
     while (!to_visit.empty()) {
       const Visit visit = to_visit.back();
       to_visit.pop_back();
-      if (!InRange(visit.node, gltf_.nodes.size())) return Fail("refers to a node out of range");
+      if (!IsGltfIndex(visit.node, gltf_.nodes.size())) {
+        return GltfError(where_, "refers to a node out of range");
+      }
       const auto index = static_cast<std::size_t>(visit.node);
       if (seen[index]) {
-        return Fail("node " + std::to_string(index) + " has two parents or contains itself");
+        return GltfError(where_,
+                         "node " + std::to_string(index) + " has two parents or contains itself");
       }
       seen[index] = true;
       const tinygltf::Node& node = gltf_.nodes[index];
       const GltfPlacement placement = visit.placement * PlacementOf(node);
       if (!IsFinite(placement)) {
-        return Fail("the placement of node " + std::to_string(index) + " is not finite");
+        return GltfError(where_,
+                         "the placement of node " + std::to_string(index) + " is not finite");
       }
       if (node.mesh >= 0) {
         if (node.skin >= 0) model_.left_out.insert("skins");
@@ -145,7 +144,9 @@ class GltfReader {
   }
 
   Result<void> ReadMesh(int mesh, const GltfPlacement& placement) {
-    if (!InRange(mesh, gltf_.meshes.size())) return Fail("refers to a mesh out of range");
+    if (!IsGltfIndex(mesh, gltf_.meshes.size())) {
+      return GltfError(where_, "refers to a mesh out of range");
+    }
     const tinygltf::Mesh& source = gltf_.meshes[static_cast<std::size_t>(mesh)];
     for (const tinygltf::Primitive& primitive : source.primitives) {
       PLEINAIR_RETURN_IF_ERROR(ReadPrimitive(source.name, primitive, placement));
@@ -165,9 +166,11 @@ class GltfReader {
     mesh.name = name;
     PLEINAIR_ASSIGN_OR_RETURN(mesh.positions, ReadGltfFloats<3>(gltf_, position->second, where_));
     vertex_count_ += mesh.positions.size();
-    if (vertex_count_ > kMostVertices) return Fail("has more than 20 million vertices");
-    if (primitive.material >= 0 && !InRange(primitive.material, gltf_.materials.size())) {
-      return Fail("refers to a material out of range");
+    if (vertex_count_ > kMostVertices) {
+      return GltfError(where_, "has more than 20 million vertices");
+    }
+    if (primitive.material >= 0 && !IsGltfIndex(primitive.material, gltf_.materials.size())) {
+      return GltfError(where_, "refers to a material out of range");
     }
     mesh.material = primitive.material >= 0 ? primitive.material
                                             : static_cast<int>(model_.materials.size()) - 1;
@@ -175,7 +178,7 @@ class GltfReader {
         normal != primitive.attributes.end()) {
       PLEINAIR_ASSIGN_OR_RETURN(mesh.normals, ReadGltfFloats<3>(gltf_, normal->second, where_));
       if (mesh.normals.size() != mesh.positions.size()) {
-        return Fail("a mesh has more or fewer normals than positions");
+        return GltfError(where_, "a mesh has more or fewer normals than positions");
       }
     }
     const UvMap uv_map =
@@ -184,12 +187,12 @@ class GltfReader {
         uv != primitive.attributes.end()) {
       PLEINAIR_ASSIGN_OR_RETURN(mesh.uvs, ReadGltfFloats<2>(gltf_, uv->second, where_));
       if (mesh.uvs.size() != mesh.positions.size()) {
-        return Fail("a mesh has more or fewer texture coordinates than positions");
+        return GltfError(where_, "a mesh has more or fewer texture coordinates than positions");
       }
       for (auto& uv_of_vertex : mesh.uvs) {
         uv_of_vertex = uv_map(uv_of_vertex);
         if (!IsWithinReach(uv_of_vertex)) {
-          return Fail("KHR_texture_transform takes texture coordinates beyond 1e8");
+          return GltfError(where_, "KHR_texture_transform takes texture coordinates beyond 1e8");
         }
       }
     }
@@ -209,12 +212,15 @@ class GltfReader {
     }
     for (const std::uint32_t index : order) {
       if (index >= mesh->positions.size()) {
-        return Fail("a triangle of mesh \"" + mesh->name.substr(0, 64) + "\" refers to vertex " +
-                    std::to_string(index) + " of " + std::to_string(mesh->positions.size()));
+        return GltfError(where_, "a triangle of mesh \"" + mesh->name.substr(0, 64) +
+                                     "\" refers to vertex " + std::to_string(index) + " of " +
+                                     std::to_string(mesh->positions.size()));
       }
     }
     triangle_count_ += order.size();
-    if (triangle_count_ > kMostTriangles) return Fail("has more than 40 million triangles");
+    if (triangle_count_ > kMostTriangles) {
+      return GltfError(where_, "has more than 40 million triangles");
+    }
     if (mode == TINYGLTF_MODE_TRIANGLES) {
       order.resize(order.size() / 3 * 3);
       mesh->indices = std::move(order);
@@ -233,7 +239,7 @@ class GltfReader {
     for (auto& p : mesh->positions) {
       const Vec3 placed = placement.linear * Vec3{p[0], p[1], p[2]} + placement.translation_m;
       if (!(std::fabs(placed.x) + std::fabs(placed.y) + std::fabs(placed.z) < 1e8)) {
-        return Fail("its nodes move a vertex beyond 1e8 metres");
+        return GltfError(where_, "its nodes move a vertex beyond 1e8 metres");
       }
       p = {static_cast<float>(placed.x), static_cast<float>(placed.y),
            static_cast<float>(placed.z)};
