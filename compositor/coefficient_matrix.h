@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "compositor/huge_page_allocator.h"
 
 namespace pleinair::compositor {
 
@@ -22,6 +23,9 @@ class CoefficientMatrix {
   static constexpr int kLanes = 16;    ///< Vertices that lie interleaved.
   static constexpr int kPlanes = 4;
 
+  template <typename T>
+  using Table = std::vector<T, HugePageAllocator<T>>;
+
   CoefficientMatrix() = default;
   CoefficientMatrix(std::size_t vertices, int patches);
 
@@ -33,19 +37,20 @@ class CoefficientMatrix {
   void Set(std::size_t vertex, int chunk, int plane, std::span<const float, kPatches> values);
   float At(std::size_t vertex, int patch, int plane) const;
 
-  /// The light of a sky on every vertex: straight and reflected of `sky`, reflected of `sun`, whose
-  /// straight light is the shadow maps' to give. Lengths: patches(), vertices().
+  /// The light of a sky on the vertices from `first` on, as many as `irradiance` has: straight and
+  /// reflected of `sky`, reflected of `sun`, whose straight light is the shadow maps' to give.
+  /// Length of these: patches().
   void Multiply(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
-                std::span<std::array<float, 3>> irradiance) const;
-  /// The same, one number after the other.
+                std::span<std::array<float, 3>> irradiance, std::size_t first = 0) const;
+  /// The same on all vertices, one number after the other.
   void MultiplyScalar(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
                       std::span<std::array<float, 3>> irradiance) const;
 
   // As they lie in memory and on disk.
-  std::vector<std::uint8_t>& codes() { return codes_; }
-  const std::vector<std::uint8_t>& codes() const { return codes_; }
-  std::vector<float>& scales() { return scales_; }
-  const std::vector<float>& scales() const { return scales_; }
+  Table<std::uint8_t>& codes() { return codes_; }
+  const Table<std::uint8_t>& codes() const { return codes_; }
+  Table<float>& scales() { return scales_; }
+  const Table<float>& scales() const { return scales_; }
 
  private:
   std::size_t blocks() const { return (vertices_ + kLanes - 1) / kLanes; }
@@ -58,8 +63,8 @@ class CoefficientMatrix {
 
   std::size_t vertices_ = 0;
   int patches_ = 0;
-  std::vector<std::uint8_t> codes_;  ///< [block][chunk][plane][patch][lane].
-  std::vector<float> scales_;        ///< [block][chunk][plane][lane].
+  Table<std::uint8_t> codes_;  ///< [block][chunk][plane][patch][lane].
+  Table<float> scales_;        ///< [block][chunk][plane][lane].
 };
 
 }  // namespace pleinair::compositor

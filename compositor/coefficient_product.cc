@@ -127,21 +127,23 @@ float CoefficientMatrix::At(std::size_t vertex, int patch, int plane) const {
 }
 
 void CoefficientMatrix::Multiply(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
-                                 std::span<std::array<float, 3>> irradiance) const {
+                                 std::span<std::array<float, 3>> irradiance,
+                                 std::size_t first) const {
   CHECK_EQ(sky.size(), static_cast<std::size_t>(patches_));
   CHECK_EQ(sun.size(), sky.size());
-  CHECK_EQ(irradiance.size(), vertices_);
+  const std::size_t end = first + irradiance.size();
+  CHECK_LE(end, vertices_);
   const std::vector<float> weights = Weights(sky, sun, chunks());
   std::array<float, 3 * kLanes> sums;
-  for (std::size_t block = 0; block < blocks(); ++block) {
+  for (std::size_t block = first / kLanes; block * kLanes < end; ++block) {
     const std::size_t tile = Tile(block, 0, 0);
     HWY_DYNAMIC_DISPATCH(MultiplyBlock)
     (codes_.data() + tile * kPatches * kLanes, scales_.data() + tile * kLanes, weights.data(),
      chunks(), sums.data());
-    const std::size_t first = block * kLanes;
-    const std::size_t count = std::min<std::size_t>(kLanes, vertices_ - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      irradiance[first + i] = {sums[i], sums[kLanes + i], sums[2 * kLanes + i]};
+    const std::size_t last = std::min(end, (block + 1) * kLanes);
+    for (std::size_t vertex = std::max(first, block * kLanes); vertex < last; ++vertex) {
+      const std::size_t lane = vertex % kLanes;
+      irradiance[vertex - first] = {sums[lane], sums[kLanes + lane], sums[2 * kLanes + lane]};
     }
   }
 }

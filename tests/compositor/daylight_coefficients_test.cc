@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -29,7 +31,7 @@ using testing::UniformDay;
 constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 
-LightScene SceneOf(std::vector<PlacedModel> models, double edge_m = 0.1) {
+LightScene SceneOf(const std::vector<PlacedModel>& models, double edge_m = 0.1) {
   LightSolverOptions options;
   options.near_edge_m = edge_m;
   auto scene = LightScene::Create(models, options);
@@ -352,6 +354,15 @@ TEST(CoefficientMatrix, MultipliesWithVectorUnitsAsOneByOne) {
   matrix.MultiplyScalar(sky, sun, slow);
   for (std::size_t v = 0; v < kVertices; ++v) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(fast[v][c], slow[v][c], 1e-5 * slow[v][c]);
+  }
+  // A part of the vertices, wherever it begins and ends.
+  for (const std::size_t first : {0U, 1U, 15U, 16U, 30U}) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, kVertices - first}) {
+      std::vector<std::array<float, 3>> part(count);
+      matrix.Multiply(sky, sun, part, first);
+      EXPECT_TRUE(
+          std::equal(part.begin(), part.end(), fast.begin() + static_cast<std::ptrdiff_t>(first)));
+    }
   }
 }
 

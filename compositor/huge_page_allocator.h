@@ -1,0 +1,41 @@
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <new>
+
+namespace pleinair::compositor {
+
+/// For large tables that are read from end to end: asks the kernel for pages of 2 MiB, at whose
+/// borders alone the processor stops reading ahead. Where it has none to give, nothing changes.
+template <typename T>
+class HugePageAllocator {
+ public:
+  using value_type = T;
+
+  HugePageAllocator() = default;
+  template <typename U>
+  explicit HugePageAllocator(const HugePageAllocator<U>&) {}
+
+  T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    void* at = ::operator new(bytes, AlignmentOf(bytes));
+    if (bytes >= kPage) madvise(at, bytes, MADV_HUGEPAGE);
+    return static_cast<T*>(at);
+  }
+  void deallocate(T* at, std::size_t count) {
+    ::operator delete(at, AlignmentOf(count * sizeof(T)));
+  }
+
+  bool operator==(const HugePageAllocator&) const = default;
+
+ private:
+  static constexpr std::size_t kPage = std::size_t{2} << 20;
+
+  static std::align_val_t AlignmentOf(std::size_t bytes) {
+    return std::align_val_t{bytes >= kPage ? kPage : alignof(std::max_align_t)};
+  }
+};
+
+}  // namespace pleinair::compositor
