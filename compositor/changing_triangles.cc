@@ -9,12 +9,19 @@ ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : indices_(phantom.
   const std::size_t count = phantom.positions.size();
   positions_.reserve(count);
   normals_.reserve(count);
-  sky_changes_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& p = phantom.positions[i];
     const auto& n = phantom.normals[i];
     positions_.emplace_back(p[0], p[1], p[2]);
     normals_.emplace_back(n[0], n[1], n[2]);
+  }
+  SetLight(phantom);
+}
+
+void ChangingTriangles::SetLight(const LitMesh& phantom) {
+  sky_changes_.clear();
+  sky_changes_.reserve(phantom.ambient_with.size());
+  for (std::size_t i = 0; i < phantom.ambient_with.size(); ++i) {
     bool changes = false;
     for (std::size_t c = 0; c < 3; ++c) {
       const float without = phantom.ambient_without[i][c];

@@ -25,6 +25,8 @@ class ChangingTriangles {
   };
 
   explicit ChangingTriangles(const LitMesh& phantom);
+  /// Another light on the same triangles: counts from the next Sort() on.
+  void SetLight(const LitMesh& phantom);
 
   /// Sorts; one past the last index of each kind is in ends(). `objects`: of the same window.
   void Sort(const SunWindow& window, const SunFootprint& objects = {});

@@ -1,8 +1,11 @@
 #include "compositor/light_solver.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "compositor/light_gather.h"
@@ -27,7 +30,10 @@ constexpr std::size_t kSkySeenPatches = 64;
 class EmbreeLightSolver : public LightSolver {
  public:
   EmbreeLightSolver(LightScene scene, const LightSolverOptions& options)
-      : scene_(std::move(scene)), options_(options) {}
+      : scene_(std::move(scene)), options_(options) {
+    static std::atomic<std::uint64_t> sheets{0};
+    first_geometry_ = 1 + sheets.fetch_add(scene_.sheets.size());
+  }
 
   std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel& day, const Mat3& marker_from_world,
                                        const SeenSunlight& sunlight) const override {
@@ -70,9 +76,12 @@ class EmbreeLightSolver : public LightSolver {
     const auto sky = patches.Radiances(day, marker_from_world, kLandAlbedo);
     const auto sun = patches.Sun(day, marker_from_world);
     PatchLight light;
-    for (const int k : {0, 1}) {
-      light.irradiance[k].resize(scene_.patch_count);
-      (k == 0 ? coefficients.with : coefficients.without).Multiply(sky, sun, light.irradiance[k]);
+    for (auto& irradiance : light.irradiance) irradiance.resize(scene_.patch_count);
+    coefficients.with.Multiply(sky, sun, light.irradiance[0]);
+    // Of the virtual objects there is no light without them.
+    for (const auto& [first, count] : PhantomPatches()) {
+      coefficients.without.Multiply(sky, sun, std::span(light.irradiance[1]).subspan(first, count),
+                                    first);
     }
     return MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
       // Some patches of a sheet tell which side of it looks to the sky.
@@ -223,6 +232,22 @@ class EmbreeLightSolver : public LightSolver {
     return static_cast<int>(std::min(wanted, std::max(kFewestRays, affordable)));
   }
 
+  struct Run {
+    std::size_t first = 0, count = 0;
+  };
+  /// The phantoms' patches, as few runs of them as can be.
+  std::vector<Run> PhantomPatches() const {
+    std::vector<Run> runs;
+    for (const LightScene::Sheet& sheet : scene_.sheets) {
+      if (!sheet.mesh.is_phantom) continue;
+      if (runs.empty() || runs.back().first + runs.back().count != sheet.first_patch) {
+        runs.push_back({sheet.first_patch, 0});
+      }
+      runs.back().count += sheet.patch_count;
+    }
+    return runs;
+  }
+
   /// Of an open surface's two sides, that of which `sky_seen` says more comes first.
   template <typename SkySeen>
   std::vector<LitMesh> MakeLitMeshes(const PatchLight& light, const SkySeen& sky_seen) const {
@@ -245,6 +270,7 @@ class EmbreeLightSolver : public LightSolver {
     mesh.is_phantom = sheet.mesh.is_phantom;
     mesh.placed_model = sheet.mesh.placed_model;
     mesh.material = sheet.mesh.material;
+    mesh.geometry = first_geometry_ + static_cast<std::uint64_t>(&sheet - scene_.sheets.data());
     mesh.role = sheet.mesh.role;
     mesh.positions = sheet.mesh.positions;
     mesh.normals = sheet.mesh.normals;
@@ -257,6 +283,7 @@ class EmbreeLightSolver : public LightSolver {
 
   LightScene scene_;
   LightSolverOptions options_;
+  std::uint64_t first_geometry_ = 0;  // LitMesh::geometry of the first sheet; the others follow.
 };
 
 }  // namespace

@@ -38,6 +38,8 @@ struct LitMesh {
   bool is_phantom = false;
   int placed_model = 0;  ///< Index into the scene's list of placed models.
   int material = 0;      ///< Index into that model's materials.
+  /// Equal for meshes that nothing but their light tells apart; 0: not known.
+  std::uint64_t geometry = 0;
   /// kDrawn casts no shadow, kLight is not drawn. Phantoms are kAll, their loose leaves kDrawn
   /// (compositor/loose_leaves.h).
   MeshRole role = MeshRole::kAll;

@@ -1,7 +1,9 @@
 #include "compositor/scene_surfaces.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace pleinair::compositor {
@@ -42,11 +44,37 @@ Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scen
   return surfaces;
 }
 
+bool SceneSurfaces::HasSurfacesOf(const std::vector<LitMesh>& lit) const {
+  return !lit.empty() && std::equal(lit.begin(), lit.end(), geometries_.begin(), geometries_.end(),
+                                    [](const LitMesh& mesh, std::uint64_t geometry) {
+                                      return mesh.geometry != 0 && mesh.geometry == geometry;
+                                    });
+}
+
 Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
-  surfaces_.clear();
-  surfaces_.reserve(lit.size());  // The casters point into it.
-  lit_bounds_.clear();
+  if (!HasSurfacesOf(lit)) PLEINAIR_RETURN_IF_ERROR(SetSurfaces(lit));
   moved_.assign(scene_.size(), glm::dmat4(1.0));
+  PlaceCasters();
+  std::vector<const LitMesh*> phantoms, objects;
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    if (surfaces_[i].is_phantom()) {
+      phantom_triangles_[phantoms.size()].SetLight(lit[i]);
+      phantoms.push_back(&lit[i]);
+    } else if (surfaces_[i].IsDrawnObject()) {
+      objects.push_back(&lit[i]);
+    }
+  }
+  PLEINAIR_RETURN_IF_ERROR(phantom_table_.SetLight(phantoms));
+  return object_table_.SetLight(objects);
+}
+
+Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
+  geometries_.clear();
+  casters_.clear();  // They point into the surfaces.
+  phantom_casters_.clear();
+  surfaces_.clear();
+  surfaces_.reserve(lit.size());
+  lit_bounds_.clear();
   phantom_triangles_.clear();
   object_triangles_.clear();
   object_positions_.clear();
@@ -76,7 +104,8 @@ Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
   PLEINAIR_ASSIGN_OR_RETURN(phantom_table_, TriangleTable::Create(phantoms, green_albedos));
   PLEINAIR_ASSIGN_OR_RETURN(object_table_, TriangleTable::Create(objects, object_numbers));
   objects_sorted_ = false;
-  PlaceCasters();
+  geometries_.reserve(lit.size());
+  for (const LitMesh& mesh : lit) geometries_.push_back(mesh.geometry);
   return {};
 }
 

@@ -65,6 +65,9 @@ class SceneSurfaces {
   void Draw(const gl::GlProgram& program) const;
 
  private:
+  /// Whether the surfaces are those of `lit`, so that there is nothing new but their light.
+  bool HasSurfacesOf(const std::vector<LitMesh>& lit) const;
+  Result<void> SetSurfaces(const std::vector<LitMesh>& lit);
   void PlaceCasters();
   /// What the objects cover of `window` where they stand now.
   SunFootprint FootprintOf(const SunWindow& window) const;
@@ -77,8 +80,9 @@ class SceneSurfaces {
   gl::GlTexture white_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
   std::vector<SurfaceBuffers> surfaces_;
-  std::vector<shadows::Box> lit_bounds_;  // Of the surfaces, where they were lit.
-  std::vector<glm::dmat4> moved_;         // By placed model: marker from where it was lit.
+  std::vector<std::uint64_t> geometries_;  // LitMesh::geometry of the surfaces.
+  std::vector<shadows::Box> lit_bounds_;   // Of the surfaces, where they were lit.
+  std::vector<glm::dmat4> moved_;          // By placed model: marker from where it was lit.
   std::vector<ChangingTriangles> phantom_triangles_;      // Of the phantoms among them, in order.
   std::vector<FacingTriangles> object_triangles_;         // Of the objects, in order.
   std::vector<std::vector<glm::vec3>> object_positions_;  // Of their vertices, where they were lit.

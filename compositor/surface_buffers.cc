@@ -11,10 +11,7 @@ namespace {
 
 struct Vertex {
   std::array<float, 3> position;
-  std::array<float, 3> normal;
   std::array<float, 2> uv;
-  std::array<float, 3> ambient_with;
-  std::array<float, 3> ambient_without;
 };
 
 }  // namespace
@@ -23,10 +20,7 @@ Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
   std::vector<Vertex> vertices(mesh.positions.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     vertices[i].position = mesh.positions[i];
-    vertices[i].normal = mesh.normals[i];
     if (!mesh.uvs.empty()) vertices[i].uv = mesh.uvs[i];
-    vertices[i].ambient_with = mesh.ambient_with[i];
-    if (!mesh.ambient_without.empty()) vertices[i].ambient_without = mesh.ambient_without[i];
   }
   SurfaceBuffers surface;
   surface.is_phantom_ = mesh.is_phantom;
@@ -42,10 +36,7 @@ Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
   gl::GlVertexArray& array = surface.vertex_array_;
   constexpr int kStride = sizeof(Vertex);
   array.SetFloatAttribute(0, 3, surface.vertices_, kStride, offsetof(Vertex, position));
-  array.SetFloatAttribute(1, 3, surface.vertices_, kStride, offsetof(Vertex, normal));
-  array.SetFloatAttribute(2, 2, surface.vertices_, kStride, offsetof(Vertex, uv));
-  array.SetFloatAttribute(3, 3, surface.vertices_, kStride, offsetof(Vertex, ambient_with));
-  array.SetFloatAttribute(4, 3, surface.vertices_, kStride, offsetof(Vertex, ambient_without));
+  array.SetFloatAttribute(1, 2, surface.vertices_, kStride, offsetof(Vertex, uv));
   array.SetElementBuffer(surface.indices_);
   return surface;
 }

@@ -14,7 +14,8 @@
 
 namespace pleinair::compositor {
 
-/// A lit mesh in the renderer's memory, for shaders/scene_surface.vert.
+/// A mesh in the renderer's memory, for shaders/scene_surface.vert: where it is, not how it is lit
+/// (TriangleTable).
 class SurfaceBuffers {
  public:
   static Result<SurfaceBuffers> Create(const LitMesh& mesh);

@@ -40,19 +40,12 @@ std::vector<std::uint32_t> SheetsOf(const LitMesh& mesh, std::uint32_t first) {
 Result<TriangleTable> TriangleTable::Create(std::span<const LitMesh* const> meshes,
                                             std::span<const float> values) {
   TriangleTable table;
-  std::vector<Texel> vertices;
   std::vector<float> sheet_values;
+  std::uint32_t vertices = 0;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const LitMesh& mesh = *meshes[m];
-    table.first_vertices_.push_back(static_cast<std::uint32_t>(vertices.size() / kTexelsAVertex));
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-      const auto& [x, y, z] = mesh.positions[i];
-      const auto& [nx, ny, nz] = mesh.normals[i];
-      const auto& [r, g, b] = mesh.ambient_with[i];
-      // Of the virtual objects there is no light without them.
-      const auto& [r0, g0, b0] = mesh.is_phantom ? mesh.ambient_without[i] : mesh.ambient_with[i];
-      vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {r0, g0, b0, nz}});
-    }
+    table.first_vertices_.push_back(vertices);
+    vertices += static_cast<std::uint32_t>(mesh.positions.size());
     const auto sheets = SheetsOf(mesh, static_cast<std::uint32_t>(sheet_values.size()));
     if (!sheets.empty()) {
       sheet_values.resize(*std::max_element(sheets.begin(), sheets.end()) + std::size_t{1},
@@ -60,11 +53,29 @@ Result<TriangleTable> TriangleTable::Create(std::span<const LitMesh* const> mesh
     }
     table.sheets_.insert(table.sheets_.end(), sheets.begin(), sheets.end());
   }
-  PLEINAIR_RETURN_IF_ERROR(UploadRows(vertices, kVerticesARow * kTexelsAVertex, GL_RGBA32F, GL_RGBA,
-                                      GL_FLOAT, &table.vertices_));
   PLEINAIR_RETURN_IF_ERROR(
       UploadRows(sheet_values, kTrianglesARow, GL_R32F, GL_RED, GL_FLOAT, &table.values_));
   return table;
+}
+
+Result<void> TriangleTable::SetLight(std::span<const LitMesh* const> meshes) {
+  std::size_t count = 0;
+  for (const LitMesh* mesh : meshes) count += mesh->positions.size();
+  std::vector<Texel> vertices;
+  vertices.reserve(kTexelsAVertex * (count + kVerticesARow));
+  for (const LitMesh* mesh : meshes) {
+    for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
+      const auto& [x, y, z] = mesh->positions[i];
+      const auto& [nx, ny, nz] = mesh->normals[i];
+      const auto& [r, g, b] = mesh->ambient_with[i];
+      // Of the virtual objects there is no light without them.
+      const auto& [r0, g0, b0] =
+          mesh->is_phantom ? mesh->ambient_without[i] : mesh->ambient_with[i];
+      vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {r0, g0, b0, nz}});
+    }
+  }
+  return UploadRows(vertices, kVerticesARow * kTexelsAVertex, GL_RGBA32F, GL_RGBA, GL_FLOAT,
+                    &vertices_);
 }
 
 Result<void> TriangleTable::SetTriangles(std::span<const SortedTriangles> meshes) {

@@ -29,10 +29,13 @@ class TriangleTable {
 
   TriangleTable() = default;
   /// Of meshes that are all phantoms or none; `values` by mesh, what the shaders may ask of each
-  /// sheet of it. Errors (system): more vertices than a texture holds (11 million with llvmpipe),
-  /// no memory.
+  /// sheet of it. Without vertices until SetLight(). Errors (system): more vertices than a texture
+  /// holds (11 million with llvmpipe), no memory.
   static Result<TriangleTable> Create(std::span<const LitMesh* const> meshes,
                                       std::span<const float> values);
+
+  /// The vertices with their light, of the meshes that the table was made of. Errors as Create().
+  Result<void> SetLight(std::span<const LitMesh* const> meshes);
 
   /// The triangles that have numbers, by mesh in their order: those before the last of its ends.
   /// Memory is kept from call to call and grows alone. Errors as Create().

@@ -23,22 +23,6 @@
 namespace pleinair::compositor {
 namespace {
 
-const double kLevelLux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
-/// Display-linear value of a level face of so much reflectance.
-double Level(double albedo) { return kGain * albedo * kLevelLux * std::numbers::inv_pi; }
-
-/// Draws the scene in the southern sun. No shade of trees is looked for: then what no object hides
-/// from the sun is not asked for it.
-std::unique_ptr<Composer> ComposerInTheSun(const std::vector<PlacedModel>& scene) {
-  static const SouthernSun light;
-  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
-  auto composer = Composer::Create(kCamera, scene, {});
-  EXPECT_TRUE(composer.value()->SetLight(solver.value()->Solve(light, Mat3{}), light, Mat3{},
-                                         solver.value()->RadianceFromBelow(light, Mat3{})));
-  composer.value()->LookForShade(false);
-  return std::move(composer.value());
-}
-
 /// A level square of a metre whose texture's u runs along x, v against y; 0.1 m above the marker.
 Model TexturedSquare(Image<std::uint8_t> texture) {
   Model square = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 1.0F);
@@ -198,12 +182,13 @@ TEST(Composer, CoversAsMuchOfAMinifiedCardAsItsTextureDoes) {
   const Mesh square = std::exchange(card.meshes[0], {});
   Mesh& mesh = card.meshes[0];
   for (int tile = 0; tile < kRepeats * kRepeats; ++tile) {
+    const int column = tile % kRepeats, row = tile / kRepeats;
     for (const std::uint32_t index : square.indices) {
       mesh.indices.push_back(index + static_cast<std::uint32_t>(mesh.positions.size()));
     }
     for (auto [x, y, z] : square.positions) {
-      const float across = static_cast<float>(tile % kRepeats) - 1.0F;
-      const float along = static_cast<float>(tile / kRepeats) - 1.0F;
+      const float across = static_cast<float>(column) - 1.0F;
+      const float along = static_cast<float>(row) - 1.0F;
       mesh.positions.push_back({0.2F * (x + across), 0.2F * (y + along), z});
     }
     mesh.normals.insert(mesh.normals.end(), square.normals.begin(), square.normals.end());
@@ -310,92 +295,6 @@ TEST(Composer, MixesTwoStoreysOfOneSurfaceThatMeetInAPixel) {
       << "the step's own shadow darkens its edge a little";
 }
 
-TEST(Composer, MirrorsTheSkyInPolishedMetal) {
-  Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.7F);
-  plate.materials[0].metallic = 1.0F;
-  plate.materials[0].roughness = 0.1F;
-  const RgbImage composed = Compose({Place(plate, false)}, EvenPicture(0));
-  // The sun, 45° off, is mirrored elsewhere.
-  EXPECT_NEAR(SeenAt(composed, {0, 0, 0.1}), kGain * 0.7 * kSkyLux * std::numbers::inv_pi, 0.01);
-}
-
-TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
-  // A black plate shows its coat alone. The sun, 45° off, is mirrored elsewhere but by a rough one.
-  const auto seen = [](float roughness, float f0, double sun_lux) {
-    Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
-    plate.materials[0].roughness = roughness;
-    plate.materials[0].specular_f0 = f0;
-    return SeenAt(Compose({Place(plate, false)}, EvenPicture(0), kCamera, sun_lux), {0, 0, 0.1});
-  };
-  EXPECT_NEAR(seen(0.1F, 0.5F, kSunLux), 0.5 * kGain * kSkyLux * std::numbers::inv_pi, 0.01);
-  EXPECT_GT(seen(0.5F, 0.1F, kSunLux), seen(0.5F, 0.1F, 0.0) + 0.02);
-}
-
-/// A square of 1 m about the marker's middle that faces `normal`, its corners either way round.
-Model SquareFacing(Vec3 normal, float albedo, bool turned) {
-  Model square = MakeBox({-0.5, -0.5, 0}, {0.5, 0.5, 0}, albedo);
-  const Vec3 x{1, 0, 0}, y = Cross(normal, x);
-  Mesh& mesh = square.meshes[0];
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const auto [u, v, w] = mesh.positions[i];
-    const Vec3 at = x * u + y * v;
-    mesh.positions[i] = {static_cast<float>(at.x), static_cast<float>(at.y),
-                         static_cast<float>(at.z)};
-    const Vec3 facing = turned ? -normal : normal;
-    mesh.normals[i] = {static_cast<float>(facing.x), static_cast<float>(facing.y),
-                       static_cast<float>(facing.z)};
-  }
-  if (turned) std::reverse(mesh.indices.begin(), mesh.indices.end());
-  return square;
-}
-
-TEST(Composer, LightsAThinSheetsFarSideByTheSkyAlone) {
-  // The sun stands 8° behind the side that is seen.
-  const Vec3 normal{0.0, 0.8, 0.6};
-  constexpr double kAlbedo = 0.6, kSkySeen = 0.8, kLandAlbedo = 0.2;
-  const double land = kLandAlbedo * (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
-  const double expected =
-      kGain * kAlbedo * std::numbers::inv_pi * (kSkySeen * kSkyLux + (1 - kSkySeen) * land);
-  for (const bool turned : {false, true}) {
-    const Model sheet = SquareFacing(normal, kAlbedo, turned);
-    EXPECT_NEAR(SeenAt(Compose({Place(sheet, false)}, EvenPicture(0)), {0, 0, 0}), expected,
-                0.03 * expected)
-        << turned;
-  }
-}
-
-TEST(Composer, ShowsTheSunsHighlightAsTheMicrofacetModelHasIt) {
-  // A black coat that faces half way between the sun, 45° high in the south, and the eye above.
-  const double c = std::cos(std::numbers::pi / 8);
-  Model plate = SquareFacing({0.0, -std::sin(std::numbers::pi / 8), c}, 0.0F, false);
-  constexpr double kF0 = 0.04, kRoughness = 0.5, kAlpha2 = 0.0625;
-  plate.materials[0].roughness = kRoughness;
-  plate.materials[0].specular_f0 = kF0;
-  const auto seen = [&](double sun_lux) {
-    return SeenAt(Compose({Place(plate, false)}, EvenPicture(0), kCamera, sun_lux), {0, 0, 0});
-  };
-  // Walter et al. 2007, Eq. (33) at the normal itself; Heitz 2014, Eq. (99); Schlick 1994.
-  const double distribution = 1.0 / (std::numbers::pi * kAlpha2);
-  const double visibility = 0.25 / (c * std::sqrt(c * c * (1 - kAlpha2) + kAlpha2));
-  const double fresnel = kF0 + (1 - kF0) * std::pow(1 - c, 5);
-  const double expected = kGain * kSunLux * c * distribution * visibility * fresnel;
-  EXPECT_NEAR(seen(kSunLux) - seen(0.0), expected, 0.03 * expected);
-}
-
-TEST(Composer, AddsACoatToWhatItLeavesOfTheColour) {
-  const auto seen = [](float f0, float left) {
-    Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.4F);
-    plate.materials[0].roughness = 0.1F;
-    plate.materials[0].specular_f0 = f0;
-    plate.materials[0].base_under_coat = left;
-    return SeenAt(Compose({Place(plate, false)}, EvenPicture(0)), {0, 0, 0.1});
-  };
-  const double bare = seen(0.0F, 1.0F);
-  const double coat = 0.1 * kGain * kSkyLux * std::numbers::inv_pi;
-  EXPECT_NEAR(seen(0.1F, 1.0F), bare + coat, 0.006);
-  EXPECT_NEAR(seen(0.1F, 0.9F), 0.9 * bare + coat, 0.006);
-}
-
 TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
   // A board 6 m above the ground, whose shadow's edge is 8 cm wide, turned so that it lies at every
   // place of the window's cells; triangles are of a cell's size. A map that leaves all of the sun
@@ -468,49 +367,6 @@ TEST(Composer, LeavesDepthAndBlendingAsDrawingBegins) {
   EXPECT_TRUE(writes_depth);
   EXPECT_FALSE(glIsEnabledi(GL_BLEND, 1));
   EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
-}
-
-TEST(Composer, ShadesAMovedModelWhereItStandsNow) {
-  const auto solver = LightSolver::Create({kCube}, {.rays_per_vertex = 64});
-  auto composer = Composer::Create(kCamera, {kCube}, {});
-  ASSERT_TRUE(solver.has_value());
-  ASSERT_TRUE(composer.has_value());
-  const SouthernSun light;
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
-                                    (*solver)->RadianceFromBelow(light, Mat3{})));
-  const RgbImage picture = EvenPicture(77);
-  ASSERT_TRUE((*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain}));
-  // Half as large, a quarter turned and 0.4 m aside.
-  (*composer)->MoveModel(0, {{0, -0.5, 0, 0.5, 0, 0, 0, 0, 0.5}}, {0.4, 0.2, 0});
-  const auto moved = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
-  ASSERT_TRUE(moved.has_value());
-  EXPECT_EQ(SeenAt(*moved, {0, 0, 0.3}), LinearFromSrgb8()[77]);
-  EXPECT_NEAR(SeenAt(*moved, {0.4, 0.2, 0.15}), Level(0.5), 0.02);
-  EXPECT_NEAR(SeenAt(*moved, {0.46, 0.26, 0.15}), Level(0.5), 0.02) << "near its corner";
-  EXPECT_EQ(SeenAt(*moved, {0.5, 0.2, 0.15}), LinearFromSrgb8()[77]);
-}
-
-TEST(Composer, MovesTheShadowOfAModelThatTurnsWithinItsBox) {
-  // Two posts on a square's diagonal, turned to the other one.
-  Model posts = MakeBox({-0.35, -0.35, 0.001}, {-0.25, -0.25, 0.2}, 0.5F);
-  posts.meshes.push_back(MakeBox({0.25, 0.25, 0.001}, {0.35, 0.35, 0.2}, 0.5F).meshes[0]);
-  const std::vector<PlacedModel> scene{kGround, Place(posts, false)};
-  const auto composer = ComposerInTheSun(scene);
-  const auto shares = [&] {
-    const auto composed =
-        composer->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
-    EXPECT_TRUE(composed);
-    const double before = LinearFromSrgb8()[200];
-    return std::pair{SeenAt(*composed, {-0.3, -0.16, 0}) / before,
-                     SeenAt(*composed, {0.3, -0.16, 0}) / before};
-  };
-  const auto [shaded, lit] = shares();
-  EXPECT_LT(shaded, 0.4);
-  EXPECT_GT(lit, 0.9);
-  composer->MoveModel(1, {{0, -1, 0, 1, 0, 0, 0, 0, 1}}, {0, 0, 0});
-  const auto [lit_now, shaded_now] = shares();
-  EXPECT_LT(shaded_now, 0.4);
-  EXPECT_GT(lit_now, 0.7) << "its light stays until it is made anew";
 }
 
 }  // namespace

@@ -118,4 +118,20 @@ inline double SeenAt(const RgbImage& picture, Vec3 point, const CameraModel& cam
                                    static_cast<int>(std::lround(pixel.y)), 1)];
 }
 
+inline const double kLevelLux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
+/// Display-linear value of a level face of so much reflectance.
+inline double Level(double albedo) { return kGain * albedo * kLevelLux * std::numbers::inv_pi; }
+
+/// Draws the scene in the southern sun. No shade of trees is looked for: then what no object hides
+/// from the sun is not asked for it.
+inline std::unique_ptr<Composer> ComposerInTheSun(const std::vector<PlacedModel>& scene) {
+  static const SouthernSun light;
+  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+  auto composer = Composer::Create(kCamera, scene, {});
+  EXPECT_TRUE(composer.value()->SetLight(solver.value()->Solve(light, Mat3{}), light, Mat3{},
+                                         solver.value()->RadianceFromBelow(light, Mat3{})));
+  composer.value()->LookForShade(false);
+  return std::move(composer.value());
+}
+
 }  // namespace pleinair::compositor
