@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <memory>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -15,18 +15,20 @@
 
 #include "compositor/light_solver.h"
 #include "compositor/model.h"
+#include "compositor/parallel_for.h"
 #include "compositor/ray_scene.h"
 #include "tests/compositor/light_scenes.h"
+#include "tests/compositor/path_tracer.h"
 
 namespace pleinair::compositor {
 namespace {
 
+using testing::PathTracer;
 using testing::Phantom;
 using testing::UniformDay;
 
 const std::string kFolder = PLEINAIR_SOURCE_DIR "/recordings/courtyard_midday/";
-// The truths' own noise is 0.8 % RMS, told against 8,192 paths.
-constexpr std::uint32_t kPaths = 512;
+constexpr int kStrata = 48;  // Squared, paths a place.
 
 /// Brighter towards the horizon and the sun.
 class Day : public UniformDay {
@@ -117,24 +119,13 @@ std::vector<Place> PlacesSeen(const std::vector<LitMesh>& meshes) {
   return places;
 }
 
-/// What paths followed to their end bring to the places. The sky is tabulated once a normal, not
-/// once a place.
-std::vector<LinearRgb> Truths(const LightSolver& oracle, const std::vector<Place>& places,
-                              const Day& day) {
-  std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Vec3& n = places[i].normal;
-    by_normal[{n.x, n.y, n.z}].push_back(i);
-  }
+/// What paths followed to their end bring to the places.
+std::vector<LinearRgb> Truths(const PathTracer& oracle, const std::vector<Place>& places) {
   std::vector<LinearRgb> truths(places.size());
-  for (const auto& [normal, members] : by_normal) {
-    std::vector<Point<Marker>> points;
-    points.reserve(members.size());
-    for (const std::size_t i : members) points.push_back(places[i].point);
-    const std::vector<LinearRgb> light =
-        oracle.AmbientPhantomsOnly(points, {normal[0], normal[1], normal[2]}, day, Mat3{}, kPaths);
-    for (std::size_t k = 0; k < members.size(); ++k) truths[members[k]] = light[k];
-  }
+  ParallelFor(places.size(), 0, [&](std::size_t i) {
+    truths[i] = oracle.Irradiance(places[i].point, places[i].normal, kStrata,
+                                  static_cast<std::uint32_t>(i));
+  });
   return truths;
 }
 
@@ -151,6 +142,20 @@ class RelativeRms {
   double errors_ = 0.0, truths_ = 0.0;
 };
 
+TEST(PathTracer, BringsWhatClosedFormsHaveOfAnOpenPlaceAndOneBesideAWall) {
+  const UniformDay overcast({1, 2, 3});
+  const auto ground = testing::Ground(3.0, {0.4F, 0.4F, 0.4F});
+  const LinearRgb open =
+      PathTracer({ground.get()}, overcast).Irradiance({{0, 0, 0}}, {0, 0, 1}, 32, 1);
+  EXPECT_NEAR(open.g, 2 * std::numbers::pi, 1e-6);
+  // A wall without end sees half the sky and half the land, and is all that the place sees.
+  const auto wall = testing::BoxModel({1.0, -99.0, -99.0}, {1.1, 99.0, 99.0}, {0.5F, 0.5F, 0.5F});
+  const LinearRgb beside =
+      PathTracer({wall.get()}, overcast).Irradiance({{0, 0, 0}}, {1, 0, 0}, 64, 1);
+  const double on_wall = (0.5 + 0.5 * 0.2) * 2 * std::numbers::pi;
+  EXPECT_NEAR(beside.g, 0.5 * on_wall, 0.02 * on_wall);
+}
+
 TEST(CourtyardLight, AgreesWithPathsFollowedOneByOneToThreePercent) {
   const auto phantom = LoadModel(kFolder + "phantom.obj", {});
   const auto object = LoadModel(kFolder + "object.obj", {});
@@ -161,19 +166,13 @@ TEST(CourtyardLight, AgreesWithPathsFollowedOneByOneToThreePercent) {
   // As the program has them.
   const auto solver =
       LightSolver::Create({Phantom(shared_phantom), testing::Object(shared_object)}, {});
-  // The oracles follow paths to their end; they know no virtual objects: one is told that it is
-  // real.
-  const LightSolverOptions to_the_end{.bounces = 12, .near_edge_m = 5.0};
-  const auto with =
-      LightSolver::Create({Phantom(shared_phantom), Phantom(shared_object)}, to_the_end);
-  const auto without = LightSolver::Create({Phantom(shared_phantom)}, to_the_end);
-  ASSERT_TRUE(solver && with && without);
+  ASSERT_TRUE(solver);
   const std::vector<LitMesh> traced = (*solver)->Solve(day, Mat3{});
   const std::vector<LitMesh> relit =
       (*solver)->Relight((*solver)->Coefficients({0, 0, 1}, {}, {}), day, Mat3{});
   const std::vector<Place> places = PlacesSeen(traced);
-  const std::vector<LinearRgb> truths_with = Truths(**with, places, day);
-  const std::vector<LinearRgb> truths_without = Truths(**without, places, day);
+  const std::vector<LinearRgb> truths_with = Truths(PathTracer({&*phantom, &*object}, day), places);
+  const std::vector<LinearRgb> truths_without = Truths(PathTracer({&*phantom}, day), places);
   RelativeRms traced_with, traced_without, relit_with, relit_without;
   int of_object = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "base/frames.h"
+#include "base/vector.h"
+#include "compositor/model.h"
+#include "sky/sky_model.h"
+
+namespace pleinair::compositor::testing {
+
+/// A path tracer as textbooks have it (Kajiya 1986, "The Rendering Equation"), for matt models in
+/// one colour a material: an oracle that shares nothing with what it judges but models and Embree.
+/// Every path is followed until chance ends it; the sun is asked for at each surface it meets, the
+/// sky where it leaves. What it meets is lit on the side it is met from. Marker and world are one.
+class PathTracer {
+ public:
+  PathTracer(const std::vector<const Model*>& models, const sky::SkyModel& day)
+      : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get())), day_(day) {
+    for (const Model* model : models) {
+      for (const Mesh& mesh : model->meshes) {
+        const auto& [r, g, b] = model->materials[mesh.material].base_color;
+        Add(mesh, {r, g, b});
+      }
+    }
+    rtcCommitScene(scene_.get());
+    // Beyond the models lies level land.
+    constexpr double kLandAlbedo = 0.2;
+    const LinearRgb level = day.SkyHorizontalIrradiance() +
+                            day.SunNormalIrradiance() * std::fmax(0.0, day.ToSun().xyz.z);
+    land_ = level * (kLandAlbedo / std::numbers::pi);
+  }
+
+  /// Light on a small surface at `point` that faces `normal`, but the sun's own: the mean over
+  /// `strata`² paths, each of which leaves by a part of the hemisphere of its own.
+  LinearRgb Irradiance(Point<Marker> point, Vec3 normal, int strata, std::uint32_t seed) const {
+    Random random{std::mt19937(seed)};
+    LinearRgb sum;
+    for (int i = 0; i < strata; ++i) {
+      for (int k = 0; k < strata; ++k) {
+        const double u = (i + random()) / strata, v = (k + random()) / strata;
+        sum = sum + Radiance(point.xyz + normal * kOffsetM, Leaving(normal, u, v), &random);
+      }
+    }
+    return sum * (std::numbers::pi / (strata * strata));
+  }
+
+ private:
+  struct Random {
+    std::mt19937 engine;
+    double operator()() { return std::uniform_real_distribution<double>()(engine); }
+  };
+  struct Release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+
+  static constexpr double kOffsetM = 1e-4;
+
+  void Add(const Mesh& mesh, LinearRgb albedo) {
+    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* corners = static_cast<std::array<float, 3>*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof(std::array<float, 3>), mesh.positions.size()));
+    std::copy(mesh.positions.begin(), mesh.positions.end(), corners);
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), mesh.indices.size() / 3));
+    std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    albedos_.push_back(albedo);
+  }
+
+  /// About `normal`, with the density of the cosine (Malley's method).
+  static Vec3 Leaving(Vec3 normal, double u, double v) {
+    const Vec3 aside = std::fabs(normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 s = Normalized(Cross(aside, normal)), t = Cross(normal, s);
+    const double angle = 2.0 * std::numbers::pi * v;
+    return Normalized(s * (std::sqrt(u) * std::cos(angle)) + t * (std::sqrt(u) * std::sin(angle)) +
+                      normal * std::sqrt(1.0 - u));
+  }
+
+  static RTCRay Ray(Vec3 from, Vec3 way) {
+    RTCRay ray{};
+    ray.org_x = static_cast<float>(from.x);
+    ray.org_y = static_cast<float>(from.y);
+    ray.org_z = static_cast<float>(from.z);
+    ray.dir_x = static_cast<float>(way.x);
+    ray.dir_y = static_cast<float>(way.y);
+    ray.dir_z = static_cast<float>(way.z);
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = ~0U;
+    return ray;
+  }
+
+  bool IsLitBySun(Vec3 point) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = Ray(point, day_.ToSun().xyz);
+    rtcOccluded1(scene_.get(), &context, &ray);
+    return ray.tfar > 0.0F;
+  }
+
+  LinearRgb Radiance(Vec3 from, Vec3 way, Random* random) const {
+    LinearRgb sum, share{1.0, 1.0, 1.0};
+    while (true) {
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      RTCRayHit hit{};
+      hit.ray = Ray(from, way);
+      hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(scene_.get(), &context, &hit);
+      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return sum + share * (way.z > 0.0 ? day_.SkyRadiance({way}) : land_);
+      }
+      Vec3 normal = Normalized(Vec3{hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z});
+      if (Dot(normal, way) > 0.0) normal = -normal;
+      from = from + way * hit.ray.tfar + normal * kOffsetM;
+      const LinearRgb albedo = albedos_[hit.hit.geomID];
+      share = share * albedo;
+      const double cosine = Dot(normal, day_.ToSun().xyz);
+      if (cosine > 0.0 && IsLitBySun(from)) {
+        sum = sum + share * day_.SunNormalIrradiance() * (cosine * std::numbers::inv_pi);
+      }
+      // Russian roulette; what goes on counts for what does not.
+      const double goes_on = std::fmin(0.9, std::fmax(std::fmax(share.r, share.g), share.b));
+      if ((*random)() >= goes_on) return sum;
+      share = share * (1.0 / goes_on);
+      const double u = (*random)(), v = (*random)();
+      way = Leaving(normal, u, v);
+    }
+  }
+
+  std::unique_ptr<RTCDeviceTy, Release> device_;
+  std::unique_ptr<RTCSceneTy, Release> scene_;
+  const sky::SkyModel& day_;
+  std::vector<LinearRgb> albedos_;
+  LinearRgb land_;
+};
+
+}  // namespace pleinair::compositor::testing
