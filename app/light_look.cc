@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "compositor/plane_contrast.h"
+#include "compositor/print_shadow.h"
 #include "compositor/scaled_daylight.h"
 #include "compositor/shade_depth.h"
 #include "compositor/shadow_contrast.h"
@@ -24,6 +25,8 @@ constexpr double kPlaneContrastUnderCloud = 0.3;
 // times what is under clouds. Rough colours add to both alike.
 constexpr int kFewestSurfaces = 4, kFewestDirections = 3;
 constexpr double kLeastAmongPlanes = 0.2, kTimesWorse = 2.0;
+// Frames in which the print must be divided by a shadow, where so many were looked at.
+constexpr int kFewestDivided = 2;
 // Skies that a sun may have beside it, of the words': as they say, and in haze.
 constexpr std::array kSkiesWithSun{1.0, 2.0, 4.0};
 
@@ -99,8 +102,18 @@ void LightLook::Add(ImageView<const std::uint8_t> rgb,
   if (const auto reading = meter_.Measure(rgb, camera_, camera_from_marker)) {
     gain_ = reading->gain;
     dappled_ += reading->dappled ? 1 : 0;
+    // Leaves make two levels now and then, but neither is the open sun.
+    const auto shadow = meter_.FindShadow(rgb, camera_, camera_from_marker);
+    if (shadow && !reading->dappled) print_shadows_.push_back(*shadow);
   }
   samples_.AddFrame(rgb, camera_from_marker, gain_);
+}
+
+bool LightLook::IsPrintDivided(const compositor::UnmodelledShade& shade) const {
+  const auto divided = static_cast<int>(print_shadows_.size());
+  return divided > 0 && divided >= std::min(kFewestDivided, samples_.frames()) &&
+         2 * divided >= samples_.frames() && !shade.ShadesPrint() &&
+         (shade.crossed > 0 || MayShine(scene_.cloudiness));
 }
 
 void LightLook::SettleAsStated(FoundLight* found) const {
@@ -250,15 +263,27 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
     use_sun(edges);
     if (light.sun_source == MeasuredLight::Source::kShade) shade = shade_under(scale);
   } else if (!overridden) {
-    if (!may_shine || shade.sunlit == 0) return settle_as_before();
-    // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
-    const compositor::UnmodelledShade probe = shade_under(kHazierSky);
-    const compositor::SunSkyReading depth =
-        compositor::ReadShadeDepth(*solver_, probe, *day_, MarkerFromWorld(marker));
-    if (probe.Matters() && depth.sun == Sun::kShines) {
-      light.sun_source = MeasuredLight::Source::kShade;
-      light.shade_places = depth.agreeing;
-      use_sun(depth);
+    // One material and a sharp edge: surer than the deepest of the trees' shade.
+    compositor::SunSkyReading seen;
+    if (IsPrintDivided(shade)) {
+      seen = compositor::ReadPrintShadow(*solver_, print_shadows_, *day_, MarkerFromWorld(marker));
+    }
+    if (seen.sun == Sun::kShines) {
+      light.sun_source = MeasuredLight::Source::kMarker;
+    } else {
+      if (!may_shine || shade.sunlit == 0) return settle_as_before();
+      // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
+      const compositor::UnmodelledShade probe = shade_under(kHazierSky);
+      if (probe.Matters()) {
+        seen = compositor::ReadShadeDepth(*solver_, probe, *day_, MarkerFromWorld(marker));
+      }
+      if (seen.sun == Sun::kShines) {
+        light.sun_source = MeasuredLight::Source::kShade;
+        light.shade_places = seen.agreeing;
+      }
+    }
+    if (seen.sun == Sun::kShines) {
+      use_sun(seen);
       shade = shade_under(scale);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "app/light_memory.h"
 #include "app/measured_sky.h"
@@ -10,6 +11,7 @@
 #include "base/camera_response.h"
 #include "base/image.h"
 #include "compositor/light_meter.h"
+#include "compositor/print_shadow.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/surface_samples.h"
 #include "compositor/unmodelled_shade.h"
@@ -45,6 +47,9 @@ class LightLook {
   /// The heading, with what it makes of the shadows' edges.
   compositor::SunSkyReading SettleHeading(LightMemory* memory, FoundLight* found) const;
   void TakeShade(compositor::UnmodelledShade shade, FoundLight* found) const;
+  /// Whether a shadow's edge divides the print, not only in a frame now and then. Under words that
+  /// have no sun the ground must show some such edge as well: a print may be wet or dirty.
+  bool IsPrintDivided(const compositor::UnmodelledShade& shade) const;
   void UseHeading(const LightMemory& memory, FoundLight* found) const;
   /// Where nothing is to be measured: whether anything but phantoms shades the ground all the same.
   void SettleAsStated(FoundLight* found) const;
@@ -58,8 +63,9 @@ class LightLook {
   std::unique_ptr<sky::SkyModel> day_;  // With a sun, whatever the scene says.
   compositor::SurfaceSamples samples_;
   compositor::LightMeter meter_;
-  int dappled_ = 0;                // Frames in which leaves shade the print.
-  LinearRgb gain_{1.0, 1.0, 1.0};  // Of the last frame that could be metered.
+  int dappled_ = 0;                                     // Frames in which leaves shade the print.
+  std::vector<compositor::PrintShadow> print_shadows_;  // One a frame whose print is divided.
+  LinearRgb gain_{1.0, 1.0, 1.0};                       // Of the last frame that could be metered.
 };
 
 }  // namespace pleinair::app

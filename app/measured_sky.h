@@ -30,7 +30,8 @@ struct LightOverrides {
 /// The light of a recording's day: which sky, how strong beside the sun, and why we think so.
 struct MeasuredLight {
   /// kShade: from how deep the shade of trees is, where no phantom's edge could tell.
-  enum class Source { kStated, kMeasured, kShade, kOverride };
+  /// kMarker: from a shadow's edge across its print, whatever casts it, where phantoms' could not.
+  enum class Source { kStated, kMeasured, kShade, kMarker, kOverride };
   Source sun_source = Source::kStated;
   Source heading_source = Source::kStated;
   bool sun_shines = true;

@@ -173,6 +173,12 @@ std::vector<std::string> LightWarnings(const LightSummary& summary) {
                     "the scene says otherwise.",
                     light.edges_agreeing));
   }
+  if (light.sun_source == MeasuredLight::Source::kMarker &&
+      light.sun_to_sky_stated <= kNoticeableSun) {
+    warnings.push_back(
+        "A shadow's edge divides the marker: the sun is taken to shine, though the scene says "
+        "otherwise.");
+  }
   if (light.sun_doubtful) {
     warnings.push_back(fmt::format(
         "No shadow lies where the phantoms would cast one ({} places looked at), but others lie "

@@ -26,6 +26,12 @@ constexpr double kSmallestBandPx = 3.0;
 // A median's standard error over a mean's, of a normal distribution: sqrt(π / 2).
 constexpr double kMedianError = 1.2533;
 
+// How much stronger than the model's the sky may be beside the sun where a shadow is looked for:
+// haze makes it shallower.
+constexpr double kHaze = 2.0;
+// Share of the pairs that are white on neither side: from then on something covers the print.
+constexpr double kCovered = 0.1;
+
 using Rgb = std::array<double, 3>;
 
 double Sum(const Rgb& value) { return value[0] + value[1] + value[2]; }
@@ -105,6 +111,13 @@ LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
     pairs_[i].irradiance = ambient[i] + sun * (cosine * pairs_[i].sun_visibility);
   }
   in_sun_ = lit >= kMinimumPairs;
+  if (!ambient.empty() && cosine > kGrazingPrint) {
+    const LinearRgb hazy = ambient[ambient.size() / 2] * kHaze;
+    const auto depth = [&](double of_sun, double of_ambient) {
+      return of_ambient > 0.0 ? std::log1p(of_sun * cosine / of_ambient) : 0.0;
+    };
+    shadow_depth_ = {depth(sun.r, hazy.r), depth(sun.g, hazy.g), depth(sun.b, hazy.b)};
+  }
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (in_sun_ && pairs_[i].sun_visibility < 0.5) continue;
     places_.push_back(edges[i]);
@@ -115,17 +128,11 @@ LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
   lit_share_ = pairs_.empty() ? 0.0 : static_cast<double>(lit) / static_cast<double>(pairs_.size());
 }
 
-std::optional<LightReading> LightMeter::Measure(
+LightMeter::Samples LightMeter::SamplesIn(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
-  struct Sample {
-    Rgb white_gain, black_gain;  // NaN where it cannot be used.
-    double level;                // Sum of the channels' scale, to tell sun from shadow.
-    bool in_sun;
-  };
-  std::vector<Sample> samples;
-  samples.reserve(pairs_.size());
-  std::size_t contrary = 0;
+  Samples samples;
+  samples.pairs.reserve(pairs_.size());
   const double albedo_step = print_.albedo_white - print_.albedo_black;
   for (const Pair& pair : pairs_) {
     const Point<Camera> white_in_camera = camera_from_marker * pair.white;
@@ -144,11 +151,15 @@ std::optional<LightReading> LightMeter::Measure(
     const double all_clipped =
         clipped_at(0, kClippedCode) + clipped_at(1, kClippedCode) + clipped_at(2, kClippedCode);
     if (Sum(*white) < kClearlyBrighter * Sum(*black) && Sum(*white) < all_clipped) {
-      ++contrary;
+      ++samples.contrary;
       continue;
     }
     Sample sample{};
     sample.in_sun = pair.sun_visibility > 0.5;
+    sample.seen = {
+        pair.white,
+        {(*white)[0] - (*black)[0], (*white)[1] - (*black)[1], (*white)[2] - (*black)[2]},
+        Sum(*black)};
     for (int c = 0; c < 3; ++c) {
       const double per_albedo = irradiance[c] / std::numbers::pi;
       const double difference = (*white)[c] - (*black)[c];
@@ -161,8 +172,33 @@ std::optional<LightReading> LightMeter::Measure(
               : NAN;
       sample.level += (*white)[c] / per_albedo;
     }
-    if (sample.level > 0.0) samples.push_back(sample);
+    if (sample.level > 0.0) samples.pairs.push_back(sample);
   }
+  return samples;
+}
+
+std::optional<PrintShadow> LightMeter::FindShadow(
+    ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+    const Transform<Camera, Marker>& camera_from_marker) const {
+  const Samples samples = SamplesIn(rgb, camera, camera_from_marker);
+  if (static_cast<double>(samples.contrary) >=
+      kCovered * static_cast<double>(samples.pairs.size())) {
+    return std::nullopt;
+  }
+  std::vector<PrintPair> usable;
+  usable.reserve(samples.pairs.size());
+  for (const Sample& sample : samples.pairs) {
+    const Rgb& gain = sample.white_gain;
+    if (!std::isnan(gain[0] + gain[1] + gain[2])) usable.push_back(sample.seen);
+  }
+  return FindPrintShadow(usable, shadow_depth_,
+                         print_.albedo_black / (print_.albedo_white - print_.albedo_black));
+}
+
+std::optional<LightReading> LightMeter::Measure(
+    ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+    const Transform<Camera, Marker>& camera_from_marker) const {
+  auto [samples, contrary] = SamplesIn(rgb, camera, camera_from_marker);
   // A print the other way round, or not where it is thought to be: the gain of its white, taken
   // for black, would be twenty times too high.
   if (contrary > samples.size()) return std::nullopt;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "base/vector.h"
 #include "compositor/light_solver.h"
 #include "compositor/marker_print.h"
+#include "compositor/print_shadow.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
@@ -48,6 +51,12 @@ class LightMeter {
   std::optional<LightReading> Measure(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                                       const Transform<Camera, Marker>& camera_from_marker) const;
 
+  /// A shadow's sharp edge that divides the print, a phantom's or another thing's, where hardly
+  /// anything covers it.
+  std::optional<PrintShadow> FindShadow(ImageView<const std::uint8_t> rgb,
+                                        const CameraModel& camera,
+                                        const Transform<Camera, Marker>& camera_from_marker) const;
+
   /// Where the pairs lie that count: those in the sun, where there are enough of them. At the edge
   /// between white and black.
   const std::vector<Point<Marker>>& places() const { return places_; }
@@ -65,10 +74,25 @@ class LightMeter {
     double sun_visibility = 0.0;
   };
 
+  /// What one pair shows in a frame.
+  struct Sample {
+    std::array<double, 3> white_gain, black_gain;  // NaN where it cannot be used.
+    PrintPair seen;
+    double level;  // Sum of the channels' scale, to tell sun from shadow.
+    bool in_sun;
+  };
+  struct Samples {
+    std::vector<Sample> pairs;
+    std::size_t contrary = 0;  // Pairs left out: white on neither side, or black without.
+  };
+  Samples SamplesIn(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+                    const Transform<Camera, Marker>& camera_from_marker) const;
+
   MarkerPrint print_;
   CameraResponse response_;
   std::vector<Pair> pairs_;
   double lit_share_ = 0.0;
+  LinearRgb shadow_depth_;  // As FindPrintShadow() takes it; 0: none to be looked for.
   std::vector<Point<Marker>> places_;
   bool in_sun_ = false;
   LinearRgb light_on_print_;

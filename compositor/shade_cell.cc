@@ -84,14 +84,17 @@ TwoLevels SplitInTwo(const std::vector<ShadeSpot>& sorted) {
   return best;
 }
 
+bool IsSharp(const TwoLevels& levels) {
+  return levels.spread < kSharp * (levels.high - levels.low);
+}
+
 bool IsCrossed(const ShadeCell& cell, const TwoLevels& levels) {
   const double apart = levels.high - levels.low;
   const bool two = apart > std::max(kEdgeDepth * cell.depth, kSmallestStep) &&
                    levels.low_share > kSideShare && levels.low_share < 1 - kSideShare &&
                    levels.spread < kSharpness * apart;
   // A pole's shadow lies in the middle of a cell, the sun on both sides of it; but it is sharp.
-  return two &&
-         (levels.spread < kSharp * apart || Apartness(cell.spots, levels.low_count) > kApart) &&
+  return two && (IsSharp(levels) || Apartness(cell.spots, levels.low_count) > kApart) &&
          ChangesColourAsShadowsDo(cell, levels);
 }
 

@@ -43,6 +43,9 @@ struct ShadeCell {
 /// Of sorted spots.
 TwoLevels SplitInTwo(const std::vector<ShadeSpot>& sorted);
 
+/// Whether little lies between the levels: a shadow's edge, no gradient or mottling.
+bool IsSharp(const TwoLevels& levels);
+
 /// Whether a shadow's edge divides a cell of sorted spots: two sharp levels, or two on a side each.
 bool IsCrossed(const ShadeCell& cell, const TwoLevels& levels);
 

@@ -110,6 +110,12 @@ std::string MeasuredCards(const MeasuredLight& light) {
         PlusMinus(light.sun_to_sky_error), light.shade_places, light.frames,
         light.sun_to_sky_stated);
   }
+  if (light.sun_source == Source::kMarker) {
+    from = fmt::format(
+        "sun over sky on level ground{}, from the edge of a shadow across the marker; the scene "
+        "says {:.2f}",
+        PlusMinus(light.sun_to_sky_error), light.sun_to_sky_stated);
+  }
   std::string html = Card(sun, from);
   if (light.sun_doubtful) {
     html += Card("doubtful",

@@ -28,6 +28,8 @@ const char* SourceName(MeasuredLight::Source source) {
       return "measured";
     case MeasuredLight::Source::kShade:
       return "shade";
+    case MeasuredLight::Source::kMarker:
+      return "marker";
     case MeasuredLight::Source::kOverride:
       return "option";
   }

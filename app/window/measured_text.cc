@@ -6,13 +6,24 @@ namespace pleinair::app {
 
 std::string MeasuredSunText(const MeasuredLight& drawn, const MeasuredLight& measured) {
   using Source = MeasuredLight::Source;
-  const bool by_edges = measured.sun_source == Source::kMeasured;
-  if (!by_edges && measured.sun_source != Source::kShade) return "";
+  const auto from = [&]() -> std::string {
+    switch (measured.sun_source) {
+      case Source::kMeasured:
+        return fmt::format("{} edges", measured.edges_agreeing);
+      case Source::kShade:
+        return "the shade of trees";
+      case Source::kMarker:
+        return "a shadow's edge on the marker";
+      case Source::kStated:
+      case Source::kOverride:
+        return "";
+    }
+    return "";
+  }();
+  if (from.empty()) return "";
   if (!drawn.sun_shines) return "measured: no sun";
-  return fmt::format(
-      "measured: sun {:.1f} ± {:.1f} times the sky (from {})", drawn.sun_to_sky,
-      drawn.sun_to_sky * measured.sun_to_sky_error.value_or(0.0),
-      by_edges ? fmt::format("{} edges", measured.edges_agreeing) : "the shade of trees");
+  return fmt::format("measured: sun {:.1f} ± {:.1f} times the sky (from {})", drawn.sun_to_sky,
+                     drawn.sun_to_sky * measured.sun_to_sky_error.value_or(0.0), from);
 }
 
 std::string MeasuredHeadingText(const MeasuredLight& measured) {

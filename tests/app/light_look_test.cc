@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
+#include "base/srgb.h"
 #include "tests/app/yard_scene.h"
 
 namespace pleinair::app {
@@ -105,6 +108,93 @@ TEST(LightLook, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
   const double stated = off(*StatedSky(words), {1, 1, 1});
   EXPECT_GT(stated, 0.8);
   EXPECT_LT(off(*hazy.skies.source, hazy.skies.scale), 0.5 * stated);
+}
+
+/// A print on bare ground, on which no phantom casts a shadow.
+class BareGround {
+ public:
+  BareGround() {
+    scene_.place_time.latitude_deg = 50.0;
+    scene_.cloudiness = devices::Cloudiness::kClear;
+    const sky::SunPosition sun = SunOver(scene_.place_time, time_);
+    day_ = SunlitSky(scene_)->ForSun(sun.ToSun(), sun.distance_au);
+  }
+
+  /// What frames tell in which the sky is `sky_scale` times as strong beside the sun as a clear
+  /// day's, and something shades what is within `reach_m` of the print's middle where x is below
+  /// `shadow_to_x_m`.
+  FoundLight Settle(devices::Cloudiness said, double sky_scale, double shadow_to_x_m,
+                    double reach_m = 0.4) const {
+    const LinearRgb sky = day_->SkyHorizontalIrradiance() * sky_scale;
+    const LinearRgb open = sky + day_->SunNormalIrradiance() * day_->ToSun().xyz.z;
+    RgbImage picture(camera_.width, camera_.height, 3);
+    const auto marker_from_camera = camera_from_marker_.Inverse();
+    const Vec3 eye = marker_from_camera.translation_m;
+    for (int y = 0; y < camera_.height; ++y) {
+      for (int x = 0; x < camera_.width; ++x) {
+        const Vec2 ray = UndistortPixel(camera_, {static_cast<double>(x), static_cast<double>(y)});
+        const Vec3 way = marker_from_camera.rotation * Vec3{ray.x, ray.y, 1};
+        const Vec3 p = eye + way * (-eye.z / way.z);
+        const double from_middle = std::max(std::fabs(p.x), std::fabs(p.y));
+        double albedo = 0.3;
+        if (from_middle < print_.board_size_m / 2) albedo = print_.albedo_white;
+        if (from_middle < print_.size_m / 2) albedo = print_.albedo_black;
+        const bool shaded = from_middle < reach_m && p.x < shadow_to_x_m;
+        const LinearRgb light = (shaded ? sky : open) * (albedo / std::numbers::pi * kGain);
+        picture(x, y, 0) = Srgb8FromLinear(light.r);
+        picture(x, y, 1) = Srgb8FromLinear(light.g);
+        picture(x, y, 2) = Srgb8FromLinear(light.b);
+      }
+    }
+    devices::SceneDescription scene = scene_;
+    scene.cloudiness = said;
+    LightLook look(solver_, camera_, print_, scene, {}, time_, {});
+    for (int i = 0; i < 2; ++i) look.Add(picture.view(), camera_from_marker_);
+    LightMemory memory;
+    return look.Settle(&memory);
+  }
+
+  /// How much stronger than the clear day's the sky is that was found, beside the sun.
+  double SkyScaleOf(const FoundLight& found) const {
+    const auto day = found.skies.source->ForSun(day_->ToSun(), 1.0);
+    return SunToSky(*day_) / SunToSky(*day) * found.skies.scale.g;
+  }
+
+ private:
+  static constexpr double kGain = 3.0e-5;
+  UtcTime time_ = *UtcTime::Parse("2025-09-14T13:50:00Z");
+  devices::SceneDescription scene_;
+  std::unique_ptr<sky::SkyModel> day_;
+  std::shared_ptr<const compositor::LightSolver> solver_ = *compositor::LightSolver::Create(
+      {compositor::testing::Phantom(compositor::testing::Ground(3.0, {0.3F, 0.3F, 0.3F}))},
+      {.rays_per_vertex = 64});
+  CameraModel camera_{.width = 400, .height = 300, .fx = 330, .fy = 330, .cx = 200, .cy = 150};
+  compositor::MarkerPrint print_{.size_m = 0.6, .board_size_m = 0.8, .black_band_m = 0.1};
+  Transform<Camera, Marker> camera_from_marker_ = PhotographedYard::Pose(0);
+};
+
+TEST(LightLook, ReadsTheSkyFromAShadowAcrossTheMarkerThatNoPhantomCasts) {
+  using devices::Cloudiness;
+  const BareGround ground;
+  constexpr double kSkyScale = 2.5;
+  const auto expect_told = [&](const FoundLight& found) {
+    EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kMarker);
+    EXPECT_FALSE(found.measured.sun_doubtful);
+    EXPECT_GT(found.measured.sun_to_sky_error, 0.1);
+    ASSERT_NE(found.skies.source, nullptr);
+    const double off = std::fabs(std::log(ground.SkyScaleOf(found) / kSkyScale));
+    EXPECT_LT(off, 0.5 * std::log(kSkyScale)) << "weighed against the words, less certain than it";
+  };
+  expect_told(ground.Settle(Cloudiness::kClear, kSkyScale, 0.1));
+  expect_told(ground.Settle(Cloudiness::kHazy, kSkyScale, 0.1));
+  // Against words that have no sun the ground must show the shadow as well.
+  constexpr double kBeyondPrint = 1.5;
+  expect_told(ground.Settle(Cloudiness::kOvercast, kSkyScale, 0.1, kBeyondPrint));
+  const auto source = [&](Cloudiness said, double shadow_to_x_m) {
+    return ground.Settle(said, kSkyScale, shadow_to_x_m).measured.sun_source;
+  };
+  EXPECT_EQ(source(Cloudiness::kOvercast, 0.1), MeasuredLight::Source::kStated);
+  EXPECT_EQ(source(Cloudiness::kClear, -1.0), MeasuredLight::Source::kStated);
 }
 
 TEST(LightLook, KeepsTheMapUnderAGivenRatio) {

@@ -20,6 +20,9 @@ TEST(MeasuredText, SaysHowWellSunAndHeadingAreKnown) {
   measured.sun_source = Source::kShade;
   EXPECT_EQ(MeasuredSunText(drawn, measured),
             "measured: sun 4.0 ± 0.6 times the sky (from the shade of trees)");
+  measured.sun_source = Source::kMarker;
+  EXPECT_EQ(MeasuredSunText(drawn, measured),
+            "measured: sun 4.0 ± 0.6 times the sky (from a shadow's edge on the marker)");
   drawn.sun_shines = false;
   EXPECT_EQ(MeasuredSunText(drawn, measured), "measured: no sun");
   measured.heading_source = Source::kMeasured;

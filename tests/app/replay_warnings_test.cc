@@ -87,6 +87,11 @@ TEST(LightWarnings, SayWhatTheLightCannotBe) {
   light.measured.edges = light.measured.edges_agreeing = 9;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("(9 places looked at)")));
   light.measured = {};
+  light.measured.sun_source = MeasuredLight::Source::kMarker;
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("shadow's edge divides the marker")));
+  light.measured.sun_to_sky_stated = 4.0;
+  EXPECT_THAT(LightWarnings(light), IsEmpty());
+  light.measured = {};
   light.gain_change = 2.5;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("changed by a factor of 2.5")));
   light.gain_change = 1.1;

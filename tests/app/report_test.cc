@@ -191,6 +191,14 @@ TEST(ReportLight, StatesTheRatioThatTreesShadeTells) {
   EXPECT_THAT(PageOf(light), HasSubstr("± 21 %, from how deep the shade of trees is at 12 places"));
 }
 
+TEST(ReportLight, StatesTheRatioThatAShadowAcrossTheMarkerTells) {
+  LightSummary light = MeasuredSummary();
+  light.measured.sun_source = Source::kMarker;
+  light.measured.sun_to_sky_error = 0.15;
+  EXPECT_EQ(JsonOf(light)["measured"]["sun_from"], "marker");
+  EXPECT_THAT(PageOf(light), HasSubstr("± 15 %, from the edge of a shadow across the marker"));
+}
+
 TEST(ReportLight, ClaimsNoCertaintyOfWhatIsOnlySaid) {
   LightSummary light = MeasuredSummary();
   light.measured = {};

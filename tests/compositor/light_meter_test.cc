@@ -171,6 +171,50 @@ TEST(LightMeter, TakesTheSunlitPartWhenAnUnknownShadowCrossesThePrint) {
   ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
 }
 
+TEST(LightMeter, TellsHowDeepTheShadowIsThatDividesThePrint) {
+  const double contrast = std::log((kAmbientLux + kSunLux) / kAmbientLux);
+  const auto expect = [&](const LightMeter& meter, double shadow_to_x_m, double veil) {
+    const RgbImage picture = Photograph(kGain, shadow_to_x_m, veil);
+    const auto shadow = meter.FindShadow(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(shadow);
+    EXPECT_NEAR(shadow->contrast.r, contrast, 0.05);
+    EXPECT_NEAR(shadow->contrast.g, contrast, 0.05);
+    EXPECT_NEAR(shadow->contrast.b, contrast, 0.05);
+    EXPECT_GT(shadow->lit.xyz.x, 0.05);
+    EXPECT_LT(shadow->shaded.xyz.x, 0.05);
+  };
+  expect(MeterFor(-1.0), 0.05, 0.0);   // Of something that no phantom stands for,
+  expect(MeterFor(-1.0), 0.05, 0.05);  // through a veil,
+  expect(MeterFor(0.05), 0.05, 0.0);   // and of a phantom.
+}
+
+TEST(LightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
+  const auto shadow = [](const RgbImage& picture) {
+    const LightMeter meter = MeterFor(-1.0);
+    EXPECT_TRUE(meter.Measure(picture.view(), kCamera, kFromAbove));
+    return meter.FindShadow(picture.view(), kCamera, kFromAbove);
+  };
+  EXPECT_FALSE(shadow(Photograph(kGain, -1.0)));
+  // Grey things on the print, in the sun: over all of it to the left, over white or black alone.
+  const auto with_cover = [](double share_of_white, const auto& covers) {
+    RgbImage picture = Photograph(kGain, -1.0);
+    const RgbImage grey = Photograph(kGain * share_of_white, -1.0, 0.0,
+                                     {.size_m = 0.0, .board_size_m = 0.5, .black_band_m = 0.05});
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        if (!covers(x - 160, y - 120)) continue;
+        for (int c = 0; c < 3; ++c) picture(x, y, c) = grey(x, y, c);
+      }
+    }
+    return picture;
+  };
+  constexpr int kEdgePx = 60;  // The black square's.
+  EXPECT_FALSE(shadow(with_cover(0.3, [](int x, int) { return x < -20; })));
+  EXPECT_FALSE(shadow(with_cover(0.3, [](int x, int) { return x < -kEdgePx; })));
+  EXPECT_FALSE(
+      shadow(with_cover(0.7, [](int x, int) { return x >= -kEdgePx && x < -kEdgePx / 2; })));
+}
+
 TEST(LightMeter, TakesTheBrightestSpotsUnderLeaves) {
   // Leaves leave between a quarter and all of the sun, and no edge divides light from shade.
   RgbImage picture = Photograph(kGain, -1.0);
@@ -190,6 +234,7 @@ TEST(LightMeter, TakesTheBrightestSpotsUnderLeaves) {
   const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
   ASSERT_TRUE(reading);
   EXPECT_TRUE(reading->dappled);
+  EXPECT_FALSE(MeterFor(-1.0).FindShadow(picture.view(), kCamera, kFromAbove));
   EXPECT_GT(reading->error.g, 0.10);
   EXPECT_NEAR(reading->gain.r / kGain.r, 1.0, 0.08);
   EXPECT_NEAR(reading->gain.g / kGain.g, 1.0, 0.08);

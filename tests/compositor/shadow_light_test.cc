@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "compositor/plane_contrast.h"
+#include "compositor/print_shadow.h"
 #include "compositor/shade_depth.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
@@ -108,6 +111,42 @@ TEST_F(ShadowLight, ReadsCodesByTheCamerasOwnResponse) {
   const SunSkyReading wrong = read_as({});
   ASSERT_EQ(wrong.sun, SunSkyReading::Sun::kShines);
   EXPECT_LT(wrong.sky_scale.g, 0.85);
+}
+
+TEST_F(ShadowLight, TellsTheSkyFromAShadowAcrossThePrint) {
+  const LinearRgb sun = yard_->model().SunNormalIrradiance() * Dot(kUp, yard_->ToSun());
+  const Point<Marker> lit{{0.3, -0.3, 0.0}};
+  // Dark before the wall, which takes of the sky, by something that hides a tenth of it; and behind
+  // the wall, whose own shadow that is.
+  const Point<Marker> before_wall{{0.1, 1.0, 0.0}}, behind_wall{{0.1, 1.8, 0.0}};
+  PrintShadow shadow;
+  for (const auto& [shaded, left] : {std::pair{before_wall, 0.9}, {behind_wall, 1.0}}) {
+    shadow = {{}, lit, shaded};
+    const auto ambient = [&](LinearRgb of_sky, LinearRgb of_sun) {
+      return yard_->solver().AmbientPhantomsOnly(std::vector{shadow.lit, shadow.shaded}, kUp,
+                                                 ScaledDaylight(yard_->model(), of_sky, of_sun),
+                                                 Mat3{}, 2048);
+    };
+    for (const double truth : {0.5, 1.0, 3.0}) {
+      const auto sky = ambient(LinearRgb{1, 1, 1} * truth, {}), reflected = ambient({}, {1, 1, 1});
+      const LinearRgb ratio = (sky[0] + reflected[0] + sun) / (sky[1] * left + reflected[1]);
+      shadow.contrast = {std::log(ratio.r), std::log(ratio.g), std::log(ratio.b)};
+      const SunSkyReading reading =
+          ReadPrintShadow(yard_->solver(), std::vector{shadow, shadow}, yard_->model(), Mat3{});
+      ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
+      EXPECT_NEAR(reading.sky_scale.r / truth, 1.0, 0.05);
+      EXPECT_NEAR(reading.sky_scale.g / truth, 1.0, 0.05);
+      EXPECT_NEAR(reading.sky_scale.b / truth, 1.0, 0.05);
+      EXPECT_GT(reading.log_uncertainty, 0.1);
+    }
+  }
+  const auto unknown = [](const SunSkyReading& reading) {
+    return reading.sun == SunSkyReading::Sun::kUnknown;
+  };
+  EXPECT_TRUE(unknown(ReadPrintShadow(yard_->solver(), {}, yard_->model(), Mat3{})));
+  shadow.contrast = {1.5, 1.5, 1.5};
+  const testing::UniformDay low({3000, 4200, 6500}, {62e3, 55e3, 44e3}, {1.0, 0.0, 0.15});
+  EXPECT_TRUE(unknown(ReadPrintShadow(yard_->solver(), std::vector{shadow}, low, Mat3{})));
 }
 
 TEST_F(ShadowLight, SaysNothingWhereNoPhantomCastsAShadowInView) {

@@ -125,7 +125,7 @@ def main():
     out = os.path.abspath(options.out)
     for folder in ("frames", "key"):
         os.makedirs(f"{out}/{folder}", exist_ok=True)
-    random = np.random.default_rng([options.seed, sorted(PLACES).index(options.place)])
+    random = np.random.default_rng([options.seed, list(PLACES).index(options.place)])
     place = PLACES[options.place](random, options.frames, tuple(options.size))
 
     bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -1,4 +1,4 @@
-"""The four places. A seed varies where and when, lens, camera, heading, colours, sizes, the object
+"""The places. A seed varies where and when, lens, camera, heading, colours, sizes, the object
 and what the scene says of its sky; nothing in them is fitted to what the program does well."""
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
@@ -272,4 +272,29 @@ def park(random, frames, size, tree_phantom=None):
     return finish(random, place, frames, spot, height, distance, size)
 
 
-PLACES = {"terrace": terrace, "yard": yard, "morning": morning, "park": park}
+def square(random, frames, size):
+    """Bare paving under a sun in haze. The only shadow in view is that of a column which no phantom
+    stands for; it crosses the marker."""
+    sky = Sky("nishita", random.uniform(1.0, 3.5), random.uniform(1.5, 4.0))
+    sky.words = str(random.choice(["", "clear", "hazy"]))
+    place, side = begun(random, "square", ((42, 56), (4, 9)), (25, 45), sky, -0.004, 0.45)
+    z, sun = place.ground_z, place.to_sun
+    grey = random.uniform(0.25, 0.4) * np.array([1, 0.95, 0.88])
+    slabs = patterns.masonry(
+        "slabs", random, grey, (0.15, 0.14, 0.12), 4, 4, 1.6, 0.01, 0.5, 0.06
+    )
+    stone = patterns.plain("stone", random, (0.46, 0.42, 0.34), 1.0, 0.09)
+    grassland = patterns.plain("grassland", random, (0.1, 0.15, 0.05), 3.0, 0.15)
+    flat_sun = sun[:2] / np.linalg.norm(sun[:2])
+    past = random.uniform(-0.1, 0.1) * np.array([-flat_sun[1], flat_sun[0]])
+    foot = flat_sun * random.uniform(1.0, 1.6) + past
+    column = shapes.cylinder(random.uniform(0.09, 0.15), 2.5, 48).moved((*foot, z))
+    place.surfaces = ground(place, slabs, 6.0, grassland) + [Surface("column", column, stone)]
+    across = np.array([-flat_sun[1], flat_sun[0]]) * random.choice([-1.0, 1.0])
+    spot = across * random.uniform(0.7, 0.9)
+    height, distance = random.uniform(0.4, 0.7), random.uniform(2.3, 2.8)
+    return finish(random, place, frames, tuple(spot), height, distance, size)
+
+
+# In an order that seeds are made of: further ones follow the last.
+PLACES = {"morning": morning, "park": park, "terrace": terrace, "yard": yard, "square": square}

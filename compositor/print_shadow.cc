@@ -1,0 +1,158 @@
+#include "compositor/print_shadow.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "base/quantile.h"
+#include "compositor/scaled_daylight.h"
+#include "compositor/shade_cell.h"
+
+namespace pleinair::compositor {
+namespace {
+
+// So many pairs at least, and in the middle half between the levels at most this share of them: of
+// pairs along a square the edge of a shadow as wide as half of it leaves a fifth there.
+constexpr std::size_t kFewestPairs = 24;
+constexpr double kMostBetween = 0.1;
+// Share of a part's pairs on one side of the print, at most.
+constexpr double kMostOnASide = 0.75;
+// The black's step over that which its reflectance gives: inks, glare and blur make it uncertain;
+// under a cover it is near 0 or falls where the white rises.
+constexpr double kLeastBlackStep = 0.4, kMostBlackStep = 2.5;
+// What casts the shadow takes of the sky, most of it the bright part about the sun. How much is not
+// known: a band 0.2 rad wide, a column's at arm's length or a wall's edge, takes 3 % of an even sky
+// and several times that in haze. The doubt of the sky's strength is logarithmic.
+constexpr double kTakenByCaster = 0.1, kCasterDoubt = 0.15;
+constexpr std::uint32_t kPaths = 384;
+
+/// The pairs as a cell of spots, sorted by brightness.
+ShadeCell CellOf(std::span<const PrintPair> pairs, LinearRgb depth) {
+  ShadeCell cell;
+  cell.normal = {0, 0, 1};
+  cell.depth = depth.g;
+  cell.colour_step = {depth.r - depth.g, depth.b - depth.g};
+  cell.spots.reserve(pairs.size());
+  for (const PrintPair& pair : pairs) {
+    const auto& [red, green, blue] = pair.step;
+    cell.spots.push_back(
+        {MeanLog(pair.step), {std::log(red / green), std::log(blue / green)}, pair.place.xyz});
+  }
+  std::sort(cell.spots.begin(), cell.spots.end(),
+            [](const ShadeSpot& a, const ShadeSpot& b) { return a.value < b.value; });
+  return cell;
+}
+
+/// Whether more than a few pairs lie between the levels, as in half-light.
+bool HasHalfLight(const ShadeCell& cell, const TwoLevels& levels) {
+  const double apart = levels.high - levels.low;
+  const auto between = std::count_if(cell.spots.begin(), cell.spots.end(), [&](const auto& spot) {
+    return spot.value > levels.low + apart / 4 && spot.value < levels.high - apart / 4;
+  });
+  return static_cast<double>(between) > kMostBetween * static_cast<double>(cell.spots.size());
+}
+
+/// Whether a good part of the spots lies beside the print's side that has most of them: one side
+/// alone may lie in half-light all along, as sharp as any shadow.
+bool GoesRoundACorner(std::span<const ShadeSpot> spots) {
+  std::array<std::size_t, 4> sides{};
+  for (const ShadeSpot& spot : spots) {
+    const Vec3 p = spot.point;
+    const bool across = std::fabs(p.x) > std::fabs(p.y);
+    const bool far = (across ? p.x : p.y) > 0.0;
+    ++sides[(across ? 2U : 0U) + (far ? 1U : 0U)];
+  }
+  const auto most = static_cast<double>(*std::max_element(sides.begin(), sides.end()));
+  return most < kMostOnASide * static_cast<double>(spots.size());
+}
+
+/// Whether the black's step from one part to the other is that of its reflectance.
+bool BlackFollows(std::span<const PrintPair> pairs, double threshold, double black_share) {
+  std::vector<double> dark, bright, dark_step, bright_step;
+  for (const PrintPair& pair : pairs) {
+    const bool is_dark = MeanLog(pair.step) < threshold;
+    (is_dark ? dark : bright).push_back(pair.black);
+    (is_dark ? dark_step : bright_step).push_back(pair.step.r + pair.step.g + pair.step.b);
+  }
+  if (dark.empty() || bright.empty()) return false;
+  const double black = Median(bright) - Median(dark);
+  const double expected = (Median(bright_step) - Median(dark_step)) * black_share;
+  return black > kLeastBlackStep * expected && black < kMostBlackStep * expected;
+}
+
+Point<Marker> Middle(std::span<const ShadeSpot> spots) {
+  Vec3 sum;
+  for (const ShadeSpot& spot : spots) sum = sum + spot.point;
+  return {sum * (1.0 / static_cast<double>(spots.size()))};
+}
+
+}  // namespace
+
+std::optional<PrintShadow> FindPrintShadow(std::span<const PrintPair> pairs, LinearRgb depth,
+                                           double black_share) {
+  if (pairs.size() < kFewestPairs || !(std::min({depth.r, depth.g, depth.b}) > 0.0)) return {};
+  const ShadeCell cell = CellOf(pairs, depth);
+  const TwoLevels levels = SplitInTwo(cell.spots);
+  if (!IsCrossed(cell, levels) || !IsSharp(levels) || HasHalfLight(cell, levels)) return {};
+  if (!BlackFollows(pairs, (levels.low + levels.high) / 2, black_share)) return {};
+  const std::span<const ShadeSpot> spots(cell.spots);
+  const auto dark = spots.first(levels.low_count), bright = spots.subspan(levels.low_count);
+  if (!GoesRoundACorner(dark) || !GoesRoundACorner(bright)) return {};
+  return PrintShadow{CrossingOf(cell, levels).contrast, Middle(bright), Middle(dark)};
+}
+
+SunSkyReading ReadPrintShadow(const LightSolver& solver, std::span<const PrintShadow> shadows,
+                              const sky::SkyModel& daylight, const Mat3& marker_from_world) {
+  SunSkyReading reading;
+  const Vec3 normal{0, 0, 1};
+  const Vec3 to_sun = marker_from_world * daylight.ToSun().xyz;
+  const double cosine = Dot(normal, to_sun);
+  if (shadows.empty() || cosine < kGrazingPrint) return reading;
+  std::vector<Point<Marker>> places;
+  for (const PrintShadow& shadow : shadows) {
+    places.push_back(shadow.lit);
+    places.push_back(shadow.shaded);
+  }
+  const auto light = [&](LinearRgb of_sky, LinearRgb of_sun) {
+    return solver.AmbientPhantomsOnly(places, normal, ScaledDaylight(daylight, of_sky, of_sun),
+                                      marker_from_world, kPaths);
+  };
+  const std::vector<LinearRgb> sky = light({1, 1, 1}, {}), reflected = light({}, {1, 1, 1});
+  const LinearRgb sun = daylight.SunNormalIrradiance() * cosine;
+  std::array<std::vector<double>, 3> log_scales;
+  for (std::size_t i = 0; i < shadows.size(); ++i) {
+    // What a phantom casts the model knows; the share of the sky left by others is a guess.
+    const bool by_phantom = !solver.ReachesPhantomsOnly(shadows[i].shaded, to_sun);
+    const double left = by_phantom ? 1.0 : 1.0 - kTakenByCaster;
+    // exp(contrast) = (k sky + reflected + sun) / (k left sky' + reflected'), solved for k.
+    const auto scale = [&](auto channel) {
+      const double ratio = std::exp(channel(shadows[i].contrast));
+      const std::size_t lit = 2 * i, shaded = 2 * i + 1;
+      return (channel(sun) + channel(reflected[lit]) - ratio * channel(reflected[shaded])) /
+             (ratio * left * channel(sky[shaded]) - channel(sky[lit]));
+    };
+    const std::array scales{scale([](LinearRgb c) { return c.r; }),
+                            scale([](LinearRgb c) { return c.g; }),
+                            scale([](LinearRgb c) { return c.b; })};
+    if (!std::all_of(scales.begin(), scales.end(),
+                     [](double k) { return k > 0.0 && std::isfinite(k); })) {
+      continue;
+    }
+    for (std::size_t c = 0; c < 3; ++c) log_scales[c].push_back(std::log(scales[c]));
+  }
+  const std::vector<double>& green = log_scales[1];
+  reading.edges = reading.agreeing = static_cast<int>(green.size());
+  if (green.empty()) return reading;
+  reading.sun = SunSkyReading::Sun::kShines;
+  reading.sky_scale = {std::exp(Median(log_scales[0])), std::exp(Median(green)),
+                       std::exp(Median(log_scales[2]))};
+  double square = 0.0;
+  for (const double log_scale : green) square += std::pow(log_scale - Median(green), 2);
+  const auto count = static_cast<double>(green.size());
+  reading.log_uncertainty = std::sqrt(square / count / count + kCasterDoubt * kCasterDoubt);
+  return reading;
+}
+
+}  // namespace pleinair::compositor

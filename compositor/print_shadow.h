@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "base/frames.h"
+#include "base/vector.h"
+#include "compositor/light_solver.h"
+#include "compositor/shadow_contrast.h"
+#include "sky/sky_model.h"
+
+namespace pleinair::compositor {
+
+/// What white and black side by side on the print show of the light there, display-linear.
+struct PrintPair {
+  Point<Marker> place;
+  LinearRgb step;      ///< White less black, which a veil leaves as it is; above 0.
+  double black = 0.0;  ///< Sum of the channels.
+};
+
+/// A shadow's sharp edge across the print.
+struct PrintShadow {
+  LinearRgb contrast;         ///< Logarithm of the light in the bright part over the dark one's.
+  Point<Marker> lit, shaded;  ///< Middles of the two parts.
+};
+
+/// Looks for a shadow whose `depth`, as `contrast`, is at least about so much. Two levels of light
+/// with hardly a pair between them, that change colour as sun and sky do, and in which the black
+/// follows the white, as under a thing that lies on the print it does not; `black_share` is the
+/// black's reflectance over that of the step. `pairs` are spread along the print's edges.
+std::optional<PrintShadow> FindPrintShadow(std::span<const PrintPair> pairs, LinearRgb depth,
+                                           double black_share);
+
+/// How strong the sky is beside the sun, from a shadow across the print, whatever casts it;
+/// `shadows`: one a frame that shows it. What casts it takes a part of the sky as well, so that it
+/// is less certain than ReadSunAndSky(), and says so. kUnknown where nothing can be read, as with
+/// the sun grazing the print. `daylight` is the model, `marker_from_world` with the heading in use.
+SunSkyReading ReadPrintShadow(const LightSolver& solver, std::span<const PrintShadow> shadows,
+                              const sky::SkyModel& daylight, const Mat3& marker_from_world);
+
+/// Below this cosine between the sun and the print's normal, a small error of the heading is a
+/// large one of the sun's light.
+inline constexpr double kGrazingPrint = 0.2;
+
+}  // namespace pleinair::compositor
