@@ -20,8 +20,11 @@ constexpr double kClearlyBrighter = 1.25;
 // A shadow's edge on the print: light on its two sides differs by more than this factor.
 constexpr double kShadowContrast = 1.6;
 constexpr double kShadowShare = 0.15;
-// Relative spread of a print's light from which on leaves are dappling it.
-constexpr double kDappled = 0.10, kBrightest = 0.9;
+// Relative spread of a print's light from which on leaves are dappling it; from a little less to a
+// little more its brightest spots count more and more, so that no frame differs much from the next.
+constexpr double kDappled = 0.10, kHardlyDappled = 0.08, kSurelyDappled = 0.12;
+// Share of its pairs that are the brightest.
+constexpr double kBrightest = 0.2;
 constexpr double kSmallestBandPx = 3.0;
 // A median's standard error over a mean's, of a normal distribution: sqrt(π / 2).
 constexpr double kMedianError = 1.2533;
@@ -195,6 +198,36 @@ std::optional<PrintShadow> LightMeter::FindShadow(
                          print_.albedo_black / (print_.albedo_white - print_.albedo_black));
 }
 
+std::optional<LightMeter::ChannelGain> LightMeter::GainOf(const std::vector<Sample>& pairs,
+                                                          std::size_t channel) {
+  std::vector<double> values;
+  for (const Sample& pair : pairs) {
+    if (!std::isnan(pair.white_gain[channel])) values.push_back(pair.white_gain[channel]);
+  }
+  if (static_cast<int>(values.size()) < kMinimumPairs) {
+    // The white is clipped: the black alone is less certain, but not wrong.
+    values.clear();
+    for (const Sample& pair : pairs) {
+      if (!std::isnan(pair.black_gain[channel])) values.push_back(pair.black_gain[channel]);
+    }
+  }
+  if (static_cast<int>(values.size()) < kMinimumPairs) return std::nullopt;
+  const double gain = Median(values);
+  if (!(gain > 0.0) || !std::isfinite(gain)) return std::nullopt;
+  // Interquartile range of a normal distribution: 1.349 standard deviations.
+  const double spread = (Quantile(values, 0.75) - Quantile(values, 0.25)) / 1.349 / gain;
+  return ChannelGain{gain, kMedianError * spread / std::sqrt(static_cast<double>(values.size())),
+                     spread};
+}
+
+std::vector<LightMeter::Sample> LightMeter::Brightest(std::vector<Sample> pairs) {
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Sample& a, const Sample& b) { return a.level > b.level; });
+  const auto count = static_cast<std::ptrdiff_t>(kBrightest * static_cast<double>(pairs.size()));
+  pairs.erase(pairs.begin() + std::max<std::ptrdiff_t>(count, kMinimumPairs), pairs.end());
+  return pairs;
+}
+
 std::optional<LightReading> LightMeter::Measure(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
@@ -220,35 +253,31 @@ std::optional<LightReading> LightMeter::Measure(
   LightReading reading;
   reading.lit_share = lit_share_;
   reading.pairs = static_cast<int>(samples.size());
-  Rgb gain{}, error{};
-  for (int c = 0; c < 3; ++c) {
-    std::vector<double> values;
-    for (const Sample& sample : samples) {
-      if (!std::isnan(sample.white_gain[c])) values.push_back(sample.white_gain[c]);
-    }
-    if (static_cast<int>(values.size()) < kMinimumPairs) {
-      // The white is clipped: the black alone is less certain, but not wrong.
-      values.clear();
-      for (const Sample& sample : samples) {
-        if (!std::isnan(sample.black_gain[c])) values.push_back(sample.black_gain[c]);
+  std::array<ChannelGain, 3> channels;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto channel = GainOf(samples, c);
+    if (!channel) return std::nullopt;
+    channels[c] = *channel;
+  }
+  // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
+  // They are the same in each channel, though blue, the sky's colour, may hardly show it.
+  const double spread = std::max({channels[0].spread, channels[1].spread, channels[2].spread});
+  if (lit >= kMinimumPairs && spread > kHardlyDappled) {
+    reading.dappled = spread > kDappled;
+    const double part =
+        std::min(1.0, (spread - kHardlyDappled) / (kSurelyDappled - kHardlyDappled));
+    const std::vector<Sample> brightest = Brightest(std::move(samples));
+    for (std::size_t c = 0; c < 3; ++c) {
+      ChannelGain& channel = channels[c];
+      if (const auto bright = GainOf(brightest, c)) {
+        channel.gain *= std::pow(bright->gain / channel.gain, part);
       }
-    }
-    if (static_cast<int>(values.size()) < kMinimumPairs) return std::nullopt;
-    gain[c] = Quantile(values, 0.5);
-    if (!(gain[c] > 0.0) || !std::isfinite(gain[c])) return std::nullopt;
-    // Interquartile range of a normal distribution: 1.349 standard deviations.
-    const double spread = (Quantile(values, 0.75) - Quantile(values, 0.25)) / 1.349 / gain[c];
-    error[c] = kMedianError * spread / std::sqrt(static_cast<double>(values.size()));
-    // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
-    // How near is not known, however many pairs there are.
-    if (lit >= kMinimumPairs && spread > kDappled) {
-      gain[c] = Quantile(values, kBrightest);
-      error[c] = spread;
-      reading.dappled = true;
+      // How near to the sun is not known, however many pairs there are.
+      channel.error += part * (channel.spread - channel.error);
     }
   }
-  reading.error = {error[0], error[1], error[2]};
-  reading.gain = {gain[0], gain[1], gain[2]};
+  reading.error = {channels[0].error, channels[1].error, channels[2].error};
+  reading.gain = {channels[0].gain, channels[1].gain, channels[2].gain};
   return reading;
 }
 

@@ -215,21 +215,28 @@ TEST(LightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
       shadow(with_cover(0.7, [](int x, int) { return x >= -kEdgePx && x < -kEdgePx / 2; })));
 }
 
-TEST(LightMeter, TakesTheBrightestSpotsUnderLeaves) {
-  // Leaves leave between a quarter and all of the sun, and no edge divides light from shade.
+/// A print under leaves that leave between a quarter and all of the sun; no edge divides light from
+/// shade. `blue`: how much of that blue shows, as under a blue sky.
+RgbImage UnderLeaves(double blue, double* mean) {
   RgbImage picture = Photograph(kGain, -1.0);
-  double mean = 0.0;
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const double leaves = std::sin(0.31 * x + 0.05 * y) * std::sin(0.23 * y - 0.08 * x);
       const double sun = std::clamp(0.7 + 0.45 * leaves, 0.25, 1.0);
       const double share = (kAmbientLux + sun * kSunLux) / (kAmbientLux + kSunLux);
-      mean += share / (picture.width() * picture.height());
+      *mean += share / (picture.width() * picture.height());
       for (int c = 0; c < 3; ++c) {
-        picture(x, y, c) = Srgb8FromLinear(LinearFromSrgb8()[picture(x, y, c)] * share);
+        const double left = c == 2 ? 1.0 - blue * (1.0 - share) : share;
+        picture(x, y, c) = Srgb8FromLinear(LinearFromSrgb8()[picture(x, y, c)] * left);
       }
     }
   }
+  return picture;
+}
+
+TEST(LightMeter, TakesTheBrightestSpotsUnderLeaves) {
+  double mean = 0.0;
+  const RgbImage picture = UnderLeaves(1.0, &mean);
   ASSERT_LT(mean, 0.8) << "the middle of the light is far below the sun";
   const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
   ASSERT_TRUE(reading);
@@ -239,6 +246,44 @@ TEST(LightMeter, TakesTheBrightestSpotsUnderLeaves) {
   EXPECT_NEAR(reading->gain.r / kGain.r, 1.0, 0.08);
   EXPECT_NEAR(reading->gain.g / kGain.g, 1.0, 0.08);
   EXPECT_NEAR(reading->gain.b / kGain.b, 1.0, 0.08);
+}
+
+TEST(LightMeter, TakesTheSameSpotsUnderLeavesForEachChannel) {
+  // So little that blue by itself would be taken for evenly lit, at the middle of its light.
+  double mean = 0.0;
+  const RgbImage picture = UnderLeaves(0.35, &mean);
+  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ASSERT_TRUE(reading);
+  EXPECT_TRUE(reading->dappled);
+  EXPECT_LT(reading->error.b, 0.10);
+  EXPECT_GT(reading->error.g, 0.10);
+  const double bright_g = reading->gain.g / kGain.g;
+  EXPECT_NEAR(reading->gain.b / kGain.b, 1.0 - 0.35 * (1.0 - bright_g), 0.02);
+}
+
+TEST(LightMeter, ChangesLittleWhereLeavesBeginToShow) {
+  double before = 0.0;
+  bool even = false, dappled = false;
+  for (int step = 10; step <= 60; ++step) {
+    RgbImage picture = Photograph(kGain, -1.0);
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const double leaves = std::sin(0.31 * x + 0.05 * y) * std::sin(0.23 * y - 0.08 * x);
+        const double share = 1.0 - 0.005 * step * (1.0 - leaves);
+        for (int c = 0; c < 3; ++c) {
+          picture(x, y, c) = Srgb8FromLinear(LinearFromSrgb8()[picture(x, y, c)] * share);
+        }
+      }
+    }
+    const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(reading);
+    (reading->dappled ? dappled : even) = true;
+    if (step > 10) {
+      EXPECT_NEAR(reading->gain.g / before, 1.0, 0.03) << step;
+    }
+    before = reading->gain.g;
+  }
+  EXPECT_TRUE(even && dappled);
 }
 
 TEST(LightMeter, CancelsVeilingGlare) {
