@@ -31,7 +31,8 @@ constexpr int kFewestDivided = 2;
 constexpr std::array kSkiesWithSun{1.0, 2.0, 4.0};
 
 /// Open light over that on a print that has the sky and a part of the sun, so much that the mean of
-/// the channels is `open_gain`: shade is not only darker but bluer. 1 without a sun.
+/// the channels is `open_gain`: shade is not only darker but bluer. Less than that where a print
+/// without any sun would be brighter.
 LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
   double least = 0.0, most = 1.0;
   const auto shade = [&](double part) { return (sun + sky) / (sun * part + sky); };
@@ -40,7 +41,11 @@ LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
     const double part = (least + most) / 2;
     (MeanLog(shade(part)) > std::log(open_gain) ? least : most) = part;
   }
-  return shade((least + most) / 2);
+  const LinearRgb shaded = shade((least + most) / 2);
+  // What is more than all the sun the ratio of sun and sky is wrong by, or crowns take of the sky:
+  // in the open nothing is missing then, in their shade it is missing from the objects, too.
+  // Midway.
+  return shaded * std::sqrt(std::max(1.0, open_gain / std::exp(MeanLog(shaded))));
 }
 
 // How much stronger than the words' sky that is under which the shade of trees is looked for first,

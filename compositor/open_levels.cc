@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 
 #include "base/quantile.h"
 
@@ -61,6 +62,18 @@ bool ColoursAgree(const std::vector<Told>& surfaces, double gain) {
          }) > 1;
 }
 
+/// Medians of the colours' gains, of those that are no lower than `least`.
+std::vector<double> ColoursFrom(const std::vector<Told>& surfaces, double least) {
+  std::map<Rgb, std::vector<double>> by_colour;
+  for (const Told& told : surfaces) {
+    if (told.gain > least) by_colour[told.colour].push_back(told.gain);
+  }
+  std::vector<double> medians;
+  medians.reserve(by_colour.size());
+  for (const auto& [colour, gains] : by_colour) medians.push_back(Median(gains));
+  return medians;
+}
+
 /// Whether a surface's cells show sun and shade: a few in shade, or a good part.
 bool ShowsBoth(const OpenSurface& surface, bool few) {
   const double deep = kShadeDepth * surface.depth;
@@ -99,10 +112,17 @@ OpenGain BrightestGain(std::vector<Told> surfaces) {
                  [&](const Told& told) { return told.gain > surfaces[first].gain - kAgreement; });
     if (Cells(near) < enough) continue;
     const double gain = MedianGain(near);
-    const bool agreed = ColoursAgree(near, gain);
+    // Brighter ones, whom these contradict, say all the same that the print is too dark: between.
+    const std::vector<double> colours = ColoursFrom(surfaces, gain - kAgreement);
+    const bool alike = ColoursAgree(near, gain);
+    const bool agreed = alike || (first > 0 && colours.size() > 1);
     const bool believed = gain > (agreed ? kTooBright : kTooBrightAlone) &&
                           !IsContradicted(surfaces, gain, agreed, Cells(near));
-    if (believed) return {gain, true};
+    if (believed) {
+      if (alike || gain > kTooBrightAlone) return {gain, true};
+      const double sum = std::accumulate(colours.begin(), colours.end(), 0.0);
+      return {sum / static_cast<double>(colours.size()), true};
+    }
     if (gain <= kTooBright) break;
   }
   return {};

@@ -75,6 +75,8 @@ class PhotographedYard {
     /// Whether things have the colours that the model states of them, the print its white;
     /// otherwise they all have one, patterned.
     bool colours_as_stated = false;
+    /// How much brighter than that a thing is at a point.
+    std::function<double(Vec3)> brighter = [](Vec3) { return 1.0; };
   };
 
   /// Where the camera stands for picture 0, 1, …
@@ -100,7 +102,8 @@ class PhotographedYard {
                                   Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1}));
         if (!seen) continue;
         const LinearRgb e = Irradiance(*seen, light, sun);
-        const LinearRgb albedo = light.colours_as_stated ? StatedAlbedo(*seen) : Albedo(*seen);
+        const LinearRgb albedo = (light.colours_as_stated ? StatedAlbedo(*seen) : Albedo(*seen)) *
+                                 light.brighter(seen->point.xyz);
         const LinearRgb radiance = e * albedo * (1 / std::numbers::pi);
         image(x, y, 0) = response.Encoded8(radiance.r * kGain, 0);
         image(x, y, 1) = response.Encoded8(radiance.g * kGain, 1);

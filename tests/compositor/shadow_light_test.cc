@@ -403,6 +403,26 @@ TEST_F(ShadowLight, BelievesThePrintWhereTheGroundShowsSunAndShade) {
   EXPECT_NEAR(Shade(samples, yard_->model(), yard_->solver()).open_gain, 1.0, 0.15);
 }
 
+TEST_F(ShadowLight, BelievesSurfacesOfTwoColoursOfWhichOneIsStatedTooDark) {
+  // The print has a good half of the open light. What stands on the ground is brighter than said,
+  // so that it asks for more gain than the ground does, whose sun and shade contradict it; that the
+  // print is too dark both say.
+  constexpr double kOnPrint = 0.57, kBrighter = 1.4;
+  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print());
+  for (const int i : {0, 1}) {
+    const RgbImage picture = yard_->Photograph(
+        i, {.shaded = [](Vec3 p) { return p.z < 0.02 ? p.x + p.y < -0.2 : p.x > 0.3; },
+            .colours_as_stated = true,
+            .brighter = [](Vec3 p) { return p.z > 0.02 ? kBrighter : 1.0; }});
+    samples.AddFrame(picture.view(), PhotographedYard::Pose(i),
+                     LinearRgb{1, 1, 1} * (kOnPrint * PhotographedYard::kGain));
+  }
+  const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
+  EXPECT_TRUE(shade.ShadesPrint());
+  EXPECT_GT(shade.open_gain * kOnPrint, 0.95);
+  EXPECT_LT(shade.open_gain * kOnPrint, kBrighter - 0.05);
+}
+
 TEST(UnmodelledShade, TellsHowMuchDarkerThanTheSunAPrintOnAWallIs) {
   // The paving is a wall, what stands on it an awning; under a sky as bright as the sun's light,
   // of which a wall sees half.
