@@ -33,8 +33,10 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::Advance() {
   ++done_;
+  if (!is_drawn_) return;
   const auto now = Clock::now();
-  if (!is_drawn_ || now - last_drawn_ < kRedraw) return;
+  // What is done sooner than it would be drawn again is shown at its end.
+  if (done_ != total_ && now - last_drawn_ < kRedraw) return;
   last_drawn_ = now;
   Draw(std::chrono::duration<double>(now - start_).count());
 }

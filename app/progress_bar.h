@@ -7,8 +7,9 @@
 
 namespace pleinair::app {
 
-/// A bar on standard error, drawn only on a terminal, empty at first and then at most ten times a
-/// second; its line is wiped when it goes. Of several that live at once only the first is drawn.
+/// A bar on standard error, drawn only on a terminal: empty at first, then at most ten times a
+/// second, and when all is done; its line is wiped when it goes. Of several that live at once only
+/// the first is drawn.
 class ProgressBar {
  public:
   /// `unit`: what is counted, in the plural.
