@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "compositor/plane_contrast.h"
+#include "compositor/print_shade.h"
 #include "compositor/print_shadow.h"
 #include "compositor/scaled_daylight.h"
 #include "compositor/shade_depth.h"
@@ -29,24 +30,6 @@ constexpr double kLeastAmongPlanes = 0.2, kTimesWorse = 2.0;
 constexpr int kFewestDivided = 2;
 // Skies that a sun may have beside it, of the words': as they say, and in haze.
 constexpr std::array kSkiesWithSun{1.0, 2.0, 4.0};
-
-/// Open light over that on a print that has the sky and a part of the sun, so much that the mean of
-/// the channels is `open_gain`: shade is not only darker but bluer. Less than that where a print
-/// without any sun would be brighter.
-LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
-  double least = 0.0, most = 1.0;
-  const auto shade = [&](double part) { return (sun + sky) / (sun * part + sky); };
-  constexpr int kBisections = 20;
-  for (int i = 0; i < kBisections; ++i) {
-    const double part = (least + most) / 2;
-    (MeanLog(shade(part)) > std::log(open_gain) ? least : most) = part;
-  }
-  const LinearRgb shaded = shade((least + most) / 2);
-  // What is more than all the sun the ratio of sun and sky is wrong by, or crowns take of the sky:
-  // in the open nothing is missing then, in their shade it is missing from the objects, too.
-  // Midway.
-  return shaded * std::sqrt(std::max(1.0, open_gain / std::exp(MeanLog(shaded))));
-}
 
 // How much stronger than the words' sky that is under which the shade of trees is looked for first,
 // before its strength is known. A guess: words miss haze more often than anything else, shallower
@@ -142,7 +125,7 @@ void LightLook::TakeShade(compositor::UnmodelledShade shade, FoundLight* found) 
       std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
   if (2 * dappled_ > samples_.frames() || shade.ShadesPrint()) {
     found->skies.print_shade =
-        PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
+        compositor::PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
   }
   found->measured.print_shade = std::exp(MeanLog(found->skies.print_shade));
 }

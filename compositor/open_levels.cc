@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -53,17 +54,8 @@ double MedianGain(const std::vector<Told>& surfaces) {
   return gains.empty() ? 0.0 : Quantile(gains, 0.5);
 }
 
-/// Whether surfaces of two colours at least are near `gain`, a colour's by the median of its own.
-bool ColoursAgree(const std::vector<Told>& surfaces, double gain) {
-  std::map<Rgb, std::vector<double>> by_colour;
-  for (const Told& told : surfaces) by_colour[told.colour].push_back(told.gain);
-  return std::count_if(by_colour.begin(), by_colour.end(), [&](const auto& colour) {
-           return std::fabs(Quantile(colour.second, 0.5) - gain) < kAgreement;
-         }) > 1;
-}
-
-/// Medians of the colours' gains, of those that are no lower than `least`.
-std::vector<double> ColoursFrom(const std::vector<Told>& surfaces, double least) {
+/// What each colour tells, as the median of its surfaces of a gain above `least`.
+std::vector<double> GainsByColour(const std::vector<Told>& surfaces, double least) {
   std::map<Rgb, std::vector<double>> by_colour;
   for (const Told& told : surfaces) {
     if (told.gain > least) by_colour[told.colour].push_back(told.gain);
@@ -72,6 +64,15 @@ std::vector<double> ColoursFrom(const std::vector<Told>& surfaces, double least)
   medians.reserve(by_colour.size());
   for (const auto& [colour, gains] : by_colour) medians.push_back(Median(gains));
   return medians;
+}
+
+/// Whether surfaces of two colours at least are near `gain`.
+bool ColoursAgree(const std::vector<Told>& surfaces, double gain) {
+  const std::vector<double> gains =
+      GainsByColour(surfaces, -std::numeric_limits<double>::infinity());
+  return std::count_if(gains.begin(), gains.end(), [&](double of_colour) {
+           return std::fabs(of_colour - gain) < kAgreement;
+         }) > 1;
 }
 
 /// Whether a surface's cells show sun and shade: a few in shade, or a good part.
@@ -113,7 +114,7 @@ OpenGain BrightestGain(std::vector<Told> surfaces) {
     if (Cells(near) < enough) continue;
     const double gain = MedianGain(near);
     // Brighter ones, whom these contradict, say all the same that the print is too dark: between.
-    const std::vector<double> colours = ColoursFrom(surfaces, gain - kAgreement);
+    const std::vector<double> colours = GainsByColour(surfaces, gain - kAgreement);
     const bool alike = ColoursAgree(near, gain);
     const bool agreed = alike || (first > 0 && colours.size() > 1);
     const bool believed = gain > (agreed ? kTooBright : kTooBrightAlone) &&
