@@ -23,6 +23,8 @@ constexpr double kShadowShare = 0.15;
 // Relative spread of a print's light from which on leaves are dappling it; from a little less to a
 // little more its brightest spots count more and more, so that no frame differs much from the next.
 constexpr double kDappled = 0.10, kHardlyDappled = 0.08, kSurelyDappled = 0.12;
+// Pairs in the sun that a shadow across the print must leave.
+constexpr int kFewestBright = 6;
 // Share of its pairs that are the brightest.
 constexpr double kBrightest = 0.2;
 constexpr double kSmallestBandPx = 3.0;
@@ -199,19 +201,19 @@ std::optional<PrintShadow> LightMeter::FindShadow(
 }
 
 std::optional<LightMeter::ChannelGain> LightMeter::GainOf(const std::vector<Sample>& pairs,
-                                                          std::size_t channel) {
+                                                          std::size_t channel, int fewest) {
   std::vector<double> values;
   for (const Sample& pair : pairs) {
     if (!std::isnan(pair.white_gain[channel])) values.push_back(pair.white_gain[channel]);
   }
-  if (static_cast<int>(values.size()) < kMinimumPairs) {
+  if (static_cast<int>(values.size()) < fewest) {
     // The white is clipped: the black alone is less certain, but not wrong.
     values.clear();
     for (const Sample& pair : pairs) {
       if (!std::isnan(pair.black_gain[channel])) values.push_back(pair.black_gain[channel]);
     }
   }
-  if (static_cast<int>(values.size()) < kMinimumPairs) return std::nullopt;
+  if (static_cast<int>(values.size()) < fewest) return std::nullopt;
   const double gain = Median(values);
   if (!(gain > 0.0) || !std::isfinite(gain)) return std::nullopt;
   // Interquartile range of a normal distribution: 1.349 standard deviations.
@@ -221,6 +223,13 @@ std::optional<LightMeter::ChannelGain> LightMeter::GainOf(const std::vector<Samp
 }
 
 std::vector<LightMeter::Sample> LightMeter::Brightest(std::vector<Sample> pairs) {
+  // Where a channel is clipped on some of them it would be read on others than the rest.
+  const auto is_whole = [](const Sample& pair) {
+    return !std::isnan(pair.white_gain[0] + pair.white_gain[1] + pair.white_gain[2]);
+  };
+  if (std::count_if(pairs.begin(), pairs.end(), is_whole) >= kMinimumPairs) {
+    std::erase_if(pairs, [&](const Sample& pair) { return !is_whole(pair); });
+  }
   std::sort(pairs.begin(), pairs.end(),
             [](const Sample& a, const Sample& b) { return a.level > b.level; });
   const auto count = static_cast<std::ptrdiff_t>(kBrightest * static_cast<double>(pairs.size()));
@@ -239,39 +248,47 @@ std::optional<LightReading> LightMeter::Measure(
   // the sky's share matters least.
   const auto lit = std::count_if(samples.begin(), samples.end(),
                                  [](const Sample& sample) { return sample.in_sun; });
+  bool few_bright = false;
   if (lit >= kMinimumPairs) {
     std::erase_if(samples, [](const Sample& sample) { return !sample.in_sun; });
     std::vector<double> levels;
     levels.reserve(samples.size());
     for (const Sample& sample : samples) levels.push_back(sample.level);
-    if (const auto threshold = ShadowThreshold(levels)) {
-      std::erase_if(samples, [&](const Sample& sample) { return sample.level < *threshold; });
+    const double threshold = ShadowThreshold(levels).value_or(0.0);
+    const auto bright = std::count_if(levels.begin(), levels.end(),
+                                      [&](double level) { return level >= threshold; });
+    if (bright >= kFewestBright) {
+      std::erase_if(samples, [&](const Sample& sample) { return sample.level < threshold; });
+      few_bright = bright < kMinimumPairs;
     }
   }
-  if (static_cast<int>(samples.size()) < kMinimumPairs) return std::nullopt;
+  const int fewest = few_bright ? kFewestBright : kMinimumPairs;
+  if (static_cast<int>(samples.size()) < fewest) return std::nullopt;
 
   LightReading reading;
+  reading.dappled = few_bright;
   reading.lit_share = lit_share_;
   reading.pairs = static_cast<int>(samples.size());
   std::array<ChannelGain, 3> channels;
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto channel = GainOf(samples, c);
+    const auto channel = GainOf(samples, c, fewest);
     if (!channel) return std::nullopt;
     channels[c] = *channel;
   }
   // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
   // They are the same in each channel, though blue, the sky's colour, may hardly show it.
   const double spread = std::max({channels[0].spread, channels[1].spread, channels[2].spread});
-  if (lit >= kMinimumPairs && spread > kHardlyDappled) {
+  if (lit >= kMinimumPairs && !few_bright && spread > kHardlyDappled) {
     reading.dappled = spread > kDappled;
     const double part =
         std::min(1.0, (spread - kHardlyDappled) / (kSurelyDappled - kHardlyDappled));
     const std::vector<Sample> brightest = Brightest(std::move(samples));
+    std::array<std::optional<ChannelGain>, 3> bright;
+    for (std::size_t c = 0; c < 3; ++c) bright[c] = GainOf(brightest, c, kMinimumPairs);
+    const bool whole = bright[0] && bright[1] && bright[2];
     for (std::size_t c = 0; c < 3; ++c) {
       ChannelGain& channel = channels[c];
-      if (const auto bright = GainOf(brightest, c)) {
-        channel.gain *= std::pow(bright->gain / channel.gain, part);
-      }
+      if (whole) channel.gain *= std::pow(bright[c]->gain / channel.gain, part);
       // How near to the sun is not known, however many pairs there are.
       channel.error += part * (channel.spread - channel.error);
     }

@@ -90,9 +90,11 @@ class LightMeter {
     double gain = 0.0;                 // Their median.
     double error = 0.0, spread = 0.0;  // Of it and of a single pair, relative.
   };
-  /// Nothing where fewer than kMinimumPairs can tell it.
-  static std::optional<ChannelGain> GainOf(const std::vector<Sample>& pairs, std::size_t channel);
-  /// The brightest of at least kMinimumPairs pairs, and so many at least.
+  /// Nothing where less than `fewest` can tell it.
+  static std::optional<ChannelGain> GainOf(const std::vector<Sample>& pairs, std::size_t channel,
+                                           int fewest);
+  /// The brightest of at least kMinimumPairs pairs, and so many at least, of those that no channel
+  /// is clipped on where there are enough.
   static std::vector<Sample> Brightest(std::vector<Sample> pairs);
   Samples SamplesIn(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                     const Transform<Camera, Marker>& camera_from_marker) const;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/quantile.h"
+#include "compositor/beside_print.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -75,8 +76,10 @@ bool ColoursAgree(const std::vector<Told>& surfaces, double gain) {
          }) > 1;
 }
 
-/// Whether a surface's cells show sun and shade: a few in shade, or a good part.
+/// Whether a surface's cells show sun and shade: a few in shade, or a good part. Not where a shadow
+/// is so faint that patterns are as deep.
 bool ShowsBoth(const OpenSurface& surface, bool few) {
+  if (surface.depth < kAgreement) return false;
   const double deep = kShadeDepth * surface.depth;
   if (!few) return Quantile(surface.medians, 0.9) - Quantile(surface.medians, 0.1) > deep;
   return std::count_if(surface.medians.begin(), surface.medians.end(), [&](double median) {
@@ -93,7 +96,7 @@ bool IsContradicted(const std::vector<Told>& surfaces, double gain, bool agreed,
       agreed ? std::max(bright_cells / 2, kFewestBrightCells) : kFewestBrightCells;
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const Told& told) {
     const auto cells = static_cast<double>(told.surface->medians.size());
-    return told.gain < gain - kAgreement && told.open >= fewest &&
+    return !told.surface->shades_print && told.gain < gain - kAgreement && told.open >= fewest &&
            static_cast<double>(told.open) > kLeastOpenShare * cells &&
            ShowsBoth(*told.surface, !agreed);
   });
@@ -177,6 +180,20 @@ double OpenSurface::SunlitLevel() const {
   return all_shaded ? level : Quantile(medians, kSunlitQuantile);
 }
 
+/// Marks the surface whose shade the print lies in, if one shows that.
+bool MarkShadeBesidePrint(const OpenLight& light, const std::vector<std::uint8_t>& reached,
+                          const SurfaceSamples& samples, OpenSurfaces* surfaces) {
+  const auto beside = FindBesidePrint(samples, reached);
+  const auto found = beside ? surfaces->find(beside->plane) : surfaces->end();
+  if (found == surfaces->end()) return false;
+  OpenSurface& surface = found->second;
+  const double in_prints_light =
+      light.log_unit() + MeanLog(beside->albedo * (1 / std::numbers::pi));
+  surface.shades_print = std::fabs(beside->brightness - in_prints_light) < kAgreement &&
+                         beside->brightness < surface.level - kShadeDepth * surface.depth;
+  return surface.shades_print;
+}
+
 OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,
                         const SurfaceSamples& samples, OpenSurfaces* surfaces) {
   struct Places {
@@ -211,7 +228,9 @@ OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>&
                    surface.level - predicted,
                    static_cast<std::size_t>(std::max<std::ptrdiff_t>(near, 1))});
   }
-  if (const OpenGain brightest = BrightestGain(all); brightest.log > 0.0) {
+  const bool shown_beside_print = MarkShadeBesidePrint(light, reached, samples, surfaces);
+  if (OpenGain brightest = BrightestGain(all); brightest.log > 0.0) {
+    brightest.shown_beside_print = shown_beside_print;
     for (const Told& told : all) {
       if (told.gain > brightest.log - kSurelyDarker) continue;
       told.surface->all_shaded = true;
@@ -220,7 +239,7 @@ OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>&
     return brightest;
   }
   const double gain = MedianGain(all);
-  return {gain, !all.empty() && ColoursAgree(all, gain)};
+  return {gain, !all.empty() && ColoursAgree(all, gain), shown_beside_print};
 }
 
 }  // namespace pleinair::compositor

@@ -58,6 +58,8 @@ struct OpenSurface {
   double level = 0.0;           ///< In the open sun.
   /// Whether none of it lies there: the level is then what other surfaces tell.
   bool all_shaded = false;
+  /// Whether the print lies on a darker part of it, in the same shade as that part.
+  bool shades_print = false;
 
   /// Medians of those that are no darker than most by a shadow's depth.
   std::vector<double> SunlitCells() const;
@@ -75,6 +77,9 @@ struct OpenGain {
   /// Whether surfaces of two stated colours tell nearly that, for one may be wrong, or one does of
   /// which that can hardly be.
   bool agreed = false;
+  /// Whether the surface that the print lies on shows that it lies in shade
+  /// (OpenSurface::shades_print).
+  bool shown_beside_print = false;
 };
 
 /// Finds how bright each surface is in the open sun, and what gain that tells of: a median over
@@ -86,6 +91,10 @@ struct OpenGain {
 /// print lies in shade: the gain is theirs, and surfaces that are darker than that by more than
 /// colours are misjudged lie in shade as a whole. The cause of a surface that is too bright can
 /// hardly be its stated colour; of one that is too dark it can.
+///
+/// A surface that shows sun and shade of its own speaks against that, but not where it is darker
+/// around the print than elsewhere by a shadow's depth and about as bright there as its colour
+/// makes it in the print's own light: its bright places are then what the print has not.
 ///
 /// `reached`, of each sample: whether the model has it in the sun.
 OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,

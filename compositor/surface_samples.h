@@ -48,6 +48,7 @@ class SurfaceSamples {
                 LinearRgb gain);
 
   const std::vector<SurfaceSample>& samples() const { return samples_; }
+  const MarkerPrint& print() const { return print_; }
   std::uint32_t cells() const { return static_cast<std::uint32_t>(cells_.size()); }
   int frames() const { return frames_; }
 

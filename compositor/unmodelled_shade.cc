@@ -196,6 +196,7 @@ UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamp
   const OpenGain gain = FindOpenLevels(light, reached, samples, &sunlit);
   shade.open_gain = std::exp(gain.log);
   shade.open_gain_agreed = gain.agreed;
+  shade.shown_beside_print = gain.shown_beside_print;
   // Once more, with the levels of surfaces that have no part in the open.
   CountShaded(cells, sunlit, &shade);
   CountShadedEdges(cells, sunlit, &shade);
@@ -216,8 +217,8 @@ bool UnmodelledShade::IsWide() const {
 }
 
 bool UnmodelledShade::ShadesPrint() const {
-  constexpr double kDarker = 1.5;
-  return open_gain_agreed && open_gain > kDarker;
+  constexpr double kDarker = 1.5, kDarkerAsShown = 1.2;
+  return open_gain_agreed && open_gain > (shown_beside_print ? kDarkerAsShown : kDarker);
 }
 
 bool UnmodelledShade::HidesEdges() const {

@@ -36,6 +36,7 @@ struct UnmodelledShade {
   double open_gain = 1.0;
   /// Whether that is believed (OpenGain::agreed).
   bool open_gain_agreed = false;
+  bool shown_beside_print = false;  ///< OpenGain's.
   /// Where Matters(): the sun's light on the print in the open and all other, as phantoms leave it.
   LinearRgb sun_on_print, ambient_on_print;
   SeenSunlight sunlight;  ///< Where Matters().
@@ -51,7 +52,8 @@ struct UnmodelledShade {
   /// leaves no sharp edge.
   bool IsWide() const;
   /// Whether the print is so much darker than what lies in the open that it must lie in shade, even
-  /// if evenly: no stated colour is believed to be so far off.
+  /// if evenly: no stated colour is believed to be so far off. Less will do where the surface that
+  /// it lies on shows that.
   bool ShadesPrint() const;
   /// Whether what casts them keeps the sun from the phantoms' own shadows, too, which then show no
   /// edge under whatever sun; where the sun is thought to stand elsewhere than it does, most of

@@ -261,6 +261,38 @@ TEST(LightMeter, TakesTheSameSpotsUnderLeavesForEachChannel) {
   EXPECT_NEAR(reading->gain.b / kGain.b, 1.0 - 0.35 * (1.0 - bright_g), 0.02);
 }
 
+TEST(LightMeter, TakesTheSameSpotsUnderLeavesWhereOneChannelIsClipped) {
+  double mean = 0.0;
+  RgbImage picture = UnderLeaves(1.0, &mean);
+  // Half as much again of red: clipped on the very brightest spots, though not on most.
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const double red = 1.5 * LinearFromSrgb8()[picture(x, y, 0)];
+      picture(x, y, 0) = Srgb8FromLinear(std::min(red, 1.0));
+    }
+  }
+  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ASSERT_TRUE(reading);
+  ASSERT_TRUE(reading->dappled);
+  EXPECT_NEAR(reading->gain.r / reading->gain.g, 1.5 * kGain.r / kGain.g, 0.03);
+  EXPECT_NEAR(reading->gain.b / reading->gain.g, kGain.b / kGain.g, 0.03);
+}
+
+TEST(LightMeter, ReadsTheSunOffTheFewSpotsThatAShadowLeavesIt) {
+  // Phantoms leave the print's right side in the sun, and something else of that side a fifth:
+  // fewer pairs than a reading needs.
+  constexpr double kShadowToX_m = 0.17, kSunlit_m = 0.06;
+  RgbImage picture = Photograph(kGain, 1.0);
+  const RgbImage sunlit = Photograph(kGain, -1.0);
+  const int half = static_cast<int>(kSunlit_m / 2 * kCamera.fy);
+  for (int y = 120 - half; y <= 120 + half; ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      for (int c = 0; c < 3; ++c) picture(x, y, c) = sunlit(x, y, c);
+    }
+  }
+  ExpectGain(MeterFor(kShadowToX_m).Measure(picture.view(), kCamera, kFromAbove), kGain);
+}
+
 TEST(LightMeter, ChangesLittleWhereLeavesBeginToShow) {
   double before = 0.0;
   bool even = false, dappled = false;

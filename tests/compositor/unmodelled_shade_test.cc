@@ -224,6 +224,37 @@ TEST_F(ShadowLight, BelievesSurfacesOfTwoColoursOfWhichOneIsStatedTooDark) {
   EXPECT_LT(shade.open_gain * kOnPrint, kBrighter - 0.05);
 }
 
+TEST_F(ShadowLight, SeesBesideThePrintThatItLiesInTheGroundsShade) {
+  // The ground's bright part, in half-light, is no brighter than the open sun would be if the print
+  // lay in it: it seems to lie partly in the sun, against the wall, which has all of it.
+  double true_gain = 0.0;
+  const auto half_light = [](Vec3 p) { return p.z < 0.02 && p.x > 0.45 ? 2.2 : 1.0; };
+  const SurfaceSamples samples = FromAShadedPrint(
+      *yard_, {.shaded = [](Vec3 p) { return p.y < 1.15; }, .brighter = half_light}, &true_gain);
+  const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
+  EXPECT_TRUE(shade.shown_beside_print);
+  EXPECT_TRUE(shade.ShadesPrint());
+  EXPECT_NEAR(shade.open_gain / true_gain, 1.0, 0.15);
+}
+
+TEST_F(ShadowLight, TakesADarkMatBeneathThePrintForNoShade) {
+  const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
+  const auto mat = [](Vec3 p) {
+    const double beside = std::max(std::fabs(p.x), std::fabs(p.y));
+    return beside > 0.125 && beside < 0.4 && p.z < 0.02 ? 0.3 : 1.0;
+  };
+  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print());
+  for (const int i : {0, 1}) {
+    samples.AddFrame(
+        yard_->Photograph(i, {.shaded = tree, .colours_as_stated = true, .brighter = mat}).view(),
+        PhotographedYard::Pose(i), LinearRgb{1, 1, 1} * PhotographedYard::kGain);
+  }
+  const UnmodelledShade shade = Shade(samples, yard_->model(), yard_->solver());
+  ASSERT_TRUE(shade.Matters());
+  EXPECT_FALSE(shade.shown_beside_print);
+  EXPECT_FALSE(shade.ShadesPrint());
+}
+
 TEST(UnmodelledShade, TellsHowMuchDarkerThanTheSunAPrintOnAWallIs) {
   // The paving is a wall, what stands on it an awning; under a sky as bright as the sun's light,
   // of which a wall sees half.
