@@ -115,13 +115,14 @@ double LeaveOutCovered(const PrintPattern& pattern, const Mat3& rays_from_print,
 }
 
 bool Plausible(const PrintAlignment& alignment, double contrast_codes,
-               const std::array<Vec2, 4>& corners_px, double may_move_times) {
+               const std::array<Vec2, 4>& corners_px, double may_move_times,
+               double may_move_at_least_px) {
   for (int i = 0; i < 4; ++i) {
     const Vec2 corner = alignment.corners_px[i];
     if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return false;
-    if (Norm(corner - corners_px[i]) > may_move_times * MayMove_px(alignment, contrast_codes, i)) {
-      return false;
-    }
+    const double may_move_px =
+        std::max(may_move_at_least_px, may_move_times * MayMove_px(alignment, contrast_codes, i));
+    if (Norm(corner - corners_px[i]) > may_move_px) return false;
     const double variance = std::max(alignment.corner_covariance_px2[(2 * i) * 8 + 2 * i],
                                      alignment.corner_covariance_px2[(2 * i + 1) * 8 + 2 * i + 1]);
     if (!(variance >= 0.0 && variance < 0.3 * 0.3)) return false;
@@ -130,6 +131,11 @@ bool Plausible(const PrintAlignment& alignment, double contrast_codes,
 }
 
 }  // namespace
+
+bool IsWithin(ImageView<const std::uint8_t> grey, Vec2 pixel) {
+  return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= grey.width() - 1.0 &&
+         pixel.y <= grey.height() - 1.0;
+}
 
 std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintPattern& pattern,
                                          ImageView<const std::uint8_t> grey,
@@ -170,7 +176,12 @@ std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintP
   alignment.visible_fraction = gathered.seen_share * fit.AgreeingShare();
   FillCorners(camera, fit, &alignment);
   const double may_move_times = kept < 1.0 ? kCoveredMayMoveTimes : 1.0;
-  if (!Plausible(alignment, levels->ContrastCodes(), corners_px, may_move_times)) {
+  // Sides that the picture's edge cuts off meet anywhere, but not so far off that no cell is read.
+  const bool is_whole = std::all_of(corners_px.begin(), corners_px.end(),
+                                    [&](Vec2 corner) { return IsWithin(grey, corner); });
+  const double module_px = side_px / pattern.edge_modules;
+  if (!Plausible(alignment, levels->ContrastCodes(), corners_px, may_move_times,
+                 is_whole ? 0.0 : module_px)) {
     return std::nullopt;
   }
   alignment.visible_fraction *= kept;

@@ -30,6 +30,10 @@ struct PrintVisibility {
   std::span<const float> values;
 };
 
+/// Whether a pixel position lies between the outermost pixels' centres. A corner beyond them was
+/// not seen: a detector of quadrilaterals may have it anywhere.
+bool IsWithin(ImageView<const std::uint8_t> grey, Vec2 pixel);
+
 /// Refines the corners of a print by predicting its picture: light is linear, so that a pixel holds
 /// `black + (white - black) × coverage`; that is encoded with the sRGB curve and compared with the
 /// picture's codes, where noise and quantisation are about even. A homography of undistorted rays

@@ -89,7 +89,11 @@ class DetectingTracker final : public Tracker {
     if (candidate.corner_covariance_px2) {
       covariance = *candidate.corner_covariance_px2;
     } else {
-      alignment = AlignPrint(camera_, *candidate.pattern, grey, sighting.detection.corners_px);
+      const std::array<Vec2, 4>& raw_px = sighting.detection.corners_px;
+      alignment = AlignPrint(camera_, *candidate.pattern, grey, raw_px);
+      const bool is_whole = std::all_of(raw_px.begin(), raw_px.end(),
+                                        [&](Vec2 corner) { return IsWithin(grey, corner); });
+      if (!alignment && !is_whole) return std::nullopt;
     }
     if (alignment) {
       sighting.detection.corners_px = alignment->corners_px;

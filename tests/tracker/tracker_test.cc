@@ -69,6 +69,31 @@ TEST(Tracker, GivesThePosesOfTwoMarkersInOrderOfTheirNumbers) {
   }
 }
 
+TEST(Tracker, MeasuresATagOfWhichThePicturesEdgeCutsACornerOff) {
+  // The tag goes down out of the picture; its lowest corner is up to a module below it.
+  const CameraModel camera = Camera320();
+  int cut_off = 0, found = 0;
+  for (double down_px = 0.0; down_px < 80.0; down_px += 0.5) {
+    const RenderedMarker marker = MarkerAt(camera, 3, {150, 120.0 + down_px}, 80);
+    const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
+    const double lowest_px =
+        std::max({truth[0].y, truth[1].y, truth[2].y, truth[3].y}) - (camera.height - 1);
+    if (lowest_px < 0.5 || lowest_px > 9.0) continue;
+    ++cut_off;
+    const auto sightings = MakeTracker(camera)->Track(
+        RenderMarkers(camera, {marker}, {.blur_px = 0.4, .noise_codes = 2}).view());
+    ASSERT_TRUE(sightings.has_value());
+    if (sightings->empty()) continue;
+    ++found;
+    for (int corner = 0; corner < 4; ++corner) {
+      EXPECT_LT(Norm((*sightings)[0].detection.corners_px[corner] - truth[corner]), 0.3)
+          << "corner " << corner << ", " << lowest_px << " pixels cut off";
+    }
+  }
+  EXPECT_GE(cut_off, 8);
+  EXPECT_GE(found, cut_off * 3 / 4);
+}
+
 TEST(Tracker, GivesTheSameBytesForTheSamePicture) {
   const CameraModel camera = Camera320();
   const GreyImage picture =
