@@ -149,13 +149,14 @@ class Replayer {
     const std::vector<std::size_t> chosen = LightFrames(report_.path);
     if (chosen.empty() || !renderer_->CanMeasureLight()) return {};
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenRecording());
-    FramesAhead frames(std::move(recording.frames));
     ProgressBar bar("Reading the light", static_cast<std::int64_t>(chosen.size()));
     for (auto next = chosen.begin(); next != chosen.end();) {
-      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame,
-                                NextFrame(report_.recording, frames));
-      if (!frame) break;
       const Observation& at = report_.path[*next];
+      recording.frames->SkipTo(at.frame_index);
+      PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
+      PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame,
+                                times_.Measure("read", [&] { return recording.frames->Next(); }));
+      if (!frame) break;
       if (frame->index != at.frame_index) continue;
       ++next;
       Resize(*frame);
@@ -165,7 +166,6 @@ class Replayer {
       });
       bar.Advance();
     }
-    times_.Add(frames.Finish());
     times_.Measure("settle light", [&] {
       renderer_->SettleLight();
       return 0;

@@ -5,7 +5,7 @@
 
 namespace pleinair::compositor {
 
-ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : indices_(phantom.indices) {
+ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : triangles_(phantom.indices) {
   const std::size_t count = phantom.positions.size();
   positions_.reserve(count);
   normals_.reserve(count);
@@ -29,6 +29,7 @@ void ChangingTriangles::SetLight(const LitMesh& phantom) {
     }
     sky_changes_.push_back(changes);
   }
+  sun_reach_ = phantom.sun_reach;
 }
 
 ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
@@ -37,7 +38,7 @@ ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
   bool sky_changes = false, sunlit = false;
   glm::vec2 low(1e30F), high(-1e30F);
   for (std::size_t k = first_index; k < first_index + 3; ++k) {
-    const std::uint32_t vertex = indices_[k];
+    const std::uint32_t vertex = triangles_[k];
     sky_changes = sky_changes || sky_changes_[vertex];
     sunlit = sunlit || glm::dot(normals_[vertex], window.to_sun) > 0.0F;
     const glm::vec2 at = window.At(positions_[vertex]);
@@ -47,15 +48,17 @@ ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
   const bool inside = high.x > 0.0F && high.y > 0.0F && low.x < window.side && low.y < window.side;
   if (sunlit && inside && objects.Touches(low, high)) return kSun;
   if (!sky_changes) return kNothing;
-  return sunlit ? kSunlitSky : kSky;
+  const SunReach reach = sun_reach_.empty() ? SunReach::kSome : sun_reach_[first_index / 3];
+  if (!sunlit || reach == SunReach::kNone) return kSky;
+  return reach == SunReach::kAll ? kOpenSky : kSunlitSky;
 }
 
 void ChangingTriangles::Sort(const SunWindow& window, const SunFootprint& objects) {
   for (auto& kind : kinds_) kind.clear();
-  for (std::size_t i = 0; i < indices_.size(); i += 3) {
+  for (std::size_t i = 0; i < triangles_.size(); i += 3) {
     auto& kind = kinds_[ChangeOf(window, objects, i)];
-    kind.insert(kind.end(), indices_.begin() + static_cast<std::ptrdiff_t>(i),
-                indices_.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    kind.insert(kind.end(), triangles_.begin() + static_cast<std::ptrdiff_t>(i),
+                triangles_.begin() + static_cast<std::ptrdiff_t>(i + 3));
   }
   indices_.clear();
   for (std::size_t kind = 0; kind < kChanges; ++kind) {

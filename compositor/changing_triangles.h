@@ -19,6 +19,7 @@ class ChangingTriangles {
   enum Change {
     kSun,        ///< The sun's light may change.
     kSunlitSky,  ///< Only the sky's, and the sun shines on it unless something hides it.
+    kOpenSky,    ///< Only the sky's, and no phantom keeps the sun from any of it.
     kSky,        ///< Only the sky's, and no sun shines on it.
     kNothing,
     kChanges
@@ -33,7 +34,7 @@ class ChangingTriangles {
   std::span<const std::uint32_t> indices() const { return indices_; }
   const std::array<int, kChanges>& ends() const { return ends_; }
 
-  /// A change of light, relative, that no 8-bit picture shows: half a code at white.
+  /// A change of light, relative, that no 8-bit picture shows: a quarter of a code at white.
   static constexpr float kNoticeable = 0.002F;
 
  private:
@@ -41,8 +42,10 @@ class ChangingTriangles {
                   std::size_t first_index) const;
 
   std::vector<glm::vec3> positions_, normals_;
-  std::vector<bool> sky_changes_;  // By vertex.
-  std::vector<std::uint32_t> indices_;
+  std::vector<bool> sky_changes_;         // By vertex.
+  std::vector<SunReach> sun_reach_;       // By triangle as the mesh has them, or empty.
+  std::vector<std::uint32_t> triangles_;  // The mesh's indices.
+  std::vector<std::uint32_t> indices_;    // Sorted.
   std::array<std::vector<std::uint32_t>, kChanges> kinds_;
   std::array<int, kChanges> ends_{};
 };

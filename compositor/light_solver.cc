@@ -46,13 +46,19 @@ class EmbreeLightSolver : public LightSolver {
         Reflect(scene_, gathered,
                 {static_cast<float>(sun.r), static_cast<float>(sun.g), static_cast<float>(sun.b)},
                 to_sun, options_.bounces, options_.threads);
-    return MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
+    std::vector<LitMesh> meshes = MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
       double rays = 0.0;
       for (std::size_t i = 0; i < sheet.patch_count; ++i) {
         rays += gathered.patches[sheet.first_patch + i].sky_rays[0];
       }
       return rays;
     });
+    for (LitMesh& mesh : meshes) {
+      if (mesh.is_phantom) {
+        mesh.sun_reach = FindSunReach(*scene_.rays, mesh, to_sun, options_.threads);
+      }
+    }
+    return meshes;
   }
 
   DaylightCoefficients Coefficients(Vec3 up, const CoefficientOptions& options,

@@ -15,6 +15,7 @@
 #include "compositor/daylight_coefficients.h"
 #include "compositor/model.h"
 #include "compositor/seen_sunlight.h"
+#include "compositor/sun_reach.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
@@ -51,6 +52,8 @@ struct LitMesh {
   /// The same with the phantoms alone; of phantoms only, empty for virtual objects.
   std::vector<std::array<float, 3>> ambient_without;
   std::vector<std::uint32_t> indices;
+  /// Of phantoms, by triangle; empty: not known.
+  std::vector<SunReach> sun_reach;
 };
 
 struct LightSolverOptions {

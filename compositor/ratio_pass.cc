@@ -46,7 +46,7 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
   glBlendFuncSeparatei(1, GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
   if (!frame.hazy) glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   targets.seen().Bind(0);
-  for (const Change change : {Change::kSun, Change::kSunlitSky, Change::kSky}) {
+  for (const Change change : {Change::kSun, Change::kSunlitSky, Change::kOpenSky, Change::kSky}) {
     const gl::GlProgram& program = programs.phantoms[change];
     program.Use();
     program.Set("u_depth", DepthOf(change));

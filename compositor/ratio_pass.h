@@ -39,7 +39,7 @@ class RatioPass {
   /// Depth by which the pixels are sorted of which no more than this changes: twin of
   /// shaders/triangle_layout.glsl.
   static constexpr float DepthOf(ChangingTriangles::Change change) {
-    return 0.25F * static_cast<float>(change + 1);
+    return 0.125F * static_cast<float>(change + 1);
   }
 
  private:

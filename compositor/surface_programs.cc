@@ -37,7 +37,7 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
   };
   SurfacePrograms programs;
   constexpr std::array<const char*, ChangingTriangles::kNothing> kChangeDefines{
-      "SUN_MAY_CHANGE", "SKY_CHANGES", "NO_SUN"};
+      "SUN_MAY_CHANGE", "SKY_CHANGES", "OPEN_SKY_CHANGES", "NO_SUN"};
   for (std::size_t change = 0; change < kChangeDefines.size(); ++change) {
     PLEINAIR_ASSIGN_OR_RETURN(
         programs.phantoms[change],

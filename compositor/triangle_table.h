@@ -25,7 +25,7 @@ class TriangleTable {
  public:
   /// How it is laid out: twins of shaders/triangle_layout.glsl.
   static constexpr int kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
-  static constexpr std::uint32_t kKindBits = 2;  ///< Of a triangle's last number; then its sheet.
+  static constexpr std::uint32_t kKindBits = 3;  ///< Of a triangle's last number; then its sheet.
 
   TriangleTable() = default;
   /// Of meshes that are all phantoms or none; `values` by mesh, what the shaders may ask of each

@@ -20,6 +20,10 @@ class FrameSource {
   /// error the source is at its end.
   virtual Result<std::optional<Frame>> Next() = 0;
 
+  /// A hint: frames before that of `index` are not wanted, and a source that can does not decode
+  /// them. They may come all the same.
+  virtual void SkipTo(std::int64_t /*index*/) {}
+
   /// How many frames there will be, where that is known (recordings).
   virtual std::optional<std::int64_t> FrameCount() const = 0;
 

@@ -59,6 +59,10 @@ class PictureSequence : public FrameSource {
     return frame;
   }
 
+  void SkipTo(std::int64_t index) override {
+    if (index > 0) next_ = std::clamp(static_cast<std::size_t>(index), next_, frames_.size());
+  }
+
   std::optional<std::int64_t> FrameCount() const override {
     return static_cast<std::int64_t>(frames_.size());
   }

@@ -100,7 +100,7 @@ class LibavVideoWriter final : public VideoWriter {
     ConfigureCodec(*codec);
     AVDictionary* settings = nullptr;
     if (encoder_name() == "libx264") {
-      av_dict_set(&settings, "preset", "faster", 0);
+      av_dict_set(&settings, "preset", "veryfast", 0);
       av_dict_set(&settings, "crf", "18", 0);
     }
     code = avcodec_open2(codec_.get(), codec, &settings);

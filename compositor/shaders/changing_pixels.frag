@@ -17,7 +17,7 @@ void main() {
   for (int i = 0; i < u_samples; ++i) left[i] = texelFetch(u_ids, pixel, i).r;
   left *= uvec4(lessThan(left, uvec4(kObjectBit)));
   uvec4 seen = uvec4(0u), sheets = uvec4(~0u);
-  uint kind = 3u;
+  uint kind = kNothing;
   int found = 0;
   // Most pixels show one triangle: once through. Tested at its end, see shadow_visibility.glsl.
   do {

@@ -24,7 +24,7 @@ void main() {
   uvec4 seen = uvec4(0u), sheets = uvec4(~0u);
   vec3 normals[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   vec3 positions_m[4] = normals;
-  uint kind = 3u;
+  uint kind = kNothing;
   int found = 0;
   // Tested at its end, see shadow_visibility.glsl.
   do {

@@ -1,8 +1,8 @@
 #version 450 core
 // What the virtual objects change of the real surfaces' light in a pixel, see differential.glsl: the
 // mean over its samples, 1 where an object is in front, each sheet of a surface
-// (changing_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE, SKY_CHANGES or NO_SUN:
-// compositor/changing_triangles.h.
+// (changing_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE, SKY_CHANGES, OPEN_SKY_CHANGES or
+// NO_SUN: compositor/changing_triangles.h.
 // HAZE: so far away that the air before the surface counts.
 
 #include "compositor/shaders/aerial_fog.glsl"
@@ -79,7 +79,7 @@ struct Change {
   vec3 haze;  // Display-linear.
 };
 
-Change ChangeOf(SeenSurface surface, int sheet) {
+Change ChangeOf(SeenSurface surface, int sheet, uint kind) {
 #ifdef HAZE
   FogAir air = FogUpTo(distance(u_eye_m, surface.position_m), u_fog_split_m, u_fog_optical_depth,
                        u_fog_inscattered);
@@ -91,6 +91,11 @@ Change ChangeOf(SeenSurface surface, int sheet) {
   vec3 sun = vec3(0.0);
   float visibility_phantoms = 0.0;
   float visibility_all = 0.0;
+#elif defined(OPEN_SKY_CHANGES)
+  // The pixel's other triangles lie in shade as a whole.
+  vec3 sun = max(dot(surface.normal, u_to_sun), 0.0) * u_sun_normal_lux;
+  float visibility_phantoms = kind == kOpenSky ? 1.0 : 0.0;
+  float visibility_all = visibility_phantoms;
 #else
   vec3 sun = max(dot(surface.normal, u_to_sun), 0.0) * u_sun_normal_lux;
   float visibility_phantoms = ShadowVisibility(0, surface.position_m, surface.flat_normal,
@@ -125,7 +130,7 @@ void main() {
     uvec4 triangle = TriangleOf(IdOf(seen.x));
     Change change = ChangeOf(SurfaceSeen(VertexOf(triangle.x), VertexOf(triangle.y),
                                          VertexOf(triangle.z), gl_FragCoord.xy),
-                             int(SheetOf(triangle)));
+                             int(SheetOf(triangle)), KindOf(triangle));
     ratio += count * change.ratio;
     haze += count * change.haze;
     samples += count;

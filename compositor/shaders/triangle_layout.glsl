@@ -5,7 +5,7 @@
 
 const int kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
 const int kTexelsASurface = 5, kSurfacesARow = 819;
-const int kKindBits = 2;
+const int kKindBits = 3;
 
 // Texel of a triangle, and of a sheet, from 0 on.
 ivec2 TexelOfTriangle(int index) { return ivec2(index % kTrianglesARow, index / kTrianglesARow); }
@@ -18,8 +18,9 @@ ivec2 TexelOfSurface(int surface) {
   return ivec2(kTexelsASurface * (surface % kSurfacesARow), surface / kSurfacesARow);
 }
 
-// Of the real surfaces' triangles: Change. Of the objects': 0 where the sun may shine, else 1.
+// Of the real surfaces' triangles: ChangingTriangles::Change. Of the objects': 0 where the sun may shine, else 1.
 uint KindOf(uvec4 triangle) { return triangle.w & ((1u << kKindBits) - 1u); }
+const uint kOpenSky = 2u, kNothing = 4u;
 uint SheetOf(uvec4 triangle) { return triangle.w >> kKindBits; }
 
 // In the picture of the samples' numbers: of an object, whose triangles have numbers of their own.
@@ -38,6 +39,6 @@ vec4 SamplesOf(uint seen) {
 
 // Depth of the pixels of which no more changes than ChangingTriangles::Change `kind`. Mirrors
 // RatioPass::DepthOf.
-float DepthOfKind(uint kind) { return 0.25f * float(kind + 1u); }
+float DepthOfKind(uint kind) { return 0.125f * float(kind + 1u); }
 
 #endif

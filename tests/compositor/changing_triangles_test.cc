@@ -38,7 +38,7 @@ TEST(ChangingTriangles, AreThoseInTheSunsWindowAndThoseWhoseSkyChanges) {
   mesh.ambient_with[0][0] = 999.0F;          // Less than is seen.
   ChangingTriangles triangles(mesh);
   triangles.Sort(kWindow);
-  EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 6, 12));
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 6, 6, 12));
   EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 9, 10, 11, 0, 1, 2, 6, 7, 8));
 }
 
@@ -48,15 +48,29 @@ TEST(ChangingTriangles, InTheirOwnShadeNeedNoShadowMaps) {
   for (auto& normal : mesh.normals) normal = {0.0F, 0.0F, -1.0F};
   ChangingTriangles triangles(mesh);
   triangles.Sort(kWindow);
-  EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 6, 12));
+  EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 0, 6, 12));
   triangles.Sort({});
-  EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 6, 12)) << "without a sun";
+  EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 0, 6, 12)) << "without a sun";
+}
+
+TEST(ChangingTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun) {
+  LitMesh mesh = Row();
+  for (auto& light : mesh.ambient_with) light[0] = 900.0F;
+  mesh.sun_reach = {SunReach::kAll, SunReach::kNone, SunReach::kNone, SunReach::kSome};
+  ChangingTriangles triangles(mesh);
+  triangles.Sort(kWindow);
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 9, 12, 12)) << "objects may shade the second";
+  EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 9, 10, 11, 0, 1, 2, 6, 7, 8));
+  mesh.sun_reach.clear();
+  triangles.SetLight(mesh);
+  triangles.Sort(kWindow);
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12, 12)) << "not known of another light";
 }
 
 TEST(ChangingTriangles, AreAllThatTheSunReachesWhereItsWindowIsUnknown) {
   ChangingTriangles triangles(Row());
   triangles.Sort(SunWindow::Everywhere({0, 0, 1}));
-  EXPECT_THAT(triangles.ends(), ElementsAre(12, 12, 12, 12));
+  EXPECT_THAT(triangles.ends(), ElementsAre(12, 12, 12, 12, 12));
 }
 
 TEST(ChangingTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {

@@ -63,6 +63,35 @@ TEST(Composer, DrawsAFurtherLightAsIfItWereTheFirst) {
   EXPECT_EQ(light(composer->get(), sunny), in_sun);
 }
 
+TEST(Composer, DrawsTheSameWhereItKnowsWhatPhantomsLeaveOfTheSun) {
+  // A wall's shadow runs over the ground beside the cube's.
+  const PlacedModel wall = Place(MakeBox({-0.9, -0.5, 0}, {-0.4, -0.45, 0.6}, 0.5F), true);
+  const std::vector<PlacedModel> scene{kGround, wall, kCube};
+  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+  const auto composer = Composer::Create(kCamera, scene, {});
+  ASSERT_TRUE(solver.has_value() && composer.has_value());
+  (*composer)->LookForShade(false);
+  const SouthernSun day;
+  const auto compose = [&](const std::vector<LitMesh>& lit) {
+    EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}, {}));
+    auto composed =
+        (*composer)->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+    EXPECT_TRUE(composed.has_value());
+    return *std::move(composed);
+  };
+  std::vector<LitMesh> lit = (*solver)->Solve(day, Mat3{});
+  const RgbImage known = compose(lit);
+  for (LitMesh& mesh : lit) mesh.sun_reach.clear();
+  const RgbImage looked_up = compose(lit);
+  int changed = 0, most = 0;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    most = std::max(most, std::abs(known.data()[i] - looked_up.data()[i]));
+    changed += looked_up.data()[i] < 200 ? 1 : 0;
+  }
+  EXPECT_GT(changed, 10'000) << "the sky's light changes far around the cube";
+  EXPECT_LE(most, 2) << "but for the wall's half-light";
+}
+
 TEST(Composer, MovesTheShadowOfAModelThatTurnsWithinItsBox) {
   // Two posts on a square's diagonal, turned to the other one.
   Model posts = MakeBox({-0.35, -0.35, 0.001}, {-0.25, -0.25, 0.2}, 0.5F);

@@ -162,10 +162,13 @@ TEST(TriangleLayout, IsReadAsItIsWritten) {
   EXPECT_EQ(glsl::kVerticesARow, TriangleTable::kVerticesARow);
   EXPECT_EQ(glsl::kTexelsAVertex, TriangleTable::kTexelsAVertex);
   EXPECT_EQ(glsl::kKindBits, static_cast<int>(TriangleTable::kKindBits));
+  EXPECT_EQ(glsl::kOpenSky, static_cast<unsigned>(ChangingTriangles::kOpenSky));
+  EXPECT_EQ(glsl::kNothing, static_cast<unsigned>(ChangingTriangles::kNothing));
   EXPECT_EQ(glsl::kTexelsASurface, SurfaceRecords::kTexelsASurface);
   EXPECT_EQ(glsl::kSurfacesARow, SurfaceRecords::kSurfacesARow);
-  for (const auto change : {ChangingTriangles::kSun, ChangingTriangles::kSunlitSky,
-                            ChangingTriangles::kSky, ChangingTriangles::kNothing}) {
+  for (const auto change :
+       {ChangingTriangles::kSun, ChangingTriangles::kSunlitSky, ChangingTriangles::kOpenSky,
+        ChangingTriangles::kSky, ChangingTriangles::kNothing}) {
     const glm::uvec4 triangle(0, 0, 0, change | 12345U << TriangleTable::kKindBits);
     EXPECT_EQ(glsl::KindOf(triangle), static_cast<unsigned>(change));
     EXPECT_EQ(glsl::SheetOf(triangle), 12345U);

@@ -55,6 +55,23 @@ int CountFrames(FrameSource& source) {
   }
 }
 
+TEST_F(SmallRecording, GoesOnAtTheFrameThatItIsToldToSkipTo) {
+  const Result<Recording> recording = OpenRecording(folder_.path());
+  ASSERT_TRUE(recording) << recording.error().Message();
+  FrameSource& frames = *recording->frames;
+  std::filesystem::remove(folder_ / "frames/0001.jpg");  // It is not even opened.
+  ASSERT_EQ((*frames.Next())->index, 0);
+  frames.SkipTo(2);
+  const Result<std::optional<Frame>> third = frames.Next();
+  ASSERT_TRUE(third) << third.error().Message();
+  EXPECT_EQ((*third)->index, 2);
+  EXPECT_EQ((*third)->timestamp_ns, 200'000'000);
+  frames.SkipTo(1);
+  EXPECT_EQ((*frames.Next())->index, 3) << "never back";
+  frames.SkipTo(100);
+  EXPECT_FALSE(frames.Next()->has_value());
+}
+
 TEST(Recording, BundledCourtyardOpensWithAllItKnows) {
   const Result<Recording> recording = OpenRecording(Courtyard());
   ASSERT_TRUE(recording) << recording.error().Message();

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.h"
+#include "compositor/ray_scene.h"
+
+namespace pleinair::compositor {
+
+struct LitMesh;
+
+/// What the phantoms leave a triangle of the sun.
+enum class SunReach : std::uint8_t {
+  kSome,  ///< A part of it, or not known.
+  kAll,
+  kNone,
+};
+
+/// By triangle of a phantom, whether its own or other phantoms' shadows touch it: from seven places
+/// of it, corners, middles of edges and its middle, rays run to three points of the sun's rim. A
+/// shadow thinner than a third of a triangle is missed where it falls between them, so that what is
+/// drawn from this must differ little by it. kNone where it is turned away from the sun.
+///
+/// `to_sun`: unit, marker coordinates; zero: without a sun.
+std::vector<SunReach> FindSunReach(const RayScene& rays, const LitMesh& phantom, Vec3 to_sun,
+                                   int threads);
+
+}  // namespace pleinair::compositor
