@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <future>
 #include <utility>
 
 #include "app/interrupt.h"
@@ -70,6 +71,14 @@ Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording 
   FramesAhead frames(std::move(recording.frames));
   ProgressBar bar("Finding markers", frames.FrameCount());
   std::vector<TrackedFrame> tracked;
+  StageTimes measuring_times;  // Of the thread that measures, as long as it does.
+  // Measuring takes all processors, tracking one: while some frames are measured the next are
+  // tracked. It has the session and the messages of what is found to itself. Last: it uses the
+  // others.
+  std::future<Result<void>> measuring;
+  const auto finish_measuring = [&]() -> Result<void> {
+    return measuring.valid() ? measuring.get() : Result<void>();
+  };
   for (bool more = true; more;) {
     PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame,
                               NextFrame(search.recording, frames));
@@ -84,10 +93,14 @@ Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording 
       tracked.push_back({*std::move(frame), std::move(sightings), tracker.Lost()});
     }
     if (more && tracked.size() < kMeasuredTogether) continue;
-    PLEINAIR_RETURN_IF_ERROR(TakeTracked(search, tracked, measurer, detections, times, &found));
+    PLEINAIR_RETURN_IF_ERROR(finish_measuring());
     for (std::size_t i = 0; i < tracked.size(); ++i) bar.Advance();
-    tracked.clear();
+    measuring = std::async(std::launch::async, [&, together = std::exchange(tracked, {})] {
+      return TakeTracked(search, together, measurer, detections, &measuring_times, &found);
+    });
   }
+  PLEINAIR_RETURN_IF_ERROR(finish_measuring());
+  times->Add(measuring_times);
   times->Add(frames.Finish());
   PLEINAIR_RETURN_IF_ERROR(detections.Finish());
   if (found.session.frames() == 0) {

@@ -13,7 +13,11 @@ namespace {
 constexpr double kClearest = 1.2, kHaziest = 6.0;
 constexpr double kCloudyTurbidity = 3.2;
 constexpr double kThickestCover = 0.98;
-constexpr int kHalvings = 7;
+// How near a sky's strength beside its sun must come to what is wanted, logarithmic: each try is an
+// atmosphere of its own, and what is left the sky is scaled by.
+constexpr double kNearEnough = 0.01;
+constexpr int kMostTries = 12;
+constexpr double kFarOff = 5.0;
 // How far a compass and a person may be off.
 constexpr double kHeadingDoubtDeg = 4.0;
 // Doubt of the colour of a sky beside its sun, logarithmic: of the model, of the measurement.
@@ -45,6 +49,30 @@ double DoubtOf(devices::Cloudiness stated) {
       return 1.2;
   }
   return 1.2;
+}
+
+/// Where between `low` and `high` a rising function is zero, about; the nearer end where it is
+/// nowhere. False position as the Illinois algorithm has it: Dowell & Jarratt 1971, "A modified
+/// regula falsi method for computing the root of an equation", BIT 11, p. 168.
+template <typename Function>
+double ZeroBetween(double low, double high, const Function& function) {
+  double at_low = function(low), at_high = function(high);
+  if (at_low >= 0.0) return low;
+  if (at_high <= 0.0) return high;
+  double tried = 0.5 * (low + high);
+  int last_side = 0;
+  for (int i = 0; i < kMostTries; ++i) {
+    tried = (low * at_high - high * at_low) / (at_high - at_low);
+    const double value = function(tried);
+    if (std::fabs(value) < kNearEnough) break;
+    const int side = value < 0.0 ? -1 : 1;
+    (side < 0 ? low : high) = tried;
+    (side < 0 ? at_low : at_high) = value;
+    // An end that stays holds the line up.
+    if (side == last_side) (side < 0 ? at_high : at_low) *= 0.5;
+    last_side = side;
+  }
+  return tried;
 }
 
 std::shared_ptr<const sky::SkySource> Make(double turbidity, double cover) {
@@ -80,26 +108,23 @@ double SunToSky(const sky::SkyModel& day) {
 
 MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au) {
   const double wanted = Luminance(sky_over_sun);
-  const auto share = [&](const sky::SkySource& source) {
-    const auto day = source.ForSun(to_sun, sun_distance_au);
-    return Luminance(day->SkyHorizontalIrradiance()) / Luminance(day->SunNormalIrradiance());
+  /// By how much too strong a sky is beside its sun, logarithmic.
+  const auto excess = [&](const std::shared_ptr<const sky::SkySource>& source) {
+    const auto day = source->ForSun(to_sun, sun_distance_au);
+    const double share =
+        Luminance(day->SkyHorizontalIrradiance()) / Luminance(day->SunNormalIrradiance());
+    return std::clamp(std::log(share / wanted), -kFarOff, kFarOff);  // Finite without a sun, too.
   };
+  const auto hazy = [](double log_turbidity) { return Make(std::exp(log_turbidity), 0.0); };
+  const auto cloudy = [](double cover) { return Make(kCloudyTurbidity, cover); };
   MeasuredSky measured;
-  if (share(*Make(kHaziest, 0.0)) >= wanted) {
-    double low = std::log(kClearest), high = std::log(kHaziest);
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = (low + high) / 2;
-      (share(*Make(std::exp(middle), 0.0)) < wanted ? low : high) = middle;
-    }
-    measured.skies = Make(std::exp((low + high) / 2), 0.0);
-  } else {
-    double low = 0.0, high = kThickestCover;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = (low + high) / 2;
-      (share(*Make(kCloudyTurbidity, middle)) < wanted ? low : high) = middle;
-    }
-    measured.skies = Make(kCloudyTurbidity, (low + high) / 2);
-  }
+  const double haze =
+      ZeroBetween(std::log(kClearest), std::log(kHaziest),
+                  [&](double log_turbidity) { return excess(hazy(log_turbidity)); });
+  measured.skies = haze < std::log(kHaziest)
+                       ? hazy(haze)
+                       : cloudy(ZeroBetween(0.0, kThickestCover,
+                                            [&](double cover) { return excess(cloudy(cover)); }));
   const auto day = measured.skies->ForSun(to_sun, sun_distance_au);
   measured.sky_scale = sky_over_sun * day->SunNormalIrradiance() / day->SkyHorizontalIrradiance();
   return measured;

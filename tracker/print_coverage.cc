@@ -68,14 +68,15 @@ void ComputeShares(double position, double sigma, int modules, Shares* shares) {
                               std::min(modules - 1, low + kMaxModules - 1));
   shares->first = low;
   shares->count = high - low + 1;
+  const double per_sigma = 1.0 / sigma;
   double below = 0.0, d_below = 0.0, d_sigma_below = 0.0;
   for (int column = low; column <= high; ++column) {
     double up_to = 1.0, d_up_to = 0.0, d_sigma_up_to = 0.0;
     if (column < high) {
-      const double z = (column + 1 - position) / sigma;
+      const double z = (column + 1 - position) * per_sigma;
       double density;
       table.Look(z, &up_to, &density);
-      d_up_to = -density / sigma;
+      d_up_to = -density * per_sigma;
       d_sigma_up_to = -density * z;
     }
     const int i = column - low;
