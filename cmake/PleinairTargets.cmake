@@ -20,8 +20,11 @@ function(pleinair_configure_target target)
     target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=${sanitizers}>)
     if("undefined" IN_LIST PLEINAIR_SANITIZE)
       target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-fno-sanitize-recover=undefined>)
-      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:
-        -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/scripts/sanitizers/library_headers.ignore>)
+      # Relative, where compilers run: ccache takes an absolute path for another option elsewhere.
+      file(RELATIVE_PATH ignorelist ${CMAKE_BINARY_DIR}
+           ${PROJECT_SOURCE_DIR}/scripts/sanitizers/library_headers.ignore)
+      target_compile_options(${target} PRIVATE
+        $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${ignorelist}>)
     endif()
   endif()
 endfunction()
@@ -40,9 +43,7 @@ endfunction()
 function(pleinair_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gmock_main)
-  target_compile_definitions(${name} PRIVATE
-    PLEINAIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PLEINAIR_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} pleinair_source_tree GTest::gmock_main)
   pleinair_configure_target(${name})
   # What a test says takes longer to compile than to run; the code under test keeps its optimisation
   # (not so at -O0: the linker would take inline functions of libraries from the test's objects).

@@ -13,6 +13,7 @@
 #include "app/paths/colmap_model.h"
 #include "app/paths/colmap_text.h"
 #include "error_message.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::app {
 namespace {
@@ -184,8 +185,7 @@ TEST(ColmapModel, RefusesWhatIsCutShortOrContradictsItself) {
 // The same example as COLMAP 3.8's model_converter wrote it.
 ColmapFiles BinaryExample() {
   const auto bytes = [](const char* name) {
-    std::ifstream file(std::string(PLEINAIR_SOURCE_DIR "/tests/app/data/colmap/") + name,
-                       std::ios::binary);
+    std::ifstream file(tests::SourceTree() / "tests/app/data/colmap" / name, std::ios::binary);
     return std::string{std::istreambuf_iterator<char>(file), {}};
   };
   return {bytes("cameras.bin"), bytes("images.bin"), bytes("points3D.bin")};

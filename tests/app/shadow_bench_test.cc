@@ -9,6 +9,7 @@
 #include "app/bench/shadow_metrics.h"
 #include "app/bench/shadow_truth.h"
 #include "shadows/bench/example_models.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::app {
 namespace {
@@ -101,8 +102,7 @@ TEST(ExampleModels, AreWhatTheToolWrites) {
   const auto models = shadows::TreeAndBody();
   ASSERT_EQ(models.size(), 2U);
   for (const shadows::ExampleModel& model : models) {
-    std::ifstream file(std::string(PLEINAIR_SOURCE_DIR "/docs/examples/tree_and_body/") +
-                       model.file);
+    std::ifstream file(tests::SourceTree() / "docs/examples/tree_and_body" / model.file);
     std::istringstream written(model.text);
     std::string there, here;
     int words = 0;

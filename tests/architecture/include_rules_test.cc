@@ -1,4 +1,5 @@
 #include "include_rules.h"
+#include "tests/source_tree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +12,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(IncludeRules, HoldInTheWholeSourceTree) {
-  EXPECT_GT(CountSources(PLEINAIR_SOURCE_DIR), 60U);
-  EXPECT_THAT(FindBreachesBelow(PLEINAIR_SOURCE_DIR), IsEmpty());
+  EXPECT_GT(CountSources(tests::SourceTree()), 60U);
+  EXPECT_THAT(FindBreachesBelow(tests::SourceTree()), IsEmpty());
 }
 
 TEST(IncludeRules, CatchAnIncludeAgainstTheOrderOfModules) {

@@ -19,6 +19,7 @@
 #include "compositor/ray_scene.h"
 #include "tests/compositor/light_scenes.h"
 #include "tests/compositor/path_tracer.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -27,7 +28,7 @@ using testing::PathTracer;
 using testing::Phantom;
 using testing::UniformDay;
 
-const std::string kFolder = PLEINAIR_SOURCE_DIR "/recordings/courtyard_midday/";
+const std::string kFolder = tests::SourceTree() / "recordings/courtyard_midday/";
 constexpr int kStrata = 48;  // Squared, paths a place.
 
 /// Brighter towards the horizon and the sun.

@@ -73,9 +73,10 @@ TEST(AerialFog, OfDifferentPartitionsDoesNotJumpAtTheirSplits) {
   const double left = std::exp(-EvenAir::kRed * 20.0 * 190.0);
   EXPECT_NEAR(Through(fog, 250.0F).r, 1000.0 * left + EvenAir::kAirlight * (1.0 - left), 60.0);
   float last = 0.0F;
-  for (float distance = 0.0F; distance < 2000.0F; distance += 1.0F) {
-    EXPECT_GE(Through(fog, distance).b, last - 0.01F);
-    last = Through(fog, distance).b;
+  for (int distance_m = 0; distance_m < 2000; ++distance_m) {
+    const float through = Through(fog, static_cast<float>(distance_m)).b;
+    EXPECT_GE(through, last - 0.01F);
+    last = through;
   }
 }
 

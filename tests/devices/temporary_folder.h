@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::devices {
 
@@ -59,7 +60,7 @@ inline std::string Content(const std::filesystem::path& file) {
 
 /// The recording that comes with the source.
 inline std::filesystem::path Courtyard() {
-  return std::filesystem::path(PLEINAIR_SOURCE_DIR) / "recordings" / "courtyard_midday";
+  return tests::SourceTree() / "recordings" / "courtyard_midday";
 }
 
 /// The message of a Result that should be an error.

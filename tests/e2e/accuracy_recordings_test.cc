@@ -8,6 +8,7 @@
 
 #include "base/quaternion.h"
 #include "run_program.h"
+#include "tests/source_tree.h"
 #include "tum_file.h"
 
 namespace pleinair::e2e {
@@ -109,7 +110,7 @@ distortion_coefficients: [0, 0, 0, 0]
 
 TEST(AccuracyOfRecordings, RunsPeersWhereTheyCanReadThePrintAndSaysWhereNot) {
   const TemporaryFolder folder;
-  const fs::path tag = fs::path(PLEINAIR_SOURCE_DIR) / "recordings/courtyard_tag36h11";
+  const fs::path tag = tests::SourceTree() / "recordings/courtyard_tag36h11";
   MakeShortRecording(folder / "sg", 2, false);
   const std::string truth = ReadFile(BundledRecording() / "truth.tum");
   WriteFile(folder / "sg/truth.tum", truth);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::e2e {
 namespace {
@@ -127,7 +128,7 @@ TEST(Accuracy, RefusesDamagedRunsByTheirFile) {
 // (docs/accuracy-report.md says how to record it anew). And a gate that would notice.
 TEST(Accuracy, IsNoWorseThanTheBaselineAndASpoiledDetectorIs) {
   const TemporaryFolder folder;
-  const std::string baseline = PLEINAIR_SOURCE_DIR "/tests/accuracy/baseline";
+  const std::string baseline = tests::SourceTree() / "tests/accuracy/baseline";
   const auto run = [&](const std::string& name, std::vector<std::string> more) {
     std::vector<std::string> arguments{"accuracy", "--sweep", "distance",   "--scale",
                                        "0.05",     "-o",      folder / name};

@@ -8,6 +8,7 @@
 
 #include "refusal.h"
 #include "run_program.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::e2e {
 namespace {
@@ -51,9 +52,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"FrameCutShort",
               [](const fs::path& site) {
                 fs::remove(site / "frames/0001.jpg");
-                fs::copy_file(fs::path(PLEINAIR_SOURCE_DIR) /
-                                  "recordings/courtyard_midday/key/0036_background.png",
-                              site / "frames/0001.png");
+                fs::copy_file(
+                    tests::SourceTree() / "recordings/courtyard_midday/key/0036_background.png",
+                    site / "frames/0001.png");
                 fs::resize_file(site / "frames/0001.png", 20000);
               },
               "0001"},

@@ -10,6 +10,7 @@
 #include "base/quaternion.h"
 #include "refusal.h"
 #include "run_program.h"
+#include "tests/source_tree.h"
 #include "tum_file.h"
 
 namespace pleinair::e2e {
@@ -72,7 +73,7 @@ TEST(Path, GoesThroughEveryFormAndComesBack) {
 // As COLMAP's model_converter wrote it; where both forms are there it counts, as with COLMAP.
 TEST(Path, ReadsAModelInColmapsBinaryForm) {
   const TemporaryFolder folder;
-  const std::filesystem::path example = std::string(PLEINAIR_SOURCE_DIR) + "/tests/app/data/colmap";
+  const std::filesystem::path example = tests::SourceTree() / "tests/app/data/colmap";
   std::filesystem::create_directories(folder / "model");
   for (const char* name : {"cameras.bin", "images.bin", "points3D.bin"}) {
     std::filesystem::copy_file(example / name, folder / "model" / name);
@@ -103,8 +104,7 @@ TEST(Path, IsSeenByBlendersCameraPixelByPixel) {
                 .exit_code,
             0);
   const RunResult run = RunCommandLine(
-      {"python3", std::string(PLEINAIR_SOURCE_DIR) + "/tools/blender/pleinair_path.py",
-       folder / "camera.glb"});
+      {"python3", tests::SourceTree() / "tools/blender/pleinair_path.py", folder / "camera.glb"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto blender = nlohmann::json::parse(run.out);
   EXPECT_EQ(blender["frame_rate"], 15.0);

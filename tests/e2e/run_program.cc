@@ -1,4 +1,5 @@
 #include "run_program.h"
+#include "tests/source_tree.h"
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -76,9 +77,7 @@ std::vector<std::string> Listing(const fs::path& folder) {
   return names;
 }
 
-fs::path BundledRecording() {
-  return fs::path(PLEINAIR_SOURCE_DIR) / "recordings" / "courtyard_midday";
-}
+fs::path BundledRecording() { return tests::SourceTree() / "recordings" / "courtyard_midday"; }
 
 void MakeShortRecording(const fs::path& folder, int frames, bool with_object) {
   fs::create_directories(folder / "frames");

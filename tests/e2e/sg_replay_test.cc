@@ -9,6 +9,7 @@
 
 #include "command_output.h"
 #include "run_program.h"
+#include "tests/source_tree.h"
 #include "tum_file.h"
 
 namespace pleinair::e2e {
@@ -72,7 +73,7 @@ TEST(SgReplay, FindsTheMarkerThatTheSceneDoesNotName) {
 
 TEST(SgReplay, FindsAnAprilTagThatTheSceneDoesNotName) {
   const TemporaryFolder folder;
-  const fs::path bundled = fs::path(PLEINAIR_SOURCE_DIR) / "recordings/courtyard_tag36h11";
+  const fs::path bundled = tests::SourceTree() / "recordings/courtyard_tag36h11";
   fs::copy(bundled, folder / "site", fs::copy_options::recursive);
   json scene = json::parse(ReadFile(bundled / "scene.json"));
   LeaveUnnamed(scene);

@@ -20,12 +20,13 @@
 #include "sky/perez.h"
 #include "sky_twin_cases.h"
 #include "tests/gl/gl_fixture.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::sky {
 namespace {
 
 std::string ReadSource(const std::string& name) {
-  std::ifstream file(std::string(PLEINAIR_SOURCE_DIR) + "/" + name);
+  std::ifstream file(tests::SourceTree() / name);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

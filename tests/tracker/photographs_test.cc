@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/pixel_origin.h"
+#include "tests/source_tree.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::tracker {
@@ -51,8 +52,7 @@ class Photograph : public testing::TestWithParam<std::pair<const char*, std::siz
 
 TEST_P(Photograph, ShowsEveryTagOfTheGoldenFileWithinOnePixel) {
   const auto [name, count] = GetParam();
-  const std::string stem =
-      std::string(PLEINAIR_SOURCE_DIR "/tests/tracker/data/nasa-apriltags/") + name;
+  const std::string stem = tests::SourceTree() / "tests/tracker/data/nasa-apriltags" / name;
   const std::vector<GoldenTag> golden = ReadGolden(stem + ".txt");
   ASSERT_EQ(golden.size(), count);
   const cv::Mat picture = cv::imread(stem + ".jpg", cv::IMREAD_GRAYSCALE);

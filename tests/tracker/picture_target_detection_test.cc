@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
+#include "tests/source_tree.h"
 #include "tests/tracker/picture_target_scenes.h"
 #include "tests/tracker/sg_test_scenes.h"
 #include "tracker/picture_target/target_making.h"
@@ -40,9 +41,8 @@ const Subject& Leaves() {
 }
 
 GreyImage Photograph(const std::string& name) {
-  const cv::Mat file =
-      cv::imread(std::string(PLEINAIR_SOURCE_DIR) + "/tests/tracker/data/nasa-apriltags/" + name,
-                 cv::IMREAD_GRAYSCALE);
+  const cv::Mat file = cv::imread(tests::SourceTree() / "tests/tracker/data/nasa-apriltags" / name,
+                                  cv::IMREAD_GRAYSCALE);
   EXPECT_FALSE(file.empty()) << name;
   GreyImage picture(file.cols, file.rows);
   for (int y = 0; y < file.rows; ++y) std::copy_n(file.ptr(y), file.cols, &picture(0, y));

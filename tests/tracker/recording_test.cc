@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "tests/source_tree.h"
 #include "tests/tracker/pose_error.h"
 #include "tracker/tracker.h"
 
@@ -64,7 +65,7 @@ class Courtyard : public testing::TestWithParam<Bundled> {};
 
 TEST_P(Courtyard, GivesEveryPoseWithinAThirtiethOfADegree) {
   const Bundled& bundled = GetParam();
-  const std::string folder = PLEINAIR_SOURCE_DIR "/recordings/" + std::string(bundled.name) + "/";
+  const std::string folder = tests::SourceTree() / "recordings" / bundled.name / "";
   const auto description = nlohmann::json::parse(std::ifstream(folder + "recording.json"));
   const auto& calibration = description["calibration"];
   CameraModel camera{.width = calibration["image_width"],

@@ -73,8 +73,8 @@ TEST(Tracker, MeasuresATagOfWhichThePicturesEdgeCutsACornerOff) {
   // The tag goes down out of the picture; its lowest corner is up to a module below it.
   const CameraModel camera = Camera320();
   int cut_off = 0, found = 0;
-  for (double down_px = 0.0; down_px < 80.0; down_px += 0.5) {
-    const RenderedMarker marker = MarkerAt(camera, 3, {150, 120.0 + down_px}, 80);
+  for (int step = 0; step < 160; ++step) {
+    const RenderedMarker marker = MarkerAt(camera, 3, {150, 120.0 + 0.5 * step}, 80);
     const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
     const double lowest_px =
         std::max({truth[0].y, truth[1].y, truth[2].y, truth[3].y}) - (camera.height - 1);

@@ -13,6 +13,7 @@
 #include "camera_helpers.h"
 #include "devices/frame_pack.h"
 #include "devices/recording.h"
+#include "tests/source_tree.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::vm {
@@ -20,7 +21,7 @@ namespace {
 
 using devices::Frame;
 
-constexpr const char* kRecording = PLEINAIR_SOURCE_DIR "/recordings/courtyard_tag36h11";
+const std::string kRecording = tests::SourceTree() / "recordings/courtyard_tag36h11";
 constexpr int kPictures = 6;
 constexpr int kTracked = 4;
 

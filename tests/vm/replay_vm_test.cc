@@ -17,6 +17,7 @@
 #include "camera_helpers.h"
 #include "courtyard_film.h"
 #include "devices/recording.h"
+#include "tests/source_tree.h"
 #include "uvc_simulator.h"
 
 namespace pleinair::vm {
@@ -137,7 +138,7 @@ int TrackedOf(const char* accounts) {
 }
 
 TEST(LiveCommand, TracksAndRecordsACameraUntilItIsEndedAndReplaysToTheSamePoses) {
-  const std::string source = PLEINAIR_SOURCE_DIR "/recordings/courtyard_tag36h11";
+  const std::string source = tests::SourceTree() / "recordings/courtyard_tag36h11";
   const CourtyardFilm film = OpenCourtyardFilm();
   const std::vector<GreyImage> sent = WriteSequence(film);
   std::ofstream("/tmp/scene.toml") << R"(time = "2025-09-14T11:05:00Z"
