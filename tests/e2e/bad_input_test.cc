@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -252,9 +253,9 @@ TEST(BadInput, AFullDiskEndsTheReplayAndLeavesNothing) {
     GTEST_SKIP() << "this machine lets nobody mount a small disk";
   }
   for (const char* option : {"--frames", "--json"}) {
-    const RunResult run =
-        in_small_disk(PleinairProgram() + " replay '" + std::string(folder / "site") + "' -o '" +
-                      disk + "/out' " + option + "; code=$?; ls -A '" + disk + "'; exit $code");
+    const RunResult run = in_small_disk(
+        fmt::format("{} replay '{}' -o '{}/out' {}; code=$?; ls -A '{}'; exit $code",
+                    PleinairProgram(), std::string(folder / "site"), disk, option, disk));
     ExpectRefused(run, "No space left on device", 1);
     EXPECT_THAT(run.err, HasSubstr(disk + "/out/"));
     EXPECT_THAT(run.out, IsEmpty());  // Nothing left on the disk.
