@@ -37,7 +37,7 @@ struct LightReading {
 ///
 /// Pairs in a penumbra, clipped or too small are left out. Where part of the print that should be
 /// in the sun is much darker than the rest (a shadow of something that no phantom stands for),
-/// the brighter part counts.
+/// the brighter part counts, from six pairs on.
 class LightMeter {
  public:
   /// Predicts the light on the print's sample points; they lie still in marker coordinates, so
@@ -90,7 +90,7 @@ class LightMeter {
     double gain = 0.0;                 // Their median.
     double error = 0.0, spread = 0.0;  // Of it and of a single pair, relative.
   };
-  /// Nothing where less than `fewest` can tell it.
+  /// Nothing where fewer pairs than `fewest` can tell it.
   static std::optional<ChannelGain> GainOf(const std::vector<Sample>& pairs, std::size_t channel,
                                            int fewest);
   /// The brightest of at least kMinimumPairs pairs, and so many at least, of those that no channel

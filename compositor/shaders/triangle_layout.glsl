@@ -18,7 +18,8 @@ ivec2 TexelOfSurface(int surface) {
   return ivec2(kTexelsASurface * (surface % kSurfacesARow), surface / kSurfacesARow);
 }
 
-// Of the real surfaces' triangles: ChangingTriangles::Change. Of the objects': 0 where the sun may shine, else 1.
+// Of the real surfaces' triangles: ChangingTriangles::Change, two of which are named below. Of the
+// objects': 0 where the sun may shine, else 1.
 uint KindOf(uvec4 triangle) { return triangle.w & ((1u << kKindBits) - 1u); }
 const uint kOpenSky = 2u, kNothing = 4u;
 uint SheetOf(uvec4 triangle) { return triangle.w >> kKindBits; }

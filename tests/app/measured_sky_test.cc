@@ -18,8 +18,8 @@ double Share(const sky::SkyModel& day) {
 
 TEST(SkyWithShare, HasTheShapeOfAnAirWhoseSkyIsThatStrong) {
   // From a clear day's over haze to a sun behind thin clouds.
-  for (const double elevation_deg : {12.0, 40.0, 70.0}) {
-    for (const double share : {0.15, 0.25, 0.5, 1.0, 3.0}) {
+  for (const double elevation_deg : {12.0, 60.0}) {
+    for (const double share : {0.2, 0.6, 3.0}) {
       const MeasuredSky sky = SkyWithShare({share, share, share}, Sun(elevation_deg), 1.0);
       const auto day = sky.skies->ForSun(Sun(elevation_deg), 1.0);
       EXPECT_NEAR(std::log(Share(*day) / share), 0.0, 0.012) << elevation_deg << "°, " << share;
