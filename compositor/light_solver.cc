@@ -26,6 +26,8 @@ constexpr double kLandAlbedo = 0.2;
 
 constexpr std::uint32_t kSunRays = 256;
 constexpr std::size_t kSkySeenPatches = 64;
+// Triangles of a phantom that are asked how much of the sun reaches them: up to a second's rays.
+constexpr std::size_t kMostReached = 200'000;
 
 class EmbreeLightSolver : public LightSolver {
  public:
@@ -54,7 +56,7 @@ class EmbreeLightSolver : public LightSolver {
       return rays;
     });
     for (LitMesh& mesh : meshes) {
-      if (mesh.is_phantom) {
+      if (mesh.is_phantom && mesh.indices.size() / 3 <= kMostReached) {
         mesh.sun_reach = FindSunReach(*scene_.rays, mesh, to_sun, options_.threads);
       }
     }
