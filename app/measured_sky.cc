@@ -108,6 +108,7 @@ double SunToSky(const sky::SkyModel& day) {
 
 MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au) {
   const double wanted = Luminance(sky_over_sun);
+  if (!(wanted > 0.0) || !std::isfinite(wanted)) return {OvercastSky()};  // There is no sun.
   /// By how much too strong a sky is beside its sun, logarithmic.
   const auto excess = [&](const std::shared_ptr<const sky::SkySource>& source) {
     const auto day = source->ForSun(to_sun, sun_distance_au);

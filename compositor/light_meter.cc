@@ -257,10 +257,10 @@ std::optional<LightReading> LightMeter::Measure(
     const double threshold = ShadowThreshold(levels).value_or(0.0);
     const auto bright = std::count_if(levels.begin(), levels.end(),
                                       [&](double level) { return level >= threshold; });
-    if (bright >= kFewestBright) {
-      std::erase_if(samples, [&](const Sample& sample) { return sample.level < threshold; });
-      few_bright = bright < kMinimumPairs;
-    }
+    if (bright < kFewestBright)
+      return std::nullopt;  // The others would say that the shade is the sun.
+    std::erase_if(samples, [&](const Sample& sample) { return sample.level < threshold; });
+    few_bright = bright < kMinimumPairs;
   }
   const int fewest = few_bright ? kFewestBright : kMinimumPairs;
   if (static_cast<int>(samples.size()) < fewest) return std::nullopt;

@@ -132,6 +132,22 @@ OpenGain BrightestGain(std::vector<Told> surfaces) {
   return {};
 }
 
+/// Marks the surface whose shade the print lies in, if one shows that.
+bool MarkShadeBesidePrint(const OpenLight& light, const std::vector<std::uint8_t>& reached,
+                          const SurfaceSamples& samples, OpenSurfaces* surfaces) {
+  const auto beside = FindBesidePrint(samples, reached);
+  const auto found = beside ? surfaces->find(beside->plane) : surfaces->end();
+  if (found == surfaces->end()) return false;
+  OpenSurface& surface = found->second;
+  const double in_prints_light =
+      light.log_unit() + MeanLog(beside->albedo * (1 / std::numbers::pi));
+  // Where a shadow is no deeper than patterns are, a dark place may be a pattern.
+  surface.shades_print = surface.depth >= kAgreement &&
+                         std::fabs(beside->brightness - in_prints_light) < kAgreement &&
+                         beside->brightness < surface.level - kShadeDepth * surface.depth;
+  return surface.shades_print;
+}
+
 }  // namespace
 
 OpenLight::OpenLight(const LightSolver& solver, const LightMeter& meter, const sky::SkyModel& day,
@@ -178,20 +194,6 @@ double OpenSurface::BrightLevel() const {
 
 double OpenSurface::SunlitLevel() const {
   return all_shaded ? level : Quantile(medians, kSunlitQuantile);
-}
-
-/// Marks the surface whose shade the print lies in, if one shows that.
-bool MarkShadeBesidePrint(const OpenLight& light, const std::vector<std::uint8_t>& reached,
-                          const SurfaceSamples& samples, OpenSurfaces* surfaces) {
-  const auto beside = FindBesidePrint(samples, reached);
-  const auto found = beside ? surfaces->find(beside->plane) : surfaces->end();
-  if (found == surfaces->end()) return false;
-  OpenSurface& surface = found->second;
-  const double in_prints_light =
-      light.log_unit() + MeanLog(beside->albedo * (1 / std::numbers::pi));
-  surface.shades_print = std::fabs(beside->brightness - in_prints_light) < kAgreement &&
-                         beside->brightness < surface.level - kShadeDepth * surface.depth;
-  return surface.shades_print;
 }
 
 OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,

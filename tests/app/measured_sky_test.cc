@@ -36,6 +36,15 @@ TEST(SkyWithShare, IsScaledWhereNoAirIsThatClear) {
   EXPECT_GT(Luminance(sky.sky_scale), 0.05);
 }
 
+TEST(SkyWithShare, IsOvercastWhereThereIsNoSunToBeBeside) {
+  const double nothing = std::nan("");
+  for (const double share : {nothing, 0.0, HUGE_VAL}) {
+    const MeasuredSky sky = SkyWithShare({share, share, share}, Sun(-20.0), 1.0);
+    EXPECT_EQ(Luminance(sky.sky_scale), 1.0);
+    EXPECT_EQ(Luminance(sky.skies->ForSun(Sun(-20.0), 1.0)->SunNormalIrradiance()), 0.0);
+  }
+}
+
 TEST(SkyWithShare, StaysFiniteBehindTheThickestClouds) {
   const MeasuredSky sky = SkyWithShare({500.0, 500.0, 500.0}, Sun(40.0), 1.0);
   EXPECT_TRUE(std::isfinite(Luminance(sky.sky_scale)));
