@@ -4,6 +4,11 @@
 #include <cstddef>
 
 namespace pleinair::compositor {
+namespace {
+
+constexpr float kSameSun = 1e-3F;  // Radians: a fifth of the sun's radius, a quarter of a minute.
+
+}  // namespace
 
 ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : triangles_(phantom.indices) {
   const std::size_t count = phantom.positions.size();
@@ -30,6 +35,8 @@ void ChangingTriangles::SetLight(const LitMesh& phantom) {
     sky_changes_.push_back(changes);
   }
   sun_reach_ = phantom.sun_reach;
+  const auto& [x, y, z] = phantom.reached_to_sun;
+  reached_to_sun_ = {x, y, z};
 }
 
 ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
@@ -48,7 +55,10 @@ ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
   const bool inside = high.x > 0.0F && high.y > 0.0F && low.x < window.side && low.y < window.side;
   if (sunlit && inside && objects.Touches(low, high)) return kSun;
   if (!sky_changes) return kNothing;
-  const SunReach reach = sun_reach_.empty() ? SunReach::kSome : sun_reach_[first_index / 3];
+  // A sun that has moved on casts other shadows than it did for the light.
+  const bool known =
+      !sun_reach_.empty() && glm::distance(window.to_sun, reached_to_sun_) < kSameSun;
+  const SunReach reach = known ? sun_reach_[first_index / 3] : SunReach::kSome;
   if (!sunlit || reach == SunReach::kNone) return kSky;
   return reach == SunReach::kAll ? kOpenSky : kSunlitSky;
 }

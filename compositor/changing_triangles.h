@@ -44,6 +44,7 @@ class ChangingTriangles {
   std::vector<glm::vec3> positions_, normals_;
   std::vector<bool> sky_changes_;         // By vertex.
   std::vector<SunReach> sun_reach_;       // By triangle as the mesh has them, or empty.
+  glm::vec3 reached_to_sun_{0.0F};        // Where the sun stood for that.
   std::vector<std::uint32_t> triangles_;  // The mesh's indices.
   std::vector<std::uint32_t> indices_;    // Sorted.
   std::array<std::vector<std::uint32_t>, kChanges> kinds_;

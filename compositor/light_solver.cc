@@ -58,6 +58,8 @@ class EmbreeLightSolver : public LightSolver {
     for (LitMesh& mesh : meshes) {
       if (mesh.is_phantom && mesh.indices.size() / 3 <= kMostReached) {
         mesh.sun_reach = FindSunReach(*scene_.rays, mesh, to_sun, options_.threads);
+        mesh.reached_to_sun = {static_cast<float>(to_sun.x), static_cast<float>(to_sun.y),
+                               static_cast<float>(to_sun.z)};
       }
     }
     return meshes;

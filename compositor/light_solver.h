@@ -55,6 +55,7 @@ struct LitMesh {
   /// Of phantoms, by triangle; empty: not known, as of very large ones and of a light by
   /// coefficients.
   std::vector<SunReach> sun_reach;
+  std::array<float, 3> reached_to_sun{};  ///< Of sun_reach: towards the sun, unit.
 };
 
 struct LightSolverOptions {

@@ -56,11 +56,16 @@ TEST(ChangingTriangles, InTheirOwnShadeNeedNoShadowMaps) {
 TEST(ChangingTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun) {
   LitMesh mesh = Row();
   for (auto& light : mesh.ambient_with) light[0] = 900.0F;
+  mesh.reached_to_sun = {0.0F, 0.0F, 1.0F};
   mesh.sun_reach = {SunReach::kAll, SunReach::kNone, SunReach::kNone, SunReach::kSome};
   ChangingTriangles triangles(mesh);
   triangles.Sort(kWindow);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 9, 12, 12)) << "objects may shade the second";
   EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 9, 10, 11, 0, 1, 2, 6, 7, 8));
+  SunWindow later = kWindow;
+  later.to_sun = {0.0F, 0.004F, 1.0F};
+  triangles.Sort(later);
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12, 12)) << "the sun has moved on";
   mesh.sun_reach.clear();
   triangles.SetLight(mesh);
   triangles.Sort(kWindow);
