@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/quantile.h"
@@ -27,6 +28,8 @@ constexpr double kDappled = 0.10, kHardlyDappled = 0.08, kSurelyDappled = 0.12;
 constexpr int kFewestBright = 6;
 // Share of its pairs that are the brightest.
 constexpr double kBrightest = 0.2;
+// Share of clipped whites up to which white counts: the upper quartile lies below them.
+constexpr double kMostClipped = 0.2;
 constexpr double kSmallestBandPx = 3.0;
 // A median's standard error over a mean's, of a normal distribution: sqrt(π / 2).
 constexpr double kMedianError = 1.2533;
@@ -169,12 +172,15 @@ LightMeter::Samples LightMeter::SamplesIn(
       const double per_albedo = irradiance[c] / std::numbers::pi;
       const double difference = (*white)[c] - (*black)[c];
       const bool clipped = (*white)[c] >= clipped_at(c, kClippedCode);
-      sample.white_gain[c] =
-          !clipped && difference > 0.0 ? difference / (albedo_step * per_albedo) : NAN;
+      const bool black_counts =
+          (*black)[c] < clipped_at(c, kBlackClippedCode) && (*black)[c] > 0.0;
+      if (clipped) {
+        sample.white_gain[c] = std::numeric_limits<double>::infinity();
+      } else {
+        sample.white_gain[c] = difference > 0.0 ? difference / (albedo_step * per_albedo) : NAN;
+      }
       sample.black_gain[c] =
-          clipped && (*black)[c] < clipped_at(c, kBlackClippedCode) && (*black)[c] > 0.0
-              ? (*black)[c] / (print_.albedo_black * per_albedo)
-              : NAN;
+          black_counts ? (*black)[c] / (print_.albedo_black * per_albedo) : NAN;
       sample.level += (*white)[c] / per_albedo;
     }
     if (sample.level > 0.0) samples.pairs.push_back(sample);
@@ -193,25 +199,20 @@ std::optional<PrintShadow> LightMeter::FindShadow(
   std::vector<PrintPair> usable;
   usable.reserve(samples.pairs.size());
   for (const Sample& sample : samples.pairs) {
-    const Rgb& gain = sample.white_gain;
-    if (!std::isnan(gain[0] + gain[1] + gain[2])) usable.push_back(sample.seen);
+    if (std::isfinite(Sum(sample.white_gain))) usable.push_back(sample.seen);
   }
   return FindPrintShadow(usable, shadow_depth_,
                          print_.albedo_black / (print_.albedo_white - print_.albedo_black));
 }
 
-std::optional<LightMeter::ChannelGain> LightMeter::GainOf(const std::vector<Sample>& pairs,
-                                                          std::size_t channel, int fewest) {
+std::optional<LightMeter::ChannelGain> LightMeter::MedianOf(const std::vector<Sample>& pairs,
+                                                            Rgb Sample::*by, std::size_t channel,
+                                                            int fewest) {
   std::vector<double> values;
+  values.reserve(pairs.size());
   for (const Sample& pair : pairs) {
-    if (!std::isnan(pair.white_gain[channel])) values.push_back(pair.white_gain[channel]);
-  }
-  if (static_cast<int>(values.size()) < fewest) {
-    // The white is clipped: the black alone is less certain, but not wrong.
-    values.clear();
-    for (const Sample& pair : pairs) {
-      if (!std::isnan(pair.black_gain[channel])) values.push_back(pair.black_gain[channel]);
-    }
+    const double value = (pair.*by)[channel];
+    if (!std::isnan(value)) values.push_back(value);
   }
   if (static_cast<int>(values.size()) < fewest) return std::nullopt;
   const double gain = Median(values);
@@ -222,19 +223,46 @@ std::optional<LightMeter::ChannelGain> LightMeter::GainOf(const std::vector<Samp
                      spread};
 }
 
-std::vector<LightMeter::Sample> LightMeter::Brightest(std::vector<Sample> pairs) {
-  // Where a channel is clipped on some of them it would be read on others than the rest.
-  const auto is_whole = [](const Sample& pair) {
-    return !std::isnan(pair.white_gain[0] + pair.white_gain[1] + pair.white_gain[2]);
-  };
-  if (std::count_if(pairs.begin(), pairs.end(), is_whole) >= kMinimumPairs) {
-    std::erase_if(pairs, [&](const Sample& pair) { return !is_whole(pair); });
+bool LightMeter::IsClipped(const std::vector<Sample>& pairs, std::size_t channel) {
+  const auto clipped = std::count_if(pairs.begin(), pairs.end(), [&](const Sample& pair) {
+    return std::isinf(pair.white_gain[channel]);
+  });
+  return static_cast<double>(clipped) > kMostClipped * static_cast<double>(pairs.size());
+}
+
+std::optional<LightMeter::ChannelGain> LightMeter::GainOf(const std::vector<Sample>& pairs,
+                                                          std::size_t channel, int fewest) {
+  if (!IsClipped(pairs, channel)) {
+    if (const auto gain = MedianOf(pairs, &Sample::white_gain, channel, fewest)) return gain;
   }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const Sample& a, const Sample& b) { return a.level > b.level; });
-  const auto count = static_cast<std::ptrdiff_t>(kBrightest * static_cast<double>(pairs.size()));
-  pairs.erase(pairs.begin() + std::max<std::ptrdiff_t>(count, kMinimumPairs), pairs.end());
-  return pairs;
+  // The black alone is less certain, but not wrong.
+  return MedianOf(pairs, &Sample::black_gain, channel, fewest);
+}
+
+std::array<std::optional<LightMeter::ChannelGain>, 3> LightMeter::BrightestOf(
+    std::vector<Sample> pairs, int fewest) {
+  const auto count = static_cast<std::size_t>(kBrightest * static_cast<double>(pairs.size()));
+  const std::size_t kept =
+      std::min(pairs.size(), std::max(count, static_cast<std::size_t>(fewest)));
+  const auto brightest_by = [&](const auto& level) {
+    std::vector<Sample> sorted = pairs;
+    std::sort(sorted.begin(), sorted.end(),
+              [&](const Sample& a, const Sample& b) { return level(a) > level(b); });
+    sorted.erase(sorted.begin() + static_cast<std::ptrdiff_t>(kept), sorted.end());
+    return sorted;
+  };
+  std::vector<Sample> brightest = brightest_by([](const Sample& pair) { return pair.level; });
+  Rgb Sample::*by = &Sample::white_gain;
+  if (IsClipped(brightest, 0) || IsClipped(brightest, 1) || IsClipped(brightest, 2)) {
+    // Which white is the brightest is not seen, and the brightest of the rest may be half-lit.
+    std::erase_if(pairs, [](const Sample& pair) { return std::isnan(Sum(pair.black_gain)); });
+    if (pairs.size() < kept) return {};
+    brightest = brightest_by([](const Sample& pair) { return Sum(pair.black_gain); });
+    by = &Sample::black_gain;
+  }
+  std::array<std::optional<ChannelGain>, 3> gains;
+  for (std::size_t c = 0; c < 3; ++c) gains[c] = MedianOf(brightest, by, c, fewest);
+  return gains;
 }
 
 std::optional<LightReading> LightMeter::Measure(
@@ -266,7 +294,6 @@ std::optional<LightReading> LightMeter::Measure(
   if (static_cast<int>(samples.size()) < fewest) return std::nullopt;
 
   LightReading reading;
-  reading.dappled = few_bright;
   reading.lit_share = lit_share_;
   reading.pairs = static_cast<int>(samples.size());
   std::array<ChannelGain, 3> channels;
@@ -278,13 +305,11 @@ std::optional<LightReading> LightMeter::Measure(
   // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
   // They are the same in each channel, though blue, the sky's colour, may hardly show it.
   const double spread = std::max({channels[0].spread, channels[1].spread, channels[2].spread});
-  if (lit >= kMinimumPairs && !few_bright && spread > kHardlyDappled) {
+  if (lit >= kMinimumPairs && spread > kHardlyDappled) {
     reading.dappled = spread > kDappled;
     const double part =
         std::min(1.0, (spread - kHardlyDappled) / (kSurelyDappled - kHardlyDappled));
-    const std::vector<Sample> brightest = Brightest(std::move(samples));
-    std::array<std::optional<ChannelGain>, 3> bright;
-    for (std::size_t c = 0; c < 3; ++c) bright[c] = GainOf(brightest, c, kMinimumPairs);
+    const auto bright = BrightestOf(std::move(samples), fewest);
     const bool whole = bright[0] && bright[1] && bright[2];
     for (std::size_t c = 0; c < 3; ++c) {
       ChannelGain& channel = channels[c];

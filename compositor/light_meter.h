@@ -27,7 +27,9 @@ struct LightReading {
   LinearRgb error;
   int pairs = 0;           ///< White–black pairs used.
   double lit_share = 0.0;  ///< Share of the print that the phantoms leave in the sun.
-  bool dappled = false;    ///< Leaves shade it: its brightest spots alone were used.
+  /// Leaves shade it: its light is uneven where it should be in the sun, even where only the few
+  /// pairs are looked at that a shadow's edge leaves there. Its brightest spots alone were used.
+  bool dappled = false;
 };
 
 /// Uses the print as a light meter. Pairs of points on either side of the outer black edge have
@@ -35,7 +37,8 @@ struct LightReading {
 /// reflectances, divided by the light that the model predicts there, is the camera's scale. The
 /// difference cancels veiling glare that adds to both.
 ///
-/// Pairs in a penumbra, clipped or too small are left out. Where part of the print that should be
+/// Pairs in a penumbra or too small are left out. Where white is clipped on more than a few, black
+/// is read in its place, which veiling glare makes too bright. Where part of the print that should be
 /// in the sun is much darker than the rest (a shadow of something that no phantom stands for),
 /// the brighter part counts, from six pairs on.
 class LightMeter {
@@ -76,7 +79,8 @@ class LightMeter {
 
   /// What one pair shows in a frame.
   struct Sample {
-    std::array<double, 3> white_gain, black_gain;  // NaN where it cannot be used.
+    /// NaN where it cannot be used, of a clipped white infinite.
+    std::array<double, 3> white_gain, black_gain;
     PrintPair seen;
     double level;  // Sum of the channels' scale, to tell sun from shadow.
     bool in_sun;
@@ -91,11 +95,18 @@ class LightMeter {
     double error = 0.0, spread = 0.0;  // Of it and of a single pair, relative.
   };
   /// Nothing where fewer pairs than `fewest` can tell it.
+  static std::optional<ChannelGain> MedianOf(const std::vector<Sample>& pairs,
+                                             std::array<double, 3> Sample::*by,
+                                             std::size_t channel, int fewest);
+  /// Whether so many whites are clipped that their median and quartiles are not known.
+  static bool IsClipped(const std::vector<Sample>& pairs, std::size_t channel);
+  /// By the whites; where these are clipped, by the blacks.
   static std::optional<ChannelGain> GainOf(const std::vector<Sample>& pairs, std::size_t channel,
                                            int fewest);
-  /// The brightest of at least kMinimumPairs pairs, and so many at least, of those that no channel
-  /// is clipped on where there are enough.
-  static std::vector<Sample> Brightest(std::vector<Sample> pairs);
+  /// By the brightest of the pairs, `fewest` at least, the same ones in each channel: by whites,
+  /// or where any channel of these is clipped by blacks, the brightest of which lie elsewhere.
+  static std::array<std::optional<ChannelGain>, 3> BrightestOf(std::vector<Sample> pairs,
+                                                               int fewest);
   Samples SamplesIn(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                     const Transform<Camera, Marker>& camera_from_marker) const;
 

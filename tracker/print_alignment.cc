@@ -114,14 +114,17 @@ double LeaveOutCovered(const PrintPattern& pattern, const Mat3& rays_from_print,
   return static_cast<double>(pixels->size()) / static_cast<double>(before);
 }
 
+/// `beside_cut_may_move_px`: where sides that the picture's edge cuts off meet, at the least.
 bool Plausible(const PrintAlignment& alignment, double contrast_codes,
-               const std::array<Vec2, 4>& corners_px, double may_move_times,
-               double may_move_at_least_px) {
+               const std::array<Vec2, 4>& corners_px, const std::array<bool, 4>& seen,
+               double may_move_times, double beside_cut_may_move_px) {
   for (int i = 0; i < 4; ++i) {
     const Vec2 corner = alignment.corners_px[i];
     if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return false;
-    const double may_move_px =
-        std::max(may_move_at_least_px, may_move_times * MayMove_px(alignment, contrast_codes, i));
+    // Only the corner opposite to those that are cut off has both of its sides whole.
+    const bool beside_cut = !seen[i] || !seen[(i + 1) % 4] || !seen[(i + 3) % 4];
+    const double may_move_px = std::max(beside_cut ? beside_cut_may_move_px : 0.0,
+                                        may_move_times * MayMove_px(alignment, contrast_codes, i));
     if (Norm(corner - corners_px[i]) > may_move_px) return false;
     const double variance = std::max(alignment.corner_covariance_px2[(2 * i) * 8 + 2 * i],
                                      alignment.corner_covariance_px2[(2 * i + 1) * 8 + 2 * i + 1]);
@@ -132,9 +135,11 @@ bool Plausible(const PrintAlignment& alignment, double contrast_codes,
 
 }  // namespace
 
-bool IsWithin(ImageView<const std::uint8_t> grey, Vec2 pixel) {
-  return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= grey.width() - 1.0 &&
-         pixel.y <= grey.height() - 1.0;
+std::array<bool, 4> CornersSeen(ImageView<const std::uint8_t> grey,
+                                const std::array<Vec2, 4>& corners_px) {
+  std::array<bool, 4> seen{};
+  for (int i = 0; i < 4; ++i) seen[i] = IsInPicture(grey, corners_px[i]);
+  return seen;
 }
 
 std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintPattern& pattern,
@@ -177,11 +182,9 @@ std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintP
   FillCorners(camera, fit, &alignment);
   const double may_move_times = kept < 1.0 ? kCoveredMayMoveTimes : 1.0;
   // Sides that the picture's edge cuts off meet anywhere, but not so far off that no cell is read.
-  const bool is_whole = std::all_of(corners_px.begin(), corners_px.end(),
-                                    [&](Vec2 corner) { return IsWithin(grey, corner); });
   const double module_px = side_px / pattern.edge_modules;
-  if (!Plausible(alignment, levels->ContrastCodes(), corners_px, may_move_times,
-                 is_whole ? 0.0 : module_px)) {
+  if (!Plausible(alignment, levels->ContrastCodes(), corners_px, CornersSeen(grey, corners_px),
+                 may_move_times, module_px)) {
     return std::nullopt;
   }
   alignment.visible_fraction *= kept;

@@ -30,9 +30,10 @@ struct PrintVisibility {
   std::span<const float> values;
 };
 
-/// Whether a pixel position lies between the outermost pixels' centres. A corner beyond them was
-/// not seen: a detector of quadrilaterals may have it anywhere.
-bool IsWithin(ImageView<const std::uint8_t> grey, Vec2 pixel);
+/// Which corners lie in the picture. Those beyond it were not seen: a detector of quadrilaterals
+/// may have them anywhere.
+std::array<bool, 4> CornersSeen(ImageView<const std::uint8_t> grey,
+                                const std::array<Vec2, 4>& corners_px);
 
 /// Refines the corners of a print by predicting its picture: light is linear, so that a pixel holds
 /// `black + (white - black) × coverage`; that is encoded with the sRGB curve and compared with the

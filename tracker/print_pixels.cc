@@ -79,8 +79,7 @@ PrintPixels GatherPrintPixels(const CameraModel& camera, const PrintPattern& pat
       const Vec2 pixel = PixelOfPrint(camera, rays_from_print,
                                       {extent * (2.0 * (i + 0.5) / pattern.modules - 1.0),
                                        extent * (2.0 * (j + 0.5) / pattern.modules - 1.0)});
-      inside += pixel.x > -0.5 && pixel.y > -0.5 && pixel.x < grey.width() - 0.5 &&
-                pixel.y < grey.height() - 0.5;
+      inside += IsInPicture(grey, pixel) ? 1 : 0;
     }
   }
   gathered.seen_share = static_cast<double>(inside) / all;

@@ -27,6 +27,12 @@ struct PrintPixels {
   double seen_share = 1.0;  ///< Share of the print that lies inside the picture.
 };
 
+/// Whether a pixel position lies in the picture, the outermost pixels' squares included.
+inline bool IsInPicture(ImageView<const std::uint8_t> grey, Vec2 pixel) {
+  return pixel.x > -0.5 && pixel.y > -0.5 && pixel.x < grey.width() - 0.5 &&
+         pixel.y < grey.height() - 0.5;
+}
+
 /// Pixel (integer = centre) of a point of the print (half edges, y up).
 Vec2 PixelOfPrint(const CameraModel& camera, const Mat3& rays_from_print, Vec2 print);
 

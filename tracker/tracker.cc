@@ -91,8 +91,8 @@ class DetectingTracker final : public Tracker {
     } else {
       const std::array<Vec2, 4>& raw_px = sighting.detection.corners_px;
       alignment = AlignPrint(camera_, *candidate.pattern, grey, raw_px);
-      const bool is_whole = std::all_of(raw_px.begin(), raw_px.end(),
-                                        [&](Vec2 corner) { return IsWithin(grey, corner); });
+      const std::array<bool, 4> seen = CornersSeen(grey, raw_px);
+      const bool is_whole = seen[0] && seen[1] && seen[2] && seen[3];
       if (!alignment && !is_whole) return std::nullopt;
     }
     if (alignment) {

@@ -216,8 +216,9 @@ TEST(LightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
 }
 
 /// A print under leaves that leave between a quarter and all of the sun; no edge divides light from
-/// shade. `blue`: how much of that blue shows, as under a blue sky.
-RgbImage UnderLeaves(double blue, double* mean) {
+/// shade. `blue`: how much of that blue shows, as under a blue sky. `exposure`: of kGain, clipped
+/// at white.
+RgbImage UnderLeaves(double blue, double* mean, double exposure = 1.0) {
   RgbImage picture = Photograph(kGain, -1.0);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
@@ -227,7 +228,8 @@ RgbImage UnderLeaves(double blue, double* mean) {
       *mean += share / (picture.width() * picture.height());
       for (int c = 0; c < 3; ++c) {
         const double left = c == 2 ? 1.0 - blue * (1.0 - share) : share;
-        picture(x, y, c) = Srgb8FromLinear(LinearFromSrgb8()[picture(x, y, c)] * left);
+        const double linear = LinearFromSrgb8()[picture(x, y, c)] * left * exposure;
+        picture(x, y, c) = Srgb8FromLinear(std::min(linear, 1.0));
       }
     }
   }
@@ -278,19 +280,69 @@ TEST(LightMeter, TakesTheSameSpotsUnderLeavesWhereOneChannelIsClipped) {
   EXPECT_NEAR(reading->gain.b / reading->gain.g, kGain.b / kGain.g, 0.03);
 }
 
-TEST(LightMeter, ReadsTheSunOffTheFewSpotsThatAShadowLeavesIt) {
-  // Phantoms leave the print's right side in the sun, and something else of that side a fifth:
-  // fewer pairs than a reading needs.
-  constexpr double kShadowToX_m = 0.17, kSunlit_m = 0.06;
+TEST(LightMeter, ReadsTheSunUnderLeavesWhereItClipsEvenMostOfThePrint) {
+  // White clips wherever more than half of the sun is: most spots that are left are half-lit.
+  for (const double exposure : {1.6, 2.2}) {
+    double mean = 0.0;
+    const RgbImage picture = UnderLeaves(1.0, &mean, exposure);
+    const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(reading);
+    EXPECT_TRUE(reading->dappled);
+    EXPECT_NEAR(reading->gain.r / (exposure * kGain.r), 1.0, 0.1) << exposure;
+    EXPECT_NEAR(reading->gain.g / (exposure * kGain.g), 1.0, 0.1) << exposure;
+    EXPECT_NEAR(reading->gain.b / (exposure * kGain.b), 1.0, 0.1) << exposure;
+  }
+}
+
+/// Phantoms leave the print's right side in the sun, and something else of that side a strip of
+/// `sunlit_m`. `half_light`: of the strip's light, where it ends; towards its middle all is left.
+RgbImage SunlitStrip(double sunlit_m, double half_light) {
   RgbImage picture = Photograph(kGain, 1.0);
   const RgbImage sunlit = Photograph(kGain, -1.0);
-  const int half = static_cast<int>(kSunlit_m / 2 * kCamera.fy);
+  const int half = static_cast<int>(sunlit_m / 2 * kCamera.fy);
   for (int y = 120 - half; y <= 120 + half; ++y) {
+    const double left = 1.0 - (1.0 - half_light) * std::abs(y - 120) / half;
     for (int x = 0; x < picture.width(); ++x) {
-      for (int c = 0; c < 3; ++c) picture(x, y, c) = sunlit(x, y, c);
+      for (int c = 0; c < 3; ++c) {
+        picture(x, y, c) = Srgb8FromLinear(left * LinearFromSrgb8()[sunlit(x, y, c)]);
+      }
     }
   }
-  ExpectGain(MeterFor(kShadowToX_m).Measure(picture.view(), kCamera, kFromAbove), kGain);
+  return picture;
+}
+
+constexpr double kStripFromX_m = 0.17;
+
+TEST(LightMeter, ReadsTheSunOffTheFewSpotsThatAShadowLeavesIt) {
+  const RgbImage picture = SunlitStrip(0.06, 1.0);
+  const auto reading = MeterFor(kStripFromX_m).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectGain(reading, kGain);
+  EXPECT_LT(reading->pairs, LightMeter::kMinimumPairs);
+  EXPECT_FALSE(reading->dappled) << "a sharp edge and one level are no leaves";
+}
+
+TEST(LightMeter, TakesAFewSpotsOfUnevenLightForASpotBetweenLeaves) {
+  const RgbImage picture = SunlitStrip(0.06, 0.5);
+  const auto reading = MeterFor(kStripFromX_m).Measure(picture.view(), kCamera, kFromAbove);
+  ASSERT_TRUE(reading);
+  EXPECT_LT(reading->pairs, LightMeter::kMinimumPairs);
+  EXPECT_TRUE(reading->dappled);
+  EXPECT_GT(reading->error.g, 0.1);
+}
+
+TEST(LightMeter, SaysNothingWhereAShadowLeavesFewerThanSixSpotsInTheSun) {
+  // Of the right side's pairs something covers half, so that few are enough for a level.
+  const auto measure = [](double sunlit_m) {
+    RgbImage picture = SunlitStrip(sunlit_m, 1.0);
+    for (int y = 0; y < 114; ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        for (int c = 0; c < 3; ++c) picture(x, y, c) = 90;
+      }
+    }
+    return MeterFor(kStripFromX_m).Measure(picture.view(), kCamera, kFromAbove);
+  };
+  EXPECT_FALSE(measure(0.026));
+  ExpectGain(measure(0.06), kGain);
 }
 
 TEST(LightMeter, ChangesLittleWhereLeavesBeginToShow) {

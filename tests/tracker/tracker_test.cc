@@ -78,7 +78,7 @@ TEST(Tracker, MeasuresATagOfWhichThePicturesEdgeCutsACornerOff) {
     const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
     const double lowest_px =
         std::max({truth[0].y, truth[1].y, truth[2].y, truth[3].y}) - (camera.height - 1);
-    if (lowest_px < 0.5 || lowest_px > 9.0) continue;
+    if (lowest_px < 0.0 || lowest_px > 9.0) continue;
     ++cut_off;
     const auto sightings = MakeTracker(camera)->Track(
         RenderMarkers(camera, {marker}, {.blur_px = 0.4, .noise_codes = 2}).view());
