@@ -87,4 +87,20 @@ FogSplits AerialFog::Along(const glm::dvec3& towards, std::span<const double> sp
   return fog;
 }
 
+glm::vec3 FogSplits::MostLightPerMetre() const {
+  glm::vec3 most(0.0F), light(0.0F), depth(0.0F);
+  float distance = 0.0F;
+  for (int i = 0; i < kMost; ++i) {
+    // Where a stretch begins its light grows fastest: x / (1 − e^−x) times its mean, 1 + x at most.
+    const glm::vec3 x = optical_depth[i] - depth;
+    const glm::vec3 faster = glm::max(1.0F + x, glm::vec3(1.0F));
+    const float length_m = distance_m[i] - distance;
+    if (length_m > 0.0F) most = glm::max(most, faster * (inscattered[i] - light) / length_m);
+    depth = optical_depth[i];
+    light = inscattered[i];
+    distance = distance_m[i];
+  }
+  return most;
+}
+
 }  // namespace pleinair::compositor

@@ -20,6 +20,9 @@ struct FogSplits {
   std::array<float, kMost> distance_m{};  ///< Ascending; the last is repeated to the end.
   std::array<glm::vec3, kMost> optical_depth{};
   std::array<glm::vec3, kMost> inscattered{};  ///< cd/m².
+
+  /// What a metre of air adds at the most, wherever it lies on the way.
+  glm::vec3 MostLightPerMetre() const;
 };
 
 /// The sky's aerial perspective, kept by direction and distance so that it outlives the sky model:

@@ -1,5 +1,6 @@
 #include "compositor/changing_triangles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -24,22 +25,28 @@ ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : triangles_(phanto
 }
 
 void ChangingTriangles::SetLight(const LitMesh& phantom) {
+  const std::size_t count = phantom.ambient_with.size();
   sky_changes_.clear();
-  sky_changes_.reserve(phantom.ambient_with.size());
-  for (std::size_t i = 0; i < phantom.ambient_with.size(); ++i) {
-    bool changes = false;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float without = phantom.ambient_without[i][c];
-      changes = changes || std::abs(phantom.ambient_with[i][c] - without) > kNoticeable * without;
-    }
-    sky_changes_.push_back(changes);
+  ambient_with_.clear();
+  ambient_without_.clear();
+  sky_changes_.reserve(count);
+  ambient_with_.reserve(count);
+  ambient_without_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [r, g, b] = phantom.ambient_with[i];
+    const auto& [r0, g0, b0] = phantom.ambient_without[i];
+    const glm::vec3 with(r, g, b), without(r0, g0, b0);
+    ambient_with_.push_back(with);
+    ambient_without_.push_back(without);
+    sky_changes_.push_back(
+        glm::any(glm::greaterThan(glm::abs(with - without), kNoticeable * without)));
   }
   sun_reach_ = phantom.sun_reach;
   const auto& [x, y, z] = phantom.reached_to_sun;
   reached_to_sun_ = {x, y, z};
 }
 
-ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
+ChangingTriangles::Sorted ChangingTriangles::ChangeOf(const SunWindow& window,
                                                       const SunFootprint& objects,
                                                       std::size_t first_index) const {
   bool sky_changes = false, sunlit = false;
@@ -53,28 +60,60 @@ ChangingTriangles::Change ChangingTriangles::ChangeOf(const SunWindow& window,
     high = glm::max(high, at);
   }
   const bool inside = high.x > 0.0F && high.y > 0.0F && low.x < window.side && low.y < window.side;
-  if (sunlit && inside && objects.Touches(low, high)) return kSun;
-  if (!sky_changes) return kNothing;
+  if (sunlit && inside && objects.Touches(low, high)) return {kSun, false};
+  if (!sky_changes) return {kNothing, false};
   // A sun that has moved on casts other shadows than it did for the light.
   const bool known =
       !sun_reach_.empty() && glm::distance(window.to_sun, reached_to_sun_) < kSameSun;
   const SunReach reach = known ? sun_reach_[first_index / 3] : SunReach::kSome;
-  if (!sunlit || reach == SunReach::kNone) return kSky;
-  return reach == SunReach::kAll ? kOpenSky : kSunlitSky;
+  if (!sunlit || reach == SunReach::kNone) return {kSteadySky, false};
+  return reach == SunReach::kAll ? Sorted{kSteadySky, true} : Sorted{kSunlitSky, false};
 }
 
-void ChangingTriangles::Sort(const SunWindow& window, const SunFootprint& objects) {
+SteadyRatio ChangingTriangles::SteadyOf(std::size_t first_index, const glm::vec3& to_sun,
+                                        const glm::vec3& sun_normal_lux) const {
+  std::array<glm::vec3, 3> corners_m{}, ratios{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t vertex = triangles_[first_index + k];
+    corners_m[k] = positions_[vertex];
+    const glm::vec3 sun = std::max(glm::dot(normals_[vertex], to_sun), 0.0F) * sun_normal_lux;
+    ratios[k] = SteadyRatio::Between(ambient_with_[vertex], ambient_without_[vertex], sun);
+  }
+  return SteadyRatio::Of(corners_m, ratios);
+}
+
+void ChangingTriangles::Sort(const SunWindow& window, const SunFootprint& objects,
+                             const glm::vec3& sun_normal_lux) {
   for (auto& kind : kinds_) kind.clear();
+  steady_.clear();
+  steady_corners_.clear();
   for (std::size_t i = 0; i < triangles_.size(); i += 3) {
-    auto& kind = kinds_[ChangeOf(window, objects, i)];
+    const auto [change, in_sun] = ChangeOf(window, objects, i);
+    auto& kind = kinds_[change];
     kind.insert(kind.end(), triangles_.begin() + static_cast<std::ptrdiff_t>(i),
                 triangles_.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    if (change == kSteadySky) {
+      steady_.push_back(SteadyOf(i, window.to_sun, in_sun ? sun_normal_lux : glm::vec3(0.0F)));
+      steady_corners_.push_back({triangles_[i], triangles_[i + 1], triangles_[i + 2]});
+    }
   }
   indices_.clear();
   for (std::size_t kind = 0; kind < kChanges; ++kind) {
     indices_.insert(indices_.end(), kinds_[kind].begin(), kinds_[kind].end());
     ends_[kind] = static_cast<int>(indices_.size());
   }
+}
+
+float ChangingTriangles::MostSteadyChangeFarFrom(const glm::vec3& eye_m) const {
+  float most = 0.0F;
+  for (std::size_t i = 0; i < steady_.size(); ++i) {
+    const glm::vec4& range = steady_[i].range;
+    const float change = std::max(std::abs(1.0F - range.x), std::abs(1.0F - range.y));
+    for (const std::uint32_t corner : steady_corners_[i]) {
+      most = std::max(most, change * glm::distance(positions_[corner], eye_m));
+    }
+  }
+  return most;
 }
 
 }  // namespace pleinair::compositor

@@ -185,9 +185,12 @@ Result<const SurfacePrograms*> GlComposer::ProgramsFor(const DrawnFrame& frame) 
   std::optional<SurfacePrograms>& made =
       surface_programs_[shadows_.Fades() ? 1 : 0][frame.hazy ? 1 : 0];
   if (!made) {
-    PLEINAIR_ASSIGN_OR_RETURN(SurfacePrograms programs,
-                              SurfacePrograms::Create(shadows_.options(), shadows_.Fades(),
-                                                      frame.hazy, surfaces_.HasTextures()));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        SurfacePrograms programs,
+        SurfacePrograms::Create(shadows_.options(), {.fades = shadows_.Fades(),
+                                                     .hazy = frame.hazy,
+                                                     .textured = surfaces_.HasTextures(),
+                                                     .glossy = surfaces_.HasGloss()}));
     made.emplace(std::move(programs));
   }
   return &*made;
@@ -260,8 +263,13 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadow
                                    const DrawnFrame& frame) {
   // Where the picture is asked how much of the sun there is, the sky's light, too, counts by that.
   const bool other_shade = looks_for_shade_ || (sunlight_ && !sunlight_->share.empty());
-  PLEINAIR_RETURN_IF_ERROR(
-      surfaces_.SortPhantoms(HasSun() ? shadows_.Window() : SunWindow{}, other_shade));
+  SceneSurfaces::SunOnPhantoms sun;
+  sun.whole = other_shade;
+  if (HasSun()) {
+    sun.window = shadows_.Window();
+    sun.normal_lux = frame.sun_normal_lux;
+  }
+  PLEINAIR_RETURN_IF_ERROR(surfaces_.SortPhantoms(sun));
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SortObjects(frame.to_sun));
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -297,8 +305,13 @@ DrawnFrame GlComposer::FrameOf(const shadows::View& view,
     }
   }
   frame.fog = FogBeforeObjects(view, frame.eye_m);
-  const glm::vec3 most_air = frame.gain * frame.fog.inscattered.back();
-  frame.hazy = std::max({most_air.r, most_air.g, most_air.b}) > kNoticeableAir;
+  const auto is_noticed = [&](const glm::vec3& light) {
+    const glm::vec3 shown = frame.gain * light;
+    return std::max({shown.r, shown.g, shown.b}) > kNoticeableAir;
+  };
+  frame.hazy = is_noticed(frame.fog.inscattered.back());
+  frame.steady_hazy = frame.hazy && is_noticed(frame.fog.MostLightPerMetre() *
+                                               surfaces_.MostSteadyChangeFarFrom(frame.eye_m));
   return frame;
 }
 

@@ -18,7 +18,8 @@ struct DrawnFrame {
   glm::vec3 sun_normal_lux{0.0F};
   std::array<glm::vec4, 2> texture_from_marker{};  ///< Of SeenSunlight's map.
   FogSplits fog;
-  bool hazy = false;  ///< The air before the farthest real surface is noticed.
+  bool hazy = false;         ///< The air before the farthest real surface is noticed,
+  bool steady_hazy = false;  ///< and where only the sky's light changes, steadily.
 
   /// Eye, gain and sun, which all of them are told.
   void Set(const gl::GlProgram& program) const;

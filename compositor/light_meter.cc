@@ -172,15 +172,13 @@ LightMeter::Samples LightMeter::SamplesIn(
       const double per_albedo = irradiance[c] / std::numbers::pi;
       const double difference = (*white)[c] - (*black)[c];
       const bool clipped = (*white)[c] >= clipped_at(c, kClippedCode);
-      const bool black_counts =
-          (*black)[c] < clipped_at(c, kBlackClippedCode) && (*black)[c] > 0.0;
+      const bool black_counts = (*black)[c] < clipped_at(c, kBlackClippedCode) && (*black)[c] > 0.0;
       if (clipped) {
         sample.white_gain[c] = std::numeric_limits<double>::infinity();
       } else {
         sample.white_gain[c] = difference > 0.0 ? difference / (albedo_step * per_albedo) : NAN;
       }
-      sample.black_gain[c] =
-          black_counts ? (*black)[c] / (print_.albedo_black * per_albedo) : NAN;
+      sample.black_gain[c] = black_counts ? (*black)[c] / (print_.albedo_black * per_albedo) : NAN;
       sample.level += (*white)[c] / per_albedo;
     }
     if (sample.level > 0.0) samples.pairs.push_back(sample);

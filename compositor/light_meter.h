@@ -38,8 +38,8 @@ struct LightReading {
 /// difference cancels veiling glare that adds to both.
 ///
 /// Pairs in a penumbra or too small are left out. Where white is clipped on more than a few, black
-/// is read in its place, which veiling glare makes too bright. Where part of the print that should be
-/// in the sun is much darker than the rest (a shadow of something that no phantom stands for),
+/// is read in its place, which veiling glare makes too bright. Where part of the print that should
+/// be in the sun is much darker than the rest (a shadow of something that no phantom stands for),
 /// the brighter part counts, from six pairs on.
 class LightMeter {
  public:
@@ -96,8 +96,8 @@ class LightMeter {
   };
   /// Nothing where fewer pairs than `fewest` can tell it.
   static std::optional<ChannelGain> MedianOf(const std::vector<Sample>& pairs,
-                                             std::array<double, 3> Sample::*by,
-                                             std::size_t channel, int fewest);
+                                             std::array<double, 3> Sample::*by, std::size_t channel,
+                                             int fewest);
   /// Whether so many whites are clipped that their median and quartiles are not known.
   static bool IsClipped(const std::vector<Sample>& pairs, std::size_t channel);
   /// By the whites; where these are clipped, by the blacks.

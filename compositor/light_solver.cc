@@ -26,7 +26,7 @@ constexpr double kLandAlbedo = 0.2;
 
 constexpr std::uint32_t kSunRays = 256;
 constexpr std::size_t kSkySeenPatches = 64;
-// Triangles of a phantom that are asked how much of the sun reaches them: up to a second's rays.
+// Triangles of phantoms that are asked how much of the sun reaches them: up to a second's rays.
 constexpr std::size_t kMostReached = 200'000;
 
 class EmbreeLightSolver : public LightSolver {
@@ -55,8 +55,11 @@ class EmbreeLightSolver : public LightSolver {
       }
       return rays;
     });
+    // Without a sun there is nothing to be asked.
+    std::size_t left = Luminance(sun) > 0.0 ? kMostReached : 0;
     for (LitMesh& mesh : meshes) {
-      if (mesh.is_phantom && mesh.indices.size() / 3 <= kMostReached) {
+      if (mesh.is_phantom && mesh.indices.size() / 3 <= left) {
+        left -= mesh.indices.size() / 3;
         mesh.sun_reach = FindSunReach(*scene_.rays, mesh, to_sun, options_.threads);
         mesh.reached_to_sun = {static_cast<float>(to_sun.x), static_cast<float>(to_sun.y),
                                static_cast<float>(to_sun.z)};

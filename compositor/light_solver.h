@@ -52,8 +52,8 @@ struct LitMesh {
   /// The same with the phantoms alone; of phantoms only, empty for virtual objects.
   std::vector<std::array<float, 3>> ambient_without;
   std::vector<std::uint32_t> indices;
-  /// Of phantoms, by triangle; empty: not known, as of very large ones and of a light by
-  /// coefficients.
+  /// Of phantoms, by triangle; empty: not known, as of very large ones, of a light by coefficients
+  /// and of one without a sun.
   std::vector<SunReach> sun_reach;
   std::array<float, 3> reached_to_sun{};  ///< Of sun_reach: towards the sun, unit.
 };

@@ -41,28 +41,38 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
   targets.BeginRatio();
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
-  // The air before a surface is seen beside the objects that cover the pixel in part.
-  glEnablei(GL_BLEND, 1);
-  glBlendFuncSeparatei(1, GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
-  if (!frame.hazy) glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   targets.seen().Bind(0);
-  for (const Change change : {Change::kSun, Change::kSunlitSky, Change::kOpenSky, Change::kSky}) {
-    const gl::GlProgram& program = programs.phantoms[change];
+  const auto draw = [&](const gl::GlProgram& program, Change change, bool hazy) {
     program.Use();
     program.Set("u_depth", DepthOf(change));
     program.Set("u_samples", static_cast<float>(targets.samples()));
     frame.Set(program);
     frame.SetRays(program);
-    if (frame.hazy) frame.SetFog(program);
+    if (hazy) frame.SetFog(program);
     if (change == Change::kSun) {
       program.Set("u_looks", shade.look ? 1.0F : 0.0F);
       program.Set("u_board_half_m", static_cast<float>(shade.board_m / 2));
       frame.SetSunlight(program);
     }
     glDrawArrays(GL_TRIANGLES, 0, 3);
+  };
+  const auto draw_steady = [&](const gl::GlProgram& program, bool hazy) {
+    surfaces.triangles().BindSteady();
+    draw(program, Change::kSteadySky, hazy);
+    surfaces.triangles().Bind();
+  };
+  if (!frame.steady_hazy) draw_steady(programs.phantoms[Change::kSteadySky], false);
+  if (frame.hazy) {
+    // The air before a surface is seen beside the objects that cover the pixel in part.
+    targets.BeginHaze();
+    glEnablei(GL_BLEND, 1);
+    glBlendFuncSeparatei(1, GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
   }
-  glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glDisablei(GL_BLEND, 1);
+  for (const Change change : {Change::kSun, Change::kSunlitSky}) {
+    draw(programs.phantoms[change], change, frame.hazy);
+  }
+  if (frame.steady_hazy) draw_steady(programs.steady_in_haze, true);
+  if (frame.hazy) glDisablei(GL_BLEND, 1);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
 }

@@ -48,8 +48,10 @@ Result<RenderTargets> RenderTargets::Create(int width, int height) {
                             gl::GlFramebuffer::Create({{{&targets.seen_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(targets.draw_objects_,
                             gl::GlFramebuffer::Create({{{&targets.objects_}}, {&targets.kinds_}}));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.draw_ratio_,
+                            gl::GlFramebuffer::Create({{{&targets.ratio_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
-      targets.draw_ratio_,
+      targets.draw_ratio_and_haze_,
       gl::GlFramebuffer::Create({{{&targets.ratio_}, {&targets.objects_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
       targets.pass_,
@@ -80,6 +82,8 @@ void RenderTargets::BeginRatio() const {
   draw_ratio_.Bind();
   draw_ratio_.ClearColor(0, 1, 1, 1, 1);
 }
+
+void RenderTargets::BeginHaze() const { draw_ratio_and_haze_.Bind(); }
 
 void RenderTargets::BeginPass(bool back) const { (back ? back_ : pass_).Bind(); }
 

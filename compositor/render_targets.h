@@ -22,9 +22,10 @@ class RenderTargets {
   /// Draws go to objects(), the objects' premultiplied display-linear colour with coverage, with
   /// the depth that sorting gave; cleared to 0.
   void BeginObjects() const;
-  /// Draws go to the differential ratio (colour 0, cleared to 1) and to objects() (colour 1), with
-  /// the depth that sorting gave.
+  /// Draws go to the differential ratio, cleared to 1, with the depth that sorting gave.
   void BeginRatio() const;
+  /// After BeginRatio(): draws go to the ratio (colour 0) and to objects() (colour 1).
+  void BeginHaze() const;
   /// Where one pass over ratio() and objects() may be drawn into; `back`: from there into them.
   void BeginPass(bool back) const;
   const gl::GlTexture& passed_ratio() const { return passed_ratio_; }
@@ -46,7 +47,8 @@ class RenderTargets {
   gl::GlTexture ids_, texels_, depth_samples_;
   gl::GlTexture seen_, kinds_, ratio_, objects_;
   gl::GlTexture passed_ratio_, passed_objects_;
-  gl::GlFramebuffer draw_ids_, draw_ids_and_texels_, sort_, draw_objects_, draw_ratio_;
+  gl::GlFramebuffer draw_ids_, draw_ids_and_texels_, sort_, draw_objects_;
+  gl::GlFramebuffer draw_ratio_, draw_ratio_and_haze_;
   gl::GlFramebuffer pass_, back_;
 };
 

@@ -39,6 +39,8 @@ Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scen
       const bool alpha = IsSeenThrough(*placed.model, material);
       surfaces.has_alpha_ = surfaces.has_alpha_ || alpha;
       surfaces.has_textures_ = surfaces.has_textures_ || alpha || IsTextured(material);
+      surfaces.has_gloss_ =
+          surfaces.has_gloss_ || material.specular_f0 > 0.0F || material.metallic > 0.0F;
     }
   }
   return surfaces;
@@ -148,11 +150,12 @@ void SceneSurfaces::PlaceCasters() {
   }
 }
 
-bool SceneSurfaces::HasGloss() const {
-  return std::any_of(surfaces_.begin(), surfaces_.end(), [this](const SurfaceBuffers& surface) {
-    const Material& material = MaterialOf(surface);
-    return surface.IsDrawnObject() && (material.specular_f0 > 0.0F || material.metallic > 0.0F);
-  });
+float SceneSurfaces::MostSteadyChangeFarFrom(const glm::vec3& eye_m) const {
+  float most = 0.0F;
+  for (const ChangingTriangles& triangles : phantom_triangles_) {
+    most = std::max(most, triangles.MostSteadyChangeFarFrom(eye_m));
+  }
+  return most;
 }
 
 SunFootprint SceneSurfaces::FootprintOf(const SunWindow& window) const {
@@ -177,22 +180,31 @@ SunFootprint SceneSurfaces::FootprintOf(const SunWindow& window) const {
   return footprint;
 }
 
-Result<void> SceneSurfaces::SortPhantoms(const SunWindow& window, bool whole) {
-  if (sorted_for_ == std::pair(window, whole)) return {};
-  const SunFootprint footprint = whole ? SunFootprint() : FootprintOf(window);
+bool SceneSurfaces::SunOnPhantoms::IsAsGoodAs(const SunOnPhantoms& other) const {
+  // What the sky changes beside it hardly depends on it.
+  constexpr float kSameSun = 0.02F;
+  return window == other.window && whole == other.whole &&
+         glm::all(glm::lessThanEqual(glm::abs(normal_lux - other.normal_lux),
+                                     kSameSun * other.normal_lux));
+}
+
+Result<void> SceneSurfaces::SortPhantoms(const SunOnPhantoms& sun) {
+  if (sorted_for_ && sun.IsAsGoodAs(*sorted_for_)) return {};
+  const SunFootprint footprint = sun.whole ? SunFootprint() : FootprintOf(sun.window);
   auto triangles = phantom_triangles_.begin();
   std::vector<SortedTriangles> sorted;
   sorted.reserve(phantom_triangles_.size());
   for (SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
-    triangles->Sort(window, footprint);
+    triangles->Sort(sun.window, footprint, sun.normal_lux);
     surface.SetIndices(triangles->indices());
-    sorted.push_back(
-        {triangles->indices(), std::span(triangles->ends()).first(ChangingTriangles::kNothing)});
+    sorted.push_back({triangles->indices(),
+                      std::span(triangles->ends()).first(ChangingTriangles::kNothing),
+                      triangles->steady()});
     ++triangles;
   }
   PLEINAIR_RETURN_IF_ERROR(phantom_table_.SetTriangles(sorted));
-  sorted_for_ = {window, whole};
+  sorted_for_ = sun;
   return {};
 }
 
@@ -203,10 +215,10 @@ void SceneSurfaces::DrawPhantoms(const gl::GlProgram& program) const {
     const auto& ends = phantom_triangles_[phantom].ends();
     program.Set("u_first_id", phantom_table_.first_id(phantom));
     program.Set("u_step", 1);
-    surface.Draw(0, ends[ChangingTriangles::kSky]);
+    surface.Draw(0, ends[ChangingTriangles::kSteadySky]);
     program.Set("u_first_id", 0);
     program.Set("u_step", 0);
-    surface.Draw(ends[ChangingTriangles::kSky], ends[ChangingTriangles::kNothing]);
+    surface.Draw(ends[ChangingTriangles::kSteadySky], ends[ChangingTriangles::kNothing]);
     ++phantom;
   }
 }
@@ -232,7 +244,7 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
                           glm::mat4(moved_[surface.placed_model()]));
     }
     ends.push_back({triangles->facing_end(), surface.index_count()});
-    sorted.push_back({triangles->indices(), ends.back()});
+    sorted.push_back({triangles->indices(), ends.back(), {}});
     ++triangles;
   }
   if (!objects_sorted_) PLEINAIR_RETURN_IF_ERROR(object_table_.SetTriangles(sorted));

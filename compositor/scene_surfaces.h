@@ -39,13 +39,23 @@ class SceneSurfaces {
   const shadows::Box& object_bounds() const { return object_bounds_; }
   const shadows::Box& bounds() const { return bounds_; }
 
-  /// Tells what of the phantoms the objects may change within `window`; `whole`: the sun's light in
-  /// all of it, also where no object hides it. Errors (system): no memory.
-  Result<void> SortPhantoms(const SunWindow& window, bool whole);
+  /// What of the phantoms' light objects may change depends on.
+  struct SunOnPhantoms {
+    SunWindow window;
+    bool whole = false;          ///< The sun's light in all of it, also where no object hides it.
+    glm::vec3 normal_lux{0.0F};  ///< Linear Rec.709.
+
+    /// Whether nothing that is seen changes from one to the other.
+    bool IsAsGoodAs(const SunOnPhantoms& other) const;
+  };
+  /// Tells what of the phantoms the objects may change under `sun`. Errors (system): no memory.
+  Result<void> SortPhantoms(const SunOnPhantoms& sun);
   /// Draws the numbers that the phantoms' triangles have in triangles(), of those that change;
   /// `program` of shaders/triangle_id.frag is in use.
   void DrawPhantoms(const gl::GlProgram& program) const;
   const TriangleTable& triangles() const { return phantom_table_; }
+  /// ChangingTriangles::MostSteadyChangeFarFrom() of all phantoms.
+  float MostSteadyChangeFarFrom(const glm::vec3& eye_m) const;
   /// Tells which of the objects' triangles may face the sun, `to_sun` zero: none, and where the
   /// objects stand. Errors (system): no memory.
   Result<void> SortObjects(const glm::vec3& to_sun);
@@ -57,8 +67,8 @@ class SceneSurfaces {
   const SurfaceRecords& object_records() const { return object_records_; }
   /// Some of the objects have textures or alpha.
   bool HasTextures() const { return has_textures_; }
-  /// Whether some drawn object mirrors its surroundings: a metal's or a coat's.
-  bool HasGloss() const;
+  /// Some mirror their surroundings: a metal or a coat does.
+  bool HasGloss() const { return has_gloss_; }
   /// Some have holes or are glass.
   bool HasAlpha() const { return has_alpha_; }
   /// Draws everything with `program`, which is in use: places alone.
@@ -76,7 +86,7 @@ class SceneSurfaces {
   }
 
   std::vector<PlacedModel> scene_;
-  bool has_textures_ = false, has_alpha_ = false;
+  bool has_textures_ = false, has_alpha_ = false, has_gloss_ = false;
   gl::GlTexture white_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
   std::vector<SurfaceBuffers> surfaces_;
@@ -90,7 +100,7 @@ class SceneSurfaces {
   SurfaceRecords object_records_;
   // object_table_ and object_records_ are as object_triangles_ and moved_ are.
   bool objects_sorted_ = false, objects_placed_ = false;
-  std::optional<std::pair<SunWindow, bool>> sorted_for_;  // As SortPhantoms() was called.
+  std::optional<SunOnPhantoms> sorted_for_;  // As SortPhantoms() was called.
   std::vector<shadows::ShadowCaster> casters_, phantom_casters_;
   shadows::Box object_bounds_, bounds_;
   std::uint64_t revision_ = 0;  // Of the surfaces; the shadow maps follow it.

@@ -13,7 +13,7 @@ namespace {
 
 // Barycentric: corners and edges drawn in a little, where surfaces meet rays from them are in
 // doubt.
-constexpr std::array<std::array<double, 3>, 7> kPlaces{{
+constexpr std::array<std::array<double, 3>, 10> kPlaces{{
     {0.90, 0.05, 0.05},
     {0.05, 0.90, 0.05},
     {0.05, 0.05, 0.90},
@@ -21,6 +21,9 @@ constexpr std::array<std::array<double, 3>, 7> kPlaces{{
     {0.05, 0.475, 0.475},
     {0.475, 0.05, 0.475},
     {1.0 / 3, 1.0 / 3, 1.0 / 3},
+    {0.70, 0.15, 0.15},
+    {0.15, 0.70, 0.15},
+    {0.15, 0.15, 0.70},
 }};
 constexpr std::array<SamplePoint, 3> kRim{{{1.0, 0.0}, {1.0, 1.0 / 3}, {1.0, 2.0 / 3}}};
 

@@ -21,33 +21,37 @@ shadows::ShadowMethod MethodForSky(shadows::ShadowMethod method) {
 }  // namespace
 
 Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions& options,
-                                                bool fades, bool hazy, bool textured) {
-  const auto make = [&](const std::string& fragment, const std::vector<std::string>& permutation,
-                        shadows::ShadowMethod method) {
-    shadows::ShadowMapOptions shading = options;
-    shading.method = method;
-    std::vector<std::string> defines =
-        shadows::FadingShadowMaps::ShaderDefines(shading, SceneShadows::kSets, fades);
-    defines.insert(defines.end(), permutation.begin(), permutation.end());
-    if (hazy) defines.emplace_back("HAZE");
-    if (textured) defines.emplace_back("TEXTURED");
+                                                const Permutation& permutation) {
+  const auto make = [&](const std::string& fragment, std::vector<std::string> defines) {
     return gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                                   .fragment = "compositor/shaders/" + fragment,
                                   .defines = std::move(defines)});
   };
+  const auto make_in_sun = [&](const std::string& fragment, const std::vector<std::string>& of_pass,
+                               shadows::ShadowMethod method) {
+    shadows::ShadowMapOptions shading = options;
+    shading.method = method;
+    std::vector<std::string> defines =
+        shadows::FadingShadowMaps::ShaderDefines(shading, SceneShadows::kSets, permutation.fades);
+    defines.insert(defines.end(), of_pass.begin(), of_pass.end());
+    if (permutation.hazy) defines.emplace_back("HAZE");
+    if (permutation.textured) defines.emplace_back("TEXTURED");
+    if (permutation.glossy) defines.emplace_back("GLOSSY");
+    return make(fragment, std::move(defines));
+  };
   SurfacePrograms programs;
-  constexpr std::array<const char*, ChangingTriangles::kNothing> kChangeDefines{
-      "SUN_MAY_CHANGE", "SKY_CHANGES", "OPEN_SKY_CHANGES", "NO_SUN"};
-  for (std::size_t change = 0; change < kChangeDefines.size(); ++change) {
-    PLEINAIR_ASSIGN_OR_RETURN(
-        programs.phantoms[change],
-        make("phantom_ratio.frag", {kChangeDefines[change]},
-             change == ChangingTriangles::kSunlitSky ? MethodForSky(options.method)
-                                                     : options.method));
-  }
-  PLEINAIR_ASSIGN_OR_RETURN(programs.objects, make("virtual_object.frag", {}, options.method));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[ChangingTriangles::kSun],
+                            make_in_sun("phantom_ratio.frag", {"SUN_MAY_CHANGE"}, options.method));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      programs.phantoms[ChangingTriangles::kSunlitSky],
+      make_in_sun("phantom_ratio.frag", {"SKY_CHANGES"}, MethodForSky(options.method)));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[ChangingTriangles::kSteadySky],
+                            make("steady_ratio.frag", {}));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.steady_in_haze, make("steady_ratio.frag", {"HAZE"}));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.objects,
+                            make_in_sun("virtual_object.frag", {}, options.method));
   PLEINAIR_ASSIGN_OR_RETURN(programs.objects_in_own_shade,
-                            make("virtual_object.frag", {"NO_SUN"}, options.method));
+                            make_in_sun("virtual_object.frag", {"NO_SUN"}, options.method));
   return programs;
 }
 

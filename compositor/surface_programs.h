@@ -11,14 +11,20 @@ namespace pleinair::compositor {
 
 /// The programs that shade a scene's surfaces, of one permutation.
 struct SurfacePrograms {
-  /// `fades`: the sun stands between two steps, FadingShadowMaps::Fades(); `hazy`: the air before
-  /// the real surfaces counts; `textured`: some of the objects have textures. Errors as
-  /// gl::GlProgram::Create.
-  static Result<SurfacePrograms> Create(const shadows::ShadowMapOptions& options, bool fades,
-                                        bool hazy, bool textured);
+  struct Permutation {
+    bool fades = false;     ///< The sun stands between two steps, FadingShadowMaps::Fades().
+    bool hazy = false;      ///< The air before the real surfaces counts.
+    bool textured = false;  ///< Some of the objects have textures,
+    bool glossy = false;    ///< and some mirror their surroundings.
+  };
+  /// Errors as gl::GlProgram::Create.
+  static Result<SurfacePrograms> Create(const shadows::ShadowMapOptions& options,
+                                        const Permutation& permutation);
 
-  /// By what may change of the light: ChangingTriangles::Change but for kNothing.
+  /// By what may change of the light: ChangingTriangles::Change but for kNothing; where that is
+  /// steady, without the air.
   std::array<gl::GlProgram, ChangingTriangles::kNothing> phantoms;
+  gl::GlProgram steady_in_haze;        ///< Of kSteadySky, where the air before it counts.
   gl::GlProgram objects;               ///< Where the sun may shine on some of a pixel, and
   gl::GlProgram objects_in_own_shade;  ///< where it does not.
 };

@@ -11,19 +11,21 @@
 
 namespace pleinair::compositor {
 
-/// Writes `texels` into `texture`, whole rows of `width`, which it fills up; into a new one, read
-/// texel by texel, where the rows are more than it has. Errors (system): more rows than a texture
-/// holds, no memory. Needs a current OpenGL context.
+/// Writes `texels` into `texture`, whole rows of `width`, which it fills up, each of them
+/// `texels_each` of the texture's; into a new one, read texel by texel, where the rows are more
+/// than it has. Errors (system): more rows than a texture holds, no memory. Needs a current OpenGL
+/// context.
 template <typename T>
 Result<void> UploadRows(std::vector<T>& texels, int width, GLenum internal_format, GLenum format,
-                        GLenum type, gl::GlTexture* texture) {
+                        GLenum type, gl::GlTexture* texture, int texels_each = 1) {
   const auto row = static_cast<std::size_t>(width);
   const std::size_t rows = std::max<std::size_t>((texels.size() + row - 1) / row, 1);
   const std::size_t had = *texture ? static_cast<std::size_t>(texture->height()) : 0;
   texels.resize(std::max(rows, had) * row);
   if (rows > had) {
     PLEINAIR_ASSIGN_OR_RETURN(
-        *texture, gl::GlTexture::Create2D(internal_format, width, static_cast<int>(rows)));
+        *texture,
+        gl::GlTexture::Create2D(internal_format, texels_each * width, static_cast<int>(rows)));
     texture->SetFilter(GL_NEAREST, GL_NEAREST);
   }
   texture->Upload(format, type, texels.data());

@@ -80,18 +80,24 @@ Result<void> TriangleTable::SetLight(std::span<const LitMesh* const> meshes) {
 
 Result<void> TriangleTable::SetTriangles(std::span<const SortedTriangles> meshes) {
   texels_.clear();
+  steady_ratios_.clear();
   first_ids_.clear();
   for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
     first_ids_.push_back(static_cast<int>(texels_.size()) + 1);
     const std::uint32_t first = first_vertices_[mesh];
-    const auto& [indices, ends] = meshes[mesh];
+    const auto& [indices, ends, steady] = meshes[mesh];
     std::uint32_t kind = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(ends.back()); i += 3) {
       while (i >= static_cast<std::size_t>(ends[kind])) ++kind;
       texels_.push_back({first + indices[i], first + indices[i + 1], first + indices[i + 2],
                          kind | sheets_[first + indices[i]] << kKindBits});
     }
+    if (steady.empty()) continue;
+    steady_ratios_.resize(texels_.size() - steady.size());
+    steady_ratios_.insert(steady_ratios_.end(), steady.begin(), steady.end());
   }
+  PLEINAIR_RETURN_IF_ERROR(UploadRows(steady_ratios_, kSteadyARow, GL_RGBA32F, GL_RGBA, GL_FLOAT,
+                                      &steady_, SteadyRatio::kTexels));
   return UploadRows(texels_, kTrianglesARow, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                     &triangles_);
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "compositor/light_solver.h"
+#include "compositor/steady_ratio.h"
 #include "gl/texture.h"
 
 namespace pleinair::compositor {
@@ -15,6 +16,7 @@ namespace pleinair::compositor {
 struct SortedTriangles {
   std::span<const std::uint32_t> indices;
   std::span<const int> ends;
+  std::span<const SteadyRatio> steady;  ///< Of the last kind that has numbers, or none.
 };
 
 /// Triangles in textures, for shaders that learn from a picture of numbers what each pixel shows
@@ -25,6 +27,7 @@ class TriangleTable {
  public:
   /// How it is laid out: twins of shaders/triangle_layout.glsl.
   static constexpr int kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
+  static constexpr int kSteadyARow = 819;
   static constexpr std::uint32_t kKindBits = 3;  ///< Of a triangle's last number; then its sheet.
 
   TriangleTable() = default;
@@ -45,13 +48,16 @@ class TriangleTable {
   int first_id(std::size_t mesh) const { return first_ids_[mesh]; }
   /// Binds the shaders' table, units 1 and 6, and the values by sheet, unit 7.
   void Bind() const;
+  /// Binds the triangles' steady ratios, unit 1.
+  void BindSteady() const { steady_.Bind(1); }
 
  private:
-  gl::GlTexture triangles_, vertices_, values_;
+  gl::GlTexture triangles_, vertices_, values_, steady_;
   std::vector<std::uint32_t> first_vertices_;         // By mesh.
   std::vector<std::uint32_t> sheets_;                 // By vertex.
   std::vector<int> first_ids_;                        // By mesh.
   std::vector<std::array<std::uint32_t, 4>> texels_;  // Of the triangles.
+  std::vector<SteadyRatio> steady_ratios_;            // By triangle; of some kinds not used.
 };
 
 /// Numbers the pieces of surface that hang together by their triangles' vertices, from `first` on,

@@ -1,11 +1,11 @@
 #version 450 core
 // What the virtual objects change of the real surfaces' light in a pixel, see differential.glsl: the
 // mean over its samples, 1 where an object is in front, each sheet of a surface
-// (changing_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE, SKY_CHANGES, OPEN_SKY_CHANGES or
-// NO_SUN: compositor/changing_triangles.h.
+// (changing_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE or SKY_CHANGES:
+// compositor/changing_triangles.h. Where nothing need be asked of the sun, steady_ratio.frag.
 // HAZE: so far away that the air before the surface counts.
 
-#include "compositor/shaders/aerial_fog.glsl"
+#include "compositor/shaders/air_before_surface.glsl"
 #include "compositor/shaders/differential.glsl"
 #include "compositor/shaders/seen_surface.glsl"
 #ifndef SHADOW_SETS
@@ -18,27 +18,8 @@ uniform vec3 u_to_sun;          // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;  // Linear Rec.709.
 
 layout(location = 0) out vec4 out_ratio;
-layout(location = 1) out vec4 out_color;  // HAZE: added to the picture, covering nothing.
 
 layout(binding = 0) uniform usampler2D u_seen;  // Of changing_pixels.frag.
-layout(binding = 2) uniform sampler2D u_background;        // Codes / 255, row 0 = top.
-layout(binding = 3) uniform sampler2D u_camera_positions;  // Of a render pixel, camera texels.
-layout(binding = 4) uniform sampler2D u_light_of_code;     // 256 texels.
-uniform vec3 u_gain;  // Display-linear value per radiance.
-
-#ifdef HAZE
-uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/aerial_fog.h.
-uniform vec3 u_fog_optical_depth[kFogSplits];
-uniform vec3 u_fog_inscattered[kFogSplits];
-
-vec3 PictureLight() {
-  vec2 at = texelFetch(u_camera_positions, ivec2(gl_FragCoord.xy), 0).xy;
-  ivec3 code = ivec3(texture(u_background, at / vec2(textureSize(u_background, 0))).rgb * 255.0 + 0.5);
-  return vec3(texelFetch(u_light_of_code, ivec2(code.r, 0), 0).r,
-              texelFetch(u_light_of_code, ivec2(code.g, 0), 0).g,
-              texelFetch(u_light_of_code, ivec2(code.b, 0), 0).b);
-}
-#endif
 
 #ifdef SUN_MAY_CHANGE
 #include "compositor/shaders/seen_sunlight.glsl"
@@ -79,27 +60,12 @@ struct Change {
   vec3 haze;  // Display-linear.
 };
 
-Change ChangeOf(SeenSurface surface, int sheet, uint kind) {
-#ifdef HAZE
-  FogAir air = FogUpTo(distance(u_eye_m, surface.position_m), u_fog_split_m, u_fog_optical_depth,
-                       u_fog_inscattered);
-#else
-  FogAir air = FogAir(vec3(1.0), vec3(0.0));
-#endif
-  // Permutations, not tests: Mesa's software renderer runs an `if` whatever its condition.
-#ifdef NO_SUN
-  vec3 sun = vec3(0.0);
-  float visibility_phantoms = 0.0;
-  float visibility_all = 0.0;
-#elif defined(OPEN_SKY_CHANGES)
-  // The pixel's other triangles lie in shade as a whole.
-  vec3 sun = max(dot(surface.normal, u_to_sun), 0.0) * u_sun_normal_lux;
-  float visibility_phantoms = kind == kOpenSky ? 1.0 : 0.0;
-  float visibility_all = visibility_phantoms;
-#else
+Change ChangeOf(SeenSurface surface, int sheet) {
+  FogAir air = AirUpTo(distance(u_eye_m, surface.position_m));
   vec3 sun = max(dot(surface.normal, u_to_sun), 0.0) * u_sun_normal_lux;
   float visibility_phantoms = ShadowVisibility(0, surface.position_m, surface.flat_normal,
                                                surface.step_x, surface.step_y);
+  // Permutations, not tests: Mesa's software renderer runs an `if` whatever its condition.
 #ifdef SUN_MAY_CHANGE
   float visibility_all = ShadowVisibility(1, surface.position_m, surface.flat_normal,
                                           surface.step_x, surface.step_y);
@@ -109,15 +75,10 @@ Change ChangeOf(SeenSurface surface, int sheet, uint kind) {
 #else
   float visibility_all = visibility_phantoms;
 #endif
-#endif
   Change change;
   change.ratio = DifferentialRatio(surface.ambient_with, surface.ambient_without, sun,
                                    visibility_all, visibility_phantoms);
-#ifdef HAZE
-  change.haze = AirBeforeShadow(change.ratio, u_gain * air.light, PictureLight());
-#else
-  change.haze = vec3(0.0);
-#endif
+  change.haze = HazeOver(change.ratio, air);
   return change;
 }
 
@@ -130,7 +91,7 @@ void main() {
     uvec4 triangle = TriangleOf(IdOf(seen.x));
     Change change = ChangeOf(SurfaceSeen(VertexOf(triangle.x), VertexOf(triangle.y),
                                          VertexOf(triangle.z), gl_FragCoord.xy),
-                             int(SheetOf(triangle)), KindOf(triangle));
+                             int(SheetOf(triangle)));
     ratio += count * change.ratio;
     haze += count * change.haze;
     samples += count;
@@ -138,5 +99,5 @@ void main() {
   } while (seen.x != 0u);
   // The others show what does not change, or objects.
   out_ratio = vec4((ratio + (u_samples - samples)) / u_samples, 1.0);
-  out_color = vec4(haze / u_samples, 0.0);
+  DrawHaze(haze / u_samples);
 }

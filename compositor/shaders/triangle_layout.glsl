@@ -5,6 +5,7 @@
 
 const int kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
 const int kTexelsASurface = 5, kSurfacesARow = 819;
+const int kTexelsASteady = 5, kSteadyARow = 819;
 const int kKindBits = 3;
 
 // Texel of a triangle, and of a sheet, from 0 on.
@@ -18,10 +19,15 @@ ivec2 TexelOfSurface(int surface) {
   return ivec2(kTexelsASurface * (surface % kSurfacesARow), surface / kSurfacesARow);
 }
 
-// Of the real surfaces' triangles: ChangingTriangles::Change, two of which are named below. Of the
+// First texel of a triangle's steady ratio (compositor/steady_ratio.h).
+ivec2 TexelOfSteady(int index) {
+  return ivec2(kTexelsASteady * (index % kSteadyARow), index / kSteadyARow);
+}
+
+// Of the real surfaces' triangles: ChangingTriangles::Change, some of which are named below. Of the
 // objects': 0 where the sun may shine, else 1.
 uint KindOf(uvec4 triangle) { return triangle.w & ((1u << kKindBits) - 1u); }
-const uint kOpenSky = 2u, kNothing = 4u;
+const uint kSunlitSky = 1u, kSteadySky = 2u, kNothing = 3u;
 uint SheetOf(uvec4 triangle) { return triangle.w >> kKindBits; }
 
 // In the picture of the samples' numbers: of an object, whose triangles have numbers of their own.

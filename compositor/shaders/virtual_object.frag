@@ -3,7 +3,8 @@
 // (object_pixels.frag) shaded once, and the share of them that it covers. Drawn with NO_SUN where all
 // that a pixel shows is turned away from the sun.
 //
-// TEXTURED: triangle_id.frag read textures.
+// TEXTURED: triangle_id.frag read textures. GLOSSY: some objects mirror their surroundings; a
+// permutation, not a test, since Mesa's software renderer runs an `if` whatever its condition.
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/ggx.glsl"
@@ -25,26 +26,15 @@ uniform vec3 u_fog_optical_depth[kFogSplits];
 uniform vec3 u_fog_inscattered[kFogSplits];
 
 layout(binding = 0) uniform usampler2D u_seen;  // Of object_pixels.frag.
+#ifdef GLOSSY
 layout(binding = 3) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
+#endif
 #ifdef TEXTURED
 #include "compositor/shaders/texel_code.glsl"
 layout(binding = 4) uniform sampler2DMS u_texels;
 #endif
 
 layout(location = 0) out vec4 out_color;
-
-vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
-  vec2 uv = vec2(atan(direction.y, direction.x) / (2.0 * kPi) + 0.5,
-                 acos(clamp(direction.z, -1.0, 1.0)) / kPi);
-  // Repeated around the horizon, but the zenith must not have the nadir's light.
-  float half_row = 0.5 / float(textureSize(u_environment, 0).y);
-  uv.y = clamp(uv.y, half_row, 1.0 - half_row);
-  float level = roughness * float(textureSize(u_environment, 0).z - 1);
-  // Explicit: the next pixel may show another surface, and at ±π the direction jumps.
-  vec3 low = textureLod(u_environment, vec3(uv, floor(level)), 0.0).rgb;
-  vec3 high = textureLod(u_environment, vec3(uv, ceil(level)), 0.0).rgb;
-  return mix(low, high, fract(level));
-}
 
 #ifdef TEXTURED
 // The material times its textures: the mean of the samples that show the piece.
@@ -65,14 +55,49 @@ SurfaceRecord Textured(SurfaceRecord record, vec4 samples) {
 }
 #endif
 
-vec3 ColorOf(SeenSurface surface, SurfaceRecord record) {
+#ifdef GLOSSY
+vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
+  vec2 uv = vec2(atan(direction.y, direction.x) / (2.0 * kPi) + 0.5,
+                 acos(clamp(direction.z, -1.0, 1.0)) / kPi);
+  // Repeated around the horizon, but the zenith must not have the nadir's light.
+  float half_row = 0.5 / float(textureSize(u_environment, 0).y);
+  uv.y = clamp(uv.y, half_row, 1.0 - half_row);
+  float level = roughness * float(textureSize(u_environment, 0).z - 1);
+  // Explicit: the next pixel may show another surface, and at ±π the direction jumps.
+  vec3 low = textureLod(u_environment, vec3(uv, floor(level)), 0.0).rgb;
+  vec3 high = textureLod(u_environment, vec3(uv, ceil(level)), 0.0).rgb;
+  return mix(low, high, fract(level));
+}
+
+// What metals and coats mirror of the sun, `sun` with the surface's cosine in it, and of the rest.
+vec3 MirroredRadiance(SeenSurface surface, SurfaceRecord record, vec3 sun) {
   vec3 normal = surface.normal;
   vec3 to_eye = normalize(u_eye_m - surface.position_m);
+  vec3 f0 = mix(vec3(record.dielectric_f0), record.base_color, record.metallic);
+  float n_dot_v = max(dot(normal, to_eye), 1e-4);
+  vec3 radiance = vec3(0.0);
+#ifndef NO_SUN
+  vec3 half_vector = normalize(to_eye + u_to_sun);
+  float alpha = max(record.roughness * record.roughness, 1e-3);
+  vec3 specular = FresnelSchlick(max(dot(to_eye, half_vector), 0.0), f0) *
+                  (DistributionGgx(max(dot(normal, half_vector), 0.0), alpha) *
+                   VisibilitySmith(n_dot_v, max(dot(normal, u_to_sun), 1e-4), alpha));
+  radiance += specular * sun;
+#endif
+  // Of the sky, phantoms and objects hide as much from the mirrored light as from all that arrives.
+  vec3 open = max(PrefilteredEnvironment(normal, 1.0) * kPi, vec3(1e-6));
+  radiance += EnvironmentBrdf(f0, record.roughness, n_dot_v) *
+              PrefilteredEnvironment(reflect(-to_eye, normal), record.roughness) *
+              clamp(surface.ambient_with / open, 0.0, 2.0);
+  return max(max(f0.r, f0.g), f0.b) > 0.0 ? radiance : vec3(0.0);
+}
+#endif
 
+vec3 ColorOf(SeenSurface surface, SurfaceRecord record) {
 #ifdef NO_SUN
   vec3 sun = vec3(0.0);
 #else
-  float n_dot_l = max(dot(normal, u_to_sun), 0.0);
+  float n_dot_l = max(dot(surface.normal, u_to_sun), 0.0);
   float visibility = ShadowVisibility(1, surface.position_m, surface.flat_normal, surface.step_x,
                                       surface.step_y);
   visibility *= SeenSunlight(surface.position_m);
@@ -82,23 +107,9 @@ vec3 ColorOf(SeenSurface surface, SurfaceRecord record) {
   vec3 diffuse = record.base_color * (1.0 - record.metallic) * record.base_under_coat;
   vec3 radiance = diffuse * (sun + surface.ambient_with) / kPi;
 
-  vec3 f0 = mix(vec3(record.dielectric_f0), record.base_color, record.metallic);
-  if (max(max(f0.r, f0.g), f0.b) > 0.0) {
-    float n_dot_v = max(dot(normal, to_eye), 1e-4);
-#ifndef NO_SUN
-    vec3 half_vector = normalize(to_eye + u_to_sun);
-    float alpha = max(record.roughness * record.roughness, 1e-3);
-    vec3 specular = FresnelSchlick(max(dot(to_eye, half_vector), 0.0), f0) *
-                    (DistributionGgx(max(dot(normal, half_vector), 0.0), alpha) *
-                     VisibilitySmith(n_dot_v, max(n_dot_l, 1e-4), alpha));
-    radiance += specular * sun;
+#ifdef GLOSSY
+  radiance += MirroredRadiance(surface, record, sun);
 #endif
-    // Of the sky, phantoms and objects hide as much from the mirrored light as from all that arrives.
-    vec3 open = max(PrefilteredEnvironment(normal, 1.0) * kPi, vec3(1e-6));
-    radiance += EnvironmentBrdf(f0, record.roughness, n_dot_v) *
-                PrefilteredEnvironment(reflect(-to_eye, normal), record.roughness) *
-                clamp(surface.ambient_with / open, 0.0, 2.0);
-  }
   FogAir air = FogUpTo(distance(u_eye_m, surface.position_m), u_fog_split_m, u_fog_optical_depth,
                        u_fog_inscattered);
   return u_gain * (radiance * air.left + air.light);

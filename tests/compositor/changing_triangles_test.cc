@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -32,13 +33,15 @@ LitMesh Row() {
 // A square of 1 m across a sun overhead, from x = 0.9 m on.
 const SunWindow kWindow{{1.0F, 0.0F, 0.0F, -0.9F}, {0.0F, 1.0F, 0.0F, 0.0F}, 1.0F, {0, 0, 1}};
 
+constexpr glm::vec3 kSun(4000.0F, 3000.0F, 2000.0F);
+
 TEST(ChangingTriangles, AreThoseInTheSunsWindowAndThoseWhoseSkyChanges) {
   LitMesh mesh = Row();
   mesh.ambient_with[3 * 3 + 1][2] = 990.0F;  // A corner of the last, in blue alone.
   mesh.ambient_with[0][0] = 999.0F;          // Less than is seen.
   ChangingTriangles triangles(mesh);
-  triangles.Sort(kWindow);
-  EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 6, 6, 12));
+  triangles.Sort(kWindow, {}, kSun);
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 6, 12));
   EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 9, 10, 11, 0, 1, 2, 6, 7, 8));
 }
 
@@ -47,10 +50,10 @@ TEST(ChangingTriangles, InTheirOwnShadeNeedNoShadowMaps) {
   mesh.ambient_with[4][0] = mesh.ambient_with[10][0] = 900.0F;
   for (auto& normal : mesh.normals) normal = {0.0F, 0.0F, -1.0F};
   ChangingTriangles triangles(mesh);
-  triangles.Sort(kWindow);
-  EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 0, 6, 12));
-  triangles.Sort({});
-  EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 0, 6, 12)) << "without a sun";
+  triangles.Sort(kWindow, {}, kSun);
+  EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 6, 12));
+  triangles.Sort({}, {}, {});
+  EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 6, 12)) << "without a sun";
 }
 
 TEST(ChangingTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun) {
@@ -59,23 +62,42 @@ TEST(ChangingTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun)
   mesh.reached_to_sun = {0.0F, 0.0F, 1.0F};
   mesh.sun_reach = {SunReach::kAll, SunReach::kNone, SunReach::kNone, SunReach::kSome};
   ChangingTriangles triangles(mesh);
-  triangles.Sort(kWindow);
-  EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 9, 12, 12)) << "objects may shade the second";
+  triangles.Sort(kWindow, {}, kSun);
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 12, 12)) << "objects may shade the second";
   EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 9, 10, 11, 0, 1, 2, 6, 7, 8));
   SunWindow later = kWindow;
   later.to_sun = {0.0F, 0.004F, 1.0F};
-  triangles.Sort(later);
-  EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12, 12)) << "the sun has moved on";
+  triangles.Sort(later, {}, kSun);
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12)) << "the sun has moved on";
   mesh.sun_reach.clear();
   triangles.SetLight(mesh);
-  triangles.Sort(kWindow);
-  EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12, 12)) << "not known of another light";
+  triangles.Sort(kWindow, {}, kSun);
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12)) << "not known of another light";
+}
+
+TEST(ChangingTriangles, KnowTheRatioWherePhantomsLeaveAllOfTheSunOrNone) {
+  LitMesh mesh = Row();
+  for (auto& light : mesh.ambient_with) light = {900.0F, 800.0F, 700.0F};
+  mesh.reached_to_sun = {0.0F, 0.0F, 1.0F};
+  mesh.sun_reach = {SunReach::kAll, SunReach::kNone, SunReach::kNone, SunReach::kSome};
+  ChangingTriangles triangles(mesh);
+  triangles.Sort(kWindow, {}, kSun);
+  ASSERT_EQ(triangles.steady().size(), 2U) << "the first and the third";
+  const auto& [lit, shaded] = std::pair(triangles.steady()[0], triangles.steady()[1]);
+  EXPECT_NEAR(lit.channels[0].w, 4900.0 / 5000.0, 1e-6);
+  EXPECT_NEAR(lit.channels[1].w, 3800.0 / 4000.0, 1e-6);
+  EXPECT_NEAR(lit.channels[2].w, 2700.0 / 3000.0, 1e-6);
+  EXPECT_NEAR(shaded.channels[0].w, 0.9, 1e-6);
+  EXPECT_NEAR(shaded.channels[2].w, 0.7, 1e-6);
+  // Three tenths, seen from the corner at (2.5, 0) four metres below it, and the other two nearer.
+  EXPECT_NEAR(triangles.MostSteadyChangeFarFrom({2.0F, 0.0F, -4.0F}), 0.3 * std::hypot(0.5, 4.0),
+              1e-5);
 }
 
 TEST(ChangingTriangles, AreAllThatTheSunReachesWhereItsWindowIsUnknown) {
   ChangingTriangles triangles(Row());
-  triangles.Sort(SunWindow::Everywhere({0, 0, 1}));
-  EXPECT_THAT(triangles.ends(), ElementsAre(12, 12, 12, 12, 12));
+  triangles.Sort(SunWindow::Everywhere({0, 0, 1}), {}, kSun);
+  EXPECT_THAT(triangles.ends(), ElementsAre(12, 12, 12, 12));
 }
 
 TEST(ChangingTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {
@@ -85,7 +107,7 @@ TEST(ChangingTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {
     window.reach_m = reach_m;
     SunFootprint objects(window);
     objects.Include(low, high);
-    triangles.Sort(window, objects);
+    triangles.Sort(window, objects, kSun);
     return triangles.ends()[ChangingTriangles::kSun] / 3;
   };
   // The second triangle alone is in the window: from 0.1 to 0.6 of its side, up to 0.5 across.

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -63,33 +66,78 @@ TEST(Composer, DrawsAFurtherLightAsIfItWereTheFirst) {
   EXPECT_EQ(light(composer->get(), sunny), in_sun);
 }
 
-TEST(Composer, DrawsTheSameWhereItKnowsWhatPhantomsLeaveOfTheSun) {
-  // A wall's shadow runs over the ground beside the cube's.
-  const PlacedModel wall = Place(MakeBox({-0.9, -0.5, 0}, {-0.4, -0.45, 0.6}, 0.5F), true);
-  const std::vector<PlacedModel> scene{kGround, wall, kCube};
-  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
-  const auto composer = Composer::Create(kCamera, scene, {});
-  ASSERT_TRUE(solver.has_value() && composer.has_value());
-  (*composer)->LookForShade(false);
-  const SouthernSun day;
-  const auto compose = [&](const std::vector<LitMesh>& lit) {
-    EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}, {}));
-    auto composed =
-        (*composer)->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
-    EXPECT_TRUE(composed.has_value());
-    return *std::move(composed);
+/// A wall's shadow runs over the ground beside the cube's.
+class SunReachOfWallTest : public ::testing::Test {
+ protected:
+  struct Pictures {
+    RgbImage known, looked_up, misled;
   };
-  std::vector<LitMesh> lit = (*solver)->Solve(day, Mat3{});
-  const RgbImage known = compose(lit);
-  for (LitMesh& mesh : lit) mesh.sun_reach.clear();
-  const RgbImage looked_up = compose(lit);
-  int changed = 0, most = 0;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    most = std::max(most, std::abs(known.data()[i] - looked_up.data()[i]));
-    changed += looked_up.data()[i] < 200 ? 1 : 0;
+
+  /// Composed with what the light says of the sun's reach, without, and with no sun said to reach
+  /// what all of it reaches.
+  Pictures Compose(const sky::SkyModel& day) {
+    const auto solver = LightSolver::Create(scene_, {.rays_per_vertex = 64});
+    const auto composer = Composer::Create(kCamera, scene_, {});
+    EXPECT_TRUE(solver.has_value() && composer.has_value());
+    (*composer)->LookForShade(false);
+    const auto compose = [&](const std::vector<LitMesh>& lit) {
+      EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}, {}));
+      auto composed =
+          (*composer)->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+      EXPECT_TRUE(composed.has_value());
+      return *std::move(composed);
+    };
+    std::vector<LitMesh> lit = (*solver)->Solve(day, Mat3{});
+    Pictures pictures;
+    pictures.known = compose(lit);
+    for (LitMesh& mesh : lit) {
+      for (SunReach& reach : mesh.sun_reach) {
+        if (reach == SunReach::kAll) reach = SunReach::kNone;
+      }
+    }
+    pictures.misled = compose(lit);
+    for (LitMesh& mesh : lit) mesh.sun_reach.clear();
+    pictures.looked_up = compose(lit);
+    return pictures;
   }
+
+  static int MostDifference(const RgbImage& a, const RgbImage& b) {
+    int most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      most = std::max(most, std::abs(a.data()[i] - b.data()[i]));
+    }
+    return most;
+  }
+
+  const PlacedModel wall_ = Place(MakeBox({-0.9, -0.5, 0}, {-0.4, -0.45, 0.6}, 0.5F), true);
+  const std::vector<PlacedModel> scene_{kGround, wall_, kCube};
+};
+
+TEST_F(SunReachOfWallTest, IsDrawnAsShadowMapsWouldHaveIt) {
+  const Pictures pictures = Compose(SouthernSun());
+  const auto changed =
+      std::count_if(pictures.known.data(), pictures.known.data() + pictures.known.size(),
+                    [](std::uint8_t code) { return code < 200; });
   EXPECT_GT(changed, 10'000) << "the sky's light changes far around the cube";
-  EXPECT_LE(most, 2) << "but for the wall's half-light";
+  EXPECT_LE(MostDifference(pictures.known, pictures.looked_up), 2) << "but for half-light";
+  EXPECT_GT(MostDifference(pictures.misled, pictures.looked_up), 5) << "it is what is drawn";
+}
+
+/// The same light in air so thick that half of what is three metres away is seen.
+class SouthernSunInHaze : public SouthernSun {
+ public:
+  AirBetween AirTo(Direction<World>, Metres distance) const override {
+    const double left = std::exp2(-distance.value() / 3.0);
+    return {{left, left, left}, LinearRgb{1.0, 1.0, 1.0} * (6000.0 * (1.0 - left))};
+  }
+};
+
+TEST_F(SunReachOfWallTest, IsDrawnAsShadowMapsWouldHaveItInHaze) {
+  const Pictures pictures = Compose(SouthernSunInHaze());
+  EXPECT_LE(MostDifference(pictures.known, pictures.looked_up), 2);
+  EXPECT_GT(MostDifference(pictures.misled, pictures.looked_up), 3);
+  EXPECT_GT(MostDifference(pictures.known, Compose(SouthernSun()).known), 3)
+      << "haze lies before all of it";
 }
 
 TEST(Composer, MovesTheShadowOfAModelThatTurnsWithinItsBox) {

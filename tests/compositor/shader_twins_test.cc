@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/srgb.h"
 #include "compositor/aerial_fog.h"
 #include "compositor/ratio_pass.h"
+#include "compositor/steady_ratio.h"
 #include "compositor/surface_records.h"
 #include "compositor/triangle_table.h"
 #include "gl/glsl_as_cpp.h"
@@ -18,6 +20,7 @@ using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 #include "compositor/shaders/differential.glsl"
 #include "compositor/shaders/plane_hit.glsl"
 #include "compositor/shaders/srgb_transfer.glsl"
+#include "compositor/shaders/steady_ratio.glsl"
 #include "compositor/shaders/texel_code.glsl"
 #include "compositor/shaders/triangle_layout.glsl"
 }  // namespace glsl
@@ -39,6 +42,22 @@ class EvenAir : public sky::SkyModel {
   }
   static constexpr double kRed = 0.0008, kGreen = 0.001, kBlue = 0.0015, kAirlight = 5000.0;
 };
+
+TEST(AerialFog, AddsNoMoreLightAMetreThanItSays) {
+  const FogSplits fog = AerialFog(EvenAir(), Mat3{})
+                            .Along({0, 1, 0}, std::vector<double>{2.0, 60.0, 250.0, 1500.0},
+                                   std::vector<double>{1.0, 3.0, 0.5});
+  const glm::vec3 most = fog.MostLightPerMetre();
+  EXPECT_LT(most.g, 4.0 * EvenAir::kGreen * EvenAir::kAirlight) << "nor much less";
+  glm::vec3 before(0.0F);
+  for (int metre = 1; metre <= 1600; ++metre) {
+    const glm::vec3 light = glsl::FogUpTo(static_cast<float>(metre), fog.distance_m.data(),
+                                          fog.optical_depth.data(), fog.inscattered.data())
+                                .light;
+    for (int c = 0; c < 3; ++c) EXPECT_LE(light[c] - before[c], 1.001F * most[c]) << metre;
+    before = light;
+  }
+}
 
 glm::vec3 Through(const FogSplits& fog, float distance_m) {
   const glsl::FogAir air = glsl::FogUpTo(distance_m, fog.distance_m.data(),
@@ -145,6 +164,63 @@ TEST(DifferentialRatio, NeverDarkensARealShadowTwiceNorLightensIt) {
   EXPECT_EQ(glsl::DifferentialRatio(ambient, ambient, sun, 1.0F, 0.3F), glm::vec3(1.0F));
 }
 
+TEST(SteadyRatio, IsTheDifferentialRatioWhereObjectsTakeNothingOfTheSun) {
+  const glm::vec3 with(900.0F, 800.0F, 700.0F), without(1000.0F, 1100.0F, 1200.0F),
+      sun(3000.0F, 2000.0F, 1000.0F);
+  for (const float visibility : {0.0F, 1.0F}) {
+    const glm::vec3 ratio = glsl::DifferentialRatio(with, without, sun, visibility, visibility);
+    EXPECT_LT(glm::distance(SteadyRatio::Between(with, without, visibility * sun), ratio), 1e-6F);
+  }
+}
+
+glm::vec3 SteadySeen(const SteadyRatio& steady, const glm::vec3& eye_m, const glm::vec3& ray) {
+  return glsl::SteadyAlong(eye_m, ray, steady.plane, steady.channels[0], steady.channels[1],
+                           steady.channels[2], steady.range)
+      .ratio;
+}
+
+TEST(SteadyRatio, IsLinearOverATriangleWhereverItLies) {
+  const std::array<glm::vec3, 3> ratios{glm::vec3(0.5F, 0.6F, 0.7F), glm::vec3(0.9F, 0.8F, 1.0F),
+                                        glm::vec3(1.1F, 0.95F, 0.75F)};
+  // A hand's breadth, far from the origin and tilted, and a long way off.
+  for (const glm::vec3& at : {glm::vec3(0.0F), glm::vec3(30.0F, -20.0F, 5.0F)}) {
+    const std::array<glm::vec3, 3> corners{at, at + glm::vec3(0.1F, 0.02F, 0.01F),
+                                           at + glm::vec3(-0.01F, 0.08F, 0.05F)};
+    const SteadyRatio steady = SteadyRatio::Of(corners, ratios);
+    const glm::vec3 eye_m = at + glm::vec3(0.5F, -1.0F, 1.5F);
+    for (const glm::vec3& share : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1),
+                                   glm::vec3(0.2F, 0.5F, 0.3F)}) {
+      const glm::vec3 place = corners[0] * share.x + corners[1] * share.y + corners[2] * share.z;
+      const glm::vec3 ratio = ratios[0] * share.x + ratios[1] * share.y + ratios[2] * share.z;
+      EXPECT_LT(glm::distance(SteadySeen(steady, eye_m, 3.0F * (place - eye_m)), ratio), 1e-3F);
+      const glsl::SteadyPlace seen =
+          glsl::SteadyAlong(eye_m, place - eye_m, steady.plane, steady.channels[0],
+                            steady.channels[1], steady.channels[2], steady.range);
+      EXPECT_LT(glm::distance(seen.position_m, place), 1e-4F);
+    }
+  }
+}
+
+TEST(SteadyRatio, KeepsWithinItsCornersBesideTheTriangle) {
+  const std::array<glm::vec3, 3> corners{glm::vec3(0.0F), glm::vec3(0.1F, 0.0F, 0.0F),
+                                         glm::vec3(0.0F, 0.1F, 0.0F)};
+  const std::array<glm::vec3, 3> ratios{glm::vec3(0.5F), glm::vec3(0.9F), glm::vec3(0.7F)};
+  const SteadyRatio steady = SteadyRatio::Of(corners, ratios);
+  const glm::vec3 eye_m(0.0F, 0.0F, 1.0F);
+  // Beside it, along its plane, away from it, and straight up.
+  for (const glm::vec3& ray : {glm::vec3(5.0F, 0.0F, -1.0F), glm::vec3(1.0F, 0.0F, 0.0F),
+                               glm::vec3(-1.0F, 0.0F, 1e-9F), glm::vec3(0.0F, 0.0F, 1.0F)}) {
+    const glm::vec3 seen = SteadySeen(steady, eye_m, ray);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GE(seen[c], 0.5F);
+      EXPECT_LE(seen[c], 0.9F);
+    }
+  }
+  // Three corners on a line.
+  const SteadyRatio thin = SteadyRatio::Of({corners[0], corners[1], 2.0F * corners[1]}, ratios);
+  EXPECT_NEAR(SteadySeen(thin, eye_m, {0.0F, 0.0F, -1.0F}).x, 0.7F, 1e-6F);
+}
+
 TEST(TexelCode, KeepsRoughnessAndMetallicApart) {
   for (int i = 0; i <= 127; ++i) {
     for (int k = 0; k <= 15; ++k) {
@@ -163,13 +239,16 @@ TEST(TriangleLayout, IsReadAsItIsWritten) {
   EXPECT_EQ(glsl::kVerticesARow, TriangleTable::kVerticesARow);
   EXPECT_EQ(glsl::kTexelsAVertex, TriangleTable::kTexelsAVertex);
   EXPECT_EQ(glsl::kKindBits, static_cast<int>(TriangleTable::kKindBits));
-  EXPECT_EQ(glsl::kOpenSky, static_cast<unsigned>(ChangingTriangles::kOpenSky));
+  EXPECT_EQ(glsl::kSunlitSky, static_cast<unsigned>(ChangingTriangles::kSunlitSky));
+  EXPECT_EQ(glsl::kSteadySky, static_cast<unsigned>(ChangingTriangles::kSteadySky));
   EXPECT_EQ(glsl::kNothing, static_cast<unsigned>(ChangingTriangles::kNothing));
   EXPECT_EQ(glsl::kTexelsASurface, SurfaceRecords::kTexelsASurface);
   EXPECT_EQ(glsl::kSurfacesARow, SurfaceRecords::kSurfacesARow);
-  for (const auto change :
-       {ChangingTriangles::kSun, ChangingTriangles::kSunlitSky, ChangingTriangles::kOpenSky,
-        ChangingTriangles::kSky, ChangingTriangles::kNothing}) {
+  EXPECT_EQ(glsl::kTexelsASteady, SteadyRatio::kTexels);
+  EXPECT_EQ(sizeof(SteadyRatio), SteadyRatio::kTexels * 4 * sizeof(float));
+  EXPECT_EQ(glsl::kSteadyARow, TriangleTable::kSteadyARow);
+  for (const auto change : {ChangingTriangles::kSun, ChangingTriangles::kSunlitSky,
+                            ChangingTriangles::kSteadySky, ChangingTriangles::kNothing}) {
     const glm::uvec4 triangle(0, 0, 0, change | 12345U << TriangleTable::kKindBits);
     EXPECT_EQ(glsl::KindOf(triangle), static_cast<unsigned>(change));
     EXPECT_EQ(glsl::SheetOf(triangle), 12345U);

@@ -65,8 +65,36 @@ TEST(SunReach, IsNotKnownOfALightByCoefficients) {
   ASSERT_TRUE(solver) << solver.error().Message();
   const UniformDay day({1000, 1000, 1000}, {60e3, 60e3, 60e3}, {0, -1, 1});
   const DaylightCoefficients coefficients = (*solver)->Coefficients({0, 0, 1}, {}, {});
-  for (const LitMesh& mesh : (*solver)->Relight(coefficients, day, Mat3{})) {
+  const std::vector<LitMesh> lit = (*solver)->Relight(coefficients, day, Mat3{});
+  ASSERT_FALSE(lit.empty());
+  for (const LitMesh& mesh : lit) {
     EXPECT_TRUE(mesh.sun_reach.empty()) << "rays would take longer than the light";
+  }
+}
+
+TEST(SunReach, IsNotAskedUnderAnOvercastSky) {
+  const auto solver =
+      LightSolver::Create({Phantom(Ground(1.0, {0.3F, 0.3F, 0.3F}))}, {.rays_per_vertex = 16});
+  ASSERT_TRUE(solver) << solver.error().Message();
+  const std::vector<LitMesh> lit =
+      (*solver)->Solve(UniformDay({1000, 1000, 1000}, {0, 0, 0}, {0, -1, 1}), Mat3{});
+  ASSERT_FALSE(lit.empty());
+  for (const LitMesh& mesh : lit) EXPECT_TRUE(mesh.sun_reach.empty());
+}
+
+TEST(SunReach, SeesAStripOfShadeAQuarterOfATriangleWideWhereverItFalls) {
+  LitMesh triangle;
+  triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  triangle.normals.assign(3, {0, 0, 1});
+  triangle.indices = {0, 1, 2};
+  // Along the edge opposite to the second corner, under a sun overhead.
+  for (const float from : {0.02F, 0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F, 0.7F, 0.74F}) {
+    const float to = from + 0.24F;
+    const RayMesh strip{
+        {{from, -1, 1}, {to, -1, 1}, {to, 2, 1}, {from, 2, 1}}, {0, 1, 2, 0, 2, 3}, true};
+    const auto rays = RayScene::Create({strip}, "strip");
+    ASSERT_TRUE(rays) << rays.error().Message();
+    EXPECT_EQ(FindSunReach(**rays, triangle, {0, 0, 1}, 1)[0], SunReach::kSome) << from;
   }
 }
 

@@ -59,7 +59,8 @@ TEST_F(TriangleTableTest, NumbersTheTrianglesOfAllMeshesUpToTheirLastEnds) {
   // Another order; of the first mesh's four the last has no number.
   const std::vector<std::uint32_t> order{3, 4, 5, 0, 1, 2, 6, 7, 8, 9, 10, 11};
   const std::array<int, 3> first_ends{3, 3, 9}, second_ends{0, 6, 6};
-  const std::vector<SortedTriangles> sorted{{order, first_ends}, {second.indices, second_ends}};
+  const std::vector<SortedTriangles> sorted{{order, first_ends, {}},
+                                            {second.indices, second_ends, {}}};
   ASSERT_TRUE(table->SetTriangles(sorted));
   EXPECT_EQ(table->first_id(0), 1);
   EXPECT_EQ(table->first_id(1), 4);
@@ -85,6 +86,35 @@ TEST_F(TriangleTableTest, NumbersTheTrianglesOfAllMeshesUpToTheirLastEnds) {
   EXPECT_THAT(values, ElementsAre(0.25F, 0.25F, 0.25F, 0.25F, 0.5F, 0.5F));
 }
 
+TEST_F(TriangleTableTest, KeepsSteadyRatiosByTheNumbersOfTheirTriangles) {
+  const LitMesh first = Loose(4), second = Loose(3);
+  const std::vector<const LitMesh*> meshes{&first, &second};
+  auto table = TriangleTable::Create(meshes, std::vector<float>{0.25F, 0.5F});
+  ASSERT_TRUE(table.has_value()) << table.error().Message();
+  const auto steady = [](float mark) {
+    SteadyRatio ratio{};
+    ratio.plane.w = mark;
+    ratio.range.x = -mark;
+    return ratio;
+  };
+  const std::vector<SteadyRatio> of_first{steady(3.0F), steady(4.0F)}, of_second{steady(7.0F)};
+  const std::array<int, 2> first_ends{6, 12}, second_ends{6, 9};
+  const std::vector<SortedTriangles> sorted{{first.indices, first_ends, of_first},
+                                            {second.indices, second_ends, of_second}};
+  ASSERT_TRUE(table->SetTriangles(sorted));
+  table->BindSteady();
+  glActiveTexture(GL_TEXTURE1);
+  GLint texture = 0;
+  glGetIntegerv(GL_TEXTURE_BINDING_2D, &texture);
+  std::vector<SteadyRatio> bound(TriangleTable::kSteadyARow);
+  glGetTextureImage(static_cast<GLuint>(texture), 0, GL_RGBA, GL_FLOAT,
+                    static_cast<GLsizei>(bound.size() * sizeof bound[0]), bound.data());
+  for (const std::size_t id : {3U, 4U, 7U}) {
+    EXPECT_EQ(bound[id - 1].plane.w, static_cast<float>(id));
+    EXPECT_EQ(bound[id - 1].range.x, -static_cast<float>(id));
+  }
+}
+
 TEST_F(TriangleTableTest, GrowsWhereMoreTrianglesChangeAndKeepsItsMemoryWhereFewerDo) {
   constexpr int kAll = 3 * (TriangleTable::kTrianglesARow + 10);
   const LitMesh mesh = Loose(kAll / 3);
@@ -93,7 +123,7 @@ TEST_F(TriangleTableTest, GrowsWhereMoreTrianglesChangeAndKeepsItsMemoryWhereFew
   std::vector<Triangles> seen;
   for (const int end : {0, 3, kAll, 6, kAll}) {
     const std::array<int, 1> ends{end};
-    ASSERT_TRUE(table->SetTriangles(std::vector<SortedTriangles>{{mesh.indices, ends}}));
+    ASSERT_TRUE(table->SetTriangles(std::vector<SortedTriangles>{{mesh.indices, ends, {}}}));
     seen.push_back(Bound(*table));
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(end) / 3; ++i) {
       ASSERT_THAT(seen.back().texels[i],
