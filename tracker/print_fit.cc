@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace pleinair::tracker {
 namespace {
@@ -29,21 +30,28 @@ constexpr int kBlock_px = 8;
 
 }  // namespace
 
-PrintFit::NormalEquations PrintFit::Evaluate(const PrintState& state,
-                                             BlockGradients* blocks) const {
+void PrintFit::Predict(const PrintState& state, std::vector<Predicted>* predicted) const {
+  predicted->clear();
+  predicted->reserve(pixels_.size());
+  const PrintPrediction predict(pattern_, state);
+  for (const PrintPixel& pixel : pixels_) predicted->push_back(predict(pixel));
+}
+
+PrintFit::NormalEquations PrintFit::EquationsOf(const std::vector<Predicted>& predictions,
+                                                const PrintState& state,
+                                                BlockGradients* blocks) const {
   NormalEquations equations;
   const int parameters = kFirstLevel + static_cast<int>(state.levels.size());
   equations.hessian = Eigen::MatrixXd::Zero(parameters, parameters);
   equations.gradient = Eigen::VectorXd::Zero(parameters);
   equations.residuals.reserve(pixels_.size());
-  const PrintPrediction predict(pattern_, state);
   constexpr int kTouched = kFirstLevel + 8;
   std::array<double, kTouched> jacobian{};
   std::array<int, kTouched> index{};  // Ascending.
   for (int i = 0; i < kFirstLevel; ++i) index[i] = i;
   for (std::size_t n = 0; n < pixels_.size(); ++n) {
     const PrintPixel& pixel = pixels_[n];
-    const Predicted predicted = predict(pixel);
+    const Predicted& predicted = predictions[n];
     const Coverage& coverage = predicted.coverage;
     const double residual = predicted.residual;
     const double by_coverage = predicted.slope * predicted.contrast;
@@ -147,7 +155,7 @@ bool PrintFit::Run(const PrintState& start) {
     if (!Optimize(std::move(coarse))) return false;
   }
   if (!Optimize(all_pixels_)) return false;
-  fitted_ = Evaluate(state_, &blocks_);
+  fitted_ = EquationsOf(predicted_, state_, &blocks_);
   return true;
 }
 
@@ -156,10 +164,11 @@ bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
   variance_.assign(pixels_.size(), 1.0);
   double damping = 1e-3;
   // The noise falls as the fit gets better; it is held while steps are compared.
-  NormalEquations equations = Evaluate(state_, nullptr);
+  Predict(state_, &predicted_);
+  NormalEquations equations = EquationsOf(predicted_, state_, nullptr);
   PrintNoise noise = EstimatePrintNoise(equations.residuals);
   SetNoise({std::max(4.0, 1.5 * noise.flat_codes), 1.5 * noise.edge_share}, equations);
-  equations = Evaluate(state_, nullptr);
+  equations = EquationsOf(predicted_, state_, nullptr);
   int since_noise = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     Eigen::MatrixXd damped = equations.hessian;
@@ -168,11 +177,13 @@ bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
     const Eigen::VectorXd step = damped.ldlt().solve(-equations.gradient);
     if (!step.allFinite()) return false;
     const PrintState candidate = Moved(state_, step);
-    NormalEquations next = Evaluate(candidate, nullptr);
+    Predict(candidate, &next_predicted_);
+    NormalEquations next = EquationsOf(next_predicted_, candidate, nullptr);
     const bool better = next.cost < equations.cost;
     const double moved_px = step.head(kHomographyParameters).cwiseAbs().maxCoeff() * side_px_ / 2.0;
     if (better) {
       state_ = candidate;
+      std::swap(predicted_, next_predicted_);
       equations = std::move(next);
       damping = std::max(1e-7, damping * 0.2);
       ++since_noise;
@@ -189,7 +200,7 @@ bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
       const double now = std::hypot(noise.flat_codes, 255.0 * noise.edge_share);
       if (now > 0.98 * before && moved_px < 1e-3) break;
       SetNoise(noise, equations);
-      equations = Evaluate(state_, nullptr);
+      equations = EquationsOf(predicted_, state_, nullptr);
     }
   }
   return true;

@@ -47,7 +47,11 @@ class PrintFit {
 
   bool Optimize(std::vector<PrintPixel> pixels);
   void SetNoise(const PrintNoise& noise, const NormalEquations& equations);
-  NormalEquations Evaluate(const PrintState& state, BlockGradients* blocks) const;
+  /// Of all pixels_; most of the work.
+  void Predict(const PrintState& state, std::vector<Predicted>* predicted) const;
+  /// Of `predictions` from `state`, under variance_.
+  NormalEquations EquationsOf(const std::vector<Predicted>& predictions, const PrintState& state,
+                              BlockGradients* blocks) const;
   void AddPriors(const PrintState& state, NormalEquations* equations) const;
   static PrintState Moved(const PrintState& state, const Eigen::VectorXd& step);
   static double CorrelationFactor(const BlockGradients& blocks, const Eigen::MatrixXd& covariance);
@@ -58,6 +62,8 @@ class PrintFit {
   std::vector<PrintPixel> pixels_;  ///< Those that are fitted now.
   std::vector<double> variance_;    ///< … and the variance that each of them has.
   PrintState state_;
+  std::vector<Predicted> predicted_;       ///< Of pixels_ from state_,
+  std::vector<Predicted> next_predicted_;  ///< … and from the state that is tried.
   PrintNoise noise_;
   NormalEquations fitted_;  ///< At the best state, with all pixels,
   BlockGradients blocks_;   ///< … and what blocks of pixels add to them.

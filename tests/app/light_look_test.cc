@@ -253,6 +253,20 @@ TEST(LightLook, DoubtsNoSunThatIsGiven) {
   EXPECT_EQ(found.skies.sunlight, nullptr);
 }
 
+TEST(LightLook, SettlesANightWhoseRatioIsGiven) {
+  // A lamp lights the yard, say, and no ratio makes a sun of one below the horizon.
+  const PhotographedYard::Light lamp{.sun_scale = 0.0};
+  for (const double ratio : {0.0, 2.0}) {
+    const FoundLight found = Settle(0.0, lamp, SunToSkyOf(ratio), "2025-09-14T23:00:00Z");
+    EXPECT_EQ(found.skies.sunlight, nullptr);
+    EXPECT_EQ(found.skies.print_shade, (LinearRgb{1, 1, 1}));
+    if (found.skies.source == nullptr) continue;
+    const auto sky = found.skies.source->ForSun({{0.8, 0.0, -0.6}}, 1.0);
+    EXPECT_EQ(sky->SunNormalIrradiance().g, 0.0);
+    EXPECT_TRUE(std::isfinite(sky->SkyHorizontalIrradiance().g));
+  }
+}
+
 TEST(LightLook, BelievesTheWordsAloneWhereTheSunStandsElsewhere) {
   const FoundLight found = Settle(60.0, {});
   EXPECT_TRUE(found.measured.sun_doubtful);

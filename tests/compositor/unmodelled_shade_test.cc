@@ -255,6 +255,29 @@ TEST_F(ShadowLight, TakesADarkMatBeneathThePrintForNoShade) {
   EXPECT_FALSE(shade.ShadesPrint());
 }
 
+TEST_F(ShadowLight, TakesAPatternBesideThePrintForNoShadeUnderAFaintSun) {
+  // A shadow is no deeper than paving that is a fifth darker around the print.
+  constexpr double kFaint = 0.08;
+  const ScaledDaylight faint(yard_->model(), {1, 1, 1}, {kFaint, kFaint, kFaint});
+  const auto darker = [](Vec3 p) {
+    const double beside = std::max(std::fabs(p.x), std::fabs(p.y));
+    return beside > 0.125 && beside < 0.4 && p.z < 0.02 ? 0.82 : 1.0;
+  };
+  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print());
+  for (const int i : {0, 1}) {
+    samples.AddFrame(
+        yard_->Photograph(i, {.sun_scale = kFaint, .colours_as_stated = true, .brighter = darker})
+            .view(),
+        PhotographedYard::Pose(i), LinearRgb{1, 1, 1} * PhotographedYard::kGain);
+  }
+  const LightMeter meter(kPrint, yard_->solver(), faint, Mat3{});
+  const UnmodelledShade shade =
+      FindUnmodelledShade(yard_->solver(), samples, meter, faint, Mat3{}, {1, 1, 1});
+  ASSERT_TRUE(shade.Matters());
+  EXPECT_FALSE(shade.shown_beside_print);
+  EXPECT_FALSE(shade.ShadesPrint());
+}
+
 TEST(UnmodelledShade, TellsHowMuchDarkerThanTheSunAPrintOnAWallIs) {
   // The paving is a wall, what stands on it an awning; under a sky as bright as the sun's light,
   // of which a wall sees half.
