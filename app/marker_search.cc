@@ -9,6 +9,7 @@
 #include "app/print_measurer.h"
 #include "app/progress_bar.h"
 #include "app/sinks/detections_writer.h"
+#include "compositor/parallel_for.h"
 
 namespace pleinair::app {
 namespace {
@@ -16,10 +17,10 @@ namespace {
 // Frames whose prints are measured at once: enough for all processors, few enough for memory.
 constexpr std::size_t kMeasuredTogether = 8;
 
-/// A frame between tracking and measuring.
+/// A frame between finding markers and measuring them.
 struct TrackedFrame {
   devices::Frame frame;
-  std::vector<tracker::Sighting> sightings;
+  tracker::UnmeasuredMarkers markers;
   std::vector<tracker::LostMarker> lost;
 };
 
@@ -36,16 +37,20 @@ Result<void> CheckMoment(const MarkerSearch& search, const devices::Frame& frame
 }
 
 /// Measures tracked frames and keeps what is found.
-Result<void> TakeTracked(const MarkerSearch& search, const std::vector<TrackedFrame>& tracked,
-                         PrintMeasurer& measurer, DetectionsWriter& detections, StageTimes* times,
-                         FoundMarkers* found) {
+Result<void> TakeTracked(const MarkerSearch& search, std::vector<TrackedFrame> tracked,
+                         tracker::Tracker& tracker, PrintMeasurer& measurer,
+                         DetectionsWriter& detections, StageTimes* times, FoundMarkers* found) {
   std::vector<PrintMeasurer::Seen> seen;
   seen.reserve(tracked.size());
-  for (const TrackedFrame& frame : tracked) {
-    seen.push_back({frame.frame.grey.view(), frame.sightings});
-  }
   StageTimes together;
   together.Measure("measure", [&] {
+    compositor::ParallelFor(tracked.size(), 0, [&](std::size_t i) {
+      tracker.Align(tracked[i].frame.grey.view(), &tracked[i].markers);
+    });
+    for (TrackedFrame& frame : tracked) {
+      const ImageView<const std::uint8_t> grey = frame.frame.grey.view();
+      seen.push_back({grey, tracker.Conclude(grey, std::move(frame.markers))});
+    }
     measurer.Measure(seen);
     return 0;
   });
@@ -72,8 +77,8 @@ Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording 
   ProgressBar bar("Finding markers", frames.FrameCount());
   std::vector<TrackedFrame> tracked;
   StageTimes measuring_times;  // Of the thread that measures, as long as it does.
-  // Measuring takes all processors, tracking one: while some frames are measured the next are
-  // tracked. It has the session and the messages of what is found to itself. Last: it uses the
+  // Measuring takes all processors, finding one: while some frames are measured the next are
+  // searched. It has the session and the messages of what is found to itself. Last: it uses the
   // others.
   std::future<Result<void>> measuring;
   const auto finish_measuring = [&]() -> Result<void> {
@@ -85,19 +90,20 @@ Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording 
     more = frame.has_value();
     if (more) {
       PLEINAIR_RETURN_IF_ERROR(CheckMoment(search, *frame));
-      PLEINAIR_ASSIGN_OR_RETURN(auto sightings, times->Measure("track", [&] {
-        return tracker.Track(frame->grey.view());
-      }));
+      PLEINAIR_ASSIGN_OR_RETURN(
+          auto markers, times->Measure("track", [&] { return tracker.Find(frame->grey.view()); }));
       found.warnings.Add(frame->index, tracker.Warnings());
       found.lost_frames += frame->lost_before;
-      tracked.push_back({*std::move(frame), std::move(sightings), tracker.Lost()});
+      tracked.push_back({*std::move(frame), std::move(markers), tracker.Lost()});
     }
     if (more && tracked.size() < kMeasuredTogether) continue;
     PLEINAIR_RETURN_IF_ERROR(finish_measuring());
     for (std::size_t i = 0; i < tracked.size(); ++i) bar.Advance();
-    measuring = std::async(std::launch::async, [&, together = std::exchange(tracked, {})] {
-      return TakeTracked(search, together, measurer, detections, &measuring_times, &found);
-    });
+    measuring =
+        std::async(std::launch::async, [&, together = std::exchange(tracked, {})]() mutable {
+          return TakeTracked(search, std::move(together), tracker, measurer, detections,
+                             &measuring_times, &found);
+        });
   }
   PLEINAIR_RETURN_IF_ERROR(finish_measuring());
   times->Add(measuring_times);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -32,7 +33,7 @@ class DetectingTracker final : public Tracker {
         consecutive_frames_(options.consecutive_frames),
         detectors_(std::move(detectors)) {}
 
-  Result<std::vector<Sighting>> Track(ImageView<const std::uint8_t> grey) override {
+  Result<UnmeasuredMarkers> Find(ImageView<const std::uint8_t> grey) override {
     if (grey.width() != camera_.width || grey.height() != camera_.height) {
       return InputError("",
                         "the picture is " + SizeText(grey.width(), grey.height()) +
@@ -43,12 +44,32 @@ class DetectingTracker final : public Tracker {
       return InputError("", "the picture has " + std::to_string(grey.channels()) + " channels",
                         "the tracker wants grey");
     }
-    std::vector<Sighting> sightings;
+    UnmeasuredMarkers found;
     for (const auto& detector : detectors_) {
       for (Candidate& candidate : detector->Detect(grey)) {
-        std::optional<Sighting> sighting = Measure(grey, std::move(candidate));
-        if (sighting) sightings.push_back(std::move(*sighting));
+        found.candidates.push_back(std::move(candidate));
       }
+    }
+    return found;
+  }
+
+  void Align(ImageView<const std::uint8_t> grey, UnmeasuredMarkers* found) const override {
+    found->alignments.clear();
+    for (const Candidate& candidate : found->candidates) {
+      found->alignments.push_back(
+          candidate.corner_covariance_px2
+              ? std::nullopt
+              : AlignPrint(camera_, *candidate.pattern, grey, candidate.detection.corners_px));
+    }
+  }
+
+  std::vector<Sighting> Conclude(ImageView<const std::uint8_t> grey,
+                                 UnmeasuredMarkers found) override {
+    std::vector<Sighting> sightings;
+    for (std::size_t i = 0; i < found.candidates.size(); ++i) {
+      std::optional<Sighting> sighting =
+          PoseOf(grey, std::move(found.candidates[i]), found.alignments.at(i));
+      if (sighting) sightings.push_back(std::move(*sighting));
     }
     std::stable_sort(sightings.begin(), sightings.end(), [](const Sighting& a, const Sighting& b) {
       const auto key = [](const Sighting& s) {
@@ -82,20 +103,17 @@ class DetectingTracker final : public Tracker {
     return std::to_string(width) + "x" + std::to_string(height);
   }
 
-  std::optional<Sighting> Measure(ImageView<const std::uint8_t> grey, Candidate candidate) const {
+  std::optional<Sighting> PoseOf(ImageView<const std::uint8_t> grey, Candidate candidate,
+                                 const std::optional<PrintAlignment>& alignment) const {
     Sighting sighting{std::move(candidate.detection), {}};
     CornerCovariance covariance = IsotropicCornerCovariance(kRawCornerSigma_px);
-    std::optional<PrintAlignment> alignment;
     if (candidate.corner_covariance_px2) {
       covariance = *candidate.corner_covariance_px2;
-    } else {
-      const std::array<Vec2, 4>& raw_px = sighting.detection.corners_px;
-      alignment = AlignPrint(camera_, *candidate.pattern, grey, raw_px);
-      const std::array<bool, 4> seen = CornersSeen(grey, raw_px);
+    } else if (!alignment) {
+      const std::array<bool, 4> seen = CornersSeen(grey, sighting.detection.corners_px);
       const bool is_whole = seen[0] && seen[1] && seen[2] && seen[3];
-      if (!alignment && !is_whole) return std::nullopt;
-    }
-    if (alignment) {
+      if (!is_whole) return std::nullopt;
+    } else {
       sighting.detection.corners_px = alignment->corners_px;
       sighting.detection.visible_fraction = alignment->visible_fraction;
       covariance = alignment->corner_covariance_px2;
@@ -138,6 +156,12 @@ class DetectingTracker final : public Tracker {
 };
 
 }  // namespace
+
+Result<std::vector<Sighting>> Tracker::Track(ImageView<const std::uint8_t> grey) {
+  PLEINAIR_ASSIGN_OR_RETURN(UnmeasuredMarkers found, Find(grey));
+  Align(grey, &found);
+  return Conclude(grey, std::move(found));
+}
 
 Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
                                                  const TrackerOptions& options) {

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/image.h"
 #include "tracker/sighting.h"
+#include "tracker/unmeasured_markers.h"
 
 namespace pleinair::tracker {
 
@@ -43,7 +44,8 @@ struct TrackerOptions {
   std::vector<std::shared_ptr<const PictureTarget>> targets{};
 };
 
-/// Finds markers and their poses, frame after frame. One thread at a time.
+/// Finds markers and their poses, frame after frame. One thread at a time, but for what is said of
+/// the parts of Track().
 class Tracker {
  public:
   static Result<std::unique_ptr<Tracker>> Create(const CameraModel& camera,
@@ -52,12 +54,21 @@ class Tracker {
 
   /// Markers in one sRGB-encoded grey picture of the camera's size; none is an empty list.
   /// Ordered by family, id, then the first corner's x: the same picture gives the same list.
-  virtual Result<std::vector<Sighting>> Track(ImageView<const std::uint8_t> grey) = 0;
+  Result<std::vector<Sighting>> Track(ImageView<const std::uint8_t> grey);
+
+  /// Track() in its parts, for who has several pictures at hand: to find markers, which leans on
+  /// the pictures before; to align their prints, which leans on nothing, so that any number of
+  /// threads may; and to conclude their poses, in the pictures' order again. Each part may run
+  /// beside the others.
+  virtual Result<UnmeasuredMarkers> Find(ImageView<const std::uint8_t> grey) = 0;
+  virtual void Align(ImageView<const std::uint8_t> grey, UnmeasuredMarkers* found) const = 0;
+  virtual std::vector<Sighting> Conclude(ImageView<const std::uint8_t> grey,
+                                         UnmeasuredMarkers found) = 0;
 
   /// Markers of the frames before that the last one did not show (consecutive frames, families "sg"
   /// and "picture").
   virtual std::vector<LostMarker> Lost() const = 0;
-  /// What the user should know about the last picture, such as prints that are mirrored.
+  /// What the user should know about the last picture found in, such as prints that are mirrored.
   virtual std::vector<std::string> Warnings() const = 0;
 };
 
