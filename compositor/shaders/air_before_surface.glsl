@@ -1,7 +1,7 @@
 #ifndef COMPOSITOR_AIR_BEFORE_SURFACE_GLSL
 #define COMPOSITOR_AIR_BEFORE_SURFACE_GLSL
 // HAZE: the air between the eye and the real surfaces. Without it there is none, and nothing is
-// drawn of it: Mesa's software renderer would take as long for that as for all the rest.
+// drawn of it.
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/picture_light.glsl"

@@ -1,9 +1,7 @@
 #version 450 core
 // What of a pixel is to be shaded: the triangles that its samples show, one for each sheet of a real
 // surface, with the samples that show that sheet. The pixel's depth says what may change of it, for
-// the passes that shade: ChangingTriangles::Change, the most of its samples, but where it shows
-// several sheets kSunlitSky for kSteadySky. Those are few, and a pass without a loop over them takes
-// half the time (Mesa's software renderer).
+// the passes that shade: ChangingTriangles::Change, the most of its samples.
 
 #include "compositor/shaders/triangle_table.glsl"
 
@@ -37,5 +35,5 @@ void main() {
     kind = id == 0u ? kind : min(kind, KindOf(triangle));
   } while (any(notEqual(left, uvec4(0u))));
   out_seen = seen;
-  gl_FragDepth = DepthOfKind(kind == kSteadySky && found > 1 ? kSunlitSky : kind);
+  gl_FragDepth = DepthOfKind(kind);
 }

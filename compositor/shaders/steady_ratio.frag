@@ -1,7 +1,7 @@
 #version 450 core
-// What the virtual objects change of a real surface's light in a pixel as phantom_ratio.frag does,
-// where the pixel shows one sheet alone and the sun's part in it is known of the whole triangle:
-// ChangingTriangles::kSteadySky of compositor/changing_triangles.h.
+// What the virtual objects change of the real surfaces' light in a pixel as phantom_ratio.frag does,
+// where the sun's part in it is known of each triangle: ChangingTriangles::kSteadySky of
+// compositor/changing_triangles.h.
 // HAZE: so far away that the air before the surface counts.
 
 #include "compositor/shaders/air_before_surface.glsl"
@@ -30,11 +30,18 @@ SteadyPlace PlaceOn(uint id) {
 }
 
 void main() {
-  uint seen = texelFetch(u_seen, ivec2(gl_FragCoord.xy), 0).x;
-  float count = dot(SamplesOf(seen), vec4(1.0));
-  SteadyPlace place = PlaceOn(IdOf(seen));
-  vec3 haze = HazeOver(place.ratio, AirUpTo(distance(u_eye_m, place.position_m)));
-  // The other samples show what does not change, or objects.
-  out_ratio = vec4((count * place.ratio + (u_samples - count)) / u_samples, 1.0);
-  DrawHaze(count * haze / u_samples);
+  uvec4 seen = texelFetch(u_seen, ivec2(gl_FragCoord.xy), 0);
+  vec3 ratio = vec3(0.0), haze = vec3(0.0);
+  float samples = 0.0;
+  do {
+    float count = dot(SamplesOf(seen.x), vec4(1.0));
+    SteadyPlace place = PlaceOn(IdOf(seen.x));
+    ratio += count * place.ratio;
+    haze += count * HazeOver(place.ratio, AirUpTo(distance(u_eye_m, place.position_m)));
+    samples += count;
+    seen = uvec4(seen.yzw, 0u);
+  } while (seen.x != 0u);
+  // The others show what does not change, or objects.
+  out_ratio = vec4((ratio + (u_samples - samples)) / u_samples, 1.0);
+  DrawHaze(haze / u_samples);
 }

@@ -24,10 +24,10 @@ ivec2 TexelOfSteady(int index) {
   return ivec2(kTexelsASteady * (index % kSteadyARow), index / kSteadyARow);
 }
 
-// Of the real surfaces' triangles: ChangingTriangles::Change, some of which are named below. Of the
+// Of the real surfaces' triangles: ChangingTriangles::Change, the last of which is named below. Of the
 // objects': 0 where the sun may shine, else 1.
 uint KindOf(uvec4 triangle) { return triangle.w & ((1u << kKindBits) - 1u); }
-const uint kSunlitSky = 1u, kSteadySky = 2u, kNothing = 3u;
+const uint kNothing = 3u;
 uint SheetOf(uvec4 triangle) { return triangle.w >> kKindBits; }
 
 // In the picture of the samples' numbers: of an object, whose triangles have numbers of their own.

@@ -239,8 +239,6 @@ TEST(TriangleLayout, IsReadAsItIsWritten) {
   EXPECT_EQ(glsl::kVerticesARow, TriangleTable::kVerticesARow);
   EXPECT_EQ(glsl::kTexelsAVertex, TriangleTable::kTexelsAVertex);
   EXPECT_EQ(glsl::kKindBits, static_cast<int>(TriangleTable::kKindBits));
-  EXPECT_EQ(glsl::kSunlitSky, static_cast<unsigned>(ChangingTriangles::kSunlitSky));
-  EXPECT_EQ(glsl::kSteadySky, static_cast<unsigned>(ChangingTriangles::kSteadySky));
   EXPECT_EQ(glsl::kNothing, static_cast<unsigned>(ChangingTriangles::kNothing));
   EXPECT_EQ(glsl::kTexelsASurface, SurfaceRecords::kTexelsASurface);
   EXPECT_EQ(glsl::kSurfacesARow, SurfaceRecords::kSurfacesARow);
