@@ -70,14 +70,23 @@ ChangingTriangles::Sorted ChangingTriangles::ChangeOf(const SunWindow& window,
   return reach == SunReach::kAll ? Sorted{kSteadySky, true} : Sorted{kSunlitSky, false};
 }
 
-SteadyRatio ChangingTriangles::SteadyOf(std::size_t first_index, const glm::vec3& to_sun,
-                                        const glm::vec3& sun_normal_lux) const {
-  std::array<glm::vec3, 3> corners_m{}, ratios{};
+std::optional<SteadyRatio> ChangingTriangles::SteadyOf(std::size_t first_index,
+                                                       const glm::vec3& to_sun,
+                                                       const glm::vec3& sun_normal_lux) const {
+  std::array<glm::vec3, 3> corners_m{}, with{}, without{}, ratios{};
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t vertex = triangles_[first_index + k];
     corners_m[k] = positions_[vertex];
     const glm::vec3 sun = std::max(glm::dot(normals_[vertex], to_sun), 0.0F) * sun_normal_lux;
-    ratios[k] = SteadyRatio::Between(ambient_with_[vertex], ambient_without_[vertex], sun);
+    with[k] = ambient_with_[vertex] + sun;
+    without[k] = ambient_without_[vertex] + sun;
+    ratios[k] = SteadyRatio::Between(with[k], without[k], glm::vec3(0.0F));
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    if (!SteadyRatio::IsLinear({with[k], with[next]}, {without[k], without[next]})) {
+      return std::nullopt;
+    }
   }
   return SteadyRatio::Of(corners_m, ratios);
 }
@@ -88,14 +97,20 @@ void ChangingTriangles::Sort(const SunWindow& window, const SunFootprint& object
   steady_.clear();
   steady_corners_.clear();
   for (std::size_t i = 0; i < triangles_.size(); i += 3) {
-    const auto [change, in_sun] = ChangeOf(window, objects, i);
+    auto [change, in_sun] = ChangeOf(window, objects, i);
+    if (change == kSteadySky) {
+      const std::optional<SteadyRatio> steady =
+          SteadyOf(i, window.to_sun, in_sun ? sun_normal_lux : glm::vec3(0.0F));
+      if (steady) {
+        steady_.push_back(*steady);
+        steady_corners_.push_back({triangles_[i], triangles_[i + 1], triangles_[i + 2]});
+      } else {
+        change = kSunlitSky;
+      }
+    }
     auto& kind = kinds_[change];
     kind.insert(kind.end(), triangles_.begin() + static_cast<std::ptrdiff_t>(i),
                 triangles_.begin() + static_cast<std::ptrdiff_t>(i + 3));
-    if (change == kSteadySky) {
-      steady_.push_back(SteadyOf(i, window.to_sun, in_sun ? sun_normal_lux : glm::vec3(0.0F)));
-      steady_corners_.push_back({triangles_[i], triangles_[i + 1], triangles_[i + 2]});
-    }
   }
   indices_.clear();
   for (std::size_t kind = 0; kind < kChanges; ++kind) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,8 @@ class ChangingTriangles {
   enum Change {
     kSun,        ///< The sun's light may change.
     kSunlitSky,  ///< Only the sky's, and the sun shines on it unless something hides it.
-    kSteadySky,  ///< Only the sky's, and phantoms leave it all of the sun, or none shines on it.
+    kSteadySky,  ///< Only the sky's, phantoms leave it all of the sun or none shines on it, and the
+                 ///< ratio is linear along it.
     kNothing,
     kChanges
   };
@@ -51,8 +53,10 @@ class ChangingTriangles {
   };
   Sorted ChangeOf(const SunWindow& window, const SunFootprint& objects,
                   std::size_t first_index) const;
-  SteadyRatio SteadyOf(std::size_t first_index, const glm::vec3& to_sun,
-                       const glm::vec3& sun_normal_lux) const;
+  /// Nothing where the ratio is not linear along the triangle. `sun_normal_lux`: as far as it
+  /// reaches.
+  std::optional<SteadyRatio> SteadyOf(std::size_t first_index, const glm::vec3& to_sun,
+                                      const glm::vec3& sun_normal_lux) const;
 
   std::vector<glm::vec3> positions_, normals_;
   std::vector<glm::vec3> ambient_with_, ambient_without_;

@@ -82,6 +82,7 @@ class GlComposer : public Composer {
   Result<void> MakeShadows(const shadows::ShadowMapOptions& options);
   /// The programs for the shadow maps as they are and the air that a frame has.
   Result<const SurfacePrograms*> ProgramsFor(const DrawnFrame& frame);
+  Result<void> SortSurfaces();
   Result<void> DrawScene(const SurfacePrograms& programs, const shadows::View& view,
                          const DrawnFrame& frame);
   DrawnFrame FrameOf(const shadows::View& view, const Transform<Camera, Marker>& camera_from_marker,
@@ -259,18 +260,21 @@ Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   return {};
 }
 
-Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadows::View& view,
-                                   const DrawnFrame& frame) {
-  // Where the picture is asked how much of the sun there is, the sky's light, too, counts by that.
-  const bool other_shade = looks_for_shade_ || (sunlight_ && !sunlight_->share.empty());
+/// By what the sun may change, its shadow maps being as they are to be drawn.
+Result<void> GlComposer::SortSurfaces() {
   SceneSurfaces::SunOnPhantoms sun;
-  sun.whole = other_shade;
+  // Where the picture is asked how much of the sun there is, the sky's light, too, counts by that.
+  sun.whole = looks_for_shade_ || (sunlight_ && !sunlight_->share.empty());
   if (HasSun()) {
     sun.window = shadows_.Window();
-    sun.normal_lux = frame.sun_normal_lux;
+    sun.normal_lux = ToGlm(sun_normal_);
   }
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SortPhantoms(sun));
-  PLEINAIR_RETURN_IF_ERROR(surfaces_.SortObjects(frame.to_sun));
+  return surfaces_.SortObjects(HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
+}
+
+Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadows::View& view,
+                                   const DrawnFrame& frame) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // Open surfaces come as two, one a side. Clockwise, because the picture's rows go down.
@@ -288,6 +292,7 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadow
   return {};
 }
 
+/// Of surfaces that are sorted.
 DrawnFrame GlComposer::FrameOf(const shadows::View& view,
                                const Transform<Camera, Marker>& camera_from_marker,
                                LinearRgb gain) const {
@@ -329,6 +334,7 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   if (HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {to_sun_}, view));
   }
+  PLEINAIR_RETURN_IF_ERROR(SortSurfaces());
   const DrawnFrame frame = FrameOf(view, camera_from_marker, gain);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
   PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, view, frame));

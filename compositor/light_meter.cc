@@ -28,8 +28,14 @@ constexpr double kDappled = 0.10, kHardlyDappled = 0.08, kSurelyDappled = 0.12;
 constexpr int kFewestBright = 6;
 // Share of its pairs that are the brightest.
 constexpr double kBrightest = 0.2;
-// Share of clipped whites up to which white counts: the upper quartile lies below them.
-constexpr double kMostClipped = 0.2;
+// Share of clipped whites up to which white counts: their median is known then; and of the
+// brightest, of which fewer may be, since the brightest of the rest are no longer the brightest.
+constexpr double kMostClipped = 0.45, kMostClippedBrightest = 0.2;
+// Share of the darkest whites by which light is told to be uneven where others clip, and how far
+// below the middle they lie in a normal distribution, in standard deviations.
+constexpr double kDarkest = 0.05, kDarkestSigmas = 1.645;
+// Pairs on either side whose blacks are looked at together.
+constexpr std::size_t kNeighbours = 2;
 constexpr double kSmallestBandPx = 3.0;
 // A median's standard error over a mean's, of a normal distribution: sqrt(π / 2).
 constexpr double kMedianError = 1.2533;
@@ -203,38 +209,80 @@ std::optional<PrintShadow> LightMeter::FindShadow(
                          print_.albedo_black / (print_.albedo_white - print_.albedo_black));
 }
 
-std::optional<LightMeter::ChannelGain> LightMeter::MedianOf(const std::vector<Sample>& pairs,
-                                                            Rgb Sample::*by, std::size_t channel,
-                                                            int fewest) {
+std::vector<double> LightMeter::GainsBy(const std::vector<Sample>& pairs, Rgb Sample::*by,
+                                        std::size_t channel) {
   std::vector<double> values;
   values.reserve(pairs.size());
   for (const Sample& pair : pairs) {
     const double value = (pair.*by)[channel];
     if (!std::isnan(value)) values.push_back(value);
   }
+  return values;
+}
+
+std::optional<LightMeter::ChannelGain> LightMeter::MedianOf(const std::vector<double>& values,
+                                                            int fewest) {
   if (static_cast<int>(values.size()) < fewest) return std::nullopt;
   const double gain = Median(values);
   if (!(gain > 0.0) || !std::isfinite(gain)) return std::nullopt;
+  const double low = Quantile(values, 0.25), high = Quantile(values, 0.75);
+  // Of clipped whites no more is known than that they are brighter than the rest: as if they were
+  // as far from the middle as the darker ones.
+  const double between = std::isfinite(high) ? high - low : 2.0 * (gain - low);
   // Interquartile range of a normal distribution: 1.349 standard deviations.
-  const double spread = (Quantile(values, 0.75) - Quantile(values, 0.25)) / 1.349 / gain;
+  const double spread = between / 1.349 / gain;
   return ChannelGain{gain, kMedianError * spread / std::sqrt(static_cast<double>(values.size())),
                      spread};
 }
 
-bool LightMeter::IsClipped(const std::vector<Sample>& pairs, std::size_t channel) {
+double LightMeter::ClippedShare(const std::vector<Sample>& pairs, std::size_t channel) {
   const auto clipped = std::count_if(pairs.begin(), pairs.end(), [&](const Sample& pair) {
     return std::isinf(pair.white_gain[channel]);
   });
-  return static_cast<double>(clipped) > kMostClipped * static_cast<double>(pairs.size());
+  return static_cast<double>(clipped) / static_cast<double>(pairs.size());
 }
 
-std::optional<LightMeter::ChannelGain> LightMeter::GainOf(const std::vector<Sample>& pairs,
-                                                          std::size_t channel, int fewest) {
-  if (!IsClipped(pairs, channel)) {
-    if (const auto gain = MedianOf(pairs, &Sample::white_gain, channel, fewest)) return gain;
+std::optional<LightMeter::ChannelGain> LightMeter::BlackGainOf(const std::vector<Sample>& pairs,
+                                                               std::size_t channel, int fewest) {
+  auto gain = MedianOf(GainsBy(pairs, &Sample::black_gain, channel), fewest);
+  if (!gain) return std::nullopt;
+  // Blacks are so dark that their noise looks like leaves. Whites that are not clipped tell better:
+  // in even light they all lie near where it clips.
+  std::vector<double> whites = GainsBy(pairs, &Sample::white_gain, channel);
+  const double low = whites.empty() ? INFINITY : Quantile(whites, kDarkest);
+  std::erase_if(whites, [](double white) { return std::isinf(white); });
+  if (std::isfinite(low)) {
+    const double clips = *std::max_element(whites.begin(), whites.end());
+    gain->spread = (clips - low) / kDarkestSigmas / clips;
   }
-  // The black alone is less certain, but not wrong.
-  return MedianOf(pairs, &Sample::black_gain, channel, fewest);
+  return gain;
+}
+
+std::optional<std::array<LightMeter::ChannelGain, 3>> LightMeter::GainsOf(
+    const std::vector<Sample>& pairs, int fewest) {
+  std::array<std::optional<ChannelGain>, 3> channels;
+  std::array<bool, 3> by_black{};
+  // Glare makes blacks too bright; by how much, channels show of which both are read.
+  double log_glare = 0.0;
+  int with_both = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto black = BlackGainOf(pairs, c, fewest);
+    if (ClippedShare(pairs, c) <= kMostClipped) {
+      channels[c] = MedianOf(GainsBy(pairs, &Sample::white_gain, c), fewest);
+    }
+    by_black[c] = !channels[c];
+    if (by_black[c]) {
+      channels[c] = black;
+    } else if (black) {
+      log_glare += std::log(black->gain / channels[c]->gain);
+      ++with_both;
+    }
+    if (!channels[c]) return std::nullopt;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (by_black[c] && with_both > 0) channels[c]->gain /= std::exp(log_glare / with_both);
+  }
+  return std::array{*channels[0], *channels[1], *channels[2]};
 }
 
 std::array<std::optional<LightMeter::ChannelGain>, 3> LightMeter::BrightestOf(
@@ -242,24 +290,34 @@ std::array<std::optional<LightMeter::ChannelGain>, 3> LightMeter::BrightestOf(
   const auto count = static_cast<std::size_t>(kBrightest * static_cast<double>(pairs.size()));
   const std::size_t kept =
       std::min(pairs.size(), std::max(count, static_cast<std::size_t>(fewest)));
-  const auto brightest_by = [&](const auto& level) {
-    std::vector<Sample> sorted = pairs;
-    std::sort(sorted.begin(), sorted.end(),
-              [&](const Sample& a, const Sample& b) { return level(a) > level(b); });
-    sorted.erase(sorted.begin() + static_cast<std::ptrdiff_t>(kept), sorted.end());
-    return sorted;
+  const auto take_brightest = [&] {
+    std::sort(pairs.begin(), pairs.end(),
+              [](const Sample& a, const Sample& b) { return a.level > b.level; });
+    pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(std::min(kept, pairs.size())),
+                pairs.end());
   };
-  std::vector<Sample> brightest = brightest_by([](const Sample& pair) { return pair.level; });
+  std::vector<Sample> blacks = pairs;
+  take_brightest();
   Rgb Sample::*by = &Sample::white_gain;
-  if (IsClipped(brightest, 0) || IsClipped(brightest, 1) || IsClipped(brightest, 2)) {
+  if (std::max({ClippedShare(pairs, 0), ClippedShare(pairs, 1), ClippedShare(pairs, 2)}) >
+      kMostClippedBrightest) {
     // Which white is the brightest is not seen, and the brightest of the rest may be half-lit.
-    std::erase_if(pairs, [](const Sample& pair) { return std::isnan(Sum(pair.black_gain)); });
-    if (pairs.size() < kept) return {};
-    brightest = brightest_by([](const Sample& pair) { return Sum(pair.black_gain); });
+    std::erase_if(blacks, [](const Sample& pair) { return std::isnan(Sum(pair.black_gain)); });
+    pairs = blacks;
+    // The mean of some neighbours, so that it is not their noise that chooses.
+    for (std::size_t i = 0; i < blacks.size(); ++i) {
+      const std::size_t first = i < kNeighbours ? 0 : i - kNeighbours;
+      const std::size_t end = std::min(blacks.size(), i + kNeighbours + 1);
+      pairs[i].level = 0.0;
+      for (std::size_t k = first; k < end; ++k) {
+        pairs[i].level += Sum(blacks[k].black_gain) / static_cast<double>(end - first);
+      }
+    }
+    take_brightest();
     by = &Sample::black_gain;
   }
   std::array<std::optional<ChannelGain>, 3> gains;
-  for (std::size_t c = 0; c < 3; ++c) gains[c] = MedianOf(brightest, by, c, fewest);
+  for (std::size_t c = 0; c < 3; ++c) gains[c] = MedianOf(GainsBy(pairs, by, c), fewest);
   return gains;
 }
 
@@ -294,12 +352,9 @@ std::optional<LightReading> LightMeter::Measure(
   LightReading reading;
   reading.lit_share = lit_share_;
   reading.pairs = static_cast<int>(samples.size());
-  std::array<ChannelGain, 3> channels;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto channel = GainOf(samples, c, fewest);
-    if (!channel) return std::nullopt;
-    channels[c] = *channel;
-  }
+  const auto gains = GainsOf(samples, fewest);
+  if (!gains) return std::nullopt;
+  std::array<ChannelGain, 3> channels = *gains;
   // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
   // They are the same in each channel, though blue, the sky's colour, may hardly show it.
   const double spread = std::max({channels[0].spread, channels[1].spread, channels[2].spread});

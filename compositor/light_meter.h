@@ -37,8 +37,9 @@ struct LightReading {
 /// reflectances, divided by the light that the model predicts there, is the camera's scale. The
 /// difference cancels veiling glare that adds to both.
 ///
-/// Pairs in a penumbra or too small are left out. Where white is clipped on more than a few, black
-/// is read in its place, which veiling glare makes too bright. Where part of the print that should
+/// Pairs in a penumbra or too small are left out. Where half of a channel's whites are clipped, its
+/// black is read in their place, which veiling glare makes too bright: by as much as in channels
+/// whose white is not clipped, if there is one. Where part of the print that should
 /// be in the sun is much darker than the rest (a shadow of something that no phantom stands for),
 /// the brighter part counts, from six pairs on.
 class LightMeter {
@@ -94,15 +95,18 @@ class LightMeter {
     double gain = 0.0;                 // Their median.
     double error = 0.0, spread = 0.0;  // Of it and of a single pair, relative.
   };
-  /// Nothing where fewer pairs than `fewest` can tell it.
-  static std::optional<ChannelGain> MedianOf(const std::vector<Sample>& pairs,
-                                             std::array<double, 3> Sample::*by, std::size_t channel,
-                                             int fewest);
-  /// Whether so many whites are clipped that their median and quartiles are not known.
-  static bool IsClipped(const std::vector<Sample>& pairs, std::size_t channel);
-  /// By the whites; where these are clipped, by the blacks.
-  static std::optional<ChannelGain> GainOf(const std::vector<Sample>& pairs, std::size_t channel,
-                                           int fewest);
+  static std::vector<double> GainsBy(const std::vector<Sample>& pairs,
+                                     std::array<double, 3> Sample::*by, std::size_t channel);
+  /// Nothing where fewer than `fewest` can tell it.
+  static std::optional<ChannelGain> MedianOf(const std::vector<double>& values, int fewest);
+  /// Of the pairs, those whose white is clipped.
+  static double ClippedShare(const std::vector<Sample>& pairs, std::size_t channel);
+  /// By the blacks; how uneven the light is, by whites as far as they are not clipped.
+  static std::optional<ChannelGain> BlackGainOf(const std::vector<Sample>& pairs,
+                                                std::size_t channel, int fewest);
+  /// By the whites; where half of a channel's are clipped, by its blacks.
+  static std::optional<std::array<ChannelGain, 3>> GainsOf(const std::vector<Sample>& pairs,
+                                                           int fewest);
   /// By the brightest of the pairs, `fewest` at least, the same ones in each channel: by whites,
   /// or where any channel of these is clipped by blacks, the brightest of which lie elsewhere.
   static std::array<std::optional<ChannelGain>, 3> BrightestOf(std::vector<Sample> pairs,

@@ -13,6 +13,11 @@ Result<RatioPass> RatioPass::Create() {
       pass.sort_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                              .fragment = "compositor/shaders/changing_pixels.frag"}));
+  gl::ProgramStages steady{.vertex = "compositor/shaders/screen_triangle.vert",
+                           .fragment = "compositor/shaders/steady_ratio.frag"};
+  PLEINAIR_ASSIGN_OR_RETURN(pass.steady_program_, gl::GlProgram::Create(steady));
+  steady.defines = {"HAZE"};
+  PLEINAIR_ASSIGN_OR_RETURN(pass.steady_program_in_haze_, gl::GlProgram::Create(steady));
   pass.no_attributes_ = gl::GlVertexArray::Create();
   return pass;
 }
@@ -61,7 +66,7 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
     draw(program, Change::kSteadySky, hazy);
     surfaces.triangles().Bind();
   };
-  if (!frame.steady_hazy) draw_steady(programs.phantoms[Change::kSteadySky], false);
+  if (!frame.steady_hazy) draw_steady(steady_program_, false);
   if (frame.hazy) {
     // The air before a surface is seen beside the objects that cover the pixel in part.
     targets.BeginHaze();
@@ -71,7 +76,7 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
   for (const Change change : {Change::kSun, Change::kSunlitSky}) {
     draw(programs.phantoms[change], change, frame.hazy);
   }
-  if (frame.steady_hazy) draw_steady(programs.steady_in_haze, true);
+  if (frame.steady_hazy) draw_steady(steady_program_in_haze_, true);
   if (frame.hazy) glDisablei(GL_BLEND, 1);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);

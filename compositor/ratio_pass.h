@@ -44,6 +44,7 @@ class RatioPass {
 
  private:
   gl::GlProgram id_program_, sort_program_;
+  gl::GlProgram steady_program_, steady_program_in_haze_;
   gl::GlVertexArray no_attributes_;
 };
 

@@ -4,7 +4,6 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"

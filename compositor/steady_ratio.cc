@@ -9,6 +9,17 @@ glm::vec3 SteadyRatio::Between(const glm::vec3& ambient_with, const glm::vec3& a
   return (ambient_with + sun) / glm::max(ambient_without + sun, glm::vec3(1e-6F));
 }
 
+bool SteadyRatio::IsLinear(const std::array<glm::vec3, 2>& with,
+                           const std::array<glm::vec3, 2>& without) {
+  constexpr float kHardlySeen = 0.004F;  // Half a code at the sRGB code 120.
+  const glm::vec3 none(0.0F);
+  const glm::vec3 middle = Between(with[0] + with[1], without[0] + without[1], none);
+  const glm::vec3 mean =
+      0.5F * (Between(with[0], without[0], none) + Between(with[1], without[1], none));
+  // False where one is no number.
+  return glm::all(glm::lessThan(glm::abs(middle - mean), glm::vec3(kHardlySeen)));
+}
+
 SteadyRatio SteadyRatio::Of(const std::array<glm::vec3, 3>& corners_m,
                             const std::array<glm::vec3, 3>& ratios) {
   // In double precision: of a small triangle far from the origin large terms cancel.

@@ -23,6 +23,11 @@ struct SteadyRatio {
   static glm::vec3 Between(const glm::vec3& ambient_with, const glm::vec3& ambient_without,
                            const glm::vec3& sun);
 
+  /// Whether the ratio of lights that are linear along an edge is linear itself, but for what is
+  /// hardly seen: its middle tells. `with` and `without`: all light at both ends, same unit.
+  static bool IsLinear(const std::array<glm::vec3, 2>& with,
+                       const std::array<glm::vec3, 2>& without);
+
   /// `ratios`: at the corners. Of a triangle without an area, their mean.
   static SteadyRatio Of(const std::array<glm::vec3, 3>& corners_m,
                         const std::array<glm::vec3, 3>& ratios);

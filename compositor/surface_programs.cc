@@ -1,6 +1,5 @@
 #include "compositor/surface_programs.h"
 
-#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,13 +21,8 @@ shadows::ShadowMethod MethodForSky(shadows::ShadowMethod method) {
 
 Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions& options,
                                                 const Permutation& permutation) {
-  const auto make = [&](const std::string& fragment, std::vector<std::string> defines) {
-    return gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
-                                  .fragment = "compositor/shaders/" + fragment,
-                                  .defines = std::move(defines)});
-  };
-  const auto make_in_sun = [&](const std::string& fragment, const std::vector<std::string>& of_pass,
-                               shadows::ShadowMethod method) {
+  const auto make = [&](const std::string& fragment, const std::vector<std::string>& of_pass,
+                        shadows::ShadowMethod method) {
     shadows::ShadowMapOptions shading = options;
     shading.method = method;
     std::vector<std::string> defines =
@@ -37,21 +31,19 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
     if (permutation.hazy) defines.emplace_back("HAZE");
     if (permutation.textured) defines.emplace_back("TEXTURED");
     if (permutation.glossy) defines.emplace_back("GLOSSY");
-    return make(fragment, std::move(defines));
+    return gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
+                                  .fragment = "compositor/shaders/" + fragment,
+                                  .defines = std::move(defines)});
   };
   SurfacePrograms programs;
   PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[ChangingTriangles::kSun],
-                            make_in_sun("phantom_ratio.frag", {"SUN_MAY_CHANGE"}, options.method));
+                            make("phantom_ratio.frag", {"SUN_MAY_CHANGE"}, options.method));
   PLEINAIR_ASSIGN_OR_RETURN(
       programs.phantoms[ChangingTriangles::kSunlitSky],
-      make_in_sun("phantom_ratio.frag", {"SKY_CHANGES"}, MethodForSky(options.method)));
-  PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[ChangingTriangles::kSteadySky],
-                            make("steady_ratio.frag", {}));
-  PLEINAIR_ASSIGN_OR_RETURN(programs.steady_in_haze, make("steady_ratio.frag", {"HAZE"}));
-  PLEINAIR_ASSIGN_OR_RETURN(programs.objects,
-                            make_in_sun("virtual_object.frag", {}, options.method));
+      make("phantom_ratio.frag", {"SKY_CHANGES"}, MethodForSky(options.method)));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.objects, make("virtual_object.frag", {}, options.method));
   PLEINAIR_ASSIGN_OR_RETURN(programs.objects_in_own_shade,
-                            make_in_sun("virtual_object.frag", {"NO_SUN"}, options.method));
+                            make("virtual_object.frag", {"NO_SUN"}, options.method));
   return programs;
 }
 

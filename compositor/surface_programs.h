@@ -21,10 +21,8 @@ struct SurfacePrograms {
   static Result<SurfacePrograms> Create(const shadows::ShadowMapOptions& options,
                                         const Permutation& permutation);
 
-  /// By what may change of the light: ChangingTriangles::Change but for kNothing; where that is
-  /// steady, without the air.
-  std::array<gl::GlProgram, ChangingTriangles::kNothing> phantoms;
-  gl::GlProgram steady_in_haze;        ///< Of kSteadySky, where the air before it counts.
+  /// By what may change of the light: ChangingTriangles::kSun and kSunlitSky.
+  std::array<gl::GlProgram, ChangingTriangles::kSteadySky> phantoms;
   gl::GlProgram objects;               ///< Where the sun may shine on some of a pixel, and
   gl::GlProgram objects_in_own_shade;  ///< where it does not.
 };

@@ -10,7 +10,7 @@ struct SteadyPlace {
 
 // What a ray from the eye shows. Where it runs beside the triangle, or meets its plane behind the
 // eye or nowhere, as the middle of a pixel may of which a sample alone shows the triangle, the ratio
-// keeps within its corners'.
+// keeps within its corners', while the place may lie anywhere along the ray.
 SteadyPlace SteadyAlong(vec3 eye_m, vec3 ray, vec4 plane, vec4 red, vec4 green, vec4 blue,
                         vec4 range) {
   float facing = dot(vec3(plane), ray);

@@ -380,6 +380,37 @@ TEST(LightMeter, FallsBackToTheBlackWhereTheWhiteIsClipped) {
   ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain * 3.0);
 }
 
+TEST(LightMeter, ReadsAnEvenPrintThroughNoiseAndGlareWhereItBeginsToClip) {
+  constexpr double kVeil = 0.006;
+  const LightMeter meter = MeterFor(-1.0);
+  std::mt19937 random(11);
+  std::normal_distribution<double> noise(0.0, 4.0);
+  double before = 1.0;
+  // Red clips from 1.4 on, green from 1.7, blue from 2.1.
+  for (int step = 0; step < 70; ++step) {
+    const double exposure = 1.2 + 0.02 * step;
+    RgbImage picture = Photograph(kGain * exposure, -1.0, kVeil);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const double code = std::clamp(picture.data()[i] + noise(random), 0.0, 255.0);
+      picture.data()[i] = static_cast<std::uint8_t>(std::lround(code));
+    }
+    const auto reading = meter.Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(reading) << exposure;
+    EXPECT_FALSE(reading->dappled) << exposure;
+    const LinearRgb off = reading->gain / (kGain * exposure);
+    // Blacks alone have the glare in them: 0.006 of 0.05.
+    const double most = exposure < 2.0 ? 0.07 : 0.18;
+    EXPECT_NEAR(off.r, 1.0, most) << exposure;
+    EXPECT_NEAR(off.g, 1.0, most) << exposure;
+    EXPECT_NEAR(off.b, 1.0, most) << exposure;
+    EXPECT_NEAR(off.r / off.b, 1.0, 0.07) << "no cast where a channel is read by its blacks";
+    if (step > 0) {
+      EXPECT_NEAR(off.g / before, 1.0, 0.15) << exposure;
+    }
+    before = off.g;
+  }
+}
+
 TEST(LightMeter, ReadsCodesByTheCamerasOwnResponse) {
   const CameraResponse gentle = testing::GentleResponse();
   // Well exposed, and so bright that the white clips.
