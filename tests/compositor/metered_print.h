@@ -1,0 +1,106 @@
+#pragma once
+
+// A print photographed from above in light that is known, and its light meter.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compositor/light_meter.h"
+
+namespace pleinair::compositor::testing {
+
+inline constexpr double kAmbientLux = 12000, kSunLux = 80000;
+
+/// Light from straight above and an even sky.
+class OverheadSun : public sky::SkyModel {
+ public:
+  LinearRgb SkyRadiance(Direction<World>) const override { return {1, 1, 1}; }
+  LinearRgb SunNormalIrradiance() const override { return {kSunLux, kSunLux, kSunLux}; }
+  LinearRgb SkyHorizontalIrradiance() const override {
+    return {kAmbientLux, kAmbientLux, kAmbientLux};
+  }
+  Direction<World> ToSun() const override { return {{0, 0, 1}}; }
+};
+
+/// Phantoms that leave half the print (x below `shadow_to_x_m`) in shadow.
+class HalfShadow : public LightSolver {
+ public:
+  explicit HalfShadow(double shadow_to_x_m) : shadow_to_x_m_(shadow_to_x_m) {}
+  std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel&, const Mat3&,
+                                       const SeenSunlight&) const override {
+    return {};
+  }
+  DaylightCoefficients Coefficients(Vec3, const CoefficientOptions&,
+                                    const CoefficientProgress&) const override {
+    return {};
+  }
+  std::vector<LitMesh> Relight(const DaylightCoefficients&, const sky::SkyModel&,
+                               const Mat3&) const override {
+    return {};
+  }
+  double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3) const override {
+    return point.xyz.x < shadow_to_x_m_ ? 0.0 : 1.0;
+  }
+  bool ReachesPhantomsOnly(Point<Marker>, Vec3) const override { return true; }
+  std::optional<PhantomSurface> FirstPhantom(Point<Marker>, Vec3) const override { return {}; }
+  std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3,
+                                             const sky::SkyModel&, const Mat3&,
+                                             std::uint32_t) const override {
+    return std::vector<LinearRgb>(points.size(), {kAmbientLux, kAmbientLux, kAmbientLux});
+  }
+  LinearRgb RadianceFromBelow(const sky::SkyModel&, const Mat3&,
+                              const SeenSunlight&) const override {
+    return {};
+  }
+
+ private:
+  double shadow_to_x_m_;
+};
+
+inline const MarkerPrint kPrint{.size_m = 0.4, .board_size_m = 0.5, .black_band_m = 0.05};
+inline const CameraModel kCamera{
+    .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};
+// One metre above the print, looking straight down.
+inline const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 1}};
+
+/// The print in the light of OverheadSun; left of `shadow_to_x_m` in shadow, and an even veil
+/// added.
+inline RgbImage Photograph(LinearRgb gain, double shadow_to_x_m, double veil = 0.0,
+                           const MarkerPrint& print = kPrint, const CameraResponse& response = {}) {
+  RgbImage picture(kCamera.width, kCamera.height, 3);
+  for (int y = 0; y < kCamera.height; ++y) {
+    for (int x = 0; x < kCamera.width; ++x) {
+      const Vec2 ray = UndistortPixel(kCamera, {static_cast<double>(x), static_cast<double>(y)});
+      const double distance = std::max(std::fabs(ray.x), std::fabs(ray.y));
+      const double albedo = distance < print.size_m / 2 ? print.albedo_black : print.albedo_white;
+      const double lux = kAmbientLux + (ray.x < shadow_to_x_m ? 0.0 : kSunLux);
+      const double radiance = albedo * lux / std::numbers::pi;
+      picture(x, y, 0) = response.Encoded8(gain.r * radiance + veil, 0);
+      picture(x, y, 1) = response.Encoded8(gain.g * radiance + veil, 1);
+      picture(x, y, 2) = response.Encoded8(gain.b * radiance + veil, 2);
+    }
+  }
+  return picture;
+}
+
+inline LightMeter MeterFor(double predicted_shadow_to_x_m, const CameraResponse& response = {}) {
+  return LightMeter(kPrint, HalfShadow(predicted_shadow_to_x_m), OverheadSun(), Mat3{}, response);
+}
+
+inline const LinearRgb kGain{3.0e-5, 2.5e-5, 2.0e-5};
+
+inline void ExpectGain(const std::optional<LightReading>& reading, LinearRgb gain) {
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_NEAR(reading->gain.r / gain.r, 1.0, 0.02);
+  EXPECT_NEAR(reading->gain.g / gain.g, 1.0, 0.02);
+  EXPECT_NEAR(reading->gain.b / gain.b, 1.0, 0.02);
+}
+
+}  // namespace pleinair::compositor::testing
