@@ -11,7 +11,7 @@ glm::vec3 SteadyRatio::Between(const glm::vec3& ambient_with, const glm::vec3& a
 
 bool SteadyRatio::IsLinear(const std::array<glm::vec3, 2>& with,
                            const std::array<glm::vec3, 2>& without) {
-  constexpr float kHardlySeen = 0.004F;  // Half a code at the sRGB code 120.
+  constexpr float kHardlySeen = 0.004F;  // Half a code of 8 bits at white, less below.
   const glm::vec3 none(0.0F);
   const glm::vec3 middle = Between(with[0] + with[1], without[0] + without[1], none);
   const glm::vec3 mean =
