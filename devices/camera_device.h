@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "devices/camera.h"
+#include "devices/camera_counts.h"
 #include "devices/camera_uri.h"
 #include "devices/frame.h"
-#include "devices/live_camera.h"
 
 namespace pleinair::devices {
 

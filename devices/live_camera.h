@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "devices/camera.h"
+#include "devices/camera_counts.h"
 #include "devices/camera_uri.h"
 #include "devices/frame_source.h"
 
@@ -37,24 +38,6 @@ struct LiveCameraOptions {
   bool wait_for_camera = true;        ///< Else Open() fails where it is not there.
   /// A camera that sends nothing for so long has stalled; after as long again it is opened anew.
   std::chrono::milliseconds stall_limit{1500};
-};
-
-/// Counts since the start.
-struct CameraCounts {
-  std::int64_t delivered = 0;
-  FrameLoss loss;
-  int connections = 0;
-  int stalls = 0;
-};
-
-/// What a GigE camera's network did; nothing for others.
-struct TransportCounts {
-  std::int64_t completed = 0;
-  std::int64_t damaged = 0;    ///< Frames with packets that never came.
-  std::int64_t underruns = 0;  ///< Frames that found no free buffer.
-  std::int64_t resent_packets = 0;
-  std::int64_t missing_packets = 0;
-  int packet_size = 0;
 };
 
 /// A camera that is plugged in, pulled out and plugged in again. A thread of its own empties the

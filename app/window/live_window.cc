@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "app/interrupt.h"
-#include "app/scene_light.h"
 #include "app/sinks/picture_writer.h"
 #include "app/window/frame_thread.h"
 #include "app/window/picture_mouse.h"
@@ -24,7 +23,7 @@
 #include "app/window/window_layout.h"
 #include "app/window/window_state.h"
 #include "base/atomic_file.h"
-#include "devices/live_camera.h"
+#include "devices/camera.h"
 
 namespace pleinair::app {
 namespace {
