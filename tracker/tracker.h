@@ -9,23 +9,10 @@
 #include "base/error.h"
 #include "base/image.h"
 #include "tracker/sighting.h"
+#include "tracker/surf_golay/sg_options.h"
 #include "tracker/unmeasured_markers.h"
 
 namespace pleinair::tracker {
-
-/// How S-G markers are looked for.
-enum class SgStrategy {
-  kHybrid,     ///< Quadrilaterals first; keypoints and cells for what they miss.
-  kFast,       ///< Quadrilaterals alone: the whole outer edge must be seen.
-  kSurfGolay,  ///< Keypoints of the border, and corners of cells where these find nothing.
-};
-
-struct SgOptions {
-  SgStrategy strategy = SgStrategy::kHybrid;
-  /// Numbers that are in use, if they are known: others are not reported, and more cells of these
-  /// may be covered. None given: all 4,096.
-  std::vector<int> numbers_in_use;
-};
 
 struct PictureTarget;
 

@@ -11,7 +11,6 @@
 #include "base/image.h"
 #include "tests/tracker/marker_rendering.h"
 #include "tracker/picture_target/picture_target.h"
-#include "tracker/tracker.h"
 
 namespace pleinair::tracker {
 

@@ -17,8 +17,8 @@
 #include "tracker/surf_golay/border_probe.h"
 #include "tracker/surf_golay/border_search.h"
 #include "tracker/surf_golay/cell_lattice.h"
+#include "tracker/surf_golay/sg_options.h"
 #include "tracker/surf_golay/sg_reader.h"
-#include "tracker/tracker.h"
 
 namespace pleinair::tracker {
 
