@@ -7,18 +7,11 @@
 #include "compositor/light_meter.h"
 #include "compositor/light_solver.h"
 #include "compositor/seen_sunlight.h"
+#include "compositor/shadow_crossing.h"
 #include "compositor/surface_samples.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
-
-/// A small place on one material, in the sun as far as the phantoms go, of which a shadow's edge
-/// shows that a part is not.
-struct ShadeCrossing {
-  Point<Marker> middle;
-  Vec3 normal;         ///< Of its surface, unit, marker coordinates, towards the eye.
-  LinearRgb contrast;  ///< Logarithm of the bright part's light over the dark one's, a channel.
-};
 
 /// Shadows in view that no phantom explains: a tree's, a neighbouring house's, or the phantoms' own
 /// where the sun does not stand where it is thought to.
