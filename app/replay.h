@@ -5,13 +5,13 @@
 #include <set>
 #include <string>
 
-#include "app/light_options.h"
+#include "app/given_light.h"
 #include "app/paths/path_files.h"
 #include "app/picture_size.h"
 #include "app/sinks/report.h"
 #include "app/time_lapse/moments.h"
 #include "base/error.h"
-#include "compositor/composer.h"
+#include "compositor/composer_options.h"
 
 namespace pleinair::app {
 

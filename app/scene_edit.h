@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "compositor/composer.h"
+#include "compositor/composer_options.h"
 #include "devices/scene_description.h"
 
 namespace pleinair::app {

@@ -1,50 +1,23 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/camera_model.h"
-#include "base/camera_response.h"
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/vector.h"
-#include "compositor/light_solver.h"
+#include "compositor/composer_options.h"
+#include "compositor/lit_mesh.h"
 #include "compositor/picture_look.h"
+#include "compositor/placed_model.h"
 #include "compositor/seen_sunlight.h"
-#include "shadows/shadow_method.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
-
-/// How the virtual shadows' edges are made; docs/shadows.md compares the methods.
-using shadows::ShadowMethod;
-
-struct ComposerOptions {
-  /// Render pixels a camera pixel and side, on top of 4× multisampling. 0: 1 for a lens without
-  /// distortion, 1.5 for one that the picture must be warped to.
-  double supersampling = 0.0;
-  ShadowMethod shadow_method = ShadowMethod::kSunDisc;
-  int shadow_partitions = 2;  ///< Partitions of the shadow maps, 1…4.
-  /// Texels a side of each partition's map, 16…8192; powers of two where the method has a pyramid
-  /// (shadows::MapContent::kDepthBounds). 0: as fine as the picture shows; finer ones cost a look
-  /// at every texel that a pixel covers, and 1024 are enough for 640 pixels (docs/performance.md).
-  std::array<int, 4> shadow_sizes{};
-  double shadow_split_weight = 0.5;  ///< λ of the paper's Eq. 11, for maps fitted to the view.
-  /// Methods that blur moments: distance of the blocker at which the blur has the sun's width.
-  double shadow_blur_distance_m = 1.0;
-  /// Fog before the virtual objects, by partition of the view (aerial_fog.h): times what the sky's
-  /// own air does, 0 none. Partitions are cut as the shadow maps' are, from near to far.
-  std::array<double, 4> fog{1.0, 1.0, 1.0, 1.0};
-  /// Tints the shadow maps' partitions and shows the maps: shadow_debug_view.h.
-  bool show_shadow_maps = false;
-  CameraResponse response = {};  ///< How the camera's codes are read and written.
-
-  bool operator==(const ComposerOptions&) const = default;
-};
 
 /// Draws the virtual objects of a scene into camera pictures: hidden by phantoms, lit by sun and
 /// sky, casting shadows on themselves and on the real surfaces that phantoms stand for. OpenGL 4.5

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/frames.h"
 #include "compositor/changing_triangles.h"
-#include "compositor/composer.h"
+#include "compositor/composer_options.h"
 #include "compositor/scene_surfaces.h"
 #include "shadows/fading_shadow_maps.h"
 

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/light_options.h"
+#include "app/given_light.h"
 #include "app/live/hand_over.h"
 #include "app/live/latency_histogram.h"
 #include "app/live/latency_meter.h"
@@ -24,7 +24,8 @@
 #include "app/scene_renderer.h"
 #include "app/session.h"
 #include "base/camera_model.h"
-#include "compositor/composer.h"
+#include "compositor/composer_options.h"
+#include "compositor/placed_model.h"
 #include "devices/frame_source.h"
 #include "devices/scene_description.h"
 #include "tracker/tracker.h"
