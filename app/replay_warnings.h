@@ -7,7 +7,7 @@
 
 #include "app/session.h"
 #include "app/sinks/report.h"
-#include "compositor/light_solver.h"
+#include "compositor/placed_model.h"
 #include "devices/scene_description.h"
 
 namespace pleinair::app {

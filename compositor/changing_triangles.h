@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "compositor/light_solver.h"
+#include "compositor/lit_mesh.h"
 #include "compositor/steady_ratio.h"
 #include "compositor/sun_footprint.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "compositor/light_solver.h"
+#include "compositor/lit_mesh.h"
 
 namespace pleinair::compositor {
 

@@ -5,9 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "base/srgb.h"
-#include "compositor/light_solver.h"
+#include "compositor/light_solver_options.h"
 #include "compositor/loose_leaves.h"
+#include "compositor/model.h"
+#include "compositor/placed_model.h"
 #include "compositor/tessellation.h"
 
 namespace pleinair::compositor {

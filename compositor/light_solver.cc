@@ -13,6 +13,7 @@
 #include "compositor/light_scene.h"
 #include "compositor/parallel_for.h"
 #include "compositor/sky_table.h"
+#include "compositor/sun_reach.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,75 +1,22 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/vector.h"
 #include "compositor/daylight_coefficients.h"
-#include "compositor/model.h"
+#include "compositor/light_solver_options.h"
+#include "compositor/lit_mesh.h"
+#include "compositor/placed_model.h"
 #include "compositor/seen_sunlight.h"
-#include "compositor/sun_reach.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
-
-/// A model placed in the scene, for the light.
-struct PlacedModel {
-  std::shared_ptr<const Model> model;
-  Mat3 linear;              ///< Rotation and scale, marker from model coordinates.
-  Vec3 translation_m;       ///< Of the model's origin, marker coordinates.
-  bool is_phantom = false;  ///< Stand-in for a real surface, otherwise a virtual object.
-};
-
-/// A tessellated surface with the light that falls on its vertices besides the sun's own. Marker
-/// coordinates. The unit of irradiance is the Daylight's (lux, linear Rec.709).
-///
-/// Triangles run counter-clockwise seen from the side that the normals point to and that the light
-/// is for: draw them with back faces culled. Closed bodies (walls, boxes) come once, their outside.
-/// Open surfaces (ground, awnings, leaves) come twice in a row, once for each side, first the side
-/// that sees more of the sky; how the file winds them does not matter.
-struct LitMesh {
-  bool is_phantom = false;
-  int placed_model = 0;  ///< Index into the scene's list of placed models.
-  int material = 0;      ///< Index into that model's materials.
-  /// Equal for meshes that nothing but their light tells apart; 0: not known.
-  std::uint64_t geometry = 0;
-  /// kDrawn casts no shadow, kLight is not drawn. Phantoms are kAll, their loose leaves kDrawn
-  /// (compositor/loose_leaves.h).
-  MeshRole role = MeshRole::kAll;
-  std::vector<std::array<float, 3>> positions;
-  std::vector<std::array<float, 3>> normals;
-  std::vector<std::array<float, 2>> uvs;  ///< Empty, or one a position.
-  /// Sky and bounced light with the virtual objects there.
-  std::vector<std::array<float, 3>> ambient_with;
-  /// The same with the phantoms alone; of phantoms only, empty for virtual objects.
-  std::vector<std::array<float, 3>> ambient_without;
-  std::vector<std::uint32_t> indices;
-  /// Of phantoms, by triangle; empty: not known, as of very large ones, of a light by coefficients
-  /// and of one without a sun.
-  std::vector<SunReach> sun_reach;
-  std::array<float, 3> reached_to_sun{};  ///< Of sun_reach: towards the sun, unit.
-};
-
-struct LightSolverOptions {
-  int rays_per_vertex = 256;   ///< Cosine-weighted, stratified; lowered for huge scenes.
-  int bounces = 2;             ///< Diffuse reflections followed beyond the sky's direct light.
-  double near_edge_m = 0.04;   ///< Longest edge of a triangle close to a virtual object.
-  double growth_per_m = 0.25;  ///< How much longer edges may be per metre of distance.
-  /// Where light is gathered, at most: in scenes of more vertices than that, those of fine surfaces
-  /// share it by patches, and between patches it is interpolated (surface_patches.h).
-  std::size_t max_patches = kDefaultPatches;
-  int threads = 0;  ///< 0: as many as there are processors.
-
-  static constexpr std::size_t kDefaultPatches = 100'000;
-};
 
 /// Where a line of sight meets a real surface.
 struct PhantomSurface {

@@ -7,7 +7,8 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "compositor/light_solver.h"
+#include "compositor/model.h"
+#include "compositor/placed_model.h"
 
 namespace pleinair::compositor {
 namespace {

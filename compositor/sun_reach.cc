@@ -5,7 +5,7 @@
 
 #include "compositor/light_samples.h"
 #include "compositor/light_scene.h"
-#include "compositor/light_solver.h"
+#include "compositor/lit_mesh.h"
 #include "compositor/parallel_for.h"
 
 namespace pleinair::compositor {

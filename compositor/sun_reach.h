@@ -1,21 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "base/vector.h"
+#include "compositor/lit_mesh.h"
 #include "compositor/ray_scene.h"
 
 namespace pleinair::compositor {
-
-struct LitMesh;
-
-/// What the phantoms leave a triangle of the sun.
-enum class SunReach : std::uint8_t {
-  kSome,  ///< A part of it, or not known.
-  kAll,
-  kNone,
-};
 
 /// By triangle of a phantom, whether its own or other phantoms' shadows touch it: from ten places
 /// of it, near corners, at the middles of edges, its middle and between that and the corners, rays

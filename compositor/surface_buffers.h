@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "compositor/light_solver.h"
+#include "compositor/lit_mesh.h"
+#include "compositor/model.h"
 #include "gl/buffer.h"
 #include "gl/texture.h"
 #include "gl/vertex_array.h"

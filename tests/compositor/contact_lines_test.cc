@@ -1,4 +1,3 @@
-#include "compositor/contact_lines.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/light_solver.h"
+#include "compositor/contact_lines.h"
+#include "compositor/model.h"
+#include "compositor/placed_model.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {

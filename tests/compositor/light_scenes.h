@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/light_solver.h"
+#include "compositor/lit_mesh.h"
+#include "compositor/model.h"
+#include "compositor/placed_model.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor::testing {

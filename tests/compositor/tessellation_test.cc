@@ -1,4 +1,3 @@
-#include "compositor/tessellation.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "compositor/light_solver.h"
+#include "compositor/tessellation.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {

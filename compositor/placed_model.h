@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "base/vector.h"
+#include "compositor/model.h"
+
+namespace pleinair::compositor {
+
+/// A model placed in the scene, for the light.
+struct PlacedModel {
+  std::shared_ptr<const Model> model;
+  Mat3 linear;              ///< Rotation and scale, marker from model coordinates.
+  Vec3 translation_m;       ///< Of the model's origin, marker coordinates.
+  bool is_phantom = false;  ///< Stand-in for a real surface, otherwise a virtual object.
+};
+
+}  // namespace pleinair::compositor
