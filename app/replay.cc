@@ -173,11 +173,20 @@ class Replayer {
     return {};
   }
 
+  std::shared_ptr<const compositor::DaylightCoefficients> TraceCoefficients() {
+    constexpr int kSteps = 100;
+    ProgressBar bar("Tracing light", kSteps, "%");
+    int done = 0;
+    return renderer_->Coefficients([&](double share) {
+      for (; done < static_cast<int>(share * kSteps); ++done) bar.Advance();
+    });
+  }
+
   /// Before frames are composed, so that it has a bar of its own.
   Result<void> TraceLight() {
     if (report_.path.empty() || scene_.objects.empty()) return {};
     if (!options_.light.cache.empty()) {
-      times_.Measure("trace light", [&] { return renderer_->Coefficients() != nullptr; });
+      times_.Measure("trace light", [&] { return TraceCoefficients() != nullptr; });
     }
     const ProgressBar bar("Tracing light", 1, "sun");
     return times_.Measure("light",
@@ -324,7 +333,7 @@ class Replayer {
     }
     PLEINAIR_ASSIGN_OR_RETURN(const Observation view, ViewOfDay());
     LightOrder order = renderer_->OrderLight(scene_.place_time.start);
-    order.coefficients = renderer_->Coefficients();
+    order.coefficients = TraceCoefficients();
     PLEINAIR_ASSIGN_OR_RETURN(
         const auto day, DayRenderer::Create(output_camera_, renderer_->placed(), std::move(order),
                                             options_.composer));

@@ -6,7 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "app/progress_bar.h"
+#include "app/marker_heading.h"
+#include "app/sun_over_place.h"
 #include "base/quantile.h"
 #include "compositor/marker_print.h"
 #include "compositor/scaled_daylight.h"
@@ -131,20 +132,15 @@ void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
   skies_.scale = given->sky_scale;
 }
 
-std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficients() {
+std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficients(
+    const compositor::CoefficientProgress& progress) {
   if (coefficients_) return coefficients_;
-  constexpr int kSteps = 100;
-  ProgressBar bar("Tracing light", kSteps, "%");
-  int done = 0;
-  const auto advance = [&](double share) {
-    for (; done < static_cast<int>(share * kSteps); ++done) bar.Advance();
-  };
   compositor::CoefficientOptions options;
   options.cache = options_.cache;
   options.division = options_.sky_division;
   options.convergence = options_.convergence;
   coefficients_ = std::make_shared<const compositor::DaylightCoefficients>(solver_->Coefficients(
-      MarkerFromWorld(scene_.marker) * Vec3{0.0, 0.0, 1.0}, options, advance));
+      MarkerFromWorld(scene_.marker) * Vec3{0.0, 0.0, 1.0}, options, progress));
   return coefficients_;
 }
 
@@ -230,7 +226,7 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   summary_.sun = SunOver(scene_.place_time, time);
   if (!lit_) OverrideLight(summary_.sun);
   if (!light_from_outside_ && !(lit_ && IsNearSun(lit_->sun, summary_.sun))) {
-    if (!options_.cache.empty()) Coefficients();
+    if (!options_.cache.empty()) Coefficients({});
     return TakeLight(std::make_shared<const SceneLight>(OrderLight(time)));
   }
   const auto model = skies_.source->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "app/day_skies.h"
 #include "app/gain_history.h"
+#include "app/given_light.h"
 #include "app/light_look.h"
-#include "app/light_options.h"
 #include "app/measured_sky.h"
 #include "app/scene_edit.h"
 #include "app/scene_light.h"
@@ -78,7 +79,7 @@ class SceneRenderer {
   /// Loads the scene's models and prepares their light. Without virtual objects nothing is drawn
   /// and no OpenGL is needed.
   /// With a cache the light among surfaces comes from daylight coefficients that are kept there:
-  /// slow once, with a bar, then some milliseconds for any moment. `scene`: with what the light
+  /// slow once, then some milliseconds for any moment. `scene`: with what the light
   /// options give of it (WithGiven()).
   static Result<std::unique_ptr<SceneRenderer>> Create(const CameraModel& camera,
                                                        const devices::SceneDescription& scene,
@@ -108,9 +109,11 @@ class SceneRenderer {
   /// draw.
   LightOrder OrderLight(UtcTime time) const;
 
-  /// Where each surface's light comes from, once for all skies: traced on the first call, with a
-  /// bar, or read from the cache. Not where there is nothing to draw.
-  std::shared_ptr<const compositor::DaylightCoefficients> Coefficients();
+  /// The daylight coefficients of the scene: traced on the first call, or read from the cache.
+  /// `progress` is called with the share of the work that is done, 0…1; it may be empty. Call only
+  /// where the scene has virtual objects.
+  std::shared_ptr<const compositor::DaylightCoefficients> Coefficients(
+      const compositor::CoefficientProgress& progress);
 
   /// Makes the light of a moment that Render() would make for its first frame.
   Result<void> PrepareLight(UtcTime time);
