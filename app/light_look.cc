@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/marker_heading.h"
+#include "app/sun_over_place.h"
 #include "compositor/plane_contrast.h"
 #include "compositor/print_shade.h"
 #include "compositor/print_shadow.h"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "app/day_skies.h"
 #include "app/light_memory.h"
 #include "app/measured_sky.h"
-#include "app/scene_light.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/image.h"

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "app/day_skies.h"
+
 namespace pleinair::app {
 namespace {
 

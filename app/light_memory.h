@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "app/day_skies.h"
 #include "app/drifting_number.h"
 #include "app/measured_sky.h"
-#include "app/scene_light.h"
 #include "base/utc_time.h"
 #include "base/vector.h"
 

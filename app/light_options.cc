@@ -78,14 +78,4 @@ std::string CouldNotKeepLight(const std::filesystem::path& cache) {
       cache.string());
 }
 
-devices::SceneDescription WithGiven(const devices::SceneDescription& scene,
-                                    const LightOptions& options) {
-  devices::SceneDescription given = scene;
-  if (!options.camera_response.empty()) given.camera_response = options.camera_response;
-  if (options.overrides.heading_deg) {
-    given.marker.heading = FromDegrees(*options.overrides.heading_deg);
-  }
-  return given;
-}
-
 }  // namespace pleinair::app

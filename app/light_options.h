@@ -3,26 +3,14 @@
 #include <filesystem>
 #include <string>
 
-#include "app/measured_sky.h"
+#include "app/given_light.h"
 #include "base/error.h"
-#include "devices/scene_description.h"
 
 namespace CLI {
 class App;
 }
 
 namespace pleinair::app {
-
-/// What a user says of the light and of the camera's picture, of a recording or live.
-struct LightOptions {
-  LightOverrides overrides;
-  bool match_look = true;                 ///< Drawn pixels get the frames' blur and grain.
-  bool hands_in_front = false;            ///< What covers the marker is before the virtual objects.
-  std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as the scene says.
-  std::filesystem::path cache;            ///< Folder for daylight coefficients; empty: without.
-  int sky_division = 1;       ///< Of Tregenza's patches: compositor::CoefficientOptions.
-  double convergence = 0.01;  ///< The same.
-};
 
 /// Adds --response, --light, --light-cache, --sky-division, --convergence, --light-patches,
 /// --sun-to-sky, --heading, --look and --hands; `options` must outlive the command.
@@ -33,9 +21,5 @@ Result<void> CheckLightCache(const std::filesystem::path& cache);
 
 /// To say where it could not be written.
 std::string CouldNotKeepLight(const std::filesystem::path& cache);
-
-/// A scene with the heading and the camera's response that the user gives.
-devices::SceneDescription WithGiven(const devices::SceneDescription& scene,
-                                    const LightOptions& options);
 
 }  // namespace pleinair::app

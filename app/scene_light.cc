@@ -1,6 +1,7 @@
 #include "app/scene_light.h"
 
-#include <cmath>
+#include "app/marker_heading.h"
+#include "app/sun_over_place.h"
 
 namespace pleinair::app {
 namespace {
@@ -22,18 +23,6 @@ std::vector<compositor::LitMesh> LightAmongSurfaces(const LightOrder& order,
 }
 
 }  // namespace
-
-Mat3 MarkerFromWorld(const devices::MarkerDescription& marker) {
-  const double s = std::sin(marker.heading.value()), c = std::cos(marker.heading.value());
-  if (marker.upright) return {{c, -s, 0, 0, 0, 1, -s, -c, 0}};
-  return {{c, -s, 0, s, c, 0, 0, 0, 1}};
-}
-
-sky::SunPosition SunOver(const devices::PlaceTime& place, UtcTime time) {
-  const sky::Observer observer{FromDegrees(place.latitude_deg), FromDegrees(place.longitude_deg),
-                               Metres(place.height_m)};
-  return sky::ComputeSunPosition(observer, time);
-}
 
 SceneLight::SceneLight(const LightOrder& light_order)
     : order(light_order),

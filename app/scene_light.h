@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/day_skies.h"
 #include "app/scene_edit.h"
 #include "base/camera_response.h"
 #include "base/utc_time.h"
@@ -17,22 +18,6 @@
 #include "sky/sun_position.h"
 
 namespace pleinair::app {
-
-/// The sun over a place at a moment.
-sky::SunPosition SunOver(const devices::PlaceTime& place, UtcTime time);
-
-/// Skies of a day whose light was measured or stated.
-struct DaySkies {
-  std::shared_ptr<const sky::SkySource> source;
-  LinearRgb scale{1.0, 1.0, 1.0};  ///< To multiply the sky with; the sun stays.
-  /// Whether trees and the like may shade what the phantoms leave in the sun.
-  bool other_shade = true;
-  /// How much of the sun these leave, across its rays; null: all. A light's own is null once the
-  /// sun has left the place that the map was made for.
-  std::shared_ptr<const compositor::SeenSunlight> sunlight{};
-  /// To multiply the camera's gain with: above 1 where leaves shade all of the print.
-  LinearRgb print_shade{1.0, 1.0, 1.0};
-};
 
 /// All that the light of a moment is made from; nothing in it changes meanwhile.
 struct LightOrder {
@@ -64,10 +49,6 @@ struct SceneLight {
   std::optional<compositor::LightMeter> meter;  ///< Where the order knows a print.
   std::vector<ObjectPlace> objects;  ///< Where they stood; empty: as the scene describes them.
 };
-
-/// Marker coordinates from east-north-up, from the marker's stated heading (devices/
-/// scene_description.h).
-Mat3 MarkerFromWorld(const devices::MarkerDescription& marker);
 
 /// Whether the sun is still where its light among surfaces was made for, so that this need not be
 /// made anew.

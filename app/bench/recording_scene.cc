@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/marker_heading.h"
 #include "app/scene_renderer.h"
 #include "devices/recording.h"
 #include "sky/sun_position.h"

@@ -7,6 +7,10 @@
 #include <chrono>
 #include <utility>
 
+#include "app/day_skies.h"
+#include "app/marker_heading.h"
+#include "app/sun_over_place.h"
+
 namespace pleinair::app {
 namespace {
 

@@ -8,9 +8,10 @@
 #include <thread>
 #include <vector>
 
+#include "app/day_skies.h"
+#include "app/given_light.h"
 #include "app/light_look.h"
 #include "app/light_memory.h"
-#include "app/light_options.h"
 #include "app/scene_edit.h"
 #include "app/scene_light.h"
 #include "base/camera_model.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/sun_over_place.h"
 #include "base/srgb.h"
 #include "compositor/sky_table.h"
 #include "shadows/shadow_uniforms.h"

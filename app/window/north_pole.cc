@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/scene_light.h"
+#include "app/marker_heading.h"
 
 namespace pleinair::app {
 namespace {

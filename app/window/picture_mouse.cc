@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/sun_over_place.h"
+
 namespace pleinair::app {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "app/local_time.h"
-#include "app/scene_light.h"
+#include "app/sun_over_place.h"
 #include "app/window/cities.h"
 #include "app/window/measured_text.h"
 #include "shadows/shadow_method.h"

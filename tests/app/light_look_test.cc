@@ -1,5 +1,4 @@
 // What is concluded from frames, and what is not.
-#include "app/light_look.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,9 @@
 #include <memory>
 #include <numbers>
 
+#include "app/day_skies.h"
+#include "app/light_look.h"
+#include "app/sun_over_place.h"
 #include "base/srgb.h"
 #include "tests/app/yard_scene.h"
 

@@ -1,10 +1,11 @@
-#include "app/light_memory.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "app/day_skies.h"
+#include "app/light_memory.h"
 
 namespace pleinair::app {
 namespace {

@@ -1,4 +1,3 @@
-#include "app/live/live_light.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,6 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/day_skies.h"
+#include "app/live/live_light.h"
+#include "app/marker_heading.h"
+#include "app/sun_over_place.h"
 #include "tests/app/small_camera.h"
 #include "tests/app/yard_scene.h"
 #include "tests/compositor/light_scenes.h"

@@ -1,12 +1,12 @@
-#include "app/window/window_state.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "app/scene_light.h"
+#include "app/sun_over_place.h"
 #include "app/window/cities.h"
 #include "app/window/window_layout.h"
+#include "app/window/window_state.h"
 
 namespace pleinair::app {
 namespace {

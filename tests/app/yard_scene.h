@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/scene_light.h"
+#include "app/sun_over_place.h"
 #include "devices/scene_description.h"
 #include "tests/compositor/photographed_yard.h"
 

@@ -1,0 +1,15 @@
+#include "app/given_light.h"
+
+namespace pleinair::app {
+
+devices::SceneDescription WithGiven(const devices::SceneDescription& scene,
+                                    const LightOptions& options) {
+  devices::SceneDescription given = scene;
+  if (!options.camera_response.empty()) given.camera_response = options.camera_response;
+  if (options.overrides.heading_deg) {
+    given.marker.heading = FromDegrees(*options.overrides.heading_deg);
+  }
+  return given;
+}
+
+}  // namespace pleinair::app

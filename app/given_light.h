@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "app/measured_sky.h"
+#include "devices/scene_description.h"
+
+namespace pleinair::app {
+
+/// What a user says of the light and of the camera's picture, of a recording or live.
+struct LightOptions {
+  LightOverrides overrides;
+  bool match_look = true;                 ///< Drawn pixels get the frames' blur and grain.
+  bool hands_in_front = false;            ///< What covers the marker is before the virtual objects.
+  std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as the scene says.
+  std::filesystem::path cache;            ///< Folder for daylight coefficients; empty: without.
+  int sky_division = 1;       ///< Of Tregenza's patches: compositor::CoefficientOptions.
+  double convergence = 0.01;  ///< The same.
+};
+
+/// A scene with the heading and the camera's response that the user gives.
+devices::SceneDescription WithGiven(const devices::SceneDescription& scene,
+                                    const LightOptions& options);
+
+}  // namespace pleinair::app
