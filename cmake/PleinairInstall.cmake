@@ -9,12 +9,14 @@ install(TARGETS ${PLEINAIR_EXPORTED} EXPORT pleinair-targets
 
 # Headers that say "Internal:" before their first include stay here (tests/architecture holds the
 # others free of the types of OpenCV, Ceres, Eigen and the like).
-foreach(module IN ITEMS base sky gl shadows compositor devices tracker)
-  file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${module}/*.h)
+foreach(module IN ITEMS base files sky scene devices tracker gl shadows compositor session export)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${module}/*.h)
   foreach(header IN LISTS headers)
     file(STRINGS ${header} internal REGEX "Internal:" LIMIT_COUNT 1)
     if(NOT internal)
-      install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pleinair/${module})
+      file(RELATIVE_PATH relative ${PROJECT_SOURCE_DIR} ${header})
+      cmake_path(GET relative PARENT_PATH folder)
+      install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pleinair/${folder})
     endif()
   endforeach()
 endforeach()
