@@ -6,9 +6,9 @@
 #include <thread>
 #include <utility>
 
-#include "app/live/hand_over.h"
-#include "app/stage_times.h"
+#include "base/bounded_queue.h"
 #include "base/error.h"
+#include "base/stage_times.h"
 #include "devices/frame_source.h"
 
 namespace pleinair::app {

@@ -9,7 +9,7 @@
 #include "app/print_measurer.h"
 #include "app/progress_bar.h"
 #include "app/sinks/detections_writer.h"
-#include "compositor/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pleinair::app {
 namespace {
@@ -44,7 +44,7 @@ Result<void> TakeTracked(const MarkerSearch& search, std::vector<TrackedFrame> t
   seen.reserve(tracked.size());
   StageTimes together;
   together.Measure("measure", [&] {
-    compositor::ParallelFor(tracked.size(), 0, [&](std::size_t i) {
+    ParallelFor(tracked.size(), 0, [&](std::size_t i) {
       tracker.Align(tracked[i].frame.grey.view(), &tracked[i].markers);
     });
     for (TrackedFrame& frame : tracked) {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "app/scene_marker.h"
+#include "base/parallel_for.h"
 #include "base/units.h"
-#include "compositor/parallel_for.h"
 #include "tracker/planar_pose.h"
 
 namespace pleinair::app {
@@ -20,8 +20,7 @@ void PrintMeasurer::Measure(std::span<Seen> frames) {
     }
   }
   std::vector<Alignments> alignments(frames.size());
-  compositor::ParallelFor(frames.size(), 0,
-                          [&](std::size_t i) { alignments[i] = Align(frames[i]); });
+  ParallelFor(frames.size(), 0, [&](std::size_t i) { alignments[i] = Align(frames[i]); });
   // Each pose leans on the one before.
   for (std::size_t i = 0; i < frames.size(); ++i) {
     for (std::size_t k = 0; k < frames[i].sightings.size(); ++k) {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "base/huge_page_allocator.h"
 #include "base/vector.h"
-#include "compositor/huge_page_allocator.h"
 
 namespace pleinair::compositor {
 

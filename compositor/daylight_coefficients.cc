@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "compositor/coefficient_reflection.h"
 #include "compositor/light_gather.h"
 #include "compositor/light_inside.h"
 #include "compositor/light_samples.h"
 #include "compositor/light_scene.h"
-#include "compositor/parallel_for.h"
 
 namespace pleinair::compositor {
 namespace {

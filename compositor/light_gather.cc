@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
+#include "base/parallel_for.h"
 #include "compositor/light_inside.h"
 #include "compositor/light_samples.h"
-#include "compositor/parallel_for.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,6 +1,6 @@
 #include "compositor/light_inside.h"
 
-#include "compositor/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "compositor/light_gather.h"
 #include "compositor/light_samples.h"
 #include "compositor/light_scene.h"
-#include "compositor/parallel_for.h"
 #include "compositor/sky_table.h"
 #include "compositor/sun_reach.h"
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <numeric>
 
+#include "base/parallel_for.h"
 #include "base/vector.h"
 #include "compositor/light_samples.h"
-#include "compositor/parallel_for.h"
 
 namespace pleinair::compositor {
 namespace {

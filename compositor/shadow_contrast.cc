@@ -7,9 +7,9 @@
 #include <map>
 #include <optional>
 
+#include "base/parallel_for.h"
 #include "base/quantile.h"
 #include "compositor/light_samples.h"
-#include "compositor/parallel_for.h"
 #include "compositor/scaled_daylight.h"
 
 namespace pleinair::compositor {

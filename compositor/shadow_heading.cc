@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "compositor/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pleinair::compositor {
 namespace {

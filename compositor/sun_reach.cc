@@ -3,10 +3,10 @@
 #include <array>
 #include <cstddef>
 
+#include "base/parallel_for.h"
 #include "compositor/light_samples.h"
 #include "compositor/light_scene.h"
 #include "compositor/lit_mesh.h"
-#include "compositor/parallel_for.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "base/vector.h"
 #include "compositor/object_distance.h"
-#include "compositor/parallel_for.h"
 #include "compositor/patch_shares.h"
 
 namespace pleinair::compositor {

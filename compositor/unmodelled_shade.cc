@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "base/quantile.h"
 #include "compositor/open_levels.h"
-#include "compositor/parallel_for.h"
 #include "compositor/shade_cell.h"
 
 namespace pleinair::compositor {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "accuracy/frame_record.h"
-#include "app/stage_times.h"
+#include "base/stage_times.h"
 
 namespace pleinair::app {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "compositor/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pleinair::app {
 namespace {
@@ -109,7 +109,7 @@ shadows::VisibilityPicture ShadowTruth::Render(const shadows::View& view, int wi
   const glm::dvec3 eye(glm::inverse(view.camera_from_marker)[3]);
   const int places = std::max(
       1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(directions_.size())))));
-  compositor::ParallelFor(static_cast<std::size_t>(window.height), 0, [&](std::size_t row) {
+  ParallelFor(static_cast<std::size_t>(window.height), 0, [&](std::size_t row) {
     const int y = window.y + static_cast<int>(row);
     for (int x = window.x; x < window.x + window.width; ++x) {
       const Hit centre = Trace(view, eye, x + 0.5, y + 0.5, width, height);

@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "app/live/hand_over.h"
+#include "base/bounded_queue.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/utc_time.h"

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "app/given_light.h"
-#include "app/live/hand_over.h"
 #include "app/live/latency_histogram.h"
 #include "app/live/latency_meter.h"
 #include "app/live/live_detail.h"
@@ -23,6 +22,7 @@
 #include "app/print_measurer.h"
 #include "app/scene_renderer.h"
 #include "app/session.h"
+#include "base/bounded_queue.h"
 #include "base/camera_model.h"
 #include "compositor/composer_options.h"
 #include "compositor/placed_model.h"

@@ -7,11 +7,11 @@
 #include <optional>
 #include <thread>
 
-#include "app/live/hand_over.h"
 #include "app/sinks/video_writer.h"
-#include "app/stage_times.h"
+#include "base/bounded_queue.h"
 #include "base/error.h"
 #include "base/image.h"
+#include "base/stage_times.h"
 
 namespace pleinair::app {
 

@@ -8,7 +8,7 @@
 
 #include "app/scene_renderer.h"
 #include "app/session.h"
-#include "app/stage_times.h"
+#include "base/stage_times.h"
 #include "devices/scene_description.h"
 
 namespace pleinair::app {

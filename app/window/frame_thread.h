@@ -6,8 +6,8 @@
 #include <optional>
 #include <thread>
 
-#include "app/live/hand_over.h"
 #include "app/live/live_session.h"
+#include "base/bounded_queue.h"
 
 namespace pleinair::app {
 

@@ -12,7 +12,7 @@
 #include "app/paths/colmap_camera.h"
 #include "app/paths/colmap_model.h"
 #include "app/paths/colmap_text.h"
-#include "error_message.h"
+#include "tests/app/error_message.h"
 #include "tests/source_tree.h"
 
 namespace pleinair::app {

@@ -9,7 +9,7 @@
 #include "app/paths/observed_path.h"
 #include "app/paths/text_lines.h"
 #include "app/paths/tum_path.h"
-#include "error_message.h"
+#include "tests/app/error_message.h"
 
 namespace pleinair::app {
 namespace {

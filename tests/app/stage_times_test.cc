@@ -1,4 +1,4 @@
-#include "app/stage_times.h"
+#include "base/stage_times.h"
 
 #include <gtest/gtest.h>
 

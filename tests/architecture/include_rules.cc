@@ -1,4 +1,4 @@
-#include "include_rules.h"
+#include "tests/architecture/include_rules.h"
 
 #include <algorithm>
 #include <fstream>

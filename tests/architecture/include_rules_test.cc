@@ -1,4 +1,4 @@
-#include "include_rules.h"
+#include "tests/architecture/include_rules.h"
 #include "tests/source_tree.h"
 
 #include <gmock/gmock.h>

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "compositor/light_solver.h"
 #include "compositor/model.h"
-#include "compositor/parallel_for.h"
 #include "compositor/ray_scene.h"
 #include "tests/compositor/light_scenes.h"
 #include "tests/compositor/path_tracer.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "devices/recording.h"
-#include "temporary_folder.h"
+#include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
 namespace {

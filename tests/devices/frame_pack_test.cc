@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "devices/recording.h"
-#include "temporary_folder.h"
+#include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
 namespace {

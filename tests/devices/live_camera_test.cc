@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "devices/loss_counter.h"
-#include "fake_camera_device.h"
+#include "tests/devices/fake_camera_device.h"
 
 namespace pleinair::devices {
 namespace {

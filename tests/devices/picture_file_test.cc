@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "temporary_folder.h"
+#include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "temporary_folder.h"
+#include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
 namespace {

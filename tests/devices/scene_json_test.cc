@@ -3,7 +3,7 @@
 
 #include "devices/scene_facts.h"
 #include "devices/sky_words.h"
-#include "temporary_folder.h"
+#include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "devices/scene_description.h"
-#include "temporary_folder.h"
+#include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
 namespace {

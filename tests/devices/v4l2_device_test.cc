@@ -5,7 +5,7 @@
 #include <string>
 
 #include "devices/v4l2/v4l2_node.h"
-#include "fake_v4l2.h"
+#include "tests/devices/fake_v4l2.h"
 
 namespace pleinair::devices {
 namespace {

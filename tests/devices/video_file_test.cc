@@ -6,7 +6,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "devices/recording.h"
-#include "temporary_folder.h"
+#include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
 namespace {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/quaternion.h"
-#include "run_program.h"
+#include "tests/e2e/run_program.h"
+#include "tests/e2e/tum_file.h"
 #include "tests/source_tree.h"
-#include "tum_file.h"
 
 namespace pleinair::e2e {
 namespace {

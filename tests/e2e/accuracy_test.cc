@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run_program.h"
+#include "tests/e2e/run_program.h"
 #include "tests/source_tree.h"
 
 namespace pleinair::e2e {

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "refusal.h"
-#include "run_program.h"
+#include "tests/e2e/refusal.h"
+#include "tests/e2e/run_program.h"
 #include "tests/source_tree.h"
 
 namespace pleinair::e2e {

@@ -5,9 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "command_output.h"
-#include "refusal.h"
-#include "run_program.h"
+#include "tests/e2e/command_output.h"
+#include "tests/e2e/refusal.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 namespace {

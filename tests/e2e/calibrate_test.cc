@@ -10,7 +10,7 @@
 
 #include "base/srgb.h"
 #include "devices/calibration.h"
-#include "run_program.h"
+#include "tests/e2e/run_program.h"
 #include "tests/tracker/board_rendering.h"
 
 namespace pleinair::e2e {

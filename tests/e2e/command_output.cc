@@ -1,4 +1,4 @@
-#include "command_output.h"
+#include "tests/e2e/command_output.h"
 
 #include <gtest/gtest.h>
 

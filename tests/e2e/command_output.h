@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run_program.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "run_program.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 namespace {

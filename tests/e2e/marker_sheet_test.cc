@@ -9,9 +9,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "command_output.h"
-#include "refusal.h"
-#include "run_program.h"
+#include "tests/e2e/command_output.h"
+#include "tests/e2e/refusal.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "base/camera_model.h"
 #include "base/quaternion.h"
-#include "refusal.h"
-#include "run_program.h"
+#include "tests/e2e/refusal.h"
+#include "tests/e2e/run_program.h"
+#include "tests/e2e/tum_file.h"
 #include "tests/source_tree.h"
-#include "tum_file.h"
 
 namespace pleinair::e2e {
 namespace {

@@ -1,4 +1,4 @@
-#include "poster.h"
+#include "tests/e2e/poster.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "refusal.h"
+#include "tests/e2e/refusal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "run_program.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 

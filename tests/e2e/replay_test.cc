@@ -10,9 +10,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
-#include "command_output.h"
-#include "run_program.h"
-#include "tum_file.h"
+#include "tests/e2e/command_output.h"
+#include "tests/e2e/run_program.h"
+#include "tests/e2e/tum_file.h"
 
 namespace pleinair::e2e {
 namespace {

@@ -1,4 +1,4 @@
-#include "run_program.h"
+#include "tests/e2e/run_program.h"
 #include "tests/source_tree.h"
 
 #include <fmt/format.h>

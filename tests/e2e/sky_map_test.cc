@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "command_output.h"
-#include "run_program.h"
+#include "tests/e2e/command_output.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 namespace {

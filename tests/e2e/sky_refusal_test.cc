@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "refusal.h"
-#include "run_program.h"
+#include "tests/e2e/refusal.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 namespace {

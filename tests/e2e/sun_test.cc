@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "command_output.h"
-#include "refusal.h"
-#include "run_program.h"
+#include "tests/e2e/command_output.h"
+#include "tests/e2e/refusal.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 namespace {

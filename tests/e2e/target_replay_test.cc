@@ -9,11 +9,11 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "command_output.h"
-#include "poster.h"
-#include "refusal.h"
-#include "run_program.h"
-#include "tum_file.h"
+#include "tests/e2e/command_output.h"
+#include "tests/e2e/poster.h"
+#include "tests/e2e/refusal.h"
+#include "tests/e2e/run_program.h"
+#include "tests/e2e/tum_file.h"
 
 namespace pleinair::e2e {
 namespace {

@@ -1,4 +1,4 @@
-#include "tum_file.h"
+#include "tests/e2e/tum_file.h"
 
 #include <algorithm>
 #include <cmath>

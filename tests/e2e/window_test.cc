@@ -14,7 +14,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "run_program.h"
+#include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
 namespace {

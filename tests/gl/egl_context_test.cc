@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "gl_fixture.h"
+#include "tests/gl/gl_fixture.h"
 
 namespace pleinair::gl {
 namespace {

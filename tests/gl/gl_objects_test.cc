@@ -14,7 +14,7 @@
 #include "gl/shader_library.h"
 #include "gl/texture.h"
 #include "gl/vertex_array.h"
-#include "gl_fixture.h"
+#include "tests/gl/gl_fixture.h"
 
 namespace pleinair::gl {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shadow_scene.h"
 #include "shadows/fading_shadow_maps.h"
 #include "shadows/sun_steps.h"
+#include "tests/shadows/shadow_scene.h"
 
 namespace pleinair::shadows {
 namespace {

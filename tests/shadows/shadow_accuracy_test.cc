@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "shadow_scene.h"
+#include "tests/shadows/shadow_scene.h"
 
 namespace pleinair::shadows {
 namespace {

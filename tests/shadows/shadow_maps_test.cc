@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "shadow_scene.h"
+#include "tests/shadows/shadow_scene.h"
 
 namespace pleinair::shadows {
 namespace {

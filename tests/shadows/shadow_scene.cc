@@ -1,4 +1,4 @@
-#include "shadow_scene.h"
+#include "tests/shadows/shadow_scene.h"
 
 #include <cmath>
 #include <numbers>

@@ -8,9 +8,9 @@
 
 #include "gl/buffer.h"
 #include "gl/vertex_array.h"
-#include "gl_fixture.h"
 #include "shadows/fading_shadow_maps.h"
 #include "shadows/shadow_maps.h"
+#include "tests/gl/gl_fixture.h"
 
 namespace pleinair::shadows {
 

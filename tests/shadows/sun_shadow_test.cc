@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "shadow_scene.h"
+#include "tests/shadows/shadow_scene.h"
 
 namespace pleinair::shadows {
 namespace {

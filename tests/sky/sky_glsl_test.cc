@@ -6,11 +6,11 @@
 #include <memory>
 #include <random>
 
-#include "glsl_skies.h"
 #include "sky/cie_sky.h"
 #include "sky/perez.h"
 #include "sky/sun_direction.h"
-#include "sky_twin_cases.h"
+#include "tests/sky/glsl_skies.h"
+#include "tests/sky/sky_twin_cases.h"
 
 namespace pleinair::sky {
 namespace {

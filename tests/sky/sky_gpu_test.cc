@@ -18,8 +18,8 @@
 #include "sky/atmosphere.h"
 #include "sky/cie_sky.h"
 #include "sky/perez.h"
-#include "sky_twin_cases.h"
 #include "tests/gl/gl_fixture.h"
+#include "tests/sky/sky_twin_cases.h"
 #include "tests/source_tree.h"
 
 namespace pleinair::sky {

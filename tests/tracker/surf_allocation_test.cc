@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "surf_test_pictures.h"
 #include "tests/tracker/counted_memory.h"
+#include "tests/tracker/surf_test_pictures.h"
 #include "tracker/surf/descriptor_matcher.h"
 #include "tracker/surf/quantised_descriptor.h"
 #include "tracker/surf/surf.h"

@@ -11,8 +11,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "surf_peers.h"
-#include "surf_test_pictures.h"
+#include "tests/tracker/surf_peers.h"
+#include "tests/tracker/surf_test_pictures.h"
 #include "tracker/surf/descriptor_matcher.h"
 #include "tracker/surf/surf.h"
 

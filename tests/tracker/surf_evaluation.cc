@@ -22,7 +22,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "surf_peers.h"
+#include "tests/tracker/surf_peers.h"
 
 namespace pleinair::tracker {
 namespace {

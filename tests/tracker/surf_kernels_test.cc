@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
-#include "on_every_target.h"
-#include "surf_reference.h"
-#include "surf_test_pictures.h"
+#include "tests/tracker/on_every_target.h"
+#include "tests/tracker/surf_reference.h"
+#include "tests/tracker/surf_test_pictures.h"
 #include "tracker/surf/box_levels.h"
 #include "tracker/surf/descriptor_matcher.h"
 #include "tracker/surf/double_size.h"

@@ -1,4 +1,4 @@
-#include "surf_peers.h"
+#include "tests/tracker/surf_peers.h"
 
 #include <algorithm>
 #include <numbers>

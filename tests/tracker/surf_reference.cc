@@ -1,4 +1,4 @@
-#include "surf_reference.h"
+#include "tests/tracker/surf_reference.h"
 
 #include <algorithm>
 #include <array>

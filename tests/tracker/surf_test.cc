@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "surf_test_pictures.h"
+#include "tests/tracker/surf_test_pictures.h"
 #include "tracker/surf/quantised_descriptor.h"
 
 namespace pleinair::tracker {

@@ -1,4 +1,4 @@
-#include "surf_test_pictures.h"
+#include "tests/tracker/surf_test_pictures.h"
 
 #include <algorithm>
 #include <cmath>

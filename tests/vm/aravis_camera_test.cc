@@ -7,9 +7,9 @@
 #include <sstream>
 #include <thread>
 
-#include "camera_helpers.h"
 #include "devices/camera_list.h"
 #include "devices/live_camera.h"
+#include "tests/vm/camera_helpers.h"
 
 namespace pleinair::vm {
 namespace {

@@ -1,4 +1,4 @@
-#include "camera_helpers.h"
+#include "tests/vm/camera_helpers.h"
 
 namespace pleinair::vm {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "camera_helpers.h"
-#include "uvc_simulator.h"
+#include "tests/vm/camera_helpers.h"
+#include "tests/vm/uvc_simulator.h"
 
 namespace pleinair::vm {
 namespace {

@@ -1,4 +1,4 @@
-#include "courtyard_film.h"
+#include "tests/vm/courtyard_film.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <utility>
 
-#include "camera_helpers.h"
 #include "devices/frame_pack.h"
 #include "devices/recording.h"
 #include "tests/source_tree.h"
+#include "tests/vm/camera_helpers.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::vm {

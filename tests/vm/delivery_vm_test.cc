@@ -6,8 +6,8 @@
 #include <iostream>
 #include <thread>
 
-#include "camera_helpers.h"
-#include "uvc_simulator.h"
+#include "tests/vm/camera_helpers.h"
+#include "tests/vm/uvc_simulator.h"
 
 namespace pleinair::vm {
 namespace {

@@ -1,4 +1,4 @@
-#include "gige_film_camera.h"
+#include "tests/vm/gige_film_camera.h"
 
 #include <arv.h>
 

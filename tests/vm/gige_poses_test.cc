@@ -1,9 +1,9 @@
 // Beside GigE Vision cameras in software, one of which plays footage whose poses are known.
 #include <gtest/gtest.h>
 
-#include "camera_helpers.h"
-#include "courtyard_film.h"
-#include "gige_film_camera.h"
+#include "tests/vm/camera_helpers.h"
+#include "tests/vm/courtyard_film.h"
+#include "tests/vm/gige_film_camera.h"
 
 namespace pleinair::vm {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <thread>
 
-#include "camera_helpers.h"
 #include "devices/camera_list.h"
-#include "uvc_simulator.h"
+#include "tests/vm/camera_helpers.h"
+#include "tests/vm/uvc_simulator.h"
 
 namespace pleinair::vm {
 namespace {

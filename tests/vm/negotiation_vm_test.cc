@@ -6,8 +6,8 @@
 #include <map>
 #include <thread>
 
-#include "camera_helpers.h"
 #include "devices/camera_list.h"
+#include "tests/vm/camera_helpers.h"
 
 namespace pleinair::vm {
 namespace {

@@ -1,8 +1,8 @@
 // Runs inside the VM, on the kernel's own drivers: docs/cameras.md lists the behaviours.
 #include <gmock/gmock.h>
 
-#include "camera_helpers.h"
-#include "uvc_simulator.h"
+#include "tests/vm/camera_helpers.h"
+#include "tests/vm/uvc_simulator.h"
 
 namespace pleinair::vm {
 namespace {

@@ -14,11 +14,11 @@
 #include <thread>
 #include <utility>
 
-#include "camera_helpers.h"
-#include "courtyard_film.h"
 #include "devices/recording.h"
 #include "tests/source_tree.h"
-#include "uvc_simulator.h"
+#include "tests/vm/camera_helpers.h"
+#include "tests/vm/courtyard_film.h"
+#include "tests/vm/uvc_simulator.h"
 
 namespace pleinair::vm {
 namespace {

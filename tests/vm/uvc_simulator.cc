@@ -1,4 +1,4 @@
-#include "uvc_simulator.h"
+#include "tests/vm/uvc_simulator.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "camera_helpers.h"
 #include "devices/camera_list.h"
+#include "tests/vm/camera_helpers.h"
 
 namespace pleinair::vm {
 namespace {

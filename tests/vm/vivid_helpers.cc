@@ -6,8 +6,8 @@
 
 #include <cstring>
 
-#include "camera_helpers.h"
 #include "devices/camera_list.h"
+#include "tests/vm/camera_helpers.h"
 
 namespace pleinair::vm {
 

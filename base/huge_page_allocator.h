@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <new>
 
-namespace pleinair::compositor {
+namespace pleinair {
 
 /// For large tables that are read from end to end: asks the kernel for pages of 2 MiB, at whose
 /// borders alone the processor stops reading ahead. Where it has none to give, nothing changes.
@@ -38,4 +38,4 @@ class HugePageAllocator {
   }
 };
 
-}  // namespace pleinair::compositor
+}  // namespace pleinair

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pleinair::app {
+namespace pleinair {
 
 /// Milliseconds per frame of each stage of a run, in the order the stages first ran.
 class StageTimes {
@@ -73,4 +73,4 @@ class StageTimes {
   std::vector<std::pair<std::string, std::vector<float>>> stages_;
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair

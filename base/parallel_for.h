@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace pleinair::compositor {
+namespace pleinair {
 
 /// Calls `body(chunk)` once for every chunk 0…chunks−1 on `threads` threads (0: one a processor).
 /// Which thread runs a chunk is left to chance: bodies must depend on the chunk alone.
@@ -24,4 +24,4 @@ void ParallelFor(std::size_t chunks, int threads, const Body& body) {
   work();
 }
 
-}  // namespace pleinair::compositor
+}  // namespace pleinair

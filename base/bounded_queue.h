@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace pleinair::app {
+namespace pleinair {
 
 /// What a giver does when the taker has not kept up.
 enum class WhenFull {
@@ -92,4 +92,4 @@ class HandOver {
   std::int64_t dropped_ = 0;
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair
