@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "app/markup.h"
 #include "app/sinks/picture_writer.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -119,7 +119,7 @@ std::string DrawingSvg(const LineDrawing& drawing, int width_px) {
       "viewBox=\"0 0 {} {}\">\n<title>{}</title>\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"#fff\"/>\n<g fill=\"none\" stroke-linejoin=\"round\">\n",
       width_px, Number(height_px), Number(drawing.width), Number(drawing.height),
-      EscapeMarkup(drawing.title));
+      files::EscapeMarkup(drawing.title));
   auto out = std::back_inserter(svg);
   for (const DrawingLine& line : drawing.lines) {
     if (line.points.size() < 2) continue;
@@ -149,7 +149,8 @@ std::string DrawingSvg(const LineDrawing& drawing, int width_px) {
     fmt::format_to(out,
                    "<text {0} stroke=\"#fff\" stroke-width=\"{1}\" stroke-linejoin=\"round\">{2}"
                    "</text><text {0} fill=\"{3}\">{2}</text>\n",
-                   place, Number(kHalo * text.size), EscapeMarkup(text.text), Hex(text.colour));
+                   place, Number(kHalo * text.size), files::EscapeMarkup(text.text),
+                   Hex(text.colour));
   }
   return svg + "</g>\n</svg>\n";
 }

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/csv_records.h"
+#include "files/csv.h"
 
 namespace pleinair::app {
 
@@ -16,7 +16,7 @@ inline CLI::Validator NumberRange(double low, double high) {
       "[" + CLI::detail::to_string(low) + " - " + CLI::detail::to_string(high) + "]";
   return CLI::Validator(
       [low, high, range](std::string& input) {
-        const std::optional<double> value = ParseNumber(input);
+        const std::optional<double> value = files::ParseNumber(input);
         if (value && *value >= low && *value <= high) return std::string();
         return "\"" + input + "\" is not a number in " + range;
       },

@@ -9,7 +9,7 @@
 #include "app/number_range.h"
 #include "app/paths/path_files.h"
 #include "devices/calibration.h"
-#include "devices/text_file.h"
+#include "files/text_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -50,7 +50,7 @@ Result<void> Run(const Arguments& arguments) {
   if (!arguments.extrinsics.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(
         const std::string yaml,
-        devices::ReadWholeFile(arguments.extrinsics, devices::kMaxCalibrationBytes));
+        files::ReadWholeFile(arguments.extrinsics, files::kMaxCalibrationBytes));
     PLEINAIR_ASSIGN_OR_RETURN(reading.body_from_camera,
                               devices::ParseEurocExtrinsics(yaml, arguments.extrinsics));
   }

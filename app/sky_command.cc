@@ -12,10 +12,10 @@
 #include "app/command.h"
 #include "app/option_use.h"
 #include "app/progress_bar.h"
-#include "app/result_file.h"
 #include "app/sky_directions.h"
 #include "app/sky_files.h"
 #include "app/sky_options.h"
+#include "files/result_file.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::app {
@@ -62,7 +62,7 @@ Result<void> RunVideo(const SkyOptions& options, const sky::SkySource& source,
 
 Result<void> RunSeries(const SkyOptions& options, const sky::SkySource& source,
                        const std::vector<SkyMoment>& moments) {
-  PLEINAIR_ASSIGN_OR_RETURN(ResultFile output, ResultFile::Open(options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(files::ResultFile output, files::ResultFile::Open(options.output));
   if (!options.json) output.stream() << kSkyLightColumns << '\n';
   ProgressBar bar("sky", static_cast<std::int64_t>(moments.size()), "moments");
   for (const SkyMoment& moment : moments) {

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "app/csv_records.h"
-#include "app/result_file.h"
 #include "app/sky_picture.h"
 #include "base/units.h"
+#include "files/csv.h"
+#include "files/result_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -25,16 +25,17 @@ struct AngleColumn {
 constexpr AngleColumn kAzimuth{"azimuth_deg", -360.0, 360.0};
 constexpr AngleColumn kElevation{"elevation_deg", -90.0, 90.0};
 
-Result<std::size_t> RequireColumn(const CsvRecords& header, const AngleColumn& column) {
+Result<std::size_t> RequireColumn(const files::CsvRecords& header, const AngleColumn& column) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::size_t> found, header.FindColumn(column.name));
   if (found) return *found;
   return InputError(header.Where(), std::string("the column ") + column.name + " is missing",
                     std::string(kHeaderHelp));
 }
 
-Result<double> ReadAngle(const CsvRecords& record, std::size_t at, const AngleColumn& column) {
+Result<double> ReadAngle(const files::CsvRecords& record, std::size_t at,
+                         const AngleColumn& column) {
   const std::string& text = record.fields()[at];
-  const std::optional<double> value = ParseNumber(text);
+  const std::optional<double> value = files::ParseNumber(text);
   if (value && *value >= column.lowest && *value <= column.highest) return *value;
   return InputError(record.Where(),
                     std::string(column.name) + " \"" + text.substr(0, 40) + "\" is not possible",
@@ -44,7 +45,7 @@ Result<double> ReadAngle(const CsvRecords& record, std::size_t at, const AngleCo
 }  // namespace
 
 Result<SkyDirectionTable> ParseSkyDirections(std::string_view text, const std::string& name) {
-  CsvRecords records(text, name);
+  files::CsvRecords records(text, name);
   PLEINAIR_ASSIGN_OR_RETURN(const bool has_header, records.Next());
   if (!has_header) return InputError(name, "is empty", std::string(kHeaderHelp));
   SkyDirectionTable table;
@@ -66,10 +67,10 @@ Result<SkyDirectionTable> ParseSkyDirections(std::string_view text, const std::s
 
 Result<void> WriteSkyDirections(const sky::SkyModel& sky, double ground_albedo,
                                 const std::string& csv, const std::string& output, bool json) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, ReadTextFile(csv));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadTextFile(csv));
   PLEINAIR_ASSIGN_OR_RETURN(const SkyDirectionTable table,
-                            ParseSkyDirections(text, TextFileName(csv)));
-  PLEINAIR_ASSIGN_OR_RETURN(ResultFile file, ResultFile::Open(output));
+                            ParseSkyDirections(text, files::TextFileName(csv)));
+  PLEINAIR_ASSIGN_OR_RETURN(files::ResultFile file, files::ResultFile::Open(output));
   std::ostream& out = file.stream();
   if (!json) out << table.header << ",luminance_cd_m2,x,y,r,g,b\n";
   const LinearRgb ground = GroundRadiance(sky, ground_albedo);

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "app/csv_records.h"
+#include "files/csv.h"
 
 namespace pleinair::app {
 
@@ -26,9 +26,9 @@ Result<SkyMoment> ParseSunOption(const std::string& text) {
   const std::string_view view = text;
   // What is not there is not a number either.
   constexpr double kNone = 1e9;
-  const double azimuth = ParseNumber(view.substr(0, comma)).value_or(kNone);
+  const double azimuth = files::ParseNumber(view.substr(0, comma)).value_or(kNone);
   const double elevation =
-      ParseNumber(view.substr(std::min(comma + 1, view.size()))).value_or(kNone);
+      files::ParseNumber(view.substr(std::min(comma + 1, view.size()))).value_or(kNone);
   if (std::fabs(azimuth) > 360.0 || std::fabs(elevation) > 90.0) {
     return InputError("--sun", "\"" + text.substr(0, 60) + "\" is no place of the sun",
                       "write its azimuth (-360 to 360) and elevation (-90 to 90) in degrees, for "

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "app/progress_bar.h"
-#include "app/result_file.h"
 #include "app/sun_rows.h"
+#include "files/result_file.h"
 #include "sky/sun_clock.h"
 #include "sky/sun_day.h"
 #include "sky/sun_events.h"
@@ -199,7 +199,7 @@ Result<void> WriteSunMoment(const sky::Observer& observer, UtcTime time,
   const double equation_s =
       sky::EquationOfTimeSeconds(time, observer.ut1_minus_utc_s, options.model);
   const double radius_deg = ToDegrees(sun.AngularRadius());
-  PLEINAIR_ASSIGN_OR_RETURN(ResultFile output, ResultFile::Open(options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(files::ResultFile output, files::ResultFile::Open(options.output));
   std::ostream& out = output.stream();
   if (options.json) {
     out << '{' << SunPositionJson(time, observer, sun)
@@ -238,7 +238,7 @@ Result<void> WriteSunMoment(const sky::Observer& observer, UtcTime time,
 Result<void> WriteSunDay(const sky::Observer& observer, UtcTime midnight, UtcOffset offset,
                          const SunDayOptions& options) {
   const DayFacts facts = ComputeDay(observer, midnight, options.model);
-  PLEINAIR_ASSIGN_OR_RETURN(ResultFile output, ResultFile::Open(options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(files::ResultFile output, files::ResultFile::Open(options.output));
   output.stream() << (options.json ? DayJson(observer, facts, offset, options.model)
                                    : DayText(observer, facts, offset, options.model));
   return output.Finish();
@@ -246,7 +246,7 @@ Result<void> WriteSunDay(const sky::Observer& observer, UtcTime midnight, UtcOff
 
 Result<void> WriteSunAlmanac(const sky::Observer& observer, UtcTime midnight, UtcOffset offset,
                              int days, const SunDayOptions& options) {
-  PLEINAIR_ASSIGN_OR_RETURN(ResultFile output, ResultFile::Open(options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(files::ResultFile output, files::ResultFile::Open(options.output));
   std::ostream& out = output.stream();
   if (!options.json) {
     out << "date,utc_offset,astronomical_dawn,nautical_dawn,civil_dawn,sunrise,noon,sunset,"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/progress_bar.h"
-#include "app/result_file.h"
 #include "app/sun_table.h"
+#include "files/result_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -72,9 +72,10 @@ std::string SunPositionJson(UtcTime time, const sky::Observer& observer,
 
 Result<void> WriteSunTable(const std::string& csv, const sky::Observer& defaults,
                            const SunRowsOptions& options) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, ReadTextFile(csv));
-  PLEINAIR_ASSIGN_OR_RETURN(const SunTable table, ParseSunTable(text, TextFileName(csv), defaults));
-  PLEINAIR_ASSIGN_OR_RETURN(ResultFile output, ResultFile::Open(options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadTextFile(csv));
+  PLEINAIR_ASSIGN_OR_RETURN(const SunTable table,
+                            ParseSunTable(text, files::TextFileName(csv), defaults));
+  PLEINAIR_ASSIGN_OR_RETURN(files::ResultFile output, files::ResultFile::Open(options.output));
   if (!options.json) output.stream() << table.header << ',' << kSunColumns << '\n';
   WriteRows(table.rows, options, output.stream());
   return output.Finish();
@@ -104,7 +105,7 @@ Result<void> WriteSunSeries(const sky::Observer& observer, UtcTime from, UtcTime
     texts[i] = rows[i].time.ToString() + place.data();
     rows[i].text = texts[i];
   }
-  PLEINAIR_ASSIGN_OR_RETURN(ResultFile output, ResultFile::Open(options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(files::ResultFile output, files::ResultFile::Open(options.output));
   if (!options.json) output.stream() << "utc,lat,lon," << kSunColumns << '\n';
   WriteRows(rows, options, output.stream());
   return output.Finish();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/csv_records.h"
+#include "files/csv.h"
 
 namespace pleinair::app {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::size_t kRequiredFields = 2;  // Latitude and longitude.
 
 Result<void> SetObserverField(const ObserverField& field, std::string_view text,
                               const std::string& where, sky::Observer* observer) {
-  const std::optional<double> value = ParseNumber(text);
+  const std::optional<double> value = files::ParseNumber(text);
   if (!value || *value < field.lowest || *value > field.highest) {
     std::array<char, 96> range;
     std::snprintf(range.data(), range.size(), "give a number from %g to %g (%s)", field.lowest,
@@ -32,7 +32,7 @@ Result<void> SetObserverField(const ObserverField& field, std::string_view text,
 
 Result<SunTable> ParseSunTable(std::string_view text, const std::string& name,
                                const sky::Observer& defaults) {
-  CsvRecords reader(text, name);
+  files::CsvRecords reader(text, name);
   PLEINAIR_ASSIGN_OR_RETURN(const bool has_header, reader.Next());
   constexpr const char* kHeaderHelp =
       "start it with the line utc,lat,lon or utc,lat,lon,height_m,pressure_mbar,temperature_c";
@@ -61,7 +61,7 @@ Result<SunTable> ParseSunTable(std::string_view text, const std::string& name,
     SunTableRow row;
     row.text = reader.record();
     row.observer = defaults;
-    Result<UtcTime> time = UtcTime::Parse(Trimmed(reader.fields()[*time_column]));
+    Result<UtcTime> time = UtcTime::Parse(files::Trimmed(reader.fields()[*time_column]));
     if (!time) {
       Error error = std::move(time).error();
       error.where = reader.Where();
@@ -71,7 +71,7 @@ Result<SunTable> ParseSunTable(std::string_view text, const std::string& name,
     for (const auto& [column, field] : field_columns) {
       const std::string& value = reader.fields()[column];
       const bool required = field < &kObserverFields[kRequiredFields];
-      if (!required && Trimmed(value).empty()) continue;
+      if (!required && files::Trimmed(value).empty()) continue;
       PLEINAIR_RETURN_IF_ERROR(SetObserverField(*field, value, reader.Where(), &row.observer));
     }
     table.rows.push_back(row);

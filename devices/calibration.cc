@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "devices/json_fields.h"
-#include "devices/text_file.h"
+#include "files/json_fields.h"
+#include "files/text_file.h"
 
 namespace pleinair::devices {
 namespace {
@@ -123,13 +123,13 @@ Result<CameraModel> Judge(const Readings& readings, const std::string& name) {
 
 // The numbers under the first of `keys` that is there: a plain list, or OpenCV's and ROS's
 // {rows, cols, data}.
-Result<std::optional<std::vector<double>>> Matrix(const JsonFields& fields,
+Result<std::optional<std::vector<double>>> Matrix(const files::JsonFields& fields,
                                                   std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
-    const Json* value = fields.Find(key);
+    const files::Json* value = fields.Find(key);
     if (value == nullptr) continue;
     if (!value->is_object()) return fields.Numbers(key);
-    const JsonFields matrix = fields.Object(key);
+    const files::JsonFields matrix = fields.Object(key);
     PLEINAIR_ASSIGN_OR_RETURN(const std::optional<int> rows, matrix.Integer("rows"));
     PLEINAIR_ASSIGN_OR_RETURN(const std::optional<int> columns, matrix.Integer("cols"));
     PLEINAIR_ASSIGN_OR_RETURN(std::optional<std::vector<double>> data, matrix.Numbers("data"));
@@ -146,7 +146,7 @@ Result<std::optional<std::vector<double>>> Matrix(const JsonFields& fields,
 }
 
 // The first of `keys` that is there, as a whole number.
-Result<std::optional<int>> IntegerOf(const JsonFields& fields,
+Result<std::optional<int>> IntegerOf(const files::JsonFields& fields,
                                      std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
     if (fields.Has(key)) return fields.Integer(key);
@@ -155,7 +155,7 @@ Result<std::optional<int>> IntegerOf(const JsonFields& fields,
 }
 
 // Sets the picture's size from a list [width, height].
-Result<void> SizeFromList(const JsonFields& fields, std::initializer_list<const char*> keys,
+Result<void> SizeFromList(const files::JsonFields& fields, std::initializer_list<const char*> keys,
                           Readings* readings) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::vector<double>> size, Matrix(fields, keys));
   if (!size) return {};
@@ -172,7 +172,7 @@ Result<void> SizeFromList(const JsonFields& fields, std::initializer_list<const 
 
 // Our form: {"image_width", "image_height", "model", "fx", "fy", "cx", "cy",
 // "distortion_k1_k2_p1_p2_k3": […]}; a scene.json says "dist" and has its size in "image".
-Result<CameraModel> ReadOwn(const JsonFields& fields, Readings readings) {
+Result<CameraModel> ReadOwn(const files::JsonFields& fields, Readings readings) {
   if (!readings.width) {
     PLEINAIR_ASSIGN_OR_RETURN(readings.width, IntegerOf(fields, {"image_width", "width"}));
     PLEINAIR_ASSIGN_OR_RETURN(readings.height, IntegerOf(fields, {"image_height", "height"}));
@@ -192,7 +192,7 @@ Result<CameraModel> ReadOwn(const JsonFields& fields, Readings readings) {
 }
 
 // Kalibr's cam0 and EuRoC's sensor.yaml: intrinsics [fx, fy, cx, cy], resolution [w, h].
-Result<CameraModel> ReadKalibr(const JsonFields& fields) {
+Result<CameraModel> ReadKalibr(const files::JsonFields& fields) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> camera, fields.Text("camera_model"));
   if (camera && Canonical(*camera) != "pinhole") {
     return fields.Fail("camera_model", "is \"" + camera->substr(0, 64) + "\", which is not known",
@@ -226,7 +226,7 @@ constexpr std::initializer_list<const char*> kMatrixKeys = {"camera_matrix",
                                                             "M1"};
 
 // OpenCV's and ROS's: a 3x3 camera matrix and a row or column of distortion coefficients.
-Result<CameraModel> ReadMatrixForm(const JsonFields& fields) {
+Result<CameraModel> ReadMatrixForm(const files::JsonFields& fields) {
   Readings readings;
   PLEINAIR_ASSIGN_OR_RETURN(
       readings.width, IntegerOf(fields, {"image_width", "imageWidth", "image_Width", "width"}));
@@ -268,14 +268,14 @@ Result<CameraModel> ReadMatrixForm(const JsonFields& fields) {
 }
 
 // The lens in a document of any of the forms.
-Result<CameraModel> CameraFromDocument(const Json& document, const std::string& name) {
-  const JsonFields fields(document, name);
+Result<CameraModel> CameraFromDocument(const files::Json& document, const std::string& name) {
+  const files::JsonFields fields(document, name);
   if (fields.Has("cam0")) return ReadKalibr(fields.Object("cam0"));
   if (fields.Has("calibration")) return ReadOwn(fields.Object("calibration"), {});
-  if (const Json* intrinsics = fields.Find("intrinsics"); intrinsics != nullptr) {
+  if (const files::Json* intrinsics = fields.Find("intrinsics"); intrinsics != nullptr) {
     if (!intrinsics->is_object()) return ReadKalibr(fields);
     Readings readings;
-    const JsonFields image = fields.Object("image");
+    const files::JsonFields image = fields.Object("image");
     PLEINAIR_ASSIGN_OR_RETURN(readings.width, image.Integer("width"));
     PLEINAIR_ASSIGN_OR_RETURN(readings.height, image.Integer("height"));
     return ReadOwn(fields.Object("intrinsics"), readings);
@@ -301,13 +301,15 @@ Result<CameraModel> ParseCalibration(std::string_view bytes, const std::string& 
   if (bytes.starts_with("<?xml")) {
     return InputError(name, "is XML", "have OpenCV write it as .yaml or .json instead");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const Json document, bytes.starts_with('{') ? ParseJson(bytes, name)
-                                                                        : ParseYaml(bytes, name));
+  PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, bytes.starts_with('{')
+                                                            ? files::ParseJson(bytes, name)
+                                                            : files::ParseYaml(bytes, name));
   return CameraFromDocument(document, name);
 }
 
 Result<CameraModel> ReadCalibration(const std::filesystem::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(file, kMaxCalibrationBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
+                            files::ReadWholeFile(file, files::kMaxCalibrationBytes));
   return ParseCalibration(bytes, file.string());
 }
 

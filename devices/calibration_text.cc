@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "devices/json_fields.h"
+#include "files/json_fields.h"
 
 namespace pleinair::devices {
 namespace {
@@ -35,7 +35,7 @@ std::vector<double> FiveOrMore(const CameraModel& camera) {
 
 /// The shortest number that reads back the same, with a point: YAML 1.1 takes "1e-05" for a word.
 std::string Number(double value) {
-  std::string text = Json(value).dump();
+  std::string text = files::Json(value).dump();
   if (const std::size_t e = text.find('e'); e != std::string::npos && text.find('.') > e) {
     text.insert(e, ".0");
   }

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "devices/json_fields.h"
+#include "files/json_fields.h"
 
 namespace pleinair::devices {
 namespace {
@@ -53,8 +53,8 @@ Result<std::vector<EurocFrame>> ParseEurocTable(std::string_view bytes, const st
 }
 
 Result<std::optional<double>> ParseEurocRate(std::string_view bytes, const std::string& name) {
-  PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseYaml(bytes, name));
-  const JsonFields fields(document, name);
+  PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseYaml(bytes, name));
+  const files::JsonFields fields(document, name);
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> rate_hz, fields.Number("rate_hz"));
   if (rate_hz && *rate_hz <= 0.0) return fields.Fail("rate_hz", "is not greater than zero");
   return rate_hz;
@@ -62,8 +62,8 @@ Result<std::optional<double>> ParseEurocRate(std::string_view bytes, const std::
 
 Result<Transform<EurocBody, Camera>> ParseEurocExtrinsics(std::string_view bytes,
                                                           const std::string& name) {
-  PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseYaml(bytes, name));
-  const JsonFields fields = JsonFields(document, name).Object("T_BS");
+  PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseYaml(bytes, name));
+  const files::JsonFields fields = files::JsonFields(document, name).Object("T_BS");
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::vector<double>> data, fields.Numbers("data"));
   if (!data || data->size() != 16) {
     return InputError(name, "has no T_BS with data of 4 x 4 numbers",

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "devices/cv_picture.h"
-#include "devices/text_file.h"
+#include "files/text_file.h"
 
 namespace pleinair::devices {
 namespace {
@@ -114,7 +114,7 @@ Result<PictureSize> InspectPicture(std::string_view bytes, const std::string& na
 }
 
 Result<PictureSize> InspectPictureFile(const std::filesystem::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(file, kMaxPictureBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, files::ReadWholeFile(file, kMaxPictureBytes));
   return InspectPicture(bytes, file.string());
 }
 
@@ -128,7 +128,7 @@ Picture PictureFromBgr(const cv::Mat& bgr) {
 }
 
 Result<Picture> DecodePictureFile(const std::filesystem::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(std::string bytes, ReadWholeFile(file, kMaxPictureBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(std::string bytes, files::ReadWholeFile(file, kMaxPictureBytes));
   PLEINAIR_ASSIGN_OR_RETURN(const PictureSize size, InspectPicture(bytes, file.string()));
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());

@@ -12,8 +12,8 @@
 #include "devices/picture_sequence.h"
 #include "devices/recording_manifest.h"
 #include "devices/scene_facts.h"
-#include "devices/text_file.h"
 #include "devices/video_file.h"
+#include "files/text_file.h"
 
 namespace pleinair::devices {
 namespace {
@@ -41,7 +41,8 @@ struct Description {
 Result<std::optional<Description>> ReadIfThere(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
-  PLEINAIR_ASSIGN_OR_RETURN(std::string bytes, ReadWholeFile(file, kMaxDescriptionBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(std::string bytes,
+                            files::ReadWholeFile(file, files::kMaxDescriptionBytes));
   return Description{file, std::move(bytes)};
 }
 
@@ -62,7 +63,8 @@ Result<SceneDescription> CompleteAndCheck(const SceneFacts& facts, const fs::pat
 
 // The scene of `file`, leaning on what the recording itself knows.
 Result<SceneDescription> SceneFromFile(const fs::path& file, const SceneFacts& recorded) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(file, kMaxDescriptionBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
+                            files::ReadWholeFile(file, files::kMaxDescriptionBytes));
   PLEINAIR_ASSIGN_OR_RETURN(SceneFacts facts, ParseScene(bytes, file.string()));
   return CompleteAndCheck(WithFallback(std::move(facts), recorded), file);
 }
@@ -203,12 +205,14 @@ Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folde
   PLEINAIR_ASSIGN_OR_RETURN(recording.camera,
                             ReadCalibration(options.calibration.value_or(sensor)));
   PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneBeside(folder, options));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string csv, ReadWholeFile(table, kMaxDescriptionBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string csv,
+                            files::ReadWholeFile(table, files::kMaxDescriptionBytes));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<EurocFrame> frames,
                             ParseEurocTable(csv, table.string()));
   std::optional<double> rate_hz;
   if (IsFile(sensor)) {
-    PLEINAIR_ASSIGN_OR_RETURN(const std::string yaml, ReadWholeFile(sensor, kMaxCalibrationBytes));
+    PLEINAIR_ASSIGN_OR_RETURN(const std::string yaml,
+                              files::ReadWholeFile(sensor, files::kMaxCalibrationBytes));
     PLEINAIR_ASSIGN_OR_RETURN(rate_hz, ParseEurocRate(yaml, sensor.string()));
   }
   const std::int64_t start_ns = frames.front().timestamp_ns;

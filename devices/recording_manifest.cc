@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "devices/json_fields.h"
+#include "files/json_fields.h"
 
 namespace pleinair::devices {
 namespace {
@@ -14,11 +14,11 @@ constexpr double kMaxStamp_s = 1e9;  // 30 years: still exact to nanoseconds in 
 }  // namespace
 
 Result<RecordingManifest> ParseRecordingManifest(std::string_view bytes, const std::string& name) {
-  PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseJson(bytes, name));
-  const JsonFields top(document, name);
+  PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseJson(bytes, name));
+  const files::JsonFields top(document, name);
   // scene.json keeps these in "image" and calls the rate fps.
   const bool in_image = !top.Has("frames") && top.Object("image").Has("frames");
-  const JsonFields fields = in_image ? top.Object("image") : top;
+  const files::JsonFields fields = in_image ? top.Object("image") : top;
   const char* rate_key = fields.Has("frame_rate_hz") ? "frame_rate_hz" : "fps";
 
   RecordingManifest manifest;

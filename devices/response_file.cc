@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "devices/json_fields.h"
-#include "devices/text_file.h"
+#include "files/json_fields.h"
+#include "files/text_file.h"
 
 namespace pleinair::devices {
 namespace {
@@ -33,7 +33,7 @@ CameraResponse PowerResponse(double gamma) {
   return *CameraResponse::FromSamples(encoded, {light, light, light});
 }
 
-Result<CameraResponse> SampledResponse(const JsonFields& fields) {
+Result<CameraResponse> SampledResponse(const files::JsonFields& fields) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto encoded, fields.Numbers("encoded"));
   if (!encoded) {
     return fields.Fail("encoded", "is missing", "list the encoded values, from 0 to 1, rising");
@@ -78,7 +78,7 @@ std::span<const std::string_view> KeysOf(std::string_view kind) {
 }
 
 /// A key that nobody reads is a slip of the pen.
-Result<void> CheckKeys(const Json& document, const JsonFields& fields,
+Result<void> CheckKeys(const files::Json& document, const files::JsonFields& fields,
                        std::span<const std::string_view> known) {
   if (!document.is_object()) return {};
   for (const auto& [key, value] : document.items()) {
@@ -93,10 +93,11 @@ Result<void> CheckKeys(const Json& document, const JsonFields& fields,
 }  // namespace
 
 Result<CameraResponse> ReadCameraResponse(const std::filesystem::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(file, kMaxDescriptionBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
+                            files::ReadWholeFile(file, files::kMaxDescriptionBytes));
   const std::string name = file.string();
-  PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseJson(bytes, name));
-  const JsonFields fields(document, name);
+  PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseJson(bytes, name));
+  const files::JsonFields fields(document, name);
   PLEINAIR_ASSIGN_OR_RETURN(const auto kind, fields.Text("response"));
   PLEINAIR_RETURN_IF_ERROR(CheckKeys(document, fields, KeysOf(kind.value_or(""))));
   if (kind == "srgb") return CameraResponse();

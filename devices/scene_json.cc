@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <utility>
 
-#include "devices/json_fields.h"
 #include "devices/scene_facts.h"
 #include "devices/sky_words.h"
+#include "files/json_fields.h"
 
 namespace pleinair::devices {
 namespace {
@@ -39,7 +39,7 @@ void MarkerFromWords(const std::string& words, SceneFacts* facts) {
 }
 
 // The first of several spellings that is there.
-Result<std::optional<double>> NumberOf(const JsonFields& fields,
+Result<std::optional<double>> NumberOf(const files::JsonFields& fields,
                                        std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
     if (fields.Has(key)) return fields.Number(key);
@@ -47,7 +47,7 @@ Result<std::optional<double>> NumberOf(const JsonFields& fields,
   return std::nullopt;
 }
 
-Result<void> ReadMarker(const JsonFields& marker, SceneFacts* facts) {
+Result<void> ReadMarker(const files::JsonFields& marker, SceneFacts* facts) {
   MarkerFromWords(marker.TextOr("what"), facts);
   if (marker.Has("family")) {
     PLEINAIR_ASSIGN_OR_RETURN(facts->marker_family, marker.Text("family"));
@@ -67,7 +67,7 @@ Result<void> ReadMarker(const JsonFields& marker, SceneFacts* facts) {
   return {};
 }
 
-Result<void> ReadPlaceTime(const JsonFields& fields, SceneFacts* facts) {
+Result<void> ReadPlaceTime(const files::JsonFields& fields, SceneFacts* facts) {
   PLEINAIR_ASSIGN_OR_RETURN(facts->latitude_deg, fields.Number("latitude_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->longitude_deg, fields.Number("longitude_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->height_m, fields.Number("height_m"));
@@ -80,7 +80,7 @@ Result<void> ReadPlaceTime(const JsonFields& fields, SceneFacts* facts) {
   return {};
 }
 
-Result<void> ReadModel(const JsonFields& model, std::vector<ModelReference>* models) {
+Result<void> ReadModel(const files::JsonFields& model, std::vector<ModelReference>* models) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> file, model.Text("file"));
   if (!file) return {};
   ModelReference reference;
@@ -94,7 +94,7 @@ Result<void> ReadModel(const JsonFields& model, std::vector<ModelReference>* mod
 
 // What words are there of the weather. Amounts and the model in `sky` are ground truth and are not
 // read.
-std::optional<Cloudiness> SkyInWords(const JsonFields& fields) {
+std::optional<Cloudiness> SkyInWords(const files::JsonFields& fields) {
   std::string words = fields.TextOr("name");
   for (const char* key : {"cloudiness", "weather", "sky"}) words += "; " + fields.TextOr(key);
   for (const char* block : {"sky", "place_time"}) {
@@ -108,8 +108,8 @@ std::optional<Cloudiness> SkyInWords(const JsonFields& fields) {
 }  // namespace
 
 Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& name) {
-  PLEINAIR_ASSIGN_OR_RETURN(const Json document, ParseJson(bytes, name));
-  const JsonFields fields(document, name);
+  PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseJson(bytes, name));
+  const files::JsonFields fields(document, name);
   SceneFacts facts;
   // scene.json has a block for it, recording.json says it at the top.
   PLEINAIR_RETURN_IF_ERROR(
@@ -118,7 +118,7 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("real_geometry"), &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("virtual_object"), &facts.objects));
   facts.cloudiness = SkyInWords(fields);
-  for (const JsonFields& block : {fields, fields.Object("calibration")}) {
+  for (const files::JsonFields& block : {fields, fields.Object("calibration")}) {
     const std::string response = block.TextOr("camera_response");
     if (response.empty()) continue;
     facts.camera_response =

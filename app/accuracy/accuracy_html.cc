@@ -12,9 +12,9 @@
 #include "app/accuracy/light_section.h"
 #include "app/accuracy/ratio_text.h"
 #include "app/accuracy/worst_frames.h"
-#include "app/markup.h"
 #include "app/sinks/line_plot.h"
 #include "app/sinks/page_style.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -34,14 +34,14 @@ double RateOf(const CellSummary& cell) {
 }
 
 std::string Card(const std::string& figure, const std::string& caption) {
-  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", EscapeMarkup(figure),
-                     EscapeMarkup(caption));
+  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n",
+                     files::EscapeMarkup(figure), files::EscapeMarkup(caption));
 }
 
 std::string MachinesText(const std::set<std::string>& machines) {
   std::string text = "Measured on";
   for (const std::string& machine : machines) {
-    text += (machine == *machines.begin() ? " " : "; ") + EscapeMarkup(machine);
+    text += (machine == *machines.begin() ? " " : "; ") + files::EscapeMarkup(machine);
   }
   return text;
 }
@@ -157,7 +157,7 @@ std::string SweepSections(const RunSummary& summary,
                           const std::vector<accuracy::FrameRecord>& records) {
   std::string html;
   for (const std::string& sweep : summary.sweeps) {
-    html += "<h2>" + EscapeMarkup(sweep) + "</h2>\n";
+    html += "<h2>" + files::EscapeMarkup(sweep) + "</h2>\n";
     std::vector<std::string> patterns;
     for (const CellSummary& cell : summary.cells) {
       if (cell.sweep == sweep && cell.level &&
@@ -225,7 +225,7 @@ std::string PeerTable(const AccuracyReport& report) {
   std::string unread;
   for (const UnreadFilm& film : UnreadFilms(report)) {
     unread += fmt::format("<li>{}: its marker is no print that {} reads.</li>\n",
-                          EscapeMarkup(film.film), film.peer);
+                          files::EscapeMarkup(film.film), film.peer);
   }
   if (!unread.empty()) unread = "<ul class=\"warnings\">\n" + unread + "</ul>\n";
   if (summary.peers.empty()) return unread.empty() ? "" : "<h2>Against others</h2>\n" + unread;
@@ -240,7 +240,7 @@ std::string PeerTable(const AccuracyReport& report) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2g}</td>"
         "<td>{}</td><td>{}</td><td>{}</td><td>{}/{}</td></tr>\n",
-        EscapeMarkup(peer.film.empty() ? peer.sweep : peer.film), peer.peer, peer.markers,
+        files::EscapeMarkup(peer.film.empty() ? peer.sweep : peer.film), peer.peer, peer.markers,
         peer.both, peer.only_ours, peer.only_peer, peer.p,
         RatioText(peer.rate_ratio, peer.rate_interval),
         RatioText(peer.corner_ratio, peer.corner_interval),
@@ -282,7 +282,7 @@ std::string FilmTable(const RunSummary& summary) {
         "<tr><td>{}</td><td>{}</td><td>{} of {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td></tr>\n",
-        EscapeMarkup(film.film), film.detector, film.found, film.frames, film.tracks,
+        files::EscapeMarkup(film.film), film.detector, film.found, film.frames, film.tracks,
         Figure(film.median_track, 0), film.longest_track, film.lost,
         film.detector == summary.detectors[0] ? fmt::format("{}", film.told_lost) : "–",
         film.recovered, film.longest_gap, Figure(film.step_jitter_px, 3),
@@ -346,15 +346,15 @@ std::string AccuracyHtml(const AccuracyReport& report,
       ".worst{position:relative}.worst img,.worst svg{width:100%;display:block}"
       ".worst svg{position:absolute;inset:0;height:100%}"
       "body{max-width:78rem}</style></head><body>\n<h1>pleinair accuracy</h1>\n";
-  html += "<p class=\"lead\">pleinair " + EscapeMarkup(report.version) + ": <code>" +
-          EscapeMarkup(CommandOf(report.config)) + " -o DIR</code></p>\n<p class=\"lead\">" +
+  html += "<p class=\"lead\">pleinair " + files::EscapeMarkup(report.version) + ": <code>" +
+          files::EscapeMarkup(CommandOf(report.config)) + " -o DIR</code></p>\n<p class=\"lead\">" +
           MachinesText(report.machines) +
           ". <a href=\"times.html\">Times of the stages</a>, which no two runs have alike, lie "
           "beside this page.</p>\n";
   if (!report.skipped.empty()) {
     html += "<h2>Skipped</h2>\n<ul class=\"warnings\">\n";
     for (const std::string& message : report.skipped) {
-      html += "<li>" + EscapeMarkup(message) + "</li>\n";
+      html += "<li>" + files::EscapeMarkup(message) + "</li>\n";
     }
     html += "</ul>\n";
   }

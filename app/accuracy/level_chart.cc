@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/markup.h"
 #include "app/sinks/line_plot.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -20,7 +20,7 @@ std::string Head(const std::string& title) {
   return fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">"
       "<text class=\"title\" x=\"{:.0f}\" y=\"16\">{}</text>",
-      kWidth, kHeight, EscapeMarkup(title), kLeft, EscapeMarkup(title));
+      kWidth, kHeight, files::EscapeMarkup(title), kLeft, files::EscapeMarkup(title));
 }
 
 /// Horizontal lines with their values.
@@ -43,7 +43,7 @@ std::string Legend(const std::vector<std::string>& names) {
   for (std::size_t i = names.size(); i-- > 0;) {
     svg +=
         fmt::format("<text class=\"legend{}\" text-anchor=\"end\" x=\"{:.0f}\" y=\"16\">{}</text>",
-                    i, x, EscapeMarkup(names[i]));
+                    i, x, files::EscapeMarkup(names[i]));
     x -= 16.0 + 7.0 * static_cast<double>(names[i].size());
   }
   return svg;
@@ -73,11 +73,11 @@ std::string LevelChartSvg(const std::string& title, const std::string& level_nam
   for (std::size_t i = 0; i < levels.size(); ++i) {
     svg += fmt::format(
         "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", to_x(i),
-        kHeight - kBottom + 16, EscapeMarkup(levels[i]));
+        kHeight - kBottom + 16, files::EscapeMarkup(levels[i]));
   }
   svg +=
       fmt::format("<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>",
-                  0.5 * (kLeft + kWidth - kRight), kHeight - 8, EscapeMarkup(level_name));
+                  0.5 * (kLeft + kWidth - kRight), kHeight - 8, files::EscapeMarkup(level_name));
   std::vector<std::string> names;
   for (std::size_t s = 0; s < series.size(); ++s) {
     const LevelSeries& one = series[s];
@@ -114,7 +114,7 @@ std::string CellMapSvg(const std::string& title, int columns, int rows,
   std::string svg = fmt::format(
       "<svg class=\"plot\" style=\"max-width:{:.0f}px\" viewBox=\"0 0 {:.0f} {:.0f}\" "
       "role=\"img\" aria-label=\"{}\"><text class=\"title\" x=\"10\" y=\"18\">{}</text>",
-      1.5 * width, width, height, EscapeMarkup(title), EscapeMarkup(title));
+      1.5 * width, width, height, files::EscapeMarkup(title), files::EscapeMarkup(title));
   for (int i = 0; i < columns * rows; ++i) {
     const double value = values[i];
     const int column = i % columns, row = i / columns;

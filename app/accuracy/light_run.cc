@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
-#include "app/base64.h"
 #include "app/picture_comparison.h"
 #include "app/replay.h"
 #include "app/true_pictures.h"
 #include "base/atomic_file.h"
+#include "files/base64.h"
 
 namespace pleinair::app {
 namespace {
@@ -59,9 +59,9 @@ LightPicture PictureOf(const std::string& recording, const ComparedPicture& comp
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isnan(values[i])) picture.record.scores[i] = values[i];
   }
-  picture.truth = Base64(compared.truth_jpeg);
-  picture.composed = Base64(compared.picture_jpeg);
-  picture.difference = Base64(compared.difference_jpeg);
+  picture.truth = files::Base64(compared.truth_jpeg);
+  picture.composed = files::Base64(compared.picture_jpeg);
+  picture.difference = files::Base64(compared.difference_jpeg);
   return picture;
 }
 

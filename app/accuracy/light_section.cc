@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/markup.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 std::string Row(const accuracy::LightSummary& light) {
   std::string row = fmt::format(
       "<tr><td>{}</td><td>{}</td>",
-      light.recording.empty() ? "mean of the recordings" : EscapeMarkup(light.recording),
+      light.recording.empty() ? "mean of the recordings" : files::EscapeMarkup(light.recording),
       light.pictures);
   for (const accuracy::LightFigure& figure : light.figures) {
     if (figure.count == 0) {
@@ -36,7 +36,8 @@ double Badness(const LightPicture& picture) {
 }
 
 std::string Figures(const LightPicture& picture) {
-  const std::string name = EscapeMarkup(picture.record.recording + ", " + picture.record.picture);
+  const std::string name =
+      files::EscapeMarkup(picture.record.recording + ", " + picture.record.picture);
   std::string html;
   const auto add = [&](const std::string& jpeg, const char* what) {
     html += fmt::format(

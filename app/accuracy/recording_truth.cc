@@ -9,7 +9,7 @@
 #include "accuracy/statistics.h"
 #include "app/paths/path_files.h"
 #include "devices/euroc.h"
-#include "devices/text_file.h"
+#include "files/text_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -30,7 +30,7 @@ Result<RecordingTruth> ReadEuroc(const fs::path& file, const fs::path& sensor) {
   PathReading reading;
   if (IsFile(sensor)) {
     PLEINAIR_ASSIGN_OR_RETURN(const std::string yaml,
-                              devices::ReadWholeFile(sensor, devices::kMaxCalibrationBytes));
+                              files::ReadWholeFile(sensor, files::kMaxCalibrationBytes));
     PLEINAIR_ASSIGN_OR_RETURN(reading.body_from_camera,
                               devices::ParseEurocExtrinsics(yaml, sensor.string()));
   }

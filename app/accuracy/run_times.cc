@@ -5,8 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/markup.h"
 #include "app/sinks/page_style.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 
@@ -47,7 +47,7 @@ std::string TimesHtml(const std::set<std::string>& machines,
       "<title>pleinair accuracy: times</title><style>" +
       std::string(kPageStyle) +
       "</style></head><body>\n<h1>Time per stage</h1>\n<p class=\"lead\">One thread a detector, on";
-  for (const std::string& machine : machines) html += " " + EscapeMarkup(machine) + ";";
+  for (const std::string& machine : machines) html += " " + files::EscapeMarkup(machine) + ";";
   html +=
       " <a href=\"report.html\">to the report</a></p>\n<table><tr><th>detector</th><th>stage</th>"
       "<th>frames</th><th>median, ms</th><th>95 %, ms</th></tr>\n";
@@ -55,8 +55,8 @@ std::string TimesHtml(const std::set<std::string>& machines,
     for (const StageTimes::Summary& stage : one.stages) {
       html +=
           fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
-                      EscapeMarkup(one.detector), EscapeMarkup(stage.stage), stage.runs,
-                      stage.median_ms, stage.p95_ms);
+                      files::EscapeMarkup(one.detector), files::EscapeMarkup(stage.stage),
+                      stage.runs, stage.median_ms, stage.p95_ms);
     }
   }
   return html + "</table></body></html>\n";

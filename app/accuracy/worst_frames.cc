@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "app/accuracy/accuracy_run.h"
-#include "app/base64.h"
-#include "app/markup.h"
 #include "app/sinks/picture_writer.h"
+#include "files/base64.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -74,8 +74,9 @@ std::string PictureHtml(const Bad& bad, const GreyImage& grey) {
   return fmt::format(
       "<figure><div class=\"worst\"><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\">"
       "<svg viewBox=\"0 0 {2} {3}\">{4}</svg></div><figcaption>{0}: {5}</figcaption></figure>\n",
-      EscapeMarkup(bad.record->name), Base64(EncodeJpeg(rgb.view(), grey.width(), kQuality)),
-      grey.width(), grey.height(), outlines, EscapeMarkup(bad.why));
+      files::EscapeMarkup(bad.record->name),
+      files::Base64(EncodeJpeg(rgb.view(), grey.width(), kQuality)), grey.width(), grey.height(),
+      outlines, files::EscapeMarkup(bad.why));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/number_range.h"
-#include "app/result_file.h"
+#include "files/result_file.h"
 #include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::app {
@@ -72,7 +72,7 @@ Result<std::pair<int, int>> ParseSides(const std::string& option, const std::str
 }
 
 Result<CalibrationBoard> ReadBoardDescription(const std::string& file) {
-  auto text = ReadTextFile(file);
+  auto text = files::ReadTextFile(file);
   if (!text) {
     text.error().remedy = "check the name";
     return tl::make_unexpected(std::move(text).error());

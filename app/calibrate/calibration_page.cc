@@ -6,12 +6,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/base64.h"
 #include "app/calibrate/calibration_drawings.h"
-#include "app/markup.h"
 #include "app/sinks/page_style.h"
 #include "app/sinks/picture_writer.h"
 #include "base/units.h"
+#include "files/base64.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -29,14 +29,15 @@ constexpr const char* kStyle =
     "td .bar{display:inline-block;height:.6em;background:var(--c2);border-radius:2px}";
 
 std::string Card(const std::string& figure, const std::string& caption) {
-  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", EscapeMarkup(figure),
-                     EscapeMarkup(caption));
+  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n",
+                     files::EscapeMarkup(figure), files::EscapeMarkup(caption));
 }
 
 std::string Figure(const LineDrawing& drawing, const std::string& caption) {
   std::string svg = DrawingSvg(drawing, kDrawingWidth_px);
   svg.erase(0, svg.find("<svg"));
-  return "<figure>" + svg + "<figcaption>" + EscapeMarkup(caption) + "</figcaption></figure>\n";
+  return "<figure>" + svg + "<figcaption>" + files::EscapeMarkup(caption) +
+         "</figcaption></figure>\n";
 }
 
 std::string Numbers(const LensCalibration& calibration) {
@@ -101,8 +102,8 @@ std::string Thumbnail(const CollectedView& view, const LensCalibration& calibrat
       "<figure><svg viewBox=\"0 0 {0} {1}\"><image width=\"{0}\" height=\"{1}\" "
       "href=\"data:image/jpeg;base64,{2}\"/><g fill=\"#e0452d\" stroke=\"#fff\" "
       "stroke-width=\"{3:.2f}\">{4}</g></svg><figcaption>{5}: {6:.3f} px</figcaption></figure>\n",
-      width, height, Base64(EncodeJpeg(rgb.view(), kThumbnailWidth_px, 70)), width / 700.0, corners,
-      EscapeMarkup(std::filesystem::path(view.view.name).filename().string()),
+      width, height, files::Base64(EncodeJpeg(rgb.view(), kThumbnailWidth_px, 70)), width / 700.0,
+      corners, files::EscapeMarkup(std::filesystem::path(view.view.name).filename().string()),
       tracker::Rms(calibration.residuals_px[used]));
 }
 
@@ -117,7 +118,7 @@ std::string Views(const LensCalibration& calibration, const std::vector<Collecte
     table += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.3f} px</td><td style=\"text-align:left\"><span "
         "class=\"bar\" style=\"width:{:.1f}rem\"></span></td></tr>\n",
-        EscapeMarkup(view.name), view.seen_px.size(), rms, 8.0 * rms / largest);
+        files::EscapeMarkup(view.name), view.seen_px.size(), rms, 8.0 * rms / largest);
     const auto source = std::find_if(views.begin(), views.end(), [&](const CollectedView& each) {
       return each.view.name == view.name && !each.grey.empty();
     });
@@ -126,8 +127,9 @@ std::string Views(const LensCalibration& calibration, const std::vector<Collecte
     }
   }
   for (const tracker::DroppedView& dropped : calibration.dropped) {
-    table += "<tr><td>" + EscapeMarkup(dropped.name) +
-             "</td><td colspan=\"3\">left out: " + EscapeMarkup(dropped.why) + "</td></tr>\n";
+    table += "<tr><td>" + files::EscapeMarkup(dropped.name) +
+             "</td><td colspan=\"3\">left out: " + files::EscapeMarkup(dropped.why) +
+             "</td></tr>\n";
   }
   return "<div class=\"views\">\n" + thumbnails + "</div>\n" + table + "</table>\n";
 }
@@ -147,11 +149,12 @@ std::string CalibrationPage(const CalibrationFacts& facts, const LensCalibration
   };
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
-  html += "<title>pleinair calibrate: " + EscapeMarkup(facts.title) + "</title><style>" +
+  html += "<title>pleinair calibrate: " + files::EscapeMarkup(facts.title) + "</title><style>" +
           std::string(kPageStyle) + kStyle + "</style></head><body>\n<h1>Lens of " +
-          EscapeMarkup(facts.title) + "</h1>\n<p class=\"lead\">" + EscapeMarkup(facts.board) +
+          files::EscapeMarkup(facts.title) + "</h1>\n<p class=\"lead\">" +
+          files::EscapeMarkup(facts.board) +
           fmt::format(", seen in {} of {} pictures: <code>", facts.with_board, facts.looked_at) +
-          EscapeMarkup(facts.command) + "</code></p>\n<div class=\"cards\">\n";
+          files::EscapeMarkup(facts.command) + "</code></p>\n<div class=\"cards\">\n";
   html += Card(
       fmt::format("{:.2f} px", 0.5 * (camera.fx + camera.fy)),
       fmt::format("focal length, to {:.2f} %", 100.0 * calibration.uncertainty.fx / camera.fx));
@@ -170,7 +173,7 @@ std::string CalibrationPage(const CalibrationFacts& facts, const LensCalibration
   if (!calibration.judgement.advice.empty()) {
     html += "<h2>What would make it better</h2>\n<ul class=\"warnings\">\n";
     for (const std::string& advice : calibration.judgement.advice) {
-      html += "<li>" + EscapeMarkup(advice) + "</li>\n";
+      html += "<li>" + files::EscapeMarkup(advice) + "</li>\n";
     }
     html += "</ul>\n";
   }

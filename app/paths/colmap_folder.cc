@@ -8,7 +8,7 @@
 #include "app/paths/colmap_binary.h"
 #include "app/paths/colmap_text.h"
 #include "base/atomic_file.h"
-#include "devices/text_file.h"
+#include "files/text_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -41,11 +41,10 @@ Result<ColmapModel> ReadColmapFolder(const fs::path& folder) {
   const ColmapForm form = FormIn(folder);
   const auto [cameras, points3d, images] = ColmapFileNames(form);
   ColmapFiles files;
-  PLEINAIR_ASSIGN_OR_RETURN(files.cameras, devices::ReadWholeFile(folder / cameras, kMostBytes));
-  PLEINAIR_ASSIGN_OR_RETURN(files.images, devices::ReadWholeFile(folder / images, kMostBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(files.cameras, files::ReadWholeFile(folder / cameras, kMostBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(files.images, files::ReadWholeFile(folder / images, kMostBytes));
   if (IsThere(folder / points3d)) {
-    PLEINAIR_ASSIGN_OR_RETURN(files.points3d,
-                              devices::ReadWholeFile(folder / points3d, kMostBytes));
+    PLEINAIR_ASSIGN_OR_RETURN(files.points3d, files::ReadWholeFile(folder / points3d, kMostBytes));
   }
   return form == ColmapForm::kText ? ParseColmapText(files, folder.string())
                                    : ParseColmapBinary(files, folder.string());

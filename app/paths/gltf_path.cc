@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/base64.h"
 #include "base/little_endian.h"
+#include "files/base64.h"
 
 namespace pleinair::app {
 namespace {
@@ -234,7 +234,7 @@ Result<std::string> GltfFromPath(const CameraPath& path, const GltfPathOptions& 
   Json data{{"byteLength", buffer.bytes().size()}};
   if (!options.binary) {
     data["uri"] = "data:application/octet-stream;base64," +
-                  Base64({buffer.bytes().begin(), buffer.bytes().end()});
+                  files::Base64({buffer.bytes().begin(), buffer.bytes().end()});
   }
   gltf["buffers"] = Json::array({std::move(data)});
   if (!options.binary) return gltf.dump(1) + "\n";

@@ -15,7 +15,7 @@
 #include "app/paths/mcap_path.h"
 #include "app/paths/tum_path.h"
 #include "base/atomic_file.h"
-#include "devices/text_file.h"
+#include "files/text_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -76,7 +76,7 @@ Result<CameraPath> ReadPath(const fs::path& file, PathFormat format, const PathR
     PLEINAIR_ASSIGN_OR_RETURN(ColmapModel model, ReadColmapFolder(file));
     return PathFromColmap(std::move(model), options.frame_rate_hz);
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, devices::ReadWholeFile(file, kMostBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadWholeFile(file, kMostBytes));
   if (format == PathFormat::kTum) return ParseTum(text, file.string());
   return ParseEurocPath(text, file.string(), options.body_from_camera);
 }

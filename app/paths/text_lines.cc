@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/csv_records.h"
+#include "files/csv.h"
 
 namespace pleinair::app {
 namespace {
@@ -44,7 +44,7 @@ bool TextLines::NextOfAnyKind() {
   line_ = text_.substr(0, end);
   text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
   if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
-  line_ = Trimmed(line_);
+  line_ = files::Trimmed(line_);
   if (IsComment()) return true;
   for (std::size_t at = line_.find_first_not_of(kSeparators); at != std::string_view::npos;) {
     const std::size_t stop = std::min(line_.find_first_of(kSeparators, at), line_.size());
@@ -68,7 +68,7 @@ tl::unexpected<Error> TextLines::Fail(std::size_t field, const char* what) const
 
 Result<double> TextLines::Number(std::size_t field) const {
   const std::optional<double> number =
-      field < fields_.size() ? ParseNumber(fields_[field]) : std::nullopt;
+      field < fields_.size() ? files::ParseNumber(fields_[field]) : std::nullopt;
   if (!number) return Fail(field, "is not a finite number");
   return *number;
 }
@@ -96,11 +96,11 @@ Result<std::int64_t> TextLines::Integer(std::size_t field) const {
 std::string_view TextLines::Rest(std::size_t fields) const {
   if (fields >= fields_.size()) return {};
   const auto from = static_cast<std::size_t>(fields_[fields].data() - line_.data());
-  return Trimmed(line_.substr(from));
+  return files::Trimmed(line_.substr(from));
 }
 
 Result<std::int64_t> NanosecondsFromSeconds(std::string_view seconds, const std::string& where) {
-  const std::optional<double> about = ParseNumber(seconds);
+  const std::optional<double> about = files::ParseNumber(seconds);
   if (!about || std::abs(*about) > kMostSeconds) {
     return InputError(where,
                       fmt::format("\"{}\" is not a time in seconds", seconds.substr(0, kShown)),

@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "app/png_rows.h"
 #include "base/srgb.h"
+#include "files/png_rows.h"
 
 namespace pleinair::app {
 namespace {
@@ -134,7 +134,7 @@ Result<std::string> EncodeGrayPng(ImageView<const std::uint8_t> gray, double pix
   bool good = file != nullptr;
   if (good) {
     const auto density = static_cast<std::uint32_t>(std::lround(pixels_per_metre));
-    good = WritePngRows(gray, {.pixels_per_metre = density}, file);
+    good = files::WritePngRows(gray, {.pixels_per_metre = density}, file);
     good = std::fclose(file) == 0 && good;
   }
   std::string encoded;

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "app/markup.h"
 #include "app/sheets/print_outline.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -108,7 +108,7 @@ std::string WriteSvg(const Sheet& sheet) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{0}mm\" "
       "height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n<title>{2}</title>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-      width, height, EscapeMarkup(sheet.title));
+      width, height, files::EscapeMarkup(sheet.title));
   auto out = std::back_inserter(svg);
   for (const SheetPrint& print : sheet.prints) {
     fmt::format_to(out,
@@ -141,7 +141,7 @@ std::string WriteSvg(const Sheet& sheet) {
                    "<text x=\"{}\" y=\"{}\" font-family=\"Helvetica, Arial, sans-serif\" "
                    "font-size=\"{}\" xml:space=\"preserve\">{}</text>\n",
                    Number(text.baseline_mm.x), Number(text.baseline_mm.y), Number(text.size_mm),
-                   EscapeMarkup(text.text));
+                   files::EscapeMarkup(text.text));
   }
   return svg + "</svg>\n";
 }

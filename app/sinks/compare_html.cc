@@ -4,15 +4,15 @@
 
 #include <cmath>
 
-#include "app/base64.h"
-#include "app/markup.h"
 #include "app/sinks/page_style.h"
+#include "files/base64.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
 
 std::string Row(const std::string& name, const PictureScores& scores) {
-  std::string row = "<tr><td>" + EscapeMarkup(name) + "</td>";
+  std::string row = "<tr><td>" + files::EscapeMarkup(name) + "</td>";
   for (const double value : scores.Values()) {
     row += std::isnan(value) ? "<td>–</td>" : fmt::format("<td>{:.3f}</td>", value);
   }
@@ -23,7 +23,7 @@ std::string Figure(const std::vector<std::uint8_t>& jpeg, const std::string& cap
   return fmt::format(
       "<figure><img alt=\"{0}\" style=\"width:100%;border-radius:8px\" "
       "src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-      EscapeMarkup(caption), Base64(jpeg));
+      files::EscapeMarkup(caption), files::Base64(jpeg));
 }
 
 }  // namespace
@@ -31,12 +31,13 @@ std::string Figure(const std::vector<std::uint8_t>& jpeg, const std::string& cap
 std::string CompareHtml(const Comparison& comparison) {
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
-  html += "<title>pleinair compare: " + EscapeMarkup(comparison.pictures) + "</title><style>";
+  html +=
+      "<title>pleinair compare: " + files::EscapeMarkup(comparison.pictures) + "</title><style>";
   html += std::string(kPageStyle) +
           ".pictures{grid-template-columns:repeat(3,1fr)}</style></head><body>\n<h1>" +
-          EscapeMarkup(comparison.pictures) + "</h1>\n<p class=\"lead\">against " +
-          EscapeMarkup(comparison.truth) + ": <code>" + EscapeMarkup(comparison.command) +
-          "</code></p>\n<table><tr><th>picture</th>";
+          files::EscapeMarkup(comparison.pictures) + "</h1>\n<p class=\"lead\">against " +
+          files::EscapeMarkup(comparison.truth) + ": <code>" +
+          files::EscapeMarkup(comparison.command) + "</code></p>\n<table><tr><th>picture</th>";
   for (const char* name : kPictureScoreNames) html += fmt::format("<th>{}</th>", name);
   html += "</tr>\n";
   for (const ComparedPicture& picture : comparison.compared) {
@@ -48,7 +49,7 @@ std::string CompareHtml(const Comparison& comparison) {
       "pixels around them, everything. Differences: black 0, blue 2.5, red 5, white 10 and "
       "more.</p>\n";
   for (const ComparedPicture& picture : comparison.compared) {
-    html += "<h2>" + EscapeMarkup(picture.name) + "</h2>\n<div class=\"pictures\">\n" +
+    html += "<h2>" + files::EscapeMarkup(picture.name) + "</h2>\n<div class=\"pictures\">\n" +
             Figure(picture.truth_jpeg, "truth") + Figure(picture.picture_jpeg, "composed") +
             Figure(picture.difference_jpeg, "difference") + "</div>\n";
   }

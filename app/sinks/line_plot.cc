@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/markup.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -65,7 +65,8 @@ std::string LinePlotSvg(const std::string& title, const std::string& y_unit,
   std::string svg = fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">"
       "<text class=\"title\" x=\"{:.0f}\" y=\"16\">{} ({})</text>",
-      kWidth, kHeight, EscapeMarkup(title), kLeft, EscapeMarkup(title), EscapeMarkup(y_unit));
+      kWidth, kHeight, files::EscapeMarkup(title), kLeft, files::EscapeMarkup(title),
+      files::EscapeMarkup(y_unit));
   const double y_step = TickStep(ys.low, ys.high, 4);
   for (double y = std::ceil(ys.low / y_step) * y_step; y <= ys.high + 1e-9 * y_step; y += y_step) {
     svg += fmt::format(
@@ -78,7 +79,7 @@ std::string LinePlotSvg(const std::string& title, const std::string& y_unit,
   for (double x = std::ceil(xs.low / x_step) * x_step; x <= xs.high + 1e-9 * x_step; x += x_step) {
     svg += fmt::format(
         "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{} {}</text>",
-        to_x(x), kHeight - kBottom + 18, TickLabel(x, x_step), EscapeMarkup(x_unit));
+        to_x(x), kHeight - kBottom + 18, TickLabel(x, x_step), files::EscapeMarkup(x_unit));
   }
   double legend_x = kWidth - kRight;
   for (std::size_t i = lines.size(); i-- > 0;) {
@@ -98,7 +99,7 @@ std::string LinePlotSvg(const std::string& title, const std::string& y_unit,
     if (line.name.empty()) continue;
     svg +=
         fmt::format("<text class=\"legend{}\" text-anchor=\"end\" x=\"{:.0f}\" y=\"16\">{}</text>",
-                    i, legend_x, EscapeMarkup(line.name));
+                    i, legend_x, files::EscapeMarkup(line.name));
     legend_x -= 16.0 + 7.0 * static_cast<double>(line.name.size());
   }
   return svg + "</svg>\n";

@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <system_error>
 
-#include "app/png_rows.h"
 #include "base/atomic_file.h"
+#include "files/png_rows.h"
 
 namespace pleinair::app {
 namespace {
@@ -26,7 +26,7 @@ Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::ui
   errno = 0;
   std::FILE* out = std::fopen(file.c_str(), "wb");
   if (out == nullptr) return tl::make_unexpected(WriteError(file, errno));
-  bool good = WritePngRows(rgb, {.fast = true}, out);
+  bool good = files::WritePngRows(rgb, {.fast = true}, out);
   int error_number = errno;
   if (std::fclose(out) != 0 && good) {
     good = false;

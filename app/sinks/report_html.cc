@@ -6,11 +6,11 @@
 #include <limits>
 #include <optional>
 
-#include "app/base64.h"
-#include "app/markup.h"
 #include "app/sinks/line_plot.h"
 #include "app/sinks/page_style.h"
 #include "base/units.h"
+#include "files/base64.h"
+#include "files/markup_escape.h"
 
 namespace pleinair::app {
 namespace {
@@ -22,8 +22,8 @@ for(const input of document.querySelectorAll('input[type=range]'))
 )";
 
 std::string Card(const std::string& figure, const std::string& caption) {
-  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", EscapeMarkup(figure),
-                     EscapeMarkup(caption));
+  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n",
+                     files::EscapeMarkup(figure), files::EscapeMarkup(caption));
 }
 
 std::string Pictures(const ReplayReport& report) {
@@ -36,7 +36,7 @@ std::string Pictures(const ReplayReport& report) {
         "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" "
         "aria-label=\"frame {0}: where the composed picture begins\">"
         "<figcaption>Frame {0}: recorded left, composed right of the line</figcaption></figure>\n",
-        picture.frame_index, Base64(picture.before_jpeg), Base64(picture.after_jpeg));
+        picture.frame_index, files::Base64(picture.before_jpeg), files::Base64(picture.after_jpeg));
   }
   return html;
 }
@@ -190,10 +190,11 @@ std::string ReportHtml(const ReplayReport& report) {
   const PoseStatistics poses = SummarizePath(report.path);
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
-  html += "<title>pleinair: " + EscapeMarkup(report.recording) + "</title><style>";
-  html += std::string(kPageStyle) + "</style></head><body>\n<h1>" + EscapeMarkup(report.recording) +
-          "</h1>\n<p class=\"lead\">composed by pleinair " + EscapeMarkup(report.version) +
-          ": <code>" + EscapeMarkup(report.command) + "</code></p>\n<div class=\"cards\">\n";
+  html += "<title>pleinair: " + files::EscapeMarkup(report.recording) + "</title><style>";
+  html += std::string(kPageStyle) + "</style></head><body>\n<h1>" +
+          files::EscapeMarkup(report.recording) + "</h1>\n<p class=\"lead\">composed by pleinair " +
+          files::EscapeMarkup(report.version) + ": <code>" + files::EscapeMarkup(report.command) +
+          "</code></p>\n<div class=\"cards\">\n";
   html += Card(fmt::format("{} of {}", report.path.size(), report.frames), "frames with a pose");
   html += Card(report.anchor ? report.anchor->ToString() : "none", "marker that anchors the scene");
   html += Card(fmt::format("{}×{}, {:.4g} Hz", report.width, report.height, report.frame_rate_hz),
@@ -217,7 +218,7 @@ std::string ReportHtml(const ReplayReport& report) {
   if (!report.warnings.empty()) {
     html += "<h2>Warnings</h2>\n<ul class=\"warnings\">\n";
     for (const std::string& warning : report.warnings) {
-      html += "<li>" + EscapeMarkup(warning) + "</li>\n";
+      html += "<li>" + files::EscapeMarkup(warning) + "</li>\n";
     }
     html += "</ul>\n";
   }
@@ -233,7 +234,7 @@ std::string ReportHtml(const ReplayReport& report) {
   for (const StageTimes::Summary& stage : report.timings) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.1f}</td></tr>\n",
-        EscapeMarkup(stage.stage), stage.runs, stage.median_ms, stage.p95_ms,
+        files::EscapeMarkup(stage.stage), stage.runs, stage.median_ms, stage.p95_ms,
         FramesPerSecond(report, stage));
   }
   return html + "</table>\n<script>" + kScript + "</script></body></html>\n";

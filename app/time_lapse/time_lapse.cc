@@ -10,13 +10,13 @@
 #include <system_error>
 #include <utility>
 
-#include "app/base64.h"
 #include "app/interrupt.h"
 #include "app/line_drawing.h"
 #include "app/progress_bar.h"
 #include "app/sinks/picture_writer.h"
 #include "app/sinks/video_writer.h"
 #include "base/atomic_file.h"
+#include "files/base64.h"
 
 namespace pleinair::app {
 namespace {
@@ -156,7 +156,7 @@ Result<std::string> TimeLapseHtml(const fs::path& folder) {
       "style=\"width:100%;border-radius:8px\" src=\"data:video/mp4;base64,{}\"></video>\n"
       "<figure><img alt=\"the day in pictures\" style=\"width:100%;border-radius:8px\" "
       "src=\"data:image/png;base64,{}\"><figcaption>the day in pictures</figcaption></figure>\n",
-      Base64(video), Base64(sheet));
+      files::Base64(video), files::Base64(sheet));
 }
 
 }  // namespace pleinair::app

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "app/base64.h"
 #include "app/sinks/line_plot.h"
 #include "app/sinks/report_html.h"
 #include "app/sinks/report_json.h"
+#include "files/base64.h"
 
 namespace pleinair::app {
 namespace {
@@ -57,7 +57,7 @@ TEST(ReportHtml, NeedsNoOtherFileOrServer) {
 
 TEST(Base64, GivesTheVectorsOfRfc4648) {
   const auto encode = [](const std::string& text) {
-    return Base64(std::vector<std::uint8_t>(text.begin(), text.end()));
+    return files::Base64(std::vector<std::uint8_t>(text.begin(), text.end()));
   };
   EXPECT_EQ(encode(""), "");
   EXPECT_EQ(encode("f"), "Zg==");

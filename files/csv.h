@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 /// Without blanks and tabs at both ends.
 std::string_view Trimmed(std::string_view text);
@@ -53,4 +53,4 @@ class CsvRecords {
   std::vector<std::string> fields_;
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

@@ -1,9 +1,9 @@
-#include "app/base64.h"
+#include "files/base64.h"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 std::string Base64(const std::vector<std::uint8_t>& bytes) {
   constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -21,4 +21,4 @@ std::string Base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

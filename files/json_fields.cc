@@ -1,10 +1,10 @@
-#include "devices/json_fields.h"
+#include "files/json_fields.h"
 
 #include <cmath>
 #include <exception>
 #include <limits>
 
-namespace pleinair::devices {
+namespace pleinair::files {
 namespace {
 
 const Json& NoObject() {
@@ -118,4 +118,4 @@ std::string JsonFields::TextOr(const char* key) const {
   return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::files

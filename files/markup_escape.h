@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 /// Text made safe for HTML and XML (SVG), in elements and in quoted attributes.
 std::string EscapeMarkup(std::string_view text);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 
-namespace pleinair::devices {
+namespace pleinair::files {
 
 using Json = nlohmann::json;
 
@@ -57,4 +57,4 @@ class JsonFields {
   std::string path_;
 };
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::files

@@ -1,9 +1,9 @@
-#include "devices/text_file.h"
+#include "files/text_file.h"
 
 #include <fstream>
 #include <system_error>
 
-namespace pleinair::devices {
+namespace pleinair::files {
 
 Result<std::string> ReadWholeFile(const std::filesystem::path& file, std::size_t max_bytes) {
   std::error_code error;
@@ -33,4 +33,4 @@ Result<std::string> ReadWholeFile(const std::filesystem::path& file, std::size_t
   return bytes;
 }
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::files

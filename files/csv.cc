@@ -1,11 +1,11 @@
-#include "app/csv_records.h"
+#include "files/csv.h"
 
 #include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 std::string_view Trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -111,4 +111,4 @@ Result<void> CsvRecords::ReadRecord() {
   return {};
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

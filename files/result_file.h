@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 /// A whole text file; "-" is standard input.
 Result<std::string> ReadTextFile(const std::string& path);
@@ -39,4 +39,4 @@ class ResultFile {
   std::unique_ptr<std::ofstream> file_;
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

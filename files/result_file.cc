@@ -1,4 +1,4 @@
-#include "app/result_file.h"
+#include "files/result_file.h"
 
 #include <array>
 #include <cerrno>
@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 std::string TextFileName(const std::string& path) { return path == "-" ? "standard input" : path; }
 
@@ -80,4 +80,4 @@ Result<void> ResultFile::Finish() {
   return CommitFile(temporary_, path_);
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

@@ -1,4 +1,4 @@
-#include "app/png_rows.h"
+#include "files/png_rows.h"
 
 #include <png.h>
 
@@ -6,7 +6,7 @@
 
 #include "base/check.h"
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 // libpng reports failures by longjmp: nothing with a destructor may live between here and there.
 bool WritePngRows(ImageView<const std::uint8_t> picture, PngStyle style, std::FILE* file) {
@@ -42,4 +42,4 @@ bool WritePngRows(ImageView<const std::uint8_t> picture, PngStyle style, std::FI
   return true;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

@@ -1,6 +1,6 @@
-#include "app/markup.h"
+#include "files/markup_escape.h"
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 std::string EscapeMarkup(std::string_view text) {
   std::string escaped;
@@ -28,4 +28,4 @@ std::string EscapeMarkup(std::string_view text) {
   return escaped;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

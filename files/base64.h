@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 /// RFC 4648 base 64.
 std::string Base64(const std::vector<std::uint8_t>& bytes);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files

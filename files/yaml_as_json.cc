@@ -4,9 +4,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "devices/json_fields.h"
+#include "files/json_fields.h"
 
-namespace pleinair::devices {
+namespace pleinair::files {
 namespace {
 
 constexpr int kMaxDepth = 32;
@@ -93,4 +93,4 @@ Result<Json> ParseYaml(std::string_view bytes, const std::string& name) {
   }
 }
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::files

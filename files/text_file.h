@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace pleinair::devices {
+namespace pleinair::files {
 
 /// The largest file of words and numbers we read: a scene with a pose a frame for hours.
 constexpr std::size_t kMaxDescriptionBytes = std::size_t{16} << 20;
@@ -17,4 +17,4 @@ constexpr std::size_t kMaxCalibrationBytes = std::size_t{4} << 20;
 /// Errors: not there, a folder, not readable, empty, larger than that.
 Result<std::string> ReadWholeFile(const std::filesystem::path& file, std::size_t max_bytes);
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::files

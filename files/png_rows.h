@@ -5,7 +5,7 @@
 
 #include "base/image.h"
 
-namespace pleinair::app {
+namespace pleinair::files {
 
 /// How a PNG is written.
 struct PngStyle {
@@ -19,4 +19,4 @@ struct PngStyle {
 /// fault.
 bool WritePngRows(ImageView<const std::uint8_t> picture, PngStyle style, std::FILE* file);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::files
