@@ -2,9 +2,9 @@
 
 namespace pleinair::app {
 
-devices::SceneDescription WithGiven(const devices::SceneDescription& scene,
-                                    const LightOptions& options) {
-  devices::SceneDescription given = scene;
+scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
+                                  const LightOptions& options) {
+  scene::SceneDescription given = scene;
   if (!options.camera_response.empty()) given.camera_response = options.camera_response;
   if (options.overrides.heading_deg) {
     given.marker.heading = FromDegrees(*options.overrides.heading_deg);

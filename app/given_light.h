@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/measured_sky.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -19,7 +19,7 @@ struct LightOptions {
 };
 
 /// A scene with the heading and the camera's response that the user gives.
-devices::SceneDescription WithGiven(const devices::SceneDescription& scene,
-                                    const LightOptions& options);
+scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
+                                  const LightOptions& options);
 
 }  // namespace pleinair::app

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/marker_heading.h"
-#include "app/sun_over_place.h"
 #include "compositor/plane_contrast.h"
 #include "compositor/print_shade.h"
 #include "compositor/print_shadow.h"
@@ -15,6 +13,8 @@
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
 #include "compositor/unmodelled_shade.h"
+#include "scene/marker_heading.h"
+#include "scene/sun_over_place.h"
 
 namespace pleinair::app {
 namespace {
@@ -67,25 +67,25 @@ bool IsLitByCloudsAlone(const compositor::PlaneContrast& clouds,
   return within || among;
 }
 
-bool MayShine(devices::Cloudiness stated) {
-  return stated == devices::Cloudiness::kClear || stated == devices::Cloudiness::kHazy;
+bool MayShine(scene::Cloudiness stated) {
+  return stated == scene::Cloudiness::kClear || stated == scene::Cloudiness::kHazy;
 }
 
 }  // namespace
 
 LightLook::LightLook(std::shared_ptr<const compositor::LightSolver> solver,
-                     const CameraModel& camera, const compositor::MarkerPrint& print,
-                     const devices::SceneDescription& scene, const LightOverrides& overrides,
+                     const CameraModel& camera, const scene::MarkerPrint& print,
+                     const scene::SceneDescription& scene, const LightOverrides& overrides,
                      UtcTime time, const CameraResponse& response)
     : solver_(std::move(solver)),
       camera_(camera),
       scene_(scene),
       overrides_(overrides),
       time_(time),
-      sun_(SunOver(scene.place_time, time)),
+      sun_(scene::SunOver(scene.place_time, time)),
       day_(SunlitSky(scene)->ForSun(sun_.ToSun(), sun_.distance_au)),
       samples_(*solver_, camera, print, response),
-      meter_(print, *solver_, *day_, MarkerFromWorld(scene.marker), response) {}
+      meter_(print, *solver_, *day_, scene::MarkerFromWorld(scene.marker), response) {}
 
 void LightLook::Add(ImageView<const std::uint8_t> rgb,
                     const Transform<Camera, Marker>& camera_from_marker) {
@@ -114,7 +114,7 @@ void LightLook::SettleAsStated(FoundLight* found) const {
   if (ratio <= 0.0 || overrides_.sun_to_sky.value_or(ratio) <= 0.0) return;
   const double sky_scale = ratio / overrides_.sun_to_sky.value_or(ratio);
   const compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
-      *solver_, samples_, meter_, *day, MarkerFromWorld(scene_.marker),
+      *solver_, samples_, meter_, *day, scene::MarkerFromWorld(scene_.marker),
       LinearRgb{1, 1, 1} * sky_scale);
   if (shade.sunlit == 0) return;
   found->skies = {skies, {1.0, 1.0, 1.0}, shade.Matters()};
@@ -143,8 +143,8 @@ void LightLook::UseHeading(const LightMemory& memory, FoundLight* found) const {
 }
 
 compositor::SunSkyReading LightLook::SettleHeading(LightMemory* memory, FoundLight* found) const {
-  devices::MarkerDescription marker = scene_.marker;
-  const Mat3 stated = MarkerFromWorld(marker);
+  scene::MarkerDescription marker = scene_.marker;
+  const Mat3 stated = scene::MarkerFromWorld(marker);
   LightMemory with_reading = *memory;
   if (!overrides_.heading_deg) {
     const Vec3 up = stated * Vec3{0.0, 0.0, 1.0};
@@ -156,7 +156,7 @@ compositor::SunSkyReading LightLook::SettleHeading(LightMemory* memory, FoundLig
   UseHeading(with_reading, found);
   marker.heading = found->heading;
   const compositor::SunSkyReading reading = compositor::ReadSunAndSky(
-      compositor::FindShadowEdges(*solver_, samples_, *day_, MarkerFromWorld(marker)));
+      compositor::FindShadowEdges(*solver_, samples_, *day_, scene::MarkerFromWorld(marker)));
   if (reading.sun == compositor::SunSkyReading::Sun::kShines) {
     *memory = with_reading;
   } else {
@@ -180,11 +180,11 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
   }
   const compositor::SunSkyReading reading = SettleHeading(memory, &found);
   using Sun = compositor::SunSkyReading::Sun;
-  devices::MarkerDescription marker = scene_.marker;
+  scene::MarkerDescription marker = scene_.marker;
   marker.heading = found.heading;
   const auto shade_under = [&](LinearRgb sky_scale) {
     return compositor::FindUnmodelledShade(*solver_, samples_, meter_, *day_,
-                                           MarkerFromWorld(marker), sky_scale);
+                                           scene::MarkerFromWorld(marker), sky_scale);
   };
   const bool overridden = overrides_.sun_to_sky.has_value();
   if (overridden && *overrides_.sun_to_sky <= 0.0) return found;
@@ -195,7 +195,7 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
   compositor::UnmodelledShade shade = shade_under(scale);
   const bool may_shine = MayShine(scene_.cloudiness);
   const auto plane_contrast = [&](const sky::SkyModel& day) {
-    return compositor::FindPlaneContrast(*solver_, samples_, day, MarkerFromWorld(marker));
+    return compositor::FindPlaneContrast(*solver_, samples_, day, scene::MarkerFromWorld(marker));
   };
   const auto overcast = OvercastSky();
   const auto settle_overcast = [&] {
@@ -243,7 +243,7 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
       // Half-light on the sunny side makes the sky look too strong, there and between the leaves:
       // the weaker counts.
       const compositor::SunSkyReading depth =
-          compositor::ReadShadeDepth(*solver_, shade, *day_, MarkerFromWorld(marker));
+          compositor::ReadShadeDepth(*solver_, shade, *day_, scene::MarkerFromWorld(marker));
       if (depth.sun == Sun::kShines && depth.sky_scale.g < reading.sky_scale.g) {
         edges = depth;
         light.sun_source = MeasuredLight::Source::kShade;
@@ -256,7 +256,8 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
     // One material and a sharp edge: surer than the deepest of the trees' shade.
     compositor::SunSkyReading seen;
     if (IsPrintDivided(shade)) {
-      seen = compositor::ReadPrintShadow(*solver_, print_shadows_, *day_, MarkerFromWorld(marker));
+      seen = compositor::ReadPrintShadow(*solver_, print_shadows_, *day_,
+                                         scene::MarkerFromWorld(marker));
     }
     if (seen.sun == Sun::kShines) {
       light.sun_source = MeasuredLight::Source::kMarker;
@@ -265,7 +266,7 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
       // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
       const compositor::UnmodelledShade probe = shade_under(kHazierSky);
       if (probe.Matters()) {
-        seen = compositor::ReadShadeDepth(*solver_, probe, *day_, MarkerFromWorld(marker));
+        seen = compositor::ReadShadeDepth(*solver_, probe, *day_, scene::MarkerFromWorld(marker));
       }
       if (seen.sun == Sun::kShines) {
         light.sun_source = MeasuredLight::Source::kShade;

@@ -15,7 +15,7 @@
 #include "compositor/shadow_contrast.h"
 #include "compositor/surface_samples.h"
 #include "compositor/unmodelled_shade.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -33,7 +33,7 @@ class LightLook {
  public:
   /// `scene`: with the stated or overriding heading.
   LightLook(std::shared_ptr<const compositor::LightSolver> solver, const CameraModel& camera,
-            const compositor::MarkerPrint& print, const devices::SceneDescription& scene,
+            const scene::MarkerPrint& print, const scene::SceneDescription& scene,
             const LightOverrides& overrides, UtcTime time, const CameraResponse& response);
 
   void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker);
@@ -56,7 +56,7 @@ class LightLook {
 
   std::shared_ptr<const compositor::LightSolver> solver_;
   CameraModel camera_;
-  devices::SceneDescription scene_;
+  scene::SceneDescription scene_;
   LightOverrides overrides_;
   UtcTime time_;
   sky::SunPosition sun_;

@@ -74,7 +74,7 @@ struct Source {
   std::unique_ptr<devices::FrameSource> frames;
   devices::LiveCamera* camera = nullptr;  ///< Null for a recording.
   CameraModel lens;
-  std::optional<devices::SceneDescription> scene;
+  std::optional<scene::SceneDescription> scene;
 };
 
 std::vector<devices::ControlWish> ControlsOf(const Arguments& arguments) {
@@ -154,7 +154,7 @@ Result<Source> OpenCamera(const devices::CameraUri& uri, const Arguments& argume
   Source source;
   PLEINAIR_ASSIGN_OR_RETURN(source.lens, devices::ReadCalibration(arguments.calibration));
   if (!arguments.scene.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(source.scene, devices::ReadSceneDescription(arguments.scene));
+    PLEINAIR_ASSIGN_OR_RETURN(source.scene, scene::ReadSceneDescription(arguments.scene));
   }
   devices::LiveCameraOptions options;
   options.uri = uri;
@@ -208,7 +208,7 @@ Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Argum
 Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]] PictureSize window,
                          [[maybe_unused]] const Source& source,
                          [[maybe_unused]] const Arguments& arguments,
-                         [[maybe_unused]] const devices::SceneDescription& scene,
+                         [[maybe_unused]] const scene::SceneDescription& scene,
                          [[maybe_unused]] LiveReport* report) {
 #ifdef PLEINAIR_WINDOW
   LiveWindowOptions options;
@@ -267,7 +267,7 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   options.light = arguments.light;
   options.scene = WithGiven(*source.scene, arguments.light);
   options.composer.show_shadow_maps = arguments.shadow_debug;
-  const devices::SceneDescription scene = options.scene;
+  const scene::SceneDescription scene = options.scene;
   options.shown_elsewhere = !arguments.headless;
   options.lossless = arguments.lossless;
   PLEINAIR_ASSIGN_OR_RETURN(options.start, StartOf(arguments, source));

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/stage_times.h"
 #include "devices/recording.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {
@@ -21,7 +21,7 @@ namespace pleinair::app {
 /// What is known of a recording before its markers are sought.
 struct MarkerSearch {
   std::string recording;  ///< Its name, for errors.
-  const devices::SceneDescription& scene;
+  const scene::SceneDescription& scene;
   std::filesystem::path detections;  ///< File to write what is seen to, a line a frame.
   bool keep_messages = false;        ///< Also in memory.
 };

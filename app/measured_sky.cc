@@ -23,29 +23,29 @@ constexpr double kHeadingDoubtDeg = 4.0;
 // Doubt of the colour of a sky beside its sun, logarithmic: of the model, of the measurement.
 constexpr double kModelColorDoubt = 0.10, kMeasuredColorDoubt = 0.08;
 
-sky::SkyCondition ConditionOf(devices::Cloudiness cloudiness) {
+sky::SkyCondition ConditionOf(scene::Cloudiness cloudiness) {
   switch (cloudiness) {
-    case devices::Cloudiness::kClear:
+    case scene::Cloudiness::kClear:
       return sky::SkyCondition::kClear;
-    case devices::Cloudiness::kHazy:
+    case scene::Cloudiness::kHazy:
       return sky::SkyCondition::kHazy;
-    case devices::Cloudiness::kPartlyCloudy:
+    case scene::Cloudiness::kPartlyCloudy:
       return sky::SkyCondition::kPartlyCloudy;
-    case devices::Cloudiness::kOvercast:
+    case scene::Cloudiness::kOvercast:
       return sky::SkyCondition::kOvercast;
   }
   return sky::SkyCondition::kClear;
 }
 
 /// Doubt of the sky's strength beside the sun that words leave, logarithmic.
-double DoubtOf(devices::Cloudiness stated) {
+double DoubtOf(scene::Cloudiness stated) {
   switch (stated) {
-    case devices::Cloudiness::kClear:
+    case scene::Cloudiness::kClear:
       return 0.35;
-    case devices::Cloudiness::kHazy:
+    case scene::Cloudiness::kHazy:
       return 0.6;
-    case devices::Cloudiness::kPartlyCloudy:
-    case devices::Cloudiness::kOvercast:
+    case scene::Cloudiness::kPartlyCloudy:
+    case scene::Cloudiness::kOvercast:
       return 1.2;
   }
   return 1.2;
@@ -86,13 +86,13 @@ std::shared_ptr<const sky::SkySource> Make(double turbidity, double cover) {
 
 }  // namespace
 
-std::shared_ptr<const sky::SkySource> StatedSky(const devices::SceneDescription& scene) {
+std::shared_ptr<const sky::SkySource> StatedSky(const scene::SceneDescription& scene) {
   return sky::CreateDaylight({ConditionOf(scene.cloudiness), scene.turbidity.value_or(0.0)});
 }
 
-std::shared_ptr<const sky::SkySource> SunlitSky(const devices::SceneDescription& scene) {
-  const bool veiled = scene.cloudiness == devices::Cloudiness::kPartlyCloudy ||
-                      scene.cloudiness == devices::Cloudiness::kOvercast;
+std::shared_ptr<const sky::SkySource> SunlitSky(const scene::SceneDescription& scene) {
+  const bool veiled = scene.cloudiness == scene::Cloudiness::kPartlyCloudy ||
+                      scene.cloudiness == scene::Cloudiness::kOvercast;
   return veiled ? sky::CreateDaylight({sky::SkyCondition::kClear, 0.0}) : StatedSky(scene);
 }
 
@@ -136,7 +136,7 @@ MeasuredSky SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double
   return SkyWithShare(share * scale, day.ToSun(), sun_distance_au);
 }
 
-std::optional<MeasuredSky> GivenSky(const devices::SceneDescription& scene,
+std::optional<MeasuredSky> GivenSky(const scene::SceneDescription& scene,
                                     const LightOverrides& overrides, const sky::SunPosition& sun) {
   if (!overrides.sun_to_sky) return std::nullopt;
   if (*overrides.sun_to_sky <= 0.0 || sun.ToSun().xyz.z <= 0.0) return MeasuredSky{OvercastSky()};
@@ -145,7 +145,7 @@ std::optional<MeasuredSky> GivenSky(const devices::SceneDescription& scene,
   return SkyScaledBesideSun(*day, {scale, scale, scale}, sun.distance_au);
 }
 
-SkyScale WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated) {
+SkyScale WeighedScale(const compositor::SunSkyReading& reading, scene::Cloudiness stated) {
   const LinearRgb& s = reading.sky_scale;
   const double log_r = std::log(s.r), log_g = std::log(s.g), log_b = std::log(s.b);
   // Rec.709's weights, as everywhere for luminance.

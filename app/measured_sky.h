@@ -8,7 +8,7 @@
 #include "base/vector.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun_position.h"
 
@@ -59,9 +59,9 @@ struct MeasuredSky {
 };
 
 /// The skies that the scene's words stand for.
-std::shared_ptr<const sky::SkySource> StatedSky(const devices::SceneDescription& scene);
+std::shared_ptr<const sky::SkySource> StatedSky(const scene::SceneDescription& scene);
 /// The same with a sun, whatever the words: what a shadow's edge is measured against.
-std::shared_ptr<const sky::SkySource> SunlitSky(const devices::SceneDescription& scene);
+std::shared_ptr<const sky::SkySource> SunlitSky(const scene::SceneDescription& scene);
 std::shared_ptr<const sky::SkySource> OvercastSky();
 
 /// The sky whose light on level ground, a channel, is `sky_over_sun` times the sun's light on a
@@ -72,7 +72,7 @@ MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double
 MeasuredSky SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double sun_distance_au);
 
 /// The sky that the user gives for a sun; nothing where he says nothing of it.
-std::optional<MeasuredSky> GivenSky(const devices::SceneDescription& scene,
+std::optional<MeasuredSky> GivenSky(const scene::SceneDescription& scene,
                                     const LightOverrides& overrides, const sky::SunPosition& sun);
 
 /// How much stronger the sky is beside the sun than SunlitSky() has it.
@@ -82,7 +82,7 @@ struct SkyScale {
 };
 
 /// A measured scale, weighed against how sure the scene's words are.
-SkyScale WeighedScale(const compositor::SunSkyReading& reading, devices::Cloudiness stated);
+SkyScale WeighedScale(const compositor::SunSkyReading& reading, scene::Cloudiness stated);
 
 /// What is to be added to a stated heading.
 struct HeadingOffset {

@@ -370,7 +370,7 @@ class Replayer {
 
   const ReplayOptions& options_;
   OutputFolder folder_;
-  devices::SceneDescription scene_;
+  scene::SceneDescription scene_;
   CameraModel output_camera_;
   std::unique_ptr<SceneRenderer> renderer_;
   std::optional<FoundMarkers> found_;

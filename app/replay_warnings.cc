@@ -25,7 +25,7 @@ constexpr double kNoticeableGainChange = 1.3;
 constexpr double kNightDeg = -6.0;
 
 /// The scene's marker in words: "sg_17", "tag36h11", "number 5", "no family or number named".
-std::string Described(const devices::MarkerDescription& marker) {
+std::string Described(const scene::MarkerDescription& marker) {
   if (marker.target) return "the picture of " + marker.target->filename().string();
   if (marker.family) {
     return *marker.family + (marker.id ? "_" + std::to_string(*marker.id) : "");
@@ -33,7 +33,7 @@ std::string Described(const devices::MarkerDescription& marker) {
   return marker.id ? fmt::format("number {} of sg or tag36h11", *marker.id) : "sg or tag36h11";
 }
 
-std::string NeverSeen(const ReplayReport& report, const devices::MarkerDescription& marker) {
+std::string NeverSeen(const ReplayReport& report, const scene::MarkerDescription& marker) {
   std::string seen;
   for (const MarkerName& other : report.markers) seen += " " + other.ToString();
   std::string sentence =
@@ -75,7 +75,7 @@ std::vector<std::string> FrameWarnings::Sentences() const {
 }
 
 std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Session& session,
-                                        const devices::SceneDescription& scene) {
+                                        const scene::SceneDescription& scene) {
   std::vector<std::string> warnings;
   const auto missing = report.frames - static_cast<std::int64_t>(report.path.size());
   if (!report.anchor) {

@@ -8,7 +8,7 @@
 #include "app/session.h"
 #include "app/sinks/report.h"
 #include "compositor/placed_model.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -31,7 +31,7 @@ class FrameWarnings {
 
 /// What the user should know of how a replay's markers were found, a sentence each.
 std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Session& session,
-                                        const devices::SceneDescription& scene);
+                                        const scene::SceneDescription& scene);
 
 /// What models' files have that does not show, a sentence a file.
 std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel>& models);

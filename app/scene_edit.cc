@@ -33,21 +33,21 @@ Mat3 LinearOf(const ObjectPlace& place) {
   return linear;
 }
 
-SceneEdit UneditedScene(const devices::SceneDescription& scene,
+SceneEdit UneditedScene(const scene::SceneDescription& scene,
                         const compositor::ComposerOptions& drawing, double convergence) {
   SceneEdit edit;
   edit.convergence = convergence;
   edit.latitude_deg = scene.place_time.latitude_deg;
   edit.longitude_deg = scene.place_time.longitude_deg;
   edit.drawing = drawing;
-  for (const devices::ModelReference& object : scene.objects) {
+  for (const scene::ModelReference& object : scene.objects) {
     edit.objects.push_back({object.translation_m, object.rotation_deg, object.scale});
   }
   return edit;
 }
 
-devices::SceneDescription WithEdit(const devices::SceneDescription& scene, const SceneEdit& edit) {
-  devices::SceneDescription edited = scene;
+scene::SceneDescription WithEdit(const scene::SceneDescription& scene, const SceneEdit& edit) {
+  scene::SceneDescription edited = scene;
   edited.place_time.latitude_deg = edit.latitude_deg;
   edited.place_time.longitude_deg = edit.longitude_deg;
   if (edit.heading_deg) edited.marker.heading = FromDegrees(*edit.heading_deg);
@@ -60,20 +60,20 @@ devices::SceneDescription WithEdit(const devices::SceneDescription& scene, const
   return edited;
 }
 
-SceneEdit::Sky StatedAir(const devices::SceneDescription& scene) {
+SceneEdit::Sky StatedAir(const scene::SceneDescription& scene) {
   // As sky/daylight.h has it.
   constexpr double kHazyTurbidity = 3.2, kPartlyCloudyCover = 0.6;
   SceneEdit::Sky air{sky::kDefaultTurbidity, 0.0};
   switch (scene.cloudiness) {
-    case devices::Cloudiness::kClear:
+    case scene::Cloudiness::kClear:
       break;
-    case devices::Cloudiness::kHazy:
+    case scene::Cloudiness::kHazy:
       air.turbidity = kHazyTurbidity;
       break;
-    case devices::Cloudiness::kPartlyCloudy:
+    case scene::Cloudiness::kPartlyCloudy:
       air.cloud_cover = kPartlyCloudyCover;
       break;
-    case devices::Cloudiness::kOvercast:
+    case scene::Cloudiness::kOvercast:
       air.cloud_cover = 1.0;
       break;
   }

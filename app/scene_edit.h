@@ -5,7 +5,7 @@
 
 #include "base/vector.h"
 #include "compositor/composer_options.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -48,14 +48,14 @@ struct SceneEdit {
 };
 
 /// The scene as it is described.
-SceneEdit UneditedScene(const devices::SceneDescription& scene,
+SceneEdit UneditedScene(const scene::SceneDescription& scene,
                         const compositor::ComposerOptions& drawing,
                         double convergence = SceneEdit{}.convergence);
 
 /// A description with an edit's places of objects, heading and place; the sky in words stays.
-devices::SceneDescription WithEdit(const devices::SceneDescription& scene, const SceneEdit& edit);
+scene::SceneDescription WithEdit(const scene::SceneDescription& scene, const SceneEdit& edit);
 
 /// The haze and clouds that a scene's words stand for (sky/daylight.h).
-SceneEdit::Sky StatedAir(const devices::SceneDescription& scene);
+SceneEdit::Sky StatedAir(const scene::SceneDescription& scene);
 
 }  // namespace pleinair::app

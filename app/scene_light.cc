@@ -1,7 +1,7 @@
 #include "app/scene_light.h"
 
-#include "app/marker_heading.h"
-#include "app/sun_over_place.h"
+#include "scene/marker_heading.h"
+#include "scene/sun_over_place.h"
 
 namespace pleinair::app {
 namespace {
@@ -26,8 +26,8 @@ std::vector<compositor::LitMesh> LightAmongSurfaces(const LightOrder& order,
 
 SceneLight::SceneLight(const LightOrder& light_order)
     : order(light_order),
-      marker_from_world(MarkerFromWorld(order.marker)),
-      sun(SunOver(order.place, order.time)),
+      marker_from_world(scene::MarkerFromWorld(order.marker)),
+      sun(scene::SunOver(order.place, order.time)),
       model(order.skies.source->ForSun(sun.ToSun(), sun.distance_au)),
       daylight(*model, order.skies.scale, {1.0, 1.0, 1.0}),
       meshes(LightAmongSurfaces(order, daylight, marker_from_world)) {

@@ -13,7 +13,7 @@
 #include "compositor/light_solver.h"
 #include "compositor/scaled_daylight.h"
 #include "compositor/seen_sunlight.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun_position.h"
 
@@ -22,13 +22,13 @@ namespace pleinair::app {
 /// All that the light of a moment is made from; nothing in it changes meanwhile.
 struct LightOrder {
   UtcTime time;
-  devices::PlaceTime place;
-  devices::MarkerDescription marker;
+  scene::PlaceTime place;
+  scene::MarkerDescription marker;
   DaySkies skies;
   std::shared_ptr<const compositor::LightSolver> solver;
   /// Of the solver's scene: the light of any moment in milliseconds. Null: rays are traced.
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients;
-  compositor::MarkerPrint print;
+  scene::MarkerPrint print;
   CameraResponse response;
 };
 

@@ -39,8 +39,8 @@ int BlackRings(const tracker::PrintPattern& pattern) {
 
 }  // namespace
 
-Result<tracker::TrackerOptions> TrackingOf(const devices::SceneDescription& scene) {
-  const devices::MarkerDescription& marker = scene.marker;
+Result<tracker::TrackerOptions> TrackingOf(const scene::SceneDescription& scene) {
+  const scene::MarkerDescription& marker = scene.marker;
   tracker::TrackerOptions options;
   options.consecutive_frames = true;
   if (marker.target) {
@@ -69,9 +69,8 @@ std::shared_ptr<const tracker::PrintPattern> PatternOf(const MarkerName& marker)
   return std::make_shared<const tracker::PrintPattern>(tracker::SgPrint(marker.id));
 }
 
-compositor::MarkerPrint PrintOf(const devices::MarkerDescription& described,
-                                const MarkerName& marker) {
-  compositor::MarkerPrint print;
+scene::MarkerPrint PrintOf(const scene::MarkerDescription& described, const MarkerName& marker) {
+  scene::MarkerPrint print;
   print.size_m = described.size_m;
   print.board_size_m =
       described.board_size_m > 0.0 ? described.board_size_m : described.size_m * kUsualBoard;
@@ -85,8 +84,8 @@ compositor::MarkerPrint PrintOf(const devices::MarkerDescription& described,
   return print;
 }
 
-compositor::PrintCover CoverOf(const devices::MarkerDescription& described,
-                               const MarkerName& marker, const Observation& seen) {
+compositor::PrintCover CoverOf(const scene::MarkerDescription& described, const MarkerName& marker,
+                               const Observation& seen) {
   const auto pattern = PatternOf(marker);
   if (pattern == nullptr || seen.visibility_side <= 0) return {};
   return {seen.visibility_side, described.size_m * pattern->Extent(), seen.visibility};

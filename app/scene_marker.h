@@ -4,9 +4,9 @@
 
 #include "app/session.h"
 #include "base/error.h"
-#include "compositor/marker_print.h"
 #include "compositor/occluder_mask.h"
-#include "devices/scene_description.h"
+#include "scene/marker_reflectance.h"
+#include "scene/scene_description.h"
 #include "tracker/print_pattern.h"
 #include "tracker/tracker.h"
 
@@ -19,19 +19,18 @@ inline constexpr const char* kSgFamily = "sg";
 /// family, S-G markers and AprilTag's tag36h11 are looked for; a number that it names is the only
 /// one in use; a target is all that is looked for. Errors: a version of the print that this program
 /// does not know, a target's file that cannot be read.
-Result<tracker::TrackerOptions> TrackingOf(const devices::SceneDescription& scene);
+Result<tracker::TrackerOptions> TrackingOf(const scene::SceneDescription& scene);
 
 /// What the print of a marker looks like; null where the family is not one of ours.
 std::shared_ptr<const tracker::PrintPattern> PatternOf(const MarkerName& marker);
 
 /// The print as a light meter wants to know it: sizes and reflectances as the scene states them,
 /// and the black band as wide as it is in this marker's print.
-compositor::MarkerPrint PrintOf(const devices::MarkerDescription& described,
-                                const MarkerName& marker);
+scene::MarkerPrint PrintOf(const scene::MarkerDescription& described, const MarkerName& marker);
 
 /// Which part of the print was seen, for what is to be put before the virtual objects; without
 /// squares where the tracker cannot tell (AprilTags).
-compositor::PrintCover CoverOf(const devices::MarkerDescription& described,
-                               const MarkerName& marker, const Observation& seen);
+compositor::PrintCover CoverOf(const scene::MarkerDescription& described, const MarkerName& marker,
+                               const Observation& seen);
 
 }  // namespace pleinair::app

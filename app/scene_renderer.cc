@@ -6,12 +6,12 @@
 #include <numbers>
 #include <utility>
 
-#include "app/marker_heading.h"
-#include "app/sun_over_place.h"
 #include "base/quantile.h"
-#include "compositor/marker_print.h"
 #include "compositor/scaled_daylight.h"
 #include "devices/response_file.h"
+#include "scene/marker_heading.h"
+#include "scene/marker_reflectance.h"
+#include "scene/sun_over_place.h"
 
 namespace pleinair::app {
 namespace {
@@ -29,13 +29,13 @@ double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-compositor::NormalsMode NormalsOf(devices::Shading shading) {
+compositor::NormalsMode NormalsOf(scene::Shading shading) {
   switch (shading) {
-    case devices::Shading::kFromFile:
+    case scene::Shading::kFromFile:
       return compositor::NormalsMode::kFromFile;
-    case devices::Shading::kFlat:
+    case scene::Shading::kFlat:
       return compositor::NormalsMode::kFlat;
-    case devices::Shading::kSmooth:
+    case scene::Shading::kSmooth:
       return compositor::NormalsMode::kSmooth;
   }
   return compositor::NormalsMode::kFromFile;
@@ -43,7 +43,7 @@ compositor::NormalsMode NormalsOf(devices::Shading shading) {
 
 }  // namespace
 
-Result<compositor::PlacedModel> PlaceModel(const devices::ModelReference& reference,
+Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference,
                                            bool is_phantom) {
   PLEINAIR_ASSIGN_OR_RETURN(
       compositor::Model model,
@@ -54,22 +54,22 @@ Result<compositor::PlacedModel> PlaceModel(const devices::ModelReference& refere
       reference.translation_m, is_phantom};
 }
 
-SceneRenderer::SceneRenderer(const CameraModel& camera, const devices::SceneDescription& scene)
+SceneRenderer::SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene)
     : camera_(camera), scene_(scene) {}
 
 SceneRenderer::~SceneRenderer() = default;
 
 Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
-    const CameraModel& camera, const devices::SceneDescription& scene,
+    const CameraModel& camera, const scene::SceneDescription& scene,
     const compositor::ComposerOptions& options, const LightOptions& light) {
   std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
   renderer->options_ = light;
   std::vector<compositor::PlacedModel>& placed = renderer->placed_;
-  for (const devices::ModelReference& phantom : scene.phantoms) {
+  for (const scene::ModelReference& phantom : scene.phantoms) {
     PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(phantom, true));
     placed.push_back(std::move(model));
   }
-  for (const devices::ModelReference& object : scene.objects) {
+  for (const scene::ModelReference& object : scene.objects) {
     PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(object, false));
     placed.push_back(std::move(model));
   }
@@ -89,11 +89,12 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   return renderer;
 }
 
-void SceneRenderer::SetMarkerPrint(const compositor::MarkerPrint& print) {
+void SceneRenderer::SetMarkerPrint(const scene::MarkerPrint& print) {
   print_ = print;
   if (composer_) composer_->SetMarkerBoard(print.board_size_m);
   if (!lit_ || light_from_outside_) return;
-  meter_.emplace(print_, *solver_, lit_->daylight, MarkerFromWorld(scene_.marker), response_);
+  meter_.emplace(print_, *solver_, lit_->daylight, scene::MarkerFromWorld(scene_.marker),
+                 response_);
 }
 
 bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phantoms.empty(); }
@@ -140,7 +141,7 @@ std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficie
   options.division = options_.sky_division;
   options.convergence = options_.convergence;
   coefficients_ = std::make_shared<const compositor::DaylightCoefficients>(solver_->Coefficients(
-      MarkerFromWorld(scene_.marker) * Vec3{0.0, 0.0, 1.0}, options, progress));
+      scene::MarkerFromWorld(scene_.marker) * Vec3{0.0, 0.0, 1.0}, options, progress));
   return coefficients_;
 }
 
@@ -223,7 +224,7 @@ void SceneRenderer::MoveObjects() {
 }
 
 Result<void> SceneRenderer::UpdateLight(UtcTime time) {
-  summary_.sun = SunOver(scene_.place_time, time);
+  summary_.sun = scene::SunOver(scene_.place_time, time);
   if (!lit_) OverrideLight(summary_.sun);
   if (!light_from_outside_ && !(lit_ && IsNearSun(lit_->sun, summary_.sun))) {
     if (!options_.cache.empty()) Coefficients({});
@@ -231,7 +232,7 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   }
   const auto model = skies_.source->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);
   composer_->SetSun(compositor::ScaledDaylight(*model, skies_.scale, {1.0, 1.0, 1.0}),
-                    MarkerFromWorld(scene_.marker));
+                    scene::MarkerFromWorld(scene_.marker));
   return {};
 }
 

@@ -27,7 +27,7 @@
 #include "compositor/occluder_mask.h"
 #include "compositor/picture_look.h"
 #include "compositor/surface_samples.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun_position.h"
 
@@ -82,7 +82,7 @@ class SceneRenderer {
   /// slow once, then some milliseconds for any moment. `scene`: with what the light
   /// options give of it (WithGiven()).
   static Result<std::unique_ptr<SceneRenderer>> Create(const CameraModel& camera,
-                                                       const devices::SceneDescription& scene,
+                                                       const scene::SceneDescription& scene,
                                                        const compositor::ComposerOptions& options,
                                                        const LightOptions& light = {});
 
@@ -91,7 +91,7 @@ class SceneRenderer {
 
   /// Which print the frames show, before the first is rendered: it is the light meter. With light
   /// that is made elsewhere it counts from the next on.
-  void SetMarkerPrint(const compositor::MarkerPrint& print);
+  void SetMarkerPrint(const scene::MarkerPrint& print);
 
   /// Whether frames can tell more of the light than the scene and the user do: at least whether
   /// anything but phantoms shades the ground.
@@ -151,7 +151,7 @@ class SceneRenderer {
   const RenderTimes& times() const { return times_; }
 
  private:
-  SceneRenderer(const CameraModel& camera, const devices::SceneDescription& scene);
+  SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene);
 
   void OverrideLight(const sky::SunPosition& sun);
   Result<void> TakeLight(std::shared_ptr<const SceneLight> light);
@@ -164,8 +164,8 @@ class SceneRenderer {
 
   CameraModel camera_;
   CameraResponse response_;
-  devices::SceneDescription scene_;
-  compositor::MarkerPrint print_;
+  scene::SceneDescription scene_;
+  scene::MarkerPrint print_;
   LightOptions options_;  // Without a cache rays are traced for every place of the sun.
   DaySkies skies_;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
@@ -188,7 +188,6 @@ class SceneRenderer {
 };
 
 /// A scene's model, loaded and placed in marker coordinates. Errors as compositor::LoadModel.
-Result<compositor::PlacedModel> PlaceModel(const devices::ModelReference& reference,
-                                           bool is_phantom);
+Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference, bool is_phantom);
 
 }  // namespace pleinair::app

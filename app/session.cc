@@ -74,7 +74,7 @@ void Session::ForgetAllBut(std::size_t observations) {
   }
 }
 
-bool MayAnchor(const MarkerName& marker, const devices::MarkerDescription& declared) {
+bool MayAnchor(const MarkerName& marker, const scene::MarkerDescription& declared) {
   return marker.family == declared.family.value_or(marker.family) &&
          marker.id == declared.id.value_or(marker.id);
 }

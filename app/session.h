@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/frames.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 #include "tracker/sighting.h"
 
 namespace pleinair::app {
@@ -23,7 +23,7 @@ struct MarkerName {
 };
 
 /// Whether a scene that declares this may stand on that marker.
-bool MayAnchor(const MarkerName& marker, const devices::MarkerDescription& declared);
+bool MayAnchor(const MarkerName& marker, const scene::MarkerDescription& declared);
 
 /// What is kept of one sighting of one marker: bounded, whatever the picture's size.
 struct Observation {
@@ -43,7 +43,7 @@ struct Observation {
 /// the camera stood in each frame.
 class Session {
  public:
-  explicit Session(const devices::MarkerDescription& declared) : declared_(declared) {}
+  explicit Session(const scene::MarkerDescription& declared) : declared_(declared) {}
 
   /// Adds the sightings of one frame; frames come in order. Where a marker is seen more than once,
   /// or its planar pose is ambiguous, what lies nearest to its last pose counts.
@@ -67,7 +67,7 @@ class Session {
   std::int64_t frames_with_duplicates() const { return frames_with_duplicates_; }
 
  private:
-  devices::MarkerDescription declared_;
+  scene::MarkerDescription declared_;
   std::map<MarkerName, std::vector<Observation>> paths_;
   std::int64_t frames_ = 0;
   std::int64_t frames_with_duplicates_ = 0;

@@ -2,7 +2,7 @@
 # find_package(pleinair) and pkg-config need. Included last, when every target exists.
 include(CMakePackageConfigHelpers)
 
-set(PLEINAIR_EXPORTED pleinair_base pleinair_files pleinair_sky pleinair_gl pleinair_shadows pleinair_compositor
+set(PLEINAIR_EXPORTED pleinair_base pleinair_files pleinair_scene pleinair_sky pleinair_gl pleinair_shadows pleinair_compositor
     pleinair_devices pleinair_tracker pleinair_april_tag)
 install(TARGETS ${PLEINAIR_EXPORTED} EXPORT pleinair-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

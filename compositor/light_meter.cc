@@ -82,7 +82,7 @@ std::optional<double> ShadowThreshold(const std::vector<double>& values) {
 
 }  // namespace
 
-LightMeter::LightMeter(const MarkerPrint& print, const LightSolver& solver,
+LightMeter::LightMeter(const scene::MarkerPrint& print, const LightSolver& solver,
                        const sky::SkyModel& day, const Mat3& marker_from_world,
                        const CameraResponse& response)
     : print_(print), response_(response) {

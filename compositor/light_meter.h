@@ -12,8 +12,8 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/light_solver.h"
-#include "compositor/marker_print.h"
 #include "compositor/print_shadow.h"
+#include "scene/marker_reflectance.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
@@ -46,7 +46,7 @@ class LightMeter {
  public:
   /// Predicts the light on the print's sample points; they lie still in marker coordinates, so
   /// this is done once a light.
-  LightMeter(const MarkerPrint& print, const LightSolver& solver, const sky::SkyModel& day,
+  LightMeter(const scene::MarkerPrint& print, const LightSolver& solver, const sky::SkyModel& day,
              const Mat3& marker_from_world, const CameraResponse& response = {});
 
   /// Nothing where fewer than `kMinimumPairs` pairs can be used, or where most pairs are not
@@ -114,7 +114,7 @@ class LightMeter {
   Samples SamplesIn(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                     const Transform<Camera, Marker>& camera_from_marker) const;
 
-  MarkerPrint print_;
+  scene::MarkerPrint print_;
   CameraResponse response_;
   std::vector<Pair> pairs_;
   double lit_share_ = 0.0;

@@ -17,7 +17,7 @@ double PictureLook::NoiseSigma(int channel, double light) const {
 std::optional<PictureLook> MeasurePictureLook(ImageView<const std::uint8_t> rgb,
                                               const CameraModel& camera,
                                               const Transform<Camera, Marker>& camera_from_marker,
-                                              const MarkerPrint& print,
+                                              const scene::MarkerPrint& print,
                                               const CameraResponse& response) {
   if (!(print.size_m > 0.0) || !(print.black_band_m > 0.0)) return std::nullopt;
   const PrintInPicture in_picture(rgb, camera, camera_from_marker, print, response);

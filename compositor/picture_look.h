@@ -8,7 +8,7 @@
 #include "base/camera_response.h"
 #include "base/frames.h"
 #include "base/image.h"
-#include "compositor/marker_print.h"
+#include "scene/marker_reflectance.h"
 
 namespace pleinair::compositor {
 
@@ -32,7 +32,7 @@ struct PictureLook {
 std::optional<PictureLook> MeasurePictureLook(ImageView<const std::uint8_t> rgb,
                                               const CameraModel& camera,
                                               const Transform<Camera, Marker>& camera_from_marker,
-                                              const MarkerPrint& print,
+                                              const scene::MarkerPrint& print,
                                               const CameraResponse& response);
 
 }  // namespace pleinair::compositor

@@ -11,7 +11,7 @@
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/vector.h"
-#include "compositor/marker_print.h"
+#include "scene/marker_reflectance.h"
 
 namespace pleinair::compositor {
 
@@ -20,8 +20,8 @@ namespace pleinair::compositor {
 class PrintInPicture {
  public:
   PrintInPicture(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
-                 const Transform<Camera, Marker>& camera_from_marker, const MarkerPrint& print,
-                 const CameraResponse& response)
+                 const Transform<Camera, Marker>& camera_from_marker,
+                 const scene::MarkerPrint& print, const CameraResponse& response)
       : rgb_(rgb),
         camera_(camera),
         camera_from_marker_(camera_from_marker),
@@ -31,7 +31,7 @@ class PrintInPicture {
   ImageView<const std::uint8_t> rgb() const { return rgb_; }
   const CameraModel& camera() const { return camera_; }
   const Transform<Camera, Marker>& camera_from_marker() const { return camera_from_marker_; }
-  const MarkerPrint& print() const { return print_; }
+  const scene::MarkerPrint& print() const { return print_; }
 
   /// Width of the white around the outer black square, metres.
   double white_m() const {
@@ -73,7 +73,7 @@ class PrintInPicture {
   ImageView<const std::uint8_t> rgb_;
   const CameraModel& camera_;
   const Transform<Camera, Marker>& camera_from_marker_;
-  const MarkerPrint& print_;
+  const scene::MarkerPrint& print_;
   const CameraResponse& response_;
 };
 

@@ -35,7 +35,7 @@ SurfacePlane PlaneOf(int surface, Vec3 normal) {
 }
 
 SurfaceSamples::SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
-                               const MarkerPrint& print, const CameraResponse& response)
+                               const scene::MarkerPrint& print, const CameraResponse& response)
     : solver_(solver), camera_(camera), print_(print), response_(response) {}
 
 bool SurfaceSamples::IsOnBoard(Point<Marker> point) const {

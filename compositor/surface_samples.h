@@ -12,7 +12,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/light_solver.h"
-#include "compositor/marker_print.h"
+#include "scene/marker_reflectance.h"
 
 namespace pleinair::compositor {
 
@@ -40,15 +40,15 @@ SurfacePlane PlaneOf(int surface, Vec3 normal);
 class SurfaceSamples {
  public:
   /// `solver` must live as long.
-  SurfaceSamples(const LightSolver& solver, const CameraModel& camera, const MarkerPrint& print,
-                 const CameraResponse& response = {});
+  SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
+                 const scene::MarkerPrint& print, const CameraResponse& response = {});
 
   /// `gain`: the camera's scale in this frame, of which only the change from frame to frame counts.
   void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
                 LinearRgb gain);
 
   const std::vector<SurfaceSample>& samples() const { return samples_; }
-  const MarkerPrint& print() const { return print_; }
+  const scene::MarkerPrint& print() const { return print_; }
   std::uint32_t cells() const { return static_cast<std::uint32_t>(cells_.size()); }
   int frames() const { return frames_; }
 
@@ -64,7 +64,7 @@ class SurfaceSamples {
 
   const LightSolver& solver_;
   CameraModel camera_;
-  MarkerPrint print_;
+  scene::MarkerPrint print_;
   CameraResponse response_;
   std::vector<SurfaceSample> samples_;
   std::map<CellKey, std::uint32_t> cells_;

@@ -11,9 +11,9 @@
 #include "devices/frame_pack.h"
 #include "devices/picture_sequence.h"
 #include "devices/recording_manifest.h"
-#include "devices/scene_facts.h"
 #include "devices/video_file.h"
 #include "files/text_file.h"
+#include "scene/scene_facts.h"
 
 namespace pleinair::devices {
 namespace {
@@ -47,26 +47,28 @@ Result<std::optional<Description>> ReadIfThere(const fs::path& file) {
 }
 
 // A recording.json names no models: the stand-ins and the object lie beside it by custom.
-void AddModelsByCustom(const fs::path& folder, SceneFacts* facts) {
-  const auto add = [&](const char* name, std::vector<ModelReference>* models) {
+void AddModelsByCustom(const fs::path& folder, scene::SceneFacts* facts) {
+  const auto add = [&](const char* name, std::vector<scene::ModelReference>* models) {
     if (IsFile(folder / name)) models->emplace_back().file = name;
   };
   add("phantom.obj", &facts->phantoms);
   add("object.obj", &facts->objects);
 }
 
-Result<SceneDescription> CompleteAndCheck(const SceneFacts& facts, const fs::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(SceneDescription scene, CompleteScene(facts, file));
-  PLEINAIR_RETURN_IF_ERROR(CheckModelsExist(scene));
+Result<scene::SceneDescription> CompleteAndCheck(const scene::SceneFacts& facts,
+                                                 const fs::path& file) {
+  PLEINAIR_ASSIGN_OR_RETURN(scene::SceneDescription scene, scene::CompleteScene(facts, file));
+  PLEINAIR_RETURN_IF_ERROR(scene::CheckModelsExist(scene));
   return scene;
 }
 
 // The scene of `file`, leaning on what the recording itself knows.
-Result<SceneDescription> SceneFromFile(const fs::path& file, const SceneFacts& recorded) {
+Result<scene::SceneDescription> SceneFromFile(const fs::path& file,
+                                              const scene::SceneFacts& recorded) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
                             files::ReadWholeFile(file, files::kMaxDescriptionBytes));
-  PLEINAIR_ASSIGN_OR_RETURN(SceneFacts facts, ParseScene(bytes, file.string()));
-  return CompleteAndCheck(WithFallback(std::move(facts), recorded), file);
+  PLEINAIR_ASSIGN_OR_RETURN(scene::SceneFacts facts, scene::ParseScene(bytes, file.string()));
+  return CompleteAndCheck(scene::WithFallback(std::move(facts), recorded), file);
 }
 
 /// recording.json and scene.json of a folder, as far as they are there.
@@ -75,19 +77,19 @@ struct OwnFolder {
   std::optional<Description> recording_json, scene_json;
 };
 
-Result<std::optional<SceneDescription>> SceneOf(const OwnFolder& own,
-                                                const RecordingOptions& options) {
-  SceneFacts recorded;
+Result<std::optional<scene::SceneDescription>> SceneOf(const OwnFolder& own,
+                                                       const RecordingOptions& options) {
+  scene::SceneFacts recorded;
   if (own.recording_json) {
-    PLEINAIR_ASSIGN_OR_RETURN(
-        recorded, ParseSceneJson(own.recording_json->bytes, own.recording_json->file.string()));
+    PLEINAIR_ASSIGN_OR_RETURN(recorded, scene::ParseSceneJson(own.recording_json->bytes,
+                                                              own.recording_json->file.string()));
   }
-  SceneFacts scene;
+  scene::SceneFacts scene;
   if (own.scene_json) {
-    PLEINAIR_ASSIGN_OR_RETURN(scene,
-                              ParseSceneJson(own.scene_json->bytes, own.scene_json->file.string()));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        scene, scene::ParseSceneJson(own.scene_json->bytes, own.scene_json->file.string()));
   }
-  const SceneFacts known = WithFallback(scene, recorded);
+  const scene::SceneFacts known = scene::WithFallback(scene, recorded);
   if (options.scene) return SceneFromFile(*options.scene, known);
   if (IsFile(own.folder / "scene.toml")) return SceneFromFile(own.folder / "scene.toml", known);
   if (own.scene_json) return CompleteAndCheck(known, own.scene_json->file);
@@ -187,8 +189,8 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
 }
 
 // The scene of a recording that knows nothing of it: options', else one in the folder.
-Result<std::optional<SceneDescription>> SceneBeside(const fs::path& folder,
-                                                    const RecordingOptions& options) {
+Result<std::optional<scene::SceneDescription>> SceneBeside(const fs::path& folder,
+                                                           const RecordingOptions& options) {
   if (options.scene) return SceneFromFile(*options.scene, {});
   for (const char* name : {"scene.toml", "scene.json"}) {
     if (IsFile(folder / name)) return SceneFromFile(folder / name, {});

@@ -8,7 +8,7 @@
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "devices/frame_source.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::devices {
 
@@ -24,7 +24,7 @@ struct RecordingOptions {
 struct Recording {
   std::filesystem::path path;
   CameraModel camera;
-  std::optional<SceneDescription> scene;
+  std::optional<scene::SceneDescription> scene;
   double frame_rate_hz = 0.0;
   /// Bytes after the last whole frame of a live recording: it was cut there, by a power cut say.
   std::int64_t dropped_bytes = 0;

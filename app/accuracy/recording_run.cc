@@ -210,7 +210,7 @@ class RecordingRun {
   const std::string& path_;
   const std::int64_t first_frame_;
   const AccuracyConfig& config_;
-  devices::SceneDescription scene_;
+  scene::SceneDescription scene_;
   CameraModel camera_;
   std::int64_t period_ns_ = 0;
   std::optional<std::int64_t> start_ns_;  ///< Of the recording, by its own clock's stamps.

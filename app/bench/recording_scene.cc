@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "app/marker_heading.h"
 #include "app/scene_renderer.h"
 #include "devices/recording.h"
+#include "scene/marker_heading.h"
 #include "sky/sun_position.h"
 
 namespace pleinair::app {
@@ -27,10 +27,10 @@ Result<shadows::BenchScene> RecordingScene(const std::filesystem::path& recordin
   if (!opened->scene || opened->scene->objects.empty()) {
     return InputError(recording.string(), "has no virtual object", "name another recording");
   }
-  const devices::SceneDescription& description = *opened->scene;
+  const scene::SceneDescription& description = *opened->scene;
   shadows::BenchScene scene{"courtyard", "the recording's courtyard", {}, {}, {}, {}, {}};
   shadows::Box objects;
-  const auto add = [&](const devices::ModelReference& reference, bool is_phantom) -> Result<void> {
+  const auto add = [&](const scene::ModelReference& reference, bool is_phantom) -> Result<void> {
     PLEINAIR_ASSIGN_OR_RETURN(const compositor::PlacedModel placed,
                               PlaceModel(reference, is_phantom));
     for (const compositor::Mesh& mesh : placed.model->meshes) {
@@ -52,7 +52,7 @@ Result<shadows::BenchScene> RecordingScene(const std::filesystem::path& recordin
                                FromDegrees(description.place_time.longitude_deg),
                                Metres(description.place_time.height_m)};
   const sky::SunPosition sun = sky::ComputeSunPosition(observer, description.place_time.start);
-  const Vec3 to_sun = MarkerFromWorld(description.marker) * sun.ToSun().xyz;
+  const Vec3 to_sun = scene::MarkerFromWorld(description.marker) * sun.ToSun().xyz;
   scene.to_sun = {to_sun.x, to_sun.y, to_sun.z};
   if (scene.to_sun.z <= 0.02) {
     return InputError(recording.string(), "its sun stands too low to cast shadows",

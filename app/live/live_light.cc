@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "app/day_skies.h"
-#include "app/marker_heading.h"
-#include "app/sun_over_place.h"
+#include "scene/marker_heading.h"
+#include "scene/sun_over_place.h"
 
 namespace pleinair::app {
 namespace {
@@ -75,7 +75,7 @@ void LiveLight::SetTime(UtcTime time) {
   wanted_.time = time;
 }
 
-void LiveLight::SetPrint(const compositor::MarkerPrint& print) {
+void LiveLight::SetPrint(const scene::MarkerPrint& print) {
   const std::lock_guard lock(mutex_);
   wanted_.print = print;
   changed_.notify_all();
@@ -145,22 +145,22 @@ Result<void> LiveLight::Place(const std::vector<ObjectPlace>& objects) {
 
 bool LiveLight::NeedsLight(const Wanted& wanted) const {
   if (!made_for_ || !(*made_for_ == wanted)) return true;
-  const sky::SunPosition sun = SunOver(WithEdit(setup_.scene, wanted.edit).place_time,
-                                       wanted.time.PlusSeconds(wanted.edit.later_s));
+  const sky::SunPosition sun = scene::SunOver(WithEdit(setup_.scene, wanted.edit).place_time,
+                                              wanted.time.PlusSeconds(wanted.edit.later_s));
   return !IsNearSun(made_sun_, sun);
 }
 
 /// What the user says of sun and sky, where he does, under the sun of a moment.
 void LiveLight::UseGivenSky(UtcTime time, DaySkies* skies) const {
   const auto given =
-      GivenSky(setup_.scene, setup_.light.overrides, SunOver(setup_.scene.place_time, time));
+      GivenSky(setup_.scene, setup_.light.overrides, scene::SunOver(setup_.scene.place_time, time));
   if (!given) return;
   skies->source = given->skies;
   skies->scale = given->sky_scale;
 }
 
 LightOrder LiveLight::OrderFor(const Wanted& wanted) {
-  devices::SceneDescription scene = setup_.scene;
+  scene::SceneDescription scene = setup_.scene;
   scene.marker.heading = heading_;
   scene = WithEdit(scene, wanted.edit);
   if (!wanted.edit.sky) {
@@ -246,7 +246,7 @@ void LiveLight::WantCoefficients(const Wanted& wanted, compositor::CoefficientWo
   const bool as_begun = wanted.edit.objects == setup_.edit.objects &&
                         wanted.edit.convergence == setup_.edit.convergence;
   if (as_begun) options.cache = setup_.light.cache;
-  worker->Want(solver_, MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0}, options);
+  worker->Want(solver_, scene::MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0}, options);
 }
 
 /// Where new ones are there, of the scene as it stands now.

@@ -19,7 +19,7 @@
 #include "base/utc_time.h"
 #include "compositor/coefficient_worker.h"
 #include "devices/frame_source.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -34,7 +34,7 @@ class LiveLight {
  public:
   struct Setup {
     CameraModel camera;
-    devices::SceneDescription scene;
+    scene::SceneDescription scene;
     std::vector<compositor::PlacedModel> placed;  ///< Phantoms, then objects.
     LightOptions light;
     SceneEdit edit;
@@ -50,7 +50,7 @@ class LiveLight {
   /// These change what the next light is made for; any thread.
   void SetEdit(const SceneEdit& edit);
   void SetTime(UtcTime time);
-  void SetPrint(const compositor::MarkerPrint& print);
+  void SetPrint(const scene::MarkerPrint& print);
 
   /// Offers a frame to measure the light in; few are taken.
   void Show(std::shared_ptr<const devices::Frame> frame,
@@ -75,7 +75,7 @@ class LiveLight {
   struct Wanted {
     SceneEdit edit;
     UtcTime time;
-    compositor::MarkerPrint print;
+    scene::MarkerPrint print;
     /// Of what a light is made for besides the sun's place.
     bool operator==(const Wanted& other) const;
   };

@@ -9,7 +9,7 @@
 namespace pleinair::app {
 
 LiveOutput::LiveOutput(Options options, const CameraModel& camera,
-                       const devices::SceneDescription& scene, OutputFolder folder,
+                       const scene::SceneDescription& scene, OutputFolder folder,
                        DetectionsWriter detections)
     : options_(std::move(options)),
       camera_(camera),
@@ -19,7 +19,7 @@ LiveOutput::LiveOutput(Options options, const CameraModel& camera,
 
 Result<std::unique_ptr<LiveOutput>> LiveOutput::Create(const Options& options,
                                                        const CameraModel& camera,
-                                                       const devices::SceneDescription& scene) {
+                                                       const scene::SceneDescription& scene) {
   PLEINAIR_RETURN_IF_ERROR(CheckExports(options.exports, camera));
   PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.folder));
   PLEINAIR_ASSIGN_OR_RETURN(DetectionsWriter detections,

@@ -16,7 +16,7 @@
 #include "app/sinks/output_folder.h"
 #include "base/camera_model.h"
 #include "base/error.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -34,7 +34,7 @@ class LiveOutput {
   /// Errors: of OutputFolder; a lens that a form cannot hold.
   static Result<std::unique_ptr<LiveOutput>> Create(const Options& options,
                                                     const CameraModel& camera,
-                                                    const devices::SceneDescription& scene);
+                                                    const scene::SceneDescription& scene);
 
   /// Adds a frame that the session has just taken in, and its line of detections.jsonl.
   Result<void> Add(const Session& session, std::int64_t frame_index, std::int64_t timestamp_ns,
@@ -44,13 +44,13 @@ class LiveOutput {
   Result<void> Finish(UtcTime start);
 
  private:
-  LiveOutput(Options options, const CameraModel& camera, const devices::SceneDescription& scene,
+  LiveOutput(Options options, const CameraModel& camera, const scene::SceneDescription& scene,
              OutputFolder folder, DetectionsWriter detections);
   Result<void> Write(UtcTime start);
 
   Options options_;
   CameraModel camera_;
-  devices::SceneDescription scene_;
+  scene::SceneDescription scene_;
   OutputFolder folder_;
   DetectionsWriter detections_;
   std::map<MarkerName, CameraPath> paths_;

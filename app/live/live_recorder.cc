@@ -46,7 +46,7 @@ LiveRecorder::~LiveRecorder() { Finish(); }
 
 Result<std::unique_ptr<LiveRecorder>> LiveRecorder::Create(const fs::path& folder,
                                                            const CameraModel& camera,
-                                                           const devices::SceneDescription& scene,
+                                                           const scene::SceneDescription& scene,
                                                            UtcTime start) {
   std::error_code error;
   for (const char* name : {"recording.json", "scene.json", "scene.toml", "frames.pack"}) {

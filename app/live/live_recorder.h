@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/utc_time.h"
 #include "devices/frame_pack.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -25,7 +25,7 @@ class LiveRecorder {
   /// as its time). Errors: there is a recording already, no permission, disk full.
   static Result<std::unique_ptr<LiveRecorder>> Create(const std::filesystem::path& folder,
                                                       const CameraModel& camera,
-                                                      const devices::SceneDescription& scene,
+                                                      const scene::SceneDescription& scene,
                                                       UtcTime start);
   ~LiveRecorder();
 
@@ -54,7 +54,7 @@ class LiveRecorder {
 };
 
 /// A scene as scene.toml with another time; models by their way from `folder`.
-std::string SceneToml(const devices::SceneDescription& scene, UtcTime start,
+std::string SceneToml(const scene::SceneDescription& scene, UtcTime start,
                       const std::filesystem::path& folder);
 
 }  // namespace pleinair::app

@@ -180,7 +180,7 @@ void LiveSession::Capture() {
   captured_.Close();
 }
 
-devices::SceneDescription LiveSession::SceneNow() const {
+scene::SceneDescription LiveSession::SceneNow() const {
   const std::lock_guard lock(mutex_);
   return options_.lossless ? options_.scene : WithEdit(options_.scene, edit_);
 }
@@ -292,7 +292,7 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   const auto start = Clock::now();
   const UtcTime moment = MomentOf(*tracked.frame);
   if (tracked.anchor && tracked.anchor != shown_anchor_) {
-    const compositor::MarkerPrint print = PrintOf(options_.scene.marker, *tracked.anchor);
+    const scene::MarkerPrint print = PrintOf(options_.scene.marker, *tracked.anchor);
     renderer_->SetMarkerPrint(print);
     if (light_) light_->SetPrint(print);
     shown_anchor_ = tracked.anchor;

@@ -27,14 +27,14 @@
 #include "compositor/composer_options.h"
 #include "compositor/placed_model.h"
 #include "devices/frame_source.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {
 
 struct LiveOptions {
   CameraModel camera;
-  devices::SceneDescription scene;  ///< With what `light` gives of it (WithGiven()).
+  scene::SceneDescription scene;  ///< With what `light` gives of it (WithGiven()).
   compositor::ComposerOptions composer;
   LightOptions light;
   /// UTC of the first frame; nothing: the clock's when it comes.
@@ -129,7 +129,7 @@ class LiveSession {
                               const std::vector<tracker::Sighting>& sightings);
   void FinishOutput();
   Result<void> TakeEdit(const devices::Frame& frame);
-  devices::SceneDescription SceneNow() const;
+  scene::SceneDescription SceneNow() const;
   void Fail(Error error);
   void GiveUpFrame();
   UtcTime MomentOf(const devices::Frame& frame) const;

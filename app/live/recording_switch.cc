@@ -54,7 +54,7 @@ bool RecordingSwitch::on() const {
 }
 
 void RecordingSwitch::Add(const std::shared_ptr<const devices::Frame>& frame, UtcTime moment,
-                          const std::function<devices::SceneDescription()>& scene) {
+                          const std::function<scene::SceneDescription()>& scene) {
   std::shared_ptr<LiveRecorder> recorder;
   std::optional<fs::path> folder;
   {

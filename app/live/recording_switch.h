@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/utc_time.h"
 #include "devices/frame.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -37,7 +37,7 @@ class RecordingSwitch {
 
   /// Records a frame where that is asked for; `scene` is asked when a recording begins.
   void Add(const std::shared_ptr<const devices::Frame>& frame, UtcTime moment,
-           const std::function<devices::SceneDescription()>& scene);
+           const std::function<scene::SceneDescription()>& scene);
 
   /// Of all recordings so far.
   Counts counts() const;

@@ -27,13 +27,13 @@ std::string Quoted(std::string_view text) {
   return quoted + "\"";
 }
 
-const char* Word(devices::Shading shading) {
+const char* Word(scene::Shading shading) {
   switch (shading) {
-    case devices::Shading::kFromFile:
+    case scene::Shading::kFromFile:
       return "file";
-    case devices::Shading::kFlat:
+    case scene::Shading::kFlat:
       return "flat";
-    case devices::Shading::kSmooth:
+    case scene::Shading::kSmooth:
       return "smooth";
   }
   return "file";
@@ -48,7 +48,7 @@ std::string Beside(const fs::path& folder, const fs::path& file) {
 
 std::string Vector(Vec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
-void AddModel(const char* table, const devices::ModelReference& model, const fs::path& folder,
+void AddModel(const char* table, const scene::ModelReference& model, const fs::path& folder,
               std::string* text) {
   *text += fmt::format(
       "\n[[{}]]\nfile = {}\nshading = \"{}\"\ntranslation_m = {}\nrotation_deg = {}\nscale = {}\n",
@@ -58,9 +58,8 @@ void AddModel(const char* table, const devices::ModelReference& model, const fs:
 
 }  // namespace
 
-std::string SceneToml(const devices::SceneDescription& scene, UtcTime start,
-                      const fs::path& folder) {
-  const devices::MarkerDescription& marker = scene.marker;
+std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const fs::path& folder) {
+  const scene::MarkerDescription& marker = scene.marker;
   std::string text = fmt::format("time = {}\ncloudiness = \"{}\"\n", start.ToString(),
                                  CloudinessName(scene.cloudiness));
   if (scene.turbidity) text += fmt::format("turbidity = {}\n", *scene.turbidity);

@@ -40,7 +40,7 @@ Result<std::vector<std::string>> ExportPath(PathExport what, const std::set<Path
                                             const std::filesystem::path& folder) {
   std::vector<std::string> outputs;
   const CameraPath& path = what.path;
-  const devices::MarkerDescription& marker = what.scene.marker;
+  const scene::MarkerDescription& marker = what.scene.marker;
   const UpAxis up = marker.upright ? UpAxis::kY : UpAxis::kZ;
   const PathWriting writing{.up = up, .marker_size_m = marker.size_m};
   if (formats.contains(PathFormat::kGltf) && !path.poses.empty()) {

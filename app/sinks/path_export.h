@@ -9,14 +9,14 @@
 #include "app/paths/path_files.h"
 #include "app/session.h"
 #include "base/camera_model.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
 /// What frames were taken with and show, for the forms of other programs.
 struct PathExport {
   CameraPath path;  ///< Of the anchor, with the camera of the frames that are written.
-  const devices::SceneDescription& scene;
+  const scene::SceneDescription& scene;
   std::vector<MarkersMessage> markers;  ///< For MCAP alone: what was seen, frame by frame.
 };
 

@@ -48,15 +48,15 @@ LostFrames CountLostFrames(const std::vector<Observation>& path, std::int64_t fr
   return lost;
 }
 
-const char* CloudinessName(devices::Cloudiness cloudiness) {
+const char* CloudinessName(scene::Cloudiness cloudiness) {
   switch (cloudiness) {
-    case devices::Cloudiness::kClear:
+    case scene::Cloudiness::kClear:
       return "clear";
-    case devices::Cloudiness::kHazy:
+    case scene::Cloudiness::kHazy:
       return "hazy";
-    case devices::Cloudiness::kPartlyCloudy:
+    case scene::Cloudiness::kPartlyCloudy:
       return "partly cloudy";
-    case devices::Cloudiness::kOvercast:
+    case scene::Cloudiness::kOvercast:
       return "overcast";
   }
   return "clear";

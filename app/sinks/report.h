@@ -9,7 +9,7 @@
 #include "app/scene_renderer.h"
 #include "app/session.h"
 #include "base/stage_times.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -32,8 +32,8 @@ struct ReplayReport {
   std::optional<MarkerName> anchor;
   std::vector<MarkerName> markers;  ///< Every marker seen.
   std::vector<Observation> path;    ///< Of the anchor, a frame it was seen in each.
-  devices::PlaceTime place_time;
-  devices::Cloudiness cloudiness = devices::Cloudiness::kClear;
+  scene::PlaceTime place_time;
+  scene::Cloudiness cloudiness = scene::Cloudiness::kClear;
   std::size_t virtual_objects = 0, phantoms = 0;
   std::optional<LightSummary> light;  ///< Nothing where nothing had to be lit.
   std::string time_lapse;             ///< Part of the page that shows it; empty without.
@@ -76,6 +76,6 @@ struct LostFrames {
 LostFrames CountLostFrames(const std::vector<Observation>& path, std::int64_t frames);
 
 /// "clear", "hazy", "partly cloudy", "overcast".
-const char* CloudinessName(devices::Cloudiness cloudiness);
+const char* CloudinessName(scene::Cloudiness cloudiness);
 
 }  // namespace pleinair::app

@@ -161,7 +161,7 @@ std::string MarkerCard(const LightSummary& light) {
 }
 
 std::string Light(const ReplayReport& report) {
-  const devices::PlaceTime& place = report.place_time;
+  const scene::PlaceTime& place = report.place_time;
   std::string html = Card(fmt::format("{:.4f}°, {:.4f}°", place.latitude_deg, place.longitude_deg),
                           "latitude, longitude");
   html += Card(place.start.ToString(), "start of the recording");

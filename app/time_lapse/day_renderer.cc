@@ -7,9 +7,9 @@
 #include <numbers>
 #include <utility>
 
-#include "app/sun_over_place.h"
 #include "base/srgb.h"
 #include "compositor/sky_table.h"
+#include "scene/sun_over_place.h"
 #include "shadows/shadow_uniforms.h"
 
 namespace pleinair::app {
@@ -57,7 +57,7 @@ Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
 }
 
 LinearRgb DayRenderer::LevelLight(UtcTime time) const {
-  const sky::SunPosition sun = SunOver(order_.place, time);
+  const sky::SunPosition sun = scene::SunOver(order_.place, time);
   const auto model = order_.skies.source->ForSun(sun.ToSun(), sun.distance_au);
   return model->SkyHorizontalIrradiance() * order_.skies.scale +
          model->SunNormalIrradiance() * std::max(0.0, sun.ToSun().xyz.z);

@@ -71,8 +71,7 @@ Result<TimeLapseOptions> ParseTimeLapse(const std::string& hours, const std::str
   return options;
 }
 
-Result<TimeLapseMoments> MomentsOf(const TimeLapseOptions& options,
-                                   const devices::PlaceTime& place) {
+Result<TimeLapseMoments> MomentsOf(const TimeLapseOptions& options, const scene::PlaceTime& place) {
   TimeLapseMoments moments;
   moments.clock = NauticalOffset(place.longitude_deg);
   if (options.hours && options.hours->clock) moments.clock = *options.hours->clock;

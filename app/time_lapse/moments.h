@@ -8,7 +8,7 @@
 #include "app/local_time.h"
 #include "base/error.h"
 #include "base/utc_time.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -37,7 +37,6 @@ struct TimeLapseMoments {
 
 /// The moments of the day, on the clock, in which the recording begins. Errors (input): no sunrise
 /// on a day that is asked for by it, more than a day's minutes of pictures.
-Result<TimeLapseMoments> MomentsOf(const TimeLapseOptions& options,
-                                   const devices::PlaceTime& place);
+Result<TimeLapseMoments> MomentsOf(const TimeLapseOptions& options, const scene::PlaceTime& place);
 
 }  // namespace pleinair::app

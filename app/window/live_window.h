@@ -9,7 +9,7 @@
 
 #include "app/live/live_session.h"
 #include "base/error.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::devices {
 class LiveCamera;
@@ -19,7 +19,7 @@ namespace pleinair::app {
 
 struct LiveWindowOptions {
   CameraModel camera;
-  devices::SceneDescription scene;
+  scene::SceneDescription scene;
   compositor::ComposerOptions drawing;
   double convergence = SceneEdit{}.convergence;  ///< The session's at first.
   devices::LiveCamera* live_camera = nullptr;    ///< Null for a recording.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/marker_heading.h"
+#include "scene/marker_heading.h"
 
 namespace pleinair::app {
 namespace {
@@ -11,26 +11,26 @@ namespace {
 constexpr double kLowestSun = 0.02;
 
 /// Angle of a level direction from the marker's heading direction, clockwise from above.
-double ClockwiseFromHeading(const devices::MarkerDescription& marker, Vec3 direction) {
+double ClockwiseFromHeading(const scene::MarkerDescription& marker, Vec3 direction) {
   // +y of a marker that lies, −z of an upright one.
   return std::atan2(direction.x, marker.upright ? -direction.z : direction.y);
 }
 
 }  // namespace
 
-Vec3 UpOf(const devices::MarkerDescription& marker) {
+Vec3 UpOf(const scene::MarkerDescription& marker) {
   return marker.upright ? Vec3{0.0, 1.0, 0.0} : Vec3{0.0, 0.0, 1.0};
 }
 
-std::optional<Vec3> NorthPole::ShadowTip(const devices::MarkerDescription& marker,
+std::optional<Vec3> NorthPole::ShadowTip(const scene::MarkerDescription& marker,
                                          Vec3 to_sun_in_world) const {
   if (to_sun_in_world.z < kLowestSun) return std::nullopt;
-  const Vec3 to_sun = MarkerFromWorld(marker) * to_sun_in_world;
+  const Vec3 to_sun = scene::MarkerFromWorld(marker) * to_sun_in_world;
   const Vec3 top = foot + UpOf(marker) * height_m;
   return top - to_sun * (height_m / to_sun_in_world.z);
 }
 
-std::optional<double> HeadingForShadow(const devices::MarkerDescription& marker,
+std::optional<double> HeadingForShadow(const scene::MarkerDescription& marker,
                                        const NorthPole& pole, Vec3 towards, Vec3 to_sun_in_world) {
   const Vec3 up = UpOf(marker);
   const Vec3 offset = towards - pole.foot;

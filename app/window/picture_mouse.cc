@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "app/sun_over_place.h"
+#include "scene/sun_over_place.h"
 
 namespace pleinair::app {
 namespace {
@@ -55,7 +55,9 @@ void DrawBox(const PictureView& view, const WindowState& state, int object) {
 }
 
 Vec3 ToSun(const WindowState& state) {
-  return SunOver(WithEdit(state.scene, state.edit).place_time, state.shown_time()).ToSun().xyz;
+  return scene::SunOver(WithEdit(state.scene, state.edit).place_time, state.shown_time())
+      .ToSun()
+      .xyz;
 }
 
 void DrawPole(const PictureView& view, const WindowState& state) {
@@ -83,7 +85,7 @@ bool Near(const std::optional<ImVec2>& point, Vec2 mouse) {
 }  // namespace
 
 std::vector<ObjectBox> BoxesOf(const std::vector<compositor::PlacedModel>& placed,
-                               const devices::SceneDescription& scene) {
+                               const scene::SceneDescription& scene) {
   std::vector<ObjectBox> boxes;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     constexpr double kFar = 1e30;

@@ -9,7 +9,7 @@ namespace pleinair::app {
 
 /// The boxes around a scene's objects; `placed` holds phantoms, then objects.
 std::vector<ObjectBox> BoxesOf(const std::vector<compositor::PlacedModel>& placed,
-                               const devices::SceneDescription& scene);
+                               const scene::SceneDescription& scene);
 
 /// A mouse button going down or up, where the mouse was then: on a slow frame it has moved on
 /// since.

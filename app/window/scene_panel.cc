@@ -9,9 +9,9 @@
 #include <string>
 
 #include "app/local_time.h"
-#include "app/sun_over_place.h"
 #include "app/window/cities.h"
 #include "app/window/measured_text.h"
+#include "scene/sun_over_place.h"
 #include "shadows/shadow_method.h"
 
 namespace pleinair::app {
@@ -163,7 +163,7 @@ void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
   const UtcTime shown = state.shown_time();
   const UtcTime midnight = shown.PlusSeconds(-TimeOfDay(shown, utc_offset_s));
   const std::int64_t day = midnight.nanoseconds_since_1970() / 60'000'000'000;
-  devices::PlaceTime place = state.scene.place_time;
+  scene::PlaceTime place = state.scene.place_time;
   place.latitude_deg = edit.latitude_deg;
   place.longitude_deg = edit.longitude_deg;
   if (day != elevations_of_day_ || edit.latitude_deg != elevations_of_latitude_ ||
@@ -173,7 +173,7 @@ void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
     elevations_of_longitude_ = edit.longitude_deg;
     for (std::size_t i = 0; i < elevations_deg_.size(); ++i) {
       const double share = static_cast<double>(i) / (elevations_deg_.size() - 1);
-      const Vec3 to_sun = SunOver(place, midnight.PlusSeconds(share * kDay_s)).ToSun().xyz;
+      const Vec3 to_sun = scene::SunOver(place, midnight.PlusSeconds(share * kDay_s)).ToSun().xyz;
       elevations_deg_[i] = static_cast<float>(std::asin(to_sun.z) / kRadiansPerDegree);
     }
   }
@@ -193,7 +193,7 @@ void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
     const double from = static_cast<double>(i - 1) / count, to = static_cast<double>(i) / count;
     draw->AddLine(at(from, elevations_deg_[i - 1]), at(to, elevations_deg_[i]), 0xFFB0A890, 1.5F);
   }
-  const Vec3 to_sun = SunOver(place, shown).ToSun().xyz;
+  const Vec3 to_sun = scene::SunOver(place, shown).ToSun().xyz;
   const double elevation_deg = std::asin(to_sun.z) / kRadiansPerDegree;
   double azimuth_deg = std::atan2(to_sun.x, to_sun.y) / kRadiansPerDegree;
   if (azimuth_deg < 0.0) azimuth_deg += 360.0;

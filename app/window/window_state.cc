@@ -65,15 +65,15 @@ void DoToObject(Action action, bool fine, WindowState* state) {
 
 }  // namespace
 
-devices::MarkerDescription WindowState::marker() const {
-  devices::MarkerDescription in_use = scene.marker;
+scene::MarkerDescription WindowState::marker() const {
+  scene::MarkerDescription in_use = scene.marker;
   in_use.heading = FromDegrees(edit.heading_deg.value_or(has_frame && statistics.drawn > 0
                                                              ? statistics.light.heading_deg
                                                              : ToDegrees(scene.marker.heading)));
   return in_use;
 }
 
-WindowState WindowState::For(const devices::SceneDescription& scene,
+WindowState WindowState::For(const scene::SceneDescription& scene,
                              const compositor::ComposerOptions& drawing, double convergence) {
   WindowState state;
   state.scene = scene;

@@ -9,14 +9,14 @@
 #include "app/window/north_pole.h"
 #include "app/window/object_moves.h"
 #include "base/utc_time.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
 /// What the window shows and what its user has done: all that the panel and the keys change,
 /// without a window, so that tests can press keys, too.
 struct WindowState {
-  devices::SceneDescription scene;  ///< As it was described.
+  scene::SceneDescription scene;  ///< As it was described.
   SceneEdit edit, unedited;
   std::vector<ObjectBox> boxes;  ///< Of the scene's objects, in their order.
   int selected = -1;             ///< Index of an object; -1: none.
@@ -43,9 +43,9 @@ struct WindowState {
 
   UtcTime shown_time() const { return moment.PlusSeconds(edit.later_s); }
   /// The marker with the heading in use.
-  devices::MarkerDescription marker() const;
+  scene::MarkerDescription marker() const;
   /// The scene's state for a new session.
-  static WindowState For(const devices::SceneDescription& scene,
+  static WindowState For(const scene::SceneDescription& scene,
                          const compositor::ComposerOptions& drawing,
                          double convergence = SceneEdit{}.convergence);
 };

@@ -9,8 +9,8 @@
 
 #include "app/day_skies.h"
 #include "app/light_look.h"
-#include "app/sun_over_place.h"
 #include "base/srgb.h"
+#include "scene/sun_over_place.h"
 #include "tests/app/yard_scene.h"
 
 namespace pleinair::app {
@@ -29,7 +29,7 @@ FoundLight Settle(double off_deg, const PhotographedYard::Light& light,
                   const char* said_time = "2025-09-14T13:50:00Z") {
   const PhotographedYard& yard = Yard();
   const UtcTime time = *UtcTime::Parse(said_time);
-  const devices::SceneDescription scene = YardScene(yard, off_deg, time);
+  const scene::SceneDescription scene = YardScene(yard, off_deg, time);
   const std::shared_ptr<const compositor::LightSolver> solver(&yard.solver(), [](const auto*) {});
   LightLook look(solver, yard.camera(), yard.print(), scene, overrides, time, {});
   for (const int i : {0, 1}) look.Add(yard.Photograph(i, light).view(), PhotographedYard::Pose(i));
@@ -105,8 +105,8 @@ TEST(LightLook, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
     };
     return std::fabs(std::log(share(*day) * scale.g / (2.5 * share(model))));
   };
-  devices::SceneDescription words;
-  words.cloudiness = devices::Cloudiness::kClear;
+  scene::SceneDescription words;
+  words.cloudiness = scene::Cloudiness::kClear;
   const double stated = off(*StatedSky(words), {1, 1, 1});
   EXPECT_GT(stated, 0.8);
   EXPECT_LT(off(*hazy.skies.source, hazy.skies.scale), 0.5 * stated);
@@ -117,15 +117,15 @@ class BareGround {
  public:
   BareGround() {
     scene_.place_time.latitude_deg = 50.0;
-    scene_.cloudiness = devices::Cloudiness::kClear;
-    const sky::SunPosition sun = SunOver(scene_.place_time, time_);
+    scene_.cloudiness = scene::Cloudiness::kClear;
+    const sky::SunPosition sun = scene::SunOver(scene_.place_time, time_);
     day_ = SunlitSky(scene_)->ForSun(sun.ToSun(), sun.distance_au);
   }
 
   /// What frames tell in which the sky is `sky_scale` times as strong beside the sun as a clear
   /// day's, and something shades what is within `reach_m` of the print's middle where x is below
   /// `shadow_to_x_m`.
-  FoundLight Settle(devices::Cloudiness said, double sky_scale, double shadow_to_x_m,
+  FoundLight Settle(scene::Cloudiness said, double sky_scale, double shadow_to_x_m,
                     double reach_m = 0.4) const {
     const LinearRgb sky = day_->SkyHorizontalIrradiance() * sky_scale;
     const LinearRgb open = sky + day_->SunNormalIrradiance() * day_->ToSun().xyz.z;
@@ -148,7 +148,7 @@ class BareGround {
         picture(x, y, 2) = Srgb8FromLinear(light.b);
       }
     }
-    devices::SceneDescription scene = scene_;
+    scene::SceneDescription scene = scene_;
     scene.cloudiness = said;
     LightLook look(solver_, camera_, print_, scene, {}, time_, {});
     for (int i = 0; i < 2; ++i) look.Add(picture.view(), camera_from_marker_);
@@ -165,18 +165,18 @@ class BareGround {
  private:
   static constexpr double kGain = 3.0e-5;
   UtcTime time_ = *UtcTime::Parse("2025-09-14T13:50:00Z");
-  devices::SceneDescription scene_;
+  scene::SceneDescription scene_;
   std::unique_ptr<sky::SkyModel> day_;
   std::shared_ptr<const compositor::LightSolver> solver_ = *compositor::LightSolver::Create(
       {compositor::testing::Phantom(compositor::testing::Ground(3.0, {0.3F, 0.3F, 0.3F}))},
       {.rays_per_vertex = 64});
   CameraModel camera_{.width = 400, .height = 300, .fx = 330, .fy = 330, .cx = 200, .cy = 150};
-  compositor::MarkerPrint print_{.size_m = 0.6, .board_size_m = 0.8, .black_band_m = 0.1};
+  scene::MarkerPrint print_{.size_m = 0.6, .board_size_m = 0.8, .black_band_m = 0.1};
   Transform<Camera, Marker> camera_from_marker_ = PhotographedYard::Pose(0);
 };
 
 TEST(LightLook, ReadsTheSkyFromAShadowAcrossTheMarkerThatNoPhantomCasts) {
-  using devices::Cloudiness;
+  using scene::Cloudiness;
   const BareGround ground;
   constexpr double kSkyScale = 2.5;
   const auto expect_told = [&](const FoundLight& found) {

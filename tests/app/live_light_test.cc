@@ -13,8 +13,8 @@
 
 #include "app/day_skies.h"
 #include "app/live/live_light.h"
-#include "app/marker_heading.h"
-#include "app/sun_over_place.h"
+#include "scene/marker_heading.h"
+#include "scene/sun_over_place.h"
 #include "tests/app/small_camera.h"
 #include "tests/app/yard_scene.h"
 #include "tests/compositor/light_scenes.h"
@@ -75,7 +75,7 @@ TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
   compositor::CoefficientOptions options;
   options.convergence = edit.convergence;
   const auto fresh = in_use->order.solver->Coefficients(
-      MarkerFromWorld(setup.scene.marker) * Vec3{0, 0, 1}, options, {});
+      scene::MarkerFromWorld(setup.scene.marker) * Vec3{0, 0, 1}, options, {});
   const auto meshes =
       in_use->order.solver->Relight(fresh, in_use->daylight, in_use->marker_from_world);
   ASSERT_EQ(meshes.size(), in_use->meshes.size());
@@ -86,8 +86,8 @@ TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
 
 TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
   LiveLight::Setup setup = BoxOnGround();
-  const Vec3 to_sun =
-      MarkerFromWorld(setup.scene.marker) * SunOver(setup.scene.place_time, setup.time).ToSun().xyz;
+  const Vec3 to_sun = scene::MarkerFromWorld(setup.scene.marker) *
+                      scene::SunOver(setup.scene.place_time, setup.time).ToSun().xyz;
   const std::vector<compositor::SunlitSpot> spots{{{0, 0, 0}, 0.2, 0.01}};
   setup.skies.sunlight =
       std::make_shared<const compositor::SeenSunlight>(compositor::MapSeenSunlight(to_sun, spots));
@@ -242,8 +242,8 @@ TEST(LiveLight, KeepsWhatFramesToldWhenTheNextOnesTellNothing) {
   EXPECT_EQ(blind->order.marker.heading.value(), told->order.marker.heading.value());
   const double ratio = SunToSkyOf(told->order.skies, *told);
   EXPECT_NEAR(SunToSkyOf(blind->order.skies, *told), ratio, 0.02 * ratio);
-  devices::SceneDescription clear;
-  clear.cloudiness = devices::Cloudiness::kClear;
+  scene::SceneDescription clear;
+  clear.cloudiness = scene::Cloudiness::kClear;
   EXPECT_GT(SunToSkyOf({StatedSky(clear)}, *told), 1.3 * ratio) << "it was not as the words say";
   EXPECT_EQ(kept.heading_source, Source::kMeasured);
   EXPECT_GT(kept.heading_error, measured.heading_error) << "as old as it is";

@@ -30,7 +30,7 @@ TEST(FrameWarnings, StayFewWhereEachFrameSaysSomethingElse) {
 }
 
 std::string WhereNothingWasSeen(std::optional<std::string> family, std::optional<int> id) {
-  devices::SceneDescription scene;
+  scene::SceneDescription scene;
   scene.marker.family = std::move(family);
   scene.marker.id = id;
   ReplayReport report;

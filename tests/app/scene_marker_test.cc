@@ -12,8 +12,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-devices::SceneDescription Scene(std::optional<std::string> family, std::optional<int> id) {
-  devices::SceneDescription scene;
+scene::SceneDescription Scene(std::optional<std::string> family, std::optional<int> id) {
+  scene::SceneDescription scene;
   scene.file = "scene.json";
   scene.marker.family = std::move(family);
   scene.marker.id = id;
@@ -40,7 +40,7 @@ TEST(SceneMarker, ThatIsNamedIsTheOnlyNumberInUse) {
 }
 
 TEST(SceneMarker, OfAnUnknownVersionIsRefused) {
-  devices::SceneDescription scene = Scene("sg", 17);
+  scene::SceneDescription scene = Scene("sg", 17);
   scene.marker.version = tracker::sg::kVersion;
   EXPECT_TRUE(TrackingOf(scene));
   scene.marker.version = tracker::sg::kVersion + 1;
@@ -59,7 +59,7 @@ TEST(SceneMarker, PrintsAreTheSizeOfTheirModules) {
 }
 
 TEST(SceneMarker, MetersLightOnTheBandThatIsBlackInItsPrint) {
-  const devices::MarkerDescription marker = Scene("sg", 17).marker;
+  const scene::MarkerDescription marker = Scene("sg", 17).marker;
   // The rim of an S-G marker is 4 of 40 modules; an AprilTag's band is one of 8 or of 6.
   EXPECT_DOUBLE_EQ(PrintOf(marker, {"sg", 17}).black_band_m, 0.04);
   EXPECT_DOUBLE_EQ(PrintOf(marker, {"tag36h11", 0}).black_band_m, 0.05);

@@ -27,7 +27,7 @@ class PanelInHands : public testing::Test {
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-    devices::SceneDescription scene;
+    scene::SceneDescription scene;
     scene.place_time = {50.0, 14.4, 200.0, *UtcTime::Parse("2025-09-14T11:05:00Z")};
     scene.marker.size_m = 0.2;
     state_ = WindowState::For(scene, {});

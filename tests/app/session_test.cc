@@ -16,9 +16,9 @@ tracker::Sighting Seen(int id, double x_m, const std::string& family = "tag36h11
   return sighting;
 }
 
-devices::MarkerDescription Declared(std::optional<int> id,
-                                    std::optional<std::string> family = "tag36h11") {
-  devices::MarkerDescription marker;
+scene::MarkerDescription Declared(std::optional<int> id,
+                                  std::optional<std::string> family = "tag36h11") {
+  scene::MarkerDescription marker;
   marker.family = std::move(family);
   marker.id = id;
   return marker;

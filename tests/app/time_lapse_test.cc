@@ -19,7 +19,7 @@ using compositor::testing::Ground;
 using compositor::testing::Object;
 using compositor::testing::Phantom;
 
-devices::PlaceTime Prague() {
+scene::PlaceTime Prague() {
   return {50.0875, 14.4213, 200.0, *UtcTime::Parse("2025-06-21T10:00:00Z")};
 }
 
@@ -41,7 +41,7 @@ TEST(TimeLapse, ShowsTheHoursOfAClockOnTheRecordingsDay) {
   EXPECT_EQ(solar->times.size(), 3U);
   EXPECT_EQ(solar->times[0].ToString(), "2025-06-21T04:00:00Z");
   // East of the date line the day on the clock began before the day of UTC.
-  devices::PlaceTime tonga = Prague();
+  scene::PlaceTime tonga = Prague();
   tonga.longitude_deg = -175.2;
   const auto east = MomentsOf(*ParseTimeLapse("06:00..07:00+13:00", "1h"), tonga);
   ASSERT_TRUE(east);
@@ -55,7 +55,7 @@ TEST(TimeLapse, OfADayLastsFromBeforeSunriseUntilAfterSunset) {
   EXPECT_EQ(FormatLocal(moments->times.front(), {120}).substr(0, 16), "2025-06-21T04:22");
   EXPECT_LE(FormatLocal(moments->times.back(), {120}), "2025-06-21T21:46");
   EXPECT_GE(FormatLocal(moments->times.back(), {120}), "2025-06-21T21:29");
-  devices::PlaceTime tromso = Prague();
+  scene::PlaceTime tromso = Prague();
   tromso.latitude_deg = 69.65;
   EXPECT_FALSE(MomentsOf(*ParseTimeLapse("day", "1h"), tromso));
   EXPECT_TRUE(MomentsOf(*ParseTimeLapse("00:00..24:00", "1h"), tromso));
@@ -81,7 +81,7 @@ class DayOfABox : public ::testing::Test {
         Object(BoxModel({-0.2, -0.2, 0.0}, {0.2, 0.2, 0.4}, {0.8F, 0.8F, 0.8F}))};
     auto solver = compositor::LightSolver::Create(placed, {.near_edge_m = 0.15});
     ASSERT_TRUE(solver);
-    devices::SceneDescription scene;
+    scene::SceneDescription scene;
     scene.place_time = Prague();
     LightOrder order{scene.place_time.start,
                      scene.place_time,

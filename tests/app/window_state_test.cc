@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "app/sun_over_place.h"
 #include "app/window/cities.h"
 #include "app/window/window_layout.h"
 #include "app/window/window_state.h"
+#include "scene/sun_over_place.h"
 
 namespace pleinair::app {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 using testing::DoubleNear;
 
 WindowState State() {
-  devices::SceneDescription scene;
+  scene::SceneDescription scene;
   scene.place_time.start = *UtcTime::Parse("2025-09-14T11:05:00Z");
   scene.place_time.latitude_deg = 50.0875;
   scene.place_time.longitude_deg = 14.4213;
   scene.marker.size_m = 0.5;
   scene.marker.heading = FromDegrees(342.0);
-  devices::ModelReference object;
+  scene::ModelReference object;
   object.translation_m = {0.2, 0.3, 0.0};
   object.rotation_deg = {10.0, 20.0, 30.0};
   object.scale = 0.5;
@@ -143,10 +143,10 @@ TEST(WindowLayout, GivesThePictureTheLargestPlaceThatThePanelLeaves) {
 
 TEST(NorthPole, GivesTheHeadingAtWhichItsShadowFallsWhereItWasDragged) {
   for (const bool upright : {false, true}) {
-    devices::MarkerDescription marker = State().scene.marker;
+    scene::MarkerDescription marker = State().scene.marker;
     marker.upright = upright;
     const Vec3 to_sun =
-        SunOver(State().scene.place_time, State().scene.place_time.start).ToSun().xyz;
+        scene::SunOver(State().scene.place_time, State().scene.place_time.start).ToSun().xyz;
     NorthPole pole;
     pole.foot = {0.1, 0.2, 0.3};
     pole.height_m = 2.0;
@@ -154,7 +154,7 @@ TEST(NorthPole, GivesTheHeadingAtWhichItsShadowFallsWhereItWasDragged) {
     ASSERT_TRUE(tip);
     EXPECT_NEAR(Dot(*tip - pole.foot, UpOf(marker)), 0.0, 1e-9) << "it lies on the ground";
     EXPECT_NEAR(Norm(*tip - pole.foot), 2.0 * std::sqrt(1 - to_sun.z * to_sun.z) / to_sun.z, 1e-9);
-    devices::MarkerDescription other = marker;
+    scene::MarkerDescription other = marker;
     other.heading = FromDegrees(17.0);
     EXPECT_THAT(*HeadingForShadow(other, pole, *tip, to_sun), DoubleNear(342.0, 1e-9));
     EXPECT_EQ(HeadingForShadow(marker, pole, *tip, {0.0, 1.0, 0.0}), std::nullopt) << "at sunset";

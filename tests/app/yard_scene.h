@@ -2,20 +2,20 @@
 
 #include <cmath>
 
-#include "app/sun_over_place.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
+#include "scene/sun_over_place.h"
 #include "tests/compositor/photographed_yard.h"
 
 namespace pleinair::app {
 
 /// What is said of a photographed yard, on a clear day: the heading puts the time's sun `off_deg`
 /// beside where the yard's stands. That one stands as high as the sun at 13:50 in September, about.
-inline devices::SceneDescription YardScene(const compositor::testing::PhotographedYard& yard,
-                                           double off_deg, UtcTime time) {
-  devices::SceneDescription scene;
+inline scene::SceneDescription YardScene(const compositor::testing::PhotographedYard& yard,
+                                         double off_deg, UtcTime time) {
+  scene::SceneDescription scene;
   scene.place_time.latitude_deg = 50.0;
-  scene.cloudiness = devices::Cloudiness::kClear;
-  const Vec3 sun = SunOver(scene.place_time, time).ToSun().xyz, seen = yard.ToSun();
+  scene.cloudiness = scene::Cloudiness::kClear;
+  const Vec3 sun = scene::SunOver(scene.place_time, time).ToSun().xyz, seen = yard.ToSun();
   scene.marker.heading =
       Radians(std::atan2(seen.y, seen.x) - std::atan2(sun.y, sun.x)) + FromDegrees(off_deg);
   return scene;

@@ -195,7 +195,7 @@ TEST(LightMeter, ReadsCodesByTheCamerasOwnResponse) {
 }
 
 TEST(LightMeter, SaysNothingOfAPrintWithBlackOutsideAndWhiteInside) {
-  MarkerPrint reversed = kPrint;
+  scene::MarkerPrint reversed = kPrint;
   std::swap(reversed.albedo_black, reversed.albedo_white);
   // Dark, well exposed, and so bright that the white clips.
   for (const double exposure : {0.2, 1.0, 1.3, 3.0}) {
@@ -206,7 +206,7 @@ TEST(LightMeter, SaysNothingOfAPrintWithBlackOutsideAndWhiteInside) {
 }
 
 TEST(LightMeter, SaysNothingOfAnEvenlyColouredSurface) {
-  MarkerPrint even = kPrint;
+  scene::MarkerPrint even = kPrint;
   even.albedo_black = even.albedo_white;
   const RgbImage picture = Photograph(kGain, -1.0, 0.0, even);
   EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove).has_value());

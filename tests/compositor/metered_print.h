@@ -64,7 +64,7 @@ class HalfShadow : public LightSolver {
   double shadow_to_x_m_;
 };
 
-inline const MarkerPrint kPrint{.size_m = 0.4, .board_size_m = 0.5, .black_band_m = 0.05};
+inline const scene::MarkerPrint kPrint{.size_m = 0.4, .board_size_m = 0.5, .black_band_m = 0.05};
 inline const CameraModel kCamera{
     .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};
 // One metre above the print, looking straight down.
@@ -73,7 +73,8 @@ inline const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}
 /// The print in the light of OverheadSun; left of `shadow_to_x_m` in shadow, and an even veil
 /// added.
 inline RgbImage Photograph(LinearRgb gain, double shadow_to_x_m, double veil = 0.0,
-                           const MarkerPrint& print = kPrint, const CameraResponse& response = {}) {
+                           const scene::MarkerPrint& print = kPrint,
+                           const CameraResponse& response = {}) {
   RgbImage picture(kCamera.width, kCamera.height, 3);
   for (int y = 0; y < kCamera.height; ++y) {
     for (int x = 0; x < kCamera.width; ++x) {

@@ -12,8 +12,8 @@
 
 #include "base/camera_response.h"
 #include "compositor/light_samples.h"
-#include "compositor/marker_print.h"
 #include "compositor/scaled_daylight.h"
+#include "scene/marker_reflectance.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor::testing {
@@ -51,7 +51,7 @@ class PhotographedYard {
   Vec3 ToSun() const { return marker_from_world_ * model_.ToSun().xyz; }
   const LightSolver& solver() const { return *solver_; }
   const CameraModel& camera() const { return camera_; }
-  const MarkerPrint& print() const { return print_; }
+  const scene::MarkerPrint& print() const { return print_; }
 
   /// Whether a place lies within a step of an edge of the phantoms' shadows, on either side.
   bool IsBesideShadowEdge(Vec3 p) const {
@@ -187,7 +187,7 @@ class PhotographedYard {
   std::vector<LitMesh> sky_, sun_;
   std::map<std::array<int, 3>, std::vector<std::pair<std::size_t, std::size_t>>> vertices_;
   CameraModel camera_{.width = 400, .height = 300, .fx = 330, .fy = 330, .cx = 200, .cy = 150};
-  MarkerPrint print_{.size_m = 0.2, .board_size_m = 0.25, .black_band_m = 0.02};
+  scene::MarkerPrint print_{.size_m = 0.2, .board_size_m = 0.25, .black_band_m = 0.02};
 };
 
 }  // namespace pleinair::compositor::testing

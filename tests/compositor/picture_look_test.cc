@@ -13,7 +13,7 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr MarkerPrint kPrint{.size_m = 0.4, .board_size_m = 0.52, .black_band_m = 0.05};
+constexpr scene::MarkerPrint kPrint{.size_m = 0.4, .board_size_m = 0.52, .black_band_m = 0.05};
 const CameraModel kCamera{
     .width = 400, .height = 300, .fx = 380, .fy = 380, .cx = 199.5, .cy = 149.5};
 // A metre away, askew, so that no edge lies along the pixels.

@@ -19,7 +19,7 @@ using testing::PhotographedYard;
 using testing::ShadowLight;
 constexpr Vec3 kUp{0, 0, 1};
 
-constexpr MarkerPrint kPrint{.size_m = 0.2, .board_size_m = 0.25, .black_band_m = 0.02};
+constexpr scene::MarkerPrint kPrint{.size_m = 0.2, .board_size_m = 0.25, .black_band_m = 0.02};
 UnmodelledShade Shade(const SurfaceSamples& samples, const sky::SkyModel& model,
                       const LightSolver& solver) {
   const LightMeter meter(kPrint, solver, model, Mat3{});

@@ -177,7 +177,7 @@ TEST_F(SmallRecording, HandWrittenSceneLeansOnTheRecordingForPlaceAndMarker) {
   folder_.Write("scene.toml", "cloudiness = \"overcast\"\n[[object]]\nfile = \"object.obj\"\n");
   const Result<Recording> recording = OpenRecording(folder_.path());
   ASSERT_TRUE(recording) << recording.error().Message();
-  EXPECT_EQ(recording->scene->cloudiness, Cloudiness::kOvercast);
+  EXPECT_EQ(recording->scene->cloudiness, scene::Cloudiness::kOvercast);
   EXPECT_EQ(recording->scene->marker.size_m, 0.48);
   EXPECT_EQ(recording->scene->objects.size(), 1U);
   EXPECT_TRUE(recording->scene->phantoms.empty());

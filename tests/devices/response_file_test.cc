@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 #include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
@@ -81,12 +81,12 @@ TEST_F(ResponseFile, IsNamedByTheSceneRelativeToIt) {
       "camera_response = \"lens/curve.json\"\ntime = 2025-06-01T12:00:00Z\n"
       "[place]\nlatitude_deg = 50\nlongitude_deg = 14\n"
       "[marker]\nsize_mm = 100\nheading_deg = 0\n";
-  const auto read = ReadSceneDescription(folder_.Write("scene.toml", scene));
+  const auto read = scene::ReadSceneDescription(folder_.Write("scene.toml", scene));
   ASSERT_TRUE(read) << read.error().Message();
   EXPECT_TRUE(ReadCameraResponse(read->camera_response));
   std::string missing = scene;
   missing.replace(missing.find("curve"), 5, "other");
-  const auto refused = ReadSceneDescription(folder_.Write("scene.toml", missing));
+  const auto refused = scene::ReadSceneDescription(folder_.Write("scene.toml", missing));
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().Message(), HasSubstr("other.json"));
 }

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "devices/scene_facts.h"
-#include "devices/sky_words.h"
+#include "scene/scene_facts.h"
+#include "scene/sky_words.h"
 #include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
@@ -17,18 +17,19 @@ constexpr const char* kScene = R"({"name": "yard",
   "place_time": {"latitude_deg": 50, "longitude_deg": 14, "utc": "2025-09-14T11:05:00Z"},
   "sky": {"clouds": "none"}})";
 
-std::optional<Cloudiness> SkyOf(const std::string& json) {
-  const Result<SceneFacts> facts = ParseSceneJson(json, "scene.json");
+std::optional<scene::Cloudiness> SkyOf(const std::string& json) {
+  const Result<scene::SceneFacts> facts = scene::ParseSceneJson(json, "scene.json");
   return facts ? facts->cloudiness : std::nullopt;
 }
 
 std::string Refusal(const std::string& json) {
-  const Result<SceneFacts> facts = ParseSceneJson(json, "scene.json");
-  return facts ? MessageOf(CompleteScene(*facts, "scene.json")) : facts.error().Message();
+  const Result<scene::SceneFacts> facts = scene::ParseSceneJson(json, "scene.json");
+  return facts ? MessageOf(scene::CompleteScene(*facts, "scene.json")) : facts.error().Message();
 }
 
 TEST(SceneJson, BundledSceneIsRead) {
-  const Result<SceneDescription> scene = ReadSceneDescription(Courtyard() / "scene.json");
+  const Result<scene::SceneDescription> scene =
+      scene::ReadSceneDescription(Courtyard() / "scene.json");
   ASSERT_TRUE(scene) << scene.error().Message();
   EXPECT_EQ(scene->marker.family, "sg");
   EXPECT_EQ(scene->marker.id, 17);
@@ -37,23 +38,23 @@ TEST(SceneJson, BundledSceneIsRead) {
   EXPECT_EQ(scene->marker.board_size_m, 0.6);
   EXPECT_EQ(scene->place_time.height_m, 220);
   EXPECT_EQ(scene->place_time.start.ToString(), "2025-09-14T11:05:00Z");
-  EXPECT_EQ(scene->cloudiness, Cloudiness::kClear);
+  EXPECT_EQ(scene->cloudiness, scene::Cloudiness::kClear);
   ASSERT_EQ(scene->phantoms.size(), 1U);
   ASSERT_EQ(scene->objects.size(), 1U);
   EXPECT_EQ(scene->objects[0].file, Courtyard() / "object.obj");
-  EXPECT_EQ(scene->objects[0].shading, Shading::kFlat);
+  EXPECT_EQ(scene->objects[0].shading, scene::Shading::kFlat);
 }
 
 TEST(SceneJson, MarkerIsWhatItsWordsSayElseUnknown) {
-  const Result<SceneFacts> named = ParseSceneJson(kScene, "scene.json");
+  const Result<scene::SceneFacts> named = scene::ParseSceneJson(kScene, "scene.json");
   ASSERT_TRUE(named) << named.error().Message();
   EXPECT_EQ(named->marker_family, "tag25h9");
   EXPECT_EQ(named->marker_id, 12);
   EXPECT_EQ(named->albedo_white, 0.75);
-  const Result<SceneFacts> unnamed =
-      ParseSceneJson(Replaced(kScene, "AprilTag tag25h9 id 12", "a picture"), "scene.json");
+  const Result<scene::SceneFacts> unnamed =
+      scene::ParseSceneJson(Replaced(kScene, "AprilTag tag25h9 id 12", "a picture"), "scene.json");
   ASSERT_TRUE(unnamed);
-  const Result<SceneDescription> scene = CompleteScene(*unnamed, "scene.json");
+  const Result<scene::SceneDescription> scene = scene::CompleteScene(*unnamed, "scene.json");
   ASSERT_TRUE(scene) << scene.error().Message();
   EXPECT_FALSE(scene->marker.family);
   EXPECT_FALSE(scene->marker.id);
@@ -61,10 +62,10 @@ TEST(SceneJson, MarkerIsWhatItsWordsSayElseUnknown) {
 }
 
 TEST(SceneJson, MarkerMayBeNamedWithItsVersion) {
-  const Result<SceneFacts> facts =
-      ParseSceneJson(Replaced(kScene, "\"what\": \"AprilTag tag25h9 id 12, white\"",
-                              R"("family": "sg", "id": 17, "version": 1, "what": "S-G id 3")"),
-                     "scene.json");
+  const Result<scene::SceneFacts> facts = scene::ParseSceneJson(
+      Replaced(kScene, "\"what\": \"AprilTag tag25h9 id 12, white\"",
+               R"("family": "sg", "id": 17, "version": 1, "what": "S-G id 3")"),
+      "scene.json");
   ASSERT_TRUE(facts) << facts.error().Message();
   EXPECT_EQ(facts->marker_family, "sg");
   EXPECT_EQ(facts->marker_id, 17);
@@ -74,16 +75,16 @@ TEST(SceneJson, MarkerMayBeNamedWithItsVersion) {
 }
 
 TEST(SceneJson, SkyIsFoundInItsWordsWherever) {
-  EXPECT_EQ(SkyOf(kScene), Cloudiness::kClear);
-  EXPECT_EQ(SkyOf(Replaced(kScene, "\"none\"", "\"None, HAZY\"")), Cloudiness::kHazy);
-  EXPECT_EQ(SkyOf(Replaced(kScene, "\"yard\"", "\"yard_haze\"")), Cloudiness::kHazy);
+  EXPECT_EQ(SkyOf(kScene), scene::Cloudiness::kClear);
+  EXPECT_EQ(SkyOf(Replaced(kScene, "\"none\"", "\"None, HAZY\"")), scene::Cloudiness::kHazy);
+  EXPECT_EQ(SkyOf(Replaced(kScene, "\"yard\"", "\"yard_haze\"")), scene::Cloudiness::kHazy);
   EXPECT_EQ(SkyOf(Replaced(kScene, "{\"clouds\": \"none\"}", "\"overcast\"")),
-            Cloudiness::kOvercast);
+            scene::Cloudiness::kOvercast);
   EXPECT_EQ(SkyOf(Replaced(kScene, "\"clouds\": \"none\"", "\"condition\": \"Partly cloudy\"")),
-            Cloudiness::kPartlyCloudy);
-  EXPECT_EQ(SkyOf(R"({"weather": "scattered clouds at noon"})"), Cloudiness::kPartlyCloudy);
-  EXPECT_EQ(SkyOf(R"({"cloudiness": "hazy"})"), Cloudiness::kHazy);
-  EXPECT_EQ(SkyOf(R"({"place_time": {"weather": "overcast"}})"), Cloudiness::kOvercast);
+            scene::Cloudiness::kPartlyCloudy);
+  EXPECT_EQ(SkyOf(R"({"weather": "scattered clouds at noon"})"), scene::Cloudiness::kPartlyCloudy);
+  EXPECT_EQ(SkyOf(R"({"cloudiness": "hazy"})"), scene::Cloudiness::kHazy);
+  EXPECT_EQ(SkyOf(R"({"place_time": {"weather": "overcast"}})"), scene::Cloudiness::kOvercast);
 }
 
 TEST(SceneJson, TheSkyThatARenderingWasLitWithIsNotRead) {
@@ -92,19 +93,20 @@ TEST(SceneJson, TheSkyThatARenderingWasLitWithIsNotRead) {
 
 TEST(SceneJson, UnknownSkyWordsLeaveTheDefault) {
   EXPECT_EQ(SkyOf(Replaced(kScene, "none", "cumulonimbus")), std::nullopt);
-  const Result<SceneFacts> facts = ParseSceneJson(Replaced(kScene, "\"none\"", "7"), "scene.json");
+  const Result<scene::SceneFacts> facts =
+      scene::ParseSceneJson(Replaced(kScene, "\"none\"", "7"), "scene.json");
   ASSERT_TRUE(facts);
-  EXPECT_EQ(CompleteScene(*facts, "scene.json")->cloudiness, Cloudiness::kClear);
+  EXPECT_EQ(scene::CompleteScene(*facts, "scene.json")->cloudiness, scene::Cloudiness::kClear);
 }
 
 TEST(SkyWords, CloudierWordsWinOverClearerOnes) {
-  EXPECT_EQ(CloudinessFromWords("clear, later overcast"), Cloudiness::kOvercast);
-  EXPECT_EQ(CloudinessFromWords("partly cloudy"), Cloudiness::kPartlyCloudy);
-  EXPECT_EQ(CloudinessFromWords("cloudy"), Cloudiness::kOvercast);
-  EXPECT_EQ(CloudinessFromWords("BROKEN"), Cloudiness::kPartlyCloudy);
-  EXPECT_EQ(CloudinessFromWords("few"), Cloudiness::kClear);
-  EXPECT_EQ(CloudinessFromWords("unclear"), std::nullopt);
-  EXPECT_EQ(CloudinessFromWords(""), std::nullopt);
+  EXPECT_EQ(scene::CloudinessFromWords("clear, later overcast"), scene::Cloudiness::kOvercast);
+  EXPECT_EQ(scene::CloudinessFromWords("partly cloudy"), scene::Cloudiness::kPartlyCloudy);
+  EXPECT_EQ(scene::CloudinessFromWords("cloudy"), scene::Cloudiness::kOvercast);
+  EXPECT_EQ(scene::CloudinessFromWords("BROKEN"), scene::Cloudiness::kPartlyCloudy);
+  EXPECT_EQ(scene::CloudinessFromWords("few"), scene::Cloudiness::kClear);
+  EXPECT_EQ(scene::CloudinessFromWords("unclear"), std::nullopt);
+  EXPECT_EQ(scene::CloudinessFromWords(""), std::nullopt);
 }
 
 TEST(SceneJson, BadValuesAreRefusedByName) {
@@ -129,23 +131,23 @@ TEST(SceneJson, FileCutShortSaysSo) {
 }
 
 TEST(SceneFacts, FallbackFillsGapsButNeverBringsModels) {
-  SceneFacts recorded;
+  scene::SceneFacts recorded;
   recorded.latitude_deg = 50;
   recorded.marker_size_m = 0.48;
   recorded.marker_id = 3;
   recorded.marker_board_size_m = 0.6;
   recorded.objects.emplace_back().file = "object.obj";
-  SceneFacts by_hand;
+  scene::SceneFacts by_hand;
   by_hand.latitude_deg = 10;
-  const SceneFacts both = WithFallback(by_hand, recorded);
+  const scene::SceneFacts both = scene::WithFallback(by_hand, recorded);
   EXPECT_EQ(both.latitude_deg, 10);
   EXPECT_EQ(both.marker_size_m, 0.48);
   EXPECT_EQ(both.marker_id, 3);
   EXPECT_TRUE(both.objects.empty());
   // Another sheet: its board and id are not those of the recorded one.
   by_hand.marker_size_m = 0.1;
-  EXPECT_FALSE(WithFallback(by_hand, recorded).marker_board_size_m);
-  EXPECT_FALSE(WithFallback(by_hand, recorded).marker_id);
+  EXPECT_FALSE(scene::WithFallback(by_hand, recorded).marker_board_size_m);
+  EXPECT_FALSE(scene::WithFallback(by_hand, recorded).marker_id);
 }
 
 }  // namespace

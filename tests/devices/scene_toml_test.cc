@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 #include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {
@@ -50,20 +50,21 @@ void WriteModels(const TemporaryFolder& folder) {
 std::string Refusal(std::string_view toml) {
   const TemporaryFolder folder;
   WriteModels(folder);
-  return MessageOf(ReadSceneDescription(folder.Write("scene.toml", toml)));
+  return MessageOf(scene::ReadSceneDescription(folder.Write("scene.toml", toml)));
 }
 
 TEST(SceneToml, SaysEverythingThatTheCompositorMayKnow) {
   const TemporaryFolder folder;
   WriteModels(folder);
-  const Result<SceneDescription> scene = ReadSceneDescription(folder.Write("scene.toml", kScene));
+  const Result<scene::SceneDescription> scene =
+      scene::ReadSceneDescription(folder.Write("scene.toml", kScene));
   ASSERT_TRUE(scene) << scene.error().Message();
   EXPECT_EQ(scene->file, folder / "scene.toml");
   EXPECT_EQ(scene->place_time.start.ToString(), "2025-09-14T11:05:00Z");
   EXPECT_EQ(scene->place_time.latitude_deg, 50.0875);
   EXPECT_EQ(scene->place_time.longitude_deg, 14.4213);
   EXPECT_EQ(scene->place_time.height_m, 220);
-  EXPECT_EQ(scene->cloudiness, Cloudiness::kHazy);
+  EXPECT_EQ(scene->cloudiness, scene::Cloudiness::kHazy);
   EXPECT_EQ(scene->turbidity, 3.5);
   EXPECT_EQ(scene->exposure_gain, (LinearRgb{0.03, 0.035, 0.04}));
   EXPECT_EQ(scene->marker.id, 7);
@@ -73,9 +74,9 @@ TEST(SceneToml, SaysEverythingThatTheCompositorMayKnow) {
   EXPECT_FALSE(scene->marker.upright);
   ASSERT_EQ(scene->phantoms.size(), 2U);
   EXPECT_EQ(scene->phantoms[1].file, folder / "models/wall.obj");
-  EXPECT_EQ(scene->phantoms[1].shading, Shading::kFromFile);
+  EXPECT_EQ(scene->phantoms[1].shading, scene::Shading::kFromFile);
   ASSERT_EQ(scene->objects.size(), 1U);
-  EXPECT_EQ(scene->objects[0].shading, Shading::kSmooth);
+  EXPECT_EQ(scene->objects[0].shading, scene::Shading::kSmooth);
   EXPECT_EQ(scene->objects[0].translation_m, (Vec3{1, 2.5, 0}));
   EXPECT_EQ(scene->objects[0].rotation_deg, (Vec3{0, 0, 90}));
   EXPECT_EQ(scene->objects[0].scale, 0.001);
@@ -83,7 +84,7 @@ TEST(SceneToml, SaysEverythingThatTheCompositorMayKnow) {
 
 TEST(SceneToml, LeavesOutWhatHasADefault) {
   const TemporaryFolder folder;
-  const Result<SceneDescription> scene = ReadSceneDescription(folder.Write(
+  const Result<scene::SceneDescription> scene = scene::ReadSceneDescription(folder.Write(
       "scene.toml",
       "time = \"2025-09-14T11:05:00Z\"\nplace = {latitude_deg = -33, longitude_deg = 151}\n"
       "marker = {size_m = 0.2, heading_deg = -90, upright = true}\n"));
@@ -92,7 +93,7 @@ TEST(SceneToml, LeavesOutWhatHasADefault) {
   EXPECT_FALSE(scene->marker.id);
   EXPECT_DOUBLE_EQ(scene->marker.board_size_m, 0.25);
   EXPECT_TRUE(scene->marker.upright);
-  EXPECT_EQ(scene->cloudiness, Cloudiness::kClear);
+  EXPECT_EQ(scene->cloudiness, scene::Cloudiness::kClear);
   EXPECT_FALSE(scene->turbidity);
   EXPECT_FALSE(scene->exposure_gain);
   EXPECT_TRUE(scene->objects.empty());

@@ -6,7 +6,7 @@
 #include "devices/euroc.h"
 #include "devices/picture_file.h"
 #include "devices/recording_manifest.h"
-#include "devices/scene_facts.h"
+#include "scene/scene_facts.h"
 
 // Every parser that a recording's folder passes through, on the same bytes: the formats refuse
 // each other early. What is accepted must hold what its header promises.

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
-namespace pleinair::devices {
+namespace pleinair::scene {
 
 /// What one file says of the scene; absent is what it does not say, so that a hand-written
 /// scene.toml can leave to the recording what the recording knows.
@@ -56,4 +56,4 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
 /// Checks that every model file and the target are there.
 Result<void> CheckModelsExist(const SceneDescription& scene);
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::scene

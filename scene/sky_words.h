@@ -3,9 +3,9 @@
 #include <optional>
 #include <string_view>
 
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
-namespace pleinair::devices {
+namespace pleinair::scene {
 
 /// The words that CloudinessFromWords knows, for messages.
 inline constexpr const char* kSkyWords =
@@ -18,4 +18,4 @@ inline constexpr const char* kSkyWords =
 /// wins, and haze wins over clear ("none, hazy").
 std::optional<Cloudiness> CloudinessFromWords(std::string_view text);
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::scene

@@ -1,9 +1,9 @@
-#include "devices/scene_description.h"
+#include "scene/scene_description.h"
 
-#include "devices/scene_facts.h"
 #include "files/text_file.h"
+#include "scene/scene_facts.h"
 
-namespace pleinair::devices {
+namespace pleinair::scene {
 
 Result<SceneDescription> ReadSceneDescription(const std::filesystem::path& file) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
@@ -14,4 +14,4 @@ Result<SceneDescription> ReadSceneDescription(const std::filesystem::path& file)
   return scene;
 }
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::scene

@@ -1,9 +1,9 @@
-#include "devices/scene_facts.h"
+#include "scene/scene_facts.h"
 
 #include <cmath>
 #include <system_error>
 
-namespace pleinair::devices {
+namespace pleinair::scene {
 namespace {
 
 // Where `facts` is silent, `fallback` speaks.
@@ -218,4 +218,4 @@ Result<void> CheckModelsExist(const SceneDescription& scene) {
   return scene.marker.target ? check("target", *scene.marker.target) : Result<void>();
 }
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::scene

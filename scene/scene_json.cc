@@ -3,11 +3,11 @@
 #include <cstdlib>
 #include <utility>
 
-#include "devices/scene_facts.h"
-#include "devices/sky_words.h"
 #include "files/json_fields.h"
+#include "scene/scene_facts.h"
+#include "scene/sky_words.h"
 
-namespace pleinair::devices {
+namespace pleinair::scene {
 namespace {
 
 // How descriptions name a family, and what we call it: AprilTag 3's and the S-G markers.
@@ -127,4 +127,4 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   return facts;
 }
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::scene

@@ -1,10 +1,10 @@
-#include "devices/sky_words.h"
+#include "scene/sky_words.h"
 
 #include <cctype>
 #include <initializer_list>
 #include <string>
 
-namespace pleinair::devices {
+namespace pleinair::scene {
 
 std::optional<Cloudiness> CloudinessFromWords(std::string_view text) {
   // Words between single spaces, so that "clear" is not found in "unclear".
@@ -32,4 +32,4 @@ std::optional<Cloudiness> CloudinessFromWords(std::string_view text) {
   return std::nullopt;
 }
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::scene

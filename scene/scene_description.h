@@ -10,7 +10,7 @@
 #include "base/utc_time.h"
 #include "base/vector.h"
 
-namespace pleinair::devices {
+namespace pleinair::scene {
 
 /// The sky in a word, as a person on the spot would say it.
 enum class Cloudiness { kClear, kHazy, kPartlyCloudy, kOvercast };
@@ -74,4 +74,4 @@ struct SceneDescription {
 /// range, a time without offset, models or a target that are not there.
 Result<SceneDescription> ReadSceneDescription(const std::filesystem::path& file);
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::scene

@@ -2,7 +2,7 @@
 
 #include "base/vector.h"
 
-namespace pleinair::compositor {
+namespace pleinair::scene {
 
 /// What is known of the printed marker as a surface: where it is white and black and how much it
 /// reflects. Metres.
@@ -15,4 +15,4 @@ struct MarkerPrint {
   bool operator==(const MarkerPrint&) const = default;
 };
 
-}  // namespace pleinair::compositor
+}  // namespace pleinair::scene

@@ -21,10 +21,10 @@
 #include <sstream>
 #include <utility>
 
-#include "devices/scene_facts.h"
-#include "devices/sky_words.h"
+#include "scene/scene_facts.h"
+#include "scene/sky_words.h"
 
-namespace pleinair::devices {
+namespace pleinair::scene {
 namespace {
 
 /// One table of the scene, with the names for messages.
@@ -296,4 +296,4 @@ Result<SceneFacts> ParseSceneToml(std::string_view bytes, const std::string& nam
   return ReadScene(Table(parsed.table(), name));
 }
 
-}  // namespace pleinair::devices
+}  // namespace pleinair::scene
