@@ -2,7 +2,7 @@
 #include <mutex>
 #include <utility>
 
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
 #include "sky/dome.h"
 #include "sky/sky_sources.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "sky/atmosphere/twilight.h"
 #include "sky/dome.h"
 #include "sky/sun_direction.h"
-#include "sky/twilight.h"
 
 namespace pleinair::sky {
 namespace {

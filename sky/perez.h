@@ -22,10 +22,10 @@ namespace pleinair::sky {
 ///
 /// Turbidity is clamped to the range in which the model is finite and positive; NaN gives the
 /// lowest. A sun below the horizon is put on it and the light falls with TwilightShare()
-/// (sky/twilight.h).
+/// (sky/atmosphere/twilight.h).
 ///
 /// Luminances are the model's own, 1.1 to 3.9 times those of measured and simulated clear skies;
-/// sky/atmosphere.h has better ones.
+/// sky/atmosphere/atmosphere.h has better ones.
 class PerezSky {
  public:
   /// Below 2, zenith normaliser and horizon turn negative; above 10, the zenith at low suns.

@@ -10,7 +10,7 @@
 #include "base/frames.h"
 #include "base/units.h"
 #include "base/vector.h"
-#include "sky/aerosol.h"
+#include "sky/atmosphere/aerosol.h"
 #include "sky/colour.h"
 
 namespace pleinair::sky {
@@ -41,7 +41,7 @@ class SkyModel {
   virtual Direction<World> ToSun() const = 0;
 
   /// What the air between the eye and a thing does to the thing's light: see
-  /// sky/aerial_perspective.h. Nothing, with the models that have no air (kPerez, kCie).
+  /// sky/atmosphere/aerial_perspective.h. Nothing, with the models that have no air (kPerez, kCie).
   struct AirBetween {
     LinearRgb transmittance{1.0, 1.0, 1.0};
     LinearRgb inscattered;  ///< cd/m².
@@ -53,7 +53,7 @@ class SkyModel {
 };
 
 enum class SkyModelKind {
-  kAtmosphere,  ///< Physically based, sky/atmosphere.h.
+  kAtmosphere,  ///< Physically based, sky/atmosphere/atmosphere.h.
   kPerez,       ///< Preetham's form of Perez, sky/perez.h.
   kCie,         ///< One of the CIE standard general skies, sky/cie_sky.h.
 };

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "sky/air_mass.h"
+#include "sky/atmosphere/twilight.h"
 #include "sky/solar_disc.h"
-#include "sky/twilight.h"
 
 namespace pleinair::sky {
 namespace {

@@ -1,5 +1,5 @@
 // The physically based sky and the air before things, the twins of AtmosphereSky::Xyz
-// (sky/atmosphere.h) and AerialPerspective (sky/aerial_perspective.h): how their tables are read.
+// (sky/atmosphere/atmosphere.h) and AerialPerspective (sky/atmosphere/aerial_perspective.h): how their tables are read.
 // The tables are made on the CPU and reach the shader as it likes; before it includes this file it
 // defines, for the nodes in their order,
 //

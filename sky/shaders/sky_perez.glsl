@@ -29,7 +29,7 @@ vec3 PerezDistribution(PerezSky sky, float cos_theta, float gamma, float cos_gam
          (vec3(1.0f) + sky.c * exp(sky.d * gamma) + sky.e * (cos_gamma * cos_gamma));
 }
 
-// TwilightShare() of sky/twilight.h: logarithm of the clear sky's illuminance between two nodes.
+// TwilightShare() of sky/atmosphere/twilight.h: logarithm of the clear sky's illuminance between two nodes.
 float PerezTwilightSegment(float elevation_deg, float low_deg, float low_log, float step_deg,
                            float high_log) {
   return low_log + (elevation_deg - low_deg) / step_deg * (high_log - low_log);

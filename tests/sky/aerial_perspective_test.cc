@@ -1,11 +1,11 @@
-#include "sky/aerial_perspective.h"
+#include "sky/atmosphere/aerial_perspective.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
 #include "sky/sky_model.h"
 #include "tests/sky/reference/path_traced_sky.h"
 

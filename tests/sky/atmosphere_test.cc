@@ -1,4 +1,4 @@
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <memory>
 #include <random>
 
+#include "sky/atmosphere/scattering_layers.h"
 #include "sky/dome.h"
-#include "sky/scattering_layers.h"
 #include "sky/sky_model.h"
 #include "sky/standard_illuminance.h"
 #include "tests/sky/reference/sky_comparison.h"

@@ -5,8 +5,8 @@
 
 #include <glm/glm.hpp>
 
-#include "sky/aerial_perspective.h"
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/aerial_perspective.h"
+#include "sky/atmosphere/atmosphere.h"
 
 namespace pleinair::sky::glsl {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
 #include "sky/sky_model.h"
 #include "sky/spherical_harmonics.h"
 #include "sky/sun_position.h"

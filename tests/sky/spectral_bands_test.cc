@@ -1,11 +1,11 @@
-#include "sky/spectral_bands.h"
+#include "sky/atmosphere/spectral_bands.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sky/air_medium.h"
+#include "sky/atmosphere/air_medium.h"
 #include "sky/cie_observer.h"
 #include "sky/colour.h"
 

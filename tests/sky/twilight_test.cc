@@ -1,4 +1,4 @@
-#include "sky/twilight.h"
+#include "sky/atmosphere/twilight.h"
 
 #include <gtest/gtest.h>
 

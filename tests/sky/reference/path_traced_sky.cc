@@ -6,7 +6,7 @@
 #include <random>
 
 #include "base/units.h"
-#include "sky/air_medium.h"
+#include "sky/atmosphere/air_medium.h"
 #include "sky/cie_observer.h"
 
 namespace pleinair::sky::reference {

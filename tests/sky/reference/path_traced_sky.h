@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "sky/aerosol.h"
+#include "sky/atmosphere/aerosol.h"
 #include "sky/colour.h"
 
 namespace pleinair::sky::reference {
@@ -19,8 +19,8 @@ struct Scene {
 
 /// A sky by Monte Carlo: paths followed backwards from an eye 2 m above a spherical ground through
 /// concentric shells, any number of scatterings, ground reflections included. Shares with the
-/// product the optical constants of sky/air_medium.h and nothing else: wavelength by wavelength,
-/// no tables, no approximation but the shells (400 of them, each of even density).
+/// product the optical constants of sky/atmosphere/air_medium.h and nothing else: wavelength by
+/// wavelength, no tables, no approximation but the shells (400 of them, each of even density).
 class PathTracedSky {
  public:
   explicit PathTracedSky(const Scene& scene);

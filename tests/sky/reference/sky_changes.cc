@@ -15,7 +15,7 @@
 #include <string>
 
 #include "base/units.h"
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
 #include "tests/sky/reference/path_traced_sky.h"
 
 namespace pleinair::sky::reference {

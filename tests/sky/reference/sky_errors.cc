@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/units.h"
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
 #include "sky/perez.h"
 #include "tests/sky/reference/sky_comparison.h"
 

@@ -11,10 +11,10 @@
 #include <memory>
 
 #include "base/units.h"
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
+#include "sky/atmosphere/twilight.h"
 #include "sky/dome.h"
 #include "sky/sky_model.h"
-#include "sky/twilight.h"
 #include "tests/sky/reference/sky_comparison.h"
 
 namespace pleinair::sky::reference {

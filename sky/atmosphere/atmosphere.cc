@@ -1,4 +1,4 @@
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "sky/atmosphere/twilight.h"
 #include "sky/solar_disc.h"
 #include "sky/sun_direction.h"
-#include "sky/twilight.h"
 
 namespace pleinair::sky {
 namespace {

@@ -1,4 +1,4 @@
-#include "sky/spectral_bands.h"
+#include "sky/atmosphere/spectral_bands.h"
 
 #include <algorithm>
 #include <cmath>

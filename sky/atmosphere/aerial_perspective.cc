@@ -1,12 +1,12 @@
-#include "sky/aerial_perspective.h"
+#include "sky/atmosphere/aerial_perspective.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "sky/atmosphere.h"
+#include "sky/atmosphere/atmosphere.h"
+#include "sky/atmosphere/twilight.h"
 #include "sky/colour.h"
-#include "sky/twilight.h"
 
 namespace pleinair::sky {
 namespace {

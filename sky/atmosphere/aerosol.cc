@@ -1,4 +1,4 @@
-#include "sky/aerosol.h"
+#include "sky/atmosphere/aerosol.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sky/aerosol.h"
-#include "sky/spectral_bands.h"
+#include "sky/atmosphere/aerosol.h"
+#include "sky/atmosphere/spectral_bands.h"
 
 namespace pleinair::sky {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "sky/air_medium.h"
-#include "sky/optical_depth.h"
+#include "sky/atmosphere/air_medium.h"
+#include "sky/atmosphere/optical_depth.h"
 
 namespace pleinair::sky {
 

@@ -1,4 +1,4 @@
-#include "sky/scattering_layers.h"
+#include "sky/atmosphere/scattering_layers.h"
 
 #include <cmath>
 #include <numbers>

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "base/vector.h"
-#include "sky/spectrum.h"
+#include "sky/atmosphere/spectrum.h"
 
 namespace pleinair::sky {
 

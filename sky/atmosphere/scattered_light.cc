@@ -1,11 +1,11 @@
-#include "sky/scattered_light.h"
+#include "sky/atmosphere/scattered_light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/units.h"
-#include "sky/scattering_layers.h"
+#include "sky/atmosphere/scattering_layers.h"
 
 namespace pleinair::sky {
 namespace {

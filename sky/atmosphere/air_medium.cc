@@ -1,4 +1,4 @@
-#include "sky/air_medium.h"
+#include "sky/atmosphere/air_medium.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "sky/air_medium.h"
-#include "sky/scattered_light.h"
+#include "sky/atmosphere/air_medium.h"
+#include "sky/atmosphere/scattered_light.h"
 
 namespace pleinair::sky::internal {
 

@@ -24,7 +24,7 @@ inline float ExpOfNegative(float x) {
   return p * std::bit_cast<float>((whole + 127) << 23);
 }
 
-/// A quantity at each of the module's wavelengths (sky/spectral_bands.h).
+/// A quantity at each of the module's wavelengths (sky/atmosphere/spectral_bands.h).
 struct alignas(16) Spectrum {
   static constexpr int kSize = 8;
   std::array<float, kSize> v{};

@@ -6,11 +6,11 @@
 #include "base/frames.h"
 #include "base/units.h"
 #include "base/vector.h"
-#include "sky/aerial_perspective.h"
-#include "sky/air_medium.h"
+#include "sky/atmosphere/aerial_perspective.h"
+#include "sky/atmosphere/air_medium.h"
+#include "sky/atmosphere/optical_depth.h"
+#include "sky/atmosphere/scattered_light.h"
 #include "sky/colour.h"
-#include "sky/optical_depth.h"
-#include "sky/scattered_light.h"
 
 namespace pleinair::sky {
 
@@ -31,8 +31,9 @@ Vec3 SunXyz(const AtmosphereTables& tables, Direction<World> to_sun, double sun_
 /// The sky over an eye at the ground for one place of the sun, physically based: a sky-view table
 /// after Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique",
 /// §5.3. Deviations: eight wavelengths in place of three; scattered light with its directions
-/// (sky/scattered_light.h); the aerosol's first scattering is kept apart, so that its peak around
-/// the sun is computed and not interpolated; light is summed along the curved shells exactly.
+/// (sky/atmosphere/scattered_light.h); the aerosol's first scattering is kept apart, so that its
+/// peak around the sun is computed and not interpolated; light is summed along the curved shells
+/// exactly.
 class AtmosphereSky {
  public:
   static constexpr int kRings = 64;    ///< Elevations, 90° t².

@@ -1,4 +1,4 @@
-#include "sky/optical_depth.h"
+#include "sky/atmosphere/optical_depth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sky/air_medium.h"
+#include "sky/atmosphere/air_medium.h"
 
 namespace pleinair::sky {
 
