@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace CLI {
 class App;

@@ -15,7 +15,7 @@
 #include "compositor/seen_sunlight.h"
 #include "scene/scene_description.h"
 #include "sky/sky_model.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::app {
 

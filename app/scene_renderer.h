@@ -29,7 +29,7 @@
 #include "compositor/surface_samples.h"
 #include "scene/scene_description.h"
 #include "sky/sky_model.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::app {
 

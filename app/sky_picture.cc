@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "sky/solar_disc.h"
-#include "sky/sun_direction.h"
+#include "sky/sun/solar_disc.h"
+#include "sky/sun/sun_direction.h"
 
 namespace pleinair::app {
 namespace {

@@ -11,9 +11,9 @@
 #include "app/progress_bar.h"
 #include "app/sun_rows.h"
 #include "files/result_file.h"
-#include "sky/sun_clock.h"
-#include "sky/sun_day.h"
-#include "sky/sun_events.h"
+#include "sky/sun/sun_clock.h"
+#include "sky/sun/sun_day.h"
+#include "sky/sun/sun_events.h"
 
 namespace pleinair::app {
 namespace {

@@ -6,7 +6,7 @@
 #include "app/local_time.h"
 #include "base/error.h"
 #include "base/utc_time.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::app {
 

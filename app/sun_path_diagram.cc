@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "sky/sun_events.h"
+#include "sky/sun/sun_events.h"
 
 namespace pleinair::app {
 namespace {

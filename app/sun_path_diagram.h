@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "base/utc_time.h"
 #include "base/vector.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::app {
 

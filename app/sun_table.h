@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/utc_time.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::app {
 

@@ -2,7 +2,7 @@
 
 #include "base/utc_time.h"
 #include "scene/scene_description.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::scene {
 

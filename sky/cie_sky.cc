@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/check.h"
-#include "sky/sun_direction.h"
+#include "sky/sun/sun_direction.h"
 
 namespace pleinair::sky {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "sky/atmosphere/twilight.h"
 #include "sky/dome.h"
-#include "sky/sun_direction.h"
+#include "sky/sun/sun_direction.h"
 
 namespace pleinair::sky {
 namespace {

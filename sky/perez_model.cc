@@ -3,7 +3,7 @@
 
 #include "sky/perez.h"
 #include "sky/sky_sources.h"
-#include "sky/solar_disc.h"
+#include "sky/sun/solar_disc.h"
 #include "sky/sunlight_spectrum.h"
 
 namespace pleinair::sky::internal {

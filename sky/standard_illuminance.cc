@@ -6,7 +6,7 @@
 
 #include "sky/air_mass.h"
 #include "sky/atmosphere/twilight.h"
-#include "sky/solar_disc.h"
+#include "sky/sun/solar_disc.h"
 
 namespace pleinair::sky {
 namespace {

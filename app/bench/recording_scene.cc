@@ -5,7 +5,7 @@
 #include "app/scene_renderer.h"
 #include "devices/recording.h"
 #include "scene/marker_heading.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "sky/sun_day.h"
+#include "sky/sun/sun_day.h"
 
 namespace pleinair::app {
 namespace {

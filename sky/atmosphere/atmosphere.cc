@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "sky/atmosphere/twilight.h"
-#include "sky/solar_disc.h"
-#include "sky/sun_direction.h"
+#include "sky/sun/solar_disc.h"
+#include "sky/sun/sun_direction.h"
 
 namespace pleinair::sky {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sky/solar_disc.h"
+#include "sky/sun/solar_disc.h"
 
 namespace pleinair::sky {
 namespace {

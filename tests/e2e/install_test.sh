@@ -18,7 +18,7 @@ pc=$(dirname "$(find "$work/prefix" -name pleinair-sky.pc)")
 PKG_CONFIG_PATH=$pc pkg-config --define-prefix --validate pleinair-sky pleinair-gl pleinair-shadows \
   pleinair-compositor pleinair-devices pleinair-tracker
 cat >"$work/sun.cc" <<'PROGRAM'
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 int main() { return pleinair::sky::ComputeSunPosition({}, {}).distance_au > 0.9 ? 0 : 1; }
 PROGRAM
 flags=$(PKG_CONFIG_PATH=$pc pkg-config --define-prefix --cflags --libs pleinair-sky)

@@ -9,7 +9,7 @@
 #include "sky/air_mass.h"
 #include "sky/dome.h"
 #include "sky/standard_illuminance.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 #include "sky/sunlight_spectrum.h"
 
 namespace pleinair::sky {

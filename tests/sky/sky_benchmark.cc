@@ -6,7 +6,7 @@
 #include "sky/atmosphere/atmosphere.h"
 #include "sky/sky_model.h"
 #include "sky/spherical_harmonics.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::sky {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "sky/cie_sky.h"
 #include "sky/perez.h"
-#include "sky/sun_direction.h"
+#include "sky/sun/sun_direction.h"
 #include "tests/sky/glsl_skies.h"
 #include "tests/sky/sky_twin_cases.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "sky/daylight.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::sky {
 namespace {

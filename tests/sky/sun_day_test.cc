@@ -1,4 +1,4 @@
-#include "sky/sun_day.h"
+#include "sky/sun/sun_day.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sky/sun_clock.h"
+#include "sky/sun/sun_clock.h"
 
 namespace pleinair::sky {
 namespace {

@@ -1,4 +1,4 @@
-#include "sky/sun_events.h"
+#include "sky/sun/sun_events.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::sky {
 namespace {

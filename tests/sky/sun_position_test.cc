@@ -1,4 +1,4 @@
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "sky/delta_t.h"
-#include "sky/refraction.h"
+#include "sky/sun/delta_t.h"
+#include "sky/sun/refraction.h"
 
 namespace pleinair::sky {
 namespace {

@@ -6,7 +6,7 @@
 #include "compositor/model.h"
 #include "devices/calibration.h"
 #include "shadows/splits.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 #include "tracker/tracker.h"
 
 // Uses something of every library, so that each must link; 0 where the sun stands where it should.

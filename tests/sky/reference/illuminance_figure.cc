@@ -11,7 +11,7 @@
 
 #include "sky/sky_model.h"
 #include "sky/standard_illuminance.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::sky {
 namespace {

@@ -1,10 +1,10 @@
-#include "sky/sun_day.h"
+#include "sky/sun/sun_day.h"
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
-#include "sky/sun_clock.h"
+#include "sky/sun/sun_clock.h"
 
 namespace pleinair::sky {
 namespace {

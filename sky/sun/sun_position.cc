@@ -1,9 +1,9 @@
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 #include <cmath>
 
-#include "sky/refraction.h"
-#include "sky/sun_models.h"
+#include "sky/sun/refraction.h"
+#include "sky/sun/sun_models.h"
 
 namespace pleinair::sky {
 

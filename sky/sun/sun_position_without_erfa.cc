@@ -1,4 +1,4 @@
-#include "sky/sun_models.h"
+#include "sky/sun/sun_models.h"
 
 // Stands in for sun_position_precise.cc where ERFA is missing.
 

@@ -21,7 +21,7 @@ struct Observer {
 struct SunPosition {
   Radians azimuth;    ///< Clockwise from true north, 0…2π.
   Radians elevation;  ///< Topocentric, airless.
-  /// As seen through the air (sky/refraction.h); equals `elevation` far below the horizon.
+  /// As seen through the air (sky/sun/refraction.h); equals `elevation` far below the horizon.
   Radians elevation_refracted;
   double distance_au = 1.0;  ///< Observer to sun, astronomical units.
 

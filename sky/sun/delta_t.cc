@@ -1,4 +1,4 @@
-#include "sky/delta_t.h"
+#include "sky/sun/delta_t.h"
 
 #include <algorithm>
 #include <initializer_list>

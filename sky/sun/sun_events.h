@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "base/utc_time.h"
-#include "sky/sun_day.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_day.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::sky {
 

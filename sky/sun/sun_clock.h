@@ -2,7 +2,7 @@
 
 #include "base/units.h"
 #include "base/utc_time.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::sky {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/utc_time.h"
-#include "sky/sun_position.h"
+#include "sky/sun/sun_position.h"
 
 namespace pleinair::sky::internal {
 

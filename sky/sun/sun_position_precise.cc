@@ -6,8 +6,8 @@
 #include <mutex>
 #include <numbers>
 
-#include "sky/delta_t.h"
-#include "sky/sun_models.h"
+#include "sky/sun/delta_t.h"
+#include "sky/sun/sun_models.h"
 
 namespace pleinair::sky {
 
@@ -82,7 +82,7 @@ AirlessSun PreciseSun(const Observer& observer, UtcTime time) {
   const double cio_locator = eraS06(date1, tt2, pole_x, pole_y);
   const double earth_rotation = eraEra00(date1, ut12);
   constexpr double kNoPolarMotion = 0.0;  // ≤ 0.5″.
-  constexpr double kNoAir = 0.0;          // Refraction is sky/refraction.h's.
+  constexpr double kNoAir = 0.0;          // Refraction is sky/sun/refraction.h's.
   eraASTROM context;
   eraApco(date1, tt2, earth_barycentric, earth_heliocentric[0], pole_x, pole_y, cio_locator,
           earth_rotation, observer.longitude.value(), observer.latitude.value(),

@@ -1,4 +1,4 @@
-#include "sky/sun_clock.h"
+#include "sky/sun/sun_clock.h"
 
 #include <cmath>
 #include <numbers>

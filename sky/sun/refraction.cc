@@ -1,4 +1,4 @@
-#include "sky/refraction.h"
+#include "sky/sun/refraction.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sky/sun_models.h"
+#include "sky/sun/sun_models.h"
 
 namespace pleinair::sky::internal {
 namespace {
