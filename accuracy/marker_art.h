@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::accuracy {
 

@@ -10,8 +10,8 @@
 #include "app/session.h"
 #include "base/camera_model.h"
 #include "base/image.h"
+#include "tracker/marker_pattern.h"
 #include "tracker/print_alignment.h"
-#include "tracker/print_pattern.h"
 #include "tracker/sighting.h"
 
 namespace pleinair::app {

@@ -7,7 +7,7 @@
 #include "compositor/occluder_mask.h"
 #include "scene/marker_reflectance.h"
 #include "scene/scene_description.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {

@@ -9,7 +9,7 @@
 
 #include "base/image.h"
 #include "base/units.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 #include "tracker/sighting.h"
 
 namespace pleinair::tracker {

@@ -8,7 +8,7 @@
 #include "base/camera_model.h"
 #include "base/image.h"
 #include "base/vector.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 

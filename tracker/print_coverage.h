@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/vector.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 

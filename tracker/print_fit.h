@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "tracker/marker_pattern.h"
 #include "tracker/print_noise.h"
-#include "tracker/print_pattern.h"
 #include "tracker/print_prediction.h"
 
 namespace pleinair::tracker {

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "base/vector.h"
+#include "tracker/marker_pattern.h"
 #include "tracker/print_coverage.h"
-#include "tracker/print_pattern.h"
 #include "tracker/print_pixels.h"
 
 namespace pleinair::tracker {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::app {
 

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/vector.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::app {
 

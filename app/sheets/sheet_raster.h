@@ -6,7 +6,7 @@
 #include "app/sheets/sheet.h"
 #include "base/error.h"
 #include "base/image.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::app {
 

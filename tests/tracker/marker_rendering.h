@@ -11,7 +11,7 @@
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/units.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 

@@ -10,7 +10,7 @@
 #include "tracker/alignment/print_raster.h"
 #include "tracker/alignment/seen_window.h"
 #include "tracker/alignment/tile_kernels.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 

@@ -6,7 +6,7 @@
 
 #include "base/vector.h"
 #include "tracker/alignment/lens_grid.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 

@@ -7,7 +7,7 @@
 #include "tracker/alignment/block_sums.h"
 #include "tracker/alignment/print_raster.h"
 #include "tracker/alignment/seen_window.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 

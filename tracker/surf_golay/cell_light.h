@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "tracker/alignment/block_fit.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 

@@ -6,7 +6,7 @@
 
 #include "tracker/alignment/block_fit.h"
 #include "tracker/alignment/seen_window.h"
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 #include "tracker/surf_golay/cell_light.h"
 
 namespace pleinair::tracker {

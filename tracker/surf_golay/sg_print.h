@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "tracker/print_pattern.h"
+#include "tracker/marker_pattern.h"
 #include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {
