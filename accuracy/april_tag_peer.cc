@@ -13,7 +13,7 @@ extern "C" {
 
 #include "accuracy/detector.h"
 #include "tracker/april_tag_detector.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 namespace pleinair::accuracy {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "accuracy/detector.h"
 #include "tracker/april_tag_detector.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 namespace pleinair::accuracy {
 namespace {

@@ -11,7 +11,7 @@
 #include "accuracy/seen_print.h"
 #include "base/check.h"
 #include "base/srgb.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::accuracy {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::accuracy {
 

@@ -6,7 +6,7 @@
 #include "app/scene_marker.h"
 #include "base/parallel_for.h"
 #include "base/units.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 namespace pleinair::app {
 

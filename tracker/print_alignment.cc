@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/srgb.h"
-#include "tracker/corner_covariance.h"
-#include "tracker/homography.h"
+#include "tracker/pose/corner_covariance.h"
+#include "tracker/pose/homography.h"
 #include "tracker/print_fit.h"
 #include "tracker/print_pixels.h"
 #include "tracker/print_prediction.h"

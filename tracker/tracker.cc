@@ -12,7 +12,7 @@
 #include "tracker/april_tag_detector.h"
 #include "tracker/marker_detector.h"
 #include "tracker/picture_target/picture_detector.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 #include "tracker/print_alignment.h"
 #include "tracker/surf_golay/sg_detector.h"
 

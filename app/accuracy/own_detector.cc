@@ -9,7 +9,7 @@
 #include "accuracy/random.h"
 #include "app/print_measurer.h"
 #include "app/scene_marker.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 namespace pleinair::app {
 namespace {

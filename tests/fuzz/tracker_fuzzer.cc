@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/sg_print.h"
 #include "tracker/tracker.h"
 

@@ -6,7 +6,7 @@
 
 #include "tests/tracker/marker_rendering.h"
 #include "tracker/alignment/block_fit.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/sg_print.h"
 
 namespace pleinair::tracker {

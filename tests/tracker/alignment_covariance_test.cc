@@ -11,8 +11,8 @@
 
 #include "base/srgb.h"
 #include "tests/tracker/alignment_scene.h"
-#include "tracker/corner_covariance.h"
-#include "tracker/homography.h"
+#include "tracker/pose/corner_covariance.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -11,7 +11,7 @@
 #include "tests/tracker/on_every_target.h"
 #include "tracker/alignment/raster_kernels.h"
 #include "tracker/alignment/reduced_pictures.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

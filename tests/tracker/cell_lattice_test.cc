@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/tracker/sg_test_scenes.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {

@@ -9,7 +9,7 @@
 #include "tests/tracker/marker_rendering.h"
 #include "tests/tracker/pose_error.h"
 #include "tracker/april_tag_detector.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::tracker {

@@ -9,7 +9,7 @@
 #include "base/srgb.h"
 #include "tests/tracker/picture_target_scenes.h"
 #include "tests/tracker/sg_test_scenes.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

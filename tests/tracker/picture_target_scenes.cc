@@ -5,7 +5,7 @@
 #include <random>
 
 #include "base/srgb.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

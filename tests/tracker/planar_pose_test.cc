@@ -1,4 +1,4 @@
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 #include <gtest/gtest.h>
 

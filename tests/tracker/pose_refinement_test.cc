@@ -7,7 +7,7 @@
 #include <random>
 
 #include "tests/tracker/marker_rendering.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "tests/tracker/sg_test_scenes.h"
 #include "tracker/golay/golay_code.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"

@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "tools/marker_search/surroundings.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::marker_search {
 namespace {

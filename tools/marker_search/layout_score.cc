@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "tracker/golay/golay_code.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::marker_search {
 namespace {

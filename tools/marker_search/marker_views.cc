@@ -6,7 +6,7 @@
 #include "base/srgb.h"
 #include "tools/marker_search/surroundings.h"
 #include "tracker/golay/golay_code.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/sg_print.h"
 
 namespace pleinair::marker_search {

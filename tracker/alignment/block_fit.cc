@@ -6,7 +6,7 @@
 
 #include "tracker/alignment/block_fit_sums.h"
 #include "tracker/alignment/surroundings.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tracker/alignment/light_elimination.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "base/srgb.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

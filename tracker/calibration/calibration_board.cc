@@ -4,7 +4,7 @@
 
 #include "tracker/calibration/aruco_dictionaries.h"
 #include "tracker/golay/golay_code.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

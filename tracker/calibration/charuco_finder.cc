@@ -8,7 +8,7 @@
 #include "tracker/calibration/aruco_dictionaries.h"
 #include "tracker/calibration/board_finders.h"
 #include "tracker/calibration/corner_refinement.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

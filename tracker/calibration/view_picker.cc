@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "tracker/homography.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/homography.h"
+#include "tracker/pose/planar_pose.h"
 
 namespace pleinair::tracker {
 namespace {

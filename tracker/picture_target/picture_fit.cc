@@ -7,8 +7,8 @@
 
 #include "tracker/alignment/block_sums.h"
 #include "tracker/alignment/light_elimination.h"
-#include "tracker/homography.h"
 #include "tracker/picture_target/picture_target.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracker/corner_covariance.h"
-#include "tracker/homography.h"
 #include "tracker/picture_target/picture_target.h"
+#include "tracker/pose/corner_covariance.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -10,7 +10,7 @@
 #include "tracker/alignment/lens_grid.h"
 #include "tracker/picture_target/picture_fit.h"
 #include "tracker/picture_target/picture_pyramid.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 namespace pleinair::tracker {
 

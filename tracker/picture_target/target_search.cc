@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "tracker/homography.h"
 #include "tracker/picture_target/target_views.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/srgb.h"
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {

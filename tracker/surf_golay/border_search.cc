@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {

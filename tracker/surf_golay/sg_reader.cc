@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_split.h"
 #include "tracker/surf_golay/number_proof.h"

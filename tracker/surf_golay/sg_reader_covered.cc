@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_reader.h"
 

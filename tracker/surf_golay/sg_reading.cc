@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "tracker/corner_covariance.h"
-#include "tracker/homography.h"
+#include "tracker/pose/corner_covariance.h"
+#include "tracker/pose/homography.h"
 #include "tracker/surf_golay/print_square.h"
 
 namespace pleinair::tracker {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "base/vector.h"
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 namespace pleinair::tracker {
 

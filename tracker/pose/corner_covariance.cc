@@ -1,4 +1,4 @@
-#include "tracker/corner_covariance.h"
+#include "tracker/pose/corner_covariance.h"
 
 #include <Eigen/Dense>
 

@@ -1,4 +1,4 @@
-#include "tracker/planar_pose.h"
+#include "tracker/pose/planar_pose.h"
 
 #include <ceres/jet.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tracker/homography.h"
+#include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {
 namespace {
