@@ -11,7 +11,7 @@
 #include "base/camera_model.h"
 #include "base/image.h"
 #include "tracker/marker_pattern.h"
-#include "tracker/print_alignment.h"
+#include "tracker/refinement/marker_alignment.h"
 #include "tracker/sighting.h"
 
 namespace pleinair::app {

@@ -13,7 +13,7 @@
 #include "tracker/marker_detector.h"
 #include "tracker/picture_target/picture_detector.h"
 #include "tracker/pose/planar_pose.h"
-#include "tracker/print_alignment.h"
+#include "tracker/refinement/marker_alignment.h"
 #include "tracker/surf_golay/sg_detector.h"
 
 namespace pleinair::tracker {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tracker/marker_detector.h"
-#include "tracker/print_alignment.h"
+#include "tracker/refinement/marker_alignment.h"
 
 namespace pleinair::tracker {
 

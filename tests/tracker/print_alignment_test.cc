@@ -1,4 +1,4 @@
-#include "tracker/print_alignment.h"
+#include "tracker/refinement/marker_alignment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <numeric>
 
 #include "tracker/calibration/board_finders.h"
-#include "tracker/print_alignment.h"
+#include "tracker/refinement/marker_alignment.h"
 #include "tracker/surf_golay/sg_print.h"
 #include "tracker/tracker.h"
 

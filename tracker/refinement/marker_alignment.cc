@@ -1,4 +1,4 @@
-#include "tracker/print_alignment.h"
+#include "tracker/refinement/marker_alignment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include "base/srgb.h"
 #include "tracker/pose/corner_covariance.h"
 #include "tracker/pose/homography.h"
-#include "tracker/print_fit.h"
-#include "tracker/print_pixels.h"
-#include "tracker/print_prediction.h"
+#include "tracker/refinement/marker_fit.h"
+#include "tracker/refinement/marker_pixels.h"
+#include "tracker/refinement/marker_prediction.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -1,4 +1,4 @@
-#include "tracker/print_prediction.h"
+#include "tracker/refinement/marker_prediction.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 
 #include "base/vector.h"
 #include "tracker/marker_pattern.h"
-#include "tracker/print_coverage.h"
-#include "tracker/print_pixels.h"
+#include "tracker/refinement/marker_coverage.h"
+#include "tracker/refinement/marker_pixels.h"
 
 namespace pleinair::tracker {
 

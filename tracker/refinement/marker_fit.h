@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tracker/marker_pattern.h"
-#include "tracker/print_noise.h"
-#include "tracker/print_prediction.h"
+#include "tracker/refinement/marker_noise.h"
+#include "tracker/refinement/marker_prediction.h"
 
 namespace pleinair::tracker {
 

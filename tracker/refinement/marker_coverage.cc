@@ -1,4 +1,4 @@
-#include "tracker/print_coverage.h"
+#include "tracker/refinement/marker_coverage.h"
 
 #include <algorithm>
 #include <array>

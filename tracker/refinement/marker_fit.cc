@@ -1,4 +1,4 @@
-#include "tracker/print_fit.h"
+#include "tracker/refinement/marker_fit.h"
 
 #include <algorithm>
 #include <array>

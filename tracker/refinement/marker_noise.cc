@@ -1,4 +1,4 @@
-#include "tracker/print_noise.h"
+#include "tracker/refinement/marker_noise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "tracker/print_pixels.h"
+#include "tracker/refinement/marker_pixels.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "tracker/pose/homography.h"
-#include "tracker/print_coverage.h"
+#include "tracker/refinement/marker_coverage.h"
 
 namespace pleinair::tracker {
 namespace {
