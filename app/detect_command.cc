@@ -14,7 +14,7 @@
 #include "app/marker_numbers.h"
 #include "app/option_use.h"
 #include "app/pose_json.h"
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 #include "devices/picture_file.h"
 #include "tracker/picture_target/target_file.h"
 #include "tracker/tracker.h"

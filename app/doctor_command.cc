@@ -19,7 +19,7 @@ extern "C" {
 #include "app/command.h"
 #include "base/units.h"
 #include "compositor/render_targets.h"
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 #include "gl/egl_context.h"
 
 namespace pleinair::app {

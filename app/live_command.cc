@@ -30,7 +30,7 @@
 #ifdef PLEINAIR_WINDOW
 #include "app/window/live_window.h"
 #endif
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 #include "devices/live_camera.h"
 #include "devices/recording.h"
 

@@ -8,7 +8,7 @@
 #include "app/command.h"
 #include "app/number_range.h"
 #include "app/paths/path_files.h"
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 #include "files/text_file.h"
 
 namespace pleinair::app {

@@ -8,7 +8,7 @@
 
 #include "base/quantile.h"
 #include "compositor/scaled_daylight.h"
-#include "devices/response_file.h"
+#include "devices/calibration/response_file.h"
 #include "scene/marker_heading.h"
 #include "scene/marker_reflectance.h"
 #include "scene/sun_over_place.h"

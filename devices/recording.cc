@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 #include "devices/euroc.h"
 #include "devices/frame_pack.h"
 #include "devices/picture_sequence.h"

@@ -64,7 +64,8 @@ struct SceneDescription {
   Cloudiness cloudiness = Cloudiness::kClear;
   std::optional<double> turbidity;         ///< Overrides the default of the cloudiness.
   std::optional<LinearRgb> exposure_gain;  ///< Overrides the gain measured on the marker.
-  std::filesystem::path camera_response;   ///< File (devices/response_file.h); empty: sRGB.
+  std::filesystem::path
+      camera_response;  ///< File (devices/calibration/response_file.h); empty: sRGB.
 };
 
 /// Reads a scene.json of a rendered recording (its ground truth is not looked at), what a

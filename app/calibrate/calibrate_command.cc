@@ -21,7 +21,7 @@
 #include "app/progress_bar.h"
 #include "app/sinks/picture_writer.h"
 #include "base/atomic_file.h"
-#include "devices/calibration_text.h"
+#include "devices/calibration/calibration_text.h"
 
 namespace pleinair::app {
 namespace {

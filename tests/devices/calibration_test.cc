@@ -1,9 +1,9 @@
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "devices/calibration_text.h"
+#include "devices/calibration/calibration_text.h"
 #include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {

@@ -1,4 +1,4 @@
-#include "devices/response_file.h"
+#include "devices/calibration/response_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

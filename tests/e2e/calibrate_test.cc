@@ -9,7 +9,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "base/srgb.h"
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 #include "tests/e2e/run_program.h"
 #include "tests/tracker/board_rendering.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 
 // Any bytes give a lens that can be computed with, or an error; never a crash.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 #include "base/units.h"
 #include "base/utc_time.h"
 #include "compositor/model.h"
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 #include "shadows/splits.h"
 #include "sky/sun/sun_position.h"
 #include "tracker/tracker.h"

@@ -1,4 +1,4 @@
-#include "devices/calibration_text.h"
+#include "devices/calibration/calibration_text.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "devices/calibration.h"
+#include "devices/calibration/calibration.h"
 
 #include <algorithm>
 #include <cctype>
