@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
-#include "devices/camera_list.h"
+#include "devices/cameras/camera_list.h"
 
 namespace pleinair::app {
 namespace {

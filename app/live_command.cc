@@ -31,7 +31,7 @@
 #include "app/window/live_window.h"
 #endif
 #include "devices/calibration/calibration.h"
-#include "devices/live_camera.h"
+#include "devices/cameras/live_camera.h"
 #include "devices/recording.h"
 
 namespace pleinair::app {

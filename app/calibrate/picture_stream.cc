@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "app/interrupt.h"
-#include "devices/camera_uri.h"
+#include "devices/cameras/camera_uri.h"
+#include "devices/cameras/live_camera.h"
 #include "devices/frame_pack.h"
-#include "devices/live_camera.h"
 #include "devices/picture_file.h"
 #include "devices/video_file.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 
 namespace pleinair::app {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "devices/live_camera.h"
+#include "devices/cameras/live_camera.h"
 
 namespace pleinair::app {
 namespace {

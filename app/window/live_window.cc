@@ -23,7 +23,7 @@
 #include "app/window/window_layout.h"
 #include "app/window/window_state.h"
 #include "base/atomic_file.h"
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 
 namespace pleinair::app {
 namespace {

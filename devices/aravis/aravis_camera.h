@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "devices/aravis/aravis_handles.h"
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 
 namespace pleinair::devices {
 

@@ -8,7 +8,7 @@
 #include "devices/aravis/aravis_camera.h"
 #include "devices/aravis/aravis_handles.h"
 #include "devices/aravis/gige_probe.h"
-#include "devices/picture_choice.h"
+#include "devices/cameras/picture_choice.h"
 
 namespace pleinair::devices {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "devices/camera_device.h"
+#include "devices/cameras/camera_device.h"
 
 namespace pleinair::devices {
 

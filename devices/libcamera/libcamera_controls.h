@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 
 namespace pleinair::devices {
 

@@ -17,10 +17,10 @@
 #include <string>
 #include <utility>
 
+#include "devices/cameras/picture_choice.h"
 #include "devices/libcamera/libcamera_controls.h"
 #include "devices/libcamera/libcamera_manager.h"
 #include "devices/libcamera/mapped_planes.h"
-#include "devices/picture_choice.h"
 #include "devices/v4l2/v4l2_controls.h"
 
 namespace pleinair::devices {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 #include "devices/v4l2/v4l2_node.h"
 
 namespace pleinair::devices {

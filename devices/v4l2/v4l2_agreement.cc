@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "devices/picture_choice.h"
+#include "devices/cameras/picture_choice.h"
 #include "devices/v4l2/v4l2_words.h"
 
 namespace pleinair::devices {

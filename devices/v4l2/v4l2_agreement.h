@@ -2,7 +2,7 @@
 
 // Internal: between the .cc files of this module; not installed.
 
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 #include "devices/raw_picture.h"
 #include "devices/v4l2/v4l2_node.h"
 

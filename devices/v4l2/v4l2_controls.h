@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 #include "devices/v4l2/v4l2_node.h"
 
 namespace pleinair::devices {

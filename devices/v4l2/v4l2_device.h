@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "devices/camera_device.h"
+#include "devices/cameras/camera_device.h"
 #include "devices/v4l2/v4l2_io.h"
 
 namespace pleinair::devices {

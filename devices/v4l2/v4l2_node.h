@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "devices/camera.h"
-#include "devices/camera_uri.h"
+#include "devices/cameras/camera.h"
+#include "devices/cameras/camera_uri.h"
 #include "devices/v4l2/v4l2_io.h"
 
 namespace pleinair::devices {

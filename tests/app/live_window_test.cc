@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "app/interrupt.h"
-#include "devices/live_camera.h"
+#include "devices/cameras/live_camera.h"
 #include "tests/app/small_camera.h"
 #include "tests/devices/fake_camera_device.h"
 

@@ -1,4 +1,4 @@
-#include "devices/camera_uri.h"
+#include "devices/cameras/camera_uri.h"
 
 #include <gmock/gmock.h>
 

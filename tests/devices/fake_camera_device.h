@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/camera_device.h"
+#include "devices/cameras/camera_device.h"
 
 namespace pleinair::devices {
 

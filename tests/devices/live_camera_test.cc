@@ -1,11 +1,11 @@
-#include "devices/live_camera.h"
+#include "devices/cameras/live_camera.h"
 
 #include <gmock/gmock.h>
 
 #include <chrono>
 #include <thread>
 
-#include "devices/loss_counter.h"
+#include "devices/cameras/loss_counter.h"
 #include "tests/devices/fake_camera_device.h"
 
 namespace pleinair::devices {

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <thread>
 
-#include "devices/camera_list.h"
-#include "devices/live_camera.h"
+#include "devices/cameras/camera_list.h"
+#include "devices/cameras/live_camera.h"
 #include "tests/vm/camera_helpers.h"
 
 namespace pleinair::vm {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "devices/live_camera.h"
+#include "devices/cameras/live_camera.h"
 
 namespace pleinair::vm {
 

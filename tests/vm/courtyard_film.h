@@ -6,7 +6,7 @@
 #include "base/camera_model.h"
 #include "base/image.h"
 #include "base/vector.h"
-#include "devices/live_camera.h"
+#include "devices/cameras/live_camera.h"
 
 namespace pleinair::vm {
 

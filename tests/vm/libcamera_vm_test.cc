@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "devices/camera_list.h"
+#include "devices/cameras/camera_list.h"
 #include "tests/vm/camera_helpers.h"
 #include "tests/vm/uvc_simulator.h"
 

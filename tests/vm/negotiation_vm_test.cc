@@ -6,7 +6,7 @@
 #include <map>
 #include <thread>
 
-#include "devices/camera_list.h"
+#include "devices/cameras/camera_list.h"
 #include "tests/vm/camera_helpers.h"
 
 namespace pleinair::vm {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "devices/camera_list.h"
+#include "devices/cameras/camera_list.h"
 #include "tests/vm/camera_helpers.h"
 
 namespace pleinair::vm {

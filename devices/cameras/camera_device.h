@@ -5,9 +5,9 @@
 #include <chrono>
 #include <memory>
 
-#include "devices/camera.h"
-#include "devices/camera_counts.h"
-#include "devices/camera_uri.h"
+#include "devices/cameras/camera.h"
+#include "devices/cameras/camera_counts.h"
+#include "devices/cameras/camera_uri.h"
 #include "devices/frame.h"
 
 namespace pleinair::devices {

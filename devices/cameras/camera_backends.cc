@@ -1,9 +1,9 @@
-#include "devices/camera_backends.h"
+#include "devices/cameras/camera_backends.h"
 
 #include <string>
 #include <utility>
 
-#include "devices/camera_list.h"
+#include "devices/cameras/camera_list.h"
 #include "devices/v4l2/v4l2_device.h"
 #include "devices/v4l2/v4l2_node.h"
 #ifdef PLEINAIR_HAS_ARAVIS

@@ -1,4 +1,4 @@
-#include "devices/live_camera.h"
+#include "devices/cameras/live_camera.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -6,9 +6,9 @@
 #include <thread>
 #include <utility>
 
-#include "devices/camera_backends.h"
-#include "devices/camera_device.h"
-#include "devices/loss_counter.h"
+#include "devices/cameras/camera_backends.h"
+#include "devices/cameras/camera_device.h"
+#include "devices/cameras/loss_counter.h"
 
 namespace pleinair::devices {
 namespace {

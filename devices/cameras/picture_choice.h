@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 
 namespace pleinair::devices {
 

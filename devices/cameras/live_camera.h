@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "devices/camera.h"
-#include "devices/camera_counts.h"
-#include "devices/camera_uri.h"
+#include "devices/cameras/camera.h"
+#include "devices/cameras/camera_counts.h"
+#include "devices/cameras/camera_uri.h"
 #include "devices/frame_source.h"
 
 namespace pleinair::devices {

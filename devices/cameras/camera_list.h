@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 
 namespace pleinair::devices {
 

@@ -1,4 +1,4 @@
-#include "devices/loss_counter.h"
+#include "devices/cameras/loss_counter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "devices/camera.h"
+#include "devices/cameras/camera.h"
 
 namespace pleinair::devices {
 

@@ -1,4 +1,4 @@
-#include "devices/picture_choice.h"
+#include "devices/cameras/picture_choice.h"
 
 #include <algorithm>
 #include <cmath>
