@@ -7,7 +7,7 @@
 #include "devices/v4l2/v4l2_device.h"
 #include "devices/v4l2/v4l2_node.h"
 #ifdef PLEINAIR_HAS_ARAVIS
-#include "devices/aravis/aravis_device.h"
+#include "devices/cameras/aravis/aravis_device.h"
 #endif
 #ifdef PLEINAIR_HAS_LIBCAMERA
 #include "devices/libcamera/libcamera_device.h"

@@ -1,4 +1,4 @@
-#include "devices/aravis/gige_probe.h"
+#include "devices/cameras/aravis/gige_probe.h"
 
 #include <sys/socket.h>
 #include <unistd.h>

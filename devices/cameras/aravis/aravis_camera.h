@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "devices/aravis/aravis_handles.h"
+#include "devices/cameras/aravis/aravis_handles.h"
 #include "devices/cameras/camera.h"
 
 namespace pleinair::devices {

@@ -1,4 +1,4 @@
-#include "devices/aravis/aravis_camera.h"
+#include "devices/cameras/aravis/aravis_camera.h"
 
 #include <algorithm>
 #include <string>

@@ -1,13 +1,13 @@
-#include "devices/aravis/aravis_device.h"
+#include "devices/cameras/aravis/aravis_device.h"
 
 #include <algorithm>
 #include <atomic>
 #include <string>
 #include <utility>
 
-#include "devices/aravis/aravis_camera.h"
-#include "devices/aravis/aravis_handles.h"
-#include "devices/aravis/gige_probe.h"
+#include "devices/cameras/aravis/aravis_camera.h"
+#include "devices/cameras/aravis/aravis_handles.h"
+#include "devices/cameras/aravis/gige_probe.h"
 #include "devices/cameras/picture_choice.h"
 
 namespace pleinair::devices {
