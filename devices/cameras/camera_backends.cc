@@ -10,7 +10,7 @@
 #include "devices/cameras/aravis/aravis_device.h"
 #endif
 #ifdef PLEINAIR_HAS_LIBCAMERA
-#include "devices/libcamera/libcamera_device.h"
+#include "devices/cameras/libcamera/libcamera_device.h"
 #endif
 
 namespace pleinair::devices {

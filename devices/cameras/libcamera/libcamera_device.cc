@@ -1,4 +1,4 @@
-#include "devices/libcamera/libcamera_device.h"
+#include "devices/cameras/libcamera/libcamera_device.h"
 
 #include <libcamera/control_ids.h>
 #include <libcamera/framebuffer_allocator.h>
@@ -17,10 +17,10 @@
 #include <string>
 #include <utility>
 
+#include "devices/cameras/libcamera/libcamera_controls.h"
+#include "devices/cameras/libcamera/libcamera_manager.h"
+#include "devices/cameras/libcamera/mapped_planes.h"
 #include "devices/cameras/picture_choice.h"
-#include "devices/libcamera/libcamera_controls.h"
-#include "devices/libcamera/libcamera_manager.h"
-#include "devices/libcamera/mapped_planes.h"
 #include "devices/v4l2/v4l2_controls.h"
 
 namespace pleinair::devices {

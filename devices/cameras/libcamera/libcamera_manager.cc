@@ -1,4 +1,4 @@
-#include "devices/libcamera/libcamera_manager.h"
+#include "devices/cameras/libcamera/libcamera_manager.h"
 
 #include <libcamera/formats.h>
 #include <libcamera/logging.h>
@@ -11,7 +11,7 @@
 #include <cstring>
 #include <mutex>
 
-#include "devices/libcamera/uevent_sockets.h"
+#include "devices/cameras/libcamera/uevent_sockets.h"
 
 namespace pleinair::devices {
 namespace {

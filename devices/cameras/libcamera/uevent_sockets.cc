@@ -1,4 +1,4 @@
-#include "devices/libcamera/uevent_sockets.h"
+#include "devices/cameras/libcamera/uevent_sockets.h"
 
 #include <linux/filter.h>
 #include <linux/netlink.h>

@@ -1,4 +1,4 @@
-#include "devices/libcamera/libcamera_controls.h"
+#include "devices/cameras/libcamera/libcamera_controls.h"
 
 #include <libcamera/control_ids.h>
 
