@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "devices/cameras/camera_list.h"
-#include "devices/v4l2/v4l2_device.h"
-#include "devices/v4l2/v4l2_node.h"
+#include "devices/cameras/v4l2/v4l2_device.h"
+#include "devices/cameras/v4l2/v4l2_node.h"
 #ifdef PLEINAIR_HAS_ARAVIS
 #include "devices/cameras/aravis/aravis_device.h"
 #endif

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/v4l2/v4l2_io.h"
+#include "devices/cameras/v4l2/v4l2_io.h"
 
 namespace pleinair::devices {
 

@@ -1,10 +1,10 @@
-#include "devices/v4l2/v4l2_device.h"
+#include "devices/cameras/v4l2/v4l2_device.h"
 
 #include <gmock/gmock.h>
 
 #include <string>
 
-#include "devices/v4l2/v4l2_node.h"
+#include "devices/cameras/v4l2/v4l2_node.h"
 #include "tests/devices/fake_v4l2.h"
 
 namespace pleinair::devices {

@@ -21,7 +21,7 @@
 #include "devices/cameras/libcamera/libcamera_manager.h"
 #include "devices/cameras/libcamera/mapped_planes.h"
 #include "devices/cameras/picture_choice.h"
-#include "devices/v4l2/v4l2_controls.h"
+#include "devices/cameras/v4l2/v4l2_controls.h"
 
 namespace pleinair::devices {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "devices/cameras/camera.h"
-#include "devices/v4l2/v4l2_node.h"
+#include "devices/cameras/v4l2/v4l2_node.h"
 
 namespace pleinair::devices {
 

@@ -1,4 +1,4 @@
-#include "devices/v4l2/v4l2_device.h"
+#include "devices/cameras/v4l2/v4l2_device.h"
 
 #include <linux/videodev2.h>
 #include <poll.h>
@@ -9,10 +9,10 @@
 #include <cerrno>
 #include <utility>
 
-#include "devices/v4l2/v4l2_agreement.h"
-#include "devices/v4l2/v4l2_controls.h"
-#include "devices/v4l2/v4l2_node.h"
-#include "devices/v4l2/v4l2_words.h"
+#include "devices/cameras/v4l2/v4l2_agreement.h"
+#include "devices/cameras/v4l2/v4l2_controls.h"
+#include "devices/cameras/v4l2/v4l2_node.h"
+#include "devices/cameras/v4l2/v4l2_words.h"
 
 namespace pleinair::devices {
 namespace {

@@ -1,4 +1,4 @@
-#include "devices/v4l2/v4l2_node.h"
+#include "devices/cameras/v4l2/v4l2_node.h"
 
 #include <linux/videodev2.h>
 
@@ -7,8 +7,8 @@
 #include <cstring>
 #include <utility>
 
-#include "devices/v4l2/v4l2_controls.h"
-#include "devices/v4l2/v4l2_words.h"
+#include "devices/cameras/v4l2/v4l2_controls.h"
+#include "devices/cameras/v4l2/v4l2_words.h"
 
 namespace pleinair::devices {
 namespace {

@@ -3,8 +3,8 @@
 // Internal: between the .cc files of this module; not installed.
 
 #include "devices/cameras/camera.h"
+#include "devices/cameras/v4l2/v4l2_node.h"
 #include "devices/raw_picture.h"
-#include "devices/v4l2/v4l2_node.h"
 
 namespace pleinair::devices {
 

@@ -1,4 +1,4 @@
-#include "devices/v4l2/v4l2_io.h"
+#include "devices/cameras/v4l2/v4l2_io.h"
 
 #include <fcntl.h>
 #include <poll.h>

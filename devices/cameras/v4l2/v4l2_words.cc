@@ -1,4 +1,4 @@
-#include "devices/v4l2/v4l2_words.h"
+#include "devices/cameras/v4l2/v4l2_words.h"
 
 #include <linux/videodev2.h>
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "devices/cameras/camera_device.h"
-#include "devices/v4l2/v4l2_io.h"
+#include "devices/cameras/v4l2/v4l2_io.h"
 
 namespace pleinair::devices {
 

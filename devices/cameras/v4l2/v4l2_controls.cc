@@ -1,4 +1,4 @@
-#include "devices/v4l2/v4l2_controls.h"
+#include "devices/cameras/v4l2/v4l2_controls.h"
 
 #include <linux/videodev2.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "devices/v4l2/v4l2_words.h"
+#include "devices/cameras/v4l2/v4l2_words.h"
 
 namespace pleinair::devices {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "devices/cameras/camera.h"
 #include "devices/cameras/camera_uri.h"
-#include "devices/v4l2/v4l2_io.h"
+#include "devices/cameras/v4l2/v4l2_io.h"
 
 namespace pleinair::devices {
 
