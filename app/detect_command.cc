@@ -15,7 +15,7 @@
 #include "app/option_use.h"
 #include "app/pose_json.h"
 #include "devices/calibration/calibration.h"
-#include "devices/picture_file.h"
+#include "devices/images/picture_file.h"
 #include "tracker/picture_target/target_file.h"
 #include "tracker/tracker.h"
 

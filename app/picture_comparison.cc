@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/sinks/picture_writer.h"
-#include "devices/picture_file.h"
+#include "devices/images/picture_file.h"
 
 namespace pleinair::app {
 namespace {

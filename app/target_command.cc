@@ -17,7 +17,7 @@
 #include "app/sinks/picture_writer.h"
 #include "base/atomic_file.h"
 #include "base/units.h"
-#include "devices/picture_file.h"
+#include "devices/images/picture_file.h"
 #include "tracker/picture_target/target_file.h"
 #include "tracker/picture_target/target_making.h"
 #include "tracker/picture_target/target_quality.h"

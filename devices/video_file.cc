@@ -10,7 +10,7 @@
 
 #include <opencv2/videoio.hpp>
 
-#include "devices/cv_picture.h"
+#include "devices/images/cv_picture.h"
 #include "devices/video_container.h"
 
 namespace pleinair::devices {

@@ -12,7 +12,7 @@
 #include "devices/cameras/camera_uri.h"
 #include "devices/cameras/live_camera.h"
 #include "devices/frame_pack.h"
-#include "devices/picture_file.h"
+#include "devices/images/picture_file.h"
 #include "devices/video_file.h"
 
 namespace pleinair::app {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "devices/raw_picture.h"
+#include "devices/images/raw_picture.h"
 
 namespace pleinair::devices {
 

@@ -1,4 +1,4 @@
-#include "devices/picture_file.h"
+#include "devices/images/picture_file.h"
 
 #include <zlib.h>
 

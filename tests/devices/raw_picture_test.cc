@@ -1,4 +1,4 @@
-#include "devices/raw_picture.h"
+#include "devices/images/raw_picture.h"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "devices/raw_picture.h"
+#include "devices/images/raw_picture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static pleinair::devices::Picture picture;

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "devices/euroc.h"
-#include "devices/picture_file.h"
+#include "devices/images/picture_file.h"
 #include "devices/recording_manifest.h"
 #include "scene/scene_facts.h"
 

@@ -4,7 +4,7 @@
 
 #include "devices/cameras/camera.h"
 #include "devices/cameras/v4l2/v4l2_node.h"
-#include "devices/raw_picture.h"
+#include "devices/images/raw_picture.h"
 
 namespace pleinair::devices {
 

@@ -1,4 +1,4 @@
-#include "devices/jpeg_decoder.h"
+#include "devices/images/jpeg_decoder.h"
 
 #include <csetjmp>
 #include <cstdio>

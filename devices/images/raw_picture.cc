@@ -1,4 +1,4 @@
-#include "devices/raw_picture.h"
+#include "devices/images/raw_picture.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "devices/jpeg_decoder.h"
+#include "devices/images/jpeg_decoder.h"
 
 namespace pleinair::devices {
 namespace {

@@ -1,4 +1,4 @@
-#include "devices/picture_file.h"
+#include "devices/images/picture_file.h"
 
 #include <zlib.h>
 
@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "devices/cv_picture.h"
+#include "devices/images/cv_picture.h"
 #include "files/text_file.h"
 
 namespace pleinair::devices {

@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "devices/picture_file.h"
+#include "devices/images/picture_file.h"
 
 namespace pleinair::devices {
 
