@@ -32,7 +32,7 @@
 #endif
 #include "devices/calibration/calibration.h"
 #include "devices/cameras/live_camera.h"
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 
 namespace pleinair::app {
 namespace {

@@ -12,7 +12,7 @@
 #include "app/session.h"
 #include "base/error.h"
 #include "base/stage_times.h"
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 #include "scene/scene_description.h"
 #include "tracker/tracker.h"
 

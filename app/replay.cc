@@ -29,7 +29,7 @@
 #include "app/sinks/video_writer.h"
 #include "app/time_lapse/time_lapse.h"
 #include "base/atomic_file.h"
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {

@@ -13,7 +13,7 @@
 #include "app/accuracy/own_detector.h"
 #include "app/accuracy/recording_truth.h"
 #include "app/scene_marker.h"
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 
 namespace pleinair::app {
 namespace {

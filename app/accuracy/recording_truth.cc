@@ -8,7 +8,7 @@
 #include "accuracy/scoring.h"
 #include "accuracy/statistics.h"
 #include "app/paths/path_files.h"
-#include "devices/euroc.h"
+#include "devices/recordings/euroc.h"
 #include "files/text_file.h"
 
 namespace pleinair::app {

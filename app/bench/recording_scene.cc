@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "app/scene_renderer.h"
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 #include "scene/marker_heading.h"
 #include "sky/sun/sun_position.h"
 

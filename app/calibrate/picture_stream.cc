@@ -11,9 +11,9 @@
 #include "app/interrupt.h"
 #include "devices/cameras/camera_uri.h"
 #include "devices/cameras/live_camera.h"
-#include "devices/frame_pack.h"
 #include "devices/images/picture_file.h"
-#include "devices/video_file.h"
+#include "devices/recordings/frame_pack.h"
+#include "devices/recordings/video_file.h"
 
 namespace pleinair::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/utc_time.h"
-#include "devices/frame_pack.h"
+#include "devices/recordings/frame_pack.h"
 #include "scene/scene_description.h"
 
 namespace pleinair::app {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "app/paths/camera_path.h"
-#include "devices/euroc.h"
+#include "devices/recordings/euroc.h"
 
 namespace pleinair::app {
 

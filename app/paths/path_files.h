@@ -7,7 +7,7 @@
 #include "app/paths/camera_path.h"
 #include "app/paths/frames_of_others.h"
 #include "base/error.h"
-#include "devices/euroc.h"
+#include "devices/recordings/euroc.h"
 
 namespace pleinair::app {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 #include "tests/app/small_camera.h"
 
 namespace pleinair::app {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "app/sinks/picture_writer.h"
-#include "devices/video_file.h"
+#include "devices/recordings/video_file.h"
 
 namespace pleinair::app {
 namespace {

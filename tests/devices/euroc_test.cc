@@ -1,9 +1,9 @@
-#include "devices/euroc.h"
+#include "devices/recordings/euroc.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 #include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {

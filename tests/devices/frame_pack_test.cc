@@ -1,4 +1,4 @@
-#include "devices/frame_pack.h"
+#include "devices/recordings/frame_pack.h"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 #include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {

@@ -1,4 +1,4 @@
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

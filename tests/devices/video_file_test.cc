@@ -1,11 +1,11 @@
-#include "devices/video_file.h"
+#include "devices/recordings/video_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 #include "tests/devices/temporary_folder.h"
 
 namespace pleinair::devices {

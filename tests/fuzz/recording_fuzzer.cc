@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "devices/euroc.h"
 #include "devices/images/picture_file.h"
-#include "devices/recording_manifest.h"
+#include "devices/recordings/euroc.h"
+#include "devices/recordings/recording_manifest.h"
 #include "scene/scene_facts.h"
 
 // Every parser that a recording's folder passes through, on the same bytes: the formats refuse

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "devices/frame_pack.h"
-#include "devices/recording.h"
+#include "devices/recordings/frame_pack.h"
+#include "devices/recordings/recording.h"
 #include "tests/source_tree.h"
 #include "tests/vm/camera_helpers.h"
 #include "tracker/tracker.h"

@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 #include "tests/source_tree.h"
 #include "tests/vm/camera_helpers.h"
 #include "tests/vm/courtyard_film.h"

@@ -1,4 +1,4 @@
-#include "devices/video_container.h"
+#include "devices/recordings/video_container.h"
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "devices/frame_pack_format.h"
+#include "devices/recordings/frame_pack_format.h"
 
 #include <nlohmann/json.hpp>
 

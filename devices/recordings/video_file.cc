@@ -1,4 +1,4 @@
-#include "devices/video_file.h"
+#include "devices/recordings/video_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "devices/images/cv_picture.h"
-#include "devices/video_container.h"
+#include "devices/recordings/video_container.h"
 
 namespace pleinair::devices {
 namespace {

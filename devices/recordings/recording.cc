@@ -1,4 +1,4 @@
-#include "devices/recording.h"
+#include "devices/recordings/recording.h"
 
 #include <cmath>
 #include <string>
@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "devices/calibration/calibration.h"
-#include "devices/euroc.h"
-#include "devices/frame_pack.h"
-#include "devices/picture_sequence.h"
-#include "devices/recording_manifest.h"
-#include "devices/video_file.h"
+#include "devices/recordings/euroc.h"
+#include "devices/recordings/frame_pack.h"
+#include "devices/recordings/picture_sequence.h"
+#include "devices/recordings/recording_manifest.h"
+#include "devices/recordings/video_file.h"
 #include "files/text_file.h"
 #include "scene/scene_facts.h"
 

@@ -1,4 +1,4 @@
-#include "devices/euroc.h"
+#include "devices/recordings/euroc.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "devices/recording_manifest.h"
+#include "devices/recordings/recording_manifest.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "devices/picture_sequence.h"
+#include "devices/recordings/picture_sequence.h"
 
 #include <algorithm>
 #include <cctype>

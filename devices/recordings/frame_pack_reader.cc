@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "devices/frame_pack.h"
-#include "devices/frame_pack_format.h"
+#include "devices/recordings/frame_pack.h"
+#include "devices/recordings/frame_pack_format.h"
 
 namespace pleinair::devices {
 namespace {
