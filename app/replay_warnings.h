@@ -7,7 +7,7 @@
 
 #include "app/session.h"
 #include "app/sinks/report.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/placed_model.h"
 #include "scene/scene_description.h"
 
 namespace pleinair::app {

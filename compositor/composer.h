@@ -12,8 +12,8 @@
 #include "base/vector.h"
 #include "compositor/composer_options.h"
 #include "compositor/lit_mesh.h"
+#include "compositor/models/placed_model.h"
 #include "compositor/picture_look.h"
-#include "compositor/placed_model.h"
 #include "compositor/seen_sunlight.h"
 #include "sky/sky_model.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "compositor/mesh_orientation.h"
+#include "compositor/models/surface_orientation.h"
 
 namespace pleinair::compositor {
 

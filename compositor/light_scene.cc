@@ -9,8 +9,8 @@
 #include "base/srgb.h"
 #include "compositor/light_solver_options.h"
 #include "compositor/loose_leaves.h"
-#include "compositor/model.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/model.h"
+#include "compositor/models/placed_model.h"
 #include "compositor/tessellation.h"
 
 namespace pleinair::compositor {

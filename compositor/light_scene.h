@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/vector.h"
-#include "compositor/mesh_orientation.h"
+#include "compositor/models/surface_orientation.h"
 #include "compositor/ray_scene.h"
 #include "compositor/surface_patches.h"
 

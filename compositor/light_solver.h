@@ -12,7 +12,7 @@
 #include "compositor/daylight_coefficients.h"
 #include "compositor/light_solver_options.h"
 #include "compositor/lit_mesh.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/placed_model.h"
 #include "compositor/seen_sunlight.h"
 #include "sky/sky_model.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "compositor/mesh_orientation.h"
+#include "compositor/models/surface_orientation.h"
 
 namespace pleinair::compositor {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "compositor/mesh_orientation.h"
+#include "compositor/models/surface_orientation.h"
 #include "compositor/surface_patches.h"
 
 namespace pleinair::compositor {

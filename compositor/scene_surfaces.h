@@ -11,7 +11,7 @@
 #include "compositor/changing_triangles.h"
 #include "compositor/facing_triangles.h"
 #include "compositor/lit_mesh.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/placed_model.h"
 #include "compositor/surface_buffers.h"
 #include "compositor/surface_records.h"
 #include "compositor/triangle_table.h"

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "compositor/lit_mesh.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 #include "gl/buffer.h"
 #include "gl/texture.h"
 #include "gl/vertex_array.h"

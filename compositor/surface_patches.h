@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "compositor/mesh_orientation.h"
+#include "compositor/models/surface_orientation.h"
 #include "compositor/tessellation.h"
 
 namespace pleinair::compositor {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 #include "gl/texture.h"
 
 namespace pleinair::compositor {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "compositor/mesh_orientation.h"
+#include "compositor/models/surface_orientation.h"
 
 namespace pleinair::compositor {
 

@@ -25,7 +25,7 @@
 #include "base/bounded_queue.h"
 #include "base/camera_model.h"
 #include "compositor/composer_options.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/placed_model.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
 #include "tracker/tracker.h"

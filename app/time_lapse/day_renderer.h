@@ -9,7 +9,7 @@
 #include "base/frames.h"
 #include "base/image.h"
 #include "compositor/composer.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/placed_model.h"
 
 namespace pleinair::app {
 

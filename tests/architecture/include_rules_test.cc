@@ -28,7 +28,7 @@ TEST(IncludeRules, CatchAnIncludeAgainstTheOrderOfModules) {
 }
 
 TEST(IncludeRules, CatchOpenCvWhereABareMachineMustBuild) {
-  EXPECT_THAT(FindBreaches("compositor/model.cc", "#include <opencv2/core.hpp>"),
+  EXPECT_THAT(FindBreaches("compositor/models/model.cc", "#include <opencv2/core.hpp>"),
               ElementsAre(HasSubstr("compositor may not know OpenCV")));
 }
 

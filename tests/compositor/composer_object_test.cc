@@ -16,7 +16,7 @@
 
 #include "base/srgb.h"
 #include "compositor/composer.h"
-#include "compositor/cut_out.h"
+#include "compositor/models/alpha_cutout.h"
 #include "compositor/seen_sunlight.h"
 #include "tests/compositor/composer_scene.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "compositor/contact_lines.h"
-#include "compositor/model.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/model.h"
+#include "compositor/models/placed_model.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {

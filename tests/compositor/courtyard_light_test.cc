@@ -15,7 +15,7 @@
 
 #include "base/parallel_for.h"
 #include "compositor/light_solver.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 #include "compositor/ray_scene.h"
 #include "tests/compositor/light_scenes.h"
 #include "tests/compositor/path_tracer.h"

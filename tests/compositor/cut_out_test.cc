@@ -1,4 +1,4 @@
-#include "compositor/cut_out.h"
+#include "compositor/models/alpha_cutout.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "base/vector.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 namespace {

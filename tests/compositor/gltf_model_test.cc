@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 #include "tests/compositor/model_files_made.h"
 
 namespace pleinair::compositor {

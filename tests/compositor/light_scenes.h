@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "compositor/lit_mesh.h"
-#include "compositor/model.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/model.h"
+#include "compositor/models/placed_model.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor::testing {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 #include "tests/compositor/model_files_made.h"
 
 namespace pleinair::compositor {

@@ -14,7 +14,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor::testing {

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string>
 
-#include "compositor/gltf_reader.h"
-#include "compositor/mesh_normals.h"
+#include "compositor/models/gltf_reader.h"
+#include "compositor/models/mesh_normals.h"
 
 // Any bytes are a glTF model, text or binary, or an error. Its folder does not exist, so that
 // buffers and pictures come from the file itself.

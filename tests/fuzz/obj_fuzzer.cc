@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "compositor/mesh_normals.h"
-#include "compositor/obj_parser.h"
-#include "compositor/texture_decoder.h"
+#include "compositor/models/mesh_normals.h"
+#include "compositor/models/obj_parser.h"
+#include "compositor/models/texture_decoder.h"
 
 // Any bytes are an OBJ or an error. What follows a line "#mtl" is its material library, so that
 // both parsers are reached by one input; textures are the library's own bytes.

@@ -3,7 +3,7 @@
 
 #include "base/units.h"
 #include "base/utc_time.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 #include "devices/calibration/calibration.h"
 #include "shadows/splits.h"
 #include "sky/sun/sun_position.h"

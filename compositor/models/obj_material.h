@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "compositor/model.h"
-#include "compositor/obj_parser.h"
+#include "compositor/models/model.h"
+#include "compositor/models/obj_parser.h"
 
 namespace pleinair::compositor {
 

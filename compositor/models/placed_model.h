@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "base/vector.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 

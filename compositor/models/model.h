@@ -42,7 +42,7 @@ struct Material {
 };
 
 /// A surface with holes stands in a model twice: as it is drawn, where alpha tells the holes, and
-/// as light and shadows meet it, with the holes cut out (compositor/cut_out.h).
+/// as light and shadows meet it, with the holes cut out (compositor/models/alpha_cutout.h).
 enum class MeshRole { kAll, kDrawn, kLight };
 
 /// Three corners a triangle, no sharing of vertices between materials required.

@@ -1,13 +1,13 @@
 #include <new>
 #include <utility>
 
-#include "compositor/cut_out.h"
-#include "compositor/gltf_reader.h"
-#include "compositor/mesh_normals.h"
-#include "compositor/model.h"
-#include "compositor/model_files.h"
-#include "compositor/obj_parser.h"
-#include "compositor/texture_decoder.h"
+#include "compositor/models/alpha_cutout.h"
+#include "compositor/models/gltf_reader.h"
+#include "compositor/models/mesh_normals.h"
+#include "compositor/models/model.h"
+#include "compositor/models/model_files.h"
+#include "compositor/models/obj_parser.h"
+#include "compositor/models/texture_decoder.h"
 
 namespace pleinair::compositor {
 namespace {

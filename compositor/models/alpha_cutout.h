@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 

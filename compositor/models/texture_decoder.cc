@@ -1,4 +1,4 @@
-#include "compositor/texture_decoder.h"
+#include "compositor/models/texture_decoder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <optional>
 #include <string_view>
 
-#include "compositor/model_files.h"
-#include "compositor/model_limits.h"
+#include "compositor/models/model_files.h"
+#include "compositor/models/model_limits.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "compositor/model_files.h"
+#include "compositor/models/model_files.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
-#include "compositor/model_limits.h"
+#include "compositor/models/model_limits.h"
 
 namespace pleinair::compositor {
 

@@ -1,6 +1,6 @@
 #include <cstddef>
 
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 

@@ -1,4 +1,4 @@
-#include "compositor/cut_out.h"
+#include "compositor/models/alpha_cutout.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "compositor/mesh_triangulation.h"
+#include "compositor/models/mesh_triangulation.h"
 
 #include <cmath>
 #include <numeric>

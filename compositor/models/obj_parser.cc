@@ -1,4 +1,4 @@
-#include "compositor/obj_parser.h"
+#include "compositor/models/obj_parser.h"
 
 #include <array>
 #include <charconv>
@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/mesh_triangulation.h"
-#include "compositor/model_limits.h"
-#include "compositor/obj_lines.h"
-#include "compositor/obj_material.h"
+#include "compositor/models/mesh_triangulation.h"
+#include "compositor/models/model_limits.h"
+#include "compositor/models/obj_lines.h"
+#include "compositor/models/obj_material.h"
 
 namespace pleinair::compositor {
 namespace {

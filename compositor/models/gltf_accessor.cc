@@ -1,4 +1,4 @@
-#include "compositor/gltf_accessor.h"
+#include "compositor/models/gltf_accessor.h"
 
 #include <tiny_gltf.h>
 
@@ -7,8 +7,8 @@
 #include <cstring>
 #include <limits>
 
-#include "compositor/gltf_error.h"
-#include "compositor/model_limits.h"
+#include "compositor/models/gltf_error.h"
+#include "compositor/models/model_limits.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,4 +1,4 @@
-#include "compositor/gltf_files.h"
+#include "compositor/models/gltf_files.h"
 
 #include <tiny_gltf.h>
 
@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "compositor/model_files.h"
+#include "compositor/models/model_files.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,4 +1,4 @@
-#include "compositor/gltf_texture_transform.h"
+#include "compositor/models/gltf_texture_transform.h"
 
 #include <tiny_gltf.h>
 

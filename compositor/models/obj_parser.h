@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 

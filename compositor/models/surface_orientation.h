@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 

@@ -1,4 +1,4 @@
-#include "compositor/gltf_placement.h"
+#include "compositor/models/gltf_placement.h"
 
 #include <tiny_gltf.h>
 

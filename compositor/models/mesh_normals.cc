@@ -1,4 +1,4 @@
-#include "compositor/mesh_normals.h"
+#include "compositor/models/mesh_normals.h"
 
 #include <cmath>
 #include <cstdint>

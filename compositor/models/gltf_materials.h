@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "compositor/gltf_texture_transform.h"
-#include "compositor/model.h"
+#include "compositor/models/gltf_texture_transform.h"
+#include "compositor/models/model.h"
 
 namespace tinygltf {
 class Model;

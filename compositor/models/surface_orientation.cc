@@ -1,4 +1,4 @@
-#include "compositor/mesh_orientation.h"
+#include "compositor/models/surface_orientation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "compositor/model.h"
-#include "compositor/placed_model.h"
+#include "compositor/models/model.h"
+#include "compositor/models/placed_model.h"
 
 namespace pleinair::compositor {
 namespace {

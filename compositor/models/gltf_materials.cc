@@ -1,4 +1,4 @@
-#include "compositor/gltf_materials.h"
+#include "compositor/models/gltf_materials.h"
 
 #include <tiny_gltf.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "compositor/gltf_accessor.h"
-#include "compositor/gltf_error.h"
-#include "compositor/texture_decoder.h"
+#include "compositor/models/gltf_accessor.h"
+#include "compositor/models/gltf_error.h"
+#include "compositor/models/texture_decoder.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 

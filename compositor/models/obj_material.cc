@@ -1,4 +1,4 @@
-#include "compositor/obj_material.h"
+#include "compositor/models/obj_material.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "compositor/obj_lines.h"
+#include "compositor/models/obj_lines.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compositor/model.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 

@@ -1,4 +1,4 @@
-#include "compositor/gltf_reader.h"
+#include "compositor/models/gltf_reader.h"
 
 #include <tiny_gltf.h>
 
@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "base/vector.h"
-#include "compositor/gltf_accessor.h"
-#include "compositor/gltf_error.h"
-#include "compositor/gltf_files.h"
-#include "compositor/gltf_materials.h"
-#include "compositor/gltf_placement.h"
-#include "compositor/gltf_texture_transform.h"
-#include "compositor/model_limits.h"
+#include "compositor/models/gltf_accessor.h"
+#include "compositor/models/gltf_error.h"
+#include "compositor/models/gltf_files.h"
+#include "compositor/models/gltf_materials.h"
+#include "compositor/models/gltf_placement.h"
+#include "compositor/models/gltf_texture_transform.h"
+#include "compositor/models/model_limits.h"
 
 namespace pleinair::compositor {
 namespace {
