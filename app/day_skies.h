@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "base/vector.h"
-#include "compositor/seen_sunlight.h"
+#include "compositor/light/sun_transmittance_map.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::app {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "compositor/light/scaled_sky.h"
 #include "compositor/plane_contrast.h"
 #include "compositor/print_shade.h"
 #include "compositor/print_shadow.h"
-#include "compositor/scaled_daylight.h"
 #include "compositor/shade_depth.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"

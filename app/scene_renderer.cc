@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/quantile.h"
-#include "compositor/scaled_daylight.h"
+#include "compositor/light/scaled_sky.h"
 #include "devices/calibration/response_file.h"
 #include "scene/marker_heading.h"
 #include "scene/marker_reflectance.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "compositor/light_samples.h"
+#include "compositor/light/sampling.h"
 #include "compositor/picture_grain.h"
 
 namespace pleinair::compositor {

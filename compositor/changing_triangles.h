@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "compositor/lit_mesh.h"
+#include "compositor/light/lit_mesh.h"
+#include "compositor/light/sun_footprint.h"
 #include "compositor/steady_ratio.h"
-#include "compositor/sun_footprint.h"
 
 namespace pleinair::compositor {
 

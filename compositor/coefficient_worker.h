@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "compositor/daylight_coefficients.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 
 namespace pleinair::compositor {
 

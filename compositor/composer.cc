@@ -14,7 +14,7 @@
 #include "compositor/camera_picture.h"
 #include "compositor/drawn_frame.h"
 #include "compositor/embedded_shaders.h"
-#include "compositor/environment_map.h"
+#include "compositor/light/environment_map.h"
 #include "compositor/object_pass.h"
 #include "compositor/ratio_pass.h"
 #include "compositor/render_camera.h"

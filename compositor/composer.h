@@ -11,10 +11,10 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/composer_options.h"
-#include "compositor/lit_mesh.h"
+#include "compositor/light/lit_mesh.h"
+#include "compositor/light/sun_transmittance_map.h"
 #include "compositor/models/placed_model.h"
 #include "compositor/picture_look.h"
-#include "compositor/seen_sunlight.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {

@@ -11,10 +11,10 @@
 
 #include "base/parallel_for.h"
 #include "compositor/coefficient_reflection.h"
-#include "compositor/light_gather.h"
-#include "compositor/light_inside.h"
-#include "compositor/light_samples.h"
-#include "compositor/light_scene.h"
+#include "compositor/light/buried_patches.h"
+#include "compositor/light/final_gather.h"
+#include "compositor/light/patch_scene.h"
+#include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
 namespace {

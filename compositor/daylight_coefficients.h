@@ -10,7 +10,7 @@
 
 #include "base/vector.h"
 #include "compositor/coefficient_matrix.h"
-#include "compositor/sky_patches.h"
+#include "compositor/light/sky_patches.h"
 
 namespace pleinair::compositor {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "compositor/lit_mesh.h"
+#include "compositor/light/lit_mesh.h"
 
 namespace pleinair::compositor {
 

@@ -11,7 +11,7 @@
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/vector.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 #include "compositor/print_shadow.h"
 #include "scene/marker_reflectance.h"
 #include "sky/sky_model.h"

@@ -9,9 +9,9 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
+#include "compositor/light/light_solver.h"
+#include "compositor/light/scaled_sky.h"
 #include "compositor/light_meter.h"
-#include "compositor/light_solver.h"
-#include "compositor/scaled_daylight.h"
 #include "compositor/surface_samples.h"
 #include "sky/sky_model.h"
 

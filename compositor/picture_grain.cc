@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "compositor/light_samples.h"
+#include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/vector.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 #include "compositor/surface_samples.h"
 #include "sky/sky_model.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/quantile.h"
-#include "compositor/scaled_daylight.h"
+#include "compositor/light/scaled_sky.h"
 #include "compositor/shade_cell.h"
 
 namespace pleinair::compositor {

@@ -5,7 +5,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 #include "compositor/shadow_contrast.h"
 #include "sky/sky_model.h"
 

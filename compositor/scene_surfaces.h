@@ -10,7 +10,7 @@
 #include "base/vector.h"
 #include "compositor/changing_triangles.h"
 #include "compositor/facing_triangles.h"
-#include "compositor/lit_mesh.h"
+#include "compositor/light/lit_mesh.h"
 #include "compositor/models/placed_model.h"
 #include "compositor/surface_buffers.h"
 #include "compositor/surface_records.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/quantile.h"
-#include "compositor/scaled_daylight.h"
+#include "compositor/light/scaled_sky.h"
 
 namespace pleinair::compositor {
 namespace {

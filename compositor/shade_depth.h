@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/vector.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/unmodelled_shade.h"
 #include "sky/sky_model.h"

@@ -9,8 +9,8 @@
 
 #include "base/parallel_for.h"
 #include "base/quantile.h"
-#include "compositor/light_samples.h"
-#include "compositor/scaled_daylight.h"
+#include "compositor/light/sampling.h"
+#include "compositor/light/scaled_sky.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 #include "compositor/surface_samples.h"
 #include "sky/sky_model.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "compositor/lit_mesh.h"
+#include "compositor/light/lit_mesh.h"
 #include "compositor/models/model.h"
 #include "gl/buffer.h"
 #include "gl/texture.h"

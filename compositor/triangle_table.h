@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "compositor/lit_mesh.h"
+#include "compositor/light/lit_mesh.h"
 #include "compositor/steady_ratio.h"
 #include "gl/texture.h"
 

@@ -4,9 +4,9 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
+#include "compositor/light/light_solver.h"
+#include "compositor/light/sun_transmittance_map.h"
 #include "compositor/light_meter.h"
-#include "compositor/light_solver.h"
-#include "compositor/seen_sunlight.h"
 #include "compositor/shadow_crossing.h"
 #include "compositor/surface_samples.h"
 #include "sky/sky_model.h"

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
-#include "compositor/ray_scene.h"
+#include "compositor/light/ray_scene.h"
 #include "shadows/bench/bench_renderer.h"
 #include "shadows/bench/bench_scene.h"
 

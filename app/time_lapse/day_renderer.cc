@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/srgb.h"
-#include "compositor/sky_table.h"
+#include "compositor/light/sky_table.h"
 #include "scene/sun_over_place.h"
 #include "shadows/shadow_uniforms.h"
 

@@ -16,8 +16,8 @@
 
 #include "base/srgb.h"
 #include "compositor/composer.h"
+#include "compositor/light/sun_transmittance_map.h"
 #include "compositor/models/alpha_cutout.h"
-#include "compositor/seen_sunlight.h"
 #include "tests/compositor/composer_scene.h"
 
 namespace pleinair::compositor {

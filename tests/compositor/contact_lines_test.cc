@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/contact_lines.h"
+#include "compositor/light/contact_edges.h"
 #include "compositor/models/model.h"
 #include "compositor/models/placed_model.h"
 #include "tests/compositor/light_scenes.h"

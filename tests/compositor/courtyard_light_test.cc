@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "base/parallel_for.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
+#include "compositor/light/ray_scene.h"
 #include "compositor/models/model.h"
-#include "compositor/ray_scene.h"
 #include "tests/compositor/light_scenes.h"
 #include "tests/compositor/path_tracer.h"
 #include "tests/source_tree.h"

@@ -12,9 +12,9 @@
 #include <numbers>
 
 #include "compositor/coefficient_reflection.h"
-#include "compositor/light_samples.h"
-#include "compositor/light_scene.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
+#include "compositor/light/patch_scene.h"
+#include "compositor/light/sampling.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {

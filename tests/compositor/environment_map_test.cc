@@ -1,4 +1,4 @@
-#include "compositor/environment_map.h"
+#include "compositor/light/environment_map.h"
 
 #include <gtest/gtest.h>
 

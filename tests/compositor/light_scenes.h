@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/lit_mesh.h"
+#include "compositor/light/lit_mesh.h"
 #include "compositor/models/model.h"
 #include "compositor/models/placed_model.h"
 #include "sky/sky_model.h"

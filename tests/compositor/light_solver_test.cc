@@ -1,4 +1,4 @@
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 
 #include <gtest/gtest.h>
 

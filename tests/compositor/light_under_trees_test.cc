@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "compositor/light_solver.h"
-#include "compositor/seen_sunlight.h"
+#include "compositor/light/light_solver.h"
+#include "compositor/light/sun_transmittance_map.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {

@@ -1,4 +1,4 @@
-#include "compositor/loose_leaves.h"
+#include "compositor/light/foliage.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {

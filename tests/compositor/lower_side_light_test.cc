@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/camera_response.h"
-#include "compositor/light_samples.h"
-#include "compositor/scaled_daylight.h"
+#include "compositor/light/sampling.h"
+#include "compositor/light/scaled_sky.h"
 #include "scene/marker_reflectance.h"
 #include "tests/compositor/light_scenes.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compositor/coefficient_matrix.h"
-#include "compositor/light_samples.h"
+#include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
 namespace {

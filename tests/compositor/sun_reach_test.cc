@@ -1,4 +1,4 @@
-#include "compositor/sun_reach.h"
+#include "compositor/light/sun_visibility.h"
 
 #include <gtest/gtest.h>
 

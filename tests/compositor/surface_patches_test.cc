@@ -1,4 +1,4 @@
-#include "compositor/surface_patches.h"
+#include "compositor/light/surface_patches.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "compositor/tessellation.h"
+#include "compositor/light/tessellation.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::compositor {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compositor/seen_sunlight.h"
+#include "compositor/light/sun_transmittance_map.h"
 #include "compositor/shade_depth.h"
 #include "compositor/shadow_contrast.h"
 #include "compositor/shadow_heading.h"

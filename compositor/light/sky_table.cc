@@ -1,4 +1,4 @@
-#include "compositor/sky_table.h"
+#include "compositor/light/sky_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "compositor/object_distance.h"
+#include "compositor/light/object_distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "compositor/tessellation.h"
+#include "compositor/light/tessellation.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "compositor/contact_lines.h"
-#include "compositor/object_distance.h"
+#include "compositor/light/contact_edges.h"
+#include "compositor/light/object_distance.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,4 +1,4 @@
-#include "compositor/sun_footprint.h"
+#include "compositor/light/sun_footprint.h"
 
 #include <cstddef>
 

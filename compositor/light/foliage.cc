@@ -1,4 +1,4 @@
-#include "compositor/loose_leaves.h"
+#include "compositor/light/foliage.h"
 
 #include <algorithm>
 #include <array>

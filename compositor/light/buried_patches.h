@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "compositor/light_gather.h"
-#include "compositor/light_scene.h"
+#include "compositor/light/final_gather.h"
+#include "compositor/light/patch_scene.h"
 
 namespace pleinair::compositor {
 

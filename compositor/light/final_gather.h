@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "compositor/light_scene.h"
-#include "compositor/seen_sunlight.h"
-#include "compositor/sky_patches.h"
-#include "compositor/sky_table.h"
+#include "compositor/light/patch_scene.h"
+#include "compositor/light/sky_patches.h"
+#include "compositor/light/sky_table.h"
+#include "compositor/light/sun_transmittance_map.h"
 
 namespace pleinair::compositor {
 

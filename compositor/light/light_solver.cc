@@ -1,4 +1,4 @@
-#include "compositor/light_solver.h"
+#include "compositor/light/light_solver.h"
 
 #include <algorithm>
 #include <atomic>
@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "base/parallel_for.h"
-#include "compositor/light_gather.h"
-#include "compositor/light_samples.h"
-#include "compositor/light_scene.h"
-#include "compositor/sky_table.h"
-#include "compositor/sun_reach.h"
+#include "compositor/light/final_gather.h"
+#include "compositor/light/patch_scene.h"
+#include "compositor/light/sampling.h"
+#include "compositor/light/sky_table.h"
+#include "compositor/light/sun_visibility.h"
 
 namespace pleinair::compositor {
 namespace {

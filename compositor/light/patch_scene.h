@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "base/vector.h"
+#include "compositor/light/ray_scene.h"
+#include "compositor/light/surface_patches.h"
 #include "compositor/models/surface_orientation.h"
-#include "compositor/ray_scene.h"
-#include "compositor/surface_patches.h"
 
 namespace pleinair::compositor {
 

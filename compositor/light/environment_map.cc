@@ -1,11 +1,11 @@
-#include "compositor/environment_map.h"
+#include "compositor/light/environment_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
-#include "compositor/sky_table.h"
+#include "compositor/light/sky_table.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,4 +1,4 @@
-#include "compositor/sky_patches.h"
+#include "compositor/light/sky_patches.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/check.h"
-#include "compositor/light_samples.h"
+#include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
 namespace {

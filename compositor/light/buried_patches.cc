@@ -1,4 +1,4 @@
-#include "compositor/light_inside.h"
+#include "compositor/light/buried_patches.h"
 
 #include "base/parallel_for.h"
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "compositor/light/tessellation.h"
 #include "compositor/models/surface_orientation.h"
-#include "compositor/tessellation.h"
 
 namespace pleinair::compositor {
 

@@ -10,10 +10,10 @@
 #include "base/frames.h"
 #include "base/vector.h"
 #include "compositor/daylight_coefficients.h"
-#include "compositor/light_solver_options.h"
-#include "compositor/lit_mesh.h"
+#include "compositor/light/light_solver_options.h"
+#include "compositor/light/lit_mesh.h"
+#include "compositor/light/sun_transmittance_map.h"
 #include "compositor/models/placed_model.h"
-#include "compositor/seen_sunlight.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {

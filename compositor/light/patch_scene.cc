@@ -1,4 +1,4 @@
-#include "compositor/light_scene.h"
+#include "compositor/light/patch_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "base/srgb.h"
-#include "compositor/light_solver_options.h"
-#include "compositor/loose_leaves.h"
+#include "compositor/light/foliage.h"
+#include "compositor/light/light_solver_options.h"
+#include "compositor/light/tessellation.h"
 #include "compositor/models/model.h"
 #include "compositor/models/placed_model.h"
-#include "compositor/tessellation.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,12 +1,12 @@
-#include "compositor/sun_reach.h"
+#include "compositor/light/sun_visibility.h"
 
 #include <array>
 #include <cstddef>
 
 #include "base/parallel_for.h"
-#include "compositor/light_samples.h"
-#include "compositor/light_scene.h"
-#include "compositor/lit_mesh.h"
+#include "compositor/light/lit_mesh.h"
+#include "compositor/light/patch_scene.h"
+#include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,4 +1,4 @@
-#include "compositor/patch_shares.h"
+#include "compositor/light/patch_interpolation.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "base/parallel_for.h"
 #include "base/vector.h"
-#include "compositor/light_samples.h"
+#include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
 namespace {

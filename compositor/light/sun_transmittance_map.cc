@@ -1,4 +1,4 @@
-#include "compositor/seen_sunlight.h"
+#include "compositor/light/sun_transmittance_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "base/quantile.h"
 #include "base/units.h"
-#include "compositor/light_samples.h"
+#include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
 namespace {

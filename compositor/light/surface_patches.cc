@@ -1,4 +1,4 @@
-#include "compositor/surface_patches.h"
+#include "compositor/light/surface_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "base/parallel_for.h"
 #include "base/vector.h"
-#include "compositor/object_distance.h"
-#include "compositor/patch_shares.h"
+#include "compositor/light/object_distance.h"
+#include "compositor/light/patch_interpolation.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "compositor/lit_mesh.h"
-#include "compositor/ray_scene.h"
+#include "compositor/light/lit_mesh.h"
+#include "compositor/light/ray_scene.h"
 
 namespace pleinair::compositor {
 

@@ -1,4 +1,4 @@
-#include "compositor/ray_scene.h"
+#include "compositor/light/ray_scene.h"
 
 #include <embree3/rtcore.h>
 

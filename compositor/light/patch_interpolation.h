@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "compositor/light/surface_patches.h"
 #include "compositor/models/surface_orientation.h"
-#include "compositor/surface_patches.h"
 
 namespace pleinair::compositor {
 

@@ -29,7 +29,7 @@ struct LitMesh {
   /// Equal for meshes that nothing but their light tells apart; 0: not known.
   std::uint64_t geometry = 0;
   /// kDrawn casts no shadow, kLight is not drawn. Phantoms are kAll, their loose leaves kDrawn
-  /// (compositor/loose_leaves.h).
+  /// (compositor/light/foliage.h).
   MeshRole role = MeshRole::kAll;
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;

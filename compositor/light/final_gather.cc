@@ -1,4 +1,4 @@
-#include "compositor/light_gather.h"
+#include "compositor/light/final_gather.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "base/parallel_for.h"
-#include "compositor/light_inside.h"
-#include "compositor/light_samples.h"
+#include "compositor/light/buried_patches.h"
+#include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
 namespace {

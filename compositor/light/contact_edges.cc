@@ -1,4 +1,4 @@
-#include "compositor/contact_lines.h"
+#include "compositor/light/contact_edges.h"
 
 #include <algorithm>
 #include <cmath>
