@@ -8,7 +8,7 @@
 #include "app/scene_edit.h"
 #include "base/camera_response.h"
 #include "base/utc_time.h"
-#include "compositor/daylight_coefficients.h"
+#include "compositor/light/daylight/daylight_coefficients.h"
 #include "compositor/light/light_solver.h"
 #include "compositor/light/scaled_sky.h"
 #include "compositor/light/sun_transmittance_map.h"

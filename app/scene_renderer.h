@@ -21,7 +21,7 @@
 #include "base/image.h"
 #include "base/utc_time.h"
 #include "compositor/composer.h"
-#include "compositor/daylight_coefficients.h"
+#include "compositor/light/daylight/daylight_coefficients.h"
 #include "compositor/light/light_solver.h"
 #include "compositor/light_meter.h"
 #include "compositor/occluder_mask.h"

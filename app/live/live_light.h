@@ -17,7 +17,7 @@
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/utc_time.h"
-#include "compositor/coefficient_worker.h"
+#include "compositor/light/daylight/coefficient_worker.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
 

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/daylight_coefficients.h"
+#include "compositor/light/daylight/daylight_coefficients.h"
 #include "compositor/light/light_solver_options.h"
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_transmittance_map.h"

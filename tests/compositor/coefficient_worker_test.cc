@@ -1,4 +1,4 @@
-#include "compositor/coefficient_worker.h"
+#include "compositor/light/daylight/coefficient_worker.h"
 
 #include <gtest/gtest.h>
 

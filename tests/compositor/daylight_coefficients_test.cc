@@ -1,4 +1,4 @@
-#include "compositor/daylight_coefficients.h"
+#include "compositor/light/daylight/daylight_coefficients.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <map>
 #include <numbers>
 
-#include "compositor/coefficient_reflection.h"
+#include "compositor/light/daylight/interreflection.h"
 #include "compositor/light/light_solver.h"
 #include "compositor/light/patch_scene.h"
 #include "compositor/light/sampling.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compositor/coefficient_matrix.h"
+#include "compositor/light/daylight/coefficient_matrix.h"
 #include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "base/check.h"
-#include "compositor/coefficient_matrix.h"
+#include "compositor/light/daylight/coefficient_matrix.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "compositor/coefficient_product.cc"
+#define HWY_TARGET_INCLUDE "compositor/light/daylight/matrix_product.cc"
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>

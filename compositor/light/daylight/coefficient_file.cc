@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "base/atomic_file.h"
-#include "compositor/daylight_coefficients.h"
+#include "compositor/light/daylight/daylight_coefficients.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/vector.h"
-#include "compositor/coefficient_matrix.h"
+#include "compositor/light/daylight/coefficient_matrix.h"
 #include "compositor/light/sky_patches.h"
 
 namespace pleinair::compositor {

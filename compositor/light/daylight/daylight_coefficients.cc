@@ -1,4 +1,4 @@
-#include "compositor/daylight_coefficients.h"
+#include "compositor/light/daylight/daylight_coefficients.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/parallel_for.h"
-#include "compositor/coefficient_reflection.h"
 #include "compositor/light/buried_patches.h"
+#include "compositor/light/daylight/interreflection.h"
 #include "compositor/light/final_gather.h"
 #include "compositor/light/patch_scene.h"
 #include "compositor/light/sampling.h"

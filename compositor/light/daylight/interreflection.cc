@@ -1,9 +1,9 @@
-#include "compositor/coefficient_reflection.h"
+#include "compositor/light/daylight/interreflection.h"
 
 #include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "compositor/coefficient_reflection.cc"
+#define HWY_TARGET_INCLUDE "compositor/light/daylight/interreflection.cc"
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "compositor/coefficient_matrix.h"
+#include "compositor/light/daylight/coefficient_matrix.h"
 
 namespace pleinair::compositor {
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "compositor/daylight_coefficients.h"
+#include "compositor/light/daylight/daylight_coefficients.h"
 #include "compositor/light/light_solver.h"
 
 namespace pleinair::compositor {
