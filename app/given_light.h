@@ -2,14 +2,14 @@
 
 #include <filesystem>
 
-#include "app/measured_sky.h"
+#include "compositor/photometry/sky_fit.h"
 #include "scene/scene_description.h"
 
 namespace pleinair::app {
 
 /// What a user says of the light and of the camera's picture, of a recording or live.
 struct LightOptions {
-  LightOverrides overrides;
+  compositor::LightOverrides overrides;
   bool match_look = true;                 ///< Drawn pixels get the frames' blur and grain.
   bool hands_in_front = false;            ///< What covers the marker is before the virtual objects.
   std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as the scene says.

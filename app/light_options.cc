@@ -46,7 +46,7 @@ void AddLightOptions(CLI::App& command, LightOptions& options) {
       .add_option("--sun-to-sky", options.overrides.sun_to_sky,
                   "The sun's light on level ground over the sky's, instead of measuring it: 4 on "
                   "a clear noon, 0.5 in thick haze, 0 where no sun shines")
-      ->check(NumberRange(0.0, kHighestSunToSky));
+      ->check(NumberRange(0.0, compositor::kHighestSunToSky));
   command
       .add_option("--heading", options.overrides.heading_deg,
                   "Heading of the marker in degrees, instead of the scene's, and not refined")

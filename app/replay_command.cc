@@ -96,7 +96,7 @@ std::string CommandText(const Arguments& arguments) {
   if (light.convergence != LightOptions{}.convergence) {
     text += fmt::format(" --convergence {}", light.convergence);
   }
-  const LightOverrides& given = light.overrides;
+  const compositor::LightOverrides& given = light.overrides;
   if (given.max_patches) text += " --light-patches " + std::to_string(*given.max_patches);
   if (given.as_stated) text += " --light stated";
   if (!light.match_look) text += " --look clean";

@@ -134,7 +134,7 @@ std::vector<std::string> DrawingWarnings(std::optional<int> samples) {
 }
 
 std::vector<std::string> LightWarnings(const LightSummary& summary) {
-  const MeasuredLight& light = summary.measured;
+  const compositor::MeasuredLight& light = summary.measured;
   std::vector<std::string> warnings;
   if (summary.gain_source == LightSummary::GainSource::kGuess) {
     warnings.emplace_back(
@@ -155,7 +155,7 @@ std::vector<std::string> LightWarnings(const LightSummary& summary) {
         "Check place, time and the time's offset from UTC.",
         -elevation_deg));
   }
-  const bool measured = light.sun_source == MeasuredLight::Source::kMeasured;
+  const bool measured = light.sun_source == compositor::MeasuredLight::Source::kMeasured;
   const bool denied = measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun;
   if (denied && light.edges_agreeing == 0) {
     warnings.push_back(
@@ -173,7 +173,7 @@ std::vector<std::string> LightWarnings(const LightSummary& summary) {
                     "the scene says otherwise.",
                     light.edges_agreeing));
   }
-  if (light.sun_source == MeasuredLight::Source::kMarker &&
+  if (light.sun_source == compositor::MeasuredLight::Source::kMarker &&
       light.sun_to_sky_stated <= kNoticeableSun) {
     warnings.push_back(
         "A shadow's edge divides the marker: the sun is taken to shine, though the scene says "

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "app/day_skies.h"
 #include "app/scene_edit.h"
 #include "base/camera_response.h"
 #include "base/utc_time.h"
@@ -13,6 +12,7 @@
 #include "compositor/light/scaled_sky.h"
 #include "compositor/light/sun_transmittance_map.h"
 #include "compositor/light_meter.h"
+#include "compositor/photometry/day_skies.h"
 #include "scene/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun/sun_position.h"
@@ -24,7 +24,7 @@ struct LightOrder {
   UtcTime time;
   scene::PlaceTime place;
   scene::MarkerDescription marker;
-  DaySkies skies;
+  compositor::DaySkies skies;
   std::shared_ptr<const compositor::LightSolver> solver;
   /// Of the solver's scene: the light of any moment in milliseconds. Null: rays are traced.
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients;

@@ -74,7 +74,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     placed.push_back(std::move(model));
   }
   if (scene.objects.empty()) return renderer;
-  renderer->skies_.source = StatedSky(scene);
+  renderer->skies_.source = compositor::StatedSky(scene);
   compositor::ComposerOptions composing = options;
   if (!scene.camera_response.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(composing.response,
@@ -102,16 +102,16 @@ bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phanto
 void SceneRenderer::LookAtLight(ImageView<const std::uint8_t> rgb,
                                 const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
   if (!look_) {
-    look_ = std::make_unique<LightLook>(solver_, camera_, print_, scene_, options_.overrides, time,
-                                        response_);
+    look_ = std::make_unique<compositor::LightLook>(solver_, camera_, print_, scene_,
+                                                    options_.overrides, time, response_);
   }
   look_->Add(rgb, camera_from_marker);
 }
 
 void SceneRenderer::SettleLight() {
   if (!look_) return;
-  LightMemory of_no_other_look;
-  const FoundLight found = look_->Settle(&of_no_other_look);
+  compositor::LightMemory of_no_other_look;
+  const compositor::FoundLight found = look_->Settle(&of_no_other_look);
   look_.reset();
   summary_.measured = found.measured;
   scene_.marker.heading = found.heading;
@@ -120,14 +120,15 @@ void SceneRenderer::SettleLight() {
 
 /// What the user says counts, for the first sun that is rendered.
 void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
-  MeasuredLight& light = summary_.measured;
-  light.sun_to_sky_stated = SunToSky(*StatedSky(scene_)->ForSun(sun.ToSun(), sun.distance_au));
+  compositor::MeasuredLight& light = summary_.measured;
+  light.sun_to_sky_stated =
+      compositor::SunToSky(*compositor::StatedSky(scene_)->ForSun(sun.ToSun(), sun.distance_au));
   if (options_.overrides.heading_deg) {
-    light.heading_source = MeasuredLight::Source::kOverride;
+    light.heading_source = compositor::MeasuredLight::Source::kOverride;
   }
-  const auto given = GivenSky(scene_, options_.overrides, sun);
+  const auto given = compositor::GivenSky(scene_, options_.overrides, sun);
   if (!given) return;
-  light.sun_source = MeasuredLight::Source::kOverride;
+  light.sun_source = compositor::MeasuredLight::Source::kOverride;
   // What lies in the shade of trees was looked for under this sky.
   skies_.source = given->skies;
   skies_.scale = given->sky_scale;
@@ -157,7 +158,7 @@ Result<void> SceneRenderer::TakeLight(std::shared_ptr<const SceneLight> light) {
   const LinearRgb sky = daylight.SkyHorizontalIrradiance();
   summary_.sun_normal_lux = Luminance(sun);
   summary_.sky_horizontal_lux = Luminance(sky);
-  summary_.measured.sun_to_sky = SunToSky(daylight);
+  summary_.measured.sun_to_sky = compositor::SunToSky(daylight);
   summary_.measured.sun_shines = Luminance(sun) > 0.0;
   const LinearRgb ground = sky + sun * std::max(0.0, light->sun.ToSun().xyz.z);
   const double white = scene_.marker.albedo_white / std::numbers::pi;

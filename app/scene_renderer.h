@@ -7,11 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/day_skies.h"
-#include "app/gain_history.h"
 #include "app/given_light.h"
-#include "app/light_look.h"
-#include "app/measured_sky.h"
 #include "app/scene_edit.h"
 #include "app/scene_light.h"
 #include "base/camera_model.h"
@@ -25,8 +21,12 @@
 #include "compositor/light/light_solver.h"
 #include "compositor/light_meter.h"
 #include "compositor/occluder_mask.h"
+#include "compositor/photometry/day_skies.h"
+#include "compositor/photometry/gain_filter.h"
+#include "compositor/photometry/light_estimator.h"
+#include "compositor/photometry/sky_fit.h"
+#include "compositor/photometry/surface_samples.h"
 #include "compositor/picture_look.h"
-#include "compositor/surface_samples.h"
 #include "scene/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun/sun_position.h"
@@ -55,7 +55,7 @@ struct LightSummary {
   double print_lit_share = 0.0;
   /// Blur and grain of the last frames; nothing where they are not matched or cannot be read.
   std::optional<compositor::PictureLook> look;
-  MeasuredLight measured;  ///< Sun, sky and heading.
+  compositor::MeasuredLight measured;  ///< Sun, sky and heading.
 };
 
 /// Share of the readings in which leaves shade the print; 0 without any.
@@ -167,9 +167,9 @@ class SceneRenderer {
   scene::SceneDescription scene_;
   scene::MarkerPrint print_;
   LightOptions options_;  // Without a cache rays are traced for every place of the sun.
-  DaySkies skies_;
+  compositor::DaySkies skies_;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
-  std::unique_ptr<LightLook> look_;  // What was seen of the light so far.
+  std::unique_ptr<compositor::LightLook> look_;  // What was seen of the light so far.
   std::vector<compositor::PlacedModel> placed_;
   std::shared_ptr<const compositor::LightSolver> solver_;
   std::unique_ptr<compositor::Composer> composer_;
@@ -179,7 +179,7 @@ class SceneRenderer {
   bool heading_is_edited_ = false;
   bool hold_gain_ = false;
   bool light_from_outside_ = false;
-  GainHistory gains_;
+  compositor::GainHistory gains_;
   LinearRgb guessed_gain_;
   int frames_to_look_ = 0;  // Until the blur is measured again.
   std::deque<compositor::PictureLook> recent_looks_;

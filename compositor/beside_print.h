@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "compositor/surface_samples.h"
+#include "compositor/photometry/surface_samples.h"
 
 namespace pleinair::compositor {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/quantile.h"
-#include "compositor/linear_sample.h"
+#include "compositor/photometry/linear_sampling.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -12,7 +12,7 @@
 #include "compositor/light/light_solver.h"
 #include "compositor/light/scaled_sky.h"
 #include "compositor/light_meter.h"
-#include "compositor/surface_samples.h"
+#include "compositor/photometry/surface_samples.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {

@@ -6,7 +6,7 @@
 #include "base/frames.h"
 #include "base/vector.h"
 #include "compositor/light/light_solver.h"
-#include "compositor/shadow_contrast.h"
+#include "compositor/photometry/sun_sky_ratio.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {

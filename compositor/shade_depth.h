@@ -2,7 +2,7 @@
 
 #include "base/vector.h"
 #include "compositor/light/light_solver.h"
-#include "compositor/shadow_contrast.h"
+#include "compositor/photometry/sun_sky_ratio.h"
 #include "compositor/unmodelled_shade.h"
 #include "sky/sky_model.h"
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "app/day_skies.h"
+#include "compositor/photometry/day_skies.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 
@@ -151,9 +151,9 @@ bool LiveLight::NeedsLight(const Wanted& wanted) const {
 }
 
 /// What the user says of sun and sky, where he does, under the sun of a moment.
-void LiveLight::UseGivenSky(UtcTime time, DaySkies* skies) const {
-  const auto given =
-      GivenSky(setup_.scene, setup_.light.overrides, scene::SunOver(setup_.scene.place_time, time));
+void LiveLight::UseGivenSky(UtcTime time, compositor::DaySkies* skies) const {
+  const auto given = compositor::GivenSky(setup_.scene, setup_.light.overrides,
+                                          scene::SunOver(setup_.scene.place_time, time));
   if (!given) return;
   skies->source = given->skies;
   skies->scale = given->sky_scale;
@@ -214,8 +214,9 @@ void LiveLight::Look(const Shown& shown, const Wanted& wanted) {
     return;
   }
   if (!look_) {
-    look_ = std::make_unique<LightLook>(solver_, setup_.camera, wanted.print, setup_.scene,
-                                        setup_.light.overrides, shown.time, setup_.response);
+    look_ = std::make_unique<compositor::LightLook>(solver_, setup_.camera, wanted.print,
+                                                    setup_.scene, setup_.light.overrides,
+                                                    shown.time, setup_.response);
   }
   look_->Add(shown.frame->rgb.view(), shown.camera_from_marker);
   {
@@ -223,7 +224,7 @@ void LiveLight::Look(const Shown& shown, const Wanted& wanted) {
     progress_.frames_in_look = look_->frames();
   }
   if (look_->frames() < kLightFrames) return;
-  const FoundLight found = look_->Settle(&memory_);
+  const compositor::FoundLight found = look_->Settle(&memory_);
   look_.reset();
   found_skies_ = found.skies;
   if (found_skies_.source) UseGivenSky(shown.time, &found_skies_);

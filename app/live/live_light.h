@@ -8,16 +8,16 @@
 #include <thread>
 #include <vector>
 
-#include "app/day_skies.h"
 #include "app/given_light.h"
-#include "app/light_look.h"
-#include "app/light_memory.h"
 #include "app/scene_edit.h"
 #include "app/scene_light.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/utc_time.h"
 #include "compositor/light/daylight/coefficient_worker.h"
+#include "compositor/photometry/day_skies.h"
+#include "compositor/photometry/light_estimator.h"
+#include "compositor/photometry/light_filter.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
 
@@ -38,7 +38,7 @@ class LiveLight {
     std::vector<compositor::PlacedModel> placed;  ///< Phantoms, then objects.
     LightOptions light;
     SceneEdit edit;
-    DaySkies skies;  ///< As stated.
+    compositor::DaySkies skies;  ///< As stated.
     UtcTime time;
     CameraResponse response = {};
   };
@@ -61,7 +61,7 @@ class LiveLight {
 
   /// How the work is going.
   struct Progress {
-    MeasuredLight measured;
+    compositor::MeasuredLight measured;
     double heading_deg = 0.0;     ///< Of the marker, in use.
     int frames_in_look = 0;       ///< Looked at since the last measurement; 0: none is under way.
     double coefficients = 0.0;    ///< 0…1: share of the daylight coefficients that is computed.
@@ -94,7 +94,7 @@ class LiveLight {
   void WantCoefficients(const Wanted& wanted, compositor::CoefficientWorker* worker);
   void TakeCoefficients(const compositor::CoefficientWorker& worker);
   LightOrder OrderFor(const Wanted& wanted);
-  void UseGivenSky(UtcTime time, DaySkies* skies) const;
+  void UseGivenSky(UtcTime time, compositor::DaySkies* skies) const;
   bool MayLook(const Wanted& wanted) const;
 
   Setup setup_;  // Its places of models follow the edits.
@@ -106,12 +106,13 @@ class LiveLight {
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
   double coefficients_convergence_ = 0.0;
   std::shared_ptr<const compositor::LightSolver> wanted_for_;  // Their scene, ordered.
-  DaySkies skies_;
+  compositor::DaySkies skies_;
   std::optional<SceneEdit::Sky> skies_of_;  // The edit's air that they were made for.
-  LightMemory memory_;  // Of the looks so far; heading and skies are its last conclusions.
-  DaySkies found_skies_;
+  compositor::LightMemory
+      memory_;  // Of the looks so far; heading and skies are its last conclusions.
+  compositor::DaySkies found_skies_;
   Radians heading_;
-  std::unique_ptr<LightLook> look_;
+  std::unique_ptr<compositor::LightLook> look_;
   std::optional<Wanted> made_for_;
   sky::SunPosition made_sun_;
 

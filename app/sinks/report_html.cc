@@ -90,8 +90,8 @@ std::string PlusMinus(const std::optional<double>& relative_error) {
   return relative_error ? fmt::format(", ± {:.0f} %", *relative_error * 100) : "";
 }
 
-std::string MeasuredCards(const MeasuredLight& light) {
-  using Source = MeasuredLight::Source;
+std::string MeasuredCards(const compositor::MeasuredLight& light) {
+  using Source = compositor::MeasuredLight::Source;
   const std::string sun = light.sun_shines ? fmt::format("{:.2f}", light.sun_to_sky) : "no sun";
   std::string from = "sun over sky on level ground, as the scene says";
   if (light.sun_source == Source::kOverride)

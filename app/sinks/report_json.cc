@@ -20,17 +20,17 @@ std::string Dump(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-const char* SourceName(MeasuredLight::Source source) {
+const char* SourceName(compositor::MeasuredLight::Source source) {
   switch (source) {
-    case MeasuredLight::Source::kStated:
+    case compositor::MeasuredLight::Source::kStated:
       return "stated";
-    case MeasuredLight::Source::kMeasured:
+    case compositor::MeasuredLight::Source::kMeasured:
       return "measured";
-    case MeasuredLight::Source::kShade:
+    case compositor::MeasuredLight::Source::kShade:
       return "shade";
-    case MeasuredLight::Source::kMarker:
+    case compositor::MeasuredLight::Source::kMarker:
       return "marker";
-    case MeasuredLight::Source::kOverride:
+    case compositor::MeasuredLight::Source::kOverride:
       return "option";
   }
   return "stated";
@@ -55,7 +55,7 @@ Json ColorJson(const LinearRgb& color) {
 /// Null: not known, which 0 would deny.
 Json IfKnown(bool known, double value) { return known ? Json(Rounded(value)) : Json(); }
 
-Json MeasuredJson(const MeasuredLight& light) {
+Json MeasuredJson(const compositor::MeasuredLight& light) {
   return {{"sun_shines", light.sun_shines},
           {"sun_to_sky", Rounded(light.sun_to_sky)},
           {"sun_to_sky_relative_error",

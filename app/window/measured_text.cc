@@ -4,8 +4,9 @@
 
 namespace pleinair::app {
 
-std::string MeasuredSunText(const MeasuredLight& drawn, const MeasuredLight& measured) {
-  using Source = MeasuredLight::Source;
+std::string MeasuredSunText(const compositor::MeasuredLight& drawn,
+                            const compositor::MeasuredLight& measured) {
+  using Source = compositor::MeasuredLight::Source;
   const auto from = [&]() -> std::string {
     switch (measured.sun_source) {
       case Source::kMeasured:
@@ -26,8 +27,8 @@ std::string MeasuredSunText(const MeasuredLight& drawn, const MeasuredLight& mea
                      drawn.sun_to_sky * measured.sun_to_sky_error.value_or(0.0), from);
 }
 
-std::string MeasuredHeadingText(const MeasuredLight& measured) {
-  if (measured.heading_source != MeasuredLight::Source::kMeasured) return "";
+std::string MeasuredHeadingText(const compositor::MeasuredLight& measured) {
+  if (measured.heading_source != compositor::MeasuredLight::Source::kMeasured) return "";
   return fmt::format("measured: {:+.2f}° ± {:.2f}° from the stated one",
                      ToDegrees(measured.heading_offset),
                      ToDegrees(measured.heading_error.value_or(Radians())));

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/measured_sky.h"
+#include "compositor/photometry/sky_fit.h"
 
 namespace pleinair::app {
 
@@ -10,8 +10,9 @@ namespace pleinair::app {
 // empty where they have not told.
 
 /// `drawn`: sun and sky that the picture is lit by; `measured`: from what, and how well.
-std::string MeasuredSunText(const MeasuredLight& drawn, const MeasuredLight& measured);
+std::string MeasuredSunText(const compositor::MeasuredLight& drawn,
+                            const compositor::MeasuredLight& measured);
 
-std::string MeasuredHeadingText(const MeasuredLight& measured);
+std::string MeasuredHeadingText(const compositor::MeasuredLight& measured);
 
 }  // namespace pleinair::app

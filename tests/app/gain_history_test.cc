@@ -1,4 +1,4 @@
-#include "app/gain_history.h"
+#include "compositor/photometry/gain_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +10,12 @@ namespace {
 constexpr LinearRgb kGain{0.002, 0.001, 0.003};
 constexpr LinearRgb kError{0.01, 0.02, 0.03};  // Of each reading, relative.
 
-void Add(int count, const LinearRgb& gain, GainHistory* history) {
+void Add(int count, const LinearRgb& gain, compositor::GainHistory* history) {
   for (int i = 0; i < count; ++i) history->Add(gain, kError);
 }
 
 TEST(GainHistory, KeepsTheMedianOfTheLastFifteenReadings) {
-  GainHistory history;
+  compositor::GainHistory history;
   EXPECT_TRUE(history.empty());
   history.Add(kGain, kError);
   EXPECT_FALSE(history.empty());
@@ -28,7 +28,7 @@ TEST(GainHistory, KeepsTheMedianOfTheLastFifteenReadings) {
 }
 
 TEST(GainHistory, TakesEachChannelByItself) {
-  GainHistory history;
+  compositor::GainHistory history;
   history.Add({3.0, 1.0, 2.0}, kError);
   history.Add({1.0, 2.0, 3.0}, kError);
   history.Add({2.0, 3.0, 1.0}, kError);
@@ -38,7 +38,7 @@ TEST(GainHistory, TakesEachChannelByItself) {
 }
 
 TEST(GainHistory, TellsHowMuchTheGainChanged) {
-  GainHistory history;
+  compositor::GainHistory history;
   EXPECT_DOUBLE_EQ(history.Change(), 1.0);
   Add(5, kGain, &history);
   EXPECT_DOUBLE_EQ(history.Change(), 1.0);
@@ -50,7 +50,7 @@ TEST(GainHistory, TellsHowMuchTheGainChanged) {
 }
 
 TEST(GainHistory, IsNotMisledByAHandOrAHighlight) {
-  GainHistory history;
+  compositor::GainHistory history;
   for (int i = 0; i < 10; ++i) {
     Add(2, kGain * (i % 2 == 0 ? 4.0 : 0.1), &history);
     Add(3, kGain, &history);
@@ -60,13 +60,13 @@ TEST(GainHistory, IsNotMisledByAHandOrAHighlight) {
 }
 
 TEST(GainHistory, TellsHowCertainItsMedianIs) {
-  GainHistory history;
+  compositor::GainHistory history;
   Add(1, kGain, &history);
   EXPECT_DOUBLE_EQ(history.Error().r, kError.r) << "a single reading's own";
   Add(14, kGain, &history);
   EXPECT_DOUBLE_EQ(history.Error().g, kError.g) << "frames share what is wrong of a print";
   // Five of fifteen above and five below by 8 %: a median deviation of 8 % in green alone.
-  GainHistory scattered;
+  compositor::GainHistory scattered;
   for (int i = 0; i < 5; ++i) {
     for (const double off : {0.92, 1.0, 1.08}) {
       scattered.Add({kGain.r, kGain.g * off, kGain.b}, kError);

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <vector>
 
-#include "app/day_skies.h"
-#include "app/light_memory.h"
+#include "compositor/photometry/day_skies.h"
+#include "compositor/photometry/light_filter.h"
 
 namespace pleinair::app {
 namespace {
 
-using Source = MeasuredLight::Source;
+using Source = compositor::MeasuredLight::Source;
 
 UtcTime Minute(double minutes) { return UtcTime(0).PlusSeconds(60.0 * minutes); }
 
 TEST(DriftingNumber, CombinesByInverseVariances) {
-  DriftingNumber number(0.0);
+  compositor::DriftingNumber number(0.0);
   EXPECT_EQ(number.Add(1.0, 0.1, Minute(0)), 1.0) << "the first counts alone";
   EXPECT_NEAR(number.Add(1.3, 0.2, Minute(1)), 0.2, 1e-9);
   EXPECT_NEAR(number.value(), 1.06, 1e-9);
@@ -24,7 +24,7 @@ TEST(DriftingNumber, CombinesByInverseVariances) {
 
 TEST(DriftingNumber, TrustsTheOldTheLessTheOlderItIs) {
   const auto weight = [](double minutes) {
-    DriftingNumber number(0.1);
+    compositor::DriftingNumber number(0.1);
     number.Add(1.0, 0.1, Minute(10));
     return number.Add(1.2, 0.1, Minute(10 + minutes));
   };
@@ -35,9 +35,9 @@ TEST(DriftingNumber, TrustsTheOldTheLessTheOlderItIs) {
 }
 
 TEST(DriftingNumber, TakesWhatContradictsItInItsPlace) {
-  DriftingNumber number(0.0);
+  compositor::DriftingNumber number(0.0);
   number.Add(1.0, 0.1, Minute(0));
-  DriftingNumber other = number;
+  compositor::DriftingNumber other = number;
   const double limit = 3 * std::hypot(0.1, 0.1);
   EXPECT_LT(number.Add(1.0 + 0.99 * limit, 0.1, Minute(1)), 1.0);
   EXPECT_EQ(other.Add(1.0 - 1.01 * limit, 0.1, Minute(1)), 1.0);
@@ -46,12 +46,12 @@ TEST(DriftingNumber, TakesWhatContradictsItInItsPlace) {
 }
 
 TEST(LightMemory, LeavesToTheWordsWhatNoLookHasToldYet) {
-  const LightMemory memory;
+  const compositor::LightMemory memory;
   EXPECT_FALSE(memory.Heading(Minute(0)));
   EXPECT_FALSE(memory.SkyBesideSun(Minute(0)));
   EXPECT_FALSE(memory.SawClouds());
-  MeasuredLight light;
-  DaySkies skies;
+  compositor::MeasuredLight light;
+  compositor::DaySkies skies;
   memory.Recall(Minute(0), &light, &skies);
   EXPECT_EQ(light.sun_source, Source::kStated);
   EXPECT_EQ(skies.source, nullptr);
@@ -59,7 +59,7 @@ TEST(LightMemory, LeavesToTheWordsWhatNoLookHasToldYet) {
 
 TEST(LightMemory, SmoothsNoise) {
   // Readings of one and the same, that err to either side.
-  LightMemory memory;
+  compositor::LightMemory memory;
   double worst_heading_deg = 0.0, worst_log = 0.0;
   for (int minute = 0; minute < 20; ++minute) {
     const double side = minute % 2 == 0 ? 1.0 : -1.0;
@@ -69,7 +69,7 @@ TEST(LightMemory, SmoothsNoise) {
     if (minute < 5) continue;
     worst_heading_deg = std::max(
         worst_heading_deg, std::fabs(ToDegrees(memory.Heading(Minute(minute))->offset) + 3.0));
-    const SkyScale known = *memory.SkyBesideSun(Minute(minute));
+    const compositor::SkyScale known = *memory.SkyBesideSun(Minute(minute));
     worst_log = std::max(worst_log, std::fabs(std::log(known.scale.g / 1.5)));
     EXPECT_NEAR(known.scale.b, 1.2 * known.scale.g, 1e-9) << "a colour stays one";
     EXPECT_LT(known.relative_error, 0.12);
@@ -79,19 +79,19 @@ TEST(LightMemory, SmoothsNoise) {
 }
 
 TEST(LightMemory, KeepsALightThatIsNotSeenAgain) {
-  LightMemory memory;
+  compositor::LightMemory memory;
   memory.AddHeading({FromDegrees(-3.0), FromDegrees(0.2)}, Minute(0));
   memory.AddSun({{1.5, 1.4, 1.3}, 0.06}, Minute(0));
-  MeasuredLight measured;
+  compositor::MeasuredLight measured;
   measured.sun_source = Source::kShade;
   measured.shade_places = 7;
   measured.shaded = 0.3;
-  memory.Keep(measured, {OvercastSky(), {1.5, 1.4, 1.3}});
+  memory.Keep(measured, {compositor::OvercastSky(), {1.5, 1.4, 1.3}});
   EXPECT_EQ(ToDegrees(memory.Heading(Minute(5))->offset), -3.0);
   EXPECT_NEAR(ToDegrees(memory.Heading(Minute(5))->error), std::sqrt(0.04 + 5 * 0.01), 1e-9);
   EXPECT_EQ(memory.SkyBesideSun(Minute(5))->scale, (LinearRgb{1.5, 1.4, 1.3}));
-  MeasuredLight light;
-  DaySkies skies;
+  compositor::MeasuredLight light;
+  compositor::DaySkies skies;
   memory.Recall(Minute(5), &light, &skies);
   EXPECT_EQ(light.sun_source, Source::kShade);
   EXPECT_EQ(light.shade_places, 7);
@@ -103,7 +103,7 @@ TEST(LightMemory, KeepsALightThatIsNotSeenAgain) {
 TEST(LightMemory, FollowsTheWeatherWithinTwoLooks) {
   // Haze: less than a contradiction, and more.
   for (const double change : {1.2, 2.0}) {
-    LightMemory memory;
+    compositor::LightMemory memory;
     for (const int minute : {0, 1, 2}) memory.AddSun({{1.0, 1.0, 1.0}, 0.08}, Minute(minute));
     for (const int minute : {3, 4}) {
       memory.AddSun({{change, change, change}, 0.08}, Minute(minute));
@@ -113,7 +113,7 @@ TEST(LightMemory, FollowsTheWeatherWithinTwoLooks) {
 }
 
 TEST(LightMemory, TheNewestLookThatToldSaysWhetherTheSunShines) {
-  LightMemory memory;
+  compositor::LightMemory memory;
   memory.AddSun({{1.5, 1.5, 1.5}, 0.06}, Minute(0));
   memory.AddClouds();
   EXPECT_TRUE(memory.SawClouds());

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/day_skies.h"
 #include "app/live/live_light.h"
+#include "compositor/photometry/day_skies.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 #include "tests/app/small_camera.h"
@@ -41,7 +41,7 @@ LiveLight::Setup BoxOnGround() {
       compositor::testing::Phantom(Ground(0.6, {0.3F, 0.3F, 0.3F})),
       compositor::testing::Object(BoxModel({0, 0, 0}, {0.3, 0.3, 0.3}, {0.5F, 0.4F, 0.3F}))};
   setup.edit = UneditedScene(setup.scene, {});
-  setup.skies.source = StatedSky(setup.scene);
+  setup.skies.source = compositor::StatedSky(setup.scene);
   setup.time = *UtcTime::Parse(kNoon);
   return setup;
 }
@@ -127,8 +127,8 @@ std::shared_ptr<const SceneLight> Await(LiveLight& light, const Condition& is_wa
   }
 }
 
-double SunToSkyOf(const DaySkies& skies, const SceneLight& at) {
-  return SunToSky(compositor::ScaledDaylight(
+double SunToSkyOf(const compositor::DaySkies& skies, const SceneLight& at) {
+  return compositor::SunToSky(compositor::ScaledDaylight(
       *skies.source->ForSun(at.sun.ToSun(), at.sun.distance_au), skies.scale, {1.0, 1.0, 1.0}));
 }
 
@@ -189,7 +189,7 @@ class LiveYard {
     setup.placed.push_back(compositor::testing::Object(
         compositor::testing::BoxModel({2.4, -2.5, 0.0}, {2.5, -2.4, 0.1}, {0.5F, 0.5F, 0.5F})));
     setup.edit = UneditedScene(setup.scene, {});
-    setup.skies.source = StatedSky(setup.scene);
+    setup.skies.source = compositor::StatedSky(setup.scene);
     setup.time = time_;
     light_ = *LiveLight::Create(setup);
     light_->SetPrint(yard_.print());
@@ -229,22 +229,23 @@ class LiveYard {
 TEST(LiveLight, KeepsWhatFramesToldWhenTheNextOnesTellNothing) {
   constexpr double kOffDeg = 3.0;
   LiveYard live(kOffDeg);
-  using Source = MeasuredLight::Source;
+  using Source = compositor::MeasuredLight::Source;
   const auto told = live.LookAt(live.yard().Photograph(0, {.sky_scale = {2.5, 2.5, 2.5}}));
-  const MeasuredLight measured = live.progress().measured;
+  const compositor::MeasuredLight measured = live.progress().measured;
   ASSERT_EQ(measured.heading_source, Source::kMeasured);
   EXPECT_NEAR(ToDegrees(measured.heading_offset), -kOffDeg, 0.5);
   ASSERT_EQ(measured.sun_source, Source::kMeasured);
   RgbImage blinded(live.yard().camera().width, live.yard().camera().height, 3);
   std::fill_n(blinded.data(), blinded.size(), std::uint8_t{255});
   const auto blind = live.LookAt(blinded);
-  const MeasuredLight kept = live.progress().measured;
+  const compositor::MeasuredLight kept = live.progress().measured;
   EXPECT_EQ(blind->order.marker.heading.value(), told->order.marker.heading.value());
   const double ratio = SunToSkyOf(told->order.skies, *told);
   EXPECT_NEAR(SunToSkyOf(blind->order.skies, *told), ratio, 0.02 * ratio);
   scene::SceneDescription clear;
   clear.cloudiness = scene::Cloudiness::kClear;
-  EXPECT_GT(SunToSkyOf({StatedSky(clear)}, *told), 1.3 * ratio) << "it was not as the words say";
+  EXPECT_GT(SunToSkyOf({compositor::StatedSky(clear)}, *told), 1.3 * ratio)
+      << "it was not as the words say";
   EXPECT_EQ(kept.heading_source, Source::kMeasured);
   EXPECT_GT(kept.heading_error, measured.heading_error) << "as old as it is";
   EXPECT_EQ(kept.sun_source, Source::kMeasured);

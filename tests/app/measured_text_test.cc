@@ -5,10 +5,10 @@
 namespace pleinair::app {
 namespace {
 
-using Source = MeasuredLight::Source;
+using Source = compositor::MeasuredLight::Source;
 
 TEST(MeasuredText, SaysHowWellSunAndHeadingAreKnown) {
-  MeasuredLight drawn, measured;
+  compositor::MeasuredLight drawn, measured;
   drawn.sun_to_sky = 4.0;
   EXPECT_EQ(MeasuredSunText(drawn, measured), "") << "nothing was measured";
   EXPECT_EQ(MeasuredHeadingText(measured), "");

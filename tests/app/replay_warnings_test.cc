@@ -80,14 +80,14 @@ TEST(LightWarnings, SayWhatTheLightCannotBe) {
   LightSummary light;
   light.sun.elevation = FromDegrees(30);
   EXPECT_THAT(LightWarnings(light), IsEmpty());
-  light.measured.sun_source = MeasuredLight::Source::kMeasured;
+  light.measured.sun_source = compositor::MeasuredLight::Source::kMeasured;
   light.measured.sun_shines = false;
   light.measured.sun_to_sky_stated = 4.0;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("Planes are lit as no sun")));
   light.measured.edges = light.measured.edges_agreeing = 9;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("(9 places looked at)")));
   light.measured = {};
-  light.measured.sun_source = MeasuredLight::Source::kMarker;
+  light.measured.sun_source = compositor::MeasuredLight::Source::kMarker;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("shadow's edge divides the marker")));
   light.measured.sun_to_sky_stated = 4.0;
   EXPECT_THAT(LightWarnings(light), IsEmpty());

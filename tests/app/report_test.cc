@@ -100,7 +100,7 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
   EXPECT_TRUE(nlohmann::json::accept(ReportJson(report)));
 }
 
-using Source = MeasuredLight::Source;
+using Source = compositor::MeasuredLight::Source;
 
 /// A sun, a heading and a gain that frames told of.
 LightSummary MeasuredSummary() {

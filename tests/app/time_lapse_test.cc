@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/measured_sky.h"
+#include "compositor/photometry/sky_fit.h"
 #include "tests/compositor/light_scenes.h"
 
 namespace pleinair::app {
@@ -86,7 +86,7 @@ class DayOfABox : public ::testing::Test {
     LightOrder order{scene.place_time.start,
                      scene.place_time,
                      {},
-                     {StatedSky(scene)},
+                     {compositor::StatedSky(scene)},
                      *std::move(solver),
                      {},
                      {},

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/plane_contrast.h"
+#include "compositor/photometry/heading_from_shadows.h"
+#include "compositor/photometry/overcast_test.h"
+#include "compositor/photometry/sun_sky_ratio.h"
 #include "compositor/print_shadow.h"
-#include "compositor/shadow_contrast.h"
-#include "compositor/shadow_heading.h"
 #include "tests/compositor/gentle_response.h"
 #include "tests/compositor/shadow_light_yard.h"
 
@@ -158,7 +158,7 @@ TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
   const double veiled = contrast(*yard_, {.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled, 0.3);
   // This sun lights tops and the sides in view nearly alike: more than none does, too little to
-  // doubt an overcast sky (app/light_look.cc: 0.6).
+  // doubt an overcast sky (compositor/photometry/light_estimator.cc: 0.6).
   EXPECT_GT(contrast(*yard_, {}), veiled + 0.2);
   EXPECT_LT(contrast(*yard_, {}), 0.6);
   // High over the yard, or behind what is in view, it is told.

@@ -5,8 +5,8 @@
 #include "base/image.h"
 #include "base/srgb.h"
 #include "base/vector.h"
-#include "compositor/shadow_contrast.h"
-#include "compositor/surface_samples.h"
+#include "compositor/photometry/sun_sky_ratio.h"
+#include "compositor/photometry/surface_samples.h"
 #include "tests/compositor/photographed_yard.h"
 
 namespace pleinair::compositor::testing {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "compositor/light/sun_transmittance_map.h"
+#include "compositor/photometry/heading_from_shadows.h"
+#include "compositor/photometry/sun_sky_ratio.h"
 #include "compositor/shade_depth.h"
-#include "compositor/shadow_contrast.h"
-#include "compositor/shadow_heading.h"
 #include "tests/compositor/shadow_light_yard.h"
 
 namespace pleinair::compositor {

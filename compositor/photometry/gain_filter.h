@@ -5,7 +5,7 @@
 
 #include "base/vector.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 
 /// The camera's gain (display-linear value per cd/m², per channel) from what the marker told in
 /// one frame after the other, and how much it changed meanwhile.
@@ -43,4 +43,4 @@ class GainHistory {
   LinearRgb least_, most_;  // Of the medians of five.
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

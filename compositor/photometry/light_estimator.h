@@ -4,20 +4,20 @@
 #include <memory>
 #include <vector>
 
-#include "app/day_skies.h"
-#include "app/light_memory.h"
-#include "app/measured_sky.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/image.h"
 #include "compositor/light_meter.h"
+#include "compositor/photometry/day_skies.h"
+#include "compositor/photometry/light_filter.h"
+#include "compositor/photometry/sky_fit.h"
+#include "compositor/photometry/sun_sky_ratio.h"
+#include "compositor/photometry/surface_samples.h"
 #include "compositor/print_shadow.h"
-#include "compositor/shadow_contrast.h"
-#include "compositor/surface_samples.h"
 #include "compositor/unmodelled_shade.h"
 #include "scene/scene_description.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 
 /// What frames have told of the light.
 struct FoundLight {
@@ -32,7 +32,7 @@ struct FoundLight {
 class LightLook {
  public:
   /// `scene`: with the stated or overriding heading.
-  LightLook(std::shared_ptr<const compositor::LightSolver> solver, const CameraModel& camera,
+  LightLook(std::shared_ptr<const LightSolver> solver, const CameraModel& camera,
             const scene::MarkerPrint& print, const scene::SceneDescription& scene,
             const LightOverrides& overrides, UtcTime time, const CameraResponse& response);
 
@@ -45,27 +45,27 @@ class LightLook {
 
  private:
   /// The heading, with what it makes of the shadows' edges.
-  compositor::SunSkyReading SettleHeading(LightMemory* memory, FoundLight* found) const;
-  void TakeShade(compositor::UnmodelledShade shade, FoundLight* found) const;
+  SunSkyReading SettleHeading(LightMemory* memory, FoundLight* found) const;
+  void TakeShade(UnmodelledShade shade, FoundLight* found) const;
   /// Whether a shadow's edge divides the print, not only in a frame now and then. Under words that
   /// have no sun the ground must show some such edge as well: a print may be wet or dirty.
-  bool IsPrintDivided(const compositor::UnmodelledShade& shade) const;
+  bool IsPrintDivided(const UnmodelledShade& shade) const;
   void UseHeading(const LightMemory& memory, FoundLight* found) const;
   /// Where nothing is to be measured: whether anything but phantoms shades the ground all the same.
   void SettleAsStated(FoundLight* found) const;
 
-  std::shared_ptr<const compositor::LightSolver> solver_;
+  std::shared_ptr<const LightSolver> solver_;
   CameraModel camera_;
   scene::SceneDescription scene_;
   LightOverrides overrides_;
   UtcTime time_;
   sky::SunPosition sun_;
   std::unique_ptr<sky::SkyModel> day_;  // With a sun, whatever the scene says.
-  compositor::SurfaceSamples samples_;
-  compositor::LightMeter meter_;
-  int dappled_ = 0;                                     // Frames in which leaves shade the print.
-  std::vector<compositor::PrintShadow> print_shadows_;  // One a frame whose print is divided.
-  LinearRgb gain_{1.0, 1.0, 1.0};                       // Of the last frame that could be metered.
+  SurfaceSamples samples_;
+  LightMeter meter_;
+  int dappled_ = 0;                         // Frames in which leaves shade the print.
+  std::vector<PrintShadow> print_shadows_;  // One a frame whose print is divided.
+  LinearRgb gain_{1.0, 1.0, 1.0};           // Of the last frame that could be metered.
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

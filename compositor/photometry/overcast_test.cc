@@ -1,4 +1,4 @@
-#include "compositor/plane_contrast.h"
+#include "compositor/photometry/overcast_test.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
-#include "compositor/surface_samples.h"
+#include "compositor/photometry/surface_samples.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "compositor/linear_sample.h"
+#include "compositor/photometry/linear_sampling.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "base/utc_time.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 
 /// A number that is measured again and again while it changes slowly. Measurements are combined by
 /// their uncertainties; what was known counts the less the older it is. A measurement that
@@ -31,4 +31,4 @@ class DriftingNumber {
   UtcTime time_;  // Of the variance.
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

@@ -1,10 +1,10 @@
-#include "app/light_memory.h"
+#include "compositor/photometry/light_filter.h"
 
 #include <cmath>
 
-#include "app/day_skies.h"
+#include "compositor/photometry/day_skies.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 namespace {
 
 LinearRgb Log(LinearRgb c) { return {std::log(c.r), std::log(c.g), std::log(c.b)}; }
@@ -61,4 +61,4 @@ void LightMemory::Recall(UtcTime time, MeasuredLight* light, DaySkies* skies) co
   *skies = skies_;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

@@ -6,13 +6,13 @@
 
 #include "base/units.h"
 #include "base/vector.h"
-#include "compositor/shadow_contrast.h"
-#include "compositor/shadow_heading.h"
+#include "compositor/photometry/heading_from_shadows.h"
+#include "compositor/photometry/sun_sky_ratio.h"
 #include "scene/scene_description.h"
 #include "sky/sky_model.h"
 #include "sky/sun/sun_position.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 
 /// Of a sun in the blackest sky that there is: high mountains have 10.
 inline constexpr double kHighestSunToSky = 20.0;
@@ -23,7 +23,7 @@ struct LightOverrides {
   bool as_stated = false;
   std::optional<double> sun_to_sky;  ///< Sun's illuminance of level ground over the sky's; 0: none.
   std::optional<double> heading_deg;  ///< Of the marker, as in the scene.
-  /// Where light is gathered, at most (compositor::LightSolverOptions).
+  /// Where light is gathered, at most (LightSolverOptions).
   std::optional<std::size_t> max_patches;
 };
 
@@ -43,7 +43,7 @@ struct MeasuredLight {
   std::optional<Radians> heading_error;  ///< One standard deviation; nothing where not measured.
   int frames = 0;                        ///< Looked at.
   int edges = 0, edges_agreeing = 0;
-  double edges_with_contrast = 0.0;  ///< compositor::SunSkyReading::share_with_contrast.
+  double edges_with_contrast = 0.0;  ///< SunSkyReading::share_with_contrast.
   int shade_places = 0;              ///< That the depth of trees' shade was read from; of kShade.
   /// No shadow lies where phantoms would cast one, yet there are shadows: neither sun nor overcast
   /// is concluded, nor what lies in shade.
@@ -82,7 +82,7 @@ struct SkyScale {
 };
 
 /// A measured scale, weighed against how sure the scene's words are.
-SkyScale WeighedScale(const compositor::SunSkyReading& reading, scene::Cloudiness stated);
+SkyScale WeighedScale(const SunSkyReading& reading, scene::Cloudiness stated);
 
 /// What is to be added to a stated heading.
 struct HeadingOffset {
@@ -91,9 +91,9 @@ struct HeadingOffset {
 };
 
 /// A measured turn of the heading, weighed against a compass.
-HeadingOffset WeighedHeading(const compositor::HeadingReading& reading);
+HeadingOffset WeighedHeading(const HeadingReading& reading);
 
 /// Sun on level ground over sky.
 double SunToSky(const sky::SkyModel& day);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

@@ -1,4 +1,4 @@
-#include "app/measured_sky.h"
+#include "compositor/photometry/sky_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "base/check.h"
 #include "sky/daylight.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 namespace {
 
 // Haze as thick as this veils a sun; beyond it, clouds do.
@@ -145,7 +145,7 @@ std::optional<MeasuredSky> GivenSky(const scene::SceneDescription& scene,
   return SkyScaledBesideSun(*day, {scale, scale, scale}, sun.distance_au);
 }
 
-SkyScale WeighedScale(const compositor::SunSkyReading& reading, scene::Cloudiness stated) {
+SkyScale WeighedScale(const SunSkyReading& reading, scene::Cloudiness stated) {
   const LinearRgb& s = reading.sky_scale;
   const double log_r = std::log(s.r), log_g = std::log(s.g), log_b = std::log(s.b);
   // Rec.709's weights, as everywhere for luminance.
@@ -161,11 +161,11 @@ SkyScale WeighedScale(const compositor::SunSkyReading& reading, scene::Cloudines
           reading.log_uncertainty * std::sqrt(share(doubt, reading.log_uncertainty))};
 }
 
-HeadingOffset WeighedHeading(const compositor::HeadingReading& reading) {
+HeadingOffset WeighedHeading(const HeadingReading& reading) {
   const double measured = ToDegrees(reading.uncertainty);
   const double trust = kHeadingDoubtDeg * kHeadingDoubtDeg /
                        (kHeadingDoubtDeg * kHeadingDoubtDeg + measured * measured);
   return {FromDegrees(ToDegrees(reading.offset) * trust), FromDegrees(measured * std::sqrt(trust))};
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

@@ -1,4 +1,4 @@
-#include "compositor/shadow_heading.h"
+#include "compositor/photometry/heading_from_shadows.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
-#include "app/drifting_number.h"
+#include "compositor/photometry/random_walk_filter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 namespace {
 
 // Beyond so many standard deviations a measurement contradicts what was known.
@@ -33,4 +33,4 @@ double DriftingNumber::Add(double value, double error, UtcTime time) {
   return weight;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

@@ -1,4 +1,4 @@
-#include "app/gain_history.h"
+#include "compositor/photometry/gain_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "base/quantile.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 namespace {
 
 // Long enough to still a flickering reading, short enough to follow a camera's automatic exposure.
@@ -69,4 +69,4 @@ double GainHistory::Change() const {
   return std::max({change.r, change.g, change.b});
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

@@ -1,4 +1,4 @@
-#include "app/light_look.h"
+#include "compositor/photometry/light_estimator.h"
 
 #include <algorithm>
 #include <array>
@@ -6,17 +6,17 @@
 #include <utility>
 
 #include "compositor/light/scaled_sky.h"
-#include "compositor/plane_contrast.h"
+#include "compositor/photometry/heading_from_shadows.h"
+#include "compositor/photometry/overcast_test.h"
+#include "compositor/photometry/sun_sky_ratio.h"
 #include "compositor/print_shade.h"
 #include "compositor/print_shadow.h"
 #include "compositor/shade_depth.h"
-#include "compositor/shadow_contrast.h"
-#include "compositor/shadow_heading.h"
 #include "compositor/unmodelled_shade.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 namespace {
 
 // Logarithmic, between planes of one material: what an overcast sky may leave unexplained.
@@ -40,21 +40,20 @@ constexpr LinearRgb kHazierSky{2.0, 2.0, 2.0};
 
 /// How planes agree with the words' sun beside each of kSkiesWithSun.
 template <typename Contrast>
-std::vector<compositor::PlaneContrast> SunlitContrasts(const Contrast& contrast_under,
-                                                       const sky::SkyModel& day) {
-  std::vector<compositor::PlaneContrast> contrasts;
+std::vector<PlaneContrast> SunlitContrasts(const Contrast& contrast_under,
+                                           const sky::SkyModel& day) {
+  std::vector<PlaneContrast> contrasts;
   contrasts.reserve(kSkiesWithSun.size());
   for (const double sky : kSkiesWithSun) {
     contrasts.push_back(
-        contrast_under(compositor::ScaledDaylight(day, LinearRgb{1, 1, 1} * sky, {1.0, 1.0, 1.0})));
+        contrast_under(ScaledDaylight(day, LinearRgb{1, 1, 1} * sky, {1.0, 1.0, 1.0})));
   }
   return contrasts;
 }
 
 /// Whether planes agree with an overcast sky and with none that has a sun: those of one material
 /// by themselves, or those of several materials by their stated colours.
-bool IsLitByCloudsAlone(const compositor::PlaneContrast& clouds,
-                        const std::vector<compositor::PlaneContrast>& sunlit) {
+bool IsLitByCloudsAlone(const PlaneContrast& clouds, const std::vector<PlaneContrast>& sunlit) {
   const bool within = clouds.within < kPlaneContrastUnderCloud &&
                       std::all_of(sunlit.begin(), sunlit.end(),
                                   [](const auto& sun) { return sun.within > kMostPlaneContrast; });
@@ -73,10 +72,9 @@ bool MayShine(scene::Cloudiness stated) {
 
 }  // namespace
 
-LightLook::LightLook(std::shared_ptr<const compositor::LightSolver> solver,
-                     const CameraModel& camera, const scene::MarkerPrint& print,
-                     const scene::SceneDescription& scene, const LightOverrides& overrides,
-                     UtcTime time, const CameraResponse& response)
+LightLook::LightLook(std::shared_ptr<const LightSolver> solver, const CameraModel& camera,
+                     const scene::MarkerPrint& print, const scene::SceneDescription& scene,
+                     const LightOverrides& overrides, UtcTime time, const CameraResponse& response)
     : solver_(std::move(solver)),
       camera_(camera),
       scene_(scene),
@@ -99,7 +97,7 @@ void LightLook::Add(ImageView<const std::uint8_t> rgb,
   samples_.AddFrame(rgb, camera_from_marker, gain_);
 }
 
-bool LightLook::IsPrintDivided(const compositor::UnmodelledShade& shade) const {
+bool LightLook::IsPrintDivided(const UnmodelledShade& shade) const {
   const auto divided = static_cast<int>(print_shadows_.size());
   return divided > 0 && divided >= std::min(kFewestDivided, samples_.frames()) &&
          2 * divided >= samples_.frames() && !shade.ShadesPrint() &&
@@ -113,21 +111,20 @@ void LightLook::SettleAsStated(FoundLight* found) const {
   // Without a sun there is no shade to be found.
   if (ratio <= 0.0 || overrides_.sun_to_sky.value_or(ratio) <= 0.0) return;
   const double sky_scale = ratio / overrides_.sun_to_sky.value_or(ratio);
-  const compositor::UnmodelledShade shade = compositor::FindUnmodelledShade(
-      *solver_, samples_, meter_, *day, scene::MarkerFromWorld(scene_.marker),
-      LinearRgb{1, 1, 1} * sky_scale);
+  const UnmodelledShade shade =
+      FindUnmodelledShade(*solver_, samples_, meter_, *day, scene::MarkerFromWorld(scene_.marker),
+                          LinearRgb{1, 1, 1} * sky_scale);
   if (shade.sunlit == 0) return;
   found->skies = {skies, {1.0, 1.0, 1.0}, shade.Matters()};
   found->measured.shaded = shade.shaded;
 }
 
 /// Where leaves and the like shade the ground, and whether they shade the print.
-void LightLook::TakeShade(compositor::UnmodelledShade shade, FoundLight* found) const {
-  found->skies.sunlight =
-      std::make_shared<const compositor::SeenSunlight>(std::move(shade.sunlight));
+void LightLook::TakeShade(UnmodelledShade shade, FoundLight* found) const {
+  found->skies.sunlight = std::make_shared<const SeenSunlight>(std::move(shade.sunlight));
   if (2 * dappled_ > samples_.frames() || shade.ShadesPrint()) {
     found->skies.print_shade =
-        compositor::PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
+        PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
   }
   found->measured.print_shade = std::exp(MeanLog(found->skies.print_shade));
 }
@@ -142,22 +139,21 @@ void LightLook::UseHeading(const LightMemory& memory, FoundLight* found) const {
       known ? MeasuredLight::Source::kMeasured : MeasuredLight::Source::kStated;
 }
 
-compositor::SunSkyReading LightLook::SettleHeading(LightMemory* memory, FoundLight* found) const {
+SunSkyReading LightLook::SettleHeading(LightMemory* memory, FoundLight* found) const {
   scene::MarkerDescription marker = scene_.marker;
   const Mat3 stated = scene::MarkerFromWorld(marker);
   LightMemory with_reading = *memory;
   if (!overrides_.heading_deg) {
     const Vec3 up = stated * Vec3{0.0, 0.0, 1.0};
-    if (const auto heading =
-            compositor::ReadHeading(*solver_, samples_, up, stated * day_->ToSun().xyz)) {
+    if (const auto heading = ReadHeading(*solver_, samples_, up, stated * day_->ToSun().xyz)) {
       with_reading.AddHeading(WeighedHeading(*heading), time_);
     }
   }
   UseHeading(with_reading, found);
   marker.heading = found->heading;
-  const compositor::SunSkyReading reading = compositor::ReadSunAndSky(
-      compositor::FindShadowEdges(*solver_, samples_, *day_, scene::MarkerFromWorld(marker)));
-  if (reading.sun == compositor::SunSkyReading::Sun::kShines) {
+  const SunSkyReading reading =
+      ReadSunAndSky(FindShadowEdges(*solver_, samples_, *day_, scene::MarkerFromWorld(marker)));
+  if (reading.sun == SunSkyReading::Sun::kShines) {
     *memory = with_reading;
   } else {
     // Without a sun it was not shadows that the heading was read from.
@@ -178,13 +174,13 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
     SettleAsStated(&found);
     return found;
   }
-  const compositor::SunSkyReading reading = SettleHeading(memory, &found);
-  using Sun = compositor::SunSkyReading::Sun;
+  const SunSkyReading reading = SettleHeading(memory, &found);
+  using Sun = SunSkyReading::Sun;
   scene::MarkerDescription marker = scene_.marker;
   marker.heading = found.heading;
   const auto shade_under = [&](LinearRgb sky_scale) {
-    return compositor::FindUnmodelledShade(*solver_, samples_, meter_, *day_,
-                                           scene::MarkerFromWorld(marker), sky_scale);
+    return FindUnmodelledShade(*solver_, samples_, meter_, *day_, scene::MarkerFromWorld(marker),
+                               sky_scale);
   };
   const bool overridden = overrides_.sun_to_sky.has_value();
   if (overridden && *overrides_.sun_to_sky <= 0.0) return found;
@@ -192,10 +188,10 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
   const auto known = overridden ? std::nullopt : memory->SkyBesideSun(time_);
   if (known && reading.sun != Sun::kShines) scale = known->scale;
   if (overridden) scale = LinearRgb{1, 1, 1} * (SunToSky(*day_) / *overrides_.sun_to_sky);
-  compositor::UnmodelledShade shade = shade_under(scale);
+  UnmodelledShade shade = shade_under(scale);
   const bool may_shine = MayShine(scene_.cloudiness);
   const auto plane_contrast = [&](const sky::SkyModel& day) {
-    return compositor::FindPlaneContrast(*solver_, samples_, day, scene::MarkerFromWorld(marker));
+    return FindPlaneContrast(*solver_, samples_, day, scene::MarkerFromWorld(marker));
   };
   const auto overcast = OvercastSky();
   const auto settle_overcast = [&] {
@@ -230,7 +226,7 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
     light.edges_agreeing = 0;
     return settle_overcast();
   }
-  const auto use_sun = [&](const compositor::SunSkyReading& seen) {
+  const auto use_sun = [&](const SunSkyReading& seen) {
     memory->AddSun(WeighedScale(seen, scene_.cloudiness), time_);
     const auto with_seen = memory->SkyBesideSun(time_);
     scale = with_seen->scale;
@@ -238,12 +234,12 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
   };
   if (!overridden && reading.sun == Sun::kShines) {
     light.sun_source = MeasuredLight::Source::kMeasured;
-    compositor::SunSkyReading edges = reading;
+    SunSkyReading edges = reading;
     if (shade.HidesEdges()) {
       // Half-light on the sunny side makes the sky look too strong, there and between the leaves:
       // the weaker counts.
-      const compositor::SunSkyReading depth =
-          compositor::ReadShadeDepth(*solver_, shade, *day_, scene::MarkerFromWorld(marker));
+      const SunSkyReading depth =
+          ReadShadeDepth(*solver_, shade, *day_, scene::MarkerFromWorld(marker));
       if (depth.sun == Sun::kShines && depth.sky_scale.g < reading.sky_scale.g) {
         edges = depth;
         light.sun_source = MeasuredLight::Source::kShade;
@@ -254,19 +250,18 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
     if (light.sun_source == MeasuredLight::Source::kShade) shade = shade_under(scale);
   } else if (!overridden) {
     // One material and a sharp edge: surer than the deepest of the trees' shade.
-    compositor::SunSkyReading seen;
+    SunSkyReading seen;
     if (IsPrintDivided(shade)) {
-      seen = compositor::ReadPrintShadow(*solver_, print_shadows_, *day_,
-                                         scene::MarkerFromWorld(marker));
+      seen = ReadPrintShadow(*solver_, print_shadows_, *day_, scene::MarkerFromWorld(marker));
     }
     if (seen.sun == Sun::kShines) {
       light.sun_source = MeasuredLight::Source::kMarker;
     } else {
       if (!may_shine || shade.sunlit == 0) return settle_as_before();
       // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
-      const compositor::UnmodelledShade probe = shade_under(kHazierSky);
+      const UnmodelledShade probe = shade_under(kHazierSky);
       if (probe.Matters()) {
-        seen = compositor::ReadShadeDepth(*solver_, probe, *day_, scene::MarkerFromWorld(marker));
+        seen = ReadShadeDepth(*solver_, probe, *day_, scene::MarkerFromWorld(marker));
       }
       if (seen.sun == Sun::kShines) {
         light.sun_source = MeasuredLight::Source::kShade;
@@ -293,4 +288,4 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
   return found;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

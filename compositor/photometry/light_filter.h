@@ -2,13 +2,13 @@
 
 #include <optional>
 
-#include "app/day_skies.h"
-#include "app/drifting_number.h"
-#include "app/measured_sky.h"
 #include "base/utc_time.h"
 #include "base/vector.h"
+#include "compositor/photometry/day_skies.h"
+#include "compositor/photometry/random_walk_filter.h"
+#include "compositor/photometry/sky_fit.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 
 /// What looks at frames have told of the light so far. A look that measures again is smoothed by
 /// the earlier ones (DriftingNumber); one that sees too little leaves theirs as they were. Only
@@ -52,4 +52,4 @@ class LightMemory {
   DaySkies skies_;
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor

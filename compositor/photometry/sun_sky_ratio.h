@@ -5,7 +5,7 @@
 #include "base/frames.h"
 #include "base/vector.h"
 #include "compositor/light/light_solver.h"
-#include "compositor/surface_samples.h"
+#include "compositor/photometry/surface_samples.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {

@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "base/vector.h"
 #include "compositor/light/light_solver.h"
-#include "compositor/surface_samples.h"
+#include "compositor/photometry/surface_samples.h"
 
 namespace pleinair::compositor {
 

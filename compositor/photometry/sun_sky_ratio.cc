@@ -1,4 +1,4 @@
-#include "compositor/shadow_contrast.h"
+#include "compositor/photometry/sun_sky_ratio.h"
 
 #include <algorithm>
 #include <array>

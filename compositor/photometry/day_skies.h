@@ -6,7 +6,7 @@
 #include "compositor/light/sun_transmittance_map.h"
 #include "sky/sky_model.h"
 
-namespace pleinair::app {
+namespace pleinair::compositor {
 
 /// Skies of a day whose light was measured or stated.
 struct DaySkies {
@@ -16,9 +16,9 @@ struct DaySkies {
   bool other_shade = true;
   /// How much of the sun these leave, across its rays; null: all. A light's own is null once the
   /// sun has left the place that the map was made for.
-  std::shared_ptr<const compositor::SeenSunlight> sunlight{};
+  std::shared_ptr<const SeenSunlight> sunlight{};
   /// To multiply the camera's gain with: above 1 where leaves shade all of the print.
   LinearRgb print_shade{1.0, 1.0, 1.0};
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::compositor
