@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/quantile.h"
-#include "compositor/beside_print.h"
+#include "compositor/photometry/marker/marker_surroundings.h"
 
 namespace pleinair::compositor {
 namespace {

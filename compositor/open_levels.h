@@ -11,7 +11,7 @@
 #include "base/vector.h"
 #include "compositor/light/light_solver.h"
 #include "compositor/light/scaled_sky.h"
-#include "compositor/light_meter.h"
+#include "compositor/photometry/marker/marker_light_meter.h"
 #include "compositor/photometry/surface_samples.h"
 #include "sky/sky_model.h"
 

@@ -7,10 +7,10 @@
 
 #include "compositor/light/scaled_sky.h"
 #include "compositor/photometry/heading_from_shadows.h"
+#include "compositor/photometry/marker/marker_shade.h"
+#include "compositor/photometry/marker/marker_shadow_edge.h"
 #include "compositor/photometry/overcast_test.h"
 #include "compositor/photometry/sun_sky_ratio.h"
-#include "compositor/print_shade.h"
-#include "compositor/print_shadow.h"
 #include "compositor/shade_depth.h"
 #include "compositor/unmodelled_shade.h"
 #include "scene/marker_heading.h"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "base/srgb.h"
-#include "compositor/light_meter.h"
+#include "compositor/photometry/marker/marker_light_meter.h"
 #include "tests/compositor/metered_print.h"
 
 namespace pleinair::compositor {

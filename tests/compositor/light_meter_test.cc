@@ -1,4 +1,4 @@
-#include "compositor/light_meter.h"
+#include "compositor/photometry/marker/marker_light_meter.h"
 
 #include <gmock/gmock.h>
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "compositor/light_meter.h"
+#include "compositor/photometry/marker/marker_light_meter.h"
 
 namespace pleinair::compositor::testing {
 

@@ -1,4 +1,4 @@
-#include "compositor/print_shade.h"
+#include "compositor/photometry/marker/marker_shade.h"
 
 #include <gtest/gtest.h>
 

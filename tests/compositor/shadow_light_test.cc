@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "compositor/photometry/heading_from_shadows.h"
+#include "compositor/photometry/marker/marker_shadow_edge.h"
 #include "compositor/photometry/overcast_test.h"
 #include "compositor/photometry/sun_sky_ratio.h"
-#include "compositor/print_shadow.h"
 #include "tests/compositor/gentle_response.h"
 #include "tests/compositor/shadow_light_yard.h"
 

@@ -1,4 +1,4 @@
-#include "compositor/beside_print.h"
+#include "compositor/photometry/marker/marker_surroundings.h"
 
 #include <algorithm>
 #include <cmath>

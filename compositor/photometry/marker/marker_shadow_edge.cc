@@ -1,4 +1,4 @@
-#include "compositor/print_shadow.h"
+#include "compositor/photometry/marker/marker_shadow_edge.h"
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/light/light_solver.h"
-#include "compositor/print_shadow.h"
+#include "compositor/photometry/marker/marker_shadow_edge.h"
 #include "scene/marker_reflectance.h"
 #include "sky/sky_model.h"
 
