@@ -10,9 +10,9 @@
 #include "compositor/photometry/marker/marker_shade.h"
 #include "compositor/photometry/marker/marker_shadow_edge.h"
 #include "compositor/photometry/overcast_test.h"
+#include "compositor/photometry/shade/ratio_from_shade.h"
+#include "compositor/photometry/shade/unmodelled_shadows.h"
 #include "compositor/photometry/sun_sky_ratio.h"
-#include "compositor/shade_depth.h"
-#include "compositor/unmodelled_shade.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 

@@ -11,10 +11,10 @@
 #include "compositor/photometry/light_filter.h"
 #include "compositor/photometry/marker/marker_light_meter.h"
 #include "compositor/photometry/marker/marker_shadow_edge.h"
+#include "compositor/photometry/shade/unmodelled_shadows.h"
 #include "compositor/photometry/sky_fit.h"
 #include "compositor/photometry/sun_sky_ratio.h"
 #include "compositor/photometry/surface_samples.h"
-#include "compositor/unmodelled_shade.h"
 #include "scene/scene_description.h"
 
 namespace pleinair::compositor {

@@ -1,5 +1,5 @@
 // What is told of shade that no phantom explains, on pictures whose light is known.
-#include "compositor/unmodelled_shade.h"
+#include "compositor/photometry/shade/unmodelled_shadows.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 
 #include "compositor/light/sun_transmittance_map.h"
 #include "compositor/photometry/heading_from_shadows.h"
+#include "compositor/photometry/shade/ratio_from_shade.h"
 #include "compositor/photometry/sun_sky_ratio.h"
-#include "compositor/shade_depth.h"
 #include "tests/compositor/shadow_light_yard.h"
 
 namespace pleinair::compositor {

@@ -8,7 +8,7 @@
 
 #include "base/quantile.h"
 #include "compositor/light/scaled_sky.h"
-#include "compositor/shade_cell.h"
+#include "compositor/photometry/shade/shadow_cell.h"
 
 namespace pleinair::compositor {
 namespace {

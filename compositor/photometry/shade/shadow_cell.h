@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "compositor/photometry/shade/shadow_crossing.h"
 #include "compositor/photometry/surface_samples.h"
-#include "compositor/shadow_crossing.h"
 
 namespace pleinair::compositor {
 

@@ -1,4 +1,4 @@
-#include "compositor/shade_depth.h"
+#include "compositor/photometry/shade/ratio_from_shade.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 
 #include "base/vector.h"
 #include "compositor/light/light_solver.h"
+#include "compositor/photometry/shade/unmodelled_shadows.h"
 #include "compositor/photometry/sun_sky_ratio.h"
-#include "compositor/unmodelled_shade.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {

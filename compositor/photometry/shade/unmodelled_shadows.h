@@ -7,8 +7,8 @@
 #include "compositor/light/light_solver.h"
 #include "compositor/light/sun_transmittance_map.h"
 #include "compositor/photometry/marker/marker_light_meter.h"
+#include "compositor/photometry/shade/shadow_crossing.h"
 #include "compositor/photometry/surface_samples.h"
-#include "compositor/shadow_crossing.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {

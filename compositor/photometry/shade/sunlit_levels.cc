@@ -1,4 +1,4 @@
-#include "compositor/open_levels.h"
+#include "compositor/photometry/shade/sunlit_levels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "compositor/shade_cell.h"
+#include "compositor/photometry/shade/shadow_cell.h"
 
 #include <algorithm>
 #include <cmath>

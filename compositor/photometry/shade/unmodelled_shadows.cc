@@ -1,4 +1,4 @@
-#include "compositor/unmodelled_shade.h"
+#include "compositor/photometry/shade/unmodelled_shadows.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 
 #include "base/parallel_for.h"
 #include "base/quantile.h"
-#include "compositor/open_levels.h"
-#include "compositor/shade_cell.h"
+#include "compositor/photometry/shade/shadow_cell.h"
+#include "compositor/photometry/shade/sunlit_levels.h"
 
 namespace pleinair::compositor {
 namespace {
