@@ -18,7 +18,7 @@ extern "C" {
 
 #include "app/command.h"
 #include "base/units.h"
-#include "compositor/render_targets.h"
+#include "compositor/passes/render_targets.h"
 #include "devices/calibration/calibration.h"
 #include "gl/egl_context.h"
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "compositor/render_targets.h"
+#include "compositor/passes/render_targets.h"
 
 namespace pleinair::app {
 namespace {

@@ -1,6 +1,6 @@
 #ifndef COMPOSITOR_AERIAL_FOG_GLSL
 #define COMPOSITOR_AERIAL_FOG_GLSL
-// Fog by partition, compositor/aerial_fog.h: what the air does up to each split of the view.
+// Fog by partition, compositor/passes/aerial_fog.h: what the air does up to each split of the view.
 const int kFogSplits = 5;
 
 struct FogAir {

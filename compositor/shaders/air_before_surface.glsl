@@ -11,7 +11,7 @@ uniform vec3 u_gain;  // Display-linear value per radiance.
 #ifdef HAZE
 layout(location = 1) out vec4 out_color;  // Added to the picture, covering nothing.
 
-uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/aerial_fog.h.
+uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/passes/aerial_fog.h.
 uniform vec3 u_fog_optical_depth[kFogSplits];
 uniform vec3 u_fog_inscattered[kFogSplits];
 #endif

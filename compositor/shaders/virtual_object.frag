@@ -21,7 +21,7 @@ uniform vec3 u_to_sun;           // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;   // Linear Rec.709.
 uniform vec3 u_gain;             // Display-linear value per radiance.
 
-uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/aerial_fog.h.
+uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/passes/aerial_fog.h.
 uniform vec3 u_fog_optical_depth[kFogSplits];
 uniform vec3 u_fog_inscattered[kFogSplits];
 

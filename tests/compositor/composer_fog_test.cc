@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/srgb.h"
-#include "compositor/render_camera.h"
-#include "compositor/scene_view.h"
+#include "compositor/passes/render_camera.h"
+#include "compositor/passes/scene_view.h"
 #include "shadows/splits.h"
 #include "tests/compositor/composer_scene.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/srgb.h"
-#include "compositor/render_camera.h"
+#include "compositor/passes/render_camera.h"
 #include "tests/compositor/composer_scene.h"
 
 namespace pleinair::compositor {

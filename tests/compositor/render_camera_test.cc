@@ -1,9 +1,9 @@
-#include "compositor/render_camera.h"
+#include "compositor/passes/render_camera.h"
 
 #include <gtest/gtest.h>
 
 #include "base/pixel_origin.h"
-#include "compositor/scene_view.h"
+#include "compositor/passes/scene_view.h"
 
 namespace pleinair::compositor {
 namespace {

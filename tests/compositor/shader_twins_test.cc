@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/srgb.h"
-#include "compositor/aerial_fog.h"
-#include "compositor/ratio_pass.h"
+#include "compositor/passes/aerial_fog.h"
+#include "compositor/passes/shadow_ratio_pass.h"
 #include "compositor/steady_ratio.h"
 #include "compositor/surface_records.h"
 #include "compositor/triangle_table.h"

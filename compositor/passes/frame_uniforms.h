@@ -3,7 +3,7 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "compositor/aerial_fog.h"
+#include "compositor/passes/aerial_fog.h"
 #include "gl/program.h"
 
 namespace pleinair::compositor {

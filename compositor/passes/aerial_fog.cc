@@ -1,4 +1,4 @@
-#include "compositor/aerial_fog.h"
+#include "compositor/passes/aerial_fog.h"
 
 #include <algorithm>
 #include <cmath>

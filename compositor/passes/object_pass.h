@@ -1,11 +1,11 @@
 #pragma once
 
 #include "base/error.h"
-#include "compositor/drawn_frame.h"
-#include "compositor/render_targets.h"
+#include "compositor/passes/frame_uniforms.h"
+#include "compositor/passes/render_targets.h"
+#include "compositor/passes/scene_view.h"
+#include "compositor/passes/surface_programs.h"
 #include "compositor/scene_surfaces.h"
-#include "compositor/scene_view.h"
-#include "compositor/surface_programs.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/vertex_array.h"

@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "compositor/changing_triangles.h"
-#include "compositor/drawn_frame.h"
-#include "compositor/render_targets.h"
+#include "compositor/passes/frame_uniforms.h"
+#include "compositor/passes/render_targets.h"
+#include "compositor/passes/surface_programs.h"
 #include "compositor/scene_surfaces.h"
-#include "compositor/surface_programs.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 

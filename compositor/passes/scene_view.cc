@@ -1,4 +1,4 @@
-#include "compositor/scene_view.h"
+#include "compositor/passes/scene_view.h"
 
 #include <algorithm>
 #include <glm/glm.hpp>

@@ -1,8 +1,8 @@
-#include "compositor/object_pass.h"
+#include "compositor/passes/object_pass.h"
 
 #include <epoxy/gl.h>
 
-#include "compositor/ratio_pass.h"
+#include "compositor/passes/shadow_ratio_pass.h"
 
 namespace pleinair::compositor {
 

@@ -1,4 +1,4 @@
-#include "compositor/render_camera.h"
+#include "compositor/passes/render_camera.h"
 
 #include <algorithm>
 #include <cmath>

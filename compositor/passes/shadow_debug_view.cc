@@ -1,4 +1,4 @@
-#include "compositor/shadow_debug_view.h"
+#include "compositor/passes/shadow_debug_view.h"
 
 #include <algorithm>
 #include <utility>

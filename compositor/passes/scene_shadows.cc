@@ -1,4 +1,4 @@
-#include "compositor/scene_shadows.h"
+#include "compositor/passes/scene_shadows.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "compositor/ratio_pass.h"
+#include "compositor/passes/shadow_ratio_pass.h"
 
 #include <epoxy/gl.h>
 

@@ -1,4 +1,4 @@
-#include "compositor/drawn_frame.h"
+#include "compositor/passes/frame_uniforms.h"
 
 #include <vector>
 

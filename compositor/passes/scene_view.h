@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "base/frames.h"
-#include "compositor/render_camera.h"
+#include "compositor/passes/render_camera.h"
 #include "shadows/light_window.h"
 
 namespace pleinair::compositor {

@@ -1,10 +1,10 @@
-#include "compositor/surface_programs.h"
+#include "compositor/passes/surface_programs.h"
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "compositor/scene_shadows.h"
+#include "compositor/passes/scene_shadows.h"
 #include "shadows/fading_shadow_maps.h"
 
 namespace pleinair::compositor {

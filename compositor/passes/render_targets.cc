@@ -1,4 +1,4 @@
-#include "compositor/render_targets.h"
+#include "compositor/passes/render_targets.h"
 
 #include <algorithm>
 #include <array>
