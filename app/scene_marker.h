@@ -4,7 +4,7 @@
 
 #include "app/session.h"
 #include "base/error.h"
-#include "compositor/occluder_mask.h"
+#include "compositor/picture/occluder_mask.h"
 #include "scene/marker_reflectance.h"
 #include "scene/scene_description.h"
 #include "tracker/marker_pattern.h"

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/camera_picture.h"
 #include "compositor/embedded_shaders.h"
 #include "compositor/light/environment_map.h"
 #include "compositor/passes/aerial_fog.h"
@@ -23,6 +22,7 @@
 #include "compositor/passes/shadow_debug_view.h"
 #include "compositor/passes/shadow_ratio_pass.h"
 #include "compositor/passes/surface_programs.h"
+#include "compositor/picture/camera_picture.h"
 #include "compositor/scene_surfaces.h"
 #include "gl/egl_context.h"
 #include "gl/program.h"

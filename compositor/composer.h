@@ -14,7 +14,7 @@
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_transmittance_map.h"
 #include "compositor/models/placed_model.h"
-#include "compositor/picture_look.h"
+#include "compositor/picture/camera_look.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {

@@ -1,4 +1,4 @@
-#include "compositor/occluder_mask.h"
+#include "compositor/picture/occluder_mask.h"
 
 #include <gtest/gtest.h>
 

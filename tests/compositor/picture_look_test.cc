@@ -1,5 +1,5 @@
 // Blur and grain of a camera's picture, on pictures whose blur and grain are known.
-#include "compositor/picture_look.h"
+#include "compositor/picture/camera_look.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "compositor/picture_grain.h"
+#include "compositor/picture/grain.h"
 #include "tests/compositor/gentle_response.h"
 
 namespace pleinair::compositor {

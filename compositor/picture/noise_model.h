@@ -1,7 +1,7 @@
 #pragma once
 
-#include "compositor/picture_look.h"
-#include "compositor/print_in_picture.h"
+#include "compositor/picture/camera_look.h"
+#include "compositor/picture/marker_in_image.h"
 
 namespace pleinair::compositor {
 

@@ -1,4 +1,4 @@
-#include "compositor/camera_picture.h"
+#include "compositor/picture/camera_picture.h"
 
 #include <epoxy/gl.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "compositor/light/sampling.h"
-#include "compositor/picture_grain.h"
+#include "compositor/picture/grain.h"
 
 namespace pleinair::compositor {
 namespace {

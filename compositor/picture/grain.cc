@@ -1,4 +1,4 @@
-#include "compositor/picture_grain.h"
+#include "compositor/picture/grain.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "compositor/picture_noise.h"
+#include "compositor/picture/noise_model.h"
 
 #include <algorithm>
 #include <array>

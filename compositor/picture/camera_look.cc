@@ -1,12 +1,12 @@
-#include "compositor/picture_look.h"
+#include "compositor/picture/camera_look.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "compositor/edge_blur.h"
-#include "compositor/picture_noise.h"
-#include "compositor/print_in_picture.h"
+#include "compositor/picture/blur_estimate.h"
+#include "compositor/picture/marker_in_image.h"
+#include "compositor/picture/noise_model.h"
 
 namespace pleinair::compositor {
 

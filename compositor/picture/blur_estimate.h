@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "compositor/print_in_picture.h"
+#include "compositor/picture/marker_in_image.h"
 
 namespace pleinair::compositor {
 

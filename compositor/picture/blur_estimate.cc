@@ -1,4 +1,4 @@
-#include "compositor/edge_blur.h"
+#include "compositor/picture/blur_estimate.h"
 
 #include <algorithm>
 #include <array>

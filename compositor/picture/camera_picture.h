@@ -9,7 +9,7 @@
 #include "base/image.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
-#include "compositor/picture_look.h"
+#include "compositor/picture/camera_look.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
