@@ -23,7 +23,7 @@
 #include "compositor/passes/shadow_ratio_pass.h"
 #include "compositor/passes/surface_programs.h"
 #include "compositor/picture/camera_picture.h"
-#include "compositor/scene_surfaces.h"
+#include "compositor/surfaces/scene_surfaces.h"
 #include "gl/egl_context.h"
 #include "gl/program.h"
 #include "shadows/splits.h"

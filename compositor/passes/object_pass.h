@@ -5,7 +5,7 @@
 #include "compositor/passes/render_targets.h"
 #include "compositor/passes/scene_view.h"
 #include "compositor/passes/surface_programs.h"
-#include "compositor/scene_surfaces.h"
+#include "compositor/surfaces/scene_surfaces.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/vertex_array.h"

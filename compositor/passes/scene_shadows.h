@@ -4,9 +4,9 @@
 
 #include "base/error.h"
 #include "base/frames.h"
-#include "compositor/changing_triangles.h"
 #include "compositor/composer_options.h"
-#include "compositor/scene_surfaces.h"
+#include "compositor/surfaces/affected_triangles.h"
+#include "compositor/surfaces/scene_surfaces.h"
 #include "shadows/fading_shadow_maps.h"
 
 namespace pleinair::compositor {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "base/error.h"
-#include "compositor/changing_triangles.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/passes/surface_programs.h"
-#include "compositor/scene_surfaces.h"
+#include "compositor/surfaces/affected_triangles.h"
+#include "compositor/surfaces/scene_surfaces.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 

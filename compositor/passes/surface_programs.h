@@ -3,7 +3,7 @@
 #include <array>
 
 #include "base/error.h"
-#include "compositor/changing_triangles.h"
+#include "compositor/surfaces/affected_triangles.h"
 #include "gl/program.h"
 #include "shadows/shadow_maps.h"
 

@@ -2,7 +2,7 @@
 // What the virtual objects change of the real surfaces' light in a pixel, see differential.glsl: the
 // mean over its samples, 1 where an object is in front, each sheet of a surface
 // (changing_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE or SKY_CHANGES:
-// compositor/changing_triangles.h. Where nothing need be asked of the sun, steady_ratio.frag.
+// compositor/surfaces/affected_triangles.h. Where nothing need be asked of the sun, steady_ratio.frag.
 // HAZE: so far away that the air before the surface counts.
 
 #include "compositor/shaders/air_before_surface.glsl"

@@ -1,7 +1,7 @@
 #version 450 core
 // What the virtual objects change of the real surfaces' light in a pixel as phantom_ratio.frag does,
 // where the sun's part in it is known of each triangle: ChangingTriangles::kSteadySky of
-// compositor/changing_triangles.h.
+// compositor/surfaces/affected_triangles.h.
 // HAZE: so far away that the air before the surface counts.
 
 #include "compositor/shaders/air_before_surface.glsl"

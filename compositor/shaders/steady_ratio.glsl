@@ -1,6 +1,6 @@
 #ifndef COMPOSITOR_STEADY_RATIO_GLSL
 #define COMPOSITOR_STEADY_RATIO_GLSL
-// Twin of compositor/steady_ratio.h, from its five texels. Numbers alone; compiled as C++ too
+// Twin of compositor/surfaces/linear_shadow_ratio.h, from its five texels. Numbers alone; compiled as C++ too
 // (gl/glsl_as_cpp.h, tests/compositor/shader_twins_test.cc).
 
 struct SteadyPlace {

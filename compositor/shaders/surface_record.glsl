@@ -1,6 +1,6 @@
 #ifndef COMPOSITOR_SURFACE_RECORD_GLSL
 #define COMPOSITOR_SURFACE_RECORD_GLSL
-// Materials and places of the virtual objects' surfaces as compositor/surface_records.h lays them out.
+// Materials and places of the virtual objects' surfaces as compositor/surfaces/material_table.h lays them out.
 
 #include "compositor/shaders/triangle_layout.glsl"
 

@@ -1,6 +1,6 @@
 #version 450 core
 // Which triangle a sample of the picture shows: its number in a table of
-// compositor/triangle_table.h, from 1 on. 0: nothing that changes.
+// compositor/surfaces/visibility_buffer.h, from 1 on. 0: nothing that changes.
 //
 // OBJECT: of a virtual object. TEXTURED: with what its textures leave of base colour, roughness and
 // metallic, too. ALPHA: only on the samples that its alpha covers.

@@ -1,6 +1,6 @@
 #ifndef COMPOSITOR_TRIANGLE_LAYOUT_GLSL
 #define COMPOSITOR_TRIANGLE_LAYOUT_GLSL
-// How the table of compositor/triangle_table.h is laid out, and how pictures name its triangles.
+// How the table of compositor/surfaces/visibility_buffer.h is laid out, and how pictures name its triangles.
 // Numbers alone; compiled as C++ too (gl/glsl_as_cpp.h, tests/compositor/shader_twins_test.cc).
 
 const int kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
@@ -14,12 +14,12 @@ ivec2 TexelOfTriangle(int index) { return ivec2(index % kTrianglesARow, index / 
 ivec2 TexelOfVertex(int vertex) {
   return ivec2(kTexelsAVertex * (vertex % kVerticesARow), vertex / kVerticesARow);
 }
-// First texel of a surface of an object (compositor/surface_records.h).
+// First texel of a surface of an object (compositor/surfaces/material_table.h).
 ivec2 TexelOfSurface(int surface) {
   return ivec2(kTexelsASurface * (surface % kSurfacesARow), surface / kSurfacesARow);
 }
 
-// First texel of a triangle's steady ratio (compositor/steady_ratio.h).
+// First texel of a triangle's steady ratio (compositor/surfaces/linear_shadow_ratio.h).
 ivec2 TexelOfSteady(int index) {
   return ivec2(kTexelsASteady * (index % kSteadyARow), index / kSteadyARow);
 }

@@ -1,6 +1,6 @@
 #ifndef COMPOSITOR_TRIANGLE_TABLE_GLSL
 #define COMPOSITOR_TRIANGLE_TABLE_GLSL
-// Triangles as compositor/triangle_table.h lays them out.
+// Triangles as compositor/surfaces/visibility_buffer.h lays them out.
 
 #include "compositor/shaders/triangle_layout.glsl"
 

@@ -1,4 +1,4 @@
-#include "compositor/changing_triangles.h"
+#include "compositor/surfaces/affected_triangles.h"
 
 #include <gmock/gmock.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "compositor/facing_triangles.h"
-#include "compositor/triangle_table.h"
+#include "compositor/surfaces/sun_facing_triangles.h"
+#include "compositor/surfaces/visibility_buffer.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -9,9 +9,9 @@
 #include "base/srgb.h"
 #include "compositor/passes/aerial_fog.h"
 #include "compositor/passes/shadow_ratio_pass.h"
-#include "compositor/steady_ratio.h"
-#include "compositor/surface_records.h"
-#include "compositor/triangle_table.h"
+#include "compositor/surfaces/linear_shadow_ratio.h"
+#include "compositor/surfaces/material_table.h"
+#include "compositor/surfaces/visibility_buffer.h"
 #include "gl/glsl_as_cpp.h"
 
 namespace glsl {

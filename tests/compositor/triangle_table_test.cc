@@ -1,6 +1,6 @@
 // The table that shaders find triangles in, as they find it: by texture units.
 
-#include "compositor/triangle_table.h"
+#include "compositor/surfaces/visibility_buffer.h"
 
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>

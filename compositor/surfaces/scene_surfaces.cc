@@ -1,4 +1,4 @@
-#include "compositor/scene_surfaces.h"
+#include "compositor/surfaces/scene_surfaces.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "compositor/light/lit_mesh.h"
-#include "compositor/steady_ratio.h"
+#include "compositor/surfaces/linear_shadow_ratio.h"
 #include "gl/texture.h"
 
 namespace pleinair::compositor {

@@ -1,8 +1,8 @@
-#include "compositor/surface_records.h"
+#include "compositor/surfaces/material_table.h"
 
 #include <algorithm>
 
-#include "compositor/texture_rows.h"
+#include "compositor/surfaces/texture_rows.h"
 
 namespace pleinair::compositor {
 

@@ -1,4 +1,4 @@
-#include "compositor/changing_triangles.h"
+#include "compositor/surfaces/affected_triangles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "compositor/steady_ratio.h"
+#include "compositor/surfaces/linear_shadow_ratio.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "compositor/facing_triangles.h"
+#include "compositor/surfaces/sun_facing_triangles.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -9,7 +9,7 @@
 
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_footprint.h"
-#include "compositor/steady_ratio.h"
+#include "compositor/surfaces/linear_shadow_ratio.h"
 
 namespace pleinair::compositor {
 

@@ -1,11 +1,11 @@
-#include "compositor/triangle_table.h"
+#include "compositor/surfaces/visibility_buffer.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numeric>
 
-#include "compositor/texture_rows.h"
+#include "compositor/surfaces/texture_rows.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,4 +1,4 @@
-#include "compositor/surface_buffers.h"
+#include "compositor/surfaces/surface_buffers.h"
 
 #include <algorithm>
 #include <array>
