@@ -23,7 +23,7 @@ std::vector<std::size_t> EvenlySpread(std::size_t size, std::size_t most) {
 
 }  // namespace
 
-std::vector<std::size_t> LightFrames(const std::vector<Observation>& path) {
+std::vector<std::size_t> LightFrames(const std::vector<session::Observation>& path) {
   if (path.empty()) return {};
   const std::int64_t middle_ns = path[path.size() / 2].timestamp_ns;
   std::vector<std::size_t> near;
@@ -35,7 +35,8 @@ std::vector<std::size_t> LightFrames(const std::vector<Observation>& path) {
   return chosen;
 }
 
-std::set<std::int64_t> ReportFrames(const std::vector<Observation>& path, std::int64_t frames) {
+std::set<std::int64_t> ReportFrames(const std::vector<session::Observation>& path,
+                                    std::int64_t frames) {
   std::set<std::int64_t> shown;
   if (path.empty()) {
     for (const std::size_t at : EvenlySpread(static_cast<std::size_t>(frames), kReportPictures)) {

@@ -10,7 +10,7 @@
 
 namespace pleinair::app {
 
-void AddLightOptions(CLI::App& command, LightOptions& options) {
+void AddLightOptions(CLI::App& command, session::LightOptions& options) {
   command.add_option("--response", options.camera_response,
                      "Response of the camera (docs/formats.md) instead of the scene's or sRGB");
   command

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "app/given_light.h"
 #include "base/error.h"
+#include "session/light_options.h"
 
 namespace CLI {
 class App;
@@ -14,7 +14,7 @@ namespace pleinair::app {
 
 /// Adds --response, --light, --light-cache, --sky-division, --convergence, --light-patches,
 /// --sun-to-sky, --heading, --look and --hands; `options` must outlive the command.
-void AddLightOptions(CLI::App& command, LightOptions& options);
+void AddLightOptions(CLI::App& command, session::LightOptions& options);
 
 /// Errors (input): the cache is no folder.
 Result<void> CheckLightCache(const std::filesystem::path& cache);

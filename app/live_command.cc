@@ -61,7 +61,7 @@ struct Arguments {
   std::string output;
   std::vector<std::string> exports;
   std::optional<double> report_every_s;
-  LightOptions light;
+  session::LightOptions light;
   std::optional<double> seconds, rate_hz, exposure_s, gain, white_balance_k, focus;
   bool headless = false, lossless = false, loop = false, json = false, lock = false;
   bool shadow_debug = false;
@@ -265,7 +265,7 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   LiveOptions options;
   options.camera = source.lens;
   options.light = arguments.light;
-  options.scene = WithGiven(*source.scene, arguments.light);
+  options.scene = session::WithGiven(*source.scene, arguments.light);
   options.composer.show_shadow_maps = arguments.shadow_debug;
   const scene::SceneDescription scene = options.scene;
   options.shown_elsewhere = !arguments.headless;

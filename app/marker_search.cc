@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "app/interrupt.h"
-#include "app/print_measurer.h"
 #include "app/progress_bar.h"
 #include "app/sinks/detections_writer.h"
 #include "base/parallel_for.h"
+#include "session/marker_refiner.h"
 
 namespace pleinair::app {
 namespace {
@@ -38,9 +38,9 @@ Result<void> CheckMoment(const MarkerSearch& search, const devices::Frame& frame
 
 /// Measures tracked frames and keeps what is found.
 Result<void> TakeTracked(const MarkerSearch& search, std::vector<TrackedFrame> tracked,
-                         tracker::Tracker& tracker, PrintMeasurer& measurer,
+                         tracker::Tracker& tracker, session::PrintMeasurer& measurer,
                          DetectionsWriter& detections, StageTimes* times, FoundMarkers* found) {
-  std::vector<PrintMeasurer::Seen> seen;
+  std::vector<session::PrintMeasurer::Seen> seen;
   seen.reserve(tracked.size());
   StageTimes together;
   together.Measure("measure", [&] {
@@ -71,9 +71,9 @@ Result<void> TakeTracked(const MarkerSearch& search, std::vector<TrackedFrame> t
 Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording recording,
                                  tracker::Tracker& tracker, StageTimes* times) {
   PLEINAIR_ASSIGN_OR_RETURN(auto detections, DetectionsWriter::Create(search.detections));
-  FoundMarkers found{.session = Session(search.scene.marker)};
-  PrintMeasurer measurer(recording.camera, search.scene.marker.size_m);
-  FramesAhead frames(std::move(recording.frames));
+  FoundMarkers found{.session = session::Session(search.scene.marker)};
+  session::PrintMeasurer measurer(recording.camera, search.scene.marker.size_m);
+  session::FramesAhead frames(std::move(recording.frames));
   ProgressBar bar("Finding markers", frames.FrameCount());
   std::vector<TrackedFrame> tracked;
   StageTimes measuring_times;  // Of the thread that measures, as long as it does.
@@ -115,7 +115,8 @@ Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording 
   return found;
 }
 
-Result<std::optional<devices::Frame>> NextFrame(const std::string& recording, FramesAhead& frames) {
+Result<std::optional<devices::Frame>> NextFrame(const std::string& recording,
+                                                session::FramesAhead& frames) {
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(recording));
   return frames.Next();
 }

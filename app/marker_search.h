@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "app/frames_ahead.h"
 #include "app/paths/mcap_path.h"
 #include "app/replay_warnings.h"
-#include "app/session.h"
 #include "base/error.h"
 #include "base/stage_times.h"
 #include "devices/recordings/recording.h"
 #include "scene/scene_description.h"
+#include "session/frame_prefetch.h"
+#include "session/marker_tracks.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {
@@ -28,7 +28,7 @@ struct MarkerSearch {
 
 /// What FindMarkers gives: the markers' poses and prints, and what went wrong on the way.
 struct FoundMarkers {
-  Session session;
+  session::Session session;
   FrameWarnings warnings{};                ///< The tracker's.
   std::vector<MarkersMessage> messages{};  ///< The lines of `detections`, if they are to be kept.
   std::int64_t lost_frames = 0;            ///< Which the recorder had to leave out.
@@ -41,6 +41,7 @@ Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording 
                                  tracker::Tracker& tracker, StageTimes* times);
 
 /// The next frame; nothing at the end. Errors: the source's, an interrupt.
-Result<std::optional<devices::Frame>> NextFrame(const std::string& recording, FramesAhead& frames);
+Result<std::optional<devices::Frame>> NextFrame(const std::string& recording,
+                                                session::FramesAhead& frames);
 
 }  // namespace pleinair::app

@@ -11,15 +11,12 @@
 #include <vector>
 
 #include "app/frame_choice.h"
-#include "app/frames_ahead.h"
 #include "app/interrupt.h"
 #include "app/marker_search.h"
 #include "app/paths/observed_path.h"
 #include "app/paths/path_files.h"
 #include "app/progress_bar.h"
 #include "app/replay_warnings.h"
-#include "app/scene_marker.h"
-#include "app/scene_renderer.h"
 #include "app/sinks/composite_writer.h"
 #include "app/sinks/output_folder.h"
 #include "app/sinks/path_export.h"
@@ -30,6 +27,9 @@
 #include "app/time_lapse/time_lapse.h"
 #include "base/atomic_file.h"
 #include "devices/recordings/recording.h"
+#include "session/frame_prefetch.h"
+#include "session/scene_marker.h"
+#include "session/scene_renderer.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {
@@ -59,7 +59,7 @@ class Replayer {
       return InputError(options_.recording.string(), "has no scene",
                         "write one (docs/formats.md) and give it with --scene");
     }
-    scene_ = WithGiven(*recording.scene, options_.light);
+    scene_ = session::WithGiven(*recording.scene, options_.light);
     report_.recording = options_.recording.string();
     report_.command = options_.command;
     report_.version = PLEINAIR_VERSION;
@@ -79,7 +79,7 @@ class Replayer {
     }
     PLEINAIR_RETURN_IF_ERROR(CheckFrameOfDay(*recording.frames));
     PLEINAIR_RETURN_IF_ERROR(CheckExports(options_.exports, output_camera_));
-    PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(scene_));
+    PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, session::TrackingOf(scene_));
     auto tracker = tracker::Tracker::Create(recording.camera, tracking);
     if (!tracker) {
       // What it refuses is what the scene says of the marker.
@@ -89,8 +89,9 @@ class Replayer {
     }
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
     // Models are loaded before a long search for markers begins: their errors come at once.
-    PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(output_camera_, scene_,
-                                                               options_.composer, options_.light));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        renderer_,
+        session::SceneRenderer::Create(output_camera_, scene_, options_.composer, options_.light));
     PLEINAIR_RETURN_IF_ERROR(SeekMarkers(std::move(recording), **tracker));
     PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
@@ -122,7 +123,7 @@ class Replayer {
     report_.anchor = found_->session.Anchor();
     if (report_.anchor) {
       report_.path = found_->session.Path(*report_.anchor);
-      renderer_->SetMarkerPrint(PrintOf(scene_.marker, *report_.anchor));
+      renderer_->SetMarkerPrint(session::PrintOf(scene_.marker, *report_.anchor));
     }
     PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
     for (const auto& [marker, observed] : found_->session.paths()) {
@@ -151,7 +152,7 @@ class Replayer {
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenRecording());
     ProgressBar bar("Reading the light", static_cast<std::int64_t>(chosen.size()));
     for (auto next = chosen.begin(); next != chosen.end();) {
-      const Observation& at = report_.path[*next];
+      const session::Observation& at = report_.path[*next];
       recording.frames->SkipTo(at.frame_index);
       PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
       PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame,
@@ -246,7 +247,7 @@ class Replayer {
       pictures = folder_.staging() / "frames";
       report_.outputs.emplace_back("frames/%04d.png");
     }
-    FramesAhead frames(std::move(source));
+    session::FramesAhead frames(std::move(source));
     CompositeWriter writer(std::move(pictures), std::move(video));
     auto pose = report_.path.begin();
     ProgressBar bar("Composing", report_.frames);
@@ -277,13 +278,14 @@ class Replayer {
     return {};
   }
 
-  Result<RgbImage> Render(const devices::Frame& frame, const Observation& seen) {
+  Result<RgbImage> Render(const devices::Frame& frame, const session::Observation& seen) {
     compositor::PrintCover cover;
-    if (options_.light.hands_in_front) cover = CoverOf(scene_.marker, *report_.anchor, seen);
+    if (options_.light.hands_in_front)
+      cover = session::CoverOf(scene_.marker, *report_.anchor, seen);
     auto composed =
         renderer_->Render(frame.rgb.view(), seen.camera_from_marker, MomentOf(frame), cover);
     if (scene_.objects.empty()) return composed;
-    const RenderTimes& times = renderer_->times();
+    const session::RenderTimes& times = renderer_->times();
     if (times.light_ms > 1.0) times_.Add("light", times.light_ms);
     times_.Add("meter", times.meter_ms);
     times_.Add("compose", times.compose_ms);
@@ -313,10 +315,10 @@ class Replayer {
   bool DrawsDay() const { return !report_.path.empty() && !scene_.objects.empty(); }
 
   /// The observation whose camera the time-lapse looks through.
-  Result<Observation> ViewOfDay() const {
+  Result<session::Observation> ViewOfDay() const {
     const auto& path = report_.path;
     if (!options_.time_lapse->frame) return path[path.size() / 2];
-    for (const Observation& at : path) {
+    for (const session::Observation& at : path) {
       if (at.frame_index == *options_.time_lapse->frame) return at;
     }
     return InputError("--time-lapse-frame",
@@ -331,8 +333,8 @@ class Replayer {
           "There is no time-lapse: it needs a virtual object and a frame with a pose.");
       return {};
     }
-    PLEINAIR_ASSIGN_OR_RETURN(const Observation view, ViewOfDay());
-    LightOrder order = renderer_->OrderLight(scene_.place_time.start);
+    PLEINAIR_ASSIGN_OR_RETURN(const session::Observation view, ViewOfDay());
+    session::LightOrder order = renderer_->OrderLight(scene_.place_time.start);
     order.coefficients = TraceCoefficients();
     PLEINAIR_ASSIGN_OR_RETURN(
         const auto day, DayRenderer::Create(output_camera_, renderer_->placed(), std::move(order),
@@ -372,7 +374,7 @@ class Replayer {
   OutputFolder folder_;
   scene::SceneDescription scene_;
   CameraModel output_camera_;
-  std::unique_ptr<SceneRenderer> renderer_;
+  std::unique_ptr<session::SceneRenderer> renderer_;
   std::optional<FoundMarkers> found_;
   std::set<std::int64_t> pictured_;
   TimeLapseMoments day_moments_;

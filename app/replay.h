@@ -5,13 +5,13 @@
 #include <set>
 #include <string>
 
-#include "app/given_light.h"
 #include "app/paths/path_files.h"
 #include "app/picture_size.h"
 #include "app/sinks/report.h"
 #include "app/time_lapse/moments.h"
 #include "base/error.h"
 #include "compositor/composer_options.h"
+#include "session/light_options.h"
 
 namespace pleinair::app {
 
@@ -24,7 +24,7 @@ struct ReplayOptions {
   bool write_video = true;
   std::set<PathFormat> exports;  ///< Forms of the path besides TUM.
   compositor::ComposerOptions composer;
-  LightOptions light;
+  session::LightOptions light;
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
   std::optional<TimeLapseOptions> time_lapse;  ///< A day of the scene besides.
   std::string command;                         ///< For the report.

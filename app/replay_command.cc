@@ -82,7 +82,7 @@ std::string CommandText(const Arguments& arguments) {
       "pleinair replay " + Quoted(arguments.recording) + " -o " + Quoted(arguments.output);
   if (!arguments.scene.empty()) text += " --scene " + Quoted(arguments.scene);
   if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
-  const LightOptions& light = arguments.options.light;
+  const session::LightOptions& light = arguments.options.light;
   if (!light.camera_response.empty()) {
     text += " --response " + Quoted(light.camera_response.string());
   }
@@ -93,7 +93,7 @@ std::string CommandText(const Arguments& arguments) {
   }
   if (!light.cache.empty()) text += " --light-cache " + Quoted(light.cache.string());
   if (light.sky_division != 1) text += fmt::format(" --sky-division {}", light.sky_division);
-  if (light.convergence != LightOptions{}.convergence) {
+  if (light.convergence != session::LightOptions{}.convergence) {
     text += fmt::format(" --convergence {}", light.convergence);
   }
   const compositor::LightOverrides& given = light.overrides;

@@ -35,7 +35,7 @@ std::string Described(const scene::MarkerDescription& marker) {
 
 std::string NeverSeen(const ReplayReport& report, const scene::MarkerDescription& marker) {
   std::string seen;
-  for (const MarkerName& other : report.markers) seen += " " + other.ToString();
+  for (const session::MarkerName& other : report.markers) seen += " " + other.ToString();
   std::string sentence =
       fmt::format("The scene's marker ({}) was seen in no frame, so nothing was drawn. Seen:{}.",
                   Described(marker), seen.empty() ? " no other either" : seen);
@@ -74,7 +74,7 @@ std::vector<std::string> FrameWarnings::Sentences() const {
   return sentences;
 }
 
-std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Session& session,
+std::vector<std::string> MarkerWarnings(const ReplayReport& report, const session::Session& session,
                                         const scene::SceneDescription& scene) {
   std::vector<std::string> warnings;
   const auto missing = report.frames - static_cast<std::int64_t>(report.path.size());
@@ -133,10 +133,10 @@ std::vector<std::string> DrawingWarnings(std::optional<int> samples) {
                   *samples, kWanted)};
 }
 
-std::vector<std::string> LightWarnings(const LightSummary& summary) {
+std::vector<std::string> LightWarnings(const session::LightSummary& summary) {
   const compositor::MeasuredLight& light = summary.measured;
   std::vector<std::string> warnings;
-  if (summary.gain_source == LightSummary::GainSource::kGuess) {
+  if (summary.gain_source == session::LightSummary::GainSource::kGuess) {
     warnings.emplace_back(
         "The marker could not be read as a light meter in any frame: the camera's gain is a guess. "
         "Set it in the scene if the brightness is wrong.");

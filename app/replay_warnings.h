@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/session.h"
 #include "app/sinks/report.h"
 #include "compositor/models/placed_model.h"
 #include "scene/scene_description.h"
+#include "session/marker_tracks.h"
 
 namespace pleinair::app {
 
@@ -30,7 +30,7 @@ class FrameWarnings {
 };
 
 /// What the user should know of how a replay's markers were found, a sentence each.
-std::vector<std::string> MarkerWarnings(const ReplayReport& report, const Session& session,
+std::vector<std::string> MarkerWarnings(const ReplayReport& report, const session::Session& session,
                                         const scene::SceneDescription& scene);
 
 /// What models' files have that does not show, a sentence a file.
@@ -42,6 +42,6 @@ std::vector<std::string> DrawingWarnings(std::optional<int> samples);
 
 /// Where the light that was measured is far from what the scene says, cannot be what the frames
 /// show, or was not measured.
-std::vector<std::string> LightWarnings(const LightSummary& summary);
+std::vector<std::string> LightWarnings(const session::LightSummary& summary);
 
 }  // namespace pleinair::app

@@ -20,7 +20,7 @@
 #include "app/interrupt.h"
 #include "app/marker_numbers.h"
 #include "app/progress_bar.h"
-#include "app/scene_marker.h"
+#include "session/scene_marker.h"
 
 namespace pleinair::app {
 namespace {
@@ -38,7 +38,7 @@ std::unique_ptr<accuracy::Detector> MakeDetector(const std::string& name,
   if (name == "apriltag") return accuracy::MakeAprilTagPeer(camera);
   if (name == "aruco") return accuracy::MakeArucoPeer(camera);
   OwnDetectorOptions options;
-  options.tracker.families = {kSgFamily};
+  options.tracker.families = {session::kSgFamily};
   options.tracker.marker_size_m = accuracy::kMarkerEdge.value();
   options.tracker.sg.numbers_in_use = MarkerNumbersOf(config.numbers).value_or(std::vector<int>());
   options.measure_prints = config.measure == "print";
@@ -240,7 +240,7 @@ std::optional<GreyImage> PictureOf(const AccuracyConfig& config, std::int64_t fr
       accuracy::FrameRenderer renderer(
           camera,
           [](int number) {
-            return PatternOf({kSgFamily, number});
+            return session::PatternOf({session::kSgFamily, number});
           },
           config.seed, config.noise_seed);
       return std::move(renderer.Render(run.frames[at]).grey);

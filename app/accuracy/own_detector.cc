@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "accuracy/random.h"
-#include "app/print_measurer.h"
-#include "app/scene_marker.h"
+#include "session/marker_refiner.h"
+#include "session/scene_marker.h"
 #include "tracker/pose/planar_pose.h"
 
 namespace pleinair::app {
@@ -27,7 +27,7 @@ class OwnDetector final : public accuracy::Detector {
 
   accuracy::PrintsByNumber Prints() const override {
     return [family = options_.tracker.families.at(0)](int number) {
-      return PatternOf({family, number});
+      return session::PatternOf({family, number});
     };
   }
 
@@ -38,7 +38,7 @@ class OwnDetector final : public accuracy::Detector {
       PLEINAIR_ASSIGN_OR_RETURN(still_, Create(false));
     }
     tracker_ = film ? film_.get() : still_.get();
-    measurer_ = std::make_unique<PrintMeasurer>(camera_, options_.tracker.marker_size_m);
+    measurer_ = std::make_unique<session::PrintMeasurer>(camera_, options_.tracker.marker_size_m);
     return {};
   }
 
@@ -92,7 +92,7 @@ class OwnDetector final : public accuracy::Detector {
   const OwnDetectorOptions options_;
   std::unique_ptr<tracker::Tracker> still_, film_;
   tracker::Tracker* tracker_ = nullptr;
-  std::unique_ptr<PrintMeasurer> measurer_;
+  std::unique_ptr<session::PrintMeasurer> measurer_;
 };
 
 }  // namespace

@@ -12,8 +12,8 @@
 #include "accuracy/seen_print.h"
 #include "app/accuracy/own_detector.h"
 #include "app/accuracy/recording_truth.h"
-#include "app/scene_marker.h"
 #include "devices/recordings/recording.h"
+#include "session/scene_marker.h"
 
 namespace pleinair::app {
 namespace {
@@ -76,7 +76,7 @@ class RecordingRun {
     period_ns_ = std::llround(recording.frame_rate_hz > 0.0 ? 1e9 / recording.frame_rate_hz : 4e7);
     OwnDetectorOptions options{.measure_prints = config_.measure == "print",
                                .spoil_corners_px = config_.spoil_corners_px};
-    PLEINAIR_ASSIGN_OR_RETURN(options.tracker, TrackingOf(scene_));
+    PLEINAIR_ASSIGN_OR_RETURN(options.tracker, session::TrackingOf(scene_));
     const auto detector = MakeOwnDetector(camera_, options);
     PLEINAIR_RETURN_IF_ERROR(detector->Start(true));
     for (std::int64_t index = 0;; ++index) {

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "app/scene_renderer.h"
 #include "devices/recordings/recording.h"
 #include "scene/marker_heading.h"
+#include "session/scene_renderer.h"
 #include "sky/sun/sun_position.h"
 
 namespace pleinair::app {
@@ -32,7 +32,7 @@ Result<shadows::BenchScene> RecordingScene(const std::filesystem::path& recordin
   shadows::Box objects;
   const auto add = [&](const scene::ModelReference& reference, bool is_phantom) -> Result<void> {
     PLEINAIR_ASSIGN_OR_RETURN(const compositor::PlacedModel placed,
-                              PlaceModel(reference, is_phantom));
+                              session::PlaceModel(reference, is_phantom));
     for (const compositor::Mesh& mesh : placed.model->meshes) {
       shadows::BenchMesh& out = scene.meshes.emplace_back();
       for (const auto& p : mesh.positions) {

@@ -28,7 +28,7 @@ Result<std::unique_ptr<LiveOutput>> LiveOutput::Create(const Options& options,
       new LiveOutput(options, camera, scene, std::move(folder), std::move(detections)));
 }
 
-Result<void> LiveOutput::Add(const Session& session, std::int64_t frame_index,
+Result<void> LiveOutput::Add(const session::Session& session, std::int64_t frame_index,
                              std::int64_t timestamp_ns, const std::string& line) {
   for (const auto& [marker, observations] : session.paths()) {
     if (observations.empty() || observations.back().frame_index != frame_index) continue;
@@ -54,7 +54,7 @@ Result<void> LiveOutput::Write(UtcTime start) {
   for (const auto& [marker, path] : paths_) {
     PLEINAIR_RETURN_IF_ERROR(
         WriteMarkerPath(marker, path, options_.exports, folder_.staging()).map([](auto) {}));
-    if (MayAnchor(marker, scene_.marker) && path.poses.size() > anchors.poses.size()) {
+    if (session::MayAnchor(marker, scene_.marker) && path.poses.size() > anchors.poses.size()) {
       anchors = path;
     }
   }

@@ -11,12 +11,12 @@
 #include "app/paths/camera_path.h"
 #include "app/paths/mcap_path.h"
 #include "app/paths/path_files.h"
-#include "app/session.h"
 #include "app/sinks/detections_writer.h"
 #include "app/sinks/output_folder.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "scene/scene_description.h"
+#include "session/marker_tracks.h"
 
 namespace pleinair::app {
 
@@ -37,8 +37,8 @@ class LiveOutput {
                                                     const scene::SceneDescription& scene);
 
   /// Adds a frame that the session has just taken in, and its line of detections.jsonl.
-  Result<void> Add(const Session& session, std::int64_t frame_index, std::int64_t timestamp_ns,
-                   const std::string& line);
+  Result<void> Add(const session::Session& session, std::int64_t frame_index,
+                   std::int64_t timestamp_ns, const std::string& line);
 
   /// Writes the paths and moves everything to its place. `start`: of the first frame.
   Result<void> Finish(UtcTime start);
@@ -53,7 +53,7 @@ class LiveOutput {
   scene::SceneDescription scene_;
   OutputFolder folder_;
   DetectionsWriter detections_;
-  std::map<MarkerName, CameraPath> paths_;
+  std::map<session::MarkerName, CameraPath> paths_;
   std::vector<MarkersMessage> markers_seen_;  // For MCAP alone.
 };
 

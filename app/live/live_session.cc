@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "app/scene_marker.h"
 #include "app/sinks/detections_writer.h"
+#include "session/scene_marker.h"
 
 namespace pleinair::app {
 namespace {
@@ -62,10 +62,12 @@ Result<std::unique_ptr<LiveSession>> LiveSession::Create(
 
 Result<void> LiveSession::Prepare() {
   if (options_.record) PLEINAIR_RETURN_IF_ERROR(recording_.Start(*options_.record));
-  PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(options_.scene));
+  PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking,
+                            session::TrackingOf(options_.scene));
   PLEINAIR_ASSIGN_OR_RETURN(tracker_, tracker::Tracker::Create(options_.camera, tracking));
-  PLEINAIR_ASSIGN_OR_RETURN(renderer_, SceneRenderer::Create(options_.camera, options_.scene,
-                                                             options_.composer, options_.light));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      renderer_, session::SceneRenderer::Create(options_.camera, options_.scene, options_.composer,
+                                                options_.light));
   if (options_.detections) {
     PLEINAIR_ASSIGN_OR_RETURN(DetectionsWriter writer,
                               DetectionsWriter::Create(*options_.detections));
@@ -79,13 +81,13 @@ Result<void> LiveSession::Prepare() {
     measurer_.emplace(options_.camera, options_.scene.marker.size_m);
   }
   if (options_.lossless) return {};
-  edit_ = UneditedScene(options_.scene, options_.composer, options_.light.convergence);
+  edit_ = session::UneditedScene(options_.scene, options_.composer, options_.light.convergence);
   if (!renderer_->DrawsObjects()) return {};
   const UtcTime start = options_.start.value_or(WallClock());
   PLEINAIR_ASSIGN_OR_RETURN(
-      light_,
-      LiveLight::Create({options_.camera, options_.scene, renderer_->placed(), options_.light,
-                         edit_, renderer_->OrderLight(start).skies, start, renderer_->response()}));
+      light_, session::LiveLight::Create({options_.camera, options_.scene, renderer_->placed(),
+                                          options_.light, edit_, renderer_->OrderLight(start).skies,
+                                          start, renderer_->response()}));
   return renderer_->UseLight(light_->Take());
 }
 
@@ -182,7 +184,7 @@ void LiveSession::Capture() {
 
 scene::SceneDescription LiveSession::SceneNow() const {
   const std::lock_guard lock(mutex_);
-  return options_.lossless ? options_.scene : WithEdit(options_.scene, edit_);
+  return options_.lossless ? options_.scene : session::WithEdit(options_.scene, edit_);
 }
 
 void LiveSession::Track() {
@@ -220,11 +222,11 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   PLEINAIR_RETURN_IF_ERROR(WriteSightings(*frame, sightings));
   Tracked tracked{std::move(frame), std::nullopt, session_.Anchor(), {}};
   if (!tracked.anchor) return tracked;
-  const std::vector<Observation>& path = session_.Path(*tracked.anchor);
+  const std::vector<session::Observation>& path = session_.Path(*tracked.anchor);
   if (path.back().frame_index == tracked.frame->index) {
     tracked.camera_from_marker = path.back().camera_from_marker;
     if (options_.light.hands_in_front) {
-      tracked.cover = CoverOf(options_.scene.marker, *tracked.anchor, path.back());
+      tracked.cover = session::CoverOf(options_.scene.marker, *tracked.anchor, path.back());
     }
   }
   return tracked;
@@ -247,7 +249,7 @@ Result<void> LiveSession::WriteSightings(const devices::Frame& frame,
   return {};
 }
 
-void LiveSession::Edit(const SceneEdit& edit) {
+void LiveSession::Edit(const session::SceneEdit& edit) {
   const std::lock_guard lock(mutex_);
   edit_ = edit;
   edited_ = true;
@@ -256,13 +258,13 @@ void LiveSession::Edit(const SceneEdit& edit) {
 /// Edits since the last frame, and the light made since.
 Result<void> LiveSession::TakeEdit(const devices::Frame& frame) {
   if (options_.lossless) return {};
-  std::optional<SceneEdit> edit;
+  std::optional<session::SceneEdit> edit;
   {
     const std::lock_guard lock(mutex_);
     if (std::exchange(edited_, false)) edit = edit_;
   }
   if (edit) {
-    SceneEdit drawn = *edit;
+    session::SceneEdit drawn = *edit;
     drawn.drawing = detail_.Apply(*edit);
     PLEINAIR_RETURN_IF_ERROR(renderer_->Edit(drawn));
     if (light_) light_->SetEdit(*edit);
@@ -292,7 +294,7 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   const auto start = Clock::now();
   const UtcTime moment = MomentOf(*tracked.frame);
   if (tracked.anchor && tracked.anchor != shown_anchor_) {
-    const scene::MarkerPrint print = PrintOf(options_.scene.marker, *tracked.anchor);
+    const scene::MarkerPrint print = session::PrintOf(options_.scene.marker, *tracked.anchor);
     renderer_->SetMarkerPrint(print);
     if (light_) light_->SetPrint(print);
     shown_anchor_ = tracked.anchor;
@@ -319,7 +321,7 @@ void LiveSession::CountDrawn(const devices::Frame& frame, double draw_ms) {
   statistics_.render = renderer_->times();
   if (options_.lossless) return;
   if (!options_.shown_elsewhere) CountLatency(frame);
-  const bool draws = renderer_->DrawsObjects() && edit_.detail == Detail::kAutomatic;
+  const bool draws = renderer_->DrawsObjects() && edit_.detail == session::Detail::kAutomatic;
   if (draws && detail_.Add(statistics_.render.compose_ms, statistics_.period_ms)) edited_ = true;
 }
 

@@ -11,23 +11,23 @@
 #include <thread>
 #include <vector>
 
-#include "app/given_light.h"
 #include "app/live/latency_histogram.h"
 #include "app/live/latency_meter.h"
 #include "app/live/live_detail.h"
-#include "app/live/live_light.h"
 #include "app/live/live_output.h"
 #include "app/live/live_statistics.h"
 #include "app/live/recording_switch.h"
-#include "app/print_measurer.h"
-#include "app/scene_renderer.h"
-#include "app/session.h"
 #include "base/bounded_queue.h"
 #include "base/camera_model.h"
 #include "compositor/composer_options.h"
 #include "compositor/models/placed_model.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
+#include "session/background_light.h"
+#include "session/light_options.h"
+#include "session/marker_refiner.h"
+#include "session/marker_tracks.h"
+#include "session/scene_renderer.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {
@@ -36,7 +36,7 @@ struct LiveOptions {
   CameraModel camera;
   scene::SceneDescription scene;  ///< With what `light` gives of it (WithGiven()).
   compositor::ComposerOptions composer;
-  LightOptions light;
+  session::LightOptions light;
   /// UTC of the first frame; nothing: the clock's when it comes.
   std::optional<UtcTime> start;
   /// Every frame is tracked and drawn, in order, however long it takes, and measured as replay
@@ -58,7 +58,7 @@ struct DrawnFrame {
   std::optional<Transform<Camera, Marker>> camera_from_marker;
   RgbImage picture;  ///< With the virtual objects; the camera's own where no marker is seen.
   UtcTime moment;    ///< Of the frame, with what an edit adds.
-  LightSummary light;
+  session::LightSummary light;
 };
 
 /// Capturing, tracking, light and recording on threads of their own, handing frames on through
@@ -86,7 +86,7 @@ class LiveSession {
   bool finished() const { return tracked_.finished(); }
 
   /// Changes the scene from the next frame on; its light follows when it is made. Any thread.
-  void Edit(const SceneEdit& edit);
+  void Edit(const session::SceneEdit& edit);
 
   /// Notes that a drawn frame is on the screen now, and how many were replaced before so far.
   void Shown(const DrawnFrame& frame, std::int64_t late_for_screen);
@@ -116,7 +116,7 @@ class LiveSession {
   struct Tracked {
     FramePtr frame;
     std::optional<Transform<Camera, Marker>> camera_from_marker;
-    std::optional<MarkerName> anchor;
+    std::optional<session::MarkerName> anchor;
     compositor::PrintCover cover;  ///< Where hands are to be in front.
   };
 
@@ -140,22 +140,22 @@ class LiveSession {
   LiveOptions options_;
   std::unique_ptr<devices::FrameSource> source_;
   std::unique_ptr<tracker::Tracker> tracker_;
-  std::unique_ptr<SceneRenderer> renderer_;
-  std::optional<PrintMeasurer> measurer_;
+  std::unique_ptr<session::SceneRenderer> renderer_;
+  std::optional<session::PrintMeasurer> measurer_;
   class Detections;
   std::unique_ptr<Detections> detections_;
   std::unique_ptr<LiveOutput> output_;
-  Session session_;
+  session::Session session_;
   RecordingSwitch recording_;
 
   HandOver<FramePtr> captured_;
   HandOver<Tracked> tracked_;
-  std::unique_ptr<LiveLight> light_;  // Not where frames are drawn without loss.
+  std::unique_ptr<session::LiveLight> light_;  // Not where frames are drawn without loss.
 
   std::atomic<bool> stop_ = false;
-  std::optional<MarkerName> shown_anchor_;
+  std::optional<session::MarkerName> shown_anchor_;
   LiveDetail detail_;
-  SceneEdit edit_;
+  session::SceneEdit edit_;
   bool edited_ = false;
   mutable std::mutex mutex_;
   std::optional<std::int64_t> first_stamp_ns_, last_stamp_ns_;

@@ -3,10 +3,10 @@
 #include <cstdint>
 
 #include "app/live/latency_meter.h"
-#include "app/live/live_light.h"
-#include "app/scene_edit.h"
-#include "app/scene_renderer.h"
 #include "devices/frame.h"
+#include "session/background_light.h"
+#include "session/scene_edit.h"
+#include "session/scene_renderer.h"
 
 namespace pleinair::app {
 
@@ -28,10 +28,10 @@ struct LiveStatistics {
   LatencyMeter::Summary latency;  ///< From a frame's stamp until it was drawn, or shown.
   double period_ms = 0.0;         ///< Between frames' stamps.
   double track_ms = 0.0;          ///< Of the last frame.
-  RenderTimes render;
+  session::RenderTimes render;
   double draw_ms = 0.0;
-  Detail detail = Detail::kFine;
-  LiveLight::Progress light;
+  session::Detail detail = session::Detail::kFine;
+  session::LiveLight::Progress light;
 
   /// Frames captured of which nothing else here tells: those on their way while the session runs,
   /// at most five; none when it has ended.

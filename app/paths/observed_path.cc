@@ -4,17 +4,17 @@
 
 namespace pleinair::app {
 
-PathPose ObservedPose(const Observation& at) {
+PathPose ObservedPose(const session::Observation& at) {
   // The marker is what the path is told in.
   const Transform<Reference, Marker> reference_from_marker;
   return {at.timestamp_ns, reference_from_marker * at.camera_from_marker.Inverse(),
           fmt::format("frames/{:04}.png", at.frame_index)};
 }
 
-CameraPath ObservedPath(const std::vector<Observation>& observations) {
+CameraPath ObservedPath(const std::vector<session::Observation>& observations) {
   CameraPath path;
   path.poses.reserve(observations.size());
-  for (const Observation& at : observations) path.poses.push_back(ObservedPose(at));
+  for (const session::Observation& at : observations) path.poses.push_back(ObservedPose(at));
   return path;
 }
 

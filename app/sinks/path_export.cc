@@ -21,7 +21,8 @@ Result<void> CheckExports(const std::set<PathFormat>& formats, const CameraModel
                     "undistort the pictures and calibrate those, or leave gltf out");
 }
 
-Result<std::vector<std::string>> WriteMarkerPath(const MarkerName& marker, const CameraPath& path,
+Result<std::vector<std::string>> WriteMarkerPath(const session::MarkerName& marker,
+                                                 const CameraPath& path,
                                                  const std::set<PathFormat>& formats,
                                                  const std::filesystem::path& folder) {
   std::vector<std::string> outputs;

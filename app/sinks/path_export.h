@@ -7,9 +7,9 @@
 
 #include "app/paths/mcap_path.h"
 #include "app/paths/path_files.h"
-#include "app/session.h"
 #include "base/camera_model.h"
 #include "scene/scene_description.h"
+#include "session/marker_tracks.h"
 
 namespace pleinair::app {
 
@@ -25,7 +25,8 @@ Result<void> CheckExports(const std::set<PathFormat>& formats, const CameraModel
 
 /// Writes a marker's path into the folder `poses` in `folder`, as MARKER.tum and, where `euroc` is
 /// asked for, as MARKER.csv; gives their names.
-Result<std::vector<std::string>> WriteMarkerPath(const MarkerName& marker, const CameraPath& path,
+Result<std::vector<std::string>> WriteMarkerPath(const session::MarkerName& marker,
+                                                 const CameraPath& path,
                                                  const std::set<PathFormat>& formats,
                                                  const std::filesystem::path& folder);
 

@@ -6,12 +6,12 @@
 #include "tracker/sighting.h"
 
 namespace pleinair::app {
-PoseStatistics SummarizePath(const std::vector<Observation>& path) {
+PoseStatistics SummarizePath(const std::vector<session::Observation>& path) {
   PoseStatistics statistics;
   if (path.empty()) return statistics;
   std::vector<double> distances_m, errors_px, turns_deg, moves_m, visible;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const Observation& at = path[i];
+    const session::Observation& at = path[i];
     distances_m.push_back(Norm(at.camera_from_marker.translation_m));
     errors_px.push_back(at.reprojection_rms_px);
     visible.push_back(at.visible_fraction);
@@ -21,7 +21,7 @@ PoseStatistics SummarizePath(const std::vector<Observation>& path) {
     const auto here = at.camera_from_marker.Inverse();
     const auto before = path[i - 1].camera_from_marker.Inverse();
     moves_m.push_back(Norm(here.translation_m - before.translation_m));
-    turns_deg.push_back(ToDegrees(Radians(RotationAngle(before.rotation, here.rotation))));
+    turns_deg.push_back(ToDegrees(Radians(session::RotationAngle(before.rotation, here.rotation))));
     statistics.path_length_m += moves_m.back();
   }
   const auto [nearest, farthest] = std::minmax_element(distances_m.begin(), distances_m.end());
@@ -37,7 +37,7 @@ PoseStatistics SummarizePath(const std::vector<Observation>& path) {
   return statistics;
 }
 
-LostFrames CountLostFrames(const std::vector<Observation>& path, std::int64_t frames) {
+LostFrames CountLostFrames(const std::vector<session::Observation>& path, std::int64_t frames) {
   LostFrames lost;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const std::int64_t next = i + 1 < path.size() ? path[i + 1].frame_index : frames;

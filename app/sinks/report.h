@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_renderer.h"
-#include "app/session.h"
 #include "base/stage_times.h"
 #include "scene/scene_description.h"
+#include "session/marker_tracks.h"
+#include "session/scene_renderer.h"
 
 namespace pleinair::app {
 
@@ -29,16 +29,16 @@ struct ReplayReport {
   int width = 0, height = 0;  ///< Of the output, pixels.
   double frame_rate_hz = 0.0;
   std::int64_t frames = 0;
-  std::optional<MarkerName> anchor;
-  std::vector<MarkerName> markers;  ///< Every marker seen.
-  std::vector<Observation> path;    ///< Of the anchor, a frame it was seen in each.
+  std::optional<session::MarkerName> anchor;
+  std::vector<session::MarkerName> markers;  ///< Every marker seen.
+  std::vector<session::Observation> path;    ///< Of the anchor, a frame it was seen in each.
   scene::PlaceTime place_time;
   scene::Cloudiness cloudiness = scene::Cloudiness::kClear;
   std::size_t virtual_objects = 0, phantoms = 0;
-  std::optional<LightSummary> light;  ///< Nothing where nothing had to be lit.
-  std::string time_lapse;             ///< Part of the page that shows it; empty without.
-  std::string video_encoder;          ///< Empty without video.
-  std::vector<std::string> outputs;   ///< Relative to the output folder.
+  std::optional<session::LightSummary> light;  ///< Nothing where nothing had to be lit.
+  std::string time_lapse;                      ///< Part of the page that shows it; empty without.
+  std::string video_encoder;                   ///< Empty without video.
+  std::vector<std::string> outputs;            ///< Relative to the output folder.
   std::vector<std::string> warnings;
   std::vector<ReportPicture> pictures;
   std::vector<StageTimes::Summary> timings;  ///< The last is the whole.
@@ -64,7 +64,7 @@ struct PoseStatistics {
   std::array<std::int64_t, 3> found_by{};          ///< Frames by tracker::DetectionPath.
 };
 
-PoseStatistics SummarizePath(const std::vector<Observation>& path);
+PoseStatistics SummarizePath(const std::vector<session::Observation>& path);
 
 /// Frames after the first sighting in which the marker was not seen.
 struct LostFrames {
@@ -73,7 +73,7 @@ struct LostFrames {
 };
 
 /// Of a path through a recording of so many frames.
-LostFrames CountLostFrames(const std::vector<Observation>& path, std::int64_t frames);
+LostFrames CountLostFrames(const std::vector<session::Observation>& path, std::int64_t frames);
 
 /// "clear", "hazy", "partly cloudy", "overcast".
 const char* CloudinessName(scene::Cloudiness cloudiness);

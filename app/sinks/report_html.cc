@@ -53,7 +53,7 @@ std::string Plots(const ReplayReport& report) {
   constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
   std::int64_t last_index = -1;
   double last_heading = 0.0;
-  for (const Observation& at : report.path) {
+  for (const session::Observation& at : report.path) {
     const double t_s = static_cast<double>(at.timestamp_ns) * 1e-9;
     if (last_index >= 0 && at.frame_index != last_index + 1) {
       for (PlotLine* line : {&x, &y, &z, &heading, &tilt, &roll, &error, &visible}) {
@@ -134,8 +134,8 @@ std::string MeasuredCards(const compositor::MeasuredLight& light) {
 }
 
 /// What the camera's gain is and who says so.
-std::string GainCard(const LightSummary& light) {
-  using GainSource = LightSummary::GainSource;
+std::string GainCard(const session::LightSummary& light) {
+  using GainSource = session::LightSummary::GainSource;
   const std::string gain =
       fmt::format("{:.3g} {:.3g} {:.3g}", light.gain.r, light.gain.g, light.gain.b);
   const std::string what = "camera gain (r g b per cd/m²), ";
@@ -149,7 +149,7 @@ std::string GainCard(const LightSummary& light) {
 }
 
 /// Whether the sun reaches the marker; nothing where it served as no light meter.
-std::string MarkerCard(const LightSummary& light) {
+std::string MarkerCard(const session::LightSummary& light) {
   if (light.readings == 0) return "";
   std::string figure = fmt::format("{:.0f} % in the sun", light.print_lit_share * 100);
   if (light.print_lit_share <= 0.0) figure = "in shade";
@@ -157,7 +157,7 @@ std::string MarkerCard(const LightSummary& light) {
   if (!light.measured.sun_shines) figure = "no sun";
   return Card(figure, fmt::format("marker, as the phantoms leave it; leaves shade it in {:.0f} % "
                                   "of frames",
-                                  DappledShare(light) * 100));
+                                  session::DappledShare(light) * 100));
 }
 
 std::string Light(const ReplayReport& report) {
@@ -167,7 +167,7 @@ std::string Light(const ReplayReport& report) {
   html += Card(place.start.ToString(), "start of the recording");
   html += Card(CloudinessName(report.cloudiness), "sky, as the scene says");
   if (!report.light) return html;
-  const LightSummary& light = *report.light;
+  const session::LightSummary& light = *report.light;
   html += Card(fmt::format("{:.1f}° / {:.1f}°", ToDegrees(light.sun.azimuth),
                            ToDegrees(light.sun.elevation_refracted)),
                "sun: azimuth / elevation");
@@ -178,7 +178,7 @@ std::string Light(const ReplayReport& report) {
   html += GainCard(light);
   if (light.look) {
     html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.look->blur_px,
-                             1000 * light.look->NoiseSigma(1, kMediumLight)),
+                             1000 * light.look->NoiseSigma(1, session::kMediumLight)),
                  "blur / noise at medium light, which drawn things get too");
   }
   return html;

@@ -36,13 +36,13 @@ const char* SourceName(compositor::MeasuredLight::Source source) {
   return "stated";
 }
 
-const char* SourceName(LightSummary::GainSource source) {
+const char* SourceName(session::LightSummary::GainSource source) {
   switch (source) {
-    case LightSummary::GainSource::kMarker:
+    case session::LightSummary::GainSource::kMarker:
       return "marker";
-    case LightSummary::GainSource::kScene:
+    case session::LightSummary::GainSource::kScene:
       return "scene";
-    case LightSummary::GainSource::kGuess:
+    case session::LightSummary::GainSource::kGuess:
       return "guess";
   }
   return "guess";
@@ -79,15 +79,16 @@ Json MeasuredJson(const compositor::MeasuredLight& light) {
 /// Noise as its standard deviation at a medium light, in thousandths of the brightest.
 Json LookJson(const compositor::PictureLook& look) {
   Json noise;
-  for (int c = 0; c < 3; ++c) noise.push_back(Rounded(1000 * look.NoiseSigma(c, kMediumLight)));
+  for (int c = 0; c < 3; ++c)
+    noise.push_back(Rounded(1000 * look.NoiseSigma(c, session::kMediumLight)));
   return {{"blur_px", Rounded(look.blur_px)},
           {"noise_permille_at_medium_light", noise},
           {"noise_neighbour_correlation", Rounded(look.neighbour_correlation)},
           {"noise_channel_correlation", Rounded(look.channel_correlation)}};
 }
 
-Json LightJson(const LightSummary& light) {
-  const bool is_metered = light.gain_source == LightSummary::GainSource::kMarker;
+Json LightJson(const session::LightSummary& light) {
+  const bool is_metered = light.gain_source == session::LightSummary::GainSource::kMarker;
   // Without a sun a print lies neither in it nor in shade.
   const bool may_be_lit = light.readings > 0 && light.measured.sun_shines;
   return {{"sun_azimuth_deg", Rounded(ToDegrees(light.sun.azimuth))},
@@ -101,7 +102,7 @@ Json LightJson(const LightSummary& light) {
           {"gain_change", IfKnown(is_metered, light.gain_change)},
           {"gain_readings", light.readings},
           {"marker_in_sun", IfKnown(may_be_lit, light.print_lit_share)},
-          {"marker_dappled", IfKnown(light.readings > 0, DappledShare(light))},
+          {"marker_dappled", IfKnown(light.readings > 0, session::DappledShare(light))},
           {"look", light.look ? LookJson(*light.look) : Json()},
           {"measured", MeasuredJson(light.measured)}};
 }
@@ -159,7 +160,8 @@ std::string ReportJson(const ReplayReport& report) {
   json["frame_rate_hz"] = Rounded(report.frame_rate_hz);
   json["marker"] = report.anchor ? Json(report.anchor->ToString()) : Json();
   json["markers_seen"] = Json::array();
-  for (const MarkerName& marker : report.markers) json["markers_seen"].push_back(marker.ToString());
+  for (const session::MarkerName& marker : report.markers)
+    json["markers_seen"].push_back(marker.ToString());
   json["poses"] = report.path.empty() ? Json() : PosesJson(report);
   json["place_time"] = {{"latitude_deg", Rounded(report.place_time.latitude_deg)},
                         {"longitude_deg", Rounded(report.place_time.longitude_deg)},

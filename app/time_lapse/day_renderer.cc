@@ -26,7 +26,7 @@ constexpr double kDark_lux = 0.05;
 
 }  // namespace
 
-DayRenderer::DayRenderer(const CameraModel& camera, LightOrder order)
+DayRenderer::DayRenderer(const CameraModel& camera, session::LightOrder order)
     : order_(std::move(order)), width_(camera.width), height_(camera.height) {
   rays_.reserve(static_cast<std::size_t>(width_) * height_);
   for (int y = 0; y < height_; ++y) {
@@ -38,8 +38,8 @@ DayRenderer::DayRenderer(const CameraModel& camera, LightOrder order)
 }
 
 Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
-    const CameraModel& camera, std::vector<compositor::PlacedModel> placed, LightOrder order,
-    const compositor::ComposerOptions& options) {
+    const CameraModel& camera, std::vector<compositor::PlacedModel> placed,
+    session::LightOrder order, const compositor::ComposerOptions& options) {
   std::unique_ptr<DayRenderer> renderer(new DayRenderer(camera, std::move(order)));
   renderer->order_.print = {};  // Nothing is metered.
   for (compositor::PlacedModel& model : placed) model.is_phantom = false;
@@ -65,9 +65,9 @@ LinearRgb DayRenderer::LevelLight(UtcTime time) const {
 
 Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_from_marker,
                                      UtcTime time, LinearRgb gain) {
-  LightOrder order = order_;
+  session::LightOrder order = order_;
   order.time = time;
-  SceneLight light(order);
+  session::SceneLight light(order);
   for (compositor::LitMesh& mesh : light.meshes) {
     mesh.is_phantom = false;
     mesh.ambient_without.clear();
@@ -78,7 +78,7 @@ Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_fro
 }
 
 /// What lies behind the scene: sky and land.
-RgbImage DayRenderer::Far(const SceneLight& light,
+RgbImage DayRenderer::Far(const session::SceneLight& light,
                           const Transform<Camera, Marker>& camera_from_marker,
                           LinearRgb gain) const {
   const compositor::SkyTable sky(light.daylight, light.marker_from_world, kLandAlbedo);

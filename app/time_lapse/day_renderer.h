@@ -3,13 +3,13 @@
 #include <memory>
 #include <vector>
 
-#include "app/scene_light.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/image.h"
 #include "compositor/composer.h"
 #include "compositor/models/placed_model.h"
+#include "session/scene_light.h"
 
 namespace pleinair::app {
 
@@ -21,7 +21,7 @@ class DayRenderer {
   /// `placed`: the models that its solver was made of. Errors as Composer::Create().
   static Result<std::unique_ptr<DayRenderer>> Create(const CameraModel& camera,
                                                      std::vector<compositor::PlacedModel> placed,
-                                                     LightOrder order,
+                                                     session::LightOrder order,
                                                      const compositor::ComposerOptions& options);
 
   /// Sun and sky on level ground, lux.
@@ -32,11 +32,11 @@ class DayRenderer {
                           LinearRgb gain);
 
  private:
-  DayRenderer(const CameraModel& camera, LightOrder order);
-  RgbImage Far(const SceneLight& light, const Transform<Camera, Marker>& camera_from_marker,
-               LinearRgb gain) const;
+  DayRenderer(const CameraModel& camera, session::LightOrder order);
+  RgbImage Far(const session::SceneLight& light,
+               const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain) const;
 
-  LightOrder order_;
+  session::LightOrder order_;
   int width_, height_;
   std::vector<Vec3> rays_;  // Of the pixels, camera coordinates, unit.
   std::unique_ptr<compositor::Composer> composer_;

@@ -299,7 +299,7 @@ class LiveWindow {
   const LiveWindowOptions& options_;
   Screen& screen_;
   WindowState state_;
-  SceneEdit edit_;  // What the session has.
+  session::SceneEdit edit_;  // What the session has.
   ScenePanel panel_;
   PictureMouse mouse_;
   std::optional<FrameThread> frames_;

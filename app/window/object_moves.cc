@@ -40,22 +40,24 @@ Vec3 AnglesOf(const Mat3& r) {
 }
 
 /// Places a changed rotation or scale so that a point of the model stays where it is.
-ObjectPlace Keeping(Vec3 point, const ObjectPlace& before, ObjectPlace after) {
-  const Vec3 in_model = Inverse(LinearOf(before), before.scale) * (point - before.translation_m);
-  after.translation_m = point - LinearOf(after) * in_model;
+session::ObjectPlace Keeping(Vec3 point, const session::ObjectPlace& before,
+                             session::ObjectPlace after) {
+  const Vec3 in_model =
+      Inverse(session::LinearOf(before), before.scale) * (point - before.translation_m);
+  after.translation_m = point - session::LinearOf(after) * in_model;
   return after;
 }
 
 }  // namespace
 
-Vec3 BoxCorner(const ObjectBox& box, const ObjectPlace& place, int corner) {
+Vec3 BoxCorner(const ObjectBox& box, const session::ObjectPlace& place, int corner) {
   const Vec3 in_model{(corner & 1) != 0 ? box.max.x : box.min.x,
                       (corner & 2) != 0 ? box.max.y : box.min.y,
                       (corner & 4) != 0 ? box.max.z : box.min.z};
-  return LinearOf(place) * in_model + place.translation_m;
+  return session::LinearOf(place) * in_model + place.translation_m;
 }
 
-Vec3 BoxFoot(const ObjectBox& box, const ObjectPlace& place, Vec3 up) {
+Vec3 BoxFoot(const ObjectBox& box, const session::ObjectPlace& place, Vec3 up) {
   Vec3 middle;
   double lowest = std::numeric_limits<double>::infinity();
   for (int corner = 0; corner < 8; ++corner) {
@@ -66,12 +68,12 @@ Vec3 BoxFoot(const ObjectBox& box, const ObjectPlace& place, Vec3 up) {
   return middle + up * (lowest - Dot(middle, up));
 }
 
-std::optional<int> PickObject(std::span<const ObjectBox> boxes, std::span<const ObjectPlace> places,
-                              const Sight& sight) {
+std::optional<int> PickObject(std::span<const ObjectBox> boxes,
+                              std::span<const session::ObjectPlace> places, const Sight& sight) {
   std::optional<int> picked;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min(boxes.size(), places.size()); ++i) {
-    const Mat3 model_from_marker = Inverse(LinearOf(places[i]), places[i].scale);
+    const Mat3 model_from_marker = Inverse(session::LinearOf(places[i]), places[i].scale);
     const Vec3 eye = model_from_marker * (sight.eye - places[i].translation_m);
     const Vec3 direction = model_from_marker * sight.direction;
     double enter = 0.0, leave = std::numeric_limits<double>::infinity();
@@ -101,38 +103,40 @@ ViewerAxes AxesOf(const Transform<Camera, Marker>& camera_from_marker, Vec3 up) 
   return {unit, Cross(up, unit)};
 }
 
-ObjectPlace DraggedLevel(const ObjectPlace& place, const Sight& from, const Sight& to, Vec3 hold,
-                         Vec3 up) {
+session::ObjectPlace DraggedLevel(const session::ObjectPlace& place, const Sight& from,
+                                  const Sight& to, Vec3 hold, Vec3 up) {
   if (std::abs(Dot(to.direction, up)) < kLeastSlope) return place;
   const auto start = MeetPlane(from, hold, up), end = MeetPlane(to, hold, up);
   if (!start || !end) return place;
-  ObjectPlace moved = place;
+  session::ObjectPlace moved = place;
   moved.translation_m = moved.translation_m + (*end - *start);
   return moved;
 }
 
-ObjectPlace DraggedUpright(const ObjectPlace& place, const Sight& from, const Sight& to, Vec3 hold,
-                           Vec3 up) {
+session::ObjectPlace DraggedUpright(const session::ObjectPlace& place, const Sight& from,
+                                    const Sight& to, Vec3 hold, Vec3 up) {
   const Vec3 facing = from.direction - up * Dot(from.direction, up);
   if (Norm(facing) < kLeastSlope) return place;
   const auto start = MeetPlane(from, hold, Normalized(facing));
   const auto end = MeetPlane(to, hold, Normalized(facing));
   if (!start || !end) return place;
-  ObjectPlace moved = place;
+  session::ObjectPlace moved = place;
   moved.translation_m = moved.translation_m + up * Dot(*end - *start, up);
   return moved;
 }
 
-ObjectPlace Turned(const ObjectBox& box, const ObjectPlace& place, double degrees, Vec3 up) {
-  Mat3 rotation = RotationAbout(up, degrees * kRadiansPerDegree) * LinearOf(place);
+session::ObjectPlace Turned(const ObjectBox& box, const session::ObjectPlace& place, double degrees,
+                            Vec3 up) {
+  Mat3 rotation = RotationAbout(up, degrees * kRadiansPerDegree) * session::LinearOf(place);
   for (double& element : rotation.m) element /= place.scale;
-  ObjectPlace turned = place;
+  session::ObjectPlace turned = place;
   turned.rotation_deg = AnglesOf(rotation);
   return Keeping(BoxFoot(box, place, up), place, turned);
 }
 
-ObjectPlace Scaled(const ObjectBox& box, const ObjectPlace& place, double factor, Vec3 up) {
-  ObjectPlace scaled = place;
+session::ObjectPlace Scaled(const ObjectBox& box, const session::ObjectPlace& place, double factor,
+                            Vec3 up) {
+  session::ObjectPlace scaled = place;
   scaled.scale = std::clamp(place.scale * factor, kSmallestScale, kLargestScale);
   return Keeping(BoxFoot(box, place, up), place, scaled);
 }

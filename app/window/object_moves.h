@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "app/scene_edit.h"
 #include "app/window/picture_view.h"
+#include "session/scene_edit.h"
 
 namespace pleinair::app {
 
@@ -16,13 +16,13 @@ struct ObjectBox {
 };
 
 /// Corner 0…7 of an object's box where it stands, marker coordinates; bit 0 is x, 1 y, 2 z.
-Vec3 BoxCorner(const ObjectBox& box, const ObjectPlace& place, int corner);
+Vec3 BoxCorner(const ObjectBox& box, const session::ObjectPlace& place, int corner);
 /// The middle of the box's lowest face, as `up` has it.
-Vec3 BoxFoot(const ObjectBox& box, const ObjectPlace& place, Vec3 up);
+Vec3 BoxFoot(const ObjectBox& box, const session::ObjectPlace& place, Vec3 up);
 
 /// The object whose box a line of sight meets first.
-std::optional<int> PickObject(std::span<const ObjectBox> boxes, std::span<const ObjectPlace> places,
-                              const Sight& sight);
+std::optional<int> PickObject(std::span<const ObjectBox> boxes,
+                              std::span<const session::ObjectPlace> places, const Sight& sight);
 
 /// Directions on level ground as the viewer has them: unit, marker coordinates.
 struct ViewerAxes {
@@ -32,14 +32,16 @@ ViewerAxes AxesOf(const Transform<Camera, Marker>& camera_from_marker, Vec3 up);
 
 /// Moves so that the point of the object that a mouse took hold of follows the mouse: over level
 /// ground, from one line of sight to the next.
-ObjectPlace DraggedLevel(const ObjectPlace& place, const Sight& from, const Sight& to, Vec3 hold,
-                         Vec3 up);
+session::ObjectPlace DraggedLevel(const session::ObjectPlace& place, const Sight& from,
+                                  const Sight& to, Vec3 hold, Vec3 up);
 /// The same up and down, on an upright plane that faces the viewer.
-ObjectPlace DraggedUpright(const ObjectPlace& place, const Sight& from, const Sight& to, Vec3 hold,
-                           Vec3 up);
+session::ObjectPlace DraggedUpright(const session::ObjectPlace& place, const Sight& from,
+                                    const Sight& to, Vec3 hold, Vec3 up);
 /// Turned about the upright through the middle of its foot.
-ObjectPlace Turned(const ObjectBox& box, const ObjectPlace& place, double degrees, Vec3 up);
+session::ObjectPlace Turned(const ObjectBox& box, const session::ObjectPlace& place, double degrees,
+                            Vec3 up);
 /// Made larger, its foot staying.
-ObjectPlace Scaled(const ObjectBox& box, const ObjectPlace& place, double factor, Vec3 up);
+session::ObjectPlace Scaled(const ObjectBox& box, const session::ObjectPlace& place, double factor,
+                            Vec3 up);
 
 }  // namespace pleinair::app

@@ -31,7 +31,7 @@ void DrawLine(const PictureView& view, const WindowState& state, Vec3 a, Vec3 b,
 
 void DrawBox(const PictureView& view, const WindowState& state, int object) {
   const ObjectBox& box = state.boxes[object];
-  const ObjectPlace& place = state.edit.objects[object];
+  const session::ObjectPlace& place = state.edit.objects[object];
   constexpr std::array<std::array<int, 2>, 12> kEdges{{{0, 1},
                                                        {2, 3},
                                                        {4, 5},
@@ -55,7 +55,7 @@ void DrawBox(const PictureView& view, const WindowState& state, int object) {
 }
 
 Vec3 ToSun(const WindowState& state) {
-  return scene::SunOver(WithEdit(state.scene, state.edit).place_time, state.shown_time())
+  return scene::SunOver(session::WithEdit(state.scene, state.edit).place_time, state.shown_time())
       .ToSun()
       .xyz;
 }
@@ -125,7 +125,7 @@ void PictureMouse::Update(const PictureView& view, const std::vector<ButtonEvent
     const Sight sight =
         SightThrough(state->camera, *state->camera_from_marker, view.PixelFromScreen(mouse));
     if (PickObject(state->boxes, state->edit.objects, sight) == state->selected) {
-      ObjectPlace& place = state->edit.objects[state->selected];
+      session::ObjectPlace& place = state->edit.objects[state->selected];
       place = Scaled(state->boxes[state->selected], place,
                      std::pow(kGrowthANotch, static_cast<double>(io.MouseWheel)),
                      UpOf(state->scene.marker));
@@ -178,7 +178,7 @@ void PictureMouse::Continue(const PictureView& view, Vec2 screen, WindowState* s
     return;
   }
   if (state->selected < 0) return;
-  ObjectPlace& place = state->edit.objects[state->selected];
+  session::ObjectPlace& place = state->edit.objects[state->selected];
   if (drag_ == Drag::kTurn) {
     const double share =
         (screen.x - start_screen_.x) / std::max(1.0F, ImGui::GetIO().DisplaySize.x);

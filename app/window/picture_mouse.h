@@ -38,7 +38,7 @@ class PictureMouse {
   Vec2 start_screen_;
   Sight start_;
   Vec3 hold_;
-  ObjectPlace start_place_;
+  session::ObjectPlace start_place_;
 };
 
 }  // namespace pleinair::app

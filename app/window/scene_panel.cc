@@ -111,7 +111,7 @@ void ScenePanel::Draw(Vec2 corner, Vec2 size, UtcTime now, WindowState* state) {
 }
 
 void ScenePanel::PlaceAndTime(UtcTime now, WindowState* state) {
-  SceneEdit& edit = state->edit;
+  session::SceneEdit& edit = state->edit;
   if (ImGui::BeginCombo("city", "choose…", ImGuiComboFlags_HeightLarge)) {
     ImGui::SetNextItemWidth(-1.0F);
     if (ImGui::IsWindowAppearing()) {
@@ -159,7 +159,7 @@ void ScenePanel::PlaceAndTime(UtcTime now, WindowState* state) {
 }
 
 void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
-  const SceneEdit& edit = state.edit;
+  const session::SceneEdit& edit = state.edit;
   const UtcTime shown = state.shown_time();
   const UtcTime midnight = shown.PlusSeconds(-TimeOfDay(shown, utc_offset_s));
   const std::int64_t day = midnight.nanoseconds_since_1970() / 60'000'000'000;
@@ -206,9 +206,9 @@ void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
 }
 
 void ScenePanel::Air(WindowState* state) {
-  SceneEdit& edit = state->edit;
+  session::SceneEdit& edit = state->edit;
   bool by_hand = edit.sky.has_value();
-  SceneEdit::Sky sky = edit.sky.value_or(StatedAir(state->scene));
+  session::SceneEdit::Sky sky = edit.sky.value_or(session::StatedAir(state->scene));
   bool changed = Slider("turbidity", &sky.turbidity, 1.2, 10.0, "%.1f", true);
   Hint("Haze: 1.2 high mountains, 1.8 a clear day, 3 hazy, 6 and more thick haze.");
   changed = Slider("cloud cover", &sky.cloud_cover, 0.0, 1.0, "%.2f") || changed;
@@ -225,7 +225,7 @@ void ScenePanel::Air(WindowState* state) {
 }
 
 void ScenePanel::North(WindowState* state) {
-  SceneEdit& edit = state->edit;
+  session::SceneEdit& edit = state->edit;
   double heading = ToDegrees(state->marker().heading);
   heading -= 360.0 * std::floor(heading / 360.0);
   if (ImGui::InputDouble("heading °", &heading, 0.1, 1.0, "%.2f")) edit.heading_deg = heading;
@@ -253,7 +253,7 @@ void ScenePanel::Objects(WindowState* state) {
     ImGui::PopID();
   }
   if (state->selected < 0 || state->selected >= count) return;
-  ObjectPlace& place = state->edit.objects[state->selected];
+  session::ObjectPlace& place = state->edit.objects[state->selected];
   DragVector("position m", &place.translation_m, 0.005F, "%.3f");
   DragVector("turn °", &place.rotation_deg, 0.5F, "%.1f");
   double scale = place.scale;
@@ -305,13 +305,14 @@ void ScenePanel::Shadows(WindowState* state) {
 }
 
 void ScenePanel::Light(WindowState* state) {
-  SceneEdit& edit = state->edit;
+  session::SceneEdit& edit = state->edit;
   Fog(&edit.drawing);
   Slider("convergence", &edit.convergence, 1e-4, 0.2, "%.4f", true);
   Hint("Reflections among surfaces are followed until one more adds less than this share.");
   constexpr const char* kDetails[] = {"automatic", "fine", "fast", "coarse"};
   int detail = static_cast<int>(edit.detail);
-  if (ImGui::Combo("detail", &detail, kDetails, 4)) edit.detail = static_cast<Detail>(detail);
+  if (ImGui::Combo("detail", &detail, kDetails, 4))
+    edit.detail = static_cast<session::Detail>(detail);
   Hint("Automatic: as fine as keeps up with the camera.");
   const double share = state->statistics.light.coefficients;
   if (share < 1.0 && !state->boxes.empty()) {

@@ -12,14 +12,14 @@ constexpr double kTimeStep_s = 600.0, kFineTimeStep_s = 60.0;
 constexpr double kDay_s = 86400.0;
 
 /// Steps are for objects of about a metre; larger and smaller ones move in proportion.
-double SizeOf(const ObjectBox& box, const ObjectPlace& place) {
+double SizeOf(const ObjectBox& box, const session::ObjectPlace& place) {
   return Norm(box.max - box.min) * place.scale;
 }
 
 void DoToObject(Action action, bool fine, WindowState* state) {
   const auto index = static_cast<std::size_t>(state->selected);
   if (index >= state->edit.objects.size()) return;
-  ObjectPlace& place = state->edit.objects[index];
+  session::ObjectPlace& place = state->edit.objects[index];
   const ObjectBox& box = state->boxes[index];
   const Vec3 up = UpOf(state->scene.marker);
   const ViewerAxes axes = state->camera_from_marker ? AxesOf(*state->camera_from_marker, up)
@@ -77,7 +77,7 @@ WindowState WindowState::For(const scene::SceneDescription& scene,
                              const compositor::ComposerOptions& drawing, double convergence) {
   WindowState state;
   state.scene = scene;
-  state.edit = state.unedited = UneditedScene(scene, drawing, convergence);
+  state.edit = state.unedited = session::UneditedScene(scene, drawing, convergence);
   state.moment = scene.place_time.start;
   if (state.edit.objects.size() == 1) state.selected = 0;
   state.pole.height_m = scene.marker.size_m;

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "app/live/live_session.h"
-#include "app/scene_edit.h"
 #include "app/window/north_pole.h"
 #include "app/window/object_moves.h"
 #include "base/utc_time.h"
 #include "scene/scene_description.h"
+#include "session/scene_edit.h"
 
 namespace pleinair::app {
 
@@ -17,7 +17,7 @@ namespace pleinair::app {
 /// without a window, so that tests can press keys, too.
 struct WindowState {
   scene::SceneDescription scene;  ///< As it was described.
-  SceneEdit edit, unedited;
+  session::SceneEdit edit, unedited;
   std::vector<ObjectBox> boxes;  ///< Of the scene's objects, in their order.
   int selected = -1;             ///< Index of an object; -1: none.
   bool panel = true, help = false;
@@ -30,7 +30,7 @@ struct WindowState {
   std::optional<Transform<Camera, Marker>> camera_from_marker;
   UtcTime moment;  ///< Without what the edit adds.
   bool has_frame = false;
-  LightSummary light;
+  session::LightSummary light;
   LiveStatistics statistics;
   double shown_per_second = 0.0;
   bool recording = false;
@@ -47,7 +47,7 @@ struct WindowState {
   /// The scene's state for a new session.
   static WindowState For(const scene::SceneDescription& scene,
                          const compositor::ComposerOptions& drawing,
-                         double convergence = SceneEdit{}.convergence);
+                         double convergence = session::SceneEdit{}.convergence);
 };
 
 /// Makes the scene that of another time.

@@ -10,8 +10,8 @@ namespace pleinair::app {
 namespace {
 
 /// Every third frame has a pose, `seconds` apart from the next.
-std::vector<Observation> Path(std::int64_t size, std::int64_t seconds) {
-  std::vector<Observation> path(static_cast<std::size_t>(size));
+std::vector<session::Observation> Path(std::int64_t size, std::int64_t seconds) {
+  std::vector<session::Observation> path(static_cast<std::size_t>(size));
   for (std::int64_t i = 0; i < size; ++i) {
     path[static_cast<std::size_t>(i)].frame_index = 3 * i;
     path[static_cast<std::size_t>(i)].timestamp_ns = i * seconds * 1'000'000'000;

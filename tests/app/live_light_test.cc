@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/live/live_light.h"
 #include "compositor/photometry/day_skies.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
+#include "session/background_light.h"
 #include "tests/app/small_camera.h"
 #include "tests/app/yard_scene.h"
 #include "tests/compositor/light_scenes.h"
@@ -28,10 +28,10 @@ using std::chrono::milliseconds;
 constexpr const char* kNoon = "2025-09-14T11:05:00Z";
 
 /// A box on level ground.
-LiveLight::Setup BoxOnGround() {
+session::LiveLight::Setup BoxOnGround() {
   using compositor::testing::BoxModel;
   using compositor::testing::Ground;
-  LiveLight::Setup setup;
+  session::LiveLight::Setup setup;
   setup.camera = SmallCameraOptions().camera;
   setup.scene = SmallCameraOptions().scene;
   setup.scene.place_time.start = *UtcTime::Parse(kNoon);
@@ -40,18 +40,18 @@ LiveLight::Setup BoxOnGround() {
   setup.placed = {
       compositor::testing::Phantom(Ground(0.6, {0.3F, 0.3F, 0.3F})),
       compositor::testing::Object(BoxModel({0, 0, 0}, {0.3, 0.3, 0.3}, {0.5F, 0.4F, 0.3F}))};
-  setup.edit = UneditedScene(setup.scene, {});
+  setup.edit = session::UneditedScene(setup.scene, {});
   setup.skies.source = compositor::StatedSky(setup.scene);
   setup.time = *UtcTime::Parse(kNoon);
   return setup;
 }
 
 TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
-  const LiveLight::Setup setup = BoxOnGround();
-  SceneEdit edit = setup.edit;
-  auto light = LiveLight::Create(setup);
+  const session::LiveLight::Setup setup = BoxOnGround();
+  session::SceneEdit edit = setup.edit;
+  auto light = session::LiveLight::Create(setup);
   ASSERT_TRUE(light) << light.error().Message();
-  std::shared_ptr<const SceneLight> in_use = (*light)->Take();
+  std::shared_ptr<const session::SceneLight> in_use = (*light)->Take();
   ASSERT_NE(in_use, nullptr) << "the first light is there at once";
   const auto until_coefficients = [&] {
     int seen_without = 0;
@@ -85,16 +85,16 @@ TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
 }
 
 TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
-  LiveLight::Setup setup = BoxOnGround();
+  session::LiveLight::Setup setup = BoxOnGround();
   const Vec3 to_sun = scene::MarkerFromWorld(setup.scene.marker) *
                       scene::SunOver(setup.scene.place_time, setup.time).ToSun().xyz;
   const std::vector<compositor::SunlitSpot> spots{{{0, 0, 0}, 0.2, 0.01}};
   setup.skies.sunlight =
       std::make_shared<const compositor::SeenSunlight>(compositor::MapSeenSunlight(to_sun, spots));
-  auto light = LiveLight::Create(setup);
+  auto light = session::LiveLight::Create(setup);
   ASSERT_TRUE(light) << light.error().Message();
   const auto has_map = [&](double later_s, double heading_deg) {
-    SceneEdit edit = setup.edit;
+    session::SceneEdit edit = setup.edit;
     edit.later_s = later_s;
     edit.heading_deg = heading_deg;
     (*light)->SetEdit(edit);
@@ -119,7 +119,8 @@ TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
 /// The next light of which this holds. Waits without a limit: a sanitized build on a busy machine
 /// takes some ten seconds a light.
 template <typename Condition>
-std::shared_ptr<const SceneLight> Await(LiveLight& light, const Condition& is_wanted) {
+std::shared_ptr<const session::SceneLight> Await(session::LiveLight& light,
+                                                 const Condition& is_wanted) {
   while (true) {
     auto newest = light.Take();
     if (newest && is_wanted(*newest)) return newest;
@@ -127,16 +128,16 @@ std::shared_ptr<const SceneLight> Await(LiveLight& light, const Condition& is_wa
   }
 }
 
-double SunToSkyOf(const compositor::DaySkies& skies, const SceneLight& at) {
+double SunToSkyOf(const compositor::DaySkies& skies, const session::SceneLight& at) {
   return compositor::SunToSky(compositor::ScaledDaylight(
       *skies.source->ForSun(at.sun.ToSun(), at.sun.distance_au), skies.scale, {1.0, 1.0, 1.0}));
 }
 
 TEST(LiveLight, TakesTheSkyThatIsGiven) {
-  LiveLight::Setup setup = BoxOnGround();
+  session::LiveLight::Setup setup = BoxOnGround();
   for (const double ratio : {2.0, 0.0}) {
     setup.light.overrides.sun_to_sky = ratio;
-    auto light = LiveLight::Create(setup);
+    auto light = session::LiveLight::Create(setup);
     ASSERT_TRUE(light) << light.error().Message();
     const auto first = (*light)->Take();
     ASSERT_NE(first, nullptr);
@@ -151,23 +152,23 @@ TEST(LiveLight, KeepsTheCoefficientsOfTheSceneAsItBeganAlone) {
     using Iterator = std::filesystem::directory_iterator;
     return std::filesystem::exists(cache) ? std::distance(Iterator(cache), Iterator()) : 0;
   };
-  LiveLight::Setup setup = BoxOnGround();
+  session::LiveLight::Setup setup = BoxOnGround();
   setup.light.cache = cache;
   setup.light.sky_division = 2;
   {
-    auto light = LiveLight::Create(setup);
+    auto light = session::LiveLight::Create(setup);
     ASSERT_TRUE(light) << light.error().Message();
     const auto lit = Await(**light, [](const auto& l) { return l.order.coefficients != nullptr; });
     EXPECT_EQ(lit->order.coefficients->division, 2);
     EXPECT_EQ(kept(), 1);
-    SceneEdit edit = setup.edit;
+    session::SceneEdit edit = setup.edit;
     edit.objects[0].translation_m = {-0.3, 0.1, 0.0};
     (*light)->SetEdit(edit);
     Await(**light,
           [&](const auto& l) { return l.order.coefficients && l.objects == edit.objects; });
     EXPECT_EQ(kept(), 1) << "of a place that is tried out";
   }
-  auto again = LiveLight::Create(setup);
+  auto again = session::LiveLight::Create(setup);
   ASSERT_TRUE(again) << again.error().Message();
   const auto lit = Await(**again, [](const auto& l) { return l.order.coefficients != nullptr; });
   EXPECT_TRUE(lit->order.coefficients->from_cache);
@@ -180,7 +181,7 @@ class LiveYard {
  public:
   /// `off_deg`: of the stated heading.
   explicit LiveYard(double off_deg) {
-    LiveLight::Setup setup;
+    session::LiveLight::Setup setup;
     setup.camera = yard_.camera();
     setup.scene = YardScene(yard_, off_deg, time_);
     setup.placed = PhotographedYard::Phantoms();
@@ -188,19 +189,19 @@ class LiveYard {
     setup.scene.objects.emplace_back();
     setup.placed.push_back(compositor::testing::Object(
         compositor::testing::BoxModel({2.4, -2.5, 0.0}, {2.5, -2.4, 0.1}, {0.5F, 0.5F, 0.5F})));
-    setup.edit = UneditedScene(setup.scene, {});
+    setup.edit = session::UneditedScene(setup.scene, {});
     setup.skies.source = compositor::StatedSky(setup.scene);
     setup.time = time_;
-    light_ = *LiveLight::Create(setup);
+    light_ = *session::LiveLight::Create(setup);
     light_->SetPrint(yard_.print());
   }
 
   const PhotographedYard& yard() const { return yard_; }
-  LiveLight::Progress progress() const { return light_->progress(); }
+  session::LiveLight::Progress progress() const { return light_->progress(); }
 
   /// Shows a picture as often as a look takes, a minute after the last look; gives the light that
   /// is made then.
-  std::shared_ptr<const SceneLight> LookAt(const RgbImage& picture) {
+  std::shared_ptr<const session::SceneLight> LookAt(const RgbImage& picture) {
     auto frame = std::make_shared<devices::Frame>();
     frame->rgb = picture;
     time_ = time_.PlusSeconds(61.0);
@@ -216,14 +217,14 @@ class LiveYard {
     } while (seen > 0);
     // Another light than any that was asked for before.
     light_->SetTime(asked_for_ = asked_for_.PlusSeconds(600.0));
-    return Await(*light_, [&](const SceneLight& l) { return l.order.time == asked_for_; });
+    return Await(*light_, [&](const session::SceneLight& l) { return l.order.time == asked_for_; });
   }
 
  private:
   PhotographedYard yard_;
   UtcTime time_ = *UtcTime::Parse("2025-09-14T13:50:00Z");
   UtcTime asked_for_ = time_;
-  std::unique_ptr<LiveLight> light_;
+  std::unique_ptr<session::LiveLight> light_;
 };
 
 TEST(LiveLight, KeepsWhatFramesToldWhenTheNextOnesTellNothing) {

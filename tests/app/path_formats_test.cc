@@ -64,7 +64,7 @@ TEST(TumPath, WritesWhatItReads) {
 }
 
 TEST(TumPath, TellsTheCameraInTheMarkersFrame) {
-  Observation seen;
+  session::Observation seen;
   seen.timestamp_ns = 1'066'667'000;
   seen.camera_from_marker =
       Transform<Marker, Camera>{About({0, 0, 1}, std::numbers::pi / 2), {1, 2, 3}}.Inverse();

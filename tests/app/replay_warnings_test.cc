@@ -36,7 +36,7 @@ std::string WhereNothingWasSeen(std::optional<std::string> family, std::optional
   ReplayReport report;
   report.frames = 3;
   report.markers = {{"tag36h11", 4}};
-  const auto warnings = MarkerWarnings(report, Session(scene.marker), scene);
+  const auto warnings = MarkerWarnings(report, session::Session(scene.marker), scene);
   EXPECT_THAT(warnings, SizeIs(1));
   return warnings.empty() ? "" : warnings[0];
 }
@@ -77,7 +77,7 @@ TEST(DrawingWarnings, SayThatEdgesGetFewSamples) {
 }
 
 TEST(LightWarnings, SayWhatTheLightCannotBe) {
-  LightSummary light;
+  session::LightSummary light;
   light.sun.elevation = FromDegrees(30);
   EXPECT_THAT(LightWarnings(light), IsEmpty());
   light.measured.sun_source = compositor::MeasuredLight::Source::kMeasured;

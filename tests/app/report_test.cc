@@ -18,8 +18,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Observation At(std::int64_t frame, double x_m) {
-  Observation at;
+session::Observation At(std::int64_t frame, double x_m) {
+  session::Observation at;
   at.frame_index = frame;
   at.timestamp_ns = frame * 100'000'000;
   at.camera_from_marker.translation_m = {x_m, 0, 2};
@@ -32,7 +32,7 @@ ReplayReport Example() {
   report.recording = "<b>site & \"garden\"</b>";
   report.command = "pleinair replay 'x'";
   report.frames = 3;
-  report.anchor = MarkerName{"tag36h11", 7};
+  report.anchor = session::MarkerName{"tag36h11", 7};
   report.path = {At(0, 0.0), At(1, 0.1), At(2, 0.2)};
   report.warnings = {"<script>alert(1)</script>"};
   report.timings = {{"track", 3, 1.5, 2.5, 6.0}, {kWholeReplay, 1, 1500.0, 1500.0, 1500.0}};
@@ -103,8 +103,8 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
 using Source = compositor::MeasuredLight::Source;
 
 /// A sun, a heading and a gain that frames told of.
-LightSummary MeasuredSummary() {
-  LightSummary light;
+session::LightSummary MeasuredSummary() {
+  session::LightSummary light;
   light.sun.azimuth = FromDegrees(151.2);
   light.sun.elevation = FromDegrees(41.5);
   light.sun.elevation_refracted = FromDegrees(41.6);
@@ -129,13 +129,13 @@ LightSummary MeasuredSummary() {
   return light;
 }
 
-nlohmann::json JsonOf(const LightSummary& light) {
+nlohmann::json JsonOf(const session::LightSummary& light) {
   ReplayReport report = Example();
   report.light = light;
   return nlohmann::json::parse(ReportJson(report))["light"];
 }
 
-std::string PageOf(const LightSummary& light) {
+std::string PageOf(const session::LightSummary& light) {
   ReplayReport report = Example();
   report.light = light;
   return ReportHtml(report);
@@ -180,7 +180,7 @@ TEST(ReportLight, StatesWhatWasMeasuredAndHowCertainItIs) {
 }
 
 TEST(ReportLight, StatesTheRatioThatTreesShadeTells) {
-  LightSummary light = MeasuredSummary();
+  session::LightSummary light = MeasuredSummary();
   light.measured.sun_source = Source::kShade;
   light.measured.shade_places = 12;
   light.measured.sun_to_sky_error = 0.21;
@@ -192,7 +192,7 @@ TEST(ReportLight, StatesTheRatioThatTreesShadeTells) {
 }
 
 TEST(ReportLight, StatesTheRatioThatAShadowAcrossTheMarkerTells) {
-  LightSummary light = MeasuredSummary();
+  session::LightSummary light = MeasuredSummary();
   light.measured.sun_source = Source::kMarker;
   light.measured.sun_to_sky_error = 0.15;
   EXPECT_EQ(JsonOf(light)["measured"]["sun_from"], "marker");
@@ -200,7 +200,7 @@ TEST(ReportLight, StatesTheRatioThatAShadowAcrossTheMarkerTells) {
 }
 
 TEST(ReportLight, ClaimsNoCertaintyOfWhatIsOnlySaid) {
-  LightSummary light = MeasuredSummary();
+  session::LightSummary light = MeasuredSummary();
   light.measured = {};
   light.measured.sun_to_sky = 4.74;
   const nlohmann::json stated = JsonOf(light)["measured"];
@@ -222,11 +222,11 @@ TEST(ReportLight, ClaimsNoCertaintyOfWhatIsOnlySaid) {
 }
 
 TEST(ReportLight, SaysWhoGaveTheGain) {
-  LightSummary light = MeasuredSummary();
+  session::LightSummary light = MeasuredSummary();
   light.readings = light.dappled_readings = 0;
   for (const auto& [source, name, words] :
-       {std::tuple{LightSummary::GainSource::kScene, "scene", "as the scene gives it"},
-        std::tuple{LightSummary::GainSource::kGuess, "guess", "guessed"}}) {
+       {std::tuple{session::LightSummary::GainSource::kScene, "scene", "as the scene gives it"},
+        std::tuple{session::LightSummary::GainSource::kGuess, "guess", "guessed"}}) {
     light.gain_source = source;
     const nlohmann::json json = JsonOf(light);
     EXPECT_EQ(json["gain_from"], name);
@@ -243,7 +243,7 @@ TEST(ReportLight, SaysWhoGaveTheGain) {
 }
 
 TEST(ReportLight, SaysWhetherTheMarkerLiesInTheSun) {
-  LightSummary light = MeasuredSummary();
+  session::LightSummary light = MeasuredSummary();
   light.print_lit_share = 1.0;
   EXPECT_THAT(PageOf(light), HasSubstr("<b>in the sun</b>"));
   light.print_lit_share = 0.0;
@@ -255,7 +255,7 @@ TEST(ReportLight, SaysWhetherTheMarkerLiesInTheSun) {
 }
 
 TEST(ReportLight, SaysThatTheSunIsDoubtful) {
-  LightSummary light = MeasuredSummary();
+  session::LightSummary light = MeasuredSummary();
   light.measured.sun_source = Source::kStated;
   light.measured.sun_to_sky_error.reset();
   light.measured.sun_doubtful = true;
@@ -267,7 +267,7 @@ TEST(ReportLight, SaysThatTheSunIsDoubtful) {
 }
 
 TEST(ReportLight, SaysThatNoSunShone) {
-  LightSummary light = MeasuredSummary();
+  session::LightSummary light = MeasuredSummary();
   light.measured.sun_shines = false;
   light.measured.sun_to_sky = 0.0;
   light.measured.sun_to_sky_error.reset();
@@ -283,7 +283,7 @@ TEST(SummarizePath, DoesNotCountStepsAcrossFramesWithoutAPose) {
 }
 
 TEST(SummarizePath, CountsPosesThatMayBeTheOtherPlanarSolution) {
-  std::vector<Observation> path = {At(0, 0.0), At(1, 0.1), At(2, 0.2), At(3, 0.3)};
+  std::vector<session::Observation> path = {At(0, 0.0), At(1, 0.1), At(2, 0.2), At(3, 0.3)};
   path[1].ambiguity_ratio = 0.0005;  // Certain: below 0.001.
   path[2].ambiguity_ratio = 0.01;
   path[3].ambiguity_ratio = 0.9;

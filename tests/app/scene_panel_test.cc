@@ -94,7 +94,7 @@ class PanelInHands : public testing::Test {
 };
 
 TEST_F(PanelInHands, TypedNumbersChangePlaceAirAndDrawing) {
-  SceneEdit& edit = state_.edit;
+  session::SceneEdit& edit = state_.edit;
   Type(Of("latitude °N"), "-33.5");
   EXPECT_EQ(edit.latitude_deg, -33.5);
   Type(Of("longitude °E"), "151.25");
@@ -124,7 +124,7 @@ TEST_F(PanelInHands, TypedNumbersChangePlaceAirAndDrawing) {
 }
 
 TEST_F(PanelInHands, ACityIsFoundByTypingAndTheTimeIsThatOfTheDayThatIsTyped) {
-  SceneEdit& edit = state_.edit;
+  session::SceneEdit& edit = state_.edit;
   Push(Of("city"));
   ImGui::GetIO().AddInputCharactersUTF8("reykj");
   Frames(8);
@@ -150,7 +150,7 @@ TEST_F(PanelInHands, ACityIsFoundByTypingAndTheTimeIsThatOfTheDayThatIsTyped) {
 }
 
 TEST_F(PanelInHands, ShadowsAreChosenByNameWithWhatTheirMethodCanBeTold) {
-  SceneEdit& edit = state_.edit;
+  session::SceneEdit& edit = state_.edit;
   edit.drawing.shadow_method = shadows::ShadowMethod::kGaussian;
   Type(Of("λ"), "0.9");
   EXPECT_NEAR(edit.drawing.shadow_split_weight, 0.9, 1e-9);

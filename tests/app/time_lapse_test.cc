@@ -83,14 +83,14 @@ class DayOfABox : public ::testing::Test {
     ASSERT_TRUE(solver);
     scene::SceneDescription scene;
     scene.place_time = Prague();
-    LightOrder order{scene.place_time.start,
-                     scene.place_time,
-                     {},
-                     {compositor::StatedSky(scene)},
-                     *std::move(solver),
-                     {},
-                     {},
-                     {}};
+    session::LightOrder order{scene.place_time.start,
+                              scene.place_time,
+                              {},
+                              {compositor::StatedSky(scene)},
+                              *std::move(solver),
+                              {},
+                              {},
+                              {}};
     compositor::CoefficientOptions options;
     options.rays_per_vertex = 64;
     order.coefficients = std::make_shared<const compositor::DaylightCoefficients>(

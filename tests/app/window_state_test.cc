@@ -42,7 +42,7 @@ void ExpectNear(Vec3 a, Vec3 b) { EXPECT_LT(Norm(a - b), 1e-9) << a.x << ' ' << 
 TEST(WindowState, KeysMoveTheChosenObjectAsTheViewerSeesItAndPutItBack) {
   WindowState state = State();
   ASSERT_EQ(state.selected, 0) << "the only object is chosen from the start";
-  const ObjectPlace before = state.edit.objects[0];
+  const session::ObjectPlace before = state.edit.objects[0];
   Do(Action::kMoveRight, false, {}, &state);
   const Vec3 step = state.edit.objects[0].translation_m - before.translation_m;
   EXPECT_GT(step.x, 0.01);
@@ -69,22 +69,22 @@ TEST(WindowState, AKeyShowsTheShadowMapsAndHidesThem) {
 TEST(WindowState, TurningAndScalingKeepTheFootWhereItIs) {
   const WindowState state = State();
   const Vec3 up{0, 0, 1};
-  const ObjectPlace& place = state.edit.objects[0];
-  ObjectPlace turned = place;
+  const session::ObjectPlace& place = state.edit.objects[0];
+  session::ObjectPlace turned = place;
   for (int i = 0; i < 36; ++i) turned = Turned(state.boxes[0], turned, 10.0, up);
   ExpectNear(turned.translation_m, place.translation_m);
   ExpectNear(turned.rotation_deg, place.rotation_deg);
-  const ObjectPlace quarter = Turned(state.boxes[0], place, 90.0, up);
-  const Vec3 was = LinearOf(place) * Vec3{1, 2, 3};
-  ExpectNear(LinearOf(quarter) * Vec3{1, 2, 3}, {-was.y, was.x, was.z});
-  const ObjectPlace scaled = Scaled(state.boxes[0], place, 3.0, up);
+  const session::ObjectPlace quarter = Turned(state.boxes[0], place, 90.0, up);
+  const Vec3 was = session::LinearOf(place) * Vec3{1, 2, 3};
+  ExpectNear(session::LinearOf(quarter) * Vec3{1, 2, 3}, {-was.y, was.x, was.z});
+  const session::ObjectPlace scaled = Scaled(state.boxes[0], place, 3.0, up);
   EXPECT_NEAR(scaled.scale, 1.5, 1e-12);
   ExpectNear(BoxFoot(state.boxes[0], scaled, up), BoxFoot(state.boxes[0], place, up));
 }
 
 TEST(WindowState, TheMouseTakesHoldOfWhatItPointsAtAndTheGroundFollowsIt) {
   WindowState state = State();
-  ObjectPlace& place = state.edit.objects[0];
+  session::ObjectPlace& place = state.edit.objects[0];
   place = {{0.2, 0.3, 0.0}, {}, 0.1};
   const auto pixel = [&](Vec3 point) {
     return ProjectToPixel(state.camera, *state.camera_from_marker * Point<Marker>{point});

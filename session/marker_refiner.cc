@@ -1,14 +1,14 @@
-#include "app/print_measurer.h"
+#include "session/marker_refiner.h"
 
 #include <cstddef>
 #include <utility>
 
-#include "app/scene_marker.h"
 #include "base/parallel_for.h"
 #include "base/units.h"
+#include "session/scene_marker.h"
 #include "tracker/pose/planar_pose.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 void PrintMeasurer::Measure(std::span<Seen> frames) {
   for (const Seen& seen : frames) {
@@ -67,4 +67,4 @@ void PrintMeasurer::TakeOver(const std::optional<tracker::PrintAlignment>& align
   marker.seen = true;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

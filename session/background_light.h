@@ -8,9 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "app/given_light.h"
-#include "app/scene_edit.h"
-#include "app/scene_light.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/utc_time.h"
@@ -20,8 +17,11 @@
 #include "compositor/photometry/light_filter.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
+#include "session/light_options.h"
+#include "session/scene_edit.h"
+#include "session/scene_light.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// Makes the light of a live session, on threads of its own and at low priority, so that no frame
 /// waits for it: anew when the sun has moved, when the scene is edited, and when frames have told
@@ -126,4 +126,4 @@ class LiveLight {
   Progress progress_;
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

@@ -12,7 +12,7 @@
 #include "scene/scene_description.h"
 #include "tracker/sighting.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// Family and number of a marker; files are named "tag36h11_0" after it.
 struct MarkerName {
@@ -76,4 +76,4 @@ class Session {
 /// Angle between two rotations, radians, 0…π.
 double RotationAngle(const Mat3& a, const Mat3& b);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

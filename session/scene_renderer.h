@@ -7,9 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "app/given_light.h"
-#include "app/scene_edit.h"
-#include "app/scene_light.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/error.h"
@@ -28,10 +25,13 @@
 #include "compositor/picture/camera_look.h"
 #include "compositor/picture/occluder_mask.h"
 #include "scene/scene_description.h"
+#include "session/light_options.h"
+#include "session/scene_edit.h"
+#include "session/scene_light.h"
 #include "sky/sky_model.h"
 #include "sky/sun/sun_position.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// Light at which the report states noise, of the brightest: a sunlit grey.
 inline constexpr double kMediumLight = 0.2;
@@ -190,4 +190,4 @@ class SceneRenderer {
 /// A scene's model, loaded and placed in marker coordinates. Errors as compositor::LoadModel.
 Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference, bool is_phantom);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

@@ -11,7 +11,7 @@
 #include "base/stage_times.h"
 #include "devices/frame_source.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// Reads a recording's frames on a thread of its own, a few ahead of who asks for them.
 class FramesAhead {
@@ -56,4 +56,4 @@ class FramesAhead {
   std::thread thread_;  // Last: it uses the others.
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

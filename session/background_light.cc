@@ -1,4 +1,4 @@
-#include "app/live/live_light.h"
+#include "session/background_light.h"
 
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -11,7 +11,7 @@
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 namespace {
 
 // The light is read from so many frames, at least so far apart, as replay does; and again after a
@@ -265,4 +265,4 @@ void LiveLight::TakeCoefficients(const compositor::CoefficientWorker& worker) {
   progress_.failed_to_keep = true;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

@@ -1,4 +1,4 @@
-#include "app/scene_edit.h"
+#include "session/scene_edit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "sky/sky_model.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 namespace {
 
 /// Rotation about x, then y, then z.
@@ -81,4 +81,4 @@ SceneEdit::Sky StatedAir(const scene::SceneDescription& scene) {
   return air;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

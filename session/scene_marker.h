@@ -2,15 +2,15 @@
 
 #include <memory>
 
-#include "app/session.h"
 #include "base/error.h"
 #include "compositor/picture/occluder_mask.h"
 #include "scene/marker_reflectance.h"
 #include "scene/scene_description.h"
+#include "session/marker_tracks.h"
 #include "tracker/marker_pattern.h"
 #include "tracker/tracker.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// Family of the S-G markers.
 inline constexpr const char* kSgFamily = "sg";
@@ -33,4 +33,4 @@ scene::MarkerPrint PrintOf(const scene::MarkerDescription& described, const Mark
 compositor::PrintCover CoverOf(const scene::MarkerDescription& described, const MarkerName& marker,
                                const Observation& seen);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

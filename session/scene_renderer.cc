@@ -1,4 +1,4 @@
-#include "app/scene_renderer.h"
+#include "session/scene_renderer.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,7 +13,7 @@
 #include "scene/marker_reflectance.h"
 #include "scene/sun_over_place.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 namespace {
 
 // Blur and grain change slowly: read in every so many frames, medians over so many readings.
@@ -315,4 +315,4 @@ Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
   return composed;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

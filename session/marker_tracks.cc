@@ -1,9 +1,9 @@
-#include "app/session.h"
+#include "session/marker_tracks.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace pleinair::app {
+namespace pleinair::session {
 namespace {
 
 // Where the other planar solution is at least so likely the pictures themselves hardly tell the two
@@ -96,4 +96,4 @@ const std::vector<Observation>& Session::Path(const MarkerName& marker) const {
   return found == paths_.end() ? kNever : found->second;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

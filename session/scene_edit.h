@@ -7,7 +7,7 @@
 #include "compositor/composer_options.h"
 #include "scene/scene_description.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// Where a virtual object stands: as in devices::ModelReference.
 struct ObjectPlace {
@@ -58,4 +58,4 @@ scene::SceneDescription WithEdit(const scene::SceneDescription& scene, const Sce
 /// The haze and clouds that a scene's words stand for (sky/daylight.h).
 SceneEdit::Sky StatedAir(const scene::SceneDescription& scene);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

@@ -1,6 +1,6 @@
-#include "app/given_light.h"
+#include "session/light_options.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
                                   const LightOptions& options) {
@@ -12,4 +12,4 @@ scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
   return given;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "app/scene_edit.h"
 #include "base/camera_response.h"
 #include "base/utc_time.h"
 #include "compositor/light/daylight/daylight_coefficients.h"
@@ -14,10 +13,11 @@
 #include "compositor/photometry/day_skies.h"
 #include "compositor/photometry/marker/marker_light_meter.h"
 #include "scene/scene_description.h"
+#include "session/scene_edit.h"
 #include "sky/sky_model.h"
 #include "sky/sun/sun_position.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// All that the light of a moment is made from; nothing in it changes meanwhile.
 struct LightOrder {
@@ -54,4 +54,4 @@ struct SceneLight {
 /// made anew.
 bool IsNearSun(const sky::SunPosition& made_for, const sky::SunPosition& now);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

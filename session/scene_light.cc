@@ -1,9 +1,9 @@
-#include "app/scene_light.h"
+#include "session/scene_light.h"
 
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 namespace {
 
 // The sun moves its own width in about two minutes; the light among surfaces is made anew
@@ -45,4 +45,4 @@ bool IsNearSun(const sky::SunPosition& made_for, const sky::SunPosition& now) {
   return Norm(made_for.ToSun().xyz - now.ToSun().xyz) < kSunStep;
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "app/session.h"
 #include "base/camera_model.h"
 #include "base/image.h"
+#include "session/marker_tracks.h"
 #include "tracker/marker_pattern.h"
 #include "tracker/refinement/marker_alignment.h"
 #include "tracker/sighting.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// Measures S-G markers once more, from every pixel of their prints at once (tracker/
 /// print_alignment.h). That takes some 20 ms a marker, which a recording has and a camera has not,
@@ -56,4 +56,4 @@ class PrintMeasurer {
   std::map<MarkerName, Marker> markers_;
 };
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

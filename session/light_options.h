@@ -5,7 +5,7 @@
 #include "compositor/photometry/sky_fit.h"
 #include "scene/scene_description.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 
 /// What a user says of the light and of the camera's picture, of a recording or live.
 struct LightOptions {
@@ -22,4 +22,4 @@ struct LightOptions {
 scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
                                   const LightOptions& options);
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session

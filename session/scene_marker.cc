@@ -1,4 +1,4 @@
-#include "app/scene_marker.h"
+#include "session/scene_marker.h"
 
 #include <algorithm>
 #include <string>
@@ -11,7 +11,7 @@
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
 
-namespace pleinair::app {
+namespace pleinair::session {
 namespace {
 
 /// What a marker is that nobody has named: one of ours, or the tag that most people have at hand.
@@ -91,4 +91,4 @@ compositor::PrintCover CoverOf(const scene::MarkerDescription& described, const 
   return {seen.visibility_side, described.size_m * pattern->Extent(), seen.visibility};
 }
 
-}  // namespace pleinair::app
+}  // namespace pleinair::session
