@@ -13,11 +13,11 @@
 
 #include "app/calibrate/board_options.h"
 #include "app/command.h"
-#include "app/sheets/board_description.h"
-#include "app/sheets/marker_sheet.h"
-#include "app/sheets/sheet.h"
-#include "app/sheets/sheet_file.h"
-#include "app/sheets/square_board.h"
+#include "export/print_sheets/board_description.h"
+#include "export/print_sheets/marker_sheet.h"
+#include "export/print_sheets/sheet.h"
+#include "export/print_sheets/sheet_file.h"
+#include "export/print_sheets/square_board.h"
 #include "tracker/calibration/aruco_dictionaries.h"
 #include "tracker/golay/golay_code.h"
 
@@ -41,32 +41,33 @@ constexpr const char* kExamples =
     "'pleinair calibrate --board board.json' takes what is written beside the sheet.\n";
 
 struct Options {
-  Board board{.columns = 4, .rows = 5, .first = 0, .size_mm = 36.0};
+  exports::Board board{.columns = 4, .rows = 5, .first = 0, .size_mm = 36.0};
   std::optional<double> gap_mm;
   std::string chessboard, charuco, dictionary;
   std::optional<double> square_mm, marker_mm;
   std::string page = "A4";
-  FormatFlags formats;
+  exports::FormatFlags formats;
   std::string output;
   std::string description;
   bool json = false;
 };
 
-Result<Board> CheckBoard(const Options& options) {
-  Board board = options.board;
+Result<exports::Board> CheckBoard(const Options& options) {
+  exports::Board board = options.board;
   if (board.first + board.Count() > tracker::kGolayNumbers) {
     return InputError("--first",
                       fmt::format("{} markers from number {} on go beyond the last number, {}",
                                   board.Count(), board.first, tracker::kGolayNumbers - 1),
                       "start lower or print fewer");
   }
-  board.gap_mm = options.gap_mm.value_or(SmallestGap_mm(board.size_mm) * 2.0);
-  if (!(board.gap_mm >= SmallestGap_mm(board.size_mm)) || board.gap_mm > kLargestMarker_mm) {
+  board.gap_mm = options.gap_mm.value_or(exports::SmallestGap_mm(board.size_mm) * 2.0);
+  if (!(board.gap_mm >= exports::SmallestGap_mm(board.size_mm)) ||
+      board.gap_mm > exports::kLargestMarker_mm) {
     return InputError("--gap-mm",
                       fmt::format("a gap of {:g} mm leaves markers of {:g} mm without their white "
                                   "margin",
                                   board.gap_mm, board.size_mm),
-                      fmt::format("give {:g} mm or more", SmallestGap_mm(board.size_mm)));
+                      fmt::format("give {:g} mm or more", exports::SmallestGap_mm(board.size_mm)));
   }
   return board;
 }
@@ -76,7 +77,7 @@ Result<fs::path> NameDescription(const Options& options) {
   if (!options.description.empty()) return fs::path(options.description);
   fs::path beside = fs::path(options.output).replace_extension(".json");
   std::error_code ignored;
-  if (fs::exists(beside, ignored) && !IsBoardDescription(beside)) {
+  if (fs::exists(beside, ignored) && !exports::IsBoardDescription(beside)) {
     return InputError(beside.string(), "is there and is no description of a board",
                       "name another file with --description");
   }
@@ -85,21 +86,22 @@ Result<fs::path> NameDescription(const Options& options) {
 
 /// What is printed, and its description.
 struct Printed {
-  Sheet sheet;
+  exports::Sheet sheet;
   std::string description;
   nlohmann::ordered_json json;  ///< What --json tells besides the files.
 };
 
-Result<Printed> PrintMarkers(const Options& options, PageSize page) {
+Result<Printed> PrintMarkers(const Options& options, exports::PageSize page) {
   if (options.square_mm || options.marker_mm || !options.dictionary.empty()) {
     return InputError("--square-mm, --marker-mm and --dictionary",
                       "are for chessboards and ChArUco boards",
                       "name one with --chessboard or --charuco, or leave them out");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const Board board, CheckBoard(options));
-  PLEINAIR_ASSIGN_OR_RETURN(Sheet sheet, BoardSheet(board, page));
-  return Printed{
-      std::move(sheet), DescribeBoard(board), {{"first", board.first}, {"count", board.Count()}}};
+  PLEINAIR_ASSIGN_OR_RETURN(const exports::Board board, CheckBoard(options));
+  PLEINAIR_ASSIGN_OR_RETURN(exports::Sheet sheet, exports::BoardSheet(board, page));
+  return Printed{std::move(sheet),
+                 exports::DescribeBoard(board),
+                 {{"first", board.first}, {"count", board.Count()}}};
 }
 
 /// Side of a ChArUco board's markers: enough white around for its codes to be read.
@@ -113,9 +115,9 @@ Result<double> MarkerSide_mm(const Options& options, double square_mm) {
       fmt::format("give {:g} to {:g} mm", kLeast * square_mm, kMost * square_mm));
 }
 
-Result<Printed> PrintSquares(const Options& options, PageSize page) {
+Result<Printed> PrintSquares(const Options& options, exports::PageSize page) {
   const bool charuco = !options.charuco.empty();
-  SquareBoard print;
+  exports::SquareBoard print;
   tracker::CalibrationBoard& board = print.board;
   board.kind = charuco ? tracker::BoardKind::kCharuco : tracker::BoardKind::kChessboard;
   PLEINAIR_ASSIGN_OR_RETURN(const auto sides, charuco
@@ -138,42 +140,42 @@ Result<Printed> PrintSquares(const Options& options, PageSize page) {
   }
   double square_mm = options.square_mm.value_or(0.0);
   if (!options.square_mm) {
-    PLEINAIR_ASSIGN_OR_RETURN(square_mm, LargestSquare_mm(board, page));
+    PLEINAIR_ASSIGN_OR_RETURN(square_mm, exports::LargestSquare_mm(board, page));
   }
   board.square_m = square_mm * 1e-3;
   if (charuco) {
     PLEINAIR_ASSIGN_OR_RETURN(print.marker_mm, MarkerSide_mm(options, square_mm));
   }
-  PLEINAIR_ASSIGN_OR_RETURN(Sheet sheet, SquareBoardSheet(print, page));
+  PLEINAIR_ASSIGN_OR_RETURN(exports::Sheet sheet, exports::SquareBoardSheet(print, page));
   nlohmann::ordered_json json{{"square_mm", square_mm}};
   if (charuco) {
     json["marker_mm"] = print.marker_mm;
     json["dictionary"] = board.dictionary;
   }
-  return Printed{std::move(sheet), DescribeBoard(print), std::move(json)};
+  return Printed{std::move(sheet), exports::DescribeBoard(print), std::move(json)};
 }
 
 Result<void> Run(const Options& options) {
-  PLEINAIR_RETURN_IF_ERROR(CheckLength("--size-mm", options.board.size_mm));
-  PLEINAIR_RETURN_IF_ERROR(CheckLength("--gap-mm", options.gap_mm.value_or(0.0)));
-  PLEINAIR_RETURN_IF_ERROR(CheckLength("--square-mm", options.square_mm.value_or(0.0)));
-  PLEINAIR_RETURN_IF_ERROR(CheckLength("--marker-mm", options.marker_mm.value_or(0.0)));
+  PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--size-mm", options.board.size_mm));
+  PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--gap-mm", options.gap_mm.value_or(0.0)));
+  PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--square-mm", options.square_mm.value_or(0.0)));
+  PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--marker-mm", options.marker_mm.value_or(0.0)));
   if (options.output.empty()) {
     return InputError("--output", "the name is empty", "name a file, for example board.pdf");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const PageSize page, ParsePageSize(options.page));
-  PLEINAIR_ASSIGN_OR_RETURN(const SheetFormat format,
-                            ChooseFormat(options.formats, options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(const exports::PageSize page, exports::ParsePageSize(options.page));
+  PLEINAIR_ASSIGN_OR_RETURN(const exports::SheetFormat format,
+                            exports::ChooseFormat(options.formats, options.output));
   const bool squares = !options.chessboard.empty() || !options.charuco.empty();
   PLEINAIR_ASSIGN_OR_RETURN(Printed printed,
                             squares ? PrintSquares(options, page) : PrintMarkers(options, page));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string content, RenderSheet(printed.sheet, format));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string content, exports::RenderSheet(printed.sheet, format));
   PLEINAIR_ASSIGN_OR_RETURN(const fs::path description, NameDescription(options));
   if (description == fs::path(options.output)) {
     return InputError("--description", "names the same file as --output", "give it another name");
   }
-  PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(description, printed.description));
-  PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(options.output, content));
+  PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(description, printed.description));
+  PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(options.output, content));
   if (options.json) {
     nlohmann::ordered_json json{{"file", options.output},
                                 {"description", description.string()},
@@ -210,7 +212,7 @@ void AddBoardCommand(CLI::App& app, CommandResult& result) {
   of_markers.push_back(
       command->add_option("--size-mm", options->board.size_mm, "Outer edge of each black square")
           ->type_name("MM")
-          ->check(CLI::Range(kSmallestMarker_mm, kLargestMarker_mm))
+          ->check(CLI::Range(exports::kSmallestMarker_mm, exports::kLargestMarker_mm))
           ->capture_default_str());
   of_markers.push_back(
       command
@@ -234,17 +236,17 @@ void AddBoardCommand(CLI::App& app, CommandResult& result) {
   command
       ->add_option("--square-mm", options->square_mm,
                    "Side of a square; default: the most whole millimetres that fit the page")
-      ->check(CLI::Range(kSmallestMarker_mm, kLargestMarker_mm))
+      ->check(CLI::Range(exports::kSmallestMarker_mm, exports::kLargestMarker_mm))
       ->type_name("MM");
   command
       ->add_option("--marker-mm", options->marker_mm,
                    "Side of a ChArUco marker's black square; default 0.75 of a square")
-      ->check(CLI::Range(1.0, kLargestMarker_mm))
+      ->check(CLI::Range(1.0, exports::kLargestMarker_mm))
       ->type_name("MM");
   command->add_option("--page", options->page, "A5 to A0, letter, A4-landscape or 300x400 in mm")
       ->type_name("PAGE")
       ->capture_default_str();
-  AddFormatOptions(*command, options->formats);
+  exports::AddFormatOptions(*command, options->formats);
   command->add_option("-o,--output", options->output, "File (.pdf, .svg, .png)")
       ->type_name("F")
       ->required();

@@ -26,7 +26,7 @@
 #include "app/option_use.h"
 #include "app/picture_size.h"
 #include "app/replay.h"
-#include "app/sinks/picture_writer.h"
+#include "export/images/picture_writer.h"
 #ifdef PLEINAIR_WINDOW
 #include "app/window/live_window.h"
 #endif
@@ -276,7 +276,7 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   if (!arguments.output.empty()) {
     options.output.emplace().folder = arguments.output;
     for (const std::string& name : arguments.exports) {
-      options.output->exports.insert(PathFormatNamed(name).value());
+      options.output->exports.insert(exports::PathFormatNamed(name).value());
     }
   }
   if (source.camera != nullptr) {
@@ -302,7 +302,7 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
       return SystemError("--screenshot", "no picture was drawn until the end",
                          "give it more --seconds");
     }
-    PLEINAIR_RETURN_IF_ERROR(WritePng(arguments.screenshot, last->view()));
+    PLEINAIR_RETURN_IF_ERROR(exports::WritePng(arguments.screenshot, last->view()));
   }
   if (auto trouble = session->output_trouble()) return tl::make_unexpected(*trouble);
   if (auto trouble = session->recording_trouble()) return tl::make_unexpected(*trouble);

@@ -12,12 +12,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
-#include "app/sheets/marker_sheet.h"
-#include "app/sheets/sheet.h"
-#include "app/sheets/sheet_file.h"
-#include "app/sheets/sheet_raster.h"
-#include "app/sheets/vector_page.h"
 #include "base/atomic_file.h"
+#include "export/print_sheets/marker_sheet.h"
+#include "export/print_sheets/sheet.h"
+#include "export/print_sheets/sheet_file.h"
+#include "export/print_sheets/sheet_raster.h"
+#include "export/print_sheets/vector_page.h"
 #include "tracker/golay/golay_code.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
@@ -48,7 +48,7 @@ struct Options {
   std::vector<std::string> ids;
   double size_mm = 140.0;
   std::string page = "A4";
-  FormatFlags formats;
+  exports::FormatFlags formats;
   std::optional<int> pixels;
   std::string output;
   bool json = false;
@@ -69,13 +69,13 @@ tl::unexpected<Error> NotANumber(const std::string& word) {
 
 /// Which file each number goes to.
 Result<std::vector<fs::path>> NameFiles(const std::string& output, const std::vector<int>& numbers,
-                                        SheetFormat format) {
+                                        exports::SheetFormat format) {
   std::error_code error;
   std::string pattern = output;
   if (output.back() == '/' || fs::is_directory(output, error)) {
     fs::create_directories(output, error);
     if (error) return tl::make_unexpected(WriteError(output, error.value()));
-    pattern = (fs::path(output) / "sg-{id}.").string() + std::string(FormatName(format));
+    pattern = (fs::path(output) / "sg-{id}.").string() + std::string(exports::FormatName(format));
   }
   std::vector<fs::path> files;
   const std::size_t at = pattern.find(kIdPattern);
@@ -104,9 +104,10 @@ void Print(const nlohmann::json& object) {
 Result<void> WriteBarePrint(const fs::path& file, int number, const Options& options) {
   const int pixels = *options.pixels;
   const double side_m = options.size_mm * 1e-3 * sg::kPrint / sg::kEdge;
-  Image<std::uint8_t> picture = RasterizePrint(tracker::SgPrint(number), pixels);
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string png, EncodeGrayPng(picture.view(), pixels / side_m));
-  PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(file, png));
+  Image<std::uint8_t> picture = exports::RasterizePrint(tracker::SgPrint(number), pixels);
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string png,
+                            exports::EncodeGrayPng(picture.view(), pixels / side_m));
+  PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(file, png));
   if (options.json) {
     nlohmann::json object = Describe(file, number, options.size_mm);
     object["pixels"] = pixels;
@@ -116,32 +117,34 @@ Result<void> WriteBarePrint(const fs::path& file, int number, const Options& opt
   return {};
 }
 
-nlohmann::json DescribeSheet(const fs::path& file, int number, double size_mm, const Sheet& sheet) {
+nlohmann::json DescribeSheet(const fs::path& file, int number, double size_mm,
+                             const exports::Sheet& sheet) {
   nlohmann::json object = Describe(file, number, size_mm);
   object["page_mm"] = {sheet.page.width_mm, sheet.page.height_mm};
-  for (const Vec2 corner : FindCorners(sheet.prints.front())) {
+  for (const Vec2 corner : exports::FindCorners(sheet.prints.front())) {
     object["corners_on_page_mm"].push_back({corner.x, corner.y});
   }
   return object;
 }
 
-Result<void> WriteSheets(const std::vector<int>& numbers, SheetFormat format, PageSize page,
-                         const Options& options) {
-  std::vector<Sheet> sheets;
+Result<void> WriteSheets(const std::vector<int>& numbers, exports::SheetFormat format,
+                         exports::PageSize page, const Options& options) {
+  std::vector<exports::Sheet> sheets;
   for (const int number : numbers) {
-    PLEINAIR_ASSIGN_OR_RETURN(Sheet sheet, MarkerSheet(number, options.size_mm, page));
+    PLEINAIR_ASSIGN_OR_RETURN(exports::Sheet sheet,
+                              exports::MarkerSheet(number, options.size_mm, page));
     sheets.push_back(std::move(sheet));
   }
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files,
                             NameFiles(options.output, numbers, format));
   const bool one_file = numbers.size() > 1 && files[0] == files[1];
   if (one_file) {
-    PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(files[0], WritePdf(sheets)));
+    PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(files[0], exports::WritePdf(sheets)));
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (!one_file) {
-      PLEINAIR_ASSIGN_OR_RETURN(const std::string content, RenderSheet(sheets[i], format));
-      PLEINAIR_RETURN_IF_ERROR(WriteSheetFile(files[i], content));
+      PLEINAIR_ASSIGN_OR_RETURN(const std::string content, exports::RenderSheet(sheets[i], format));
+      PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(files[i], content));
     }
     if (!options.json) continue;
     nlohmann::json object = DescribeSheet(files[i], numbers[i], options.size_mm, sheets[i]);
@@ -159,22 +162,22 @@ bool GivesOneName(const std::string& output) {
 
 Result<void> Run(const Options& options) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<int> numbers, ParseMarkerNumbers(options.ids));
-  PLEINAIR_RETURN_IF_ERROR(CheckLength("--size-mm", options.size_mm));
+  PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--size-mm", options.size_mm));
   if (options.output.empty()) {
     return InputError("--output", "the name is empty", "name a file, for example marker.pdf");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const PageSize page, ParsePageSize(options.page));
+  PLEINAIR_ASSIGN_OR_RETURN(const exports::PageSize page, exports::ParsePageSize(options.page));
   std::error_code ignored;
   const bool folder = options.output.back() == '/' || fs::is_directory(options.output, ignored);
-  PLEINAIR_ASSIGN_OR_RETURN(const SheetFormat format,
-                            ChooseFormat(options.formats, folder ? "" : options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(const exports::SheetFormat format,
+                            exports::ChooseFormat(options.formats, folder ? "" : options.output));
   if (numbers.size() > 1 && GivesOneName(options.output) &&
-      (format != SheetFormat::kPdf || options.pixels)) {
+      (format != exports::SheetFormat::kPdf || options.pixels)) {
     return InputError(options.output, "is one file for several markers",
                       "write {id} into the name, name a folder, or use .pdf for one file");
   }
   if (!options.pixels) return WriteSheets(numbers, format, page, options);
-  if (format != SheetFormat::kPng) {
+  if (format != exports::SheetFormat::kPng) {
     return InputError("--pixels", "only PNG has pixels", "give --png or a name that ends in .png");
   }
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files,
@@ -212,14 +215,14 @@ void AddMarkerCommand(CLI::App& app, CommandResult& result) {
       ->required();
   command->add_option("--size-mm", options->size_mm, "Outer edge of the black square")
       ->type_name("MM")
-      ->check(CLI::Range(kSmallestMarker_mm, kLargestMarker_mm))
+      ->check(CLI::Range(exports::kSmallestMarker_mm, exports::kLargestMarker_mm))
       ->capture_default_str();
   CLI::Option* page =
       command
           ->add_option("--page", options->page, "A5 to A0, letter, A4-landscape or 300x400 in mm")
           ->type_name("PAGE")
           ->capture_default_str();
-  AddFormatOptions(*command, options->formats);
+  exports::AddFormatOptions(*command, options->formats);
   command
       ->add_option("--pixels", options->pixels,
                    "The bare print with its white margin as a PNG of N x N pixels; multiples of 48 "

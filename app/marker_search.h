@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "app/paths/mcap_path.h"
 #include "app/replay_warnings.h"
 #include "base/error.h"
 #include "base/stage_times.h"
 #include "devices/recordings/recording.h"
+#include "export/trajectories/mcap_path.h"
 #include "scene/scene_description.h"
 #include "session/frame_prefetch.h"
 #include "session/marker_tracks.h"
@@ -29,9 +29,10 @@ struct MarkerSearch {
 /// What FindMarkers gives: the markers' poses and prints, and what went wrong on the way.
 struct FoundMarkers {
   session::Session session;
-  FrameWarnings warnings{};                ///< The tracker's.
-  std::vector<MarkersMessage> messages{};  ///< The lines of `detections`, if they are to be kept.
-  std::int64_t lost_frames = 0;            ///< Which the recorder had to leave out.
+  FrameWarnings warnings{};  ///< The tracker's.
+  std::vector<exports::MarkersMessage>
+      messages{};                ///< The lines of `detections`, if they are to be kept.
+  std::int64_t lost_frames = 0;  ///< Which the recorder had to leave out.
 };
 
 /// Tracks the markers of a recording's frames and measures their prints; reading, tracking and

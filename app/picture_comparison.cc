@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "app/sinks/picture_writer.h"
 #include "devices/images/picture_file.h"
+#include "export/images/picture_writer.h"
 
 namespace pleinair::app {
 namespace {
@@ -47,7 +47,7 @@ Result<ComparedPicture> ComparePicture(const std::filesystem::path& pictures, co
   compared.scores = ScorePicture(picture.view(), truth.view(), regions);
   if (jpeg_width_px > 0) {
     const auto encode = [&](const RgbImage& image) {
-      return EncodeJpeg(image.view(), jpeg_width_px, kJpegQuality);
+      return exports::EncodeJpeg(image.view(), jpeg_width_px, kJpegQuality);
     };
     compared.truth_jpeg = encode(truth);
     compared.picture_jpeg = encode(picture);

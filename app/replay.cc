@@ -14,19 +14,19 @@
 #include "app/interrupt.h"
 #include "app/marker_search.h"
 #include "app/paths/observed_path.h"
-#include "app/paths/path_files.h"
 #include "app/progress_bar.h"
 #include "app/replay_warnings.h"
 #include "app/sinks/composite_writer.h"
 #include "app/sinks/output_folder.h"
 #include "app/sinks/path_export.h"
-#include "app/sinks/picture_writer.h"
 #include "app/sinks/report_html.h"
 #include "app/sinks/report_json.h"
-#include "app/sinks/video_writer.h"
 #include "app/time_lapse/time_lapse.h"
 #include "base/atomic_file.h"
 #include "devices/recordings/recording.h"
+#include "export/images/picture_writer.h"
+#include "export/images/video_writer.h"
+#include "export/trajectories/path_files.h"
 #include "session/frame_prefetch.h"
 #include "session/scene_marker.h"
 #include "session/scene_renderer.h"
@@ -112,7 +112,7 @@ class Replayer {
 
   Result<void> SeekMarkers(devices::Recording recording, tracker::Tracker& tracker) {
     const MarkerSearch search{report_.recording, scene_, folder_.staging() / "detections.jsonl",
-                              options_.exports.contains(PathFormat::kMcap)};
+                              options_.exports.contains(exports::PathFormat::kMcap)};
     PLEINAIR_ASSIGN_OR_RETURN(found_, FindMarkers(search, std::move(recording), tracker, &times_));
     report_.outputs.emplace_back("detections.jsonl");
     report_.frames = found_->session.frames();
@@ -133,7 +133,7 @@ class Replayer {
           WriteMarkerPath(marker, ObservedPath(observed), options_.exports, folder_.staging()));
       report_.outputs.insert(report_.outputs.end(), written.begin(), written.end());
     }
-    CameraPath path = ObservedPath(report_.path);
+    exports::CameraPath path = ObservedPath(report_.path);
     path.camera = output_camera_;
     PLEINAIR_ASSIGN_OR_RETURN(
         const std::vector<std::string> exported,
@@ -196,8 +196,9 @@ class Replayer {
 
   void Resize(devices::Frame& frame) {
     if (frame.rgb.width() == report_.width && frame.rgb.height() == report_.height) return;
-    frame.rgb = times_.Measure(
-        "resize", [&] { return ResizeRgb(frame.rgb.view(), report_.width, report_.height); });
+    frame.rgb = times_.Measure("resize", [&] {
+      return exports::ResizeRgb(frame.rgb.view(), report_.width, report_.height);
+    });
   }
 
   template <typename Timed>
@@ -229,12 +230,12 @@ class Replayer {
   }
 
   Result<void> ComposeFrames(std::unique_ptr<devices::FrameSource> source) {
-    std::unique_ptr<VideoWriter> video;
+    std::unique_ptr<exports::VideoWriter> video;
     fs::path pictures;
     if (options_.write_video) {
-      PLEINAIR_ASSIGN_OR_RETURN(
-          video, VideoWriter::Create(folder_.staging() / "composite.mp4",
-                                     {report_.width, report_.height, report_.frame_rate_hz}));
+      PLEINAIR_ASSIGN_OR_RETURN(video, exports::VideoWriter::Create(
+                                           folder_.staging() / "composite.mp4",
+                                           {report_.width, report_.height, report_.frame_rate_hz}));
       report_.video_encoder = video->encoder_name();
       report_.outputs.emplace_back("composite.mp4");
       if (report_.width % 2 != 0 || report_.height % 2 != 0) {
@@ -295,8 +296,9 @@ class Replayer {
 
   void Picture(const devices::Frame& frame, ImageView<const std::uint8_t> composed) {
     report_.pictures.push_back(
-        {frame.index, EncodeJpeg(frame.rgb.view(), kReportPictureWidth_px, kReportJpegQuality),
-         EncodeJpeg(composed, kReportPictureWidth_px, kReportJpegQuality)});
+        {frame.index,
+         exports::EncodeJpeg(frame.rgb.view(), kReportPictureWidth_px, kReportJpegQuality),
+         exports::EncodeJpeg(composed, kReportPictureWidth_px, kReportJpegQuality)});
   }
 
   /// Whether the recording has the frame that the time-lapse is to be seen from, where it is known

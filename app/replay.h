@@ -5,12 +5,12 @@
 #include <set>
 #include <string>
 
-#include "app/paths/path_files.h"
 #include "app/picture_size.h"
 #include "app/sinks/report.h"
 #include "app/time_lapse/moments.h"
 #include "base/error.h"
 #include "compositor/composer_options.h"
+#include "export/trajectories/path_files.h"
 #include "session/light_options.h"
 
 namespace pleinair::app {
@@ -22,7 +22,7 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> calibration;  ///< Needed for a plain video.
   bool write_frames = false;
   bool write_video = true;
-  std::set<PathFormat> exports;  ///< Forms of the path besides TUM.
+  std::set<exports::PathFormat> exports;  ///< Forms of the path besides TUM.
   compositor::ComposerOptions composer;
   session::LightOptions light;
   std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.

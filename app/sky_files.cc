@@ -11,10 +11,10 @@
 
 #include "app/interrupt.h"
 #include "app/progress_bar.h"
-#include "app/sinks/light_writer.h"
-#include "app/sinks/picture_writer.h"
-#include "app/sinks/video_writer.h"
 #include "base/atomic_file.h"
+#include "export/images/light_writer.h"
+#include "export/images/picture_writer.h"
+#include "export/images/video_writer.h"
 
 namespace pleinair::app {
 namespace {
@@ -30,13 +30,13 @@ Error Renamed(Error error, const std::string& file) {
 Result<void> WriteScreenPicture(const LightImage& light, SkyExposure exposure,
                                 const std::string& file) {
   const fs::path temporary = TemporarySibling(file);
-  const Result<void> written = WritePng(temporary, ToneMap(light, exposure).view());
+  const Result<void> written = exports::WritePng(temporary, ToneMap(light, exposure).view());
   if (!written) return tl::make_unexpected(Renamed(written.error(), file));
   return CommitFile(temporary, file);
 }
 
-LightFileFacts FactsOf(const SkyFileOptions& options) {
-  LightFileFacts facts;
+exports::LightFileFacts FactsOf(const SkyFileOptions& options) {
+  exports::LightFileFacts facts;
   facts.white_cd_m2 = 1.0 / options.scale;
   facts.latitude_longitude = options.picture.projection == SkyProjection::kLatLong;
   facts.comment =
@@ -75,8 +75,8 @@ Result<void> WriteSkyPicture(const sky::SkyModel& sky, const SkyLight& light,
     picture.data()[i] *= static_cast<float>(options.scale);
   }
   return options.kind == SkyFileKind::kExr
-             ? WriteExr(options.file, picture.view(), FactsOf(options))
-             : WriteRadianceHdr(options.file, picture.view());
+             ? exports::WriteExr(options.file, picture.view(), FactsOf(options))
+             : exports::WriteRadianceHdr(options.file, picture.view());
 }
 
 Result<void> WriteSkyVideo(const sky::SkySource& source, const std::vector<SkyMoment>& moments,
@@ -91,8 +91,8 @@ Result<void> WriteSkyVideo(const sky::SkySource& source, const std::vector<SkyMo
   const int height = options.picture.projection == SkyProjection::kFisheye
                          ? options.picture.width_px
                          : options.picture.width_px / 2;
-  auto video =
-      VideoWriter::Create(temporary, {options.picture.width_px, height, options.frames_per_second});
+  auto video = exports::VideoWriter::Create(
+      temporary, {options.picture.width_px, height, options.frames_per_second});
   if (!video) return give_up(video.error());
   {
     ProgressBar bar("sky", static_cast<std::int64_t>(moments.size()));

@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/sinks/picture_writer.h"
 #include "app/sun_path_diagram.h"
 #include "base/atomic_file.h"
+#include "export/images/picture_writer.h"
 
 namespace pleinair::app {
 
@@ -18,14 +18,15 @@ Result<void> WriteSunPath(const sky::Observer& observer, const SunPathOptions& o
     return InputError(options.file, "is neither SVG nor PNG",
                       "name a file that ends in .svg or .png");
   }
-  const LineDrawing drawing =
+  const exports::LineDrawing drawing =
       DrawSunPath({observer, options.year, options.offset, options.model, options.moment});
   if (svg) {
-    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(file, DrawingSvg(drawing, options.size_px)));
+    PLEINAIR_RETURN_IF_ERROR(
+        WriteFileAtomically(file, exports::DrawingSvg(drawing, options.size_px)));
   } else {
     const std::filesystem::path temporary = TemporarySibling(file);
     const Result<void> written =
-        WritePng(temporary, RasterizeDrawing(drawing, options.size_px).view());
+        exports::WritePng(temporary, exports::RasterizeDrawing(drawing, options.size_px).view());
     if (!written) {
       Error error = written.error();
       error.where = options.file;

@@ -21,27 +21,27 @@ constexpr double kHeight = 1090.0;
 constexpr Vec2 kCentre{500.0, 550.0};
 constexpr double kHorizonRadius = 400.0;
 
-constexpr DrawingColour kGrid{205, 210, 215};
-constexpr DrawingColour kHorizon{70, 75, 80};
-constexpr DrawingColour kQuiet{110, 115, 120};
-constexpr DrawingColour kInk{25, 28, 32};
-constexpr DrawingColour kHours{214, 150, 40};
-constexpr DrawingColour kHourText{150, 95, 10};
-constexpr DrawingColour kSun{250, 190, 0};
+constexpr exports::DrawingColour kGrid{205, 210, 215};
+constexpr exports::DrawingColour kHorizon{70, 75, 80};
+constexpr exports::DrawingColour kQuiet{110, 115, 120};
+constexpr exports::DrawingColour kInk{25, 28, 32};
+constexpr exports::DrawingColour kHours{214, 150, 40};
+constexpr exports::DrawingColour kHourText{150, 95, 10};
+constexpr exports::DrawingColour kSun{250, 190, 0};
 
 constexpr int kDayOfArcs = 21;  // Solstices and equinoxes fall on it or beside it.
 constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                  "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
 
 /// From blue in December to red in June.
-DrawingColour ColourOfMonth(int month) {
-  constexpr std::array<DrawingColour, 7> kRamp = {{{38, 70, 160},
-                                                   {40, 110, 175},
-                                                   {35, 140, 150},
-                                                   {60, 150, 80},
-                                                   {170, 150, 30},
-                                                   {210, 110, 30},
-                                                   {200, 50, 40}}};
+exports::DrawingColour ColourOfMonth(int month) {
+  constexpr std::array<exports::DrawingColour, 7> kRamp = {{{38, 70, 160},
+                                                            {40, 110, 175},
+                                                            {35, 140, 150},
+                                                            {60, 150, 80},
+                                                            {170, 150, 30},
+                                                            {210, 110, 30},
+                                                            {200, 50, 40}}};
   return kRamp[static_cast<std::size_t>(month <= 6 ? month : 12 - month)];
 }
 
@@ -80,7 +80,7 @@ class Diagram {
     drawing_.height = kHeight;
   }
 
-  LineDrawing Draw() && {
+  exports::LineDrawing Draw() && {
     DrawGrid();
     DrawHours();
     DrawDays();
@@ -101,12 +101,12 @@ class Diagram {
     return {sun.azimuth, sun.elevation_refracted};
   }
 
-  void AddText(Vec2 centre, double size, std::string text, DrawingColour colour) {
+  void AddText(Vec2 centre, double size, std::string text, exports::DrawingColour colour) {
     drawing_.texts.push_back({centre, size, std::move(text), colour});
   }
 
-  void AddCircle(double radius, DrawingColour colour, double width) {
-    DrawingLine circle{{}, colour, width, false};
+  void AddCircle(double radius, exports::DrawingColour colour, double width) {
+    exports::DrawingLine circle{{}, colour, width, false};
     for (int degrees = 0; degrees <= 360; degrees += 2) {
       const double a = FromDegrees(degrees).value();
       circle.points.push_back(kCentre + Vec2{std::sin(a), -std::cos(a)} * radius);
@@ -153,7 +153,7 @@ class Diagram {
         suns.push_back(Look(events.noon.PlusSeconds(s)));
       }
       const bool second_half = month > 6;
-      const DrawingColour colour = ColourOfMonth(month);
+      const exports::DrawingColour colour = ColourOfMonth(month);
       const bool turning_point = month % 3 == 0;
       const auto parts = VisibleParts(suns);
       for (const std::vector<Vec2>& part : parts) {
@@ -165,7 +165,8 @@ class Diagram {
 
   /// At the rim where the sun rises in the first half of the year and sets in the second; where it
   /// does neither, on the path itself.
-  void NameDay(int month, const std::vector<std::vector<Vec2>>& parts, DrawingColour colour) {
+  void NameDay(int month, const std::vector<std::vector<Vec2>>& parts,
+               exports::DrawingColour colour) {
     constexpr double kFromRim = 64.0;
     const std::string name = fmt::format("{} {}", kDayOfArcs, kMonths[month - 1]);
     const bool second_half = month > 6;
@@ -262,7 +263,7 @@ class Diagram {
   }
 
   const SunPathFacts& facts_;
-  LineDrawing drawing_;
+  exports::LineDrawing drawing_;
 };
 
 }  // namespace
@@ -273,6 +274,6 @@ Vec2 ProjectOnSunPath(Radians azimuth, Radians elevation) {
   return kCentre + Vec2{std::sin(azimuth.value()), -std::cos(azimuth.value())} * radius;
 }
 
-LineDrawing DrawSunPath(const SunPathFacts& facts) { return Diagram(facts).Draw(); }
+exports::LineDrawing DrawSunPath(const SunPathFacts& facts) { return Diagram(facts).Draw(); }
 
 }  // namespace pleinair::app

@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "app/line_drawing.h"
 #include "app/local_time.h"
 #include "base/units.h"
 #include "base/utc_time.h"
 #include "base/vector.h"
+#include "export/plots/vector_drawing.h"
 #include "sky/sun/sun_position.h"
 
 namespace pleinair::app {
@@ -29,6 +29,6 @@ Vec2 ProjectOnSunPath(Radians azimuth, Radians elevation);
 /// the hours of a clock (a figure of eight each, by the equation of time), rings of elevation every
 /// 10° and the compass. The sun is where it is seen, refraction included. First half of the year
 /// solid, second half (from June to December) dashed.
-LineDrawing DrawSunPath(const SunPathFacts& facts);
+exports::LineDrawing DrawSunPath(const SunPathFacts& facts);
 
 }  // namespace pleinair::app

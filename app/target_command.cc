@@ -14,10 +14,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
-#include "app/sinks/picture_writer.h"
 #include "base/atomic_file.h"
 #include "base/units.h"
 #include "devices/images/picture_file.h"
+#include "export/images/picture_writer.h"
 #include "tracker/picture_target/target_file.h"
 #include "tracker/picture_target/target_making.h"
 #include "tracker/picture_target/target_quality.h"
@@ -140,7 +140,7 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
   const fs::path preview(arguments.preview.value_or(""));
   const fs::path temporary = TemporarySibling(preview);
   if (arguments.preview) {
-    auto drawn = WritePng(temporary, DrawTargetFeatures(*target).view());
+    auto drawn = exports::WritePng(temporary, DrawTargetFeatures(*target).view());
     if (!drawn) {
       Error error = std::move(drawn).error();
       error.where = preview.string();

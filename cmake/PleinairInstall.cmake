@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(PLEINAIR_EXPORTED pleinair_base pleinair_files pleinair_scene pleinair_sky pleinair_gl pleinair_shadows pleinair_compositor
-    pleinair_devices pleinair_tracker pleinair_session pleinair_april_tag)
+    pleinair_devices pleinair_tracker pleinair_calibration pleinair_session pleinair_export pleinair_april_tag)
 install(TARGETS ${PLEINAIR_EXPORTED} EXPORT pleinair-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 

@@ -8,12 +8,12 @@
 #include <map>
 
 #include "app/accuracy/film_plots.h"
-#include "app/accuracy/level_chart.h"
 #include "app/accuracy/light_section.h"
 #include "app/accuracy/ratio_text.h"
 #include "app/accuracy/worst_frames.h"
-#include "app/sinks/line_plot.h"
-#include "app/sinks/page_style.h"
+#include "export/plots/level_chart.h"
+#include "export/plots/line_plot.h"
+#include "export/plots/page_style.h"
 #include "files/markup_escape.h"
 
 namespace pleinair::app {
@@ -98,9 +98,9 @@ std::string LevelName(const std::string& sweep, const std::string& pattern) {
 std::string ChartsOf(const RunSummary& summary, const std::string& sweep,
                      const std::string& pattern) {
   std::vector<std::string> levels;
-  std::vector<LevelSeries> rates, errors;
+  std::vector<exports::LevelSeries> rates, errors;
   for (const std::string& detector : summary.detectors) {
-    LevelSeries rate{detector, {}, {}, {}}, error{detector, {}, {}, {}};
+    exports::LevelSeries rate{detector, {}, {}, {}}, error{detector, {}, {}, {}};
     std::vector<std::string> own_levels;
     for (const CellSummary& cell : summary.cells) {
       if (cell.detector != detector || cell.sweep != sweep || cell.pattern != pattern ||
@@ -122,8 +122,10 @@ std::string ChartsOf(const RunSummary& summary, const std::string& sweep,
   const std::string title = pattern.empty() ? sweep : sweep + ", " + pattern;
   const std::string level_name = LevelName(sweep, pattern);
   return "<div class=\"charts\">" +
-         LevelChartSvg(title + ": rate of hits, 95 % intervals", level_name, levels, rates, 1.0) +
-         LevelChartSvg(title + ": median corner error, px", level_name, levels, errors, 0.0) +
+         exports::LevelChartSvg(title + ": rate of hits, 95 % intervals", level_name, levels, rates,
+                                1.0) +
+         exports::LevelChartSvg(title + ": median corner error, px", level_name, levels, errors,
+                                0.0) +
          "</div>\n";
 }
 
@@ -180,7 +182,7 @@ double TopOf(const std::vector<std::vector<double>>& values) {
   for (const std::vector<double>& sample : values) {
     if (!sample.empty()) top = std::max(top, accuracy::Percentile(sample, 0.9));
   }
-  return top > 0.0 ? TickStep(0.0, top, 1) : 1.0;
+  return top > 0.0 ? exports::TickStep(0.0, top, 1) : 1.0;
 }
 
 std::string Histograms(const RunSummary& summary,
@@ -198,9 +200,10 @@ std::string Histograms(const RunSummary& summary,
     }
   }
   return "<h2>Errors of all hits</h2>\n<div class=\"charts\">" +
-         HistogramSvg("Corner error (RMS of a marker)", "px", summary.detectors, corners,
-                      TopOf(corners)) +
-         HistogramSvg("Rotation error", "°", summary.detectors, rotations, TopOf(rotations)) +
+         exports::HistogramSvg("Corner error (RMS of a marker)", "px", summary.detectors, corners,
+                               TopOf(corners)) +
+         exports::HistogramSvg("Rotation error", "°", summary.detectors, rotations,
+                               TopOf(rotations)) +
          "</div>\n";
 }
 
@@ -215,7 +218,7 @@ std::string Maps(const RunSummary& summary) {
       if (std::isfinite(value)) seen.push_back(value);
     }
     const double full = seen.empty() ? 1.0 : 4.0 * accuracy::Percentile(seen, 0.5);
-    html += CellMapSvg(map.detector, map.columns, map.rows, map.median_px, full);
+    html += exports::CellMapSvg(map.detector, map.columns, map.rows, map.median_px, full);
   }
   return html + "</div>\n";
 }
@@ -311,7 +314,7 @@ std::string AmbiguityTable(const RunSummary& summary) {
 
 std::string AmbiguityChart(const RunSummary& summary) {
   std::vector<std::string> levels;
-  std::vector<LevelSeries> series;
+  std::vector<exports::LevelSeries> series;
   for (const accuracy::AmbiguityBin& bin : summary.ambiguity) {
     if (series.empty() || series.back().name != bin.detector) {
       series.push_back({bin.detector, {}, {}, {}});
@@ -326,7 +329,7 @@ std::string AmbiguityChart(const RunSummary& summary) {
          "was the better one, by the ratio of likelihoods that says how ambiguous the pose "
          "is: below 0.001 it is certain.</p>\n"
          "<div class=\"charts\">" +
-         LevelChartSvg("Wrong solution chosen", "ambiguity ratio", levels, series, 0.6) +
+         exports::LevelChartSvg("Wrong solution chosen", "ambiguity ratio", levels, series, 0.6) +
          "</div>\n" + AmbiguityTable(summary);
 }
 
@@ -337,7 +340,7 @@ std::string AccuracyHtml(const AccuracyReport& report,
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
   html +=
-      "<title>pleinair accuracy</title><style>" + std::string(kPageStyle) +
+      "<title>pleinair accuracy</title><style>" + std::string(exports::kPageStyle) +
       ".charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(20rem,1fr));gap:.8rem}"
       ".wide{overflow-x:auto}table{font-size:.82rem}th,td{padding:.25rem "
       ".4rem}td{white-space:nowrap}"

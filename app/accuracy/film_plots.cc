@@ -3,7 +3,7 @@
 #include <limits>
 #include <map>
 
-#include "app/sinks/line_plot.h"
+#include "export/plots/line_plot.h"
 
 namespace pleinair::app {
 
@@ -12,8 +12,8 @@ std::string FilmPlots(const std::string& sweep, const std::vector<std::string>& 
   if (!sweep.starts_with("sequence") && sweep != "recording") return {};
   constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
   struct Film {
-    PlotLine x{"x", {}, {}}, y{"y", {}, {}}, z{"z", {}, {}};
-    PlotLine place_error{"", {}, {}}, rotation_error{"", {}, {}};
+    exports::PlotLine x{"x", {}, {}}, y{"y", {}, {}}, z{"z", {}, {}};
+    exports::PlotLine place_error{"", {}, {}}, rotation_error{"", {}, {}};
   };
   std::map<std::string, Film> films;
   for (const accuracy::FrameRecord& record : records) {
@@ -22,7 +22,7 @@ std::string FilmPlots(const std::string& sweep, const std::vector<std::string>& 
     }
     Film& film = films[record.pattern];
     const accuracy::MarkerRecord& marker = record.markers[0];
-    const auto add = [&record](PlotLine& line, double value) {
+    const auto add = [&record](exports::PlotLine& line, double value) {
       line.x.push_back(record.repeat);
       line.y.push_back(value);
     };
@@ -40,10 +40,10 @@ std::string FilmPlots(const std::string& sweep, const std::vector<std::string>& 
   for (const auto& [name, film] : films) {
     const std::string of = name.empty() ? "" : name + ": ";
     html += "<div class=\"charts\">" +
-            LinePlotSvg(of + "Camera in the marker frame, as found", "m", {film.x, film.y, film.z},
-                        kUnit) +
-            LinePlotSvg(of + "Error of its place", "mm", {film.place_error}, kUnit) +
-            LinePlotSvg(of + "Error of its rotation", "°", {film.rotation_error}, kUnit) +
+            exports::LinePlotSvg(of + "Camera in the marker frame, as found", "m",
+                                 {film.x, film.y, film.z}, kUnit) +
+            exports::LinePlotSvg(of + "Error of its place", "mm", {film.place_error}, kUnit) +
+            exports::LinePlotSvg(of + "Error of its rotation", "°", {film.rotation_error}, kUnit) +
             "</div>\n";
   }
   return html;

@@ -126,8 +126,8 @@ class RecordingRun {
 
   Result<void> FindTruth() {
     PLEINAIR_ASSIGN_OR_RETURN(RecordingTruth truth, ReadRecordingTruth(path_));
-    for (PathPose& pose : truth.poses) pose.timestamp_ns = SinceStart(pose.timestamp_ns);
-    Transform<Marker, Reference> marker_from_reference;
+    for (exports::PathPose& pose : truth.poses) pose.timestamp_ns = SinceStart(pose.timestamp_ns);
+    Transform<Marker, exports::Reference> marker_from_reference;
     is_aligned_ = !truth.in_marker_frame;
     if (is_aligned_) {
       const auto aligned = AlignReference(PairsWith(truth.poses));
@@ -148,7 +148,7 @@ class RecordingRun {
                       "give times in seconds since the recording's start, or since 1970");
   }
 
-  std::vector<PosePair> PairsWith(const std::vector<PathPose>& truth) const {
+  std::vector<PosePair> PairsWith(const std::vector<exports::PathPose>& truth) const {
     std::vector<PosePair> pairs;
     for (const SeenFrame& frame : frames_) {
       const auto pose = PoseAt(truth, frame.timestamp_ns, period_ns_);

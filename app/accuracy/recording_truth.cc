@@ -7,8 +7,8 @@
 
 #include "accuracy/scoring.h"
 #include "accuracy/statistics.h"
-#include "app/paths/path_files.h"
 #include "devices/recordings/euroc.h"
+#include "export/trajectories/path_files.h"
 #include "files/text_file.h"
 
 namespace pleinair::app {
@@ -22,19 +22,21 @@ bool IsFile(const fs::path& file) {
 }
 
 Result<RecordingTruth> ReadTum(const fs::path& file, bool in_marker_frame) {
-  PLEINAIR_ASSIGN_OR_RETURN(CameraPath path, ReadPath(file, PathFormat::kTum, {}));
+  PLEINAIR_ASSIGN_OR_RETURN(exports::CameraPath path,
+                            exports::ReadPath(file, exports::PathFormat::kTum, {}));
   return RecordingTruth{std::move(path.poses), in_marker_frame};
 }
 
 Result<RecordingTruth> ReadEuroc(const fs::path& file, const fs::path& sensor) {
-  PathReading reading;
+  exports::PathReading reading;
   if (IsFile(sensor)) {
     PLEINAIR_ASSIGN_OR_RETURN(const std::string yaml,
                               files::ReadWholeFile(sensor, files::kMaxCalibrationBytes));
     PLEINAIR_ASSIGN_OR_RETURN(reading.body_from_camera,
                               devices::ParseEurocExtrinsics(yaml, sensor.string()));
   }
-  PLEINAIR_ASSIGN_OR_RETURN(CameraPath path, ReadPath(file, PathFormat::kEuroc, reading));
+  PLEINAIR_ASSIGN_OR_RETURN(exports::CameraPath path,
+                            exports::ReadPath(file, exports::PathFormat::kEuroc, reading));
   return RecordingTruth{std::move(path.poses), false};
 }
 
@@ -45,8 +47,9 @@ Quaternion Weighted(const Quaternion& a, double weight_a, const Quaternion& b, d
           weight_a * a.w + w * b.w};
 }
 
-Transform<Reference, Camera> Between(const PathPose& before, const PathPose& after,
-                                     std::int64_t timestamp_ns) {
+Transform<exports::Reference, Camera> Between(const exports::PathPose& before,
+                                              const exports::PathPose& after,
+                                              std::int64_t timestamp_ns) {
   const double share = static_cast<double>(timestamp_ns - before.timestamp_ns) /
                        static_cast<double>(after.timestamp_ns - before.timestamp_ns);
   const auto &a = before.reference_from_camera, &b = after.reference_from_camera;
@@ -70,12 +73,12 @@ Result<RecordingTruth> ReadRecordingTruth(const fs::path& recording) {
                     "(or groundtruth.txt, or EuRoC's state_groundtruth_estimate0/data.csv)");
 }
 
-std::optional<Transform<Reference, Camera>> PoseAt(const std::vector<PathPose>& poses,
-                                                   std::int64_t timestamp_ns,
-                                                   std::int64_t period_ns) {
+std::optional<Transform<exports::Reference, Camera>> PoseAt(
+    const std::vector<exports::PathPose>& poses, std::int64_t timestamp_ns,
+    std::int64_t period_ns) {
   const auto after = std::lower_bound(
       poses.begin(), poses.end(), timestamp_ns,
-      [](const PathPose& pose, std::int64_t time) { return pose.timestamp_ns < time; });
+      [](const exports::PathPose& pose, std::int64_t time) { return pose.timestamp_ns < time; });
   const bool has_before = after != poses.begin(), has_after = after != poses.end();
   const std::int64_t to_before = has_before ? timestamp_ns - (after - 1)->timestamp_ns : 0;
   const std::int64_t to_after = has_after ? after->timestamp_ns - timestamp_ns : 0;
@@ -88,7 +91,8 @@ std::optional<Transform<Reference, Camera>> PoseAt(const std::vector<PathPose>& 
   return std::nullopt;
 }
 
-std::optional<Transform<Marker, Reference>> AlignReference(const std::vector<PosePair>& pairs) {
+std::optional<Transform<Marker, exports::Reference>> AlignReference(
+    const std::vector<PosePair>& pairs) {
   if (pairs.empty()) return std::nullopt;
   std::vector<Mat3> turns;
   turns.reserve(pairs.size());
@@ -122,7 +126,7 @@ std::optional<Transform<Marker, Reference>> AlignReference(const std::vector<Pos
     if (i != central) sum = Weighted(sum, 1.0, QuaternionOf(turns[i]), 1.0);
     kept.push_back(&pairs[i]);
   }
-  Transform<Marker, Reference> marker_from_reference{RotationOf(sum), {}};
+  Transform<Marker, exports::Reference> marker_from_reference{RotationOf(sum), {}};
   Vec3 shift;
   for (const PosePair* pair : kept) {
     shift = shift + (pair->found.translation_m -

@@ -5,15 +5,15 @@
 #include <optional>
 #include <vector>
 
-#include "app/paths/camera_path.h"
 #include "base/error.h"
 #include "base/frames.h"
+#include "export/trajectories/camera_path.h"
 
 namespace pleinair::app {
 
 /// Where a recording's camera was, by somebody who knows.
 struct RecordingTruth {
-  std::vector<PathPose> poses;  ///< Times as the file has them.
+  std::vector<exports::PathPose> poses;  ///< Times as the file has them.
   /// The reference is the marker (truth.tum); else it is a frame of the author's own, such as a
   /// motion capture system's.
   bool in_marker_frame = true;
@@ -29,17 +29,17 @@ Result<RecordingTruth> ReadRecordingTruth(const std::filesystem::path& recording
 /// The pose of a moment: between its neighbours (shift and quaternion linearly) where both lie
 /// within a frame period, else that of a neighbour within a quarter of a period; nothing without
 /// such.
-std::optional<Transform<Reference, Camera>> PoseAt(const std::vector<PathPose>& poses,
-                                                   std::int64_t timestamp_ns,
-                                                   std::int64_t period_ns);
+std::optional<Transform<exports::Reference, Camera>> PoseAt(
+    const std::vector<exports::PathPose>& poses, std::int64_t timestamp_ns, std::int64_t period_ns);
 
 /// How a frame of reference lies in the marker's, by what a detector found: the mean over the
 /// moments, without those whose rotation is off by more than three times the median (poses that
 /// flipped). Nothing without any.
 struct PosePair {
   Transform<Marker, Camera> found;
-  Transform<Reference, Camera> truth;
+  Transform<exports::Reference, Camera> truth;
 };
-std::optional<Transform<Marker, Reference>> AlignReference(const std::vector<PosePair>& pairs);
+std::optional<Transform<Marker, exports::Reference>> AlignReference(
+    const std::vector<PosePair>& pairs);
 
 }  // namespace pleinair::app

@@ -5,7 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/sinks/page_style.h"
+#include "export/plots/page_style.h"
 #include "files/markup_escape.h"
 
 namespace pleinair::app {
@@ -45,7 +45,7 @@ std::string TimesHtml(const std::set<std::string>& machines,
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
       "<title>pleinair accuracy: times</title><style>" +
-      std::string(kPageStyle) +
+      std::string(exports::kPageStyle) +
       "</style></head><body>\n<h1>Time per stage</h1>\n<p class=\"lead\">One thread a detector, on";
   for (const std::string& machine : machines) html += " " + files::EscapeMarkup(machine) + ";";
   html +=

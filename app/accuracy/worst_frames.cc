@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/accuracy/accuracy_run.h"
-#include "app/sinks/picture_writer.h"
+#include "export/images/picture_writer.h"
 #include "files/base64.h"
 #include "files/markup_escape.h"
 
@@ -75,8 +75,8 @@ std::string PictureHtml(const Bad& bad, const GreyImage& grey) {
       "<figure><div class=\"worst\"><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\">"
       "<svg viewBox=\"0 0 {2} {3}\">{4}</svg></div><figcaption>{0}: {5}</figcaption></figure>\n",
       files::EscapeMarkup(bad.record->name),
-      files::Base64(EncodeJpeg(rgb.view(), grey.width(), kQuality)), grey.width(), grey.height(),
-      outlines, files::EscapeMarkup(bad.why));
+      files::Base64(exports::EncodeJpeg(rgb.view(), grey.width(), kQuality)), grey.width(),
+      grey.height(), outlines, files::EscapeMarkup(bad.why));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/bench/shadow_metrics.h"
-#include "app/sinks/picture_writer.h"
 #include "base/atomic_file.h"
+#include "export/images/picture_writer.h"
 
 namespace pleinair::app {
 namespace {
@@ -68,7 +68,8 @@ void Label(const std::string& text, int left, int top, RgbImage* sheet) {
 }
 
 Result<void> WriteJpeg(const RgbImage& picture, const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> bytes = EncodeJpeg(picture.view(), picture.width(), kJpegQuality);
+  const std::vector<std::uint8_t> bytes =
+      exports::EncodeJpeg(picture.view(), picture.width(), kJpegQuality);
   return WriteFileAtomically(
       file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }

@@ -19,9 +19,9 @@
 #include "app/interrupt.h"
 #include "app/number_range.h"
 #include "app/progress_bar.h"
-#include "app/sinks/picture_writer.h"
 #include "base/atomic_file.h"
 #include "devices/calibration/calibration_text.h"
+#include "export/images/picture_writer.h"
 
 namespace pleinair::app {
 namespace {
@@ -144,10 +144,11 @@ std::map<std::string, double> Notes(const LensCalibration& calibration) {
 }
 
 Result<void> WriteCoverage(const std::string& file, const LensCalibration& calibration) {
-  const LineDrawing drawing = CoverageDrawing(calibration);
+  const exports::LineDrawing drawing = CoverageDrawing(calibration);
   constexpr int kWidth_px = 1200;
-  if (file.ends_with(".svg")) return WriteFileAtomically(file, DrawingSvg(drawing, kWidth_px));
-  return WritePng(file, RasterizeDrawing(drawing, kWidth_px).view());
+  if (file.ends_with(".svg"))
+    return WriteFileAtomically(file, exports::DrawingSvg(drawing, kWidth_px));
+  return exports::WritePng(file, exports::RasterizeDrawing(drawing, kWidth_px).view());
 }
 
 Result<void> Write(const Options& options, const LensCalibration& calibration,

@@ -13,10 +13,10 @@ namespace {
 using tracker::LensCalibration;
 
 constexpr double kWidth = 800.0;
-constexpr DrawingColour kSoft{190, 188, 182}, kInk{60, 66, 74}, kBlue{44, 98, 181},
+constexpr exports::DrawingColour kSoft{190, 188, 182}, kInk{60, 66, 74}, kBlue{44, 98, 181},
     kRed{194, 69, 45};
 
-DrawingColour Between(DrawingColour a, DrawingColour b, double share) {
+exports::DrawingColour Between(exports::DrawingColour a, exports::DrawingColour b, double share) {
   const auto mix = [&](std::uint8_t from, std::uint8_t to) {
     return static_cast<std::uint8_t>(std::lround(from + (to - from) * share));
   };
@@ -24,17 +24,18 @@ DrawingColour Between(DrawingColour a, DrawingColour b, double share) {
 }
 
 /// Blue, green, ochre, red.
-DrawingColour Heat(double share) {
-  constexpr DrawingColour kSteps[] = {kBlue, {47, 125, 79}, {214, 160, 40}, kRed};
+exports::DrawingColour Heat(double share) {
+  constexpr exports::DrawingColour kSteps[] = {kBlue, {47, 125, 79}, {214, 160, 40}, kRed};
   const double at = std::clamp(share, 0.0, 1.0) * 3.0;
   const int step = std::min(2, static_cast<int>(at));
   return Between(kSteps[step], kSteps[step + 1], at - step);
 }
 
 /// A drawing of the picture, with its frame; pixels are `scale` units large.
-LineDrawing PictureFrame(const CameraModel& camera, const std::string& title, double* scale) {
+exports::LineDrawing PictureFrame(const CameraModel& camera, const std::string& title,
+                                  double* scale) {
   *scale = kWidth / camera.width;
-  LineDrawing drawing;
+  exports::LineDrawing drawing;
   drawing.width = kWidth;
   drawing.height = camera.height * *scale;
   drawing.title = title;
@@ -71,10 +72,10 @@ std::vector<Vec2> Outline(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-LineDrawing CoverageDrawing(const LensCalibration& calibration) {
+exports::LineDrawing CoverageDrawing(const LensCalibration& calibration) {
   const CameraModel& camera = calibration.fit.camera;
   double scale = 1.0;
-  LineDrawing drawing =
+  exports::LineDrawing drawing =
       PictureFrame(camera,
                    fmt::format("{} views cover {:.0f} % of the picture", calibration.views.size(),
                                100.0 * calibration.coverage.Share()),
@@ -129,9 +130,10 @@ std::vector<ResidualRegion> ResidualRegions(const LensCalibration& calibration) 
   return regions;
 }
 
-LineDrawing ResidualDrawing(const LensCalibration& calibration) {
+exports::LineDrawing ResidualDrawing(const LensCalibration& calibration) {
   double scale = 1.0;
-  LineDrawing drawing = PictureFrame(calibration.fit.camera, "Residuals by region", &scale);
+  exports::LineDrawing drawing =
+      PictureFrame(calibration.fit.camera, "Residuals by region", &scale);
   const double cell_width = kWidth / kRegionColumns, cell_height = drawing.height / kRegionRows;
   for (int i = 1; i < kRegionColumns; ++i) {
     drawing.lines.push_back(
@@ -155,7 +157,8 @@ LineDrawing ResidualDrawing(const LensCalibration& calibration) {
       continue;
     }
     const Vec2 end = middle + region.mean_px * arrow_scale;
-    const DrawingColour colour = Heat(Norm(region.mean_px) / std::max(calibration.rms_px, 1e-12));
+    const exports::DrawingColour colour =
+        Heat(Norm(region.mean_px) / std::max(calibration.rms_px, 1e-12));
     drawing.lines.push_back({{middle, end}, colour, 2.5, false});
     drawing.discs.push_back({middle, 3.0, colour});
     drawing.texts.push_back({label, 15.0, fmt::format("{:.3f} px", region.rms_px), kInk});
@@ -168,13 +171,13 @@ LineDrawing ResidualDrawing(const LensCalibration& calibration) {
   return drawing;
 }
 
-LineDrawing DistortionDrawing(const LensCalibration& calibration) {
+exports::LineDrawing DistortionDrawing(const LensCalibration& calibration) {
   const CameraModel& camera = calibration.fit.camera;
   double scale = 1.0;
-  LineDrawing drawing = PictureFrame(camera, "Distortion", &scale);
+  exports::LineDrawing drawing = PictureFrame(camera, "Distortion", &scale);
   const auto add_line = [&](bool upright, double at_px) {
     const int length = upright ? camera.height : camera.width;
-    DrawingLine plain{{}, kSoft, 1.0, true}, bent{{}, kBlue, 1.6, false};
+    exports::DrawingLine plain{{}, kSoft, 1.0, true}, bent{{}, kBlue, 1.6, false};
     for (int i = 0; i <= 60; ++i) {
       const double along = i / 60.0 * length - 0.5;
       const Vec2 pixel = upright ? Vec2{at_px, along} : Vec2{along, at_px};
@@ -197,12 +200,12 @@ LineDrawing DistortionDrawing(const LensCalibration& calibration) {
   return drawing;
 }
 
-LineDrawing PlacesDrawing(const LensCalibration& calibration) {
+exports::LineDrawing PlacesDrawing(const LensCalibration& calibration) {
   struct Side {
     Vec2 from, to;
   };
   const CameraModel& camera = calibration.fit.camera;
-  LineDrawing drawing;
+  exports::LineDrawing drawing;
   drawing.width = kWidth;
   drawing.height = 0.45 * kWidth;
   drawing.title = "Where the board stood";

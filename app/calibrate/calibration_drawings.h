@@ -1,24 +1,24 @@
 #pragma once
 
-#include "app/line_drawing.h"
+#include "export/plots/vector_drawing.h"
 #include "tracker/calibration/lens_calibration.h"
 
 namespace pleinair::app {
 
 /// Where in the picture the board was seen: each view's outline, each corner coloured by how far
 /// off it is (blue none, red three times the RMS), and crosses where nothing was seen.
-LineDrawing CoverageDrawing(const tracker::LensCalibration& calibration);
+exports::LineDrawing CoverageDrawing(const tracker::LensCalibration& calibration);
 
 /// Residuals by regions of the picture: the mean as an arrow, drawn `kArrowScale` times as long,
 /// and the RMS in px. Arrows that point the same way beside each other are what the lens model
 /// misses.
-LineDrawing ResidualDrawing(const tracker::LensCalibration& calibration);
+exports::LineDrawing ResidualDrawing(const tracker::LensCalibration& calibration);
 
 /// What the lens does to a grid: without distortion (grey, dashed) and with it.
-LineDrawing DistortionDrawing(const tracker::LensCalibration& calibration);
+exports::LineDrawing DistortionDrawing(const tracker::LensCalibration& calibration);
 
 /// Where the board stood, from above and from the side, with the camera's field of view.
-LineDrawing PlacesDrawing(const tracker::LensCalibration& calibration);
+exports::LineDrawing PlacesDrawing(const tracker::LensCalibration& calibration);
 
 /// A part of the picture and its residuals.
 struct ResidualRegion {

@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "app/calibrate/calibration_drawings.h"
-#include "app/sinks/page_style.h"
-#include "app/sinks/picture_writer.h"
 #include "base/units.h"
+#include "export/images/picture_writer.h"
+#include "export/plots/page_style.h"
 #include "files/base64.h"
 #include "files/markup_escape.h"
 
@@ -33,8 +33,8 @@ std::string Card(const std::string& figure, const std::string& caption) {
                      files::EscapeMarkup(figure), files::EscapeMarkup(caption));
 }
 
-std::string Figure(const LineDrawing& drawing, const std::string& caption) {
-  std::string svg = DrawingSvg(drawing, kDrawingWidth_px);
+std::string Figure(const exports::LineDrawing& drawing, const std::string& caption) {
+  std::string svg = exports::DrawingSvg(drawing, kDrawingWidth_px);
   svg.erase(0, svg.find("<svg"));
   return "<figure>" + svg + "<figcaption>" + files::EscapeMarkup(caption) +
          "</figcaption></figure>\n";
@@ -102,8 +102,9 @@ std::string Thumbnail(const CollectedView& view, const LensCalibration& calibrat
       "<figure><svg viewBox=\"0 0 {0} {1}\"><image width=\"{0}\" height=\"{1}\" "
       "href=\"data:image/jpeg;base64,{2}\"/><g fill=\"#e0452d\" stroke=\"#fff\" "
       "stroke-width=\"{3:.2f}\">{4}</g></svg><figcaption>{5}: {6:.3f} px</figcaption></figure>\n",
-      width, height, files::Base64(EncodeJpeg(rgb.view(), kThumbnailWidth_px, 70)), width / 700.0,
-      corners, files::EscapeMarkup(std::filesystem::path(view.view.name).filename().string()),
+      width, height, files::Base64(exports::EncodeJpeg(rgb.view(), kThumbnailWidth_px, 70)),
+      width / 700.0, corners,
+      files::EscapeMarkup(std::filesystem::path(view.view.name).filename().string()),
       tracker::Rms(calibration.residuals_px[used]));
 }
 
@@ -150,7 +151,7 @@ std::string CalibrationPage(const CalibrationFacts& facts, const LensCalibration
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
   html += "<title>pleinair calibrate: " + files::EscapeMarkup(facts.title) + "</title><style>" +
-          std::string(kPageStyle) + kStyle + "</style></head><body>\n<h1>Lens of " +
+          std::string(exports::kPageStyle) + kStyle + "</style></head><body>\n<h1>Lens of " +
           files::EscapeMarkup(facts.title) + "</h1>\n<p class=\"lead\">" +
           files::EscapeMarkup(facts.board) +
           fmt::format(", seen in {} of {} pictures: <code>", facts.with_board, facts.looked_at) +

@@ -33,11 +33,12 @@ Result<void> LiveOutput::Add(const session::Session& session, std::int64_t frame
   for (const auto& [marker, observations] : session.paths()) {
     if (observations.empty() || observations.back().frame_index != frame_index) continue;
     // Poses of recordings count from their start, as the line's time does.
-    PathPose pose = ObservedPose(observations.back());
+    exports::PathPose pose = ObservedPose(observations.back());
     pose.timestamp_ns = timestamp_ns;
     paths_[marker].poses.push_back(std::move(pose));
   }
-  if (options_.exports.contains(PathFormat::kMcap)) markers_seen_.push_back({timestamp_ns, line});
+  if (options_.exports.contains(exports::PathFormat::kMcap))
+    markers_seen_.push_back({timestamp_ns, line});
   return detections_.Add(line);
 }
 
@@ -50,7 +51,7 @@ Result<void> LiveOutput::Finish(UtcTime start) {
 Result<void> LiveOutput::Write(UtcTime start) {
   PLEINAIR_RETURN_IF_ERROR(detections_.Finish());
   PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
-  CameraPath anchors;
+  exports::CameraPath anchors;
   for (const auto& [marker, path] : paths_) {
     PLEINAIR_RETURN_IF_ERROR(
         WriteMarkerPath(marker, path, options_.exports, folder_.staging()).map([](auto) {}));

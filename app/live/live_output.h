@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "app/paths/camera_path.h"
-#include "app/paths/mcap_path.h"
-#include "app/paths/path_files.h"
 #include "app/sinks/detections_writer.h"
 #include "app/sinks/output_folder.h"
 #include "base/camera_model.h"
 #include "base/error.h"
+#include "export/trajectories/camera_path.h"
+#include "export/trajectories/mcap_path.h"
+#include "export/trajectories/path_files.h"
 #include "scene/scene_description.h"
 #include "session/marker_tracks.h"
 
@@ -28,7 +28,7 @@ class LiveOutput {
  public:
   struct Options {
     std::filesystem::path folder;
-    std::set<PathFormat> exports;  ///< Besides TUM.
+    std::set<exports::PathFormat> exports;  ///< Besides TUM.
   };
 
   /// Errors: of OutputFolder; a lens that a form cannot hold.
@@ -53,8 +53,8 @@ class LiveOutput {
   scene::SceneDescription scene_;
   OutputFolder folder_;
   DetectionsWriter detections_;
-  std::map<session::MarkerName, CameraPath> paths_;
-  std::vector<MarkersMessage> markers_seen_;  // For MCAP alone.
+  std::map<session::MarkerName, exports::CameraPath> paths_;
+  std::vector<exports::MarkersMessage> markers_seen_;  // For MCAP alone.
 };
 
 }  // namespace pleinair::app

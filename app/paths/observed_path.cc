@@ -4,15 +4,15 @@
 
 namespace pleinair::app {
 
-PathPose ObservedPose(const session::Observation& at) {
+exports::PathPose ObservedPose(const session::Observation& at) {
   // The marker is what the path is told in.
-  const Transform<Reference, Marker> reference_from_marker;
+  const Transform<exports::Reference, Marker> reference_from_marker;
   return {at.timestamp_ns, reference_from_marker * at.camera_from_marker.Inverse(),
           fmt::format("frames/{:04}.png", at.frame_index)};
 }
 
-CameraPath ObservedPath(const std::vector<session::Observation>& observations) {
-  CameraPath path;
+exports::CameraPath ObservedPath(const std::vector<session::Observation>& observations) {
+  exports::CameraPath path;
   path.poses.reserve(observations.size());
   for (const session::Observation& at : observations) path.poses.push_back(ObservedPose(at));
   return path;

@@ -2,17 +2,17 @@
 
 #include <vector>
 
-#include "app/paths/camera_path.h"
+#include "export/trajectories/camera_path.h"
 #include "session/marker_tracks.h"
 
 namespace pleinair::app {
 
 /// Where the camera was when it saw the marker, in the marker's frame.
-PathPose ObservedPose(const session::Observation& at);
+exports::PathPose ObservedPose(const session::Observation& at);
 
 /// The camera's path in the frame of the marker that it was observed from. Pictures are named as
 /// replay writes frames, frames/0000.png and so on.
-CameraPath ObservedPath(const std::vector<session::Observation>& observations);
+exports::CameraPath ObservedPath(const std::vector<session::Observation>& observations);
 
 /// How a file of such poses says what they are.
 inline constexpr const char* kObservedPathComment =

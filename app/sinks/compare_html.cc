@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/sinks/page_style.h"
+#include "export/plots/page_style.h"
 #include "files/base64.h"
 #include "files/markup_escape.h"
 
@@ -33,7 +33,7 @@ std::string CompareHtml(const Comparison& comparison) {
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
   html +=
       "<title>pleinair compare: " + files::EscapeMarkup(comparison.pictures) + "</title><style>";
-  html += std::string(kPageStyle) +
+  html += std::string(exports::kPageStyle) +
           ".pictures{grid-template-columns:repeat(3,1fr)}</style></head><body>\n<h1>" +
           files::EscapeMarkup(comparison.pictures) + "</h1>\n<p class=\"lead\">against " +
           files::EscapeMarkup(comparison.truth) + ": <code>" +

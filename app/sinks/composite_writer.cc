@@ -4,11 +4,12 @@
 
 #include <utility>
 
-#include "app/sinks/picture_writer.h"
+#include "export/images/picture_writer.h"
 
 namespace pleinair::app {
 
-CompositeWriter::CompositeWriter(std::filesystem::path pictures, std::unique_ptr<VideoWriter> video)
+CompositeWriter::CompositeWriter(std::filesystem::path pictures,
+                                 std::unique_ptr<exports::VideoWriter> video)
     : pictures_(std::move(pictures)), video_(std::move(video)), thread_([this] { Run(); }) {}
 
 CompositeWriter::~CompositeWriter() { End(); }
@@ -44,8 +45,8 @@ void CompositeWriter::Run() {
 Result<void> CompositeWriter::Write(const Item& item) {
   if (!pictures_.empty()) {
     const std::filesystem::path file = pictures_ / fmt::format("{:04}.png", item.index);
-    PLEINAIR_RETURN_IF_ERROR(
-        times_.Measure("write picture", [&] { return WritePng(file, item.picture.view()); }));
+    PLEINAIR_RETURN_IF_ERROR(times_.Measure(
+        "write picture", [&] { return exports::WritePng(file, item.picture.view()); }));
   }
   if (!video_) return {};
   return times_.Measure("encode video",

@@ -7,11 +7,11 @@
 #include <optional>
 #include <thread>
 
-#include "app/sinks/video_writer.h"
 #include "base/bounded_queue.h"
 #include "base/error.h"
 #include "base/image.h"
 #include "base/stage_times.h"
+#include "export/images/video_writer.h"
 
 namespace pleinair::app {
 
@@ -20,7 +20,7 @@ namespace pleinair::app {
 class CompositeWriter {
  public:
   /// `pictures`: folder for 0000.png and so on; empty: none. `video`: null: none.
-  CompositeWriter(std::filesystem::path pictures, std::unique_ptr<VideoWriter> video);
+  CompositeWriter(std::filesystem::path pictures, std::unique_ptr<exports::VideoWriter> video);
   ~CompositeWriter();
   CompositeWriter(const CompositeWriter&) = delete;
   CompositeWriter& operator=(const CompositeWriter&) = delete;
@@ -49,7 +49,7 @@ class CompositeWriter {
   void End();
 
   std::filesystem::path pictures_;
-  std::unique_ptr<VideoWriter> video_;
+  std::unique_ptr<exports::VideoWriter> video_;
   // Of the thread, until it has ended.
   StageTimes times_;
   Result<void> result_;

@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "app/paths/colmap_folder.h"
+#include "export/trajectories/colmap_folder.h"
 
 namespace pleinair::app {
 namespace {
@@ -40,11 +40,11 @@ bool IsNamedLikeOutput(const fs::path& relative) {
   }
   if (folder == "poses") return relative.extension() == ".tum" || relative.extension() == ".csv";
   if (folder == "colmap") {
-    const auto is_named = [&](ColmapForm form) {
-      const auto names = ColmapFileNames(form);
+    const auto is_named = [&](exports::ColmapForm form) {
+      const auto names = exports::ColmapFileNames(form);
       return std::find(names.begin(), names.end(), name) != names.end();
     };
-    return is_named(ColmapForm::kText) || is_named(ColmapForm::kBinary);
+    return is_named(exports::ColmapForm::kText) || is_named(exports::ColmapForm::kBinary);
   }
   return (folder == "frames" || folder == "timelapse") && FrameNumber(relative.filename());
 }

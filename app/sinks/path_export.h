@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/paths/mcap_path.h"
-#include "app/paths/path_files.h"
 #include "base/camera_model.h"
+#include "export/trajectories/mcap_path.h"
+#include "export/trajectories/path_files.h"
 #include "scene/scene_description.h"
 #include "session/marker_tracks.h"
 
@@ -15,25 +15,26 @@ namespace pleinair::app {
 
 /// What frames were taken with and show, for the forms of other programs.
 struct PathExport {
-  CameraPath path;  ///< Of the anchor, with the camera of the frames that are written.
+  exports::CameraPath path;  ///< Of the anchor, with the camera of the frames that are written.
   const scene::SceneDescription& scene;
-  std::vector<MarkersMessage> markers;  ///< For MCAP alone: what was seen, frame by frame.
+  std::vector<exports::MarkersMessage> markers;  ///< For MCAP alone: what was seen, frame by frame.
 };
 
 /// Errors: a lens that a form cannot hold, a form twice; found before a long search for markers.
-Result<void> CheckExports(const std::set<PathFormat>& formats, const CameraModel& camera);
+Result<void> CheckExports(const std::set<exports::PathFormat>& formats, const CameraModel& camera);
 
 /// Writes a marker's path into the folder `poses` in `folder`, as MARKER.tum and, where `euroc` is
 /// asked for, as MARKER.csv; gives their names.
 Result<std::vector<std::string>> WriteMarkerPath(const session::MarkerName& marker,
-                                                 const CameraPath& path,
-                                                 const std::set<PathFormat>& formats,
+                                                 const exports::CameraPath& path,
+                                                 const std::set<exports::PathFormat>& formats,
                                                  const std::filesystem::path& folder);
 
 /// Writes the anchor's path into a folder, `camera.glb`, `colmap/` or `camera.mcap`; gives their
 /// names. MCAP holds what was seen even where the anchor never was, the others are left out then.
 /// (`euroc` is WriteMarkerPath's affair.)
-Result<std::vector<std::string>> ExportPath(PathExport what, const std::set<PathFormat>& formats,
+Result<std::vector<std::string>> ExportPath(PathExport what,
+                                            const std::set<exports::PathFormat>& formats,
                                             const std::filesystem::path& folder);
 
 }  // namespace pleinair::app

@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
-#include "app/sinks/line_plot.h"
-#include "app/sinks/page_style.h"
 #include "base/units.h"
+#include "export/plots/line_plot.h"
+#include "export/plots/page_style.h"
 #include "files/base64.h"
 #include "files/markup_escape.h"
 
@@ -43,10 +43,10 @@ std::string Pictures(const ReplayReport& report) {
 
 /// Camera position, orientation and fit over time; a gap where the marker was not seen.
 std::string Plots(const ReplayReport& report) {
-  PlotLine x{"x", {}, {}}, y{"y", {}, {}}, z{"z", {}, {}};
-  PlotLine heading{"heading", {}, {}}, tilt{"tilt", {}, {}}, roll{"roll", {}, {}};
-  PlotLine error{"", {}, {}}, visible{"", {}, {}};
-  const auto add = [](PlotLine& line, double at_s, double value) {
+  exports::PlotLine x{"x", {}, {}}, y{"y", {}, {}}, z{"z", {}, {}};
+  exports::PlotLine heading{"heading", {}, {}}, tilt{"tilt", {}, {}}, roll{"roll", {}, {}};
+  exports::PlotLine error{"", {}, {}}, visible{"", {}, {}};
+  const auto add = [](exports::PlotLine& line, double at_s, double value) {
     line.x.push_back(at_s);
     line.y.push_back(value);
   };
@@ -56,7 +56,7 @@ std::string Plots(const ReplayReport& report) {
   for (const session::Observation& at : report.path) {
     const double t_s = static_cast<double>(at.timestamp_ns) * 1e-9;
     if (last_index >= 0 && at.frame_index != last_index + 1) {
-      for (PlotLine* line : {&x, &y, &z, &heading, &tilt, &roll, &error, &visible}) {
+      for (exports::PlotLine* line : {&x, &y, &z, &heading, &tilt, &roll, &error, &visible}) {
         add(*line, t_s, kGap);
       }
     }
@@ -79,10 +79,11 @@ std::string Plots(const ReplayReport& report) {
     add(visible, t_s, at.visible_fraction * 100);
     last_index = at.frame_index;
   }
-  return LinePlotSvg("Camera position in the marker frame", "m", {x, y, z}) +
-         LinePlotSvg("Camera orientation in the marker frame", "degrees", {heading, tilt, roll}) +
-         LinePlotSvg("Reprojection error of the marker's corners", "px rms", {error}) +
-         LinePlotSvg("Part of the marker that was seen", "%", {visible});
+  return exports::LinePlotSvg("Camera position in the marker frame", "m", {x, y, z}) +
+         exports::LinePlotSvg("Camera orientation in the marker frame", "degrees",
+                              {heading, tilt, roll}) +
+         exports::LinePlotSvg("Reprojection error of the marker's corners", "px rms", {error}) +
+         exports::LinePlotSvg("Part of the marker that was seen", "%", {visible});
 }
 
 /// ", ± 7 %", or nothing where it is not known.
@@ -191,7 +192,7 @@ std::string ReportHtml(const ReplayReport& report) {
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
   html += "<title>pleinair: " + files::EscapeMarkup(report.recording) + "</title><style>";
-  html += std::string(kPageStyle) + "</style></head><body>\n<h1>" +
+  html += std::string(exports::kPageStyle) + "</style></head><body>\n<h1>" +
           files::EscapeMarkup(report.recording) + "</h1>\n<p class=\"lead\">composed by pleinair " +
           files::EscapeMarkup(report.version) + ": <code>" + files::EscapeMarkup(report.command) +
           "</code></p>\n<div class=\"cards\">\n";

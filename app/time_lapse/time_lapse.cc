@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "app/interrupt.h"
-#include "app/line_drawing.h"
 #include "app/progress_bar.h"
-#include "app/sinks/picture_writer.h"
-#include "app/sinks/video_writer.h"
 #include "base/atomic_file.h"
+#include "export/images/picture_writer.h"
+#include "export/images/video_writer.h"
+#include "export/plots/vector_drawing.h"
 #include "files/base64.h"
 
 namespace pleinair::app {
@@ -30,12 +30,12 @@ constexpr int kTileWidth_px = 320, kCaption_px = 22;
 
 /// A strip with a time in it.
 RgbImage Caption(const std::string& text) {
-  LineDrawing drawing;
+  exports::LineDrawing drawing;
   drawing.width = kTileWidth_px;
   drawing.height = kCaption_px;
   drawing.texts.push_back(
       {{kTileWidth_px / 2.0, kCaption_px / 2.0}, 0.65 * kCaption_px, text, {34, 38, 43}});
-  return RasterizeDrawing(drawing, kTileWidth_px);
+  return exports::RasterizeDrawing(drawing, kTileWidth_px);
 }
 
 void Paste(const RgbImage& from, int left, int top, RgbImage* onto) {
@@ -63,7 +63,7 @@ class ContactSheet {
     if (taken_ >= tiles_ || index != Wanted(taken_)) return;
     const int left = static_cast<int>(taken_ % kColumns) * kTileWidth_px;
     const int top = static_cast<int>(taken_ / kColumns) * (tile_height_ + kCaption_px);
-    Paste(ResizeRgb(picture.view(), kTileWidth_px, tile_height_), left, top, &sheet_);
+    Paste(exports::ResizeRgb(picture.view(), kTileWidth_px, tile_height_), left, top, &sheet_);
     Paste(Caption(caption), left, top + tile_height_, &sheet_);
     ++taken_;
   }
@@ -112,7 +112,7 @@ Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
     fs::create_directories(folder / kTimeLapsePictures, error);
     if (error) return tl::make_unexpected(WriteError(folder / kTimeLapsePictures, error.value()));
   }
-  std::unique_ptr<VideoWriter> video;
+  std::unique_ptr<exports::VideoWriter> video;
   std::optional<ContactSheet> sheet;
   ProgressBar bar("Drawing the day", static_cast<std::int64_t>(moments.times.size()), "pictures");
   for (std::size_t i = 0; i < moments.times.size(); ++i) {
@@ -123,8 +123,9 @@ Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
         renderer.Render(camera_from_marker, time, GainOfDay(renderer.LevelLight(time), brightest)));
     if (!video) {
       PLEINAIR_ASSIGN_OR_RETURN(
-          video, VideoWriter::Create(folder / kTimeLapseVideo,
-                                     {picture.width(), picture.height(), kPicturesPerSecond}));
+          video,
+          exports::VideoWriter::Create(folder / kTimeLapseVideo,
+                                       {picture.width(), picture.height(), kPicturesPerSecond}));
       sheet.emplace(moments.times.size(), static_cast<double>(picture.height()) / picture.width());
     }
     PLEINAIR_RETURN_IF_ERROR(video->Add(
@@ -132,13 +133,13 @@ Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
     sheet->Offer(i, picture, ClockTime(time, moments.clock));
     if (pictures) {
       const std::string name = fmt::format("{}/{:04}.png", kTimeLapsePictures, i);
-      PLEINAIR_RETURN_IF_ERROR(WritePng(folder / name, picture.view()));
+      PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / name, picture.view()));
       written.push_back(name);
     }
     bar.Advance();
   }
   PLEINAIR_RETURN_IF_ERROR(video->Finish());
-  PLEINAIR_RETURN_IF_ERROR(WritePng(folder / kTimeLapseSheet, sheet->sheet().view()));
+  PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / kTimeLapseSheet, sheet->sheet().view()));
   return written;
 }
 

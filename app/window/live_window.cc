@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "app/interrupt.h"
-#include "app/sinks/picture_writer.h"
 #include "app/window/frame_thread.h"
 #include "app/window/picture_mouse.h"
 #include "app/window/scene_panel.h"
@@ -24,6 +23,7 @@
 #include "app/window/window_state.h"
 #include "base/atomic_file.h"
 #include "devices/cameras/camera.h"
+#include "export/images/picture_writer.h"
 
 namespace pleinair::app {
 namespace {
@@ -287,7 +287,7 @@ class LiveWindow {
     const auto file = options_.screenshots / fmt::format("{}-{}.png", what, Compact(WallClock()));
     // Whoever waits for the file shall find it whole.
     const std::filesystem::path part = file.string() + ".part";
-    auto written = WritePng(part, picture.view());
+    auto written = exports::WritePng(part, picture.view());
     std::error_code renamed;
     if (written) std::filesystem::rename(part, file, renamed);
     if (renamed) written = tl::make_unexpected(WriteError(file, renamed.value()));

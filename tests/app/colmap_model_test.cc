@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "app/paths/colmap_binary.h"
-#include "app/paths/colmap_camera.h"
-#include "app/paths/colmap_model.h"
-#include "app/paths/colmap_text.h"
+#include "export/trajectories/colmap_binary.h"
+#include "export/trajectories/colmap_camera.h"
+#include "export/trajectories/colmap_model.h"
+#include "export/trajectories/colmap_text.h"
 #include "tests/app/error_message.h"
 #include "tests/source_tree.h"
 
@@ -24,8 +24,8 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 // The example of COLMAP's documentation ("Output Format").
-const ColmapFiles& ColmapExample() {
-  static const ColmapFiles kTexts{
+const exports::ColmapFiles& ColmapExample() {
+  static const exports::ColmapFiles kTexts{
       "# Camera list with one line of data per camera:\n"
       "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
       "# Number of cameras: 3\n"
@@ -49,15 +49,15 @@ const ColmapFiles& ColmapExample() {
   return kTexts;
 }
 
-Result<CameraPath> PathOf(Result<ColmapModel> model) {
+Result<exports::CameraPath> PathOf(Result<exports::ColmapModel> model) {
   if (!model) return tl::make_unexpected(std::move(model).error());
-  return PathFromColmap(*std::move(model), 30.0);
+  return exports::PathFromColmap(*std::move(model), 30.0);
 }
-Result<CameraPath> PathOfText(const ColmapFiles& files) {
-  return PathOf(ParseColmapText(files, "model"));
+Result<exports::CameraPath> PathOfText(const exports::ColmapFiles& files) {
+  return PathOf(exports::ParseColmapText(files, "model"));
 }
-Result<CameraPath> PathOfBinary(const ColmapFiles& files) {
-  return PathOf(ParseColmapBinary(files, "model"));
+Result<exports::CameraPath> PathOfBinary(const exports::ColmapFiles& files) {
+  return PathOf(exports::ParseColmapBinary(files, "model"));
 }
 
 TEST(ColmapModel, ReadsTheDocumentationsOwnExample) {
@@ -82,17 +82,17 @@ TEST(ColmapModel, ReadsTheDocumentationsOwnExample) {
 
 TEST(ColmapModel, WritesWhatItReads) {
   const auto path = PathOfText(ColmapExample());
-  const auto model = ColmapFromPath(*path);
+  const auto model = exports::ColmapFromPath(*path);
   ASSERT_TRUE(model);
-  EXPECT_THAT(ColmapText(*model).images,
+  EXPECT_THAT(exports::ColmapText(*model).images,
               HasSubstr(" -0.737434 1.02973 3.74354 1 P1180141.JPG\n\n"));
-  const auto again = PathOfText(ColmapText(*model));
+  const auto again = PathOfText(exports::ColmapText(*model));
   ASSERT_TRUE(again) << again.error().Message();
   EXPECT_EQ(again->points.size(), 3U);
   EXPECT_EQ(again->poses[1].picture, "P1180142.JPG");
   EXPECT_NEAR(again->poses[1].reference_from_camera.translation_m.x,
               path->poses[1].reference_from_camera.translation_m.x, 1e-9);
-  EXPECT_FALSE(ColmapFromPath(CameraPath{}));
+  EXPECT_FALSE(exports::ColmapFromPath(exports::CameraPath{}));
 }
 
 TEST(ColmapCamera, EveryKnownModelDistortsAsItsFormulaSays) {
@@ -100,7 +100,7 @@ TEST(ColmapCamera, EveryKnownModelDistortsAsItsFormulaSays) {
   const double u = 0.3, v = -0.2, r2 = u * u + v * v;
   const double theta = std::atan(std::sqrt(r2)), t2 = theta * theta;
   struct Case {
-    ColmapCamera camera;
+    exports::ColmapCamera camera;
     double x, y;
   };
   const double k1 = -0.1, k2 = 0.05, p1 = 0.01, p2 = -0.02;
@@ -132,47 +132,52 @@ TEST(ColmapCamera, EveryKnownModelDistortsAsItsFormulaSays) {
                 u * fish,
                 v * fish},
        }) {
-    const auto ours = CameraFromColmap(c.camera, "cameras.txt:4");
+    const auto ours = exports::CameraFromColmap(c.camera, "cameras.txt:4");
     ASSERT_TRUE(ours) << ours.error().Message();
     const Vec2 pixel = ProjectToPixel(*ours, Point<Camera>{{u * 3, v * 3, 3}});
     EXPECT_NEAR(pixel.x + 0.5, 500 * c.x + 320, 1e-9) << c.camera.model;
     EXPECT_NEAR(pixel.y + 0.5, 500 * c.y + 240, 1e-9) << c.camera.model;
-    const auto back = CameraFromColmap(ColmapFromCamera(*ours), "again");
+    const auto back = exports::CameraFromColmap(exports::ColmapFromCamera(*ours), "again");
     ASSERT_TRUE(back);
     EXPECT_EQ(back->distortion, ours->distortion) << c.camera.model;
     EXPECT_EQ(back->cx, ours->cx);
   }
   for (const char* other :
        {"FOV", "THIN_PRISM_FISHEYE", "RAD_TAN_THIN_PRISM_FISHEYE", "nonsense"}) {
-    EXPECT_THAT(MessageOf(CameraFromColmap({other, 640, 480, {500, 500, 320, 240, 0}}, "c:1")),
-                HasSubstr(other));
+    EXPECT_THAT(
+        MessageOf(exports::CameraFromColmap({other, 640, 480, {500, 500, 320, 240, 0}}, "c:1")),
+        HasSubstr(other));
   }
 }
 
 TEST(ColmapModel, RefusesWhatIsCutShortOrContradictsItself) {
   struct Case {
-    std::string ColmapFiles::*file;
+    std::string exports::ColmapFiles::*file;
     const char *from, *to, *message;
   };
   for (const Case& c : {
-           Case{&ColmapFiles::cameras, "1 SIMPLE_PINHOLE", "4 SIMPLE_PINHOLE", "the model has not"},
-           Case{&ColmapFiles::cameras, "2559.81 1536", "2559.81", "cameras.txt:4: "},
-           Case{&ColmapFiles::cameras, "2559.81 1536", "-2559.81 1536", "focal length"},
-           Case{&ColmapFiles::cameras, "2 PINHOLE", "1 PINHOLE", "another camera"},
-           Case{&ColmapFiles::cameras, "3072 2304 2559.81", "99999999999 2304 2559.81",
+           Case{&exports::ColmapFiles::cameras, "1 SIMPLE_PINHOLE", "4 SIMPLE_PINHOLE",
+                "the model has not"},
+           Case{&exports::ColmapFiles::cameras, "2559.81 1536", "2559.81", "cameras.txt:4: "},
+           Case{&exports::ColmapFiles::cameras, "2559.81 1536", "-2559.81 1536", "focal length"},
+           Case{&exports::ColmapFiles::cameras, "2 PINHOLE", "1 PINHOLE", "another camera"},
+           Case{&exports::ColmapFiles::cameras, "3072 2304 2559.81", "99999999999 2304 2559.81",
                 "picture of"},
-           Case{&ColmapFiles::images, "1 0.851773", "1 0.51773", "images.txt:5: has a quaternion"},
-           Case{&ColmapFiles::images, "-0.737434", "nan", "images.txt:5: "},
-           Case{&ColmapFiles::images, " 1 P1180141.JPG", " 1", "names no picture"},
-           Case{&ColmapFiles::images, " 268.254 -1\n", " 268.254\n", "images.txt:6: "},
-           Case{&ColmapFiles::images, "P1180142", "P1180141", "number or name of another"},
-           Case{&ColmapFiles::images, "3.74354 1 P1180142", "3.74354 2 P1180142", "another camera"},
-           Case{&ColmapFiles::images, "images: 2", "images: 3", "promises 3 entries and has 2"},
-           Case{&ColmapFiles::points3d, "245 251 249", "245 256 249", "points3D.txt:6: "},
-           Case{&ColmapFiles::points3d, " 117 4473", " 117", "ends in its middle"},
-           Case{&ColmapFiles::points3d, "1.67241", "inf", "points3D.txt:4: "},
+           Case{&exports::ColmapFiles::images, "1 0.851773", "1 0.51773",
+                "images.txt:5: has a quaternion"},
+           Case{&exports::ColmapFiles::images, "-0.737434", "nan", "images.txt:5: "},
+           Case{&exports::ColmapFiles::images, " 1 P1180141.JPG", " 1", "names no picture"},
+           Case{&exports::ColmapFiles::images, " 268.254 -1\n", " 268.254\n", "images.txt:6: "},
+           Case{&exports::ColmapFiles::images, "P1180142", "P1180141", "number or name of another"},
+           Case{&exports::ColmapFiles::images, "3.74354 1 P1180142", "3.74354 2 P1180142",
+                "another camera"},
+           Case{&exports::ColmapFiles::images, "images: 2", "images: 3",
+                "promises 3 entries and has 2"},
+           Case{&exports::ColmapFiles::points3d, "245 251 249", "245 256 249", "points3D.txt:6: "},
+           Case{&exports::ColmapFiles::points3d, " 117 4473", " 117", "ends in its middle"},
+           Case{&exports::ColmapFiles::points3d, "1.67241", "inf", "points3D.txt:4: "},
        }) {
-    ColmapFiles texts = ColmapExample();
+    exports::ColmapFiles texts = ColmapExample();
     std::string& text = texts.*c.file;
     const std::size_t at = text.find(c.from);
     ASSERT_NE(at, std::string::npos) << c.from;
@@ -183,7 +188,7 @@ TEST(ColmapModel, RefusesWhatIsCutShortOrContradictsItself) {
 }
 
 // The same example as COLMAP 3.8's model_converter wrote it.
-ColmapFiles BinaryExample() {
+exports::ColmapFiles BinaryExample() {
   const auto bytes = [](const char* name) {
     std::ifstream file(tests::SourceTree() / "tests/app/data/colmap" / name, std::ios::binary);
     return std::string{std::istreambuf_iterator<char>(file), {}};
@@ -191,7 +196,7 @@ ColmapFiles BinaryExample() {
   return {bytes("cameras.bin"), bytes("images.bin"), bytes("points3D.bin")};
 }
 
-void ExpectSamePath(const CameraPath& a, const CameraPath& b) {
+void ExpectSamePath(const exports::CameraPath& a, const exports::CameraPath& b) {
   ASSERT_EQ(a.poses.size(), b.poses.size());
   for (std::size_t i = 0; i < a.poses.size(); ++i) {
     EXPECT_EQ(a.poses[i].picture, b.poses[i].picture);
@@ -213,17 +218,20 @@ TEST(ColmapBinary, TellsWhatTheTextTells) {
   ASSERT_TRUE(binary) << binary.error().Message();
   ExpectSamePath(*binary, *text);
   // COLMAP writes points in an order of its own.
-  for (const PathPoint& point : text->points) {
-    EXPECT_TRUE(std::any_of(binary->points.begin(), binary->points.end(), [&](const PathPoint& p) {
-      return p.place.xyz == point.place.xyz && p.rgb == point.rgb && p.error_px == point.error_px;
-    })) << point.error_px;
+  for (const exports::PathPoint& point : text->points) {
+    EXPECT_TRUE(std::any_of(binary->points.begin(), binary->points.end(),
+                            [&](const exports::PathPoint& p) {
+                              return p.place.xyz == point.place.xyz && p.rgb == point.rgb &&
+                                     p.error_px == point.error_px;
+                            }))
+        << point.error_px;
   }
 }
 
 TEST(ColmapBinary, WritesWhatItReads) {
   auto path = *PathOfBinary(BinaryExample());
   path.camera->distortion = {0.1, 0.2, 0.3, 0.4, 0.5};
-  const ColmapFiles files = ColmapBinary(*ColmapFromPath(path));
+  const exports::ColmapFiles files = exports::ColmapBinary(*exports::ColmapFromPath(path));
   const auto again = PathOfBinary(files);
   ASSERT_TRUE(again) << again.error().Message();
   ExpectSamePath(*again, path);
@@ -236,21 +244,22 @@ TEST(ColmapBinary, WritesWhatItReads) {
 }
 
 TEST(ColmapBinary, CutAtAnyByteIsAnErrorThatNamesTheFile) {
-  const std::pair<std::string ColmapFiles::*, const char*> kFiles[] = {
-      {&ColmapFiles::cameras, "model/cameras.bin"},
-      {&ColmapFiles::images, "model/images.bin"},
-      {&ColmapFiles::points3d, "model/points3D.bin"}};
+  const std::pair<std::string exports::ColmapFiles::*, const char*> kFiles[] = {
+      {&exports::ColmapFiles::cameras, "model/cameras.bin"},
+      {&exports::ColmapFiles::images, "model/images.bin"},
+      {&exports::ColmapFiles::points3d, "model/points3D.bin"}};
   for (const auto& [file, name] : kFiles) {
     const std::string whole = BinaryExample().*file;
     ASSERT_GT(whole.size(), 100U);
     // No bytes of points are no points, which a model may be without.
-    for (std::size_t size = file == &ColmapFiles::points3d ? 1 : 0; size < whole.size(); ++size) {
-      ColmapFiles files = BinaryExample();
+    for (std::size_t size = file == &exports::ColmapFiles::points3d ? 1 : 0; size < whole.size();
+         ++size) {
+      exports::ColmapFiles files = BinaryExample();
       files.*file = whole.substr(0, size);
       const auto path = PathOfBinary(files);
       EXPECT_THAT(MessageOf(path), StartsWith(name)) << size;
     }
-    ColmapFiles files = BinaryExample();
+    exports::ColmapFiles files = BinaryExample();
     (files.*file) += '\0';
     EXPECT_THAT(MessageOf(PathOfBinary(files)),
                 AllOf(StartsWith(name), HasSubstr("1 bytes behind the")));
@@ -259,15 +268,15 @@ TEST(ColmapBinary, CutAtAnyByteIsAnErrorThatNamesTheFile) {
 
 TEST(ColmapBinary, RefusesWhatIsNoModel) {
   struct Case {
-    std::string ColmapFiles::*file;
+    std::string exports::ColmapFiles::*file;
     std::size_t at;
     std::string bytes;
     const char* message;
   };
   const std::string most(8, '\xFF'), nan("\0\0\0\0\0\0\xF8\x7F", 8);
-  const auto cameras = &ColmapFiles::cameras;
-  const auto images = &ColmapFiles::images;
-  const auto points = &ColmapFiles::points3d;
+  const auto cameras = &exports::ColmapFiles::cameras;
+  const auto images = &exports::ColmapFiles::images;
+  const auto points = &exports::ColmapFiles::points3d;
   for (const Case& c : {
            Case{cameras, 0, most, "cameras.bin, entry 4 of 18446744073709551615: ends before"},
            Case{cameras, 12, "\x0A", "\"THIN_PRISM_FISHEYE\", which cannot be told"},
@@ -285,7 +294,7 @@ TEST(ColmapBinary, RefusesWhatIsNoModel) {
            Case{points, 43, nan, "points3D.bin, entry 1 of 3: has an error that is not finite"},
            Case{points, 51, most, "points3D.bin, entry 1 of 3: ends before"},
        }) {
-    ColmapFiles files = BinaryExample();
+    exports::ColmapFiles files = BinaryExample();
     (files.*c.file).replace(c.at, c.bytes.size(), c.bytes);
     EXPECT_THAT(MessageOf(PathOfBinary(files)), HasSubstr(c.message));
   }

@@ -13,7 +13,8 @@ namespace {
 
 TEST(RecordingTruth, LiesBetweenItsNeighboursAndNowhereElse) {
   const Mat3 turn = accuracy::RotationAbout({0, 0, 1}, 0.1);
-  const std::vector<PathPose> poses{{100, {Mat3{}, {0, 0, 1}}, ""}, {200, {turn, {1, 0, 1}}, ""}};
+  const std::vector<exports::PathPose> poses{{100, {Mat3{}, {0, 0, 1}}, ""},
+                                             {200, {turn, {1, 0, 1}}, ""}};
   const auto between = PoseAt(poses, 150, 100);
   ASSERT_TRUE(between.has_value());
   EXPECT_NEAR(between->translation_m.x, 0.5, 1e-12);
@@ -27,7 +28,7 @@ TEST(RecordingTruth, LiesBetweenItsNeighboursAndNowhereElse) {
 }
 
 TEST(RecordingTruth, IsAlignedThoughAThirdOfThePosesFlipped) {
-  const Transform<Marker, Reference> marker_from_reference{
+  const Transform<Marker, exports::Reference> marker_from_reference{
       accuracy::RotationAbout({0.6, 0.8, 0}, 2.5), {10, -20, 5}};
   accuracy::RandomStream random(3, "align");
   std::vector<PosePair> pairs;

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "app/sinks/line_plot.h"
 #include "app/sinks/report_html.h"
 #include "app/sinks/report_json.h"
+#include "export/plots/line_plot.h"
 #include "files/base64.h"
 
 namespace pleinair::app {
@@ -292,7 +292,7 @@ TEST(SummarizePath, CountsPosesThatMayBeTheOtherPlanarSolution) {
 
 TEST(LinePlot, LeavesAGapWhereAPointIsMissing) {
   const double gap = std::numeric_limits<double>::quiet_NaN();
-  const std::string svg = LinePlotSvg("t", "m", {{"", {0, 1, 2, 3}, {1, gap, 2, 3}}});
+  const std::string svg = exports::LinePlotSvg("t", "m", {{"", {0, 1, 2, 3}, {1, gap, 2, 3}}});
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   const std::size_t path = svg.find("<path");
   ASSERT_NE(path, std::string::npos);
@@ -300,14 +300,14 @@ TEST(LinePlot, LeavesAGapWhereAPointIsMissing) {
 }
 
 TEST(LinePlot, DrawsConstantsAndNothingAtAll) {
-  EXPECT_THAT(LinePlotSvg("t", "m", {{"", {0, 1}, {5, 5}}}), Not(HasSubstr("nan")));
-  EXPECT_THAT(LinePlotSvg("t", "m", {{"", {}, {}}}), Not(HasSubstr("inf")));
+  EXPECT_THAT(exports::LinePlotSvg("t", "m", {{"", {0, 1}, {5, 5}}}), Not(HasSubstr("nan")));
+  EXPECT_THAT(exports::LinePlotSvg("t", "m", {{"", {}, {}}}), Not(HasSubstr("inf")));
 }
 
 TEST(TickStep, IsOneTwoOrFiveTimesAPowerOfTen) {
-  EXPECT_DOUBLE_EQ(TickStep(0, 10, 4), 5);
-  EXPECT_DOUBLE_EQ(TickStep(0, 0.37, 4), 0.1);
-  EXPECT_DOUBLE_EQ(TickStep(-90, 90, 4), 50);
+  EXPECT_DOUBLE_EQ(exports::TickStep(0, 10, 4), 5);
+  EXPECT_DOUBLE_EQ(exports::TickStep(0, 0.37, 4), 0.1);
+  EXPECT_DOUBLE_EQ(exports::TickStep(-90, 90, 4), 50);
 }
 
 }  // namespace

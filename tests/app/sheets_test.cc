@@ -13,13 +13,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/marker_command.h"
-#include "app/sheets/board_description.h"
-#include "app/sheets/marker_sheet.h"
-#include "app/sheets/print_outline.h"
-#include "app/sheets/sheet.h"
-#include "app/sheets/sheet_raster.h"
-#include "app/sheets/square_board.h"
 #include "base/srgb.h"
+#include "export/print_sheets/board_description.h"
+#include "export/print_sheets/marker_sheet.h"
+#include "export/print_sheets/print_outline.h"
+#include "export/print_sheets/sheet.h"
+#include "export/print_sheets/sheet_raster.h"
+#include "export/print_sheets/square_board.h"
 #include "tracker/surf_golay/sg_layout.h"
 #include "tracker/surf_golay/sg_print.h"
 
@@ -41,11 +41,11 @@ tracker::PrintPattern PatternOf(const std::vector<std::string>& rows) {
 }
 
 /// Even-odd rule at the middle of a module: edges that a ray to the left crosses.
-bool FilledAt(const std::vector<std::vector<ModuleCorner>>& loops, int x, int y) {
+bool FilledAt(const std::vector<std::vector<exports::ModuleCorner>>& loops, int x, int y) {
   int crossings = 0;
   for (const auto& loop : loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const ModuleCorner a = loop[i], b = loop[(i + 1) % loop.size()];
+      const exports::ModuleCorner a = loop[i], b = loop[(i + 1) % loop.size()];
       const bool spans = std::min(a.y, b.y) <= y && y < std::max(a.y, b.y);
       if (a.x == b.x && a.x <= x && spans) ++crossings;
     }
@@ -62,11 +62,11 @@ TEST(PrintOutline, FillsExactlyTheBlackModulesOfRandomPatterns) {
     for (int i = 0; i < pattern.modules * pattern.modules; ++i) {
       pattern.white.push_back(white(random) ? 1 : 0);
     }
-    const auto loops = TraceBlackOutlines(pattern);
+    const auto loops = exports::TraceBlackOutlines(pattern);
     for (const auto& loop : loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const ModuleCorner a = loop[i], b = loop[(i + 1) % loop.size()],
-                           c = loop[(i + 2) % loop.size()];
+        const exports::ModuleCorner a = loop[i], b = loop[(i + 1) % loop.size()],
+                                    c = loop[(i + 2) % loop.size()];
         // Along an axis, and turning at each corner.
         ASSERT_NE(a.x == b.x, a.y == b.y);
         ASSERT_NE(a.x == b.x, b.x == c.x);
@@ -82,30 +82,32 @@ TEST(PrintOutline, FillsExactlyTheBlackModulesOfRandomPatterns) {
 }
 
 TEST(PrintOutline, OfARingIsTwoLoops) {
-  EXPECT_THAT(TraceBlackOutlines(PatternOf({"###", "#.#", "###"})),
+  EXPECT_THAT(exports::TraceBlackOutlines(PatternOf({"###", "#.#", "###"})),
               ElementsAre(SizeIs(4), SizeIs(4)));
 }
 
 TEST(PrintOutline, KeepsModulesApartThatTouchAtACorner) {
-  EXPECT_THAT(TraceBlackOutlines(PatternOf({"#.", ".#"})), ElementsAre(SizeIs(4), SizeIs(4)));
-  EXPECT_THAT(TraceBlackOutlines(PatternOf({".#", "#."})), ElementsAre(SizeIs(4), SizeIs(4)));
+  EXPECT_THAT(exports::TraceBlackOutlines(PatternOf({"#.", ".#"})),
+              ElementsAre(SizeIs(4), SizeIs(4)));
+  EXPECT_THAT(exports::TraceBlackOutlines(PatternOf({".#", "#."})),
+              ElementsAre(SizeIs(4), SizeIs(4)));
 }
 
 TEST(PageSize, IsReadByNameAndByMillimetres) {
-  EXPECT_EQ(ParsePageSize("A4"), (PageSize{210, 297}));
-  EXPECT_EQ(ParsePageSize("A3-landscape"), (PageSize{420, 297}));
-  EXPECT_EQ(ParsePageSize("300x400.5"), (PageSize{300, 400.5}));
+  EXPECT_EQ(exports::ParsePageSize("A4"), (exports::PageSize{210, 297}));
+  EXPECT_EQ(exports::ParsePageSize("A3-landscape"), (exports::PageSize{420, 297}));
+  EXPECT_EQ(exports::ParsePageSize("300x400.5"), (exports::PageSize{300, 400.5}));
   for (const char* bad : {"", "A9", "A4-", "300", "300x", "x300", "300x400x5", "10x300", "nanxnan",
                           "300x1e9", "-300x400"}) {
-    EXPECT_FALSE(ParsePageSize(bad)) << bad;
+    EXPECT_FALSE(exports::ParsePageSize(bad)) << bad;
   }
 }
 
 TEST(PageSize, ToFitIsTheSmallestWithAName) {
-  EXPECT_EQ(PageName(FindPageFor({200, 290})), "A4");
-  EXPECT_EQ(PageName(FindPageFor({290, 200})), "A4-landscape");
-  EXPECT_EQ(PageName(FindPageFor({320, 357})), "A2");
-  EXPECT_EQ(PageName(FindPageFor({1500.2, 20})), "1501x20");
+  EXPECT_EQ(exports::PageName(exports::FindPageFor({200, 290})), "A4");
+  EXPECT_EQ(exports::PageName(exports::FindPageFor({290, 200})), "A4-landscape");
+  EXPECT_EQ(exports::PageName(exports::FindPageFor({320, 357})), "A2");
+  EXPECT_EQ(exports::PageName(exports::FindPageFor({1500.2, 20})), "1501x20");
 }
 
 TEST(MarkerNumbers, AreReadAloneAndAsRanges) {
@@ -120,9 +122,9 @@ TEST(MarkerNumbers, AreReadAloneAndAsRanges) {
 }
 
 TEST(MarkerSheet, PutsTheBlackSquareInItsSizeOnThePage) {
-  const auto sheet = MarkerSheet(17, 123.4, {210, 297});
+  const auto sheet = exports::MarkerSheet(17, 123.4, {210, 297});
   ASSERT_TRUE(sheet);
-  const CornersOnPage corners = FindCorners(sheet->prints.at(0));
+  const exports::CornersOnPage corners = exports::FindCorners(sheet->prints.at(0));
   EXPECT_NEAR(corners[1].x - corners[0].x, 123.4, 1e-9);
   EXPECT_NEAR(corners[3].y - corners[0].y, 123.4, 1e-9);
   EXPECT_NEAR(0.5 * (corners[0].x + corners[1].x), 105.0, 1.0);
@@ -130,11 +132,11 @@ TEST(MarkerSheet, PutsTheBlackSquareInItsSizeOnThePage) {
 
 TEST(MarkerSheet, KeepsAllInkOutOfTheWhiteMarginAndOnThePage) {
   for (const double size_mm : {4.0, 40.0, 140.0, 158.0}) {
-    const auto sheet = MarkerSheet(17, size_mm, {210, 297});
+    const auto sheet = exports::MarkerSheet(17, size_mm, {210, 297});
     ASSERT_TRUE(sheet) << size_mm;
     const Vec2 start = sheet->prints.at(0).top_left_mm;
     const Vec2 end = start + Vec2{1.2, 1.2} * size_mm;
-    for (const SheetRectangle& ink : sheet->rectangles) {
+    for (const exports::SheetRectangle& ink : sheet->rectangles) {
       const Vec2 from = ink.top_left_mm, to = ink.top_left_mm + ink.size_mm;
       EXPECT_TRUE(to.x < start.x || from.x > end.x || to.y < start.y || from.y > end.y);
       EXPECT_GE(from.x, 5.0);
@@ -142,33 +144,34 @@ TEST(MarkerSheet, KeepsAllInkOutOfTheWhiteMarginAndOnThePage) {
       EXPECT_LE(to.x, 205.0);
       EXPECT_LE(to.y, 292.0);
     }
-    for (const SheetText& text : sheet->texts) EXPECT_GT(text.baseline_mm.y, end.y + 3.0);
+    for (const exports::SheetText& text : sheet->texts) EXPECT_GT(text.baseline_mm.y, end.y + 3.0);
   }
 }
 
 TEST(MarkerSheet, SaysWhichPageWouldFit) {
-  const auto sheet = MarkerSheet(17, 200.0, {210, 297});
+  const auto sheet = exports::MarkerSheet(17, 200.0, {210, 297});
   ASSERT_FALSE(sheet);
   EXPECT_THAT(sheet.error().Message(), HasSubstr("--page A3"));
-  ASSERT_TRUE(MarkerSheet(17, 200.0, *ParsePageSize("A3")));
+  ASSERT_TRUE(exports::MarkerSheet(17, 200.0, *exports::ParsePageSize("A3")));
 }
 
 TEST(BoardSheet, ShowsWhatItsDescriptionSays) {
-  const Board board{.columns = 3, .rows = 2, .first = 40, .size_mm = 30.0, .gap_mm = 7.5};
-  const auto sheet = BoardSheet(board, {210, 297});
+  const exports::Board board{.columns = 3, .rows = 2, .first = 40, .size_mm = 30.0, .gap_mm = 7.5};
+  const auto sheet = exports::BoardSheet(board, {210, 297});
   ASSERT_TRUE(sheet);
-  const auto description = nlohmann::json::parse(DescribeBoard(board));
+  const auto description = nlohmann::json::parse(exports::DescribeBoard(board));
   EXPECT_EQ(description["marker_size_m"], 0.03);
   ASSERT_EQ(description["markers"].size(), 6U);
   ASSERT_EQ(sheet->prints.size(), 6U);
   // The board's centre on the page.
-  const Vec2 first = FindCorners(sheet->prints[0])[0], last = FindCorners(sheet->prints[5])[2];
+  const Vec2 first = exports::FindCorners(sheet->prints[0])[0],
+             last = exports::FindCorners(sheet->prints[5])[2];
   const Vec2 centre = (first + last) * 0.5;
   for (int i = 0; i < 6; ++i) {
     const auto& marker = description["markers"][i];
     EXPECT_EQ(marker["id"], 40 + i);
     EXPECT_EQ(sheet->prints[i].pattern.white, tracker::SgPrint(40 + i).white);
-    const CornersOnPage corners = FindCorners(sheet->prints[i]);
+    const exports::CornersOnPage corners = exports::FindCorners(sheet->prints[i]);
     for (int c = 0; c < 4; ++c) {
       EXPECT_NEAR(marker["corners_m"][c][0].get<double>() * 1e3, corners[c].x - centre.x, 1e-9);
       EXPECT_NEAR(marker["corners_m"][c][1].get<double>() * 1e3, centre.y - corners[c].y, 1e-9);
@@ -180,17 +183,19 @@ TEST(BoardSheet, ShowsWhatItsDescriptionSays) {
 /// Light of a rendered page around a place, 1 mm a side.
 double LightAt(const Image<std::uint8_t>& page, Vec2 at_mm) {
   double light = 0.0;
-  for (int i = 0; i < kSheetPixelsPerMm * kSheetPixelsPerMm; ++i) {
-    const int x = static_cast<int>((at_mm.x - 0.5) * kSheetPixelsPerMm) + i % kSheetPixelsPerMm;
-    const int y = static_cast<int>((at_mm.y - 0.5) * kSheetPixelsPerMm) + i / kSheetPixelsPerMm;
+  for (int i = 0; i < exports::kSheetPixelsPerMm * exports::kSheetPixelsPerMm; ++i) {
+    const int x = static_cast<int>((at_mm.x - 0.5) * exports::kSheetPixelsPerMm) +
+                  i % exports::kSheetPixelsPerMm;
+    const int y = static_cast<int>((at_mm.y - 0.5) * exports::kSheetPixelsPerMm) +
+                  i / exports::kSheetPixelsPerMm;
     light += LinearFromSrgb8()[page(x, y)];
   }
-  return light / (kSheetPixelsPerMm * kSheetPixelsPerMm);
+  return light / (exports::kSheetPixelsPerMm * exports::kSheetPixelsPerMm);
 }
 
 TEST(SquareBoardSheet, HasItsCornersWhereItsDescriptionSays) {
   for (const bool charuco : {false, true}) {
-    SquareBoard board;
+    exports::SquareBoard board;
     board.board = {charuco ? tracker::BoardKind::kCharuco : tracker::BoardKind::kChessboard,
                    6,
                    5,
@@ -199,15 +204,15 @@ TEST(SquareBoardSheet, HasItsCornersWhereItsDescriptionSays) {
                    0,
                    charuco ? "4x4_50" : ""};
     board.board.square_m = 1.0;
-    const auto largest = LargestSquare_mm(board.board, {210, 297});
+    const auto largest = exports::LargestSquare_mm(board.board, {210, 297});
     ASSERT_TRUE(largest);
     EXPECT_EQ(*largest, charuco ? 27.0 : 23.0);  // (210 - 2 * 10) / (6 or 7, and 1 of white)
     board.board.square_m = 0.018;
     board.marker_mm = 12.0;
-    const auto sheet = SquareBoardSheet(board, {210, 297});
+    const auto sheet = exports::SquareBoardSheet(board, {210, 297});
     ASSERT_TRUE(sheet) << sheet.error().Message();
-    const Image<std::uint8_t> page = RasterizeSheet(*sheet);
-    const auto description = nlohmann::json::parse(DescribeBoard(board));
+    const Image<std::uint8_t> page = exports::RasterizeSheet(*sheet);
+    const auto description = nlohmann::json::parse(exports::DescribeBoard(board));
     EXPECT_EQ(description["square_m"], 0.018);
     EXPECT_EQ(description["corners_m"].size(), charuco ? 20U : 30U);
     const double columns = charuco ? 6 : 7, rows = charuco ? 5 : 6;
@@ -223,15 +228,15 @@ TEST(SquareBoardSheet, HasItsCornersWhereItsDescriptionSays) {
       EXPECT_NEAR(LightAt(page, at), 0.5, 1e-6);
     }
   }
-  const auto small =
-      LargestSquare_mm({tracker::BoardKind::kChessboard, 60, 60, 1.0, 0.0, 0, ""}, {210, 297});
+  const auto small = exports::LargestSquare_mm(
+      {tracker::BoardKind::kChessboard, 60, 60, 1.0, 0.0, 0, ""}, {210, 297});
   ASSERT_FALSE(small);
   EXPECT_THAT(small.error().Message(), HasSubstr("--page"));
 }
 
 TEST(PrintPicture, HasWholePixelsForModulesAtMultiplesOfTheirNumber) {
   const tracker::PrintPattern print = tracker::SgPrint(1234);
-  const Image<std::uint8_t> picture = RasterizePrint(print, 3 * sg::kPrint);
+  const Image<std::uint8_t> picture = exports::RasterizePrint(print, 3 * sg::kPrint);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       ASSERT_EQ(picture(x, y), print.white[y / 3 * sg::kPrint + x / 3] != 0 ? 255 : 0);
@@ -242,7 +247,7 @@ TEST(PrintPicture, HasWholePixelsForModulesAtMultiplesOfTheirNumber) {
 TEST(PrintPicture, HoldsTheEdgeFractionExactlyAtAnyNumberOfPixels) {
   const tracker::PrintPattern print = tracker::SgPrint(1234);
   for (const int pixels : {48, 49, 100, 333, 500, 1001}) {
-    const Image<std::uint8_t> picture = RasterizePrint(print, pixels);
+    const Image<std::uint8_t> picture = exports::RasterizePrint(print, pixels);
     // Along the rim's first row that is black over the whole width, light that is missing is the
     // black square's edge.
     const int y = pixels * (sg::kQuiet + 2) / sg::kPrint;
@@ -262,7 +267,7 @@ TEST(PrintPicture, HasTheMeanLightOfItsModules) {
   const tracker::PrintPattern print = tracker::SgPrint(77);
   double white = 0.0;
   for (const std::uint8_t module : print.white) white += module;
-  const Image<std::uint8_t> picture = RasterizePrint(print, 1001);
+  const Image<std::uint8_t> picture = exports::RasterizePrint(print, 1001);
   double light = 0.0;
   for (std::size_t i = 0; i < picture.size(); ++i) light += LinearFromSrgb8()[picture.data()[i]];
   EXPECT_NEAR(light / static_cast<double>(picture.size()),
@@ -272,7 +277,7 @@ TEST(PrintPicture, HasTheMeanLightOfItsModules) {
 TEST(GrayPng, HoldsThePixelsAndTheResolution) {
   Image<std::uint8_t> picture(3, 2);
   for (int i = 0; i < 6; ++i) picture.data()[i] = static_cast<std::uint8_t>(40 * i);
-  const auto png = EncodeGrayPng(picture.view(), 11811.4);
+  const auto png = exports::EncodeGrayPng(picture.view(), 11811.4);
   ASSERT_TRUE(png);
   // pHYs (PNG specification, 11.3.5.3): pixels per unit across and down, unit 1 = metre.
   EXPECT_THAT(*png, HasSubstr(std::string("pHYs\0\0\x2e\x23\0\0\x2e\x23\x01", 13)));

@@ -215,10 +215,11 @@ TEST(SunPath, IsStereographic) {
 
 TEST(SunPath, DrawsTwelveDaysAndTheHoursOfTheClock) {
   const sky::Observer prague{.latitude = FromDegrees(50.0875), .longitude = FromDegrees(14.4213)};
-  const LineDrawing drawing = DrawSunPath({prague, 2025, {60}, sky::SunModel::kPrecise, {}});
+  const exports::LineDrawing drawing =
+      DrawSunPath({prague, 2025, {60}, sky::SunModel::kPrecise, {}});
   const auto has = [&](const std::string& text) {
     return std::any_of(drawing.texts.begin(), drawing.texts.end(),
-                       [&](const DrawingText& t) { return t.text == text; });
+                       [&](const exports::DrawingText& t) { return t.text == text; });
   };
   for (const char* month :
        {"Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"}) {
@@ -230,17 +231,18 @@ TEST(SunPath, DrawsTwelveDaysAndTheHoursOfTheClock) {
   EXPECT_FALSE(has("21"));
   EXPECT_TRUE(drawing.discs.empty());
   // Everything lies in the picture, and the sun's ways in its circle.
-  for (const DrawingLine& line : drawing.lines) {
+  for (const exports::DrawingLine& line : drawing.lines) {
     for (const Vec2 p : line.points) EXPECT_LT(Norm(p - Vec2{500.0, 550.0}), 410.0);
   }
 }
 
 TEST(SunPath, HasNoWinterDaysInThePolarNight) {
   const sky::Observer tromso{.latitude = FromDegrees(69.65), .longitude = FromDegrees(18.96)};
-  const LineDrawing drawing = DrawSunPath({tromso, 2025, {60}, sky::SunModel::kPrecise, {}});
+  const exports::LineDrawing drawing =
+      DrawSunPath({tromso, 2025, {60}, sky::SunModel::kPrecise, {}});
   const auto count = [&](const std::string& text) {
     return std::count_if(drawing.texts.begin(), drawing.texts.end(),
-                         [&](const DrawingText& t) { return t.text == text; });
+                         [&](const exports::DrawingText& t) { return t.text == text; });
   };
   EXPECT_EQ(count("21 Dec"), 0);
   EXPECT_EQ(count("21 Jun"), 1);

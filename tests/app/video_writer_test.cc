@@ -1,4 +1,4 @@
-#include "app/sinks/video_writer.h"
+#include "export/images/video_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "app/sinks/picture_writer.h"
 #include "devices/recordings/video_file.h"
+#include "export/images/picture_writer.h"
 
 namespace pleinair::app {
 namespace {
@@ -32,7 +32,7 @@ std::string Bytes(const fs::path& file) {
 }
 
 std::string Encode(const fs::path& file, int width, int height) {
-  auto writer = VideoWriter::Create(file, {width, height, 29.97});
+  auto writer = exports::VideoWriter::Create(file, {width, height, 29.97});
   EXPECT_TRUE(writer) << writer.error().Message();
   for (int i = 0; i < 12; ++i) {
     EXPECT_TRUE((*writer)->Add(Gradient(width, height, i).view(), i * 33'366'667LL));
@@ -72,7 +72,7 @@ TEST_F(WriterTest, VideoKeepsTheTimesOfSlowFramesAndOfStampsBeforeZero) {
        {Timing{1.0 / 300.0, 300'000'000'000, 0}, Timing{0.004, 250'000'000'000, 0},
         Timing{0.5, 2'000'000'000, -5'000'000'000}}) {
     const fs::path file = root_ / "slow.mp4";
-    auto writer = VideoWriter::Create(file, {64, 48, rate_hz});
+    auto writer = exports::VideoWriter::Create(file, {64, 48, rate_hz});
     ASSERT_TRUE(writer) << rate_hz << ": " << writer.error().Message();
     for (int i = 0; i < 4; ++i) {
       const auto added = (*writer)->Add(Gradient(64, 48, i).view(), first_ns + i * period_ns);
@@ -88,7 +88,7 @@ TEST_F(WriterTest, VideoKeepsTheTimesOfSlowFramesAndOfStampsBeforeZero) {
 
 TEST_F(WriterTest, WhatLibavRefusesIsNoFaultOfTheFile) {
   // A frame in four months: longer than MP4 can count.
-  auto writer = VideoWriter::Create(root_ / "slow.mp4", {64, 48, 1e-7});
+  auto writer = exports::VideoWriter::Create(root_ / "slow.mp4", {64, 48, 1e-7});
   ASSERT_TRUE(writer);
   for (int i = 0; i < 3; ++i) {
     ASSERT_TRUE((*writer)->Add(Gradient(64, 48, i).view(), i * 10'000'000'000'000'000));
@@ -101,7 +101,7 @@ TEST_F(WriterTest, WhatLibavRefusesIsNoFaultOfTheFile) {
 
 TEST_F(WriterTest, VideoTakesTheFastestRates) {
   for (const double rate_hz : {29970.03, 1e5}) {
-    auto writer = VideoWriter::Create(root_ / "fast.mp4", {64, 48, rate_hz});
+    auto writer = exports::VideoWriter::Create(root_ / "fast.mp4", {64, 48, rate_hz});
     ASSERT_TRUE(writer) << rate_hz;
     ASSERT_TRUE((*writer)->Add(Gradient(64, 48, 0).view(), 0));
     EXPECT_TRUE((*writer)->Finish());
@@ -109,21 +109,21 @@ TEST_F(WriterTest, VideoTakesTheFastestRates) {
 }
 
 TEST_F(WriterTest, VideoIntoAMissingFolderIsAnInputErrorThatNamesTheFile) {
-  const auto writer = VideoWriter::Create(root_ / "none/a.mp4", {64, 64, 25});
+  const auto writer = exports::VideoWriter::Create(root_ / "none/a.mp4", {64, 64, 25});
   ASSERT_FALSE(writer);
   EXPECT_EQ(writer.error().kind, ErrorKind::kInput);
   EXPECT_EQ(writer.error().where, (root_ / "none/a.mp4").string());
 }
 
 TEST_F(WriterTest, PngOfTheSamePictureHasTheSameBytes) {
-  ASSERT_TRUE(WritePng(root_ / "a.png", Gradient(31, 17, 0).view()));
-  ASSERT_TRUE(WritePng(root_ / "b.png", Gradient(31, 17, 0).view()));
+  ASSERT_TRUE(exports::WritePng(root_ / "a.png", Gradient(31, 17, 0).view()));
+  ASSERT_TRUE(exports::WritePng(root_ / "b.png", Gradient(31, 17, 0).view()));
   EXPECT_TRUE(Bytes(root_ / "a.png") == Bytes(root_ / "b.png"));
 }
 
 TEST(WritePng, OntoAFullDiskIsASystemError) {
   // More than the stream's buffer, so that the failure comes while writing.
-  const auto written = WritePng("/dev/full", Gradient(256, 256, 3).view());
+  const auto written = exports::WritePng("/dev/full", Gradient(256, 256, 3).view());
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::kSystem);
   EXPECT_NE(written.error().what.find("No space left"), std::string::npos);
@@ -132,7 +132,7 @@ TEST(WritePng, OntoAFullDiskIsASystemError) {
 TEST(ResizeRgb, KeepsAFlatPictureFlat) {
   RgbImage flat(64, 48, 3);
   std::fill_n(flat.data(), flat.size(), static_cast<std::uint8_t>(77));
-  const RgbImage resized = ResizeRgb(flat.view(), 21, 100);
+  const RgbImage resized = exports::ResizeRgb(flat.view(), 21, 100);
   EXPECT_EQ(resized.width(), 21);
   EXPECT_EQ(resized.height(), 100);
   EXPECT_EQ(std::count(resized.data(), resized.data() + resized.size(), 77),

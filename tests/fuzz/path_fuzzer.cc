@@ -6,16 +6,16 @@
 #include <string_view>
 #include <utility>
 
-#include "app/paths/colmap_binary.h"
-#include "app/paths/colmap_model.h"
-#include "app/paths/colmap_text.h"
-#include "app/paths/euroc_path.h"
-#include "app/paths/tum_path.h"
+#include "export/trajectories/colmap_binary.h"
+#include "export/trajectories/colmap_model.h"
+#include "export/trajectories/colmap_text.h"
+#include "export/trajectories/euroc_path.h"
+#include "export/trajectories/tum_path.h"
 
 namespace {
 
 using pleinair::Result;
-using pleinair::app::CameraPath;
+using pleinair::exports::CameraPath;
 
 // A path is whole: times ascend, poses are finite rotations; an error says what is wrong.
 void Check(const Result<CameraPath>& path) {
@@ -36,15 +36,16 @@ void Check(const Result<CameraPath>& path) {
     }
   }
   // What was read can be written and read again.
-  if (!pleinair::app::ParseTum(pleinair::app::TumText(*path, "again"), "again")) std::abort();
+  if (!pleinair::exports::ParseTum(pleinair::exports::TumText(*path, "again"), "again"))
+    std::abort();
 }
 
-void CheckModel(Result<pleinair::app::ColmapModel> model) {
+void CheckModel(Result<pleinair::exports::ColmapModel> model) {
   if (!model) {
     if (model.error().what.empty()) std::abort();
     return;
   }
-  Check(pleinair::app::PathFromColmap(*std::move(model), 30.0));
+  Check(pleinair::exports::PathFromColmap(*std::move(model), 30.0));
 }
 
 }  // namespace
@@ -53,12 +54,12 @@ void CheckModel(Result<pleinair::app::ColmapModel> model) {
 // apart by lines of '='.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  Check(pleinair::app::ParseTum(text, "file"));
+  Check(pleinair::exports::ParseTum(text, "file"));
   const auto mounting = pleinair::devices::ParseEurocExtrinsics(text, "file");
-  Check(pleinair::app::ParseEurocPath(
+  Check(pleinair::exports::ParseEurocPath(
       text, "file",
       mounting.value_or(pleinair::Transform<pleinair::devices::EurocBody, pleinair::Camera>{})));
-  pleinair::app::ColmapFiles files;
+  pleinair::exports::ColmapFiles files;
   const std::size_t first = text.find("=\n");
   if (first == std::string_view::npos) return 0;
   const std::size_t second = text.find("=\n", first + 2);
@@ -66,7 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   files.images =
       text.substr(first + 2, second == std::string_view::npos ? second : second - first - 2);
   if (second != std::string_view::npos) files.points3d = text.substr(second + 2);
-  CheckModel(pleinair::app::ParseColmapText(files, "model"));
-  CheckModel(pleinair::app::ParseColmapBinary(files, "model"));
+  CheckModel(pleinair::exports::ParseColmapText(files, "model"));
+  CheckModel(pleinair::exports::ParseColmapBinary(files, "model"));
   return 0;
 }

@@ -1,0 +1,254 @@
+#include "export/images/video_writer.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/opt.h>
+#include <libswscale/swscale.h>
+}
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/atomic_file.h"
+
+namespace pleinair::exports {
+namespace {
+
+struct AvDeleter {
+  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(SwsContext* context) const { sws_freeContext(context); }
+  void operator()(AVFormatContext* context) const {
+    if (context->pb != nullptr) avio_closep(&context->pb);
+    avformat_free_context(context);
+  }
+};
+template <typename T>
+using AvPointer = std::unique_ptr<T, AvDeleter>;
+
+constexpr int kTicksPerFrame = 100;  // Resolution of irregular time stamps.
+constexpr int kEncoderThreads = 4;   // Fixed: x264's decisions depend on it.
+
+constexpr double kFastestNtsc_hz = 1000.0;
+
+/// The rate as the fraction that is meant: 29.97 is 30000/1001, a frame in five minutes 1/300.
+AVRational RateFraction(double rate_hz) {
+  const double whole = std::round(rate_hz);
+  if (whole >= 1.0 && std::abs(rate_hz - whole) < 1e-3) return {static_cast<int>(whole), 1};
+  const double ntsc = std::round(rate_hz * 1.001);
+  if (ntsc >= 1.0 && ntsc <= kFastestNtsc_hz && std::abs(rate_hz - ntsc / 1.001) < 5e-3) {
+    return {static_cast<int>(ntsc) * 1000, 1001};
+  }
+  const AVRational fraction = av_d2q(rate_hz, 10000);
+  if (fraction.num > 0) return fraction;
+  constexpr double kLongestPeriod_s = std::numeric_limits<int>::max();
+  return {1, static_cast<int>(std::min(std::round(1.0 / rate_hz), kLongestPeriod_s))};
+}
+
+/// libav's error number as an Error about `file`. What the system says of files is told as such;
+/// EINVAL is libav's own word for a setting that it cannot work with.
+Error LibavError(const std::filesystem::path& file, int code) {
+  const int error_number = AVUNERROR(code);
+  if (error_number > 0 && error_number < 4096 && error_number != EINVAL) {
+    return WriteError(file, error_number);
+  }
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(code, text.data(), text.size());
+  return {ErrorKind::kSystem, file.string(), std::string("cannot encode video: ") + text.data(),
+          "try --no-video"};
+}
+
+class LibavVideoWriter final : public VideoWriter {
+ public:
+  LibavVideoWriter(std::filesystem::path file, const Options& options)
+      : file_(std::move(file)), options_(options) {}
+
+  Result<void> Open() {
+    av_log_set_level(AV_LOG_QUIET);  // Every failure comes back as a code and is told in our words.
+    const AVCodec* codec = nullptr;
+    for (const char* name : {"libx264", "libopenh264"}) {
+      codec = avcodec_find_encoder_by_name(name);
+      if (codec != nullptr) break;
+    }
+    if (codec == nullptr) {
+      return SystemError(file_.string(), "this machine's libavcodec has no H.264 encoder",
+                         "install Debian's libavcodec59 with libx264-164, or use --no-video");
+    }
+    AVFormatContext* format = nullptr;
+    int code = avformat_alloc_output_context2(&format, nullptr, "mp4", file_.c_str());
+    if (code < 0) return tl::make_unexpected(LibavError(file_, code));
+    format_.reset(format);
+    // No creation time, no library versions: the bytes depend on the frames alone.
+    format_->flags |= AVFMT_FLAG_BITEXACT;
+    codec_.reset(avcodec_alloc_context3(codec));
+    frame_.reset(av_frame_alloc());
+    packet_.reset(av_packet_alloc());
+    stream_ = avformat_new_stream(format_.get(), nullptr);
+    if (!codec_ || !frame_ || !packet_ || stream_ == nullptr) {
+      return tl::make_unexpected(LibavError(file_, AVERROR(ENOMEM)));
+    }
+    ConfigureCodec(*codec);
+    AVDictionary* settings = nullptr;
+    if (encoder_name() == "libx264") {
+      av_dict_set(&settings, "preset", "veryfast", 0);
+      av_dict_set(&settings, "crf", "18", 0);
+    }
+    code = avcodec_open2(codec_.get(), codec, &settings);
+    av_dict_free(&settings);
+    if (code < 0) return tl::make_unexpected(LibavError(file_, code));
+    return OpenFile();
+  }
+
+  Result<void> Add(ImageView<const std::uint8_t> rgb, std::int64_t timestamp_ns) override {
+    CHECK_EQ(rgb.width(), options_.width);
+    CHECK_EQ(rgb.height(), options_.height);
+    PadToEven(rgb);
+    if (const int code = av_frame_make_writable(frame_.get()); code < 0) {
+      return tl::make_unexpected(LibavError(file_, code));
+    }
+    const std::uint8_t* rows[1] = {padded_.data()};
+    const int strides[1] = {codec_->width * 3};
+    sws_scale(scaler_.get(), rows, strides, 0, codec_->height, frame_->data, frame_->linesize);
+    frame_->pts = NextStamp(timestamp_ns);
+    return Encode(frame_.get());
+  }
+
+  Result<void> Finish() override {
+    PLEINAIR_RETURN_IF_ERROR(Encode(nullptr));
+    if (const int code = av_write_trailer(format_.get()); code < 0) {
+      return tl::make_unexpected(LibavError(file_, code));
+    }
+    // The file's own buffer may hold the last bytes, and an earlier failure stays in `error`.
+    avio_flush(format_->pb);
+    const int write_code = format_->pb->error;
+    const int close_code = avio_closep(&format_->pb);
+    if (const int code = std::min(write_code, close_code); code < 0) {
+      return tl::make_unexpected(LibavError(file_, code));
+    }
+    return {};
+  }
+
+  std::string encoder_name() const override { return codec_->codec->name; }
+
+ private:
+  void ConfigureCodec(const AVCodec& codec) {
+    const AVRational rate = RateFraction(options_.frame_rate_hz);
+    codec_->width = options_.width + options_.width % 2;
+    codec_->height = options_.height + options_.height % 2;
+    codec_->pix_fmt = AV_PIX_FMT_YUV420P;
+    codec_->framerate = rate;
+    codec_->time_base = {rate.den, rate.num * kTicksPerFrame};
+    codec_->colorspace = AVCOL_SPC_BT709;
+    codec_->color_primaries = AVCOL_PRI_BT709;
+    codec_->color_trc = AVCOL_TRC_BT709;
+    codec_->color_range = AVCOL_RANGE_MPEG;
+    codec_->thread_count = kEncoderThreads;
+    codec_->flags |= AV_CODEC_FLAG_BITEXACT;
+    if ((format_->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
+      codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    }
+    if (std::string_view(codec.name) != "libx264") {
+      codec_->bit_rate = static_cast<std::int64_t>(codec_->width) * codec_->height * 8;
+    }
+  }
+
+  Result<void> OpenFile() {
+    int code = avcodec_parameters_from_context(stream_->codecpar, codec_.get());
+    stream_->time_base = codec_->time_base;
+    stream_->avg_frame_rate = codec_->framerate;
+    if (code >= 0) {
+      frame_->format = codec_->pix_fmt;
+      frame_->width = codec_->width;
+      frame_->height = codec_->height;
+      frame_->color_range = AVCOL_RANGE_MPEG;
+      frame_->colorspace = AVCOL_SPC_BT709;
+      code = av_frame_get_buffer(frame_.get(), 0);
+    }
+    if (code < 0) return tl::make_unexpected(LibavError(file_, code));
+    scaler_.reset(sws_getContext(codec_->width, codec_->height, AV_PIX_FMT_RGB24, codec_->width,
+                                 codec_->height, AV_PIX_FMT_YUV420P,
+                                 SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP | SWS_BITEXACT,
+                                 nullptr, nullptr, nullptr));
+    if (!scaler_) return tl::make_unexpected(LibavError(file_, AVERROR(ENOMEM)));
+    const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
+    sws_setColorspaceDetails(scaler_.get(), bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16);
+    padded_.resize(static_cast<std::size_t>(codec_->width) * codec_->height * 3);
+    code = avio_open(&format_->pb, file_.c_str(), AVIO_FLAG_WRITE);
+    if (code < 0) return tl::make_unexpected(LibavError(file_, code));
+    AVDictionary* settings = nullptr;
+    av_dict_set(&settings, "movflags", "+faststart", 0);  // The index first: plays while it loads.
+    code = avformat_write_header(format_.get(), &settings);
+    av_dict_free(&settings);
+    if (code < 0) return tl::make_unexpected(LibavError(file_, code));
+    return {};
+  }
+
+  void PadToEven(ImageView<const std::uint8_t> rgb) {
+    for (int y = 0; y < codec_->height; ++y) {
+      const std::uint8_t* source = rgb.row(std::min(y, rgb.height() - 1));
+      std::uint8_t* target = padded_.data() + static_cast<std::size_t>(y) * codec_->width * 3;
+      std::memcpy(target, source, static_cast<std::size_t>(rgb.width()) * 3);
+      if (codec_->width > rgb.width()) {
+        std::memcpy(target + rgb.width() * 3, source + (rgb.width() - 1) * 3, 3);
+      }
+    }
+  }
+
+  std::int64_t NextStamp(std::int64_t timestamp_ns) {
+    if (!first_stamp_ns_) first_stamp_ns_ = timestamp_ns;
+    const double seconds = static_cast<double>(timestamp_ns - *first_stamp_ns_) * 1e-9;
+    std::int64_t tick = std::llround(seconds / av_q2d(codec_->time_base));
+    const std::int64_t raster = (tick + kTicksPerFrame / 2) / kTicksPerFrame * kTicksPerFrame;
+    if (std::abs(tick - raster) <= kTicksPerFrame / 50) tick = raster;
+    last_tick_ = std::max(tick, last_tick_ + 1);
+    return last_tick_;
+  }
+
+  Result<void> Encode(const AVFrame* frame) {
+    int code = avcodec_send_frame(codec_.get(), frame);
+    while (code >= 0) {
+      code = avcodec_receive_packet(codec_.get(), packet_.get());
+      if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return {};
+      if (code < 0) break;
+      packet_->duration = kTicksPerFrame;
+      av_packet_rescale_ts(packet_.get(), codec_->time_base, stream_->time_base);
+      packet_->stream_index = stream_->index;
+      code = av_interleaved_write_frame(format_.get(), packet_.get());
+      if (code >= 0) code = format_->pb->error;
+    }
+    return tl::make_unexpected(LibavError(file_, code));
+  }
+
+  std::filesystem::path file_;
+  Options options_;
+  AvPointer<AVFormatContext> format_;
+  AvPointer<AVCodecContext> codec_;
+  AvPointer<SwsContext> scaler_;
+  AvPointer<AVFrame> frame_;
+  AvPointer<AVPacket> packet_;
+  AVStream* stream_ = nullptr;  // The format's.
+  std::vector<std::uint8_t> padded_;
+  std::optional<std::int64_t> first_stamp_ns_;
+  std::int64_t last_tick_ = -1;  // One before the first.
+};
+
+}  // namespace
+
+Result<std::unique_ptr<VideoWriter>> VideoWriter::Create(const std::filesystem::path& file,
+                                                         const Options& options) {
+  auto writer = std::make_unique<LibavVideoWriter>(file, options);
+  PLEINAIR_RETURN_IF_ERROR(writer->Open());
+  return writer;
+}
+
+}  // namespace pleinair::exports

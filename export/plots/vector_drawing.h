@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "base/vector.h"
+
+namespace pleinair::exports {
+
+/// sRGB, 8 bits a channel.
+struct DrawingColour {
+  std::uint8_t r = 0, g = 0, b = 0;
+};
+
+/// An open line through points; a closed one repeats its first.
+struct DrawingLine {
+  std::vector<Vec2> points;
+  DrawingColour colour;
+  double width = 1.0;
+  bool dashed = false;
+};
+
+struct DrawingDisc {
+  Vec2 centre;
+  double radius = 1.0;
+  DrawingColour fill;
+};
+
+/// One line of ASCII text, centred on `centre`; with a white halo, so that it can stand on lines.
+struct DrawingText {
+  Vec2 centre;
+  double size = 12.0;  ///< Of the font.
+  std::string text;
+  DrawingColour colour;
+};
+
+/// A drawing of coloured lines on white: in units of its own, x right, y down, from the top-left
+/// corner. Lines are drawn first, then discs, then texts, each in their order.
+struct LineDrawing {
+  double width = 0.0, height = 0.0;
+  std::string title;
+  std::vector<DrawingLine> lines;
+  std::vector<DrawingDisc> discs;
+  std::vector<DrawingText> texts;
+};
+
+/// SVG 1.1, `width_px` wide. Coordinates are rounded, so equal drawings give equal bytes.
+std::string DrawingSvg(const LineDrawing& drawing, int width_px);
+
+/// The same as an 8-bit sRGB picture.
+RgbImage RasterizeDrawing(const LineDrawing& drawing, int width_px);
+
+}  // namespace pleinair::exports
