@@ -1,6 +1,6 @@
 #include <csignal>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 
 int main(int argc, char** argv) {
   // A file-size limit then fails the write with EFBIG, which is reported and cleaned up after,

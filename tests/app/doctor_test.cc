@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/doctor_command.h"
+#include "app/commands/doctor_command.h"
 
 namespace pleinair::app {
 namespace {

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/marker_command.h"
+#include "app/commands/marker_command.h"
 #include "base/srgb.h"
 #include "export/print_sheets/board_description.h"
 #include "export/print_sheets/marker_sheet.h"

@@ -1,5 +1,5 @@
 // What `pleinair detect` prints about a rendered picture, field by field.
-#include "app/detect_command.h"
+#include "app/commands/detect_command.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/target_command.h"
+#include "app/commands/target_command.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,7 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "base/atomic_file.h"
 #include "base/units.h"
 #include "devices/images/picture_file.h"

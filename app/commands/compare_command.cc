@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/picture_comparison.h"
 #include "app/picture_scores.h"
 #include "app/progress_bar.h"

@@ -15,7 +15,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/interrupt.h"
 #include "app/light_options.h"
 #include "app/live/live_messages.h"

@@ -18,7 +18,7 @@
 #include "app/accuracy/accuracy_config.h"
 #include "app/accuracy/accuracy_report.h"
 #include "app/accuracy/accuracy_run.h"
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/marker_numbers.h"
 #include "app/number_range.h"
 

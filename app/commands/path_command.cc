@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/number_range.h"
 #include "devices/calibration/calibration.h"
 #include "export/trajectories/path_files.h"

@@ -1,4 +1,4 @@
-#include "app/doctor_command.h"
+#include "app/commands/doctor_command.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 }
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "base/units.h"
 #include "compositor/passes/render_targets.h"
 #include "devices/calibration/calibration.h"

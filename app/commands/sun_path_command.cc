@@ -1,4 +1,4 @@
-#include "app/sun_path_command.h"
+#include "app/commands/sun_path_command.h"
 
 #include <filesystem>
 #include <iostream>

@@ -1,4 +1,4 @@
-#include "app/detect_command.h"
+#include "app/commands/detect_command.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/marker_numbers.h"
 #include "app/option_use.h"
 #include "app/pose_json.h"

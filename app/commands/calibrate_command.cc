@@ -15,7 +15,7 @@
 #include "app/calibrate/calibration_drawings.h"
 #include "app/calibrate/calibration_page.h"
 #include "app/calibrate/view_collection.h"
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/interrupt.h"
 #include "app/number_range.h"
 #include "app/progress_bar.h"

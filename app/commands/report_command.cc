@@ -12,7 +12,7 @@
 #include "app/accuracy/accuracy_report.h"
 #include "app/accuracy/record_parts.h"
 #include "app/accuracy/recorded_run.h"
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/number_range.h"
 
 namespace pleinair::app {

@@ -1,4 +1,4 @@
-#include "app/marker_command.h"
+#include "app/commands/marker_command.h"
 
 #include <charconv>
 #include <filesystem>
@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "base/atomic_file.h"
 #include "export/print_sheets/marker_sheet.h"
 #include "export/print_sheets/sheet.h"

@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/command.h"
+#include "app/commands/command.h"
+#include "app/commands/sun_path_command.h"
 #include "app/local_time.h"
 #include "app/observer_options.h"
 #include "app/option_use.h"
 #include "app/sun_day_table.h"
-#include "app/sun_path_command.h"
 #include "app/sun_rows.h"
 
 namespace pleinair::app {

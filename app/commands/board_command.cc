@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/calibrate/board_options.h"
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "export/print_sheets/board_description.h"
 #include "export/print_sheets/marker_sheet.h"
 #include "export/print_sheets/sheet.h"

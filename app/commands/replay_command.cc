@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/light_options.h"
 #include "app/number_range.h"
 #include "app/option_use.h"

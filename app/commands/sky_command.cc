@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
+#include "app/commands/command.h"
 #include "app/option_use.h"
 #include "app/progress_bar.h"
 #include "app/sky_directions.h"
