@@ -8,9 +8,9 @@
 #include <string_view>
 #include <utility>
 
-#include "app/picture_comparison.h"
+#include "app/compare/picture_comparison.h"
+#include "app/compare/true_pictures.h"
 #include "app/replay.h"
-#include "app/true_pictures.h"
 #include "base/atomic_file.h"
 #include "files/base64.h"
 

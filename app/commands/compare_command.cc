@@ -12,12 +12,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/picture_comparison.h"
-#include "app/picture_scores.h"
+#include "app/compare/compare_html.h"
+#include "app/compare/picture_comparison.h"
+#include "app/compare/picture_scores.h"
+#include "app/compare/true_pictures.h"
 #include "app/progress_bar.h"
-#include "app/sinks/compare_html.h"
 #include "app/time_lapse/time_lapse.h"
-#include "app/true_pictures.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "app/ciede2000.h"
+#include "app/compare/ciede2000.h"
 #include "base/srgb.h"
 #include "tests/accuracy/key_frame.h"
 #include "tests/e2e/run_program.h"

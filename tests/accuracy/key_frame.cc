@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/ciede2000.h"
+#include "app/compare/ciede2000.h"
 #include "tests/e2e/run_program.h"
 
 namespace pleinair::accuracy {

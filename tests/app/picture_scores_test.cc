@@ -1,4 +1,4 @@
-#include "app/picture_scores.h"
+#include "app/compare/picture_scores.h"
 
 #include <gtest/gtest.h>
 

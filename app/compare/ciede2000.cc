@@ -1,4 +1,4 @@
-#include "app/ciede2000.h"
+#include "app/compare/ciede2000.h"
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "app/sinks/compare_html.h"
-#include "app/true_pictures.h"
+#include "app/compare/compare_html.h"
+#include "app/compare/true_pictures.h"
 #include "base/error.h"
 
 namespace pleinair::app {

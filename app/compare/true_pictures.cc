@@ -1,4 +1,4 @@
-#include "app/true_pictures.h"
+#include "app/compare/true_pictures.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/picture_scores.h"
+#include "app/compare/picture_scores.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/ciede2000.h"
+#include "app/compare/ciede2000.h"
 #include "base/check.h"
 
 namespace pleinair::app {

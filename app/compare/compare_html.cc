@@ -1,4 +1,4 @@
-#include "app/sinks/compare_html.h"
+#include "app/compare/compare_html.h"
 
 #include <fmt/format.h>
 

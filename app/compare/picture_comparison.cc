@@ -1,4 +1,4 @@
-#include "app/picture_comparison.h"
+#include "app/compare/picture_comparison.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/picture_scores.h"
+#include "app/compare/picture_scores.h"
 
 namespace pleinair::app {
 
