@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "app/picture_size.h"
+#include "app/options/picture_size.h"
 #include "app/sinks/report.h"
 #include "app/time_lapse/moments.h"
 #include "base/error.h"

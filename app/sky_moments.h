@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/observer_options.h"
+#include "app/options/observer_options.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "base/utc_time.h"

@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/local_time.h"
-#include "app/number_range.h"
-#include "app/option_use.h"
+#include "app/options/local_time.h"
+#include "app/options/number_range.h"
+#include "app/options/option_use.h"
 
 namespace pleinair::app {
 namespace {

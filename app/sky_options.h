@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/observer_options.h"
+#include "app/options/observer_options.h"
 #include "app/sky_files.h"
 #include "app/sky_moments.h"
 #include "base/error.h"

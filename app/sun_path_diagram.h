@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "app/local_time.h"
+#include "app/options/local_time.h"
 #include "base/units.h"
 #include "base/utc_time.h"
 #include "base/vector.h"

@@ -18,7 +18,7 @@
 #include "app/accuracy/own_detector.h"
 #include "app/accuracy/recording_run.h"
 #include "app/interrupt.h"
-#include "app/marker_numbers.h"
+#include "app/options/marker_numbers.h"
 #include "app/progress_bar.h"
 #include "session/scene_marker.h"
 

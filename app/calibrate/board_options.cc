@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/number_range.h"
+#include "app/options/number_range.h"
 #include "files/result_file.h"
 #include "tracker/surf_golay/sg_layout.h"
 

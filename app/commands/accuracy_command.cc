@@ -19,8 +19,8 @@
 #include "app/accuracy/accuracy_report.h"
 #include "app/accuracy/accuracy_run.h"
 #include "app/commands/command.h"
-#include "app/marker_numbers.h"
-#include "app/number_range.h"
+#include "app/options/marker_numbers.h"
+#include "app/options/number_range.h"
 
 namespace pleinair::app {
 namespace {

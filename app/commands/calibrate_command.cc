@@ -17,7 +17,7 @@
 #include "app/calibrate/view_collection.h"
 #include "app/commands/command.h"
 #include "app/interrupt.h"
-#include "app/number_range.h"
+#include "app/options/number_range.h"
 #include "app/progress_bar.h"
 #include "base/atomic_file.h"
 #include "devices/calibration/calibration_text.h"

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/marker_numbers.h"
-#include "app/option_use.h"
+#include "app/options/marker_numbers.h"
+#include "app/options/option_use.h"
 #include "app/pose_json.h"
 #include "devices/calibration/calibration.h"
 #include "devices/images/picture_file.h"

@@ -17,14 +17,14 @@
 
 #include "app/commands/command.h"
 #include "app/interrupt.h"
-#include "app/light_options.h"
 #include "app/live/live_messages.h"
 #include "app/live/live_report.h"
 #include "app/live/live_session.h"
 #include "app/live/paced_recording.h"
-#include "app/number_range.h"
-#include "app/option_use.h"
-#include "app/picture_size.h"
+#include "app/options/light_options.h"
+#include "app/options/number_range.h"
+#include "app/options/option_use.h"
+#include "app/options/picture_size.h"
 #include "app/replay.h"
 #include "export/images/picture_writer.h"
 #ifdef PLEINAIR_WINDOW

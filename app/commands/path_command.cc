@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/commands/command.h"
-#include "app/number_range.h"
+#include "app/options/number_range.h"
 #include "devices/calibration/calibration.h"
 #include "export/trajectories/path_files.h"
 #include "files/text_file.h"

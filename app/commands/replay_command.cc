@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "app/commands/command.h"
-#include "app/light_options.h"
-#include "app/number_range.h"
-#include "app/option_use.h"
+#include "app/options/light_options.h"
+#include "app/options/number_range.h"
+#include "app/options/option_use.h"
 #include "app/replay.h"
 #include "app/sinks/report_json.h"
 #include "gl/shader_library.h"

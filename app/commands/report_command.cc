@@ -13,7 +13,7 @@
 #include "app/accuracy/record_parts.h"
 #include "app/accuracy/recorded_run.h"
 #include "app/commands/command.h"
-#include "app/number_range.h"
+#include "app/options/number_range.h"
 
 namespace pleinair::app {
 namespace {

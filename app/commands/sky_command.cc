@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/option_use.h"
+#include "app/options/option_use.h"
 #include "app/progress_bar.h"
 #include "app/sky_directions.h"
 #include "app/sky_files.h"

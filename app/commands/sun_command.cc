@@ -6,9 +6,9 @@
 
 #include "app/commands/command.h"
 #include "app/commands/sun_path_command.h"
-#include "app/local_time.h"
-#include "app/observer_options.h"
-#include "app/option_use.h"
+#include "app/options/local_time.h"
+#include "app/options/observer_options.h"
+#include "app/options/option_use.h"
 #include "app/sun_day_table.h"
 #include "app/sun_rows.h"
 

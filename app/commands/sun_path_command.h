@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "app/local_time.h"
+#include "app/options/local_time.h"
 #include "base/error.h"
 #include "base/utc_time.h"
 #include "sky/sun/sun_position.h"

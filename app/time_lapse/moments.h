@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/local_time.h"
+#include "app/options/local_time.h"
 #include "base/error.h"
 #include "base/utc_time.h"
 #include "scene/scene_description.h"

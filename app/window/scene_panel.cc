@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/local_time.h"
+#include "app/options/local_time.h"
 #include "app/window/cities.h"
 #include "app/window/measured_text.h"
 #include "scene/sun_over_place.h"

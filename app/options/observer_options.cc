@@ -1,10 +1,10 @@
-#include "app/observer_options.h"
+#include "app/options/observer_options.h"
 
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 
-#include "app/number_range.h"
+#include "app/options/number_range.h"
 #include "app/sun_table.h"
 
 namespace pleinair::app {

@@ -1,4 +1,4 @@
-#include "app/marker_numbers.h"
+#include "app/options/marker_numbers.h"
 
 #include <charconv>
 

@@ -1,4 +1,4 @@
-#include "app/local_time.h"
+#include "app/options/local_time.h"
 
 #include <array>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "app/picture_size.h"
+#include "app/options/picture_size.h"
 
 #include <charconv>
 #include <system_error>

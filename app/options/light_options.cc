@@ -1,4 +1,4 @@
-#include "app/light_options.h"
+#include "app/options/light_options.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/number_range.h"
+#include "app/options/number_range.h"
 
 namespace pleinair::app {
 

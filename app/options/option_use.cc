@@ -1,4 +1,4 @@
-#include "app/option_use.h"
+#include "app/options/option_use.h"
 
 #include <string>
 
