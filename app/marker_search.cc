@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "app/interrupt.h"
+#include "app/output/detections_writer.h"
 #include "app/progress_bar.h"
-#include "app/sinks/detections_writer.h"
 #include "base/parallel_for.h"
 #include "session/marker_refiner.h"
 

@@ -13,7 +13,7 @@
 #include "app/commands/command.h"
 #include "app/options/marker_numbers.h"
 #include "app/options/option_use.h"
-#include "app/pose_json.h"
+#include "app/output/pose_json.h"
 #include "devices/calibration/calibration.h"
 #include "devices/images/picture_file.h"
 #include "tracker/picture_target/target_file.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/paths/observed_path.h"
-#include "app/sinks/path_export.h"
+#include "app/output/observed_path.h"
+#include "app/output/path_export.h"
 
 namespace pleinair::app {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "app/sinks/detections_writer.h"
-#include "app/sinks/output_folder.h"
+#include "app/output/detections_writer.h"
+#include "app/output/output_folder.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "export/trajectories/camera_path.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/sinks/detections_writer.h"
+#include "app/output/detections_writer.h"
 #include "session/scene_marker.h"
 
 namespace pleinair::app {

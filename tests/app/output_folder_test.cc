@@ -1,4 +1,4 @@
-#include "app/sinks/output_folder.h"
+#include "app/output/output_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "app/paths/observed_path.h"
+#include "app/output/observed_path.h"
 #include "export/trajectories/euroc_path.h"
 #include "export/trajectories/text_lines.h"
 #include "export/trajectories/tum_path.h"

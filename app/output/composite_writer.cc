@@ -1,4 +1,4 @@
-#include "app/sinks/composite_writer.h"
+#include "app/output/composite_writer.h"
 
 #include <fmt/format.h>
 

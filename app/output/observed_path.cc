@@ -1,4 +1,4 @@
-#include "app/paths/observed_path.h"
+#include "app/output/observed_path.h"
 
 #include <fmt/format.h>
 

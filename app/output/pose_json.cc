@@ -1,4 +1,4 @@
-#include "app/pose_json.h"
+#include "app/output/pose_json.h"
 
 #include <cmath>
 

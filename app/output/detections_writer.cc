@@ -1,11 +1,11 @@
-#include "app/sinks/detections_writer.h"
+#include "app/output/detections_writer.h"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <string>
 
-#include "app/pose_json.h"
+#include "app/output/pose_json.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {

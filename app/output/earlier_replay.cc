@@ -1,4 +1,4 @@
-#include "app/sinks/earlier_replay.h"
+#include "app/output/earlier_replay.h"
 
 #include <algorithm>
 #include <cctype>

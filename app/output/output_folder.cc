@@ -1,4 +1,4 @@
-#include "app/sinks/output_folder.h"
+#include "app/output/output_folder.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/sinks/earlier_replay.h"
+#include "app/output/earlier_replay.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {

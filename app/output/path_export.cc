@@ -1,8 +1,8 @@
-#include "app/sinks/path_export.h"
+#include "app/output/path_export.h"
 
 #include <utility>
 
-#include "app/paths/observed_path.h"
+#include "app/output/observed_path.h"
 #include "base/atomic_file.h"
 #include "export/trajectories/colmap_folder.h"
 
