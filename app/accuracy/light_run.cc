@@ -10,7 +10,7 @@
 
 #include "app/compare/picture_comparison.h"
 #include "app/compare/true_pictures.h"
-#include "app/replay.h"
+#include "app/replay/replay.h"
 #include "base/atomic_file.h"
 #include "files/base64.h"
 

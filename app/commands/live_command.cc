@@ -25,7 +25,7 @@
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
 #include "app/options/picture_size.h"
-#include "app/replay.h"
+#include "app/replay/replay.h"
 #include "export/images/picture_writer.h"
 #ifdef PLEINAIR_WINDOW
 #include "app/window/live_window.h"

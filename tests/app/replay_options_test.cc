@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/progress_bar.h"
-#include "app/replay.h"
+#include "app/replay/replay.h"
 
 namespace pleinair::app {
 namespace {

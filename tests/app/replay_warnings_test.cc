@@ -1,4 +1,4 @@
-#include "app/replay_warnings.h"
+#include "app/replay/replay_warnings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/replay.h"
+#include "app/replay/replay.h"
 
 #include <fmt/format.h>
 
@@ -10,15 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "app/frame_choice.h"
 #include "app/interrupt.h"
-#include "app/marker_search.h"
 #include "app/output/composite_writer.h"
 #include "app/output/observed_path.h"
 #include "app/output/output_folder.h"
 #include "app/output/path_export.h"
 #include "app/progress_bar.h"
-#include "app/replay_warnings.h"
+#include "app/replay/frame_choice.h"
+#include "app/replay/replay_warnings.h"
+#include "app/replay/track_recording.h"
 #include "app/sinks/report_html.h"
 #include "app/sinks/report_json.h"
 #include "app/time_lapse/time_lapse.h"

@@ -1,4 +1,4 @@
-#include "app/marker_search.h"
+#include "app/replay/track_recording.h"
 
 #include <fmt/format.h>
 

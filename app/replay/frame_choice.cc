@@ -1,4 +1,4 @@
-#include "app/frame_choice.h"
+#include "app/replay/frame_choice.h"
 
 #include <algorithm>
 #include <cstdlib>

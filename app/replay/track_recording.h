@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/replay_warnings.h"
+#include "app/replay/replay_warnings.h"
 #include "base/error.h"
 #include "base/stage_times.h"
 #include "devices/recordings/recording.h"
