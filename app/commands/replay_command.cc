@@ -16,7 +16,7 @@
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
 #include "app/replay/replay.h"
-#include "app/sinks/report_json.h"
+#include "app/replay/report/report_json.h"
 #include "gl/shader_library.h"
 
 namespace pleinair::app {

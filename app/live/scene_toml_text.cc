@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "app/live/live_recorder.h"
-#include "app/sinks/report.h"
+#include "app/replay/report/report.h"
 
 namespace pleinair::app {
 namespace {

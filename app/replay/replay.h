@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/options/picture_size.h"
-#include "app/sinks/report.h"
+#include "app/replay/report/report.h"
 #include "app/time_lapse/moments.h"
 #include "base/error.h"
 #include "compositor/composer_options.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/sinks/report.h"
+#include "app/replay/report/report.h"
 #include "compositor/models/placed_model.h"
 #include "scene/scene_description.h"
 #include "session/marker_tracks.h"

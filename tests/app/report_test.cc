@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "app/sinks/report_html.h"
-#include "app/sinks/report_json.h"
+#include "app/replay/report/report_html.h"
+#include "app/replay/report/report_json.h"
 #include "export/plots/line_plot.h"
 #include "files/base64.h"
 

@@ -1,4 +1,4 @@
-#include "app/sinks/report_json.h"
+#include "app/replay/report/report_json.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

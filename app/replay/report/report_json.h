@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/sinks/report.h"
+#include "app/replay/report/report.h"
 #include "base/error.h"
 
 namespace pleinair::app {

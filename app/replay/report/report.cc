@@ -1,4 +1,4 @@
-#include "app/sinks/report.h"
+#include "app/replay/report/report.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/sinks/report.h"
+#include "app/replay/report/report.h"
 
 namespace pleinair::app {
 

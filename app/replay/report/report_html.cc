@@ -1,4 +1,4 @@
-#include "app/sinks/report_html.h"
+#include "app/replay/report/report_html.h"
 
 #include <fmt/format.h>
 
