@@ -17,7 +17,7 @@
 #include "app/compare/picture_scores.h"
 #include "app/compare/true_pictures.h"
 #include "app/progress_bar.h"
-#include "app/time_lapse/time_lapse.h"
+#include "app/replay/time_lapse/time_lapse.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {

@@ -7,7 +7,7 @@
 
 #include "app/options/picture_size.h"
 #include "app/replay/report/report.h"
-#include "app/time_lapse/moments.h"
+#include "app/replay/time_lapse/moments.h"
 #include "base/error.h"
 #include "compositor/composer_options.h"
 #include "export/trajectories/path_files.h"

@@ -1,4 +1,4 @@
-#include "app/time_lapse/time_lapse.h"
+#include "app/replay/time_lapse/time_lapse.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

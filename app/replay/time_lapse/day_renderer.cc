@@ -1,4 +1,4 @@
-#include "app/time_lapse/day_renderer.h"
+#include "app/replay/time_lapse/day_renderer.h"
 
 #include <algorithm>
 #include <array>

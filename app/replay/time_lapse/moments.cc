@@ -1,4 +1,4 @@
-#include "app/time_lapse/moments.h"
+#include "app/replay/time_lapse/moments.h"
 
 #include <charconv>
 #include <cmath>

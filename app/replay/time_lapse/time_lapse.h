@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/time_lapse/day_renderer.h"
-#include "app/time_lapse/moments.h"
+#include "app/replay/time_lapse/day_renderer.h"
+#include "app/replay/time_lapse/moments.h"
 #include "base/error.h"
 
 namespace pleinair::app {
