@@ -12,9 +12,9 @@
 #include "app/commands/command.h"
 #include "app/options/option_use.h"
 #include "app/progress_bar.h"
-#include "app/sky_directions.h"
-#include "app/sky_files.h"
-#include "app/sky_options.h"
+#include "app/sky/sky_directions.h"
+#include "app/sky/sky_files.h"
+#include "app/sky/sky_options.h"
 #include "files/result_file.h"
 #include "sky/sky_model.h"
 

@@ -1,4 +1,4 @@
-#include "app/sky_picture.h"
+#include "app/sky/sky_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/sky_exposure.h"
+#include "app/sky/sky_exposure.h"
 #include "app/sun_path_diagram.h"
 
 namespace pleinair::app {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "app/sky_directions.h"
+#include "app/sky/sky_directions.h"
 #include "app/sun_table.h"
 
 // Any bytes give a table of what can be computed, or an error; never a crash. Rows point into the

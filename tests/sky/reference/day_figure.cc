@@ -11,9 +11,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/sky_exposure.h"
-#include "app/sky_moments.h"
-#include "app/sky_picture.h"
+#include "app/sky/sky_exposure.h"
+#include "app/sky/sky_moments.h"
+#include "app/sky/sky_picture.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::app {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/options/observer_options.h"
-#include "app/sky_files.h"
-#include "app/sky_moments.h"
+#include "app/sky/sky_files.h"
+#include "app/sky/sky_moments.h"
 #include "base/error.h"
 #include "sky/sky_model.h"
 

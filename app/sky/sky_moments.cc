@@ -1,4 +1,4 @@
-#include "app/sky_moments.h"
+#include "app/sky/sky_moments.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/sky_picture.h"
+#include "app/sky/sky_picture.h"
 
 #include <algorithm>
 #include <atomic>

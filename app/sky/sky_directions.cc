@@ -1,4 +1,4 @@
-#include "app/sky_directions.h"
+#include "app/sky/sky_directions.h"
 
 #include <cmath>
 #include <optional>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/sky_picture.h"
+#include "app/sky/sky_picture.h"
 #include "base/units.h"
 #include "files/csv.h"
 #include "files/result_file.h"

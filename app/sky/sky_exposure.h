@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "app/sky_picture.h"
+#include "app/sky/sky_picture.h"
 #include "base/image.h"
 #include "base/units.h"
 

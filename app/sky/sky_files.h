@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/sky_exposure.h"
-#include "app/sky_moments.h"
-#include "app/sky_picture.h"
+#include "app/sky/sky_exposure.h"
+#include "app/sky/sky_moments.h"
+#include "app/sky/sky_picture.h"
 #include "base/error.h"
 #include "sky/sky_model.h"
 

@@ -1,4 +1,4 @@
-#include "app/sky_options.h"
+#include "app/sky/sky_options.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,4 +1,4 @@
-#include "app/sky_files.h"
+#include "app/sky/sky_files.h"
 
 #include <cmath>
 #include <cstddef>

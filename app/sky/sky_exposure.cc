@@ -1,4 +1,4 @@
-#include "app/sky_exposure.h"
+#include "app/sky/sky_exposure.h"
 
 #include <algorithm>
 #include <array>
