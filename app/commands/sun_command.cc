@@ -9,8 +9,8 @@
 #include "app/options/local_time.h"
 #include "app/options/observer_options.h"
 #include "app/options/option_use.h"
-#include "app/sun_day_table.h"
-#include "app/sun_rows.h"
+#include "app/sun/sun_day_table.h"
+#include "app/sun/sun_rows.h"
 
 namespace pleinair::app {
 namespace {

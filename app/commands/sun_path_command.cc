@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/sun_path_diagram.h"
+#include "app/sun/sun_path_diagram.h"
 #include "base/atomic_file.h"
 #include "export/images/picture_writer.h"
 

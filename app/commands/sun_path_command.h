@@ -24,7 +24,7 @@ struct SunPathOptions {
   bool json = false;  ///< Says on standard output what was drawn.
 };
 
-/// Writes the diagram of app/sun_path_diagram.h under a temporary name and renames it. Errors
+/// Writes the diagram of app/sun/sun_path_diagram.h under a temporary name and renames it. Errors
 /// (input): another ending; as WriteError.
 Result<void> WriteSunPath(const sky::Observer& observer, const SunPathOptions& options);
 

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/options/number_range.h"
-#include "app/sun_table.h"
+#include "app/sun/sun_table.h"
 
 namespace pleinair::app {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "app/sky/sky_exposure.h"
-#include "app/sun_path_diagram.h"
+#include "app/sun/sun_path_diagram.h"
 
 namespace pleinair::app {
 namespace {

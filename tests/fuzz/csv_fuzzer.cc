@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "app/sky/sky_directions.h"
-#include "app/sun_table.h"
+#include "app/sun/sun_table.h"
 
 // Any bytes give a table of what can be computed, or an error; never a crash. Rows point into the
 // text.

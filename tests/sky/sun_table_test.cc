@@ -1,4 +1,4 @@
-#include "app/sun_table.h"
+#include "app/sun/sun_table.h"
 
 #include <gtest/gtest.h>
 

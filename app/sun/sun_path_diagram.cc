@@ -1,4 +1,4 @@
-#include "app/sun_path_diagram.h"
+#include "app/sun/sun_path_diagram.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "app/sun_day_table.h"
+#include "app/sun/sun_day_table.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/progress_bar.h"
-#include "app/sun_rows.h"
+#include "app/sun/sun_rows.h"
 #include "files/result_file.h"
 #include "sky/sun/sun_clock.h"
 #include "sky/sun/sun_day.h"

@@ -23,8 +23,8 @@ struct SunRowsOptions {
   std::string output;  ///< Empty: standard output.
 };
 
-/// Each row of a CSV file (app/sun_table.h; "-" is standard input) with the sun's columns behind
-/// it. Errors: the file's, with the line; nothing is written then.
+/// Each row of a CSV file (app/sun/sun_table.h; "-" is standard input) with the sun's columns
+/// behind it. Errors: the file's, with the line; nothing is written then.
 Result<void> WriteSunTable(const std::string& csv, const sky::Observer& defaults,
                            const SunRowsOptions& options);
 

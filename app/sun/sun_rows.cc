@@ -1,4 +1,4 @@
-#include "app/sun_rows.h"
+#include "app/sun/sun_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/progress_bar.h"
-#include "app/sun_table.h"
+#include "app/sun/sun_table.h"
 #include "files/result_file.h"
 
 namespace pleinair::app {
