@@ -17,9 +17,9 @@
 #include "app/accuracy/light_run.h"
 #include "app/accuracy/own_detector.h"
 #include "app/accuracy/recording_run.h"
-#include "app/interrupt.h"
 #include "app/options/marker_numbers.h"
-#include "app/progress_bar.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress_bar.h"
 #include "session/scene_marker.h"
 
 namespace pleinair::app {

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/interrupt.h"
+#include "app/terminal/interrupt.h"
 #include "devices/cameras/camera_uri.h"
 #include "devices/cameras/live_camera.h"
 #include "devices/images/picture_file.h"

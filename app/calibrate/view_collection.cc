@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "app/interrupt.h"
-#include "app/progress_bar.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress_bar.h"
 #include "tracker/calibration/view_coverage.h"
 #include "tracker/calibration/view_picker.h"
 

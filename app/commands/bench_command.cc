@@ -13,7 +13,7 @@
 #include "app/bench/shadow_pictures.h"
 #include "app/commands/command.h"
 #include "app/options/number_range.h"
-#include "app/progress_bar.h"
+#include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
 #include "gl/shader_library.h"
 

@@ -16,8 +16,8 @@
 #include "app/compare/picture_comparison.h"
 #include "app/compare/picture_scores.h"
 #include "app/compare/true_pictures.h"
-#include "app/progress_bar.h"
 #include "app/replay/time_lapse/time_lapse.h"
+#include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {

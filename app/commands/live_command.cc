@@ -16,7 +16,6 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/command.h"
-#include "app/interrupt.h"
 #include "app/live/live_messages.h"
 #include "app/live/live_report.h"
 #include "app/live/live_session.h"
@@ -26,6 +25,7 @@
 #include "app/options/option_use.h"
 #include "app/options/picture_size.h"
 #include "app/replay/replay.h"
+#include "app/terminal/interrupt.h"
 #include "export/images/picture_writer.h"
 #ifdef PLEINAIR_WINDOW
 #include "app/window/live_window.h"

@@ -11,10 +11,10 @@
 
 #include "app/commands/command.h"
 #include "app/options/option_use.h"
-#include "app/progress_bar.h"
 #include "app/sky/sky_directions.h"
 #include "app/sky/sky_files.h"
 #include "app/sky/sky_options.h"
+#include "app/terminal/progress_bar.h"
 #include "files/result_file.h"
 #include "sky/sky_model.h"
 

@@ -10,18 +10,18 @@
 #include <utility>
 #include <vector>
 
-#include "app/interrupt.h"
 #include "app/output/composite_writer.h"
 #include "app/output/observed_path.h"
 #include "app/output/output_folder.h"
 #include "app/output/path_export.h"
-#include "app/progress_bar.h"
 #include "app/replay/frame_choice.h"
 #include "app/replay/replay_warnings.h"
 #include "app/replay/report/report_html.h"
 #include "app/replay/report/report_json.h"
 #include "app/replay/time_lapse/time_lapse.h"
 #include "app/replay/track_recording.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
 #include "devices/recordings/recording.h"
 #include "export/images/picture_writer.h"

@@ -5,9 +5,9 @@
 #include <future>
 #include <utility>
 
-#include "app/interrupt.h"
 #include "app/output/detections_writer.h"
-#include "app/progress_bar.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress_bar.h"
 #include "base/parallel_for.h"
 #include "session/marker_refiner.h"
 

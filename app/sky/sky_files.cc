@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "app/interrupt.h"
-#include "app/progress_bar.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
 #include "export/images/light_writer.h"
 #include "export/images/picture_writer.h"

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "app/progress_bar.h"
 #include "app/sun/sun_rows.h"
+#include "app/terminal/progress_bar.h"
 #include "files/result_file.h"
 #include "sky/sun/sun_clock.h"
 #include "sky/sun/sun_day.h"

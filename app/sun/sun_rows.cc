@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "app/progress_bar.h"
 #include "app/sun/sun_table.h"
+#include "app/terminal/progress_bar.h"
 #include "files/result_file.h"
 
 namespace pleinair::app {

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "app/interrupt.h"
+#include "app/terminal/interrupt.h"
 #include "app/window/frame_thread.h"
 #include "app/window/picture_mouse.h"
 #include "app/window/scene_panel.h"

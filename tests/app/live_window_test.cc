@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/interrupt.h"
+#include "app/terminal/interrupt.h"
 #include "devices/cameras/live_camera.h"
 #include "tests/app/small_camera.h"
 #include "tests/devices/fake_camera_device.h"

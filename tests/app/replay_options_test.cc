@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "app/progress_bar.h"
 #include "app/replay/replay.h"
+#include "app/terminal/progress_bar.h"
 
 namespace pleinair::app {
 namespace {

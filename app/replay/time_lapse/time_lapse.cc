@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "app/interrupt.h"
-#include "app/progress_bar.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
 #include "export/images/picture_writer.h"
 #include "export/images/video_writer.h"
