@@ -72,7 +72,8 @@ std::string ToString(SkyModelName name);
 inline constexpr double kLowestTurbidity = 1.0;    ///< Air without any aerosol.
 inline constexpr double kHighestTurbidity = 30.0;  ///< Thick haze, 3 km of sight.
 /// An ordinary clear day: with it the diffuse share of the light on level ground under kAtmosphere
-/// is within 5 % of IES' clear-sky share for suns of 10° to 70° (tests/sky/atmosphere_test.cc).
+/// is within 5 % of IES' clear-sky share for suns of 10° to 70°
+/// (tests/sky/atmosphere/atmosphere_test.cc).
 inline constexpr double kDefaultTurbidity = 1.8;
 
 /// The air and the clouds; everything but the sun.

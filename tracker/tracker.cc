@@ -21,7 +21,7 @@ namespace {
 
 /// What AprilTag's corners are worth where the print's own pixels give none better: on sRGB grey
 /// its edges lie a third of a pixel inside the black square
-/// (tests/tracker/print_alignment_test.cc).
+/// (tests/tracker/refinement/marker_alignment_test.cc).
 constexpr double kRawCornerSigma_px = 0.4;
 
 class DetectingTracker final : public Tracker {

@@ -1,7 +1,7 @@
 #ifndef COMPOSITOR_PLANE_HIT_GLSL
 #define COMPOSITOR_PLANE_HIT_GLSL
 // Where a pixel's ray meets a triangle's plane. Numbers alone; compiled as C++ too
-// (gl/glsl_as_cpp.h, tests/compositor/shader_twins_test.cc).
+// (gl/glsl_as_cpp.h, tests/compositor/shaders/shader_twins_test.cc).
 
 struct PlaneHit {
   float along;          // Times the ray, from the eye on.

@@ -1,7 +1,7 @@
 #ifndef COMPOSITOR_STEADY_RATIO_GLSL
 #define COMPOSITOR_STEADY_RATIO_GLSL
 // Twin of compositor/surfaces/linear_shadow_ratio.h, from its five texels. Numbers alone; compiled as C++ too
-// (gl/glsl_as_cpp.h, tests/compositor/shader_twins_test.cc).
+// (gl/glsl_as_cpp.h, tests/compositor/shaders/shader_twins_test.cc).
 
 struct SteadyPlace {
   vec3 position_m;

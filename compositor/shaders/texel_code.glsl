@@ -1,7 +1,7 @@
 #ifndef COMPOSITOR_TEXEL_CODE_GLSL
 #define COMPOSITOR_TEXEL_CODE_GLSL
 // Roughness and metallic in one number of 16-bit floating point, whose integers are exact to 2048.
-// Numbers alone; compiled as C++ too (gl/glsl_as_cpp.h, tests/compositor/shader_twins_test.cc).
+// Numbers alone; compiled as C++ too (gl/glsl_as_cpp.h, tests/compositor/shaders/shader_twins_test.cc).
 
 const float kRoughnessSteps = 127.0f, kMetallicSteps = 15.0f;
 

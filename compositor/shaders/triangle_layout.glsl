@@ -1,7 +1,7 @@
 #ifndef COMPOSITOR_TRIANGLE_LAYOUT_GLSL
 #define COMPOSITOR_TRIANGLE_LAYOUT_GLSL
 // How the table of compositor/surfaces/visibility_buffer.h is laid out, and how pictures name its triangles.
-// Numbers alone; compiled as C++ too (gl/glsl_as_cpp.h, tests/compositor/shader_twins_test.cc).
+// Numbers alone; compiled as C++ too (gl/glsl_as_cpp.h, tests/compositor/shaders/shader_twins_test.cc).
 
 const int kTrianglesARow = 4096, kVerticesARow = 1365, kTexelsAVertex = 3;
 const int kTexelsASurface = 5, kSurfacesARow = 819;

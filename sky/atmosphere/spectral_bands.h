@@ -11,7 +11,7 @@ namespace pleinair::sky {
 /// sky's or sun's spectrum to the extraterrestrial sun's is smooth but for ozone; a natural cubic
 /// spline through eight values gives luminance within 0.3 % and chromaticity within 0.0015 on
 /// average of what 38 bands do (1.5 % and 0.04 at most, for suns and skies through 30 air masses
-/// of haze; tests/sky/spectral_bands_test.cc).
+/// of haze; tests/sky/atmosphere/spectral_bands_test.cc).
 inline constexpr double kFirstWavelengthNm = 420.0;
 inline constexpr double kLastWavelengthNm = 720.0;
 constexpr double WavelengthNm(int i) {

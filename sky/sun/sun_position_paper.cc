@@ -19,7 +19,7 @@ int DayOfYear(const UtcTime::Civil& utc) {
 }  // namespace
 
 // Kolivand & Sunar 2014, Eqs. (1)–(4), which restate Preetham et al. 1999, appendix. Five misprints
-// are corrected (tests/sky/sun_position_paper_test.cc shows what each of them does):
+// are corrected (tests/sky/sun/sun_position_paper_test.cc shows what each of them does):
 //   Eq. (1): J − 180 → J − 80.
 //   Eq. (1): (12/π)(SM − L)/π → (12/π)(L − SM): one π too many, and the sign is for longitudes
 //            counted westwards, ours grow eastwards.

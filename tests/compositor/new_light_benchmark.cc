@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compositor/composer.h"
-#include "tests/compositor/light_scenes.h"
+#include "tests/compositor/light/light_scenes.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/srgb.h"
 #include "devices/calibration/calibration.h"
 #include "tests/e2e/run_program.h"
-#include "tests/tracker/board_rendering.h"
+#include "tests/tracker/calibration/board_rendering.h"
 
 namespace pleinair::e2e {
 namespace {

@@ -73,7 +73,7 @@ TEST(Path, GoesThroughEveryFormAndComesBack) {
 // As COLMAP's model_converter wrote it; where both forms are there it counts, as with COLMAP.
 TEST(Path, ReadsAModelInColmapsBinaryForm) {
   const TemporaryFolder folder;
-  const std::filesystem::path example = tests::SourceTree() / "tests/app/data/colmap";
+  const std::filesystem::path example = tests::SourceTree() / "tests/export/trajectories/colmap";
   std::filesystem::create_directories(folder / "model");
   for (const char* name : {"cameras.bin", "images.bin", "points3D.bin"}) {
     std::filesystem::copy_file(example / name, folder / "model" / name);

@@ -16,7 +16,7 @@ namespace pleinair::compositor {
 ///
 /// Eight bits each against the largest of 16 patches in a plane: a hundred thousand vertices take
 /// 80 MB, and reading them is what a product costs. An entry is right to 1/510 of the largest of
-/// its 16, their sum to 0.1 % (tests/compositor/daylight_coefficients_test.cc).
+/// its 16, their sum to 0.1 % (tests/compositor/light/daylight/daylight_coefficients_test.cc).
 class CoefficientMatrix {
  public:
   static constexpr int kPatches = 16;  ///< A chunk of columns, with scales of its own.

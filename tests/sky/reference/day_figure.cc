@@ -16,7 +16,7 @@
 #include "app/sky/sky_picture.h"
 #include "sky/sky_model.h"
 
-namespace pleinair::app {
+namespace pleinair::sky {
 namespace {
 
 constexpr int kDome_px = 200, kCaption_px = 24, kColumns = 6;
@@ -25,22 +25,22 @@ constexpr int kFirstHour = 4, kLastHour = 21, kUtcOffsetHours = 2;
 constexpr std::int64_t kMidnightUtc = 1'750'464'000;  // 2025-06-21T00:00:00Z.
 
 int Draw(const std::string& file) {
-  const sky::Observer prague{.latitude = FromDegrees(50.0875), .longitude = FromDegrees(14.4213)};
-  const auto source = sky::SkySource::Create({sky::SkyModelKind::kAtmosphere, 0}, {});
+  const Observer prague{.latitude = FromDegrees(50.0875), .longitude = FromDegrees(14.4213)};
+  const auto source = SkySource::Create({SkyModelKind::kAtmosphere, 0}, {});
   if (!source) return 1;
   const int rows = (kLastHour - kFirstHour + kColumns) / kColumns;
   cv::Mat sheet((kDome_px + kCaption_px) * rows, kDome_px * kColumns, CV_8UC3, cv::Scalar::all(0));
   for (int hour = kFirstHour; hour <= kLastHour; ++hour) {
     const UtcTime time((kMidnightUtc + 3600 * (hour - kUtcOffsetHours)) * 1'000'000'000);
-    const SkyMoment moment = MomentAt(prague, time, sky::SunModel::kPrecise);
+    const app::SkyMoment moment = app::MomentAt(prague, time, SunModel::kPrecise);
     const auto sky = (*source)->ForSun(moment.ToSun(), moment.sun_distance_au);
-    SkyPictureOptions options;
-    options.projection = SkyProjection::kFisheye;
+    app::SkyPictureOptions options;
+    options.projection = app::SkyProjection::kFisheye;
     options.width_px = kDome_px;
     options.disc = true;
-    const LightImage light = DrawSky(*sky, options);
+    const app::LightImage light = app::DrawSky(*sky, options);
     const Lux lux(Luminance(sky->SkyHorizontalIrradiance()));
-    RgbImage picture = ToneMap(light, AutomaticExposure(lux));
+    RgbImage picture = app::ToneMap(light, app::AutomaticExposure(lux));
     const cv::Mat rgb(kDome_px, kDome_px, CV_8UC3, picture.data());
     const int index = hour - kFirstHour;
     const cv::Point corner(index % kColumns * kDome_px,
@@ -56,7 +56,7 @@ int Draw(const std::string& file) {
 }
 
 }  // namespace
-}  // namespace pleinair::app
+}  // namespace pleinair::sky
 
 int main(int argc, char** argv) {
   if (argc != 2) {

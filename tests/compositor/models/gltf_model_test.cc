@@ -1,0 +1,352 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "compositor/models/model.h"
+#include "tests/compositor/models/model_files_made.h"
+
+namespace pleinair::compositor {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::MakePng;
+using testing::PngHeader;
+using testing::TemporaryFolder;
+
+template <typename T>
+std::string Bytes(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+/// A textured triangle: three corners, normals, texture coordinates, 16-bit indices, in one file
+/// of buffers; a test replaces what it wants to break.
+struct TriangleFile {
+  std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 2, 0};
+  std::vector<float> uvs{0, 0, 1, 0, 0, 1};
+  std::vector<std::uint16_t> indices{0, 1, 2};
+  std::string picture = MakePng(1, 1, {{64, 128, 255}});
+  std::string node = R"({"mesh":0})";
+  std::string index_accessor = R"({"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"})";
+  std::string position_accessor =
+      R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,0]})";
+  std::string extra;
+  /// What stands beside the material's roughness, beside its name, and after the attributes.
+  std::string coat, alpha, attributes, color_texture = R"({"index":0})";
+
+  std::string Buffer() const {
+    std::string buffer = Bytes(positions) + Bytes(uvs) + Bytes(indices);
+    buffer.resize(68);  // The picture starts at a multiple of four.
+    return buffer + picture;
+  }
+
+  std::string Json(const std::string& buffer_uri) const {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + node +
+           R"(],"meshes":[{"name":"leaf","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1)" +
+           attributes +
+           R"(},)"
+           R"("indices":2,"material":0}]}],"materials":[{"name":"green","doubleSided":true,)" +
+           alpha +
+           R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,0.75],"metallicFactor":1,)"
+           R"("roughnessFactor":0.3,)" +
+           coat + R"("baseColorTexture":)" + color_texture +
+           R"(}}],"textures":[{"source":0}],)"
+           R"("images":[{"bufferView":3,"mimeType":"image/png"}],"accessors":[)" +
+           position_accessor +
+           R"(,{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"},)" + index_accessor +
+           R"(],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,)"
+           R"("byteLength":24},{"buffer":0,"byteOffset":60,"byteLength":6},{"buffer":0,)"
+           R"("byteOffset":68,"byteLength":)" +
+           std::to_string(picture.size()) + R"(}],"buffers":[{)" + buffer_uri + R"("byteLength":)" +
+           std::to_string(Buffer().size()) + "}]" + extra + "}";
+  }
+
+  Result<Model> Load() const {
+    const TemporaryFolder folder;
+    folder.Write("data.bin", Buffer());
+    return LoadModel(folder.Write("model.gltf", Json(R"("uri":"data.bin",)")));
+  }
+
+  std::string Glb() const {
+    std::string json = Json("");
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::string buffer = Buffer();
+    buffer.resize((buffer.size() + 3) / 4 * 4);
+    const auto word = [](std::size_t value) {
+      const auto number = static_cast<std::uint32_t>(value);
+      return Bytes(std::vector<std::uint32_t>{number});
+    };
+    return "glTF" + word(2) + word(12 + 8 + json.size() + 8 + buffer.size()) + word(json.size()) +
+           "JSON" + json + word(buffer.size()) + std::string("BIN\0", 4) + buffer;
+  }
+};
+
+std::string ErrorOf(const TriangleFile& file) {
+  const auto model = file.Load();
+  EXPECT_FALSE(model);
+  if (!model) {
+    EXPECT_EQ(model.error().kind, ErrorKind::kInput);
+  }
+  return model ? "" : model.error().Message();
+}
+
+TEST(GltfModel, ReadsGeometryMaterialAndTexture) {
+  const auto model = TriangleFile().Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  ASSERT_EQ(model->meshes.size(), 1U);
+  const Mesh& mesh = model->meshes[0];
+  EXPECT_EQ(mesh.name, "leaf");
+  ASSERT_EQ(mesh.indices.size(), 3U);
+  // y-up to z-up: (0, 2, 0) is up.
+  EXPECT_EQ(mesh.positions[mesh.indices[2]], (std::array<float, 3>{0.0F, 0.0F, 2.0F}));
+  EXPECT_EQ(mesh.uvs[mesh.indices[2]], (std::array<float, 2>{0.0F, 1.0F}));
+  // The front looked to +z in the file, which is −y here.
+  EXPECT_EQ(mesh.normals[0], (std::array<float, 3>{0.0F, -1.0F, 0.0F}));
+  const Material& material = model->materials[mesh.material];
+  EXPECT_EQ(material.name, "green");
+  EXPECT_TRUE(material.double_sided);
+  EXPECT_EQ(material.base_color, (std::array<float, 3>{0.5F, 0.25F, 1.0F}));
+  EXPECT_FLOAT_EQ(material.roughness, 0.3F);
+  EXPECT_FLOAT_EQ(material.specular_f0, 0.04F);
+  ASSERT_EQ(material.base_color_texture, 0);
+  EXPECT_EQ(model->textures[0](0, 0, 1), 128);
+}
+
+TEST(GltfModel, ReadsWhatAlphaMeans) {
+  TriangleFile file;
+  const auto material = [&] { return file.Load()->materials[0]; };
+  EXPECT_EQ(material().alpha, Material::Alpha::kIgnored);
+  file.alpha = R"("alphaMode":"MASK","alphaCutoff":0.25,)";
+  EXPECT_EQ(material().alpha, Material::Alpha::kCutOut);
+  EXPECT_FLOAT_EQ(material().alpha_cutoff, 0.25F);
+  file.alpha = R"("alphaMode":"BLEND",)";
+  EXPECT_EQ(material().alpha, Material::Alpha::kBlended);
+  EXPECT_FLOAT_EQ(material().opacity, 0.75F);
+}
+
+TEST(GltfModel, SeesNothingOfWhatIsCutOutWholly) {
+  TriangleFile file;
+  file.alpha = R"("alphaMode":"MASK","alphaCutoff":1.5,)";
+  file.color_texture = R"({"index":0}, "baseColorFactor":[1,1,1,1])";
+  EXPECT_THAT(ErrorOf(file), HasSubstr("transparent"));
+  file.alpha = R"("alphaMode":"MASK","alphaCutoff":1,)";
+  EXPECT_TRUE(file.Load());
+}
+
+TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
+  TriangleFile file;
+  file.coat = R"("metallicRoughnessTexture":{"index":0},)";
+  auto model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  const Material& material = model->materials[0];
+  // One picture, read as colour and as numbers.
+  ASSERT_EQ(model->textures.size(), 2U);
+  EXPECT_NE(material.metallic_roughness_texture, material.base_color_texture);
+  EXPECT_FLOAT_EQ(material.metallic, 1.0F);
+  EXPECT_FLOAT_EQ(material.roughness, 0.3F);
+  // With texture coordinates of its own, as its mean.
+  file.coat = R"("metallicRoughnessTexture":{"index":0,"texCoord":1},)";
+  model = file.Load();
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->materials[0].metallic_roughness_texture, -1);
+  EXPECT_FLOAT_EQ(model->materials[0].roughness, 0.3F * 128 / 255);
+  EXPECT_EQ(model->textures.size(), 1U) << "the picture is kept though nothing is drawn with it";
+}
+
+TEST(GltfModel, TellsWhatItLeavesOut) {
+  TriangleFile file;
+  EXPECT_THAT(LeftOut(*file.Load()), IsEmpty());
+  file.alpha = R"("normalTexture":{"index":0},"emissiveFactor":[0,0,0],)";
+  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("normal maps"));
+  file.alpha = R"("emissiveFactor":[0,2,0],"extensions":{"KHR_materials_transmission":)"
+               R"({"transmissionFactor":1},"KHR_materials_emissive_strength":{}},)";
+  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("KHR_materials_transmission", "emission"));
+  file = {};
+  file.attributes = R"(,"COLOR_0":0)";
+  file.node = R"({"mesh":0,"skin":0})";
+  file.extra = R"(,"skins":[{"joints":[0]}],"animations":[{"channels":[],"samplers":[]}])";
+  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("animations", "colours of vertices", "skins"));
+  // Nobody sees a material that nothing has.
+  file = {};
+  file.color_texture = R"({"index":0}}},{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{)"
+                       R"("metallicFactor":1)";
+  EXPECT_THAT(LeftOut(*file.Load()), IsEmpty());
+}
+
+TEST(GltfModel, MovesTextureCoordinatesAsTheFileAsks) {
+  TriangleFile file;
+  file.extra = R"(,"extensionsUsed":["KHR_texture_transform"],)"
+               R"("extensionsRequired":["KHR_texture_transform"])";
+  file.color_texture = R"({"index":0,"extensions":{"KHR_texture_transform":{)"
+                       R"("offset":[0.5,1],"scale":[2,3],"rotation":1.5707963267948966}}})";
+  const auto model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  const Mesh& mesh = model->meshes[0];
+  // As the extension's text and example have it, a quarter turn takes (u, v) to (v, −u); the matrix
+  // printed there turns the other way.
+  EXPECT_NEAR(mesh.uvs[mesh.indices[1]][0], 0.5, 1e-6);
+  EXPECT_NEAR(mesh.uvs[mesh.indices[1]][1], 1.0 - 2.0, 1e-6);
+  EXPECT_NEAR(mesh.uvs[mesh.indices[2]][0], 0.5 + 3.0, 1e-6);
+  EXPECT_NEAR(mesh.uvs[mesh.indices[2]][1], 1.0, 1e-6);
+}
+
+TEST(GltfModel, RefusesToMoveTextureCoordinatesOutOfTheWorld) {
+  TriangleFile file;
+  file.extra = R"(,"extensionsUsed":["KHR_texture_transform"])";
+  file.color_texture = R"({"index":0,"extensions":{"KHR_texture_transform":{)"
+                       R"("scale":[1e308,1e308],"rotation":0.5}}})";
+  const auto model = file.Load();
+  ASSERT_FALSE(model);
+  EXPECT_NE(model.error().Message().find("KHR_texture_transform"), std::string::npos)
+      << model.error().Message();
+}
+
+TEST(GltfModel, ReadsTheBinaryForm) {
+  const TemporaryFolder folder;
+  const auto model = LoadModel(folder.Write("model.glb", TriangleFile().Glb()));
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(model->meshes[0].positions.size(), 3U);
+}
+
+TEST(GltfModel, RefusesBinaryFilesCutAnywhere) {
+  const TemporaryFolder folder;
+  const std::string whole = TriangleFile().Glb();
+  for (std::size_t length = 0; length + 4 < whole.size(); length += 7) {
+    EXPECT_FALSE(LoadModel(folder.Write("model.glb", whole.substr(0, length)))) << length;
+  }
+}
+
+TEST(GltfModel, PlacesNodesInsideNodes) {
+  TriangleFile file;
+  file.node =
+      R"({"children":[1],"translation":[10,0,0]},{"mesh":0,"scale":[-1,1,1],"translation":[0,5,0]})";
+  const auto model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  const Mesh& mesh = model->meshes[0];
+  EXPECT_EQ(mesh.positions[0], (std::array<float, 3>{10.0F, 0.0F, 5.0F}));
+  // Mirrored, the winding turns: the front still looks to the file's +z.
+  EXPECT_EQ(mesh.normals[0], (std::array<float, 3>{0.0F, -1.0F, 0.0F}));
+}
+
+TEST(GltfModel, PutsSparseValuesIn) {
+  TriangleFile file;
+  file.position_accessor =
+      R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,)"
+      R"("indices":{"bufferView":2,"byteOffset":4,"componentType":5123},)"
+      R"("values":{"bufferView":0,"byteOffset":12}}})";
+  file.positions = {0, 0, 0, 1, 0, 0, 9, 9, 9};  // Vertex 2 becomes a copy of vertex 1.
+  EXPECT_THAT(ErrorOf(file), HasSubstr("degenerate"));
+  file.position_accessor.replace(file.position_accessor.find("\"byteOffset\":4"), 14,
+                                 "\"byteOffset\":6");
+  EXPECT_FALSE(file.Load()) << "the sparse indices reach beyond their view";
+}
+
+TEST(GltfModel, RefusesReferencesOutOfRange) {
+  TriangleFile file;
+  file.indices = {0, 1, 3};
+  EXPECT_THAT(ErrorOf(file), HasSubstr("vertex 3 of 3"));
+  file = {};
+  file.position_accessor.replace(file.position_accessor.find("\"count\":3"), 9, "\"count\":4");
+  EXPECT_THAT(ErrorOf(file), HasSubstr("beyond"));
+  file = {};
+  file.index_accessor = R"({"bufferView":2,"componentType":5125,"count":3,"type":"SCALAR"})";
+  EXPECT_THAT(ErrorOf(file), HasSubstr("beyond"));
+  file = {};
+  file.index_accessor = R"({"bufferView":9,"componentType":5123,"count":3,"type":"SCALAR"})";
+  EXPECT_FALSE(file.Load());
+  file = {};
+  file.position_accessor =
+      R"({"bufferView":0,"componentType":5126,"count":18446744073709551615,"type":"VEC3"})";
+  EXPECT_FALSE(file.Load());
+  file = {};
+  file.node = R"({"mesh":7})";
+  EXPECT_FALSE(file.Load());
+}
+
+TEST(GltfModel, RefusesNodesThatContainThemselves) {
+  TriangleFile file;
+  file.node = R"({"mesh":0,"children":[1]},{"children":[0]})";
+  EXPECT_THAT(ErrorOf(file), HasSubstr("contains itself"));
+}
+
+TEST(GltfModel, RefusesValuesThatAreNotFinite) {
+  TriangleFile file;
+  file.positions[4] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(ErrorOf(file), HasSubstr("not a finite number"));
+}
+
+TEST(GltfModel, RefusesHugeAndMissingTexturesAndBuffers) {
+  TriangleFile file;
+  file.picture = PngHeader(100'000, 100'000);
+  EXPECT_THAT(ErrorOf(file), HasSubstr("100000 × 100000"));
+  const TemporaryFolder folder;
+  EXPECT_FALSE(LoadModel(folder.Write("m.gltf", TriangleFile().Json(R"("uri":"gone.bin",)"))));
+  folder.Write("data.bin", TriangleFile().Buffer());
+  std::string json = TriangleFile().Json(R"("uri":"data.bin",)");
+  const std::string image = R"({"bufferView":3,"mimeType":"image/png"})";
+  json.replace(json.find(image), image.size(), R"({"uri":"gone.png"})");
+  const auto model = LoadModel(folder.Write("m.gltf", json));
+  ASSERT_FALSE(model);
+  EXPECT_THAT(model.error().Message(), HasSubstr("gone.png"));
+}
+
+TEST(GltfModel, ReadsOnlyFilesAndOnlyFromItsFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "inner");
+  for (const char* uri : {R"("uri":".",)", R"("uri":"inner",)", R"("uri":"/dev/zero",)"}) {
+    EXPECT_FALSE(LoadModel(folder.Write("m.gltf", TriangleFile().Json(uri)))) << uri;
+  }
+  // One of that name in the working folder is not the model's.
+  const TemporaryFolder working;
+  working.Write("data.bin", TriangleFile().Buffer());
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(working.path());
+  EXPECT_FALSE(LoadModel(folder.Write("m.gltf", TriangleFile().Json(R"("uri":"data.bin",)"))));
+  working.Write("m.gltf", TriangleFile().Json(R"("uri":"data.bin",)"));
+  EXPECT_TRUE(LoadModel("m.gltf"));
+  std::filesystem::current_path(before);
+}
+
+TEST(GltfModel, TakesNamesFromItsFolderButNoAbsoluteOnes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path inner = folder.path() / "inner";
+  std::filesystem::create_directory(inner);
+  const std::filesystem::path data = folder.Write("data.bin", TriangleFile().Buffer());
+  const auto write = [&](const std::string& uri) {
+    const std::string json = TriangleFile().Json(R"("uri":")" + uri + R"(",)");
+    folder.Write("m.gltf", json);
+    folder.Write("inner/m.gltf", json);
+  };
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  // glTF 2.0, "URIs": relative paths, of which ".." may be a part.
+  write("../data.bin");
+  EXPECT_TRUE(LoadModel(inner / "m.gltf"));
+  EXPECT_TRUE(LoadModel("inner/m.gltf"));
+  std::filesystem::current_path(inner);
+  EXPECT_TRUE(LoadModel("m.gltf"));
+  std::filesystem::current_path(folder.path());
+  // The file is there, and so is one of that name behind the folder's.
+  for (const std::string& uri : {data.string(), std::string("/data.bin")}) {
+    write(uri);
+    EXPECT_FALSE(LoadModel(folder.path() / "m.gltf")) << uri;
+    EXPECT_FALSE(LoadModel("m.gltf")) << uri;
+    EXPECT_FALSE(LoadModel("./m.gltf")) << uri;
+  }
+  std::filesystem::current_path(before);
+}
+
+TEST(GltfModel, RefusesExtensionsThatItWouldHaveToKnow) {
+  TriangleFile file;
+  file.extra = R"(,"extensionsUsed":["KHR_draco_mesh_compression"],)"
+               R"("extensionsRequired":["KHR_draco_mesh_compression"])";
+  EXPECT_THAT(ErrorOf(file), HasSubstr("KHR_draco_mesh_compression"));
+}
+
+}  // namespace
+}  // namespace pleinair::compositor

@@ -1,0 +1,240 @@
+#include "compositor/photometry/marker/marker_light_meter.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "base/srgb.h"
+#include "tests/compositor/gentle_response.h"
+#include "tests/compositor/photometry/marker/metered_marker.h"
+
+namespace pleinair::compositor {
+namespace {
+
+using testing::ExpectGain;
+using testing::kAmbientLux;
+using testing::kCamera;
+using testing::kFromAbove;
+using testing::kGain;
+using testing::kPrint;
+using testing::kSunLux;
+using testing::MeterFor;
+using testing::Photograph;
+
+TEST(LightMeter, ReadsExposureAndWhiteBalanceOfASunlitPrint) {
+  const RgbImage picture = Photograph(kGain, -1.0);
+  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectGain(reading, kGain);
+  EXPECT_LT(std::max({reading->error.r, reading->error.g, reading->error.b}), 0.005);
+  EXPECT_FALSE(reading->dappled);
+  EXPECT_EQ(reading->lit_share, 1.0);
+}
+
+TEST(LightMeter, TellsHowCertainItsReadingIs) {
+  // More noise in green: gains scatter from picture to picture as each says of itself.
+  constexpr int kPictures = 60;
+  const RgbImage clean = Photograph(kGain, -1.0);
+  const LightMeter meter = MeterFor(-1.0);
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise;
+  LinearRgb said;
+  std::array<double, 3> sum{}, squares{};
+  for (int i = 0; i < kPictures; ++i) {
+    RgbImage picture = Photograph(kGain, -1.0);
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        for (const int c : {0, 1, 2}) {
+          const double code = clean(x, y, c) + (c == 1 ? 8.0 : 4.0) * noise(random);
+          picture(x, y, c) = static_cast<std::uint8_t>(std::lround(code));
+        }
+      }
+    }
+    const auto reading = meter.Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(reading);
+    ASSERT_FALSE(reading->dappled);
+    said = said + reading->error * (1.0 / kPictures);
+    const LinearRgb off = reading->gain / kGain;
+    for (const int c : {0, 1, 2}) {
+      const std::array values{off.r, off.g, off.b};
+      const double value = values[c];
+      sum[c] += value / kPictures;
+      squares[c] += value * value / kPictures;
+    }
+  }
+  EXPECT_GT(said.g, 1.5 * said.r);
+  for (const int c : {0, 1, 2}) {
+    const double scatter = std::sqrt(squares[c] - sum[c] * sum[c]);
+    const std::array all{said.r, said.g, said.b};
+    EXPECT_GT(all[c], 0.7 * scatter) << "channel " << c;
+    EXPECT_LT(all[c], 1.5 * scatter) << "channel " << c;
+  }
+}
+
+TEST(LightMeter, KnowsWhichPartLiesInThePhantomsShadow) {
+  const RgbImage picture = Photograph(kGain, 0.05);
+  const auto reading = MeterFor(0.05).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectGain(reading, kGain);
+  EXPECT_GT(reading->lit_share, 0.2);
+  EXPECT_LT(reading->lit_share, 0.8);
+}
+
+TEST(LightMeter, ReadsAPrintThatLiesWhollyInShadow) {
+  const RgbImage picture = Photograph(kGain * 5.0, 1.0);
+  const auto reading = MeterFor(1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectGain(reading, kGain * 5.0);
+  EXPECT_EQ(reading->lit_share, 0.0);
+}
+
+TEST(LightMeter, TakesTheSunlitPartWhenAnUnknownShadowCrossesThePrint) {
+  const RgbImage picture = Photograph(kGain, 0.05);
+  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
+}
+
+TEST(LightMeter, TellsHowDeepTheShadowIsThatDividesThePrint) {
+  const double contrast = std::log((kAmbientLux + kSunLux) / kAmbientLux);
+  const auto expect = [&](const LightMeter& meter, double shadow_to_x_m, double veil) {
+    const RgbImage picture = Photograph(kGain, shadow_to_x_m, veil);
+    const auto shadow = meter.FindShadow(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(shadow);
+    EXPECT_NEAR(shadow->contrast.r, contrast, 0.05);
+    EXPECT_NEAR(shadow->contrast.g, contrast, 0.05);
+    EXPECT_NEAR(shadow->contrast.b, contrast, 0.05);
+    EXPECT_GT(shadow->lit.xyz.x, 0.05);
+    EXPECT_LT(shadow->shaded.xyz.x, 0.05);
+  };
+  expect(MeterFor(-1.0), 0.05, 0.0);   // Of something that no phantom stands for,
+  expect(MeterFor(-1.0), 0.05, 0.05);  // through a veil,
+  expect(MeterFor(0.05), 0.05, 0.0);   // and of a phantom.
+}
+
+TEST(LightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
+  const auto shadow = [](const RgbImage& picture) {
+    const LightMeter meter = MeterFor(-1.0);
+    EXPECT_TRUE(meter.Measure(picture.view(), kCamera, kFromAbove));
+    return meter.FindShadow(picture.view(), kCamera, kFromAbove);
+  };
+  EXPECT_FALSE(shadow(Photograph(kGain, -1.0)));
+  // Grey things on the print, in the sun: over all of it to the left, over white or black alone.
+  const auto with_cover = [](double share_of_white, const auto& covers) {
+    RgbImage picture = Photograph(kGain, -1.0);
+    const RgbImage grey = Photograph(kGain * share_of_white, -1.0, 0.0,
+                                     {.size_m = 0.0, .board_size_m = 0.5, .black_band_m = 0.05});
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        if (!covers(x - 160, y - 120)) continue;
+        for (int c = 0; c < 3; ++c) picture(x, y, c) = grey(x, y, c);
+      }
+    }
+    return picture;
+  };
+  constexpr int kEdgePx = 60;  // The black square's.
+  EXPECT_FALSE(shadow(with_cover(0.3, [](int x, int) { return x < -20; })));
+  EXPECT_FALSE(shadow(with_cover(0.3, [](int x, int) { return x < -kEdgePx; })));
+  EXPECT_FALSE(
+      shadow(with_cover(0.7, [](int x, int) { return x >= -kEdgePx && x < -kEdgePx / 2; })));
+}
+
+TEST(LightMeter, CancelsVeilingGlare) {
+  const RgbImage picture = Photograph(kGain, -1.0, 0.05);
+  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
+}
+
+TEST(LightMeter, FallsBackToTheBlackWhereTheWhiteIsClipped) {
+  const RgbImage picture = Photograph(kGain * 3.0, -1.0);
+  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain * 3.0);
+}
+
+TEST(LightMeter, ReadsAnEvenPrintThroughNoiseAndGlareWhereItBeginsToClip) {
+  constexpr double kVeil = 0.006;
+  const LightMeter meter = MeterFor(-1.0);
+  std::mt19937 random(11);
+  std::normal_distribution<double> noise(0.0, 4.0);
+  double before = 1.0;
+  // Red clips from 1.4 on, green from 1.7, blue from 2.1.
+  for (int step = 0; step < 70; ++step) {
+    const double exposure = 1.2 + 0.02 * step;
+    RgbImage picture = Photograph(kGain * exposure, -1.0, kVeil);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const double code = std::clamp(picture.data()[i] + noise(random), 0.0, 255.0);
+      picture.data()[i] = static_cast<std::uint8_t>(std::lround(code));
+    }
+    const auto reading = meter.Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(reading) << exposure;
+    EXPECT_FALSE(reading->dappled) << exposure;
+    const LinearRgb off = reading->gain / (kGain * exposure);
+    // Blacks alone have the glare in them: 0.006 of 0.05.
+    const double most = exposure < 2.0 ? 0.07 : 0.18;
+    EXPECT_NEAR(off.r, 1.0, most) << exposure;
+    EXPECT_NEAR(off.g, 1.0, most) << exposure;
+    EXPECT_NEAR(off.b, 1.0, most) << exposure;
+    EXPECT_NEAR(off.r / off.b, 1.0, 0.07) << "no cast where a channel is read by its blacks";
+    if (step > 0) {
+      EXPECT_NEAR(off.g / before, 1.0, 0.15) << exposure;
+    }
+    before = off.g;
+  }
+}
+
+TEST(LightMeter, ReadsCodesByTheCamerasOwnResponse) {
+  const CameraResponse gentle = testing::GentleResponse();
+  // Well exposed, and so bright that the white clips.
+  for (const double exposure : {1.0, 3.0}) {
+    const RgbImage picture = Photograph(kGain * exposure, -1.0, 0.0, kPrint, gentle);
+    ExpectGain(MeterFor(-1.0, gentle).Measure(picture.view(), kCamera, kFromAbove),
+               kGain * exposure);
+    const auto wrong = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(wrong);
+    EXPECT_GT(std::fabs(std::log(wrong->gain.b / (kGain.b * exposure))), 0.15) << exposure;
+  }
+}
+
+TEST(LightMeter, SaysNothingOfAPrintWithBlackOutsideAndWhiteInside) {
+  scene::MarkerPrint reversed = kPrint;
+  std::swap(reversed.albedo_black, reversed.albedo_white);
+  // Dark, well exposed, and so bright that the white clips.
+  for (const double exposure : {0.2, 1.0, 1.3, 3.0}) {
+    const RgbImage picture = Photograph(kGain * exposure, -1.0, 0.0, reversed);
+    EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove).has_value())
+        << exposure;
+  }
+}
+
+TEST(LightMeter, SaysNothingOfAnEvenlyColouredSurface) {
+  scene::MarkerPrint even = kPrint;
+  even.albedo_black = even.albedo_white;
+  const RgbImage picture = Photograph(kGain, -1.0, 0.0, even);
+  EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove).has_value());
+}
+
+TEST(LightMeter, ReadsThePartOfAPrintThatGlareLeaves) {
+  // A strip over the print's right side reflects the sun: there black looks like white.
+  RgbImage picture = Photograph(kGain, -1.0);
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 200; x < picture.width(); ++x) {
+      for (int c = 0; c < 3; ++c) picture(x, y, c) = 180;
+    }
+  }
+  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
+}
+
+TEST(LightMeter, SaysNothingOfAMarkerThatIsTooSmallOrOutOfThePicture) {
+  const RgbImage picture = Photograph(kGain, -1.0);
+  Transform<Camera, Marker> far = kFromAbove;
+  far.translation_m.z = 8.0;
+  EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, far).has_value());
+  Transform<Camera, Marker> aside = kFromAbove;
+  aside.translation_m.x = 3.0;
+  EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, aside).has_value());
+  Transform<Camera, Marker> behind = kFromAbove;
+  behind.translation_m.z = -1.0;
+  EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, behind).has_value());
+}
+
+}  // namespace
+}  // namespace pleinair::compositor

@@ -1,0 +1,190 @@
+// What the phantoms' own shadows say of the light, on pictures whose light is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "compositor/photometry/heading_from_shadows.h"
+#include "compositor/photometry/marker/marker_shadow_edge.h"
+#include "compositor/photometry/overcast_test.h"
+#include "compositor/photometry/sun_sky_ratio.h"
+#include "tests/compositor/gentle_response.h"
+#include "tests/compositor/photometry/shadow_light_yard.h"
+
+namespace pleinair::compositor {
+namespace {
+
+using testing::PhotographedYard;
+using testing::ShadowLight;
+constexpr Vec3 kUp{0, 0, 1};
+
+void ExpectScale(const SunSkyReading& reading, LinearRgb truth) {
+  ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
+  EXPECT_NEAR(reading.sky_scale.r / truth.r, 1.0, 0.1);
+  EXPECT_NEAR(reading.sky_scale.g / truth.g, 1.0, 0.1);
+  EXPECT_NEAR(reading.sky_scale.b / truth.b, 1.0, 0.1);
+  // It knows how well it knows.
+  EXPECT_LT(std::fabs(std::log(reading.sky_scale.g / truth.g)), 3 * reading.log_uncertainty);
+  EXPECT_LT(reading.log_uncertainty, 0.15);
+}
+
+TEST_F(ShadowLight, TellsHowStrongTheSkyIsBesideTheSun) {
+  for (const double scale : {0.6, 1.0, 2.5}) {
+    ExpectScale(Read(Look({.sky_scale = {scale, scale, scale}})), {scale, scale, scale});
+  }
+}
+
+TEST_F(ShadowLight, TellsTheColourOfTheSkyBesideTheSuns) {
+  ExpectScale(Read(Look({.sky_scale = {0.8, 1.0, 1.4}})), {0.8, 1.0, 1.4});
+}
+
+TEST_F(ShadowLight, SeesThatNoSunShines) {
+  const SunSkyReading reading = Read(Look({.sky_scale = {3, 3, 3}, .sun_scale = 0.0}));
+  EXPECT_EQ(reading.sun, SunSkyReading::Sun::kHidden);
+  EXPECT_GE(reading.edges, 6);
+}
+
+TEST_F(ShadowLight, SeesAFaintSunThroughThickHaze) {
+  const SunSkyReading reading = Read(Look({.sky_scale = {5, 5, 5}}));
+  ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
+  EXPECT_NEAR(reading.sky_scale.g, 5.0, 1.0);
+}
+
+TEST_F(ShadowLight, LeavesOutPlacesInTheShadowOfATreeThatNoPhantomStandsFor) {
+  const auto tree = [](Vec3 p) {
+    // Half the yard, in patches.
+    return p.x < 0.0 && std::sin(9 * p.x) * std::sin(11 * p.y + 3 * p.z) > -0.6;
+  };
+  ExpectScale(Read(Look({.sky_scale = {1, 1, 1}, .shaded = tree}, 3)), {1, 1, 1});
+}
+
+TEST_F(ShadowLight, IsNotMisledByChangingExposure) {
+  ExpectScale(Read(Look({}, 2, 0.7)), {1, 1, 1});
+}
+
+TEST_F(ShadowLight, ReadsCodesByTheCamerasOwnResponse) {
+  const CameraResponse gentle = testing::GentleResponse();
+  const auto read_as = [&](const CameraResponse& response) {
+    SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print(), response);
+    for (const int i : {0, 1}) {
+      samples.AddFrame(yard_->Photograph(i, {}, gentle).view(), PhotographedYard::Pose(i),
+                       {1, 1, 1});
+    }
+    return Read(samples);
+  };
+  ExpectScale(read_as(gentle), {1, 1, 1});
+  // Taken for sRGB, whose codes stand for more contrast, the shade is too deep for so much sky.
+  const SunSkyReading wrong = read_as({});
+  ASSERT_EQ(wrong.sun, SunSkyReading::Sun::kShines);
+  EXPECT_LT(wrong.sky_scale.g, 0.85);
+}
+
+TEST_F(ShadowLight, TellsTheSkyFromAShadowAcrossThePrint) {
+  const LinearRgb sun = yard_->model().SunNormalIrradiance() * Dot(kUp, yard_->ToSun());
+  const Point<Marker> lit{{0.3, -0.3, 0.0}};
+  // Dark before the wall, which takes of the sky, by something that hides a tenth of it; and behind
+  // the wall, whose own shadow that is.
+  const Point<Marker> before_wall{{0.1, 1.0, 0.0}}, behind_wall{{0.1, 1.8, 0.0}};
+  PrintShadow shadow;
+  for (const auto& [shaded, left] : {std::pair{before_wall, 0.9}, {behind_wall, 1.0}}) {
+    shadow = {{}, lit, shaded};
+    const auto ambient = [&](LinearRgb of_sky, LinearRgb of_sun) {
+      return yard_->solver().AmbientPhantomsOnly(std::vector{shadow.lit, shadow.shaded}, kUp,
+                                                 ScaledDaylight(yard_->model(), of_sky, of_sun),
+                                                 Mat3{}, 2048);
+    };
+    for (const double truth : {0.5, 1.0, 3.0}) {
+      const auto sky = ambient(LinearRgb{1, 1, 1} * truth, {}), reflected = ambient({}, {1, 1, 1});
+      const LinearRgb ratio = (sky[0] + reflected[0] + sun) / (sky[1] * left + reflected[1]);
+      shadow.contrast = {std::log(ratio.r), std::log(ratio.g), std::log(ratio.b)};
+      const SunSkyReading reading =
+          ReadPrintShadow(yard_->solver(), std::vector{shadow, shadow}, yard_->model(), Mat3{});
+      ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
+      EXPECT_NEAR(reading.sky_scale.r / truth, 1.0, 0.05);
+      EXPECT_NEAR(reading.sky_scale.g / truth, 1.0, 0.05);
+      EXPECT_NEAR(reading.sky_scale.b / truth, 1.0, 0.05);
+      EXPECT_GT(reading.log_uncertainty, 0.1);
+    }
+  }
+  const auto unknown = [](const SunSkyReading& reading) {
+    return reading.sun == SunSkyReading::Sun::kUnknown;
+  };
+  EXPECT_TRUE(unknown(ReadPrintShadow(yard_->solver(), {}, yard_->model(), Mat3{})));
+  shadow.contrast = {1.5, 1.5, 1.5};
+  const testing::UniformDay low({3000, 4200, 6500}, {62e3, 55e3, 44e3}, {1.0, 0.0, 0.15});
+  EXPECT_TRUE(unknown(ReadPrintShadow(yard_->solver(), std::vector{shadow}, low, Mat3{})));
+}
+
+TEST_F(ShadowLight, SaysNothingWhereNoPhantomCastsAShadowInView) {
+  const auto bare =
+      LightSolver::Create({testing::Phantom(testing::Ground(5.0, {0.3F, 0.3F, 0.3F}))}, {});
+  ASSERT_TRUE(bare);
+  SurfaceSamples samples(**bare, yard_->camera(), yard_->print());
+  samples.AddFrame(yard_->Photograph(0, {}).view(), PhotographedYard::Pose(0), {1, 1, 1});
+  EXPECT_EQ(ReadSunAndSky(FindShadowEdges(**bare, samples, yard_->model(), Mat3{})).sun,
+            SunSkyReading::Sun::kUnknown);
+  EXPECT_FALSE(ReadHeading(**bare, samples, kUp, yard_->model().ToSun().xyz));
+}
+
+TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
+  const SurfaceSamples samples = Look({});
+  for (const double error_deg : {-7.0, -3.0, 0.0, 3.0}) {
+    // The scene states a heading from which the sun stands so far off its true place.
+    const Vec3 stated = Turned(yard_->model().ToSun().xyz, kUp, FromDegrees(error_deg));
+    const auto heading = ReadHeading(yard_->solver(), samples, kUp, stated);
+    ASSERT_TRUE(heading) << error_deg;
+    EXPECT_NEAR(ToDegrees(heading->offset), -error_deg, 0.25);
+    EXPECT_LT(ToDegrees(heading->uncertainty), 0.3);
+  }
+}
+
+TEST_F(ShadowLight, BelievesTheStatedHeadingUnderAnOvercastSky) {
+  const SurfaceSamples samples = Look({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  EXPECT_FALSE(ReadHeading(yard_->solver(), samples, kUp, yard_->model().ToSun().xyz));
+}
+
+TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
+  const auto contrast = [](const PhotographedYard& yard, const PhotographedYard::Light& light) {
+    SurfaceSamples samples(yard.solver(), yard.camera(), yard.print());
+    for (const int i : {0, 1}) {
+      samples.AddFrame(yard.Photograph(i, light).view(), PhotographedYard::Pose(i), {1, 1, 1});
+    }
+    // The overcast sky's model has no sun.
+    const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
+    return FindPlaneContrast(yard.solver(), samples, overcast, Mat3{}).within;
+  };
+  const double veiled = contrast(*yard_, {.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  EXPECT_LT(veiled, 0.3);
+  // This sun lights tops and the sides in view nearly alike: more than none does, too little to
+  // doubt an overcast sky (compositor/photometry/light_estimator.cc: 0.6).
+  EXPECT_GT(contrast(*yard_, {}), veiled + 0.2);
+  EXPECT_LT(contrast(*yard_, {}), 0.6);
+  // High over the yard, or behind what is in view, it is told.
+  EXPECT_GT(contrast(PhotographedYard({-0.2, 0.3, 0.9}), {}), 0.6);
+}
+
+TEST_F(ShadowLight, MakesPlanesOfSeveralMaterialsDifferFromTheirStatedColours) {
+  const PhotographedYard yard({-0.2, 0.3, 0.9});
+  const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
+  const auto among = [&](const PhotographedYard::Light& light, const sky::SkyModel& day) {
+    SurfaceSamples samples(yard.solver(), yard.camera(), yard.print());
+    samples.AddFrame(yard.Photograph(0, light).view(), PhotographedYard::Pose(0), {1, 1, 1});
+    const PlaneContrast contrast = FindPlaneContrast(yard.solver(), samples, day, Mat3{});
+    // Ground, wall, block and print; upwards, forwards and sideways.
+    EXPECT_GE(contrast.surfaces, 4);
+    EXPECT_GE(contrast.directions, 3);
+    return contrast.among;
+  };
+  const PhotographedYard::Light veiled{
+      .sky_scale = {3, 3, 3}, .sun_scale = 0.0, .colours_as_stated = true};
+  EXPECT_LT(among(veiled, overcast), 0.12);
+  EXPECT_GT(among(veiled, yard.model()), 0.25);
+  const PhotographedYard::Light sunny{.colours_as_stated = true};
+  EXPECT_LT(among(sunny, yard.model()), 0.12);
+  EXPECT_GT(among(sunny, overcast), 0.25);
+}
+
+}  // namespace
+}  // namespace pleinair::compositor

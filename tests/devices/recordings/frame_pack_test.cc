@@ -1,0 +1,200 @@
+#include "devices/recordings/frame_pack.h"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "devices/recordings/recording.h"
+#include "tests/temporary_folder.h"
+
+namespace pleinair::devices {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr PictureSize kSize{8, 4};
+constexpr std::int64_t kStart_ns = 5'000'000'000;
+
+Frame MakeFrame(int number) {
+  RawPicture raw;
+  raw.format = PixelFormat::kYuyv;
+  raw.width = kSize.width;
+  raw.height = kSize.height;
+  raw.stride = 16;
+  raw.matrix = YuvMatrix::kBt709;
+  std::mt19937 random(static_cast<unsigned>(number));
+  raw.bytes.resize(64);
+  for (std::uint8_t& byte : raw.bytes) byte = static_cast<std::uint8_t>(random());
+  Frame frame;
+  frame.index = number;
+  frame.timestamp_ns = kStart_ns + number * 40'000'000LL;
+  frame.stamp_meaning = StampMeaning::kExposureStart;
+  frame.arrival_ns = frame.timestamp_ns + 7'000'000;
+  frame.device_timestamp_ns = 99 + number;
+  frame.exposure_s = 0.01 + 0.001 * number;
+  frame.gain = 2.5;
+  frame.loss = {.by_number = number % 3, .not_taken = 1};
+  frame.lost_before = frame.loss.Total();
+  Picture picture;
+  EXPECT_TRUE(ConvertRawPicture(raw, &picture));
+  frame.rgb = picture.rgb;
+  frame.grey = picture.grey;
+  frame.raw = std::make_shared<const RawPicture>(std::move(raw));
+  return frame;
+}
+
+std::filesystem::path Record(const tests::TemporaryFolder& folder, int frames) {
+  const std::filesystem::path file = folder / "frames.pack";
+  const auto writer = FramePackWriter::Create(file);
+  EXPECT_TRUE(writer);
+  for (int i = 0; i < frames; ++i) EXPECT_TRUE((*writer)->Add(MakeFrame(i)));
+  EXPECT_EQ((*writer)->bytes(), static_cast<std::int64_t>(std::filesystem::file_size(file)));
+  return file;
+}
+
+std::string Bytes(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void ExpectSame(const Frame& read, int number) {
+  const Frame written = MakeFrame(number);
+  EXPECT_EQ(read.index, number);
+  EXPECT_EQ(read.timestamp_ns, written.timestamp_ns - kStart_ns);
+  EXPECT_EQ(read.arrival_ns, *written.arrival_ns - kStart_ns);
+  EXPECT_EQ(read.stamp_meaning, written.stamp_meaning);
+  EXPECT_EQ(read.device_timestamp_ns, written.device_timestamp_ns);
+  EXPECT_EQ(read.exposure_s, written.exposure_s);
+  EXPECT_EQ(read.gain, written.gain);
+  EXPECT_EQ(read.white_balance_k, std::nullopt);
+  EXPECT_EQ(read.loss, written.loss);
+  ASSERT_EQ(read.grey.size(), written.grey.size());
+  EXPECT_TRUE(
+      std::equal(read.grey.data(), read.grey.data() + read.grey.size(), written.grey.data()));
+  EXPECT_TRUE(std::equal(read.rgb.data(), read.rgb.data() + read.rgb.size(), written.rgb.data()));
+}
+
+TEST(FramePack, GivesBackEveryFrameAsItWas) {
+  const tests::TemporaryFolder folder;
+  const auto opened = OpenFramePack(Record(folder, 5), kSize);
+  ASSERT_TRUE(opened);
+  EXPECT_EQ(opened->dropped_bytes, 0);
+  EXPECT_NEAR(opened->frame_rate_hz, 25.0, 1e-9);
+  ASSERT_EQ(opened->frames->FrameCount(), 5);
+  for (int i = 0; i < 5; ++i) {
+    const auto frame = opened->frames->Next();
+    ASSERT_TRUE(frame && *frame);
+    ExpectSame(**frame, i);
+  }
+  EXPECT_FALSE(*opened->frames->Next());
+}
+
+TEST(FramePack, CutAtAnyByteOpensUpToItsLastWholeFrame) {
+  const tests::TemporaryFolder folder;
+  const std::string whole = Bytes(Record(folder, 3));
+  std::vector<std::size_t> ends;
+  for (int frames = 1; frames <= 3; ++frames) {
+    const tests::TemporaryFolder part;
+    ends.push_back(Bytes(Record(part, frames)).size());
+  }
+  for (std::size_t length = 0; length <= whole.size(); ++length) {
+    const auto file = folder.Write("cut.pack", whole.substr(0, length));
+    const auto opened = OpenFramePack(file, kSize);
+    const auto expected = static_cast<std::int64_t>(
+        std::count_if(ends.begin(), ends.end(), [&](std::size_t end) { return end <= length; }));
+    ASSERT_EQ(opened.has_value(), expected > 0) << "cut at " << length;
+    if (!opened) continue;
+    ASSERT_EQ(opened->frames->FrameCount(), expected) << "cut at " << length;
+    ASSERT_EQ(opened->dropped_bytes,
+              static_cast<std::int64_t>(length - ends[static_cast<std::size_t>(expected - 1)]));
+    for (int i = 0; i < expected; ++i) {
+      const auto frame = opened->frames->Next();
+      ASSERT_TRUE(frame && *frame);
+      ExpectSame(**frame, i);
+    }
+  }
+}
+
+TEST(FramePack, WhoseLastBytesNeverReachedTheDiskOpensUpToTheLastWholeFrame) {
+  const tests::TemporaryFolder folder;
+  const std::string whole = Bytes(Record(folder, 3));
+  const std::size_t two = [] {
+    const tests::TemporaryFolder part;
+    return Bytes(Record(part, 2)).size();
+  }();
+  for (std::size_t lost = 1; lost < whole.size() - two; lost += 5) {
+    std::string zeroed = whole;
+    std::fill(zeroed.end() - static_cast<long>(lost), zeroed.end(), '\0');
+    const auto opened = OpenFramePack(folder.Write("zeroed.pack", zeroed), kSize);
+    ASSERT_TRUE(opened);
+    ASSERT_EQ(opened->frames->FrameCount(), 2) << lost << " bytes are zero";
+  }
+}
+
+TEST(FramePack, DamagedInTheMiddleIsToldAndNotPassedOver) {
+  const tests::TemporaryFolder folder;
+  std::string bytes = Bytes(Record(folder, 3));
+  const std::size_t one = [] {
+    const tests::TemporaryFolder part;
+    return Bytes(Record(part, 1)).size();
+  }();
+  bytes[one + 200] = static_cast<char>(bytes[one + 200] ^ 1);
+  const auto opened = OpenFramePack(folder.Write("damaged.pack", bytes), kSize);
+  ASSERT_TRUE(opened);
+  ASSERT_TRUE(opened->frames->Next());
+  const auto second = opened->frames->Next();
+  ASSERT_FALSE(second);
+  EXPECT_THAT(second.error().Message(), HasSubstr("frame 1: is damaged"));
+}
+
+TEST(FramePack, OnAFullDiskEndsWithTheFrameBeforeAndSaysSo) {
+  const tests::TemporaryFolder folder;
+  const auto writer = FramePackWriter::Create(folder / "frames.pack");
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE((*writer)->Add(MakeFrame(0)));
+  // As a full disk does, a limit on the file's size lets a part of the write through.
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{static_cast<rlim_t>((*writer)->bytes() + 100), before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto full = (*writer)->Add(MakeFrame(1));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(full);
+  EXPECT_THAT(full.error().Message(), HasSubstr("free some space"));
+  EXPECT_FALSE((*writer)->Add(MakeFrame(2)));
+  const auto opened = OpenFramePack(folder / "frames.pack", kSize);
+  ASSERT_TRUE(opened);
+  EXPECT_EQ(opened->frames->FrameCount(), 1);
+  EXPECT_EQ(opened->dropped_bytes, 0);
+}
+
+TEST(FramePack, NeverReplacesOneThatIsThere) {
+  const tests::TemporaryFolder folder;
+  const auto file = Record(folder, 1);
+  const auto again = FramePackWriter::Create(file);
+  ASSERT_FALSE(again);
+  EXPECT_THAT(again.error().what, HasSubstr("already"));
+}
+
+TEST(FramePack, OpensAsARecordingByItsContent) {
+  const tests::TemporaryFolder folder;
+  Record(folder, 4);
+  folder.Write("recording.json",
+               R"({"frames":"frames.pack","calibration":{"image_width":8,"image_height":4,)"
+               R"("fx":8,"fy":8,"cx":3.5,"cy":1.5}})");
+  const auto recording = OpenRecording(folder.path());
+  ASSERT_TRUE(recording) << recording.error().Message();
+  EXPECT_EQ(recording->frames->FrameCount(), 4);
+  EXPECT_NEAR(recording->frame_rate_hz, 25.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace pleinair::devices

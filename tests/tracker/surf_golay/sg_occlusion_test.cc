@@ -1,0 +1,388 @@
+// S-G markers that are partly covered, shadowed or dazzled.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/tracker/surf_golay/sg_test_scenes.h"
+#include "tracker/surf_golay/sg_layout.h"
+
+namespace pleinair::tracker {
+namespace {
+
+/// Whether a point of the print (modules of the black square) is covered.
+using Cover = std::function<bool(Vec2 modules)>;
+
+constexpr double kSkin = 0.30;  ///< Linear light, between the print's black and white.
+
+void Lay(const Cover& cover, RenderedMarker* marker, double light = kSkin) {
+  marker->cover = [cover, light](Vec2 at) { return cover(ModulesOf(at)) ? light : -1.0; };
+}
+
+/// The share of the border (the square without its content) that is covered.
+double BorderShare(const Cover& cover) {
+  int covered = 0, all = 0;
+  const auto central = [](int at) { return at >= 10 * 4 && at < 30 * 4; };
+  for (int y = 0; y < sg::kEdge * 4; ++y) {
+    for (int x = 0; x < sg::kEdge * 4; ++x) {
+      if (central(x) && central(y)) continue;
+      ++all;
+      covered += cover({(x + 0.5) / 4, (y + 0.5) / 4});
+    }
+  }
+  return static_cast<double>(covered) / all;
+}
+
+/// How far a point is inside the square's side that is nearest.
+double Inwards(double at) { return std::min(at, sg::kEdge - at); }
+
+bool FourCorners(Vec2 p) { return Inwards(p.x) < 11 && Inwards(p.y) < 11; }
+bool OneCorner(Vec2 p) { return p.x + p.y < 34; }
+bool LeftSide(Vec2 p) { return p.x < 9.5; }
+bool BottomSide(Vec2 p) { return p.y > 30.5; }
+bool TwoOppositeSides(Vec2 p) { return Inwards(p.x) < 6; }
+bool TwoOppositeCorners(Vec2 p) { return p.x + p.y < 24 || p.x + p.y > 56; }
+bool MiddlesOfAllSides(Vec2 p) {
+  return (std::fabs(p.x - 20) < 6 || std::fabs(p.y - 20) < 6) &&
+         (Inwards(p.x) < 9 || Inwards(p.y) < 9);
+}
+
+struct CoveredBorder {
+  const char* name;
+  bool (*cover)(Vec2);
+};
+constexpr CoveredBorder kCoveredBorders[] = {
+    {"four corners", FourCorners},
+    {"one corner", OneCorner},
+    {"left side", LeftSide},
+    {"bottom side", BottomSide},
+    {"two opposite sides", TwoOppositeSides},
+    {"two opposite corners", TwoOppositeCorners},
+    {"middles of all sides", MiddlesOfAllSides},
+};
+
+TEST(SgOcclusion, FindsBordersThatAreAThirdToAHalfCoveredByTheirKeypoints) {
+  const CameraModel camera = SgCamera();
+  const auto hybrid = MakeSgTracker(camera);
+  const auto fast = MakeSgTracker(camera, {.strategy = SgStrategy::kFast});
+  const auto keypoints = MakeSgTracker(camera, {.strategy = SgStrategy::kSurfGolay});
+  std::uint32_t seed = 1;
+  for (const auto& [name, cover] : kCoveredBorders) {
+    SCOPED_TRACE(name);
+    ASSERT_GT(BorderShare(cover), 0.28);
+    ASSERT_LT(BorderShare(cover), 0.52);
+    RenderedMarker marker = SgMarkerAt(camera, 2000, {161, 118}, 130, 20, 30.0 * seed, 15);
+    Lay(cover, &marker);
+    const GreyImage picture =
+        RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++});
+    for (Tracker* const tracker : {hybrid.get(), keypoints.get()}) {
+      const auto found = Track(tracker, picture);
+      ASSERT_EQ(found.size(), 1U) << (tracker == hybrid.get() ? "hybrid" : "surf-golay");
+      EXPECT_EQ(found[0].detection.id, 2000);
+      EXPECT_EQ(found[0].detection.path, DetectionPath::kSurfGolay);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.1);
+      EXPECT_LT(found[0].detection.visible_fraction, 0.85);
+    }
+    const auto none = Track(fast.get(), picture);
+    EXPECT_TRUE(none.empty()) << Summary(none);
+  }
+}
+
+/// Hands that leave little more than the cells to be seen.
+constexpr CoveredBorder kHiddenBorders[] = {
+    {"a cross is seen",
+     [](Vec2 p) {
+       return Inwards(p.x) < 15 && Inwards(p.y) < 15 && (Inwards(p.x) < 10 || Inwards(p.y) < 10);
+     }},
+    {"the upper middle is seen",
+     [](Vec2 p) { return (Inwards(p.x) < 9.5 || p.y > 30.5) || (p.y < 9.5 && p.x < 14); }},
+    {"two corners are seen",
+     [](Vec2 p) {
+       const bool border = Inwards(p.x) < 9.5 || Inwards(p.y) < 9.5;
+       return border && std::fabs(p.x - p.y) < 24;
+     }},
+};
+
+TEST(SgOcclusion, FindsBordersThatAreMostlyCoveredByTheCornersOfTheCells) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  std::uint32_t seed = 1;
+  for (const auto& [name, cover] : kHiddenBorders) {
+    for (const int number : {169, 2032, 3814}) {
+      SCOPED_TRACE(testing::Message() << name << ", " << number);
+      ASSERT_GT(BorderShare(cover), 0.6);
+      RenderedMarker marker = SgMarkerAt(camera, number, {161, 118}, 130, 20, 30.0 * seed, 15);
+      Lay(cover, &marker);
+      const auto found = Track(
+          tracker.get(),
+          RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found[0].detection.id, number);
+      EXPECT_EQ(found[0].detection.path, DetectionPath::kSurfGolay);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.3);
+    }
+  }
+}
+
+TEST(SgOcclusion, FindsBordersUnderCoversThatLookLikeInkOrPaper) {
+  // What looks like the print has edges that pass for its own, and beneath ink the border seems to
+  // go on where it does not: only what surely is not covered tells the place.
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  struct {
+    const char* name;
+    Cover cover;
+    double light;
+  } const covers[] = {
+      {"a cross is seen",
+       [](Vec2 p) {
+         const bool corner = Inwards(p.x) < 16 && Inwards(p.y) < 16;
+         return corner && (Inwards(p.x) < 10 || Inwards(p.y) < 10);
+       },
+       0.06},
+      {"four corners are hidden", [](Vec2 p) { return Inwards(p.x) < 13 && Inwards(p.y) < 13; },
+       0.05},
+      {"bars of paper along two sides", [](Vec2 p) { return p.y < 9.5 || p.y > 30.5; }, 0.75},
+  };
+  std::uint32_t seed = 1;
+  for (const auto& [name, cover, light] : covers) {
+    for (const int number : {169, 2032, 3814}) {
+      SCOPED_TRACE(testing::Message() << name << ", " << number);
+      ASSERT_GT(BorderShare(cover), 0.4);
+      RenderedMarker marker = SgMarkerAt(camera, number, {161, 118}, 130, 20, 30.0 * seed, 15);
+      Lay(cover, &marker, light);
+      const auto found = Track(
+          tracker.get(),
+          RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found[0].detection.id, number);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.1);
+    }
+  }
+}
+
+struct CoveredContent {
+  const char* name;
+  bool (*cover)(Vec2);
+};
+constexpr CoveredContent kCoveredContents[] = {
+    {"a row of cells", [](Vec2 p) { return p.x > 10 && p.x < 30 && p.y > 14 && p.y < 18; }},
+    {"a bar beside the cells' edges",
+     [](Vec2 p) { return p.x > 15.5 && p.x < 19.5 && p.y > 9.5 && p.y < 30.5; }},
+    {"a corner", [](Vec2 p) { return p.x > 21 && p.x < 30 && p.y > 21 && p.y < 30; }},
+    {"a round blot",
+     [](Vec2 p) {
+       return Norm(p - Vec2{18, 21}) < 5;
+     }},
+};
+
+TEST(SgOcclusion, ReadsTheNumberWithAFifthOfTheContentCovered) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera, {.strategy = SgStrategy::kFast});
+  std::uint32_t seed = 1;
+  for (const auto& [name, cover] : kCoveredContents) {
+    for (const double light : {0.02, 0.12, kSkin, 0.5, 0.85}) {
+      for (const int number : {17, 2741}) {
+        SCOPED_TRACE(testing::Message() << name << " of light " << light << ", " << number);
+        RenderedMarker marker = SgMarkerAt(camera, number, {161, 118}, 110, 25, 30.0 * seed, 15);
+        Lay(cover, &marker, light);
+        const auto found = Track(
+            tracker.get(),
+            RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
+        // What is as black or as white as the print may hide the number, but not turn it into
+        // another.
+        const bool like_print = light < 0.1 || light > 0.7;
+        EXPECT_LE(found.size(), 1U);
+        if (!like_print) {
+          EXPECT_EQ(found.size(), 1U);
+        }
+        for (const Sighting& sighting : found) {
+          EXPECT_EQ(sighting.detection.id, number);
+          EXPECT_LT(CornerRms(sighting, TrueCorners(camera, marker)), 0.1);
+        }
+      }
+    }
+  }
+}
+
+TEST(SgOcclusion, FindsMarkersCrossedByAHardShadowOfOneToSixteen) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  std::uint32_t seed = 1;
+  for (const double direction_deg : {0.0, 50.0, 110.0, 230.0}) {
+    for (const double offset_px : {-20.0, 15.0}) {
+      SCOPED_TRACE(testing::Message()
+                   << "edge at " << direction_deg << "°, " << offset_px << " px");
+      const RenderedMarker marker = SgMarkerAt(camera, 801, {161, 118}, 110, 20, 30.0 * seed, 10);
+      const double c = std::cos(FromDegrees(direction_deg).value());
+      const double s = std::sin(FromDegrees(direction_deg).value());
+      RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++};
+      options.light = [=](Vec2 pixel) {
+        return (pixel.x - 161) * c + (pixel.y - 118) * s > offset_px ? 1.0 : 1.0 / 16.0;
+      };
+      const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found[0].detection.id, 801);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.3);
+    }
+  }
+}
+
+// Light that changes within blocks draws the corners, also where something lies on the print.
+// In the shade noise is large, and what is predicted of it certain: light from beyond the edge in
+// the same block must not be taken for as certain. (So it drew corners by up to 4 px.)
+TEST(SgOcclusion, MeasuresANoisyPrintInTheShadeOfAHardEdge) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  const auto tracker = MakeSgTracker(camera);
+  const Vec2 centre{80, 75};
+  std::uint32_t seed = 1;
+  for (const double edge_px : {27.0, 38.0}) {
+    for (const double angle : {0.6, 2.2, 3.8, 5.4}) {
+      SCOPED_TRACE(testing::Message()
+                   << "light " << edge_px << " px from the middle, at " << angle);
+      const RenderedMarker marker =
+          SgMarkerAt(camera, 493, centre, 110, 25, 100.0 * seed, 25.0 * seed);
+      RenderingOptions options{.blur_px = 0.5, .noise_codes = 3.5, .seed = seed++};
+      options.light = [=](Vec2 pixel) {
+        const Vec2 from = pixel - centre;
+        return from.x * std::cos(angle) + from.y * std::sin(angle) > edge_px ? 1.0 : 1.0 / 32;
+      };
+      const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found[0].detection.id, 493);
+      EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.25);
+    }
+  }
+}
+
+TEST(SgOcclusion, MeasuresAPrintWithACoveredCornerUnderAGradient) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  constexpr int kPictures = 5;
+  double squares = 0.0;
+  for (std::uint32_t seed = 1; seed <= kPictures; ++seed) {
+    SCOPED_TRACE(seed);
+    RenderedMarker marker = SgMarkerAt(camera, 801, {161, 118}, 110, 20, 30.0 * seed, 15);
+    Lay([](Vec2 p) { return p.x + p.y < 26; }, &marker);
+    RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0, .seed = seed};
+    // Ten to one across the print, without clipping.
+    options.light = [](Vec2 pixel) { return 0.2 * std::exp2(0.03 * (pixel.x - 161)); };
+    const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 801);
+    EXPECT_LT(found[0].detection.visible_fraction, 0.93) << "measured as covered";
+    const double rms = CornerRms(found[0], TrueCorners(camera, marker));
+    squares += rms * rms;
+  }
+  EXPECT_LT(std::sqrt(squares / kPictures), 0.06);
+}
+
+TEST(SgOcclusion, FindsMarkersWithGlareOnAFifth) {
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  std::uint32_t seed = 1;
+  for (const Vec2 spot : {Vec2{127, 90}, Vec2{196, 146}, Vec2{161, 174}}) {
+    SCOPED_TRACE(testing::Message() << "spot at " << spot.x << ", " << spot.y);
+    const RenderedMarker marker = SgMarkerAt(camera, 3110, {161, 118}, 110, 20, 30.0 * seed, 10);
+    RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++};
+    // Drowned within 28 px of the spot: π 28² is a fifth of 110².
+    options.glare = [=](Vec2 pixel) {
+      const double away = Norm(pixel - spot) / 28.0;
+      return 2.0 * std::exp(-0.7 * std::pow(away, 4));
+    };
+    const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 3110);
+    EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.5);
+  }
+}
+
+// What the content alone tells may lie far off where most of it is drowned, and be cut into other
+// blocks, which explain no more than those of the border's fit.
+TEST(SgOcclusion, MeasuresAnOpenBorderWithGlareOnTheCells) {
+  const CameraModel camera = SgCamera(160, 150, 300);
+  const auto tracker = MakeSgTracker(camera);
+  const RenderedMarker marker = SgMarkerAt(camera, 1141, {80, 75}, 110, 20, 50, 8);
+  for (const Vec2 middle : {Vec2{56, 75}, Vec2{56, 87}, Vec2{68, 87}}) {
+    SCOPED_TRACE(testing::Message() << "spot at " << middle.x << ", " << middle.y);
+    RenderingOptions options{.blur_px = 0.55, .noise_codes = 0.7};
+    options.glare = [=](Vec2 pixel) {
+      return 1.6 * std::exp2(-std::pow(Norm(pixel - middle) / 19.0, 4.0));
+    };
+    const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 1141);
+    EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.03);
+  }
+}
+
+// Twelve plain cells pick one of 4,096 numbers and prove nothing beyond; on a border that is
+// plainly a marker's they are enough, where light drowns the others.
+TEST(SgOcclusion, ReadsTheNumberWhereGlareLeavesHalfOfTheCells) {
+  struct {
+    Vec2 middle;
+    double radius_px;
+  } constexpr kSpots[] = {{{58, 86}, 36}, {{113, 75}, 39}, {{102, 97}, 39}};
+  const CameraModel camera = SgCamera(160, 150, 300);
+  const auto tracker = MakeSgTracker(camera);
+  const RenderedMarker marker = SgMarkerAt(camera, 1465, {80, 75}, 110, 20, 50, 8);
+  for (const auto& spot : kSpots) {
+    SCOPED_TRACE(testing::Message() << "spot at " << spot.middle.x << ", " << spot.middle.y);
+    RenderingOptions options{.blur_px = 0.55, .noise_codes = 0.7};
+    options.glare = [&](Vec2 pixel) {
+      return 1.6 * std::exp2(-std::pow(Norm(pixel - spot.middle) / spot.radius_px, 4.0));
+    };
+    const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 1465);
+    EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.2);
+  }
+}
+
+TEST(SgOcclusion, TellsWhichPartsOfThePrintAreSeen) {
+  const CameraModel camera = SgCamera(360, 330);
+  const auto tracker = MakeSgTracker(camera);
+  std::uint32_t seed = 1;
+  for (const double side_px : {70.0, 120.0, 210.0}) {
+    for (const auto& [name, cover] : {CoveredBorder{"left side", LeftSide},
+                                      CoveredBorder{"two opposite corners", TwoOppositeCorners},
+                                      CoveredBorder{"nothing", [](Vec2) { return false; }}}) {
+      SCOPED_TRACE(testing::Message() << name << ", edge " << side_px << " px");
+      RenderedMarker marker = SgMarkerAt(camera, 66, {178, 166}, side_px, 20, 50, 5);
+      Lay(cover, &marker);
+      const auto found = Track(
+          tracker.get(),
+          RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
+      ASSERT_EQ(found.size(), 1U);
+      const MarkerDetection& detection = found[0].detection;
+      const int side = detection.visibility_side;
+      ASSERT_GE(side, 4);
+      ASSERT_EQ(detection.visibility.size(), static_cast<std::size_t>(side) * side);
+      const double block = static_cast<double>(sg::kPrint) / side;
+      double seen = 0.0;
+      for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+          int covered = 0;
+          constexpr int kProbes = 9;
+          for (int i = 0; i < kProbes * kProbes; ++i) {
+            covered += cover({(column + (i % kProbes + 0.5) / kProbes) * block - sg::kQuiet,
+                              (row + (i / kProbes + 0.5) / kProbes) * block - sg::kQuiet});
+          }
+          const float visibility = detection.visibility[row * side + column];
+          SCOPED_TRACE(testing::Message() << "block " << column << ", " << row << " of " << side);
+          if (covered == kProbes * kProbes) {
+            EXPECT_LT(visibility, 0.3F);
+          }
+          if (covered == 0) {
+            EXPECT_GT(visibility, 0.7F);
+          }
+          seen += 1.0 - covered / static_cast<double>(kProbes * kProbes);
+        }
+      }
+      EXPECT_NEAR(detection.visible_fraction, seen / (side * side), 0.15);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::tracker
