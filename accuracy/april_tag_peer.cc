@@ -33,8 +33,8 @@ constexpr std::array<Family, 4> kFamilies{{
 struct FreeDetector {
   void operator()(apriltag_detector_t* detector) const { apriltag_detector_destroy(detector); }
 };
-struct FreePicture {
-  void operator()(image_u8_t* picture) const { image_u8_destroy(picture); }
+struct FreeImage {
+  void operator()(image_u8_t* image) const { image_u8_destroy(image); }
 };
 
 class AprilTagPeer final : public Detector {
@@ -45,24 +45,24 @@ class AprilTagPeer final : public Detector {
         name_(family.name),
         family_(family.create(), family.destroy),
         detector_(apriltag_detector_create()),
-        picture_(image_u8_create(camera.width, camera.height)) {
+        image_(image_u8_create(camera.width, camera.height)) {
     apriltag_detector_add_family(detector_.get(), family_.get());
     detector_->nthreads = 1;
   }
 
-  PrintsByNumber Prints() const override {
+  PatternByNumber Patterns() const override {
     return [name = name_](int number) { return tracker::AprilTagPattern(name, number); };
   }
 
   Result<void> Start(bool /*film*/) override { return {}; }
 
-  Result<Seen> Detect(ImageView<const std::uint8_t> grey) override {
+  Result<Detections> Detect(ImageView<const std::uint8_t> grey) override {
     for (int y = 0; y < grey.height(); ++y) {
-      std::memcpy(picture_->buf + y * picture_->stride, grey.row(y), grey.width());
+      std::memcpy(image_->buf + y * image_->stride, grey.row(y), grey.width());
     }
-    Seen seen;
+    Detections seen;
     const auto start = std::chrono::steady_clock::now();
-    zarray_t* found = apriltag_detector_detect(detector_.get(), picture_.get());
+    zarray_t* found = apriltag_detector_detect(detector_.get(), image_.get());
     const std::chrono::duration<double, std::milli> taken =
         std::chrono::steady_clock::now() - start;
     seen.stages_ms.emplace_back("detect", taken.count());
@@ -88,7 +88,7 @@ class AprilTagPeer final : public Detector {
   const char* const name_;
   std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family_;
   std::unique_ptr<apriltag_detector_t, FreeDetector> detector_;
-  std::unique_ptr<image_u8_t, FreePicture> picture_;
+  std::unique_ptr<image_u8_t, FreeImage> image_;
 };
 
 }  // namespace

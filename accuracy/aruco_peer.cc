@@ -35,15 +35,15 @@ class ArucoPeer final : public Detector {
     parameters_->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
   }
 
-  PrintsByNumber Prints() const override {
+  PatternByNumber Patterns() const override {
     if (family_.turns != 0) {
       return [name = family_.name](int number) { return tracker::AprilTagPattern(name, number); };
     }
     return [dictionary = dictionary_,
-            edge = family_.bits + 2](int number) -> std::shared_ptr<const tracker::PrintPattern> {
+            edge = family_.bits + 2](int number) -> std::shared_ptr<const tracker::MarkerPattern> {
       cv::Mat drawn;
       cv::aruco::drawMarker(dictionary, number, edge, drawn);
-      auto pattern = std::make_shared<tracker::PrintPattern>();
+      auto pattern = std::make_shared<tracker::MarkerPattern>();
       pattern->modules = edge + 2 * kQuiet;
       pattern->edge_modules = edge;
       pattern->white.assign(static_cast<std::size_t>(pattern->modules) * pattern->modules, 1);
@@ -59,14 +59,14 @@ class ArucoPeer final : public Detector {
 
   Result<void> Start(bool /*film*/) override { return {}; }
 
-  Result<Seen> Detect(ImageView<const std::uint8_t> grey) override {
-    const cv::Mat picture(grey.height(), grey.width(), CV_8U,
-                          const_cast<std::uint8_t*>(grey.data()), grey.stride());
+  Result<Detections> Detect(ImageView<const std::uint8_t> grey) override {
+    const cv::Mat image(grey.height(), grey.width(), CV_8U, const_cast<std::uint8_t*>(grey.data()),
+                        grey.stride());
     std::vector<std::vector<cv::Point2f>> corners;
     std::vector<int> numbers;
-    Seen seen;
+    Detections seen;
     const auto start = std::chrono::steady_clock::now();
-    cv::aruco::detectMarkers(picture, dictionary_, corners, numbers, parameters_);
+    cv::aruco::detectMarkers(image, dictionary_, corners, numbers, parameters_);
     const std::chrono::duration<double, std::milli> taken =
         std::chrono::steady_clock::now() - start;
     seen.stages_ms.emplace_back("detect", taken.count());

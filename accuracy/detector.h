@@ -21,19 +21,19 @@ class Detector {
   virtual ~Detector() = default;
 
   /// The print that it reads; the scenes are rendered with it.
-  virtual PrintsByNumber Prints() const = 0;
+  virtual PatternByNumber Patterns() const = 0;
 
   /// A single picture comes next, or the first frame of a film. What was seen before must not
   /// matter.
   virtual Result<void> Start(bool film) = 0;
 
   /// What it sees, with the time of each of its stages.
-  struct Seen {
+  struct Detections {
     std::vector<Detected> markers;
     int lost = 0;
     std::vector<std::pair<std::string, double>> stages_ms;
   };
-  virtual Result<Seen> Detect(ImageView<const std::uint8_t> grey) = 0;
+  virtual Result<Detections> Detect(ImageView<const std::uint8_t> grey) = 0;
 };
 
 /// AprilTag 3 as its library comes (quad_decimate 2, one thread), for one of its families; null for

@@ -54,7 +54,7 @@ constexpr std::array<double, 8> kF{1.0,
                                    2.04426310338993978564e-15};
 
 // Of continued fractions and series.
-constexpr int kMostTerms = 100000;
+constexpr int kMaxTerms = 100000;
 constexpr double kDone = 1e-16, kTiny = 1e-300;
 
 /// Regularised lower incomplete gamma function P(a, x).
@@ -62,7 +62,7 @@ double LowerGamma(double a, double x) {
   const double log_front = a * std::log(x) - x - std::lgamma(a);
   if (x < a + 1.0) {  // A&S 6.5.29.
     double term = 1.0 / a, sum = term;
-    for (int i = 1; i < kMostTerms && term > sum * kDone; ++i) {
+    for (int i = 1; i < kMaxTerms && term > sum * kDone; ++i) {
       term *= x / (a + i);
       sum += term;
     }
@@ -70,7 +70,7 @@ double LowerGamma(double a, double x) {
   }
   // A&S 6.5.31, evaluated forwards after Lentz.
   double b = x + 1.0 - a, c = 1.0 / kTiny, d = 1.0 / b, fraction = d;
-  for (int i = 1; i < kMostTerms; ++i) {
+  for (int i = 1; i < kMaxTerms; ++i) {
     const double an = -i * (i - a);
     b += 2.0;
     d = an * d + b;
@@ -91,7 +91,7 @@ double LowerBeta(double x, double a, double b) {
   const double log_front = std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) +
                            b * std::log1p(-x) - std::log(a);
   double c = 1.0 / kTiny, d = 1.0, fraction = 1.0;
-  for (int i = 1; i < kMostTerms; ++i) {
+  for (int i = 1; i < kMaxTerms; ++i) {
     const int m = i / 2;
     const double term = i % 2 == 0 ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
                                    : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));

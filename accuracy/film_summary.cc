@@ -103,7 +103,7 @@ FilmSummary SummarizeFilm(const std::vector<const FrameRecord*>& frames) {
 }  // namespace
 
 std::vector<JitterSummary> SummarizeJitter(const std::vector<FrameRecord>& records) {
-  constexpr std::size_t kLeast = 5;
+  constexpr std::size_t kMin = 5;
   std::map<std::tuple<std::string, std::string, double>, std::vector<const MarkerRecord*>> cells;
   for (const FrameRecord& record : records) {
     if (record.sweep != "jitter") continue;
@@ -114,7 +114,7 @@ std::vector<JitterSummary> SummarizeJitter(const std::vector<FrameRecord>& recor
   }
   std::vector<JitterSummary> summaries;
   for (const auto& [key, hits] : cells) {
-    if (hits.size() < kLeast) continue;
+    if (hits.size() < kMin) continue;
     JitterSummary summary = JitterOf(hits);
     summary.detector = std::get<0>(key);
     summary.pattern = std::get<1>(key);

@@ -24,7 +24,7 @@ struct PoseRecord {
   double rotation_error_deg = 0.0;
   double translation_error_m = 0.0;
   /// Normalised estimation error squared: eᵀ C⁻¹ e with the detector's covariance C of its six
-  /// errors e (tracker/sighting.h), where it gives one.
+  /// errors e (tracker/observation.h), where it gives one.
   std::optional<double> nees{};
   double ambiguity_ratio = 0.0;  ///< 0 where there was no second solution.
   /// Rotation error of the second solution, where there is one.

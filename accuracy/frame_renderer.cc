@@ -84,31 +84,31 @@ struct FrameRenderer::LensRays {
   std::vector<Ray> rays;
 };
 
-FrameRenderer::FrameRenderer(const CameraModel& camera, PrintsByNumber prints, std::uint64_t seed,
-                             std::uint64_t noise_seed)
+FrameRenderer::FrameRenderer(const CameraModel& camera, PatternByNumber patterns,
+                             std::uint64_t seed, std::uint64_t noise_seed)
     : camera_(camera),
-      prints_(std::move(prints)),
+      patterns_(std::move(patterns)),
       seed_(seed),
       noise_seed_(noise_seed),
       rays_(std::make_unique<LensRays>(camera)),
-      art_(kNumbers) {}
+      textures_(kNumbers) {}
 
 FrameRenderer::~FrameRenderer() = default;
 
-const MarkerArt& FrameRenderer::ArtOf(int number) {
+const MarkerTexture& FrameRenderer::TextureOf(int number) {
   CHECK_LT(number, kNumbers);
-  if (!art_[number]) {
-    const auto pattern = prints_(number);
+  if (!textures_[number]) {
+    const auto pattern = patterns_(number);
     CHECK_EQ(pattern != nullptr, true);
-    art_[number] = std::make_unique<MarkerArt>(*pattern);
+    textures_[number] = std::make_unique<MarkerTexture>(*pattern);
   }
-  return *art_[number];
+  return *textures_[number];
 }
 
 void FrameRenderer::Paint(const MarkerSpec& marker, const Occluder* occluder,
                           const PhotoSpec& photo, Image<float>* picture) {
-  const MarkerArt& art = ArtOf(marker.number);
-  const double reach = std::max(art.extent(), occluder != nullptr ? occluder->extent : 0.0);
+  const MarkerTexture& texture = TextureOf(marker.number);
+  const double reach = std::max(texture.extent(), occluder != nullptr ? occluder->extent : 0.0);
   const PixelBox box = BoxOf(camera_, marker.camera_from_marker, kMarkerEdge, reach);
   const int rim = static_cast<int>(std::ceil(4.0 * photo.psf_px));
   const auto clamped = [](double at, int most) {
@@ -121,7 +121,7 @@ void FrameRenderer::Paint(const MarkerSpec& marker, const Occluder* occluder,
   Image<float> fine((right - left + 1) * kFine, (bottom - top + 1) * kFine);
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
-      PaintPixel(marker, art, occluder, photo.light, {x, y},
+      PaintPixel(marker, texture, occluder, photo.light, {x, y},
                  {(x - left) * kFine, (y - top) * kFine}, &fine);
     }
   }
@@ -137,10 +137,10 @@ void FrameRenderer::Paint(const MarkerSpec& marker, const Occluder* occluder,
   }
 }
 
-void FrameRenderer::PaintPixel(const MarkerSpec& marker, const MarkerArt& art,
+void FrameRenderer::PaintPixel(const MarkerSpec& marker, const MarkerTexture& texture,
                                const Occluder* occluder, double light, Place pixel, Place first,
                                Image<float>* fine) const {
-  const double modules_per_unit = art.modules() / (2.0 * art.extent());
+  const double modules_per_unit = texture.modules() / (2.0 * texture.extent());
   const Mat3 plane_from_rays = PlaneFromRays(marker.camera_from_marker, kMarkerEdge);
   const LensRays::Ray& ray = rays_->At(pixel.x, pixel.y);
   // How far neighbouring samples lie apart on the print.
@@ -157,10 +157,10 @@ void FrameRenderer::PaintPixel(const MarkerSpec& marker, const MarkerArt& art,
       const double dx = (i + 0.5) / kFine - 0.5, dy = (j + 0.5) / kFine - 0.5;
       const Vec2 at = tracker::Apply(plane_from_rays, ray.middle + ray.per_x * dx + ray.per_y * dy);
       double value = behind;
-      if (std::fabs(at.x) < art.extent() && std::fabs(at.y) < art.extent()) {
-        const Vec2 place{(at.x + art.extent()) * modules_per_unit,
-                         (art.extent() - at.y) * modules_per_unit};
-        value = light * (kInk + (kPaper - kInk) * art.White(place, half_width, half_height));
+      if (std::fabs(at.x) < texture.extent() && std::fabs(at.y) < texture.extent()) {
+        const Vec2 place{(at.x + texture.extent()) * modules_per_unit,
+                         (texture.extent() - at.y) * modules_per_unit};
+        value = light * (kInk + (kPaper - kInk) * texture.White(place, half_width, half_height));
       }
       if (occluder != nullptr) {
         const auto texel = [](double edges) {
@@ -214,14 +214,14 @@ void FrameRenderer::AddLightPatterns(const FrameSpec& frame, const MarkerTruth& 
 }
 
 Image<float> FrameRenderer::Expose(const PhotoSpec& photo, Image<float> light) const {
-  constexpr double kLeastDefocus_px = 0.3, kLeastMotion_px = 0.2;
+  constexpr double kMinDefocus_px = 0.3, kMinMotion_px = 0.2;
   if (photo.exposure != 1.0) {
     for (std::size_t i = 0; i < light.size(); ++i) {
       light.data()[i] *= static_cast<float>(photo.exposure);
     }
   }
-  if (photo.defocus_px > kLeastDefocus_px) light = DiscBlurred(light, photo.defocus_px);
-  if (photo.motion_px > kLeastMotion_px) {
+  if (photo.defocus_px > kMinDefocus_px) light = DiscBlurred(light, photo.defocus_px);
+  if (photo.motion_px > kMinMotion_px) {
     light = StreakBlurred(light, photo.motion_px, photo.motion_angle);
   }
   const double corner2 =

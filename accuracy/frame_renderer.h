@@ -16,7 +16,7 @@
 namespace pleinair::accuracy {
 
 /// Prints of one kind by number; null where it has no such number.
-using PrintsByNumber = std::function<std::shared_ptr<const tracker::PrintPattern>(int number)>;
+using PatternByNumber = std::function<std::shared_ptr<const tracker::MarkerPattern>(int number)>;
 
 /// What is known for certain of a marker in a frame.
 struct MarkerTruth {
@@ -39,7 +39,7 @@ struct RenderedFrame {
 class FrameRenderer {
  public:
   /// Every `seed` gives other backgrounds and occluders, every `noise_seed` another noise.
-  FrameRenderer(const CameraModel& camera, PrintsByNumber prints, std::uint64_t seed,
+  FrameRenderer(const CameraModel& camera, PatternByNumber patterns, std::uint64_t seed,
                 std::uint64_t noise_seed);
   ~FrameRenderer();
 
@@ -48,7 +48,7 @@ class FrameRenderer {
  private:
   struct LensRays;
 
-  const MarkerArt& ArtOf(int number);
+  const MarkerTexture& TextureOf(int number);
   struct Place {
     int x, y;
   };
@@ -56,17 +56,17 @@ class FrameRenderer {
   void Paint(const MarkerSpec& marker, const Occluder* occluder, const PhotoSpec& photo,
              Image<float>* picture);
   /// What the finer pixels of one pixel see, before the lens blurs it.
-  void PaintPixel(const MarkerSpec& marker, const MarkerArt& art, const Occluder* occluder,
+  void PaintPixel(const MarkerSpec& marker, const MarkerTexture& texture, const Occluder* occluder,
                   double light, Place pixel, Place first, Image<float>* fine) const;
   void AddLightPatterns(const FrameSpec& frame, const MarkerTruth& first, Image<float>* picture);
   Image<float> Expose(const PhotoSpec& photo, Image<float> light) const;
   GreyImage Develop(const FrameSpec& frame, const Image<float>& light) const;
 
   const CameraModel camera_;
-  const PrintsByNumber prints_;
+  const PatternByNumber patterns_;
   const std::uint64_t seed_, noise_seed_;
   std::unique_ptr<LensRays> rays_;
-  std::vector<std::unique_ptr<MarkerArt>> art_;
+  std::vector<std::unique_ptr<MarkerTexture>> textures_;
   std::string background_key_;  ///< Of the background kept from the frame before.
   Image<float> background_;
 };

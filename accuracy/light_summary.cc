@@ -16,20 +16,20 @@ LightFigure FigureOf(const std::vector<double>& scores) {
 
 }  // namespace
 
-std::vector<LightSummary> SummarizeLight(const std::vector<PictureRecord>& pictures) {
+std::vector<LightSummary> SummarizeLight(const std::vector<ImageRecord>& pictures) {
   std::vector<LightSummary> summaries;
-  for (const PictureRecord& picture : pictures) {
+  for (const ImageRecord& picture : pictures) {
     const auto same = [&](const LightSummary& one) { return one.recording == picture.recording; };
     if (std::none_of(summaries.begin(), summaries.end(), same)) {
       summaries.push_back({.recording = picture.recording});
     }
   }
   LightSummary all;
-  for (std::size_t measure = 0; measure < kPictureMeasures.size(); ++measure) {
+  for (std::size_t measure = 0; measure < kImageMeasures.size(); ++measure) {
     std::vector<double> means;
     for (LightSummary& summary : summaries) {
       std::vector<double> scores;
-      for (const PictureRecord& picture : pictures) {
+      for (const ImageRecord& picture : pictures) {
         if (picture.recording == summary.recording && picture.scores[measure]) {
           scores.push_back(*picture.scores[measure]);
         }
@@ -42,7 +42,7 @@ std::vector<LightSummary> SummarizeLight(const std::vector<PictureRecord>& pictu
   for (LightSummary& summary : summaries) {
     summary.pictures = std::count_if(
         pictures.begin(), pictures.end(),
-        [&](const PictureRecord& picture) { return picture.recording == summary.recording; });
+        [&](const ImageRecord& picture) { return picture.recording == summary.recording; });
   }
   all.pictures = static_cast<std::int64_t>(pictures.size());
   if (summaries.size() > 1) summaries.push_back(std::move(all));

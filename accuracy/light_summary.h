@@ -10,6 +10,6 @@ namespace pleinair::accuracy {
 
 /// Of each recording with composed pictures, in the order of these, and of all recordings where
 /// there are several.
-std::vector<LightSummary> SummarizeLight(const std::vector<PictureRecord>& pictures);
+std::vector<LightSummary> SummarizeLight(const std::vector<ImageRecord>& pictures);
 
 }  // namespace pleinair::accuracy

@@ -5,7 +5,7 @@
 
 namespace pleinair::accuracy {
 
-MarkerArt::MarkerArt(const tracker::PrintPattern& pattern)
+MarkerTexture::MarkerTexture(const tracker::MarkerPattern& pattern)
     : modules_(pattern.modules), extent_(pattern.Extent()) {
   const int side = modules_ + 1;
   sums_.assign(static_cast<std::size_t>(side) * side, 0.0);
@@ -18,7 +18,7 @@ MarkerArt::MarkerArt(const tracker::PrintPattern& pattern)
   }
 }
 
-double MarkerArt::Integral(double x, double y) const {
+double MarkerTexture::Integral(double x, double y) const {
   const int column = std::min(static_cast<int>(x), modules_ - 1);
   const int row = std::min(static_cast<int>(y), modules_ - 1);
   const double u = x - column, v = y - row;
@@ -27,15 +27,15 @@ double MarkerArt::Integral(double x, double y) const {
   return (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * below[0] + u * below[1]);
 }
 
-double MarkerArt::White(Vec2 at, double half_width, double half_height) const {
-  constexpr double kLeast = 1e-6;  // A box without area has no mean.
+double MarkerTexture::White(Vec2 at, double half_width, double half_height) const {
+  constexpr double kMin = 1e-6;  // A box without area has no mean.
   const auto inside = [this](double value) {
     return std::clamp(value, 0.0, static_cast<double>(modules_));
   };
-  const double left = inside(at.x - std::max(half_width, kLeast));
-  const double right = inside(at.x + std::max(half_width, kLeast));
-  const double top = inside(at.y - std::max(half_height, kLeast));
-  const double bottom = inside(at.y + std::max(half_height, kLeast));
+  const double left = inside(at.x - std::max(half_width, kMin));
+  const double right = inside(at.x + std::max(half_width, kMin));
+  const double top = inside(at.y - std::max(half_height, kMin));
+  const double bottom = inside(at.y + std::max(half_height, kMin));
   const double area = (right - left) * (bottom - top);
   if (!(area > 0.0)) return 1.0;
   return (Integral(right, bottom) - Integral(left, bottom) - Integral(right, top) +

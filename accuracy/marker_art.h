@@ -9,9 +9,9 @@ namespace pleinair::accuracy {
 
 /// A print as an integral over its modules, so that the mean over any upright box of it is exact:
 /// what the frames are sampled from. (Crow 1984, "Summed-area tables for texture mapping".)
-class MarkerArt {
+class MarkerTexture {
  public:
-  explicit MarkerArt(const tracker::PrintPattern& pattern);
+  explicit MarkerTexture(const tracker::MarkerPattern& pattern);
 
   double extent() const { return extent_; }  ///< Half edges.
   int modules() const { return modules_; }

@@ -56,11 +56,11 @@ Image<float> PaintFlat(RandomStream* random) {
 
 /// The soft shadow that it throws beside itself.
 Image<float> PaintShadow(const Image<float>& cover, RandomStream* random) {
-  constexpr double kSoftness = 0.02, kMostShift = 0.035;  // Edges.
+  constexpr double kSoftness = 0.02, kMaxShift = 0.035;  // Edges.
   const int dx = static_cast<int>(
-      std::lround(random->Uniform(-kMostShift, kMostShift) * Occluder::kTexelsPerEdge));
+      std::lround(random->Uniform(-kMaxShift, kMaxShift) * Occluder::kTexelsPerEdge));
   const int dy = static_cast<int>(
-      std::lround(random->Uniform(-kMostShift, kMostShift) * Occluder::kTexelsPerEdge));
+      std::lround(random->Uniform(-kMaxShift, kMaxShift) * Occluder::kTexelsPerEdge));
   const double depth = random->Uniform(.15, .45);
   const Image<float> soft = GaussianBlurred(cover, kSoftness * Occluder::kTexelsPerEdge);
   Image<float> shadow(kTexels, kTexels);
@@ -106,7 +106,7 @@ const std::vector<std::string>& ContentPatterns() {
   return kNames;
 }
 
-double LargestShare(const std::string& pattern) {
+double MaxShare(const std::string& pattern) {
   if (pattern == "corner1" || pattern == "sides2adj") return .55;
   if (pattern == "side1") return .32;
   if (pattern == "sides2opp") return .65;

@@ -15,7 +15,7 @@ const std::vector<std::string>& BorderPatterns();
 /// Patterns that are measured by the content: cblobs, cbar, cfinger (crosses the border), chand.
 const std::vector<std::string>& ContentPatterns();
 /// The largest share of the border (or content) that a pattern can cover.
-double LargestShare(const std::string& pattern);
+double MaxShare(const std::string& pattern);
 
 /// Shares of a marker that are covered, of the border, the content and all of it.
 struct CoveredShares {

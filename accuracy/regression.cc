@@ -165,32 +165,32 @@ void AddChanges(const std::string& sweep, const std::vector<Scene>& scenes,
 }
 
 /// Composed pictures that both runs have.
-void AddLightChanges(const std::vector<PictureRecord>& before,
-                     const std::vector<PictureRecord>& after, std::vector<Change>* changes) {
-  std::map<std::pair<std::string, std::string>, const PictureRecord*> after_by_name;
-  for (const PictureRecord& picture : after) {
+void AddLightChanges(const std::vector<ImageRecord>& before, const std::vector<ImageRecord>& after,
+                     std::vector<Change>* changes) {
+  std::map<std::pair<std::string, std::string>, const ImageRecord*> after_by_name;
+  for (const ImageRecord& picture : after) {
     after_by_name[{picture.recording, picture.picture}] = &picture;
   }
-  for (std::size_t i = 0; i < kPictureMeasures.size(); ++i) {
+  for (std::size_t i = 0; i < kImageMeasures.size(); ++i) {
     std::vector<double> old_scores, new_scores, worse, better;
-    for (const PictureRecord& picture : before) {
+    for (const ImageRecord& picture : before) {
       const auto other = after_by_name.find({picture.recording, picture.picture});
       if (other == after_by_name.end()) continue;
       const auto old_score = picture.scores[i], new_score = other->second->scores[i];
       if (!old_score || !new_score) continue;
       old_scores.push_back(*old_score);
       new_scores.push_back(*new_score);
-      const double sign = kPictureMeasures[i].more_is_worse ? 1.0 : -1.0;
+      const double sign = kImageMeasures[i].more_is_worse ? 1.0 : -1.0;
       worse.push_back(sign * (*new_score - *old_score));
       better.push_back(-worse.back());
     }
     if (worse.empty()) continue;
-    Change change{.sweep = "light", .measure = kPictureMeasures[i].name};
+    Change change{.sweep = "light", .measure = kImageMeasures[i].name};
     change.pairs = static_cast<std::int64_t>(worse.size());
     change.before = MeanOf(old_scores);
     change.after = MeanOf(new_scores);
-    change.p_worse = MeanGreater(worse, kPictureMeasures[i].smallest_change);
-    change.p_better = MeanGreater(better, kPictureMeasures[i].smallest_change);
+    change.p_worse = MeanGreater(worse, kImageMeasures[i].min_change);
+    change.p_better = MeanGreater(better, kImageMeasures[i].min_change);
     changes->push_back(std::move(change));
   }
 }

@@ -12,7 +12,7 @@ namespace pleinair::accuracy {
 struct Change {
   std::string sweep;       ///< "all": over all sweeps; "light": composed pictures.
   std::string measure;     ///< "rate", "misplaced", "false_numbers", "corner_px", "rotation_deg",
-                           ///< "translation_percent"; of "light" kPictureMeasures' names.
+                           ///< "translation_percent"; of "light" kImageMeasures' names.
   std::int64_t pairs = 0;  ///< Of scenes (frames, pictures) that were compared.
   double before = 0.0,
          after =

@@ -14,8 +14,8 @@ Mat3 RotationAbout(Vec3 axis, double angle) {
            t * y * z - s * x, t * x * z - s * y, t * y * z + s * x, t * z * z + c}};
 }
 
-Transform<Camera, Marker> PoseSeenAt(const CameraModel& camera, Vec2 centre_px, double side_px,
-                                     Metres size, Radians tilt, Radians tilt_axis, Radians roll) {
+Transform<Camera, Marker> PoseAtPixel(const CameraModel& camera, Vec2 centre_px, double side_px,
+                                      Metres size, Radians tilt, Radians tilt_axis, Radians roll) {
   const Vec2 ray = UndistortPixel(camera, centre_px);
   const Vec3 direction = Normalized(Vec3{ray.x, ray.y, 1.0});
   // Smallest turn that takes the optical axis to the line of sight.

@@ -13,8 +13,8 @@ Mat3 RotationAbout(Vec3 axis, double angle);
 
 /// The pose of a print seen at `centre_px` with its edge `side_px` long were it frontal, tilted by
 /// `tilt` about an axis at `tilt_axis` in its plane and turned in its plane by `roll`.
-Transform<Camera, Marker> PoseSeenAt(const CameraModel& camera, Vec2 centre_px, double side_px,
-                                     Metres size, Radians tilt, Radians tilt_axis, Radians roll);
+Transform<Camera, Marker> PoseAtPixel(const CameraModel& camera, Vec2 centre_px, double side_px,
+                                      Metres size, Radians tilt, Radians tilt_axis, Radians roll);
 
 /// Where the corners of a marker's square lie: top-left, then clockwise as the print is read.
 std::array<Vec2, 4> SquareCorners(const CameraModel& camera,
@@ -28,7 +28,7 @@ Mat3 PlaneFromRays(const Transform<Camera, Marker>& camera_from_marker, Metres s
 struct PixelBox {
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
 
-  bool Holds(int x, int y) const { return x >= left && x <= right && y >= top && y <= bottom; }
+  bool Contains(int x, int y) const { return x >= left && x <= right && y >= top && y <= bottom; }
 };
 
 /// The box of the square from -`extent` to `extent` half edges, with 3 px around it; all of the

@@ -102,8 +102,8 @@ double SignedRankGreater(const std::vector<double>& differences) {
     i = end;
   }
   const double n = static_cast<double>(kept.size());
-  constexpr std::size_t kMostExact = 25;
-  if (!ties && kept.size() <= kMostExact) {
+  constexpr std::size_t kMaxExact = 25;
+  if (!ties && kept.size() <= kMaxExact) {
     return ExactRankSumGreater(static_cast<int>(kept.size()),
                                static_cast<int>(std::lround(positive)));
   }

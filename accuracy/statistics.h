@@ -10,7 +10,7 @@ namespace pleinair::accuracy {
 
 struct Interval {
   double low = 0.0, high = 0.0;
-  bool Holds(double value) const { return value >= low && value <= high; }
+  bool Contains(double value) const { return value >= low && value <= high; }
 };
 
 /// Confidence of all intervals here unless said otherwise.

@@ -163,7 +163,7 @@ ErrorMap MapErrors(const std::vector<FrameRecord>& records, const std::string& d
 
 }  // namespace
 
-RunSummary Summarize(const RunRecords& records, int picture_width, int picture_height) {
+RunSummary Summarize(const RunRecords& records, int image_width, int image_height) {
   RunSummary summary;
   Cells cells;
   const auto note = [](std::vector<std::string>* names, const std::string& name) {
@@ -184,7 +184,7 @@ RunSummary Summarize(const RunRecords& records, int picture_width, int picture_h
     for (AmbiguityBin& bin : BinAmbiguity(records.frames, detector)) {
       summary.ambiguity.push_back(std::move(bin));
     }
-    summary.maps.push_back(MapErrors(records.frames, detector, picture_width, picture_height));
+    summary.maps.push_back(MapErrors(records.frames, detector, image_width, image_height));
     for (const CellSummary& cell : summary.cells) {
       const bool nominal = cell.detector == detector && cell.sweep == "distance" && !cell.level;
       if (nominal && cell.nees) summary.nominal_nees.push_back(*cell.nees);

@@ -56,7 +56,7 @@ struct FilmSummary {
   std::int64_t tracks = 0;  ///< Runs of frames with the marker.
   std::int64_t longest_track = 0, longest_gap = 0;
   double median_track = 0.0;   ///< Length of a run, frames.
-  std::int64_t gaps = 0;       ///< Runs of frames without it, before the first sighting too.
+  std::int64_t gaps = 0;       ///< Runs of frames without it, before the first observation too.
   std::int64_t lost = 0;       ///< How often it was there and then not found,
   std::int64_t told_lost = 0;  ///< … and the detector said so in that frame,
   std::int64_t recovered = 0;  ///< … and it was found again.
@@ -79,7 +79,7 @@ struct LightFigure {
 struct LightSummary {
   std::string recording{};  ///< Empty: all, each recording's mean being a value.
   std::int64_t pictures = 0;
-  std::array<LightFigure, kPictureMeasures.size()> figures{};
+  std::array<LightFigure, kImageMeasures.size()> figures{};
 };
 
 /// Hits whose ambiguity ratio lies in one power of ten.
@@ -130,11 +130,11 @@ struct RunSummary {
 /// pictures in the order of recordings.
 struct RunRecords {
   std::vector<FrameRecord> frames;
-  std::vector<PictureRecord> pictures;
+  std::vector<ImageRecord> pictures;
 };
 
 /// All figures are computed from the records alone, in their order, so that they are the same
 /// however the run was divided.
-RunSummary Summarize(const RunRecords& records, int picture_width, int picture_height);
+RunSummary Summarize(const RunRecords& records, int image_width, int image_height);
 
 }  // namespace pleinair::accuracy

@@ -9,7 +9,7 @@ namespace pleinair::accuracy {
 namespace {
 
 /// Whether the square with a margin of 13 % of its edge lies in the picture.
-bool IsInPicture(const CameraModel& camera, const Transform<Camera, Marker>& pose) {
+bool IsInImage(const CameraModel& camera, const Transform<Camera, Marker>& pose) {
   constexpr double kMargin = 0.13, kRim_px = 3.0;
   const auto corners = SquareCorners(camera, pose, kMarkerEdge * (1.0 + 2.0 * kMargin));
   return std::all_of(corners.begin(), corners.end(), [&](Vec2 at) {
@@ -36,9 +36,9 @@ MarkerSpec PlaceMarker(const CameraModel& camera, const PlaceWanted& wanted, Ran
     const double roll = wanted.roll ? *wanted.roll : random->Uniform(-M_PI, M_PI);
     const double axis = wanted.tilt_axis ? *wanted.tilt_axis : random->Uniform(-M_PI, M_PI);
     marker.camera_from_marker =
-        PoseSeenAt(camera, centre, wanted.side_px, kMarkerEdge, FromDegrees(wanted.tilt_deg),
-                   Radians(axis), Radians(roll));
-    if (wanted.centre_px || IsInPicture(camera, marker.camera_from_marker)) break;
+        PoseAtPixel(camera, centre, wanted.side_px, kMarkerEdge, FromDegrees(wanted.tilt_deg),
+                    Radians(axis), Radians(roll));
+    if (wanted.centre_px || IsInImage(camera, marker.camera_from_marker)) break;
   }
   marker.number = wanted.number ? *wanted.number : random->Below(kNumbers);
   return marker;

@@ -100,7 +100,7 @@ void MakeCovered(SweepMaker* maker, const std::vector<std::string>& patterns,
   for (const std::string& pattern : patterns) {
     std::vector<double> reached;
     for (const double level : levels) {
-      if (level <= 100.0 * LargestShare(pattern)) reached.push_back(level);
+      if (level <= 100.0 * MaxShare(pattern)) reached.push_back(level);
     }
     maker->AddLevels(pattern, reached, repeats,
                      [](RandomStream* random, PlaceWanted* place, FrameSpec* frame) {
@@ -230,7 +230,7 @@ void MakeAmbiguity(SweepMaker* maker) {
             const std::vector<std::string>& covers = BorderPatterns();
             const std::string& cover = covers[random.Below(static_cast<int>(covers.size()))];
             marker.occluder =
-                OccluderSpec{cover, std::min(random.Uniform(.05, .4), LargestShare(cover)),
+                OccluderSpec{cover, std::min(random.Uniform(.05, .4), MaxShare(cover)),
                              fmt::format("{}/{}", frame.name, marker.number)};
           }
           frame.markers.push_back(std::move(marker));
@@ -285,7 +285,7 @@ void MakeWild(SweepMaker* maker) {
     std::vector<std::string> patterns = BorderPatterns();
     patterns.insert(patterns.end(), {"cblobs", "cfinger"});
     const std::string& pattern = patterns[random->Below(static_cast<int>(patterns.size()))];
-    double share = std::min(random->Uniform(0, .35), LargestShare(pattern));
+    double share = std::min(random->Uniform(0, .35), MaxShare(pattern));
     if (pattern.starts_with('c') && !pattern.starts_with("corner")) share = std::min(share, .12);
     Occlude(frame, pattern, share);
     PhotoSpec& photo = frame->photo;

@@ -63,10 +63,10 @@ class CameraResponse {
  private:
   static bool RisesFromZeroToOne(const std::vector<double>& values) {
     // Steps that a float still tells apart over 256 codes.
-    constexpr double kLeastStep = 1e-6;
+    constexpr double kMinStep = 1e-6;
     if (values.size() < 2 || values.front() != 0.0 || values.back() != 1.0) return false;
     for (std::size_t i = 1; i < values.size(); ++i) {
-      if (!(values[i] - values[i - 1] >= kLeastStep)) return false;
+      if (!(values[i] - values[i - 1] >= kMinStep)) return false;
     }
     return true;
   }

@@ -30,7 +30,7 @@ struct FrameLoss {
   bool operator==(const FrameLoss&) const = default;
 };
 
-/// One picture from a camera or a recording, as every backend delivers it.
+/// One image from a camera or a recording, as every backend delivers it.
 struct Frame {
   std::int64_t index = 0;         ///< Position in the recording or the driver's number, from 0.
   std::int64_t timestamp_ns = 0;  ///< Steady clock (camera) or since the recording's start.
@@ -45,7 +45,7 @@ struct Frame {
   RgbImage rgb;         ///< Three channels, sRGB-encoded.
   GreyImage grey;       ///< One channel, sRGB-encoded: what the tracker looks at.
   /// The bytes that the camera sent, which a recorder keeps; null for files.
-  std::shared_ptr<const RawPicture> raw;
+  std::shared_ptr<const RawImage> raw;
 };
 
 }  // namespace pleinair::devices

@@ -23,7 +23,7 @@ struct PlaceTime {
   UtcTime start;               ///< UTC of the first frame.
 };
 
-/// The printed marker that anchors the scene, or the picture that takes its place.
+/// The printed marker that anchors the scene, or the image that takes its place.
 struct MarkerDescription {
   std::optional<std::string> family;  ///< "sg", "tag36h11", …; unset: nobody said.
   /// A file that `pleinair target` made; then it has no family, number or size of its own.
@@ -62,8 +62,8 @@ struct SceneDescription {
   std::vector<ModelReference> phantoms;  ///< Stand-ins for real surfaces.
   std::vector<ModelReference> objects;   ///< Virtual objects.
   Cloudiness cloudiness = Cloudiness::kClear;
-  std::optional<double> turbidity;         ///< Overrides the default of the cloudiness.
-  std::optional<LinearRgb> exposure_gain;  ///< Overrides the gain measured on the marker.
+  std::optional<double> turbidity;          ///< Overrides the default of the cloudiness.
+  std::optional<LinearRgb> exposure_scale;  ///< Overrides the gain measured on the marker.
   std::filesystem::path
       camera_response;  ///< File (devices/calibration/response_file.h); empty: sRGB.
 };

@@ -128,10 +128,10 @@ Result<void> CheckLight(const SceneFacts& facts, const std::string& name) {
     return InputError(name, "has a turbidity outside 1 to 64",
                       "2 is a clear sky, 3 an ordinary one, 6 haze");
   }
-  if (facts.exposure_gain) {
-    for (const double gain :
-         {facts.exposure_gain->r, facts.exposure_gain->g, facts.exposure_gain->b}) {
-      if (!Within(gain, 1e-12, 1e12)) {
+  if (facts.exposure_scale) {
+    for (const double exposure_scale :
+         {facts.exposure_scale->r, facts.exposure_scale->g, facts.exposure_scale->b}) {
+      if (!Within(exposure_scale, 1e-12, 1e12)) {
         return InputError(name, "has an exposure gain that is not greater than zero",
                           "leave exposure_gain out to have it measured on the marker");
       }
@@ -193,7 +193,7 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   }
   scene.cloudiness = facts.cloudiness.value_or(Cloudiness::kClear);
   scene.turbidity = facts.turbidity;
-  scene.exposure_gain = facts.exposure_gain;
+  scene.exposure_scale = facts.exposure_scale;
   scene.camera_response = facts.camera_response;
   return scene;
 }

@@ -25,7 +25,7 @@ struct SceneFacts {
   std::vector<ModelReference> phantoms, objects;  ///< Files as written, relative to the scene's.
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;
-  std::optional<LinearRgb> exposure_gain;
+  std::optional<LinearRgb> exposure_scale;
   std::filesystem::path camera_response;  ///< Beside the file that names it; empty: not said.
 
   /// Says nothing of place, time and marker, which a scene cannot do without.

@@ -24,7 +24,7 @@ constexpr std::array<std::pair<const char*, const char*>, 9> kFamilies = {{
 }};
 
 // Family and id from words such as "AprilTag tag36h11 id 0, 10x10 modules".
-void MarkerFromWords(const std::string& words, SceneFacts* facts) {
+void ParseMarkerDescription(const std::string& words, SceneFacts* facts) {
   for (const auto& [said, family] : kFamilies) {
     if (words.find(said) == std::string::npos) continue;
     facts->marker_family = family;
@@ -48,7 +48,7 @@ Result<std::optional<double>> NumberOf(const files::JsonFields& fields,
 }
 
 Result<void> ReadMarker(const files::JsonFields& marker, SceneFacts* facts) {
-  MarkerFromWords(marker.TextOr("what"), facts);
+  ParseMarkerDescription(marker.TextOr("what"), facts);
   if (marker.Has("family")) {
     PLEINAIR_ASSIGN_OR_RETURN(facts->marker_family, marker.Text("family"));
   }
@@ -94,7 +94,7 @@ Result<void> ReadModel(const files::JsonFields& model, std::vector<ModelReferenc
 
 // What words are there of the weather. Amounts and the model in `sky` are ground truth and are not
 // read.
-std::optional<Cloudiness> SkyInWords(const files::JsonFields& fields) {
+std::optional<Cloudiness> ReadCloudiness(const files::JsonFields& fields) {
   std::string words = fields.TextOr("name");
   for (const char* key : {"cloudiness", "weather", "sky"}) words += "; " + fields.TextOr(key);
   for (const char* block : {"sky", "place_time"}) {
@@ -102,7 +102,7 @@ std::optional<Cloudiness> SkyInWords(const files::JsonFields& fields) {
       words += "; " + fields.Object(block).TextOr(key);
     }
   }
-  return CloudinessFromWords(words);
+  return ParseCloudiness(words);
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_RETURN_IF_ERROR(ReadMarker(fields.Object("marker"), &facts));
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("real_geometry"), &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("virtual_object"), &facts.objects));
-  facts.cloudiness = SkyInWords(fields);
+  facts.cloudiness = ReadCloudiness(fields);
   for (const files::JsonFields& block : {fields, fields.Object("calibration")}) {
     const std::string response = block.TextOr("camera_response");
     if (response.empty()) continue;

@@ -267,14 +267,16 @@ Result<SceneFacts> ReadScene(const Table& scene) {
   PLEINAIR_ASSIGN_OR_RETURN(facts.objects, ReadModels(scene, "object"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> sky, scene.Text("cloudiness"));
   if (sky) {
-    facts.cloudiness = CloudinessFromWords(*sky);
+    facts.cloudiness = ParseCloudiness(*sky);
     if (!facts.cloudiness) {
-      return scene.Fail("cloudiness", "is not known", std::string("known are ") + kSkyWords);
+      return scene.Fail("cloudiness", "is not known", std::string("known are ") + kCloudinessWords);
     }
   }
   PLEINAIR_ASSIGN_OR_RETURN(facts.turbidity, scene.Number("turbidity"));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> gain, scene.Triple("exposure_gain"));
-  if (gain) facts.exposure_gain = LinearRgb{gain->x, gain->y, gain->z};
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> exposure_scale,
+                            scene.Triple("exposure_gain"));
+  if (exposure_scale)
+    facts.exposure_scale = LinearRgb{exposure_scale->x, exposure_scale->y, exposure_scale->z};
   PLEINAIR_ASSIGN_OR_RETURN(const auto response, scene.Text("camera_response"));
   if (response) {
     facts.camera_response =

@@ -6,7 +6,7 @@
 
 namespace pleinair::scene {
 
-std::optional<Cloudiness> CloudinessFromWords(std::string_view text) {
+std::optional<Cloudiness> ParseCloudiness(std::string_view text) {
   // Words between single spaces, so that "clear" is not found in "unclear".
   std::string words = " ";
   for (const char c : text) {

@@ -12,8 +12,8 @@ namespace pleinair::session {
 
 void PrintMeasurer::Measure(std::span<Seen> frames) {
   for (const Seen& seen : frames) {
-    for (const tracker::Sighting& sighting : seen.sightings) {
-      const MarkerName name{sighting.detection.family, sighting.detection.id};
+    for (const tracker::MarkerObservation& observation : seen.observations) {
+      const MarkerName name{observation.detection.family, observation.detection.id};
       if (name.family != kSgFamily) continue;
       Marker& marker = markers_[name];
       if (!marker.pattern) marker.pattern = PatternOf(name);
@@ -23,35 +23,35 @@ void PrintMeasurer::Measure(std::span<Seen> frames) {
   ParallelFor(frames.size(), 0, [&](std::size_t i) { alignments[i] = Align(frames[i]); });
   // Each pose leans on the one before.
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    for (std::size_t k = 0; k < frames[i].sightings.size(); ++k) {
-      tracker::Sighting& sighting = frames[i].sightings[k];
-      if (sighting.detection.family == kSgFamily) TakeOver(alignments[i][k], &sighting);
+    for (std::size_t k = 0; k < frames[i].observations.size(); ++k) {
+      tracker::MarkerObservation& observation = frames[i].observations[k];
+      if (observation.detection.family == kSgFamily) TakeOver(alignments[i][k], &observation);
     }
   }
 }
 
-std::vector<tracker::Sighting> PrintMeasurer::Measure(ImageView<const std::uint8_t> grey,
-                                                      std::vector<tracker::Sighting> sightings) {
-  Seen seen{grey, std::move(sightings)};
+std::vector<tracker::MarkerObservation> PrintMeasurer::Measure(
+    ImageView<const std::uint8_t> grey, std::vector<tracker::MarkerObservation> observations) {
+  Seen seen{grey, std::move(observations)};
   Measure({&seen, 1});
-  return std::move(seen.sightings);
+  return std::move(seen.observations);
 }
 
 PrintMeasurer::Alignments PrintMeasurer::Align(const Seen& seen) const {
-  Alignments alignments(seen.sightings.size());
+  Alignments alignments(seen.observations.size());
   for (std::size_t k = 0; k < alignments.size(); ++k) {
-    const tracker::MarkerDetection& detection = seen.sightings[k].detection;
+    const tracker::MarkerDetection& detection = seen.observations[k].detection;
     if (detection.family != kSgFamily) continue;
     const Marker& marker = markers_.at({detection.family, detection.id});
-    alignments[k] = tracker::AlignPrint(camera_, *marker.pattern, seen.grey, detection.corners_px,
-                                        {detection.visibility_side, detection.visibility});
+    alignments[k] = tracker::AlignMarker(camera_, *marker.pattern, seen.grey, detection.corners_px,
+                                         {detection.visibility_side, detection.visibility});
   }
   return alignments;
 }
 
-void PrintMeasurer::TakeOver(const std::optional<tracker::PrintAlignment>& alignment,
-                             tracker::Sighting* sighting) {
-  tracker::MarkerDetection& detection = sighting->detection;
+void PrintMeasurer::TakeOver(const std::optional<tracker::MarkerAlignment>& alignment,
+                             tracker::MarkerObservation* observation) {
+  tracker::MarkerDetection& detection = observation->detection;
   Marker& marker = markers_.at({detection.family, detection.id});
   if (alignment) {
     const std::optional<tracker::PoseEstimate> pose = tracker::EstimatePlanarPose(
@@ -60,10 +60,10 @@ void PrintMeasurer::TakeOver(const std::optional<tracker::PrintAlignment>& align
     if (pose) {
       // The share that is seen stays the tracker's: its blocks tell it better where much is hidden.
       detection.corners_px = alignment->corners_px;
-      sighting->pose = *pose;
+      observation->pose = *pose;
     }
   }
-  marker.last_rotation = sighting->pose.best.camera_from_marker.rotation;
+  marker.last_rotation = observation->pose.best.camera_from_marker.rotation;
   marker.seen = true;
 }
 

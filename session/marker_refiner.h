@@ -28,25 +28,26 @@ class PrintMeasurer {
   /// What the tracker saw in a frame.
   struct Seen {
     ImageView<const std::uint8_t> grey;
-    std::vector<tracker::Sighting> sightings;
+    std::vector<tracker::MarkerObservation> observations;
   };
 
   /// Gives what the tracker saw better corners and poses; frames come in order, and several at once
   /// are aligned on as many threads as there are processors, with the same results. Where a print
-  /// does not bear out the alignment, since too little of it is seen, its sighting stays as it is.
+  /// does not bear out the alignment, since too little of it is seen, its observation stays as it
+  /// is.
   void Measure(std::span<Seen> frames);
-  std::vector<tracker::Sighting> Measure(ImageView<const std::uint8_t> grey,
-                                         std::vector<tracker::Sighting> sightings);
+  std::vector<tracker::MarkerObservation> Measure(
+      ImageView<const std::uint8_t> grey, std::vector<tracker::MarkerObservation> observations);
 
  private:
-  using Alignments = std::vector<std::optional<tracker::PrintAlignment>>;
+  using Alignments = std::vector<std::optional<tracker::MarkerAlignment>>;
 
   Alignments Align(const Seen& seen) const;
-  void TakeOver(const std::optional<tracker::PrintAlignment>& alignment,
-                tracker::Sighting* sighting);
+  void TakeOver(const std::optional<tracker::MarkerAlignment>& alignment,
+                tracker::MarkerObservation* observation);
 
   struct Marker {
-    std::shared_ptr<const tracker::PrintPattern> pattern;
+    std::shared_ptr<const tracker::MarkerPattern> pattern;
     Mat3 last_rotation;
     bool seen = false;
   };

@@ -29,25 +29,26 @@ double RotationAngle(const Mat3& a, const Mat3& b) {
 }
 
 void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
-                       const std::vector<tracker::Sighting>& sightings) {
+                       const std::vector<tracker::MarkerObservation>& marker_observations) {
   ++frames_;
   std::map<MarkerName, std::vector<Observation>> candidates;
   bool duplicates = false;
-  for (const tracker::Sighting& sighting : sightings) {
+  for (const tracker::MarkerObservation& marker_observation : marker_observations) {
     std::vector<Observation>& of_marker =
-        candidates[{sighting.detection.family, sighting.detection.id}];
+        candidates[{marker_observation.detection.family, marker_observation.detection.id}];
     duplicates = duplicates || !of_marker.empty();
-    const tracker::PoseEstimate& pose = sighting.pose;
+    const tracker::PoseEstimate& pose = marker_observation.pose;
     std::vector<std::uint8_t> visibility;
-    for (const float seen : sighting.detection.visibility) {
+    for (const float seen : marker_observation.detection.visibility) {
       visibility.push_back(
           static_cast<std::uint8_t>(std::lround(std::clamp(seen, 0.0F, 1.0F) * 255.0F)));
     }
     const auto add = [&](const tracker::PoseSolution& solution) {
       of_marker.push_back({frame_index, timestamp_ns, solution.camera_from_marker,
                            solution.reprojection_rms_px, pose.ambiguity_ratio,
-                           sighting.detection.visible_fraction, sighting.detection.path,
-                           sighting.detection.visibility_side, visibility});
+                           marker_observation.detection.visible_fraction,
+                           marker_observation.detection.path,
+                           marker_observation.detection.visibility_side, visibility});
     };
     add(pose.best);
     if (pose.alternative && pose.ambiguity_ratio > kAmbiguousRatio) add(*pose.alternative);
@@ -81,11 +82,11 @@ bool MayAnchor(const MarkerName& marker, const scene::MarkerDescription& declare
 
 std::optional<MarkerName> Session::Anchor() const {
   std::optional<MarkerName> most;
-  std::size_t sightings = 0;
+  std::size_t marker_observations = 0;
   for (const auto& [marker, path] : paths_) {
-    if (!MayAnchor(marker, declared_) || path.size() <= sightings) continue;
+    if (!MayAnchor(marker, declared_) || path.size() <= marker_observations) continue;
     most = marker;
-    sightings = path.size();
+    marker_observations = path.size();
   }
   return most;
 }

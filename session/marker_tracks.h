@@ -48,7 +48,7 @@ class Session {
   /// Adds the sightings of one frame; frames come in order. Where a marker is seen more than once,
   /// or its planar pose is ambiguous, what lies nearest to its last pose counts.
   void AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
-                const std::vector<tracker::Sighting>& sightings);
+                const std::vector<tracker::MarkerObservation>& marker_observations);
 
   /// Forgets all but the last `observations` of each marker: for sessions without an end.
   void ForgetAllBut(std::size_t observations);

@@ -21,7 +21,7 @@ constexpr const char* kUsualTagFamily = "tag36h11";
 constexpr double kUsualBoard = 1.25;
 
 /// How many of the outermost rings of the square whose corners are reported are black all round.
-int BlackRings(const tracker::PrintPattern& pattern) {
+int BlackRings(const tracker::MarkerPattern& pattern) {
   const int first = (pattern.modules - pattern.edge_modules) / 2;
   const auto is_black = [&](int ring) {
     const int low = first + ring, high = first + pattern.edge_modules - 1 - ring;
@@ -63,10 +63,10 @@ Result<tracker::TrackerOptions> TrackingOf(const scene::SceneDescription& scene)
   return options;
 }
 
-std::shared_ptr<const tracker::PrintPattern> PatternOf(const MarkerName& marker) {
+std::shared_ptr<const tracker::MarkerPattern> PatternOf(const MarkerName& marker) {
   if (marker.family != kSgFamily) return tracker::AprilTagPattern(marker.family, marker.id);
   if (marker.id < 0 || marker.id >= tracker::kGolayNumbers) return nullptr;
-  return std::make_shared<const tracker::PrintPattern>(tracker::SgPrint(marker.id));
+  return std::make_shared<const tracker::MarkerPattern>(tracker::SgMarkerPattern(marker.id));
 }
 
 scene::MarkerPrint PrintOf(const scene::MarkerDescription& described, const MarkerName& marker) {

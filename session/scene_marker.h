@@ -22,7 +22,7 @@ inline constexpr const char* kSgFamily = "sg";
 Result<tracker::TrackerOptions> TrackingOf(const scene::SceneDescription& scene);
 
 /// What the print of a marker looks like; null where the family is not one of ours.
-std::shared_ptr<const tracker::PrintPattern> PatternOf(const MarkerName& marker);
+std::shared_ptr<const tracker::MarkerPattern> PatternOf(const MarkerName& marker);
 
 /// The print as a light meter wants to know it: sizes and reflectances as the scene states them,
 /// and the black band as wide as it is in this marker's print.

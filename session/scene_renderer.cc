@@ -240,9 +240,9 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
 void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
                                const Transform<Camera, Marker>& camera_from_marker) {
   using GainSource = LightSummary::GainSource;
-  if (scene_.exposure_gain) {
+  if (scene_.exposure_scale) {
     summary_.gain_source = GainSource::kScene;
-    summary_.gain = *scene_.exposure_gain;
+    summary_.gain = *scene_.exposure_scale;
     return;
   }
   // Held once there is a reading to hold.

@@ -17,7 +17,7 @@ SkyCondition ConditionOfType(int type) {
   return type <= 10 ? SkyCondition::kPartlyCloudy : SkyCondition::kClear;
 }
 
-/// Neutral (D65): the standard has no colours.
+/// Neutral (D65): the standard has no colors.
 LinearRgb Neutral(double luminance) { return {luminance, luminance, luminance}; }
 
 class CieModel : public SkyModel {

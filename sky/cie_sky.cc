@@ -30,7 +30,7 @@ constexpr std::array<CieParameters, CieSky::kTypes> kTable = {{
 }};
 
 // The horizon's cosine; every b is negative, so that e^(b / cos Z) has vanished long before it.
-constexpr double kSmallestCosine = 1e-3;
+constexpr double kMinCosine = 1e-3;
 
 }  // namespace
 
@@ -83,7 +83,7 @@ double CieSky::IntegrateIlluminance(double sun_zenith_distance) const {
 }
 
 double CieSky::Gradation(double up) const {
-  return 1.0 + p_.a * std::exp(p_.b / std::max(up, kSmallestCosine));
+  return 1.0 + p_.a * std::exp(p_.b / std::max(up, kMinCosine));
 }
 
 double CieSky::Indicatrix(double chi, double cos_chi) const {

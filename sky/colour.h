@@ -33,14 +33,13 @@ constexpr Vec3 XyzFromXyY(const XyY& c) {
   if (c.y <= 0.0) return {};
   return {c.luminance * c.x / c.y, c.luminance, c.luminance * (1.0 - c.x - c.y) / c.y};
 }
-constexpr XyY XyYFromRgb(LinearRgb colour) { return XyYFromXyz(XyzFromRgb(colour)); }
+constexpr XyY XyYFromRgb(LinearRgb color) { return XyYFromXyz(XyzFromRgb(color)); }
 
-/// Brings a colour outside Rec.709's gamut into it: no negative channel, and the luminance stays.
-inline LinearRgb ClipToGamut(LinearRgb colour) {
-  const double luminance = Luminance(colour);
+/// Brings a color outside Rec.709's gamut into it: no negative channel, and the luminance stays.
+inline LinearRgb ClipToGamut(LinearRgb color) {
+  const double luminance = Luminance(color);
   if (luminance <= 0.0) return {};
-  const LinearRgb clipped{std::max(colour.r, 0.0), std::max(colour.g, 0.0),
-                          std::max(colour.b, 0.0)};
+  const LinearRgb clipped{std::max(color.r, 0.0), std::max(color.g, 0.0), std::max(color.b, 0.0)};
   return clipped * (luminance / Luminance(clipped));
 }
 
@@ -54,12 +53,12 @@ inline LinearRgb RgbInGamut(Vec3 xyz) {
 }
 
 /// Linear Rec.709 whose Luminance() is exactly `colour.luminance`.
-inline LinearRgb RgbFromXyY(const XyY& colour) {
-  if (colour.luminance <= 0.0 || colour.y <= 0.0) return {};
+inline LinearRgb RgbFromXyY(const XyY& color) {
+  if (color.luminance <= 0.0 || color.y <= 0.0) return {};
   const LinearRgb relative =
-      ClipToGamut(RgbFromXyz(colour.x / colour.y, 1.0, (1.0 - colour.x - colour.y) / colour.y));
+      ClipToGamut(RgbFromXyz(color.x / color.y, 1.0, (1.0 - color.x - color.y) / color.y));
   const double luminance = Luminance(relative);
-  return luminance > 0.0 ? relative * (colour.luminance / luminance) : LinearRgb{};
+  return luminance > 0.0 ? relative * (color.luminance / luminance) : LinearRgb{};
 }
 
 }  // namespace pleinair::sky

@@ -29,9 +29,9 @@ std::shared_ptr<const SkySource> CreateDaylight(const DaylightOptions& options) 
   }
   if (options.turbidity != 0.0) {
     // The comparison sends NaN to the lowest.
-    conditions.turbidity = options.turbidity > kLowestTurbidity
-                               ? std::min(options.turbidity, kHighestTurbidity)
-                               : kLowestTurbidity;
+    conditions.turbidity = options.turbidity > kMinTurbidity
+                               ? std::min(options.turbidity, kMaxTurbidity)
+                               : kMinTurbidity;
   }
   auto source = SkySource::Create({SkyModelKind::kAtmosphere, 0}, conditions);
   CHECK_EQ(source.has_value(), true);

@@ -10,7 +10,7 @@ namespace pleinair::sky {
 /// A day as people describe it.
 struct DaylightOptions {
   SkyCondition condition = SkyCondition::kClear;
-  /// 0: the condition's default. Otherwise clamped to kLowestTurbidity…kHighestTurbidity; hardly
+  /// 0: the condition's default. Otherwise clamped to kMinTurbidity…kMaxTurbidity; hardly
   /// matters under an overcast sky.
   double turbidity = 0.0;
 };

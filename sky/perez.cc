@@ -57,12 +57,12 @@ double ZenithLuminance(double turbidity, double theta) {
 }
 
 double ClampedTurbidity(double turbidity) {
-  if (std::isnan(turbidity)) return PerezSky::kLowestTurbidity;
-  return std::clamp(turbidity, PerezSky::kLowestTurbidity, PerezSky::kHighestTurbidity);
+  if (std::isnan(turbidity)) return PerezSky::kMinTurbidity;
+  return std::clamp(turbidity, PerezSky::kMinTurbidity, PerezSky::kMaxTurbidity);
 }
 
 // The horizon's cosine; e^(B / cos θ) has vanished long before it, since B < 0.
-constexpr double kSmallestCosine = 1e-3;
+constexpr double kMinCosine = 1e-3;
 
 }  // namespace
 
@@ -92,7 +92,7 @@ PerezSky::PerezSky(double turbidity, Direction<World> to_sun)
 
 XyY PerezSky::At(Direction<World> from) const {
   if (from.xyz.z < 0.0) return {};
-  const double cos_theta = std::max(from.xyz.z, kSmallestCosine);
+  const double cos_theta = std::max(from.xyz.z, kMinCosine);
   const double cos_gamma = std::clamp(Dot(from.xyz, to_sun_), -1.0, 1.0);
   const double gamma = AngleBetween(from.xyz, to_sun_);
   return {x_.At(cos_theta, gamma, cos_gamma), y_.At(cos_theta, gamma, cos_gamma),

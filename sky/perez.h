@@ -29,8 +29,8 @@ namespace pleinair::sky {
 class PerezSky {
  public:
   /// Below 2, zenith normaliser and horizon turn negative; above 10, the zenith at low suns.
-  static constexpr double kLowestTurbidity = 2.0;
-  static constexpr double kHighestTurbidity = 10.0;
+  static constexpr double kMinTurbidity = 2.0;
+  static constexpr double kMaxTurbidity = 10.0;
   /// A clear day (Preetham et al. 1999, Fig. 3: 2 very clear, 3 clear, 6 hazy to the eye).
   static constexpr double kDefaultTurbidity = 2.5;
 
@@ -57,7 +57,7 @@ class PerezSky {
     double At(double cos_theta, double gamma, double cos_gamma) const;
   };
 
-  double turbidity_ = kLowestTurbidity;
+  double turbidity_ = kMinTurbidity;
   bool turbidity_was_clamped_ = false;
   Vec3 to_sun_;  ///< On the horizon when the sun is below it.
   Distribution luminance_, x_, y_;

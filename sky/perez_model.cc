@@ -12,7 +12,7 @@ namespace {
 class PerezModel : public SkyModel {
  public:
   PerezModel(double turbidity, Direction<World> to_sun, double distance_au)
-      : asked_turbidity_(turbidity), to_sun_(to_sun), perez_(turbidity, to_sun) {
+      : requested_turbidity_(turbidity), to_sun_(to_sun), perez_(turbidity, to_sun) {
     const Radians elevation(std::asin(std::clamp(to_sun.xyz.z, -1.0, 1.0)));
     const double closeness = 1.0 / (distance_au * distance_au);
     scale_ = closeness;
@@ -25,9 +25,9 @@ class PerezModel : public SkyModel {
     return perez_.Radiance(from) * scale_;
   }
   XyY At(Direction<World> from) const override {
-    XyY colour = perez_.At(from);
-    colour.luminance *= scale_;
-    return colour;
+    XyY color = perez_.At(from);
+    color.luminance *= scale_;
+    return color;
   }
   LinearRgb SunNormalIrradiance() const override { return sun_normal_; }
   LinearRgb SkyHorizontalIrradiance() const override { return sky_horizontal_; }
@@ -36,15 +36,14 @@ class PerezModel : public SkyModel {
   std::vector<std::string> Notes() const override {
     if (!perez_.TurbidityWasClamped()) return {};
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "turbidity %g is outside the range of perez, %g to %g; %g was used",
-                  asked_turbidity_, PerezSky::kLowestTurbidity, PerezSky::kHighestTurbidity,
-                  perez_.turbidity());
+    std::snprintf(
+        text, sizeof text, "turbidity %g is outside the range of perez, %g to %g; %g was used",
+        requested_turbidity_, PerezSky::kMinTurbidity, PerezSky::kMaxTurbidity, perez_.turbidity());
     return {text};
   }
 
  private:
-  double asked_turbidity_;
+  double requested_turbidity_;
   Direction<World> to_sun_;
   PerezSky perez_;
   double scale_ = 1.0;  ///< Preetham's sun is at 1 au.

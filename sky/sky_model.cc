@@ -38,7 +38,7 @@ Result<void> CheckAerosol(const Aerosol& aerosol) {
 Result<void> Check(SkyModelName name, const SkyConditions& conditions) {
   if (conditions.turbidity) {
     PLEINAIR_RETURN_IF_ERROR(
-        CheckRange("turbidity", *conditions.turbidity, kLowestTurbidity, kHighestTurbidity));
+        CheckRange("turbidity", *conditions.turbidity, kMinTurbidity, kMaxTurbidity));
   }
   PLEINAIR_RETURN_IF_ERROR(CheckRange("ground albedo", conditions.ground_albedo, 0.0, 1.0));
   PLEINAIR_RETURN_IF_ERROR(CheckRange("cloud cover", conditions.cloud_cover, 0.0, 1.0));

@@ -69,8 +69,8 @@ struct SkyModelName {
 Result<SkyModelName> ParseSkyModelName(std::string_view name);
 std::string ToString(SkyModelName name);
 
-inline constexpr double kLowestTurbidity = 1.0;    ///< Air without any aerosol.
-inline constexpr double kHighestTurbidity = 30.0;  ///< Thick haze, 3 km of sight.
+inline constexpr double kMinTurbidity = 1.0;   ///< Air without any aerosol.
+inline constexpr double kMaxTurbidity = 30.0;  ///< Thick haze, 3 km of sight.
 /// An ordinary clear day: with it the diffuse share of the light on level ground under kAtmosphere
 /// is within 5 % of IES' clear-sky share for suns of 10° to 70°
 /// (tests/sky/atmosphere/atmosphere_test.cc).
@@ -78,7 +78,7 @@ inline constexpr double kDefaultTurbidity = 1.8;
 
 /// The air and the clouds; everything but the sun.
 struct SkyConditions {
-  /// kLowestTurbidity…kHighestTurbidity; a model with a narrower range clamps and says so in
+  /// kMinTurbidity…kMaxTurbidity; a model with a narrower range clamps and says so in
   /// Notes(). Default: kDefaultTurbidity, 2.5 for kPerez. Without effect on kCie.
   std::optional<double> turbidity;
   /// The aerosol itself, in place of the one that `turbidity` stands for; kAtmosphere only.

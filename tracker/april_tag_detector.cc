@@ -61,17 +61,17 @@ const Family* FindFamily(std::string_view name) {
   return found == kFamilies.end() ? nullptr : found;
 }
 
-std::shared_ptr<const PrintPattern> MakePattern(apriltag_family_t* family, int id) {
-  image_u8_t* picture = apriltag_to_image(family, id);
-  auto pattern = std::make_shared<PrintPattern>();
+std::shared_ptr<const MarkerPattern> MakePattern(apriltag_family_t* family, int id) {
+  image_u8_t* image = apriltag_to_image(family, id);
+  auto pattern = std::make_shared<MarkerPattern>();
   pattern->modules = family->total_width;
   pattern->edge_modules = family->width_at_border;
-  for (int y = 0; y < picture->height; ++y) {
-    for (int x = 0; x < picture->width; ++x) {
-      pattern->white.push_back(picture->buf[y * picture->stride + x] > 127 ? 1 : 0);
+  for (int y = 0; y < image->height; ++y) {
+    for (int x = 0; x < image->width; ++x) {
+      pattern->white.push_back(image->buf[y * image->stride + x] > 127 ? 1 : 0);
     }
   }
-  image_u8_destroy(picture);
+  image_u8_destroy(image);
   return pattern;
 }
 
@@ -96,8 +96,8 @@ class AprilTagDetector final : public MarkerDetector {
     std::vector<Candidate> candidates;
     if (grey.empty()) return candidates;
     GreyImage padded = PaddedCopy(grey);
-    image_u8_t picture{padded.width(), padded.height(), padded.width(), padded.data()};
-    zarray_t* found = apriltag_detector_detect(detector_.get(), &picture);
+    image_u8_t image{padded.width(), padded.height(), padded.width(), padded.data()};
+    zarray_t* found = apriltag_detector_detect(detector_.get(), &image);
     for (int i = 0; i < zarray_size(found); ++i) {
       apriltag_detection_t* tag = nullptr;
       zarray_get(found, i, &tag);
@@ -106,7 +106,7 @@ class AprilTagDetector final : public MarkerDetector {
       candidate.detection.family = tag->family->name;
       candidate.detection.id = tag->id;
       candidate.detection.path = DetectionPath::kFast;
-      // AprilTag's first corner is the print's bottom-left, the others follow anticlockwise.
+      // AprilTag's first corner is the marker's bottom-left, the others follow anticlockwise.
       for (int corner = 0; corner < 4; ++corner) {
         const double* p = tag->p[3 - corner];
         candidate.detection.corners_px[corner] = PixelFromCornerOrigin({p[0], p[1]});
@@ -120,7 +120,7 @@ class AprilTagDetector final : public MarkerDetector {
 
  private:
   /// Copies, because the library's interface promises no constness, and repeats the last row and
-  /// column where the picture is too small for it.
+  /// column where the image is too small for it.
   static GreyImage PaddedCopy(ImageView<const std::uint8_t> grey) {
     GreyImage padded(std::max(grey.width(), kMinSide_px), std::max(grey.height(), kMinSide_px));
     for (int y = 0; y < padded.height(); ++y) {
@@ -132,7 +132,7 @@ class AprilTagDetector final : public MarkerDetector {
     return padded;
   }
 
-  std::shared_ptr<const PrintPattern> PatternOf(apriltag_family_t* family, int id) {
+  std::shared_ptr<const MarkerPattern> PatternOf(apriltag_family_t* family, int id) {
     auto& pattern = patterns_[{family, id}];
     if (!pattern) pattern = MakePattern(family, id);
     return pattern;
@@ -140,7 +140,8 @@ class AprilTagDetector final : public MarkerDetector {
 
   std::vector<FamilyPtr> families_;
   std::unique_ptr<apriltag_detector_t, DetectorDeleter> detector_;
-  std::map<std::pair<const apriltag_family_t*, int>, std::shared_ptr<const PrintPattern>> patterns_;
+  std::map<std::pair<const apriltag_family_t*, int>, std::shared_ptr<const MarkerPattern>>
+      patterns_;
 };
 
 }  // namespace
@@ -151,7 +152,7 @@ std::vector<std::string> AprilTagFamilyNames() {
   return names;
 }
 
-std::shared_ptr<const PrintPattern> AprilTagPattern(std::string_view family, int id) {
+std::shared_ptr<const MarkerPattern> AprilTagPattern(std::string_view family, int id) {
   const Family* found = FindFamily(family);
   if (found == nullptr) return nullptr;
   const FamilyPtr created(found->create(), FamilyDeleter{found->destroy});

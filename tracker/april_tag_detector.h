@@ -13,10 +13,10 @@ namespace pleinair::tracker {
 /// Names of the AprilTag families that can be looked for.
 std::vector<std::string> AprilTagFamilyNames();
 
-/// The print of one number of a family; null where there is no such family or number.
-std::shared_ptr<const PrintPattern> AprilTagPattern(std::string_view family, int id);
+/// The marker of one number of a family; null where there is no such family or number.
+std::shared_ptr<const MarkerPattern> AprilTagPattern(std::string_view family, int id);
 
-/// The fast path: AprilTag 3 (Krogius, Haggenmiller, Olson 2019) on the full picture. `families`
+/// The fast path: AprilTag 3 (Krogius, Haggenmiller, Olson 2019) on the full image. `families`
 /// are names out of AprilTagFamilyNames(); others are an error.
 Result<std::unique_ptr<MarkerDetector>> CreateAprilTagDetector(
     const std::vector<std::string>& families);

@@ -6,14 +6,14 @@
 namespace pleinair::tracker {
 
 /// What is printed: a square of black and white modules, quiet zone included, as it is read.
-struct PrintPattern {
+struct MarkerPattern {
   int modules = 0;       ///< Modules along each side, quiet zone included.
   int edge_modules = 0;  ///< Modules along the side of the square whose corners are reported.
   std::vector<std::uint8_t> white;  ///< 1 white, 0 black; row-major from the top-left.
-  /// A square of modules that differ from print to print: its first row and column, and its side.
+  /// A square of modules that differ from marker to marker: its first row and column, and its side.
   int unknown_first = 0, unknown_modules = 0;
 
-  /// Half the printed side in half edges: the print spans [-extent, extent] in both axes of the
+  /// Half the printed side in half edges: the marker spans [-extent, extent] in both axes of the
   /// coordinates in which the reported corners are (±1, ±1).
   double Extent() const { return static_cast<double>(modules) / edge_modules; }
 };

@@ -22,17 +22,18 @@ struct MarkerDetection {
   int id = 0;
   std::string name;  ///< Of a target; empty where a number says it all.
   /// Corners of the outer black square, or of a target's picture, in pixels (integer = pixel
-  /// centre), top-left, then clockwise, of the marker as its print is read.
+  /// centre), top-left, then clockwise, of the marker as its marker is read.
   std::array<Vec2, 4> corners_px;
-  double visible_fraction = 1.0;  ///< Share of the print that is seen, 0…1.
+  double visible_fraction = 1.0;  ///< Share of the marker that is observed, 0…1.
   DetectionPath path = DetectionPath::kFast;
-  /// Which part of the print is seen: `visibility_side`² squares of the print, quiet zone included,
-  /// row by row from the top-left as it is read, 0 covered … 1 as predicted. Empty where unknown.
+  /// Which part of the marker is observed: `visibility_side`² squares of the marker, quiet zone
+  /// included, row by row from the top-left as it is read, 0 covered … 1 as predicted. Empty where
+  /// unknown.
   int visibility_side = 0;
   std::vector<float> visibility;
 };
 
-/// A marker that was followed and is not seen now.
+/// A marker that was followed and is not observed now.
 struct LostMarker {
   std::string family;
   int id = 0;
@@ -64,7 +65,7 @@ struct PoseEstimate {
   PoseCovariance covariance{};
 };
 
-struct Sighting {
+struct MarkerObservation {
   MarkerDetection detection;
   PoseEstimate pose;
 };

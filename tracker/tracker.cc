@@ -19,7 +19,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// What AprilTag's corners are worth where the print's own pixels give none better: on sRGB grey
+/// What AprilTag's corners are worth where the marker's own pixels give none better: on sRGB grey
 /// its edges lie a third of a pixel inside the black square
 /// (tests/tracker/refinement/marker_alignment_test.cc).
 constexpr double kRawCornerSigma_px = 0.4;
@@ -59,27 +59,29 @@ class DetectingTracker final : public Tracker {
       found->alignments.push_back(
           candidate.corner_covariance_px2
               ? std::nullopt
-              : AlignPrint(camera_, *candidate.pattern, grey, candidate.detection.corners_px));
+              : AlignMarker(camera_, *candidate.pattern, grey, candidate.detection.corners_px));
     }
   }
 
-  std::vector<Sighting> Conclude(ImageView<const std::uint8_t> grey,
-                                 UnmeasuredMarkers found) override {
-    std::vector<Sighting> sightings;
+  std::vector<MarkerObservation> Conclude(ImageView<const std::uint8_t> grey,
+                                          UnmeasuredMarkers found) override {
+    std::vector<MarkerObservation> observations;
     for (std::size_t i = 0; i < found.candidates.size(); ++i) {
-      std::optional<Sighting> sighting =
+      std::optional<MarkerObservation> observation =
           PoseOf(grey, std::move(found.candidates[i]), found.alignments.at(i));
-      if (sighting) sightings.push_back(std::move(*sighting));
+      if (observation) observations.push_back(std::move(*observation));
     }
-    std::stable_sort(sightings.begin(), sightings.end(), [](const Sighting& a, const Sighting& b) {
-      const auto key = [](const Sighting& s) {
-        const MarkerDetection& d = s.detection;
-        return std::make_tuple(std::cref(d.family), d.id, d.corners_px[0].x, d.corners_px[0].y);
-      };
-      return key(a) < key(b);
-    });
-    if (consecutive_frames_) before_ = sightings;
-    return sightings;
+    std::stable_sort(observations.begin(), observations.end(),
+                     [](const MarkerObservation& a, const MarkerObservation& b) {
+                       const auto key = [](const MarkerObservation& s) {
+                         const MarkerDetection& d = s.detection;
+                         return std::make_tuple(std::cref(d.family), d.id, d.corners_px[0].x,
+                                                d.corners_px[0].y);
+                       };
+                       return key(a) < key(b);
+                     });
+    if (consecutive_frames_) before_ = observations;
+    return observations;
   }
 
   std::vector<LostMarker> Lost() const override {
@@ -103,23 +105,23 @@ class DetectingTracker final : public Tracker {
     return std::to_string(width) + "x" + std::to_string(height);
   }
 
-  std::optional<Sighting> PoseOf(ImageView<const std::uint8_t> grey, Candidate candidate,
-                                 const std::optional<PrintAlignment>& alignment) const {
-    Sighting sighting{std::move(candidate.detection), {}};
+  std::optional<MarkerObservation> PoseOf(ImageView<const std::uint8_t> grey, Candidate candidate,
+                                          const std::optional<MarkerAlignment>& alignment) const {
+    MarkerObservation observation{std::move(candidate.detection), {}};
     CornerCovariance covariance = IsotropicCornerCovariance(kRawCornerSigma_px);
     if (candidate.corner_covariance_px2) {
       covariance = *candidate.corner_covariance_px2;
     } else if (!alignment) {
-      const std::array<bool, 4> seen = CornersSeen(grey, sighting.detection.corners_px);
-      const bool is_whole = seen[0] && seen[1] && seen[2] && seen[3];
+      const std::array<bool, 4> observed = CornersSeen(grey, observation.detection.corners_px);
+      const bool is_whole = observed[0] && observed[1] && observed[2] && observed[3];
       if (!is_whole) return std::nullopt;
     } else {
-      sighting.detection.corners_px = alignment->corners_px;
-      sighting.detection.visible_fraction = alignment->visible_fraction;
+      observation.detection.corners_px = alignment->corners_px;
+      observation.detection.visible_fraction = alignment->visible_fraction;
       covariance = alignment->corner_covariance_px2;
     }
-    const Sighting* before = Before(sighting.detection);
-    std::array<Vec2, 4> corners_px = sighting.detection.corners_px;
+    const MarkerObservation* before = Before(observation.detection);
+    std::array<Vec2, 4> corners_px = observation.detection.corners_px;
     Metres size = marker_size_;
     if (candidate.pose_square) {
       corners_px = candidate.pose_square->corners_px;
@@ -130,20 +132,20 @@ class DetectingTracker final : public Tracker {
         camera_, corners_px, covariance, size,
         before != nullptr ? &before->pose.best.camera_from_marker.rotation : nullptr);
     if (!pose) return std::nullopt;
-    sighting.pose = *pose;
-    return sighting;
+    observation.pose = *pose;
+    return observation;
   }
 
-  /// The nearest sighting of the same marker in the picture before; null where there is none.
-  const Sighting* Before(const MarkerDetection& detection) const {
-    const Sighting* nearest = nullptr;
-    for (const Sighting& sighting : before_) {
-      const MarkerDetection& other = sighting.detection;
+  /// The nearest observation of the same marker in the image before; null where there is none.
+  const MarkerObservation* Before(const MarkerDetection& detection) const {
+    const MarkerObservation* nearest = nullptr;
+    for (const MarkerObservation& observation : before_) {
+      const MarkerDetection& other = observation.detection;
       if (other.family != detection.family || other.id != detection.id) continue;
-      const auto distance = [&](const Sighting& s) {
+      const auto distance = [&](const MarkerObservation& s) {
         return Norm(s.detection.corners_px[0] - detection.corners_px[0]);
       };
-      if (nearest == nullptr || distance(sighting) < distance(*nearest)) nearest = &sighting;
+      if (nearest == nullptr || distance(observation) < distance(*nearest)) nearest = &observation;
     }
     return nearest;
   }
@@ -152,12 +154,12 @@ class DetectingTracker final : public Tracker {
   const Metres marker_size_;
   const bool consecutive_frames_;
   const std::vector<std::unique_ptr<MarkerDetector>> detectors_;
-  std::vector<Sighting> before_;
+  std::vector<MarkerObservation> before_;
 };
 
 }  // namespace
 
-Result<std::vector<Sighting>> Tracker::Track(ImageView<const std::uint8_t> grey) {
+Result<std::vector<MarkerObservation>> Tracker::Track(ImageView<const std::uint8_t> grey) {
   PLEINAIR_ASSIGN_OR_RETURN(UnmeasuredMarkers found, Find(grey));
   Align(grey, &found);
   return Conclude(grey, std::move(found));
@@ -171,7 +173,7 @@ Result<std::unique_ptr<Tracker>> Tracker::Create(const CameraModel& camera,
                       "give the edge of its outer black square");
   }
   if (!options.families.empty() &&
-      (options.marker_size_m < kSmallestMarker_m || options.marker_size_m > kLargestMarker_m)) {
+      (options.marker_size_m < kMinMarker_m || options.marker_size_m > kMaxMarker_m)) {
     return InputError("", "the marker would be smaller than 0.1 mm or larger than 1 km",
                       "give the edge of its outer black square in its unit");
   }

@@ -13,7 +13,7 @@ struct UnmeasuredMarkers {
   std::vector<Candidate> candidates;
   /// By candidate; nothing where the detector measured the corners itself, or where the picture
   /// does not bear the alignment out.
-  std::vector<std::optional<PrintAlignment>> alignments;
+  std::vector<std::optional<MarkerAlignment>> alignments;
 };
 
 }  // namespace pleinair::tracker

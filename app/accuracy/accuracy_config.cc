@@ -52,10 +52,10 @@ Result<AccuracyConfig> ParseConfig(const std::string& text, const std::string& f
       config.sweeps.begin(), config.sweeps.end(),
       [&](const std::string& sweep) { return is_among(sweep, accuracy::SweepNames()); });
   if (!has_sweeps || !is_among(config.camera, accuracy::SweepCameraNames())) return refusal;
-  if (config.scale < kLeastScale || config.scale > kMostScale) {
+  if (config.scale < kMinScale || config.scale > kMaxScale) {
     return InputError(
         file,
-        fmt::format("its scale of {} is not from {} to {}", config.scale, kLeastScale, kMostScale),
+        fmt::format("its scale of {} is not from {} to {}", config.scale, kMinScale, kMaxScale),
         "measure it again");
   }
   if (config.spoil_corners_px < 0.0 || config.spoil_corners_px > kMostSpoil_px) {

@@ -15,7 +15,7 @@ struct AccuracyConfig {
   std::string camera = "640x480";       ///< accuracy::SweepCameraNames().
   std::uint64_t seed = 1;               ///< Of scenes,
   std::uint64_t noise_seed = 1;         ///< … and of their noise.
-  double scale = 1.0;                   ///< kLeastScale to kMostScale.
+  double scale = 1.0;                   ///< kMinScale to kMaxScale.
   std::vector<std::string> recordings;  ///< Folders or films with ground truth.
   bool light = true;                    ///< Compose recordings that have true pictures, too.
   std::vector<std::string> peers;       ///< "apriltag", "aruco".
@@ -28,7 +28,7 @@ struct AccuracyConfig {
   bool operator==(const AccuracyConfig&) const = default;
 };
 
-inline constexpr double kLeastScale = 0.001, kMostScale = 1000.0;
+inline constexpr double kMinScale = 0.001, kMaxScale = 1000.0;
 inline constexpr double kMostSpoil_px = 100.0;
 
 inline constexpr const char* kOwnName = "pleinair";

@@ -149,7 +149,7 @@ std::string CellTable(const RunSummary& summary, const std::string& sweep, bool 
         Figure(cell.rotation_deg.median, 3), Figure(cell.rotation_deg.p95, 2),
         Figure(100 * cell.translation_share.median, 3), Figure(100 * cell.translation_share.p95, 2),
         cell.nees ? fmt::format("{:.2f}{}", cell.nees->mean,
-                                cell.nees->band.Holds(cell.nees->mean) ? "" : " !")
+                                cell.nees->band.Contains(cell.nees->mean) ? "" : " !")
                   : "–");
   }
   return html + "</table>\n";

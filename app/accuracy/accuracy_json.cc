@@ -34,7 +34,7 @@ Json NeesJson(const accuracy::NeesSummary& nees) {
   return {{"count", nees.count},
           {"mean", Number(nees.mean)},
           {"band", IntervalJson(nees.band)},
-          {"consistent", nees.band.Holds(nees.mean)}};
+          {"consistent", nees.band.Contains(nees.mean)}};
 }
 
 Json CellJson(const accuracy::CellSummary& cell) {
@@ -122,7 +122,7 @@ Json LightJson(const accuracy::LightSummary& light) {
             {"pictures", light.pictures}};
   for (std::size_t i = 0; i < light.figures.size(); ++i) {
     const accuracy::LightFigure& figure = light.figures[i];
-    json[accuracy::kPictureMeasures[i].name] = {
+    json[accuracy::kImageMeasures[i].name] = {
         {"count", figure.count},
         {"mean", Number(figure.mean)},
         {"interval", figure.interval ? IntervalJson(*figure.interval) : Json()}};

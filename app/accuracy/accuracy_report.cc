@@ -18,8 +18,8 @@ namespace {
 
 /// "3", "3, 5 and 7", "3, 5, 7 and 12 more".
 std::string ListOf(const std::vector<std::int64_t>& numbers) {
-  constexpr std::size_t kMost = 6;
-  const std::size_t shown = std::min(numbers.size(), kMost);
+  constexpr std::size_t kMax = 6;
+  const std::size_t shown = std::min(numbers.size(), kMax);
   std::string text;
   for (std::size_t i = 0; i < shown; ++i)
     text += fmt::format("{}{}", i > 0 ? ", " : "", numbers[i]);
@@ -97,7 +97,7 @@ Result<WrittenReport> WriteAccuracyReport(const std::vector<RecordParts>& folder
     lines += RecordJson(record, false) + "\n";
     frames.insert(record.frame);
   }
-  for (const accuracy::PictureRecord& picture : gathered.records.pictures) {
+  for (const accuracy::ImageRecord& picture : gathered.records.pictures) {
     picture_lines += PictureJson(picture) + "\n";
   }
   std::error_code error;

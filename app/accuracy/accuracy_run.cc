@@ -53,8 +53,8 @@ std::vector<Station> MakeStations(const AccuracyConfig& config) {
   std::vector<Station> stations;
   for (const std::string& name : names) {
     Station station{name, MakeDetector(name, config, camera), nullptr};
-    station.renderer = std::make_unique<accuracy::FrameRenderer>(camera, station.detector->Prints(),
-                                                                 config.seed, config.noise_seed);
+    station.renderer = std::make_unique<accuracy::FrameRenderer>(
+        camera, station.detector->Patterns(), config.seed, config.noise_seed);
     stations.push_back(std::move(station));
   }
   return stations;
@@ -81,7 +81,7 @@ Result<void> MeasureRun(const accuracy::FrameRun& run, std::int64_t first_frame,
     const accuracy::FrameSpec& spec = run.frames[i];
     if (!run.film) PLEINAIR_RETURN_IF_ERROR(station->detector->Start(false));
     const accuracy::RenderedFrame frame = station->renderer->Render(spec);
-    PLEINAIR_ASSIGN_OR_RETURN(accuracy::Detector::Seen seen,
+    PLEINAIR_ASSIGN_OR_RETURN(accuracy::Detector::Detections seen,
                               station->detector->Detect(frame.grey.view()));
     accuracy::FrameRecord record{.frame = first_frame + static_cast<std::int64_t>(i),
                                  .name = spec.name,

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 
 constexpr int kPageWidth_px = 480;
 
-static_assert(kPictureScoreNames.size() == accuracy::kPictureMeasures.size() &&
+static_assert(kPictureScoreNames.size() == accuracy::kImageMeasures.size() &&
               std::equal(kPictureScoreNames.begin(), kPictureScoreNames.end(),
-                         accuracy::kPictureMeasures.begin(),
-                         [](std::string_view name, const accuracy::PictureMeasure& measure) {
+                         accuracy::kImageMeasures.begin(),
+                         [](std::string_view name, const accuracy::ImageMeasure& measure) {
                            return name == measure.name;
                          }));
 

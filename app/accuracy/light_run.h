@@ -10,7 +10,7 @@ namespace pleinair::app {
 
 /// A composed picture's record with what the page shows of it: JPEG in base 64.
 struct LightPicture {
-  accuracy::PictureRecord record;
+  accuracy::ImageRecord record;
   std::string truth, composed, difference;
 };
 

@@ -31,7 +31,7 @@ std::string Row(const accuracy::LightSummary& light) {
 /// What the difference is largest over: the region that matters most to the eye.
 double Badness(const LightPicture& picture) {
   constexpr std::size_t kNear = 4;
-  static_assert(std::string_view(accuracy::kPictureMeasures[kNear].name) == "dE_near");
+  static_assert(std::string_view(accuracy::kImageMeasures[kNear].name) == "dE_near");
   return picture.record.scores[kNear].value_or(0.0);
 }
 
@@ -62,7 +62,7 @@ std::string LightSection(const AccuracyReport& report) {
       "pixels "
       "around them, everything; small: where the mean lies with 95 % by Student's t over the key "
       "frames.</p>\n<div class=\"wide\"><table><tr><th>recording</th><th>pictures</th>";
-  for (const accuracy::PictureMeasure& measure : accuracy::kPictureMeasures) {
+  for (const accuracy::ImageMeasure& measure : accuracy::kImageMeasures) {
     html += fmt::format("<th>{}</th>", measure.name);
   }
   html += "</tr>\n";

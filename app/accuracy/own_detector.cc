@@ -25,7 +25,7 @@ class OwnDetector final : public accuracy::Detector {
   OwnDetector(const CameraModel& camera, const OwnDetectorOptions& options)
       : camera_(camera), options_(options) {}
 
-  accuracy::PrintsByNumber Prints() const override {
+  accuracy::PatternByNumber Patterns() const override {
     return [family = options_.tracker.families.at(0)](int number) {
       return session::PatternOf({family, number});
     };
@@ -42,26 +42,27 @@ class OwnDetector final : public accuracy::Detector {
     return {};
   }
 
-  Result<Seen> Detect(ImageView<const std::uint8_t> grey) override {
-    Seen seen;
+  Result<Detections> Detect(ImageView<const std::uint8_t> grey) override {
+    Detections seen;
     const auto start = Clock::now();
-    PLEINAIR_ASSIGN_OR_RETURN(std::vector<tracker::Sighting> sightings, tracker_->Track(grey));
+    PLEINAIR_ASSIGN_OR_RETURN(std::vector<tracker::MarkerObservation> observations,
+                              tracker_->Track(grey));
     const auto detected = Clock::now();
     seen.stages_ms.emplace_back("detect", Milliseconds(detected - start));
     if (options_.measure_prints) {
-      sightings = measurer_->Measure(grey, std::move(sightings));
+      observations = measurer_->Measure(grey, std::move(observations));
       seen.stages_ms.emplace_back("measure", Milliseconds(Clock::now() - detected));
     }
     seen.lost = static_cast<int>(tracker_->Lost().size());
-    for (tracker::Sighting& sighting : sightings) {
-      if (options_.spoil_corners_px > 0.0) Spoil(&sighting);
-      seen.markers.push_back({.number = sighting.detection.id,
-                              .corners_px = sighting.detection.corners_px,
-                              .pose = sighting.pose,
+    for (tracker::MarkerObservation& observation : observations) {
+      if (options_.spoil_corners_px > 0.0) Spoil(&observation);
+      seen.markers.push_back({.number = observation.detection.id,
+                              .corners_px = observation.detection.corners_px,
+                              .pose = observation.pose,
                               .pose_has_covariance = true,
-                              .visible_fraction = sighting.detection.visible_fraction,
-                              .path = tracker::PathName(sighting.detection.path),
-                              .family = sighting.detection.family});
+                              .visible_fraction = observation.detection.visible_fraction,
+                              .path = tracker::PathName(observation.detection.path),
+                              .family = observation.detection.family});
     }
     return seen;
   }
@@ -73,11 +74,11 @@ class OwnDetector final : public accuracy::Detector {
     return tracker::Tracker::Create(camera_, options);
   }
 
-  void Spoil(tracker::Sighting* sighting) const {
-    auto& corners = sighting->detection.corners_px;
+  void Spoil(tracker::MarkerObservation* observation) const {
+    auto& corners = observation->detection.corners_px;
     // The picture alone says which way, so that the order of frames does not matter.
     accuracy::RandomStream random(
-        0, fmt::format("spoil/{}/{}/{}", sighting->detection.id, corners[0].x, corners[0].y));
+        0, fmt::format("spoil/{}/{}/{}", observation->detection.id, corners[0].x, corners[0].y));
     for (Vec2& corner : corners) {
       const double direction = random.Uniform(0, 2 * M_PI);
       corner = corner + Vec2{std::cos(direction), std::sin(direction)} * options_.spoil_corners_px;
@@ -85,7 +86,7 @@ class OwnDetector final : public accuracy::Detector {
     const auto pose = tracker::EstimatePlanarPose(
         camera_, corners, tracker::IsotropicCornerCovariance(options_.spoil_corners_px),
         Metres(options_.tracker.marker_size_m));
-    if (pose) sighting->pose = *pose;
+    if (pose) observation->pose = *pose;
   }
 
   const CameraModel camera_;

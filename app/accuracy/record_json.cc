@@ -57,8 +57,8 @@ template <typename Visitor, typename Record>
 void TellPicture(Visitor& visit, Record& record) {
   visit.Field("recording", record.recording);
   visit.Field("picture", record.picture);
-  for (std::size_t i = 0; i < accuracy::kPictureMeasures.size(); ++i) {
-    visit.Field(accuracy::kPictureMeasures[i].name, record.scores[i]);
+  for (std::size_t i = 0; i < accuracy::kImageMeasures.size(); ++i) {
+    visit.Field(accuracy::kImageMeasures[i].name, record.scores[i]);
   }
 }
 
@@ -113,18 +113,18 @@ Result<FrameRecord> ParseRecord(std::string_view line, const std::string& where)
   });
 }
 
-std::string PictureJson(const accuracy::PictureRecord& record) {
+std::string PictureJson(const accuracy::ImageRecord& record) {
   FieldWriter picture;
   TellPicture(picture, record);
   return LineOf(picture.json);
 }
 
-Result<accuracy::PictureRecord> ParsePicture(std::string_view line, const std::string& where) {
-  return ReadJson<accuracy::PictureRecord>(line, NoRecord(where),
-                                           [](const Json& json, accuracy::PictureRecord* record) {
-                                             FieldReader picture(json);
-                                             TellPicture(picture, *record);
-                                           });
+Result<accuracy::ImageRecord> ParsePicture(std::string_view line, const std::string& where) {
+  return ReadJson<accuracy::ImageRecord>(line, NoRecord(where),
+                                         [](const Json& json, accuracy::ImageRecord* record) {
+                                           FieldReader picture(json);
+                                           TellPicture(picture, *record);
+                                         });
 }
 
 }  // namespace pleinair::app

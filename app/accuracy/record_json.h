@@ -17,9 +17,9 @@ std::string RecordJson(const accuracy::FrameRecord& record, bool with_times);
 Result<accuracy::FrameRecord> ParseRecord(std::string_view line, const std::string& where);
 
 /// A composed picture's record as one line (pictures.jsonl).
-std::string PictureJson(const accuracy::PictureRecord& record);
+std::string PictureJson(const accuracy::ImageRecord& record);
 
 /// Errors (input): not what PictureJson writes.
-Result<accuracy::PictureRecord> ParsePicture(std::string_view line, const std::string& where);
+Result<accuracy::ImageRecord> ParsePicture(std::string_view line, const std::string& where);
 
 }  // namespace pleinair::app

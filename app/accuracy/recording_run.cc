@@ -25,7 +25,7 @@ using accuracy::MarkerTruth;
 /// What our detector saw in a frame.
 struct SeenFrame {
   std::int64_t index = 0, timestamp_ns = 0;
-  Detector::Seen seen;
+  Detector::Detections seen;
 };
 
 /// The marker whose truth is known.
@@ -85,19 +85,19 @@ class RecordingRun {
       if (index == 0 && frame->device_timestamp_ns) {
         start_ns_ = *frame->device_timestamp_ns - frame->timestamp_ns;
       }
-      PLEINAIR_ASSIGN_OR_RETURN(Detector::Seen seen, detector->Detect(frame->grey.view()));
+      PLEINAIR_ASSIGN_OR_RETURN(Detector::Detections seen, detector->Detect(frame->grey.view()));
       frames_.push_back({index, frame->timestamp_ns, std::move(seen)});
     }
   }
 
   Result<void> ChooseAnchor() {
     anchor_.size = Metres(scene_.marker.size_m);
-    std::map<std::pair<std::string, int>, int> sightings;
+    std::map<std::pair<std::string, int>, int> observations;
     for (const SeenFrame& frame : frames_) {
       for (const accuracy::Detected& detected : frame.seen.markers) {
         if (scene_.marker.family && *scene_.marker.family != detected.family) continue;
         if (scene_.marker.id && *scene_.marker.id != detected.number) continue;
-        ++sightings[{detected.family, detected.number}];
+        ++observations[{detected.family, detected.number}];
       }
     }
     anchor_.is_named = scene_.marker.family && scene_.marker.id;
@@ -107,9 +107,9 @@ class RecordingRun {
       return {};
     }
     const auto most =
-        std::max_element(sightings.begin(), sightings.end(),
+        std::max_element(observations.begin(), observations.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (most == sightings.end()) {
+    if (most == observations.end()) {
       return InputError(path_, "no marker was found in it, and its scene names none",
                         "name family and id of the marker in its scene");
     }
@@ -174,7 +174,7 @@ class RecordingRun {
     return truth;
   }
 
-  void AddRecord(const std::string& detector, std::int64_t index, Detector::Seen seen) {
+  void AddRecord(const std::string& detector, std::int64_t index, Detector::Detections seen) {
     if (!anchor_.is_named) {
       std::erase_if(seen.markers, [&](const accuracy::Detected& detected) {
         return detector == kOwnName ? !anchor_.Is(detected) : detected.number != anchor_.number;
@@ -202,7 +202,7 @@ class RecordingRun {
       PLEINAIR_ASSIGN_OR_RETURN(const auto frame, recording.frames->Next());
       if (!frame) return {};
       if (!truth_.contains(index)) continue;
-      PLEINAIR_ASSIGN_OR_RETURN(Detector::Seen seen, detector->Detect(frame->grey.view()));
+      PLEINAIR_ASSIGN_OR_RETURN(Detector::Detections seen, detector->Detect(frame->grey.view()));
       AddRecord(name, index, std::move(seen));
     }
   }

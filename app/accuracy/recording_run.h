@@ -17,10 +17,10 @@ namespace pleinair::app {
 /// say which, the one that is found most often. Truth in a frame of its author's own is told in the
 /// marker's by aligning it with the path that we find: what is measured then is what is left.
 /// Frames without a true pose, or in which the marker is behind the camera, are left out. A
-/// sighting of another number than the scene's marker is false; where the scene does not say which,
-/// others are not looked at. Errors (input): what OpenRecording refuses or Next() fails at, a scene
-/// that does not say how large the marker is, a truth that is missing or has no pose at any frame,
-/// no marker found.
+/// observation of another number than the scene's marker is false; where the scene does not say
+/// which, others are not looked at. Errors (input): what OpenRecording refuses or Next() fails at,
+/// a scene that does not say how large the marker is, a truth that is missing or has no pose at any
+/// frame, no marker found.
 Result<std::vector<accuracy::FrameRecord>> MeasureRecording(const std::string& path,
                                                             std::int64_t first_frame,
                                                             const AccuracyConfig& config);

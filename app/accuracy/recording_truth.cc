@@ -100,8 +100,8 @@ std::optional<Transform<Marker, exports::Reference>> AlignReference(
     turns.push_back(pair.found.rotation * pair.truth.rotation.Transposed());
   }
   // All pairs of a long recording would take hours; a few hundred stand for the others.
-  constexpr std::size_t kMost = 300;
-  const std::size_t step = turns.size() / kMost + 1;
+  constexpr std::size_t kMax = 300;
+  const std::size_t step = turns.size() / kMax + 1;
   const auto median_angle = [&](const Mat3& from) {
     std::vector<double> angles;
     for (std::size_t i = 0; i < turns.size(); i += step) {

@@ -92,7 +92,7 @@ exports::LineDrawing CoverageDrawing(const LensCalibration& calibration) {
         {{middle + Vec2{side, -side}, middle + Vec2{-side, side}}, kSoft, 1.5, false});
   }
   for (std::size_t view = 0; view < calibration.views.size(); ++view) {
-    const auto& seen = calibration.views[view].seen_px;
+    const auto& seen = calibration.views[view].observed_px;
     std::vector<Vec2> outline = Outline(seen);
     for (Vec2& corner : outline) corner = Place(corner, scale);
     drawing.lines.push_back({std::move(outline), kSoft, 1.0, false});
@@ -109,8 +109,8 @@ std::vector<ResidualRegion> ResidualRegions(const LensCalibration& calibration) 
   const CameraModel& camera = calibration.fit.camera;
   std::vector<ResidualRegion> regions(kRegionColumns * kRegionRows);
   for (std::size_t view = 0; view < calibration.views.size(); ++view) {
-    for (std::size_t i = 0; i < calibration.views[view].seen_px.size(); ++i) {
-      const Vec2 at = calibration.views[view].seen_px[i];
+    for (std::size_t i = 0; i < calibration.views[view].observed_px.size(); ++i) {
+      const Vec2 at = calibration.views[view].observed_px[i];
       const int column = std::clamp(static_cast<int>((at.x + 0.5) / camera.width * kRegionColumns),
                                     0, kRegionColumns - 1);
       const int row = std::clamp(static_cast<int>((at.y + 0.5) / camera.height * kRegionRows), 0,

@@ -94,7 +94,7 @@ std::string Thumbnail(const CollectedView& view, const LensCalibration& calibrat
     }
   }
   std::string corners;
-  for (const Vec2 seen : calibration.views[used].seen_px) {
+  for (const Vec2 seen : calibration.views[used].observed_px) {
     corners += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>", seen.x + 0.5,
                            seen.y + 0.5, width / 110.0);
   }
@@ -119,7 +119,7 @@ std::string Views(const LensCalibration& calibration, const std::vector<Collecte
     table += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.3f} px</td><td style=\"text-align:left\"><span "
         "class=\"bar\" style=\"width:{:.1f}rem\"></span></td></tr>\n",
-        files::EscapeMarkup(view.name), view.seen_px.size(), rms, 8.0 * rms / largest);
+        files::EscapeMarkup(view.name), view.observed_px.size(), rms, 8.0 * rms / largest);
     const auto source = std::find_if(views.begin(), views.end(), [&](const CollectedView& each) {
       return each.view.name == view.name && !each.grey.empty();
     });

@@ -27,7 +27,7 @@ class PictureFiles final : public PictureStream {
   Result<std::optional<NamedPicture>> Next() override {
     if (next_ == files_.size()) return std::nullopt;
     const fs::path& file = files_[next_++];
-    PLEINAIR_ASSIGN_OR_RETURN(devices::Picture picture, devices::DecodePictureFile(file));
+    PLEINAIR_ASSIGN_OR_RETURN(devices::DecodedImage picture, devices::DecodeImageFile(file));
     return NamedPicture{file.string(), std::move(picture.grey)};
   }
   std::optional<std::int64_t> Count() const override {
@@ -81,13 +81,14 @@ class Camera final : public PictureStream {
     using Kind = devices::CameraEvent::Kind;
     if (event.kind == Kind::kGone) std::cerr << "The camera is gone; waiting for it.\n";
     if (event.kind == Kind::kStalled) std::cerr << "The camera sends nothing; waiting for it.\n";
-    if (event.kind == Kind::kConnected && !event.words.empty()) std::cerr << event.words << ".\n";
+    if (event.kind == Kind::kConnected && !event.details.empty())
+      std::cerr << event.details << ".\n";
   }
 
   std::unique_ptr<devices::LiveCamera> camera_;
 };
 
-bool IsPictureName(const fs::path& file) {
+bool IsImageName(const fs::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
@@ -105,7 +106,7 @@ Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (IsPictureName(entry.path()) && entry.is_regular_file(error)) files.push_back(entry.path());
+    if (IsImageName(entry.path()) && entry.is_regular_file(error)) files.push_back(entry.path());
   }
   if (error) return InputError(folder.string(), "cannot be read: " + error.message());
   if (files.empty() && fs::is_directory(folder / "frames", error))
@@ -129,10 +130,10 @@ std::optional<Result<devices::CameraUri>> CameraNamed(const std::string& source)
 }
 
 Result<std::unique_ptr<PictureStream>> OpenCamera(const devices::CameraUri& uri,
-                                                  const devices::PictureWish& wish) {
+                                                  const devices::FormatRequest& requested) {
   devices::LiveCameraOptions options;
   options.uri = uri;
-  options.pictures = wish;
+  options.pictures = requested;
   options.wait_for_camera = false;
   PLEINAIR_ASSIGN_OR_RETURN(auto camera, devices::LiveCamera::Open(std::move(options)));
   return std::make_unique<Camera>(std::move(camera));
@@ -158,7 +159,7 @@ Result<std::unique_ptr<PictureStream>> OpenOne(const fs::path& path, std::vector
     return nullptr;
   }
   // What is named like a picture and is none is refused as one.
-  if (!IsPictureName(path) && !IsPicture(path)) return OpenFilm(path);
+  if (!IsImageName(path) && !IsPicture(path)) return OpenFilm(path);
   files->push_back(path);
   return nullptr;
 }
@@ -166,7 +167,7 @@ Result<std::unique_ptr<PictureStream>> OpenOne(const fs::path& path, std::vector
 }  // namespace
 
 Result<std::unique_ptr<PictureStream>> OpenPictures(const std::vector<std::string>& sources,
-                                                    const devices::PictureWish& wish) {
+                                                    const devices::FormatRequest& requested) {
   const auto alone = [&](const std::string& source) -> Result<void> {
     if (sources.size() == 1) return {};
     return InputError(source, "can only be calibrated alone: cameras and films are not mixed",
@@ -177,8 +178,9 @@ Result<std::unique_ptr<PictureStream>> OpenPictures(const std::vector<std::strin
     if (const auto uri = CameraNamed(source)) {
       if (!*uri) return tl::make_unexpected(uri->error());
       PLEINAIR_RETURN_IF_ERROR(alone(source));
-      if ((*uri)->backend != devices::CameraUri::Backend::kFile) return OpenCamera(**uri, wish);
-      return OpenPictures({(*uri)->value}, wish);
+      if ((*uri)->backend != devices::CameraUri::Backend::kFile)
+        return OpenCamera(**uri, requested);
+      return OpenPictures({(*uri)->value}, requested);
     }
     PLEINAIR_ASSIGN_OR_RETURN(auto film, OpenOne(source, &files));
     if (!film) continue;

@@ -35,6 +35,6 @@ class PictureStream {
 /// one; a film; a recording's frames.pack; or a camera's URI. Only pictures may be several.
 /// Errors (input): nothing there, no picture in the folder, something that cannot be read.
 Result<std::unique_ptr<PictureStream>> OpenPictures(const std::vector<std::string>& sources,
-                                                    const devices::PictureWish& wish);
+                                                    const devices::FormatRequest& requested);
 
 }  // namespace pleinair::app

@@ -48,7 +48,7 @@ tl::unexpected<Error> NothingFound(const Collection& collection, tracker::BoardF
   const std::string hint = first.empty() ? "" : finder.Hint(first.view());
   return InputError(
       first_name,
-      fmt::format("no {} is seen in {}", finder.board().Words(),
+      fmt::format("no {} is seen in {}", finder.board().Description(),
                   collection.looked_at == 1
                       ? "this picture"
                       : fmt::format("any of {} pictures", collection.looked_at)),
@@ -92,7 +92,7 @@ Result<Collection> CollectViews(PictureStream& pictures, tracker::BoardFinder& f
     }
     if (pictures.is_film() && !picker->Take(*view)) continue;
     view->name = picture->name;
-    coverage.Add(view->seen_px, collection.width, collection.height);
+    coverage.Add(view->observed_px, collection.width, collection.height);
     collection.views.push_back({*std::move(view), std::move(picture->grey)});
     if (pictures.is_live() && !options.quiet) TellProgress(collection, coverage);
   }

@@ -156,7 +156,7 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
       ->type_name("N,...");
   CLI::Option* scale =
       command->add_option("--scale", options->config.scale, "Times the frames of each level")
-          ->check(NumberRange(kLeastScale, kMostScale))
+          ->check(NumberRange(kMinScale, kMaxScale))
           ->capture_default_str();
   command->add_flag("--quick", options->quick, "An eighth of the frames")->excludes(scale);
   command

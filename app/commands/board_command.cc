@@ -106,13 +106,13 @@ Result<Printed> PrintMarkers(const Options& options, exports::PageSize page) {
 
 /// Side of a ChArUco board's markers: enough white around for its codes to be read.
 Result<double> MarkerSide_mm(const Options& options, double square_mm) {
-  constexpr double kUsual = 0.75, kLeast = 0.4, kMost = 0.9;
+  constexpr double kUsual = 0.75, kMin = 0.4, kMax = 0.9;
   const double side = options.marker_mm.value_or(kUsual * square_mm);
-  if (side >= kLeast * square_mm && side <= kMost * square_mm) return side;
+  if (side >= kMin * square_mm && side <= kMax * square_mm) return side;
   return InputError(
       "--marker-mm",
       fmt::format("markers of {:g} mm do not suit squares of {:g} mm", side, square_mm),
-      fmt::format("give {:g} to {:g} mm", kLeast * square_mm, kMost * square_mm));
+      fmt::format("give {:g} to {:g} mm", kMin * square_mm, kMax * square_mm));
 }
 
 Result<Printed> PrintSquares(const Options& options, exports::PageSize page) {

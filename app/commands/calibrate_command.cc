@@ -68,12 +68,12 @@ struct Options {
   bool json = false;
 };
 
-Result<devices::PictureWish> WishOf(const Options& options) {
-  devices::PictureWish wish;
-  if (options.size.empty()) return wish;
+Result<devices::FormatRequest> WishOf(const Options& options) {
+  devices::FormatRequest requested;
+  if (options.size.empty()) return requested;
   PLEINAIR_ASSIGN_OR_RETURN(const auto sides, ParseSides("--size", options.size));
-  wish.size = devices::PictureSize{sides.first, sides.second};
-  return wish;
+  requested.size = devices::ImageSize{sides.first, sides.second};
+  return requested;
 }
 
 /// What may be wrong with the outputs is said before minutes of work.
@@ -101,7 +101,7 @@ std::vector<tracker::PlaneView> Planes(const Collection& collection,
 /// Prints are measured once more when the lens is known about; where it cannot be found out, what
 /// comes next says why.
 void RefineViews(tracker::BoardFinder& finder, Collection* collection) {
-  if (!finder.refines() || collection->views.size() < tracker::kFewestViews) return;
+  if (!finder.refines() || collection->views.size() < tracker::kMinViews) return;
   const auto rough = tracker::FitLens(Planes(*collection, finder.board()), collection->width,
                                       collection->height, LensKind::kRadtan4, 1.0);
   if (!rough) return;
@@ -123,11 +123,11 @@ Result<LensCalibration> Calibrate(const Options& options, const Collection& coll
   if (calibration) return calibration;
   Error error = calibration.error();
   if (error.where.empty()) error.where = options.sources.front();
-  if (collection.views.size() < tracker::kFewestViews) {
+  if (collection.views.size() < tracker::kMinViews) {
     error.what = fmt::format(
         "the board is seen in {} of {} pictures, and fewer than {} do not "
         "determine a lens",
-        collection.views.size(), collection.looked_at, tracker::kFewestViews);
+        collection.views.size(), collection.looked_at, tracker::kMinViews);
   }
   return tl::make_unexpected(std::move(error));
 }
@@ -171,7 +171,7 @@ Result<void> Write(const Options& options, const LensCalibration& calibration,
     for (const std::string& source : options.sources) {
       if (facts.command.size() < 200) facts.command += " " + source;
     }
-    facts.board = board.Words();
+    facts.board = board.Description();
     facts.title = options.sources.front();
     facts.looked_at = collection.looked_at;
     facts.with_board = static_cast<int>(collection.views.size());
@@ -190,7 +190,7 @@ nlohmann::ordered_json Json(const LensCalibration& calibration, const Collection
   nlohmann::ordered_json json = {{"image_width", camera.width},
                                  {"image_height", camera.height},
                                  {"kind", NameOf(calibration.fit.kind)},
-                                 {"board", board.Words()},
+                                 {"board", board.Description()},
                                  {"fx", camera.fx},
                                  {"fy", camera.fy},
                                  {"cx", camera.cx},
@@ -214,7 +214,7 @@ nlohmann::ordered_json Json(const LensCalibration& calibration, const Collection
   json["pictures"] = collection.looked_at;
   for (std::size_t i = 0; i < calibration.views.size(); ++i) {
     json["views"].push_back({{"name", calibration.views[i].name},
-                             {"corners", calibration.views[i].seen_px.size()},
+                             {"corners", calibration.views[i].observed_px.size()},
                              {"rms_px", tracker::Rms(calibration.residuals_px[i])}});
   }
   json["left_out"] = nlohmann::json::array();
@@ -240,8 +240,9 @@ void Print(const LensCalibration& calibration, const Collection& collection,
       "{}, seen in {} of {} pictures of {}x{}\n"
       "fx {:.2f} +- {:.2f} px, fy {:.2f} +- {:.2f} px, centre {:.2f}, {:.2f} +- {:.2f}, {:.2f} "
       "px\n",
-      board.Words(), collection.views.size(), collection.looked_at, camera.width, camera.height,
-      camera.fx, doubt.fx, camera.fy, doubt.fy, camera.cx, camera.cy, doubt.cx, doubt.cy);
+      board.Description(), collection.views.size(), collection.looked_at, camera.width,
+      camera.height, camera.fx, doubt.fx, camera.fy, doubt.fy, camera.cx, camera.cy, doubt.cx,
+      doubt.cy);
   std::cout << NameOf(calibration.fit.kind) << ":";
   const auto names = CoefficientNames(camera);
   for (std::size_t i = 0; i < static_cast<std::size_t>(CoefficientsOf(calibration.fit.kind)); ++i) {
@@ -262,10 +263,10 @@ void Print(const LensCalibration& calibration, const Collection& collection,
 Result<void> Run(const Options& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckOutputs(options));
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::CalibrationBoard board, BoardOf(options.board));
-  PLEINAIR_ASSIGN_OR_RETURN(const devices::PictureWish wish, WishOf(options));
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::FormatRequest requested, WishOf(options));
   PLEINAIR_ASSIGN_OR_RETURN(const auto finder, tracker::BoardFinder::Create(board));
   const InterruptGuard guard;
-  PLEINAIR_ASSIGN_OR_RETURN(const auto pictures, OpenPictures(options.sources, wish));
+  PLEINAIR_ASSIGN_OR_RETURN(const auto pictures, OpenPictures(options.sources, requested));
   CollectionOptions collection_options;
   collection_options.most_views = options.views;
   collection_options.seconds = options.seconds;
@@ -312,7 +313,7 @@ void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
       ->type_name("KIND")
       ->capture_default_str();
   command->add_option("--views", options->views, "Of a film or camera, pick at most so many views")
-      ->check(CLI::Range(tracker::kFewestViews, 200))
+      ->check(CLI::Range(tracker::kMinViews, 200))
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "Of a camera, look for so long at most")
       ->check(NumberRange(1.0, 36'000.0));

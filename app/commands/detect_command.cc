@@ -52,7 +52,7 @@ tl::unexpected<Error> Located(Error error, const std::string& where) {
 
 Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
                           const std::string& calibration) {
-  PLEINAIR_ASSIGN_OR_RETURN(const devices::PictureSize size, devices::InspectPictureFile(picture));
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::ImageSize size, devices::InspectImageFile(picture));
   if (size.width == camera.width && size.height == camera.height) return {};
   const auto text = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
@@ -79,8 +79,8 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
     return InputError("--size-mm", "the marker's size must be positive",
                       "give the edge of its outer black square in millimetres with --size-mm");
   }
-  if (!only_targets && (arguments.size_mm < tracker::kSmallestMarker_m * 1e3 ||
-                        arguments.size_mm > tracker::kLargestMarker_m * 1e3)) {
+  if (!only_targets && (arguments.size_mm < tracker::kMinMarker_m * 1e3 ||
+                        arguments.size_mm > tracker::kMaxMarker_m * 1e3)) {
     return InputError("--size-mm", "the marker would be smaller than 0.1 mm or larger than 1 km",
                       "give the edge of its outer black square in millimetres");
   }
@@ -103,16 +103,17 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
     PLEINAIR_RETURN_IF_ERROR(CheckPicture(picture, camera, arguments.calibration));
   }
   for (const std::string& picture : arguments.pictures) {
-    PLEINAIR_ASSIGN_OR_RETURN(const devices::Picture decoded, devices::DecodePictureFile(picture));
+    PLEINAIR_ASSIGN_OR_RETURN(const devices::DecodedImage decoded,
+                              devices::DecodeImageFile(picture));
     const auto start = std::chrono::steady_clock::now();
-    auto sightings = (*tracker)->Track(decoded.grey.view());
+    auto observations = (*tracker)->Track(decoded.grey.view());
     const std::chrono::duration<double, std::milli> elapsed =
         std::chrono::steady_clock::now() - start;
-    if (!sightings) return Located(std::move(sightings).error(), picture);
+    if (!observations) return Located(std::move(observations).error(), picture);
     out << "{\"file\":"
         << nlohmann::json(picture).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
         << ",\"milliseconds\":" << nlohmann::json(std::round(elapsed.count() * 1e3) / 1e3).dump()
-        << ",\"markers\":" << MarkersJson(*sightings);
+        << ",\"markers\":" << MarkersJson(*observations);
     if (arguments.track) out << ",\"lost\":" << LostJson((*tracker)->Lost());
     out << "}\n";
     for (const std::string& warning : (*tracker)->Warnings()) {

@@ -77,16 +77,16 @@ struct Source {
   std::optional<scene::SceneDescription> scene;
 };
 
-std::vector<devices::ControlWish> ControlsOf(const Arguments& arguments) {
-  std::vector<devices::ControlWish> wishes;
+std::vector<devices::ControlRequest> ControlsOf(const Arguments& arguments) {
+  std::vector<devices::ControlRequest> control_requests;
   const auto add = [&](devices::CameraControl control, const std::optional<double>& value) {
-    if (value || arguments.lock) wishes.push_back({control, value});
+    if (value || arguments.lock) control_requests.push_back({control, value});
   };
   add(devices::CameraControl::kExposure, arguments.exposure_s);
   add(devices::CameraControl::kGain, arguments.gain);
   add(devices::CameraControl::kWhiteBalance, arguments.white_balance_k);
   add(devices::CameraControl::kFocus, arguments.focus);
-  return wishes;
+  return control_requests;
 }
 
 /// Nothing that was asked for is passed over in silence.
@@ -158,7 +158,7 @@ Result<Source> OpenCamera(const devices::CameraUri& uri, const Arguments& argume
   }
   devices::LiveCameraOptions options;
   options.uri = uri;
-  options.pictures.size = devices::PictureSize{source.lens.width, source.lens.height};
+  options.pictures.size = devices::ImageSize{source.lens.width, source.lens.height};
   options.pictures.rate_hz = arguments.rate_hz;
   if (!arguments.pixel_format.empty()) {
     options.pictures.format = devices::PixelFormatByName(arguments.pixel_format);
@@ -205,7 +205,7 @@ Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Argum
 }
 
 /// Shows a window until it is closed; there is no last picture.
-Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]] PictureSize window,
+Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]] ImageSize window,
                          [[maybe_unused]] const Source& source,
                          [[maybe_unused]] const Arguments& arguments,
                          [[maybe_unused]] const scene::SceneDescription& scene,
@@ -251,7 +251,7 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
                             devices::ParseCameraUri(arguments.camera));
   const bool is_file = uri.backend == devices::CameraUri::Backend::kFile;
   PLEINAIR_RETURN_IF_ERROR(CheckOptions(command, arguments, is_file));
-  PictureSize window;
+  ImageSize window;
   if (!arguments.window_size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(window, ParsePictureSize("--window", arguments.window_size));
   }

@@ -41,8 +41,8 @@ constexpr const char* kExamples =
 
 constexpr const char* kIdPattern = "{id}";
 // Fewer pixels than modules cannot show them; the upper end is 400 megapixels.
-constexpr int kFewestPixels = sg::kPrint;
-constexpr int kMostPixels = 20'000;
+constexpr int kFewestPixels = sg::kModules;
+constexpr int kMaxPixels = 20'000;
 
 struct Options {
   std::vector<std::string> ids;
@@ -103,15 +103,15 @@ void Print(const nlohmann::json& object) {
 
 Result<void> WriteBarePrint(const fs::path& file, int number, const Options& options) {
   const int pixels = *options.pixels;
-  const double side_m = options.size_mm * 1e-3 * sg::kPrint / sg::kEdge;
-  Image<std::uint8_t> picture = exports::RasterizePrint(tracker::SgPrint(number), pixels);
+  const double side_m = options.size_mm * 1e-3 * sg::kModules / sg::kEdge;
+  Image<std::uint8_t> picture = exports::RasterizePrint(tracker::SgMarkerPattern(number), pixels);
   PLEINAIR_ASSIGN_OR_RETURN(const std::string png,
                             exports::EncodeGrayPng(picture.view(), pixels / side_m));
   PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(file, png));
   if (options.json) {
     nlohmann::json object = Describe(file, number, options.size_mm);
     object["pixels"] = pixels;
-    object["edge_fraction"] = static_cast<double>(sg::kEdge) / sg::kPrint;
+    object["edge_fraction"] = static_cast<double>(sg::kEdge) / sg::kModules;
     Print(object);
   }
   return {};
@@ -228,7 +228,7 @@ void AddMarkerCommand(CLI::App& app, CommandResult& result) {
                    "The bare print with its white margin as a PNG of N x N pixels; multiples of 48 "
                    "are sharpest")
       ->type_name("N")
-      ->check(CLI::Range(kFewestPixels, kMostPixels))
+      ->check(CLI::Range(kFewestPixels, kMaxPixels))
       ->excludes(page);
   command
       ->add_option("-o,--output", options->output,

@@ -120,7 +120,7 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
       arguments.name ? *arguments.name : fs::path(arguments.picture).stem().string();
   if (!tracker::IsTargetName(name)) {
     return InputError("--name", "the name is empty, too long or no plain UTF-8",
-                      fmt::format("give one of 1 to {} bytes", tracker::kMostTargetName));
+                      fmt::format("give one of 1 to {} bytes", tracker::kMaxTargetName));
   }
   // A slip in a name should not cost the seconds that making a target takes.
   for (const fs::path& file :
@@ -130,8 +130,8 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
       return tl::make_unexpected(WriteError(file, ENOENT));
     }
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const devices::Picture decoded,
-                            devices::DecodePictureFile(arguments.picture));
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::DecodedImage decoded,
+                            devices::DecodeImageFile(arguments.picture));
   auto target =
       tracker::MakePictureTarget(decoded.grey.view(), Metres(arguments.width_mm * 1e-3), name);
   if (!target) return Located(std::move(target).error(), arguments.picture);

@@ -13,13 +13,13 @@ namespace {
 constexpr int kJpegQuality = 88;
 
 Result<RgbImage> ReadPicture(const std::filesystem::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(devices::Picture picture, devices::DecodePictureFile(file));
+  PLEINAIR_ASSIGN_OR_RETURN(devices::DecodedImage picture, devices::DecodeImageFile(file));
   return std::move(picture.rgb);
 }
 
 Result<Image<std::uint8_t>> ReadRegion(const std::filesystem::path& file, const RgbImage& truth) {
   if (file.empty()) return Image<std::uint8_t>();
-  PLEINAIR_ASSIGN_OR_RETURN(devices::Picture picture, devices::DecodePictureFile(file));
+  PLEINAIR_ASSIGN_OR_RETURN(devices::DecodedImage picture, devices::DecodeImageFile(file));
   if (picture.grey.width() != truth.width() || picture.grey.height() != truth.height()) {
     return InputError(file.string(), "is not of the true picture's size", "fetch it again");
   }

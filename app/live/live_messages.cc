@@ -72,10 +72,10 @@ std::string TellEvents(devices::LiveCamera* camera, bool json) {
   std::string last;
   if (camera == nullptr) return last;
   for (const devices::CameraEvent& event : camera->TakeEvents()) {
-    const std::string separator = event.words.empty() ? "" : ": ";
-    last = std::string("camera ") + Word(event.kind) + separator + event.words;
+    const std::string separator = event.details.empty() ? "" : ": ";
+    last = std::string("camera ") + Word(event.kind) + separator + event.details;
     if (json) {
-      std::cout << nlohmann::json{{"camera", Word(event.kind)}, {"words", event.words}}.dump(
+      std::cout << nlohmann::json{{"camera", Word(event.kind)}, {"words", event.details}}.dump(
                        -1, ' ', false, nlohmann::json::error_handler_t::replace)
                 << std::endl;
     } else {
@@ -87,8 +87,8 @@ std::string TellEvents(devices::LiveCamera* camera, bool json) {
 
 void TellControls(const devices::LiveCamera* camera) {
   if (camera == nullptr) return;
-  for (const devices::ControlAnswer& answer : camera->Answers()) {
-    if (!answer.words.empty()) std::cerr << "camera: " << answer.words << '\n';
+  for (const devices::ControlResult& result : camera->ControlResults()) {
+    if (!result.details.empty()) std::cerr << "camera: " << result.details << '\n';
   }
 }
 

@@ -215,11 +215,11 @@ void LiveSession::Track() {
 }
 
 Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
-  PLEINAIR_ASSIGN_OR_RETURN(auto sightings, tracker_->Track(frame->grey.view()));
-  if (measurer_) sightings = measurer_->Measure(frame->grey.view(), std::move(sightings));
-  session_.AddFrame(frame->index, frame->timestamp_ns, sightings);
+  PLEINAIR_ASSIGN_OR_RETURN(auto observations, tracker_->Track(frame->grey.view()));
+  if (measurer_) observations = measurer_->Measure(frame->grey.view(), std::move(observations));
+  session_.AddFrame(frame->index, frame->timestamp_ns, observations);
   if (!options_.lossless) session_.ForgetAllBut(kObservationsKept);
-  PLEINAIR_RETURN_IF_ERROR(WriteSightings(*frame, sightings));
+  PLEINAIR_RETURN_IF_ERROR(WriteSightings(*frame, observations));
   Tracked tracked{std::move(frame), std::nullopt, session_.Anchor(), {}};
   if (!tracked.anchor) return tracked;
   const std::vector<session::Observation>& path = session_.Path(*tracked.anchor);
@@ -232,8 +232,8 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   return tracked;
 }
 
-Result<void> LiveSession::WriteSightings(const devices::Frame& frame,
-                                         const std::vector<tracker::Sighting>& sightings) {
+Result<void> LiveSession::WriteSightings(
+    const devices::Frame& frame, const std::vector<tracker::MarkerObservation>& observations) {
   if (!detections_ && !output_) return {};
   std::int64_t since_start_ns = frame.timestamp_ns;
   {
@@ -241,7 +241,7 @@ Result<void> LiveSession::WriteSightings(const devices::Frame& frame,
     since_start_ns -= first_stamp_ns_.value_or(0);
   }
   const std::string line =
-      DetectionsWriter::Line(frame.index, since_start_ns, sightings, tracker_->Lost());
+      DetectionsWriter::Line(frame.index, since_start_ns, observations, tracker_->Lost());
   if (detections_) PLEINAIR_RETURN_IF_ERROR(detections_->writer().Add(line));
   if (output_) {
     PLEINAIR_RETURN_IF_ERROR(output_->Add(session_, frame.index, since_start_ns, line));

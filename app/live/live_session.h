@@ -126,7 +126,7 @@ class LiveSession {
   void Track();
   Result<Tracked> TrackOne(FramePtr frame);
   Result<void> WriteSightings(const devices::Frame& frame,
-                              const std::vector<tracker::Sighting>& sightings);
+                              const std::vector<tracker::MarkerObservation>& observations);
   void FinishOutput();
   Result<void> TakeEdit(const devices::Frame& frame);
   scene::SceneDescription SceneNow() const;

@@ -63,9 +63,9 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
   std::string text = fmt::format("time = {}\ncloudiness = \"{}\"\n", start.ToString(),
                                  CloudinessName(scene.cloudiness));
   if (scene.turbidity) text += fmt::format("turbidity = {}\n", *scene.turbidity);
-  if (scene.exposure_gain) {
-    text += fmt::format("exposure_gain = [{}, {}, {}]\n", scene.exposure_gain->r,
-                        scene.exposure_gain->g, scene.exposure_gain->b);
+  if (scene.exposure_scale) {
+    text += fmt::format("exposure_gain = [{}, {}, {}]\n", scene.exposure_scale->r,
+                        scene.exposure_scale->g, scene.exposure_scale->b);
   }
   if (!scene.camera_response.empty()) {
     text += fmt::format("camera_response = {}\n", Beside(folder, scene.camera_response));

@@ -19,11 +19,11 @@ Result<DetectionsWriter> DetectionsWriter::Create(const std::filesystem::path& f
 }
 
 std::string DetectionsWriter::Line(std::int64_t frame_index, std::int64_t timestamp_ns,
-                                   const std::vector<tracker::Sighting>& sightings,
+                                   const std::vector<tracker::MarkerObservation>& observations,
                                    const std::vector<tracker::LostMarker>& lost) {
   return fmt::format("{{\"frame\":{},\"timestamp_s\":{:.9g},\"markers\":{},\"lost\":{}}}",
-                     frame_index, static_cast<double>(timestamp_ns) * 1e-9, MarkersJson(sightings),
-                     LostJson(lost));
+                     frame_index, static_cast<double>(timestamp_ns) * 1e-9,
+                     MarkersJson(observations), LostJson(lost));
 }
 
 Result<void> DetectionsWriter::Add(const std::string& line) {

@@ -21,7 +21,7 @@ class DetectionsWriter {
 
   /// The line of a frame, without its end.
   static std::string Line(std::int64_t frame_index, std::int64_t timestamp_ns,
-                          const std::vector<tracker::Sighting>& sightings,
+                          const std::vector<tracker::MarkerObservation>& observations,
                           const std::vector<tracker::LostMarker>& lost);
 
   Result<void> Add(const std::string& line);

@@ -14,9 +14,9 @@ Json PoseJson(const Transform<Camera, Marker>& pose) {
   return {{"rotation", pose.rotation.m}, {"translation_m", {t.x, t.y, t.z}}};
 }
 
-Json SightingJson(const tracker::Sighting& sighting) {
-  const tracker::MarkerDetection& detection = sighting.detection;
-  const tracker::PoseEstimate& pose = sighting.pose;
+Json SightingJson(const tracker::MarkerObservation& observation) {
+  const tracker::MarkerDetection& detection = observation.detection;
+  const tracker::PoseEstimate& pose = observation.pose;
   Json corners = Json::array();
   for (const Vec2 corner : detection.corners_px) corners.push_back({corner.x, corner.y});
   Json alternative = nullptr;
@@ -46,9 +46,10 @@ Json SightingJson(const tracker::Sighting& sighting) {
 
 }  // namespace
 
-std::string MarkersJson(const std::vector<tracker::Sighting>& sightings) {
+std::string MarkersJson(const std::vector<tracker::MarkerObservation>& observations) {
   Json markers = Json::array();
-  for (const tracker::Sighting& sighting : sightings) markers.push_back(SightingJson(sighting));
+  for (const tracker::MarkerObservation& observation : observations)
+    markers.push_back(SightingJson(observation));
   return markers.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -69,8 +69,8 @@ class Replayer {
     report_.virtual_objects = scene_.objects.size();
     report_.phantoms = scene_.phantoms.size();
     report_.frame_rate_hz = recording.frame_rate_hz;
-    const PictureSize size =
-        options_.size.value_or(PictureSize{recording.camera.width, recording.camera.height});
+    const ImageSize size =
+        options_.size.value_or(ImageSize{recording.camera.width, recording.camera.height});
     report_.width = size.width;
     report_.height = size.height;
     output_camera_ = ScaleCamera(recording.camera, size);

@@ -25,7 +25,7 @@ struct ReplayOptions {
   std::set<exports::PathFormat> exports;  ///< Forms of the path besides TUM.
   compositor::ComposerOptions composer;
   session::LightOptions light;
-  std::optional<PictureSize> size;  ///< Of the output; markers are sought at the recording's size.
+  std::optional<ImageSize> size;  ///< Of the output; markers are sought at the recording's size.
   std::optional<TimeLapseOptions> time_lapse;  ///< A day of the scene besides.
   std::string command;                         ///< For the report.
 };

@@ -57,9 +57,9 @@ Result<void> TakeTracked(const MarkerSearch& search, std::vector<TrackedFrame> t
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const devices::Frame& frame = tracked[i].frame;
     times->Add("measure", together.Summarize()[0].total_ms / static_cast<double>(tracked.size()));
-    found->session.AddFrame(frame.index, frame.timestamp_ns, seen[i].sightings);
-    std::string line =
-        DetectionsWriter::Line(frame.index, frame.timestamp_ns, seen[i].sightings, tracked[i].lost);
+    found->session.AddFrame(frame.index, frame.timestamp_ns, seen[i].observations);
+    std::string line = DetectionsWriter::Line(frame.index, frame.timestamp_ns, seen[i].observations,
+                                              tracked[i].lost);
     PLEINAIR_RETURN_IF_ERROR(detections.Add(line));
     if (search.keep_messages) found->messages.push_back({frame.timestamp_ns, std::move(line)});
   }

@@ -41,14 +41,14 @@ Result<SkyMoment> ParseSunOption(const std::string& text) {
 }
 
 Result<std::vector<UtcTime>> Moments(UtcTime from, UtcTime until, double step_s) {
-  constexpr double kMost = 1e5;
+  constexpr double kMax = 1e5;
   const double seconds =
       static_cast<double>(until.nanoseconds_since_1970() - from.nanoseconds_since_1970()) * 1e-9;
   if (seconds < 0.0) return InputError("--until", "lies before --time", "exchange the two");
   if (!(step_s > 0.0) || !std::isfinite(step_s)) {
     return InputError("--step", "is not a positive number of seconds", "give for example 300");
   }
-  if (seconds / step_s >= kMost) {
+  if (seconds / step_s >= kMax) {
     return InputError("--step", "gives more than 100,000 moments", "take a longer step");
   }
   std::vector<UtcTime> moments;

@@ -270,14 +270,14 @@ class LiveWindow {
     }
     if (auto trouble = session_.recording_trouble()) state_.message = trouble->Message();
     if (std::exchange(state_.wants_exposure_change, false) && options_.live_camera != nullptr) {
-      std::vector<devices::ControlWish> wishes;
+      std::vector<devices::ControlRequest> control_requests;
       if (state_.exposure_locked) {
         for (const auto control : {devices::CameraControl::kExposure, devices::CameraControl::kGain,
                                    devices::CameraControl::kWhiteBalance}) {
-          wishes.push_back({control, std::nullopt});
+          control_requests.push_back({control, std::nullopt});
         }
       }
-      options_.live_camera->Hold(std::move(wishes));
+      options_.live_camera->LockControls(std::move(control_requests));
     }
     return {};
   }

@@ -9,7 +9,7 @@ namespace {
 constexpr double kPanelWidth = 21.0, kPanelHeight = 14.0;
 // Of the largest size that the picture could have: less beside or below the panel is next to
 // nothing.
-constexpr double kLeast = 0.4;
+constexpr double kMin = 0.4;
 // What a panel that lies over the picture takes at most.
 constexpr double kOver = 0.8;
 
@@ -26,7 +26,7 @@ WindowLayout WindowLayout::For(Vec2 window, double letter, bool panel, Vec2 pict
   const double width = letter * kPanelWidth;
   const Vec2 beside{all.x - width, all.y}, above{all.x, all.y - letter * kPanelHeight};
   const double scale_beside = Scale(beside, picture), scale_above = Scale(above, picture);
-  if (std::max(scale_beside, scale_above) < kLeast * Scale(all, picture)) {
+  if (std::max(scale_beside, scale_above) < kMin * Scale(all, picture)) {
     const double over = std::min(width, window.x * kOver);
     return {all, {window.x - over, 0.0}, {over, window.y}};
   }

@@ -12,7 +12,7 @@ namespace {
 // Surfaces that end so near to another one touch it: models are not exact.
 constexpr double kTouchingM = 0.02;
 // Sine of the least angle between surfaces that change each other's light within a short way.
-constexpr double kLeastSine = 0.3;
+constexpr double kMinSine = 0.3;
 constexpr double kShortestM = 0.02;
 constexpr std::uint32_t kFewSegments = 4;
 // What finding them may take: boxes compared, and of those that overlap, triangles. Each of the two
@@ -116,7 +116,7 @@ std::optional<ContactLines::Segment> ContactOf(const Triangle& a, const Triangle
   if (!a.SeesPartOf(b) || !b.SeesPartOf(a)) return std::nullopt;
   const Vec3 across = Cross(a.normal, b.normal);
   const double sine = Norm(across);
-  if (sine < kLeastSine) return std::nullopt;
+  if (sine < kMinSine) return std::nullopt;
   // The planes' common line.
   const Vec3 along = across * (1.0 / sine);
   const double at_a = Dot(a.normal, a.corners[0]), at_b = Dot(b.normal, b.corners[0]);

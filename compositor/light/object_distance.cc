@@ -14,7 +14,7 @@ void ObjectDistance::Box::Add(const std::array<float, 3>& point) {
 }
 
 ObjectDistance::ObjectDistance(const std::vector<SurfaceMesh>& surfaces) {
-  constexpr std::size_t kMost = 32;
+  constexpr std::size_t kMax = 32;
   for (const SurfaceMesh& surface : surfaces) {
     if (surface.is_phantom || surface.positions.empty()) continue;
     Box box{surface.positions[0], surface.positions[0]};
@@ -22,7 +22,7 @@ ObjectDistance::ObjectDistance(const std::vector<SurfaceMesh>& surfaces) {
     boxes_.push_back(box);
   }
   if (boxes_.empty()) boxes_.emplace_back();
-  if (boxes_.size() <= kMost) return;
+  if (boxes_.size() <= kMax) return;
   Box all = boxes_[0];
   for (const Box& box : boxes_) {
     all.Add(box.low);

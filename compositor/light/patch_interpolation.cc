@@ -62,16 +62,16 @@ class Sharer {
     const std::uint32_t own = patches_.patch_of[vertex];
     const Vec3 position = ToVec3(mesh_.positions[vertex]), normal = ToVec3(mesh_.normals[vertex]);
     const TangentFrame frame(Normalized(normal));
-    std::array<std::array<double, kUnknowns>, kMost> rows{};
-    std::array<double, kMost> weights{};
-    std::array<std::uint32_t, kMost> chosen{};
+    std::array<std::array<double, kUnknowns>, kMax> rows{};
+    std::array<double, kMax> weights{};
+    std::array<std::uint32_t, kMax> chosen{};
     std::size_t size = 0;
     double sum = 0.0;
     const auto add = [&](std::uint32_t patch) {
       const Vec3 aside = means_[patch].position - position, turn = means_[patch].normal - normal;
       const double reach = reaches_[patch];
       const double far = Dot(aside, aside) / (reach * reach) + Dot(turn, turn) / kReachOfNormals;
-      if (far >= 1.0 || size == kMost) return;
+      if (far >= 1.0 || size == kMax) return;
       // Falls to nothing, and smoothly, before a patch is out of reach.
       weights[size] = (1.0 - far) * (1.0 - far);
       sum += weights[size];
@@ -107,7 +107,7 @@ class Sharer {
   }
 
  private:
-  static constexpr std::size_t kUnknowns = 6, kMost = 48;
+  static constexpr std::size_t kUnknowns = 6, kMax = 48;
   // Patches whose mean normals are further than 60° from a vertex' do not count (1² of a chord).
   static constexpr double kReachOfNormals = 1.0;
   // In widths of a patch: less leaves a fit to chance, more blurs.

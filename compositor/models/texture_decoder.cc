@@ -45,7 +45,7 @@ void* CopyBytes(void* to, const void* from, std::size_t size) {
 namespace pleinair::compositor {
 namespace {
 
-struct PictureSize {
+struct ImageSize {
   std::int64_t width, height;
 };
 
@@ -56,13 +56,13 @@ std::int64_t BigEndian(std::string_view bytes) {
 }
 
 /// The size that a PNG's IHDR chunk states (PNG specification, 11.2.2).
-std::optional<PictureSize> PngSize(std::string_view content) {
+std::optional<ImageSize> PngSize(std::string_view content) {
   if (content.size() < 24 || content.substr(12, 4) != "IHDR") return std::nullopt;
-  return PictureSize{BigEndian(content.substr(16, 4)), BigEndian(content.substr(20, 4))};
+  return ImageSize{BigEndian(content.substr(16, 4)), BigEndian(content.substr(20, 4))};
 }
 
 /// The size in a JPEG's frame header (ITU-T T.81, B.2.2), looked for segment by segment.
-std::optional<PictureSize> JpegSize(std::string_view content) {
+std::optional<ImageSize> JpegSize(std::string_view content) {
   std::size_t at = 2;
   while (at + 4 <= content.size() && content[at] == '\xFF') {
     const auto marker = static_cast<unsigned char>(content[at + 1]);
@@ -75,8 +75,7 @@ std::optional<PictureSize> JpegSize(std::string_view content) {
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (is_frame) {
       if (at + 9 > content.size()) return std::nullopt;
-      return PictureSize{BigEndian(content.substr(at + 7, 2)),
-                         BigEndian(content.substr(at + 5, 2))};
+      return ImageSize{BigEndian(content.substr(at + 7, 2)), BigEndian(content.substr(at + 5, 2))};
     }
     at += 2 + static_cast<std::size_t>(BigEndian(content.substr(at + 2, 2)));
   }
@@ -85,7 +84,7 @@ std::optional<PictureSize> JpegSize(std::string_view content) {
 
 /// The size in the picture's header, where one is found. The decoder says no more of a picture
 /// beyond its limit than that it does not know the format.
-std::optional<PictureSize> StatedSize(std::span<const std::byte> bytes) {
+std::optional<ImageSize> StatedSize(std::span<const std::byte> bytes) {
   const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (content.starts_with("\x89PNG")) return PngSize(content);
   if (content.starts_with("\xFF\xD8")) return JpegSize(content);

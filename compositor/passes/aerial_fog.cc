@@ -72,11 +72,11 @@ AerialFog::Air AerialFog::At(const glm::dvec3& towards, double distance_m) const
 FogSplits AerialFog::Along(const glm::dvec3& towards, std::span<const double> splits,
                            std::span<const double> densities) const {
   CHECK_GE(splits.size(), std::size_t{2});
-  CHECK_LE(splits.size(), std::size_t{FogSplits::kMost});
+  CHECK_LE(splits.size(), std::size_t{FogSplits::kMax});
   CHECK_GE(densities.size() + 1, splits.size());
   FogSplits fog;
   double through_m = densities[0] * splits[0];
-  for (std::size_t i = 0; i < FogSplits::kMost; ++i) {
+  for (std::size_t i = 0; i < FogSplits::kMax; ++i) {
     const std::size_t at = std::min(i, splits.size() - 1);
     if (i > 0 && i < splits.size()) through_m += densities[i - 1] * (splits[i] - splits[i - 1]);
     const Air air = At(towards, through_m);
@@ -90,7 +90,7 @@ FogSplits AerialFog::Along(const glm::dvec3& towards, std::span<const double> sp
 glm::vec3 FogSplits::MostLightPerMetre() const {
   glm::vec3 most(0.0F), light(0.0F), depth(0.0F);
   float distance = 0.0F;
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0; i < kMax; ++i) {
     // Where a stretch begins its light grows fastest: x / (1 − e^−x) times its mean, 1 + x at most.
     const glm::vec3 x = optical_depth[i] - depth;
     const glm::vec3 faster = glm::max(1.0F + x, glm::vec3(1.0F));

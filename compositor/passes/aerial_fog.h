@@ -16,10 +16,10 @@ namespace pleinair::compositor {
 /// step 7 of Z-GaF): what the air does up to each split. shaders/aerial_fog.glsl goes evenly from
 /// one split to the next, so that nothing jumps there.
 struct FogSplits {
-  static constexpr int kMost = shadows::kMaxPartitions + 1;
-  std::array<float, kMost> distance_m{};  ///< Ascending; the last is repeated to the end.
-  std::array<glm::vec3, kMost> optical_depth{};
-  std::array<glm::vec3, kMost> inscattered{};  ///< cd/m².
+  static constexpr int kMax = shadows::kMaxPartitions + 1;
+  std::array<float, kMax> distance_m{};  ///< Ascending; the last is repeated to the end.
+  std::array<glm::vec3, kMax> optical_depth{};
+  std::array<glm::vec3, kMax> inscattered{};  ///< cd/m².
 
   /// What a metre of air adds at the most, wherever it lies on the way.
   glm::vec3 MostLightPerMetre() const;
@@ -36,7 +36,7 @@ class AerialFog {
   /// `marker_from_world` as Composer::SetLight.
   AerialFog(const sky::SkyModel& day, const Mat3& marker_from_world);
 
-  /// `towards` in marker coordinates; `splits` ascending distances, 2…kMost of them. `densities`
+  /// `towards` in marker coordinates; `splits` ascending distances, 2…kMax of them. `densities`
   /// scale the air of each partition (the first from the eye on): 1 as the sky has it, 0 none. What
   /// lies behind thicker air is seen as through so much more of the same, which keeps it
   /// continuous.

@@ -10,7 +10,7 @@ namespace {
 
 // A new spot every few pixels: about so many a frame.
 constexpr double kSpotsPerFrame = 32000.0;
-constexpr std::size_t kMostSamples = 150'000;
+constexpr std::size_t kMaxSamples = 150'000;
 // A cell spans about so many pixels: wide enough for both sides of a soft edge, so narrow that
 // little but the light changes across it.
 constexpr double kCellPx = 32.0;
@@ -135,7 +135,7 @@ void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       if (taken[static_cast<std::size_t>(row) * columns + column] != 0) continue;
-      if (samples_.size() >= kMostSamples) return;
+      if (samples_.size() >= kMaxSamples) return;
       const Vec2 ray =
           UndistortPixel(camera_, {column * step + step / 2.0, row * step + step / 2.0});
       const Vec3 direction = Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1.0});

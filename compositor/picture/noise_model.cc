@@ -27,7 +27,7 @@ constexpr int kBlock = 8;
 // for noise of about so many steps of 8 bits.
 constexpr double kBlockReachPx = 8.5, kEdgeSteps = 3.0;
 constexpr double kSmoothest = 0.02, kSmoothestVariance = 0.62;
-constexpr int kMostBlocks = 1200, kFewestBlocks = 60;
+constexpr int kMaxBlocks = 1200, kFewestBlocks = 60;
 constexpr int kDarkestGrey = 25, kBrightestGrey = 235;
 
 /// Light and noise of the band or of the white: variances a channel, correlations.
@@ -141,7 +141,7 @@ std::optional<Level> NoiseOf(const PrintInPicture& print, bool white, double cle
 double NoiseOfSmoothest(const PrintInPicture& print, const PictureLook& look) {
   const ImageView<const std::uint8_t> rgb = print.rgb();
   const int columns = rgb.width() / kBlock, rows = rgb.height() / kBlock;
-  const int step = std::max(1, columns * rows / kMostBlocks);
+  const int step = std::max(1, columns * rows / kMaxBlocks);
   constexpr int kGreen = 1, kLag = 3;
   std::vector<double> shares;
   for (int block = 0; block < columns * rows; block += step) {

@@ -154,7 +154,7 @@ Result<std::optional<int>> IntegerOf(const files::JsonFields& fields,
   return std::nullopt;
 }
 
-// Sets the picture's size from a list [width, height].
+// Sets the image's size from a list [width, height].
 Result<void> SizeFromList(const files::JsonFields& fields, std::initializer_list<const char*> keys,
                           Readings* readings) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::vector<double>> size, Matrix(fields, keys));

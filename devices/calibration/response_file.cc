@@ -15,8 +15,8 @@
 namespace pleinair::devices {
 namespace {
 
-constexpr double kLeastGamma = 0.2, kLargestGamma = 5.0;
-constexpr std::size_t kMostSamples = 65'536;
+constexpr double kMinGamma = 0.2, kMaxGamma = 5.0;
+constexpr std::size_t kMaxSamples = 65'536;
 
 /// A power, densely enough that the curve between samples is the power's own.
 CameraResponse PowerResponse(double gamma) {
@@ -54,7 +54,7 @@ Result<CameraResponse> SampledResponse(const files::JsonFields& fields) {
                          "give one light for each encoded value");
     }
   }
-  if (encoded->size() > kMostSamples) {
+  if (encoded->size() > kMaxSamples) {
     return fields.Fail("encoded", "has more than 65536 values", "256 are enough");
   }
   auto response = CameraResponse::FromSamples(*encoded, light);
@@ -107,7 +107,7 @@ Result<CameraResponse> ReadCameraResponse(const std::filesystem::path& file) {
                        "known are srgb, gamma and samples (docs/formats.md)");
   }
   PLEINAIR_ASSIGN_OR_RETURN(const auto gamma, fields.Number("gamma"));
-  if (!gamma || *gamma < kLeastGamma || *gamma > kLargestGamma) {
+  if (!gamma || *gamma < kMinGamma || *gamma > kMaxGamma) {
     return fields.Fail("gamma", gamma ? "is out of range" : "is missing",
                        "give the power from code to light, 0.2 to 5; 2.2 is usual");
   }

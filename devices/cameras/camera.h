@@ -31,40 +31,40 @@ struct ControlRange {
 };
 
 /// Wish for one control: a value, or the present one held, in both cases without automatism.
-struct ControlWish {
+struct ControlRequest {
   CameraControl control = CameraControl::kExposure;
   std::optional<double> value;  ///< Nothing: hold what the automatism has found.
 };
 
 /// What became of a wish.
-struct ControlAnswer {
+struct ControlResult {
   CameraControl control = CameraControl::kExposure;
   std::optional<double> value;  ///< As read back from the device; nothing where it lacks it.
-  bool held = false;            ///< Its automatism is off, or it has none.
-  std::string words;            ///< What a person should know; empty where all went as wished.
+  bool locked = false;          ///< Its automatism is off, or it has none.
+  std::string details;          ///< What a person should know; empty where all went as wished.
 };
 
 /// What is asked of a camera's pictures. Where nothing is asked, the largest size of at most
 /// 1920 x 1080 that comes at 25 Hz or more, uncompressed where that comes as fast.
-struct PictureWish {
+struct FormatRequest {
   std::optional<PixelFormat> format;
-  std::optional<PictureSize> size;
+  std::optional<ImageSize> size;
   std::optional<double> rate_hz;
 };
 
 /// What came of it.
-struct PictureAgreement {
+struct NegotiatedFormat {
   PixelFormat format = PixelFormat::kYuyv;
-  PictureSize size;
-  std::optional<double> rate_hz;   ///< As the device says; it may deliver less in the dark.
-  std::vector<std::string> words;  ///< Each difference between asked and got, for a person.
+  ImageSize size;
+  std::optional<double> rate_hz;     ///< As the device says; it may deliver less in the dark.
+  std::vector<std::string> details;  ///< Each difference between asked and got, for a person.
 };
 
 struct FormatDescription {
   std::string name;                   ///< The device's own, four letters for V4L2.
   std::optional<PixelFormat> format;  ///< Nothing: we cannot read it.
   struct Size {
-    PictureSize size;
+    ImageSize size;
     std::vector<double> rates_hz;  ///< Descending; empty where the device does not say.
   };
   std::vector<Size> sizes;  ///< Largest first.

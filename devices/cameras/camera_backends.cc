@@ -51,15 +51,15 @@ Result<void> CheckBackend(const CameraUri& uri) {
 }
 
 Result<std::unique_ptr<CameraDevice>> OpenCameraDevice(const CameraUri& uri,
-                                                       const PictureWish& wish) {
+                                                       const FormatRequest& requested) {
   PLEINAIR_RETURN_IF_ERROR(CheckBackend(uri));
 #ifdef PLEINAIR_HAS_ARAVIS
-  if (uri.backend == CameraUri::Backend::kAravis) return OpenAravisDevice(uri, wish);
+  if (uri.backend == CameraUri::Backend::kAravis) return OpenAravisDevice(uri, requested);
 #endif
 #ifdef PLEINAIR_HAS_LIBCAMERA
-  if (uri.backend == CameraUri::Backend::kLibcamera) return OpenLibcameraDevice(uri, wish);
+  if (uri.backend == CameraUri::Backend::kLibcamera) return OpenLibcameraDevice(uri, requested);
 #endif
-  return OpenV4l2Device(SystemV4l2Io(), uri, wish);
+  return OpenV4l2Device(SystemV4l2Io(), uri, requested);
 }
 
 CameraList ListCameras([[maybe_unused]] bool search_network) {

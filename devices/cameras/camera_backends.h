@@ -13,6 +13,6 @@ Result<void> CheckBackend(const CameraUri& uri);
 
 /// Opens a device and starts its stream; errors are the backend's.
 Result<std::unique_ptr<CameraDevice>> OpenCameraDevice(const CameraUri& uri,
-                                                       const PictureWish& wish);
+                                                       const FormatRequest& requested);
 
 }  // namespace pleinair::devices

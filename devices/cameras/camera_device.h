@@ -19,10 +19,10 @@ inline std::int64_t SteadyNow_ns() {
       .count();
 }
 
-/// What a backend hands on: the bytes and what the driver says of them. Reused from picture to
-/// picture.
-struct CapturedPicture {
-  RawPicture raw;
+/// What a backend hands on: the bytes and what the driver says of them. Reused from image to
+/// image.
+struct CapturedImage {
+  RawImage raw;
   std::int64_t number = 0;        ///< The driver's; gaps are losses.
   std::int64_t timestamp_ns = 0;  ///< Steady clock.
   std::int64_t arrival_ns = 0;    ///< Steady clock.
@@ -35,7 +35,7 @@ struct CapturedPicture {
 };
 
 enum class WaitOutcome {
-  kPicture,
+  kImage,
   kNothing,  ///< Time is over or Wake() was called.
   kGone,     ///< The device left or answers no more; only closing it helps.
 };
@@ -46,18 +46,19 @@ class CameraDevice {
  public:
   virtual ~CameraDevice() = default;
 
-  virtual WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) = 0;
+  virtual WaitOutcome Wait(std::chrono::milliseconds limit, CapturedImage* image) = 0;
   virtual void Wake() = 0;
   /// Why Wait() gave kGone.
-  virtual std::string Words() const = 0;
+  virtual std::string StatusMessage() const = 0;
 
-  virtual const PictureAgreement& agreement() const = 0;
+  virtual const NegotiatedFormat& negotiated() const = 0;
   /// Stable name, to find it by after a replug.
   virtual CameraUri identity() const = 0;
 
   virtual std::optional<TransportCounts> Transport() { return std::nullopt; }
   virtual std::vector<ControlRange> Controls() = 0;
-  virtual std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) = 0;
+  virtual std::vector<ControlResult> LockControls(
+      const std::vector<ControlRequest>& control_requests) = 0;
 };
 
 }  // namespace pleinair::devices

@@ -53,21 +53,21 @@ class LiveCamera::Worker {
     return stop_;
   }
 
-  /// The newest picture, once there is one that nobody took.
-  bool Take(std::optional<milliseconds> limit, CapturedPicture* picture, FrameLoss* loss,
+  /// The newest image, once there is one that nobody took.
+  bool Take(std::optional<milliseconds> limit, CapturedImage* image, FrameLoss* loss,
             std::int64_t* index) {
     std::unique_lock lock(mutex_);
-    const auto ready = [this] { return has_picture_ || stop_; };
+    const auto ready = [this] { return has_image_ || stop_; };
     if (limit) {
       changed_.wait_for(lock, *limit, ready);
     } else {
       changed_.wait(lock, ready);
     }
-    if (!has_picture_ || stop_) return false;
-    std::swap(*picture, newest_);
+    if (!has_image_ || stop_) return false;
+    std::swap(*image, newest_);
     *loss = loss_before_newest_;
     *index = newest_index_;
-    has_picture_ = false;
+    has_image_ = false;
     loss_before_newest_ = {};
     return true;
   }
@@ -77,16 +77,16 @@ class LiveCamera::Worker {
     ++counts_.delivered;
   }
 
-  /// A picture that was taken turned out to be damaged.
+  /// An image that was taken turned out to be damaged.
   void CountDamaged() {
     const std::lock_guard lock(mutex_);
     ++counts_.loss.damaged;
   }
 
-  void Hold(std::vector<ControlWish> controls) {
+  void LockControls(std::vector<ControlRequest> controls) {
     const std::lock_guard lock(mutex_);
     options_.controls = std::move(controls);
-    hold_again_ = true;
+    lock_again_ = true;
     if (device_) device_->Wake();
   }
 
@@ -103,13 +103,13 @@ class LiveCamera::Worker {
     const std::lock_guard lock(mutex_);
     return transport_;
   }
-  std::optional<PictureAgreement> agreement() const {
+  std::optional<NegotiatedFormat> negotiated() const {
     const std::lock_guard lock(mutex_);
-    return agreement_;
+    return negotiated_;
   }
-  std::vector<ControlAnswer> Answers() const {
+  std::vector<ControlResult> ControlResults() const {
     const std::lock_guard lock(mutex_);
-    return answers_;
+    return control_results_;
   }
 
  private:
@@ -119,15 +119,15 @@ class LiveCamera::Worker {
         TryToOpen();
         continue;
       }
-      HoldIfAsked();
+      LockIfRequested();
       const WaitOutcome outcome = device_->Wait(kTick, &captured_);
-      if (outcome == WaitOutcome::kPicture) {
+      if (outcome == WaitOutcome::kImage) {
         TakeIn();
       } else if (outcome == WaitOutcome::kGone) {
-        Tell(CameraEvent::Kind::kGone, device_->Words());
+        Report(CameraEvent::Kind::kGone, device_->StatusMessage());
         Disconnect();
       } else {
-        LookForStall();
+        CheckForStall();
       }
     }
     Disconnect();
@@ -136,10 +136,10 @@ class LiveCamera::Worker {
   void TryToOpen() {
     auto device = opener_(uri_, options_.pictures);
     if (device) return Connect(*std::move(device));
-    std::string words = device.error().Message();
-    if (words != told_waiting_) {
-      Tell(CameraEvent::Kind::kWaiting, words);
-      told_waiting_ = std::move(words);
+    std::string details = device.error().Message();
+    if (details != reported_waiting_) {
+      Report(CameraEvent::Kind::kWaiting, details);
+      reported_waiting_ = std::move(details);
     }
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, kTryAgainEvery, [this] { return stop_; });
@@ -151,20 +151,20 @@ class LiveCamera::Worker {
     loss_counter_ = LossCounter(
         std::chrono::duration_cast<std::chrono::nanoseconds>(options_.stall_limit).count());
     last_picture_ = Clock::now();
-    told_stall_ = false;
-    told_waiting_.clear();
-    std::string words;
-    for (const std::string& each : device->agreement().words)
-      words += (words.empty() ? "" : "; ") + each;
+    reported_stall_ = false;
+    reported_waiting_.clear();
+    std::string details;
+    for (const std::string& each : device->negotiated().details)
+      details += (details.empty() ? "" : "; ") + each;
     {
       const std::lock_guard lock(mutex_);
-      agreement_ = device->agreement();
+      negotiated_ = device->negotiated();
       transport_ = device->Transport();
       device_ = std::move(device);
-      hold_again_ = !options_.controls.empty();
+      lock_again_ = !options_.controls.empty();
       ++counts_.connections;
     }
-    Tell(CameraEvent::Kind::kConnected, words);
+    Report(CameraEvent::Kind::kConnected, details);
   }
 
   // Closing may take seconds with some backends: nobody waits for it with the mutex.
@@ -176,44 +176,44 @@ class LiveCamera::Worker {
     }
   }
 
-  void HoldIfAsked() {
-    std::vector<ControlWish> wishes;
+  void LockIfRequested() {
+    std::vector<ControlRequest> control_requests;
     {
       const std::lock_guard lock(mutex_);
-      if (!std::exchange(hold_again_, false)) return;
-      wishes = options_.controls;
+      if (!std::exchange(lock_again_, false)) return;
+      control_requests = options_.controls;
     }
-    std::vector<ControlAnswer> answers = device_->Hold(wishes);
+    std::vector<ControlResult> results = device_->LockControls(control_requests);
     const std::lock_guard lock(mutex_);
-    answers_ = std::move(answers);
+    control_results_ = std::move(results);
   }
 
   void TakeIn() {
     const FrameLoss missing = loss_counter_.Add(captured_.number, captured_.timestamp_ns);
     last_picture_ = Clock::now();
-    if (std::exchange(told_stall_, false)) Tell(CameraEvent::Kind::kRecovered, "");
+    if (std::exchange(reported_stall_, false)) Report(CameraEvent::Kind::kRecovered, "");
     const bool whole = !captured_.damaged;
     const std::lock_guard lock(mutex_);
     FrameLoss loss = missing;
     index_ += 1 + missing.Total();
     if (!whole) ++loss.damaged;
     // The one that nobody took makes room for a whole one only.
-    if (whole && has_picture_) ++loss.not_taken;
+    if (whole && has_image_) ++loss.not_taken;
     loss_before_newest_ += loss;
     counts_.loss += loss;
     transport_ = device_->Transport();
     if (!whole) return;
     std::swap(newest_, captured_);
     newest_index_ = index_;
-    has_picture_ = true;
+    has_image_ = true;
     changed_.notify_all();
   }
 
-  void LookForStall() {
+  void CheckForStall() {
     const auto silent = Clock::now() - last_picture_;
     if (silent < options_.stall_limit) return;
-    if (!std::exchange(told_stall_, true)) {
-      Tell(CameraEvent::Kind::kStalled, "the camera is there but sends no pictures");
+    if (!std::exchange(reported_stall_, true)) {
+      Report(CameraEvent::Kind::kStalled, "the camera is there but sends no pictures");
       const std::lock_guard lock(mutex_);
       ++counts_.stalls;
     }
@@ -221,21 +221,21 @@ class LiveCamera::Worker {
     // Starting afresh wakes most of them; a stream that goes on by itself is not touched before.
     Disconnect();
     auto device = opener_(uri_, options_.pictures);
-    if (!device) return Tell(CameraEvent::Kind::kGone, device.error().what);
+    if (!device) return Report(CameraEvent::Kind::kGone, device.error().what);
     const std::lock_guard lock(mutex_);
     device_ = *std::move(device);
-    hold_again_ = !options_.controls.empty();
+    lock_again_ = !options_.controls.empty();
     loss_counter_ = LossCounter(
         std::chrono::duration_cast<std::chrono::nanoseconds>(options_.stall_limit).count());
     last_picture_ = Clock::now() - options_.stall_limit;
   }
 
-  void Tell(CameraEvent::Kind kind, std::string words) {
+  void Report(CameraEvent::Kind kind, std::string details) {
     // A consumer that never asks must not fill the memory.
-    constexpr std::size_t kMost = 1000;
+    constexpr std::size_t kMax = 1000;
     const std::lock_guard lock(mutex_);
-    if (events_.size() >= kMost) events_.erase(events_.begin());
-    events_.push_back({kind, SteadyNow_ns(), std::move(words)});
+    if (events_.size() >= kMax) events_.erase(events_.begin());
+    events_.push_back({kind, SteadyNow_ns(), std::move(details)});
   }
 
   LiveCameraOptions options_;  // controls: under the mutex.
@@ -244,28 +244,28 @@ class LiveCamera::Worker {
 
   // The thread's own.
   CameraUri uri_;
-  CapturedPicture captured_;
+  CapturedImage captured_;
   LossCounter loss_counter_{0};
   Clock::time_point last_picture_;
-  bool told_stall_ = false;
-  std::string told_waiting_;
+  bool reported_stall_ = false;
+  std::string reported_waiting_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   // Changed by the thread under the mutex, so the thread may read it without.
   std::unique_ptr<CameraDevice> device_;
   bool stop_ = false;
-  bool has_picture_ = false;
-  CapturedPicture newest_;
+  bool has_image_ = false;
+  CapturedImage newest_;
   std::int64_t newest_index_ = 0;
   std::int64_t index_ = -1;
   FrameLoss loss_before_newest_;
-  bool hold_again_ = false;
+  bool lock_again_ = false;
   std::vector<CameraEvent> events_;
   CameraCounts counts_;
   std::optional<TransportCounts> transport_;
-  std::optional<PictureAgreement> agreement_;
-  std::vector<ControlAnswer> answers_;
+  std::optional<NegotiatedFormat> negotiated_;
+  std::vector<ControlResult> control_results_;
 };
 
 LiveCamera::LiveCamera(std::unique_ptr<Worker> worker) : worker_(std::move(worker)) {}
@@ -292,7 +292,7 @@ Result<std::optional<Frame>> LiveCamera::Next() {
 
 std::optional<Frame> LiveCamera::NextWithin(milliseconds limit) {
   const Clock::time_point end = Clock::now() + limit;
-  CapturedPicture captured;
+  CapturedImage captured;
   FrameLoss loss, before;
   std::int64_t index = 0;
   while (true) {
@@ -301,8 +301,8 @@ std::optional<Frame> LiveCamera::NextWithin(milliseconds limit) {
       return std::nullopt;
     }
     loss += before;
-    Picture picture;
-    if (ConvertRawPicture(captured.raw, &picture)) {
+    DecodedImage image;
+    if (ConvertRawImage(captured.raw, &image)) {
       Frame frame;
       frame.index = index;
       frame.timestamp_ns = captured.timestamp_ns;
@@ -314,9 +314,9 @@ std::optional<Frame> LiveCamera::NextWithin(milliseconds limit) {
       frame.white_balance_k = captured.white_balance_k;
       frame.loss = loss;
       frame.lost_before = loss.Total();
-      frame.rgb = std::move(picture.rgb);
-      frame.grey = std::move(picture.grey);
-      frame.raw = std::make_shared<const RawPicture>(std::move(captured.raw));
+      frame.rgb = std::move(image.rgb);
+      frame.grey = std::move(image.grey);
+      frame.raw = std::make_shared<const RawImage>(std::move(captured.raw));
       worker_->CountDelivered();
       return frame;
     }
@@ -327,11 +327,13 @@ std::optional<Frame> LiveCamera::NextWithin(milliseconds limit) {
 
 void LiveCamera::Stop() { worker_->Stop(); }
 bool LiveCamera::stopped() const { return worker_->stopped(); }
-void LiveCamera::Hold(std::vector<ControlWish> controls) { worker_->Hold(std::move(controls)); }
+void LiveCamera::LockControls(std::vector<ControlRequest> controls) {
+  worker_->LockControls(std::move(controls));
+}
 std::vector<CameraEvent> LiveCamera::TakeEvents() { return worker_->TakeEvents(); }
 CameraCounts LiveCamera::counts() const { return worker_->counts(); }
 std::optional<TransportCounts> LiveCamera::transport() const { return worker_->transport(); }
-std::optional<PictureAgreement> LiveCamera::agreement() const { return worker_->agreement(); }
-std::vector<ControlAnswer> LiveCamera::Answers() const { return worker_->Answers(); }
+std::optional<NegotiatedFormat> LiveCamera::negotiated() const { return worker_->negotiated(); }
+std::vector<ControlResult> LiveCamera::ControlResults() const { return worker_->ControlResults(); }
 
 }  // namespace pleinair::devices

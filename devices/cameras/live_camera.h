@@ -28,20 +28,20 @@ struct CameraEvent {
   };
   Kind kind = Kind::kConnected;
   std::int64_t time_ns = 0;  ///< Steady clock.
-  std::string words;
+  std::string details;
 };
 
 struct LiveCameraOptions {
   CameraUri uri;
-  PictureWish pictures;
-  std::vector<ControlWish> controls;  ///< Held each time the camera is opened.
-  bool wait_for_camera = true;        ///< Else Open() fails where it is not there.
+  FormatRequest pictures;
+  std::vector<ControlRequest> controls;  ///< Held each time the camera is opened.
+  bool wait_for_camera = true;           ///< Else Open() fails where it is not there.
   /// A camera that sends nothing for so long has stalled; after as long again it is opened anew.
   std::chrono::milliseconds stall_limit{1500};
 };
 
 /// A camera that is plugged in, pulled out and plugged in again. A thread of its own empties the
-/// driver and keeps the newest picture only, so a slow consumer neither starves the driver nor
+/// driver and keeps the newest image only, so a slow consumer neither starves the driver nor
 /// gets old pictures; what it missed is counted. Damaged pictures are counted and never delivered.
 class LiveCamera : public FrameSource {
  public:
@@ -51,7 +51,7 @@ class LiveCamera : public FrameSource {
 
   /// The same with another way to open a device: tests.
   using Opener =
-      std::function<Result<std::unique_ptr<CameraDevice>>(const CameraUri&, const PictureWish&)>;
+      std::function<Result<std::unique_ptr<CameraDevice>>(const CameraUri&, const FormatRequest&)>;
   static Result<std::unique_ptr<LiveCamera>> OpenWith(LiveCameraOptions options, Opener opener);
 
   ~LiveCamera() override;
@@ -70,14 +70,14 @@ class LiveCamera : public FrameSource {
   bool stopped() const;
 
   /// Changes what is held, now and after each replug; the answers come with Answers().
-  void Hold(std::vector<ControlWish> controls);
+  void LockControls(std::vector<ControlRequest> controls);
 
   std::vector<CameraEvent> TakeEvents();
   CameraCounts counts() const;
   std::optional<TransportCounts> transport() const;
   /// Of the device that is open now, or was last.
-  std::optional<PictureAgreement> agreement() const;
-  std::vector<ControlAnswer> Answers() const;
+  std::optional<NegotiatedFormat> negotiated() const;
+  std::vector<ControlResult> ControlResults() const;
 
  private:
   class Worker;

@@ -9,6 +9,6 @@
 namespace pleinair::devices {
 
 /// Our two pictures of an 8-bit BGR one.
-Picture PictureFromBgr(const cv::Mat& bgr);
+DecodedImage ImageFromBgr(const cv::Mat& bgr);
 
 }  // namespace pleinair::devices

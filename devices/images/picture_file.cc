@@ -14,7 +14,7 @@
 namespace pleinair::devices {
 namespace {
 
-constexpr std::size_t kMaxPictureBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxImageBytes = std::size_t{1} << 30;
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kJpegStart = "\xFF\xD8";
 constexpr std::string_view kJpegEnd = "\xFF\xD9";
@@ -37,28 +37,28 @@ tl::unexpected<Error> CutShort(const std::string& name) {
   return InputError(name, "is cut short: the picture's end is missing", kWholeCopy);
 }
 
-Result<PictureSize> Judge(std::uint32_t width, std::uint32_t height, const std::string& name) {
+Result<ImageSize> Judge(std::uint32_t width, std::uint32_t height, const std::string& name) {
   if (width == 0 || height == 0) {
     return InputError(name, "has no pixels", kWholeCopy);
   }
-  if (width > kMaxPictureSide || height > kMaxPictureSide) {
+  if (width > kMaxImageSide || height > kMaxImageSide) {
     return InputError(name,
                       "is a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                          " pixels; at most " + std::to_string(kMaxPictureSide) +
+                          " pixels; at most " + std::to_string(kMaxImageSide) +
                           " on a side are read",
                       "scale it down");
   }
-  return PictureSize{static_cast<int>(width), static_cast<int>(height)};
+  return ImageSize{static_cast<int>(width), static_cast<int>(height)};
 }
 
 // Walks the chunks (W3C PNG, 5.3: length, type, data, CRC) to IEND.
-Result<PictureSize> InspectPng(std::string_view bytes, const std::string& name) {
+Result<ImageSize> InspectPng(std::string_view bytes, const std::string& name) {
   constexpr std::size_t kHeaderEnd = 8 + 8 + 13 + 4;
   if (bytes.size() < kHeaderEnd) return CutShort(name);
   if (bytes.substr(12, 4) != "IHDR") {
     return InputError(name, "is a PNG without a header", kWholeCopy);
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const PictureSize size,
+  PLEINAIR_ASSIGN_OR_RETURN(const ImageSize size,
                             Judge(FourBytesAt(bytes, 16), FourBytesAt(bytes, 20), name));
   std::size_t at = kPngSignature.size();
   while (true) {
@@ -78,7 +78,7 @@ Result<PictureSize> InspectPng(std::string_view bytes, const std::string& name) 
 
 // Walks the marker segments (ITU-T T.81, B.1.1) to the scan; the frame header before it has the
 // size, and an end marker must follow it (inside a scan 0xFF is stuffed, so it cannot be data).
-Result<PictureSize> InspectJpeg(std::string_view bytes, const std::string& name) {
+Result<ImageSize> InspectJpeg(std::string_view bytes, const std::string& name) {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::size_t at = 2;
@@ -107,36 +107,36 @@ Result<PictureSize> InspectJpeg(std::string_view bytes, const std::string& name)
 
 }  // namespace
 
-Result<PictureSize> InspectPicture(std::string_view bytes, const std::string& name) {
+Result<ImageSize> InspectImage(std::string_view bytes, const std::string& name) {
   if (bytes.starts_with(kPngSignature)) return InspectPng(bytes, name);
   if (bytes.starts_with(kJpegStart)) return InspectJpeg(bytes, name);
   return InputError(name, "is neither a PNG nor a JPEG picture", "convert it to PNG");
 }
 
-Result<PictureSize> InspectPictureFile(const std::filesystem::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, files::ReadWholeFile(file, kMaxPictureBytes));
-  return InspectPicture(bytes, file.string());
+Result<ImageSize> InspectImageFile(const std::filesystem::path& file) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes, files::ReadWholeFile(file, kMaxImageBytes));
+  return InspectImage(bytes, file.string());
 }
 
-Picture PictureFromBgr(const cv::Mat& bgr) {
-  Picture picture{RgbImage(bgr.cols, bgr.rows, 3), GreyImage(bgr.cols, bgr.rows, 1)};
-  cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, picture.rgb.data());
-  cv::Mat grey(bgr.rows, bgr.cols, CV_8UC1, picture.grey.data());
+DecodedImage ImageFromBgr(const cv::Mat& bgr) {
+  DecodedImage image{RgbImage(bgr.cols, bgr.rows, 3), GreyImage(bgr.cols, bgr.rows, 1)};
+  cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.rgb.data());
+  cv::Mat grey(bgr.rows, bgr.cols, CV_8UC1, image.grey.data());
   cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
   cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
-  return picture;
+  return image;
 }
 
-Result<Picture> DecodePictureFile(const std::filesystem::path& file) {
-  PLEINAIR_ASSIGN_OR_RETURN(std::string bytes, files::ReadWholeFile(file, kMaxPictureBytes));
-  PLEINAIR_ASSIGN_OR_RETURN(const PictureSize size, InspectPicture(bytes, file.string()));
+Result<DecodedImage> DecodeImageFile(const std::filesystem::path& file) {
+  PLEINAIR_ASSIGN_OR_RETURN(std::string bytes, files::ReadWholeFile(file, kMaxImageBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const ImageSize size, InspectImage(bytes, file.string()));
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
     const cv::Mat bgr = cv::imdecode(encoded, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
     if (bgr.empty() || bgr.type() != CV_8UC3 || bgr.cols != size.width || bgr.rows != size.height) {
       return InputError(file.string(), "is damaged: the picture cannot be decoded", kWholeCopy);
     }
-    return PictureFromBgr(bgr);
+    return ImageFromBgr(bgr);
   } catch (const std::exception& error) {
     return InputError(file.string(), "cannot be decoded: " + std::string(error.what()), kWholeCopy);
   }

@@ -9,33 +9,33 @@
 
 namespace pleinair::devices {
 
-/// The largest side of a picture that is decoded, pixels: a hostile header cannot ask for more
+/// The largest side of an image that is decoded, pixels: a hostile header cannot ask for more
 /// memory than 16384² × 3 bytes.
-constexpr int kMaxPictureSide = 16384;
+constexpr int kMaxImageSide = 16384;
 
-struct PictureSize {
+struct ImageSize {
   int width = 0;
   int height = 0;
-  bool operator==(const PictureSize&) const = default;
+  bool operator==(const ImageSize&) const = default;
 };
 
 /// Size of a PNG or JPEG from its header, without decoding.
 /// Errors: neither of the two, cut short (no IEND, no end-of-image marker), empty, sides above
-/// kMaxPictureSide.
-Result<PictureSize> InspectPicture(std::string_view bytes, const std::string& name);
+/// kMaxImageSide.
+Result<ImageSize> InspectImage(std::string_view bytes, const std::string& name);
 
 /// The same of a file.
-Result<PictureSize> InspectPictureFile(const std::filesystem::path& file);
+Result<ImageSize> InspectImageFile(const std::filesystem::path& file);
 
-struct Picture {
-  RgbImage rgb;    ///< sRGB-encoded, as stored: no colour profile is applied.
+struct DecodedImage {
+  RgbImage rgb;    ///< sRGB-encoded, as stored: no color profile is applied.
   GreyImage grey;  ///< Luma of the encoded values, Rec. ITU-R BT.601 weights as OpenCV has them.
 };
 
 /// Decodes a PNG or JPEG file; deeper pictures are reduced to 8 bits, alpha is dropped. The pixels
 /// stay as the sensor had them: an EXIF orientation is not applied, because the calibration knows
 /// nothing of it.
-/// Errors: those of InspectPicture, and data that cannot be decoded.
-Result<Picture> DecodePictureFile(const std::filesystem::path& file);
+/// Errors: those of InspectImage, and data that cannot be decoded.
+Result<DecodedImage> DecodeImageFile(const std::filesystem::path& file);
 
 }  // namespace pleinair::devices

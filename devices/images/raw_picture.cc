@@ -38,9 +38,9 @@ bool IsPlanarYuv(PixelFormat format) {
          format == PixelFormat::kYuv420;
 }
 
-std::size_t Rows(const RawPicture& raw) { return static_cast<std::size_t>(raw.height); }
+std::size_t Rows(const RawImage& raw) { return static_cast<std::size_t>(raw.height); }
 
-std::size_t ChromaStride(const RawPicture& raw) {
+std::size_t ChromaStride(const RawImage& raw) {
   return raw.format == PixelFormat::kYuv420 ? (raw.stride + 1) / 2 : raw.stride;
 }
 
@@ -105,7 +105,7 @@ PackedOrder OrderOf(PixelFormat format) {
   }
 }
 
-void ConvertPacked(const RawPicture& raw, RgbImage* rgb) {
+void ConvertPacked(const RawImage& raw, RgbImage* rgb) {
   const YuvToRgb convert(raw.matrix, raw.full_range);
   const PackedOrder at = OrderOf(raw.format);
   for (int y = 0; y < raw.height; ++y) {
@@ -118,7 +118,7 @@ void ConvertPacked(const RawPicture& raw, RgbImage* rgb) {
   }
 }
 
-void ConvertPlanar(const RawPicture& raw, RgbImage* rgb) {
+void ConvertPlanar(const RawImage& raw, RgbImage* rgb) {
   const YuvToRgb convert(raw.matrix, raw.full_range);
   const std::uint8_t* luma_plane = raw.bytes.data();
   const std::uint8_t* chroma_plane = luma_plane + raw.stride * Rows(raw);
@@ -139,7 +139,7 @@ void ConvertPlanar(const RawPicture& raw, RgbImage* rgb) {
   }
 }
 
-cv::Mat Wrap(const RawPicture& raw, int type) {
+cv::Mat Wrap(const RawImage& raw, int type) {
   return {raw.height, raw.width, type, const_cast<std::uint8_t*>(raw.bytes.data()), raw.stride};
 }
 
@@ -158,7 +158,7 @@ int BayerCode(PixelFormat format) {
   }
 }
 
-void ConvertByOpenCv(const RawPicture& raw, cv::Mat rgb) {
+void ConvertByOpenCv(const RawImage& raw, cv::Mat rgb) {
   switch (raw.format) {
     case PixelFormat::kGrey8: {
       cv::Mat grey = Wrap(raw, CV_8UC1);
@@ -198,7 +198,7 @@ std::size_t TightStride(PixelFormat format, int width) {
   return columns;
 }
 
-std::size_t SmallestSize(const RawPicture& layout) {
+std::size_t SmallestSize(const RawImage& layout) {
   if (layout.format == PixelFormat::kMjpeg) return 1;
   if (layout.height <= 0) return 1;
   const std::size_t tight = TightStride(layout.format, layout.width);
@@ -210,12 +210,12 @@ std::size_t SmallestSize(const RawPicture& layout) {
   return layout.stride * (Rows(layout) - 1) + tight;
 }
 
-Result<void> ConvertRawPicture(const RawPicture& raw, Picture* picture) {
+Result<void> ConvertRawImage(const RawImage& raw, DecodedImage* image) {
   const auto damaged = [](std::string what) {
     return InputError("", "the picture is damaged: " + std::move(what));
   };
-  if (raw.width <= 0 || raw.height <= 0 || raw.width > kMaxPictureSide ||
-      raw.height > kMaxPictureSide) {
+  if (raw.width <= 0 || raw.height <= 0 || raw.width > kMaxImageSide ||
+      raw.height > kMaxImageSide) {
     return damaged("a size of " + std::to_string(raw.width) + "x" + std::to_string(raw.height));
   }
   if (raw.stride < TightStride(raw.format, raw.width)) {
@@ -225,23 +225,23 @@ Result<void> ConvertRawPicture(const RawPicture& raw, Picture* picture) {
     return damaged(std::to_string(raw.bytes.size()) + " bytes instead of " +
                    std::to_string(SmallestSize(raw)));
   }
-  if (picture->rgb.width() != raw.width || picture->rgb.height() != raw.height) {
-    picture->rgb = RgbImage(raw.width, raw.height, 3);
-    picture->grey = GreyImage(raw.width, raw.height, 1);
+  if (image->rgb.width() != raw.width || image->rgb.height() != raw.height) {
+    image->rgb = RgbImage(raw.width, raw.height, 3);
+    image->grey = GreyImage(raw.width, raw.height, 1);
   }
-  cv::Mat rgb(raw.height, raw.width, CV_8UC3, picture->rgb.data());
-  cv::Mat grey(raw.height, raw.width, CV_8UC1, picture->grey.data());
+  cv::Mat rgb(raw.height, raw.width, CV_8UC3, image->rgb.data());
+  cv::Mat grey(raw.height, raw.width, CV_8UC1, image->grey.data());
   try {
     if (raw.format == PixelFormat::kMjpeg) {
-      PLEINAIR_RETURN_IF_ERROR(DecodeJpeg(raw.bytes, &picture->rgb));
+      PLEINAIR_RETURN_IF_ERROR(DecodeJpeg(raw.bytes, &image->rgb));
     } else if (IsPackedYuv(raw.format)) {
-      ConvertPacked(raw, &picture->rgb);
+      ConvertPacked(raw, &image->rgb);
     } else if (IsPlanarYuv(raw.format)) {
-      ConvertPlanar(raw, &picture->rgb);
+      ConvertPlanar(raw, &image->rgb);
     } else {
       ConvertByOpenCv(raw, rgb);
     }
-    // The same formula as for files, so that a recording shows the tracker the same picture.
+    // The same formula as for files, so that a recording shows the tracker the same image.
     cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
   } catch (const std::exception& error) {
     return damaged(error.what());

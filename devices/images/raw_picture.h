@@ -42,11 +42,11 @@ constexpr PixelFormat kPixelFormats[] = {
 std::string_view NameOf(PixelFormat format);
 std::optional<PixelFormat> PixelFormatByName(std::string_view name);
 
-/// Which R, G, B a YUV picture means (Rec. ITU-R BT.601-7 and BT.709-6).
+/// Which R, G, B a YUV image means (Rec. ITU-R BT.601-7 and BT.709-6).
 enum class YuvMatrix { kBt601, kBt709 };
 
-/// A picture as the camera sent it.
-struct RawPicture {
+/// An image as the camera sent it.
+struct RawImage {
   PixelFormat format = PixelFormat::kGrey8;
   int width = 0;
   int height = 0;
@@ -56,8 +56,8 @@ struct RawPicture {
   std::vector<std::uint8_t> bytes;
 };
 
-/// Bytes that a picture of this layout must have at least; 1 for kMjpeg.
-std::size_t SmallestSize(const RawPicture& layout);
+/// Bytes that an image of this layout must have at least; 1 for kMjpeg.
+std::size_t SmallestSize(const RawImage& layout);
 
 /// Bytes of a row of the first plane without padding.
 std::size_t TightStride(PixelFormat format, int width);
@@ -65,6 +65,6 @@ std::size_t TightStride(PixelFormat format, int width);
 /// Our two pictures of a camera's one. Errors, which say "damaged": too few bytes; a JPEG that is
 /// cut short, of another size, or that the decoder had to mend. `picture` is used again where it
 /// has the size already.
-Result<void> ConvertRawPicture(const RawPicture& raw, Picture* picture);
+Result<void> ConvertRawImage(const RawImage& raw, DecodedImage* image);
 
 }  // namespace pleinair::devices

@@ -57,6 +57,6 @@ struct OpenedFramePack {
 /// recorded; stamps count from the first frame. `size`: what each must have; 0x0: what the first
 /// has. Errors: not such a file, no whole frame, another size; and from Next() a frame in the
 /// middle that is damaged.
-Result<OpenedFramePack> OpenFramePack(const std::filesystem::path& file, PictureSize size);
+Result<OpenedFramePack> OpenFramePack(const std::filesystem::path& file, ImageSize size);
 
 }  // namespace pleinair::devices

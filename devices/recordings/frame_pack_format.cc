@@ -27,8 +27,8 @@ std::optional<T> Optional(const Json& json, const char* key) {
 
 void FrameRecordHead::Append(std::string* bytes) const {
   *bytes += kMagic;
-  PutLittleEndian(facts_bytes, bytes);
-  PutLittleEndian(picture_bytes, bytes);
+  PutLittleEndian(metadata_bytes, bytes);
+  PutLittleEndian(image_bytes, bytes);
   PutLittleEndian(checksum, bytes);
   PutLittleEndian(std::uint32_t{0}, bytes);  // Unused.
 }
@@ -37,16 +37,17 @@ std::optional<FrameRecordHead> FrameRecordHead::Decode(std::string_view bytes) {
   LittleEndianReader reader(bytes);
   const std::string_view magic = reader.Take(kMagic.size());
   FrameRecordHead head;
-  head.facts_bytes = reader.Get<std::uint32_t>();
-  head.picture_bytes = reader.Get<std::uint64_t>();
+  head.metadata_bytes = reader.Get<std::uint32_t>();
+  head.image_bytes = reader.Get<std::uint64_t>();
   head.checksum = reader.Get<std::uint32_t>();
-  if (magic != kMagic || head.facts_bytes > kMaxFacts || head.picture_bytes > kMaxPicture) {
+  if (magic != kMagic || head.metadata_bytes > kMaxMetadataBytes ||
+      head.image_bytes > kMaxImageBytes) {
     return std::nullopt;
   }
   return head;
 }
 
-std::string FrameFactsJson(const Frame& frame, const RawPicture& layout) {
+std::string FrameMetadataJson(const Frame& frame, const RawImage& layout) {
   Json json{{"index", frame.index},
             {"timestamp_ns", frame.timestamp_ns},
             {"stamp", kMeanings[static_cast<int>(frame.stamp_meaning)]},
@@ -67,10 +68,10 @@ std::string FrameFactsJson(const Frame& frame, const RawPicture& layout) {
   return json.dump();
 }
 
-std::optional<FrameFacts> ParseFrameFacts(std::string_view text) {
+std::optional<FrameMetadata> ParseFrameMetadata(std::string_view text) {
   try {
     const Json json = Json::parse(text);
-    FrameFacts facts;
+    FrameMetadata facts;
     Frame& frame = facts.frame;
     frame.index = json.at("index");
     frame.timestamp_ns = json.at("timestamp_ns");

@@ -16,15 +16,15 @@ namespace pleinair::devices {
 inline constexpr std::string_view kFramePackStart = "pleinair frames\n";
 
 /// What stands before each frame: all numbers little-endian. The checksum (CRC-32 of zlib) is over
-/// the facts and the picture.
+/// the facts and the image.
 struct FrameRecordHead {
   static constexpr std::size_t kBytes = 24;
   static constexpr std::string_view kMagic = "FRAM";
-  static constexpr std::uint32_t kMaxFacts = 64 * 1024;
-  static constexpr std::uint64_t kMaxPicture = std::uint64_t{1} << 31;
+  static constexpr std::uint32_t kMaxMetadataBytes = 64 * 1024;
+  static constexpr std::uint64_t kMaxImageBytes = std::uint64_t{1} << 31;
 
-  std::uint32_t facts_bytes = 0;
-  std::uint64_t picture_bytes = 0;
+  std::uint32_t metadata_bytes = 0;
+  std::uint64_t image_bytes = 0;
   std::uint32_t checksum = 0;
 
   /// Adds kBytes.
@@ -34,12 +34,12 @@ struct FrameRecordHead {
 };
 
 /// Everything of a frame but its pixels, as one line of JSON, and back. `layout` has no bytes.
-std::string FrameFactsJson(const Frame& frame, const RawPicture& layout);
-struct FrameFacts {
+std::string FrameMetadataJson(const Frame& frame, const RawImage& layout);
+struct FrameMetadata {
   Frame frame;
-  RawPicture layout;
+  RawImage layout;
 };
 /// Nothing: damaged.
-std::optional<FrameFacts> ParseFrameFacts(std::string_view json);
+std::optional<FrameMetadata> ParseFrameMetadata(std::string_view json);
 
 }  // namespace pleinair::devices

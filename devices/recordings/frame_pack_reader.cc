@@ -22,8 +22,8 @@ struct Place {
   FrameRecordHead head;
 
   std::int64_t bytes() const {
-    return static_cast<std::int64_t>(FrameRecordHead::kBytes + head.facts_bytes +
-                                     head.picture_bytes);
+    return static_cast<std::int64_t>(FrameRecordHead::kBytes + head.metadata_bytes +
+                                     head.image_bytes);
   }
 };
 
@@ -35,25 +35,25 @@ bool ReadAt(std::ifstream& file, std::int64_t at, void* to, std::size_t count) {
   return static_cast<std::size_t>(file.gcount()) == count;
 }
 
-std::optional<FrameFacts> ReadFrame(std::ifstream& file, const Place& place) {
-  std::string facts(place.head.facts_bytes, '\0');
-  std::vector<std::uint8_t> picture(place.head.picture_bytes);
+std::optional<FrameMetadata> ReadFrame(std::ifstream& file, const Place& place) {
+  std::string facts(place.head.metadata_bytes, '\0');
+  std::vector<std::uint8_t> image(place.head.image_bytes);
   const auto start = static_cast<std::int64_t>(FrameRecordHead::kBytes) + place.at;
   if (!ReadAt(file, start, facts.data(), facts.size()) ||
-      !ReadAt(file, start + place.head.facts_bytes, picture.data(), picture.size())) {
+      !ReadAt(file, start + place.head.metadata_bytes, image.data(), image.size())) {
     return std::nullopt;
   }
-  uLong sum = crc32(0, reinterpret_cast<const Bytef*>(facts.data()), place.head.facts_bytes);
-  sum = crc32_z(sum, picture.data(), picture.size());
+  uLong sum = crc32(0, reinterpret_cast<const Bytef*>(facts.data()), place.head.metadata_bytes);
+  sum = crc32_z(sum, image.data(), image.size());
   if (sum != place.head.checksum) return std::nullopt;
-  auto read = ParseFrameFacts(facts);
-  if (read) read->layout.bytes = std::move(picture);
+  auto read = ParseFrameMetadata(facts);
+  if (read) read->layout.bytes = std::move(image);
   return read;
 }
 
 class FramePack : public FrameSource {
  public:
-  FramePack(fs::path file, std::ifstream stream, std::vector<Place> places, PictureSize size,
+  FramePack(fs::path file, std::ifstream stream, std::vector<Place> places, ImageSize size,
             std::int64_t start_ns)
       : file_(std::move(file)),
         stream_(std::move(stream)),
@@ -68,7 +68,7 @@ class FramePack : public FrameSource {
     auto facts = ReadFrame(stream_, places_[index]);
     if (!facts) return InputError(name, "is damaged", "get a whole copy of it");
     Frame frame = std::move(facts->frame);
-    if (PictureSize{facts->layout.width, facts->layout.height} != size_) {
+    if (ImageSize{facts->layout.width, facts->layout.height} != size_) {
       return InputError(name,
                         "has " + std::to_string(facts->layout.width) + "x" +
                             std::to_string(facts->layout.height) +
@@ -76,16 +76,16 @@ class FramePack : public FrameSource {
                             "x" + std::to_string(size_.height),
                         "use the calibration of this camera at this size");
     }
-    Picture picture;
-    if (auto converted = ConvertRawPicture(facts->layout, &picture); !converted) {
+    DecodedImage image;
+    if (auto converted = ConvertRawImage(facts->layout, &image); !converted) {
       return InputError(name, converted.error().what, "get a whole copy of it");
     }
     frame.index = static_cast<std::int64_t>(index);
     frame.timestamp_ns -= start_ns_;
     if (frame.arrival_ns) *frame.arrival_ns -= start_ns_;
-    frame.rgb = std::move(picture.rgb);
-    frame.grey = std::move(picture.grey);
-    frame.raw = std::make_shared<const RawPicture>(std::move(facts->layout));
+    frame.rgb = std::move(image.rgb);
+    frame.grey = std::move(image.grey);
+    frame.raw = std::make_shared<const RawImage>(std::move(facts->layout));
     next_ = index + 1;
     return frame;
   }
@@ -98,7 +98,7 @@ class FramePack : public FrameSource {
   fs::path file_;
   std::ifstream stream_;
   std::vector<Place> places_;
-  PictureSize size_;
+  ImageSize size_;
   std::int64_t start_ns_;
   std::size_t next_ = 0;
 };
@@ -111,7 +111,7 @@ bool IsFramePack(const fs::path& file) {
   return ReadAt(stream, 0, start.data(), start.size()) && start == kFramePackStart;
 }
 
-Result<OpenedFramePack> OpenFramePack(const fs::path& file, PictureSize size) {
+Result<OpenedFramePack> OpenFramePack(const fs::path& file, ImageSize size) {
   if (!IsFramePack(file)) {
     return InputError(file.string(), "is no frame pack", "docs/formats.md describes recordings");
   }
@@ -132,7 +132,7 @@ Result<OpenedFramePack> OpenFramePack(const fs::path& file, PictureSize size) {
     at += place.bytes();
   }
   // After a power cut the file may have its length but not yet its bytes.
-  std::optional<FrameFacts> last;
+  std::optional<FrameMetadata> last;
   while (!places.empty() && !(last = ReadFrame(stream, places.back()))) {
     at = places.back().at;
     places.pop_back();
@@ -144,7 +144,7 @@ Result<OpenedFramePack> OpenFramePack(const fs::path& file, PictureSize size) {
   if (!first) {
     return InputError(file.string() + ", frame 0", "is damaged", "get a whole copy of it");
   }
-  if (size == PictureSize{}) size = {first->layout.width, first->layout.height};
+  if (size == ImageSize{}) size = {first->layout.width, first->layout.height};
   OpenedFramePack opened;
   opened.dropped_bytes = total - at;
   const std::int64_t start_ns = first->frame.timestamp_ns;

@@ -15,10 +15,10 @@ namespace pleinair::devices {
 namespace {
 
 /// zlib counts in 32 bits.
-std::uint32_t Checksum(std::string_view facts, const std::uint8_t* picture, std::size_t bytes) {
+std::uint32_t Checksum(std::string_view facts, const std::uint8_t* image, std::size_t bytes) {
   uLong sum =
       crc32(0, reinterpret_cast<const Bytef*>(facts.data()), static_cast<uInt>(facts.size()));
-  sum = crc32_z(sum, picture, bytes);
+  sum = crc32_z(sum, image, bytes);
   return static_cast<std::uint32_t>(sum);
 }
 
@@ -66,9 +66,9 @@ Result<void> FramePackWriter::Fail(int error_number) {
 
 Result<void> FramePackWriter::Add(const Frame& frame) {
   if (failed_) return SystemError(file_.string(), "recording has ended before");
-  RawPicture layout;
-  const std::uint8_t* picture = frame.rgb.data();
-  std::size_t picture_bytes = frame.rgb.size();
+  RawImage layout;
+  const std::uint8_t* image = frame.rgb.data();
+  std::size_t image_bytes = frame.rgb.size();
   if (frame.raw) {
     layout = {frame.raw->format,
               frame.raw->width,
@@ -77,24 +77,24 @@ Result<void> FramePackWriter::Add(const Frame& frame) {
               frame.raw->matrix,
               frame.raw->full_range,
               {}};
-    picture = frame.raw->bytes.data();
-    picture_bytes = frame.raw->bytes.size();
+    image = frame.raw->bytes.data();
+    image_bytes = frame.raw->bytes.size();
   } else {
     layout.format = PixelFormat::kRgb24;
     layout.width = frame.rgb.width();
     layout.height = frame.rgb.height();
     layout.stride = static_cast<std::size_t>(layout.width) * 3;
   }
-  const std::string facts = FrameFactsJson(frame, layout);
-  const FrameRecordHead head{static_cast<std::uint32_t>(facts.size()), picture_bytes,
-                             Checksum(facts, picture, picture_bytes)};
+  const std::string facts = FrameMetadataJson(frame, layout);
+  const FrameRecordHead head{static_cast<std::uint32_t>(facts.size()), image_bytes,
+                             Checksum(facts, image, image_bytes)};
   header_.clear();
   head.Append(&header_);
   header_ += facts;
   int failed = WriteAll(fd_, header_.data(), header_.size());
-  if (failed == 0) failed = WriteAll(fd_, picture, picture_bytes);
+  if (failed == 0) failed = WriteAll(fd_, image, image_bytes);
   if (failed != 0) return Fail(failed);
-  size_ += static_cast<std::int64_t>(header_.size() + picture_bytes);
+  size_ += static_cast<std::int64_t>(header_.size() + image_bytes);
   ++frames_;
   return {};
 }

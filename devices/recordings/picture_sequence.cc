@@ -10,7 +10,7 @@
 namespace pleinair::devices {
 namespace {
 
-bool IsPictureName(const std::filesystem::path& file) {
+bool IsImageName(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -29,7 +29,7 @@ std::optional<std::int64_t> NumberOf(const std::filesystem::path& file) {
   return number;
 }
 
-tl::unexpected<Error> WrongSize(const std::string& file, PictureSize is, PictureSize should) {
+tl::unexpected<Error> WrongSize(const std::string& file, ImageSize is, ImageSize should) {
   return InputError(file,
                     "has " + std::to_string(is.width) + "x" + std::to_string(is.height) +
                         " pixels, but the calibration is for " + std::to_string(should.width) +
@@ -37,24 +37,24 @@ tl::unexpected<Error> WrongSize(const std::string& file, PictureSize is, Picture
                     "use the calibration of this camera at this size");
 }
 
-class PictureSequence : public FrameSource {
+class ImageSequence : public FrameSource {
  public:
-  PictureSequence(std::vector<SequenceFrame> frames, PictureSize size)
+  ImageSequence(std::vector<SequenceFrame> frames, ImageSize size)
       : frames_(std::move(frames)), size_(size) {}
 
   Result<std::optional<Frame>> Next() override {
     if (next_ >= frames_.size()) return std::nullopt;
     const std::size_t index = std::exchange(next_, frames_.size());
     const SequenceFrame& from = frames_[index];
-    PLEINAIR_ASSIGN_OR_RETURN(Picture picture, DecodePictureFile(from.file));
-    const PictureSize is{picture.rgb.width(), picture.rgb.height()};
+    PLEINAIR_ASSIGN_OR_RETURN(DecodedImage image, DecodeImageFile(from.file));
+    const ImageSize is{image.rgb.width(), image.rgb.height()};
     if (is != size_) return WrongSize(from.file.string(), is, size_);
     Frame frame;
     frame.index = static_cast<std::int64_t>(index);
     frame.timestamp_ns = from.timestamp_ns;
     frame.device_timestamp_ns = from.device_timestamp_ns;
-    frame.rgb = std::move(picture.rgb);
-    frame.grey = std::move(picture.grey);
+    frame.rgb = std::move(image.rgb);
+    frame.grey = std::move(image.grey);
     next_ = index + 1;
     return frame;
   }
@@ -69,14 +69,14 @@ class PictureSequence : public FrameSource {
 
  private:
   std::vector<SequenceFrame> frames_;
-  PictureSize size_;
+  ImageSize size_;
   std::size_t next_ = 0;
 };
 
 }  // namespace
 
-Result<std::vector<std::filesystem::path>> ListNumberedPictures(const std::filesystem::path& folder,
-                                                                std::optional<int> promised) {
+Result<std::vector<std::filesystem::path>> ListNumberedImages(const std::filesystem::path& folder,
+                                                              std::optional<int> promised) {
   std::error_code error;
   std::map<std::int64_t, std::filesystem::path> by_number;
   std::filesystem::directory_iterator entries(folder, error);
@@ -86,7 +86,7 @@ Result<std::vector<std::filesystem::path>> ListNumberedPictures(const std::files
   }
   for (const std::filesystem::directory_iterator end; entries != end; entries.increment(error)) {
     const std::filesystem::path& file = entries->path();
-    if (!IsPictureName(file)) continue;
+    if (!IsImageName(file)) continue;
     const std::optional<std::int64_t> number = NumberOf(file);
     if (!number) continue;
     const auto [place, is_new] = by_number.emplace(*number, file);
@@ -124,13 +124,13 @@ Result<std::vector<std::filesystem::path>> ListNumberedPictures(const std::files
   return files;
 }
 
-Result<std::unique_ptr<FrameSource>> OpenPictureSequence(std::vector<SequenceFrame> frames,
-                                                         PictureSize size) {
+Result<std::unique_ptr<FrameSource>> OpenImageSequence(std::vector<SequenceFrame> frames,
+                                                       ImageSize size) {
   for (const SequenceFrame& frame : frames) {
-    PLEINAIR_ASSIGN_OR_RETURN(const PictureSize is, InspectPictureFile(frame.file));
+    PLEINAIR_ASSIGN_OR_RETURN(const ImageSize is, InspectImageFile(frame.file));
     if (is != size) return WrongSize(frame.file.string(), is, size);
   }
-  return std::make_unique<PictureSequence>(std::move(frames), size);
+  return std::make_unique<ImageSequence>(std::move(frames), size);
 }
 
 }  // namespace pleinair::devices

@@ -12,7 +12,7 @@
 
 namespace pleinair::devices {
 
-/// One picture of a sequence and its stamps.
+/// One image of a sequence and its stamps.
 struct SequenceFrame {
   std::filesystem::path file;
   std::int64_t timestamp_ns = 0;  ///< Since the recording's start.
@@ -23,12 +23,12 @@ struct SequenceFrame {
 /// without leading zeros ("0000.jpg", "frame_12.png"); other files are passed over.
 /// Errors: no such folder or none in it, a number twice, a number missing between the first and
 /// the last, another count than `promised`.
-Result<std::vector<std::filesystem::path>> ListNumberedPictures(const std::filesystem::path& folder,
-                                                                std::optional<int> promised);
+Result<std::vector<std::filesystem::path>> ListNumberedImages(const std::filesystem::path& folder,
+                                                              std::optional<int> promised);
 
-/// Frames from picture files, decoded one by one. All files are looked at first.
-/// Errors: a picture that is missing, cut short, no picture, or not of `size`.
-Result<std::unique_ptr<FrameSource>> OpenPictureSequence(std::vector<SequenceFrame> frames,
-                                                         PictureSize size);
+/// Frames from image files, decoded one by one. All files are looked at first.
+/// Errors: an image that is missing, cut short, no image, or not of `size`.
+Result<std::unique_ptr<FrameSource>> OpenImageSequence(std::vector<SequenceFrame> frames,
+                                                       ImageSize size);
 
 }  // namespace pleinair::devices

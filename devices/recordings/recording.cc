@@ -146,7 +146,7 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
   PLEINAIR_ASSIGN_OR_RETURN(const RecordingManifest manifest, ManifestOf(own));
   PLEINAIR_ASSIGN_OR_RETURN(recording.camera, CameraOf(own, manifest, options));
   PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneOf(own, options));
-  const PictureSize size{recording.camera.width, recording.camera.height};
+  const ImageSize size{recording.camera.width, recording.camera.height};
   const fs::path frames = FramesOf(manifest, folder);
   if (IsFile(frames) && IsFramePack(frames)) {
     PLEINAIR_ASSIGN_OR_RETURN(OpenedFramePack pack, OpenFramePack(frames, size));
@@ -170,13 +170,13 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
                       "it must be a folder of numbered pictures or a video");
   }
   if (!manifest.frame_rate_hz) {
-    const Description& said = own.recording_json ? *own.recording_json : *own.scene_json;
-    return InputError(said.file.string(), "does not say the frame rate",
+    const Description& user_scene = own.recording_json ? *own.recording_json : *own.scene_json;
+    return InputError(user_scene.file.string(), "does not say the frame rate",
                       "add frame_rate_hz or timestamps_s");
   }
   recording.frame_rate_hz = *manifest.frame_rate_hz;
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files,
-                            ListNumberedPictures(frames, manifest.frame_count));
+                            ListNumberedImages(frames, manifest.frame_count));
   std::vector<SequenceFrame> sequence;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const double stamp_s = manifest.timestamps_s.empty()
@@ -184,13 +184,13 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
                                : manifest.timestamps_s[i];
     sequence.push_back({files[i], Nanoseconds(stamp_s), std::nullopt});
   }
-  PLEINAIR_ASSIGN_OR_RETURN(recording.frames, OpenPictureSequence(std::move(sequence), size));
+  PLEINAIR_ASSIGN_OR_RETURN(recording.frames, OpenImageSequence(std::move(sequence), size));
   return recording;
 }
 
 // The scene of a recording that knows nothing of it: options', else one in the folder.
-Result<std::optional<scene::SceneDescription>> SceneBeside(const fs::path& folder,
-                                                           const RecordingOptions& options) {
+Result<std::optional<scene::SceneDescription>> FindSceneNextTo(const fs::path& folder,
+                                                               const RecordingOptions& options) {
   if (options.scene) return SceneFromFile(*options.scene, {});
   for (const char* name : {"scene.toml", "scene.json"}) {
     if (IsFile(folder / name)) return SceneFromFile(folder / name, {});
@@ -206,7 +206,7 @@ Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folde
   const fs::path table = camera_folder / "data.csv";
   PLEINAIR_ASSIGN_OR_RETURN(recording.camera,
                             ReadCalibration(options.calibration.value_or(sensor)));
-  PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneBeside(folder, options));
+  PLEINAIR_ASSIGN_OR_RETURN(recording.scene, FindSceneNextTo(folder, options));
   PLEINAIR_ASSIGN_OR_RETURN(const std::string csv,
                             files::ReadWholeFile(table, files::kMaxDescriptionBytes));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<EurocFrame> frames,
@@ -230,7 +230,7 @@ Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folde
   }
   PLEINAIR_ASSIGN_OR_RETURN(
       recording.frames,
-      OpenPictureSequence(std::move(sequence), {recording.camera.width, recording.camera.height}));
+      OpenImageSequence(std::move(sequence), {recording.camera.width, recording.camera.height}));
   return recording;
 }
 
@@ -249,7 +249,7 @@ Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& o
   if (options.scene) {
     PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneFromFile(*options.scene, {}));
   }
-  VideoFacts facts;
+  VideoMetadata facts;
   facts.size = {recording.camera.width, recording.camera.height};
   PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video, OpenVideo(file, facts));
   recording.frame_rate_hz = video.frame_rate_hz;

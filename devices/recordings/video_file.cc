@@ -20,7 +20,7 @@ constexpr const char* kWholeCopy = "get a whole copy of it";
 
 class VideoFile : public FrameSource {
  public:
-  VideoFile(std::string name, cv::VideoCapture capture, VideoFacts facts, bool promised_exactly)
+  VideoFile(std::string name, cv::VideoCapture capture, VideoMetadata facts, bool promised_exactly)
       : name_(std::move(name)),
         capture_(std::move(capture)),
         facts_(std::move(facts)),
@@ -38,7 +38,7 @@ class VideoFile : public FrameSource {
     } catch (const std::exception& error) {
       return InputError(name_, "cannot be decoded: " + std::string(error.what()), kWholeCopy);
     }
-    if (bgr.type() != CV_8UC3 || PictureSize{bgr.cols, bgr.rows} != facts_.size) {
+    if (bgr.type() != CV_8UC3 || ImageSize{bgr.cols, bgr.rows} != facts_.size) {
       return InputError(name_, "changes its picture size at frame " + std::to_string(next_),
                         "convert it to one size");
     }
@@ -48,9 +48,9 @@ class VideoFile : public FrameSource {
                                ? next_ / *facts_.frame_rate_hz
                                : facts_.timestamps_s[static_cast<std::size_t>(next_)];
     frame.timestamp_ns = std::llround(stamp_s * 1e9);
-    Picture picture = PictureFromBgr(bgr);
-    frame.rgb = std::move(picture.rgb);
-    frame.grey = std::move(picture.grey);
+    DecodedImage image = ImageFromBgr(bgr);
+    frame.rgb = std::move(image.rgb);
+    frame.grey = std::move(image.grey);
     ++next_;
     at_end_ = false;
     return frame;
@@ -82,7 +82,7 @@ class VideoFile : public FrameSource {
 
   std::string name_;
   cv::VideoCapture capture_;
-  VideoFacts facts_;
+  VideoMetadata facts_;
   bool promised_exactly_ = false;
   int next_ = 0;
   bool at_end_ = false;
@@ -94,7 +94,7 @@ void QuietFfmpeg() {
   std::call_once(once, [] { setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0); });
 }
 
-Result<OpenedVideo> Open(const std::filesystem::path& file, VideoFacts facts) {
+Result<OpenedVideo> Open(const std::filesystem::path& file, VideoMetadata facts) {
   const std::string name = file.string();
   QuietFfmpeg();
   // An absolute path cannot be taken for a protocol such as "concat:".
@@ -103,9 +103,9 @@ Result<OpenedVideo> Open(const std::filesystem::path& file, VideoFacts facts) {
     return InputError(name, "cannot be opened as a video: no known format, or cut short",
                       "get a whole copy of it, or convert it to MP4 with H.264");
   }
-  const PictureSize is{static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH)),
-                       static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT))};
-  if (facts.size == PictureSize{}) facts.size = is;
+  const ImageSize is{static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH)),
+                     static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT))};
+  if (facts.size == ImageSize{}) facts.size = is;
   if (is != facts.size) {
     return InputError(name,
                       "has " + std::to_string(is.width) + "x" + std::to_string(is.height) +
@@ -139,7 +139,7 @@ Result<OpenedVideo> Open(const std::filesystem::path& file, VideoFacts facts) {
 
 }  // namespace
 
-Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoFacts& facts) {
+Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoMetadata& facts) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   if (error) {

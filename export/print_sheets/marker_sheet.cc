@@ -18,8 +18,8 @@ namespace sg = tracker::sg;
 
 SheetPrint PlacePrint(int number, double size_mm, Vec2 centre) {
   const double module_mm = size_mm / sg::kEdge;
-  const double half = 0.5 * sg::kPrint * module_mm;
-  return {tracker::SgPrint(number), centre - Vec2{half, half}, module_mm};
+  const double half = 0.5 * sg::kModules * module_mm;
+  return {tracker::SgMarkerPattern(number), centre - Vec2{half, half}, module_mm};
 }
 
 constexpr const char* kSizeDefinition = "Size: the outer edge of the black square.";

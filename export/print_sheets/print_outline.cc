@@ -13,7 +13,7 @@ constexpr std::array<ModuleCorner, 4> kStep = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}
 
 class BlackModules {
  public:
-  explicit BlackModules(const tracker::PrintPattern& print) : print_(print) {}
+  explicit BlackModules(const tracker::MarkerPattern& print) : print_(print) {}
   bool operator()(int x, int y) const {
     if (x < 0 || y < 0 || x >= print_.modules || y >= print_.modules) return false;
     return print_.white[static_cast<std::size_t>(y) * print_.modules + x] == 0;
@@ -28,12 +28,12 @@ class BlackModules {
   }
 
  private:
-  const tracker::PrintPattern& print_;
+  const tracker::MarkerPattern& print_;
 };
 
 }  // namespace
 
-std::vector<std::vector<ModuleCorner>> TraceBlackOutlines(const tracker::PrintPattern& print) {
+std::vector<std::vector<ModuleCorner>> TraceBlackOutlines(const tracker::MarkerPattern& print) {
   const BlackModules black(print);
   // A loop walks with black on its right. Each has an edge going east with black below; those are
   // ticked off, so that each loop is walked once.

@@ -16,6 +16,6 @@ struct ModuleCorner {
 /// rule. Every loop turns at each of its corners, and no edge lies between two black modules: a
 /// renderer that smooths edges has nothing to show inside an area. Where black modules touch at a
 /// corner only, each has its own loop.
-std::vector<std::vector<ModuleCorner>> TraceBlackOutlines(const tracker::PrintPattern& print);
+std::vector<std::vector<ModuleCorner>> TraceBlackOutlines(const tracker::MarkerPattern& print);
 
 }  // namespace pleinair::exports

@@ -31,7 +31,7 @@ std::string PageName(PageSize page);
 PageSize FindPageFor(PageSize needed);
 
 struct SheetPrint {
-  tracker::PrintPattern pattern;
+  tracker::MarkerPattern pattern;
   Vec2 top_left_mm;  ///< Of the quiet zone.
   double module_mm = 0.0;
 };

@@ -65,7 +65,7 @@ void DrawModules(const AxisCoverage& across, const AxisCoverage& down, IsBlack i
   }
 }
 
-void DrawPrint(const tracker::PrintPattern& print, Vec2 top_left_px, double module_px,
+void DrawPrint(const tracker::MarkerPattern& print, Vec2 top_left_px, double module_px,
                Image<std::uint8_t>* picture) {
   DrawModules(
       AxisCoverage(top_left_px.x, module_px, print.modules, picture->width()),
@@ -120,7 +120,7 @@ Image<std::uint8_t> RasterizeSheet(const Sheet& sheet) {
   return picture;
 }
 
-Image<std::uint8_t> RasterizePrint(const tracker::PrintPattern& print, int pixels) {
+Image<std::uint8_t> RasterizePrint(const tracker::MarkerPattern& print, int pixels) {
   Image<std::uint8_t> picture(pixels, pixels);
   std::fill_n(picture.data(), picture.size(), std::uint8_t{255});
   DrawPrint(print, {0.0, 0.0}, static_cast<double>(pixels) / print.modules, &picture);

@@ -57,8 +57,8 @@ SheetLegend LegendOf(const SquareBoard& board, double square_mm) {
 }
 
 /// The black squares; prints are square, and what is left of this one is white.
-tracker::PrintPattern Squares(Sides squares) {
-  tracker::PrintPattern print;
+tracker::MarkerPattern Squares(Sides squares) {
+  tracker::MarkerPattern print;
   print.modules = print.edge_modules = std::max(squares.columns, squares.rows);
   print.white.assign(static_cast<std::size_t>(print.modules) * print.modules, 1);
   for (int row = 0; row < squares.rows; ++row) {
@@ -100,8 +100,8 @@ Result<Sheet> SquareBoardSheet(const SquareBoard& board, PageSize page) {
     int id = 0;
     for (int row = 0; row < squares.rows; ++row) {
       for (int column = 1 - row % 2; column < squares.columns; column += 2) {
-        PLEINAIR_ASSIGN_OR_RETURN(tracker::PrintPattern code,
-                                  tracker::ArucoPrint(b.dictionary, id++));
+        PLEINAIR_ASSIGN_OR_RETURN(tracker::MarkerPattern code,
+                                  tracker::ArucoMarkerPattern(b.dictionary, id++));
         const double margin_mm = 0.5 * (square_mm - board.marker_mm);
         const double module_mm = board.marker_mm / code.modules;
         sheet.prints.push_back(

@@ -11,14 +11,14 @@ namespace {
 // Files state a quaternion to three digits or more; what is farther off is no rotation.
 constexpr double kLengthTolerance = 0.01;
 // Farther than any camera goes, and far inside what 32-bit floats hold.
-constexpr double kFarthest = 1e9;
+constexpr double kMaxDistance = 1e9;
 
 // 285 years; leaves room to count on.
 constexpr std::int64_t kLongestNs = 9'000'000'000'000'000'000;
 
 bool IsNear(Vec3 place) {
-  return std::abs(place.x) <= kFarthest && std::abs(place.y) <= kFarthest &&
-         std::abs(place.z) <= kFarthest;
+  return std::abs(place.x) <= kMaxDistance && std::abs(place.y) <= kMaxDistance &&
+         std::abs(place.z) <= kMaxDistance;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 bool IsThere(const fs::path& file) {
   std::error_code error;
@@ -41,10 +41,10 @@ Result<ColmapModel> ReadColmapFolder(const fs::path& folder) {
   const ColmapForm form = FormIn(folder);
   const auto [cameras, points3d, images] = ColmapFileNames(form);
   ColmapFiles files;
-  PLEINAIR_ASSIGN_OR_RETURN(files.cameras, files::ReadWholeFile(folder / cameras, kMostBytes));
-  PLEINAIR_ASSIGN_OR_RETURN(files.images, files::ReadWholeFile(folder / images, kMostBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(files.cameras, files::ReadWholeFile(folder / cameras, kMaxBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(files.images, files::ReadWholeFile(folder / images, kMaxBytes));
   if (IsThere(folder / points3d)) {
-    PLEINAIR_ASSIGN_OR_RETURN(files.points3d, files::ReadWholeFile(folder / points3d, kMostBytes));
+    PLEINAIR_ASSIGN_OR_RETURN(files.points3d, files::ReadWholeFile(folder / points3d, kMaxBytes));
   }
   return form == ColmapForm::kText ? ParseColmapText(files, folder.string())
                                    : ParseColmapBinary(files, folder.string());

@@ -20,8 +20,8 @@ std::optional<std::int64_t> NumberIn(const std::string& picture) {
   const char* first = stem.data() + (last_other == std::string::npos ? 0 : last_other + 1);
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(first, stem.data() + stem.size(), number);
-  constexpr std::int64_t kMost = 1'000'000'000;
-  if (error != std::errc() || number > kMost) return std::nullopt;
+  constexpr std::int64_t kMax = 1'000'000'000;
+  if (error != std::errc() || number > kMax) return std::nullopt;
   return number;
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 std::string LowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
@@ -76,7 +76,7 @@ Result<CameraPath> ReadPath(const fs::path& file, PathFormat format, const PathR
     PLEINAIR_ASSIGN_OR_RETURN(ColmapModel model, ReadColmapFolder(file));
     return PathFromColmap(std::move(model), options.frame_rate_hz);
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadWholeFile(file, kMostBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadWholeFile(file, kMaxBytes));
   if (format == PathFormat::kTum) return ParseTum(text, file.string());
   return ParseEurocPath(text, file.string(), options.body_from_camera);
 }

@@ -15,7 +15,7 @@ struct AtmosphereTables;
 /// + inscattered, linear Rec.709, cd/m².
 ///
 /// For distances of a scene, near the ground: the light that arrives from all sides is taken as
-/// that at the eye, the air's density as falling with height along the way, and each colour
+/// that at the eye, the air's density as falling with height along the way, and each color
 /// channel as having one coefficient of extinction a gas. Against a path tracer the inscattered
 /// light is within 12 % at 2 and 20 km (tests/sky/atmosphere/aerial_perspective_test.cc).
 class AerialPerspective {

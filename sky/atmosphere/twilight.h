@@ -13,7 +13,7 @@ double TwilightShare(Radians apparent_elevation);
 /// The sun whose twilight a physically based sky computes in place of the real one, and the share
 /// of its light that is left. Below −9° light has been scattered several times over hundreds of
 /// kilometres, which plane layers (sky/atmosphere/scattered_light.h) do not know: there the sky
-/// keeps the pattern and colour of −9°, and its light falls as TwilightShare() to nothing at −18°.
+/// keeps the pattern and color of −9°, and its light falls as TwilightShare() to nothing at −18°.
 struct ComputedTwilight {
   double sun_elevation = 0.0;  ///< Radians.
   double share = 1.0;

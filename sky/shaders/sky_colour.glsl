@@ -1,6 +1,6 @@
-// Colours of the skies: the twin of sky/colour.h.
-#ifndef PLEINAIR_SKY_COLOUR_GLSL
-#define PLEINAIR_SKY_COLOUR_GLSL
+// Colours of the skies: the twin of sky/color.h.
+#ifndef PLEINAIR_SKY_COLOR_GLSL
+#define PLEINAIR_SKY_COLOR_GLSL
 
 float SkyLuminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
@@ -18,11 +18,11 @@ vec3 SkyRgbFromXyz(vec3 xyz) {
 }
 
 // Chromaticity x, y and luminance to linear Rec.709.
-vec3 SkyRgbFromXyY(vec3 colour) {
-  if (colour.z <= 0.0f || colour.y <= 0.0f) return vec3(0.0f);
-  float scale = colour.z / colour.y;
+vec3 SkyRgbFromXyY(vec3 color) {
+  if (color.z <= 0.0f || color.y <= 0.0f) return vec3(0.0f);
+  float scale = color.z / color.y;
   return SkyRgbFromXyz(
-      vec3(colour.x * scale, colour.z, (1.0f - colour.x - colour.y) * scale));
+      vec3(color.x * scale, color.z, (1.0f - color.x - color.y) * scale));
 }
 
 #endif

@@ -14,7 +14,7 @@
 
 const float kPerezLowestTurbidity = 2.0f;
 const float kPerezHighestTurbidity = 10.0f;
-const float kPerezSmallestCosine = 1e-3f;
+const float kPerezMinCosine = 1e-3f;
 
 // Perez' five coefficients for chromaticity x, y and luminance Y at once.
 struct PerezSky {
@@ -96,7 +96,7 @@ PerezSky PerezSkyCreate(float turbidity, vec3 to_sun) {
 // Chromaticity x, y and luminance (cd/m2); black below the horizon.
 vec3 PerezSkyXyY(PerezSky sky, vec3 direction) {
   if (direction.z < 0.0f) return vec3(0.0f);
-  float cos_theta = max(direction.z, kPerezSmallestCosine);
+  float cos_theta = max(direction.z, kPerezMinCosine);
   float cos_gamma = clamp(dot(direction, sky.to_sun), -1.0f, 1.0f);
   float gamma = SkyAngleBetween(direction, sky.to_sun);
   return sky.zenith_over_f * PerezDistribution(sky, cos_theta, gamma, cos_gamma);

@@ -17,9 +17,9 @@ constexpr double kDaySeconds = 86'400.0;
 UtcTime FindTransit(const Observer& observer, UtcTime guess, double target_rad, SunModel model) {
   constexpr double kSecondsPerRadian = 0.5 * kDaySeconds / std::numbers::pi;
   constexpr double kToleranceSeconds = 0.001;
-  constexpr int kMostSteps = 12;  // Each gains three digits; the jumps of `paper` cost some.
+  constexpr int kMaxSteps = 12;  // Each gains three digits; the jumps of `paper` cost some.
   UtcTime time = guess;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const double off_rad = std::remainder(HourAngle(observer, time, model).value() - target_rad,
                                           2.0 * std::numbers::pi);
     time = time.PlusSeconds(-off_rad * kSecondsPerRadian);

@@ -65,7 +65,7 @@ void MakeRecordingWithoutTruth(const fs::path& folder, std::span<const int> fram
   e2e::WriteFile(folder / "scene.json", scene.dump());
 }
 
-/// The object in its own colour, as if light were everywhere the same.
+/// The object in its own color, as if light were everywhere the same.
 cv::Mat PastedUnlit(const KeyFrame& key) {
   const json scene = json::parse(e2e::ReadFile(e2e::BundledRecording() / "scene.json"));
   const json& albedo = scene["virtual_object"]["albedo_linear_rec709"];
@@ -171,9 +171,9 @@ TEST_F(CompositeOfCourtyardMidday, LooksLikeThePathTracedTruth) {
   EXPECT_GT(unlit.Mean().object, 10.0);
 }
 
-/// Mean colour of a picture over level places of the scene, [x, y] in marker coordinates.
-app::Lab MeanColour(const cv::Mat& picture, const json& camera, const json& pose,
-                    const std::vector<std::array<double, 2>>& places) {
+/// Mean color of a picture over level places of the scene, [x, y] in marker coordinates.
+app::Lab MeanColor(const cv::Mat& picture, const json& camera, const json& pose,
+                   const std::vector<std::array<double, 2>>& places) {
   std::array<double, 3> sum{};
   const json& r = pose["rotation"];
   const json& t = pose["translation_m"];
@@ -221,15 +221,15 @@ TEST_F(CompositeOfCourtyardMidday, ShowsWhitePaperBesideTheMarkersWhiteAsWhiteAs
     const json pose = json::parse(line)["markers"].at(0)["camera_from_marker"];
     const cv::Mat picture = cv::imread(folder / fmt::format("out/frames/{:04}.png", i));
     ASSERT_FALSE(picture.empty());
-    const app::Lab ours = MeanColour(picture, scene["intrinsics"], pose, paper);
-    const app::Lab printed = MeanColour(picture, scene["intrinsics"], pose, print);
+    const app::Lab ours = MeanColor(picture, scene["intrinsics"], pose, paper);
+    const app::Lab printed = MeanColor(picture, scene["intrinsics"], pose, print);
     const double difference = app::Ciede2000(ours, printed);
     fmt::print("frame {:04}: white paper beside the marker's white, CIEDE2000 {:.2f}\n",
                kKeyFrames[i], difference);
     EXPECT_LT(difference, 3.0);
     // And it is there: the paving under it is far from white.
     const cv::Mat before = cv::imread(folder / fmt::format("site/frames/{:04}.jpg", i));
-    EXPECT_GT(app::Ciede2000(MeanColour(before, scene["intrinsics"], pose, paper), printed), 10.0);
+    EXPECT_GT(app::Ciede2000(MeanColor(before, scene["intrinsics"], pose, paper), printed), 10.0);
   }
 }
 

@@ -15,8 +15,8 @@
 namespace pleinair::accuracy {
 namespace {
 
-std::shared_ptr<const tracker::PrintPattern> SgPattern(int number) {
-  return std::make_shared<tracker::PrintPattern>(tracker::SgPrint(number));
+std::shared_ptr<const tracker::MarkerPattern> SgPattern(int number) {
+  return std::make_shared<tracker::MarkerPattern>(tracker::SgMarkerPattern(number));
 }
 
 FrameSpec FrontFrame(double side_px) {
@@ -85,7 +85,7 @@ TEST(FrameRenderer, ChangesTheNoiseAloneWithItsSeed) {
 
 TEST(Occluders, CoverWhatTheyAreAskedTo) {
   for (const std::string& pattern : BorderPatterns()) {
-    const double share = std::min(0.2, LargestShare(pattern));
+    const double share = std::min(0.2, MaxShare(pattern));
     const Occluder occluder = MakeOccluder({pattern, share, "key"}, 1);
     EXPECT_NEAR(occluder.shares.border, share, 0.01) << pattern;
     if (pattern == "hand") continue;
@@ -121,7 +121,7 @@ TEST(Peers, FindTheirOwnPrints) {
   for (const bool aruco : {false, true}) {
     const auto peer = aruco ? MakeArucoPeer(camera) : MakeAprilTagPeer(camera);
     ASSERT_TRUE(peer->Start(false).has_value());
-    const RenderedFrame seen = FrameRenderer(camera, peer->Prints(), 1, 1).Render(frame);
+    const RenderedFrame seen = FrameRenderer(camera, peer->Patterns(), 1, 1).Render(frame);
     const auto found = peer->Detect(seen.grey.view());
     ASSERT_TRUE(found.has_value());
     FrameRecord record;

@@ -30,8 +30,8 @@ using nlohmann::json;
 
 constexpr int kFrames = 90;
 // Of the distance: for the camera's place, and for every point of the virtual object.
-constexpr double kMostDisplacement = 0.005;
-constexpr int kLongestGap = 3;
+constexpr double kMaxDisplacement = 0.005;
+constexpr int kMaxGap = 3;
 
 /// What the hand covers of a marker, 0…1.
 struct Covered {
@@ -178,7 +178,7 @@ TEST_F(OccludedMarker, KeepsTheVirtualObjectInPlace) {
   for (int frame = 0; frame < kFrames; ++frame) {
     const e2e::TumPose* pose = e2e::PoseAt(found, truth_[frame].time_s);
     gap = pose == nullptr ? gap + 1 : 0;
-    EXPECT_LE(gap, kLongestGap) << "frame " << frame;
+    EXPECT_LE(gap, kMaxGap) << "frame " << frame;
     if (pose == nullptr) continue;
     const bool hidden = covered_[frame].border > 0.1;
     position.push_back(e2e::ErrorOf(*pose, truth_[frame]).position_share);
@@ -187,9 +187,9 @@ TEST_F(OccludedMarker, KeepsTheVirtualObjectInPlace) {
       hidden_position.push_back(position.back());
       hidden_displacement.push_back(displacement.back());
     }
-    EXPECT_LT(position.back(), kMostDisplacement)
+    EXPECT_LT(position.back(), kMaxDisplacement)
         << "frame " << frame << ", border covered " << covered_[frame].border;
-    EXPECT_LT(displacement.back(), kMostDisplacement)
+    EXPECT_LT(displacement.back(), kMaxDisplacement)
         << "frame " << frame << ", border covered " << covered_[frame].border;
   }
   ASSERT_FALSE(hidden_position.empty());

@@ -102,9 +102,9 @@ RunRecords MakeLight(double object_de, double random_de, std::uint64_t seed) {
   RandomStream random(seed, "light");
   RunRecords run;
   for (int i = 0; i < 6; ++i) {
-    PictureRecord picture{.recording = i < 3 ? "a" : "b", .picture = std::to_string(i)};
-    for (std::size_t k = 0; k < kPictureMeasures.size(); ++k) {
-      const bool is_object = std::string(kPictureMeasures[k].name) == "dE_obj";
+    ImageRecord picture{.recording = i < 3 ? "a" : "b", .picture = std::to_string(i)};
+    for (std::size_t k = 0; k < kImageMeasures.size(); ++k) {
+      const bool is_object = std::string(kImageMeasures[k].name) == "dE_obj";
       picture.scores[k] =
           1.0 + 0.3 * i + (is_object ? object_de : 0.0) + random_de * random.Normal();
     }
@@ -116,7 +116,7 @@ RunRecords MakeLight(double object_de, double random_de, std::uint64_t seed) {
 TEST(Regression, FlagsComposedPicturesThatGotWorseAndNotThoseThatNobodySees) {
   const RunRecords before = MakeLight(0.0, 0.0, 1);
   const auto worse = CompareRuns(before, MakeLight(0.2, 0.01, 2), {.detector = "ours"});
-  ASSERT_EQ(worse.size(), kPictureMeasures.size());
+  ASSERT_EQ(worse.size(), kImageMeasures.size());
   const Change* object = Find(worse, "light", "dE_obj");
   ASSERT_NE(object, nullptr);
   EXPECT_TRUE(object->worse) << object->p_worse;

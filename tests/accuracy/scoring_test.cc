@@ -17,8 +17,8 @@ namespace {
 MarkerTruth TruthAt(Vec2 centre_px, int number) {
   MarkerTruth truth{.number = number};
   const CameraModel camera = SweepCamera("640x480");
-  truth.camera_from_marker = PoseSeenAt(camera, centre_px, 100, kMarkerEdge, FromDegrees(20),
-                                        FromDegrees(30), FromDegrees(10));
+  truth.camera_from_marker = PoseAtPixel(camera, centre_px, 100, kMarkerEdge, FromDegrees(20),
+                                         FromDegrees(30), FromDegrees(10));
   truth.corners_px = SquareCorners(camera, truth.camera_from_marker, kMarkerEdge);
   return truth;
 }
@@ -66,7 +66,7 @@ TEST(Nees, IsThatOfErrorsDrawnFromTheCovariance) {
                          Vec3{random.Normal(), random.Normal(), random.Normal()} * translation_sd;
     sum += *Nees(estimate, truth.camera_from_marker);
   }
-  EXPECT_TRUE(MeanChiSquareBand(6, kDraws, 0.999).Holds(sum / kDraws)) << sum / kDraws;
+  EXPECT_TRUE(MeanChiSquareBand(6, kDraws, 0.999).Contains(sum / kDraws)) << sum / kDraws;
   estimate.covariance[0] = 0.0;
   EXPECT_FALSE(Nees(estimate, truth.camera_from_marker).has_value());
 }
@@ -187,7 +187,7 @@ TEST(Films, CountHowOftenAMarkerIsLostToldAndFoundAgain) {
 TEST(Light, HasTheMeansOfRecordingsAndOfAllWithIntervals) {
   RunRecords run;
   const auto add = [&](const char* recording, double object_de) {
-    PictureRecord picture{.recording = recording};
+    ImageRecord picture{.recording = recording};
     picture.scores[2] = object_de;
     run.pictures.push_back(picture);
   };

@@ -149,7 +149,7 @@ TEST(Bootstrap, CoversTheMeanAsOftenAsItSays) {
           return sum / static_cast<double>(drawn.size());
         },
         "trial " + std::to_string(i), 400);
-    covered += interval.Holds(2.0);
+    covered += interval.Contains(2.0);
   }
   EXPECT_GT(covered, 0.88 * kTrials);
 }

@@ -5,12 +5,12 @@
 #include "devices/images/raw_picture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static pleinair::devices::Picture picture;
-  pleinair::devices::RawPicture raw;
+  static pleinair::devices::DecodedImage image;
+  pleinair::devices::RawImage raw;
   raw.format = pleinair::devices::PixelFormat::kMjpeg;
   raw.width = 32;
   raw.height = 24;
   raw.bytes.assign(data, data + size);
-  static_cast<void>(pleinair::devices::ConvertRawPicture(raw, &picture));
+  static_cast<void>(pleinair::devices::ConvertRawImage(raw, &image));
   return 0;
 }

@@ -23,8 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto frames = ParseEurocTable(bytes, "data.csv")) {
     if (frames->empty()) std::abort();
   }
-  if (const auto picture = InspectPicture(bytes, "picture")) {
-    if (picture->width < 1 || picture->width > kMaxPictureSide) std::abort();
+  if (const auto image = InspectImage(bytes, "picture")) {
+    if (image->width < 1 || image->width > kMaxImageSide) std::abort();
   }
   return 0;
 }

@@ -52,10 +52,10 @@ void LookFor(tracker::PictureTarget target, const std::string& bytes) {
                .targets = {std::make_shared<const tracker::PictureTarget>(std::move(target))}});
   if (!following) std::abort();
   for (const GreyImage* frame : {&own, &own, &painted, &own}) {
-    const auto sightings = (*following)->Track(frame->view());
-    if (!sightings || sightings->size() > 1) std::abort();
-    for (const tracker::Sighting& sighting : *sightings) {
-      const tracker::MarkerDetection& seen = sighting.detection;
+    const auto observations = (*following)->Track(frame->view());
+    if (!observations || observations->size() > 1) std::abort();
+    for (const tracker::MarkerObservation& observation : *observations) {
+      const tracker::MarkerDetection& seen = observation.detection;
       if (seen.family != "picture" || seen.id != 0 || seen.name.empty()) std::abort();
       if (!(seen.visible_fraction >= 0.0 && seen.visible_fraction <= 1.0)) std::abort();
       for (const float visible : seen.visibility) {
@@ -64,7 +64,7 @@ void LookFor(tracker::PictureTarget target, const std::string& bytes) {
       for (const Vec2 corner : seen.corners_px) {
         if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) std::abort();
       }
-      for (const double value : sighting.pose.covariance) {
+      for (const double value : observation.pose.covariance) {
         if (!std::isfinite(value)) std::abort();
       }
     }

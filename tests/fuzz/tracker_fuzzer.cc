@@ -19,7 +19,7 @@ using pleinair::GreyImage;
 using pleinair::Vec2;
 namespace tracker = pleinair::tracker;
 
-constexpr int kMostWidth = 160, kMostHeight = 120;
+constexpr int kMaxWidth = 160, kMaxHeight = 120;
 
 /// Bytes of the input one after another, 0 where they have ended.
 class Bytes {
@@ -33,41 +33,41 @@ class Bytes {
   std::size_t size_, at_ = 0;
 };
 
-void PaintBytes(Bytes* bytes, GreyImage* picture) {
-  for (std::size_t i = 0; i < picture->size(); ++i) picture->data()[i] = bytes->Next();
+void PaintBytes(Bytes* bytes, GreyImage* image) {
+  for (std::size_t i = 0; i < image->size(); ++i) image->data()[i] = bytes->Next();
 }
 
 /// A marker in the quadrilateral that the bytes say, then spots and bars that they say.
-void PaintMarker(Bytes* bytes, GreyImage* picture) {
+void PaintMarker(Bytes* bytes, GreyImage* image) {
   const int number = (bytes->Next() << 8 | bytes->Next()) % 4096;
-  const tracker::PrintPattern print = tracker::SgPrint(number);
-  const double side = 0.1 * std::min(picture->width(), picture->height()) * (2 + bytes->Next() % 7);
+  const tracker::MarkerPattern print = tracker::SgMarkerPattern(number);
+  const double side = 0.1 * std::min(image->width(), image->height()) * (2 + bytes->Next() % 7);
   std::array<Vec2, 4> quad;
   for (int i = 0; i < 4; ++i) {
     const Vec2 corner = tracker::kSquareCorners[i];
-    quad[i] = {0.5 * (picture->width() + side * corner.x) + 0.15 * (bytes->Next() % 128 - 64.0),
-               0.5 * (picture->height() - side * corner.y) + 0.15 * (bytes->Next() % 128 - 64.0)};
+    quad[i] = {0.5 * (image->width() + side * corner.x) + 0.15 * (bytes->Next() % 128 - 64.0),
+               0.5 * (image->height() - side * corner.y) + 0.15 * (bytes->Next() % 128 - 64.0)};
   }
   const pleinair::Mat3 marker_from_pixel = tracker::Adjugate(tracker::HomographyToQuad(quad));
   const int black = bytes->Next() / 2, white = black + bytes->Next() / 2;
-  for (int y = 0; y < picture->height(); ++y) {
-    for (int x = 0; x < picture->width(); ++x) {
+  for (int y = 0; y < image->height(); ++y) {
+    for (int x = 0; x < image->width(); ++x) {
       const Vec2 at = tracker::Apply(marker_from_pixel, {1.0 * x, 1.0 * y});
       const double extent = print.Extent(), per_unit = print.modules / (2.0 * extent);
-      (*picture)(x, y) = static_cast<std::uint8_t>((black + white) / 2);
+      (*image)(x, y) = static_cast<std::uint8_t>((black + white) / 2);
       if (!(std::fabs(at.x) < extent && std::fabs(at.y) < extent)) continue;
       const int column = std::min(print.modules - 1, static_cast<int>((at.x + extent) * per_unit));
       const int row = std::min(print.modules - 1, static_cast<int>((extent - at.y) * per_unit));
-      (*picture)(x, y) =
+      (*image)(x, y) =
           static_cast<std::uint8_t>(print.white[row * print.modules + column] != 0 ? white : black);
     }
   }
   while (bytes->left() >= 5) {
-    const int x0 = bytes->Next() % picture->width(), y0 = bytes->Next() % picture->height();
-    const int x1 = std::min(picture->width(), x0 + 1 + bytes->Next() % 64);
-    const int y1 = std::min(picture->height(), y0 + 1 + bytes->Next() % 64);
+    const int x0 = bytes->Next() % image->width(), y0 = bytes->Next() % image->height();
+    const int x1 = std::min(image->width(), x0 + 1 + bytes->Next() % 64);
+    const int y1 = std::min(image->height(), y0 + 1 + bytes->Next() % 64);
     const std::uint8_t code = bytes->Next();
-    for (int y = y0; y < y1; ++y) std::fill(&(*picture)(x0, y), &(*picture)(x0, y) + x1 - x0, code);
+    for (int y = y0; y < y1; ++y) std::fill(&(*image)(x0, y), &(*image)(x0, y) + x1 - x0, code);
   }
 }
 
@@ -93,10 +93,10 @@ class KeptTracker {
   GreyImage empty_;
 };
 
-void Check(const pleinair::Result<std::vector<tracker::Sighting>>& sightings) {
-  if (!sightings) std::abort();
-  for (const tracker::Sighting& sighting : *sightings) {
-    const tracker::MarkerDetection& seen = sighting.detection;
+void Check(const pleinair::Result<std::vector<tracker::MarkerObservation>>& observations) {
+  if (!observations) std::abort();
+  for (const tracker::MarkerObservation& observation : *observations) {
+    const tracker::MarkerDetection& seen = observation.detection;
     if (seen.family != "sg" || seen.id < 0 || seen.id > 4095) std::abort();
     if (!(seen.visible_fraction >= 0.0 && seen.visible_fraction <= 1.0)) std::abort();
     const auto blocks = static_cast<std::size_t>(seen.visibility_side) * seen.visibility_side;
@@ -107,17 +107,17 @@ void Check(const pleinair::Result<std::vector<tracker::Sighting>>& sightings) {
     for (const Vec2 corner : seen.corners_px) {
       if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) std::abort();
     }
-    for (const double value : sighting.pose.covariance) {
+    for (const double value : observation.pose.covariance) {
       if (!std::isfinite(value)) std::abort();
     }
-    if (!(sighting.pose.best.camera_from_marker.translation_m.z > 0.0)) std::abort();
+    if (!(observation.pose.best.camera_from_marker.translation_m.z > 0.0)) std::abort();
   }
 }
 
 }  // namespace
 
-// Any small picture gives a list of markers that can be computed with, alone and as one of
-// consecutive frames. The first byte says which kind of picture and tracker, the next two its size.
+// Any small image gives a list of markers that can be computed with, alone and as one of
+// consecutive frames. The first byte says which kind of image and tracker, the next two its size.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
   const std::uint8_t kind = bytes.Next();
@@ -125,8 +125,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Trackers that search for borders see pictures of one size; others are made for each input.
   const bool search = (kind & 8U) != 0;
   const std::uint8_t width_byte = bytes.Next(), height_byte = bytes.Next();
-  const int width = search ? kMostWidth : 1 + width_byte % kMostWidth;
-  const int height = search ? kMostHeight : 1 + height_byte % kMostHeight;
+  const int width = search ? kMaxWidth : 1 + width_byte % kMaxWidth;
+  const int height = search ? kMaxHeight : 1 + height_byte % kMaxHeight;
   const CameraModel camera{.width = width,
                            .height = height,
                            .fx = 150,
@@ -146,17 +146,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (used == nullptr) used = std::make_unique<KeptTracker>(camera, options);
   tracker::Tracker& tracker = used->get();
 
-  GreyImage picture(width, height);
+  GreyImage image(width, height);
   if (marker) {
-    PaintMarker(&bytes, &picture);
+    PaintMarker(&bytes, &image);
   } else {
-    PaintBytes(&bytes, &picture);
+    PaintBytes(&bytes, &image);
   }
-  Check(tracker.Track(picture.view()));
+  Check(tracker.Track(image.view()));
   if (!consecutive) return 0;
   // The next frames: a pixel further, then upside down.
-  GreyImage moved = picture;
-  std::copy(picture.data(), picture.data() + picture.size() - 1, moved.data() + 1);
+  GreyImage moved = image;
+  std::copy(image.data(), image.data() + image.size() - 1, moved.data() + 1);
   Check(tracker.Track(moved.view()));
   std::reverse(moved.data(), moved.data() + moved.size());
   Check(tracker.Track(moved.view()));

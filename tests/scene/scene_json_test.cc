@@ -100,13 +100,13 @@ TEST(SceneJson, UnknownSkyWordsLeaveTheDefault) {
 }
 
 TEST(SkyWords, CloudierWordsWinOverClearerOnes) {
-  EXPECT_EQ(CloudinessFromWords("clear, later overcast"), Cloudiness::kOvercast);
-  EXPECT_EQ(CloudinessFromWords("partly cloudy"), Cloudiness::kPartlyCloudy);
-  EXPECT_EQ(CloudinessFromWords("cloudy"), Cloudiness::kOvercast);
-  EXPECT_EQ(CloudinessFromWords("BROKEN"), Cloudiness::kPartlyCloudy);
-  EXPECT_EQ(CloudinessFromWords("few"), Cloudiness::kClear);
-  EXPECT_EQ(CloudinessFromWords("unclear"), std::nullopt);
-  EXPECT_EQ(CloudinessFromWords(""), std::nullopt);
+  EXPECT_EQ(ParseCloudiness("clear, later overcast"), Cloudiness::kOvercast);
+  EXPECT_EQ(ParseCloudiness("partly cloudy"), Cloudiness::kPartlyCloudy);
+  EXPECT_EQ(ParseCloudiness("cloudy"), Cloudiness::kOvercast);
+  EXPECT_EQ(ParseCloudiness("BROKEN"), Cloudiness::kPartlyCloudy);
+  EXPECT_EQ(ParseCloudiness("few"), Cloudiness::kClear);
+  EXPECT_EQ(ParseCloudiness("unclear"), std::nullopt);
+  EXPECT_EQ(ParseCloudiness(""), std::nullopt);
 }
 
 TEST(SceneJson, BadValuesAreRefusedByName) {

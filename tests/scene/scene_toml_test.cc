@@ -65,7 +65,7 @@ TEST(SceneToml, SaysEverythingThatTheCompositorMayKnow) {
   EXPECT_EQ(scene->place_time.height_m, 220);
   EXPECT_EQ(scene->cloudiness, Cloudiness::kHazy);
   EXPECT_EQ(scene->turbidity, 3.5);
-  EXPECT_EQ(scene->exposure_gain, (LinearRgb{0.03, 0.035, 0.04}));
+  EXPECT_EQ(scene->exposure_scale, (LinearRgb{0.03, 0.035, 0.04}));
   EXPECT_EQ(scene->marker.id, 7);
   EXPECT_DOUBLE_EQ(scene->marker.size_m, 0.48);
   EXPECT_DOUBLE_EQ(scene->marker.board_size_m, 0.6);
@@ -94,7 +94,7 @@ TEST(SceneToml, LeavesOutWhatHasADefault) {
   EXPECT_TRUE(scene->marker.upright);
   EXPECT_EQ(scene->cloudiness, Cloudiness::kClear);
   EXPECT_FALSE(scene->turbidity);
-  EXPECT_FALSE(scene->exposure_gain);
+  EXPECT_FALSE(scene->exposure_scale);
   EXPECT_TRUE(scene->objects.empty());
 }
 

@@ -8,12 +8,12 @@
 namespace pleinair::session {
 namespace {
 
-tracker::Sighting Seen(int id, double x_m, const std::string& family = "tag36h11") {
-  tracker::Sighting sighting;
-  sighting.detection.family = family;
-  sighting.detection.id = id;
-  sighting.pose.best.camera_from_marker.translation_m = {x_m, 0, 2};
-  return sighting;
+tracker::MarkerObservation Seen(int id, double x_m, const std::string& family = "tag36h11") {
+  tracker::MarkerObservation observation;
+  observation.detection.family = family;
+  observation.detection.id = id;
+  observation.pose.best.camera_from_marker.translation_m = {x_m, 0, 2};
+  return observation;
 }
 
 scene::MarkerDescription Declared(std::optional<int> id,
@@ -47,7 +47,7 @@ TEST(Session, AnchorsOnTheMarkerOfTheFamilySeenMost) {
 }
 
 TEST(Session, AnchorsOnTheMarkerSeenMostWhereNoFamilyIsDeclared) {
-  const std::vector<tracker::Sighting> frame{Seen(5, 1), Seen(3, 0), Seen(9, 0, "sg")};
+  const std::vector<tracker::MarkerObservation> frame{Seen(5, 1), Seen(3, 0), Seen(9, 0, "sg")};
   Session any(Declared(std::nullopt, std::nullopt)), five(Declared(5, std::nullopt));
   for (Session* session : {&any, &five}) {
     session->AddFrame(0, 0, frame);
@@ -58,7 +58,7 @@ TEST(Session, AnchorsOnTheMarkerSeenMostWhereNoFamilyIsDeclared) {
 }
 
 TEST(Session, KeepsHowMuchOfTheMarkerWasSeenAndHowItWasFound) {
-  tracker::Sighting half = Seen(9, 0, "sg");
+  tracker::MarkerObservation half = Seen(9, 0, "sg");
   half.detection.visible_fraction = 0.5;
   half.detection.path = tracker::DetectionPath::kSurfGolay;
   Session session(Declared(std::nullopt, std::nullopt));
@@ -84,10 +84,10 @@ TEST(Session, KeepsToTheNearerOfTwoMarkersOfOneNumber) {
 
 TEST(Session, DoesNotFlipToTheOtherPlanarSolution) {
   Session session(Declared(std::nullopt));
-  tracker::Sighting first = Seen(1, 0.0);
+  tracker::MarkerObservation first = Seen(1, 0.0);
   first.pose.best.camera_from_marker.rotation = AboutX(0.1);
   session.AddFrame(0, 0, {first});
-  tracker::Sighting ambiguous = Seen(1, 0.0);
+  tracker::MarkerObservation ambiguous = Seen(1, 0.0);
   ambiguous.pose.best.camera_from_marker.rotation = AboutX(-0.1);
   ambiguous.pose.alternative = ambiguous.pose.best;
   ambiguous.pose.alternative->camera_from_marker.rotation = AboutX(0.11);

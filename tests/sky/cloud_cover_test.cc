@@ -107,9 +107,9 @@ TEST(CloudCover, OfAllIsTheCieOvercastSky) {
     EXPECT_NEAR(sky->At(Towards(10.0, elevation)).luminance / zenith,
                 cie.RelativeLuminance(Towards(10.0, elevation)), 1e-9);
   }
-  const XyY colour = sky->At(Towards(10.0, 20.0));
-  EXPECT_NEAR(colour.x, 0.3127, 2e-4);
-  EXPECT_NEAR(colour.y, 0.3290, 2e-4);
+  const XyY color = sky->At(Towards(10.0, 20.0));
+  EXPECT_NEAR(color.x, 0.3127, 2e-4);
+  EXPECT_NEAR(color.y, 0.3290, 2e-4);
 }
 
 TEST(CloudCover, IntegratesToItsHorizontalIlluminance) {

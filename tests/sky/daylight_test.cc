@@ -63,9 +63,9 @@ TEST(Daylight, TakesATurbidityInPlaceOfTheConditions) {
   };
   EXPECT_LT(measure(1.2).diffuse_share, measure(2.0).diffuse_share);
   EXPECT_LT(measure(2.0).diffuse_share, measure(6.0).diffuse_share);
-  EXPECT_EQ(measure(64.0).sky_klx, measure(kHighestTurbidity).sky_klx);
+  EXPECT_EQ(measure(64.0).sky_klx, measure(kMaxTurbidity).sky_klx);
   EXPECT_EQ(measure(std::numeric_limits<double>::quiet_NaN()).sky_klx,
-            measure(kLowestTurbidity).sky_klx);
+            measure(kMinTurbidity).sky_klx);
 }
 
 TEST(Daylight, IntegratesToItsHorizontalIrradiance) {
@@ -132,7 +132,7 @@ TEST(Daylight, IsBlackBelowTheHorizon) {
   }
 }
 
-TEST(OvercastSky, HasNoColour) {
+TEST(OvercastSky, HasNoColor) {
   const LinearRgb sky = Light(30.0, SkyCondition::kOvercast)->SkyRadiance({{0.6, 0.0, 0.8}});
   EXPECT_NEAR(sky.r / sky.g, 1.0, 1e-12);
   EXPECT_NEAR(sky.b / sky.g, 1.0, 1e-12);

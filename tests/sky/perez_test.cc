@@ -58,16 +58,16 @@ TEST(PerezSky, IsNeverNegativeNorInfinite) {
     const double turbidity = 2.0 + 8.0 * unit(random);
     const PerezSky sky(turbidity, Towards(360.0 * unit(random), -20.0 + 110.0 * unit(random)));
     const double up = i % 10 == 0 ? 0.0 : unit(random);
-    const XyY colour = sky.At(Towards(360.0 * unit(random), std::asin(up) / kRadiansPerDegree));
-    ASSERT_GT(colour.luminance, 0.0);
-    ASSERT_LT(colour.luminance, 1e6);
-    ASSERT_GT(colour.x, 0.1);
-    ASSERT_LT(colour.x, 0.6);
-    ASSERT_GT(colour.y, 0.1);
-    ASSERT_LT(colour.y, 0.6);
-    const LinearRgb rgb = RgbFromXyY(colour);
+    const XyY color = sky.At(Towards(360.0 * unit(random), std::asin(up) / kRadiansPerDegree));
+    ASSERT_GT(color.luminance, 0.0);
+    ASSERT_LT(color.luminance, 1e6);
+    ASSERT_GT(color.x, 0.1);
+    ASSERT_LT(color.x, 0.6);
+    ASSERT_GT(color.y, 0.1);
+    ASSERT_LT(color.y, 0.6);
+    const LinearRgb rgb = RgbFromXyY(color);
     ASSERT_GE(std::min({rgb.r, rgb.g, rgb.b}), 0.0);
-    ASSERT_NEAR(Luminance(rgb), colour.luminance, 1e-9 * colour.luminance);
+    ASSERT_NEAR(Luminance(rgb), color.luminance, 1e-9 * color.luminance);
   }
 }
 
@@ -135,14 +135,14 @@ TEST(DomeIntegral, AgreesWithAFineQuadrature) {
   }
 }
 
-TEST(Colour, TakesD65ToWhite) {
+TEST(Color, TakesD65ToWhite) {
   const LinearRgb white = RgbFromXyY({0.3127, 0.3290, 100.0});
   EXPECT_NEAR(white.r, 100.0, 0.1);
   EXPECT_NEAR(white.g, 100.0, 0.1);
   EXPECT_NEAR(white.b, 100.0, 0.1);
 }
 
-TEST(Colour, KeepsLuminanceWhenItClips) {
+TEST(Color, KeepsLuminanceWhenItClips) {
   const LinearRgb cyan = RgbFromXyY({0.1, 0.35, 50.0});
   EXPECT_EQ(cyan.r, 0.0);
   EXPECT_NEAR(Luminance(cyan), 50.0, 1e-12);

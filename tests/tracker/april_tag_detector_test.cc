@@ -21,8 +21,8 @@ RenderedMarker MarkerAt(const CameraModel& camera, const std::string& family, in
                         Vec2 centre_px, double side_px, double roll_deg) {
   RenderedMarker marker;
   marker.pattern = AprilTagPattern(family, id);
-  marker.camera_from_marker = PoseSeenAt(camera, centre_px, side_px, marker.size, FromDegrees(20),
-                                         FromDegrees(30), FromDegrees(roll_deg));
+  marker.camera_from_marker = PoseAtPixel(camera, centre_px, side_px, marker.size, FromDegrees(20),
+                                          FromDegrees(30), FromDegrees(roll_deg));
   return marker;
 }
 
@@ -32,9 +32,9 @@ TEST(AprilTagDetector, ReadsEveryFamilyItOffers) {
     SCOPED_TRACE(family);
     const auto detector = CreateAprilTagDetector({family});
     ASSERT_TRUE(detector.has_value());
-    const GreyImage picture =
+    const GreyImage image =
         RenderMarkers(camera, {MarkerAt(camera, family, 7, {95, 80}, 80, 10)}, {});
-    const std::vector<Candidate> found = (*detector)->Detect(picture.view());
+    const std::vector<Candidate> found = (*detector)->Detect(image.view());
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].detection.family, family);
     EXPECT_EQ(found[0].detection.id, 7);
@@ -85,10 +85,10 @@ TEST(AprilTagDetector, FindsNothingInEmptyTinyAndBlankPictures) {
   EXPECT_TRUE((*detector)->Detect({}).empty());
   for (const int width : {1, 2, 3, 4, 5, 7, 9, 13, 64}) {
     for (const int height : {1, 2, 3, 4, 5, 7, 9, 13, 64}) {
-      GreyImage picture(width, height);
-      EXPECT_TRUE((*detector)->Detect(picture.view()).empty()) << width << "x" << height;
-      for (int i = 0; i < width * height; ++i) picture.data()[i] = static_cast<uint8_t>(i * 37);
-      EXPECT_TRUE((*detector)->Detect(picture.view()).empty()) << width << "x" << height;
+      GreyImage image(width, height);
+      EXPECT_TRUE((*detector)->Detect(image.view()).empty()) << width << "x" << height;
+      for (int i = 0; i < width * height; ++i) image.data()[i] = static_cast<uint8_t>(i * 37);
+      EXPECT_TRUE((*detector)->Detect(image.view()).empty()) << width << "x" << height;
     }
   }
 }

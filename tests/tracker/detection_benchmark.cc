@@ -76,10 +76,10 @@ GreyImage Picture(const CameraModel& camera, const std::vector<Placed>& places) 
   std::vector<RenderedMarker> markers;
   for (const Placed& place : places) {
     RenderedMarker marker;
-    marker.pattern = std::make_shared<PrintPattern>(SgPrint(place.number));
+    marker.pattern = std::make_shared<MarkerPattern>(SgMarkerPattern(place.number));
     marker.camera_from_marker =
-        PoseSeenAt(camera, place.centre_px, place.side_px, marker.size, Radians(0.35),
-                   Radians(0.7 + 0.3 * place.number), Radians(0.2 * place.number));
+        PoseAtPixel(camera, place.centre_px, place.side_px, marker.size, Radians(0.35),
+                    Radians(0.7 + 0.3 * place.number), Radians(0.2 * place.number));
     // Two corners and what lies between them.
     if (place.covered) marker.cover = [](Vec2 at) { return at.y > 0.62 ? 0.3 : -1.0; };
     markers.push_back(marker);
@@ -160,11 +160,11 @@ void Run(benchmark::State& state, std::vector<GreyImage> pictures, const CameraM
     peer.Detect(&picture);
     theirs += CpuSeconds() - start;
     start = CpuSeconds();
-    const auto seen = tracker.Track(picture.view());
+    const auto observed = tracker.Track(picture.view());
     const double took = CpuSeconds() - start;
     ours += took;
     state.SetIterationTime(took);
-    found += seen.has_value() ? seen->size() : 0;
+    found += observed.has_value() ? observed->size() : 0;
     ++frames;
   }
   if (found < expected * frames) state.SkipWithError("not all markers were found");
@@ -258,8 +258,8 @@ void BM_MemoryOverFrames(benchmark::State& state) {
       if (frame == kFirst) first = ResidentMebibytes();
       // There and back.
       const int at = frame % 48;
-      const auto seen = (*made)->Track(pictures[at < 24 ? at : 47 - at].view());
-      found += seen.has_value() ? static_cast<std::int64_t>(seen->size()) : 0;
+      const auto observed = (*made)->Track(pictures[at < 24 ? at : 47 - at].view());
+      found += observed.has_value() ? static_cast<std::int64_t>(observed->size()) : 0;
     }
   }
   state.counters["mib_first"] = benchmark::Counter(first);

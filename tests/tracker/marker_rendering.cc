@@ -13,15 +13,15 @@ namespace {
 constexpr int kSamples = 12;
 
 /// Light of the print where a ray (undistorted, z = 1) meets it; negative beside it.
-class PrintUnderRays {
+class MarkerUnderRays {
  public:
-  explicit PrintUnderRays(const RenderedMarker& marker)
+  explicit MarkerUnderRays(const RenderedMarker& marker)
       : marker_(marker),
-        print_from_rays_(accuracy::PlaneFromRays(marker.camera_from_marker, marker.size)) {}
+        marker_from_rays_(accuracy::PlaneFromRays(marker.camera_from_marker, marker.size)) {}
 
   double operator()(Vec2 ray) const {
-    const Vec2 at = Apply(print_from_rays_, ray);
-    const PrintPattern& pattern = *marker_.pattern;
+    const Vec2 at = Apply(marker_from_rays_, ray);
+    const MarkerPattern& pattern = *marker_.pattern;
     const double extent = pattern.Extent();
     if (!(std::fabs(at.x) < extent && std::fabs(at.y) < extent)) return -1.0;
     if (marker_.cover) {
@@ -38,7 +38,7 @@ class PrintUnderRays {
 
  private:
   const RenderedMarker& marker_;
-  const Mat3 print_from_rays_;
+  const Mat3 marker_from_rays_;
 };
 
 Image<double> Blurred(const Image<double>& sharp, double sigma_px) {
@@ -71,19 +71,19 @@ Image<double> Blurred(const Image<double>& sharp, double sigma_px) {
 
 GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMarker>& markers,
                         const RenderingOptions& options) {
-  std::vector<PrintUnderRays> prints(markers.begin(), markers.end());
+  std::vector<MarkerUnderRays> prints(markers.begin(), markers.end());
   std::vector<accuracy::PixelBox> boxes;
   for (const RenderedMarker& marker : markers) {
     boxes.push_back(
         accuracy::BoxOf(camera, marker.camera_from_marker, marker.size, marker.pattern->Extent()));
   }
-  std::vector<const PrintUnderRays*> near;
+  std::vector<const MarkerUnderRays*> near;
   Image<double> light(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       near.clear();
       for (std::size_t i = 0; i < prints.size(); ++i) {
-        if (boxes[i].Holds(x, y)) near.push_back(&prints[i]);
+        if (boxes[i].Contains(x, y)) near.push_back(&prints[i]);
       }
       if (near.empty() && !options.light && !options.glare) {
         light(x, y) = options.background;
@@ -99,7 +99,7 @@ GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMar
         for (int i = 0; i < kSamples; ++i) {
           const double at_x = (i + 0.5) / kSamples - 0.5, at_y = (j + 0.5) / kSamples - 0.5;
           double value = options.background;
-          for (const PrintUnderRays* print : near) {
+          for (const MarkerUnderRays* print : near) {
             const double printed = (*print)(ray + d_x * at_x + d_y * at_y);
             if (printed >= 0.0) value = printed;
           }
@@ -114,15 +114,15 @@ GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMar
   if (options.blur_px > 0.0) light = Blurred(light, options.blur_px);
   std::mt19937 random(options.seed);
   std::normal_distribution<double> noise(0.0, 1.0);
-  GreyImage picture(camera.width, camera.height);
+  GreyImage image(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       double code = 255.0 * SrgbFromLinear(light(x, y));
       if (options.noise_codes > 0.0) code += options.noise_codes * noise(random);
-      picture(x, y) = static_cast<std::uint8_t>(std::clamp(code + 0.5, 0.0, 255.0));
+      image(x, y) = static_cast<std::uint8_t>(std::clamp(code + 0.5, 0.0, 255.0));
     }
   }
-  return picture;
+  return image;
 }
 
 std::array<Vec2, 4> TrueCorners(const CameraModel& camera, const RenderedMarker& marker) {

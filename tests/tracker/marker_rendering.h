@@ -15,9 +15,9 @@
 
 namespace pleinair::tracker {
 
-/// A print that stands in a rendered picture.
+/// A print that stands in a rendered image.
 struct RenderedMarker {
-  std::shared_ptr<const PrintPattern> pattern;
+  std::shared_ptr<const MarkerPattern> pattern;
   Metres size{0.1};  ///< Edge of the square whose corners are reported.
   Transform<Camera, Marker> camera_from_marker;
   double black = 0.04, white = 0.8;  ///< Linear light.
@@ -45,6 +45,6 @@ GreyImage RenderMarkers(const CameraModel& camera, const std::vector<RenderedMar
 /// Where the corners (top-left, then clockwise as read) of a print really are.
 std::array<Vec2, 4> TrueCorners(const CameraModel& camera, const RenderedMarker& marker);
 
-using accuracy::PoseSeenAt;
+using accuracy::PoseAtPixel;
 
 }  // namespace pleinair::tracker

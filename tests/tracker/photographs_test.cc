@@ -35,12 +35,12 @@ std::vector<GoldenTag> ReadGolden(const std::string& path) {
   return tags;
 }
 
-/// Farthest corner of the golden tag from its nearest corner of the sighting.
-double Distance(const GoldenTag& tag, const Sighting& sighting) {
+/// Farthest corner of the golden tag from its nearest corner of the observation.
+double Distance(const GoldenTag& tag, const MarkerObservation& observation) {
   double farthest = 0.0;
   for (const Vec2 golden : tag.corners_px) {
     double nearest = 1e9;
-    for (const Vec2 corner : sighting.detection.corners_px) {
+    for (const Vec2 corner : observation.detection.corners_px) {
       nearest = std::min(nearest, Norm(corner - golden));
     }
     farthest = std::max(farthest, nearest);
@@ -55,31 +55,32 @@ TEST_P(Photograph, ShowsEveryTagOfTheGoldenFileWithinOnePixel) {
   const std::string stem = tests::SourceTree() / "tests/tracker/data/nasa-apriltags" / name;
   const std::vector<GoldenTag> golden = ReadGolden(stem + ".txt");
   ASSERT_EQ(golden.size(), count);
-  const cv::Mat picture = cv::imread(stem + ".jpg", cv::IMREAD_GRAYSCALE);
-  ASSERT_FALSE(picture.empty());
+  const cv::Mat image = cv::imread(stem + ".jpg", cv::IMREAD_GRAYSCALE);
+  ASSERT_FALSE(image.empty());
   // Nobody calibrated this camera: about the field of view of a normal lens.
-  const CameraModel camera{.width = picture.cols,
-                           .height = picture.rows,
+  const CameraModel camera{.width = image.cols,
+                           .height = image.rows,
                            .fx = 800,
                            .fy = 800,
-                           .cx = 0.5 * (picture.cols - 1),
-                           .cy = 0.5 * (picture.rows - 1)};
+                           .cx = 0.5 * (image.cols - 1),
+                           .cy = 0.5 * (image.rows - 1)};
   const auto tracker = *Tracker::Create(camera, {.marker_size_m = 0.05});
-  const auto sightings = tracker->Track(
-      {picture.data, picture.cols, picture.rows, 1, static_cast<std::ptrdiff_t>(picture.step)});
-  ASSERT_TRUE(sightings.has_value());
+  const auto observations = tracker->Track(
+      {image.data, image.cols, image.rows, 1, static_cast<std::ptrdiff_t>(image.step)});
+  ASSERT_TRUE(observations.has_value());
   double farthest = 0.0;
   for (const GoldenTag& tag : golden) {
     double distance = 1e9;
-    for (const Sighting& sighting : *sightings) {
-      if (sighting.detection.id == tag.id) distance = std::min(distance, Distance(tag, sighting));
+    for (const MarkerObservation& observation : *observations) {
+      if (observation.detection.id == tag.id)
+        distance = std::min(distance, Distance(tag, observation));
     }
     EXPECT_LT(distance, 1.0) << "at " << tag.corners_px[0].x << ", " << tag.corners_px[0].y;
     farthest = std::max(farthest, distance);
   }
   std::printf("%s: %zu tags, farthest corner %.2f px from the golden file's\n", name, golden.size(),
               farthest);
-  for (const Sighting& sighting : *sightings) EXPECT_EQ(sighting.detection.id, 0);
+  for (const MarkerObservation& observation : *observations) EXPECT_EQ(observation.detection.id, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(NasaSwarmathon, Photograph,

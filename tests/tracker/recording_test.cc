@@ -85,11 +85,11 @@ TEST_P(Courtyard, GivesEveryPoseWithinAThirtiethOfADegree) {
     std::snprintf(name, sizeof name, "frames/%04zu.jpg", i);
     cv::Mat grey;
     cv::cvtColor(cv::imread(folder + name), grey, cv::COLOR_BGR2GRAY);
-    const auto sightings = tracker->Track(
+    const auto observations = tracker->Track(
         {grey.data, grey.cols, grey.rows, 1, static_cast<std::ptrdiff_t>(grey.step)});
-    ASSERT_TRUE(sightings.has_value());
-    ASSERT_EQ(sightings->size(), 1U) << name;
-    const PoseEstimate& pose = (*sightings)[0].pose;
+    ASSERT_TRUE(observations.has_value());
+    ASSERT_EQ(observations->size(), 1U) << name;
+    const PoseEstimate& pose = (*observations)[0].pose;
     const Transform<Camera, Marker> expected = truth[i].Inverse();
     const Eigen::Matrix<double, 6, 1> error = PoseError(pose.best.camera_from_marker, expected);
     rotation_deg.push_back(ToDegrees(Radians(error.head<3>().norm())));

@@ -27,8 +27,8 @@ CameraModel Camera320() {
 RenderedMarker MarkerAt(const CameraModel& camera, int id, Vec2 centre_px, double side_px) {
   RenderedMarker marker;
   marker.pattern = AprilTagPattern("tag36h11", id);
-  marker.camera_from_marker = PoseSeenAt(camera, centre_px, side_px, marker.size, FromDegrees(35),
-                                         FromDegrees(60), FromDegrees(20));
+  marker.camera_from_marker = PoseAtPixel(camera, centre_px, side_px, marker.size, FromDegrees(35),
+                                          FromDegrees(60), FromDegrees(20));
   return marker;
 }
 
@@ -48,29 +48,29 @@ TEST(Tracker, GivesThePosesOfTwoMarkersInOrderOfTheirNumbers) {
   const CameraModel camera = Camera320();
   const std::vector<RenderedMarker> markers{MarkerAt(camera, 9, {80, 100}, 80),
                                             MarkerAt(camera, 4, {230, 95}, 70)};
-  const auto sightings = MakeTracker(camera)->Track(RenderMarkers(camera, markers, {}).view());
-  ASSERT_TRUE(sightings.has_value());
-  ASSERT_EQ(sightings->size(), 2U);
+  const auto observations = MakeTracker(camera)->Track(RenderMarkers(camera, markers, {}).view());
+  ASSERT_TRUE(observations.has_value());
+  ASSERT_EQ(observations->size(), 2U);
   for (int i = 0; i < 2; ++i) {
     const RenderedMarker& marker = markers[1 - i];
-    const Sighting& sighting = (*sightings)[i];
-    EXPECT_EQ(sighting.detection.id, i == 0 ? 4 : 9);
-    EXPECT_EQ(sighting.detection.family, "tag36h11");
-    EXPECT_GT(sighting.detection.visible_fraction, 0.95);
-    EXPECT_STREQ(PathName(sighting.detection.path), "fast");
-    const auto& pose = sighting.pose.best.camera_from_marker;
+    const MarkerObservation& observation = (*observations)[i];
+    EXPECT_EQ(observation.detection.id, i == 0 ? 4 : 9);
+    EXPECT_EQ(observation.detection.family, "tag36h11");
+    EXPECT_GT(observation.detection.visible_fraction, 0.95);
+    EXPECT_STREQ(PathName(observation.detection.path), "fast");
+    const auto& pose = observation.pose.best.camera_from_marker;
     EXPECT_LT(Norm(pose.translation_m - marker.camera_from_marker.translation_m),
               3e-4 * Norm(marker.camera_from_marker.translation_m));
     EXPECT_LT(RotationError_deg(pose.rotation, marker.camera_from_marker.rotation), 0.03);
     const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
     for (int corner = 0; corner < 4; ++corner) {
-      EXPECT_LT(Norm(sighting.detection.corners_px[corner] - truth[corner]), 0.05);
+      EXPECT_LT(Norm(observation.detection.corners_px[corner] - truth[corner]), 0.05);
     }
   }
 }
 
 TEST(Tracker, MeasuresATagOfWhichThePicturesEdgeCutsACornerOff) {
-  // The tag goes down out of the picture; its lowest corner is up to a module below it.
+  // The tag goes down out of the image; its lowest corner is up to a module below it.
   const CameraModel camera = Camera320();
   int cut_off = 0, found = 0;
   for (int step = 0; step < 160; ++step) {
@@ -80,13 +80,13 @@ TEST(Tracker, MeasuresATagOfWhichThePicturesEdgeCutsACornerOff) {
         std::max({truth[0].y, truth[1].y, truth[2].y, truth[3].y}) - (camera.height - 1);
     if (lowest_px < 0.0 || lowest_px > 9.0) continue;
     ++cut_off;
-    const auto sightings = MakeTracker(camera)->Track(
+    const auto observations = MakeTracker(camera)->Track(
         RenderMarkers(camera, {marker}, {.blur_px = 0.4, .noise_codes = 2}).view());
-    ASSERT_TRUE(sightings.has_value());
-    if (sightings->empty()) continue;
+    ASSERT_TRUE(observations.has_value());
+    if (observations->empty()) continue;
     ++found;
     for (int corner = 0; corner < 4; ++corner) {
-      EXPECT_LT(Norm((*sightings)[0].detection.corners_px[corner] - truth[corner]), 0.3)
+      EXPECT_LT(Norm((*observations)[0].detection.corners_px[corner] - truth[corner]), 0.3)
           << "corner " << corner << ", " << lowest_px << " pixels cut off";
     }
   }
@@ -96,15 +96,15 @@ TEST(Tracker, MeasuresATagOfWhichThePicturesEdgeCutsACornerOff) {
 
 TEST(Tracker, GivesTheSameBytesForTheSamePicture) {
   const CameraModel camera = Camera320();
-  const GreyImage picture =
+  const GreyImage image =
       RenderMarkers(camera, {MarkerAt(camera, 1, {90, 90}, 60), MarkerAt(camera, 1, {220, 90}, 60)},
                     {.noise_codes = 4.0, .light = {}});
   const auto tracker = MakeTracker(camera);
-  const auto first = tracker->Track(picture.view());
+  const auto first = tracker->Track(image.view());
   ASSERT_EQ(first->size(), 2U);
   EXPECT_LT((*first)[0].detection.corners_px[0].x, (*first)[1].detection.corners_px[0].x);
   for (const auto& again :
-       {tracker->Track(picture.view()), MakeTracker(camera)->Track(picture.view())}) {
+       {tracker->Track(image.view()), MakeTracker(camera)->Track(image.view())}) {
     ASSERT_EQ(again->size(), first->size());
     for (std::size_t i = 0; i < first->size(); ++i) {
       EXPECT_EQ((*again)[i].detection.corners_px, (*first)[i].detection.corners_px);
@@ -117,23 +117,23 @@ TEST(Tracker, GivesTheSameBytesForTheSamePicture) {
 
 TEST(Tracker, FindsNothingInABlankPicture) {
   const CameraModel camera = Camera320();
-  const auto sightings = MakeTracker(camera)->Track(GreyImage(320, 200).view());
-  ASSERT_TRUE(sightings.has_value());
-  EXPECT_TRUE(sightings->empty());
+  const auto observations = MakeTracker(camera)->Track(GreyImage(320, 200).view());
+  ASSERT_TRUE(observations.has_value());
+  EXPECT_TRUE(observations->empty());
 }
 
 TEST(Tracker, TakesAPictureOfOnePixel) {
   const CameraModel camera{.width = 1, .height = 1, .fx = 1, .fy = 1};
-  const auto sightings = MakeTracker(camera)->Track(GreyImage(1, 1).view());
-  ASSERT_TRUE(sightings.has_value());
-  EXPECT_TRUE(sightings->empty());
+  const auto observations = MakeTracker(camera)->Track(GreyImage(1, 1).view());
+  ASSERT_TRUE(observations.has_value());
+  EXPECT_TRUE(observations->empty());
 }
 
-TEST(Tracker, RefusesAPictureOfAnotherSizeThanItsCamera) {
-  const auto sightings = MakeTracker(Camera320())->Track(GreyImage(640, 480).view());
-  ASSERT_FALSE(sightings.has_value());
-  EXPECT_THAT(sightings.error().Message(), HasSubstr("640x480"));
-  EXPECT_THAT(sightings.error().Message(), HasSubstr("320x200"));
+TEST(Tracker, RefusesAnImageOfAnotherSizeThanItsCamera) {
+  const auto observations = MakeTracker(Camera320())->Track(GreyImage(640, 480).view());
+  ASSERT_FALSE(observations.has_value());
+  EXPECT_THAT(observations.error().Message(), HasSubstr("640x480"));
+  EXPECT_THAT(observations.error().Message(), HasSubstr("320x200"));
   EXPECT_FALSE(MakeTracker(Camera320())->Track({}).has_value());
 }
 

@@ -36,9 +36,9 @@ LiveCameraOptions GreyOptions(const char* uri) {
 
 int CameraPid(int which) {
   const char* pids = std::getenv("ARV_CAM_PIDS");
-  std::istringstream words(pids == nullptr ? "" : pids);
+  std::istringstream details(pids == nullptr ? "" : pids);
   int pid = 0;
-  for (int i = 0; i <= which; ++i) words >> pid;
+  for (int i = 0; i <= which; ++i) details >> pid;
   return pid;
 }
 
@@ -72,11 +72,11 @@ TEST(GigE, ExposureAndGainAreHeldAndWhatIsLackingIsSaid) {
                       {devices::CameraControl::kWhiteBalance, {}}};
   const auto camera = LiveCamera::Open(options);
   ASSERT_TRUE((*camera)->NextWithin(kLong));
-  const auto answers = (*camera)->Answers();
-  ASSERT_EQ(answers.size(), 3U);
-  EXPECT_NEAR(answers[0].value.value_or(0.0), 0.005, 1e-6);
-  EXPECT_NEAR(answers[1].value.value_or(0.0), 2.0, 1e-6);
-  EXPECT_THAT(answers[2].words, HasSubstr("no control of its white balance"));
+  const auto results = (*camera)->ControlResults();
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_NEAR(results[0].value.value_or(0.0), 0.005, 1e-6);
+  EXPECT_NEAR(results[1].value.value_or(0.0), 2.0, 1e-6);
+  EXPECT_THAT(results[2].details, HasSubstr("no control of its white balance"));
 }
 
 TEST(GigE, LostPacketsAreSeenAndNoDamagedFrameIsDelivered) {
@@ -86,7 +86,7 @@ TEST(GigE, LostPacketsAreSeenAndNoDamagedFrameIsDelivered) {
   for (int i = 0; i < 40; ++i) {
     const auto frame = camera.NextWithin(kLong);
     ASSERT_TRUE(frame);
-    EXPECT_EQ(frame->grey.width(), camera.agreement()->size.width);
+    EXPECT_EQ(frame->grey.width(), camera.negotiated()->size.width);
   }
   const auto transport = camera.transport();
   ASSERT_TRUE(transport);

@@ -16,7 +16,7 @@ LiveCameraOptions Options(const std::string& uri, devices::PixelFormat format, i
                           int height, double rate_hz) {
   LiveCameraOptions options;
   options.uri = *devices::ParseCameraUri(uri);
-  options.pictures = {format, devices::PictureSize{width, height}, rate_hz};
+  options.pictures = {format, devices::ImageSize{width, height}, rate_hz};
   return options;
 }
 
@@ -45,7 +45,7 @@ Replug WatchReplug(LiveCamera* camera) {
       replug.back = replug.gone && event.kind == CameraEvent::Kind::kConnected;
       if (event.kind != CameraEvent::Kind::kGone) continue;
       replug.gone = true;
-      replug.told_after_ns = event.time_ns - last_frame_ns;
+      replug.reported_after_ns = event.time_ns - last_frame_ns;
     }
   }
   return replug;

@@ -30,7 +30,8 @@ std::optional<devices::CameraEvent> WaitFor(devices::LiveCamera* camera,
 /// How a camera was pulled out and came back.
 struct Replug {
   bool gone = false, back = false;
-  std::int64_t told_after_ns = 0;  ///< From the last frame before it was gone to the word of it.
+  std::int64_t reported_after_ns =
+      0;  ///< From the last frame before it was gone to the word of it.
 };
 
 /// Takes frames until a camera is gone and connected again, from the start: every event counts.

@@ -29,14 +29,14 @@ TEST(Behaviour4, ControlsAreHeldOneByOneReadBackAndReachTheCamera) {
     return last;
   }();
   ASSERT_TRUE(frame);
-  const auto answers = camera->Answers();
-  ASSERT_EQ(answers.size(), 4U);
-  for (const devices::ControlAnswer& answer : answers) {
-    EXPECT_TRUE(answer.held) << NameOf(answer.control);
-    EXPECT_EQ(answer.words, "") << NameOf(answer.control);
+  const auto results = camera->ControlResults();
+  ASSERT_EQ(results.size(), 4U);
+  for (const devices::ControlResult& result : results) {
+    EXPECT_TRUE(result.locked) << NameOf(result.control);
+    EXPECT_EQ(result.details, "") << NameOf(result.control);
   }
-  EXPECT_NEAR(*answers[0].value, 0.01, 1e-9);
-  EXPECT_NEAR(*answers[2].value, 5000.0, 1e-9);
+  EXPECT_NEAR(*results[0].value, 0.01, 1e-9);
+  EXPECT_NEAR(*results[2].value, 5000.0, 1e-9);
   EXPECT_NEAR(frame->exposure_s.value_or(0.0), 0.01, 1e-9);
   EXPECT_NEAR(frame->gain.value_or(0.0), 80.0, 1e-9);
   EXPECT_NEAR(frame->white_balance_k.value_or(0.0), 5000.0, 1e-9);
@@ -53,8 +53,8 @@ TEST(Behaviour4, WhatADeviceLacksIsSaid) {
   options.controls = {{CameraControl::kFocus, 50.0}};
   const auto camera = Open(options);
   ASSERT_TRUE(camera->NextWithin(kLong));
-  ASSERT_EQ(camera->Answers().size(), 1U);
-  EXPECT_THAT(camera->Answers()[0].words, HasSubstr("no control of its focus"));
+  ASSERT_EQ(camera->ControlResults().size(), 1U);
+  EXPECT_THAT(camera->ControlResults()[0].details, HasSubstr("no control of its focus"));
 }
 
 }  // namespace

@@ -88,10 +88,10 @@ void ExpectRightPosesAndTheSameInReplay(devices::LiveCamera* camera, const Court
     ASSERT_TRUE((*writer)->Add(*frame));
     numbers.push_back(NumberOf(frame->grey, sent));
     ASSERT_LT(numbers.back(), sent.size()) << "frame " << i << " is none of those that were sent";
-    const auto sightings = (*tracker)->Track(frame->grey.view());
-    ASSERT_TRUE(sightings);
-    ASSERT_EQ(sightings->size(), 1U);
-    poses.push_back(sightings->front().pose.best.camera_from_marker);
+    const auto observations = (*tracker)->Track(frame->grey.view());
+    ASSERT_TRUE(observations);
+    ASSERT_EQ(observations->size(), 1U);
+    poses.push_back(observations->front().pose.best.camera_from_marker);
     live.push_back(std::move(*frame));
   }
   const auto replayed = devices::OpenFramePack(pack, {film.camera.width, film.camera.height});
@@ -104,10 +104,10 @@ void ExpectRightPosesAndTheSameInReplay(devices::LiveCamera* camera, const Court
     ASSERT_TRUE(frame && *frame);
     EXPECT_EQ((*frame)->timestamp_ns, live[i].timestamp_ns - live[0].timestamp_ns);
     EXPECT_EQ((*frame)->exposure_s, live[i].exposure_s);
-    const auto sightings = (*tracker)->Track((*frame)->grey.view());
-    ASSERT_TRUE(sightings);
-    ASSERT_EQ(sightings->size(), 1U);
-    const auto& again = sightings->front().pose.best.camera_from_marker;
+    const auto observations = (*tracker)->Track((*frame)->grey.view());
+    ASSERT_TRUE(observations);
+    ASSERT_EQ(observations->size(), 1U);
+    const auto& again = observations->front().pose.best.camera_from_marker;
     EXPECT_EQ(Norm(again.translation_m - poses[i].translation_m), 0.0);
     EXPECT_EQ(again.rotation.m, poses[i].rotation.m);
   }

@@ -91,7 +91,7 @@ TEST(Behaviour5, AShortJpegCostsOneFrameAndIsCounted) {
     const auto frame = camera->NextWithin(kLong);
     ASSERT_TRUE(frame);
     loss += frame->loss;
-    // The lower half of a mended picture is of one grey; the ramp is not.
+    // The lower half of a mended image is of one grey; the ramp is not.
     EXPECT_NE(frame->grey(3, 239), frame->grey(40, 239));
   }
   EXPECT_GE(loss.damaged, 5);

@@ -14,16 +14,16 @@ struct GigeFilmCamera::Player {
   std::size_t next = 0;
   ArvGvFakeCamera* camera = nullptr;
 
-  /// What the camera's thread calls for every picture it sends.
+  /// What the camera's thread calls for every image it sends.
   static void Fill(ArvBuffer* buffer, void* data, guint32, guint32, ArvPixelFormat) {
     auto* player = static_cast<Player*>(data);
-    const GreyImage& picture = player->pictures[player->next++ % player->pictures.size()];
+    const GreyImage& image = player->pictures[player->next++ % player->pictures.size()];
     // Of the buffer nothing is said yet, not even its size with its data.
     const std::size_t payload =
         arv_fake_camera_get_payload(arv_gv_fake_camera_get_fake_camera(player->camera));
     auto* bytes =
         static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, nullptr)));
-    std::copy_n(picture.data(), std::min(payload, picture.size()), bytes);
+    std::copy_n(image.data(), std::min(payload, image.size()), bytes);
   }
 };
 

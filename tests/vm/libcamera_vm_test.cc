@@ -43,7 +43,7 @@ TEST(Libcamera, DeliversFramesInOrderWithStampsOnTheSteadyClock) {
       last_ns = frame->timestamp_ns;
       last_index = frame->index;
     }
-    EXPECT_EQ(camera->agreement()->format, format);
+    EXPECT_EQ(camera->negotiated()->format, format);
   }
   int listed = 0;
   for (const devices::CameraDescription& camera : devices::ListCameras(false).cameras) {
@@ -64,10 +64,10 @@ TEST(Libcamera, HoldsControlsThroughTheNodeAndReadsThemBack) {
   std::optional<devices::Frame> frame;
   for (int i = 0; i < 4; ++i) frame = camera->NextWithin(kLong);
   ASSERT_TRUE(frame);
-  ASSERT_EQ(camera->Answers().size(), 2U);
-  for (const devices::ControlAnswer& answer : camera->Answers()) {
-    EXPECT_TRUE(answer.held) << answer.words;
-    EXPECT_EQ(answer.words, "");
+  ASSERT_EQ(camera->ControlResults().size(), 2U);
+  for (const devices::ControlResult& result : camera->ControlResults()) {
+    EXPECT_TRUE(result.locked) << result.details;
+    EXPECT_EQ(result.details, "");
   }
   EXPECT_NEAR(frame->exposure_s.value_or(0.0), 0.01, 1e-9);
   EXPECT_NEAR(frame->white_balance_k.value_or(0.0), 5000.0, 1e-9);
@@ -95,7 +95,7 @@ TEST(Libcamera, AnUnpluggedCameraIsToldWithinASecondAndComesBackByItself) {
   LiveCameraOptions options = Options(kFirst, PixelFormat::kYuyv, 320, 240, 15.0);
   const auto camera = Open(options);
   const Replug replug = WatchReplug(camera.get());
-  EXPECT_LT(replug.told_after_ns, 1'000'000'000);
+  EXPECT_LT(replug.reported_after_ns, 1'000'000'000);
   ASSERT_TRUE(replug.back) << simulator.Output();
   EXPECT_TRUE(camera->NextWithin(kLong));
   EXPECT_EQ(camera->counts().connections, 2);

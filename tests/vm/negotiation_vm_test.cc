@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 TEST(Behaviour9, EveryFormatOfVividConvertsRightOrIsRefusedByName) {
   const std::string node = VividNode();
-  SetByName(node, "Test Pattern", 0);   // 75 % colour bars.
+  SetByName(node, "Test Pattern", 0);   // 75 % color bars.
   SetByName(node, "OSD Text Mode", 2);  // No text in them.
   devices::CameraDescription vivid;
   for (const devices::CameraDescription& camera : devices::ListCameras(false).cameras) {
@@ -42,7 +42,7 @@ TEST(Behaviour9, EveryFormatOfVividConvertsRightOrIsRefusedByName) {
     ASSERT_TRUE(camera) << format.name << ": " << camera.error().Message();
     const auto frame = (*camera)->NextWithin(kLong);
     ASSERT_TRUE(frame) << format.name;
-    EXPECT_EQ((*camera)->agreement()->format, *format.format);
+    EXPECT_EQ((*camera)->negotiated()->format, *format.format);
     for (int bar = 0; bar < 8; ++bar) {
       const int x = bar * 40 + 20, y = 90;
       int expected[3] = {kBars[bar][0], kBars[bar][1], kBars[bar][2]};

@@ -18,12 +18,12 @@ TEST(Behaviour6And7, AnUnpluggedCameraIsToldWithinASecondAndComesBackByItself) {
   options.controls = {{devices::CameraControl::kExposure, 0.02}};
   const auto camera = Open(options);
   const Replug replug = WatchReplug(camera.get());
-  EXPECT_LT(replug.told_after_ns, 1'000'000'000);
+  EXPECT_LT(replug.reported_after_ns, 1'000'000'000);
   ASSERT_TRUE(replug.back) << simulator.Output();
   ASSERT_TRUE(camera->NextWithin(kLong));
   EXPECT_EQ(camera->counts().connections, 2);
-  ASSERT_EQ(camera->Answers().size(), 1U);
-  EXPECT_TRUE(camera->Answers()[0].held) << "controls are held again after the replug";
+  ASSERT_EQ(camera->ControlResults().size(), 1U);
+  EXPECT_TRUE(camera->ControlResults()[0].locked) << "controls are held again after the replug";
 }
 
 TEST(Behaviour8, ASilentCameraIsToldAndItsRecoveryToo) {

@@ -25,9 +25,9 @@ namespace {
 
 using devices::PixelFormat;
 
-/// What a grey picture looks like after it went through the camera's Y of limited range.
+/// What a grey image looks like after it went through the camera's Y of limited range.
 GreyImage ThroughYuyv(const GreyImage& grey) {
-  devices::RawPicture raw;
+  devices::RawImage raw;
   raw.format = PixelFormat::kYuyv;
   raw.width = grey.width();
   raw.height = grey.height();
@@ -36,14 +36,14 @@ GreyImage ThroughYuyv(const GreyImage& grey) {
     raw.bytes.push_back(grey.data()[i]);
     raw.bytes.push_back(128);
   }
-  devices::Picture picture;
-  EXPECT_TRUE(ConvertRawPicture(raw, &picture));
-  return picture.grey;
+  devices::DecodedImage image;
+  EXPECT_TRUE(ConvertRawImage(raw, &image));
+  return image.grey;
 }
 
 constexpr const char* kSequence = "/tmp/sequence.grey";
 
-/// Writes what the simulator plays; gives what comes of each picture.
+/// Writes what the simulator plays; gives what comes of each image.
 std::vector<GreyImage> WriteSequence(const CourtyardFilm& film) {
   std::vector<GreyImage> sent;
   std::ofstream bytes(kSequence, std::ios::binary);
@@ -80,13 +80,13 @@ class Command {
     const int output = open(printed, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (program == nullptr || output < 0) std::abort();  // As where the simulator is not there.
     arguments.insert(arguments.begin(), program);
-    std::vector<char*> words;
-    for (std::string& argument : arguments) words.push_back(argument.data());
-    words.push_back(nullptr);
+    std::vector<char*> details;
+    for (std::string& argument : arguments) details.push_back(argument.data());
+    details.push_back(nullptr);
     pid_ = fork();
     if (pid_ == 0) {
       // Other threads may have held locks: only calls that are safe in handlers of signals.
-      if (dup2(output, STDOUT_FILENO) >= 0) execv(words[0], words.data());
+      if (dup2(output, STDOUT_FILENO) >= 0) execv(details[0], details.data());
       _exit(127);
     }
     close(output);
@@ -117,10 +117,10 @@ std::map<std::string, std::vector<double>> PathOf(const std::string& file) {
   std::map<std::string, std::vector<double>> path;
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
+    std::istringstream details(line);
     std::string time;
-    if (line.starts_with('#') || !(words >> time)) continue;
-    for (double number = 0.0; words >> number;) path[time].push_back(number);
+    if (line.starts_with('#') || !(details >> time)) continue;
+    for (double number = 0.0; details >> number;) path[time].push_back(number);
   }
   return path;
 }

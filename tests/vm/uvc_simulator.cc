@@ -16,15 +16,15 @@ UvcSimulator::UvcSimulator(const std::vector<std::string>& arguments) {
     std::abort();
   std::vector<std::string> copies = arguments;
   copies.insert(copies.begin(), program_name);
-  std::vector<char*> words;
-  for (std::string& copy : copies) words.push_back(copy.data());
-  words.push_back(nullptr);
+  std::vector<char*> details;
+  for (std::string& copy : copies) details.push_back(copy.data());
+  details.push_back(nullptr);
   pid_ = fork();
   if (pid_ == 0) {
     // Other threads may have held locks: only calls that are safe in handlers of signals.
     dup2(to[0], STDIN_FILENO);
     dup2(from[1], STDOUT_FILENO);
-    execv(words[0], words.data());
+    execv(details[0], details.data());
     _exit(127);
   }
   close(to[0]);

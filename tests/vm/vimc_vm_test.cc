@@ -25,17 +25,17 @@ TEST(Vimc, IsListedAndSendsPicturesInOrder) {
   ASSERT_NE(camera, nullptr);
   ASSERT_TRUE(camera->NextWithin(kLong));
   // Its scaler works in steps of three pixels.
-  const devices::PictureAgreement agreement = *camera->agreement();
-  EXPECT_EQ(agreement.size.width, 318);
-  EXPECT_THAT(agreement.words, testing::Contains(HasSubstr("318x240")));
+  const devices::NegotiatedFormat negotiated = *camera->negotiated();
+  EXPECT_EQ(negotiated.size.width, 318);
+  EXPECT_THAT(negotiated.details, testing::Contains(HasSubstr("318x240")));
   std::int64_t last_ns = 0, last_index = -1;
   for (int i = 0; i < 5; ++i) {
     const auto frame = camera->NextWithin(kLong);
     ASSERT_TRUE(frame);
-    EXPECT_EQ(frame->rgb.width(), agreement.size.width);
+    EXPECT_EQ(frame->rgb.width(), negotiated.size.width);
     EXPECT_GT(frame->timestamp_ns, last_ns);
     EXPECT_GT(frame->index, last_index);
-    // The sensor's test picture, not one grey.
+    // The sensor's test image, not one grey.
     EXPECT_NE(frame->grey(3, 120), frame->grey(300, 120));
     last_ns = frame->timestamp_ns;
     last_index = frame->index;

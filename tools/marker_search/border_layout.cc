@@ -5,7 +5,7 @@
 namespace pleinair::marker_search {
 namespace {
 
-constexpr int kMost = BorderShape::kMost;
+constexpr int kMax = BorderShape::kMax;
 constexpr int kBandBegin = 4, kBandEnd = 9;  ///< Modules from the nearest side.
 constexpr int kTriesPerLarge = 200, kTriesOfSmall = 1500, kTriesOfSmallAgain = 60;
 
@@ -59,8 +59,8 @@ std::optional<BorderLayout> BorderLayout::Of(const tracker::sg::Border& border) 
       }
       Placed placed{{}, x0, y0};
       for (const auto& [cx, cy] : modules) {
-        if (cx - x0 >= kMost || cy - y0 >= kMost) return std::nullopt;
-        placed.shape.modules |= 1U << (kMost * (cy - y0) + cx - x0);
+        if (cx - x0 >= kMax || cy - y0 >= kMax) return std::nullopt;
+        placed.shape.modules |= 1U << (kMax * (cy - y0) + cx - x0);
       }
       if (!placed.shape.IsThick() || !layout.Add(placed)) return std::nullopt;
     }
@@ -124,8 +124,8 @@ BorderLayout BorderLayout::Varied(const ShapeLibrary& library, RandomDraws* draw
         placed = DrawPlace({placed.shape}, draws);
         for (std::size_t i = varied.shapes_.size(); i-- > 0;) {
           const Placed& other = varied.shapes_[i];
-          if (!other.IsLarge() && std::abs(other.x - placed.x) <= kMost &&
-              std::abs(other.y - placed.y) <= kMost) {
+          if (!other.IsLarge() && std::abs(other.x - placed.x) <= kMax &&
+              std::abs(other.y - placed.y) <= kMax) {
             varied.Remove(i);
           }
         }
@@ -164,9 +164,9 @@ bool BorderLayout::IsAsymmetric(int modules) const {
 }
 
 bool BorderLayout::Fits(const Placed& placed) const {
-  for (int i = 0; i < kMost * kMost; ++i) {
-    if (!placed.shape.Has(i % kMost, i / kMost)) continue;
-    const int x = placed.x + i % kMost, y = placed.y + i / kMost;
+  for (int i = 0; i < kMax * kMax; ++i) {
+    if (!placed.shape.Has(i % kMax, i / kMax)) continue;
+    const int x = placed.x + i % kMax, y = placed.y + i / kMax;
     if (!InBand(x, y)) return false;
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
@@ -190,9 +190,9 @@ void BorderLayout::Remove(std::size_t index) {
 }
 
 void BorderLayout::Draw(const Placed& placed, char value) {
-  for (int i = 0; i < kMost * kMost; ++i) {
-    if (!placed.shape.Has(i % kMost, i / kMost)) continue;
-    rows_[placed.y + i / kMost][placed.x + i % kMost] = value;
+  for (int i = 0; i < kMax * kMax; ++i) {
+    if (!placed.shape.Has(i % kMax, i / kMax)) continue;
+    rows_[placed.y + i / kMax][placed.x + i % kMax] = value;
   }
 }
 

@@ -6,16 +6,16 @@
 namespace pleinair::marker_search {
 namespace {
 
-constexpr int kMost = BorderShape::kMost;
+constexpr int kMax = BorderShape::kMax;
 /// Squares of 2×2 modules lie at so many places along a side.
-constexpr int kPlaces = kMost - 1;
+constexpr int kPlaces = kMax - 1;
 /// A large shape fills at least so much of its bounding box: slender ones have no blob in them.
 constexpr double kCompact = 0.55;
 
-constexpr std::uint32_t Square(int x, int y) { return 0b1100011U << (kMost * y + x); }
+constexpr std::uint32_t Square(int x, int y) { return 0b1100011U << (kMax * y + x); }
 
 BorderShape ToTopLeft(BorderShape shape) {
-  while (shape.modules != 0 && (shape.modules & 0x1FU) == 0) shape.modules >>= kMost;
+  while (shape.modules != 0 && (shape.modules & 0x1FU) == 0) shape.modules >>= kMax;
   constexpr std::uint32_t kFirstColumn = 0x108421U;
   while (shape.modules != 0 && (shape.modules & kFirstColumn) == 0) shape.modules >>= 1;
   return shape;
@@ -47,30 +47,30 @@ std::uint32_t Beside(std::uint32_t bits, int side) {
 
 int BorderShape::Width() const {
   int width = 0;
-  for (int i = 0; i < kMost * kMost; ++i) {
-    if (Has(i % kMost, i / kMost)) width = std::max(width, i % kMost + 1);
+  for (int i = 0; i < kMax * kMax; ++i) {
+    if (Has(i % kMax, i / kMax)) width = std::max(width, i % kMax + 1);
   }
   return width;
 }
 
-int BorderShape::Height() const { return (std::bit_width(modules) + kMost - 1) / kMost; }
+int BorderShape::Height() const { return (std::bit_width(modules) + kMax - 1) / kMax; }
 
 int BorderShape::Area() const { return std::popcount(modules); }
 
 BorderShape BorderShape::Mirrored() const {
   BorderShape mirrored;
-  for (int i = 0; i < kMost * kMost; ++i) {
-    const int x = i % kMost, y = i / kMost;
-    if (Has(x, y)) mirrored.modules |= 1U << (kMost * y + kMost - 1 - x);
+  for (int i = 0; i < kMax * kMax; ++i) {
+    const int x = i % kMax, y = i / kMax;
+    if (Has(x, y)) mirrored.modules |= 1U << (kMax * y + kMax - 1 - x);
   }
   return ToTopLeft(mirrored);
 }
 
 BorderShape BorderShape::Turned() const {
   BorderShape turned;
-  for (int i = 0; i < kMost * kMost; ++i) {
-    const int x = i % kMost, y = i / kMost;
-    if (Has(x, y)) turned.modules |= 1U << (kMost * x + kMost - 1 - y);
+  for (int i = 0; i < kMax * kMax; ++i) {
+    const int x = i % kMax, y = i / kMax;
+    if (Has(x, y)) turned.modules |= 1U << (kMax * x + kMax - 1 - y);
   }
   return ToTopLeft(turned);
 }
@@ -96,14 +96,14 @@ bool BorderShape::IsThick() const {
 }
 
 bool BorderShape::HasHole() const {
-  constexpr std::uint32_t kAll = (1U << (kMost * kMost)) - 1U;
+  constexpr std::uint32_t kAll = (1U << (kMax * kMax)) - 1U;
   std::uint32_t edge = 0;
-  for (int i = 0; i < kMost * kMost; ++i) {
-    const int x = i % kMost, y = i / kMost;
-    if (x == 0 || y == 0 || x == kMost - 1 || y == kMost - 1) edge |= 1U << i;
+  for (int i = 0; i < kMax * kMax; ++i) {
+    const int x = i % kMax, y = i / kMax;
+    if (x == 0 || y == 0 || x == kMax - 1 || y == kMax - 1) edge |= 1U << i;
   }
   const std::uint32_t black = kAll & ~modules;
-  return Spread(edge, black, [](std::uint32_t b) { return Beside(b, kMost); }) != black;
+  return Spread(edge, black, [](std::uint32_t b) { return Beside(b, kMax); }) != black;
 }
 
 bool BorderShape::IsAsymmetric() const {

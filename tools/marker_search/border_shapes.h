@@ -8,13 +8,13 @@ namespace pleinair::marker_search {
 /// A white shape of at most 5×5 modules: bit 5 y + x is the module at column x, row y of its
 /// bounding box, whose top-left corner is (0, 0).
 struct BorderShape {
-  static constexpr int kMost = 5;  ///< Modules along a side.
+  static constexpr int kMax = 5;  ///< Modules along a side.
 
   std::uint32_t modules = 0;
 
   bool operator==(const BorderShape&) const = default;
   bool Has(int x, int y) const {
-    return x >= 0 && y >= 0 && x < kMost && y < kMost && (modules >> (kMost * y + x) & 1U) != 0;
+    return x >= 0 && y >= 0 && x < kMax && y < kMax && (modules >> (kMax * y + x) & 1U) != 0;
   }
   int Width() const;
   int Height() const;

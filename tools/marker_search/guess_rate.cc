@@ -12,13 +12,13 @@ namespace pleinair::marker_search {
 namespace {
 
 using tracker::sg::kEdge;
-using tracker::sg::kPrint;
+using tracker::sg::kModules;
 
 constexpr int kSide_px = 320;
 constexpr int kFirstGuesses = 10;
 constexpr double kNear = 0.12;  ///< Of the edge: corners no farther from their places.
 constexpr double kBandInner = 11.0, kBandOuter = 16.0;  ///< Modules from the middle.
-constexpr int kMostPatches = 40;
+constexpr int kMaxPatches = 40;
 
 /// What lies on the border: the half-plane beside a line through the middle, or patches.
 struct Cover {
@@ -31,7 +31,7 @@ struct Cover {
   int texture = 0, texture_x = 0, texture_y = 0;
 
   bool Covers(double column, double row) const {
-    const double x = column - 0.5 * kPrint, y = row - 0.5 * kPrint;
+    const double x = column - 0.5 * kModules, y = row - 0.5 * kModules;
     if (!patches) return x * std::cos(angle_rad) + y * std::sin(angle_rad) > 0.0;
     return std::any_of(list.begin(), list.end(), [&](const Patch& p) {
       return x > p.x0 && x < p.x1 && y > p.y0 && y < p.y1;
@@ -40,10 +40,10 @@ struct Cover {
 
   double CoveredShareOfBorder() const {
     int band = 0, covered = 0;
-    for (int y = 0; y < kPrint; ++y) {
-      for (int x = 0; x < kPrint; ++x) {
+    for (int y = 0; y < kModules; ++y) {
+      for (int x = 0; x < kModules; ++x) {
         const double away =
-            std::max(std::fabs(x + 0.5 - 0.5 * kPrint), std::fabs(y + 0.5 - 0.5 * kPrint));
+            std::max(std::fabs(x + 0.5 - 0.5 * kModules), std::fabs(y + 0.5 - 0.5 * kModules));
         if (away < kBandInner || away > kBandOuter) continue;
         ++band;
         covered += Covers(x + 0.5, y + 0.5) ? 1 : 0;
@@ -60,7 +60,7 @@ Cover DrawCover(bool patches, int textures, RandomDraws* draws) {
   cover.texture_y = draws->Below(kTextureSide_px);
   cover.angle_rad = draws->Uniform(0.0, 2.0 * std::numbers::pi);
   cover.patches = patches;
-  for (int i = 0; i < kMostPatches && patches && cover.CoveredShareOfBorder() < 0.5; ++i) {
+  for (int i = 0; i < kMaxPatches && patches && cover.CoveredShareOfBorder() < 0.5; ++i) {
     const double x = draws->Uniform(-22.0, 22.0), y = draws->Uniform(-22.0, 22.0);
     const double w = draws->Uniform(4.0, 10.0), h = draws->Uniform(4.0, 10.0);
     cover.list.push_back({x - w, y - h, x + w, y + h});
@@ -68,8 +68,8 @@ Cover DrawCover(bool patches, int textures, RandomDraws* draws) {
   return cover;
 }
 
-bool IsNear(const Mat3& modules_from_ideal, const Mat3& true_pixels, double edge_px) {
-  const Mat3 pixels = tracker::Adjugate(modules_from_ideal);
+bool IsNear(const Mat3& modules_from_undistorted, const Mat3& true_pixels, double edge_px) {
+  const Mat3 pixels = tracker::Adjugate(modules_from_undistorted);
   for (int corner = 0; corner < 4; ++corner) {
     const Vec2 modules{corner & 1 ? 44.0 : 4.0, corner & 2 ? 44.0 : 4.0};
     const Vec2 off = tracker::Apply(pixels, modules) - tracker::Apply(true_pixels, modules);
@@ -92,7 +92,7 @@ GuessRate MeasureGuessRate(const tracker::sg::Border& border,
       lens, tracker::MakeBorderTemplates(options.surf.descriptor_window_scales, border), options);
   ViewRenderer renderer(textures);
   RandomDraws draws(seed);
-  GreyImage picture;
+  GreyImage image;
   std::vector<tracker::BorderGuess> guesses;
   GuessRate result;
   std::array<int, GuessRate::kSizes> of_size{};
@@ -110,24 +110,24 @@ GuessRate MeasureGuessRate(const tracker::sg::Border& border,
     const Cover cover = DrawCover(patches, static_cast<int>(textures.size()), &draws);
 
     const Mat3 pixels = view.PixelsFromModules(centre);
-    renderer.Render(view, border, pixels, kSide_px, kSide_px, &picture);
+    renderer.Render(view, border, pixels, kSide_px, kSide_px, &image);
     constexpr int kMask = kTextureSide_px - 1;
     std::size_t n = 0;
     for (int y = 0; y < kSide_px; ++y) {
       for (int x = 0; x < kSide_px; ++x, ++n) {
         const float column = renderer.map().column[n], row = renderer.map().row[n];
-        if (column < 0.0F || column > kPrint || row < 0.0F || row > kPrint) continue;
+        if (column < 0.0F || column > kModules || row < 0.0F || row > kModules) continue;
         if (!cover.Covers(column, row)) continue;
-        picture(x, y) =
+        image(x, y) =
             textures[cover.texture]((x + cover.texture_x) & kMask, (y + cover.texture_y) & kMask);
       }
     }
-    search.Find(picture.view(), {}, tracker::BorderSearch::Sizes::kAll, &guesses);
+    search.Find(image.view(), {}, tracker::BorderSearch::Sizes::kAll, &guesses);
     if (guesses.size() > kFirstGuesses) guesses.resize(kFirstGuesses);
     const double right =
         std::any_of(guesses.begin(), guesses.end(),
                     [&](const auto& guess) {
-                      return IsNear(guess.modules_from_ideal, pixels, view.edge_px);
+                      return IsNear(guess.modules_from_undistorted, pixels, view.edge_px);
                     })
             ? 1.0
             : 0.0;

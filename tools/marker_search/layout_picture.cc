@@ -4,7 +4,7 @@
 
 namespace pleinair::marker_search {
 
-std::string DrawSvg(const tracker::PrintPattern& print) {
+std::string DrawSvg(const tracker::MarkerPattern& print) {
   const int side = print.modules;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {0}\" width=\"480\" "

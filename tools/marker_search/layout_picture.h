@@ -8,7 +8,7 @@
 namespace pleinair::marker_search {
 
 /// A print as a drawing, one unit a module.
-std::string DrawSvg(const tracker::PrintPattern& print);
+std::string DrawSvg(const tracker::MarkerPattern& print);
 
 /// A border as the rows of the array in sg_layout.h.
 std::string WriteRows(const tracker::sg::Border& border);

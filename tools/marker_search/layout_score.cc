@@ -14,7 +14,7 @@ namespace {
 using tracker::DescriptorMatch;
 using tracker::DescriptorMatcher;
 using tracker::sg::kEdge;
-using tracker::sg::kPrint;
+using tracker::sg::kModules;
 
 constexpr double kPi = std::numbers::pi;
 constexpr float kThreshold = 0.0002F;
@@ -25,8 +25,8 @@ constexpr double kInnermost = 9.0, kOutermost = 21.0;
 constexpr double kSamePlace = 2.0;        ///< Modules, or
 constexpr double kSamePlaceScales = 0.8;  ///< … this share of the scale.
 constexpr double kSameScale = 1.6, kSameTurn_rad = 0.45;
-constexpr double kOtherPlace = 4.0;  ///< Modules: certainly another one.
-constexpr double kFarthest = 0.75;   ///< Descriptors farther apart are not compared.
+constexpr double kOtherPlace = 4.0;    ///< Modules: certainly another one.
+constexpr double kMaxDistance = 0.75;  ///< Descriptors farther apart are not compared.
 /// The difference of distances at which right and wrong compete.
 constexpr double kConfusion = 0.05;
 constexpr double kWeakResponse = 0.0005;
@@ -61,8 +61,8 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-int PictureSide(const MarkerView& view) {
-  return static_cast<int>(1.4 * view.edge_px * kPrint / kEdge) + 40;
+int ImageSide(const MarkerView& view) {
+  return static_cast<int>(1.4 * view.edge_px * kModules / kEdge) + 40;
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ LayoutScorer::LayoutScorer(const std::vector<GreyImage>& textures, int views, st
     known.tilt_rad =
         std::clamp(sought.tilt_rad + kRadiansPerDegree * draws.Uniform(-9.0, 9.0), 0.0, 1.4);
     known.direction_rad = sought.direction_rad + kRadiansPerDegree * draws.Uniform(-12.0, 12.0);
-    known.word = tracker::PrintedWord(draws.Below(tracker::kGolayNumbers));
+    known.word = tracker::CodewordOfNumber(draws.Below(tracker::kGolayNumbers));
     pairs_.push_back(pair);
   }
   std::vector<tracker::QuantisedDescriptor> all;
@@ -109,14 +109,15 @@ LayoutScorer::LayoutScorer(const std::vector<GreyImage>& textures, int views, st
 
 void LayoutScorer::See(const MarkerView& view, const tracker::sg::Border& border, int pair,
                        Points* points) {
-  const int side = PictureSide(view);
+  const int side = ImageSide(view);
   const Mat3 pixels = view.PixelsFromModules({0.5 * (side - 1), 0.5 * (side - 1)});
   const Mat3 modules = tracker::Adjugate(pixels);
   renderer_.Render(view, border, pixels, side, side, &picture_);
   surf_.Detect(picture_.view(), &keypoints_);
   std::erase_if(keypoints_, [&](const tracker::SurfKeypoint& k) {
     const Vec2 at = tracker::Apply(modules, {k.x, k.y});
-    const double away = std::max(std::fabs(at.x - 0.5 * kPrint), std::fabs(at.y - 0.5 * kPrint));
+    const double away =
+        std::max(std::fabs(at.x - 0.5 * kModules), std::fabs(at.y - 0.5 * kModules));
     return away < kInnermost || away > kOutermost;
   });
   surf_.Describe(&keypoints_, &descriptors_);
@@ -140,13 +141,13 @@ void LayoutScorer::See(const MarkerView& view, const tracker::sg::Border& border
 }
 
 void LayoutScorer::Compare() {
-  constexpr int kMost = DescriptorMatcher::kMaxNeighbours;
+  constexpr int kMax = DescriptorMatcher::kMaxNeighbours;
   of_textures_.Match(sought_.descriptors, 1, &nearest_, &back_);
   for (std::size_t i = 0; i < sought_.points.size(); ++i) {
     sought_.points[i].texture = Distance(nearest_[i]);
   }
   of_border_.SetTemplates(known_.descriptors);
-  of_border_.Match(sought_.descriptors, kMost, &nearest_, &back_);
+  of_border_.Match(sought_.descriptors, kMax, &nearest_, &back_);
   for (std::size_t i = 0; i < sought_.points.size(); ++i) {
     BorderPoint& point = sought_.points[i];
     const auto same = [&](const BorderPoint& other) {
@@ -159,9 +160,9 @@ void LayoutScorer::Compare() {
     };
     // Beyond the last neighbour nothing is known: no nearer than that.
     point.own = 2.0;
-    point.other = Distance(nearest_[i * kMost + kMost - 1]);
-    for (int k = kMost; k-- > 0;) {
-      const DescriptorMatch& match = nearest_[i * kMost + k];
+    point.other = Distance(nearest_[i * kMax + kMax - 1]);
+    for (int k = kMax; k-- > 0;) {
+      const DescriptorMatch& match = nearest_[i * kMax + k];
       if (match.index == DescriptorMatch::kNone) continue;
       const BorderPoint& other = known_.points[match.index];
       if (same(other)) {
@@ -177,9 +178,9 @@ void LayoutScorer::Compare() {
 }
 
 double LayoutScorer::Worth(const BorderPoint& point) const {
-  if (point.own >= kFarthest) return 0.0;
+  if (point.own >= kMaxDistance) return 0.0;
   const double rival = std::min(point.other, point.texture);
-  return (1.0 - point.own / kFarthest) / (1.0 + std::exp((point.own - rival) / kConfusion)) *
+  return (1.0 - point.own / kMaxDistance) / (1.0 + std::exp((point.own - rival) / kConfusion)) *
          point.response / (point.response + kWeakResponse);
 }
 
@@ -205,7 +206,7 @@ LayoutScore LayoutScorer::Score(const tracker::sg::Border& border, int views) {
     std::array<int, 4> quadrants{};
     for (; at < sought_.points.size() && sought_.points[at].pair == i; ++at) {
       const BorderPoint& point = sought_.points[at];
-      const Vec2 away = point.modules - Vec2{0.5 * kPrint, 0.5 * kPrint};
+      const Vec2 away = point.modules - Vec2{0.5 * kModules, 0.5 * kModules};
       if (point.repeated) {
         ++repeated;
         ++quadrants[(away.x > 0.0 ? 1 : 0) + (away.y > 0.0 ? 2 : 0)];

@@ -15,7 +15,7 @@ constexpr int kFirstViews = 8;
 constexpr int kClimbers = 6, kLastClimbers = 2;
 constexpr int kLargeShapes = 12;
 /// Of all modules, of which about 540 belong to the border.
-constexpr int kLeastAsymmetry = 150;
+constexpr int kMinAsymmetry = 150;
 /// A change is given up when after part of the views it is so far behind.
 constexpr double kHopeless = 0.02;
 /// Changes for the worse are taken as in simulated annealing (Kirkpatrick et al. 1983).
@@ -69,7 +69,7 @@ class Search {
       while (spent_ < until || drawn.size() < kClimbers) {
         BorderLayout layout =
             BorderLayout::Random(library_, kLargeShapes - 2 + draws_.Below(4), &draws_);
-        if (!layout.IsAsymmetric(kLeastAsymmetry)) continue;
+        if (!layout.IsAsymmetric(kMinAsymmetry)) continue;
         const double score = Score(layout, kFirstViews);
         drawn.push_back({std::move(layout), score});
         if (drawn.size() % 200 == 0) progress_(fmt::format("{} random layouts", drawn.size()));
@@ -98,7 +98,7 @@ class Search {
 
   void Improve(Climber* climber) {
     BorderLayout layout = climber->now.layout.Varied(library_, &draws_);
-    if (!layout.IsAsymmetric(kLeastAsymmetry)) return;
+    if (!layout.IsAsymmetric(kMinAsymmetry)) return;
     const double first = Score(layout, kFirstViews);
     if (first < climber->first_views - kHopeless) return;
     const double score = Score(layout, scorer_.views());

@@ -136,7 +136,7 @@ int Run(const Options& options) {
     }
   }
   if (options.scenes > 0) {
-    tracker::BorderSearchOptions search{.fewest_votes = 0.0};  // Every guess counts here.
+    tracker::BorderSearchOptions search{.min_votes = 0.0};  // Every guess counts here.
     search.surf.descriptor_window_scales = options.window_scales;
     PrintRate("current", MeasureGuessRate(tracker::sg::kBorder, textures, options.scenes,
                                           options.scene_seed, search));
@@ -151,7 +151,8 @@ int Run(const Options& options) {
   if (!options.svg.empty()) {
     const tracker::sg::Border border = best == nullptr ? tracker::sg::kBorder : best->border();
     std::ofstream out(options.svg);
-    out << DrawSvg(tracker::SgPrintOfWord(tracker::PrintedWord(options.number), border));
+    out << DrawSvg(
+        tracker::SgMarkerPatternOfWord(tracker::CodewordOfNumber(options.number), border));
     if (!out.flush()) {
       fmt::print(stderr, "marker_search: {}: cannot be written\n", options.svg);
       return 1;

@@ -12,7 +12,7 @@
 namespace pleinair::marker_search {
 namespace {
 
-using tracker::sg::kPrint;
+using tracker::sg::kModules;
 
 constexpr double kFocal_px = 600.0;
 constexpr int kNoiseValues = 1 << 18;
@@ -29,7 +29,7 @@ Mat3 MarkerView::PixelsFromModules(Vec2 centre) const {
   const Vec3 v{ax * ay * (1.0 - ct), ct + ay * ay * (1.0 - ct), ax * st};
   const double cr = std::cos(roll_rad), sr = std::sin(roll_rad);
   const double distance = kFocal_px / edge_px, k = 1.0 / tracker::sg::kEdge;
-  const double half = 0.5 * kPrint;
+  const double half = 0.5 * kModules;
   const Vec3 x{k * (cr * u.x - sr * u.y), k * (cr * v.x - sr * v.y), 0.0};
   const Vec3 y{k * (sr * u.x + cr * u.y), k * (sr * v.x + cr * v.y), 0.0};
   const Vec3 z{k * u.z, k * v.z, 0.0};
@@ -47,7 +47,7 @@ void MarkerView::DrawConditions(int textures, RandomDraws* draws) {
   ink = draws->Uniform(0.02, 0.08);
   paper = draws->Uniform(0.6, 0.9);
   light = draws->Uniform(0.3, 1.0);
-  word = tracker::PrintedWord(draws->Below(tracker::kGolayNumbers));
+  word = tracker::CodewordOfNumber(draws->Below(tracker::kGolayNumbers));
   texture = textures > 0 ? draws->Below(textures) : -1;
   texture_x = draws->Below(kTextureSide_px);
   texture_y = draws->Below(kTextureSide_px);
@@ -64,15 +64,15 @@ ViewRenderer::ViewRenderer(const std::vector<GreyImage>& textures) : textures_(t
 }
 
 void ViewRenderer::Render(const MarkerView& view, const tracker::sg::Border& border,
-                          const Mat3& from_modules, int width, int height, GreyImage* picture) {
-  if (picture->width() != width || picture->height() != height) *picture = {width, height};
+                          const Mat3& from_modules, int width, int height, GreyImage* image) {
+  if (image->width() != width || image->height() != height) *image = {width, height};
   CameraModel camera;
   camera.width = width;
   camera.height = height;
   camera.fx = camera.fy = 1.0;
   tracker::LookUpRays(tracker::LensGrid(camera), {0, 0, 0, width, height}, &rays_);
-  raster_.Render(tracker::SgPrintOfWord(view.word, border), tracker::Adjugate(from_modules), rays_,
-                 view.blur_px, &map_, &print_);
+  raster_.Render(tracker::SgMarkerPatternOfWord(view.word, border), tracker::Adjugate(from_modules),
+                 rays_, view.blur_px, &map_, &marker_pattern_);
   const float ink = static_cast<float>(view.ink * view.light * kLightSteps);
   const float white = static_cast<float>((view.paper - view.ink) * view.light * kLightSteps);
   const float noise = static_cast<float>(view.noise);
@@ -81,15 +81,15 @@ void ViewRenderer::Render(const MarkerView& view, const tracker::sg::Border& bor
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x, ++n) {
       float grey = 128.0F;
-      if (map_.column[n] > 0.0F && map_.column[n] < kPrint && map_.row[n] > 0.0F &&
-          map_.row[n] < kPrint) {
-        const long step = std::lround(ink + white * print_.white[n]);
+      if (map_.column[n] > 0.0F && map_.column[n] < kModules && map_.row[n] > 0.0F &&
+          map_.row[n] < kModules) {
+        const long step = std::lround(ink + white * marker_pattern_.white[n]);
         grey = encoded_[std::clamp<long>(step, 0, kLightSteps)];
       } else if (view.texture >= 0) {
         grey = textures_[view.texture]((x + view.texture_x) & kMask, (y + view.texture_y) & kMask);
       }
       grey += noise * noise_[(view.noise_begin + n) % kNoiseValues];
-      picture->data()[n] = static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0F, 255.0F)));
+      image->data()[n] = static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0F, 255.0F)));
     }
   }
 }

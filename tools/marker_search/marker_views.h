@@ -15,7 +15,7 @@ struct MarkerView {
   double edge_px = 0.0;        ///< Of the black square, were it not tilted.
   double tilt_rad = 0.0;       ///< Of the print's normal off the line of sight,
   double direction_rad = 0.0;  ///< … about this axis of the print's.
-  double roll_rad = 0.0;       ///< Of the print in the picture.
+  double roll_rad = 0.0;       ///< Of the print in the image.
   double blur_px = 0.7;
   double noise = 0.0;  ///< Standard deviation, grey levels of 255.
   double ink = 0.04, paper = 0.8, light = 1.0;
@@ -36,22 +36,22 @@ class ViewRenderer {
  public:
   explicit ViewRenderer(const std::vector<GreyImage>& textures);
 
-  /// Into a picture of `width`×`height` px.
+  /// Into an image of `width`×`height` px.
   void Render(const MarkerView& view, const tracker::sg::Border& border, const Mat3& from_modules,
-              int width, int height, GreyImage* picture);
+              int width, int height, GreyImage* image);
   const std::vector<GreyImage>& textures() const { return textures_; }
 
-  /// Modules at each pixel's centre in the last picture.
-  const tracker::PrintMap& map() const { return map_; }
+  /// Modules at each pixel's centre in the last image.
+  const tracker::PlaneMap& map() const { return map_; }
 
  private:
   const std::vector<GreyImage>& textures_;
   std::vector<float> noise_;
   std::vector<std::uint8_t> encoded_;  ///< sRGB of linear light, by its share of 1.
-  tracker::PrintRaster raster_;
+  tracker::MarkerRaster raster_;
   tracker::WindowRays rays_;
-  tracker::PrintMap map_;
-  tracker::PrintPicture print_;
+  tracker::PlaneMap map_;
+  tracker::PredictedImage marker_pattern_;
 };
 
 }  // namespace pleinair::marker_search

@@ -45,8 +45,8 @@ GreyImage Noise(double persistence, RandomDraws* draws) {
 /// Polygons on top of each other, many small and few large ones: the "dead leaves" of Lee, Mumford
 /// & Huang, "Occlusion models for natural images" (2001).
 GreyImage Polygons(RandomDraws* draws) {
-  GreyImage picture(kTextureSide_px, kTextureSide_px);
-  std::fill_n(picture.data(), picture.size(), static_cast<std::uint8_t>(draws->Below(256)));
+  GreyImage image(kTextureSide_px, kTextureSide_px);
+  std::fill_n(image.data(), image.size(), static_cast<std::uint8_t>(draws->Below(256)));
   const double smallest = draws->Uniform(3.0, 12.0);
   for (int n = 0; n < 2500; ++n) {
     const double radius = std::min(120.0, smallest / std::sqrt(1.0 - draws->Uniform()));
@@ -72,16 +72,16 @@ GreyImage Polygons(RandomDraws* draws) {
           const Vec2 a = polygon[i], b = polygon[(i + 1) % corners];
           inside = (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x) >= 0.0;
         }
-        if (inside) picture(x, y) = grey;
+        if (inside) image(x, y) = grey;
       }
     }
   }
-  GreyImage blurred = picture;
+  GreyImage blurred = image;
   for (int y = 1; y + 1 < kTextureSide_px; ++y) {
     for (int x = 1; x + 1 < kTextureSide_px; ++x) {
       blurred(x, y) =
-          static_cast<std::uint8_t>((4 * picture(x, y) + picture(x - 1, y) + picture(x + 1, y) +
-                                     picture(x, y - 1) + picture(x, y + 1)) /
+          static_cast<std::uint8_t>((4 * image(x, y) + image(x - 1, y) + image(x + 1, y) +
+                                     image(x, y - 1) + image(x, y + 1)) /
                                     8);
     }
   }
@@ -102,19 +102,18 @@ std::vector<GreyImage> MakeTextures(int count, RandomDraws* draws) {
 Result<std::vector<GreyImage>> ReadPhotographs(const std::vector<std::string>& files) {
   std::vector<GreyImage> photographs;
   for (const std::string& file : files) {
-    cv::Mat picture = cv::imread(file, cv::IMREAD_GRAYSCALE);
-    if (picture.empty()) {
+    cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
+    if (image.empty()) {
       return InputError(file, "cannot be read as a picture", "give a PNG or JPEG photograph");
     }
-    const double scale =
-        static_cast<double>(kTextureSide_px) / std::min(picture.cols, picture.rows);
-    cv::resize(picture, picture, {}, scale, scale, scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+    const double scale = static_cast<double>(kTextureSide_px) / std::min(image.cols, image.rows);
+    cv::resize(image, image, {}, scale, scale, scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
     GreyImage photograph(kTextureSide_px, kTextureSide_px);
-    const int x0 = (picture.cols - kTextureSide_px) / 2, y0 = (picture.rows - kTextureSide_px) / 2;
+    const int x0 = (image.cols - kTextureSide_px) / 2, y0 = (image.rows - kTextureSide_px) / 2;
     for (int y = 0; y < kTextureSide_px; ++y) {
       for (int x = 0; x < kTextureSide_px; ++x) {
-        photograph(x, y) = picture.at<std::uint8_t>(std::clamp(y + y0, 0, picture.rows - 1),
-                                                    std::clamp(x + x0, 0, picture.cols - 1));
+        photograph(x, y) = image.at<std::uint8_t>(std::clamp(y + y0, 0, image.rows - 1),
+                                                  std::clamp(x + x0, 0, image.cols - 1));
       }
     }
     photographs.push_back(std::move(photograph));

@@ -13,30 +13,30 @@ namespace {
 
 /// Standard deviation of the share of white. Where much of the window clips only the foot of each
 /// edge is left, steep as it is.
-constexpr double kLeastBlockContrast = 0.04, kLeastClippedContrast = 0.012, kMuchClipped = 0.25;
+constexpr double kMinBlockContrast = 0.04, kMinClippedContrast = 0.012, kMuchClipped = 0.25;
 constexpr float kClippedLight = 0.9F;  ///< Pixels that are left out for other reasons are darker.
-constexpr int kLeastBlockPixels = 6;
-constexpr double kLeastWeight = 0.02;
+constexpr int kMinBlockPixels = 6;
+constexpr double kMinWeight = 0.02;
 constexpr double kRobustNoises = 1.0;  ///< Standard deviations at which a pixel loses half.
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
-constexpr float kMostReach_modules = 2.4F;
+constexpr float kMaxReach_modules = 2.4F;
 /// How much brighter than predicted, in whites, noise makes no pixel.
 constexpr float kFarBrighter = 2.0F;
 constexpr double kDamping = 1e-5;
 /// Logarithm of light by half an edge; and how independent both slopes must be.
-constexpr double kMostSlope = 3.0, kLeastSlopeDeterminant = 1e-3;
-/// Correlation of a print that lies open: what covers others passes for a slope.
+constexpr double kMaxSlope = 3.0, kMinSlopeDeterminant = 1e-3;
+/// Correlation of a marker that lies open: what covers others passes for a slope.
 constexpr double kPlainCorrelation = 0.9;
-/// Tiles of 4×4 pixels where blocks and the print itself are so many pixels wide at least.
-constexpr double kLeastBlockOfTiles_px = 7.0, kLeastPrintOfTiles_px = 24.0;
+/// Tiles of 4×4 pixels where blocks and the marker itself are so many pixels wide at least.
+constexpr double kMinBlockOfTiles_px = 7.0, kMinMarkerOfTiles_px = 24.0;
 
-/// From the print's middle in half edges, y down, to modules from its top-left corner.
-Mat3 ModulesFromUnit(const PrintPattern& pattern) {
+/// From the marker's middle in half edges, y down, to modules from its top-left corner.
+Mat3 ModulesFromUnit(const MarkerPattern& pattern) {
   const double half = 0.5 * pattern.edge_modules, middle = 0.5 * pattern.modules;
   return {{half, 0, middle, 0, half, middle, 0, 0, 1}};
 }
 
-Mat3 UnitFromModules(const PrintPattern& pattern) {
+Mat3 UnitFromModules(const MarkerPattern& pattern) {
   const double half = 0.5 * pattern.edge_modules, middle = 0.5 * pattern.modules;
   return {{1 / half, 0, -middle / half, 0, 1 / half, -middle / half, 0, 0, 1}};
 }
@@ -48,43 +48,44 @@ BlockFit::~BlockFit() = default;
 BlockFit::BlockFit(BlockFit&&) noexcept = default;
 BlockFit& BlockFit::operator=(BlockFit&&) noexcept = default;
 
-int BlockFit::BlocksAlong(double print_side_px, double block_px) {
-  return std::clamp(static_cast<int>(print_side_px / block_px), 1, kMostBlocksAlong);
+int BlockFit::BlocksAlong(double marker_side_px, double block_px) {
+  return std::clamp(static_cast<int>(marker_side_px / block_px), 1, kMaxBlocksAlong);
 }
 
-void BlockFit::Predict(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
+void BlockFit::Predict(const MarkerPattern& pattern, MarkerPart part, const ObservedPatch& observed,
                        const BlockFitState& state) {
-  const double blur = state.blur_px / seen.rays.window.Scale();
+  const double blur = state.blur_px / observed.rays.window.Scale();
   blur_px_ = state.blur_px;
-  raster_.RenderPrint(pattern, state.modules_from_ideal, seen.rays, blur, &map_, &picture_,
-                      &sums_->ranges);
+  raster_.RenderMarkerOnly(pattern, state.modules_from_undistorted, observed.rays, blur, &map_,
+                           &image_, &sums_->ranges);
   KnownPart known{};
   known.modules = static_cast<float>(pattern.modules);
   known.reach_px = static_cast<float>(0.5 + 1.3 * blur);
-  known.most_reach_modules = kMostReach_modules;
-  const bool all = part == PrintPart::kWhole || pattern.unknown_modules == 0;
+  known.max_reach_modules = kMaxReach_modules;
+  const bool all = part == MarkerPart::kWhole || pattern.unknown_modules == 0;
   known.unknown_half = all ? -known.modules : 0.5F * static_cast<float>(pattern.unknown_modules);
   known.unknown_middle = static_cast<float>(pattern.unknown_first) +
                          0.5F * static_cast<float>(pattern.unknown_modules);
-  sums_->blocks.Lay(pattern, known, seen, map_, sums_->ranges, tile_, blocks_along_, sums_->slope);
+  sums_->blocks.Lay(pattern, known, observed, map_, sums_->ranges, tile_, blocks_along_,
+                    sums_->slope);
 }
 
-void BlockFit::FitLevels(const SeenWindow& seen, double robust_share, bool known_light) {
-  sums_->blocks.Levels(seen, picture_, sums_->lights, &sums_->levels);
+void BlockFit::FitLevels(const ObservedPatch& observed, double robust_share, bool known_light) {
+  sums_->blocks.Levels(observed, image_, sums_->lights, &sums_->levels);
   noise_shares_.clear();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const LevelSums& sum = sums_->levels[k];
-    PrintBlock& block = blocks_[k];
+    MarkerBlock& block = blocks_[k];
     BlockLight& light = sums_->lights[k];
-    block = PrintBlock{};
+    block = MarkerBlock{};
     light = BlockLight{};
     block.pixels = static_cast<int>(std::lround(sum.pixels));
-    if (block.pixels < kLeastBlockPixels || !(sum.w > 0.0)) continue;
+    if (block.pixels < kMinBlockPixels || !(sum.w > 0.0)) continue;
     const double p = sum.wp / sum.w, i = sum.wi / sum.w;
     const double vp = sum.wpp / sum.w - p * p, vi = sum.wii / sum.w - i * i;
     const double vpi = sum.wpi / sum.w - p * i;
     block.contrast = std::sqrt(std::max(0.0, vp));
-    if (block.contrast < least_contrast_ || !(vi > 1e-12)) continue;
+    if (block.contrast < min_contrast_ || !(vi > 1e-12)) continue;
     block.correlation = vpi / std::sqrt(vp * vi);
     if (known_light) {
       block.gain = block.weight = 1.0;
@@ -102,14 +103,15 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share, bool known
     if (!(block.gain > 0.0)) continue;
     block.weight = std::clamp(
         (block.correlation - kDoubtfulCorrelation) / (kCredibleCorrelation - kDoubtfulCorrelation),
-        kLeastWeight, 1.0);
+        kMinWeight, 1.0);
     noise_shares_.push_back(block.noise / block.gain);
     light = {static_cast<float>(block.gain), static_cast<float>(block.offset), 0.0F,
              static_cast<float>(block.weight)};
   }
   robust_share_ = robust_share;
   if (known_light) return;
-  // Noise is no outlier; what lies on the print is, and makes some blocks look noisier than others.
+  // Noise is no outlier; what lies on the marker is, and makes some blocks look noisier than
+  // others.
   double share = robust_share;
   noise_share_ = 0.0;
   if (!noise_shares_.empty()) {
@@ -125,9 +127,9 @@ void BlockFit::FitLevels(const SeenWindow& seen, double robust_share, bool known
   }
 }
 
-void BlockFit::AddUp(const SeenWindow& seen, const BlockFitOptions& options) {
-  sums_->blocks.Motions(seen, picture_, sums_->lights, options.fit_blur, &weight_, &sums_->products,
-                        &sums_->motions);
+void BlockFit::AddUp(const ObservedPatch& observed, const BlockFitOptions& options) {
+  sums_->blocks.Motions(observed, image_, sums_->lights, options.fit_blur, &weight_,
+                        &sums_->products, &sums_->motions);
   equations_ = MotionEquations(sums_->products);
   for (std::size_t k = 0; !options.known_light && k < blocks_.size(); ++k) {
     if (blocks_[k].weight > 0.0) equations_.EliminateLight(sums_->motions[k], blocks_[k].gain);
@@ -146,7 +148,7 @@ void BlockFit::EliminateSlope() {
   Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>> hessian(equations_.hessian.data());
   Eigen::Map<Eigen::Matrix<double, kParameters, 1>> gradient(equations_.gradient.data());
   const Eigen::Matrix2d inverse = own.inverse();
-  slopes.known = own.determinant() > kLeastSlopeDeterminant * own(0, 0) * own(1, 1) &&
+  slopes.known = own.determinant() > kMinSlopeDeterminant * own(0, 0) * own(1, 1) &&
                  own(0, 0) > 0.0 && inverse.allFinite();
   if (!slopes.known) return;
   hessian.noalias() -= with * inverse * with.transpose();
@@ -163,54 +165,55 @@ void BlockFit::MoveSlope(const std::array<double, kParameters>& move) {
       own.inverse() *
       (right -
        with.transpose() * Eigen::Map<const Eigen::Matrix<double, kParameters, 1>>(move.data()));
-  sums_->slope.by_u = std::clamp(sums_->slope.by_u + change[0], -kMostSlope, kMostSlope);
-  sums_->slope.by_v = std::clamp(sums_->slope.by_v + change[1], -kMostSlope, kMostSlope);
+  sums_->slope.by_u = std::clamp(sums_->slope.by_u + change[0], -kMaxSlope, kMaxSlope);
+  sums_->slope.by_v = std::clamp(sums_->slope.by_v + change[1], -kMaxSlope, kMaxSlope);
 }
 
-void BlockFit::Start(const PrintPattern& pattern, const SeenWindow& seen, int blocks_along,
+void BlockFit::Start(const MarkerPattern& pattern, const ObservedPatch& observed, int blocks_along,
                      const BlockFitState& state) {
-  blocks_along_ = std::clamp(blocks_along, 1, kMostBlocksAlong);
+  blocks_along_ = std::clamp(blocks_along, 1, kMaxBlocksAlong);
   modules_ = pattern.modules;
   edge_modules_ = pattern.edge_modules;
   const std::size_t blocks = static_cast<std::size_t>(blocks_along_) * blocks_along_;
   blocks_.resize(blocks);
   sums_->lights.assign(blocks, BlockLight{});
-  block_of_.resize(seen.value.size());
-  weight_ = seen.certainty;
+  block_of_.resize(observed.value.size());
+  weight_ = observed.inverse_variance;
   sums_->slope = {};
   int clipped = 0;
   for (std::size_t n = 0; n < weight_.size(); ++n) {
     clipped +=
-        static_cast<int>(weight_[n] == 0.0F) & static_cast<int>(seen.value[n] > kClippedLight);
+        static_cast<int>(weight_[n] == 0.0F) & static_cast<int>(observed.value[n] > kClippedLight);
   }
-  least_contrast_ =
-      static_cast<double>(clipped) > kMuchClipped * static_cast<double>(weight_.size())
-          ? kLeastClippedContrast
-          : kLeastBlockContrast;
-  const SquareSides sides = SidesOf(Adjugate(UnitFromModules(pattern) * state.modules_from_ideal));
-  const double shortest = sides.shortest / seen.rays.window.Scale();
+  min_contrast_ = static_cast<double>(clipped) > kMuchClipped * static_cast<double>(weight_.size())
+                      ? kMinClippedContrast
+                      : kMinBlockContrast;
+  const SquareSides sides =
+      SidesOf(Adjugate(UnitFromModules(pattern) * state.modules_from_undistorted));
+  const double shortest = sides.shortest / observed.rays.window.Scale();
   const double block_px = shortest * pattern.modules / pattern.edge_modules / blocks_along_;
-  tile_ = shortest >= kLeastPrintOfTiles_px && block_px >= kLeastBlockOfTiles_px ? 4 : 2;
+  tile_ = shortest >= kMinMarkerOfTiles_px && block_px >= kMinBlockOfTiles_px ? 4 : 2;
 }
 
-void BlockFit::Evaluate(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
-                        int blocks_along, const BlockFitState& state) {
-  Start(pattern, seen, blocks_along, state);
-  Predict(pattern, part, seen, state);
-  FitLevels(seen, BlockFitOptions{}.robust_share, false);
-  sums_->blocks.WriteBlocks(seen, &block_of_);
+void BlockFit::Evaluate(const MarkerPattern& pattern, MarkerPart part,
+                        const ObservedPatch& observed, int blocks_along,
+                        const BlockFitState& state) {
+  Start(pattern, observed, blocks_along, state);
+  Predict(pattern, part, observed, state);
+  FitLevels(observed, BlockFitOptions{}.robust_share, false);
+  sums_->blocks.WriteBlocks(observed, &block_of_);
 }
 
-bool BlockFit::Move(const PrintPattern& pattern, const BlockFitOptions& options, double scale,
+bool BlockFit::Move(const MarkerPattern& pattern, const BlockFitOptions& options, double scale,
                     BlockFitState* state, bool* done, bool* still) {
-  const Mat3 unit_from_ideal = UnitFromModules(pattern) * state->modules_from_ideal;
+  const Mat3 unit_from_undistorted = UnitFromModules(pattern) * state->modules_from_undistorted;
   const std::optional<MotionStep> step = SolveMotion(
       equations_,
       {.damping = kDamping, .fit_projection = options.fit_projection, .fit_blur = options.fit_blur},
-      SidesOf(Adjugate(unit_from_ideal)).mean / scale);
+      SidesOf(Adjugate(unit_from_undistorted)).mean / scale);
   if (!step) return false;
-  state->modules_from_ideal =
-      ModulesFromUnit(pattern) * (step->BeforeFromAfter() * unit_from_ideal);
+  state->modules_from_undistorted =
+      ModulesFromUnit(pattern) * (step->BeforeFromAfter() * unit_from_undistorted);
   if (options.fit_light) MoveSlope(step->move);
   *done = step->moved_px < options.done_px;
   *still = *done;
@@ -222,54 +225,54 @@ bool BlockFit::Move(const PrintPattern& pattern, const BlockFitOptions& options,
   return true;
 }
 
-bool BlockFit::Run(const PrintPattern& pattern, PrintPart part, const SeenWindow& seen,
+bool BlockFit::Run(const MarkerPattern& pattern, MarkerPart part, const ObservedPatch& observed,
                    int blocks_along, const BlockFitOptions& options, BlockFitState* state) {
-  const double scale = seen.rays.window.Scale();
+  const double scale = observed.rays.window.Scale();
   bool solved = true, last = false;
-  Start(pattern, seen, blocks_along, *state);
+  Start(pattern, observed, blocks_along, *state);
   const double module_px =
-      SidesOf(Adjugate(UnitFromModules(pattern) * state->modules_from_ideal)).shortest /
+      SidesOf(Adjugate(UnitFromModules(pattern) * state->modules_from_undistorted)).shortest /
       (scale * pattern.edge_modules);
   for (int step = 0;; ++step) {
-    Predict(pattern, part, seen, *state);
-    if (step == 0) FitLevels(seen, options.robust_share, options.known_light);
+    Predict(pattern, part, observed, *state);
+    if (step == 0) FitLevels(observed, options.robust_share, options.known_light);
     // The light of the step before, or without weights, tells what fits; and that the light.
     if (options.fit_light && SurroundingsShow(module_px, blur_px_ / scale)) {
-      AddSurroundings(pattern, seen, map_, sums_->ranges, blur_px_ / scale, sums_->lights,
-                      blocks_along_, &picture_);
+      AddSurroundings(pattern, observed, map_, sums_->ranges, blur_px_ / scale, sums_->lights,
+                      blocks_along_, &image_);
     }
-    FitLevels(seen, options.robust_share, options.known_light);
-    AddUp(seen, options);
+    FitLevels(observed, options.robust_share, options.known_light);
+    AddUp(observed, options);
     if (options.fit_light) EliminateSlope();
     if (step >= options.steps) break;
     bool done = false, still = false;
     solved = Move(pattern, options, scale, state, &done, &still);
-    // What was predicted holds for where the print is if it has hardly moved; if only the blur has
+    // What was predicted holds for where the marker is if it has hardly moved; if only the blur has
     // changed, one more round predicts, weighs and, with the right blur, takes off what is left.
     if (!solved || still || last) break;
     last = done;
   }
-  if (options.tell_blocks) sums_->blocks.WriteBlocks(seen, &block_of_);
+  if (options.label_blocks) sums_->blocks.WriteBlocks(observed, &block_of_);
   return solved;
 }
 
-void BlockFit::ExpectCertainty(SeenWindow* seen) {
-  sums_->blocks.WriteBlocks(*seen, &block_of_);
-  for (std::size_t n = 0; n < seen->certainty.size(); ++n) {
-    if (block_of_[n] < 0 || !(seen->certainty[n] > 0.0F)) continue;
+void BlockFit::UsePredictedVariance(ObservedPatch* observed) {
+  sums_->blocks.WriteBlocks(*observed, &block_of_);
+  for (std::size_t n = 0; n < observed->inverse_variance.size(); ++n) {
+    if (block_of_[n] < 0 || !(observed->inverse_variance[n] > 0.0F)) continue;
     const BlockLight& light = sums_->lights[block_of_[n]];
     if (!(light.gain > 0.0F)) continue;
-    const float expected = light.offset + light.gain * picture_.white[n];
+    const float expected = light.offset + light.gain * image_.white[n];
     // What lies beyond a shadow's edge is not as certain as the shade.
-    if (seen->value[n] > expected + kFarBrighter * light.gain) continue;
-    seen->certainty[n] = CertaintyOfLight(expected);
+    if (observed->value[n] > expected + kFarBrighter * light.gain) continue;
+    observed->inverse_variance[n] = InverseVarianceOfLight(expected);
   }
 }
 
 double BlockFit::Correlation() const {
   double sum = 0.0, share = 0.0;
-  for (const PrintBlock& block : blocks_) {
-    if (block.contrast < least_contrast_) continue;
+  for (const MarkerBlock& block : blocks_) {
+    if (block.contrast < min_contrast_) continue;
     const double weight = block.pixels * block.contrast;
     sum += weight * block.correlation;
     share += weight;

@@ -10,7 +10,7 @@ namespace pleinair::tracker {
 namespace {
 
 /// Of the widening by what goes together, at least: of few cells it is told roughly.
-constexpr double kLeastWidening = 0.8;
+constexpr double kMinWidening = 0.8;
 /// A shift of edges that a blur of another shape than the model's may hide, at which the variance
 /// doubles. Chosen on rendered defocus and motion, where it was missing most.
 constexpr double kHiddenShift_px = 0.25;
@@ -23,23 +23,23 @@ double KnownShare(double z) { return 1.0 / (1.0 + 3.7 * z * z / (1.0 + 0.55 * z)
 
 }  // namespace
 
-// The motions m move what is seen at (u, v), in half edges from the middle, by
+// The motions m move what is observed at (u, v), in half edges from the middle, by
 // (m0 + m1 u + m2 v - (m6 u + m7 v) u, m3 + m4 u + m5 v - (m6 u + m7 v) v).
 //
 // Were all pixels' noise alike and independent, the covariance would be σ² H⁻¹. It is not: what is
 // left over of a texture, of an edge of light, or of a blur that is no Gaussian, goes together in
 // neighbouring pixels, and lies at the edges that tell the place. A clustered sandwich (Liang &
-// Zeger 1986), H⁻¹ (Σ_cells g gᵀ) H⁻¹ with g what each cell of the print says, knows all of that.
+// Zeger 1986), H⁻¹ (Σ_cells g gᵀ) H⁻¹ with g what each cell of the marker says, knows all of that.
 // Of few cells it is a ragged matrix; its mean ratio to σ² H⁻¹ is not, and widens that.
 std::array<double, 64> BlockFit::MotionCovariance() const {
   using Parameters = Eigen::Matrix<double, kParameters, 1>;
   using Square = Eigen::Matrix<double, kParameters, kParameters>;
   using Motions = Eigen::Matrix<double, kMotions, kMotions>;
   double residual = 0.0, count = 0.0;
-  double known = 0.0, correlation = 0.0, tells_all = 0.0;
-  std::array<BlockElimination, kMostBlocks> eliminations;
+  double known = 0.0, correlation = 0.0, information_sum = 0.0;
+  std::array<BlockElimination, kMaxBlocks> eliminations;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    const PrintBlock& block = blocks_[k];
+    const MarkerBlock& block = blocks_[k];
     const BlockMotions& sum = sums_->motions[k];
     const LightElimination eliminate(sum);
     if (!(block.weight > 0.0) || !eliminate.possible) continue;
@@ -51,10 +51,10 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
       eliminations[k].on_white[a] = block.gain * eliminate.OnPattern(sum.j[a], sum.pj[a]);
       eliminations[k].on_one[a] = block.gain * eliminate.OnOne(sum.j[a], sum.pj[a]);
     }
-    const double tells = block.weight * block.pixels * block.contrast;
-    correlation += tells * block.correlation;
-    known += tells * KnownShare(block.noise / (block.gain * robust_share_));
-    tells_all += tells;
+    const double informative = block.weight * block.pixels * block.contrast;
+    correlation += informative * block.correlation;
+    known += informative * KnownShare(block.noise / (block.gain * robust_share_));
+    information_sum += informative;
   }
   Square hessian = Eigen::Map<const Square>(equations_.hessian.data());
   // What was not fitted is known.
@@ -78,7 +78,7 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
   }
   // The fit has made what is left over smaller than the noise, by its eight motions.
   together *= cells / std::max(cells / 6.0, cells - kMotions);
-  const double telling = std::max(1e-9, tells_all);
+  const double telling = std::max(1e-9, information_sum);
   known = std::max(0.05, known / telling);
   const double widening = independent.ldlt().solve(together).trace() / (kMotions * known * known);
 
@@ -89,7 +89,7 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
   const double hidden = hidden_px / kHiddenShift_px;
   std::array<double, 64> covariance{};
   Eigen::Map<Eigen::Matrix<double, kMotions, kMotions, Eigen::RowMajor>> out(covariance.data());
-  out = independent * ((std::isfinite(widening) ? std::max(kLeastWidening, widening) : 1.0) *
+  out = independent * ((std::isfinite(widening) ? std::max(kMinWidening, widening) : 1.0) *
                        (1.0 + hidden * hidden));
   return covariance;
 }

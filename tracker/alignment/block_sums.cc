@@ -15,10 +15,11 @@ constexpr int kWholeVector = 16;  ///< The widest vectors' lanes.
 
 BlockSums::BlockSums() : kernels_(&SimdTileKernels()) {}
 
-void BlockSums::Lay(const PrintPattern& pattern, const KnownPart& known, const SeenWindow& seen,
-                    const PrintMap& map, const std::vector<RowRange>& ranges, int tile,
-                    int blocks_along, const LightSlope& slope) {
-  const int width = seen.rays.window.width, height = seen.rays.window.height;
+void BlockSums::Lay(const MarkerPattern& pattern, const KnownPart& known,
+                    const ObservedPatch& observed, const PlaneMap& map,
+                    const std::vector<RowRange>& ranges, int tile, int blocks_along,
+                    const LightSlope& slope) {
+  const int width = observed.rays.window.width, height = observed.rays.window.height;
   tile_ = tile;
   capacity_ = static_cast<std::size_t>((width + tile - 1) / tile) * ((height + tile - 1) / tile) +
               kTileSlack;
@@ -29,7 +30,7 @@ void BlockSums::Lay(const PrintPattern& pattern, const KnownPart& known, const S
   tile_sums_.resize(capacity_ * kMotionSums);
   column_sums_.resize(static_cast<std::size_t>(column_stride_) * kMotionSums);
   column_light_.resize(static_cast<std::size_t>(column_stride_) * 4);
-  usable_.resize(seen.value.size());
+  usable_.resize(observed.value.size());
   rows_.clear();
   tiles_ = 0;
   for (int y = 0; y < height; y += tile) {
@@ -55,7 +56,7 @@ void BlockSums::Lay(const PrintPattern& pattern, const KnownPart& known, const S
       const std::size_t at = static_cast<std::size_t>(y + j) * width + range.begin;
       kernels_->mark({&map.column[at], &map.row[at], &map.column_x[at], &map.column_y[at],
                       &map.row_x[at], &map.row_y[at]},
-                     known, &seen.certainty[at], count, &usable_[at]);
+                     known, &observed.inverse_variance[at], count, &usable_[at]);
     }
     const int middle_y = std::min(y + tile / 2 - 1, height - 1);
     for (int t = 0; t < rows_.back().tiles; ++t, ++tiles_) {
@@ -66,7 +67,7 @@ void BlockSums::Lay(const PrintPattern& pattern, const KnownPart& known, const S
   }
 }
 
-void BlockSums::LayTile(const PrintPattern& pattern, const PrintMap& map, std::size_t pixel,
+void BlockSums::LayTile(const MarkerPattern& pattern, const PlaneMap& map, std::size_t pixel,
                         int blocks_along, const LightSlope& slope, std::size_t tile) {
   const float modules = static_cast<float>(pattern.modules);
   const float per_half = 2.0F / static_cast<float>(pattern.edge_modules);
@@ -106,7 +107,7 @@ template <int kTile>
 LightOfColumns BlockSums::LightOfTiles(const TileRow& row, const std::vector<BlockLight>& lights) {
   float* gain = column_light_.data();
   float *offset = gain + column_stride_, *inverse = offset + column_stride_;
-  float* belief = inverse + column_stride_;
+  float* robust_weight = inverse + column_stride_;
   const unsigned char* block = &block_[row.first_tile];
   for (int t = 0; t < row.tiles; ++t) {
     BlockLight light = lights[block[t]];
@@ -117,7 +118,7 @@ LightOfColumns BlockSums::LightOfTiles(const TileRow& row, const std::vector<Blo
     for (int x = t * kTile; x < (t + 1) * kTile; ++x) gain[x] = light.gain;
     for (int x = t * kTile; x < (t + 1) * kTile; ++x) offset[x] = light.offset;
     for (int x = t * kTile; x < (t + 1) * kTile; ++x) inverse[x] = light.inverse;
-    for (int x = t * kTile; x < (t + 1) * kTile; ++x) belief[x] = light.belief;
+    for (int x = t * kTile; x < (t + 1) * kTile; ++x) robust_weight[x] = light.robust_weight;
   }
   return {gain, offset, inverse};
 }
@@ -126,11 +127,11 @@ LightOfColumns BlockSums::Light(const TileRow& row, const std::vector<BlockLight
   return tile_ == 4 ? LightOfTiles<4>(row, lights) : LightOfTiles<2>(row, lights);
 }
 
-PixelRows BlockSums::Rows(const TileRow& row, const SeenWindow& seen,
-                          const PrintPicture& picture) const {
-  const int width = seen.rays.window.width;
+PixelRows BlockSums::Rows(const TileRow& row, const ObservedPatch& observed,
+                          const PredictedImage& image) const {
+  const int width = observed.rays.window.width;
   const std::size_t at = static_cast<std::size_t>(row.y) * width + row.begin;
-  return {width, row.rows, row.count, &picture.white[at], &seen.value[at], &usable_[at]};
+  return {width, row.rows, row.count, &image.white[at], &observed.value[at], &usable_[at]};
 }
 
 void BlockSums::Reduce(const TileRow& row, int sums, float* to, std::ptrdiff_t to_stride) {
@@ -141,12 +142,12 @@ void BlockSums::Reduce(const TileRow& row, int sums, float* to, std::ptrdiff_t t
   kernels_->reduce(column_sums_.data(), column_stride_, sums, tile_, row.tiles, to, to_stride);
 }
 
-void BlockSums::Levels(const SeenWindow& seen, const PrintPicture& picture,
+void BlockSums::Levels(const ObservedPatch& observed, const PredictedImage& image,
                        const std::vector<BlockLight>& lights, std::vector<LevelSums>* sums) {
   sums->assign(lights.size(), LevelSums{});
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(capacity_);
   for (const TileRow& row : rows_) {
-    kernels_->levels(Rows(row, seen, picture), Light(row, lights), column_stride_,
+    kernels_->levels(Rows(row, observed, image), Light(row, lights), column_stride_,
                      column_sums_.data());
     Reduce(row, kLevelSums, tile_sums_.data(), stride);
     for (int t = 0; t < row.tiles; ++t) {
@@ -174,25 +175,25 @@ void BlockSums::Levels(const SeenWindow& seen, const PrintPicture& picture,
   }
 }
 
-void BlockSums::Motions(const SeenWindow& seen, const PrintPicture& picture,
+void BlockSums::Motions(const ObservedPatch& observed, const PredictedImage& image,
                         const std::vector<BlockLight>& lights, bool blur,
                         std::vector<float>* weight, FitProducts* products,
                         std::vector<BlockMotions>* blocks) {
-  const int width = seen.rays.window.width, height = seen.rays.window.height;
+  const int width = observed.rays.window.width, height = observed.rays.window.height;
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(capacity_);
   for (const TileRow& row : rows_) {
     const std::size_t at = static_cast<std::size_t>(row.y) * width + row.begin;
     const LightOfColumns light = Light(row, lights);
     kernels_->motions(
-        Rows(row, seen, picture),
-        {&picture.white_x[at], &picture.white_y[at], blur, row.y, height, row.begin, width}, light,
+        Rows(row, observed, image),
+        {&image.white_x[at], &image.white_y[at], blur, row.y, height, row.begin, width}, light,
         light.inverse + column_stride_, &(*weight)[at], column_stride_, column_sums_.data());
     Reduce(row, blur ? kMotionSums : kSlopeSums, &tile_sums_[row.first_tile], stride);
     for (int t = 0; t < row.tiles; ++t) {
       const std::size_t tile = static_cast<std::size_t>(row.first_tile) + t;
       const BlockLight& of = lights[block_[tile]];
       // Where the map folds up nothing can be learnt.
-      gain_[tile] = of.belief > 0.0F && std::isfinite(u_x_[tile] + v_y_[tile])
+      gain_[tile] = of.robust_weight > 0.0F && std::isfinite(u_x_[tile] + v_y_[tile])
                         ? of.gain * shade_[tile]
                         : 0.0F;
     }
@@ -289,8 +290,9 @@ SlopeEquations BlockSums::Slopes(const std::vector<BlockLight>& lights,
   return all;
 }
 
-void BlockSums::WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of) const {
-  const int width = seen.rays.window.width, shift = tile_ == 4 ? 2 : 1;
+void BlockSums::WriteBlocks(const ObservedPatch& observed,
+                            std::vector<std::int16_t>* block_of) const {
+  const int width = observed.rays.window.width, shift = tile_ == 4 ? 2 : 1;
   std::fill(block_of->begin(), block_of->end(), static_cast<std::int16_t>(-1));
   for (const TileRow& row : rows_) {
     const unsigned char* block = &block_[row.first_tile];

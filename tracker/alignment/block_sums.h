@@ -23,7 +23,7 @@ struct LevelSums {
 struct BlockLight {
   float gain = 0.0F, offset = 0.0F;
   float inverse = 0.0F;  ///< 1 / (gain × robust share); 0: unknown, no residual counts.
-  float belief = 0.0F;
+  float robust_weight = 0.0F;
 };
 
 /// How much of what a block's pixels say about each parameter its gain and its offset could do.
@@ -32,15 +32,15 @@ struct BlockElimination {
   std::array<double, kFitParameters> on_white{}, on_one{};
 };
 
-/// The equations of a fit told apart by where on the print their pixels lie: by so many cells along
-/// each side, whatever the blocks.
+/// The equations of a fit told apart by where on the marker their pixels lie: by so many cells
+/// along each side, whatever the blocks.
 struct CellScores {
   static constexpr int kAlong = 8;
   std::array<std::array<double, kFitParameters>, kAlong * kAlong> gradient{};  ///< Σ gain w r J,
   std::array<int, kAlong * kAlong> tiles{};  ///< … from so many tiles.
 };
 
-/// The light's slope over the print as two more parameters of a fit, for which the light of the
+/// The light's slope over the marker as two more parameters of a fit, for which the light of the
 /// blocks is eliminated: φ_u = u' (gain p + offset) and φ_v, u' and v' in half edges from the
 /// middle of each block; inner products with the final weights.
 struct SlopeEquations {
@@ -55,8 +55,8 @@ struct LightSlope {
   double by_u = 0.0, by_v = 0.0;
 };
 
-/// Adds up pixels for each block of a print: first by tiles of 2×2 or 4×4 pixels, which belong to
-/// the block their middle lies in. Within a tile the place on the print and the map's derivatives
+/// Adds up pixels for each block of a marker: first by tiles of 2×2 or 4×4 pixels, which belong to
+/// the block their middle lies in. Within a tile the place on the marker and the map's derivatives
 /// are taken as one, so that only slopes are summed pixel by pixel.
 class BlockSums {
  public:
@@ -65,17 +65,17 @@ class BlockSums {
   explicit BlockSums(const TileKernels& kernels) : kernels_(&kernels) {}
 
   /// Cuts the window into tiles and tells which pixels are usable. `ranges` as from
-  /// PrintRaster::RenderPrint.
-  void Lay(const PrintPattern& pattern, const KnownPart& known, const SeenWindow& seen,
-           const PrintMap& map, const std::vector<RowRange>& ranges, int tile, int blocks_along,
+  /// MarkerRaster::RenderMarkerOnly.
+  void Lay(const MarkerPattern& pattern, const KnownPart& known, const ObservedPatch& observed,
+           const PlaneMap& map, const std::vector<RowRange>& ranges, int tile, int blocks_along,
            const LightSlope& slope = {});
 
   /// One sum for each block, with the light of the blocks for the robust weights.
-  void Levels(const SeenWindow& seen, const PrintPicture& picture,
+  void Levels(const ObservedPatch& observed, const PredictedImage& image,
               const std::vector<BlockLight>& lights, std::vector<LevelSums>* sums);
 
   /// Products of the derivatives over all pixels and sums by blocks; each pixel's weight.
-  void Motions(const SeenWindow& seen, const PrintPicture& picture,
+  void Motions(const ObservedPatch& observed, const PredictedImage& image,
                const std::vector<BlockLight>& lights, bool blur, std::vector<float>* weight,
                FitProducts* products, std::vector<BlockMotions>* blocks);
 
@@ -84,12 +84,12 @@ class BlockSums {
                         const std::vector<BlockMotions>& blocks);
 
   /// What each cell's pixels say in the equations that Motions made last, with the light of the
-  /// blocks eliminated. `modules` is the print's side, `edge_modules` that of its square.
+  /// blocks eliminated. `modules` is the marker's side, `edge_modules` that of its square.
   void Scores(int modules, int edge_modules, std::span<const BlockElimination> eliminations,
               CellScores* scores) const;
 
-  /// Block of each pixel of the window; -1: not of what is known of the print.
-  void WriteBlocks(const SeenWindow& seen, std::vector<std::int16_t>* block_of) const;
+  /// Block of each pixel of the window; -1: not of what is known of the marker.
+  void WriteBlocks(const ObservedPatch& observed, std::vector<std::int16_t>* block_of) const;
 
  private:
   struct TileRow {
@@ -99,13 +99,14 @@ class BlockSums {
   struct SlopeSums {
     std::array<double, 2> on_one{}, on_white{};
   };
-  void LayTile(const PrintPattern& pattern, const PrintMap& map, std::size_t pixel,
+  void LayTile(const MarkerPattern& pattern, const PlaneMap& map, std::size_t pixel,
                int blocks_along, const LightSlope& slope, std::size_t tile);
   /// Writes out the light of the blocks by columns.
   template <int kTile>
   LightOfColumns LightOfTiles(const TileRow& row, const std::vector<BlockLight>& lights);
   LightOfColumns Light(const TileRow& row, const std::vector<BlockLight>& lights);
-  PixelRows Rows(const TileRow& row, const SeenWindow& seen, const PrintPicture& picture) const;
+  PixelRows Rows(const TileRow& row, const ObservedPatch& observed,
+                 const PredictedImage& image) const;
   /// Column sums to tile sums, `sums` of them, from `to` on.
   void Reduce(const TileRow& row, int sums, float* to, std::ptrdiff_t to_stride);
 

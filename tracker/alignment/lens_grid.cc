@@ -7,17 +7,17 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kMostNodes = 80'000;
-/// Nodes outside the picture on each side: prints that a picture cuts are predicted beyond it.
+constexpr int kMaxNodes = 80'000;
+/// Nodes outside the image on each side: prints that an image cuts are predicted beyond it.
 constexpr int kMarginNodes = 2;
-/// Rays flatter than this are none that a print could be seen along.
-constexpr double kFarthestTangent = 30.0;
+/// Rays flatter than this are none that a marker could be observed along.
+constexpr double kMaxTangent = 30.0;
 
 }  // namespace
 
 LensGrid::LensGrid(const CameraModel& camera) : camera_(camera), bends_(camera.HasDistortion()) {
   if (!bends_) return;
-  while ((static_cast<double>(camera.width) / spacing_) * camera.height / spacing_ > kMostNodes) {
+  while ((static_cast<double>(camera.width) / spacing_) * camera.height / spacing_ > kMaxNodes) {
     spacing_ *= 2;
   }
   columns_ = camera.width / spacing_ + 2 + 2 * kMarginNodes;
@@ -31,16 +31,16 @@ LensGrid::LensGrid(const CameraModel& camera) : camera_(camera), bends_(camera.H
       // Beyond where a lens model folds back there is no ray; Newton's method ends anywhere.
       Vec2 back;
       DistortNormalized(camera, ray.x, ray.y, &back.x, &back.y);
-      const bool seen = Norm(ray) < kFarthestTangent &&
-                        std::fabs(back.x * camera.fx + camera.cx - pixel.x) < 1e-3 &&
-                        std::fabs(back.y * camera.fy + camera.cy - pixel.y) < 1e-3;
+      const bool observed = Norm(ray) < kMaxTangent &&
+                            std::fabs(back.x * camera.fx + camera.cx - pixel.x) < 1e-3 &&
+                            std::fabs(back.y * camera.fy + camera.cy - pixel.y) < 1e-3;
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-      nodes_.push_back(seen ? IdealOfRay(ray) : Vec2{kNone, kNone});
+      nodes_.push_back(observed ? UndistortedOfRay(ray) : Vec2{kNone, kNone});
     }
   }
 }
 
-Vec2 LensGrid::Ideal(double x, double y) const {
+Vec2 LensGrid::Undistort(double x, double y) const {
   if (!bends_) return {x, y};
   const double gx = x / spacing_ + kMarginNodes, gy = y / spacing_ + kMarginNodes;
   const int i = std::clamp(static_cast<int>(std::floor(gx)), 0, columns_ - 2);
@@ -52,11 +52,11 @@ Vec2 LensGrid::Ideal(double x, double y) const {
   return top * (1.0 - t) + bottom * t;
 }
 
-void LensGrid::IdealRow(double x0, double step, int count, double y, float* ideal_x,
-                        float* ideal_y) const {
+void LensGrid::UndistortRow(double x0, double step, int count, double y, float* undistorted_x,
+                            float* undistorted_y) const {
   if (!bends_) {
-    for (int k = 0; k < count; ++k) ideal_x[k] = static_cast<float>(x0 + step * k);
-    std::fill_n(ideal_y, count, static_cast<float>(y));
+    for (int k = 0; k < count; ++k) undistorted_x[k] = static_cast<float>(x0 + step * k);
+    std::fill_n(undistorted_y, count, static_cast<float>(y));
     return;
   }
   const double gy = y / spacing_ + kMarginNodes;
@@ -74,14 +74,14 @@ void LensGrid::IdealRow(double x0, double step, int count, double y, float* idea
       by_node = nodes[i + 1] * (1.0 - t) + nodes[i + 1 + columns_] * t - left;
     }
     const double s = gx - i;
-    ideal_x[k] = static_cast<float>(left.x + by_node.x * s);
-    ideal_y[k] = static_cast<float>(left.y + by_node.y * s);
+    undistorted_x[k] = static_cast<float>(left.x + by_node.x * s);
+    undistorted_y[k] = static_cast<float>(left.y + by_node.y * s);
   }
 }
 
-Vec2 LensGrid::PixelOfIdeal(Vec2 ideal) const {
-  if (!bends_) return ideal;
-  const Vec2 ray = RayOfIdeal(ideal);
+Vec2 LensGrid::PixelOfUndistorted(Vec2 undistorted) const {
+  if (!bends_) return undistorted;
+  const Vec2 ray = RayOfUndistorted(undistorted);
   Vec2 bent;
   DistortNormalized(camera_, ray.x, ray.y, &bent.x, &bent.y);
   return {camera_.fx * bent.x + camera_.cx, camera_.fy * bent.y + camera_.cy};

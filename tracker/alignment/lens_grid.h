@@ -7,30 +7,32 @@
 
 namespace pleinair::tracker {
 
-/// Where a pinhole camera of the same intrinsics would see what a pixel sees ("ideal pixels"): the
-/// lens's distortion taken out once per camera, at nodes between which it is interpolated.
-/// Straight lines of the world are straight in ideal pixels, so that homographies hold there.
+/// Where a pinhole camera of the same intrinsics would see what a pixel sees ("undistorted
+/// pixels"): the lens's distortion taken out once per camera, at nodes between which it is
+/// interpolated. Straight lines of the world are straight in undistorted pixels, so that
+/// homographies hold there.
 class LensGrid {
  public:
   explicit LensGrid(const CameraModel& camera);
 
-  /// Ideal pixel of a pixel (integer = centre), anywhere in the picture or a little outside.
+  /// Ideal pixel of a pixel (integer = centre), anywhere in the image or a little outside.
   /// Bilinear between nodes 2 px apart (4 and more from 640×480 on): right to 0.002 px with
   /// ordinary lenses. Not finite where the lens sees nothing.
-  Vec2 Ideal(double x, double y) const;
+  Vec2 Undistort(double x, double y) const;
 
   /// The same for `count` pixels of a row, `step` apart from `x0` on.
-  void IdealRow(double x0, double step, int count, double y, float* ideal_x, float* ideal_y) const;
+  void UndistortRow(double x0, double step, int count, double y, float* undistorted_x,
+                    float* undistorted_y) const;
 
   /// Ideal pixel of a ray (X/Z, Y/Z), and back.
-  Vec2 IdealOfRay(Vec2 ray) const {
+  Vec2 UndistortedOfRay(Vec2 ray) const {
     return {camera_.fx * ray.x + camera_.cx, camera_.fy * ray.y + camera_.cy};
   }
-  Vec2 RayOfIdeal(Vec2 ideal) const {
-    return {(ideal.x - camera_.cx) / camera_.fx, (ideal.y - camera_.cy) / camera_.fy};
+  Vec2 RayOfUndistorted(Vec2 undistorted) const {
+    return {(undistorted.x - camera_.cx) / camera_.fx, (undistorted.y - camera_.cy) / camera_.fy};
   }
-  /// Pixel that sees what the pinhole camera sees at an ideal pixel.
-  Vec2 PixelOfIdeal(Vec2 ideal) const;
+  /// Pixel that sees what the pinhole camera sees at an undistorted pixel.
+  Vec2 PixelOfUndistorted(Vec2 undistorted) const;
 
   const CameraModel& camera() const { return camera_; }
 

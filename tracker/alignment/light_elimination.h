@@ -7,7 +7,7 @@
 namespace pleinair::tracker {
 
 /// What a change of a block's gain and offset could do as well as the parameters: what is predicted
-/// of it, a print's white or a picture, is p.
+/// of it, a marker's white or an image, is p.
 struct LightElimination {
   bool with_gain = false, possible = false;
   double w = 0.0, p = 0.0, pp = 0.0, determinant = 0.0;

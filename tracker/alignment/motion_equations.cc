@@ -13,17 +13,17 @@ namespace {
 using Parameters = Eigen::Matrix<double, kFitParameters, 1>;
 using Square = Eigen::Matrix<double, kFitParameters, kFitParameters>;
 
-constexpr double kLeastBlur_px = 0.25, kMostBlur_px = 6.0;
+constexpr double kMinBlur_px = 0.25, kMaxBlur_px = 6.0;
 /// The prediction is good for a fraction of the side, in one step; and for a pixel.
-constexpr double kFarthestStep = 0.06, kFarthestStep_px = 1.0;
+constexpr double kMaxStep = 0.06, kMaxStep_px = 1.0;
 
 }  // namespace
 
-SquareSides SidesOf(const Mat3& ideal_from_unit) {
+SquareSides SidesOf(const Mat3& undistorted_from_unit) {
   SquareSides sides{0.0, 1e9};
   for (int i = 0; i < 4; ++i) {
-    const double side = Norm(Apply(ideal_from_unit, kSquareCorners[i]) -
-                             Apply(ideal_from_unit, kSquareCorners[(i + 1) % 4]));
+    const double side = Norm(Apply(undistorted_from_unit, kSquareCorners[i]) -
+                             Apply(undistorted_from_unit, kSquareCorners[(i + 1) % 4]));
     sides.mean += 0.25 * side;
     sides.shortest = std::min(sides.shortest, side);
   }
@@ -64,7 +64,7 @@ Mat3 MotionStep::BeforeFromAfter() const {
 double MotionStep::Blur(double blur_px) const {
   const double variance = blur_px * blur_px;
   const double change = std::clamp(move[kFitMotions], -0.5 * variance - 0.05, variance + 0.3);
-  return std::clamp(std::sqrt(std::max(0.0, variance + change)), kLeastBlur_px, kMostBlur_px);
+  return std::clamp(std::sqrt(std::max(0.0, variance + change)), kMinBlur_px, kMaxBlur_px);
 }
 
 std::optional<MotionStep> SolveMotion(const MotionEquations& equations,
@@ -103,7 +103,7 @@ std::optional<MotionStep> SolveMotion(const MotionEquations& equations,
                                     0.5 * side_px);
   }
   if (!std::isfinite(step.moved_px)) return std::nullopt;
-  const double farthest = std::max(kFarthestStep_px, kFarthestStep * side_px);
+  const double farthest = std::max(kMaxStep_px, kMaxStep * side_px);
   if (step.moved_px > farthest) move.head<kFitMotions>() *= farthest / step.moved_px;
   return step;
 }

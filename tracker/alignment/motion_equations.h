@@ -14,11 +14,11 @@ namespace pleinair::tracker {
 /// M = (m1 m2 m0; m4 m5 m3; m6 m7 0).
 inline constexpr int kFitMotions = kFitParameters - 1;
 
-/// Lengths of such a square's sides, in ideal pixels.
+/// Lengths of such a square's sides, in undistorted pixels.
 struct SquareSides {
   double mean = 0.0, shortest = 0.0;
 };
-SquareSides SidesOf(const Mat3& ideal_from_unit);
+SquareSides SidesOf(const Mat3& undistorted_from_unit);
 
 /// The normal equations of a fit by Gauss–Newton: of eight motions and of the blur's variance.
 struct MotionEquations {

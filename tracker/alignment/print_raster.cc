@@ -14,8 +14,8 @@ constexpr double kKernelSigmas = 3.0;
 constexpr double kSharpestBlur_px = 0.12;
 /// From this blur on one sample a pixel is enough where modules are no smaller than pixels.
 constexpr double kSmoothBlur_px = 1.15;
-/// Pixels around the print that are predicted as well, for the differences of neighbours.
-constexpr float kAroundPrint_px = 2.0F;
+/// Pixels around the marker that are predicted as well, for the differences of neighbours.
+constexpr float kAroundMarker_px = 2.0F;
 constexpr int kProbes = 6;  ///< Along each side of the window.
 
 }  // namespace
@@ -27,19 +27,19 @@ void LookUpRays(const LensGrid& lens, const PixelWindow& window, WindowRays* ray
   rays->y.resize(rays->x.size());
   for (int j = 0; j < height; ++j) {
     const std::size_t at = static_cast<std::size_t>(j) * width;
-    lens.IdealRow(window.Full(window.x0 - kWindowBorder), window.Scale(), width,
-                  window.Full(window.y0 + j - kWindowBorder), &rays->x[at], &rays->y[at]);
+    lens.UndistortRow(window.Full(window.x0 - kWindowBorder), window.Scale(), width,
+                      window.Full(window.y0 + j - kWindowBorder), &rays->x[at], &rays->y[at]);
   }
 }
 
-PrintRaster::PrintRaster() : PrintRaster(SimdRasterKernels()) {}
-PrintRaster::PrintRaster(const RasterKernels& kernels)
+MarkerRaster::MarkerRaster() : MarkerRaster(SimdRasterKernels()) {}
+MarkerRaster::MarkerRaster(const RasterKernels& kernels)
     : kernels_(&kernels), rows_(std::make_unique<RasterRows>()) {}
-PrintRaster::~PrintRaster() = default;
-PrintRaster::PrintRaster(PrintRaster&&) noexcept = default;
-PrintRaster& PrintRaster::operator=(PrintRaster&&) noexcept = default;
+MarkerRaster::~MarkerRaster() = default;
+MarkerRaster::MarkerRaster(MarkerRaster&&) noexcept = default;
+MarkerRaster& MarkerRaster::operator=(MarkerRaster&&) noexcept = default;
 
-void PrintRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
+void MarkerRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   // The box of each sample and the bins of the kernel blur as well: their variances are taken off.
   const double bin = 1.0 / per_pixel;
   const double variance =
@@ -66,7 +66,7 @@ void PrintRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
     const double weight = primitive_[k + 1 + per_pixel] - primitive_[k + 1] -
                           primitive_[k + per_pixel] + primitive_[k];
     kernel_[k] = static_cast<float>(weight);
-    // The picture is ∫ print(p + t) K(t) dt, so that its slope is -∫ print(p + t) K'(t) dt.
+    // The image is ∫ marker(p + t) K(t) dt, so that its slope is -∫ marker(p + t) K'(t) dt.
     kernel_slope_[k] = static_cast<float>(below_[k + per_pixel] - below_[k] -
                                           below_[k + 1 + per_pixel] + below_[k + 1]);
     sum += weight;
@@ -74,15 +74,15 @@ void PrintRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   for (float& weight : kernel_) weight = static_cast<float>(weight / sum);
 }
 
-void PrintRaster::SetNodes(const PrintPattern& pattern) {
+void MarkerRaster::SetNodes(const MarkerPattern& pattern) {
   if (nodes_of_ == pattern.white) return;
   const bool other_size = nodes_of_.size() != pattern.white.size();
   const int last = pattern.modules - 1, nodes = pattern.modules + 1;
   nodes_.resize(static_cast<std::size_t>(nodes) * nodes);
   row_nodes_.resize(static_cast<std::size_t>(pattern.modules) * nodes);
   row_modules_.resize(static_cast<std::size_t>(nodes) + 3);
-  // Four modules of each row at a time, then four rows; of another print of the same kind only what
-  // differs.
+  // Four modules of each row at a time, then four rows; of another marker of the same kind only
+  // what differs.
   int first_changed = pattern.modules, last_changed = -1;
   for (int y = 0; y < pattern.modules; ++y) {
     const std::size_t from = static_cast<std::size_t>(y) * pattern.modules;
@@ -113,11 +113,12 @@ void PrintRaster::SetNodes(const PrintPattern& pattern) {
   }
 }
 
-int PrintRaster::SamplesPerPixel(const PrintPattern& pattern, const Mat3& modules_from_ideal,
-                                 const WindowRays& rays, double blur_px) const {
+int MarkerRaster::SamplesPerPixel(const MarkerPattern& pattern,
+                                  const Mat3& modules_from_undistorted, const WindowRays& rays,
+                                  double blur_px) const {
   const PixelWindow& window = rays.window;
   const int stride = window.width + 2 * kWindowBorder;
-  const Mat3& m = modules_from_ideal;
+  const Mat3& m = modules_from_undistorted;
   double finest = 0.0;  // Modules per pixel, the most there are.
   for (int j = 0; j <= kProbes; ++j) {
     for (int i = 0; i <= kProbes; ++i) {
@@ -138,58 +139,59 @@ int PrintRaster::SamplesPerPixel(const PrintPattern& pattern, const Mat3& module
   return static_cast<int>(std::ceil(std::clamp(finest, 2.0, 6.0)));
 }
 
-void PrintRaster::Render(const PrintPattern& pattern, const Mat3& modules_from_ideal,
-                         const WindowRays& rays, double blur_px, PrintMap* map,
-                         PrintPicture* picture) {
-  RenderRows(pattern, modules_from_ideal, rays, blur_px, true, map, picture, &all_);
+void MarkerRaster::Render(const MarkerPattern& pattern, const Mat3& modules_from_undistorted,
+                          const WindowRays& rays, double blur_px, PlaneMap* map,
+                          PredictedImage* image) {
+  RenderRows(pattern, modules_from_undistorted, rays, blur_px, true, map, image, &all_);
 }
 
-void PrintRaster::RenderPrint(const PrintPattern& pattern, const Mat3& modules_from_ideal,
-                              const WindowRays& rays, double blur_px, PrintMap* map,
-                              PrintPicture* picture, std::vector<RowRange>* ranges) {
-  RenderRows(pattern, modules_from_ideal, rays, blur_px, false, map, picture, ranges);
+void MarkerRaster::RenderMarkerOnly(const MarkerPattern& pattern,
+                                    const Mat3& modules_from_undistorted, const WindowRays& rays,
+                                    double blur_px, PlaneMap* map, PredictedImage* image,
+                                    std::vector<RowRange>* ranges) {
+  RenderRows(pattern, modules_from_undistorted, rays, blur_px, false, map, image, ranges);
 }
 
-void PrintRaster::RenderRows(const PrintPattern& pattern, const Mat3& modules_from_ideal,
-                             const WindowRays& rays, double blur_px, bool everywhere, PrintMap* map,
-                             PrintPicture* picture, std::vector<RowRange>* ranges) {
+void MarkerRaster::RenderRows(const MarkerPattern& pattern, const Mat3& modules_from_undistorted,
+                              const WindowRays& rays, double blur_px, bool everywhere,
+                              PlaneMap* map, PredictedImage* image, std::vector<RowRange>* ranges) {
   const PixelWindow& window = rays.window;
-  RasterRows::Resize(window, map, picture, ranges);
+  RasterRows::Resize(window, map, image, ranges);
   if (window.empty()) return;
   SetNodes(pattern);
-  const int per_pixel = SamplesPerPixel(pattern, modules_from_ideal, rays, blur_px);
+  const int per_pixel = SamplesPerPixel(pattern, modules_from_undistorted, rays, blur_px);
   int pad = 0;
   SetKernel(blur_px, per_pixel, &pad);
   const BlurTaps taps{kernel_.data(), kernel_slope_.data(), per_pixel, 2 * pad + 1};
-  rows_->Start(modules_from_ideal, rays, pad, per_pixel);
+  rows_->Start(modules_from_undistorted, rays, pad, per_pixel);
   const int count = rows_->count();
   const NodeTable table{nodes_.data(), pattern.modules + 1};
   const float modules = static_cast<float>(pattern.modules);
 
   for (int y = -pad; y < window.height + pad; ++y) {
-    const MapRow& here = rows_->Look(*kernels_, rays, y);
-    RowRanges of_print{{0, count}, {0, count}};
+    const MapRow& here = rows_->Evaluate(*kernels_, rays, y);
+    RowRanges of_marker{{0, count}, {0, count}};
     if (!everywhere) {
-      of_print = kernels_->ranges(here, modules, kAroundPrint_px,
-                                  static_cast<float>(pad) + kAroundPrint_px + 1.0F, count);
+      of_marker = kernels_->ranges(here, modules, kAroundMarker_px,
+                                   static_cast<float>(pad) + kAroundMarker_px + 1.0F, count);
     }
     if (y >= 0 && y < window.height) {
       rows_->Keep(y, map);
       RowRange& range = (*ranges)[y];
       range = {0, window.width};
       if (!everywhere) {
-        range.begin = std::clamp(of_print.near.begin - pad, 0, window.width);
-        range.end = std::clamp(of_print.near.end - pad, range.begin, window.width);
+        range.begin = std::clamp(of_marker.near.begin - pad, 0, window.width);
+        range.end = std::clamp(of_marker.near.end - pad, range.begin, window.width);
       }
     }
-    SampleRow(here, table, taps, of_print.far, count, y + pad);
+    SampleRow(here, table, taps, of_marker.far, count, y + pad);
     if (y < pad) continue;
-    WriteRow(taps, y - pad, (*ranges)[y - pad], window.width, picture);
+    WriteRow(taps, y - pad, (*ranges)[y - pad], window.width, image);
   }
 }
 
-void PrintRaster::SampleRow(const MapRow& map, const NodeTable& table, const BlurTaps& taps,
-                            RowRange sampled, int count, int index) {
+void MarkerRaster::SampleRow(const MapRow& map, const NodeTable& table, const BlurTaps& taps,
+                             RowRange sampled, int count, int index) {
   const int per_pixel = taps.per_pixel, pad = taps.pixels / 2;
   const int width = count - 2 * pad, row = rows_->stride();
   // White where nothing is sampled.
@@ -225,8 +227,8 @@ void PrintRaster::SampleRow(const MapRow& map, const NodeTable& table, const Blu
   }
 }
 
-void PrintRaster::WriteRow(const BlurTaps& taps, int y, RowRange range, int width,
-                           PrintPicture* picture) {
+void MarkerRaster::WriteRow(const BlurTaps& taps, int y, RowRange range, int width,
+                            PredictedImage* image) {
   const std::size_t at = static_cast<std::size_t>(y) * width;
   // Wide enough for a whole vector, if the window is.
   if (range.end > range.begin) {
@@ -234,17 +236,17 @@ void PrintRaster::WriteRow(const BlurTaps& taps, int y, RowRange range, int widt
     range.begin = std::max(0, std::min(range.begin, range.end - kRowSlack));
     rows_->Gather(y, range.begin);
     kernels_->along_column(rows_->rows(), rows_->rows_x(), taps, range.end - range.begin,
-                           &picture->white[at + range.begin], &picture->white_x[at + range.begin],
-                           &picture->white_y[at + range.begin]);
+                           &image->white[at + range.begin], &image->white_x[at + range.begin],
+                           &image->white_y[at + range.begin]);
   }
   const auto fill = [&](std::vector<float>* values, float value) {
     std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(at), range.begin, value);
     std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(at) + range.end, width - range.end,
                 value);
   };
-  fill(&picture->white, 1.0F);
-  fill(&picture->white_x, 0.0F);
-  fill(&picture->white_y, 0.0F);
+  fill(&image->white, 1.0F);
+  fill(&image->white_x, 0.0F);
+  fill(&image->white_y, 0.0F);
 }
 
 }  // namespace pleinair::tracker

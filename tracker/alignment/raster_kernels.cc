@@ -14,7 +14,7 @@ void Map(const RayRow& rays, const float m[9], int count, const MapRow& out) {
     const float w = 1.0F / (m[6] * ix + m[7] * iy + m[8]);
     const float column = (m[0] * ix + m[1] * iy + m[2]) * w;
     const float row = (m[3] * ix + m[4] * iy + m[5]) * w;
-    // Derivatives by the ideal pixel, then by the window's.
+    // Derivatives by the undistorted pixel, then by the window's.
     const float cx = (m[0] - m[6] * column) * w, cy = (m[1] - m[7] * column) * w;
     const float rx = (m[3] - m[6] * row) * w, ry = (m[4] - m[7] * row) * w;
     const float x_x = 0.5F * (qx[x + 1] - qx[x - 1]), y_x = 0.5F * (qy[x + 1] - qy[x - 1]);
@@ -49,18 +49,18 @@ RowRanges Ranges(const MapRow& map, float modules, float near_px, float far_px, 
   return {range_of(near_px), range_of(far_px)};
 }
 
-/// Pixels that see nothing look at the print's first corner.
+/// Pixels that see nothing look at the marker's first corner.
 float Finite(float value) { return value == value ? value : 0.0F; }
 
 void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
             std::ptrdiff_t stride, float* out) {
   const float bin = 1.0F / static_cast<float>(per_pixel);
   const float last = static_cast<float>(table.nodes - 1);
-  const bool near_centre = per_pixel <= kMostSamplesNearCentre;
-  const float steepest = near_centre ? kSteepestNearCentre : kFarthestModule;
+  const bool near_centre = per_pixel <= kMaxSamplesNearCentre;
+  const float steepest = near_centre ? kMaxSlopeNearCentre : kMaxModule;
   const auto slope = [&](float value) { return std::clamp(Finite(value), -steepest, steepest); };
   for (int x = 0; x < count; ++x) {
-    // Beyond the print its outermost modules go on.
+    // Beyond the marker its outermost modules go on.
     const float column = std::clamp(Finite(map.column[x]), 0.0F, last);
     const float row = std::clamp(Finite(map.row[x]), 0.0F, last);
     const float column_x = slope(map.column_x[x]), column_y = slope(map.column_y[x]);
@@ -68,9 +68,9 @@ void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
     // The sample's footprint is a parallelogram; a box of the same variance along each axis.
     const float inverse_c =
         1.0F / std::sqrt(std::max((column_x * column_x + column_y * column_y) * bin * bin,
-                                  kNarrowestBox2_modules2));
-    const float inverse_r = 1.0F / std::sqrt(std::max((row_x * row_x + row_y * row_y) * bin * bin,
-                                                      kNarrowestBox2_modules2));
+                                  kMinBox2_modules2));
+    const float inverse_r =
+        1.0F / std::sqrt(std::max((row_x * row_x + row_y * row_y) * bin * bin, kMinBox2_modules2));
     const float centre_c = std::nearbyint(column), centre_r = std::nearbyint(row);
     for (int j = 0; j < per_pixel; ++j) {
       const float dy = (static_cast<float>(j) + 0.5F) * bin - 0.5F;

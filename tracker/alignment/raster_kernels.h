@@ -12,7 +12,7 @@ namespace pleinair::tracker {
 /// Rows of floats that kernels work on may be read and written so far beyond their ends.
 inline constexpr int kRowSlack = 16;
 
-/// Where a row of pixels looks on the print; see PrintMap.
+/// Where a row of pixels looks on the marker; see PlaneMap.
 struct MapRow {
   float *column, *row, *column_x, *column_y, *row_x, *row_y;
 };
@@ -24,7 +24,7 @@ struct RayRow {
   float origin_x, origin_y;
 };
 
-/// The modules around each node (corner of modules) of a print: bit 4 j + i is the module i - 2
+/// The modules around each node (corner of modules) of a marker: bit 4 j + i is the module i - 2
 /// columns and j - 2 rows from the node.
 struct NodeTable {
   const std::uint32_t* around;
@@ -37,16 +37,17 @@ struct BlurTaps {
   int per_pixel, pixels;
 };
 
-/// Pixels of a row near a print, and those that have a say in how it looks there.
+/// Pixels of a row near a marker, and those that have a say in how it looks there.
 struct RowRanges {
   RowRange near, far;
 };
 
-/// What PrintRaster does to a row of pixels; the SIMD version and its scalar reference agree to
+/// What MarkerRaster does to a row of pixels; the SIMD version and its scalar reference agree to
 /// single precision.
 struct RasterKernels {
   void (*map)(const RayRow& rays, const float homography[9], int count, const MapRow& out);
-  /// The pixels less than each reach from a print of `modules`: the shortest ranges that hold them.
+  /// The pixels less than each reach from a marker of `modules`: the shortest ranges that hold
+  /// them.
   RowRanges (*ranges)(const MapRow& map, float modules, float near_px, float far_px, int count);
   /// Samples `per_pixel`² times in each pixel: out[j][i][x], j from the top, rows `stride` apart.
   void (*sample)(const MapRow& map, const NodeTable& table, int per_pixel, int count,
@@ -63,9 +64,9 @@ const RasterKernels& SimdRasterKernels();
 
 /// Up to so many samples along a pixel they lie beside the node nearest to its centre, if a pixel
 /// is no more modules than this along either axis.
-inline constexpr int kMostSamplesNearCentre = 2;
-inline constexpr float kSteepestNearCentre = 1.98F;
-inline constexpr float kNarrowestBox2_modules2 = 1e-6F;
-inline constexpr float kFarthestModule = 1e6F;
+inline constexpr int kMaxSamplesNearCentre = 2;
+inline constexpr float kMaxSlopeNearCentre = 1.98F;
+inline constexpr float kMinBox2_modules2 = 1e-6F;
+inline constexpr float kMaxModule = 1e6F;
 
 }  // namespace pleinair::tracker

@@ -106,8 +106,8 @@ HWY_INLINE Floats Clamp(Floats value, Floats least, Floats most) {
 
 /// 1 over the length of (a, b) times `bin2`'s root.
 HWY_INLINE Floats InverseLength(Floats a, Floats b, Floats bin2) {
-  const Floats square = hn::Max(hn::Mul(hn::MulAdd(a, a, hn::Mul(b, b)), bin2),
-                                hn::Set(kFloats, kNarrowestBox2_modules2));
+  const Floats square =
+      hn::Max(hn::Mul(hn::MulAdd(a, a, hn::Mul(b, b)), bin2), hn::Set(kFloats, kMinBox2_modules2));
   // One step of Newton's method makes the estimate good to single precision.
   const Floats root = hn::ApproximateReciprocalSqrt(square);
   const Floats half_square = hn::Mul(hn::Set(kFloats, 0.5F), square);
@@ -130,7 +130,7 @@ HWY_INLINE void SampleTimes(const MapRow& map, const NodeTable& table, int any_p
   const Floats nodes = hn::Set(kFloats, static_cast<float>(table.nodes));
   const Floats bin2 = hn::Set(kFloats, bin * bin);
   constexpr bool kNearCentre = kPerPixel > 0;
-  const Floats steepest = hn::Set(kFloats, kNearCentre ? kSteepestNearCentre : kFarthestModule);
+  const Floats steepest = hn::Set(kFloats, kNearCentre ? kMaxSlopeNearCentre : kMaxModule);
   const Floats downhill = hn::Neg(steepest);
   const auto* around = reinterpret_cast<const std::int32_t*>(table.around);
   const auto finite = [&](const float* from) {
@@ -186,7 +186,7 @@ HWY_INLINE void SampleTimes(const MapRow& map, const NodeTable& table, int any_p
 
 void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
             std::ptrdiff_t stride, float* out) {
-  static_assert(kMostSamplesNearCentre == 2);
+  static_assert(kMaxSamplesNearCentre == 2);
   if (per_pixel == 1) {
     SampleTimes<1>(map, table, per_pixel, count, stride, out);
   } else if (per_pixel == 2) {

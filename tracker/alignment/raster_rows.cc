@@ -6,16 +6,16 @@
 
 namespace pleinair::tracker {
 
-void RasterRows::Resize(const PixelWindow& window, PrintMap* map, PrintPicture* picture,
+void RasterRows::Resize(const PixelWindow& window, PlaneMap* map, PredictedImage* image,
                         std::vector<RowRange>* ranges) {
   for (auto* values : {&map->column, &map->row, &map->column_x, &map->column_y, &map->row_x,
-                       &map->row_y, &picture->white, &picture->white_x, &picture->white_y}) {
+                       &map->row_y, &image->white, &image->white_x, &image->white_y}) {
     values->resize(window.size());
   }
   ranges->resize(static_cast<std::size_t>(std::max(window.height, 0)));
 }
 
-void RasterRows::Start(const Mat3& print_from_ideal, const WindowRays& rays, int pad,
+void RasterRows::Start(const Mat3& marker_from_undistorted, const WindowRays& rays, int pad,
                        int per_pixel) {
   const PixelWindow& window = rays.window;
   width_ = window.width;
@@ -46,13 +46,14 @@ void RasterRows::Start(const Mat3& print_from_ideal, const WindowRays& rays, int
   const bool has_origin = std::isfinite(rays.x[middle]) && std::isfinite(rays.y[middle]);
   origin_x_ = has_origin ? rays.x[middle] : 0.0F;
   origin_y_ = has_origin ? rays.y[middle] : 0.0F;
-  const Mat3 from_origin = print_from_ideal * Mat3{{1, 0, origin_x_, 0, 1, origin_y_, 0, 0, 1}};
+  const Mat3 from_origin =
+      marker_from_undistorted * Mat3{{1, 0, origin_x_, 0, 1, origin_y_, 0, 0, 1}};
   for (int i = 0; i < 9; ++i) {
     homography_[i] = static_cast<float>(from_origin.m[i] / from_origin.m[8]);
   }
 }
 
-const MapRow& RasterRows::Look(const RasterKernels& kernels, const WindowRays& rays, int y) {
+const MapRow& RasterRows::Evaluate(const RasterKernels& kernels, const WindowRays& rays, int y) {
   const int rays_stride = width_ + 2 * kWindowBorder;
   const std::size_t from =
       static_cast<std::size_t>(y + kWindowBorder) * rays_stride + kWindowBorder - pad_;
@@ -61,7 +62,7 @@ const MapRow& RasterRows::Look(const RasterKernels& kernels, const WindowRays& r
   return here_;
 }
 
-void RasterRows::Keep(int y, PrintMap* map) const {
+void RasterRows::Keep(int y, PlaneMap* map) const {
   const std::size_t to = static_cast<std::size_t>(y) * width_;
   const std::size_t bytes = static_cast<std::size_t>(width_) * sizeof(float);
   std::memcpy(&map->column[to], here_.column + pad_, bytes);

@@ -11,27 +11,27 @@
 
 namespace pleinair::tracker {
 
-/// What rasters of prints and of pictures have in common: where each row of a window looks on the
-/// print, the samples along it, and the ring of blurred rows that the columns' blur works on.
-/// Buffers are kept, so that nothing is allocated after the largest window was seen.
+/// What rasters of prints and of images have in common: where each row of a window looks on the
+/// marker, the samples along it, and the ring of blurred rows that the columns' blur works on.
+/// Buffers are kept, so that nothing is allocated after the largest window was observed.
 class RasterRows {
  public:
   /// Gives a raster's results the window's size.
-  static void Resize(const PixelWindow& window, PrintMap* map, PrintPicture* picture,
+  static void Resize(const PixelWindow& window, PlaneMap* map, PredictedImage* image,
                      std::vector<RowRange>* ranges);
 
-  /// `print_from_ideal`: homography from ideal pixels to the print. `pad`: how far the blur
-  /// reaches, in pixels; `per_pixel`: samples along each side of a pixel.
-  void Start(const Mat3& print_from_ideal, const WindowRays& rays, int pad, int per_pixel);
+  /// `marker_from_undistorted`: homography from undistorted pixels to the marker. `pad`: how far
+  /// the blur reaches, in pixels; `per_pixel`: samples along each side of a pixel.
+  void Start(const Mat3& marker_from_undistorted, const WindowRays& rays, int pad, int per_pixel);
 
   /// Pixels of a row with the blur's reach on either side, and how far apart rows lie.
   int count() const { return count_; }
   int stride() const { return stride_; }
 
   /// Where the row y of the window looks, from -pad on. Valid until the next row is asked for.
-  const MapRow& Look(const RasterKernels& kernels, const WindowRays& rays, int y);
+  const MapRow& Evaluate(const RasterKernels& kernels, const WindowRays& rays, int y);
   /// Puts what Look said down where the window has the row.
-  void Keep(int y, PrintMap* map) const;
+  void Keep(int y, PlaneMap* map) const;
 
   /// Samples j across and i along, as SampleRow kernels have them: rows i + j per_pixel.
   float* samples(int row) { return &samples_[static_cast<std::size_t>(row) * stride_]; }

@@ -7,18 +7,18 @@
 
 namespace pleinair::tracker {
 
-void ReducedPictures::SetPicture(ImageView<const std::uint8_t> grey) {
+void ReducedImages::SetImage(ImageView<const std::uint8_t> grey) {
   grey_ = grey;
   made_ = 0;
 }
 
-ImageView<const std::uint8_t> ReducedPictures::Level(int level) {
+ImageView<const std::uint8_t> ReducedImages::Level(int level) {
   CHECK_LT(level, kLevels);
   const auto view = [&](int l) -> ImageView<const std::uint8_t> {
-    return l == 0 ? grey_ : std::as_const(pictures_[l]).view();
+    return l == 0 ? grey_ : std::as_const(images_[l]).view();
   };
   for (; made_ < level; ++made_) {
-    HalveImage(view(made_), SimdDarkMaskKernels(), &pictures_[made_ + 1]);
+    HalveImage(view(made_), SimdDarkMaskKernels(), &images_[made_ + 1]);
   }
   return view(level);
 }

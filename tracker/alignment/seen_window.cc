@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::uint8_t kBrightest = 252;  ///< The brightest code that does not count as clipped.
 
-/// d code / d linear light of the sRGB curve, squared: the certainty of a code's linear light.
-const std::array<float, 256>& CertaintyOfCode() {
+/// d code / d linear light of the sRGB curve, squared: the inverse variance of a code's linear
+/// light.
+const std::array<float, 256>& InverseVarianceOfCode() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
     for (int code = 0; code < 256; ++code) {
@@ -30,27 +31,27 @@ const std::array<float, 256>& CertaintyOfCode() {
 }
 
 /// How certain the mean of some codes is, told by the noise of codes.
-class CertaintyByNoise {
+class InverseVarianceByNoise {
  public:
-  explicit CertaintyByNoise(Clipping clipping) : clipping_(clipping) {}
+  explicit InverseVarianceByNoise(Clipping clipping) : clipping_(clipping) {}
 
   void Add(std::uint8_t code) {
-    least_ = std::min(least_, table_[code]);
-    most_ = std::max(most_, table_[code]);
+    min_ = std::min(min_, table_[code]);
+    max_ = std::max(max_, table_[code]);
     sum_ += table_[std::min(code, kBrightest)];
   }
   float OfMean(float share) const {
-    return clipping_ == Clipping::kByLight || !(most_ > 0.0F) ? least_ : sum_ * share;
+    return clipping_ == Clipping::kByLight || !(max_ > 0.0F) ? min_ : sum_ * share;
   }
 
  private:
-  const std::array<float, 256>& table_ = CertaintyOfCode();
+  const std::array<float, 256>& table_ = InverseVarianceOfCode();
   Clipping clipping_;
-  float least_ = std::numeric_limits<float>::max(), most_ = 0.0F, sum_ = 0.0F;
+  float min_ = std::numeric_limits<float>::max(), max_ = 0.0F, sum_ = 0.0F;
 };
 
 /// All alike, but for what clips.
-class EvenCertainty {
+class UniformInverseVariance {
  public:
   void Add(std::uint8_t code) { brightest_ = std::max(brightest_, code); }
   float OfMean(float /*share*/) const { return brightest_ > kBrightest ? 0.0F : 1.0F; }
@@ -59,12 +60,12 @@ class EvenCertainty {
   std::uint8_t brightest_ = 0;
 };
 
-/// Means of the linear light of squares, and their certainty by what begins as `nothing`.
-template <typename Certainty>
+/// Means of the linear light of squares, and their inverse variance by what begins as `nothing`.
+template <typename InverseVariance>
 void TakeMeans(ImageView<const std::uint8_t> grey, const PixelWindow& window,
-               const Certainty& nothing, SeenWindow* seen) {
-  seen->value.resize(window.size());
-  seen->certainty.resize(window.size());
+               const InverseVariance& nothing, ObservedPatch* observed) {
+  observed->value.resize(window.size());
+  observed->inverse_variance.resize(window.size());
   const auto& linear = LinearFromSrgb8();
   const auto take = [&](auto side) {
     const float share = 1.0F / static_cast<float>(side * side);
@@ -72,16 +73,16 @@ void TakeMeans(ImageView<const std::uint8_t> grey, const PixelWindow& window,
       for (int x = 0; x < window.width; ++x) {
         const std::uint8_t* row = grey.row((window.y0 + y) * side) + (window.x0 + x) * side;
         float sum = 0.0F;
-        Certainty certainty = nothing;
+        InverseVariance inverse_variance = nothing;
         for (int j = 0; j < side; ++j, row += grey.stride()) {
           for (int i = 0; i < side; ++i) {
             sum += linear[row[i]];
-            certainty.Add(row[i]);
+            inverse_variance.Add(row[i]);
           }
         }
         const std::size_t at = static_cast<std::size_t>(y) * window.width + x;
-        seen->value[at] = sum * share;
-        seen->certainty[at] = certainty.OfMean(share);
+        observed->value[at] = sum * share;
+        observed->inverse_variance[at] = inverse_variance.OfMean(share);
       }
     }
   };
@@ -94,41 +95,43 @@ void TakeMeans(ImageView<const std::uint8_t> grey, const PixelWindow& window,
 
 }  // namespace
 
-float CertaintyOfLight(float linear) { return CertaintyOfCode()[Srgb8FromLinear(linear)]; }
+float InverseVarianceOfLight(float linear) {
+  return InverseVarianceOfCode()[Srgb8FromLinear(linear)];
+}
 
 void TakeLinearWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
-                      const PixelWindow& window, SeenWindow* seen, Clipping clipping) {
-  LookUpRays(lens, window, &seen->rays);
-  seen->grey = grey;
-  TakeMeans(grey, window, CertaintyByNoise(clipping), seen);
+                      const PixelWindow& window, ObservedPatch* observed, Clipping clipping) {
+  LookUpRays(lens, window, &observed->rays);
+  observed->grey = grey;
+  TakeMeans(grey, window, InverseVarianceByNoise(clipping), observed);
 }
 
 void TakeCodeWindow(const LensGrid& lens, ImageView<const std::uint8_t> reduced,
-                    const PixelWindow& window, SeenWindow* seen) {
-  LookUpRays(lens, window, &seen->rays);
-  seen->grey = {};
-  seen->value.resize(window.size());
-  seen->certainty.assign(window.size(), 1.0F);
+                    const PixelWindow& window, ObservedPatch* observed) {
+  LookUpRays(lens, window, &observed->rays);
+  observed->grey = {};
+  observed->value.resize(window.size());
+  observed->inverse_variance.assign(window.size(), 1.0F);
   for (int y = 0; y < window.height; ++y) {
     const std::uint8_t* row = reduced.row(window.y0 + y) + window.x0;
     for (int x = 0; x < window.width; ++x) {
-      seen->value[static_cast<std::size_t>(y) * window.width + x] =
+      observed->value[static_cast<std::size_t>(y) * window.width + x] =
           static_cast<float>(row[x]) * (1.0F / 255.0F);
     }
   }
 }
 
 void TakeEvenWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
-                    const PixelWindow& window, SeenWindow* seen) {
-  LookUpRays(lens, window, &seen->rays);
-  seen->grey = {};
-  TakeMeans(grey, window, EvenCertainty(), seen);
+                    const PixelWindow& window, ObservedPatch* observed) {
+  LookUpRays(lens, window, &observed->rays);
+  observed->grey = {};
+  TakeMeans(grey, window, UniformInverseVariance(), observed);
 }
 
-std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plane_from_ideal,
+std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plane_from_undistorted,
                                           double side, int places, int width, int height, int level,
                                           int margin) {
-  const Mat3 inverse = Adjugate(plane_from_ideal);
+  const Mat3 inverse = Adjugate(plane_from_undistorted);
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
   double sign = 0.0;
   for (int i = 0; i < 4 * places; ++i) {
@@ -136,10 +139,11 @@ std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plan
     const double along = side * (i % places) / places;
     const Vec2 at = std::array<Vec2, 4>{
         Vec2{along, 0.0}, {side, along}, {side - along, side}, {0.0, side - along}}[i / places];
-    const Vec3 ideal = inverse * Vec3{at.x, at.y, 1.0};
-    if (i > 0 && ideal.z * sign <= 0.0) return std::nullopt;
-    sign = ideal.z;
-    const Vec2 pixel = lens.PixelOfIdeal({ideal.x / ideal.z, ideal.y / ideal.z});
+    const Vec3 undistorted = inverse * Vec3{at.x, at.y, 1.0};
+    if (i > 0 && undistorted.z * sign <= 0.0) return std::nullopt;
+    sign = undistorted.z;
+    const Vec2 pixel =
+        lens.PixelOfUndistorted({undistorted.x / undistorted.z, undistorted.y / undistorted.z});
     if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return std::nullopt;
     left = std::min(left, pixel.x);
     right = std::max(right, pixel.x);

@@ -13,7 +13,7 @@ namespace {
 /// As far as a pixel sees, beyond its own half, in standard deviations of the blur; and how much of
 /// the quiet zone is never given up (block_fit.cc).
 constexpr double kSeen_sigmas = 2.5, kKeptQuiet_modules = 2.4;
-/// Farther out than the print's edge, in pixels, where hardly any light of the print is left.
+/// Farther out than the marker's edge, in pixels, where hardly any light of the marker is left.
 constexpr float kBeyond_px = 1.2F;
 
 /// Share of a pixel's light that comes from beyond a straight edge `d` pixels from its middle, from
@@ -23,7 +23,7 @@ class LightFromBeyond {
   static constexpr int kPerPixel = 16;
   explicit LightFromBeyond(double blur_px) {
     const double sigma = std::max(blur_px, 0.1);
-    reach_px_ = static_cast<float>(std::min(0.5 + kSeen_sigmas * sigma, kMost - 0.2));
+    reach_px_ = static_cast<float>(std::min(0.5 + kSeen_sigmas * sigma, kMax - 0.2));
     const auto primitive = [&](double x) {  // Of Φ(-x/σ), from minus infinity's side.
       const double z = x / sigma;
       return x * 0.5 * std::erfc(z / std::numbers::sqrt2) -
@@ -41,16 +41,16 @@ class LightFromBeyond {
   }
 
  private:
-  static constexpr double kMost = 4.0;
-  std::array<float, static_cast<int>(kMost* kPerPixel)> share_{};
+  static constexpr double kMax = 4.0;
+  std::array<float, static_cast<int>(kMax* kPerPixel)> share_{};
   float reach_px_ = 0.0F;
 };
 
-/// Linear light of the picture's pixels, bilinear; the picture's edge goes on beyond it.
+/// Linear light of the image's pixels, bilinear; the image's edge goes on beyond it.
 float LightAt(const ImageView<const std::uint8_t>& grey, float x, float y) {
   const std::array<float, 256>& linear = LinearFromSrgb8();
   // In this order what is not a number becomes 0; and the last column is bounded as an integer: a
-  // fraction less than it is no number of its own in wide pictures.
+  // fraction less than it is no number of its own in wide images.
   x = std::min(std::max(0.0F, x), static_cast<float>(grey.width() - 1));
   y = std::min(std::max(0.0F, y), static_cast<float>(grey.height() - 1));
   const int column = std::min(static_cast<int>(x), grey.width() - 2);
@@ -69,12 +69,12 @@ bool SurroundingsShow(double module_px, double blur_px) {
   return 0.5 + kSeen_sigmas * blur_px > kKeptQuiet_modules * module_px;
 }
 
-void AddSurroundings(const PrintPattern& pattern, const SeenWindow& seen, const PrintMap& map,
-                     const std::vector<RowRange>& ranges, double blur_px,
+void AddSurroundings(const MarkerPattern& pattern, const ObservedPatch& observed,
+                     const PlaneMap& map, const std::vector<RowRange>& ranges, double blur_px,
                      const std::vector<BlockLight>& lights, int blocks_along,
-                     PrintPicture* picture) {
-  const PixelWindow& window = seen.rays.window;
-  if (window.level != 0 || seen.grey.width() < 2 || seen.grey.height() < 2) return;
+                     PredictedImage* image) {
+  const PixelWindow& window = observed.rays.window;
+  if (window.level != 0 || observed.grey.width() < 2 || observed.grey.height() < 2) return;
   const LightFromBeyond beyond(blur_px);
   const float modules = static_cast<float>(pattern.modules);
   const float per_block = static_cast<float>(blocks_along) / modules;
@@ -108,10 +108,10 @@ void AddSurroundings(const PrintPattern& pattern, const SeenWindow& seen, const 
       if (near_row) edge(top, by_row2, row < modules - row, map.row_x[at], map.row_y[at]);
       const BlockLight& light = lights[index(row) * blocks_along + index(column)];
       if (!(light.gain > 0.0F)) continue;
-      const float there = LightAt(seen.grey, static_cast<float>(window.x0 + x) + to_x,
+      const float there = LightAt(observed.grey, static_cast<float>(window.x0 + x) + to_x,
                                   static_cast<float>(window.y0 + y) + to_y);
       const float share = (there - light.offset) / light.gain;
-      picture->white[at] += (1.0F - kept) * (std::clamp(share, -1.0F, 3.0F) - 1.0F);
+      image->white[at] += (1.0F - kept) * (std::clamp(share, -1.0F, 3.0F) - 1.0F);
     }
   }
 }

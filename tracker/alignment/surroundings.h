@@ -11,16 +11,16 @@
 
 namespace pleinair::tracker {
 
-/// Whether what lies beyond a print is blurred into pixels that a fit looks at: the quiet zone of
+/// Whether what lies beyond a marker is blurred into pixels that a fit looks at: the quiet zone of
 /// small prints is narrower than the blur. `module_px`: of the window's pixels.
 bool SurroundingsShow(double module_px, double blur_px);
 
-/// Adds to a prediction, in which the quiet zone goes on for ever, what the picture shows beyond
-/// the print: each pixel's share of light from there is of the brightness that is seen a pixel or
-/// two farther out. `lights` are those of the blocks; where they are unknown nothing is added.
-void AddSurroundings(const PrintPattern& pattern, const SeenWindow& seen, const PrintMap& map,
-                     const std::vector<RowRange>& ranges, double blur_px,
+/// Adds to a prediction, in which the quiet zone goes on for ever, what the image shows beyond
+/// the marker: each pixel's share of light from there is of the brightness that is observed a pixel
+/// or two farther out. `lights` are those of the blocks; where they are unknown nothing is added.
+void AddSurroundings(const MarkerPattern& pattern, const ObservedPatch& observed,
+                     const PlaneMap& map, const std::vector<RowRange>& ranges, double blur_px,
                      const std::vector<BlockLight>& lights, int blocks_along,
-                     PrintPicture* picture);
+                     PredictedImage* image);
 
 }  // namespace pleinair::tracker

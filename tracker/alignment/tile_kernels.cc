@@ -6,19 +6,19 @@
 namespace pleinair::tracker {
 namespace {
 
-void Mark(const MapOfRow& map, const KnownPart& known, const float* certainty, int count,
+void Mark(const MapOfRow& map, const KnownPart& known, const float* inverse_variance, int count,
           float* usable) {
   for (int x = 0; x < count; ++x) {
     const float c = map.column[x], r = map.row[x];
     const float rc =
-        std::min(known.most_reach_modules,
+        std::min(known.max_reach_modules,
                  known.reach_px * (std::fabs(map.column_x[x]) + std::fabs(map.column_y[x])));
-    const float rr = std::min(known.most_reach_modules,
+    const float rr = std::min(known.max_reach_modules,
                               known.reach_px * (std::fabs(map.row_x[x]) + std::fabs(map.row_y[x])));
-    const bool on_print = c > rc && c < known.modules - rc && r > rr && r < known.modules - rr;
+    const bool on_marker = c > rc && c < known.modules - rc && r > rr && r < known.modules - rr;
     const bool is_unknown = std::fabs(c - known.unknown_middle) < known.unknown_half + 0.8F * rc &&
                             std::fabs(r - known.unknown_middle) < known.unknown_half + 0.8F * rr;
-    usable[x] = on_print && !is_unknown ? certainty[x] : -1.0F;
+    usable[x] = on_marker && !is_unknown ? inverse_variance[x] : -1.0F;
   }
 }
 
@@ -47,7 +47,7 @@ void Levels(const PixelRows& rows, const LightOfColumns& light, std::ptrdiff_t s
 }
 
 void Motions(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumns& light,
-             const float* belief, float* weight, std::ptrdiff_t sums_stride, float* sums) {
+             const float* robust_weight, float* weight, std::ptrdiff_t sums_stride, float* sums) {
   const int used = slopes.blur ? kMotionSums : kSlopeSums;
   for (int x = 0; x < rows.count; ++x) {
     std::array<float, kMotionSums> sum{};
@@ -57,13 +57,13 @@ void Motions(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumn
       const float p = rows.white[at];
       const float r = rows.value[at] - light.offset[x] - light.gain[x] * p;
       const float w =
-          std::max(rows.usable[at], 0.0F) * belief[x] * RobustWeight(r * light.inverse[x]);
+          std::max(rows.usable[at], 0.0F) * robust_weight[x] * RobustWeight(r * light.inverse[x]);
       weight[at] = w;
       const float sx = slopes.white_x[at], sy = slopes.white_y[at];
       float b = 0.0F;
       const int row = slopes.first_row + j;
-      if (slopes.blur && row > 0 && row + 1 < slopes.picture_rows && column > 0 &&
-          column + 1 < slopes.picture_columns) {
+      if (slopes.blur && row > 0 && row + 1 < slopes.image_rows && column > 0 &&
+          column + 1 < slopes.image_columns) {
         // The heat equation: a Gaussian's variance spreads like time.
         b = 0.25F * (slopes.white_x[at + 1] - slopes.white_x[at - 1] +
                      slopes.white_y[at + rows.stride] - slopes.white_y[at - rows.stride]);
@@ -92,7 +92,7 @@ void Reduce(const float* sums, std::ptrdiff_t sums_stride, int count, int tile, 
 }
 
 /// A sum with p_u and p_v in place of p_x and p_y, times each of the parameters' factors: the
-/// motion moves what is seen at (u, v) by (m0 + m1 u + m2 v - (m6 u + m7 v) u, m3 + … v).
+/// motion moves what is observed at (u, v) by (m0 + m1 u + m2 v - (m6 u + m7 v) u, m3 + … v).
 std::array<double, kFitParameters> AlongMotions(double pu, double pv, double b, double u,
                                                 double v) {
   const double along = pu * u + pv * v;

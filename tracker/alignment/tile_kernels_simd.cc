@@ -19,14 +19,14 @@ using Floats = hn::Vec<decltype(kFloats)>;
 
 HWY_INLINE Floats Load(const float* from) { return hn::LoadU(kFloats, from); }
 
-void Mark(const MapOfRow& map, const KnownPart& known, const float* certainty, int count,
+void Mark(const MapOfRow& map, const KnownPart& known, const float* inverse_variance, int count,
           float* usable) {
   const int lanes = static_cast<int>(hn::Lanes(kFloats));
   if (count < lanes) {
-    ScalarTileKernels().mark(map, known, certainty, count, usable);
+    ScalarTileKernels().mark(map, known, inverse_variance, count, usable);
     return;
   }
-  const Floats most = hn::Set(kFloats, known.most_reach_modules);
+  const Floats most = hn::Set(kFloats, known.max_reach_modules);
   const Floats reach = hn::Set(kFloats, known.reach_px);
   const Floats modules = hn::Set(kFloats, known.modules);
   const Floats middle = hn::Set(kFloats, known.unknown_middle);
@@ -48,7 +48,7 @@ void Mark(const MapOfRow& map, const KnownPart& known, const float* certainty, i
     const Floats rc = far(map.column_x, map.column_y), rr = far(map.row_x, map.row_y);
     const auto known_here =
         hn::AndNot(hn::And(unknown(c, rc), unknown(r, rr)), hn::And(inside(c, rc), inside(r, rr)));
-    hn::StoreU(hn::IfThenElse(known_here, Load(certainty + x), none), kFloats, usable + x);
+    hn::StoreU(hn::IfThenElse(known_here, Load(inverse_variance + x), none), kFloats, usable + x);
   }
 }
 
@@ -104,18 +104,18 @@ void Levels(const PixelRows& rows, const LightOfColumns& light, std::ptrdiff_t s
 
 template <bool kBlur>
 HWY_INLINE void MotionsOf(const PixelRows& rows, const SlopeRows& slopes,
-                          const LightOfColumns& light, const float* belief, float* weight,
+                          const LightOfColumns& light, const float* robust_weight, float* weight,
                           std::ptrdiff_t sums_stride, float* sums) {
   const int lanes = static_cast<int>(hn::Lanes(kFloats));
   const Floats zero = hn::Zero(kFloats), quarter = hn::Set(kFloats, 0.25F);
   for (int from = 0; from < rows.count; from += lanes) {
     const int x = HWY_MIN(from, rows.count - lanes);
     const Floats gain = Load(light.gain + x), offset = Load(light.offset + x);
-    const Floats inverse = Load(light.inverse + x), believed = Load(belief + x);
+    const Floats inverse = Load(light.inverse + x), believed = Load(robust_weight + x);
     const Floats column = hn::Iota(kFloats, static_cast<float>(slopes.first_column + x));
     const auto inner =
         hn::And(hn::Gt(column, zero),
-                hn::Lt(column, hn::Set(kFloats, static_cast<float>(slopes.picture_columns - 1))));
+                hn::Lt(column, hn::Set(kFloats, static_cast<float>(slopes.image_columns - 1))));
     Floats w1 = zero, wp1 = zero, wpp = zero, wr1 = zero, wrp = zero, wrr = zero, wx1 = zero,
            wy1 = zero, wpx = zero, wpy = zero, wrx = zero, wry = zero, wxx = zero, wxy = zero,
            wyy = zero, wb1 = zero, wpb = zero, wrb = zero, wxb = zero, wyb = zero, wbb = zero;
@@ -145,7 +145,7 @@ HWY_INLINE void MotionsOf(const PixelRows& rows, const SlopeRows& slopes,
       wxy = hn::MulAdd(wx, sy, wxy);
       wyy = hn::MulAdd(wy, sy, wyy);
       const int row = slopes.first_row + j;
-      if (!kBlur || row == 0 || row + 1 >= slopes.picture_rows) continue;
+      if (!kBlur || row == 0 || row + 1 >= slopes.image_rows) continue;
       const float *x_at = slopes.white_x + at, *y_at = slopes.white_y + at;
       const Floats across = hn::Sub(Load(x_at + 1), Load(x_at - 1));
       const Floats down = hn::Sub(Load(y_at + rows.stride), Load(y_at - rows.stride));
@@ -171,13 +171,13 @@ HWY_INLINE void MotionsOf(const PixelRows& rows, const SlopeRows& slopes,
 }
 
 void Motions(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumns& light,
-             const float* belief, float* weight, std::ptrdiff_t sums_stride, float* sums) {
+             const float* robust_weight, float* weight, std::ptrdiff_t sums_stride, float* sums) {
   if (rows.count < static_cast<int>(hn::Lanes(kFloats))) {
-    ScalarTileKernels().motions(rows, slopes, light, belief, weight, sums_stride, sums);
+    ScalarTileKernels().motions(rows, slopes, light, robust_weight, weight, sums_stride, sums);
   } else if (slopes.blur) {
-    MotionsOf<true>(rows, slopes, light, belief, weight, sums_stride, sums);
+    MotionsOf<true>(rows, slopes, light, robust_weight, weight, sums_stride, sums);
   } else {
-    MotionsOf<false>(rows, slopes, light, belief, weight, sums_stride, sums);
+    MotionsOf<false>(rows, slopes, light, robust_weight, weight, sums_stride, sums);
   }
 }
 
@@ -316,10 +316,10 @@ HWY_EXPORT(Products);
 
 const TileKernels& SimdTileKernels() {
   static const TileKernels kKernels{
-      [](const MapOfRow& map, const KnownPart& known, const float* certainty, int count,
+      [](const MapOfRow& map, const KnownPart& known, const float* inverse_variance, int count,
          float* usable) {
         HWY_DYNAMIC_DISPATCH(Mark)
-        (map, known, certainty, count, usable);
+        (map, known, inverse_variance, count, usable);
       },
       [](const PixelRows& rows, const LightOfColumns& light, std::ptrdiff_t sums_stride,
          float* sums) {
@@ -327,9 +327,9 @@ const TileKernels& SimdTileKernels() {
         (rows, light, sums_stride, sums);
       },
       [](const PixelRows& rows, const SlopeRows& slopes, const LightOfColumns& light,
-         const float* belief, float* weight, std::ptrdiff_t sums_stride, float* sums) {
+         const float* robust_weight, float* weight, std::ptrdiff_t sums_stride, float* sums) {
         HWY_DYNAMIC_DISPATCH(Motions)
-        (rows, slopes, light, belief, weight, sums_stride, sums);
+        (rows, slopes, light, robust_weight, weight, sums_stride, sums);
       },
       [](const float* sums, std::ptrdiff_t sums_stride, int count, int tile, int tiles,
          float* tile_sums, std::ptrdiff_t tile_stride) {

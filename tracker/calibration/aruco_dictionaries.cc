@@ -88,17 +88,17 @@ std::vector<std::string> DictionariesFor(int markers) {
   return names;
 }
 
-Result<PrintPattern> ArucoPrint(const std::string& dictionary, int id) {
+Result<MarkerPattern> ArucoMarkerPattern(const std::string& dictionary, int id) {
   PLEINAIR_ASSIGN_OR_RETURN(const Known known, Find(dictionary));
   PLEINAIR_RETURN_IF_ERROR(CheckDictionary(dictionary, id + 1));
   const auto codes = cv::aruco::getPredefinedDictionary(known.number);
-  PrintPattern print;
-  print.modules = print.edge_modules = codes->markerSize + 2;
-  cv::Mat picture;
-  codes->drawMarker(id, print.modules, picture, 1);
-  print.white.assign(picture.begin<std::uint8_t>(), picture.end<std::uint8_t>());
-  for (std::uint8_t& module : print.white) module = module != 0 ? 1 : 0;
-  return print;
+  MarkerPattern marker;
+  marker.modules = marker.edge_modules = codes->markerSize + 2;
+  cv::Mat image;
+  codes->drawMarker(id, marker.modules, image, 1);
+  marker.white.assign(image.begin<std::uint8_t>(), image.end<std::uint8_t>());
+  for (std::uint8_t& module : marker.white) module = module != 0 ? 1 : 0;
+  return marker;
 }
 
 }  // namespace pleinair::tracker

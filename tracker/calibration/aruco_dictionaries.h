@@ -24,6 +24,6 @@ std::vector<std::string> DictionariesFor(int markers);
 
 /// What marker `id` looks like: its black rim is one module wide, and no quiet zone is included.
 /// Errors as FindDictionary, and an id that it does not have.
-Result<PrintPattern> ArucoPrint(const std::string& dictionary, int id);
+Result<MarkerPattern> ArucoMarkerPattern(const std::string& dictionary, int id);
 
 }  // namespace pleinair::tracker

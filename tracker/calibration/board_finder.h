@@ -18,7 +18,7 @@ class BoardFinder {
   static Result<std::unique_ptr<BoardFinder>> Create(const CalibrationBoard& board);
   virtual ~BoardFinder() = default;
 
-  /// The points seen in an sRGB-encoded grey picture; nothing where fewer than six are.
+  /// The points observed in an sRGB-encoded grey image; nothing where fewer than six are.
   virtual std::optional<BoardView> Find(ImageView<const std::uint8_t> grey) = 0;
 
   /// Measures the points once more when the lens is known about, where that helps: prints whose
@@ -32,15 +32,15 @@ class BoardFinder {
   /// The board as it turned out to be: its dictionary, where that was found by looking.
   virtual const CalibrationBoard& board() const = 0;
 
-  /// What a person should know when no picture shows the board, such as that it is counted in
-  /// another way; empty where nothing is known. Looks at one such picture.
+  /// What a person should know when no image shows the board, such as that it is counted in
+  /// another way; empty where nothing is known. Looks at one such image.
   virtual std::string Hint(ImageView<const std::uint8_t> grey) {
     static_cast<void>(grey);
     return "";
   }
 };
 
-/// Fewer points than this in a picture tell nothing.
-constexpr int kFewestPoints = 6;
+/// Fewer points than this in an image tell nothing.
+constexpr int kMinPoints = 6;
 
 }  // namespace pleinair::tracker

@@ -9,7 +9,7 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kMostSide = 200;  // Finer boards are not seen by cameras.
+constexpr int kMaxSide = 200;  // Finer boards are not observed by cameras.
 
 std::string Sides(const CalibrationBoard& board) {
   return std::to_string(board.columns) + "x" + std::to_string(board.rows);
@@ -17,7 +17,7 @@ std::string Sides(const CalibrationBoard& board) {
 
 }  // namespace
 
-std::string CalibrationBoard::Words() const {
+std::string CalibrationBoard::Description() const {
   switch (kind) {
     case BoardKind::kChessboard:
       return "chessboard with " + Sides(*this) + " inner corners";
@@ -33,10 +33,10 @@ std::string CalibrationBoard::Words() const {
 Result<void> CheckBoard(const CalibrationBoard& board) {
   const bool chessboard = board.kind == BoardKind::kChessboard;
   const int fewest = board.kind == BoardKind::kMarkers ? 1 : chessboard ? 2 : 3;
-  if (board.columns < fewest || board.rows < fewest || board.columns > kMostSide ||
-      board.rows > kMostSide || (chessboard && board.columns * board.rows < 6)) {
-    return InputError("board", "a " + board.Words() + " cannot be used",
-                      "count again: COLUMNSxROWS, each at most " + std::to_string(kMostSide));
+  if (board.columns < fewest || board.rows < fewest || board.columns > kMaxSide ||
+      board.rows > kMaxSide || (chessboard && board.columns * board.rows < 6)) {
+    return InputError("board", "a " + board.Description() + " cannot be used",
+                      "count again: COLUMNSxROWS, each at most " + std::to_string(kMaxSide));
   }
   if (!(board.square_m > 0.0) || !std::isfinite(board.square_m) || !(board.gap_m >= 0.0) ||
       !std::isfinite(board.gap_m)) {

@@ -28,7 +28,7 @@ struct CalibrationBoard {
   std::string dictionary;
 
   /// "ChArUco board of 7 x 5 squares (5x5_100)".
-  std::string Words() const;
+  std::string Description() const;
 };
 
 /// Errors (input): sides that no board has, sizes that are not positive, an unknown dictionary or
@@ -40,11 +40,11 @@ Result<void> CheckBoard(const CalibrationBoard& board);
 /// each, from top-left clockwise.
 std::vector<Vec2> BoardPoints(const CalibrationBoard& board);
 
-/// A board in one picture: which of its points are seen where.
+/// A board in one image: which of its points are observed where.
 struct BoardView {
-  std::string name;           ///< Of the picture.
-  std::vector<int> points;    ///< Their numbers, ascending.
-  std::vector<Vec2> seen_px;  ///< Integer = pixel centre.
+  std::string name;               ///< Of the image.
+  std::vector<int> points;        ///< Their numbers, ascending.
+  std::vector<Vec2> observed_px;  ///< Integer = pixel centre.
 };
 
 }  // namespace pleinair::tracker

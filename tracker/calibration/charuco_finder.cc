@@ -33,7 +33,7 @@ std::vector<Square> MarkerSquares(const CalibrationBoard& board, bool legacy) {
 
 struct SeenMarker {
   Mat3 px_from_marker;  ///< Its black square has corners (±1, ±1), y up.
-  double shortest_side_px = 0.0;
+  double min_side_length_px = 0.0;
 };
 using SeenMarkers = std::map<int, SeenMarker>;
 
@@ -42,10 +42,10 @@ class CharucoFinder final : public BoardFinder {
   explicit CharucoFinder(const CalibrationBoard& board) : board_(board) {}
 
   std::optional<BoardView> Find(ImageView<const std::uint8_t> grey) override {
-    const cv::Mat picture(grey.height(), grey.width(), CV_8UC1,
-                          const_cast<std::uint8_t*>(grey.data()),
-                          static_cast<std::size_t>(grey.stride()));
-    const SeenMarkers markers = LookForMarkers(picture);
+    const cv::Mat image(grey.height(), grey.width(), CV_8UC1,
+                        const_cast<std::uint8_t*>(grey.data()),
+                        static_cast<std::size_t>(grey.stride()));
+    const SeenMarkers markers = DetectMarkers(image);
     if (markers.size() < 2) return std::nullopt;
     // Neighbours stand where the layout says in one of the two only.
     Layout layout = Judge(markers, false);
@@ -54,7 +54,7 @@ class CharucoFinder final : public BoardFinder {
       if (legacy.agreeing > layout.agreeing) layout = legacy;
     }
     if (layout.agreeing == 0) return std::nullopt;
-    return Corners(picture, markers, layout);
+    return Corners(image, markers, layout);
   }
 
   const CalibrationBoard& board() const override { return board_; }
@@ -67,14 +67,14 @@ class CharucoFinder final : public BoardFinder {
     double square_per_marker = 0.0;  ///< Side of a square in sides of its marker.
   };
 
-  SeenMarkers LookForMarkers(const cv::Mat& picture) {
-    if (!board_.dictionary.empty()) return Detect(picture, board_.dictionary);
+  SeenMarkers DetectMarkers(const cv::Mat& image) {
+    if (!board_.dictionary.empty()) return Detect(image, board_.dictionary);
     // The kind of code that shows most of the board's numbers; kept once it is beyond doubt.
     SeenMarkers best;
     std::string name;
     const int count = board_.columns * board_.rows / 2;
     for (const std::string& each : DictionariesFor(count)) {
-      SeenMarkers markers = Detect(picture, each);
+      SeenMarkers markers = Detect(image, each);
       if (markers.size() <= best.size()) continue;
       best = std::move(markers);
       name = each;
@@ -85,7 +85,7 @@ class CharucoFinder final : public BoardFinder {
     return best;
   }
 
-  SeenMarkers Detect(const cv::Mat& picture, const std::string& dictionary) const {
+  SeenMarkers Detect(const cv::Mat& image, const std::string& dictionary) const {
     const auto number = FindDictionary(dictionary);
     std::vector<std::vector<cv::Point2f>> corners;
     std::vector<int> ids;
@@ -93,18 +93,18 @@ class CharucoFinder final : public BoardFinder {
     // Markers of boards are small, and photographs large.
     parameters->minMarkerPerimeterRate = 0.01;
     parameters->adaptiveThreshWinSizeMax = 53;
-    cv::aruco::detectMarkers(picture, cv::aruco::getPredefinedDictionary(*number), corners, ids,
+    cv::aruco::detectMarkers(image, cv::aruco::getPredefinedDictionary(*number), corners, ids,
                              parameters);
     SeenMarkers markers;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       if (ids[i] < 0 || ids[i] >= board_.columns * board_.rows / 2) continue;
       std::array<Vec2, 4> quad;
       SeenMarker marker;
-      marker.shortest_side_px = 1e9;
+      marker.min_side_length_px = 1e9;
       for (std::size_t k = 0; k < 4; ++k) quad[k] = {corners[i][k].x, corners[i][k].y};
       for (std::size_t k = 0; k < 4; ++k) {
-        marker.shortest_side_px =
-            std::min(marker.shortest_side_px, Norm(quad[(k + 1) % 4] - quad[k]));
+        marker.min_side_length_px =
+            std::min(marker.min_side_length_px, Norm(quad[(k + 1) % 4] - quad[k]));
       }
       marker.px_from_marker = HomographyToQuad(quad);
       markers[ids[i]] = marker;
@@ -112,8 +112,8 @@ class CharucoFinder final : public BoardFinder {
     return markers;
   }
 
-  /// Each marker looks for its diagonal neighbours: seen from it, their middles are as far off in x
-  /// as in y, and by the same number of its own sides.
+  /// Each marker looks for its diagonal neighbours: observed from it, their middles are as far off
+  /// in x as in y, and by the same number of its own sides.
   Layout Judge(const SeenMarkers& markers, bool legacy) const {
     Layout layout;
     layout.squares = MarkerSquares(board_, legacy);
@@ -128,8 +128,8 @@ class CharucoFinder final : public BoardFinder {
         const Vec2 middle = Apply(marker_from_px, Apply(other.px_from_marker, {0.0, 0.0}));
         // Corners are ±1: one side is 2.
         const double x = 0.5 * middle.x * right, y = -0.5 * middle.y * down;
-        constexpr double kLeast = 1.0, kMost = 2.5;  // Sides of squares that boards have.
-        if (x < kLeast || x > kMost || y < kLeast || y > kMost || std::fabs(x - y) > 0.3) continue;
+        constexpr double kMin = 1.0, kMax = 2.5;  // Sides of squares that boards have.
+        if (x < kMin || x > kMax || y < kMin || y > kMax || std::fabs(x - y) > 0.3) continue;
         ratios.push_back(0.5 * (x + y));
       }
     }
@@ -141,8 +141,8 @@ class CharucoFinder final : public BoardFinder {
     return layout;
   }
 
-  /// Inner corners beside the markers seen, where two markers touch each or one does.
-  std::optional<BoardView> Corners(const cv::Mat& picture, const SeenMarkers& markers,
+  /// Inner corners beside the markers observed, where two markers touch each or one does.
+  std::optional<BoardView> Corners(const cv::Mat& image, const SeenMarkers& markers,
                                    const Layout& layout) const {
     struct Guess {
       Vec2 sum;
@@ -163,7 +163,7 @@ class CharucoFinder final : public BoardFinder {
         guess.sum = guess.sum + Apply(marker.px_from_marker, towards * layout.square_per_marker);
         ++guess.count;
         // Up to the marker's own corner, or a third of a square where it is far.
-        const double side = marker.shortest_side_px;
+        const double side = marker.min_side_length_px;
         const double margin = 0.5 * (layout.square_per_marker - 1.0) * side;
         guess.window_px = std::min({guess.window_px, 0.9 * margin, side / 3.0});
       }
@@ -177,14 +177,14 @@ class CharucoFinder final : public BoardFinder {
       corners.emplace_back(static_cast<float>(at.x), static_cast<float>(at.y));
       windows.push_back(static_cast<float>(guess.window_px));
     }
-    RefineCorners(picture, windows, &corners);
+    RefineCorners(image, windows, &corners);
     BoardView view;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (!std::isfinite(corners[i].x)) continue;
       view.points.push_back(numbers[i]);
-      view.seen_px.push_back({corners[i].x, corners[i].y});
+      view.observed_px.push_back({corners[i].x, corners[i].y});
     }
-    if (view.points.size() < kFewestPoints) return std::nullopt;
+    if (view.points.size() < kMinPoints) return std::nullopt;
     return view;
   }
 

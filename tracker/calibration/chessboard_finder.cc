@@ -17,19 +17,19 @@ class ChessboardFinder final : public BoardFinder {
   explicit ChessboardFinder(const CalibrationBoard& board) : board_(board) {}
 
   std::optional<BoardView> Find(ImageView<const std::uint8_t> grey) override {
-    const cv::Mat picture(grey.height(), grey.width(), CV_8UC1,
-                          const_cast<std::uint8_t*>(grey.data()),
-                          static_cast<std::size_t>(grey.stride()));
-    std::vector<cv::Point2f> corners = Search(picture, {board_.columns, board_.rows});
+    const cv::Mat image(grey.height(), grey.width(), CV_8UC1,
+                        const_cast<std::uint8_t*>(grey.data()),
+                        static_cast<std::size_t>(grey.stride()));
+    std::vector<cv::Point2f> corners = Search(image, {board_.columns, board_.rows});
     if (corners.empty()) return std::nullopt;
-    RefineCorners(picture, HalfWindows(corners), &corners);
+    RefineCorners(image, HalfWindows(corners), &corners);
     BoardView view;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (!std::isfinite(corners[i].x)) continue;
       view.points.push_back(static_cast<int>(i));
-      view.seen_px.push_back({corners[i].x, corners[i].y});
+      view.observed_px.push_back({corners[i].x, corners[i].y});
     }
-    if (view.points.size() < kFewestPoints) return std::nullopt;
+    if (view.points.size() < kMinPoints) return std::nullopt;
     return view;
   }
 
@@ -37,12 +37,12 @@ class ChessboardFinder final : public BoardFinder {
 
   // Makers count squares, OpenCV the corners between them.
   std::string Hint(ImageView<const std::uint8_t> grey) override {
-    const cv::Mat picture(grey.height(), grey.width(), CV_8UC1,
-                          const_cast<std::uint8_t*>(grey.data()),
-                          static_cast<std::size_t>(grey.stride()));
+    const cv::Mat image(grey.height(), grey.width(), CV_8UC1,
+                        const_cast<std::uint8_t*>(grey.data()),
+                        static_cast<std::size_t>(grey.stride()));
     for (const int step : {-1, 1}) {
       const cv::Size other(board_.columns + step, board_.rows + step);
-      if (other.width < 3 || other.height < 3 || Search(picture, other).empty()) continue;
+      if (other.width < 3 || other.height < 3 || Search(image, other).empty()) continue;
       const std::string sides = std::to_string(other.width) + "x" + std::to_string(other.height);
       return "a board with " + sides + " inner corners is in the pictures: --chessboard " + sides;
     }
@@ -50,12 +50,12 @@ class ChessboardFinder final : public BoardFinder {
   }
 
  private:
-  /// Corners row by row, to a pixel or so; none where the whole board is not seen.
-  static std::vector<cv::Point2f> Search(const cv::Mat& picture, cv::Size sides) {
+  /// Corners row by row, to a pixel or so; none where the whole board is not observed.
+  static std::vector<cv::Point2f> Search(const cv::Mat& image, cv::Size sides) {
     const double scale =
-        std::min(1.0, kSearchSide_px / static_cast<double>(std::max(picture.cols, picture.rows)));
-    cv::Mat small = picture;
-    if (scale < 1.0) cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
+        std::min(1.0, kSearchSide_px / static_cast<double>(std::max(image.cols, image.rows)));
+    cv::Mat small = image;
+    if (scale < 1.0) cv::resize(image, small, {}, scale, scale, cv::INTER_AREA);
     std::vector<cv::Point2f> corners;
     const bool found =
         cv::findChessboardCornersSB(small, sides, corners, cv::CALIB_CB_NORMALIZE_IMAGE) ||

@@ -12,7 +12,7 @@ namespace pleinair::tracker {
 
 void RefineCorners(const cv::Mat& grey, const std::vector<float>& half_windows_px,
                    std::vector<cv::Point2f>* corners) {
-  constexpr float kSmallest = 2.0F, kLargest = 16.0F;
+  constexpr float kMin = 2.0F, kMax = 16.0F;
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-3);
   // Light is linear: encoded, an edge's steepest place lies on its dark side.
   const cv::Mat table(1, 256, CV_32F, const_cast<float*>(LinearFromSrgb8().data()));
@@ -20,7 +20,7 @@ void RefineCorners(const cv::Mat& grey, const std::vector<float>& half_windows_p
   cv::LUT(grey, table, linear);
   for (std::size_t i = 0; i < corners->size(); ++i) {
     cv::Point2f& corner = (*corners)[i];
-    const auto half = static_cast<int>(std::clamp(half_windows_px[i], kSmallest, kLargest));
+    const auto half = static_cast<int>(std::clamp(half_windows_px[i], kMin, kMax));
     const float margin = static_cast<float>(half) + 2.0F;
     const bool inside = corner.x >= margin && corner.y >= margin &&
                         corner.x <= static_cast<float>(grey.cols) - 1.0F - margin &&

@@ -7,10 +7,10 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Where Huber's loss turns linear in the first fits, of the picture's longer side.
+/// Where Huber's loss turns linear in the first fits, of the image's longer side.
 constexpr double kHuberShare = 0.0015;
 /// Corners are never better than this in photographs: uncertainty is not claimed below it.
-constexpr double kLeastNoise_px = 0.03;
+constexpr double kMinNoise_px = 0.03;
 /// A stiffer lens is kept unless another foretells views left out so much better.
 constexpr double kWorthwhile = 1.01;
 constexpr const char* kRemedy =
@@ -51,10 +51,10 @@ void LeaveOut(LensFit* fit, LensCalibration* calibration) {
     for (std::size_t point = 0; point < residuals.size(); ++point) {
       if (!(Norm(residuals[point]) <= most)) continue;
       whole.on_board_m.push_back(view.on_board_m[point]);
-      whole.seen_px.push_back(view.seen_px[point]);
+      whole.observed_px.push_back(view.observed_px[point]);
     }
-    const std::size_t left_out = view.seen_px.size() - whole.seen_px.size();
-    if (whole.seen_px.size() < 6 || 2 * whole.seen_px.size() < view.seen_px.size()) {
+    const std::size_t left_out = view.observed_px.size() - whole.observed_px.size();
+    if (whole.observed_px.size() < 6 || 2 * whole.observed_px.size() < view.observed_px.size()) {
       calibration->dropped.push_back(
           {view.name,
            "its corners contradict the other views (blurred, or another lens setting?)"});
@@ -71,7 +71,7 @@ void LeaveOut(LensFit* fit, LensCalibration* calibration) {
 tl::unexpected<Error> TooFew(std::size_t views, std::size_t of) {
   return InputError("",
                     "only " + std::to_string(views) + " of " + std::to_string(of) +
-                        " views can be used, and fewer than " + std::to_string(kFewestViews) +
+                        " views can be used, and fewer than " + std::to_string(kMinViews) +
                         " do not determine a lens",
                     kRemedy);
 }
@@ -91,11 +91,11 @@ class Calibrator {
       : width_(width), height_(height), options_(options), kinds_(KindsToTry(options)) {}
 
   Result<LensCalibration> Run(const std::vector<PlaneView>& views) {
-    if (views.size() < kFewestViews) return TooFew(views.size(), views.size());
+    if (views.size() < kMinViews) return TooFew(views.size(), views.size());
     calibration_.views = views;
     PLEINAIR_ASSIGN_OR_RETURN(LensFit clean, FitRobustly());
     LeaveOut(&clean, &calibration_);
-    if (calibration_.views.size() < kFewestViews)
+    if (calibration_.views.size() < kMinViews)
       return TooFew(calibration_.views.size(), views.size());
     PLEINAIR_RETURN_IF_ERROR(Choose(clean));
     Describe();
@@ -182,7 +182,7 @@ class Calibrator {
           Residuals(all.fit.camera, all.fit.camera_from_board[i], all.views[i]));
     }
     all.rms_px = RmsOf(all.fit);
-    all.uncertainty = Uncertainty(all.fit, all.views, kLeastNoise_px);
+    all.uncertainty = Uncertainty(all.fit, all.views, kMinNoise_px);
     all.coverage = CoverageOf(all.views, width_, height_);
     all.judgement = JudgeViews(all.fit, all.views, all.coverage, all.uncertainty);
   }

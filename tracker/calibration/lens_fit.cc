@@ -18,8 +18,8 @@ namespace {
 /// How far a point is from where it should be.
 class PointResidual final : public ceres::SizedCostFunction<2, kLensNumbers, kPoseNumbers> {
  public:
-  PointResidual(const CameraModel& camera, Vec2 on_board_m, Vec2 seen_px)
-      : camera_(camera), on_board_m_(on_board_m), seen_px_(seen_px) {}
+  PointResidual(const CameraModel& camera, Vec2 on_board_m, Vec2 observed_px)
+      : camera_(camera), on_board_m_(on_board_m), seen_px_(observed_px) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
@@ -56,9 +56,9 @@ Solution Solve(const std::vector<PlaneView>& views, LensFit start, double huber_
   for (const auto& pose : start.camera_from_board) poses.push_back(NumbersOf(pose));
   ceres::Problem problem;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    for (std::size_t point = 0; point < views[i].seen_px.size(); ++point) {
+    for (std::size_t point = 0; point < views[i].observed_px.size(); ++point) {
       problem.AddResidualBlock(
-          new PointResidual(start.camera, views[i].on_board_m[point], views[i].seen_px[point]),
+          new PointResidual(start.camera, views[i].on_board_m[point], views[i].observed_px[point]),
           huber_px > 0.0 ? new ceres::HuberLoss(huber_px) : nullptr, lens.data(), poses[i].data());
     }
   }
@@ -101,8 +101,8 @@ std::optional<Transform<Camera, Marker>> StartPose(const PlaneView& view,
                                                    const CameraModel& camera) {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> rays;
-  for (std::size_t i = 0; i < view.seen_px.size(); ++i) {
-    const Vec2 ray = UndistortPixel(camera, view.seen_px[i]);
+  for (std::size_t i = 0; i < view.observed_px.size(); ++i) {
+    const Vec2 ray = UndistortPixel(camera, view.observed_px[i]);
     if (!std::isfinite(ray.x) || !std::isfinite(ray.y) || Norm(ray) > 10.0) continue;
     points.emplace_back(view.on_board_m[i].x, view.on_board_m[i].y, 0.0);
     rays.emplace_back(ray.x, ray.y);
@@ -188,7 +188,7 @@ int CoefficientsOf(LensKind kind) {
 }
 
 PlaneView OnPlane(const BoardView& view, const std::vector<Vec2>& board_points) {
-  PlaneView plane{view.name, {}, view.seen_px};
+  PlaneView plane{view.name, {}, view.observed_px};
   for (const int point : view.points) {
     plane.on_board_m.push_back(board_points[static_cast<std::size_t>(point)]);
   }
@@ -199,10 +199,10 @@ std::vector<Vec2> Residuals(const CameraModel& camera,
                             const Transform<Camera, Marker>& camera_from_board,
                             const PlaneView& view) {
   std::vector<Vec2> residuals;
-  for (std::size_t i = 0; i < view.seen_px.size(); ++i) {
+  for (std::size_t i = 0; i < view.observed_px.size(); ++i) {
     const Vec2 on_board = view.on_board_m[i];
     residuals.push_back(
-        view.seen_px[i] -
+        view.observed_px[i] -
         ProjectToPixel(camera, camera_from_board * Point<Marker>{{on_board.x, on_board.y, 0.0}}));
   }
   return residuals;

@@ -28,11 +28,11 @@ const char* NameOf(LensKind kind);
 /// Number of free coefficients of distortion, the first ones of CameraModel::distortion.
 int CoefficientsOf(LensKind kind);
 
-/// A board's points and where one picture shows them.
+/// A board's points and where one image shows them.
 struct PlaneView {
   std::string name;
   std::vector<Vec2> on_board_m;
-  std::vector<Vec2> seen_px;
+  std::vector<Vec2> observed_px;
 };
 
 /// The view with its points' places looked up.
@@ -44,7 +44,7 @@ struct LensFit {
   std::vector<Transform<Camera, Marker>> camera_from_board;  ///< One a view.
 };
 
-/// Residuals of a view, seen less predicted, px.
+/// Residuals of a view, observed less predicted, px.
 std::vector<Vec2> Residuals(const CameraModel& camera,
                             const Transform<Camera, Marker>& camera_from_board,
                             const PlaneView& view);

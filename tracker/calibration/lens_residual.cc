@@ -84,8 +84,9 @@ Vec2 ProjectBoardPoint(const CameraModel& camera, const double* pose, Vec2 on_bo
   ByPose in_camera[3];
   ceres::AngleAxisRotatePoint(numbers, point, in_camera);
   for (int i = 0; i < 3; ++i) in_camera[i] += numbers[3 + i];
-  constexpr double kNearest = 1e-3;  // Of its distance.
-  const double nearest = kNearest * (std::fabs(pose[3]) + std::fabs(pose[4]) + std::fabs(pose[5]));
+  constexpr double kMinDistance = 1e-3;  // Of its distance.
+  const double nearest =
+      kMinDistance * (std::fabs(pose[3]) + std::fabs(pose[4]) + std::fabs(pose[5]));
   if (!(in_camera[2].a > nearest)) in_camera[2] = ByPose(nearest);
   const ByPose x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
   ByPose x_distorted, y_distorted;

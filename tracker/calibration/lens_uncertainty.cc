@@ -17,7 +17,7 @@ using Rows = Eigen::Map<const Eigen::Matrix<double, 2, kColumns, Eigen::RowMajor
 }  // namespace
 
 LensUncertainty Uncertainty(const LensFit& fit, const std::vector<PlaneView>& views,
-                            double least_noise_px) {
+                            double min_noise_px) {
   const int free = 4 + CoefficientsOf(fit.kind);
   Lens information = Lens::Zero(free, free);
   double squares = 0.0;
@@ -56,7 +56,7 @@ LensUncertainty Uncertainty(const LensFit& fit, const std::vector<PlaneView>& vi
   if (!uncertainty.determined) return uncertainty;
   const Lens covariance = eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() *
                           eigen.eigenvectors().transpose();
-  const double noise = std::max(uncertainty.noise_px, least_noise_px);
+  const double noise = std::max(uncertainty.noise_px, min_noise_px);
   uncertainty.assumed_px = noise;
   const auto deviation = [&](int i) { return noise * std::sqrt(covariance(i, i)) / scale(i); };
   uncertainty.fx = deviation(0);

@@ -18,8 +18,8 @@ struct LensUncertainty {
 
 /// Standard deviations of the numbers of a lens when all poses are unknown, too: from the inverse
 /// of the normal equations, poses eliminated view by view (Triggs et al. 2000, "Bundle adjustment",
-/// §6.1 and §9), times the residuals' variance, of which at least `least_noise_px`² is assumed.
+/// §6.1 and §9), times the residuals' variance, of which at least `min_noise_px`² is assumed.
 LensUncertainty Uncertainty(const LensFit& fit, const std::vector<PlaneView>& views,
-                            double least_noise_px);
+                            double min_noise_px);
 
 }  // namespace pleinair::tracker

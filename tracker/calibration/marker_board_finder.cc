@@ -14,18 +14,18 @@ class MarkerBoardFinder final : public BoardFinder {
 
   std::optional<BoardView> Find(ImageView<const std::uint8_t> grey) override {
     if (grey.width() != camera_.width || grey.height() != camera_.height) LookThrough(grey);
-    const auto sightings = tracker_->Track(grey);
-    if (!sightings) return std::nullopt;
+    const auto observations = tracker_->Track(grey);
+    if (!observations) return std::nullopt;
     BoardView view;
-    for (const Sighting& sighting : *sightings) {
-      const int which = sighting.detection.id - board_.first;
+    for (const MarkerObservation& observation : *observations) {
+      const int which = observation.detection.id - board_.first;
       if (!view.points.empty() && view.points.back() / 4 == which) continue;  // Seen twice.
       for (int i = 0; i < 4; ++i) {
         view.points.push_back(4 * which + i);
-        view.seen_px.push_back(sighting.detection.corners_px[static_cast<std::size_t>(i)]);
+        view.observed_px.push_back(observation.detection.corners_px[static_cast<std::size_t>(i)]);
       }
     }
-    if (view.points.size() < kFewestPoints) return std::nullopt;
+    if (view.points.size() < kMinPoints) return std::nullopt;
     return view;
   }
 
@@ -36,16 +36,18 @@ class MarkerBoardFinder final : public BoardFinder {
     refined.name = view->name;
     for (std::size_t first = 0; first + 3 < view->points.size(); first += 4) {
       std::array<Vec2, 4> corners;
-      std::copy_n(view->seen_px.begin() + static_cast<std::ptrdiff_t>(first), 4, corners.begin());
+      std::copy_n(view->observed_px.begin() + static_cast<std::ptrdiff_t>(first), 4,
+                  corners.begin());
       const int which = view->points[first] / 4;
-      const auto aligned = AlignPrint(camera, SgPrint(board_.first + which), grey, corners);
+      const auto aligned =
+          AlignMarker(camera, SgMarkerPattern(board_.first + which), grey, corners);
       if (!aligned) continue;
       for (int i = 0; i < 4; ++i) {
         refined.points.push_back(4 * which + i);
-        refined.seen_px.push_back(aligned->corners_px[static_cast<std::size_t>(i)]);
+        refined.observed_px.push_back(aligned->corners_px[static_cast<std::size_t>(i)]);
       }
     }
-    if (refined.points.size() >= kFewestPoints) *view = std::move(refined);
+    if (refined.points.size() >= kMinPoints) *view = std::move(refined);
   }
   bool refines() const override { return true; }
 

@@ -17,7 +17,7 @@ struct Sample {
   double x, y, light;
 };
 
-/// The model's light at a pixel less what is seen there, and its derivatives.
+/// The model's light at a pixel less what is observed there, and its derivatives.
 double Differ(const Vector& at, const Sample& sample, Vector* by) {
   const double dx = sample.x - at(0), dy = sample.y - at(1);
   const double blur = at(4);

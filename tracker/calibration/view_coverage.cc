@@ -5,9 +5,9 @@
 namespace pleinair::tracker {
 
 double ViewCoverage::Share() const {
-  int seen = 0;
-  for (const int count : views) seen += count > 0 ? 1 : 0;
-  return seen / static_cast<double>(views.size());
+  int observed = 0;
+  for (const int count : views) observed += count > 0 ? 1 : 0;
+  return observed / static_cast<double>(views.size());
 }
 
 std::array<double, 4> ViewCoverage::Halves() const {
@@ -23,10 +23,10 @@ std::array<double, 4> ViewCoverage::Halves() const {
   return halves;
 }
 
-void ViewCoverage::Add(const std::vector<Vec2>& seen_px, int width, int height) {
+void ViewCoverage::Add(const std::vector<Vec2>& observed_px, int width, int height) {
   std::vector<cv::Point2f> points, outline;
-  for (const Vec2 seen : seen_px) {
-    points.emplace_back(static_cast<float>(seen.x), static_cast<float>(seen.y));
+  for (const Vec2 observed : observed_px) {
+    points.emplace_back(static_cast<float>(observed.x), static_cast<float>(observed.y));
   }
   if (points.size() < 3) return;
   cv::convexHull(points, outline);
@@ -43,7 +43,7 @@ void ViewCoverage::Add(const std::vector<Vec2>& seen_px, int width, int height) 
 
 ViewCoverage CoverageOf(const std::vector<PlaneView>& views, int width, int height) {
   ViewCoverage coverage;
-  for (const PlaneView& view : views) coverage.Add(view.seen_px, width, height);
+  for (const PlaneView& view : views) coverage.Add(view.observed_px, width, height);
   return coverage;
 }
 

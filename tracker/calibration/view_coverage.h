@@ -9,7 +9,7 @@
 
 namespace pleinair::tracker {
 
-/// Which parts of the picture views of a board have covered: the picture cut into cells, each
+/// Which parts of the image views of a board have covered: the image cut into cells, each
 /// counted where its middle lies inside the outline of a view's points.
 struct ViewCoverage {
   static constexpr int kColumns = 16, kRows = 12;
@@ -18,7 +18,7 @@ struct ViewCoverage {
   double Share() const;
   /// Share of the cells of the left, right, upper and lower half.
   std::array<double, 4> Halves() const;
-  void Add(const std::vector<Vec2>& seen_px, int width, int height);
+  void Add(const std::vector<Vec2>& observed_px, int width, int height);
 };
 
 ViewCoverage CoverageOf(const std::vector<PlaneView>& views, int width, int height);

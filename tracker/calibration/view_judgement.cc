@@ -11,11 +11,11 @@ namespace pleinair::tracker {
 namespace {
 
 // Refused beyond these. Photographs taken with some care lie far on the other side.
-constexpr double kLeastShare = 0.25;
-constexpr double kLeastHalf = 0.12;
-constexpr double kMostFocalDeviation = 0.01;   // Relative.
-constexpr double kMostCentreDeviation = 0.02;  // Of the picture's longer side.
-constexpr double kMostRmsShare = 0.005;        // Of the picture's longer side: 3 px of 640.
+constexpr double kMinShare = 0.25;
+constexpr double kMinHalf = 0.12;
+constexpr double kMaxFocalDeviation = 0.01;   // Relative.
+constexpr double kMaxCentreDeviation = 0.02;  // Of the image's longer side.
+constexpr double kMaxRmsShare = 0.005;        // Of the image's longer side: 3 px of 640.
 // What corners of one view may be off by together, or this share of their own noise.
 constexpr double kCommonError_px = 0.05;
 constexpr double kCommonShare = 0.5;
@@ -38,7 +38,7 @@ std::string Number(const char* format, double value) {
 
 void Measure(const LensFit& fit, const std::vector<PlaneView>& views, ViewJudgement* judgement) {
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
-  double nearest_middle = nearest, farthest_middle = 0.0;
+  double nearest_middle = nearest, max_middle_distance = 0.0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Transform<Camera, Marker>& pose = fit.camera_from_board[i];
     const auto normal = [&](std::size_t view) {
@@ -48,7 +48,7 @@ void Measure(const LensFit& fit, const std::vector<PlaneView>& views, ViewJudgem
     const auto degrees = [](double cosine) {
       return std::acos(std::clamp(std::fabs(cosine), 0.0, 1.0)) / kRadiansPerDegree;
     };
-    judgement->largest_tilt_deg = std::max(judgement->largest_tilt_deg, degrees(normal(i).z));
+    judgement->max_tilt_deg = std::max(judgement->max_tilt_deg, degrees(normal(i).z));
     for (std::size_t other = 0; other < i; ++other) {
       judgement->widest_apart_deg =
           std::max(judgement->widest_apart_deg, degrees(Dot(normal(i), normal(other))));
@@ -59,10 +59,10 @@ void Measure(const LensFit& fit, const std::vector<PlaneView>& views, ViewJudgem
       farthest = std::max(farthest, depth);
     }
     nearest_middle = std::min(nearest_middle, pose.translation_m.z);
-    farthest_middle = std::max(farthest_middle, pose.translation_m.z);
+    max_middle_distance = std::max(max_middle_distance, pose.translation_m.z);
   }
   judgement->depth_ratio = farthest / nearest;
-  judgement->distance_ratio = farthest_middle / nearest_middle;
+  judgement->distance_ratio = max_middle_distance / nearest_middle;
 }
 
 /// How far the solution moves if each view as a whole is a little wrong.
@@ -73,7 +73,7 @@ void Deviate(const LensFit& fit, const std::vector<PlaneView>& views,
       std::numeric_limits<double>::infinity();
   if (!uncertainty.determined || !(uncertainty.assumed_px > 0.0)) return;
   double corners = 0.0;
-  for (const PlaneView& view : views) corners += static_cast<double>(view.seen_px.size());
+  for (const PlaneView& view : views) corners += static_cast<double>(view.observed_px.size());
   const double common_px = std::max(kCommonError_px, kCommonShare * uncertainty.noise_px);
   const double by =
       common_px / uncertainty.assumed_px *
@@ -87,15 +87,15 @@ void Deviate(const LensFit& fit, const std::vector<PlaneView>& views,
 
 std::string WhatLacks(const ViewJudgement& judgement) {
   std::string lacks = "tilt the board about both axes of the picture, and take more views, larger";
-  if (judgement.largest_tilt_deg < kLittleTilt_deg) {
+  if (judgement.max_tilt_deg < kLittleTilt_deg) {
     lacks = "the camera looks straight at the board in every view (tilted by at most " +
-            Number("%.1f", judgement.largest_tilt_deg) +
+            Number("%.1f", judgement.max_tilt_deg) +
             " degrees): tilt the board by 20 to 45 degrees, in several directions";
   } else if (judgement.widest_apart_deg < kLittleTilt_deg) {
     lacks = "the board stands the same way in every view (to " +
             Number("%.1f", judgement.widest_apart_deg) + " degrees): tilt it in several directions";
   }
-  if (judgement.largest_tilt_deg < kLittleTilt_deg && judgement.depth_ratio < kLittleDepthRatio) {
+  if (judgement.max_tilt_deg < kLittleTilt_deg && judgement.depth_ratio < kLittleDepthRatio) {
     lacks += ", and everything seen lies at one distance (to " +
              Number("%.0f", 100.0 * (judgement.depth_ratio - 1.0)) + " %): come nearer in some";
   }
@@ -103,8 +103,8 @@ std::string WhatLacks(const ViewJudgement& judgement) {
 }
 
 void JudgePlanes(ViewJudgement* judgement) {
-  if (!(judgement->focal_deviation <= kMostFocalDeviation) ||
-      !(judgement->centre_deviation <= kMostCentreDeviation)) {
+  if (!(judgement->focal_deviation <= kMaxFocalDeviation) ||
+      !(judgement->centre_deviation <= kMaxCentreDeviation)) {
     const bool open = !(judgement->focal_deviation < 1.0);
     judgement->reasons.push_back(
         (open
@@ -115,10 +115,9 @@ void JudgePlanes(ViewJudgement* judgement) {
         ": " + WhatLacks(*judgement));
     return;
   }
-  if (judgement->largest_tilt_deg < kGoodTilt_deg) {
-    judgement->advice.push_back(
-        "tilt the board more: " + Number("%.0f", judgement->largest_tilt_deg) +
-        " degrees are the most, 20 to 45 are good");
+  if (judgement->max_tilt_deg < kGoodTilt_deg) {
+    judgement->advice.push_back("tilt the board more: " + Number("%.0f", judgement->max_tilt_deg) +
+                                " degrees are the most, 20 to 45 are good");
   }
   if (judgement->distance_ratio < kGoodDistanceRatio) {
     judgement->advice.emplace_back("take some views from nearer and some from farther");
@@ -130,11 +129,11 @@ void JudgeCoverage(const ViewCoverage& coverage, ViewJudgement* judgement) {
   const std::array<double, 4> halves = coverage.Halves();
   std::string bare, thin;
   for (std::size_t i = 0; i < halves.size(); ++i) {
-    std::string* list = halves[i] < kLeastHalf ? &bare : halves[i] < kGoodHalf ? &thin : nullptr;
+    std::string* list = halves[i] < kMinHalf ? &bare : halves[i] < kGoodHalf ? &thin : nullptr;
     if (list != nullptr) *list += (list->empty() ? "" : ", ") + std::string(kHalves[i]);
   }
   const std::string share = Number("%.0f", 100.0 * coverage.Share()) + " % of the picture";
-  if (coverage.Share() < kLeastShare || !bare.empty()) {
+  if (coverage.Share() < kMinShare || !bare.empty()) {
     judgement->reasons.push_back("the board covers only " + share +
                                  (bare.empty() ? "" : ", next to nothing of its half: " + bare) +
                                  "; the lens's distortion elsewhere would be a guess: take the "
@@ -158,7 +157,7 @@ void JudgeResiduals(const LensFit& fit, const std::vector<PlaneView>& views,
     }
   }
   const double rms = std::sqrt(squares / std::max(points, 1.0));
-  if (rms > kMostRmsShare * side) {
+  if (rms > kMaxRmsShare * side) {
     judgement->reasons.push_back(
         "no lens explains what is seen (corners are off by " + Number("%.1f", rms) +
         " px): the board is not as described or not flat, or the lens was zoomed or focused anew "

@@ -9,7 +9,7 @@
 namespace pleinair::tracker {
 namespace {
 
-// Of the picture's width. A board that moves more from frame to frame is blurred, and bent where
+// Of the image's width. A board that moves more from frame to frame is blurred, and bent where
 // rows are exposed one after another.
 constexpr double kStill = 0.01;
 constexpr double kNew = 0.06;
@@ -35,13 +35,13 @@ bool ViewPicker::Take(const BoardView& view) {
 }
 
 std::optional<ViewPicker::Outline> ViewPicker::OutlineOf(const BoardView& view) const {
-  std::vector<cv::Point2d> on_board, seen;
+  std::vector<cv::Point2d> on_board, observed;
   for (std::size_t i = 0; i < view.points.size(); ++i) {
     const Vec2 at = board_points_[static_cast<std::size_t>(view.points[i])];
     on_board.emplace_back(at.x, at.y);
-    seen.emplace_back(view.seen_px[i].x, view.seen_px[i].y);
+    observed.emplace_back(view.observed_px[i].x, view.observed_px[i].y);
   }
-  const cv::Mat found = cv::findHomography(on_board, seen);
+  const cv::Mat found = cv::findHomography(on_board, observed);
   if (found.empty()) return std::nullopt;
   Mat3 homography;
   for (int i = 0; i < 9; ++i) {

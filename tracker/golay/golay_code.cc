@@ -55,7 +55,7 @@ GolayWord EncodeGolay(int number) {
   return Join(half, TimesB(half));
 }
 
-GolayWord PrintedWord(int number) { return EncodeGolay(number) ^ kGolayWhitening; }
+GolayWord CodewordOfNumber(int number) { return EncodeGolay(number) ^ kGolayWhitening; }
 
 std::optional<HardGolayDecoding> DecodeGolay(GolayWord word) {
   const std::uint32_t number = word & kHalfMask;
@@ -65,7 +65,7 @@ std::optional<HardGolayDecoding> DecodeGolay(GolayWord word) {
   return HardGolayDecoding{static_cast<int>((number ^ *error) & kHalfMask), std::popcount(*error)};
 }
 
-std::optional<HardGolayDecoding> DecodePrintedWord(GolayWord cells) {
+std::optional<HardGolayDecoding> DecodeCodeword(GolayWord cells) {
   return DecodeGolay(cells ^ kGolayWhitening);
 }
 

@@ -16,7 +16,7 @@ constexpr int kGolayNumbers = 4096;
 /// It lies 4 bits from the nearest codeword, which is as far as any word can lie (the code's
 /// covering radius is 4: MacWilliams & Sloane 1977, ch. 2, §6). The all-black and the all-white
 /// word are codewords, so every printed word has at least 4 white and at least 4 black cells, and a
-/// blank patch is never the print of a number.
+/// blank patch is never the marker of a number.
 constexpr GolayWord kGolayWhitening = 0xAAA555;
 
 /// The word of the extended binary Golay code (24,12,8) for a number in 0…4095; CHECKs the range.
@@ -27,7 +27,7 @@ constexpr GolayWord kGolayWhitening = 0xAAA555;
 GolayWord EncodeGolay(int number);
 
 /// The 24 cells as they are printed, 1 = white: EncodeGolay(number) ^ kGolayWhitening.
-GolayWord PrintedWord(int number);
+GolayWord CodewordOfNumber(int number);
 
 /// What a hard decoder made of a word.
 struct HardGolayDecoding {
@@ -43,6 +43,6 @@ struct HardGolayDecoding {
 std::optional<HardGolayDecoding> DecodeGolay(GolayWord word);
 
 /// The same for 24 printed cells.
-std::optional<HardGolayDecoding> DecodePrintedWord(GolayWord cells);
+std::optional<HardGolayDecoding> DecodeCodeword(GolayWord cells);
 
 }  // namespace pleinair::tracker

@@ -79,8 +79,8 @@ void Score(const GeneratorColumns& columns, const std::int32_t* weights, std::in
 }
 
 TopTwoScores TopTwo(const std::int32_t* scores) {
-  constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
-  Ints best = hn::Set(kInts, kLeast), second = best;
+  constexpr std::int32_t kMin = std::numeric_limits<std::int32_t>::min();
+  Ints best = hn::Set(kInts, kMin), second = best;
   const int lanes = static_cast<int>(hn::Lanes(kInts));
   for (int n = 0; n < kGolayNumbers; n += lanes) {
     const Ints score = hn::LoadU(kInts, scores + n);

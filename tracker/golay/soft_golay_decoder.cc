@@ -12,13 +12,13 @@ namespace pleinair::tracker {
 namespace {
 
 // 24 · 1000 · 2¹⁶ < 2³¹: no sum of weights overflows.
-constexpr float kLargestLikelihood = 1000.0F;
+constexpr float kMaxLikelihood = 1000.0F;
 constexpr float kUnitsPerLikelihood = 65536.0F;
 
 std::int32_t Quantize(float likelihood) {
   if (std::isnan(likelihood)) return 0;
-  return static_cast<std::int32_t>(std::lrint(
-      std::clamp(likelihood, -kLargestLikelihood, kLargestLikelihood) * kUnitsPerLikelihood));
+  return static_cast<std::int32_t>(
+      std::lrint(std::clamp(likelihood, -kMaxLikelihood, kMaxLikelihood) * kUnitsPerLikelihood));
 }
 
 float FromUnits(std::int64_t units) { return static_cast<float>(units) / kUnitsPerLikelihood; }
@@ -78,11 +78,11 @@ int SoftGolayDecoder::NumbersInUse() const {
   return numbers_in_use_.empty() ? kGolayNumbers : static_cast<int>(numbers_in_use_.size());
 }
 
-std::optional<int> SoftGolayDecoder::NumberOfPrint(GolayWord cells) const {
+std::optional<int> SoftGolayDecoder::NumberOfCells(GolayWord cells) const {
   const auto number = static_cast<int>((cells ^ kGolayWhitening) & (kGolayNumbers - 1));
   const bool in_use =
       numbers_in_use_.empty() || std::ranges::binary_search(numbers_in_use_, number);
-  return in_use && PrintedWord(number) == cells ? std::optional(number) : std::nullopt;
+  return in_use && CodewordOfNumber(number) == cells ? std::optional(number) : std::nullopt;
 }
 
 SoftGolayDecoding SoftGolayDecoder::Decode(const CellLikelihoods& cells) const {

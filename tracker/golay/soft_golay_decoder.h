@@ -11,15 +11,15 @@
 
 namespace pleinair::tracker {
 
-/// ln(P(seen | white) / P(seen | black)) of the 24 printed cells, row by row from the top-left
-/// without the centre cell: positive = white, 0 = erased (covered, or black and white equally
-/// likely). NaN counts as erased; values beyond ±1000 count as ±1000.
+/// ln(P(observed | white) / P(observed | black)) of the 24 printed cells, row by row from the
+/// top-left without the centre cell: positive = white, 0 = erased (covered, or black and white
+/// equally likely). NaN counts as erased; values beyond ±1000 count as ±1000.
 using CellLikelihoods = std::array<float, kGolayBits>;
 
 /// What the soft decoder made of 24 cells.
 struct SoftGolayDecoding {
   int number = 0;      ///< The likeliest number in use; the lowest of several equally likely ones.
-  float score = 0.0F;  ///< Σ ±likelihood, + where a cell agrees with the print of `number`.
+  float score = 0.0F;  ///< Σ ±likelihood, + where a cell agrees with the marker of `number`.
   /// The likeliest other number in use; none where only one is.
   std::optional<int> second_number;
   /// score − the score of `second_number`: twice the summed likelihoods of the cells in which the
@@ -32,7 +32,7 @@ struct SoftGolayDecoding {
   /// score / Σ|likelihood|: 1 where all cells agree, about 0.5 for the best word on random cells; 0
   /// where all are erased.
   float agreement = 0.0F;
-  int disagreements = 0;  ///< Cells that look like the other colour than `number` has there.
+  int disagreements = 0;  ///< Cells that look like the other color than `number` has there.
   int erasures = 0;       ///< Cells with likelihood 0.
 };
 
@@ -54,10 +54,10 @@ class SoftGolayDecoder {
 
   SoftGolayDecoding Decode(const CellLikelihoods& cells) const;
 
-  /// The number in use whose print has these very cells (1 = white); where there is one, Decode of
+  /// The number in use whose marker has these very cells (1 = white); where there is one, Decode of
   /// cells that look so gives it, with a margin of 16 times the least of their likelihoods or more:
   /// prints differ in eight cells at least.
-  std::optional<int> NumberOfPrint(GolayWord cells) const;
+  std::optional<int> NumberOfCells(GolayWord cells) const;
 
  private:
   std::vector<std::uint16_t> numbers_in_use_;  // Sorted; empty: all.

@@ -13,17 +13,17 @@ namespace {
 
 constexpr double kHalf = 0.5 * kTargetSide;
 /// Guesses at one target that may fail before it is given up in this frame.
-constexpr int kMostFailures = 4;
+constexpr int kMaxFailures = 4;
 /// A target that has just gone is searched for in each of so many frames, then every few.
 constexpr int kSearchAtOnce = 5, kSearchEvery = 3;
 /// How far the corners may be from those of any pose, in shares of a side; and in pixels, where
 /// that is less.
-constexpr double kMostMisfit = 0.02, kLeastMisfit_px = 0.5;
+constexpr double kMaxMisfit = 0.02, kMinMisfit_px = 0.5;
 /// Mirror images are looked for in single pictures, and now and then in consecutive ones.
-constexpr int kLookForMirroredEvery = 30;
+constexpr int kMirroredSearchInterval = 30;
 
-std::array<Vec2, 4> CornersIdeal(const Mat3& target_from_ideal) {
-  const Mat3 inverse = Adjugate(target_from_ideal);
+std::array<Vec2, 4> UndistortedCorners(const Mat3& target_from_undistorted) {
+  const Mat3 inverse = Adjugate(target_from_undistorted);
   std::array<Vec2, 4> corners;
   for (int i = 0; i < 4; ++i) {
     corners[i] =
@@ -32,9 +32,9 @@ std::array<Vec2, 4> CornersIdeal(const Mat3& target_from_ideal) {
   return corners;
 }
 
-Mat3 TargetFromCorners(const std::array<Vec2, 4>& corners_ideal) {
+Mat3 TargetFromCorners(const std::array<Vec2, 4>& corners_undistorted) {
   constexpr Mat3 kTargetFromUnit{{kHalf, 0, kHalf, 0, -kHalf, kHalf, 0, 0, 1}};
-  return kTargetFromUnit * Adjugate(HomographyToQuad(corners_ideal));
+  return kTargetFromUnit * Adjugate(HomographyToQuad(corners_undistorted));
 }
 
 }  // namespace
@@ -71,10 +71,10 @@ bool PictureDetector::SearchIsDue() const {
 std::vector<Candidate> PictureDetector::Detect(ImageView<const std::uint8_t> grey) {
   std::vector<Candidate> candidates;
   warnings_.clear();
-  reader_.SetPicture(grey);
+  reader_.SetImage(grey);
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     known_[t].found = false;
-    if (consecutive_frames_ && known_[t].ever_found) Follow(t, &candidates);
+    if (consecutive_frames_ && known_[t].ever_found) Track(t, &candidates);
   }
   wanted_.clear();
   for (const Known& known : known_) wanted_.push_back(!known.found);
@@ -82,7 +82,7 @@ std::vector<Candidate> PictureDetector::Detect(ImageView<const std::uint8_t> gre
   if (missing && SearchIsDue() && !grey.empty()) {
     search_.Find(grey, wanted_, &guesses_);
     Search(&candidates);
-    if (!consecutive_frames_ || frame_ % kLookForMirroredEvery == 0) LookForMirrored();
+    if (!consecutive_frames_ || frame_ % kMirroredSearchInterval == 0) SearchMirrored();
   }
   for (Known& known : known_) {
     if (!known.found) ++known.frames_unseen;
@@ -91,9 +91,9 @@ std::vector<Candidate> PictureDetector::Detect(ImageView<const std::uint8_t> gre
   return candidates;
 }
 
-void PictureDetector::Follow(std::size_t target, std::vector<Candidate>* candidates) {
+void PictureDetector::Track(std::size_t target, std::vector<Candidate>* candidates) {
   const Known& known = known_[target];
-  std::array<Vec2, 4> corners = known.corners_ideal;
+  std::array<Vec2, 4> corners = known.corners_undistorted;
   if (known.has_velocity && known.frames_unseen == 0) {
     for (int i = 0; i < 4; ++i) corners[i] = corners[i] + known.velocity[i];
   }
@@ -110,9 +110,9 @@ void PictureDetector::Follow(std::size_t target, std::vector<Candidate>* candida
 void PictureDetector::Search(std::vector<Candidate>* candidates) {
   std::vector<int> failures(targets_.size(), 0);
   for (const TargetGuess& guess : guesses_) {
-    if (known_[guess.target].found || failures[guess.target] >= kMostFailures) continue;
+    if (known_[guess.target].found || failures[guess.target] >= kMaxFailures) continue;
     const std::optional<TargetReading> reading =
-        reader_.Read(pyramids_[guess.target], {guess.target_from_ideal});
+        reader_.Read(pyramids_[guess.target], {guess.target_from_undistorted});
     std::optional<Candidate> candidate;
     if (reading) candidate = CandidateOf(guess.target, *reading);
     if (!candidate) {
@@ -125,14 +125,14 @@ void PictureDetector::Search(std::vector<Candidate>* candidates) {
   }
 }
 
-void PictureDetector::LookForMirrored() {
+void PictureDetector::SearchMirrored() {
   for (std::size_t t = 0; t < targets_.size(); ++t) wanted_[t] = !known_[t].found;
   if (std::find(wanted_.begin(), wanted_.end(), true) == wanted_.end()) return;
   search_.FindMirrored(wanted_, &guesses_);
   std::vector<int> failures(targets_.size(), 0);
   for (const TargetGuess& guess : guesses_) {
-    if (failures[guess.target] < 0 || failures[guess.target] >= kMostFailures) continue;
-    if (!reader_.Read(pyramids_[guess.target], {guess.target_from_ideal})) {
+    if (failures[guess.target] < 0 || failures[guess.target] >= kMaxFailures) continue;
+    if (!reader_.Read(pyramids_[guess.target], {guess.target_from_undistorted})) {
       ++failures[guess.target];
       continue;
     }
@@ -145,10 +145,10 @@ void PictureDetector::LookForMirrored() {
 
 void PictureDetector::Remember(std::size_t target, const TargetReading& reading) {
   Known& known = known_[target];
-  const std::array<Vec2, 4> corners = CornersIdeal(reading.target_from_ideal);
+  const std::array<Vec2, 4> corners = UndistortedCorners(reading.target_from_undistorted);
   known.has_velocity = known.ever_found && known.frames_unseen == 0;
-  for (int i = 0; i < 4; ++i) known.velocity[i] = corners[i] - known.corners_ideal[i];
-  known.corners_ideal = corners;
+  for (int i = 0; i < 4; ++i) known.velocity[i] = corners[i] - known.corners_undistorted[i];
+  known.corners_undistorted = corners;
   known.blur_px = reading.blur_px;
   known.frames_unseen = 0;
   known.found = known.ever_found = true;
@@ -181,7 +181,7 @@ std::optional<Candidate> PictureDetector::CandidateOf(std::size_t target,
   for (int i = 0; i < 4; ++i) {
     side_px += 0.25 * Norm(square.corners_px[i] - square.corners_px[(i + 1) % 4]);
   }
-  if (pose->best.reprojection_rms_px > std::max(kLeastMisfit_px, kMostMisfit * side_px)) {
+  if (pose->best.reprojection_rms_px > std::max(kMinMisfit_px, kMaxMisfit * side_px)) {
     return std::nullopt;
   }
   candidate.pose_square = square;

@@ -39,15 +39,15 @@ class PictureDetector final : public MarkerDetector {
     bool found = false;  ///< In this frame.
     bool ever_found = false;
     int frames_unseen = 0;
-    std::array<Vec2, 4> corners_ideal;  ///< In the last frame that saw it,
-    std::array<Vec2, 4> velocity;       ///< … and their motion, per frame.
+    std::array<Vec2, 4> corners_undistorted;  ///< In the last frame that saw it,
+    std::array<Vec2, 4> velocity;             ///< … and their motion, per frame.
     bool has_velocity = false;
     double blur_px = 0.7;
   };
 
-  void Follow(std::size_t target, std::vector<Candidate>* candidates);
+  void Track(std::size_t target, std::vector<Candidate>* candidates);
   void Search(std::vector<Candidate>* candidates);
-  void LookForMirrored();
+  void SearchMirrored();
   /// What the tracker wants to know of a reading; nothing where no camera sees the target so.
   std::optional<Candidate> CandidateOf(std::size_t target, const TargetReading& reading) const;
   void Remember(std::size_t target, const TargetReading& reading);

@@ -13,34 +13,34 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kLeastBlocksAlong = 3, kMostBlocksAlong = 12;
-constexpr int kLeastBlockPixels = 6;
+constexpr int kMinBlocksAlong = 3, kMaxBlocksAlong = 12;
+constexpr int kMinBlockPixels = 6;
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
-constexpr float kMostReach = 3.2F;  ///< Of small targets too little would be left otherwise.
+constexpr float kMaxReach_modules = 3.2F;  ///< Of small targets too little would be left otherwise.
 /// Residual at which a pixel keeps a quarter of its weight: so many times what is usually left over
 /// of blocks that fit, but no more and no less than so many standard deviations of the predicted
 /// light, and no less than what noise does.
-constexpr double kRobustShareOfRest = 3.0, kMostRobustShare = 1.2, kLeastRobustShare = 0.15;
-constexpr double kLeastRobust = 0.03;
+constexpr double kRobustShareOfRest = 3.0, kMaxRobustShare = 1.2, kMinRobustShare = 0.15;
+constexpr double kMinRobust = 0.03;
 /// A block tells something from so much of its details on, in deviations of the noise.
 constexpr double kTellingOverNoise = 1.5;
 /// Tiles of 4×4 pixels where blocks and the target itself are so many pixels wide at least.
-constexpr double kLeastBlockOfTiles_px = 7.0, kLeastTargetOfTiles_px = 24.0;
+constexpr double kMinBlockOfTiles_px = 7.0, kMinTargetOfTiles_px = 24.0;
 constexpr double kDamping = 1e-7;
 
 constexpr double kHalf = 0.5 * kTargetSide;
 constexpr Mat3 kTargetFromUnit{{kHalf, 0, kHalf, 0, kHalf, kHalf, 0, 0, 1}};
 constexpr Mat3 kUnitFromTarget{{1 / kHalf, 0, -1, 0, 1 / kHalf, -1, 0, 0, 1}};
 
-SquareSides SidesOfTarget(const Mat3& target_from_ideal) {
-  return SidesOf(Adjugate(kUnitFromTarget * target_from_ideal));
+SquareSides SidesOfTarget(const Mat3& target_from_undistorted) {
+  return SidesOf(Adjugate(kUnitFromTarget * target_from_undistorted));
 }
 
-/// What BlockSums wants to know of a print: its side.
-const PrintPattern& SidePattern() {
-  static const PrintPattern kPattern{.modules = static_cast<int>(kTargetSide),
-                                     .edge_modules = static_cast<int>(kTargetSide),
-                                     .white = {}};
+/// What BlockSums wants to know of a marker: its side.
+const MarkerPattern& SidePattern() {
+  static const MarkerPattern kPattern{.modules = static_cast<int>(kTargetSide),
+                                      .edge_modules = static_cast<int>(kTargetSide),
+                                      .white = {}};
   return kPattern;
 }
 
@@ -62,24 +62,24 @@ PictureFit& PictureFit::operator=(PictureFit&&) noexcept = default;
 
 int PictureFit::BlocksAlong(double area_px, double block_px) {
   return static_cast<int>(
-      std::clamp(std::sqrt(area_px) / block_px, 1.0 * kLeastBlocksAlong, 1.0 * kMostBlocksAlong));
+      std::clamp(std::sqrt(area_px) / block_px, 1.0 * kMinBlocksAlong, 1.0 * kMaxBlocksAlong));
 }
 
-void PictureFit::Predict(const PicturePyramid& pyramid, const SeenWindow& seen,
+void PictureFit::Predict(const PicturePyramid& pyramid, const ObservedPatch& observed,
                          const PictureFitState& state) {
-  const double blur = state.blur_px / seen.rays.window.Scale();
-  raster_.Render(pyramid, state.target_from_ideal, seen.rays, blur, &map_, &picture_,
+  const double blur = state.blur_px / observed.rays.window.Scale();
+  raster_.Render(pyramid, state.target_from_undistorted, observed.rays, blur, &map_, &picture_,
                  &sums_->ranges);
   KnownPart known{};
   known.modules = static_cast<float>(kTargetSide);
   known.reach_px = static_cast<float>(0.5 + 1.3 * blur);
-  known.most_reach_modules = kMostReach;
+  known.max_reach_modules = kMaxReach_modules;
   known.unknown_half = -known.modules;  // All is known.
-  sums_->blocks.Lay(SidePattern(), known, seen, map_, sums_->ranges, tile_, blocks_along_);
+  sums_->blocks.Lay(SidePattern(), known, observed, map_, sums_->ranges, tile_, blocks_along_);
 }
 
-void PictureFit::FitLevels(const SeenWindow& seen, double least_weight) {
-  sums_->blocks.Levels(seen, picture_, sums_->lights, &sums_->levels);
+void PictureFit::FitLevels(const ObservedPatch& observed, double min_weight) {
+  sums_->blocks.Levels(observed, picture_, sums_->lights, &sums_->levels);
   rests_.clear();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const LevelSums& sum = sums_->levels[k];
@@ -87,14 +87,14 @@ void PictureFit::FitLevels(const SeenWindow& seen, double least_weight) {
     block = TargetBlock{};
     sums_->lights[k] = BlockLight{};
     block.pixels = static_cast<int>(std::lround(sum.pixels));
-    if (block.pixels < kLeastBlockPixels || !(sum.w > 0.0)) continue;
+    if (block.pixels < kMinBlockPixels || !(sum.w > 0.0)) continue;
     const double p = sum.wp / sum.w, i = sum.wi / sum.w;
     const double vp = sum.wpp / sum.w - p * p, vi = sum.wii / sum.w - i * i;
     const double vpi = sum.wpi / sum.w - p * i;
     block.mean = p;
-    block.seen = i;
+    block.observed = i;
     block.contrast = std::sqrt(std::max(0.0, vp));
-    if (block.contrast < kLeastContrast || !(vi > 1e-12)) continue;
+    if (block.contrast < kMinContrast || !(vi > 1e-12)) continue;
     block.correlation = vpi / std::sqrt(vp * vi);
     if (!(sum.r > 0.0)) continue;
     const double rp = sum.rp / sum.r;
@@ -105,7 +105,7 @@ void PictureFit::FitLevels(const SeenWindow& seen, double least_weight) {
     if (!(block.gain > 0.0)) continue;
     block.weight = std::clamp(
         (block.correlation - kDoubtfulCorrelation) / (kCredibleCorrelation - kDoubtfulCorrelation),
-        least_weight, 1.0);
+        min_weight, 1.0);
     if (block.correlation > kDoubtfulCorrelation) {
       rests_.push_back(std::sqrt(1.0 - std::min(1.0, block.correlation * block.correlation)));
     }
@@ -116,19 +116,19 @@ void PictureFit::FitLevels(const SeenWindow& seen, double least_weight) {
     std::nth_element(rests_.begin(), middle, rests_.end());
     rest = *middle;
   }
-  const double share = std::clamp(kRobustShareOfRest * rest, kLeastRobustShare, kMostRobustShare);
+  const double share = std::clamp(kRobustShareOfRest * rest, kMinRobustShare, kMaxRobustShare);
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const TargetBlock& block = blocks_[k];
     if (!(block.gain > 0.0)) continue;
-    const double robust = std::max(share * block.contrast, kLeastRobust);
+    const double robust = std::max(share * block.contrast, kMinRobust);
     sums_->lights[k] = {static_cast<float>(block.gain), static_cast<float>(block.offset),
                         static_cast<float>(1.0 / (block.gain * robust)),
                         static_cast<float>(block.weight)};
   }
 }
 
-void PictureFit::AddUp(const SeenWindow& seen, bool blur) {
-  sums_->blocks.Motions(seen, picture_, sums_->lights, blur, &weight_, &sums_->products,
+void PictureFit::AddUp(const ObservedPatch& observed, bool blur) {
+  sums_->blocks.Motions(observed, picture_, sums_->lights, blur, &weight_, &sums_->products,
                         &sums_->motions);
   equations_ = MotionEquations(sums_->products);
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -142,15 +142,15 @@ bool PictureFit::Move(const PictureFitOptions& options, double scale, PictureFit
   const std::optional<MotionStep> step = SolveMotion(
       equations_,
       {.damping = kDamping, .fit_projection = options.fit_projection, .fit_blur = options.fit_blur},
-      SidesOfTarget(state->target_from_ideal).mean / scale);
+      SidesOfTarget(state->target_from_undistorted).mean / scale);
   if (!step) return false;
-  Mat3 moved =
-      kTargetFromUnit * (step->BeforeFromAfter() * (kUnitFromTarget * state->target_from_ideal));
+  Mat3 moved = kTargetFromUnit *
+               (step->BeforeFromAfter() * (kUnitFromTarget * state->target_from_undistorted));
   for (double& entry : moved.m) entry /= moved.m[8];
   for (const double entry : moved.m) {
     if (!std::isfinite(entry)) return false;
   }
-  state->target_from_ideal = moved;
+  state->target_from_undistorted = moved;
   *still = step->moved_px < options.done_px;
   if (options.fit_blur) {
     const double blur = state->blur_px / scale, fitted = step->Blur(blur);
@@ -160,24 +160,23 @@ bool PictureFit::Move(const PictureFitOptions& options, double scale, PictureFit
   return true;
 }
 
-bool PictureFit::Run(const PicturePyramid& pyramid, const SeenWindow& seen, int blocks_along,
+bool PictureFit::Run(const PicturePyramid& pyramid, const ObservedPatch& observed, int blocks_along,
                      const PictureFitOptions& options, PictureFitState* state) {
-  const double scale = seen.rays.window.Scale();
-  blocks_along_ = std::clamp(blocks_along, 1, kMostBlocksAlong);
+  const double scale = observed.rays.window.Scale();
+  blocks_along_ = std::clamp(blocks_along, 1, kMaxBlocksAlong);
   const std::size_t blocks = static_cast<std::size_t>(blocks_along_) * blocks_along_;
   blocks_.resize(blocks);
   sums_->lights.assign(blocks, BlockLight{});
-  weight_ = seen.certainty;
-  const double shortest = SidesOfTarget(state->target_from_ideal).shortest / scale;
-  tile_ = shortest >= kLeastTargetOfTiles_px && shortest / blocks_along_ >= kLeastBlockOfTiles_px
-              ? 4
-              : 2;
+  weight_ = observed.inverse_variance;
+  const double shortest = SidesOfTarget(state->target_from_undistorted).shortest / scale;
+  tile_ =
+      shortest >= kMinTargetOfTiles_px && shortest / blocks_along_ >= kMinBlockOfTiles_px ? 4 : 2;
   for (int step = 0;; ++step) {
-    Predict(pyramid, seen, *state);
-    if (step == 0) FitLevels(seen, options.least_weight);
+    Predict(pyramid, observed, *state);
+    if (step == 0) FitLevels(observed, options.min_weight);
     // The light of the step before, or without weights, tells what fits; and that the light.
-    FitLevels(seen, options.least_weight);
-    AddUp(seen, options.fit_blur);
+    FitLevels(observed, options.min_weight);
+    AddUp(observed, options.fit_blur);
     if (step >= options.steps) return true;
     bool still = false;
     if (!Move(options, scale, state, &still)) return false;
@@ -185,23 +184,23 @@ bool PictureFit::Run(const PicturePyramid& pyramid, const SeenWindow& seen, int 
   }
 }
 
-void PictureFit::Compare(const SeenWindow& seen) {
-  block_of_.resize(seen.value.size());
-  sums_->blocks.WriteBlocks(seen, &block_of_);
+void PictureFit::Compare(const ObservedPatch& observed) {
+  block_of_.resize(observed.value.size());
+  sums_->blocks.WriteBlocks(observed, &block_of_);
   details_.assign(blocks_.size(), {});
-  const PixelWindow& window = seen.rays.window;
+  const PixelWindow& window = observed.rays.window;
   for (int y = 0; y < window.height; ++y) {
     for (int x = 0; x < window.width; ++x) {
       const std::size_t at = static_cast<std::size_t>(y) * window.width + x;
-      if (block_of_[at] < 0 || !(seen.certainty[at] > 0.0F)) continue;
+      if (block_of_[at] < 0 || !(observed.inverse_variance[at] > 0.0F)) continue;
       // The lower triangle of v vᵀ, row by row.
-      const std::array<double, 5> v{1.0, 1.0 * x, 1.0 * y, picture_.white[at], seen.value[at]};
+      const std::array<double, 5> v{1.0, 1.0 * x, 1.0 * y, picture_.white[at], observed.value[at]};
       Detail& detail = details_[block_of_[at]];
       const double slope_x = picture_.white_x[at], slope_y = picture_.white_y[at];
       detail.slope_x += slope_x;
       detail.slope_y += slope_y;
       detail.slope2 += slope_x * slope_x + slope_y * slope_y;
-      detail.certainty += seen.certainty[at];
+      detail.inverse_variance += observed.inverse_variance[at];
       for (int a = 0, k = 0; a < 5; ++a) {
         for (int b = 0; b <= a; ++b, ++k) detail.products[k] += v[a] * v[b];
       }
@@ -212,9 +211,9 @@ void PictureFit::Compare(const SeenWindow& seen) {
     TargetBlock& block = blocks_[k];
     Detail& detail = details_[k];
     block.detail_correlation = 0.0;
-    block.tells = false;
+    block.informative = false;
     const double count = detail.products[0];
-    if (count < kLeastBlockPixels || !(block.mean > 0.0)) continue;
+    if (count < kMinBlockPixels || !(block.mean > 0.0)) continue;
     Eigen::Matrix<double, 5, 5> products;
     for (int a = 0, at = 0; a < 5; ++a) {
       for (int b = 0; b <= a; ++b, ++at) products(a, b) = products(b, a) = detail.products[at];
@@ -227,14 +226,15 @@ void PictureFit::Compare(const SeenWindow& seen) {
     if (!(rest(0, 0) > 1e-12 * count) || !(rest(1, 1) > 1e-14 * count)) continue;
     block.detail_correlation = rest(0, 1) / std::sqrt(rest(0, 0) * rest(1, 1));
     const double contrast = std::sqrt(rest(0, 0) / count);
-    block.tells = contrast >= kLeastContrast;
+    block.informative = contrast >= kMinContrast;
     // The mean square of the spatial frequency says how far apart samples are independent.
     const double slope2 =
         detail.slope2 - (detail.slope_x * detail.slope_x + detail.slope_y * detail.slope_y) / count;
     block.samples = count * std::max(0.0, slope2) / rest(0, 0) / (4.0 * std::numbers::pi);
-    const double codes = 255.0 * std::sqrt(detail.certainty / count);
-    // The light on the block is about what is seen of what should be: that holds if covered, too.
-    detail.contrast_codes = codes * contrast * block.seen / block.mean;
+    const double codes = 255.0 * std::sqrt(detail.inverse_variance / count);
+    // The light on the block is about what is observed of what should be: that holds if covered,
+    // too.
+    detail.contrast_codes = codes * contrast * block.observed / block.mean;
     detail.rest_codes =
         codes * std::sqrt(rest(1, 1) / count *
                           std::max(0.0, 1.0 - block.detail_correlation * block.detail_correlation));
@@ -245,14 +245,15 @@ void PictureFit::Compare(const SeenWindow& seen) {
   const auto low = rests_.begin() + static_cast<std::ptrdiff_t>(rests_.size() / 4);
   std::nth_element(rests_.begin(), low, rests_.end());
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    blocks_[k].tells = blocks_[k].tells && details_[k].contrast_codes >= kTellingOverNoise * *low;
+    blocks_[k].informative =
+        blocks_[k].informative && details_[k].contrast_codes >= kTellingOverNoise * *low;
   }
 }
 
 double PictureFit::Correlation() const {
   double sum = 0.0, share = 0.0;
   for (const TargetBlock& block : blocks_) {
-    if (block.contrast < kLeastContrast) continue;
+    if (block.contrast < kMinContrast) continue;
     const double weight = block.pixels * block.contrast;
     sum += weight * block.correlation;
     share += weight;

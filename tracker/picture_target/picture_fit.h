@@ -16,25 +16,25 @@ namespace pleinair::tracker {
 
 /// A rectangle of the target, in which light is taken as even.
 struct TargetBlock {
-  double correlation = 0.0;  ///< Normalised, of what is predicted and what is seen: -1…1.
-  double gain = 0.0;         ///< Linear light seen per light of the picture.
+  double correlation = 0.0;  ///< Normalised, of what is predicted and what is observed: -1…1.
+  double gain = 0.0;         ///< Linear light observed per light of the picture.
   double offset = 0.0;       ///< What black gives.
-  double mean = 0.0;         ///< Predicted light, and what is seen, on average.
-  double seen = 0.0;
+  double mean = 0.0;         ///< Predicted light, and what is observed, on average.
+  double observed = 0.0;
   double contrast = 0.0;  ///< Standard deviation of the predicted light.
   double weight = 0.0;    ///< 0…1: how much the fit believes in it.
   int pixels = 0;
   /// After Compare: correlation of what no even slope explains, and whether there is enough of it
   /// to stand out from noise.
   double detail_correlation = 0.0;
-  bool tells = false;
+  bool informative = false;
   /// Independent samples that there are of it, about: even blocks that are smooth agree by chance.
   double samples = 0.0;
 };
 
 /// What a fit varies.
 struct PictureFitState {
-  Mat3 target_from_ideal;
+  Mat3 target_from_undistorted;
   double blur_px = 0.7;  ///< Standard deviation beyond the pixel's square, in the picture's pixels.
 };
 
@@ -43,14 +43,14 @@ struct PictureFitOptions {
   bool fit_blur = false;
   bool fit_projection = true;  ///< False: only the affine part of the motion.
   /// Of a block that does not look as predicted: more than 0 where it may come to by moving.
-  double least_weight = 0.0;
+  double min_weight = 0.0;
   double done_px = 0.02;  ///< Stop when no corner moves farther, in the window's pixels.
 };
 
 /// Fits a target's homography to a picture by Gauss–Newton, as BlockFit does for prints of modules:
 /// the target's picture is predicted in linear light and moved until it correlates with what is
-/// seen, each block with a gain and an offset of its own, so that neither gradients nor edges of
-/// shadows across the target matter, and robustly, so that what covers it does not. What a pixel
+/// observed, each block with a gain and an offset of its own, so that neither gradients nor edges
+/// of shadows across the target matter, and robustly, so that what covers it does not. What a pixel
 /// may be off before it loses weight goes with the contrast of its block: pictures have weak parts.
 class PictureFit {
  public:
@@ -63,12 +63,12 @@ class PictureFit {
   static int BlocksAlong(double area_px, double block_px);
 
   /// False where the equations have no solution or the target leaves the window.
-  bool Run(const PicturePyramid& pyramid, const SeenWindow& seen, int blocks_along,
+  bool Run(const PicturePyramid& pyramid, const ObservedPatch& observed, int blocks_along,
            const PictureFitOptions& options, PictureFitState* state);
 
   /// Compares the details of each block after Run. Any two smooth blocks correlate once one has
   /// been moved to where they do: what is like a plane is taken off both before.
-  void Compare(const SeenWindow& seen);
+  void Compare(const ObservedPatch& observed);
 
   /// After Run, at the state it ended with or less than `done_px` from there: row by row from the
   /// top-left.
@@ -80,31 +80,33 @@ class PictureFit {
   std::array<double, 64> MotionCovariance() const;
 
   /// Least standard deviation of a block's predicted light for it to tell anything.
-  static constexpr double kLeastContrast = 0.01;
+  static constexpr double kMinContrast = 0.01;
 
  private:
   static constexpr int kMotions = kFitMotions;
   static constexpr int kParameters = kFitParameters;
 
   struct Sums;
-  void Predict(const PicturePyramid& pyramid, const SeenWindow& seen, const PictureFitState& state);
-  void FitLevels(const SeenWindow& seen, double least_weight);
-  void AddUp(const SeenWindow& seen, bool blur);
+  void Predict(const PicturePyramid& pyramid, const ObservedPatch& observed,
+               const PictureFitState& state);
+  void FitLevels(const ObservedPatch& observed, double min_weight);
+  void AddUp(const ObservedPatch& observed, bool blur);
   bool Move(const PictureFitOptions& options, double scale, PictureFitState* state, bool* still);
 
   PictureRaster raster_;
-  PrintMap map_;
-  PrintPicture picture_;
+  PlaneMap map_;
+  PredictedImage picture_;
   int blocks_along_ = 0;
   int tile_ = 4;
   std::vector<TargetBlock> blocks_;
   std::vector<float> weight_;
   std::vector<std::int16_t> block_of_;
-  /// Of each block: sums of products, slopes, certainty; then how far details stand out from noise.
+  /// Of each block: sums of products, slopes, inverse variance; then how far details stand out from
+  /// noise.
   struct Detail {
     std::array<double, 15> products{};
     double slope_x = 0.0, slope_y = 0.0, slope2 = 0.0;
-    double certainty = 0.0, contrast_codes = 0.0, rest_codes = 0.0;
+    double inverse_variance = 0.0, contrast_codes = 0.0, rest_codes = 0.0;
   };
   std::vector<Detail> details_;
   std::vector<double> rests_;  ///< What is left over of each block that fits, of its contrast.

@@ -9,7 +9,7 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr double kBrightestShare = 0.02;
-constexpr int kLeastSide_px = 4;
+constexpr int kMinSide_px = 4;
 
 /// Linear light that all but the brightest pixels do not exceed.
 float WhiteOf(ImageView<const std::uint8_t> picture) {
@@ -34,7 +34,7 @@ PicturePyramid::PicturePyramid(ImageView<const std::uint8_t> picture) {
     for (int x = 0; x < level.width(); ++x) level(x, y) = scale * LinearFromSrgb8()[picture(x, y)];
   }
   levels_.push_back(std::move(level));
-  while (std::min(levels_.back().width(), levels_.back().height()) >= 2 * kLeastSide_px) {
+  while (std::min(levels_.back().width(), levels_.back().height()) >= 2 * kMinSide_px) {
     const Image<float>& from = levels_.back();
     Image<float> half(from.width() / 2, from.height() / 2);
     for (int y = 0; y < half.height(); ++y) {

@@ -15,9 +15,9 @@ constexpr double kKernelSigmas = 3.0;
 constexpr double kSharpestBlur_px = 0.12;
 /// From this blur on one sample a pixel is enough where texels are no smaller than pixels.
 constexpr double kSmoothBlur_px = 1.0;
-constexpr double kMostSamples = 5.0;  ///< Along a pixel.
-constexpr float kAround_px = 2.0F;    ///< Predicted beyond the target's edge.
-constexpr int kProbes = 6;            ///< Along each side of the window.
+constexpr double kMaxSamples = 5.0;  ///< Along a pixel.
+constexpr float kAround_px = 2.0F;   ///< Predicted beyond the target's edge.
+constexpr int kProbes = 6;           ///< Along each side of the window.
 
 /// A pixel's square, one wide, blurred by a Gaussian.
 double BlurredBox(double x, double sigma) {
@@ -79,7 +79,7 @@ void PictureRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
     const double t = (k + 0.5) * bin - 0.5 - *pad;
     const double weight = bin * BlurredBox(t, sigma);
     kernel_[k] = static_cast<float>(weight);
-    // The picture is ∫ print(p + t) K(t) dt, so that its slope is -∫ print(p + t) K'(t) dt.
+    // The picture is ∫ marker(p + t) K(t) dt, so that its slope is -∫ marker(p + t) K'(t) dt.
     kernel_slope_[k] =
         static_cast<float>(BlurredBox(t - 0.5 * bin, sigma) - BlurredBox(t + 0.5 * bin, sigma));
     sum += weight;
@@ -88,11 +88,11 @@ void PictureRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
 }
 
 PictureRaster::Sampling PictureRaster::ChooseSampling(const PicturePyramid& pyramid,
-                                                      const Mat3& target_from_ideal,
+                                                      const Mat3& target_from_undistorted,
                                                       const WindowRays& rays, double blur_px) {
   const PixelWindow& window = rays.window;
   const int stride = window.width + 2 * kWindowBorder;
-  const Mat3& m = target_from_ideal;
+  const Mat3& m = target_from_undistorted;
   const double per_x = pyramid.width() / kTargetSide, per_y = pyramid.height() / kTargetSide;
   double narrowest = 0.0, widest = 0.0;  // Texels that a pixel covers, across and along.
   int probes = 0;
@@ -119,22 +119,22 @@ PictureRaster::Sampling PictureRaster::ChooseSampling(const PicturePyramid& pyra
   if (probes == 0) return sampling;
   const int last = pyramid.levels() - 1;
   sampling.level = static_cast<int>(std::clamp(std::floor(narrowest / probes), 0.0, 1.0 * last));
-  // Of what is seen very flat, a coarser level rather than ever more samples.
-  while (sampling.level < last && widest / (1 << sampling.level) > kMostSamples) ++sampling.level;
+  // Of what is observed very flat, a coarser level rather than ever more samples.
+  while (sampling.level < last && widest / (1 << sampling.level) > kMaxSamples) ++sampling.level;
   const double finest = widest / (1 << sampling.level);
   const bool smooth = finest <= 1.0 && blur_px >= kSmoothBlur_px;
   sampling.per_pixel =
-      smooth ? 1 : static_cast<int>(std::ceil(std::clamp(finest, 2.0, kMostSamples)));
+      smooth ? 1 : static_cast<int>(std::ceil(std::clamp(finest, 2.0, kMaxSamples)));
   return sampling;
 }
 
-void PictureRaster::Render(const PicturePyramid& pyramid, const Mat3& target_from_ideal,
-                           const WindowRays& rays, double blur_px, PrintMap* map,
-                           PrintPicture* picture, std::vector<RowRange>* ranges) {
+void PictureRaster::Render(const PicturePyramid& pyramid, const Mat3& target_from_undistorted,
+                           const WindowRays& rays, double blur_px, PlaneMap* map,
+                           PredictedImage* picture, std::vector<RowRange>* ranges) {
   const PixelWindow& window = rays.window;
   RasterRows::Resize(window, map, picture, ranges);
   if (window.empty()) return;
-  const Sampling sampling = ChooseSampling(pyramid, target_from_ideal, rays, blur_px);
+  const Sampling sampling = ChooseSampling(pyramid, target_from_undistorted, rays, blur_px);
   const Image<float>& level = pyramid.level(sampling.level);
   const double per_level = 1.0 / (kTargetSide * (1 << sampling.level));
   const Vec2 texels_per_unit{pyramid.width() * per_level, pyramid.height() * per_level};
@@ -142,12 +142,12 @@ void PictureRaster::Render(const PicturePyramid& pyramid, const Mat3& target_fro
   int pad = 0;
   SetKernel(blur_px, per_pixel, &pad);
   const BlurTaps taps{kernel_.data(), kernel_slope_.data(), per_pixel, 2 * pad + 1};
-  rows_->Start(target_from_ideal, rays, pad, per_pixel);
+  rows_->Start(target_from_undistorted, rays, pad, per_pixel);
   const int count = rows_->count();
   constexpr auto kSide = static_cast<float>(kTargetSide);
 
   for (int y = -pad; y < window.height + pad; ++y) {
-    const MapRow& here = rows_->Look(*kernels_, rays, y);
+    const MapRow& here = rows_->Evaluate(*kernels_, rays, y);
     const RowRanges of_target = kernels_->ranges(
         here, kSide, kAround_px, static_cast<float>(pad) + kAround_px + 1.0F, count);
     if (y >= 0 && y < window.height) {

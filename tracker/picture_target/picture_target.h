@@ -49,9 +49,9 @@ inline Vec2 PlaceOnTarget(const PictureTarget& target, const TargetKeypoint& key
 }
 
 // Bounds of what a target may hold, for those who make, write and read it.
-inline constexpr int kLeastTargetPicture_px = 32, kMostTargetPicture_px = 512;
-inline constexpr int kMostTargetViews = 128, kMostTargetKeypoints = 8192;
-inline constexpr double kLeastTargetSize_m = 0.001, kMostTargetSize_m = 1000.0;
-inline constexpr std::size_t kMostTargetName = 200;  ///< Bytes.
+inline constexpr int kMinTargetPicture_px = 32, kMaxTargetPicture_px = 512;
+inline constexpr int kMaxTargetViews = 128, kMaxTargetKeypoints = 8192;
+inline constexpr double kMinTargetSize_m = 0.001, kMaxTargetSize_m = 1000.0;
+inline constexpr std::size_t kMaxTargetName = 200;  ///< Bytes.
 
 }  // namespace pleinair::tracker

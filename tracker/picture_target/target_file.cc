@@ -17,12 +17,12 @@ namespace {
 constexpr std::string_view kMagic = "PLEINTGT";
 constexpr std::size_t kHeader = kMagic.size() + 3 * sizeof(std::uint32_t);
 /// The largest picture, views and keypoints that a target may have take 1.0 MB.
-constexpr std::size_t kMostBytes = 2'000'000;
-constexpr double kMostViewEntry = 1e4, kLeastDeterminant = 1e-4;
-constexpr float kMostViewSide_px = 4096.0F, kLeastScale = 0.1F, kMostScale = 1000.0F;
-constexpr float kMostAngle_rad = 4.0F;
+constexpr std::size_t kMaxBytes = 2'000'000;
+constexpr double kMaxViewEntry = 1e4, kMinDeterminant = 1e-4;
+constexpr float kMaxViewSide_px = 4096.0F, kMinScale = 0.1F, kMaxScale = 1000.0F;
+constexpr float kMaxAngle_rad = 4.0F;
 constexpr double kBesideTarget = 1.0;  ///< Target units that a keypoint may lie off it.
-constexpr double kMostAspect = 8.0;
+constexpr double kMaxAspect = 8.0;
 
 constexpr std::size_t kKeypointBytes = 2 + 4 * sizeof(float) + 64;
 constexpr std::size_t kViewBytes = 6 * sizeof(double);
@@ -39,13 +39,13 @@ Fault ReadPicture(LittleEndianReader* reader, PictureTarget* target) {
   const int width = reader->Get<std::uint16_t>(), height = reader->Get<std::uint16_t>();
   if (!reader->complete()) return "it ends before its picture";
   if (!IsTargetName(target->name)) return "its name is empty, too long or no plain UTF-8";
-  if (!Within(target->width_m, kLeastTargetSize_m, kMostTargetSize_m) ||
-      !Within(target->height_m, kLeastTargetSize_m, kMostTargetSize_m) ||
-      !Within(target->width_m / target->height_m, 1.0 / kMostAspect, kMostAspect)) {
+  if (!Within(target->width_m, kMinTargetSize_m, kMaxTargetSize_m) ||
+      !Within(target->height_m, kMinTargetSize_m, kMaxTargetSize_m) ||
+      !Within(target->width_m / target->height_m, 1.0 / kMaxAspect, kMaxAspect)) {
     return "its printed size is none";
   }
   for (const int side : {width, height}) {
-    if (!Within(side, kLeastTargetPicture_px, kMostTargetPicture_px)) {
+    if (!Within(side, kMinTargetPicture_px, kMaxTargetPicture_px)) {
       return "its picture has sides of " + std::to_string(width) + " and " +
              std::to_string(height) + " pixels";
     }
@@ -59,18 +59,18 @@ Fault ReadPicture(LittleEndianReader* reader, PictureTarget* target) {
 
 Fault ReadViews(LittleEndianReader* reader, PictureTarget* target) {
   const int views = reader->Get<std::uint16_t>();
-  if (views < 1 || views > kMostTargetViews || reader->rest().size() < views * kViewBytes) {
+  if (views < 1 || views > kMaxTargetViews || reader->rest().size() < views * kViewBytes) {
     return "it tells of " + std::to_string(views) + " views and does not hold them";
   }
   for (int i = 0; i < views; ++i) {
     TargetView view;
     for (double& entry : view.from_target) {
       entry = reader->Get<double>();
-      if (!Within(entry, -kMostViewEntry, kMostViewEntry)) return "one of its views is none";
+      if (!Within(entry, -kMaxViewEntry, kMaxViewEntry)) return "one of its views is none";
     }
     const auto& m = view.from_target;
     // Neither flat nor mirrored.
-    if (!(m[0] * m[4] - m[1] * m[3] > kLeastDeterminant)) return "one of its views is none";
+    if (!(m[0] * m[4] - m[1] * m[3] > kMinDeterminant)) return "one of its views is none";
     target->views.push_back(view);
   }
   return {};
@@ -78,7 +78,7 @@ Fault ReadViews(LittleEndianReader* reader, PictureTarget* target) {
 
 Fault ReadKeypoints(LittleEndianReader* reader, PictureTarget* target) {
   const std::uint32_t keypoints = reader->Get<std::uint32_t>();
-  if (keypoints < 1 || keypoints > kMostTargetKeypoints ||
+  if (keypoints < 1 || keypoints > kMaxTargetKeypoints ||
       reader->rest().size() < keypoints * kKeypointBytes) {
     return "it tells of " + std::to_string(keypoints) + " features and does not hold them";
   }
@@ -98,9 +98,9 @@ Fault ReadKeypoints(LittleEndianReader* reader, PictureTarget* target) {
     }
     descriptor.bright = bright == 1;
     if (bright > 1 || keypoint.view >= static_cast<int>(target->views.size()) ||
-        !Within(keypoint.x, 0.0, kMostViewSide_px) || !Within(keypoint.y, 0.0, kMostViewSide_px) ||
-        !Within(keypoint.scale, kLeastScale, kMostScale) ||
-        !Within(keypoint.angle_rad, -kMostAngle_rad, kMostAngle_rad)) {
+        !Within(keypoint.x, 0.0, kMaxViewSide_px) || !Within(keypoint.y, 0.0, kMaxViewSide_px) ||
+        !Within(keypoint.scale, kMinScale, kMaxScale) ||
+        !Within(keypoint.angle_rad, -kMaxAngle_rad, kMaxAngle_rad)) {
       return fault;
     }
     const Vec2 place = PlaceOnTarget(*target, keypoint);
@@ -215,7 +215,7 @@ Result<PictureTarget> ReadTargetFile(const std::filesystem::path& file) {
     return InputError(file.string(), "cannot be read: " + error.message(),
                       "give a file that 'pleinair target' has written");
   }
-  if (size > kMostBytes) {
+  if (size > kMaxBytes) {
     return InputError(file.string(), "is too large for a target file", kMakeAgain);
   }
   std::string bytes(static_cast<std::size_t>(size), '\0');

@@ -11,7 +11,7 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kMostAspect = 6.0;
+constexpr double kMaxAspect = 6.0;
 
 /// Where each pixel of a side of `to` pixels begins and ends on one of `from`.
 struct Share {
@@ -59,7 +59,7 @@ GreyImage Reduced(ImageView<const std::uint8_t> grey, int width, int height) {
 }  // namespace
 
 bool IsTargetName(const std::string& name) {
-  if (name.empty() || name.size() > kMostTargetName) return false;
+  if (name.empty() || name.size() > kMaxTargetName) return false;
   int more = 0;  // Bytes of the character that must follow.
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
@@ -95,42 +95,42 @@ Result<PictureTarget> MakePictureTarget(ImageView<const std::uint8_t> grey, Metr
   }
   const double height_m = width.value() * grey.height() / grey.width();
   for (const double side_m : {width.value(), height_m}) {
-    if (side_m >= kLeastTargetSize_m && side_m <= kMostTargetSize_m) continue;
+    if (side_m >= kMinTargetSize_m && side_m <= kMaxTargetSize_m) continue;
     return InputError("", "the printed picture would be smaller than 1 mm or larger than 1 km",
                       "give its width in millimetres");
   }
   if (!IsTargetName(name)) {
     return InputError("", "the name is empty, too long or no plain UTF-8",
-                      "give one of 1 to " + std::to_string(kMostTargetName) + " bytes");
+                      "give one of 1 to " + std::to_string(kMaxTargetName) + " bytes");
   }
-  if (longer > kMostAspect * shorter) {
+  if (longer > kMaxAspect * shorter) {
     return InputError("", "the picture is more than 6 times as long as it is wide",
                       "crop it: so narrow a strip cannot be measured");
   }
-  const double scale = std::min(1.0, kMostTargetPicture_px / longer);
+  const double scale = std::min(1.0, kMaxTargetPicture_px / longer);
   const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
   PictureTarget target;
   target.name = name;
   target.width_m = width.value();
   target.height_m = height_m;
-  if (std::min(side(grey.width()), side(grey.height())) < kLeastTargetPicture_px) {
+  if (std::min(side(grey.width()), side(grey.height())) < kMinTargetPicture_px) {
     return InputError("", "the picture has too few pixels",
-                      "give one of at least " + std::to_string(kLeastTargetPicture_px) +
+                      "give one of at least " + std::to_string(kMinTargetPicture_px) +
                           " pixels on the shorter side");
   }
   target.picture = Reduced(grey, side(grey.width()), side(grey.height()));
   FillTargetViews(&target);
   const TargetQuality quality = RateTarget(target);
-  if (quality.features < kFewestTargetFeatures || quality.coverage < kLeastTargetCoverage) {
-    const bool few = quality.features < kFewestTargetFeatures;
+  if (quality.features < kMinTargetFeatures || quality.coverage < kMinTargetCoverage) {
+    const bool few = quality.features < kMinTargetFeatures;
     return InputError("",
                       few ? "the picture has too few features to be found by (" +
                                 std::to_string(quality.features) + ", at least " +
-                                std::to_string(kFewestTargetFeatures) + " are needed)"
+                                std::to_string(kMinTargetFeatures) + " are needed)"
                           : "the picture's features all lie in one small part of it (" +
                                 std::to_string(std::lround(100.0 * quality.coverage)) +
                                 " % of its area, at least " +
-                                std::to_string(std::lround(100.0 * kLeastTargetCoverage)) +
+                                std::to_string(std::lround(100.0 * kMinTargetCoverage)) +
                                 " % are needed)",
                       few ? "choose one with more fine detail, sharper edges and more contrast"
                           : "crop it to that part, or choose one that has detail everywhere");

@@ -16,7 +16,7 @@ namespace pleinair::tracker {
 Result<PictureTarget> MakePictureTarget(ImageView<const std::uint8_t> grey, Metres width,
                                         const std::string& name);
 
-/// Whether a target file can hold a name: 1 to kMostTargetName bytes of UTF-8, no control
+/// Whether a target file can hold a name: 1 to kMaxTargetName bytes of UTF-8, no control
 /// characters.
 bool IsTargetName(const std::string& name);
 

@@ -15,8 +15,8 @@ constexpr int kCoverageCells = 6, kContrastCells = 8;
 /// Keypoints this near, in unit descriptors, and this far apart, in target units, repeat each
 /// other.
 constexpr double kSameDescriptor = 0.13, kElsewhere = 4.0;
-constexpr double kLeastContrast = 0.03;  ///< Standard deviation, of white.
-constexpr int kManyFeatures = 100;       ///< As many as a target can use.
+constexpr double kMinContrast = 0.03;  ///< Standard deviation, of white.
+constexpr int kManyFeatures = 100;     ///< As many as a target can use.
 constexpr double kNearlySquare = 1.15;
 constexpr double kDoubtfulTurn = 0.8;
 constexpr int kThumbnail = 48;
@@ -89,7 +89,7 @@ double ContrastShare(const Image<float>& picture) {
         }
       }
       const double mean = sum / count;
-      telling += squares / count - mean * mean > kLeastContrast * kLeastContrast ? 1 : 0;
+      telling += squares / count - mean * mean > kMinContrast * kMinContrast ? 1 : 0;
     }
   }
   return static_cast<double>(telling) / (kContrastCells * kContrastCells);

@@ -9,7 +9,7 @@ namespace pleinair::tracker {
 
 /// How well a picture can be found and measured.
 struct TargetQuality {
-  int features = 0;       ///< Keypoints that come back whenever the picture is seen from the front.
+  int features = 0;  ///< Keypoints that come back whenever the picture is observed from the front.
   double coverage = 0.0;  ///< Share of a 6×6 grid over the picture that has any.
   double contrast = 0.0;  ///< Share of an 8×8 grid that has light and dark to be aligned with.
   /// Share of the keypoints that look like another one elsewhere in the picture.
@@ -24,8 +24,8 @@ struct TargetQuality {
 TargetQuality RateTarget(const PictureTarget& target);
 
 /// Fewer features than this make no target.
-inline constexpr int kFewestTargetFeatures = 30;
+inline constexpr int kMinTargetFeatures = 30;
 /// … nor do features in less of the picture.
-inline constexpr double kLeastTargetCoverage = 0.2;
+inline constexpr double kMinTargetCoverage = 0.2;
 
 }  // namespace pleinair::tracker

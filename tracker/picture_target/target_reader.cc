@@ -12,44 +12,44 @@ namespace {
 
 /// Longest side of a target that is fitted coarsely, in between, and finely.
 constexpr double kCoarseSide_px = 64.0, kMiddleSide_px = 160.0, kFineSide_px = 340.0;
-constexpr int kMostLevel = 5;
+constexpr int kMaxLevel = 5;
 constexpr double kCoarseBlock_px = 9.0, kFineBlock_px = 12.0;
 constexpr PictureFitOptions kCoarseFit{
-    .steps = 8, .fit_projection = false, .least_weight = 0.02, .done_px = 0.1};
-constexpr PictureFitOptions kMiddleFit{.steps = 8, .least_weight = 0.01, .done_px = 0.05};
+    .steps = 8, .fit_projection = false, .min_weight = 0.02, .done_px = 0.1};
+constexpr PictureFitOptions kMiddleFit{.steps = 8, .min_weight = 0.01, .done_px = 0.05};
 constexpr PictureFitOptions kFineFit{.steps = 20, .fit_blur = true};
 /// Blur that is taken for certain in reduced pictures, in their pixels.
 constexpr double kReducedBlur_px = 1.0;
-constexpr double kLeastSide_px = 16.0;  ///< Of the longer side; and of the shorter:
-constexpr double kLeastShort_px = 7.0;
-constexpr std::size_t kMostWindow = 400'000;
+constexpr double kMinSide_px = 16.0;  ///< Of the longer side; and of the shorter:
+constexpr double kMinShort_px = 7.0;
+constexpr std::size_t kMaxWindow = 400'000;
 /// Fits in between by which less of the target looks as predicted are not looked at finely; from
 /// the second on nothing better is tried.
 constexpr double kHopeless = 0.08, kGoodEnough = 0.9;
-/// A block is hidden up to the first correlation and seen from the second on.
+/// A block is hidden up to the first correlation and observed from the second on.
 constexpr double kHidden = 0.4, kSeen = 0.8;
 /// What makes it the target: so much of it looks right, and that times the evidence is so much.
 /// Photographs without the target reach 9, and with it 30 is little, of a target of 40 pixels or
 /// with 60 % covered (docs/targets.md).
-constexpr double kLeastVisible = 0.15, kLeastProof = 15.0;
+constexpr double kMinVisible = 0.15, kMinEvidence = 15.0;
 /// Independent samples of a block that moving and lighting it fits anyhow, and those beyond that
 /// make it tell all it can.
 constexpr double kFittedSamples = 3.0, kEnoughSamples = 8.0;
-constexpr double kSurest = 0.995;       ///< Correlation that is as good as 1.
-constexpr double kLeastTelling = 0.15;  ///< Blocks that count at least, as a share of all.
-/// What no residual tells: flatness of the print, its edges, calibration.
+constexpr double kSurest = 0.995;              ///< Correlation that is as good as 1.
+constexpr double kMinInformativeShare = 0.15;  ///< Blocks that count at least, as a share of all.
+/// What no residual tells: flatness of the marker, its edges, calibration.
 constexpr double kSystematicCorner_px = 0.02;
 constexpr double kHalf = 0.5 * kTargetSide;
 
-/// Longest and shortest side and area in ideal pixels; nothing where the horizon crosses the
+/// Longest and shortest side and area in undistorted pixels; nothing where the horizon crosses the
 /// target.
 struct Extent {
   double longest = 0.0, shortest = 1e9;
   double area = 0.0;
 };
 
-std::optional<Extent> ExtentOf(const Mat3& target_from_ideal) {
-  const Mat3 inverse = Adjugate(target_from_ideal);
+std::optional<Extent> ExtentOf(const Mat3& target_from_undistorted) {
+  const Mat3 inverse = Adjugate(target_from_undistorted);
   std::array<Vec2, 4> corners;
   double sign = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -69,7 +69,7 @@ std::optional<Extent> ExtentOf(const Mat3& target_from_ideal) {
     extent.area += 0.5 * (a.x * b.y - a.y * b.x);
   }
   extent.area = std::fabs(extent.area);
-  if (extent.longest < kLeastSide_px || extent.shortest < kLeastShort_px) return std::nullopt;
+  if (extent.longest < kMinSide_px || extent.shortest < kMinShort_px) return std::nullopt;
   return extent;
 }
 
@@ -103,45 +103,45 @@ void FillIn(int along, std::vector<char>* known, std::vector<float>* visible) {
 
 }  // namespace
 
-bool TargetReader::TakeWindow(const Mat3& target_from_ideal, double most_px,
-                              SeenWindow* seen) const {
-  const std::optional<Extent> extent = ExtentOf(target_from_ideal);
+bool TargetReader::TakeWindow(const Mat3& target_from_undistorted, double max_px,
+                              ObservedPatch* observed) const {
+  const std::optional<Extent> extent = ExtentOf(target_from_undistorted);
   if (!extent) return false;
   int level = 0;
-  while (level < kMostLevel && extent->longest / (1 << level) > most_px &&
-         extent->shortest / (1 << (level + 1)) > kLeastShort_px) {
+  while (level < kMaxLevel && extent->longest / (1 << level) > max_px &&
+         extent->shortest / (1 << (level + 1)) > kMinShort_px) {
     ++level;
   }
   constexpr int kPlaces = 4;  // Along a side.
   constexpr int kMargin = 1;
   const std::optional<PixelWindow> window =
-      WindowOfSquare(lens_, target_from_ideal, kTargetSide, kPlaces, grey_.width(), grey_.height(),
-                     level, kMargin);
-  if (!window || window->width <= 3 || window->height <= 3 || window->size() > kMostWindow) {
+      WindowOfSquare(lens_, target_from_undistorted, kTargetSide, kPlaces, grey_.width(),
+                     grey_.height(), level, kMargin);
+  if (!window || window->width <= 3 || window->height <= 3 || window->size() > kMaxWindow) {
     return false;
   }
-  TakeLinearWindow(lens_, grey_, *window, seen);
+  TakeLinearWindow(lens_, grey_, *window, observed);
   return true;
 }
 
-double TargetReader::Fit(const PicturePyramid& pyramid, double most_px,
+double TargetReader::Fit(const PicturePyramid& pyramid, double max_px,
                          const PictureFitOptions& options, PictureFitState* state) {
-  if (!TakeWindow(state->target_from_ideal, most_px, &seen_)) return 0.0;
-  const double scale = seen_.rays.window.Scale();
-  const std::optional<Extent> extent = ExtentOf(state->target_from_ideal);
+  if (!TakeWindow(state->target_from_undistorted, max_px, &observed_)) return 0.0;
+  const double scale = observed_.rays.window.Scale();
+  const std::optional<Extent> extent = ExtentOf(state->target_from_undistorted);
   const double blur_px = state->blur_px;
   state->blur_px = std::max(blur_px, kReducedBlur_px * scale);
   const int blocks = PictureFit::BlocksAlong(extent->area / (scale * scale), kCoarseBlock_px);
-  const bool fitted = fit_.Run(pyramid, seen_, blocks, options, state);
+  const bool fitted = fit_.Run(pyramid, observed_, blocks, options, state);
   state->blur_px = blur_px;
   if (!fitted) return 0.0;
   double visible = 0.0, all = 0.0;
   for (const TargetBlock& block : fit_.blocks()) {
-    if (block.contrast < PictureFit::kLeastContrast) continue;
+    if (block.contrast < PictureFit::kMinContrast) continue;
     visible += block.gain > 0.0 ? VisibleOf(block.correlation) : 0.0;
     all += 1.0;
   }
-  return visible / std::max(all, kLeastTelling * static_cast<double>(fit_.blocks().size()));
+  return visible / std::max(all, kMinInformativeShare * static_cast<double>(fit_.blocks().size()));
 }
 
 std::optional<TargetReading> TargetReader::Read(const PicturePyramid& pyramid,
@@ -166,24 +166,25 @@ std::optional<TargetReading> TargetReader::Read(const PicturePyramid& pyramid,
 std::optional<TargetReading> TargetReader::Measure(const PicturePyramid& pyramid,
                                                    const PictureFitState& guess) {
   PictureFitState state = guess;
-  if (!TakeWindow(state.target_from_ideal, kFineSide_px, &seen_)) return std::nullopt;
-  const double scale = seen_.rays.window.Scale();
+  if (!TakeWindow(state.target_from_undistorted, kFineSide_px, &observed_)) return std::nullopt;
+  const double scale = observed_.rays.window.Scale();
   state.blur_px = std::max(state.blur_px, 0.5 * scale);
-  const std::optional<Extent> extent = ExtentOf(state.target_from_ideal);
+  const std::optional<Extent> extent = ExtentOf(state.target_from_undistorted);
   const int blocks = PictureFit::BlocksAlong(extent->area / (scale * scale), kFineBlock_px);
-  if (!fit_.Run(pyramid, seen_, blocks, kFineFit, &state)) return std::nullopt;
-  if (!ExtentOf(state.target_from_ideal)) return std::nullopt;
-  fit_.Compare(seen_);
+  if (!fit_.Run(pyramid, observed_, blocks, kFineFit, &state)) return std::nullopt;
+  if (!ExtentOf(state.target_from_undistorted)) return std::nullopt;
+  fit_.Compare(observed_);
   TargetReading reading;
-  reading.target_from_ideal = state.target_from_ideal;
+  reading.target_from_undistorted = state.target_from_undistorted;
   reading.blur_px = state.blur_px;
   reading.correlation = fit_.Correlation();
   reading.blocks_along = fit_.blocks_along();
   std::vector<char> known;
-  double seen = 0.0, all = 0.0;
+  double observed = 0.0, all = 0.0;
   for (const TargetBlock& block : fit_.blocks()) {
     // Blocks that are even, clip all over, or lie outside the picture tell nothing.
-    const double correlation = block.tells && block.gain > 0.0 ? block.detail_correlation : 0.0;
+    const double correlation =
+        block.informative && block.gain > 0.0 ? block.detail_correlation : 0.0;
     const double visible = VisibleOf(correlation);
     reading.visible.push_back(static_cast<float>(visible));
     // What luck unrelated samples would need, in nats a pair: -½ ln(1 - r²).
@@ -191,13 +192,13 @@ std::optional<TargetReading> TargetReader::Measure(const PicturePyramid& pyramid
     const double independent =
         std::clamp((block.samples - kFittedSamples) / kEnoughSamples, 0.0, 1.0);
     reading.evidence -= independent * std::log(1.0 - sure * sure);
-    // What lies outside the picture is not seen, and not known by its neighbours either.
-    known.push_back(block.tells || block.pixels == 0 ? 1 : 0);
-    seen += visible;
-    all += block.tells ? 1.0 : 0.0;
+    // What lies outside the picture is not observed, and not known by its neighbours either.
+    known.push_back(block.informative || block.pixels == 0 ? 1 : 0);
+    observed += visible;
+    all += block.informative ? 1.0 : 0.0;
   }
   const double count = static_cast<double>(fit_.blocks().size());
-  reading.visible_fraction = seen / std::max(all, kLeastTelling * count);
+  reading.visible_fraction = observed / std::max(all, kMinInformativeShare * count);
   FillIn(reading.blocks_along, &known, &reading.visible);
   if (!Verified(reading)) return std::nullopt;
   motion_covariance_ = fit_.MotionCovariance();
@@ -205,17 +206,17 @@ std::optional<TargetReading> TargetReader::Measure(const PicturePyramid& pyramid
 }
 
 bool TargetReader::Verified(const TargetReading& reading) {
-  return reading.visible_fraction >= kLeastVisible &&
-         reading.visible_fraction * reading.evidence >= kLeastProof;
+  return reading.visible_fraction >= kMinVisible &&
+         reading.visible_fraction * reading.evidence >= kMinEvidence;
 }
 
 void TargetReader::Corners(const TargetReading& reading, double half_u, double half_v,
                            std::array<Vec2, 4>* corners_px,
                            CornerCovariance* covariance_px2) const {
-  const Mat3 ideal_from_target = Adjugate(reading.target_from_ideal);
+  const Mat3 undistorted_from_target = Adjugate(reading.target_from_undistorted);
   const auto pixel_of = [&](Vec2 unit_down) {
-    return lens_.PixelOfIdeal(
-        Apply(ideal_from_target, {kHalf + kHalf * unit_down.x, kHalf + kHalf * unit_down.y}));
+    return lens_.PixelOfUndistorted(
+        Apply(undistorted_from_target, {kHalf + kHalf * unit_down.x, kHalf + kHalf * unit_down.y}));
   };
   std::array<FittedCorner, 4> corners;
   for (int i = 0; i < 4; ++i) {

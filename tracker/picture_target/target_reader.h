@@ -16,8 +16,8 @@ namespace pleinair::tracker {
 
 /// A target that has been measured and looks as it should.
 struct TargetReading {
-  Mat3 target_from_ideal;  ///< Homography from ideal pixels to target units.
-  double blur_px = 0.0;    ///< Standard deviation beyond the pixel's square.
+  Mat3 target_from_undistorted;  ///< Homography from undistorted pixels to target units.
+  double blur_px = 0.0;          ///< Standard deviation beyond the pixel's square.
   double correlation = 0.0;
   double visible_fraction = 0.0;  ///< Share of the target that looks as predicted.
   double evidence =
@@ -27,14 +27,14 @@ struct TargetReading {
 };
 
 /// Measures a target at a guessed place and verifies that it is there: aligns it coarsely, then
-/// finely on all its visible pixels, and compares what is predicted with what is seen, block by
+/// finely on all its visible pixels, and compares what is predicted with what is observed, block by
 /// block. Keeps its buffers; one thread at a time.
 class TargetReader {
  public:
   explicit TargetReader(const LensGrid& lens) : lens_(lens) {}
 
   /// The picture that the following readings look at; kept by reference.
-  void SetPicture(ImageView<const std::uint8_t> grey) { grey_ = grey; }
+  void SetImage(ImageView<const std::uint8_t> grey) { grey_ = grey; }
 
   /// From a guess that is right to some hundredths of the target's side. Nothing is returned where
   /// the target does not look as predicted.
@@ -46,17 +46,18 @@ class TargetReader {
                std::array<Vec2, 4>* corners_px, CornerCovariance* covariance_px2) const;
 
  private:
-  /// `most_px`: the picture is reduced until the target's longer side is no longer.
-  bool TakeWindow(const Mat3& target_from_ideal, double most_px, SeenWindow* seen) const;
-  /// Fits with the target reduced to `most_px`; gives how much of it looks as predicted then.
-  double Fit(const PicturePyramid& pyramid, double most_px, const PictureFitOptions& options,
+  /// `max_px`: the picture is reduced until the target's longer side is no longer.
+  bool TakeWindow(const Mat3& target_from_undistorted, double max_px,
+                  ObservedPatch* observed) const;
+  /// Fits with the target reduced to `max_px`; gives how much of it looks as predicted then.
+  double Fit(const PicturePyramid& pyramid, double max_px, const PictureFitOptions& options,
              PictureFitState* state);
   std::optional<TargetReading> Measure(const PicturePyramid& pyramid, const PictureFitState& guess);
   static bool Verified(const TargetReading& reading);
 
   const LensGrid& lens_;
   ImageView<const std::uint8_t> grey_;
-  SeenWindow seen_;
+  ObservedPatch observed_;
   PictureFit fit_;
   std::array<double, 64> motion_covariance_{};
 };

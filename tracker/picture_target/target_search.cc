@@ -18,22 +18,23 @@ constexpr SurfOptions kSurfOptions{.octaves = 3,
                                    .descriptor_window_scales = kTargetDescriptorWindow_scales};
 constexpr int kNeighbours = 4;  ///< Candidates of each keypoint of the frame.
 /// Matches farther apart than this (of unit descriptors) say nothing.
-constexpr double kFarthest = 0.7;
-constexpr double kSmallest_px = 20.0, kLargestShare = 3.0;  ///< Of the picture's height.
-/// Two matches agree when each is seen where the other expects it, in shares of the target's size.
+constexpr double kMaxDistance = 0.7;
+constexpr double kMin_px = 20.0, kMaxShare = 3.0;  ///< Of the picture's height.
+/// Two matches agree when each is observed where the other expects it, in shares of the target's
+/// size.
 constexpr double kPlaceTolerance = 0.12, kScaleTolerance = 1.6, kTurnTolerance_rad = 0.6;
 constexpr double kBin_rad = 0.6;  ///< Width of the angle filter's bins, which overlap by half.
 constexpr int kBins = static_cast<int>(2.0 * std::numbers::pi / (0.5 * kBin_rad)) + 1;
 constexpr std::size_t kSeedsOfBin = 60;
-constexpr std::size_t kMostGuesses = 12;
-constexpr int kMostFits = 30;
-constexpr int kFewestKeypoints = 4;  ///< "each bin with ≥ 4 matches", Prochazka et al. 2012, §3.2.
+constexpr std::size_t kMaxGuesses = 12;
+constexpr int kMaxFits = 30;
+constexpr int kMinKeypoints = 4;  ///< "each bin with ≥ 4 matches", Prochazka et al. 2012, §3.2.
 constexpr double kSamePlace = 0.12;  ///< Guesses closer than this, in shares of size, are one.
 /// What is let into a fit may agree less with its seed, whose own picture is only affine.
 constexpr double kLooserPlace = 0.5, kLooserScale = 2.5, kLooserTurn_rad = 0.9;
 constexpr int kFitRounds = 8;
 /// A keypoint is off by a share of its scale, and by some of a pixel at least.
-constexpr double kOffOfScale = 0.5, kLeastOff_px = 0.6;
+constexpr double kOffOfScale = 0.5, kMinOffset_px = 0.6;
 /// Distance, in such deviations, at which a match loses half its weight: first round and last.
 constexpr double kFirstReach = 12.0, kLastReach = 1.5;
 /// How far, in shares of size, corners may be from where the seed puts them; and how large the
@@ -103,14 +104,14 @@ void TargetSearch::MatchAndGather(const std::vector<bool>& wanted, bool mirrored
                                   std::vector<TargetGuess>* guesses) {
   guesses->clear();
   shown_ = keypoints_;
-  ideal_.clear();
+  undistorted_.clear();
   for (SurfKeypoint& k : shown_) {
-    Vec2 ideal = lens_.Ideal(k.x, k.y);
+    Vec2 undistorted = lens_.Undistort(k.x, k.y);
     if (mirrored) {
-      ideal.x = -ideal.x;
+      undistorted.x = -undistorted.x;
       k.angle_rad = std::numbers::pi_v<float> - k.angle_rad;
     }
-    ideal_.push_back(ideal);
+    undistorted_.push_back(undistorted);
   }
   if (mirrored) {
     flipped_.clear();
@@ -120,7 +121,7 @@ void TargetSearch::MatchAndGather(const std::vector<bool>& wanted, bool mirrored
   }
   matcher_.Match(mirrored ? flipped_ : quantised_, kNeighbours, &templates_of_frame_,
                  &frame_of_templates_);
-  keypoint_seen_.assign(shown_.size(), 0);
+  keypoint_observed_.assign(shown_.size(), 0);
   stamp_ = 0;
   CastVotes(wanted);
   Rank();
@@ -129,18 +130,18 @@ void TargetSearch::MatchAndGather(const std::vector<bool>& wanted, bool mirrored
 
 void TargetSearch::CastVotes(const std::vector<bool>& wanted) {
   votes_.clear();
-  const double largest = kLargestShare * lens_.camera().height;
+  const double largest = kMaxShare * lens_.camera().height;
   constexpr double kUnit2 =
       QuantisedDescriptor::kUnit * static_cast<double>(QuantisedDescriptor::kUnit);
   for (std::size_t n = 0; n < shown_.size(); ++n) {
     const SurfKeypoint& k = shown_[n];
-    const Vec2 here = ideal_[n];
+    const Vec2 here = undistorted_[n];
     if (!std::isfinite(here.x) || !std::isfinite(here.y)) continue;
     for (int i = 0; i < kNeighbours; ++i) {
       const DescriptorMatch& match = templates_of_frame_[n * kNeighbours + i];
       if (match.index == DescriptorMatch::kNone) break;
       const double distance = std::sqrt(match.squared_distance / kUnit2);
-      if (distance > kFarthest) break;
+      if (distance > kMaxDistance) break;
       const Model& model = models_[match.index];
       if (!wanted[model.target]) continue;
       const PictureTarget& target = *targets_[model.target];
@@ -161,14 +162,14 @@ void TargetSearch::CastVotes(const std::vector<bool>& wanted) {
       const auto& m = vote.from_target;
       vote.size_px = kTargetSide * std::sqrt(std::fabs(m[0] * m[4] - m[1] * m[3]));
       vote.centre = ApplyAffine(m, {kHalf, kHalf});
-      vote.weight = 1.0 - distance / kFarthest;
+      vote.weight = 1.0 - distance / kMaxDistance;
       const double longest = kTargetSide * std::max(std::hypot(m[0], m[3]), std::hypot(m[1], m[4]));
-      if (longest > kSmallest_px && longest < largest) votes_.push_back(vote);
+      if (longest > kMin_px && longest < largest) votes_.push_back(vote);
     }
   }
 }
 
-Vec2 TargetSearch::Here(const Vote& vote) const { return ideal_[vote.keypoint]; }
+Vec2 TargetSearch::Here(const Vote& vote) const { return undistorted_[vote.keypoint]; }
 
 bool TargetSearch::Agrees(const Vote& hypothesis, const Vote& vote) const {
   if (models_[vote.model].target != models_[hypothesis.model].target) return false;
@@ -204,12 +205,12 @@ void TargetSearch::Rank() {
       for (const int other : bin) {
         const Vote& vote = votes_[other];
         // Several candidates of one keypoint are one witness; the likeliest comes first.
-        if (keypoint_seen_[vote.keypoint] == stamp_ || !Agrees(seed, vote)) continue;
-        keypoint_seen_[vote.keypoint] = stamp_;
+        if (keypoint_observed_[vote.keypoint] == stamp_ || !Agrees(seed, vote)) continue;
+        keypoint_observed_[vote.keypoint] = stamp_;
         ranked.votes += vote.weight;
         ++ranked.keypoints;
       }
-      if (ranked.keypoints >= kFewestKeypoints) ranked_.push_back(ranked);
+      if (ranked.keypoints >= kMinKeypoints) ranked_.push_back(ranked);
     }
   }
   std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
@@ -222,15 +223,15 @@ void TargetSearch::Gather(bool mirrored, std::vector<TargetGuess>* guesses) {
       {{0, 0}, {kTargetSide, 0}, {kTargetSide, kTargetSide}, {0, kTargetSide}}};
   int fits = 0;
   for (const Ranked& candidate : ranked_) {
-    if (guesses->size() >= kMostGuesses || fits >= kMostFits) break;
+    if (guesses->size() >= kMaxGuesses || fits >= kMaxFits) break;
     const Vote& seed = votes_[candidate.seed];
     // What the seed says is known already where a guess says the same.
     const bool known = std::any_of(guesses->begin(), guesses->end(), [&](const TargetGuess& other) {
       if (other.target != models_[seed.model].target) return false;
-      const Mat3 ideal_from_target = Adjugate(other.target_from_ideal);
+      const Mat3 undistorted_from_target = Adjugate(other.target_from_undistorted);
       double farthest = 0.0;
       for (const Vec2 corner : kCorners) {
-        const Vec2 there = Apply(ideal_from_target, corner);
+        const Vec2 there = Apply(undistorted_from_target, corner);
         farthest = std::max(farthest, Norm(there - ApplyAffine(seed.from_target, corner)));
       }
       return farthest < 2.0 * kSamePlace * seed.size_px;
@@ -240,15 +241,15 @@ void TargetSearch::Gather(bool mirrored, std::vector<TargetGuess>* guesses) {
     guess.target = models_[seed.model].target;
     guess.votes = candidate.votes;
     ++fits;
-    if (!FitGuess(seed, &guess) || guess.keypoints < kFewestKeypoints) continue;
-    const Mat3 ideal_from_target = Adjugate(guess.target_from_ideal);
+    if (!FitGuess(seed, &guess) || guess.keypoints < kMinKeypoints) continue;
+    const Mat3 undistorted_from_target = Adjugate(guess.target_from_undistorted);
     const bool again = std::any_of(guesses->begin(), guesses->end(), [&](const TargetGuess& other) {
       if (other.target != guess.target) return false;
-      const Mat3 other_ideal_from_target = Adjugate(other.target_from_ideal);
+      const Mat3 other_undistorted_from_target = Adjugate(other.target_from_undistorted);
       double farthest = 0.0;
       for (const Vec2 corner : kCorners) {
-        farthest = std::max(farthest, Norm(Apply(ideal_from_target, corner) -
-                                           Apply(other_ideal_from_target, corner)));
+        farthest = std::max(farthest, Norm(Apply(undistorted_from_target, corner) -
+                                           Apply(other_undistorted_from_target, corner)));
       }
       return farthest < kSamePlace * seed.size_px;
     });
@@ -258,7 +259,8 @@ void TargetSearch::Gather(bool mirrored, std::vector<TargetGuess>* guesses) {
   if (!mirrored) return;
   // Back from the mirror.
   constexpr Mat3 kMirror{{-1, 0, 0, 0, 1, 0, 0, 0, 1}};
-  for (TargetGuess& guess : *guesses) guess.target_from_ideal = guess.target_from_ideal * kMirror;
+  for (TargetGuess& guess : *guesses)
+    guess.target_from_undistorted = guess.target_from_undistorted * kMirror;
 }
 
 bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
@@ -291,7 +293,7 @@ bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
                         {model.place.x / kHalf - 1.0, model.place.y / kHalf - 1.0},
                         (here - middle) * (1.0 / size),
                         vote.weight,
-                        std::max(kLeastOff_px, kOffOfScale * shown_[vote.keypoint].scale) / size});
+                        std::max(kMinOffset_px, kOffOfScale * shown_[vote.keypoint].scale) / size});
   }
   for (int round = 0; round < kFitRounds; ++round) {
     const double share = static_cast<double>(round) / (kFitRounds - 1);
@@ -317,9 +319,9 @@ bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
     ++stamp_;
     guess->keypoints = 0;
     for (const Member& member : members_) {
-      if (keypoint_seen_[member.keypoint] == stamp_) continue;
+      if (keypoint_observed_[member.keypoint] == stamp_) continue;
       if (!add(member.unit, member.shares, member.weight, member.sigma, true)) continue;
-      keypoint_seen_[member.keypoint] = stamp_;
+      keypoint_observed_[member.keypoint] = stamp_;
       ++guess->keypoints;
     }
     for (const Vec2 corner : kSquareCorners) {
@@ -344,11 +346,14 @@ bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
         1e-6)) {
     return false;
   }
-  const Mat3 ideal_from_shares{{size, 0, middle.x, 0, size, middle.y, 0, 0, 1}};
+  const Mat3 undistorted_from_shares{{size, 0, middle.x, 0, size, middle.y, 0, 0, 1}};
   constexpr Mat3 kTargetFromUnit{{kHalf, 0, kHalf, 0, kHalf, kHalf, 0, 0, 1}};
-  guess->target_from_ideal = kTargetFromUnit * Adjugate(ideal_from_shares * shares_from_unit);
-  for (double& entry : guess->target_from_ideal.m) entry /= guess->target_from_ideal.m[8];
-  return std::all_of(guess->target_from_ideal.m.begin(), guess->target_from_ideal.m.end(),
+  guess->target_from_undistorted =
+      kTargetFromUnit * Adjugate(undistorted_from_shares * shares_from_unit);
+  for (double& entry : guess->target_from_undistorted.m)
+    entry /= guess->target_from_undistorted.m[8];
+  return std::all_of(guess->target_from_undistorted.m.begin(),
+                     guess->target_from_undistorted.m.end(),
                      [](double entry) { return std::isfinite(entry); });
 }
 

@@ -16,16 +16,16 @@ namespace pleinair::tracker {
 /// A place where a target may be, by its keypoints.
 struct TargetGuess {
   int target = 0;
-  Mat3 target_from_ideal;
+  Mat3 target_from_undistorted;
   double votes = 0.0;  ///< How many matches agree, by their likeness.
   int keypoints = 0;   ///< How many keypoints of the frame do.
 };
 
 /// Finds targets in a picture by SURF: matches of keypoints with all the targets' views, several
 /// candidates each, the angle filter (Prochazka et al. 2012, §3.2) with bins that overlap, then
-/// agreement of the matches in where and how large the target would be seen, then a homography of
-/// those that agree, robustly. What is described costs the same for any number of targets; what is
-/// matched grows with it.
+/// agreement of the matches in where and how large the target would be observed, then a homography
+/// of those that agree, robustly. What is described costs the same for any number of targets; what
+/// is matched grows with it.
 class TargetSearch {
  public:
   TargetSearch(const LensGrid& lens, std::vector<std::shared_ptr<const PictureTarget>> targets);
@@ -42,7 +42,7 @@ class TargetSearch {
     int keypoint = 0, model = 0;
     std::array<double, 6> from_target{};
     Vec2 centre;
-    double size_px = 0.0;  ///< Square root of the area that the target would be seen with.
+    double size_px = 0.0;  ///< Square root of the area that the target would be observed with.
     double rotation_rad = 0.0;
     double weight = 0.0;
   };
@@ -82,13 +82,13 @@ class TargetSearch {
   std::vector<SurfDescriptor> descriptors_;
   std::vector<QuantisedDescriptor> quantised_, flipped_;
   std::vector<SurfKeypoint> shown_;  ///< As they are matched: mirrored or not,
-  std::vector<Vec2> ideal_;          ///< … and their ideal pixels, mirrored likewise.
+  std::vector<Vec2> undistorted_;    ///< … and their undistorted pixels, mirrored likewise.
   std::vector<DescriptorMatch> templates_of_frame_, frame_of_templates_;
   std::vector<Vote> votes_;
   std::vector<std::vector<int>> bins_;
   std::vector<Ranked> ranked_;
   std::vector<Member> members_;
-  std::vector<int> keypoint_seen_;  ///< The last count that a keypoint was in.
+  std::vector<int> keypoint_observed_;  ///< The last count that a keypoint was in.
   int stamp_ = 0;
 };
 

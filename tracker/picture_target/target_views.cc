@@ -35,7 +35,7 @@ constexpr double kSmall_px = 100.0;
 constexpr int kDraws = 4;            ///< Blurs, noises, distances and surroundings that are tried,
 constexpr int kComesBack = 3;        ///< … of which a keypoint must be found in so many.
 constexpr double kMargin_px = 20.0;  ///< Of surroundings around the picture.
-constexpr double kLeastBlur_px = 0.5, kMostBlur_px = 1.1, kMostZoom = 0.12;
+constexpr double kMinBlur_px = 0.5, kMaxBlur_px = 1.1, kMaxZoom = 0.12;
 constexpr double kNoise_codes = 2.0;
 constexpr double kPaper = 0.75;  ///< Linear light of the picture's white.
 
@@ -63,7 +63,7 @@ ViewShape ShapeOf(const PictureTarget& target, double side_px, double tilt, doub
   return shape;
 }
 
-/// `shape` seen `zoom` times as large, the target's middle `shift` off the picture's.
+/// `shape` observed `zoom` times as large, the target's middle `shift` off the picture's.
 TargetView ViewOf(const ViewShape& shape, double zoom, Vec2 shift) {
   const double half = 0.5 * kTargetSide;
   const double a = zoom * shape.a, b = zoom * shape.b, d = zoom * shape.d, e = zoom * shape.e;
@@ -111,7 +111,7 @@ class ViewMaker {
     LookUpRays(LensGrid(camera), {0, 0, 0, shape.width, shape.height}, &rays_);
     clusters_.clear();
     for (int draw = 0; draw < kDraws; ++draw) {
-      const double zoom = 1.0 + kMostZoom * (draws_.Uniform() - 0.5);
+      const double zoom = 1.0 + kMaxZoom * (draws_.Uniform() - 0.5);
       const Vec2 shift{draws_.Uniform() - 0.5, draws_.Uniform() - 0.5};
       const TargetView drawn = ViewOf(shape, zoom, shift);
       surf->Detect(Draw(drawn), &keypoints_);
@@ -125,7 +125,7 @@ class ViewMaker {
 
   /// Draws the picture as a camera would see it.
   ImageView<const std::uint8_t> Draw(const TargetView& view) {
-    const double blur = kLeastBlur_px + (kMostBlur_px - kLeastBlur_px) * draws_.Uniform();
+    const double blur = kMinBlur_px + (kMaxBlur_px - kMinBlur_px) * draws_.Uniform();
     raster_.Render(pyramid_, TargetFromView(view), rays_, blur, &map_, &picture_, &ranges_);
     const int width = rays_.window.width, height = rays_.window.height;
     const double around = 0.5 * draws_.Uniform();
@@ -145,14 +145,14 @@ class ViewMaker {
 
   /// Puts a keypoint of a drawn view, in the coordinates of `view`, with those of other draws.
   void Collect(const TargetView& view, const TargetView& drawn, double zoom, int draw,
-               DescribedKeypoint seen) {
-    const Vec2 place = PlaceOnTarget(drawn, {seen.keypoint.x, seen.keypoint.y});
+               DescribedKeypoint observed) {
+    const Vec2 place = PlaceOnTarget(drawn, {observed.keypoint.x, observed.keypoint.y});
     if (!(place.x > 0.0 && place.x < kTargetSide && place.y > 0.0 && place.y < kTargetSide)) return;
     const auto& m = view.from_target;
-    seen.keypoint.x = static_cast<float>(m[0] * place.x + m[1] * place.y + m[2]);
-    seen.keypoint.y = static_cast<float>(m[3] * place.x + m[4] * place.y + m[5]);
-    seen.keypoint.scale /= static_cast<float>(zoom);
-    AddToClusters(seen, draw + kComesBack <= kDraws, &clusters_);
+    observed.keypoint.x = static_cast<float>(m[0] * place.x + m[1] * place.y + m[2]);
+    observed.keypoint.y = static_cast<float>(m[3] * place.x + m[4] * place.y + m[5]);
+    observed.keypoint.scale /= static_cast<float>(zoom);
+    AddToClusters(observed, draw + kComesBack <= kDraws, &clusters_);
   }
 
   void Keep(const TargetView& view, std::size_t most) {
@@ -177,13 +177,13 @@ class ViewMaker {
     keypoint.view = view;
     SurfDescriptor mean{};
     float cosine = 0.0F, sine = 0.0F;
-    for (const DescribedKeypoint& seen : cluster) {
-      keypoint.x += seen.keypoint.x / n;
-      keypoint.y += seen.keypoint.y / n;
-      keypoint.scale += seen.keypoint.scale / n;
-      cosine += std::cos(seen.keypoint.angle_rad);
-      sine += std::sin(seen.keypoint.angle_rad);
-      for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += seen.descriptor[k] / n;
+    for (const DescribedKeypoint& observed : cluster) {
+      keypoint.x += observed.keypoint.x / n;
+      keypoint.y += observed.keypoint.y / n;
+      keypoint.scale += observed.keypoint.scale / n;
+      cosine += std::cos(observed.keypoint.angle_rad);
+      sine += std::sin(observed.keypoint.angle_rad);
+      for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += observed.descriptor[k] / n;
     }
     keypoint.angle_rad = std::atan2(sine, cosine);
     target_.keypoints.push_back(keypoint);
@@ -195,8 +195,8 @@ class ViewMaker {
   ViewDraws draws_;
   PictureRaster raster_;
   WindowRays rays_;
-  PrintMap map_;
-  PrintPicture picture_;
+  PlaneMap map_;
+  PredictedImage picture_;
   std::vector<RowRange> ranges_;
   GreyImage grey_;
   std::vector<SurfKeypoint> keypoints_;

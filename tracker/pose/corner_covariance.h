@@ -9,14 +9,14 @@
 
 namespace pleinair::tracker {
 
-/// A corner of a print that was fitted to a picture, and how its pixel follows its place.
+/// A corner of a marker that was fitted to a picture, and how its pixel follows its place.
 struct FittedCorner {
-  Vec2 unit;        ///< In the print's plane, in half edges from its middle.
-  Vec2 pixel;       ///< Where it is seen.
+  Vec2 unit;        ///< In the marker's plane, in half edges from its middle.
+  Vec2 pixel;       ///< Where it is observed.
   Vec2 by_u, by_v;  ///< Pixels per half edge along the plane's axes.
 };
 
-/// `pixel_of` takes a place in the print's plane (half edges) to its pixel.
+/// `pixel_of` takes a place in the marker's plane (half edges) to its pixel.
 template <typename PixelOf>
 FittedCorner CornerAt(Vec2 unit, const PixelOf& pixel_of) {
   constexpr double kStep = 1e-4;
@@ -27,7 +27,7 @@ FittedCorner CornerAt(Vec2 unit, const PixelOf& pixel_of) {
 }
 
 /// Covariance of corners (px², row-major, x and y of each in turn) from that of the eight motions
-/// that a fit found, of which m moves what is seen at (u, v), in half edges, by
+/// that a fit found, of which m moves what is observed at (u, v), in half edges, by
 /// (m0 + m1 u + m2 v − (m6 u + m7 v) u, m3 + m4 u + m5 v − (m6 u + m7 v) v),
 /// the row-major `motion`; `systematic_px` is what every coordinate has of its own.
 CornerCovariance CovarianceOfCorners(const std::array<FittedCorner, 4>& corners,

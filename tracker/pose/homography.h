@@ -23,7 +23,7 @@ constexpr Mat3 Adjugate(const Mat3& a) {
 }
 
 /// Corners of the marker's square in its own coordinates (x right, y up, half edges): top-left,
-/// then clockwise as the print is read.
+/// then clockwise as the marker is read.
 inline constexpr std::array<Vec2, 4> kSquareCorners{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
 
 /// Homography that takes kSquareCorners to four points. Heckbert, "Fundamentals of texture mapping

@@ -25,8 +25,8 @@ constexpr double kUndecided = 9.0;
 /// Levenberg–Marquardt: steps at most, the first damping, and a step (radians, and shares of the
 /// distance) and a gain of cost that are none: 1e-8 of χ² are a ten-thousandth of the corners'
 /// standard deviation, and the step that gained them leaves a small part of that.
-constexpr int kMostSteps = 60;
-constexpr double kFirstDamping = 1e-6, kMostDamping = 1e12, kStill = 1e-9, kNoGain = 1e-8;
+constexpr int kMaxSteps = 60;
+constexpr double kFirstDamping = 1e-6, kMaxDamping = 1e12, kStill = 1e-9, kNoGain = 1e-8;
 /// … of which a step is as good as without any.
 constexpr double kLittleDamping = 1e-3;
 
@@ -124,7 +124,7 @@ class PlanarPoseProblem {
     Linear here, there;
     if (!Linearize(pose, &here)) return std::nullopt;
     double damping = kFirstDamping;
-    for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
+    for (int step = 0; step < kMaxSteps && damping < kMaxDamping; ++step) {
       Eigen::Matrix<double, 6, 6> damped = here.information;
       damped.diagonal() *= 1.0 + damping;
       const Vector6 scaled = -damped.ldlt().solve(here.gradient);

@@ -15,8 +15,8 @@ using CornerCovariance = std::array<double, 64>;
 /// The same uncertainty, independent, for all coordinates.
 CornerCovariance IsotropicCornerCovariance(double sigma_px);
 
-/// Pose of a square of edge `size` from its corners (top-left, then clockwise as the print is read;
-/// pixels, integer = centre), which may lie anywhere the lens can see.
+/// Pose of a square of edge `size` from its corners (top-left, then clockwise as the marker is
+/// read; pixels, integer = centre), which may lie anywhere the lens can see.
 ///
 /// Both solutions of the planar problem start from IPPE (Collins & Bartoli 2014, "Infinitesimal
 /// plane-based pose estimation") on undistorted rays and are refined in distorted pixels, weighted

@@ -6,9 +6,9 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Codes between the extremes of two tiles' neighbourhoods below which nothing is seen in the
+/// Codes between the extremes of two tiles' neighbourhoods below which nothing is observed in the
 /// darkest exposures: quantisation alone makes two.
-constexpr int kLeastContrast = 8;
+constexpr int kMinContrast = 8;
 
 void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
                   std::uint8_t* tile_min, std::uint8_t* tile_max) {
@@ -43,12 +43,12 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
     const int range = greatest - least;
     int share = greatest;
     for (int i = 0; i < contrast.halvings; ++i) share = Mean(share, 0);
-    const bool seen = range >= contrast.codes && range >= share;
+    const bool observed = range >= contrast.codes && range >= share;
     std::uint8_t threshold = least;  // A binary fraction of the way, its lowest digit first.
     for (int digit = 1; digit < 8; digit *= 2) {
       threshold = Mean(threshold, (contrast.eighths & digit) != 0 ? greatest : least);
     }
-    thresholds[x] = seen ? threshold : std::uint8_t{0};
+    thresholds[x] = observed ? threshold : std::uint8_t{0};
   }
 }
 
@@ -70,7 +70,7 @@ void Halve(const std::uint8_t* upper, const std::uint8_t* lower, int width, std:
   }
 }
 
-/// Range of values within tiles where the picture itself is flat: the lowest fifth of the tiles.
+/// Range of values within tiles where the image itself is flat: the lowest fifth of the tiles.
 /// Sixteen draws of Gaussian noise span 3.5 standard deviations on average.
 int TileNoise(const DarkMaskBuffers& buffers, int width, int tile_rows, int stride) {
   std::array<int, 256> count{};
@@ -134,8 +134,8 @@ void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
   // 3×3 tiles of noise alone span 5.3 standard deviations on average, one tile 3.5; the rest keeps
   // speckle off.
   const DarkContrast contrast{
-      std::clamp(noise * 5 / 2, kLeastContrast, std::max(most.codes, kLeastContrast)),
-      most.halvings, most.eighths};
+      std::clamp(noise * 5 / 2, kMinContrast, std::max(most.codes, kMinContrast)), most.halvings,
+      most.eighths};
 
   for (int row = 0; row < tile_rows; ++row) {
     const std::uint8_t *least[3], *greatest[3];

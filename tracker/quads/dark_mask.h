@@ -21,7 +21,7 @@ struct BitMask {
   bool operator()(int x, int y) const { return (row(y)[x >> 6] >> (x & 63) & 1) != 0; }
 };
 
-/// Buffers of ComputeDarkMask, kept between pictures so that it does not allocate.
+/// Buffers of ComputeDarkMask, kept between images so that it does not allocate.
 /// Rows of tiles hold each tile's value once for each of its columns.
 struct DarkMaskBuffers {
   std::vector<std::uint8_t> tile_min, tile_max;
@@ -68,7 +68,7 @@ const DarkMaskKernels& SimdDarkMaskKernels();
 /// "AprilTag 2: Efficient and robust fiducial detection", IROS 2016, section III-A: extremes of 4×4
 /// tiles, spread to the neighbours, threshold half way). Tiles whose neighbourhood has little
 /// contrast hold no dark pixel. Deviations: the threshold need not be half way, and little is not a
-/// fixed number of codes but little beside the noise of this picture (up to `most.codes`) and
+/// fixed number of codes but little beside the noise of this image (up to `most.codes`) and
 /// beside the neighbourhood's own brightness, so that dark exposures work and noise makes no
 /// speckle. The up to three last columns and rows that fill no tile are never dark.
 void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,

@@ -100,12 +100,12 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
     const auto range = hn::Sub(greatest, least);
     auto share = greatest;
     for (int i = 0; i < contrast.halvings; ++i) share = hn::AverageRound(share, zero);
-    const auto seen = hn::Eq(hn::Max(range, hn::Max(share, enough)), range);
+    const auto observed = hn::Eq(hn::Max(range, hn::Max(share, enough)), range);
     auto threshold = least;
     for (int digit = 1; digit < 8; digit *= 2) {
       threshold = hn::AverageRound(threshold, (contrast.eighths & digit) != 0 ? greatest : least);
     }
-    hn::StoreU(hn::IfThenElseZero(seen, threshold), kBytes, thresholds + x);
+    hn::StoreU(hn::IfThenElseZero(observed, threshold), kBytes, thresholds + x);
   }
   const std::uint8_t *min_rest[3], *max_rest[3];
   for (int j = 0; j < 3; ++j) {

@@ -8,7 +8,7 @@ namespace {
 
 /// Boxes around squares that differ by so little on each side, as a share, are of one, …
 constexpr double kSameBox = 0.04;
-/// … up to so many pixels of the reduced picture: what thresholds take off the corners of a turned
+/// … up to so many pixels of the reduced image: what thresholds take off the corners of a turned
 /// square does not grow with it.
 constexpr double kLostCorner_px = 2.5;
 

@@ -6,7 +6,7 @@
 
 namespace pleinair::tracker {
 
-/// Whether a dark component of a picture reduced `scale` times fills the box around a square that
+/// Whether a dark component of an image reduced `scale` times fills the box around a square that
 /// has been found: most squares are found again at half size, and their outlines cost the most. A
 /// component whose box differs by more than thresholds take off corners may be outlined better than
 /// that square was, or be another.

@@ -19,15 +19,16 @@ namespace {
 constexpr DarkContrast kFullSize{.codes = 150, .halvings = 1, .eighths = 5};
 /// Half size takes the dull prints and those in noise and blur.
 constexpr DarkContrast kHalfSize{.codes = 64, .halvings = 2, .eighths = 4};
-/// Where the edge of a shadow crosses a print, the quiet zone in the shade is below half way to the
-/// quiet zone in the light, and melts with the rim. A quarter of the way, edges to 16:1 are passed.
+/// Where the edge of a shadow crosses a marker, the quiet zone in the shade is below half way to
+/// the quiet zone in the light, and melts with the rim. A quarter of the way, edges to 16:1 are
+/// passed.
 constexpr DarkContrast kShadowEdges{.codes = 150, .halvings = 1, .eighths = 2};
 
-constexpr float kLeastContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
-constexpr float kLeastSide = 0.12F;
+constexpr float kMinContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
+constexpr float kMinSide = 0.12F;
 /// Prints reach it below 13 px, where rim and quiet zone blur into each other, or where noise is a
 /// third of their difference.
-constexpr float kGreatestDoubt = 0.8F;
+constexpr float kMaxDoubt = 0.8F;
 
 Vec2 Centre(const Quad& quad) {
   return (quad.corners_px[0] + quad.corners_px[1] + quad.corners_px[2] + quad.corners_px[3]) * 0.25;
@@ -39,9 +40,9 @@ double Area(const Quad& quad) {
   return 0.5 * (d.x * e.y - d.y * e.x);
 }
 
-bool Plausible(const RimEvidence& evidence, float greatest_doubt) {
-  return evidence.contrast >= kLeastContrast && evidence.least_side >= kLeastSide &&
-         evidence.Doubt() <= greatest_doubt;
+bool Plausible(const RimEvidence& evidence, float max_doubt) {
+  return evidence.contrast >= kMinContrast && evidence.min_side >= kMinSide &&
+         evidence.Doubt() <= max_doubt;
 }
 
 /// The same square found twice.
@@ -79,21 +80,21 @@ void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale
   ComputeDarkMask(level, contrast, SimdDarkMaskKernels(), &buffers, &mask);
   components.Find(mask);
   const std::vector<DarkComponent>& found = components.components();
-  const double least_side = std::max(options.least_side_px / scale, 6.0);
-  const int least_extent = static_cast<int>(std::floor(least_side));
+  const double min_side = std::max(options.min_side_px / scale, 6.0);
+  const int min_extent = static_cast<int>(std::floor(min_side));
   for (std::size_t i = 0; i < found.size(); ++i) {
     const DarkComponent& c = found[i];
     const int width = c.max_x - c.min_x + 1, height = c.max_y - c.min_y + 1;
     // A closed rim has at least about as many pixels as its box is wide and high; and around a
     // whole marker there is a quiet zone.
-    if (width < least_extent || height < least_extent || c.area < width + height ||
+    if (width < min_extent || height < min_extent || c.area < width + height ||
         c.parent != static_cast<int>(i) || c.min_x == 0 || c.min_y == 0 ||
         c.max_x == level.width() - 1 || c.max_y == level.height() - 1) {
       continue;
     }
     if (std::ranges::any_of(*quads, [&](const Quad& q) { return FillsBoxOf(q, c, scale); }))
       continue;
-    const auto outline_found = outline.Fit(components.runs(), c, least_side);
+    const auto outline_found = outline.Fit(components.runs(), c, min_side);
     if (!outline_found) continue;
     Quad quad{*outline_found, 0.0F};
     for (Vec2& corner : quad.corners_px) {
@@ -102,13 +103,13 @@ void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale
     const auto known = [&](const Quad& other) { return Same(quad, other); };
     if (std::any_of(quads->begin(), quads->end(), known)) continue;
     if (!RefineQuad(grey, 3.0 * scale, 12, &quad.corners_px) ||
-        !Plausible(SampleRim(grey, quad.corners_px), 1.2F * kGreatestDoubt)) {
+        !Plausible(SampleRim(grey, quad.corners_px), 1.2F * kMaxDoubt)) {
       continue;
     }
     // Few are left: now from nearby, at leisure.
     if (!RefineQuad(grey, 6.0, 48, &quad.corners_px)) continue;
     const RimEvidence evidence = SampleRim(grey, quad.corners_px);
-    if (!Plausible(evidence, kGreatestDoubt)) continue;
+    if (!Plausible(evidence, kMaxDoubt)) continue;
     quad.contrast = evidence.contrast;
     if (std::none_of(quads->begin(), quads->end(), known)) quads->push_back(quad);
   }

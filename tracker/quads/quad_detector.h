@@ -12,14 +12,14 @@ namespace pleinair::tracker {
 
 /// A dark quadrilateral on lighter surroundings: where the outer square of a marker may be.
 struct Quad {
-  /// Clockwise in the picture, beginning anywhere; pixels, integers are centres; good to about one
+  /// Clockwise in the image, beginning anywhere; pixels, integers are centres; good to about one
   /// pixel, meant for refinement by who reads the marker.
   std::array<Vec2, 4> corners_px;
   float contrast;  ///< Codes outside the sides less codes inside, along the rim.
 };
 
 struct QuadDetectorOptions {
-  double least_side_px = 8.0;  ///< Of any side in the picture, foreshortened ones too.
+  double min_side_px = 8.0;  ///< Of any side in the image, foreshortened ones too.
 };
 
 /// Finds the outer squares of markers: a closed black rim, white around it, each a tenth of the
@@ -31,8 +31,8 @@ struct QuadDetectorOptions {
 /// quadrilateral in each convex hull; its sides moved to the steepest rise of light; kept when all
 /// four sides are darker inside than outside by much the same factor.
 ///
-/// Not thread-safe: buffers are kept, so that pictures after the first do not allocate. The same
-/// picture gives the same quads in the same order.
+/// Not thread-safe: buffers are kept, so that images after the first do not allocate. The same
+/// image gives the same quads in the same order.
 class QuadDetector {
  public:
   explicit QuadDetector(QuadDetectorOptions options = {});
@@ -40,7 +40,7 @@ class QuadDetector {
   QuadDetector(QuadDetector&&) noexcept;
   QuadDetector& operator=(QuadDetector&&) noexcept;
 
-  /// One channel, any size; pictures too small to hold a quad give none.
+  /// One channel, any size; images too small to hold a quad give none.
   void Detect(ImageView<const std::uint8_t> grey, std::vector<Quad>* quads);
 
  private:

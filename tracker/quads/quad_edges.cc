@@ -23,10 +23,10 @@ float Sample(ImageView<const std::uint8_t> grey, float x, float y) {
   return above + fy * (below - above);
 }
 
-constexpr int kMostSteps = 12;     ///< Pixels to either side of a side, where edges are looked for.
-constexpr int kMostStretches = 8;  ///< Of a side, each with an edge of its own.
+constexpr int kMaxSteps = 12;     ///< Pixels to either side of a side, where edges are looked for.
+constexpr int kMaxStretches = 8;  ///< Of a side, each with an edge of its own.
 
-/// Nearest pixel; std::lround is a call for each. Beside the picture it need only stay beside it.
+/// Nearest pixel; std::lround is a call for each. Beside the image it need only stay beside it.
 int Nearest(double position) {
   const double above = position + 0.5;
   return static_cast<int>(above);
@@ -74,7 +74,7 @@ bool ConvexInside(const std::array<Vec2, 4>& quad, int width, int height) {
 /// The line near from + t·along where light rises most to the left of `along`. Rows are walked
 /// where the side is upright, else columns: whole pixels, nothing to interpolate.
 std::optional<Line> SteepestLine(ImageView<const std::uint8_t> grey, Vec2 from, Vec2 along,
-                                 double reach_px, int most_samples) {
+                                 double reach_px, int max_samples) {
   const std::array<float, 256>& light = LinearFromSrgb8();
   const bool upright = std::fabs(along.y) > std::fabs(along.x);
   // u runs along the side's greater coordinate, v across it.
@@ -87,22 +87,22 @@ std::optional<Line> SteepestLine(ImageView<const std::uint8_t> grey, Vec2 from, 
   // Outside is above a side that runs to the right, and right of one that runs down.
   const bool outside_is_behind = upright ? along_u < 0.0 : along_u > 0.0;
   const int steps =
-      std::clamp(static_cast<int>(std::lround(reach_px * std::hypot(1.0, slope))), 2, kMostSteps);
+      std::clamp(static_cast<int>(std::lround(reach_px * std::hypot(1.0, slope))), 2, kMaxSteps);
 
   // Light is summed along stretches of the side before it is looked at across it, so that noise is
   // small beside the edge: what is clipped below zero would draw the edge to the first guess.
   const int samples = std::max(4, static_cast<int>(std::fabs(along_u)));
-  const int per_stretch = std::clamp((samples + 3) / 4, 1, most_samples / 4);
-  const int stretches = std::min(samples / per_stretch, kMostStretches);
+  const int per_stretch = std::clamp((samples + 3) / 4, 1, max_samples / 4);
+  const int stretches = std::min(samples / per_stretch, kMaxStretches);
   LineFit fit;
   for (int i = 0; i < stretches; ++i) {
-    std::array<float, 2 * kMostSteps + 1> profile{};
+    std::array<float, 2 * kMaxSteps + 1> profile{};
     double mean_u = 0.0, mean_v = 0.0;
     for (int j = 0; j < per_stretch; ++j) {
       const double at = 0.08 + 0.84 * (i * per_stretch + j + 0.5) / (stretches * per_stretch);
       const int u = std::clamp(Nearest(from_u + at * along_u), 0, size_u - 1);
       const int v = Nearest(from_v + (u - from_u) * slope);
-      // Rows or columns beyond the picture repeat its last.
+      // Rows or columns beyond the image repeat its last.
       const std::uint8_t* pixels = grey.data() + u * step_u;
       if (v >= steps && v + steps < size_v) {
         const std::uint8_t* pixel = pixels + (v - steps) * step_v;
@@ -163,13 +163,13 @@ bool RefineQuad(ImageView<const std::uint8_t> grey, double reach_px, int samples
 RimEvidence SampleRim(ImageView<const std::uint8_t> grey, const std::array<Vec2, 4>& corners) {
   constexpr int kSamples = 12;
   constexpr double kMiddle = 0.1;  // Half of the rim's and the quiet zone's width, in half edges.
-  const Mat3 picture_from_marker = HomographyToQuad(corners);
+  const Mat3 image_from_marker = HomographyToQuad(corners);
   const auto sample = [&](Vec2 at) {
-    const Vec2 p = Apply(picture_from_marker, at);
+    const Vec2 p = Apply(image_from_marker, at);
     return Sample(grey, static_cast<float>(p.x), static_cast<float>(p.y));
   };
   RimEvidence evidence;
-  evidence.least_side = 1.0F;
+  evidence.min_side = 1.0F;
   float steps = 0.0F, ratios = 0.0F, squares = 0.0F;
   for (int side = 0; side < 4; ++side) {
     float side_whites = 0.0F, side_steps = 0.0F;
@@ -195,7 +195,7 @@ RimEvidence SampleRim(ImageView<const std::uint8_t> grey, const std::array<Vec2,
       squares += ratio * ratio;
     }
     steps += side_steps;
-    evidence.least_side = std::min(evidence.least_side, side_steps / std::max(side_whites, 1.0F));
+    evidence.min_side = std::min(evidence.min_side, side_steps / std::max(side_whites, 1.0F));
   }
   constexpr float kPairs = 4.0F * kSamples;
   evidence.contrast = steps / kPairs;

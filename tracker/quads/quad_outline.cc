@@ -7,13 +7,14 @@
 namespace pleinair::tracker {
 namespace {
 
-/// A quadrilateral inscribed in the hull of one seen with rounded corners loses this much at most.
-constexpr double kLeastShareOfHull = 0.78;
+/// A quadrilateral inscribed in the hull of one observed with rounded corners loses this much at
+/// most.
+constexpr double kMinShareOfHull = 0.78;
 /// Dark pixels in the hull. The rim alone is 0.36 of the square; at its smallest, when the bright
 /// surroundings have bled into the rim, half of that.
-constexpr double kLeastFill = 0.16;
+constexpr double kMinFill = 0.16;
 
-/// Twice the area of a triangle, positive where it runs clockwise in the picture.
+/// Twice the area of a triangle, positive where it runs clockwise in the image.
 template <class P>
 auto Twice(const P& a, const P& b, const P& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -71,7 +72,7 @@ void QuadOutline::BuildHull(std::span<const DarkRun> runs, const DarkComponent& 
 
 std::optional<std::array<Vec2, 4>> QuadOutline::Fit(std::span<const DarkRun> runs,
                                                     const DarkComponent& component,
-                                                    double least_side_px) {
+                                                    double min_side_px) {
   BuildHull(runs, component);
   if (hull_.size() < 4) return std::nullopt;
   long twice_area = 0;
@@ -79,7 +80,7 @@ std::optional<std::array<Vec2, 4>> QuadOutline::Fit(std::span<const DarkRun> run
     twice_area += Twice(hull_[0], hull_[i - 1], hull_[i]);
   }
   const double hull_area = 0.5 * static_cast<double>(twice_area);
-  if (component.area < kLeastFill * hull_area) return std::nullopt;
+  if (component.area < kMinFill * hull_area) return std::nullopt;
 
   // The vertex that cuts off least goes, until four are left or too much is gone.
   const auto cut_at = [&](std::size_t i) {
@@ -88,7 +89,7 @@ std::optional<std::array<Vec2, 4>> QuadOutline::Fit(std::span<const DarkRun> run
   };
   cuts_.resize(hull_.size());
   for (std::size_t i = 0; i < hull_.size(); ++i) cuts_[i] = cut_at(i);
-  double may_go = (1.0 - kLeastShareOfHull) * static_cast<double>(twice_area);
+  double may_go = (1.0 - kMinShareOfHull) * static_cast<double>(twice_area);
   while (hull_.size() > 4) {
     const auto least = std::min_element(cuts_.begin(), cuts_.end());
     may_go -= *least;
@@ -106,7 +107,7 @@ std::optional<std::array<Vec2, 4>> QuadOutline::Fit(std::span<const DarkRun> run
     quad[i] = {static_cast<double>(hull_[i].x), static_cast<double>(hull_[i].y + component.min_y)};
   }
   for (int i = 0; i < 4; ++i) {
-    if (Norm(quad[(i + 1) % 4] - quad[i]) + 1.0 < least_side_px) return std::nullopt;
+    if (Norm(quad[(i + 1) % 4] - quad[i]) + 1.0 < min_side_px) return std::nullopt;
     // A corner of a hull turns; nearly straight ones are no corners of a marker in view.
     if (Twice(quad[(i + 3) % 4], quad[i], quad[(i + 1) % 4]) <
         0.05 * Norm(quad[i] - quad[(i + 3) % 4]) * Norm(quad[(i + 1) % 4] - quad[i])) {

@@ -15,10 +15,10 @@ namespace pleinair::tracker {
 /// The quadrilateral that a component of dark pixels fills best.
 class QuadOutline {
  public:
-  /// Corners clockwise in the picture, half a pixel outside the outermost pixel centres; nothing
-  /// where the convex hull of the component is no quadrilateral of at least `least_side_px`.
+  /// Corners clockwise in the image, half a pixel outside the outermost pixel centres; nothing
+  /// where the convex hull of the component is no quadrilateral of at least `min_side_px`.
   std::optional<std::array<Vec2, 4>> Fit(std::span<const DarkRun> runs,
-                                         const DarkComponent& component, double least_side_px);
+                                         const DarkComponent& component, double min_side_px);
 
  private:
   void BuildHull(std::span<const DarkRun> runs, const DarkComponent& component);
@@ -27,7 +27,7 @@ class QuadOutline {
     int x, y;
   };
   std::vector<int> left_, right_;  // Outermost dark pixels of the rows of the component.
-  std::vector<Vertex> hull_;       // Clockwise in the picture.
+  std::vector<Vertex> hull_;       // Clockwise in the image.
   std::vector<int> cuts_;          // What dropping each vertex of the hull would cut off.
 };
 

@@ -20,12 +20,13 @@ constexpr int kMaxNodes = 6;
 /// An edge of the square lies at most this far from where the detector saw it, more when blurred;
 /// and more where the contrast is so many residuals that the prediction must be right. (A camera's
 /// sharpening leaves 10 to 20 of 255 codes unexplained.)
-constexpr double kEdgeMayMove_px = 0.58, kEdgeMayMoveAtMost_px = 2.0, kEdgeMayMovePerBlur = 0.6;
+constexpr double kEdgeMayMove_px = 0.58, kMaxEdgeMotion_px = 2.0, kEdgeMayMovePerBlur = 0.6;
 constexpr double kModestContrast = 25.0;
-/// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
+/// What no residual tells: flatness of the marker, calibration, the lens's blur that is no
+/// Gaussian.
 constexpr double kSystematicCorner_px = 0.005;
 
-/// Black and contrast of a print, everywhere the same.
+/// Black and contrast of a marker, everywhere the same.
 struct Levels {
   double black = 0.0, contrast = 0.0;  ///< Linear light.
 
@@ -35,15 +36,15 @@ struct Levels {
 };
 
 /// Straight line of linear light over predicted coverage; nothing where there is no contrast.
-std::optional<Levels> FitLevels(const PrintPattern& pattern, const Mat3& rays_from_print,
-                                const std::vector<PrintPixel>& pixels) {
-  const Mat3 print_from_rays = Adjugate(rays_from_print);
+std::optional<Levels> FitLevels(const MarkerPattern& pattern, const Mat3& rays_from_marker,
+                                const std::vector<MarkerPixel>& pixels) {
+  const Mat3 marker_from_rays = Adjugate(rays_from_marker);
   double n = 0.0, sum_t = 0.0, sum_tt = 0.0, sum_i = 0.0, sum_ti = 0.0;
-  for (const PrintPixel& pixel : pixels) {
-    const Vec2 print = Apply(print_from_rays, pixel.ray);
-    const Vec2 d_x = Apply(print_from_rays, pixel.ray + pixel.ray_d_x) - print;
-    const Vec2 d_y = Apply(print_from_rays, pixel.ray + pixel.ray_d_y) - print;
-    const double t = CoverageOfPixel(pattern, print, d_x, d_y, kInitialBlur_px).white;
+  for (const MarkerPixel& pixel : pixels) {
+    const Vec2 marker = Apply(marker_from_rays, pixel.ray);
+    const Vec2 d_x = Apply(marker_from_rays, pixel.ray + pixel.ray_d_x) - marker;
+    const Vec2 d_y = Apply(marker_from_rays, pixel.ray + pixel.ray_d_y) - marker;
+    const double t = CoverageOfPixel(pattern, marker, d_x, d_y, kInitialBlur_px).white;
     const double light = LinearFromSrgb8()[static_cast<std::size_t>(pixel.code)];
     n += 1.0;
     sum_t += t;
@@ -60,9 +61,11 @@ std::optional<Levels> FitLevels(const PrintPattern& pattern, const Mat3& rays_fr
   return levels;
 }
 
-void FillCorners(const CameraModel& camera, const PrintFit& fit, PrintAlignment* alignment) {
-  const Mat3& rays_from_print = fit.state().rays_from_print;
-  const auto pixel_of = [&](Vec2 unit) { return PixelOfPrint(camera, rays_from_print, unit); };
+void FillCorners(const CameraModel& camera, const MarkerFit& fit, MarkerAlignment* alignment) {
+  const Mat3& rays_from_marker = fit.state().rays_from_marker;
+  const auto pixel_of = [&](Vec2 unit) {
+    return PixelOfMarkerPoint(camera, rays_from_marker, unit);
+  };
   std::array<FittedCorner, 4> corners;
   for (int i = 0; i < 4; ++i) {
     corners[i] = CornerAt(kSquareCorners[i], pixel_of);
@@ -73,8 +76,8 @@ void FillCorners(const CameraModel& camera, const PrintFit& fit, PrintAlignment*
 }
 
 /// How far a corner may lie from where the detector saw it.
-double MayMove_px(const PrintAlignment& alignment, double contrast_codes, int corner) {
-  // Where a detector sees the edges of an sRGB picture a third of a pixel, and more where it is
+double MayMove_px(const MarkerAlignment& alignment, double contrast_codes, int corner) {
+  // Where a detector sees the edges of an sRGB image a third of a pixel, and more where it is
   // blurred, inside the square, the corner is off by that over the sine of its half angle.
   const Vec2 here = alignment.corners_px[corner];
   const Vec2 a = alignment.corners_px[(corner + 1) % 4] - here;
@@ -84,46 +87,46 @@ double MayMove_px(const PrintAlignment& alignment, double contrast_codes, int co
   const double blurred_px =
       kEdgeMayMovePerBlur * std::max(0.0, alignment.blur_px - kInitialBlur_px);
   const double trust = std::max(1.0, contrast_codes / alignment.residual_codes / kModestContrast);
-  const double edge_px = std::min(kEdgeMayMoveAtMost_px, kEdgeMayMove_px * trust) + blurred_px;
+  const double edge_px = std::min(kMaxEdgeMotion_px, kEdgeMayMove_px * trust) + blurred_px;
   return edge_px / half_angle_sine;
 }
 
 /// Share of a square that must look right for its pixels to be fitted. In a square that is touched
-/// by what covers the print, that is what bends the fit.
+/// by what covers the marker, that is what bends the fit.
 constexpr float kSeen = 0.95F;
-/// Where part of the print is covered, the corners come from what was misled by that: they may move
-/// so many times as far.
+/// Where part of the marker is covered, the corners come from what was misled by that: they may
+/// move so many times as far.
 constexpr double kCoveredMayMoveTimes = 4.0;
 
 /// Leaves out the pixels of covered squares; the share that stays.
-double LeaveOutCovered(const PrintPattern& pattern, const Mat3& rays_from_print,
-                       const PrintVisibility& visibility, std::vector<PrintPixel>* pixels) {
+double ExcludeCovered(const MarkerPattern& pattern, const Mat3& rays_from_marker,
+                      const VisibilityGrid& visibility, std::vector<MarkerPixel>* pixels) {
   if (visibility.side <= 0 || pixels->empty()) return 1.0;
-  const Mat3 print_from_rays = Adjugate(rays_from_print);
+  const Mat3 marker_from_rays = Adjugate(rays_from_marker);
   const double extent = pattern.Extent();
   const auto square = [&](double from_edge) {
     const double at = from_edge / (2.0 * extent) * visibility.side;
     return static_cast<std::size_t>(std::clamp(at, 0.0, visibility.side - 0.5));
   };
   const std::size_t before = pixels->size();
-  std::erase_if(*pixels, [&](const PrintPixel& pixel) {
-    const Vec2 print = Apply(print_from_rays, pixel.ray);
-    const std::size_t row = square(extent - print.y), column = square(print.x + extent);
+  std::erase_if(*pixels, [&](const MarkerPixel& pixel) {
+    const Vec2 marker = Apply(marker_from_rays, pixel.ray);
+    const std::size_t row = square(extent - marker.y), column = square(marker.x + extent);
     return visibility.values[row * visibility.side + column] < kSeen;
   });
   return static_cast<double>(pixels->size()) / static_cast<double>(before);
 }
 
-/// `beside_cut_may_move_px`: where sides that the picture's edge cuts off meet, at the least.
-bool Plausible(const PrintAlignment& alignment, double contrast_codes,
-               const std::array<Vec2, 4>& corners_px, const std::array<bool, 4>& seen,
-               double may_move_times, double beside_cut_may_move_px) {
+/// `max_motion_beside_cut_px`: where sides that the image's edge cuts off meet, at the least.
+bool Plausible(const MarkerAlignment& alignment, double contrast_codes,
+               const std::array<Vec2, 4>& corners_px, const std::array<bool, 4>& observed,
+               double may_move_times, double max_motion_beside_cut_px) {
   for (int i = 0; i < 4; ++i) {
     const Vec2 corner = alignment.corners_px[i];
     if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return false;
     // Only the corner opposite to those that are cut off has both of its sides whole.
-    const bool beside_cut = !seen[i] || !seen[(i + 1) % 4] || !seen[(i + 3) % 4];
-    const double may_move_px = std::max(beside_cut ? beside_cut_may_move_px : 0.0,
+    const bool beside_cut = !observed[i] || !observed[(i + 1) % 4] || !observed[(i + 3) % 4];
+    const double may_move_px = std::max(beside_cut ? max_motion_beside_cut_px : 0.0,
                                         may_move_times * MayMove_px(alignment, contrast_codes, i));
     if (Norm(corner - corners_px[i]) > may_move_px) return false;
     const double variance = std::max(alignment.corner_covariance_px2[(2 * i) * 8 + 2 * i],
@@ -137,15 +140,15 @@ bool Plausible(const PrintAlignment& alignment, double contrast_codes,
 
 std::array<bool, 4> CornersSeen(ImageView<const std::uint8_t> grey,
                                 const std::array<Vec2, 4>& corners_px) {
-  std::array<bool, 4> seen{};
-  for (int i = 0; i < 4; ++i) seen[i] = IsInPicture(grey, corners_px[i]);
-  return seen;
+  std::array<bool, 4> observed{};
+  for (int i = 0; i < 4; ++i) observed[i] = IsInImage(grey, corners_px[i]);
+  return observed;
 }
 
-std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintPattern& pattern,
-                                         ImageView<const std::uint8_t> grey,
-                                         const std::array<Vec2, 4>& corners_px,
-                                         const PrintVisibility& visibility) {
+std::optional<MarkerAlignment> AlignMarker(const CameraModel& camera, const MarkerPattern& pattern,
+                                           ImageView<const std::uint8_t> grey,
+                                           const std::array<Vec2, 4>& corners_px,
+                                           const VisibilityGrid& visibility) {
   std::array<Vec2, 4> rays;
   double perimeter_px = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -153,15 +156,15 @@ std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintP
     perimeter_px += Norm(corners_px[(i + 1) % 4] - corners_px[i]);
   }
   const double side_px = perimeter_px / 4.0;
-  PrintState start;
-  start.rays_from_print = HomographyToQuad(rays);
-  for (const double value : start.rays_from_print.m) {
+  MarkerFitState start;
+  start.rays_from_marker = HomographyToQuad(rays);
+  for (const double value : start.rays_from_marker.m) {
     if (!std::isfinite(value)) return std::nullopt;
   }
-  PrintPixels gathered = GatherPrintPixels(camera, pattern, grey, start.rays_from_print);
-  const double kept = LeaveOutCovered(pattern, start.rays_from_print, visibility, &gathered.pixels);
+  MarkerPixels gathered = GatherMarkerPixels(camera, pattern, grey, start.rays_from_marker);
+  const double kept = ExcludeCovered(pattern, start.rays_from_marker, visibility, &gathered.pixels);
   if (gathered.pixels.size() < 40) return std::nullopt;
-  const std::optional<Levels> levels = FitLevels(pattern, start.rays_from_print, gathered.pixels);
+  const std::optional<Levels> levels = FitLevels(pattern, start.rays_from_marker, gathered.pixels);
   if (!levels) return std::nullopt;
   start.log_blur = std::log(kInitialBlur_px);
   start.nodes =
@@ -173,15 +176,15 @@ std::optional<PrintAlignment> AlignPrint(const CameraModel& camera, const PrintP
     start.levels[LevelIndex(node, 1)] = std::max(levels->black, 0.0005) + levels->contrast;
   }
 
-  PrintFit fit(pattern, gathered.pixels, levels->contrast, side_px);
+  MarkerFit fit(pattern, gathered.pixels, levels->contrast, side_px);
   if (!fit.Run(start)) return std::nullopt;
-  PrintAlignment alignment;
+  MarkerAlignment alignment;
   alignment.blur_px = std::exp(fit.state().log_blur);
   alignment.residual_codes = fit.ResidualCodes();
-  alignment.visible_fraction = gathered.seen_share * fit.AgreeingShare();
+  alignment.visible_fraction = gathered.observed_share * fit.AgreeingShare();
   FillCorners(camera, fit, &alignment);
   const double may_move_times = kept < 1.0 ? kCoveredMayMoveTimes : 1.0;
-  // Sides that the picture's edge cuts off meet anywhere, but not so far off that no cell is read.
+  // Sides that the image's edge cuts off meet anywhere, but not so far off that no cell is read.
   const double module_px = side_px / pattern.edge_modules;
   if (!Plausible(alignment, levels->ContrastCodes(), corners_px, CornersSeen(grey, corners_px),
                  may_move_times, module_px)) {

@@ -28,7 +28,7 @@ class NormalTable {
   }
 
   /// |z| at most kReachSigmas, but for rounding.
-  void Look(double z, double* below, double* density) const {
+  void Evaluate(double z, double* below, double* density) const {
     const double at = std::clamp(z * kEntriesPerSigma + kMiddle, 0.0, kEntries - 1.0 - 1e-9);
     const int i = static_cast<int>(at);
     const Entry &a = entries_[i], &b = entries_[i + 1];
@@ -75,7 +75,7 @@ void ComputeShares(double position, double sigma, int modules, Shares* shares) {
     if (column < high) {
       const double z = (column + 1 - position) * per_sigma;
       double density;
-      table.Look(z, &up_to, &density);
+      table.Evaluate(z, &up_to, &density);
       d_up_to = -density * per_sigma;
       d_sigma_up_to = -density * z;
     }
@@ -89,7 +89,7 @@ void ComputeShares(double position, double sigma, int modules, Shares* shares) {
   }
 }
 
-bool IsUniform(const PrintPattern& pattern, double column, double row, double reach_columns,
+bool IsUniform(const MarkerPattern& pattern, double column, double row, double reach_columns,
                double reach_rows) {
   const auto index = [&](double at) {
     return std::clamp(static_cast<int>(std::floor(at)), 0, pattern.modules - 1);
@@ -107,7 +107,7 @@ bool IsUniform(const PrintPattern& pattern, double column, double row, double re
 
 }  // namespace
 
-Coverage CoverageOfPixel(const PrintPattern& pattern, Vec2 centre, Vec2 d_x, Vec2 d_y,
+Coverage CoverageOfPixel(const MarkerPattern& pattern, Vec2 centre, Vec2 d_x, Vec2 d_y,
                          double blur_px) {
   const double extent = pattern.Extent();
   const double modules_per_unit = pattern.modules / (2.0 * extent);

@@ -11,19 +11,19 @@ struct Coverage {
   double d_u = 0.0;         ///< Derivative by the pixel's marker coordinate u (half edges).
   double d_v = 0.0;         ///< … by v.
   double d_log_blur = 0.0;  ///< … by the logarithm of the blur.
-  bool uniform = true;      ///< No edge of the print within reach: all derivatives are 0.
+  bool uniform = true;      ///< No edge of the marker within reach: all derivatives are 0.
 };
 
-/// Integrates the print over a square pixel and a Gaussian blur of `blur_px` (standard deviation).
+/// Integrates the marker over a square pixel and a Gaussian blur of `blur_px` (standard deviation).
 /// `centre` is the pixel's centre in marker coordinates (half edges, y up); `d_x`, `d_y` are the
 /// derivatives of those coordinates by the pixel's x and y. Beyond the quiet zone the outermost
 /// modules go on.
 ///
-/// The print is a grid, so its blurred value is Σ_ij white_ij W_i(u) W_j(v), with W_i the share of
+/// The marker is a grid, so its blurred value is Σ_ij white_ij W_i(u) W_j(v), with W_i the share of
 /// a Gaussian that falls into column i. The Gaussian is taken as separable in u and v, exact at
 /// straight edges; the pixel's square is a 2×2 comb of sub-squares whose moments up to the third
 /// are exact and whose fourth is 4 % off.
-Coverage CoverageOfPixel(const PrintPattern& pattern, Vec2 centre, Vec2 d_x, Vec2 d_y,
+Coverage CoverageOfPixel(const MarkerPattern& pattern, Vec2 centre, Vec2 d_x, Vec2 d_y,
                          double blur_px);
 
 }  // namespace pleinair::tracker

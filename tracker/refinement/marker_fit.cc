@@ -14,15 +14,15 @@ constexpr int kBlurParameter = 8;
 constexpr int kFirstLevel = 9;
 
 constexpr double kMinBlur_px = 0.05, kMaxBlur_px = 12.0;
-/// The blur is never below 0.05 px; a weak prior in the logarithm (±1) keeps sharp pictures, which
+/// The blur is never below 0.05 px; a weak prior in the logarithm (±1) keeps sharp images, which
 /// do not tell it, from drifting there.
 constexpr double kBlurPriorSigma = 1.0;
-/// Levels of neighbouring nodes differ by about this share of the print's contrast.
+/// Levels of neighbouring nodes differ by about this share of the marker's contrast.
 constexpr double kLevelPriorShare = 0.3;
 /// Tukey's biweight: 95 % efficient for Gaussian noise (Huber & Ronchetti 2009).
 constexpr double kTukey = 4.685;
 constexpr int kMaxIterations = 25;
-/// A large print is first fitted to about so many of its pixels; all of them then need few steps.
+/// A large marker is first fitted to about so many of its pixels; all of them then need few steps.
 constexpr std::size_t kCoarsePixels = 1200;
 /// Residuals of neighbouring pixels go together (JPEG blocks, texture of the paper, edges of
 /// shadows); the covariance is scaled by what blocks of this side show.
@@ -30,16 +30,16 @@ constexpr int kBlock_px = 8;
 
 }  // namespace
 
-void PrintFit::Predict(const PrintState& state, std::vector<Predicted>* predicted) const {
+void MarkerFit::Predict(const MarkerFitState& state, std::vector<Predicted>* predicted) const {
   predicted->clear();
   predicted->reserve(pixels_.size());
-  const PrintPrediction predict(pattern_, state);
-  for (const PrintPixel& pixel : pixels_) predicted->push_back(predict(pixel));
+  const MarkerPrediction predict(pattern_, state);
+  for (const MarkerPixel& pixel : pixels_) predicted->push_back(predict(pixel));
 }
 
-PrintFit::NormalEquations PrintFit::EquationsOf(const std::vector<Predicted>& predictions,
-                                                const PrintState& state,
-                                                BlockGradients* blocks) const {
+MarkerFit::NormalEquations MarkerFit::EquationsOf(const std::vector<Predicted>& predictions,
+                                                  const MarkerFitState& state,
+                                                  BlockGradients* blocks) const {
   NormalEquations equations;
   const int parameters = kFirstLevel + static_cast<int>(state.levels.size());
   equations.hessian = Eigen::MatrixXd::Zero(parameters, parameters);
@@ -50,7 +50,7 @@ PrintFit::NormalEquations PrintFit::EquationsOf(const std::vector<Predicted>& pr
   std::array<int, kTouched> index{};  // Ascending.
   for (int i = 0; i < kFirstLevel; ++i) index[i] = i;
   for (std::size_t n = 0; n < pixels_.size(); ++n) {
-    const PrintPixel& pixel = pixels_[n];
+    const MarkerPixel& pixel = pixels_[n];
     const Predicted& predicted = predictions[n];
     const Coverage& coverage = predicted.coverage;
     const double residual = predicted.residual;
@@ -58,7 +58,7 @@ PrintFit::NormalEquations PrintFit::EquationsOf(const std::vector<Predicted>& pr
     const double edge = std::max(0.0, 4.0 * coverage.white * (1.0 - coverage.white));
     equations.residuals.push_back({residual, std::fabs(by_coverage) * std::sqrt(edge)});
     if (predicted.clipped) continue;
-    const double u = predicted.print.x, v = predicted.print.y;
+    const double u = predicted.marker.x, v = predicted.marker.y;
 
     const double z = residual / (kTukey * std::sqrt(variance_[n]));
     const double kept = 1.0 - z * z;
@@ -68,7 +68,7 @@ PrintFit::NormalEquations PrintFit::EquationsOf(const std::vector<Predicted>& pr
     const double weight = kept * kept / variance_[n];
 
     const double g_u = by_coverage * coverage.d_u, g_v = by_coverage * coverage.d_v;
-    // The homography moves by rays_from_print (I + Δ), so that a pixel's print coordinates change
+    // The homography moves by rays_from_marker (I + Δ), so that a pixel's marker coordinates change
     // by minus the flow of Δ.
     const double along = g_u * u + g_v * v;
     jacobian = {-g_u,      -g_u * u,  -g_u * v,
@@ -100,7 +100,7 @@ PrintFit::NormalEquations PrintFit::EquationsOf(const std::vector<Predicted>& pr
   return equations;
 }
 
-void PrintFit::AddPriors(const PrintState& state, NormalEquations* equations) const {
+void MarkerFit::AddPriors(const MarkerFitState& state, NormalEquations* equations) const {
   const double blur_weight = 1.0 / (kBlurPriorSigma * kBlurPriorSigma);
   const double blur_error = state.log_blur - std::log(kInitialBlur_px);
   equations->hessian(kBlurParameter, kBlurParameter) += blur_weight;
@@ -127,18 +127,18 @@ void PrintFit::AddPriors(const PrintState& state, NormalEquations* equations) co
   }
 }
 
-PrintState PrintFit::Moved(const PrintState& state, const Eigen::VectorXd& step) {
-  PrintState moved = state;
+MarkerFitState MarkerFit::Moved(const MarkerFitState& state, const Eigen::VectorXd& step) {
+  MarkerFitState moved = state;
   const Mat3 motion{
       {1.0 + step[1], step[2], step[0], step[4], 1.0 + step[5], step[3], step[6], step[7], 1.0}};
-  moved.rays_from_print = state.rays_from_print * motion;
+  moved.rays_from_marker = state.rays_from_marker * motion;
   moved.log_blur = std::clamp(state.log_blur + step[kBlurParameter], std::log(kMinBlur_px),
                               std::log(kMaxBlur_px));
   moved.levels += step.tail(step.size() - kFirstLevel);
   return moved;
 }
 
-void PrintFit::SetNoise(const PrintNoise& noise, const NormalEquations& equations) {
+void MarkerFit::SetNoise(const MarkerNoise& noise, const NormalEquations& equations) {
   noise_ = noise;
   variance_.resize(pixels_.size());
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
@@ -146,10 +146,10 @@ void PrintFit::SetNoise(const PrintNoise& noise, const NormalEquations& equation
   }
 }
 
-bool PrintFit::Run(const PrintState& start) {
+bool MarkerFit::Run(const MarkerFitState& start) {
   state_ = start;
   if (all_pixels_.size() > 2 * kCoarsePixels) {
-    std::vector<PrintPixel> coarse;
+    std::vector<MarkerPixel> coarse;
     const std::size_t step = all_pixels_.size() / kCoarsePixels;
     for (std::size_t i = 0; i < all_pixels_.size(); i += step) coarse.push_back(all_pixels_[i]);
     if (!Optimize(std::move(coarse))) return false;
@@ -159,14 +159,14 @@ bool PrintFit::Run(const PrintState& start) {
   return true;
 }
 
-bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
+bool MarkerFit::Optimize(std::vector<MarkerPixel> pixels) {
   pixels_ = std::move(pixels);
   variance_.assign(pixels_.size(), 1.0);
   double damping = 1e-3;
   // The noise falls as the fit gets better; it is held while steps are compared.
   Predict(state_, &predicted_);
   NormalEquations equations = EquationsOf(predicted_, state_, nullptr);
-  PrintNoise noise = EstimatePrintNoise(equations.residuals);
+  MarkerNoise noise = EstimateMarkerNoise(equations.residuals);
   SetNoise({std::max(4.0, 1.5 * noise.flat_codes), 1.5 * noise.edge_share}, equations);
   equations = EquationsOf(predicted_, state_, nullptr);
   int since_noise = 0;
@@ -176,7 +176,7 @@ bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
     damped.diagonal().array() += 1e-9;
     const Eigen::VectorXd step = damped.ldlt().solve(-equations.gradient);
     if (!step.allFinite()) return false;
-    const PrintState candidate = Moved(state_, step);
+    const MarkerFitState candidate = Moved(state_, step);
     Predict(candidate, &next_predicted_);
     NormalEquations next = EquationsOf(next_predicted_, candidate, nullptr);
     const bool better = next.cost < equations.cost;
@@ -193,7 +193,7 @@ bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
     }
     if (since_noise >= 2 || moved_px < 1e-3) {
       since_noise = 0;
-      noise = EstimatePrintNoise(equations.residuals);
+      noise = EstimateMarkerNoise(equations.residuals);
       const double before = std::hypot(noise_.flat_codes, 255.0 * noise_.edge_share);
       noise.flat_codes = std::clamp(noise.flat_codes, 0.6 * noise_.flat_codes, noise_.flat_codes);
       noise.edge_share = std::clamp(noise.edge_share, 0.6 * noise_.edge_share, noise_.edge_share);
@@ -206,10 +206,10 @@ bool PrintFit::Optimize(std::vector<PrintPixel> pixels) {
   return true;
 }
 
-double PrintFit::ResidualCodes() const { return RobustScale(fitted_.residuals); }
+double MarkerFit::ResidualCodes() const { return RobustScale(fitted_.residuals); }
 
-double PrintFit::AgreeingShare() const {
-  const std::vector<PrintResidual>& residuals = fitted_.residuals;
+double MarkerFit::AgreeingShare() const {
+  const std::vector<MarkerResidual>& residuals = fitted_.residuals;
   std::size_t agreeing = 0;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     agreeing += std::fabs(residuals[i].codes) < std::max(12.0, kTukey * std::sqrt(variance_[i]));
@@ -217,8 +217,8 @@ double PrintFit::AgreeingShare() const {
   return static_cast<double>(agreeing) / static_cast<double>(residuals.size());
 }
 
-double PrintFit::CorrelationFactor(const BlockGradients& blocks,
-                                   const Eigen::MatrixXd& covariance) {
+double MarkerFit::CorrelationFactor(const BlockGradients& blocks,
+                                    const Eigen::MatrixXd& covariance) {
   // Clustered sandwich estimate of a covariance (Liang & Zeger 1986): H⁻¹ (Σ_blocks g gᵀ) H⁻¹ in
   // place of H⁻¹. With few blocks the matrix is too ragged to use; its mean ratio is not.
   Eigen::MatrixXd sandwich = Eigen::MatrixXd::Zero(kHomographyParameters, kHomographyParameters);
@@ -231,7 +231,7 @@ double PrintFit::CorrelationFactor(const BlockGradients& blocks,
   return std::max(1.0, plain.ldlt().solve(sandwich).trace() / kHomographyParameters);
 }
 
-std::array<double, 64> PrintFit::MotionCovariance() const {
+std::array<double, 64> MarkerFit::MotionCovariance() const {
   const Eigen::Index parameters = fitted_.gradient.size();
   const Eigen::MatrixXd covariance =
       fitted_.hessian.ldlt().solve(Eigen::MatrixXd::Identity(parameters, parameters));

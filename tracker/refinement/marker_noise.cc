@@ -25,26 +25,26 @@ double Median(std::vector<double>* values) {
 
 }  // namespace
 
-double RobustScale(const std::vector<PrintResidual>& residuals) {
+double RobustScale(const std::vector<MarkerResidual>& residuals) {
   std::vector<double> sizes;
   sizes.reserve(residuals.size());
-  for (const PrintResidual& residual : residuals) sizes.push_back(std::fabs(residual.codes));
+  for (const MarkerResidual& residual : residuals) sizes.push_back(std::fabs(residual.codes));
   return std::max(kMinResidual_codes, kSigmaPerMedian * Median(&sizes));
 }
 
-PrintNoise EstimatePrintNoise(const std::vector<PrintResidual>& residuals) {
+MarkerNoise EstimateMarkerNoise(const std::vector<MarkerResidual>& residuals) {
   std::vector<double> flat;
-  for (const PrintResidual& residual : residuals) {
+  for (const MarkerResidual& residual : residuals) {
     if (residual.edge_gain < kEdgePixelGain_codes) flat.push_back(std::fabs(residual.codes));
   }
-  PrintNoise noise;
+  MarkerNoise noise;
   noise.flat_codes = flat.size() < kEnough
                          ? RobustScale(residuals)
                          : std::max(kMinResidual_codes, kSigmaPerMedian * Median(&flat));
   // Half of the edge pixels are to lie within the median of a Gaussian of variance flat² + share²
   // gain²; each pixel says from which share² on it does.
   std::vector<double> share_squared;
-  for (const PrintResidual& residual : residuals) {
+  for (const MarkerResidual& residual : residuals) {
     if (residual.edge_gain < kEdgePixelGain_codes) continue;
     const double sigma = kSigmaPerMedian * residual.codes;
     share_squared.push_back((sigma * sigma - noise.flat_codes * noise.flat_codes) /

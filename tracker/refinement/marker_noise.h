@@ -4,8 +4,8 @@
 
 namespace pleinair::tracker {
 
-/// What a pixel of a print does not agree with.
-struct PrintResidual {
+/// What a pixel of a marker does not agree with.
+struct MarkerResidual {
   double codes = 0.0;      ///< Predicted less observed.
   double edge_gain = 0.0;  ///< Codes that an edge pixel's share of white is worth, 0 off edges.
 };
@@ -14,7 +14,7 @@ struct PrintResidual {
 /// others: a lens and a renderer's few samples spread light otherwise than a Gaussian, sharpening
 /// overshoots, edges of prints are rough. Their variance is taken as that of a share of white drawn
 /// from so many samples, 4 c (1 - c), scaled to what the edges show.
-struct PrintNoise {
+struct MarkerNoise {
   double flat_codes = 0.0;  ///< Robust standard deviation off the edges.
   double edge_share = 0.0;  ///< Additional standard deviation of the share of white, where it is ½.
 
@@ -25,9 +25,9 @@ struct PrintNoise {
 };
 
 /// Robust standard deviation of all residuals.
-double RobustScale(const std::vector<PrintResidual>& residuals);
+double RobustScale(const std::vector<MarkerResidual>& residuals);
 
 /// Both from medians: up to half of either kind of pixel may be covered.
-PrintNoise EstimatePrintNoise(const std::vector<PrintResidual>& residuals);
+MarkerNoise EstimateMarkerNoise(const std::vector<MarkerResidual>& residuals);
 
 }  // namespace pleinair::tracker

@@ -15,25 +15,25 @@ Encoded Encode(double linear) {
   return {255.0 * (1.055 * power - 0.055), 255.0 * 1.055 / 2.4 * power / linear};
 }
 
-PrintPrediction::PrintPrediction(const PrintPattern& pattern, const PrintState& state)
+MarkerPrediction::MarkerPrediction(const MarkerPattern& pattern, const MarkerFitState& state)
     : pattern_(pattern),
       state_(state),
-      print_from_rays_(Adjugate(state.rays_from_print)),
+      marker_from_rays_(Adjugate(state.rays_from_marker)),
       blur_px_(std::exp(state.log_blur)) {}
 
-Predicted PrintPrediction::operator()(const PrintPixel& pixel) const {
+Predicted MarkerPrediction::operator()(const MarkerPixel& pixel) const {
   Predicted predicted;
   const double extent = pattern_.Extent();
-  predicted.print = Apply(print_from_rays_, pixel.ray);
-  const Vec2 d_x = Apply(print_from_rays_, pixel.ray + pixel.ray_d_x) - predicted.print;
-  const Vec2 d_y = Apply(print_from_rays_, pixel.ray + pixel.ray_d_y) - predicted.print;
-  predicted.coverage = CoverageOfPixel(pattern_, predicted.print, d_x, d_y, blur_px_);
+  predicted.marker = Apply(marker_from_rays_, pixel.ray);
+  const Vec2 d_x = Apply(marker_from_rays_, pixel.ray + pixel.ray_d_x) - predicted.marker;
+  const Vec2 d_y = Apply(marker_from_rays_, pixel.ray + pixel.ray_d_y) - predicted.marker;
+  predicted.coverage = CoverageOfPixel(pattern_, predicted.marker, d_x, d_y, blur_px_);
 
   const auto grid = [&](double at) {
     return std::clamp((at / extent + 1.0) * 0.5 * (state_.nodes - 1), 0.0,
                       state_.nodes - 1.0 - 1e-9);
   };
-  const double column = grid(predicted.print.x), row = grid(predicted.print.y);
+  const double column = grid(predicted.marker.x), row = grid(predicted.marker.y);
   const int i = static_cast<int>(column), j = static_cast<int>(row);
   const double a = column - i, b = row - j;
   predicted.hat = {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};

@@ -19,9 +19,9 @@ struct Encoded {
 };
 Encoded Encode(double linear);
 
-/// What a fit of a print varies.
-struct PrintState {
-  Mat3 rays_from_print;  ///< Homography from the print (half edges, y up) to normalised rays.
+/// What a fit of a marker varies.
+struct MarkerFitState {
+  Mat3 rays_from_marker;  ///< Homography from the marker (half edges, y up) to normalised rays.
   double log_blur = 0.0;
   int nodes = 2;           ///< Level nodes along each side.
   Eigen::VectorXd levels;  ///< Black and white of each node, in linear light.
@@ -32,7 +32,7 @@ inline int LevelIndex(int node, int white) { return 2 * node + white; }
 
 /// What one pixel should hold, against what it holds.
 struct Predicted {
-  Vec2 print;  ///< The pixel's centre on the print.
+  Vec2 marker;  ///< The pixel's centre on the marker.
   Coverage coverage;
   std::array<double, 4> hat;  ///< Weights of the four level nodes around it,
   std::array<int, 4> node;    ///< … which are these, ascending.
@@ -43,15 +43,15 @@ struct Predicted {
 };
 
 /// Predicts pixel after pixel from one state.
-class PrintPrediction {
+class MarkerPrediction {
  public:
-  PrintPrediction(const PrintPattern& pattern, const PrintState& state);
-  Predicted operator()(const PrintPixel& pixel) const;
+  MarkerPrediction(const MarkerPattern& pattern, const MarkerFitState& state);
+  Predicted operator()(const MarkerPixel& pixel) const;
 
  private:
-  const PrintPattern& pattern_;
-  const PrintState& state_;
-  const Mat3 print_from_rays_;
+  const MarkerPattern& pattern_;
+  const MarkerFitState& state_;
+  const Mat3 marker_from_rays_;
   const double blur_px_;
 };
 

@@ -24,14 +24,14 @@ struct BoxLevel {
   const std::uint16_t* row(int y) const { return means.data() + y * stride; }
 };
 
-/// The picture smoothed by boxes of several sizes, from the integral image. Each is made when it is
+/// The image smoothed by boxes of several sizes, from the integral image. Each is made when it is
 /// first asked for, and keeps its memory.
 class BoxLevels {
  public:
-  /// Everything asked for from now on is of this picture, which must live as long.
+  /// Everything asked for from now on is of this image, which must live as long.
   void Reset(const IntegralImage* integral);
 
-  /// The level whose box is nearest to `size_px` (by ratio) and fits into the picture, which is not
+  /// The level whose box is nearest to `size_px` (by ratio) and fits into the image, which is not
   /// empty.
   const BoxLevel& Nearest(float size_px);
 

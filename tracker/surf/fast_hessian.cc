@@ -14,7 +14,7 @@ namespace {
 constexpr int kRowPadding = IntegralImage::kPadding;
 /// A row begins this many elements into its memory: the neighbourhood looks one to the left.
 constexpr int kRowFront = 16;
-/// Columns of the picture that are searched together: of a filter of 27 px 30 KB of sums.
+/// Columns of the image that are searched together: of a filter of 27 px 30 KB of sums.
 constexpr int kStrip_px = 256;
 
 /// Maximum of the parabola through the 3 x 3 x 3 neighbourhood, relative to its middle sample, in
@@ -56,8 +56,8 @@ std::optional<Offset> Interpolate(const ResponseNeighbourhood& n, int i) {
 }
 
 int StepOfOctave(int octave, int first_step) {
-  constexpr int kLargestStep = 4;
-  return octave >= 2 ? kLargestStep : std::min(first_step << octave, kLargestStep);
+  constexpr int kMaxStep = 4;
+  return octave >= 2 ? kMaxStep : std::min(first_step << octave, kMaxStep);
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ void FastHessian::FindMaxima(const IntegralImage& integral, int octave, int step
                              SampleRange strip, float threshold,
                              std::vector<SurfKeypoint>* maxima) {
   for (int layer = 1; layer + 1 < kLayers; ++layer) {
-    // Only where the largest filter of the neighbourhood lies inside the picture everywhere.
+    // Only where the largest filter of the neighbourhood lies inside the image everywhere.
     const int margin = FilterSize(octave, layer + 1) / 2;
     const int y = sample_y * step;
     if (y - step < margin || y + step + margin >= integral.height()) continue;

@@ -19,7 +19,7 @@ constexpr int FilterSize(int octave, int layer) { return 3 * ((2 << octave) * (l
 /// The Fast-Hessian detector (Bay et al. 2008, section 3): maxima of the determinant of the Hessian
 /// in place and scale, interpolated.
 ///
-/// Strip by strip of the picture's columns, so narrow that the rows of the integral image that a
+/// Strip by strip of the image's columns, so narrow that the rows of the integral image that a
 /// filter spans stay in the first-level cache. Rows of responses live in a ring only as long as the
 /// 3 x 3 x 3 neighbourhood needs them; only what the next octave shares is kept whole.
 class FastHessian {

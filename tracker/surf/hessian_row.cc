@@ -35,7 +35,7 @@ void SubtractRows(const std::uint32_t* const* rows, int begin, int end,
 }
 
 /// Sorts a row by x modulo `step` (2 or 4): phase p is at phases + p * phase_stride. After it,
-/// samples that are `step` apart in the picture lie side by side.
+/// samples that are `step` apart in the image lie side by side.
 void SplitPhases(const std::int32_t* row, int count, int step, std::ptrdiff_t phase_stride,
                  std::int32_t* phases) {
   const hn::ScalableTag<std::int32_t> d;
@@ -104,8 +104,8 @@ std::int32_t* AtLeast(std::size_t size, std::vector<std::int32_t>* values) {
   return values->data() + (kLine - address % kLine) % kLine / sizeof(std::int32_t);
 }
 
-/// x-difference of the integral image's elements, seen from sample i = 0, with samples `step` = 1,
-/// 2 or 4 apart.
+/// x-difference of the integral image's elements, observed from sample i = 0, with samples `step` =
+/// 1, 2 or 4 apart.
 const std::int32_t* EdgeAt(const std::int32_t* phases, std::ptrdiff_t phase_stride, int step,
                            int offset) {
   const int phase = offset & (step - 1);
@@ -119,7 +119,7 @@ void ComputeHessianRow(const IntegralImage& integral, int filter_size, int step,
   const int width = integral.width();
   const int margin = filter_size / 2;
   const int lobe = filter_size / 3;
-  // Samples whose filter lies inside the picture.
+  // Samples whose filter lies inside the image.
   const int inside = width - 1 - margin < 0 ? 0 : (width - 1 - margin) / step + 1;
   const int begin = std::max(samples.first, (margin + step - 1) / step);
   const int end = std::min(samples.last, inside);

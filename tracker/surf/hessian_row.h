@@ -27,13 +27,13 @@ struct SampleRange {
 ///   det(H) = D_xx D_yy - (0.9 D_xy)^2,
 /// each D the sum of box filters of L = `filter_size` px (section 3.2, Fig. 2; L = 9, 15, 21, ...)
 /// divided by its area L^2, grey in 0..1. Samples i = 0, 1, ... lie at x = i * `step` (1, 2 or 4),
-/// while x < width; where the filter would leave the picture the response is 0.
+/// while x < width; where the filter would leave the image the response is 0.
 /// Sample i goes to responses[i]; there is room for IntegralImage::kPadding more than `samples`,
 /// and what lies there may be written.
 void ComputeHessianRow(const IntegralImage& integral, int filter_size, int step, int y,
                        SampleRange samples, HessianScratch* scratch, float* responses);
 
-/// D_xx + D_yy at one point, of the same filters, where they fit into the picture.
+/// D_xx + D_yy at one point, of the same filters, where they fit into the image.
 float LaplacianAt(const IntegralImage& integral, int filter_size, int x, int y);
 
 }  // namespace pleinair::tracker

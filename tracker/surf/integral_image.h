@@ -11,7 +11,7 @@ namespace pleinair::tracker {
 /// Sums over all rectangles from the top-left corner (Bay et al. 2008, Eq. (1)), with a row and a
 /// column of zeros in front: row(y)[x] is the sum over the pixels above y and left of x.
 ///
-/// The sums are kept modulo 2^32. A picture of 8K overflows that, its boxes do not: the sum over a
+/// The sums are kept modulo 2^32. An image of 8K overflows that, its boxes do not: the sum over a
 /// box comes out right, by the same arithmetic, as long as it is below 2^32 itself (16.8 million
 /// white pixels).
 class IntegralImage {
@@ -22,12 +22,12 @@ class IntegralImage {
   /// `grey` has one channel and may be empty. Keeps its memory between calls.
   void Compute(ImageView<const std::uint8_t> grey);
 
-  int width() const { return width_; }    ///< px of the picture.
-  int height() const { return height_; }  ///< px of the picture.
+  int width() const { return width_; }    ///< px of the image.
+  int height() const { return height_; }  ///< px of the image.
   /// Row 0..height(), elements 0..width(). Rows begin at whole cache lines.
   const std::uint32_t* row(int y) const { return sums_.data() + front_ + y * stride_; }
 
-  /// Sum over the pixels x0 <= x < x1, y0 <= y < y1, all inside the picture.
+  /// Sum over the pixels x0 <= x < x1, y0 <= y < y1, all inside the image.
   std::uint32_t BoxSum(int x0, int y0, int x1, int y1) const {
     return row(y1)[x1] - row(y1)[x0] - row(y0)[x1] + row(y0)[x0];
   }

@@ -30,15 +30,15 @@ inline bool SameKeypoint(const SurfKeypoint& a, const SurfKeypoint& b) {
 }
 
 /// Puts a keypoint with those that are the same or, if it `may_begin`, into a cluster of its own.
-inline void AddToClusters(const DescribedKeypoint& seen, bool may_begin,
+inline void AddToClusters(const DescribedKeypoint& observed, bool may_begin,
                           std::vector<KeypointCluster>* clusters) {
   const auto same = std::ranges::find_if(*clusters, [&](const KeypointCluster& cluster) {
-    return SameKeypoint(cluster.front().keypoint, seen.keypoint);
+    return SameKeypoint(cluster.front().keypoint, observed.keypoint);
   });
   if (same != clusters->end()) {
-    same->push_back(seen);
+    same->push_back(observed);
   } else if (may_begin) {
-    clusters->push_back({seen});
+    clusters->push_back({observed});
   }
 }
 

@@ -14,7 +14,7 @@ bool IsStronger(const SurfKeypoint& a, const SurfKeypoint& b) {
 
 }  // namespace
 
-// Busy pictures have twenty times as many keypoints as are kept: only those are sorted.
+// Busy images have twenty times as many keypoints as are kept: only those are sorted.
 void KeypointSelection::KeepFairShares(int width, int height, int bucket_px, int max_keypoints,
                                        std::vector<SurfKeypoint>* keypoints) {
   const auto limit = static_cast<std::ptrdiff_t>(std::max(max_keypoints, 0));

@@ -5,7 +5,7 @@
 
 namespace pleinair::tracker {
 
-/// A grid of points in the picture: (column, row) -> origin + column * right + row * down, px.
+/// A grid of points in the image: (column, row) -> origin + column * right + row * down, px.
 struct PatchGrid {
   float x = 0, y = 0;  ///< Origin, px.
   float right_x = 1, right_y = 0;
@@ -13,7 +13,7 @@ struct PatchGrid {
 };
 
 /// values[i] = the level's mean (grey x 256) around the point (columns[i], rows[i]) of the grid,
-/// interpolated bilinearly; outside the picture that of its nearest border. `count` is a multiple
+/// interpolated bilinearly; outside the image that of its nearest border. `count` is a multiple
 /// of 16.
 void SamplePatch(const BoxLevel& level, const PatchGrid& grid, const float* columns,
                  const float* rows, int count, float* values);

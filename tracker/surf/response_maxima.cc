@@ -24,22 +24,20 @@ int FindMaxima(const ResponseNeighbourhood& neighbourhood, int begin, int end, f
     auto is_maximum = hn::And(hn::Gt(value, limit), hn::FirstN(df, end - i));
     if (hn::AllFalse(df, is_maximum)) continue;
     // Strictly above the neighbours before it, not below those after it.
-    const auto largest_of_row = [&](const float* row) {
+    const auto max_of_row = [&](const float* row) {
       return hn::Max(hn::Max(hn::LoadU(df, row + i - 1), hn::LoadU(df, row + i)),
                      hn::LoadU(df, row + i + 1));
     };
     const auto before =
-        hn::Max(largest_of_row(neighbourhood.rows[1][0]), hn::LoadU(df, middle + i - 1));
-    const auto after =
-        hn::Max(largest_of_row(neighbourhood.rows[1][2]), hn::LoadU(df, middle + i + 1));
+        hn::Max(max_of_row(neighbourhood.rows[1][0]), hn::LoadU(df, middle + i - 1));
+    const auto after = hn::Max(max_of_row(neighbourhood.rows[1][2]), hn::LoadU(df, middle + i + 1));
     is_maximum = hn::And(is_maximum, hn::And(hn::Gt(value, before), hn::Ge(value, after)));
     if (hn::AllFalse(df, is_maximum)) continue;
-    const auto largest_of_layer = [&](const float* const* rows) {
-      return hn::Max(hn::Max(largest_of_row(rows[0]), largest_of_row(rows[1])),
-                     largest_of_row(rows[2]));
+    const auto max_of_layer = [&](const float* const* rows) {
+      return hn::Max(hn::Max(max_of_row(rows[0]), max_of_row(rows[1])), max_of_row(rows[2]));
     };
-    is_maximum = hn::And(is_maximum, hn::Gt(value, largest_of_layer(neighbourhood.rows[0])));
-    is_maximum = hn::And(is_maximum, hn::Ge(value, largest_of_layer(neighbourhood.rows[2])));
+    is_maximum = hn::And(is_maximum, hn::Gt(value, max_of_layer(neighbourhood.rows[0])));
+    is_maximum = hn::And(is_maximum, hn::Ge(value, max_of_layer(neighbourhood.rows[2])));
     count += static_cast<int>(
         hn::CompressStore(hn::Iota(di, i), hn::RebindMask(di, is_maximum), di, maxima + count));
   }

@@ -18,12 +18,12 @@ struct SurfOptions {
   /// response goes with the square of the contrast.
   float threshold = 0.0002f;
   int max_keypoints = 500;
-  /// Angles are 0: for pictures whose roll is known.
+  /// Angles are 0: for images whose roll is known.
   bool upright = false;
-  /// One octave more, in front of the others, on a picture of twice the size: for blobs from a
+  /// One octave more, in front of the others, on an image of twice the size: for blobs from a
   /// sigma of 1.2 px on, where without it they begin at 2.5 px.
   bool double_size = false;
-  /// Samples of the first octave (and of the doubled one), every 1, 2 or 4 px of the picture. The
+  /// Samples of the first octave (and of the doubled one), every 1, 2 or 4 px of the image. The
   /// paper has 2.
   int first_step = 1;
   /// Strongest of each bucket kept in fair shares, so that a busy background does not use up the
@@ -34,7 +34,7 @@ struct SurfOptions {
 };
 
 /// Speeded-Up Robust Features (Bay, Ess, Tuytelaars, Van Gool, "Speeded-Up Robust Features (SURF)",
-/// Computer Vision and Image Understanding 110(3), 2008). Keeps its memory between calls: pictures
+/// Computer Vision and Image Understanding 110(3), 2008). Keeps its memory between calls: images
 /// of one size cost no allocation after the first few. One thread.
 class Surf {
  public:
@@ -43,14 +43,14 @@ class Surf {
   Surf(Surf&&) noexcept;
   Surf& operator=(Surf&&) noexcept;
 
-  /// Keypoints of a picture of one channel, strongest first; none in an empty one. `double_size`
-  /// false leaves out the doubled picture that the options ask for. Keypoints that are `unwanted`
+  /// Keypoints of an image of one channel, strongest first; none in an empty one. `double_size`
+  /// false leaves out the doubled image that the options ask for. Keypoints that are `unwanted`
   /// leave their places among max_keypoints to others.
   void Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints,
               bool double_size = true,
               const std::function<bool(const SurfKeypoint&)>& unwanted = nullptr);
 
-  /// Fills the angles of keypoints in the picture of the last Detect (its own, or others), and
+  /// Fills the angles of keypoints in the image of the last Detect (its own, or others), and
   /// describes them; descriptors[i] belongs to keypoints[i].
   void Describe(std::vector<SurfKeypoint>* keypoints, std::vector<SurfDescriptor>* descriptors);
 

@@ -5,7 +5,7 @@
 
 namespace pleinair::tracker {
 
-/// Dominant direction of the picture around a keypoint (Bay et al. 2008, section 4.1), radians in
+/// Dominant direction of the image around a keypoint (Bay et al. 2008, section 4.1), radians in
 /// image axes (x right, y down): Haar wavelets of 4 s at the points of a grid of s within a circle
 /// of 6 s, weighted with a Gaussian; the sliding window over directions with the longest sum of
 /// responses gives the direction. 0 where there is no gradient at all.

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kBandFirst = 2, kBandLast = 9;  ///< Rings of modules that are looked at.
 
-/// Place of a module when the print is turned clockwise `k` times a quarter, mirrored before from 4
-/// on.
+/// Place of a module when the marker is turned clockwise `k` times a quarter, mirrored before from
+/// 4 on.
 std::array<int, 2> Turned(int column, int row, int k) {
   if (k >= 4) column = sg::kEdge - 1 - column;
   for (int i = 0; i < k % 4; ++i) {
@@ -25,7 +25,7 @@ std::array<int, 2> Turned(int column, int row, int k) {
 
 }  // namespace
 
-BorderProbe::BorderProbe() {
+OrientationTest::OrientationTest() {
   std::vector<int> index(static_cast<std::size_t>(sg::kEdge) * sg::kEdge, -1);
   std::vector<std::array<int, 2>> modules;
   std::vector<float> white;
@@ -46,25 +46,25 @@ BorderProbe::BorderProbe() {
     value -= mean;
     length += value * value;
   }
-  ideal_.resize(modules.size());
+  expected_.resize(modules.size());
   for (std::size_t i = 0; i < modules.size(); ++i) {
     for (int k = 0; k < kOrientations; ++k) {
       const auto turned = Turned(modules[i][0], modules[i][1], k);
-      ideal_[index[turned[1] * sg::kEdge + turned[0]]][k] = white[i] / std::sqrt(length);
+      expected_[index[turned[1] * sg::kEdge + turned[0]]][k] = white[i] / std::sqrt(length);
     }
   }
   x_.resize(modules.size());
   y_.resize(modules.size());
 }
 
-std::array<ProbedOrientation, 2> BorderProbe::Look(ImageView<const std::uint8_t> grey,
-                                                   const std::array<Vec2, 4>& corners_px) {
+std::array<BorderOrientation, 2> OrientationTest::Evaluate(ImageView<const std::uint8_t> grey,
+                                                           const std::array<Vec2, 4>& corners_px) {
   const Mat3 homography = HomographyToQuad(corners_px);
   std::array<float, 9> h{};
   for (int i = 0; i < 9; ++i) h[i] = static_cast<float>(homography.m[i]);
   const float right = static_cast<float>(grey.width() - 1);
   const float bottom = static_cast<float>(grey.height() - 1);
-  const std::size_t count = ideal_.size();
+  const std::size_t count = expected_.size();
   for (std::size_t i = 0; i < count; ++i) {
     const float w = 1.0F / (h[6] * u_[i] + h[7] * v_[i] + h[8]);
     const float x = (h[0] * u_[i] + h[1] * v_[i] + h[2]) * w + 0.5F;
@@ -79,17 +79,17 @@ std::array<ProbedOrientation, 2> BorderProbe::Look(ImageView<const std::uint8_t>
     const float value = grey(x_[i], y_[i]);
     sum += value;
     squares += value * value;
-    for (int k = 0; k < kOrientations; ++k) products[k] += ideal_[i][k] * value;
+    for (int k = 0; k < kOrientations; ++k) products[k] += expected_[i][k] * value;
   }
   const float n = static_cast<float>(count);
   const float spread = std::sqrt(std::max(1e-3F, squares - sum * sum / n));
-  std::array<ProbedOrientation, 2> best{};
+  std::array<BorderOrientation, 2> best{};
   best[0].correlation = best[1].correlation = -2.0;
   for (int k = 0; k < kOrientations; ++k) {
-    ProbedOrientation here;
+    BorderOrientation here;
     here.correlation = products[k] / spread;
     here.mirrored = k >= 4;
-    // The print's top-left corner, turned k times clockwise, lies at the quadrilateral's corner k;
+    // The marker's top-left corner, turned k times clockwise, lies at the quadrilateral's corner k;
     // mirrored before, it begins at the next.
     here.first_corner = k < 4 ? k : (k + 1) % 4;
     if (here.correlation > best[0].correlation) {

@@ -11,11 +11,12 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kMiddle = 0.5 * sg::kPrint;
+constexpr double kMiddle = 0.5 * sg::kModules;
 /// Matches farther apart than this (of unit descriptors) say nothing.
-constexpr double kFarthest = 0.75;
-constexpr double kSmallest_px = 14.0, kLargestShare = 1.6;  ///< Of the picture's height.
-/// Two matches agree when each is seen where the other expects it, in shares of the print's size.
+constexpr double kMaxDistance = 0.75;
+constexpr double kMin_px = 14.0, kMaxShare = 1.6;  ///< Of the image's height.
+/// Two matches agree when each is observed where the other expects it, in shares of the marker's
+/// size.
 constexpr float kPlaceTolerance = 0.13F, kScaleTolerance = 1.6F, kTurnTolerance_rad = 0.6F;
 constexpr double kSamePlace = 0.12;  ///< Guesses closer than this, in shares of size, are one.
 
@@ -23,7 +24,7 @@ Vec2 ApplyAffine(const std::array<double, 6>& m, Vec2 p) {
   return {m[0] * p.x + m[1] * p.y + m[2], m[3] * p.x + m[4] * p.y + m[5]};
 }
 
-/// Corners of the print's square, in no order around it.
+/// Corners of the marker's square, in no order around it.
 Vec2 CornerModules(int corner) { return {corner & 1 ? 44.0 : 4.0, corner & 2 ? 44.0 : 4.0}; }
 
 bool Inside(const std::array<Vec2, 4>& quad, double x, double y) {
@@ -47,10 +48,10 @@ BorderSearch::BorderSearch(const LensGrid& lens, BorderTemplates templates,
   by_centre_.reserve(most);
   ranked_.reserve(2 * most);
   binned_.resize(2 * most);
-  witnesses_.Resize(2 * most);
+  vote_data_.Resize(2 * most);
   agreeing_.resize(2 * most + kVoteSlack);
   members_.reserve(most);
-  guessed_corners_.reserve(options_.most_guesses);
+  guessed_corners_.reserve(options_.max_guesses);
   bins_.resize(std::max(
       4, static_cast<int>(std::ceil(2.0 * std::numbers::pi / (0.5 * options_.rotation_bin_rad)))));
 }
@@ -79,17 +80,17 @@ void BorderSearch::Find(ImageView<const std::uint8_t> grey,
 
 void BorderSearch::CastVotes() {
   votes_.clear();
-  const double largest = kLargestShare * lens_.camera().height;
+  const double largest = kMaxShare * lens_.camera().height;
   constexpr double kUnit2 =
       QuantisedDescriptor::kUnit * static_cast<double>(QuantisedDescriptor::kUnit);
   for (std::size_t n = 0; n < keypoints_.size(); ++n) {
     const SurfKeypoint& k = keypoints_[n];
-    const Vec2 here = lens_.Ideal(k.x, k.y);
+    const Vec2 here = lens_.Undistort(k.x, k.y);
     for (int i = 0; i < options_.neighbours; ++i) {
       const DescriptorMatch& match = templates_of_frame_[n * options_.neighbours + i];
       if (match.index == DescriptorMatch::kNone) break;
       const double distance = std::sqrt(match.squared_distance / kUnit2);
-      if (distance > kFarthest) break;
+      if (distance > kMaxDistance) break;
       const BorderTemplate& model = templates_.keypoints[match.index];
       const auto& view = templates_.views[model.view_index].from_modules;
       Vote vote;
@@ -108,9 +109,9 @@ void BorderSearch::CastVotes() {
       const auto& m = vote.from_modules;
       vote.size_px = sg::kEdge * std::sqrt(std::fabs(m[0] * m[4] - m[1] * m[3]));
       vote.centre = ApplyAffine(m, {kMiddle, kMiddle});
-      vote.weight = 1.0 - distance / kFarthest;
+      vote.weight = 1.0 - distance / kMaxDistance;
       const double longest = sg::kEdge * std::max(std::hypot(m[0], m[3]), std::hypot(m[1], m[4]));
-      if (!(longest > kSmallest_px && longest < largest)) continue;
+      if (!(longest > kMin_px && longest < largest)) continue;
       votes_.push_back(vote);
     }
   }
@@ -139,7 +140,7 @@ void BorderSearch::FillBins() {
     bin = {begin, begin};
     begin += count;
   }
-  VoteWitnesses& w = witnesses_;
+  VoteData& w = vote_data_;
   for (const auto& [centre_x, v] : by_centre_) {
     const Vote& vote = votes_[v];
     const Vec2 modules = templates_.keypoints[vote.model].modules;
@@ -160,15 +161,15 @@ void BorderSearch::FillBins() {
 }
 
 double BorderSearch::Supporters(const Bin& bin, int at, std::vector<int>* members) {
-  const VoteWitnesses& w = witnesses_;
+  const VoteData& w = vote_data_;
   const float size = w.size_px[at], far = 0.5F * size;
   VoteSeed seed{.from_modules = {},
                 .centre_y = w.centre_y[at],
                 .rotation_rad = w.rotation_rad[at],
                 .far_px = far,
                 .near_px = kPlaceTolerance * size,
-                .smallest_px = size / kScaleTolerance,
-                .largest_px = kScaleTolerance * size,
+                .min_px = size / kScaleTolerance,
+                .max_px = kScaleTolerance * size,
                 .turn_rad = kTurnTolerance_rad};
   std::ranges::copy(votes_[binned_[at]].from_modules, seed.from_modules);
   const auto x = w.centre_x.begin();
@@ -200,7 +201,7 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
   for (int bin = 0; bin < static_cast<int>(bins_.size()); ++bin) {
     for (int i = bins_[bin].begin; i < bins_[bin].end; ++i) {
       const double votes = Supporters(bins_[bin], i, nullptr);
-      if (votes >= options_.fewest_votes) ranked_.push_back({bin, i, votes});
+      if (votes >= options_.min_votes) ranked_.push_back({bin, i, votes});
     }
   }
   std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
@@ -209,7 +210,7 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
   });
   guessed_corners_.clear();
   for (const Ranked& candidate : ranked_) {
-    if (static_cast<int>(guesses->size()) >= options_.most_guesses) break;
+    if (static_cast<int>(guesses->size()) >= options_.max_guesses) break;
     const Bin& bin = bins_[candidate.bin];
     const Vote& seed = votes_[binned_[candidate.at]];
     members_.clear();
@@ -219,7 +220,7 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
     guess.matches = static_cast<int>(members_.size());
     if (!FitGuess(members_, seed, &guess)) continue;
     std::array<Vec2, 4> corners;
-    const Mat3 inverse = Adjugate(guess.modules_from_ideal);
+    const Mat3 inverse = Adjugate(guess.modules_from_undistorted);
     for (int k = 0; k < 4; ++k) corners[k] = Apply(inverse, CornerModules(k));
     const double same2 = kSamePlace * kSamePlace * seed.size_px * seed.size_px;
     const auto near = [&](Vec2 a, Vec2 b) {
@@ -235,13 +236,13 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
 }
 
 bool BorderSearch::FitGuess(const std::vector<int>& members, const Vote& seed, BorderGuess* guess) {
-  // Least squares of an affine picture on all that agree, held towards the seed's own shape: what a
+  // Least squares of an affine image on all that agree, held towards the seed's own shape: what a
   // match of one view implies is already near, and few matches tell little more.
   double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   Vec2 by_one, by_x, by_y;
-  const auto add = [&](Vec2 modules, Vec2 ideal, double weight) {
+  const auto add = [&](Vec2 modules, Vec2 undistorted, double weight) {
     const double u = modules.x - kMiddle, v = modules.y - kMiddle;
-    const Vec2 weighted = ideal * weight;
+    const Vec2 weighted = undistorted * weight;
     w += weight;
     x += weight * u;
     y += weight * v;
@@ -268,9 +269,9 @@ bool BorderSearch::FitGuess(const std::vector<int>& members, const Vote& seed, B
   const double x0 = affine(2, 0) - (a + b) * kMiddle, y0 = affine(2, 1) - (d + e) * kMiddle;
   const double determinant = a * e - b * d;
   if (!(determinant > 1e-6)) return false;  // Mirrored or degenerate.
-  guess->modules_from_ideal = {{e / determinant, -b / determinant, (b * y0 - e * x0) / determinant,
-                                -d / determinant, a / determinant, (d * x0 - a * y0) / determinant,
-                                0, 0, 1}};
+  guess->modules_from_undistorted = {{e / determinant, -b / determinant,
+                                      (b * y0 - e * x0) / determinant, -d / determinant,
+                                      a / determinant, (d * x0 - a * y0) / determinant, 0, 0, 1}};
   return true;
 }
 

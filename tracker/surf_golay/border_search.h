@@ -17,7 +17,7 @@ namespace pleinair::tracker {
 
 /// A place where a border may be, by its keypoints.
 struct BorderGuess {
-  Mat3 modules_from_ideal;
+  Mat3 modules_from_undistorted;
   double votes = 0.0;  ///< How many matches agree, by their likeness.
   int matches = 0;
 };
@@ -36,20 +36,20 @@ struct BorderSearchOptions {
                    .descriptor_window_scales = 15};
   int neighbours = 4;             ///< Candidates of each keypoint of the frame.
   double rotation_bin_rad = 0.6;  ///< Width of the angle filter's bins, which overlap by half.
-  double fewest_votes = 3.0;      ///< Of a guess that is worth a look.
-  int most_guesses = 40;
+  double min_votes = 3.0;         ///< Of a guess that is worth a look.
+  int max_guesses = 40;
 };
 
-/// Finds borders in a picture by SURF: matches of keypoints with templates seen from everywhere,
+/// Finds borders in an image by SURF: matches of keypoints with templates observed from everywhere,
 /// the angle filter (Prochazka et al. 2012, §3.2), then agreement of the matches in where the
-/// print's centre would be and how large it would be seen, then a homography of those that agree.
-/// The cost does not depend on how many numbers are in use.
+/// marker's centre would be and how large it would be observed, then a homography of those that
+/// agree. The cost does not depend on how many numbers are in use.
 class BorderSearch {
  public:
   BorderSearch(const LensGrid& lens, BorderTemplates templates,
                const BorderSearchOptions& options = {});
 
-  /// Borders of 70 px and more are seen in the picture itself, at two thirds of the cost; smaller
+  /// Borders of 70 px and more are observed in the image itself, at two thirds of the cost; smaller
   /// ones when it is doubled as well.
   enum class Sizes { kLarge, kAll };
 
@@ -61,13 +61,13 @@ class BorderSearch {
   const std::vector<SurfKeypoint>& keypoints() const { return keypoints_; }
 
  private:
-  /// A match and the affine picture of the print that it alone implies.
+  /// A match and the affine image of the marker that it alone implies.
   struct Vote {
     int keypoint = 0, model = 0;
-    Vec2 place;  ///< Of the keypoint, in ideal pixels.
+    Vec2 place;  ///< Of the keypoint, in undistorted pixels.
     std::array<double, 6> from_modules{};
     Vec2 centre;
-    double size_px = 0.0;  ///< Square root of the area of the print's square.
+    double size_px = 0.0;  ///< Square root of the area of the marker's square.
     double rotation_rad = 0.0;
     double weight = 0.0;
   };
@@ -104,7 +104,7 @@ class BorderSearch {
   std::vector<std::pair<double, int>> by_centre_;
   std::vector<Bin> bins_;
   std::vector<int> binned_;  ///< Each vote twice, bin after bin; and what tells whether they agree.
-  VoteWitnesses witnesses_;
+  VoteData vote_data_;
   std::vector<std::array<Vec2, 4>> guessed_corners_;
 };
 

@@ -29,17 +29,17 @@ constexpr std::array<Tilt, 6> kTilts{
 constexpr std::array<double, 2> kEdges_px{150.0, 60.0};
 constexpr int kDraws = 4;            ///< Contents and surroundings that are tried,
 constexpr int kComesBack = 3;        ///< … of which a keypoint must be found in so many.
-constexpr double kMargin_px = 24.0;  ///< Of surroundings around the print.
+constexpr double kMargin_px = 24.0;  ///< Of surroundings around the marker.
 constexpr double kBlur_px = 0.7;
 constexpr double kInk = 0.04, kPaper = 0.8;
-constexpr int kMostKeypoints = 200;
+constexpr int kMaxKeypoints = 200;
 
 class TemplateMaker {
  public:
   TemplateMaker(float window_scales, const sg::Border& border)
       : border_(border),
         surf_({.threshold = 0.0002F,
-               .max_keypoints = kMostKeypoints,
+               .max_keypoints = kMaxKeypoints,
                .bucket_px = 0,
                .descriptor_window_scales = window_scales}) {}
 
@@ -58,12 +58,12 @@ class TemplateMaker {
 
  private:
   void AddView(double edge_px, double tilt, double direction) {
-    // Compress across `direction`, about the print's centre.
+    // Compress across `direction`, about the marker's centre.
     const double c = std::cos(direction), s = std::sin(direction), k = 1.0 / tilt;
     const double per_module = edge_px / sg::kEdge;
     const double a = per_module * (c * c + k * s * s), b = per_module * (1.0 - k) * c * s;
     const double e = per_module * (s * s + k * c * c);
-    const double half = 0.5 * sg::kPrint;
+    const double half = 0.5 * sg::kModules;
     const double reach_x = half * (std::fabs(a) + std::fabs(b)) + kMargin_px;
     const double reach_y = half * (std::fabs(b) + std::fabs(e)) + kMargin_px;
     const int width = static_cast<int>(2.0 * reach_x), height = static_cast<int>(2.0 * reach_y);
@@ -84,15 +84,15 @@ class TemplateMaker {
     std::vector<KeypointCluster> clusters;
     GreyImage grey(width, height);
     for (int draw = 0; draw < kDraws; ++draw) {
-      const PrintPattern print =
-          SgPrintOfWord(PrintedWord(static_cast<int>(draws_.Next() % kGolayNumbers)), border_);
-      raster_.Render(print, modules_from_view, rays_, kBlur_px, &map_, &picture_);
+      const MarkerPattern marker = SgMarkerPatternOfWord(
+          CodewordOfNumber(static_cast<int>(draws_.Next() % kGolayNumbers)), border_);
+      raster_.Render(marker, modules_from_view, rays_, kBlur_px, &map_, &picture_);
       const double around = kInk + (kPaper - kInk) * draws_.Uniform() * draws_.Uniform();
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
           const std::size_t n = static_cast<std::size_t>(y) * width + x;
-          const bool inside = map_.column[n] > 0.0F && map_.column[n] < sg::kPrint &&
-                              map_.row[n] > 0.0F && map_.row[n] < sg::kPrint;
+          const bool inside = map_.column[n] > 0.0F && map_.column[n] < sg::kModules &&
+                              map_.row[n] > 0.0F && map_.row[n] < sg::kModules;
           const double light = inside ? kInk + (kPaper - kInk) * picture_.white[n] : around;
           grey(x, y) = Srgb8FromLinear(light);
         }
@@ -117,21 +117,21 @@ class TemplateMaker {
     keypoint.view_index = view_index;
     SurfDescriptor mean{};
     double cosine = 0.0, sine = 0.0;
-    for (const DescribedKeypoint& seen : cluster) {
-      keypoint.view = keypoint.view + Vec2{seen.keypoint.x / n, seen.keypoint.y / n};
-      keypoint.scale += seen.keypoint.scale / n;
-      cosine += std::cos(seen.keypoint.angle_rad);
-      sine += std::sin(seen.keypoint.angle_rad);
+    for (const DescribedKeypoint& observed : cluster) {
+      keypoint.view = keypoint.view + Vec2{observed.keypoint.x / n, observed.keypoint.y / n};
+      keypoint.scale += observed.keypoint.scale / n;
+      cosine += std::cos(observed.keypoint.angle_rad);
+      sine += std::sin(observed.keypoint.angle_rad);
       for (std::size_t k = 0; k < mean.size(); ++k) {
-        mean[k] += seen.descriptor[k] / static_cast<float>(n);
+        mean[k] += observed.descriptor[k] / static_cast<float>(n);
       }
     }
     keypoint.angle_rad = std::atan2(sine, cosine);
     const Vec3 modules = modules_from_view * Vec3{keypoint.view.x, keypoint.view.y, 1.0};
     keypoint.modules = {modules.x, modules.y};
-    // What lies off the print, or is drowned in the content, tells nothing.
-    if (keypoint.modules.x < 0 || keypoint.modules.x > sg::kPrint || keypoint.modules.y < 0 ||
-        keypoint.modules.y > sg::kPrint) {
+    // What lies off the marker, or is drowned in the content, tells nothing.
+    if (keypoint.modules.x < 0 || keypoint.modules.x > sg::kModules || keypoint.modules.y < 0 ||
+        keypoint.modules.y > sg::kModules) {
       return;
     }
     templates_.keypoints.push_back(keypoint);
@@ -141,10 +141,10 @@ class TemplateMaker {
   const sg::Border& border_;
   Surf surf_;
   ViewDraws draws_;
-  PrintRaster raster_;
+  MarkerRaster raster_;
   WindowRays rays_;
-  PrintMap map_;
-  PrintPicture picture_;
+  PlaneMap map_;
+  PredictedImage picture_;
   std::vector<SurfKeypoint> keypoints_;
   std::vector<SurfDescriptor> descriptors_;
   BorderTemplates templates_;

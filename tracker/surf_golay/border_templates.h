@@ -8,19 +8,19 @@
 
 namespace pleinair::tracker {
 
-/// A keypoint of the border as one view shows it. The view is an affine picture of the print:
+/// A keypoint of the border as one view shows it. The view is an affine image of the marker:
 /// x = a column + b row + c, y = d column + e row + f.
 struct BorderTemplate {
-  Vec2 modules;            ///< Where it lies on the print.
+  Vec2 modules;            ///< Where it lies on the marker.
   Vec2 view;               ///< … and in the view, px.
   double scale = 0.0;      ///< SURF scale in the view, px.
   double angle_rad = 0.0;  ///< Dominant direction in the view.
   int view_index = 0;
 };
 
-/// A target seen from everywhere: descriptors of its keypoints under tilts up to about 80° in all
-/// directions and from near and far, those that come back whatever the content and whatever lies
-/// around. SURF bears turns in the picture's plane and about 30° of tilt itself; the rest is
+/// A target observed from everywhere: descriptors of its keypoints under tilts up to about 80° in
+/// all directions and from near and far, those that come back whatever the content and whatever
+/// lies around. SURF bears turns in the image's plane and about 30° of tilt itself; the rest is
 /// covered by views, after Yu & Morel, "ASIFT" (2011), table of tilts and directions.
 struct BorderTemplates {
   struct View {

@@ -16,12 +16,12 @@ namespace {
 /// What a wrong cell under a cover that is there takes off: half of the cells there are right.
 constexpr double kUnderCover_bits = -1.0;
 
-double CellBits(float likelihood, bool printed_white) {
-  const double right = printed_white ? likelihood : -likelihood;
+double CellBits(float likelihood, bool white_in_code) {
+  const double right = white_in_code ? likelihood : -likelihood;
   return 1.0 - std::log2(1.0 + std::exp(-right));
 }
 
-/// What it takes off where a cell that is plainly of the other colour lies straight between two
+/// What it takes off where a cell that is plainly of the other color lies straight between two
 /// that the cover hides: few things have holes there.
 constexpr double kSeenBetween_bits = 2.0;
 
@@ -76,7 +76,7 @@ constexpr CellsBetween kBetween = FindCellsBetween();
 }  // namespace
 
 double EvidenceBits(const CellLikelihoods& likelihoods, int number) {
-  const GolayWord word = PrintedWord(number);
+  const GolayWord word = CodewordOfNumber(number);
   double bits = 0.0;
   for (int k = 0; k < sg::kCodeCells; ++k) {
     bits += CellBits(likelihoods[k], (word >> k & 1U) != 0);
@@ -88,10 +88,10 @@ EvidenceUnderCover::EvidenceUnderCover(const CellLikelihoods& likelihoods) {
   for (int k = 0; k < sg::kCodeCells; ++k) {
     white_bits_[k] = CellBits(likelihoods[k], true);
     black_bits_[k] = CellBits(likelihoods[k], false);
-    if (likelihoods[k] > 0.0F) looks_white_ |= 1U << k;
-    if (likelihoods[k] < 0.0F) looks_black_ |= 1U << k;
+    if (likelihoods[k] > 0.0F) appears_white_ |= 1U << k;
+    if (likelihoods[k] < 0.0F) appears_black_ |= 1U << k;
   }
-  for (const CellSet alike : {looks_white_, looks_black_}) {
+  for (const CellSet alike : {appears_white_, appears_black_}) {
     for (CellSet left = alike; left != 0;) {
       const CellSet together = HangingTogether(alike, std::countr_zero(left));
       for (CellSet cells = together; cells != 0; cells &= cells - 1) {
@@ -103,8 +103,8 @@ EvidenceUnderCover::EvidenceUnderCover(const CellLikelihoods& likelihoods) {
 }
 
 std::optional<double> EvidenceUnderCover::Bits(int number) const {
-  const GolayWord word = PrintedWord(number);
-  const CellSet wrong = (looks_white_ & ~word) | (looks_black_ & word);
+  const GolayWord word = CodewordOfNumber(number);
+  const CellSet wrong = (appears_white_ & ~word) | (appears_black_ & word);
   if (std::popcount(wrong) < 2 || (wrong & ~together_[std::countr_zero(wrong)]) != 0) {
     return std::nullopt;
   }
@@ -123,8 +123,8 @@ std::optional<double> EvidenceUnderCover::Bits(int number) const {
       between |= kBetween[k][std::countr_zero(others)];
     }
   }
-  const bool white_cover = (wrong & looks_white_) != 0;
-  for (CellSet cells = between & (white_cover ? looks_black_ : looks_white_); cells != 0;
+  const bool white_cover = (wrong & appears_white_) != 0;
+  for (CellSet cells = between & (white_cover ? appears_black_ : appears_white_); cells != 0;
        cells &= cells - 1) {
     const int k = std::countr_zero(cells);
     // As far as it is plain.

@@ -29,7 +29,7 @@ class EvidenceUnderCover {
   using CellSet = std::uint32_t;  ///< A bit a cell.
 
   std::array<double, kGolayBits> white_bits_, black_bits_;  ///< Of cells that are printed so.
-  CellSet looks_white_ = 0, looks_black_ = 0;
+  CellSet appears_white_ = 0, appears_black_ = 0;
   /// The cells that look like each and hang together with it, itself as well.
   std::array<CellSet, kGolayBits> together_{};
 };

@@ -17,15 +17,16 @@ constexpr float kUnevenWhite = 0.15F, kUnevenBlack = 0.12F, kBrightestBlack = 0.
 /// Share of white that a cell may be off black or white, and what a plain one tells (nats).
 constexpr float kOffPlain = 0.36F, kPlain = 6.0F;
 
-/// Linear light at places on the print, bilinear.
+/// Linear light at places on the marker, bilinear.
 class Sampler {
  public:
-  Sampler(ImageView<const std::uint8_t> grey, const LensGrid& lens, const Mat3& modules_from_ideal)
-      : grey_(grey), lens_(lens), ideal_from_modules_(Adjugate(modules_from_ideal)) {}
+  Sampler(ImageView<const std::uint8_t> grey, const LensGrid& lens,
+          const Mat3& modules_from_undistorted)
+      : grey_(grey), lens_(lens), undistorted_from_modules_(Adjugate(modules_from_undistorted)) {}
 
-  /// False outside the picture.
+  /// False outside the image.
   bool At(double column, double row, float* light) const {
-    const Vec2 pixel = lens_.PixelOfIdeal(Apply(ideal_from_modules_, {column, row}));
+    const Vec2 pixel = lens_.PixelOfUndistorted(Apply(undistorted_from_modules_, {column, row}));
     if (!(pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < grey_.width() - 1.0 &&
           pixel.y < grey_.height() - 1.0)) {
       return false;
@@ -44,14 +45,14 @@ class Sampler {
  private:
   ImageView<const std::uint8_t> grey_;
   const LensGrid& lens_;
-  const Mat3 ideal_from_modules_;
+  const Mat3 undistorted_from_modules_;
 };
 
-/// White's light, a plane over the print, and black's as a share of it.
+/// White's light, a plane over the marker, and black's as a share of it.
 struct PlainLight {
   float middle = 0.0F, by_column = 0.0F, by_row = 0.0F, black_share = 0.0F;
   float White(double column, double row) const {
-    constexpr double kMiddle = 0.5 * sg::kPrint;
+    constexpr double kMiddle = 0.5 * sg::kModules;
     return middle + by_column * static_cast<float>(column - kMiddle) +
            by_row * static_cast<float>(row - kMiddle);
   }
@@ -66,9 +67,9 @@ std::optional<PlainLight> LightOf(const Sampler& sampler) {
   };
   std::array<Sample, kSamples> white, black;
   const auto ring = [&](double first, std::array<Sample, kSamples>* samples) {
-    constexpr double kMiddle = 0.5 * sg::kPrint;
+    constexpr double kMiddle = 0.5 * sg::kModules;
     for (int k = 0; k < kSamples; ++k) {
-      // Turned by a quarter from side to side, so that the places are as symmetric as the print.
+      // Turned by a quarter from side to side, so that the places are as symmetric as the marker.
       double along = ((k / 4 + 0.5) / kAlongSide - 0.5) * sg::kEdge, across = first - kMiddle;
       for (int turn = 0; turn < k % 4; ++turn) {
         const double before = along;
@@ -86,7 +87,7 @@ std::optional<PlainLight> LightOf(const Sampler& sampler) {
   PlainLight light;
   double sum = 0.0, by_column = 0.0, by_row = 0.0, squares = 0.0;
   for (const Sample& s : white) {
-    const double u = s.column - 0.5 * sg::kPrint, v = s.row - 0.5 * sg::kPrint;
+    const double u = s.column - 0.5 * sg::kModules, v = s.row - 0.5 * sg::kModules;
     sum += s.light;
     by_column += u * s.light;
     by_row += v * s.light;
@@ -116,9 +117,10 @@ std::optional<PlainLight> LightOf(const Sampler& sampler) {
 
 }  // namespace
 
-std::optional<CellLikelihoods> GlanceAtCells(ImageView<const std::uint8_t> grey,
-                                             const LensGrid& lens, const Mat3& modules_from_ideal) {
-  const Sampler sampler(grey, lens, modules_from_ideal);
+std::optional<CellLikelihoods> SampleCellsFast(ImageView<const std::uint8_t> grey,
+                                               const LensGrid& lens,
+                                               const Mat3& modules_from_undistorted) {
+  const Sampler sampler(grey, lens, modules_from_undistorted);
   const std::optional<PlainLight> light = LightOf(sampler);
   if (!light) return std::nullopt;
   CellLikelihoods likelihoods{};
@@ -130,9 +132,9 @@ std::optional<CellLikelihoods> GlanceAtCells(ImageView<const std::uint8_t> grey,
       for (const Vec2& place : kPlaces) {
         const double c = sg::kQuiet + sg::kContent + sg::kCell * (column + 0.25 * place.x);
         const double r = sg::kQuiet + sg::kContent + sg::kCell * (row + 0.25 * place.y);
-        float seen = 0.0F;
-        if (!sampler.At(c, r, &seen)) return std::nullopt;
-        share += (seen / light->White(c, r) - light->black_share) /
+        float observed = 0.0F;
+        if (!sampler.At(c, r, &observed)) return std::nullopt;
+        share += (observed / light->White(c, r) - light->black_share) /
                  ((1.0F - light->black_share) * static_cast<float>(kPlaces.size()));
       }
       const float nearest = share > 0.5F ? 1.0F : 0.0F;

@@ -11,26 +11,26 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kTile_px = 32;
-constexpr double kLeastStep_px = 3.5, kMostStep_px = 30.0;
-constexpr double kMostArm_px = 60.0;
-constexpr int kMostArmSteps = 3;  ///< Steps that an edge between two corners may be long.
-constexpr std::size_t kMostArms = 6;
+constexpr double kMinStep_px = 3.5, kMaxStep_px = 30.0;
+constexpr double kMaxArm_px = 60.0;
+constexpr int kMaxArmSteps = 3;  ///< Steps that an edge between two corners may be long.
+constexpr std::size_t kMaxArms = 6;
 /// The strongest corners of a tile are tried as corners of a lattice; all count as its nodes.
-constexpr int kMostStartsInTile = 8;
-constexpr double kLeastEdgeShare = 0.6;
-constexpr double kLeastSine = 0.34, kMostStepRatio = 3.0;
+constexpr int kMaxStartsPerTile = 8;
+constexpr double kMinEdgeShare = 0.6;
+constexpr double kMinSine = 0.34, kMaxStepRatio = 3.0;
 /// Distance from a node, in steps, at which a corner is on it; grows with the distance from where
 /// the lattice was found, since perspective bends it.
 constexpr double kOnNode = 0.12, kOnNodePerStep = 0.02;
 constexpr double kOffNodeCost = 0.6;
-constexpr double kLeastScore = 6.0;
-constexpr std::size_t kMostLattices = 12;
+constexpr double kMinScore = 6.0;
+constexpr std::size_t kMaxLattices = 12;
 /// Corners at the 5×5 nodes around the one where a lattice was found that make it worth a count.
-constexpr int kNear = 2, kFewestNear = 7;
+constexpr int kNear = 2, kMinNearCorners = 7;
 constexpr double kOnNear = 0.2;
 constexpr int kMapReach_px = 3;
 constexpr int kFitRounds = 3;
-constexpr int kFewestNodes = 7;
+constexpr int kMinNodes = 7;
 
 double Squared(Vec2 a) { return a.x * a.x + a.y * a.y; }
 
@@ -106,12 +106,12 @@ bool CellLattice::Promising(const Lattice& lattice) const {
   for (int v = -kNear; v <= kNear; ++v) {
     for (int u = -kNear; u <= kNear; ++u) hits += corner_at(u, v);
   }
-  if (hits < kFewestNear) return false;
+  if (hits < kMinNearCorners) return false;
   // In a texture there are as many between the nodes.
   for (int v = -kNear; v < kNear; ++v) {
     for (int u = -kNear; u < kNear; ++u) hits -= corner_at(u + 0.5, v + 0.5);
   }
-  return hits >= kFewestNear;
+  return hits >= kMinNearCorners;
 }
 
 double CellLattice::EdgeShare(ImageView<const std::uint8_t> grey, Vec2 from, Vec2 to) {
@@ -128,24 +128,24 @@ double CellLattice::EdgeShare(ImageView<const std::uint8_t> grey, Vec2 from, Vec
     across += (direction.x * gy - direction.y * gx) / length;
     along += std::fabs(direction.x * gx + direction.y * gy) / length;
   }
-  constexpr double kLeastGradient = 10.0;
+  constexpr double kMinGradient = 10.0;
   across = std::fabs(across);
-  return across < kSamples * kLeastGradient ? 0.0 : across / (across + along);
+  return across < kSamples * kMinGradient ? 0.0 : across / (across + along);
 }
 
 void CellLattice::FindArms(ImageView<const std::uint8_t> grey, const CornerPoint& corner) {
   arms_.clear();
-  ForCornersAround(corner.at_px, kMostArm_px, [&](const CornerPoint& other) {
+  ForCornersAround(corner.at_px, kMaxArm_px, [&](const CornerPoint& other) {
     const double squared = Squared(other.at_px - corner.at_px);
-    if (squared < kLeastStep_px * kLeastStep_px || squared > kMostArm_px * kMostArm_px) return;
+    if (squared < kMinStep_px * kMinStep_px || squared > kMaxArm_px * kMaxArm_px) return;
     arms_.push_back({other.at_px - corner.at_px, static_cast<float>(squared)});
   });
   // Near ones first, as far as they are edges.
   std::ranges::sort(arms_, {}, &Arm::squared_length);
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < arms_.size() && kept < kMostArms; ++i) {
+  for (std::size_t i = 0; i < arms_.size() && kept < kMaxArms; ++i) {
     const double share = EdgeShare(grey, corner.at_px, corner.at_px + arms_[i].to);
-    if (share > kLeastEdgeShare) arms_[kept++] = arms_[i];
+    if (share > kMinEdgeShare) arms_[kept++] = arms_[i];
   }
   arms_.resize(kept);
 }
@@ -208,34 +208,34 @@ void CellLattice::Keep(const Lattice& lattice) {
     return;
   }
   best_.push_back(lattice);
-  if (best_.size() > 4 * kMostLattices) {
+  if (best_.size() > 4 * kMaxLattices) {
     std::ranges::stable_sort(best_, std::ranges::greater{}, &Lattice::score);
-    best_.resize(2 * kMostLattices);
+    best_.resize(2 * kMaxLattices);
   }
 }
 
 bool CellLattice::Fit(const Lattice& lattice, double scale, LatticeGuess* guess) const {
-  const auto ideal = [&](Vec2 reduced_px) {
-    return lens_.Ideal((reduced_px.x + 0.5) * scale - 0.5, (reduced_px.y + 0.5) * scale - 0.5);
+  const auto undistorted = [&](Vec2 reduced_px) {
+    return lens_.Undistort((reduced_px.x + 0.5) * scale - 0.5, (reduced_px.y + 0.5) * scale - 0.5);
   };
-  // From nodes (0…5 each way) to ideal pixels; affine at first, then a homography.
-  const Vec2 origin =
-      ideal(lattice.corner + lattice.along * lattice.first_u + lattice.down * lattice.first_v);
+  // From nodes (0…5 each way) to undistorted pixels; affine at first, then a homography.
+  const Vec2 origin = undistorted(lattice.corner + lattice.along * lattice.first_u +
+                                  lattice.down * lattice.first_v);
   const Vec2 a = lattice.along * scale, b = lattice.down * scale;
-  Mat3 ideal_from_nodes{{a.x, b.x, origin.x, a.y, b.y, origin.y, 0, 0, 1}};
+  Mat3 undistorted_from_nodes{{a.x, b.x, origin.x, a.y, b.y, origin.y, 0, 0, 1}};
   const Vec2 middle = lattice.corner + lattice.along * (lattice.first_u + 0.5 * kReach) +
                       lattice.down * (lattice.first_v + 0.5 * kReach);
   const double reach = 0.75 * kNodes * (Norm(lattice.along) + Norm(lattice.down));
   int nodes = 0;
   for (int round = 0; round < kFitRounds; ++round) {
-    const Mat3 nodes_from_ideal = Adjugate(ideal_from_nodes);
+    const Mat3 nodes_from_undistorted = Adjugate(undistorted_from_nodes);
     Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
     Eigen::Matrix<double, 8, 1> right = Eigen::Matrix<double, 8, 1>::Zero();
     nodes = 0;
     const double tolerance = round == 0 ? 0.25 : 0.18;
     ForCornersAround(middle, reach, [&](const CornerPoint& corner) {
-      const Vec2 seen = ideal(corner.at_px);
-      const Vec2 at = Apply(nodes_from_ideal, seen);
+      const Vec2 observed = undistorted(corner.at_px);
+      const Vec2 at = Apply(nodes_from_undistorted, observed);
       const double u = std::round(at.x), v = std::round(at.y);
       if (!(u >= 0 && v >= 0 && u <= kReach && v <= kReach)) return;
       if (std::max(std::fabs(at.x - u), std::fabs(at.y - v)) > tolerance) return;
@@ -248,7 +248,7 @@ bool CellLattice::Fit(const Lattice& lattice, double scale, LatticeGuess* guess)
       normal += row_u * row_u.transpose() + row_v * row_v.transpose();
       right += row_u * (at.x - u) + row_v * (at.y - v);
     });
-    if (nodes < kFewestNodes) return false;
+    if (nodes < kMinNodes) return false;
     // Perspective is weak over so small a square: held back where the corners hardly show it.
     normal(6, 6) += 20.0;
     normal(7, 7) += 20.0;
@@ -259,11 +259,11 @@ bool CellLattice::Fit(const Lattice& lattice, double scale, LatticeGuess* guess)
     const Mat3 centred{{1, 0, -half, 0, 1, -half, 0, 0, 1}},
         back{{1, 0, half, 0, 1, half, 0, 0, 1}};
     const Mat3 correction{{1 + x[0], x[1], x[2], x[3], 1 + x[4], x[5], x[6], x[7], 1}};
-    ideal_from_nodes = ideal_from_nodes * (back * (correction * centred));
+    undistorted_from_nodes = undistorted_from_nodes * (back * (correction * centred));
   }
   constexpr double kFirst = sg::kQuiet + sg::kContent;
   constexpr Mat3 kModulesFromNodes{{sg::kCell, 0, kFirst, 0, sg::kCell, kFirst, 0, 0, 1}};
-  guess->modules_from_ideal = kModulesFromNodes * Adjugate(ideal_from_nodes);
+  guess->modules_from_undistorted = kModulesFromNodes * Adjugate(undistorted_from_nodes);
   guess->score = lattice.score;
   return true;
 }
@@ -278,25 +278,25 @@ void CellLattice::Find(ImageView<const std::uint8_t> grey, double scale,
   MapCorners(grey.width(), grey.height());
   best_.clear();
   for (const CornerPoint& corner : corners_) {
-    if (corner.rank >= kMostStartsInTile) continue;
+    if (corner.rank >= kMaxStartsPerTile) continue;
     FindArms(grey, corner);
     for (std::size_t i = 0; i < arms_.size(); ++i) {
       for (std::size_t k = i + 1; k < arms_.size(); ++k) {
         Vec2 a = arms_[i].to, b = arms_[k].to;
         const double cross = a.x * b.y - a.y * b.x, la = Norm(a), lb = Norm(b);
-        if (std::fabs(cross) < kLeastSine * la * lb) continue;
-        if (cross < 0.0) std::swap(a, b);  // A print is seen from its front.
-        for (int n = 1; n <= kMostArmSteps; ++n) {
-          for (int m = 1; m <= kMostArmSteps; ++m) {
+        if (std::fabs(cross) < kMinSine * la * lb) continue;
+        if (cross < 0.0) std::swap(a, b);  // A marker is observed from its front.
+        for (int n = 1; n <= kMaxArmSteps; ++n) {
+          for (int m = 1; m <= kMaxArmSteps; ++m) {
             Lattice lattice{corner.at_px, a * (1.0 / n), b * (1.0 / m)};
             const double sa = Norm(lattice.along), sb = Norm(lattice.down);
-            if (std::min(sa, sb) < kLeastStep_px || std::max(sa, sb) > kMostStep_px ||
-                std::max(sa, sb) > kMostStepRatio * std::min(sa, sb)) {
+            if (std::min(sa, sb) < kMinStep_px || std::max(sa, sb) > kMaxStep_px ||
+                std::max(sa, sb) > kMaxStepRatio * std::min(sa, sb)) {
               continue;
             }
             if (!Promising(lattice)) continue;
             Score(&lattice);
-            if (lattice.score >= kLeastScore) Keep(lattice);
+            if (lattice.score >= kMinScore) Keep(lattice);
           }
         }
       }
@@ -304,7 +304,7 @@ void CellLattice::Find(ImageView<const std::uint8_t> grey, double scale,
   }
   std::ranges::stable_sort(best_, std::ranges::greater{}, &Lattice::score);
   for (const Lattice& lattice : best_) {
-    if (guesses->size() >= kMostLattices) break;
+    if (guesses->size() >= kMaxLattices) break;
     LatticeGuess guess;
     if (Fit(lattice, scale, &guess)) guesses->push_back(guess);
   }

@@ -16,7 +16,7 @@ namespace pleinair::tracker {
 /// A place where the cells of a marker may be, by the corners between black and white cells.
 struct LatticeGuess {
   /// Any of the four ways round: the corners of cells look the same from all sides.
-  Mat3 modules_from_ideal;
+  Mat3 modules_from_undistorted;
   double score =
       0.0;  ///< Corners of cells that are there, less corners inside that are of no cell.
 };
@@ -29,7 +29,7 @@ class CellLattice {
  public:
   explicit CellLattice(const LensGrid& lens) : lens_(lens) {}
 
-  /// Best first, few. `scale`: size of a pixel of `grey`, a reduced picture, in the picture's own.
+  /// Best first, few. `scale`: size of a pixel of `grey`, a reduced image, in the image's own.
   void Find(ImageView<const std::uint8_t> grey, double scale, std::vector<LatticeGuess>* guesses);
 
  private:
@@ -50,7 +50,7 @@ class CellLattice {
   };
   void SortIntoTiles();
   void FindArms(ImageView<const std::uint8_t> grey, const CornerPoint& corner);
-  /// How much the picture's edges between two corners run from one to the other: 0…1.
+  /// How much the image's edges between two corners run from one to the other: 0…1.
   static double EdgeShare(ImageView<const std::uint8_t> grey, Vec2 from, Vec2 to);
   void MapCorners(int width, int height);
   bool CornerAt(Vec2 at, double within_px) const;

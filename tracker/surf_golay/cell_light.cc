@@ -15,10 +15,10 @@ constexpr float kOrdinaryBlack = 0.06F;
 constexpr double kStillLogLight = 0.002;
 constexpr double kBrightestQuantile = 0.9, kNarrowScale = 0.06;
 constexpr float kDarkest = 2e-4F;  ///< Linear light: below an 8-bit code's first step.
-constexpr std::size_t kFewestSamples = 12, kMostSamples = 600;
+constexpr std::size_t kMinSamples = 12, kMaxSamples = 600;
 constexpr double kDoubtfulBlock = 0.55, kRightBlock = 0.9;  ///< Correlations.
 constexpr float kDoubtfulWeight = 0.2F;
-constexpr double kLeastNoise = 0.006;
+constexpr double kMinNoise = 0.006;
 /// Where so much of the white is clipped, the blocks' gains tell how bright it really is.
 constexpr double kClippedShare = 0.5;
 /// Scatter of log white that noise and texture alone may leave, above which an edge is looked for,
@@ -37,14 +37,14 @@ double MedianOf(std::vector<float>* values) { return QuantileOf(0.5, values); }
 
 }  // namespace
 
-double PrintLight::LogWhite(double u, double v) const {
+double MarkerLight::LogWhite(double u, double v) const {
   const double log = log_white + slope_u * u + slope_v * v;
   return has_edge && edge_u * u + edge_v * v > edge_at ? log + edge_log_step : log;
 }
 
-double PrintLight::White(double u, double v) const { return std::exp(LogWhite(u, v)); }
+double MarkerLight::White(double u, double v) const { return std::exp(LogWhite(u, v)); }
 
-double PrintLightMeter::Spread(const PrintLight& light) {
+double MarkerLightEstimator::Spread(const MarkerLight& light) {
   residuals_.clear();
   for (const Sample& s : white_) {
     residuals_.push_back(static_cast<float>(std::fabs(s.log_value - light.LogWhite(s.u, s.v))));
@@ -52,7 +52,7 @@ double PrintLightMeter::Spread(const PrintLight& light) {
   return 1.4826 * MedianOf(&residuals_);
 }
 
-void PrintLightMeter::FitPlane(bool brightest, PrintLight* light) {
+void MarkerLightEstimator::FitPlane(bool brightest, MarkerLight* light) {
   residuals_.clear();
   for (const Sample& s : white_) residuals_.push_back(s.log_value);
   light->log_white = QuantileOf(brightest ? kBrightestQuantile : 0.5, &residuals_);
@@ -72,10 +72,10 @@ void PrintLightMeter::FitPlane(bool brightest, PrintLight* light) {
       normal += w * row * row.transpose();
       right += w * value * row;
     }
-    // A weak wish for even light keeps prints flat of which one side alone is seen.
-    const double wish = 0.02 * normal(0, 0);
-    normal(1, 1) += wish;
-    normal(2, 2) += wish;
+    // A weak prior for even light keeps prints flat of which one side alone is observed.
+    const double prior = 0.02 * normal(0, 0);
+    normal(1, 1) += prior;
+    normal(2, 2) += prior;
     const Eigen::Vector3d plane = normal.ldlt().solve(right);
     if (!plane.allFinite()) return;
     const bool still = std::fabs(plane[0] - light->log_white) < kStillLogLight &&
@@ -89,7 +89,7 @@ void PrintLightMeter::FitPlane(bool brightest, PrintLight* light) {
   }
 }
 
-bool PrintLightMeter::FitEdge(PrintLight* light) {
+bool MarkerLightEstimator::FitEdge(MarkerLight* light) {
   // Two levels on either side of a line: the split that leaves the least sum of squares. Prefix
   // sums over offsets make a direction cost one pass.
   struct Bin {
@@ -135,9 +135,9 @@ bool PrintLightMeter::FitEdge(PrintLight* light) {
   return best < kEdgeGain * without;
 }
 
-bool PrintLightMeter::FromBlocks(const BlockFit& fit, PrintLight* light) {
+bool MarkerLightEstimator::FromBlocks(const BlockFit& fit, MarkerLight* light) {
   double weight = 0.0, white = 0.0, black = 0.0;
-  for (const PrintBlock& block : fit.blocks()) {
+  for (const MarkerBlock& block : fit.blocks()) {
     const double w = block.weight * block.pixels * block.contrast;
     weight += w;
     white += w * (block.gain + block.offset);
@@ -149,40 +149,42 @@ bool PrintLightMeter::FromBlocks(const BlockFit& fit, PrintLight* light) {
   return true;
 }
 
-bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
-                              const SeenWindow& seen, bool brightest, PrintLight* light) {
+bool MarkerLightEstimator::Measure(const MarkerPattern& pattern, const BlockFit& fit,
+                                   const ObservedPatch& observed, bool brightest,
+                                   MarkerLight* light) {
   white_.clear();
   black_.clear();
   const float middle = 0.5F * static_cast<float>(pattern.modules);
   const float per_half = 2.0F / static_cast<float>(pattern.edge_modules);
   std::size_t usable = 0;
-  for (std::size_t n = 0; n < seen.value.size(); ++n) usable += fit.block_of()[n] >= 0;
-  const std::size_t stride = std::max<std::size_t>(1, usable / (3 * kMostSamples));
+  for (std::size_t n = 0; n < observed.value.size(); ++n) usable += fit.block_of()[n] >= 0;
+  const std::size_t stride = std::max<std::size_t>(1, usable / (3 * kMaxSamples));
   std::size_t count = 0, clipped_white = 0;
-  for (std::size_t n = 0; n < seen.value.size(); ++n) {
+  for (std::size_t n = 0; n < observed.value.size(); ++n) {
     if (fit.block_of()[n] < 0 || ++count % stride != 0) continue;
-    const float share = fit.picture().white[n];
-    const bool clipped = !(seen.certainty[n] > 0.0F);
+    const float share = fit.image().white[n];
+    const bool clipped = !(observed.inverse_variance[n] > 0.0F);
     // A block that is part paper, part cover has levels of its own: only those count that look
     // right as a whole.
-    const PrintBlock& block = fit.blocks()[fit.block_of()[n]];
+    const MarkerBlock& block = fit.blocks()[fit.block_of()[n]];
     const float right = std::clamp(
         static_cast<float>((block.correlation - kDoubtfulBlock) / (kRightBlock - kDoubtfulBlock)),
         0.0F, 1.0F);
-    const float belief = clipped ? static_cast<float>(block.weight) : right * fit.Belief(n, seen);
-    if (belief < kDoubtfulWeight) continue;
-    const float value = std::max(seen.value[n], kDarkest);
+    const float robust_weight =
+        clipped ? static_cast<float>(block.weight) : right * fit.RobustWeightOf(n, observed);
+    if (robust_weight < kDoubtfulWeight) continue;
+    const float value = std::max(observed.value[n], kDarkest);
     const float u = (fit.map().column[n] - middle) * per_half;
     const float v = (fit.map().row[n] - middle) * per_half;
     if (share > kWhiteShare) {
       const float white = value / (share + kOrdinaryBlack * (1.0F - share));
-      white_.push_back({u, v, std::log(white), share, belief});
+      white_.push_back({u, v, std::log(white), share, robust_weight});
       clipped_white += clipped;
     }
-    if (share < kBlackShare) black_.push_back({u, v, std::log(value), share, belief});
+    if (share < kBlackShare) black_.push_back({u, v, std::log(value), share, robust_weight});
   }
-  *light = PrintLight{};
-  if (white_.size() < kFewestSamples || black_.size() < kFewestSamples / 2) {
+  *light = MarkerLight{};
+  if (white_.size() < kMinSamples || black_.size() < kMinSamples / 2) {
     return FromBlocks(fit, light);
   }
   if (clipped_white > kClippedShare * white_.size()) {
@@ -190,7 +192,7 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
     light->white_clips = true;
     if (brightest) {
       // The few pixels at edges that do not clip tell the white badly; the black tells it as well
-      // as the print's ink is ordinary.
+      // as the marker's ink is ordinary.
       const double black = light->black_share * std::exp(light->log_white);
       light->log_white = std::log(black / kOrdinaryBlack);
       light->black_share = kOrdinaryBlack;
@@ -202,7 +204,7 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
   light->spread = Spread(*light);
   if (brightest) light->spread = std::min(light->spread, kNarrowScale);
   if (!brightest && light->spread > kEdgeSpread) {
-    PrintLight with_edge;
+    MarkerLight with_edge;
     if (FitEdge(&with_edge)) {
       with_edge.has_edge = true;
       FitPlane(false, &with_edge);
@@ -219,8 +221,8 @@ bool PrintLightMeter::Measure(const PrintPattern& pattern, const BlockFit& fit,
   for (float& residual : residuals_) {
     residual = std::fabs(residual - static_cast<float>(light->black_share));
   }
-  light->white_noise = std::clamp(light->spread, kLeastNoise, 1.0);
-  light->black_noise = std::clamp(1.4826 * MedianOf(&residuals_), kLeastNoise, 1.0);
+  light->white_noise = std::clamp(light->spread, kMinNoise, 1.0);
+  light->black_noise = std::clamp(1.4826 * MedianOf(&residuals_), kMinNoise, 1.0);
   return true;
 }
 

@@ -7,11 +7,11 @@
 
 namespace pleinair::tracker {
 
-/// How bright white and black are across a print, learned where the print is known. White's
+/// How bright white and black are across a marker, learned where the marker is known. White's
 /// logarithm is a plane, or two planes of one slope on either side of a straight edge of shadow;
 /// black is a constant share of white.
-struct PrintLight {
-  // In units of the print: half edges from the centre, u right, v down.
+struct MarkerLight {
+  // In units of the marker: half edges from the centre, u right, v down.
   double log_white = 0.0, slope_u = 0.0, slope_v = 0.0;
   bool has_edge = false;
   double edge_u = 1.0, edge_v = 0.0, edge_at = 0.0;  ///< Beyond edge_u u + edge_v v = edge_at …
@@ -20,30 +20,30 @@ struct PrintLight {
   double spread = 0.0;  ///< Robust standard deviation of what is left over, in log white.
   /// Standard deviation of a pixel's share of white, from noise and texture, on white and on black.
   double white_noise = 0.02, black_noise = 0.01;
-  bool white_clips = false;  ///< White is brighter than the picture can hold.
+  bool white_clips = false;  ///< White is brighter than the image can hold.
 
   double White(double u, double v) const;
   double LogWhite(double u, double v) const;
 };
 
-/// Learns the light of a print from the pixels that a fit of its border believes in. `seen` is what
-/// was fitted, but clipped pixels count as white at its brightest.
-class PrintLightMeter {
+/// Learns the light of a marker from the pixels that a fit of its border believes in. `seen` is
+/// what was fitted, but clipped pixels count as white at its brightest.
+class MarkerLightEstimator {
  public:
-  /// False where too little of the border is seen. `brightest`: what most pixels agree on may be a
-  /// cover; the brightest of them is taken for paper.
-  bool Measure(const PrintPattern& pattern, const BlockFit& fit, const SeenWindow& seen,
-               bool brightest, PrintLight* light);
+  /// False where too little of the border is observed. `brightest`: what most pixels agree on may
+  /// be a cover; the brightest of them is taken for paper.
+  bool Measure(const MarkerPattern& pattern, const BlockFit& fit, const ObservedPatch& observed,
+               bool brightest, MarkerLight* light);
 
  private:
   struct Sample {
     float u, v, log_value, share, weight;
   };
   /// Of prints too small for a pixel to be all white or all black: even light, from the blocks.
-  static bool FromBlocks(const BlockFit& fit, PrintLight* light);
-  void FitPlane(bool brightest, PrintLight* light);
-  bool FitEdge(PrintLight* light);
-  double Spread(const PrintLight& light);
+  static bool FromBlocks(const BlockFit& fit, MarkerLight* light);
+  void FitPlane(bool brightest, MarkerLight* light);
+  bool FitEdge(MarkerLight* light);
+  double Spread(const MarkerLight& light);
 
   std::vector<Sample> white_, black_;
   std::vector<float> residuals_;

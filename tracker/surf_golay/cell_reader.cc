@@ -9,13 +9,13 @@ namespace pleinair::tracker {
 namespace {
 
 /// Deviation of a cell's share that no noise tells: uneven light, ink, the blur's shape.
-constexpr double kSystematicShare = 0.025, kMostEven = 0.008, kSystematicGlare = 0.03,
+constexpr double kSystematicShare = 0.025, kMinUnevenness = 0.008, kSystematicGlare = 0.03,
                  kSystematicPerBlur = 0.05;
 /// Of glare, as a share of it, how much may be left on a cell or taken from it.
 constexpr double kUnsurePerGlare = 0.15;
 /// Prior probability that a cell is covered: alone, and when all around it are.
 constexpr double kCoveredAlone = 0.03, kCoveredAmong = 0.6;
-/// Density of the share that is seen where a cell is covered.
+/// Density of the share that is observed where a cell is covered.
 constexpr double kCoveredDensity = 0.5;
 /// Left-over inside a cell, in shares and beyond noise, that speaks for a cover.
 constexpr double kUnevenShare = 0.10;
@@ -25,11 +25,11 @@ constexpr double kWhiteClips = 0.93;
 constexpr float kNearlyClips = 0.92F;
 constexpr double kRidge = 1e-4;
 constexpr double kKnown_px = 1000.0;  ///< Pixels that a share that is known counts as.
-constexpr double kLeastSeen_px = 0.3;
+constexpr double kMinObserved_px = 0.3;
 /// A pixel that sees so much of one cell is a witness of its own; those of a cell together are
 /// worth a few independent ones, since what covers a cell covers neighbouring pixels alike.
 constexpr float kWholeShare = 0.85F;
-constexpr double kPixelCovered = 0.3, kWitnesses = 1.3, kFewestWitnesses = 6.0;
+constexpr double kPixelCovered = 0.3, kWitnesses = 1.3, kMinWitnesses = 6.0;
 /// How much less a partly covered cell says when all around it are covered.
 constexpr double kMimicry = 0.6;
 constexpr int kRoundsWhenClipped = 3;
@@ -39,8 +39,8 @@ constexpr int kRoundsWhenClipped = 3;
 constexpr double kGlareReach = sg::kCell;
 constexpr int kGlareNodes = 2 * sg::kCells + 5;
 constexpr std::array<int, 4> kNodeSteps{0, 1, kGlareNodes, kGlareNodes + 1};
-constexpr double kGlaring = 1.12;  ///< Share of white of a cell that glares,
-constexpr int kFewestGlaring = 2;  ///< … and how many must.
+constexpr double kGlaring = 1.12;    ///< Share of white of a cell that glares,
+constexpr int kMinGlaringCells = 2;  ///< … and how many must.
 constexpr double kGlareBend = 0.02, kGlareSize = 0.00003;
 
 double GlareNode(double module) {
@@ -49,16 +49,16 @@ double GlareNode(double module) {
 
 /// Φ(z), the normal distribution function, between values 1/64 apart: right to 1e-5.
 double NormalBelow(double z) {
-  constexpr int kPerUnit = 64, kMost = 4;
+  constexpr int kPerUnit = 64, kMax = 4;
   static const auto kTable = [] {
-    std::array<double, 2 * kMost * kPerUnit + 2> table{};
+    std::array<double, 2 * kMax * kPerUnit + 2> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
-      const double at = static_cast<double>(i) / kPerUnit - kMost;
+      const double at = static_cast<double>(i) / kPerUnit - kMax;
       table[i] = 0.5 * std::erfc(-at / std::numbers::sqrt2);
     }
     return table;
   }();
-  const double at = (std::clamp(z, -1.0 * kMost, 1.0 * kMost) + kMost) * kPerUnit;
+  const double at = (std::clamp(z, -1.0 * kMax, 1.0 * kMax) + kMax) * kPerUnit;
   const int i = static_cast<int>(at);
   return kTable[i] + (at - i) * (kTable[i + 1] - kTable[i]);
 }
@@ -75,15 +75,16 @@ void ColumnShares(double at, double sigma, std::array<double, sg::kCells>* share
 
 }  // namespace
 
-void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-                        const BlockFitState& state, const PrintLight& light, bool with_glare) {
+void CellReader::Gather(const MarkerPattern& blank, const BlockFit& fit,
+                        const ObservedPatch& observed, const BlockFitState& state,
+                        const MarkerLight& light, bool with_glare) {
   pixels_.clear();
   drowned_ = false;
-  const double blur = state.blur_px / seen.rays.window.Scale();
+  const double blur = state.blur_px / observed.rays.window.Scale();
   const double variance_px2 = blur * blur + 1.0 / 12.0;
   const double middle = 0.5 * blank.modules, per_half = 2.0 / blank.edge_modules;
   const double reach_modules = 0.5 * sg::kCells * sg::kCell + (with_glare ? kGlareReach : 0.0);
-  for (std::size_t n = 0; n < seen.value.size(); ++n) {
+  for (std::size_t n = 0; n < observed.value.size(); ++n) {
     const double c = fit.map().column[n], r = fit.map().row[n];
     const double sigma_c =
         std::sqrt(variance_px2) * std::hypot(fit.map().column_x[n], fit.map().column_y[n]);
@@ -95,14 +96,14 @@ void CellReader::Gather(const PrintPattern& blank, const BlockFit& fit, const Se
     }
     const double u = (c - middle) * per_half, v = (r - middle) * per_half;
     const double white = light.White(u, v), black = light.black_share * white;
-    const bool clipped = !(seen.certainty[n] > 0.0F);
+    const bool clipped = !(observed.inverse_variance[n] > 0.0F);
     if (clipped && (with_glare || white < kWhiteClips)) {
       drowned_ = true;
       continue;
     }
-    if (with_glare && seen.value[n] > kNearlyClips) continue;
-    const double known = fit.picture().white[n];
-    const double share = (seen.value[n] - black) / (white - black);
+    if (with_glare && observed.value[n] > kNearlyClips) continue;
+    const double known = fit.image().white[n];
+    const double share = (observed.value[n] - black) / (white - black);
     Pixel pixel;
     pixel.value = static_cast<float>((clipped ? 1.0 : share) - known);
     if (clipped) pixel.least = static_cast<float>(std::min(share, 1.0) - known);
@@ -225,11 +226,11 @@ bool CellReader::Solve(bool with_glare, const CellFlags& known_white, Eigen::Vec
   return inverse->allFinite();
 }
 
-void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-                      const BlockFitState& state, const PrintLight& light, bool with_glare,
-                      CellReading* reading) {
+void CellReader::ReadCells(const MarkerPattern& blank, const BlockFit& fit,
+                           const ObservedPatch& observed, const BlockFitState& state,
+                           const MarkerLight& light, bool with_glare, CellReading* reading) {
   *reading = CellReading{};
-  Gather(blank, fit, seen, state, light, with_glare);
+  Gather(blank, fit, observed, state, light, with_glare);
   if (pixels_.empty()) return;
   Eigen::VectorXd found;
   Eigen::MatrixXd inverse;
@@ -242,17 +243,18 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
   const double white_noise2 = light.white_noise * light.white_noise;
   const double black_noise2 = light.black_noise * light.black_noise;
   const double cell_px =
-      sg::kCell / std::max(1e-6F, std::hypot(fit.map().column_x[seen.value.size() / 2],
-                                             fit.map().column_y[seen.value.size() / 2]));
+      sg::kCell / std::max(1e-6F, std::hypot(fit.map().column_x[observed.value.size() / 2],
+                                             fit.map().column_y[observed.value.size() / 2]));
   // Where the border is even, so must the cells be.
-  const double by_blur = kSystematicPerBlur * state.blur_px / seen.rays.window.Scale() / cell_px;
+  const double by_blur =
+      kSystematicPerBlur * state.blur_px / observed.rays.window.Scale() / cell_px;
   // Glare is only roughly told apart from what it lies on.
   const double rough = by_blur + (with_glare ? kSystematicGlare : 0.0);
   const Unevenness systematic{
-      std::clamp(light.black_noise, kMostEven, kSystematicShare) + rough,
-      std::clamp(light.white_noise, 1.5 * kMostEven, kSystematicShare) + rough};
+      std::clamp(light.black_noise, kMinUnevenness, kSystematicShare) + rough,
+      std::clamp(light.white_noise, 1.5 * kMinUnevenness, kSystematicShare) + rough};
 
-  std::array<double, sg::kCodeCells> left{}, seen_share{}, whole{}, witness{};
+  std::array<double, sg::kCodeCells> left{}, observed_share{}, whole{}, witness{};
   std::array<double, sg::kCodeCells> glare{};
   for (const Pixel& pixel : pixels_) {
     const double thrown_back = with_glare ? GlareAt(pixel, found) : 0.0;
@@ -263,13 +265,14 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
       const int k = pixel.cell[a];
       left[k] += pixel.share[a] * error * error;
       glare[k] += pixel.share[a] * std::max(0.0, thrown_back);
-      seen_share[k] += pixel.share[a];
+      observed_share[k] += pixel.share[a];
       if (pixel.share[a] < kWholeShare) continue;
       const double share = white[k] + error / pixel.share[a];
-      const auto density = [&](double ideal, double noise2) {
-        const double even = ideal > 0.5 ? systematic.white : systematic.black;
+      const auto density = [&](double undistorted, double noise2) {
+        const double even = undistorted > 0.5 ? systematic.white : systematic.black;
         const double sigma2 = noise2 + even * even;
-        return (1.0 - kPixelCovered) * std::exp(-0.5 * (share - ideal) * (share - ideal) / sigma2) /
+        return (1.0 - kPixelCovered) *
+                   std::exp(-0.5 * (share - undistorted) * (share - undistorted) / sigma2) /
                    std::sqrt(2.0 * std::numbers::pi * sigma2) +
                kPixelCovered * kCoveredDensity;
       };
@@ -282,35 +285,35 @@ void CellReader::Read(const PrintPattern& blank, const BlockFit& fit, const Seen
     const double noise2 = on_white * white_noise2 + (1.0 - on_white) * black_noise2;
     reading->white[k] = static_cast<float>(white[k]);
     reading->deviation[k] = static_cast<float>(std::sqrt(std::max(0.0, inverse(k, k) * noise2)));
-    reading->seen[k] = seen_share[k] > kLeastSeen_px;
-    if (!reading->seen[k]) continue;
+    reading->observed[k] = observed_share[k] > kMinObserved_px;
+    if (!reading->observed[k]) continue;
     // Noise that is everywhere is no sign of a cover.
-    const double beyond = left[k] / seen_share[k] - 1.5 * noise2;
+    const double beyond = left[k] / observed_share[k] - 1.5 * noise2;
     reading->misfit[k] = static_cast<float>(std::sqrt(std::max(0.0, beyond)));
-    if (whole[k] >= kFewestWitnesses) {
+    if (whole[k] >= kMinWitnesses) {
       reading->witness[k] = static_cast<float>(kWitnesses * witness[k] / whole[k]);
     }
   }
   // Light that drowns cells wholly may leave little on those around them.
-  for (int k = 0; k < sg::kCodeCells; ++k) glaring += drowned_ && !reading->seen[k];
-  reading->glaring = !light.white_clips && glaring >= kFewestGlaring;
-  for (int k = 0; k < sg::kCodeCells; ++k) glare[k] /= std::max(1.0, seen_share[k]);
+  for (int k = 0; k < sg::kCodeCells; ++k) glaring += drowned_ && !reading->observed[k];
+  reading->glaring = !light.white_clips && glaring >= kMinGlaringCells;
+  for (int k = 0; k < sg::kCodeCells; ++k) glare[k] /= std::max(1.0, observed_share[k]);
   Judge(systematic, glare, reading);
 }
 
 void CellReader::Judge(const Unevenness& systematic,
                        const std::array<double, sg::kCodeCells>& glare, CellReading* reading) {
   std::array<double, sg::kCodeCells> evidence{}, covered{};
-  const auto density = [&](int k, double ideal) {
-    const double off = reading->white[k] - ideal;
+  const auto density = [&](int k, double undistorted) {
+    const double off = reading->white[k] - undistorted;
     const double even =
-        (ideal > 0.5 ? systematic.white : systematic.black) + kUnsurePerGlare * glare[k];
+        (undistorted > 0.5 ? systematic.white : systematic.black) + kUnsurePerGlare * glare[k];
     const double sigma2 = even * even + reading->deviation[k] * reading->deviation[k];
     return std::exp(-0.5 * off * off / sigma2) / std::sqrt(2.0 * std::numbers::pi * sigma2);
   };
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    // What no pixel tells of is drowned in light, or outside the picture; nothing lies on it.
-    if (!reading->seen[k]) continue;
+    // What no pixel tells of is drowned in light, or outside the image; nothing lies on it.
+    if (!reading->observed[k]) continue;
     // How much likelier the cell's looks are when something covers it.
     const double uneven = reading->misfit[k] / (kUnevenShare + kUnsurePerGlare * glare[k]);
     evidence[k] = std::exp(std::min(20.0, 2.0 * uneven * uneven)) * kCoveredDensity;
@@ -319,7 +322,7 @@ void CellReader::Judge(const Unevenness& systematic,
         kCoveredAlone * evidence[k] / (kCoveredAlone * evidence[k] + (1.0 - kCoveredAlone) * clean);
   }
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    if (!reading->seen[k]) continue;
+    if (!reading->observed[k]) continue;
     // What covers a cell mostly covers some of its neighbours too.
     double around = 0.0, neighbours = 0.0;
     for (int other = 0; other < sg::kCodeCells; ++other) {

@@ -15,30 +15,30 @@
 
 namespace pleinair::tracker {
 
-/// What the code cells of a print look like.
+/// What the code cells of a marker look like.
 struct CellReading {
   std::array<float, sg::kCodeCells> white{};      ///< Share of white: 0 black, 1 white.
   std::array<float, sg::kCodeCells> deviation{};  ///< … and its standard deviation.
   std::array<float, sg::kCodeCells> misfit{};     ///< Left-over inside a cell beyond noise.
   std::array<float, sg::kCodeCells> witness{};    ///< Log-likelihood ratio by single pixels.
-  std::array<bool, sg::kCodeCells> seen{};        ///< Any pixel tells of it.
+  std::array<bool, sg::kCodeCells> observed{};    ///< Any pixel tells of it.
   CellLikelihoods likelihoods{};
-  bool glaring = false;  ///< Some cells are whiter than white or drowned: light that a shiny print
+  bool glaring = false;  ///< Some cells are whiter than white or drowned: light that a shiny marker
                          ///< throws back.
 };
 
-/// Reads the cells of a print whose border has been fitted. The picture is linear in the cells'
-/// shares of white, each blurred as the picture is, so that all 24 are solved for together: cells
+/// Reads the cells of a marker whose border has been fitted. The image is linear in the cells'
+/// shares of white, each blurred as the image is, so that all 24 are solved for together: cells
 /// that are barely larger than a pixel, or than the blur, are read without taking their
 /// neighbours' light for their own. Cells that are covered, or drowned in glare, come out as
 /// neither black nor white, or uneven, or unseen: their likelihoods are near 0.
 class CellReader {
  public:
-  /// `blank` is the print with all code cells black; `fit` has evaluated it on `seen` (in linear
+  /// `blank` is the marker with all code cells black; `fit` has evaluated it on `seen` (in linear
   /// light) at `state`. With glare, smooth light on top of what is printed is solved for as well.
-  void Read(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-            const BlockFitState& state, const PrintLight& light, bool with_glare,
-            CellReading* reading);
+  void ReadCells(const MarkerPattern& blank, const BlockFit& fit, const ObservedPatch& observed,
+                 const BlockFitState& state, const MarkerLight& light, bool with_glare,
+                 CellReading* reading);
 
  private:
   struct Pixel {
@@ -50,8 +50,8 @@ class CellReader {
     std::array<float, 4> node_share{};
     float least = -1.0F;  ///< Of a clipped pixel on clipping white: its share is at least this.
   };
-  void Gather(const PrintPattern& blank, const BlockFit& fit, const SeenWindow& seen,
-              const BlockFitState& state, const PrintLight& light, bool with_glare);
+  void Gather(const MarkerPattern& blank, const BlockFit& fit, const ObservedPatch& observed,
+              const BlockFitState& state, const MarkerLight& light, bool with_glare);
   using CellFlags = std::array<bool, sg::kCodeCells>;
   /// Least squares of the cells' shares, and of smooth glare on top where asked.
   bool Solve(bool with_glare, const CellFlags& known_white, Eigen::VectorXd* found,
@@ -67,7 +67,7 @@ class CellReader {
                     CellReading* reading);
 
   std::vector<Pixel> pixels_;
-  bool drowned_ = false;  ///< Some pixels are brighter than white and than the picture can hold.
+  bool drowned_ = false;  ///< Some pixels are brighter than white and than the image can hold.
 };
 
 }  // namespace pleinair::tracker

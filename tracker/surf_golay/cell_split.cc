@@ -6,15 +6,15 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kFewestOfAColour = 4;
+constexpr int kMinCellsOfAColor = 4;
 /// Added to a share before its logarithm is taken: black is nowhere quite black.
 constexpr double kFloor = 0.04;
-constexpr double kLeastGap = 0.5, kPlainGap = 1.1;  ///< Natural logarithms of ratios.
-constexpr double kPlain = 5.0;                      ///< Log-likelihood ratio of a plain cell.
+constexpr double kMinGap = 0.5, kPlainGap = 1.1;  ///< Natural logarithms of ratios.
+constexpr double kPlain = 5.0;                    ///< Log-likelihood ratio of a plain cell.
 /// Left-over inside a cell, as a share of the light at the gap, that leaves it as likely as not.
 constexpr double kUneven = 0.5;
-/// How much lighter than the print's black, in shares of the darkest white, leaves a cell as likely
-/// black as not: ink throws back little under any light, and a hand more.
+/// How much lighter than the marker's black, in shares of the darkest white, leaves a cell as
+/// likely black as not: ink throws back little under any light, and a hand more.
 constexpr double kGreyer = 0.15;
 
 }  // namespace
@@ -22,34 +22,34 @@ constexpr double kGreyer = 0.15;
 CellSplits SplitCells(const CellReading& cells) {
   std::array<int, sg::kCodeCells> order{};
   std::array<double, sg::kCodeCells> level{};
-  int seen = 0;
+  int observed = 0;
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    if (!cells.seen[k]) continue;
+    if (!cells.observed[k]) continue;
     level[k] = std::log(std::max(0.0, static_cast<double>(cells.white[k])) + kFloor);
-    order[seen++] = k;
+    order[observed++] = k;
   }
-  std::sort(order.begin(), order.begin() + seen,
+  std::sort(order.begin(), order.begin() + observed,
             [&](int a, int b) { return level[a] != level[b] ? level[a] < level[b] : a < b; });
   struct Gap {
     double size, middle;
   };
   std::array<Gap, sg::kCodeCells> gaps{};
   int count = 0;
-  for (int i = kFewestOfAColour; i <= seen - kFewestOfAColour; ++i) {
+  for (int i = kMinCellsOfAColor; i <= observed - kMinCellsOfAColor; ++i) {
     const double below = level[order[i - 1]], above = level[order[i]];
-    if (above - below > kLeastGap) gaps[count++] = {above - below, 0.5 * (below + above)};
+    if (above - below > kMinGap) gaps[count++] = {above - below, 0.5 * (below + above)};
   }
   std::stable_sort(gaps.begin(), gaps.begin() + count,
                    [](const Gap& a, const Gap& b) { return a.size > b.size; });
   CellSplits splits;
-  splits.count = std::min(count, CellSplits::kMost);
+  splits.count = std::min(count, CellSplits::kMax);
   for (int i = 0; i < splits.count; ++i) {
     const double plain = kPlain * std::min(1.0, gaps[i].size / kPlainGap);
     const double at_gap = std::exp(gaps[i].middle);
     // There are at least so many black cells, so that none is blacker than the last of them.
-    const double black = std::exp(level[order[kFewestOfAColour - 1]]);
+    const double black = std::exp(level[order[kMinCellsOfAColor - 1]]);
     const double darkest_white = std::exp(gaps[i].middle + 0.5 * gaps[i].size);
-    for (int n = 0; n < seen; ++n) {
+    for (int n = 0; n < observed; ++n) {
       const int k = order[n];
       const bool white = level[k] > gaps[i].middle;
       // What covers a part of a cell, or a shadow's edge across it, shows as unevenness.

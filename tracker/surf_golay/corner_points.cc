@@ -10,11 +10,11 @@ constexpr int kReach = 2;       ///< The structure tensor is summed over 5×5 pi
 constexpr int kPlaceReach = 3;  ///< … a corner placed by 7×7.
 constexpr int kRival = 2;       ///< A corner is the strongest of 5×5 pixels.
 constexpr int kBorder = kPlaceReach + 1;
-constexpr float kLeastRoundness = 0.25F;
+constexpr float kMinRoundness = 0.25F;
 /// Two edges of 12 codes that meet in the window: five pixels long and two wide each.
-constexpr float kLeastWeight = 400.0F;
+constexpr float kMinWeight = 400.0F;
 constexpr int kTile_px = 48;
-constexpr std::size_t kMostInTile = 24;
+constexpr std::size_t kMaxPerTile = 24;
 
 }  // namespace
 
@@ -79,7 +79,7 @@ const std::vector<CornerPoint>& CornerPoints::Find(ImageView<const std::uint8_t>
       const float xy = cxy[-2] + cxy[-1] + cxy[0] + cxy[1] + cxy[2];
       const float yy = cyy[-2] + cyy[-1] + cyy[0] + cyy[1] + cyy[2];
       const float trace = xx + yy, determinant = xx * yy - xy * xy;
-      const bool corner = 4.0F * determinant > kLeastRoundness * trace * trace;
+      const bool corner = 4.0F * determinant > kMinRoundness * trace * trace;
       row[x] = corner ? determinant / (trace + 1.0F) : 0.0F;
     }
     AddRow(grey, y - kReach, -1.0F);
@@ -88,7 +88,7 @@ const std::vector<CornerPoint>& CornerPoints::Find(ImageView<const std::uint8_t>
     const float* row = weight_.data() + static_cast<std::size_t>(y) * width;
     for (int x = kBorder; x < width - kBorder; ++x) {
       const float weight = row[x];
-      if (weight < kLeastWeight || weight < row[x - 1] || weight <= row[x + 1]) continue;
+      if (weight < kMinWeight || weight < row[x - 1] || weight <= row[x + 1]) continue;
       bool strongest = true;
       for (int v = -kRival; strongest && v <= kRival; ++v) {
         const float* other = row + static_cast<std::ptrdiff_t>(v) * width + x;
@@ -122,7 +122,7 @@ void CornerPoints::KeepStrongest(int width) {
     const auto last = std::find_if(first, found_.end(), [&](const CornerPoint& corner) {
       return tile(corner) != tile(*first);
     });
-    const auto kept = first + std::min<std::ptrdiff_t>(kMostInTile, last - first);
+    const auto kept = first + std::min<std::ptrdiff_t>(kMaxPerTile, last - first);
     std::partial_sort(first, kept, last, [](const CornerPoint& a, const CornerPoint& b) {
       return a.strength > b.strength;
     });

@@ -20,11 +20,11 @@ struct CornerPoint {
 /// Finds corners: maxima of the weight of Förstner & Gülch, "A fast operator for detection and
 /// precise location of distinct points, corners and centres of circular features" (1987), eq. 9,
 /// where the roundness (eq. 10) tells a corner from an edge; placed where the edges in the window
-/// meet in the least squares (eq. 5). The strongest of each tile of the picture, so that a marker
+/// meet in the least squares (eq. 5). The strongest of each tile of the image, so that a marker
 /// in the shade is not outdone by a tree in the sun.
 class CornerPoints {
  public:
-  /// Corners of a picture by tiles, row by row. Buffers keep their capacity.
+  /// Corners of an image by tiles, row by row. Buffers keep their capacity.
   const std::vector<CornerPoint>& Find(ImageView<const std::uint8_t> grey);
 
  private:

@@ -6,51 +6,51 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Predicted shares of white well inside a shape, and seen ones that are of the other colour there.
+/// Predicted shares of white well inside a shape, and observed ones that are of the other color
+/// there.
 constexpr float kWhite = 0.95F, kBlack = 0.05F, kDark = 0.6F, kDarkest = 0.2F;
 /// The same on edges that tell.
 constexpr float kEdgeWhite = 0.35F, kEdgeBlack = 0.5F, kEdgeNoise = 0.1F;
 /// Ink is as dark in the shade as it is in the light: what is lighter by more than noise is none.
-constexpr float kLeastLight = 0.15F, kMostLight = 0.4F, kNoises = 5.0F;
+constexpr float kMinLight = 0.15F, kMaxLight = 0.4F, kNoises = 5.0F;
 /// A pixel's own square beside the blur, and how many standard deviations an edge reaches.
 constexpr double kPixelSigma_px = 0.29, kReachSigmas = 2.0;
 
 }  // namespace
 
-void CoverMask::TakeShares(const PrintPattern& pattern, const BlockFit& fit,
-                           const PrintLight& light, SeenWindow* seen) {
-  value_ = seen->value;
-  certainty_ = seen->certainty;
+void CoverMask::TakeShares(const MarkerPattern& pattern, const BlockFit& fit,
+                           const MarkerLight& light, ObservedPatch* observed) {
+  value_ = observed->value;
+  inverse_variance_ = observed->inverse_variance;
   const double middle = 0.5 * pattern.modules, per_half = 2.0 / pattern.edge_modules;
-  const PrintMap& map = fit.map();
+  const PlaneMap& map = fit.map();
   for (std::size_t n = 0; n < value_.size(); ++n) {
     const double white =
         light.White((map.column[n] - middle) * per_half, (map.row[n] - middle) * per_half);
-    seen->value[n] =
+    observed->value[n] =
         static_cast<float>((value_[n] / white - light.black_share) / (1.0 - light.black_share));
   }
-  share_ = seen->value;
+  share_ = observed->value;
   noisy_dark_ = std::clamp(1.0F - kNoises * static_cast<float>(light.white_noise), kDarkest, kDark);
-  least_light_ =
-      std::clamp(kNoises * static_cast<float>(light.black_noise), kLeastLight, kMostLight);
+  min_light_ = std::clamp(kNoises * static_cast<float>(light.black_noise), kMinLight, kMaxLight);
 }
 
-void CoverMask::Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow* seen,
+void CoverMask::Lay(const BlockFit& fit, double blur_px, Edges edges, ObservedPatch* observed,
                     Dark darkness) {
   const float dark = darkness == Dark::kBeyondNoise ? noisy_dark_ : kDark;
-  const int width = seen->rays.window.width, height = seen->rays.window.height;
+  const int width = observed->rays.window.width, height = observed->rays.window.height;
   const int reach =
       1 + static_cast<int>(std::ceil(kReachSigmas * std::hypot(kPixelSigma_px, blur_px)));
   covered_.resize(share_.size());
   beside_.resize(share_.size());
   for (std::size_t n = 0; n < share_.size(); ++n) {
-    const float predicted = fit.picture().white[n];
+    const float predicted = fit.image().white[n];
     const float share = share_[n];
     covered_[n] =
-        edges == Edges::kTell
+        edges == Edges::kReliable
             ? (predicted > kEdgeWhite && share < dark * predicted - kEdgeNoise) ||
-                  (predicted < kEdgeBlack && share > predicted + least_light_)
-            : (predicted > kWhite && share < dark) || (predicted < kBlack && share > least_light_);
+                  (predicted < kEdgeBlack && share > predicted + min_light_)
+            : (predicted > kWhite && share < dark) || (predicted < kBlack && share > min_light_);
   }
   // Along rows, then along columns, each pixel keeps those within reach from counting.
   const auto spread = [&](const std::vector<unsigned char>& from, int count, int step, int lines,
@@ -72,7 +72,7 @@ void CoverMask::Lay(const BlockFit& fit, double blur_px, Edges edges, SeenWindow
   spread(covered_, width, 1, height, width, &beside_);
   spread(beside_, height, width, width, 1, &covered_);
   for (std::size_t n = 0; n < share_.size(); ++n) {
-    seen->certainty[n] = covered_[n] != 0 ? 0.0F : certainty_[n];
+    observed->inverse_variance[n] = covered_[n] != 0 ? 0.0F : inverse_variance_[n];
   }
 }
 

@@ -21,22 +21,23 @@ T Median(std::vector<T>* values) {
 
 }  // namespace
 
-double PixelNoiseMeter::Share(const BlockFit& fit, const SeenWindow& seen) {
+double PixelNoiseEstimator::Share(const BlockFit& fit, const ObservedPatch& observed) {
   gains_.clear();
   gains_.reserve(fit.blocks().size());
-  for (const PrintBlock& block : fit.blocks()) {
+  for (const MarkerBlock& block : fit.blocks()) {
     if (block.gain > 0.0) gains_.push_back(block.gain);
   }
   differences_.clear();
-  differences_.reserve(seen.value.size());
-  const int width = seen.rays.window.width, height = seen.rays.window.height;
-  const std::vector<float>& white = fit.picture().white;
+  differences_.reserve(observed.value.size());
+  const int width = observed.rays.window.width, height = observed.rays.window.height;
+  const std::vector<float>& white = fit.image().white;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x + 1 < width; ++x) {
       const std::size_t at = static_cast<std::size_t>(y) * width + x;
-      if (!(seen.certainty[at] > 0.0F && seen.certainty[at + 1] > 0.0F)) continue;
+      if (!(observed.inverse_variance[at] > 0.0F && observed.inverse_variance[at + 1] > 0.0F))
+        continue;
       if (std::fabs(white[at] - white[at + 1]) > kEven) continue;
-      differences_.push_back(std::fabs(seen.value[at] - seen.value[at + 1]));
+      differences_.push_back(std::fabs(observed.value[at] - observed.value[at + 1]));
     }
   }
   if (differences_.empty() || gains_.empty()) return 0.0;

@@ -9,13 +9,13 @@
 
 namespace pleinair::tracker {
 
-/// Measures the noise of single pixels on a print. Keeps its buffers.
-class PixelNoiseMeter {
+/// Measures the noise of single pixels on a marker. Keeps its buffers.
+class PixelNoiseEstimator {
  public:
   /// Standard deviation in shares of white, from the median difference of neighbours where the
-  /// print is even; 0 where there are none. What covers a print, shadows' edges and blur, which are
-  /// smooth, are not in it. After a Run of `fit` on `seen`.
-  double Share(const BlockFit& fit, const SeenWindow& seen);
+  /// marker is even; 0 where there are none. What covers a marker, shadows' edges and blur, which
+  /// are smooth, are not in it. After a Run of `fit` on `seen`.
+  double Share(const BlockFit& fit, const ObservedPatch& observed);
 
  private:
   std::vector<double> gains_;

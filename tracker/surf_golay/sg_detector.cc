@@ -17,16 +17,16 @@ constexpr double kProbeSide_px = 70.0;
 /// Frames between two searches for markers that are new: for quadrilaterals, for borders of which
 /// something is covered, and for those while a marker that was there is missing.
 constexpr int kFastEvery = 5, kSearchEvery = 30, kMissingSearchEvery = 15;
-/// A marker that was not seen for so many frames is forgotten; a search for its border is tried in
-/// each of the first few and then now and then.
+/// A marker that was not observed for so many frames is forgotten; a search for its border is tried
+/// in each of the first few and then now and then.
 constexpr int kForgetAfter = 90, kSearchAtOnce = 5;
 constexpr double kTrackedVisible = 0.12;
 /// Where so little is left of what the frame before showed, the marker may have jumped and be
 /// followed to a wrong place, rather than a cover have come.
 constexpr double kCoveredAtOnce = 0.85;
 /// Correlation of its border, pixel by pixel, below which a marker of which not even so much is
-/// seen (kSurelyVisible) is a little beside. (Of 108 the one that was had .16, of the others none
-/// less than .34.)
+/// observed (kSurelyVisible) is a little beside. (Of 108 the one that was had .16, of the others
+/// none less than .34.)
 constexpr double kShiftedCorrelation = 0.25;
 bool Inside(const std::array<Vec2, 4>& quad, Vec2 point) {
   const auto right_of = [&](int i) {
@@ -70,14 +70,14 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
   grey_ = grey;
   found_.clear();
   warnings_.clear();
-  reader_.SetPicture(grey);
-  reduced_.SetPicture(grey);
+  reader_.SetImage(grey);
+  reduced_.SetImage(grey);
   if (!grey.empty()) {
     const bool fast = options_.strategy != SgStrategy::kSurfGolay;
     const bool search = options_.strategy != SgStrategy::kFast;
     if (!consecutive_frames_) {
       if (fast) FindFast();
-      if (search) SearchPicture();
+      if (search) SearchImage();
     } else {
       const std::vector<SgReading> doubtful = Track();
       const auto missing = [&](bool at_once) {
@@ -96,7 +96,7 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
         if (missing(true)) FindBySurf(BorderSearch::Sizes::kAll);
         if (missing(true)) FindByCells();
       } else if (search && frame_ % (missing(false) ? kMissingSearchEvery : kSearchEvery) == 0) {
-        SearchPicture();
+        SearchImage();
       }
       Remember();
     }
@@ -121,39 +121,39 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
   return candidates;
 }
 
-bool SgDetector::Taken(const Mat3& modules_from_ideal, double visible) const {
-  const std::array<Vec2, 4> corners = SquareCornersIdeal(modules_from_ideal);
+bool SgDetector::Taken(const Mat3& modules_from_undistorted, double visible) const {
+  const std::array<Vec2, 4> corners = UndistortedSquareCorners(modules_from_undistorted);
   const Vec2 centre = CentreOf(corners);
   return std::any_of(found_.begin(), found_.end(), [&](const Found& found) {
-    const std::array<Vec2, 4>& other = found.corners_ideal;
+    const std::array<Vec2, 4>& other = found.corners_undistorted;
     if (!Inside(other, centre) && !Inside(corners, CentreOf(other))) return false;
     return found.reading.visible_fraction >= visible ||
-           FarthestApart(other, corners) < kSamePlace * LongestSide(corners);
+           MaxCornerDistance(other, corners) < kSamePlace * LongestSide(corners);
   });
 }
 
-std::array<Vec2, 4> SgDetector::CornersPx(const Mat3& modules_from_ideal) const {
-  std::array<Vec2, 4> corners = SquareCornersIdeal(modules_from_ideal);
-  for (Vec2& corner : corners) corner = lens_.PixelOfIdeal(corner);
+std::array<Vec2, 4> SgDetector::CornersPx(const Mat3& modules_from_undistorted) const {
+  std::array<Vec2, 4> corners = UndistortedSquareCorners(modules_from_undistorted);
+  for (Vec2& corner : corners) corner = lens_.PixelOfUndistorted(corner);
   return corners;
 }
 
 bool SgDetector::ContradictsBorder(const SgReading& reading) const {
   if (reading.visible_fraction >= kSurelyVisible) return false;
-  const std::array<Vec2, 4> corners = SquareCornersIdeal(reading.modules_from_ideal);
+  const std::array<Vec2, 4> corners = UndistortedSquareCorners(reading.modules_from_undistorted);
   return std::ranges::any_of(reader_.UnreadBorders(), [&](const Mat3& unread) {
-    const std::array<Vec2, 4> open = SquareCornersIdeal(unread);
+    const std::array<Vec2, 4> open = UndistortedSquareCorners(unread);
     return Inside(open, CentreOf(corners)) &&
-           FarthestApart(open, corners) > kOtherPlace * LongestSide(open);
+           MaxCornerDistance(open, corners) > kOtherPlace * LongestSide(open);
   });
 }
 
 bool SgDetector::Add(const SgReading& reading, DetectionPath path) {
   if (ContradictsBorder(reading)) return false;
-  // Two prints cannot lie in one place: the one of which more is seen is there.
-  const std::array<Vec2, 4> corners = SquareCornersIdeal(reading.modules_from_ideal);
+  // Two prints cannot lie in one place: the one of which more is observed is there.
+  const std::array<Vec2, 4> corners = UndistortedSquareCorners(reading.modules_from_undistorted);
   for (Found& found : found_) {
-    const std::array<Vec2, 4>& other = found.corners_ideal;
+    const std::array<Vec2, 4>& other = found.corners_undistorted;
     if (!Inside(other, CentreOf(corners)) && !Inside(corners, CentreOf(other))) continue;
     if (reading.margin * reading.visible_fraction >
         found.reading.margin * found.reading.visible_fraction) {
@@ -166,10 +166,10 @@ bool SgDetector::Add(const SgReading& reading, DetectionPath path) {
   return true;
 }
 
-std::array<ProbedOrientation, 2> SgDetector::Probe(std::array<Vec2, 4> corners_px) {
+std::array<BorderOrientation, 2> SgDetector::TestOrientation(std::array<Vec2, 4> corners_px) {
   double side = LongestSide(corners_px), scale = 1.0;
   int level = 0;
-  while (side > kProbeSide_px && level + 1 < ReducedPictures::kLevels) {
+  while (side > kProbeSide_px && level + 1 < ReducedImages::kLevels) {
     side *= 0.5;
     scale *= 2.0;
     ++level;
@@ -177,35 +177,36 @@ std::array<ProbedOrientation, 2> SgDetector::Probe(std::array<Vec2, 4> corners_p
   for (Vec2& corner : corners_px) {
     corner = {(corner.x + 0.5) / scale - 0.5, (corner.y + 0.5) / scale - 0.5};
   }
-  return probe_.Look(reduced_.Level(level), corners_px);
+  return orientation_test_.Evaluate(reduced_.Level(level), corners_px);
 }
 
 bool SgDetector::RightWayRound(const SgReading& reading) {
   // Rim and margin look the same from all sides, and a turned content reads as some other word: the
   // border's shapes must fit better this way round than any other.
-  const ProbedOrientation best = Probe(reading.corners.px)[0];
+  const BorderOrientation best = TestOrientation(reading.corners.px)[0];
   if (best.first_corner != 0 || best.mirrored) return false;
-  // Edges of covers pass for the print's rim, but not for its border's shapes.
+  // Edges of covers pass for the marker's rim, but not for its border's shapes.
   return reading.visible_fraction >= kSurelyVisible || best.correlation >= kShiftedCorrelation;
 }
 
 double SgDetector::UprightCorrelation(const BlockFitState& state) {
-  const ProbedOrientation seen = Probe(CornersPx(state.modules_from_ideal))[0];
-  return !seen.mirrored && seen.first_corner == 0 ? seen.correlation : 0.0;
+  const BorderOrientation observed = TestOrientation(CornersPx(state.modules_from_undistorted))[0];
+  return !observed.mirrored && observed.first_corner == 0 ? observed.correlation : 0.0;
 }
 
-std::optional<SgReading> SgDetector::ReadAsGuessed(const BlockFitState& guess) {
-  std::optional<SgReading> reading = reader_.ReadAsGuessed(guess);
+std::optional<SgReading> SgDetector::DecodeAsGuessed(const BlockFitState& guess) {
+  std::optional<SgReading> reading = reader_.DecodeAsGuessed(guess);
   if (!reading) return reading;
-  const double correlation = Probe(reading->corners.px)[0].correlation;
-  if (!IsProved(reading->proof_bits, reading->visible_fraction, correlation)) reading.reset();
+  const double correlation = TestOrientation(reading->corners.px)[0].correlation;
+  if (!IsConfident(reading->confidence_bits, reading->visible_fraction, correlation))
+    reading.reset();
   return reading;
 }
 
 void SgDetector::TryQuad(const Quad& quad) {
-  const auto orientations = Probe(quad.corners_px);
+  const auto orientations = TestOrientation(quad.corners_px);
   for (std::size_t i = 0; i < orientations.size(); ++i) {
-    const ProbedOrientation& orientation = orientations[i];
+    const BorderOrientation& orientation = orientations[i];
     if (orientation.correlation < kProbedCorrelation ||
         orientation.correlation < orientations[0].correlation - kRivalCorrelation) {
       return;
@@ -215,16 +216,16 @@ void SgDetector::TryQuad(const Quad& quad) {
       const int at = orientation.mirrored ? (orientation.first_corner + 4 - k) % 4
                                           : (orientation.first_corner + k) % 4;
       const Vec2 corner = quad.corners_px[at];
-      corners[k] = lens_.Ideal(corner.x, corner.y);
+      corners[k] = lens_.Undistort(corner.x, corner.y);
     }
     BlockFitState state;
-    state.modules_from_ideal = ModulesFromSquareCorners(corners);
-    if (!orientation.mirrored && Taken(state.modules_from_ideal)) return;
-    std::optional<SgReading> reading = reader_.ReadPlain(state);
+    state.modules_from_undistorted = ModulesFromSquareCorners(corners);
+    if (!orientation.mirrored && Taken(state.modules_from_undistorted)) return;
+    std::optional<SgReading> reading = reader_.DecodeFast(state);
     if (!reading) {
       if (reader_.FitBorder(kQuadSteps, SgReader::Detail::kCoarse, &state) < kFittedCorrelation)
         continue;
-      reading = reader_.Read(state);
+      reading = reader_.DecodeFull(state);
     }
     if (!reading) continue;
     if (orientation.mirrored) {
@@ -238,21 +239,21 @@ void SgDetector::TryQuad(const Quad& quad) {
 }
 
 void SgDetector::FindFast() {
-  quads_.Detect(grey_, &seen_quads_);
-  for (const Quad& quad : seen_quads_) TryQuad(quad);
+  quads_.Detect(grey_, &observed_quads_);
+  for (const Quad& quad : observed_quads_) TryQuad(quad);
 }
 
 std::vector<SgReading> SgDetector::Track() {
   std::vector<SgReading> doubtful;
   for (const Known& known : known_) {
-    std::array<Vec2, 4> corners = known.corners_ideal;
+    std::array<Vec2, 4> corners = known.corners_undistorted;
     if (known.has_velocity && known.frames_unseen == 0) {
       for (int i = 0; i < 4; ++i) corners[i] = corners[i] + known.velocity[i];
     }
     BlockFitState state;
-    state.modules_from_ideal = ModulesFromSquareCorners(corners);
+    state.modules_from_undistorted = ModulesFromSquareCorners(corners);
     state.blur_px = known.blur_px;
-    const std::optional<SgReading> reading = reader_.Follow(known.number, state);
+    const std::optional<SgReading> reading = reader_.Track(known.number, state);
     if (!reading || reading->visible_fraction < kTrackedVisible) continue;
     const bool covered_at_once =
         reading->visible_fraction < kCoveredAtOnce * known.visible_fraction;
@@ -271,13 +272,13 @@ void SgDetector::Remember() {
   for (Known& known : known_) ++known.frames_unseen;
   for (const Found& found : found_) {
     const SgReading& reading = found.reading;
-    const std::array<Vec2, 4> corners = SquareCornersIdeal(reading.modules_from_ideal);
+    const std::array<Vec2, 4> corners = UndistortedSquareCorners(reading.modules_from_undistorted);
     // The nearest of its number: a number may hang in two places.
     Known* same = nullptr;
     for (Known& known : known_) {
       if (known.number != reading.number || known.frames_unseen == 0) continue;
-      if (same == nullptr || FarthestApart(known.corners_ideal, corners) <
-                                 FarthestApart(same->corners_ideal, corners)) {
+      if (same == nullptr || MaxCornerDistance(known.corners_undistorted, corners) <
+                                 MaxCornerDistance(same->corners_undistorted, corners)) {
         same = &known;
       }
     }
@@ -287,8 +288,8 @@ void SgDetector::Remember() {
       continue;
     }
     same->has_velocity = same->frames_unseen == 1;
-    for (int i = 0; i < 4; ++i) same->velocity[i] = corners[i] - same->corners_ideal[i];
-    same->corners_ideal = corners;
+    for (int i = 0; i < 4; ++i) same->velocity[i] = corners[i] - same->corners_undistorted[i];
+    same->corners_undistorted = corners;
     same->blur_px = reading.blur_px;
     same->visible_fraction = reading.visible_fraction;
     same->frames_unseen = 0;

@@ -26,7 +26,7 @@ namespace pleinair::tracker {
 /// consecutive frames a marker is looked for where it should be by now; what that does not find is
 /// looked for as a quadrilateral (fast), and by the keypoints of its border (S-G) when a marker of
 /// the frame before is missing, and every few frames for markers that are new and partly covered.
-/// Where the border's keypoints find nothing the corners of the cells may. A single picture is
+/// Where the border's keypoints find nothing the corners of the cells may. A single image is
 /// searched in all ways.
 class SgDetector final : public MarkerDetector {
  public:
@@ -44,13 +44,13 @@ class SgDetector final : public MarkerDetector {
   struct Found {
     SgReading reading;
     DetectionPath path = DetectionPath::kFast;
-    std::array<Vec2, 4> corners_ideal;
+    std::array<Vec2, 4> corners_undistorted;
   };
   /// A marker of the frames before.
   struct Known {
     int number = 0;
-    std::array<Vec2, 4> corners_ideal;  ///< In the last frame that saw it,
-    std::array<Vec2, 4> velocity;       ///< … and their motion, per frame.
+    std::array<Vec2, 4> corners_undistorted;  ///< In the last frame that saw it,
+    std::array<Vec2, 4> velocity;             ///< … and their motion, per frame.
     bool has_velocity = false;
     double blur_px = 0.7;
     int frames_unseen = 0;
@@ -58,13 +58,13 @@ class SgDetector final : public MarkerDetector {
   };
 
   /// A guess after the first steps of its fit.
-  struct Hope {
+  struct RankedGuess {
     BlockFitState state, guess;  ///< Before the steps: guess.
     bool plain = false;          ///< The guess is plainly a border's, covers or not.
-    double worth = 0.0;
+    double rank = 0.0;
   };
 
-  /// Where the cells of a print may lie, and which way round.
+  /// Where the cells of a marker may lie, and which way round.
   struct Placement {
     BlockFitState state;
     double correlation = 0.0;  ///< Of the border.
@@ -74,18 +74,19 @@ class SgDetector final : public MarkerDetector {
   static constexpr double kSamePlace = 0.04;
   /// … and two that are so far apart are surely not.
   static constexpr double kOtherPlace = 0.15;
-  /// A marker of which less is seen may be a little beside: other guesses there are read as well.
+  /// A marker of which less is observed may be a little beside: other guesses there are read as
+  /// well.
   static constexpr double kSurelyVisible = 0.5;
 
-  /// The best ways round for a print whose square has these corners, clockwise; by pixels alone.
-  std::array<ProbedOrientation, 2> Probe(std::array<Vec2, 4> corners_px);
+  /// The best ways round for a marker whose square has these corners, clockwise; by pixels alone.
+  std::array<BorderOrientation, 2> TestOrientation(std::array<Vec2, 4> corners_px);
   /// Follows the markers of the frames before. Returns those that may lie elsewhere: what is found
   /// anew counts as well.
   std::vector<SgReading> Track();
   void FindFast();
   /// By the border and the cells: all that is there beside what was found; where nothing was, the
   /// dearer ways only as long as the cheaper ones find nothing.
-  void SearchPicture();
+  void SearchImage();
   /// Whether it found any. Goes on as long as it finds more where it found several, or with
   /// `refill` from the first on, with keypoints in place of those on markers that are known.
   bool FindBySurf(BorderSearch::Sizes sizes, bool refill = false);
@@ -93,20 +94,20 @@ class SgDetector final : public MarkerDetector {
   /// Fits and reads guesses, the best first; whether any was a marker.
   bool TryGuesses(std::span<const BorderGuess> guesses);
   /// Fits a guess and reads it there, unless that was tried before or is not worth it.
-  std::optional<SgReading> ReadFitted(BlockFitState* state, bool* tried);
+  std::optional<SgReading> DecodeFitted(BlockFitState* state, bool* tried);
   /// Correlation of the border's pixels this way round; 0 where another is better.
   double UprightCorrelation(const BlockFitState& state);
   bool Add(const SgReading& reading, DetectionPath path);
-  /// Whether a reading of which little is seen lies, otherwise, where the border of a marker lies
-  /// open: what covers its cells then passed for another's.
+  /// Whether a reading of which little is observed lies, otherwise, where the border of a marker
+  /// lies open: what covers its cells then passed for another's.
   bool ContradictsBorder(const SgReading& reading) const;
-  /// Whether a marker was found there already, of which so much is seen or that lies just so.
-  bool Taken(const Mat3& modules_from_ideal, double visible = 0.0) const;
-  std::array<Vec2, 4> CornersPx(const Mat3& modules_from_ideal) const;
+  /// Whether a marker was found there already, of which so much is observed or that lies just so.
+  bool Taken(const Mat3& modules_from_undistorted, double visible = 0.0) const;
+  std::array<Vec2, 4> CornersPx(const Mat3& modules_from_undistorted) const;
   bool RightWayRound(const SgReading& reading);
-  /// A reading from a guess that is good already, proved by what is seen of the border at its
+  /// A reading from a guess that is good already, proved by what is observed of the border at its
   /// place.
-  std::optional<SgReading> ReadAsGuessed(const BlockFitState& guess);
+  std::optional<SgReading> DecodeAsGuessed(const BlockFitState& guess);
   void TryQuad(const Quad& quad);
   void Remember();
 
@@ -115,15 +116,15 @@ class SgDetector final : public MarkerDetector {
   const bool consecutive_frames_;
   SgReader reader_;
   QuadDetector quads_;
-  BorderProbe probe_;
+  OrientationTest orientation_test_;
   std::unique_ptr<BorderSearch> search_;  ///< Made when first needed.
-  ReducedPictures reduced_;
+  ReducedImages reduced_;
   ImageView<const std::uint8_t> grey_;
-  std::vector<Quad> seen_quads_;
+  std::vector<Quad> observed_quads_;
   CellLattice lattice_;
   std::vector<LatticeGuess> lattices_;
   std::vector<Placement> placements_;
-  std::vector<Hope> hopes_;
+  std::vector<RankedGuess> ranked_guesses_;
   std::vector<BorderGuess> guesses_;
   std::vector<Mat3> tried_;
   std::vector<Found> found_;

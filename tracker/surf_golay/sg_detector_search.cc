@@ -1,4 +1,4 @@
-// How SgDetector searches a picture by borders and cells.
+// How SgDetector searches an image by borders and cells.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -13,33 +13,33 @@ namespace {
 constexpr int kFirstSteps = 2, kGuessSteps = 5;
 /// Guesses of the S-G search that are looked at together; of which so many are fitted, and so many
 /// may turn out not to be readable, before the others are given up.
-constexpr int kGuessesAtOnce = 14, kMostFits = 9, kMostFailures = 4;
-/// Votes times fit that make a guess worth more than a glance. In pictures without a marker a
+constexpr int kGuessesAtOnce = 14, kMaxFits = 9, kMaxFailures = 4;
+/// Votes times fit that make a guess worth more than a glance. In images without a marker a
 /// quarter of the best guesses is.
-constexpr double kLeastWorth = 1.2;
+constexpr double kMinWorth = 1.2;
 /// So many markers in view make it likely that there are more.
-constexpr std::size_t kFewestForMore = 3;
-/// The corners of cells are looked for in a picture of at most this width.
-constexpr int kMostLatticeWidth_px = 900;
-/// Correlation with the border of which little is seen; placements that are read.
+constexpr std::size_t kMinFoundToSearchOn = 3;
+/// The corners of cells are looked for in an image of at most this width.
+constexpr int kMaxLatticeWidth_px = 900;
+/// Correlation with the border of which little is observed; placements that are read.
 constexpr double kCoveredCorrelation = 0.1;
-constexpr std::size_t kMostPlacements = 6;
+constexpr std::size_t kMaxPlacements = 6;
 /// Correlation of a guess's border, pixel by pixel, that makes it worth reading as it is. (Of 3,530
-/// guesses in pictures without a marker none had more than 0.27.)
+/// guesses in images without a marker none had more than 0.27.)
 constexpr double kPlainGuess = 0.3;
 /// Share of the border that must look right after a guess was fitted coarsely.
 constexpr double kGuessedVisible = 0.15;
 
 }  // namespace
 
-void SgDetector::SearchPicture() {
+void SgDetector::SearchImage() {
   if (!found_.empty()) {
     FindBySurf(BorderSearch::Sizes::kAll);
     return;
   }
   const bool any = FindBySurf(BorderSearch::Sizes::kLarge);
   // Among several there may be small ones.
-  if (any && found_.size() < kFewestForMore) return;
+  if (any && found_.size() < kMinFoundToSearchOn) return;
   if (!FindBySurf(BorderSearch::Sizes::kAll, any) && !any) FindByCells();
 }
 
@@ -62,14 +62,14 @@ bool SgDetector::FindBySurf(BorderSearch::Sizes sizes, bool refill) {
       any = true;
     }
     // Many markers had many of the keypoints, so that others had few.
-    more = found_.size() >= taken_.size() + (refill ? 1 : kFewestForMore);
+    more = found_.size() >= taken_.size() + (refill ? 1 : kMinFoundToSearchOn);
   }
   return any;
 }
 
 void SgDetector::FindByCells() {
   int level = 0;
-  while (grey_.width() >> level > kMostLatticeWidth_px && level + 1 < ReducedPictures::kLevels) {
+  while (grey_.width() >> level > kMaxLatticeWidth_px && level + 1 < ReducedImages::kLevels) {
     ++level;
   }
   lattice_.Find(reduced_.Level(level), 1 << level, &lattices_);
@@ -81,57 +81,60 @@ void SgDetector::FindByCells() {
       const int column = shift % 3 - 1, row = shift / 3 - 1;
       by(0, 2) = sg::kCell * column;
       by(1, 2) = sg::kCell * row;
-      const std::array<Vec2, 4> ideal = SquareCornersIdeal(by * guess.modules_from_ideal);
-      if (Taken(by * guess.modules_from_ideal)) continue;
-      for (const ProbedOrientation& orientation : Probe(CornersPx(by * guess.modules_from_ideal))) {
+      const std::array<Vec2, 4> undistorted =
+          UndistortedSquareCorners(by * guess.modules_from_undistorted);
+      if (Taken(by * guess.modules_from_undistorted)) continue;
+      for (const BorderOrientation& orientation :
+           TestOrientation(CornersPx(by * guess.modules_from_undistorted))) {
         if (orientation.mirrored || orientation.correlation < kCoveredCorrelation) continue;
         std::array<Vec2, 4> turned;
-        for (int k = 0; k < 4; ++k) turned[k] = ideal[(orientation.first_corner + k) % 4];
+        for (int k = 0; k < 4; ++k) turned[k] = undistorted[(orientation.first_corner + k) % 4];
         Placement placement;
-        placement.state.modules_from_ideal = ModulesFromSquareCorners(turned);
+        placement.state.modules_from_undistorted = ModulesFromSquareCorners(turned);
         placement.correlation = orientation.correlation;
         placements_.push_back(placement);
       }
     }
   }
   std::ranges::stable_sort(placements_, std::ranges::greater{}, &Placement::correlation);
-  if (placements_.size() > kMostPlacements) placements_.resize(kMostPlacements);
+  if (placements_.size() > kMaxPlacements) placements_.resize(kMaxPlacements);
   for (const Placement& placement : placements_) {
-    if (Taken(placement.state.modules_from_ideal)) continue;
-    const std::optional<SgReading> reading = ReadAsGuessed(placement.state);
+    if (Taken(placement.state.modules_from_undistorted)) continue;
+    const std::optional<SgReading> reading = DecodeAsGuessed(placement.state);
     if (reading && RightWayRound(*reading)) Add(*reading, DetectionPath::kSurfGolay);
   }
 }
 
 bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
   // A few steps of the fit tell most wrong guesses from those that are worth more.
-  hopes_.clear();
+  ranked_guesses_.clear();
   for (const BorderGuess& guess : guesses) {
-    if (Taken(guess.modules_from_ideal)) continue;
-    Hope hope;
-    hope.state.modules_from_ideal = hope.guess.modules_from_ideal = guess.modules_from_ideal;
+    if (Taken(guess.modules_from_undistorted)) continue;
+    RankedGuess ranked;
+    ranked.state.modules_from_undistorted = ranked.guess.modules_from_undistorted =
+        guess.modules_from_undistorted;
     const double correlation =
-        reader_.FitBorder(kFirstSteps, SgReader::Detail::kGlance, &hope.state);
-    hope.worth = guess.votes * (correlation + reader_.VisibleBorder());
-    // Covers draw a fit away that the border's pixels are plainly seen without.
-    const double seen = UprightCorrelation(hope.guess);
-    hope.plain = seen >= kPlainGuess;
-    if (hope.plain) hope.worth = std::max(hope.worth, 2.0 * guess.votes * seen);
-    if (hope.worth > kLeastWorth) hopes_.push_back(hope);
+        reader_.FitBorder(kFirstSteps, SgReader::Detail::kProbe, &ranked.state);
+    ranked.rank = guess.votes * (correlation + reader_.VisibleBorder());
+    // Covers draw a fit away that the border's pixels are plainly observed without.
+    const double observed = UprightCorrelation(ranked.guess);
+    ranked.plain = observed >= kPlainGuess;
+    if (ranked.plain) ranked.rank = std::max(ranked.rank, 2.0 * guess.votes * observed);
+    if (ranked.rank > kMinWorth) ranked_guesses_.push_back(ranked);
   }
-  std::stable_sort(hopes_.begin(), hopes_.end(),
-                   [](const Hope& a, const Hope& b) { return a.worth > b.worth; });
+  std::stable_sort(ranked_guesses_.begin(), ranked_guesses_.end(),
+                   [](const RankedGuess& a, const RankedGuess& b) { return a.rank > b.rank; });
   bool any = false;
   int failures = 0, fits = 0;
-  for (Hope& hope : hopes_) {
-    if (failures >= kMostFailures || fits >= kMostFits) break;
-    if (Taken(hope.state.modules_from_ideal, kSurelyVisible)) continue;
+  for (RankedGuess& ranked : ranked_guesses_) {
+    if (failures >= kMaxFailures || fits >= kMaxFits) break;
+    if (Taken(ranked.state.modules_from_undistorted, kSurelyVisible)) continue;
     ++fits;
     bool tried = false;
-    std::optional<SgReading> reading = ReadFitted(&hope.state, &tried);
-    if (!reading && hope.plain && !Taken(hope.guess.modules_from_ideal)) {
+    std::optional<SgReading> reading = DecodeFitted(&ranked.state, &tried);
+    if (!reading && ranked.plain && !Taken(ranked.guess.modules_from_undistorted)) {
       tried = true;
-      reading = ReadAsGuessed(hope.guess);
+      reading = DecodeAsGuessed(ranked.guess);
     }
     failures += tried;
     if (reading && RightWayRound(*reading) && Add(*reading, DetectionPath::kSurfGolay)) {
@@ -142,22 +145,22 @@ bool SgDetector::TryGuesses(std::span<const BorderGuess> guesses) {
   return any;
 }
 
-std::optional<SgReading> SgDetector::ReadFitted(BlockFitState* state, bool* tried) {
+std::optional<SgReading> SgDetector::DecodeFitted(BlockFitState* state, bool* tried) {
   reader_.FitBorder(kGuessSteps, SgReader::Detail::kCoarse, state);
-  const std::array<Vec2, 4> corners = SquareCornersIdeal(state->modules_from_ideal);
+  const std::array<Vec2, 4> corners = UndistortedSquareCorners(state->modules_from_undistorted);
   const bool again = std::any_of(tried_.begin(), tried_.end(), [&](const Mat3& tried_before) {
-    return FarthestApart(SquareCornersIdeal(tried_before), corners) <
+    return MaxCornerDistance(UndistortedSquareCorners(tried_before), corners) <
            kSamePlace * LongestSide(corners);
   });
   if (again) return std::nullopt;
-  tried_.push_back(state->modules_from_ideal);
+  tried_.push_back(state->modules_from_undistorted);
   if (reader_.VisibleBorder() < kGuessedVisible) return std::nullopt;
-  if (Taken(state->modules_from_ideal, kSurelyVisible)) return std::nullopt;
+  if (Taken(state->modules_from_undistorted, kSurelyVisible)) return std::nullopt;
   *tried = true;
-  std::optional<SgReading> reading = reader_.ReadPlain(*state);
-  if (!reading) reading = reader_.Read(*state);
+  std::optional<SgReading> reading = reader_.DecodeFast(*state);
+  if (!reading) reading = reader_.DecodeFull(*state);
   // Covers that look like ink or paper draw a fine fit away from a guess that was better.
-  if (!reading && UprightCorrelation(*state) > kPlainBorder) reading = ReadAsGuessed(*state);
+  if (!reading && UprightCorrelation(*state) > kPlainBorder) reading = DecodeAsGuessed(*state);
   return reading;
 }
 

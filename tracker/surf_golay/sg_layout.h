@@ -9,13 +9,13 @@ namespace pleinair::tracker {
 namespace sg {
 
 inline constexpr int kVersion = 1;
-inline constexpr int kEdge = 40;                   ///< Modules along the outer black square.
-inline constexpr int kQuiet = 4;                   ///< White margin on each side.
-inline constexpr int kPrint = kEdge + 2 * kQuiet;  ///< Modules along the print, margin included.
-inline constexpr int kContent = 10;                ///< First module of the content, both ways,
-inline constexpr int kCells = 5;                   ///< … which has so many cells along each side,
-inline constexpr int kCell = 4;                    ///< … each so many modules wide.
-inline constexpr int kCodeCells = 24;              ///< All but the one in the middle.
+inline constexpr int kEdge = 40;                     ///< Modules along the outer black square.
+inline constexpr int kQuiet = 4;                     ///< White margin on each side.
+inline constexpr int kModules = kEdge + 2 * kQuiet;  ///< Modules along the marker, margin included.
+inline constexpr int kContent = 10;                  ///< First module of the content, both ways,
+inline constexpr int kCells = 5;       ///< … which has so many cells along each side,
+inline constexpr int kCell = 4;        ///< … each so many modules wide.
+inline constexpr int kCodeCells = 24;  ///< All but the one in the middle.
 
 /// Row or column of modules of the square → its cell, or -1.
 constexpr int CellIndex(int module) {

@@ -7,7 +7,7 @@ namespace pleinair::tracker {
 /// How S-G markers are looked for.
 enum class SgStrategy {
   kHybrid,     ///< Quadrilaterals first; keypoints and cells for what they miss.
-  kFast,       ///< Quadrilaterals alone: the whole outer edge must be seen.
+  kFast,       ///< Quadrilaterals alone: the whole outer edge must be observed.
   kSurfGolay,  ///< Keypoints of the border, and corners of cells where these find nothing.
 };
 

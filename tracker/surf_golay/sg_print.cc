@@ -5,15 +5,17 @@
 
 namespace pleinair::tracker {
 
-PrintPattern SgPrint(int number) { return SgPrintOfWord(PrintedWord(number)); }
+MarkerPattern SgMarkerPattern(int number) {
+  return SgMarkerPatternOfWord(CodewordOfNumber(number));
+}
 
-PrintPattern SgPrintOfWord(std::uint32_t word, const sg::Border& border) {
-  PrintPattern pattern;
-  pattern.modules = sg::kPrint;
+MarkerPattern SgMarkerPatternOfWord(std::uint32_t word, const sg::Border& border) {
+  MarkerPattern pattern;
+  pattern.modules = sg::kModules;
   pattern.edge_modules = sg::kEdge;
   pattern.unknown_first = sg::kQuiet + sg::kContent;
   pattern.unknown_modules = sg::kCells * sg::kCell;
-  pattern.white.assign(static_cast<std::size_t>(sg::kPrint) * sg::kPrint, 1);
+  pattern.white.assign(static_cast<std::size_t>(sg::kModules) * sg::kModules, 1);
   for (int y = 0; y < sg::kEdge; ++y) {
     for (int x = 0; x < sg::kEdge; ++x) {
       bool white = border[y][x] == '.';
@@ -22,7 +24,7 @@ PrintPattern SgPrintOfWord(std::uint32_t word, const sg::Border& border) {
         const int cell = sg::CodeCell(column, row);
         white = cell < 0 || (word >> cell & 1U) != 0;
       }
-      pattern.white[(y + sg::kQuiet) * sg::kPrint + x + sg::kQuiet] = white ? 1 : 0;
+      pattern.white[(y + sg::kQuiet) * sg::kModules + x + sg::kQuiet] = white ? 1 : 0;
     }
   }
   return pattern;

@@ -16,18 +16,18 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kGlanceSide_px = 36.0;  ///< Longest side of a print that is only glanced at.
-/// Correlation of a border below which it is looked for in a reduced picture as well, how much
-/// better it must be seen there, and the side that must be left of it.
-constexpr double kNoisyCorrelation = 0.65, kClearer = 0.3, kLeastReducedSide_px = 30.0;
+constexpr double kProbeSide_px = 36.0;  ///< Longest side of a marker that is only glanced at.
+/// Correlation of a border below which it is looked for in a reduced image as well, how much
+/// better it must be observed there, and the side that must be left of it.
+constexpr double kNoisyCorrelation = 0.65, kClearer = 0.3, kMinReducedSide_px = 30.0;
 constexpr double kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
-/// The sharpest print's blur is found from one this large in a few steps.
-constexpr double kMostPlainBlur_px = 1.2;
-/// Share of a print that lies open: what covers one side only can draw the fit to its own edge.
+/// The sharpest marker's blur is found from one this large in a few steps.
+constexpr double kMaxPlainBlur_px = 1.2;
+/// Share of a marker that lies open: what covers one side only can draw the fit to its own edge.
 constexpr double kPlainVisible = 0.985;
-constexpr double kLeastSide_px = 6.0;
+constexpr double kMinSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
-constexpr double kLeastVisibleBorder = 0.06;
+constexpr double kMinVisibleBorder = 0.06;
 constexpr double kOpenBorder = 0.9;  ///< Share that looks right of a border that nothing covers.
 constexpr int kReadSteps = 4;
 /// Corners that far apart put a cell's middle where it was: cells need not be read again.
@@ -38,33 +38,33 @@ constexpr double kPlainNoise = 0.02;
 constexpr int kNoisySteps = 3;
 constexpr int kFollowSteps = 4;
 constexpr double kFarFollowBlur_px = 0.9, kFollowBlur_px = 0.3;
-/// Correlation of a followed print that surely is where it was looked for.
+/// Correlation of a followed marker that surely is where it was looked for.
 constexpr double kExpected = 0.95;
 /// Mean correlation of the content's blocks that makes a followed marker's number sure, and likely.
 constexpr double kContentSure = 0.9, kContentRight = 0.4;
 /// How much likelier than the next the number of a marker must be, in nats.
-constexpr float kLeastMargin = 8.0F, kSafeMargin = 25.0F;
+constexpr float kMinMargin = 8.0F, kSafeMargin = 25.0F;
 /// … and that of one that is plain to see: eight cells of 6 nats, either way, at least.
 constexpr float kPlainMargin = 96.0F;
 /// Wrong cells from which on something may cover them, how much more must tell for a number that is
 /// read beneath it than for the next, and what a bit is as a margin (SoftGolayDecoding::margin).
-constexpr int kFewestHidden = 2;
-constexpr double kLeastApart_bits = 8.0, kMarginPerBit = 2.0 * std::numbers::ln2;
-/// Share of the border that tells the light over the whole print; and what it takes off a proof
+constexpr int kMinHidden = 2;
+constexpr double kMinApart_bits = 8.0, kMarginPerBit = 2.0 * std::numbers::ln2;
+/// Share of the border that tells the light over the whole marker; and what it takes off a proof
 /// that the cells themselves had to tell it.
-constexpr double kTellsLight = 0.8, kSplitDoubt_bits = 2.0;
+constexpr double kVisibleForLight = 0.8, kSplitPenalty_bits = 2.0;
 /// The same where so much of the border shows a light without clipping and edges of shadows: cells
-/// that part otherwise contradict it, and what covers half of them has a colour of its own.
+/// that part otherwise contradict it, and what covers half of them has a color of its own.
 constexpr double kShowsLight = 0.5, kSplitAgainstLight_bits = 6.0;
 /// What glare takes off the proof where the border is plainly a marker's: nothing lies on the cells
 /// that it drowns, so that twelve plain ones are enough, and the blocks that it touches look less
-/// like the print without being covered.
+/// like the marker without being covered.
 constexpr double kDrowned_bits = 1.0;
 constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
-/// Share of a print that must be seen at least where its number is known, and where nothing tells
-/// that it is still that.
+/// Share of a marker that must be observed at least where its number is known, and where nothing
+/// tells that it is still that.
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
-constexpr double kMiddle = 0.5 * sg::kPrint;
+constexpr double kMiddle = 0.5 * sg::kModules;
 
 /// Step of a fit from nearby, in pixels, that is short enough to be the last: it leaves a fortieth
 /// of itself. Of large prints, whose corners are told best, that must be less; of small ones noise
@@ -74,9 +74,10 @@ double LastStepPx(double side_px) {
   return side_px < kSmall_px ? 0.06 : side_px < kLarge_px ? 0.04 : 0.02;
 }
 
-/// How far apart two homographies put the corners of a print, in modules.
-double ModulesApart(const Mat3& modules_from_ideal, const Mat3& other_modules_from_ideal) {
-  const Mat3 other = modules_from_ideal * Adjugate(other_modules_from_ideal);
+/// How far apart two homographies put the corners of a marker, in modules.
+double ModulesApart(const Mat3& modules_from_undistorted,
+                    const Mat3& other_modules_from_undistorted) {
+  const Mat3 other = modules_from_undistorted * Adjugate(other_modules_from_undistorted);
   double farthest = 0.0;
   for (const Vec2& corner : kSquareCorners) {
     const Vec2 modules = ModulesOfUnit(corner);
@@ -85,9 +86,9 @@ double ModulesApart(const Mat3& modules_from_ideal, const Mat3& other_modules_fr
   return farthest;
 }
 
-/// Whether a reading explains more of the print than another of the same number. What covers the
+/// Whether a reading explains more of the marker than another of the same number. What covers the
 /// border has edges that pass for the outer ones, but nothing passes for what lies inside: only
-/// where that fits alike, how much is seen decides.
+/// where that fits alike, how much is observed decides.
 bool Explains(const SgReading& reading, const SgReading& other) {
   constexpr double kAlike = 0.01;
   const double better = reading.inner_correlation - other.inner_correlation;
@@ -96,33 +97,34 @@ bool Explains(const SgReading& reading, const SgReading& other) {
 
 }  // namespace
 
-void SgReader::SetPicture(ImageView<const std::uint8_t> grey) {
+void SgReader::SetImage(ImageView<const std::uint8_t> grey) {
   grey_ = grey;
   plain_blur_px_ = kFirstBlur_px;
   unread_borders_.clear();
-  windows_.SetPicture(grey);
-  if (blank_.modules == 0) blank_ = SgPrintOfWord(0);
+  windows_.SetImage(grey);
+  if (blank_.modules == 0) blank_ = SgMarkerPatternOfWord(0);
 }
 
-const PrintPattern& SgReader::Print(int number) {
-  if (number != print_number_) {
-    print_ = SgPrint(number);
-    print_number_ = number;
+const MarkerPattern& SgReader::Pattern(int number) {
+  if (number != marker_number_) {
+    marker_pattern_ = SgMarkerPattern(number);
+    marker_number_ = number;
   }
-  return print_;
+  return marker_pattern_;
 }
 
 double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
   const bool coarse = detail != Detail::kFine;
-  const double side = windows_.SidePx(state->modules_from_ideal);
-  if (side < kLeastSide_px) return -1.0;
+  const double side = windows_.SidePx(state->modules_from_undistorted);
+  if (side < kMinSide_px) return -1.0;
   PixelWindow window;
   if (coarse) {
-    const double most_side = detail == Detail::kGlance ? kGlanceSide_px : kCoarseSide_px;
-    if (!windows_.TakeCoarse(state->modules_from_ideal, most_side, &window, &seen_)) return -1.0;
+    const double max_side = detail == Detail::kProbe ? kProbeSide_px : kCoarseSide_px;
+    if (!windows_.TakeCoarse(state->modules_from_undistorted, max_side, &window, &observed_))
+      return -1.0;
     state->blur_px =
         std::clamp(kCoarseBlurShare * side / window.Scale(), 0.7, kCoarseBlur_px) * window.Scale();
-  } else if (!windows_.TakeFine(*state, &window, &seen_)) {
+  } else if (!windows_.TakeFine(*state, &window, &observed_)) {
     return -1.0;
   }
   const int blocks =
@@ -131,7 +133,7 @@ double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
   options.steps = steps;
   options.fit_blur = !coarse;
   options.done_px = coarse ? 0.05 : 0.02;
-  if (!fit_.Run(blank_, PrintPart::kBorder, seen_, blocks, options, state)) return -1.0;
+  if (!fit_.Run(blank_, MarkerPart::kBorder, observed_, blocks, options, state)) return -1.0;
   return fit_.Correlation();
 }
 
@@ -141,17 +143,17 @@ double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
   double correlation = FitBorder(steps, Detail::kFine, state);
   // Noise averages out; what a cover hides does not come back.
   while (correlation > 0.0 && correlation < kNoisyCorrelation &&
-         windows_.SidePx(guess.modules_from_ideal) / (2 << windows_.halvings_for_noise()) >
-             kLeastReducedSide_px) {
+         windows_.SidePx(guess.modules_from_undistorted) / (2 << windows_.halvings_for_noise()) >
+             kMinReducedSide_px) {
     std::swap(fit_, other_fit_);
-    std::swap(seen_, other_seen_);
+    std::swap(observed_, other_observed_);
     windows_.SetHalvingsForNoise(windows_.halvings_for_noise() + 1);
     BlockFitState reduced = guess;
     const double better = FitBorder(steps, Detail::kFine, &reduced);
     if (better < correlation + kClearer) {
       windows_.SetHalvingsForNoise(windows_.halvings_for_noise() - 1);
       std::swap(fit_, other_fit_);
-      std::swap(seen_, other_seen_);
+      std::swap(observed_, other_observed_);
       break;
     }
     *state = reduced;
@@ -162,33 +164,34 @@ double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
 
 double SgReader::VisibleBorder() const {
   double visible = 0.0, border = 0.0;
-  for (const PrintBlock& block : fit_.blocks()) {
-    if (block.contrast < fit_.least_contrast()) continue;
+  for (const MarkerBlock& block : fit_.blocks()) {
+    if (block.contrast < fit_.min_contrast()) continue;
     border += block.pixels;
     if (block.correlation > kVisibleCorrelation) visible += block.pixels;
   }
   return border > 0.0 ? visible / border : 0.0;
 }
 
-std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess) {
+std::optional<SgReading> SgReader::Track(int number, const BlockFitState& guess) {
   windows_.SetHalvingsForNoise(0);
   BlockFitState state = guess;
-  const double side = windows_.SidePx(state.modules_from_ideal);
-  if (side < kLeastSide_px) return std::nullopt;
+  const double side = windows_.SidePx(state.modules_from_undistorted);
+  if (side < kMinSide_px) return std::nullopt;
   PixelWindow window;
-  if (!windows_.TakeCoarseLight(state.modules_from_ideal, kCoarseSide_px, &window, &seen_))
+  if (!windows_.TakeCoarseLight(state.modules_from_undistorted, kCoarseSide_px, &window,
+                                &observed_))
     return std::nullopt;
   const double scale = window.Scale();
   BlockFitOptions options;
-  options.tell_blocks = false;
+  options.label_blocks = false;
   options.steps = kFollowSteps;
   options.done_px = 0.1;
   const int blocks = BlockFit::BlocksAlong(1.2 * side / scale, kCoarseBlock_px);
   const auto fit = [&](double blur_px) {
     state.blur_px = std::max(guess.blur_px, blur_px * scale);
-    return fit_.Run(Print(number), PrintPart::kWhole, seen_, blocks, options, &state);
+    return fit_.Run(Pattern(number), MarkerPart::kWhole, observed_, blocks, options, &state);
   };
-  // Much blur finds a print from farther away, less of it nearer to where it is, which mostly is
+  // Much blur finds a marker from farther away, less of it nearer to where it is, which mostly is
   // where it was expected.
   if (!fit(kFollowBlur_px) || fit_.Correlation() < kExpected) {
     state = guess;
@@ -197,73 +200,74 @@ std::optional<SgReading> SgReader::Follow(int number, const BlockFitState& guess
   state.blur_px = guess.blur_px;
   std::optional<SgReading> reading = Measure(number, state, LastStepPx(side));
   if (!reading || reading->visible_fraction < kBarelyVisible) return std::nullopt;
-  // By the code: where the content is seen it must be this number's.
-  double right = 0.0, seen = 0.0;
+  // By the code: where the content is observed it must be this number's.
+  double right = 0.0, observed = 0.0;
   const int along = fit_.blocks_along();
   for (int row = 0; row < along; ++row) {
     for (int column = 0; column < along; ++column) {
-      const PrintBlock& block = fit_.blocks()[row * along + column];
+      const MarkerBlock& block = fit_.blocks()[row * along + column];
       const auto central = [&](int at) {
-        const double middle = (at + 0.5) / along * sg::kPrint - kMiddle;
+        const double middle = (at + 0.5) / along * sg::kModules - kMiddle;
         return std::fabs(middle) < 0.5 * sg::kCells * sg::kCell;
       };
-      if (!central(column) || !central(row) || block.contrast < fit_.least_contrast()) continue;
-      seen += block.pixels;
+      if (!central(column) || !central(row) || block.contrast < fit_.min_contrast()) continue;
+      observed += block.pixels;
       right += block.pixels * std::clamp(block.correlation, 0.0, 1.0);
     }
   }
   reading->margin = kSafeMargin;
-  LookBeneathCovers(&*reading);
-  if (seen > 0.0 && right > kContentSure * seen) return reading;
-  // Something covers the content, unless it is that of another print: numbers share up to two
+  RefineBeneathCovers(&*reading);
+  if (observed > 0.0 && right > kContentSure * observed) return reading;
+  // Something covers the content, unless it is that of another marker: numbers share up to two
   // thirds of their cells.
-  const std::optional<SgReading> other = Read({reading->modules_from_ideal, reading->blur_px});
+  const std::optional<SgReading> other =
+      DecodeFull({reading->modules_from_undistorted, reading->blur_px});
   if (other && other->number != number) return std::nullopt;
-  const bool content_right = seen > 0.0 && right > kContentRight * seen;
+  const bool content_right = observed > 0.0 && right > kContentRight * observed;
   if (!content_right && !other && reading->visible_fraction < kWellVisible) return std::nullopt;
   return reading;
 }
 
-bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
+bool SgReader::DecodeNumber(const BlockFitState& state, SgReading* reading) {
   const double border_visible = VisibleBorder();
   bool read = false;
-  const auto decode = [&](const CellLikelihoods& likelihoods, double doubt_bits,
+  const auto decode = [&](const CellLikelihoods& likelihoods, double penalty_bits,
                           const CellLikelihoods* by_light = nullptr) {
     const SoftGolayDecoding decoding = decoder_.Decode(likelihoods);
     const auto take = [&](int number, float margin, double bits) {
-      if (margin < kLeastMargin || (read && bits <= reading->proof_bits)) return;
+      if (margin < kMinMargin || (read && bits <= reading->confidence_bits)) return;
       read = true;
       reading->number = number;
       reading->margin = margin;
-      reading->proof_bits = bits;
+      reading->confidence_bits = bits;
     };
     // A number in use must not be one that many others would beat.
     take(decoding.number, decoding.margin - decoding.shortfall,
-         ProofBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - doubt_bits -
+         ConfidenceBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - penalty_bits -
              AmbiguityBits(by_light != nullptr ? *by_light : likelihoods, decoding.number,
                            any_number_));
-    if (border_visible < kTellsLight || decoding.disagreements < kFewestHidden ||
-        decoder_.NumbersInUse() > kFewestNumbersProved) {
+    if (border_visible < kVisibleForLight || decoding.disagreements < kMinHidden ||
+        decoder_.NumbersInUse() > kMinNumbersForConfidence) {
       return;
     }
     // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
     // or paper lies on it.
     const auto covered = ReadUnderCover(likelihoods, decoder_, any_number_);
-    if (covered && covered->apart_bits >= kLeastApart_bits) {
+    if (covered && covered->apart_bits >= kMinApart_bits) {
       take(covered->number, static_cast<float>(kMarginPerBit * covered->apart_bits),
-           covered->proof_bits - doubt_bits);
+           covered->confidence_bits - penalty_bits);
     }
   };
   // Several explanations of the light; the one that proves its number best is taken.
   for (const bool brightest : {false, true}) {
-    PrintLight light;
-    if (!light_meter_.Measure(blank_, fit_, seen_, brightest, &light)) break;
+    MarkerLight light;
+    if (!light_estimator_.Measure(blank_, fit_, observed_, brightest, &light)) break;
     CellReading cells;
-    cell_reader_.Read(blank_, fit_, seen_, state, light, false, &cells);
+    cell_reader_.ReadCells(blank_, fit_, observed_, state, light, false, &cells);
     decode(cells.likelihoods, 0.0);
     if (read && reading->margin > kSafeMargin) break;
     // Where the border shows the light well, a cell that is neither black nor white is covered.
-    if (border_visible < kTellsLight || light.white_clips || light.has_edge) {
+    if (border_visible < kVisibleForLight || light.white_clips || light.has_edge) {
       const bool against_light =
           border_visible > kShowsLight && !light.white_clips && !light.has_edge;
       const CellSplits splits = SplitCells(cells);
@@ -272,97 +276,102 @@ bool SgReader::ReadNumber(const BlockFitState& state, SgReading* reading) {
           // What the light says is covered leaves open which of two prints lies there.
           decode(splits.likelihoods[i], kSplitAgainstLight_bits, &cells.likelihoods);
         } else {
-          decode(splits.likelihoods[i], kSplitDoubt_bits);
+          decode(splits.likelihoods[i], kSplitPenalty_bits);
         }
       }
     }
     if (!cells.glaring || border_visible < kShowsGlare) continue;
     if (read && reading->margin > kSafeMargin) break;
-    cell_reader_.Read(blank_, fit_, seen_, state, light, true, &cells);
-    decode(cells.likelihoods, border_visible < kTellsLight ? 0.0 : -kDrowned_bits);
+    cell_reader_.ReadCells(blank_, fit_, observed_, state, light, true, &cells);
+    decode(cells.likelihoods, border_visible < kVisibleForLight ? 0.0 : -kDrowned_bits);
   }
   return read;
 }
 
-std::optional<SgReading> SgReader::ReadPlain(const BlockFitState& guess) {
+std::optional<SgReading> SgReader::DecodeFast(const BlockFitState& guess) {
   const std::optional<CellLikelihoods> cells =
-      GlanceAtCells(grey_, lens_, guess.modules_from_ideal);
+      SampleCellsFast(grey_, lens_, guess.modules_from_undistorted);
   if (!cells) return std::nullopt;
   GolayWord white = 0;
   for (int i = 0; i < kGolayBits; ++i) white |= static_cast<GolayWord>((*cells)[i] > 0.0F) << i;
-  const std::optional<int> number = decoder_.NumberOfPrint(white);
+  const std::optional<int> number = decoder_.NumberOfCells(white);
   if (!number) return std::nullopt;
   windows_.SetHalvingsForNoise(0);
-  std::optional<SgReading> reading = Measure(*number, {guess.modules_from_ideal, plain_blur_px_},
-                                             LastStepPx(windows_.SidePx(guess.modules_from_ideal)));
+  std::optional<SgReading> reading =
+      Measure(*number, {guess.modules_from_undistorted, plain_blur_px_},
+              LastStepPx(windows_.SidePx(guess.modules_from_undistorted)));
   if (!reading || reading->visible_fraction < kPlainVisible) return std::nullopt;
-  plain_blur_px_ = std::min(reading->blur_px, kMostPlainBlur_px);
+  plain_blur_px_ = std::min(reading->blur_px, kMaxPlainBlur_px);
   reading->margin = kPlainMargin;
-  reading->proof_bits = ProofBits(*cells, *number, decoder_.NumbersInUse());
+  reading->confidence_bits = ConfidenceBits(*cells, *number, decoder_.NumbersInUse());
   return reading;
 }
 
-std::optional<SgReading> SgReader::Read(const BlockFitState& guess) {
-  std::optional<SgReading> reading = Read(guess, kReadSteps);
-  if (reading && !IsProved(reading->proof_bits, reading->visible_fraction, 0.0)) reading.reset();
+std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess) {
+  std::optional<SgReading> reading = DecodeFull(guess, kReadSteps);
+  if (reading && !IsConfident(reading->confidence_bits, reading->visible_fraction, 0.0))
+    reading.reset();
   return reading;
 }
 
-std::optional<SgReading> SgReader::Read(const BlockFitState& guess, int border_steps) {
+std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess, int border_steps) {
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
   FitBorderThroughNoise(border_steps, &state);
   SgReading number;
   // Where nearly all of the border is covered no block of it may look right as a whole.
-  if (border_steps > 0 && VisibleBorder() < kLeastVisibleBorder) return std::nullopt;
-  if (!ReadNumber(state, &number)) {
-    if (VisibleBorder() > kOpenBorder) unread_borders_.push_back(state.modules_from_ideal);
+  if (border_steps > 0 && VisibleBorder() < kMinVisibleBorder) return std::nullopt;
+  if (!DecodeNumber(state, &number)) {
+    if (VisibleBorder() > kOpenBorder) unread_borders_.push_back(state.modules_from_undistorted);
     return std::nullopt;
   }
   std::optional<SgReading> reading = Measure(number.number, state);
   if (!reading) return std::nullopt;
-  if (reading->visible_fraction < kWholeEnough) {
-    // What covers the border has edges of its own, which can pass for the print's; the content,
+  if (reading->visible_fraction < kNearlyAllVisible) {
+    // What covers the border has edges of its own, which can pass for the marker's; the content,
     // known by now, pulls the fit away from them if that explains more.
     BlockFitState by_content = state;
     if (FitContent(number.number, &by_content)) {
       std::optional<SgReading> other = Measure(number.number, by_content);
       // From a guess of another size it was cut into other blocks, which compare with none.
-      if (other && other->blocks_along != reading->blocks_along) LookAgain(&*other);
+      if (other && other->blocks_along != reading->blocks_along) DescribeAnew(&*other);
       if (other && Explains(*other, *reading)) reading = std::move(other);
     }
   }
-  LookBeneathCovers(&*reading);
-  if (ModulesApart(state.modules_from_ideal, reading->modules_from_ideal) > kSameCells_modules) {
-    // Where the print turned out to lie its cells must still tell the same.
-    BlockFitState measured{reading->modules_from_ideal, reading->blur_px};
+  RefineBeneathCovers(&*reading);
+  if (ModulesApart(state.modules_from_undistorted, reading->modules_from_undistorted) >
+      kSameCells_modules) {
+    // Where the marker turned out to lie its cells must still tell the same.
+    BlockFitState measured{reading->modules_from_undistorted, reading->blur_px};
     const int read_first = number.number;
     FitBorder(0, Detail::kFine, &measured);
-    if (!ReadNumber(measured, &number) || number.number != read_first) return std::nullopt;
+    if (!DecodeNumber(measured, &number) || number.number != read_first) return std::nullopt;
   }
   reading->margin = number.margin;
-  reading->proof_bits = number.proof_bits;
+  reading->confidence_bits = number.confidence_bits;
   return reading;
 }
 
-void SgReader::LookAgain(SgReading* reading) {
-  const BlockFitState state{reading->modules_from_ideal, reading->blur_px};
+void SgReader::DescribeAnew(SgReading* reading) {
+  const BlockFitState state{reading->modules_from_undistorted, reading->blur_px};
   PixelWindow window;
-  if (!windows_.TakeFine(state, &window, &seen_)) return;
-  fit_.Evaluate(Print(reading->number), PrintPart::kWhole, seen_, FineBlocks(window, state), state);
-  DescribeLooks(fit_, reading);
+  if (!windows_.TakeFine(state, &window, &observed_)) return;
+  fit_.Evaluate(Pattern(reading->number), MarkerPart::kWhole, observed_, FineBlocks(window, state),
+                state);
+  DescribeAppearance(fit_, reading);
 }
 
 bool SgReader::IsNoisy() {
-  return fit_.noise_share() >= kPlainNoise && noise_meter_.Share(fit_, seen_) >= kPlainNoise;
+  return fit_.noise_share() >= kPlainNoise &&
+         noise_estimator_.Share(fit_, observed_) >= kPlainNoise;
 }
 
 void SgReader::MeasureThroughNoise(int number, BlockFitOptions options, BlockFitState state,
                                    SgReading* reading) {
-  fit_.ExpectCertainty(&seen_);
+  fit_.UsePredictedVariance(&observed_);
   options.steps = kNoisySteps;
   // What the first fit found is still to be judged.
-  if (!other_fit_.Run(Print(number), PrintPart::kWhole, seen_, fit_.blocks_along(), options,
+  if (!other_fit_.Run(Pattern(number), MarkerPart::kWhole, observed_, fit_.blocks_along(), options,
                       &state)) {
     return;
   }
@@ -370,18 +379,18 @@ void SgReader::MeasureThroughNoise(int number, BlockFitOptions options, BlockFit
 }
 
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess, double done_px) {
-  const double side = windows_.SidePx(guess.modules_from_ideal);
-  if (side < kLeastSide_px) return std::nullopt;
+  const double side = windows_.SidePx(guess.modules_from_undistorted);
+  if (side < kMinSide_px) return std::nullopt;
   PixelWindow window;
-  if (!windows_.TakeFine(guess, &window, &seen_)) return std::nullopt;
+  if (!windows_.TakeFine(guess, &window, &observed_)) return std::nullopt;
   BlockFitState state = guess;
   BlockFitOptions options;
   options.steps = 5;
   options.fit_blur = true;
   options.fit_light = true;
-  options.tell_blocks = false;
+  options.label_blocks = false;
   options.done_px = done_px;
-  if (!fit_.Run(Print(number), PrintPart::kWhole, seen_, FineBlocks(window, guess), options,
+  if (!fit_.Run(Pattern(number), MarkerPart::kWhole, observed_, FineBlocks(window, guess), options,
                 &state)) {
     return std::nullopt;
   }

@@ -15,116 +15,119 @@ constexpr int kContentSteps = 4;
 /// Beneath covers: noise of the black, as a share of white, where the light is not told, and of the
 /// white below which edges tell covers; steps and robust shares of the fits, the latter at least so
 /// many times the noise; and what of the correlation inside may be lost by them.
-constexpr double kMostDoubtfulBlack = 0.25, kPlainWhite = 0.1;
+constexpr double kMaxUncertainBlack = 0.25, kPlainWhite = 0.1;
 constexpr int kBeneathSteps = 6;
 constexpr std::array<double, 2> kBeneathShares{0.3, 0.15};
-constexpr double kBeneathNoises = 3.0, kMostLost = 0.1;
-constexpr double kMiddle = 0.5 * sg::kPrint;
+constexpr double kBeneathNoises = 3.0, kMaxCorrelationLoss = 0.1;
+constexpr double kMiddle = 0.5 * sg::kModules;
 
 }  // namespace
 
 int SgReader::FineBlocks(const PixelWindow& window, const BlockFitState& state) {
   return BlockFit::BlocksAlong(
-      1.2 * PrintWindows::SidePx(state.modules_from_ideal) / window.Scale(), kFineBlock_px);
+      1.2 * MarkerWindows::SidePx(state.modules_from_undistorted) / window.Scale(), kFineBlock_px);
 }
 
 bool SgReader::FitContent(int number, BlockFitState* state) {
   // Coarsely first: a fit that a cover has drawn away may be half a cell off.
   for (const Detail detail : {Detail::kCoarse, Detail::kFine}) {
     PixelWindow window;
-    const bool taken =
-        detail == Detail::kCoarse
-            ? windows_.TakeCoarse(state->modules_from_ideal, kCoarseSide_px, &window, &seen_)
-            : windows_.TakeFine(*state, &window, &seen_);
+    const bool taken = detail == Detail::kCoarse
+                           ? windows_.TakeCoarse(state->modules_from_undistorted, kCoarseSide_px,
+                                                 &window, &observed_)
+                           : windows_.TakeFine(*state, &window, &observed_);
     if (!taken) return false;
-    KeepContent(window, state->modules_from_ideal);
-    const double side = windows_.SidePx(state->modules_from_ideal);
+    KeepContent(window, state->modules_from_undistorted);
+    const double side = windows_.SidePx(state->modules_from_undistorted);
     BlockFitOptions options;
-    options.tell_blocks = false;
+    options.label_blocks = false;
     options.steps = kContentSteps;
     BlockFitState fitted = *state;
     if (detail == Detail::kCoarse) {
       fitted.blur_px = std::max(fitted.blur_px, kCoarseBlur_px * window.Scale());
     }
-    if (!fit_.Run(Print(number), PrintPart::kWhole, seen_,
+    if (!fit_.Run(Pattern(number), MarkerPart::kWhole, observed_,
                   BlockFit::BlocksAlong(1.2 * side / window.Scale(), kCoarseBlock_px), options,
                   &fitted)) {
       return false;
     }
-    state->modules_from_ideal = fitted.modules_from_ideal;
+    state->modules_from_undistorted = fitted.modules_from_undistorted;
   }
   return true;
 }
 
-void SgReader::KeepContent(const PixelWindow& window, const Mat3& modules_from_ideal) {
+void SgReader::KeepContent(const PixelWindow& window, const Mat3& modules_from_undistorted) {
   constexpr double kReach = 0.5 * sg::kCells * sg::kCell + 1.0;
   const int stride = window.width + 2 * kWindowBorder;
   for (int y = 0; y < window.height; ++y) {
     for (int x = 0; x < window.width; ++x) {
       const std::size_t ray =
           static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder + x;
-      const Vec2 modules = Apply(modules_from_ideal, {seen_.rays.x[ray], seen_.rays.y[ray]});
+      const Vec2 modules =
+          Apply(modules_from_undistorted, {observed_.rays.x[ray], observed_.rays.y[ray]});
       if (!(std::fabs(modules.x - kMiddle) < kReach && std::fabs(modules.y - kMiddle) < kReach)) {
-        seen_.certainty[static_cast<std::size_t>(y) * window.width + x] = 0.0F;
+        observed_.inverse_variance[static_cast<std::size_t>(y) * window.width + x] = 0.0F;
       }
     }
   }
 }
 
-void SgReader::LookBeneathCovers(SgReading* reading) {
-  if (reading->visible_fraction >= kWholeEnough) return;
+void SgReader::RefineBeneathCovers(SgReading* reading) {
+  if (reading->visible_fraction >= kNearlyAllVisible) return;
   std::optional<SgReading> beneath =
-      MeasureBeneathCovers(reading->number, {reading->modules_from_ideal, reading->blur_px});
-  if (!beneath || beneath->inner_correlation < reading->inner_correlation - kMostLost) return;
+      MeasureBeneathCovers(reading->number, {reading->modules_from_undistorted, reading->blur_px});
+  if (!beneath || beneath->inner_correlation < reading->inner_correlation - kMaxCorrelationLoss)
+    return;
   beneath->margin = reading->margin;
   *reading = std::move(*beneath);
 }
 
 std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockFitState& guess) {
   PixelWindow window;
-  if (!windows_.TakeFine(guess, &window, &seen_)) return std::nullopt;
-  const PrintPattern& print = Print(number);
+  if (!windows_.TakeFine(guess, &window, &observed_)) return std::nullopt;
+  const MarkerPattern& marker = Pattern(number);
   const int blocks = FineBlocks(window, guess);
   BlockFitState state = guess;
   const auto fit = [&](const BlockFitOptions& options) {
-    return fit_.Run(print, PrintPart::kWhole, seen_, blocks, options, &state);
+    return fit_.Run(marker, MarkerPart::kWhole, observed_, blocks, options, &state);
   };
-  fit_.Evaluate(print, PrintPart::kWhole, seen_, blocks, state);
-  PrintLight light;
-  if (!light_meter_.Measure(print, fit_, seen_, false, &light) || light.white_clips ||
-      light.black_noise > kMostDoubtfulBlack) {
+  fit_.Evaluate(marker, MarkerPart::kWhole, observed_, blocks, state);
+  MarkerLight light;
+  if (!light_estimator_.Measure(marker, fit_, observed_, false, &light) || light.white_clips ||
+      light.black_noise > kMaxUncertainBlack) {
     return std::nullopt;
   }
-  cover_.TakeShares(print, fit_, light, &seen_);
+  cover_.TakeShares(marker, fit_, light, &observed_);
   BlockFitOptions options;
   options.fit_blur = true;
-  options.tell_blocks = false;
+  options.label_blocks = false;
   BlockFitOptions sharp = options;
   sharp.steps = kBeneathSteps;
   sharp.known_light = true;
   const double noise = kBeneathNoises * std::max(light.white_noise, light.black_noise);
-  CoverMask::Edges edges = CoverMask::Edges::kUnsure;
+  CoverMask::Edges edges = CoverMask::Edges::kUnreliable;
   for (const double share : kBeneathShares) {
     sharp.robust_share = std::max(share, noise);
-    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_);
+    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &observed_);
     if (!fit(sharp)) return std::nullopt;
-    if (light.white_noise < kPlainWhite) edges = CoverMask::Edges::kTell;
+    if (light.white_noise < kPlainWhite) edges = CoverMask::Edges::kReliable;
   }
   // Covers throw shadows, too: at last each block has its own light again, and all of them a slope.
   options.fit_light = true;
-  cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_);
-  cover_.GiveValuesBack(&seen_);
+  cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &observed_);
+  cover_.RestoreValues(&observed_);
   if (!fit(options)) return std::nullopt;
   SgReading reading;
   reading.number = number;
   DescribeFit(lens_, fit_, state, &reading);
   if (IsNoisy()) {
-    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &seen_, CoverMask::Dark::kBeyondNoise);
+    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &observed_,
+               CoverMask::Dark::kBeyondNoise);
     MeasureThroughNoise(number, options, state, &reading);
   }
-  cover_.LiftFrom(&seen_);
-  fit_.Evaluate(print, PrintPart::kWhole, seen_, blocks, state);
-  DescribeLooks(fit_, &reading);
+  cover_.RestoreWeights(&observed_);
+  fit_.Evaluate(marker, MarkerPart::kWhole, observed_, blocks, state);
+  DescribeAppearance(fit_, &reading);
   return reading;
 }
 

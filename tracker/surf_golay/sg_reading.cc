@@ -11,18 +11,19 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kLeastTelling = 0.15;  ///< Blocks that count at least, as a share of all.
-/// What no residual tells: flatness of the print, calibration, the lens's blur that is no Gaussian.
+constexpr double kMinInformativeShare = 0.15;  ///< Blocks that count at least, as a share of all.
+/// What no residual tells: flatness of the marker, calibration, the lens's blur that is no
+/// Gaussian.
 constexpr double kSystematicCorner_px = 0.002;
 
-/// Correlation of the blocks that do not touch the print's edge, by their contrast.
+/// Correlation of the blocks that do not touch the marker's edge, by their contrast.
 double InnerCorrelation(const BlockFit& fit) {
   const int side = fit.blocks_along();
   double sum = 0.0, share = 0.0;
   for (int row = 1; row + 1 < side; ++row) {
     for (int column = 1; column + 1 < side; ++column) {
-      const PrintBlock& block = fit.blocks()[row * side + column];
-      if (block.contrast <= fit.least_contrast()) continue;
+      const MarkerBlock& block = fit.blocks()[row * side + column];
+      if (block.contrast <= fit.min_contrast()) continue;
       const double weight = block.pixels * block.contrast;
       sum += weight * block.correlation;
       share += weight;
@@ -31,21 +32,21 @@ double InnerCorrelation(const BlockFit& fit) {
   return share > 0.0 ? sum / share : 0.0;
 }
 
-/// Blocks where the print is plain tell nothing by themselves: they take the mean of those around
+/// Blocks where the marker is plain tell nothing by themselves: they take the mean of those around
 /// them that tell something.
 void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
-  const std::vector<PrintBlock>& blocks = fit.blocks();
+  const std::vector<MarkerBlock>& blocks = fit.blocks();
   const int side = fit.blocks_along();
-  const auto most = std::ranges::max_element(blocks, {}, &PrintBlock::pixels);
+  const auto most = std::ranges::max_element(blocks, {}, &MarkerBlock::pixels);
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
-      const PrintBlock& block = blocks[row * side + column];
-      if (block.contrast > fit.least_contrast() || 2 * block.pixels < most->pixels) continue;
+      const MarkerBlock& block = blocks[row * side + column];
+      if (block.contrast > fit.min_contrast() || 2 * block.pixels < most->pixels) continue;
       float sum = 0.0F;
       int count = 0;
       for (int y = std::max(0, row - 1); y <= std::min(side - 1, row + 1); ++y) {
         for (int x = std::max(0, column - 1); x <= std::min(side - 1, column + 1); ++x) {
-          if (blocks[y * side + x].contrast <= fit.least_contrast()) continue;
+          if (blocks[y * side + x].contrast <= fit.min_contrast()) continue;
           sum += (*visible)[y * side + x];
           ++count;
         }
@@ -57,39 +58,41 @@ void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
 
 }  // namespace
 
-void DescribeLooks(const BlockFit& fit, SgReading* reading) {
+void DescribeAppearance(const BlockFit& fit, SgReading* reading) {
   reading->whole_correlation = fit.Correlation();
   reading->inner_correlation = InnerCorrelation(fit);
   reading->blocks_along = fit.blocks_along();
   reading->visible.clear();
-  double seen = 0.0, all = 0.0;
-  for (const PrintBlock& block : fit.blocks()) {
-    // Blocks that clip all over, or lie outside the picture, tell nothing.
-    const bool tells = block.contrast > fit.least_contrast();
-    const double visible = tells ? std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0) : 0.0;
+  double observed = 0.0, all = 0.0;
+  for (const MarkerBlock& block : fit.blocks()) {
+    // Blocks that clip all over, or lie outside the image, tell nothing.
+    const bool informative = block.contrast > fit.min_contrast();
+    const double visible =
+        informative ? std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0) : 0.0;
     reading->visible.push_back(static_cast<float>(visible));
-    seen += visible;
-    all += tells ? 1.0 : 0.0;
+    observed += visible;
+    all += informative ? 1.0 : 0.0;
   }
   const double blocks = static_cast<double>(fit.blocks().size());
-  reading->visible_fraction = seen / std::max(all, kLeastTelling * blocks);
+  reading->visible_fraction = observed / std::max(all, kMinInformativeShare * blocks);
   JudgePlainBlocks(fit, &reading->visible);
 }
 
 void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state,
                  SgReading* reading) {
-  reading->modules_from_ideal = state.modules_from_ideal;
+  reading->modules_from_undistorted = state.modules_from_undistorted;
   reading->blur_px = state.blur_px;
-  DescribeLooks(fit, reading);
+  DescribeAppearance(fit, reading);
   reading->corners = CornersOfFit(lens, fit, state);
 }
 
 SgCorners CornersOfFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state) {
   SgCorners told;
   // The corners, their plane's second axis down as the fit has it.
-  const Mat3 ideal_from_modules = Adjugate(state.modules_from_ideal);
+  const Mat3 undistorted_from_modules = Adjugate(state.modules_from_undistorted);
   const auto pixel_of = [&](Vec2 unit_down) {
-    return lens.PixelOfIdeal(Apply(ideal_from_modules, ModulesOfUnit({unit_down.x, -unit_down.y})));
+    return lens.PixelOfUndistorted(
+        Apply(undistorted_from_modules, ModulesOfUnit({unit_down.x, -unit_down.y})));
   };
   std::array<FittedCorner, 4> corners;
   for (int i = 0; i < 4; ++i) {

@@ -16,7 +16,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-int Agreeing(const VoteWitnesses& votes, const VoteSeed& seed, int first, int last,
+int Agreeing(const VoteData& votes, const VoteSeed& seed, int first, int last,
              std::int32_t* agreeing) {
   const hn::CappedTag<float, kVoteSlack> df;
   const hn::RebindToSigned<decltype(df)> di;
@@ -39,8 +39,7 @@ int Agreeing(const VoteWitnesses& votes, const VoteSeed& seed, int first, int la
     const auto turn = hn::Abs(hn::Sub(load(votes.rotation_rad), set(seed.rotation_rad)));
     const auto down = hn::Abs(hn::Sub(load(votes.centre_y), set(seed.centre_y)));
     agree = hn::And(agree, hn::Le(down, set(seed.far_px)));
-    agree = hn::And(
-        agree, hn::And(hn::Le(size, set(seed.largest_px)), hn::Ge(size, set(seed.smallest_px))));
+    agree = hn::And(agree, hn::And(hn::Le(size, set(seed.max_px)), hn::Ge(size, set(seed.min_px))));
     agree = hn::And(agree, hn::Le(hn::Min(turn, hn::Sub(whole_turn, turn)), set(seed.turn_rad)));
     if (hn::AllFalse(df, agree)) continue;
     count += static_cast<int>(
@@ -60,7 +59,7 @@ namespace {
 HWY_EXPORT(Agreeing);
 }  // namespace
 
-void VoteWitnesses::Resize(std::size_t count) {
+void VoteData::Resize(std::size_t count) {
   // Whole vectors are read at the end.
   for (auto* values : {&centre_x, &centre_y, &size_px, &rotation_rad, &keypoint_x, &keypoint_y,
                        &modules_x, &modules_y}) {
@@ -68,12 +67,12 @@ void VoteWitnesses::Resize(std::size_t count) {
   }
 }
 
-int AgreeingVotes(const VoteWitnesses& votes, const VoteSeed& seed, int first, int last,
+int AgreeingVotes(const VoteData& votes, const VoteSeed& seed, int first, int last,
                   std::int32_t* agreeing) {
   return HWY_DYNAMIC_DISPATCH(Agreeing)(votes, seed, first, last, agreeing);
 }
 
-int AgreeingVotesScalar(const VoteWitnesses& votes, const VoteSeed& seed, int first, int last,
+int AgreeingVotesScalar(const VoteData& votes, const VoteSeed& seed, int first, int last,
                         std::int32_t* agreeing) {
   constexpr float kWholeTurn = 2.0F * std::numbers::pi_v<float>;
   const float* const m = seed.from_modules;
@@ -84,7 +83,7 @@ int AgreeingVotesScalar(const VoteWitnesses& votes, const VoteSeed& seed, int fi
     const float off_x = m[0] * x + m[1] * y + m[2] - votes.keypoint_x[j];
     const float off_y = m[3] * x + m[4] * y + m[5] - votes.keypoint_y[j];
     if (std::fabs(votes.centre_y[j] - seed.centre_y) <= seed.far_px &&
-        votes.size_px[j] <= seed.largest_px && votes.size_px[j] >= seed.smallest_px &&
+        votes.size_px[j] <= seed.max_px && votes.size_px[j] >= seed.min_px &&
         std::min(turn, kWholeTurn - turn) <= seed.turn_rad && std::fabs(off_x) < seed.near_px &&
         std::fabs(off_y) < seed.near_px) {
       agreeing[count++] = j;

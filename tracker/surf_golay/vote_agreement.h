@@ -6,11 +6,12 @@
 namespace pleinair::tracker {
 
 /// What of votes for places of prints tells whether they agree, array by array.
-struct VoteWitnesses {
-  std::vector<float> centre_x, centre_y;  ///< Of the print, as each vote has it, ideal pixels.
+struct VoteData {
+  std::vector<float> centre_x,
+      centre_y;  ///< Of the marker, as each vote has it, undistorted pixels.
   std::vector<float> size_px, rotation_rad;
   std::vector<float> keypoint_x, keypoint_y;
-  std::vector<float> modules_x, modules_y;  ///< The keypoint's place on the print.
+  std::vector<float> modules_x, modules_y;  ///< The keypoint's place on the marker.
 
   void Resize(std::size_t count);
 };
@@ -21,17 +22,17 @@ struct VoteSeed {
   float centre_y, rotation_rad;
   float far_px;   ///< Farthest that centres may be apart downwards.
   float near_px;  ///< … and a keypoint from where the seed expects it.
-  float smallest_px, largest_px;
+  float min_px, max_px;
   float turn_rad;  ///< Greatest difference of the rotations.
 };
 
 /// Writes those of the votes first..last - 1 that agree with the seed, in rising order, and returns
 /// how many. `agreeing` has room for last - first + kVoteSlack.
 inline constexpr int kVoteSlack = 16;
-int AgreeingVotes(const VoteWitnesses& votes, const VoteSeed& seed, int first, int last,
+int AgreeingVotes(const VoteData& votes, const VoteSeed& seed, int first, int last,
                   std::int32_t* agreeing);
 /// The same one by one, for comparison.
-int AgreeingVotesScalar(const VoteWitnesses& votes, const VoteSeed& seed, int first, int last,
+int AgreeingVotesScalar(const VoteData& votes, const VoteSeed& seed, int first, int last,
                         std::int32_t* agreeing);
 
 }  // namespace pleinair::tracker

@@ -66,7 +66,7 @@ struct PoseStatistics {
 
 PoseStatistics SummarizePath(const std::vector<session::Observation>& path);
 
-/// Frames after the first sighting in which the marker was not seen.
+/// Frames after the first observation in which the marker was not seen.
 struct LostFrames {
   std::int64_t frames = 0;
   std::int64_t longest = 0;  ///< In a row.

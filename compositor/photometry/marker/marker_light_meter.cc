@@ -30,7 +30,7 @@ constexpr int kFewestBright = 6;
 constexpr double kBrightest = 0.2;
 // Share of clipped whites up to which white counts: their median is known then; and of the
 // brightest, of which fewer may be, since the brightest of the rest are no longer the brightest.
-constexpr double kMostClipped = 0.45, kMostClippedBrightest = 0.2;
+constexpr double kMaxClippedShare = 0.45, kMostClippedBrightest = 0.2;
 // Share of the darkest whites by which light is told to be uneven where others clip, and how far
 // below the middle they lie in a normal distribution, in standard deviations.
 constexpr double kDarkest = 0.05, kDarkestSigmas = 1.645;
@@ -267,7 +267,7 @@ std::optional<std::array<LightMeter::ChannelGain, 3>> LightMeter::GainsOf(
   int with_both = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto black = BlackGainOf(pairs, c, fewest);
-    if (ClippedShare(pairs, c) <= kMostClipped) {
+    if (ClippedShare(pairs, c) <= kMaxClippedShare) {
       channels[c] = MedianOf(GainsBy(pairs, &Sample::white_gain, c), fewest);
     }
     by_black[c] = !channels[c];

@@ -223,8 +223,8 @@ bool UnmodelledShade::ShadesPrint() const {
 
 bool UnmodelledShade::HidesEdges() const {
   constexpr int kFewestPlaces = 6;
-  constexpr double kMost = 0.6;
-  return beside_edges >= kFewestPlaces && edges_shaded >= kMost;
+  constexpr double kMax = 0.6;
+  return beside_edges >= kFewestPlaces && edges_shaded >= kMax;
 }
 
 bool UnmodelledShade::Matters() const {

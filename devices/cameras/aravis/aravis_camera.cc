@@ -19,19 +19,19 @@ constexpr AravisFormat kFormats[] = {{ARV_PIXEL_FORMAT_MONO_8, PixelFormat::kGre
 /// GenICam's exposure counts in microseconds.
 constexpr double kMicrosecond = 1e-6;
 
-ControlAnswer Fulfil(ArvCamera* camera, const ControlWish& wish) {
-  ControlAnswer answer;
-  answer.control = wish.control;
-  const std::string name(NameOf(wish.control));
+ControlResult Fulfil(ArvCamera* camera, const ControlRequest& requested) {
+  ControlResult result;
+  result.control = requested.control;
+  const std::string name(NameOf(requested.control));
   GErrorSlot error;
-  const bool exposure = wish.control == CameraControl::kExposure;
+  const bool exposure = requested.control == CameraControl::kExposure;
   const bool there = exposure
                          ? arv_camera_is_exposure_time_available(camera, error.Fresh()) != FALSE
-                         : wish.control == CameraControl::kGain &&
+                         : requested.control == CameraControl::kGain &&
                                arv_camera_is_gain_available(camera, error.Fresh()) != FALSE;
   if (!there) {
-    answer.words = "the camera has no control of its " + name;
-    return answer;
+    result.details = "the camera has no control of its " + name;
+    return result;
   }
   const auto auto_available =
       exposure ? arv_camera_is_exposure_auto_available : arv_camera_is_gain_auto_available;
@@ -39,21 +39,21 @@ ControlAnswer Fulfil(ArvCamera* camera, const ControlWish& wish) {
   const auto set = exposure ? arv_camera_set_exposure_time : arv_camera_set_gain;
   const auto get = exposure ? arv_camera_get_exposure_time : arv_camera_get_gain;
   const double unit = exposure ? kMicrosecond : 1.0;
-  answer.held = true;
+  result.locked = true;
   if (auto_available(camera, error.Fresh()) != FALSE) {
     set_auto(camera, ARV_AUTO_OFF, error.Fresh());
     if (error.failed()) {
-      answer.held = false;
-      answer.words = name + " cannot be held: " + error.words();
+      result.locked = false;
+      result.details = name + " cannot be held: " + error.details();
     }
   }
-  if (wish.value) {
-    set(camera, *wish.value / unit, error.Fresh());
-    if (error.failed()) answer.words = name + " cannot be set: " + error.words();
+  if (requested.value) {
+    set(camera, *requested.value / unit, error.Fresh());
+    if (error.failed()) result.details = name + " cannot be set: " + error.details();
   }
   const double now = get(camera, error.Fresh()) * unit;
-  if (!error.failed()) answer.value = now;
-  return answer;
+  if (!error.failed()) result.value = now;
+  return result;
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ std::vector<FormatDescription> AravisFormats(ArvCamera* camera) {
     const auto known = AravisFormatOf(static_cast<ArvPixelFormat>(codes.get()[i]));
     formats.push_back({names.get()[i],
                        known ? std::optional(known->ours) : std::nullopt,
-                       {{PictureSize{width, height}, rates_hz}}});
+                       {{ImageSize{width, height}, rates_hz}}});
   }
   return formats;
 }
@@ -127,12 +127,13 @@ std::vector<ControlRange> AravisControls(ArvCamera* camera) {
   return controls;
 }
 
-std::vector<ControlAnswer> HoldAravisControls(ArvCamera* camera,
-                                              const std::vector<ControlWish>& wishes) {
-  std::vector<ControlAnswer> answers;
-  answers.reserve(wishes.size());
-  for (const ControlWish& wish : wishes) answers.push_back(Fulfil(camera, wish));
-  return answers;
+std::vector<ControlResult> LockAravisControls(ArvCamera* camera,
+                                              const std::vector<ControlRequest>& control_requests) {
+  std::vector<ControlResult> results;
+  results.reserve(control_requests.size());
+  for (const ControlRequest& requested : control_requests)
+    results.push_back(Fulfil(camera, requested));
+  return results;
 }
 
 }  // namespace pleinair::devices

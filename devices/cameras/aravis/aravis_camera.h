@@ -19,7 +19,7 @@ std::optional<AravisFormat> AravisFormatOf(PixelFormat ours);
 
 std::vector<FormatDescription> AravisFormats(ArvCamera* camera);
 std::vector<ControlRange> AravisControls(ArvCamera* camera);
-std::vector<ControlAnswer> HoldAravisControls(ArvCamera* camera,
-                                              const std::vector<ControlWish>& wishes);
+std::vector<ControlResult> LockAravisControls(ArvCamera* camera,
+                                              const std::vector<ControlRequest>& control_requests);
 
 }  // namespace pleinair::devices

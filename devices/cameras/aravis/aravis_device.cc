@@ -28,7 +28,7 @@ Error Taken(const std::string& where, const std::string& doing) {
 Error AravisError(const std::string& where, const std::string& doing, const GErrorSlot& error) {
   if (error.Is(ARV_DEVICE_ERROR_NOT_FOUND)) return NotThere(where);
   if (error.Is(ARV_DEVICE_ERROR_NOT_CONTROLLER)) return Taken(where, doing);
-  return {ErrorKind::kSystem, where, doing + ": " + error.words(),
+  return {ErrorKind::kSystem, where, doing + ": " + error.details(),
           "see whether the camera and this machine are in one network"};
 }
 
@@ -44,28 +44,29 @@ class AravisDevice : public CameraDevice {
     if (started_) arv_camera_stop_acquisition(camera_.get(), error.Fresh());
   }
 
-  Result<void> Agree(const PictureWish& wish) {
+  Result<void> Agree(const FormatRequest& requested) {
     const std::string where = identity_.ToString();
-    PLEINAIR_ASSIGN_OR_RETURN(const PictureChoice choice,
-                              ChoosePictures(AravisFormats(camera_.get()), wish, where));
+    PLEINAIR_ASSIGN_OR_RETURN(const FormatChoice choice,
+                              ChooseFormat(AravisFormats(camera_.get()), requested, where));
     GErrorSlot error;
     arv_camera_set_pixel_format(camera_.get(), AravisFormatOf(choice.format)->theirs,
                                 error.Fresh());
     if (error.failed()) {
       return tl::make_unexpected(AravisError(where, "cannot set the pixel format", error));
     }
-    if (wish.size) {
-      arv_camera_set_region(camera_.get(), 0, 0, wish.size->width, wish.size->height,
+    if (requested.size) {
+      arv_camera_set_region(camera_.get(), 0, 0, requested.size->width, requested.size->height,
                             error.Fresh());
     }
-    if (wish.rate_hz) arv_camera_set_frame_rate(camera_.get(), *wish.rate_hz, error.Fresh());
+    if (requested.rate_hz)
+      arv_camera_set_frame_rate(camera_.get(), *requested.rate_hz, error.Fresh());
     gint x = 0, y = 0;
-    arv_camera_get_region(camera_.get(), &x, &y, &agreement_.size.width, &agreement_.size.height,
+    arv_camera_get_region(camera_.get(), &x, &y, &negotiated_.size.width, &negotiated_.size.height,
                           error.Fresh());
     const double rate_hz = arv_camera_get_frame_rate(camera_.get(), error.Fresh());
-    if (!error.failed() && rate_hz > 0.0) agreement_.rate_hz = rate_hz;
-    agreement_.format = choice.format;
-    agreement_.words = Differences(wish, agreement_);
+    if (!error.failed() && rate_hz > 0.0) negotiated_.rate_hz = rate_hz;
+    negotiated_.format = choice.format;
+    negotiated_.details = Differences(requested, negotiated_);
     return {};
   }
 
@@ -97,7 +98,7 @@ class AravisDevice : public CameraDevice {
     return {};
   }
 
-  WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) override {
+  WaitOutcome Wait(std::chrono::milliseconds limit, CapturedImage* image) override {
     if (control_lost_) return WaitOutcome::kGone;
     ArvBuffer* buffer = arv_stream_timeout_pop_buffer(
         stream_.get(), static_cast<guint64>(std::chrono::microseconds(limit).count()));
@@ -105,16 +106,16 @@ class AravisDevice : public CameraDevice {
       const bool gone = control_lost_ || (probe_ && probe_->IsRefused());
       return gone ? WaitOutcome::kGone : WaitOutcome::kNothing;
     }
-    Take(buffer, picture);
+    Take(buffer, image);
     arv_stream_push_buffer(stream_.get(), buffer);
-    return WaitOutcome::kPicture;
+    return WaitOutcome::kImage;
   }
 
   // Waits are short, and Aravis has no way to cut one shorter.
   void Wake() override {}
 
-  std::string Words() const override { return "the camera answers no more"; }
-  const PictureAgreement& agreement() const override { return agreement_; }
+  std::string StatusMessage() const override { return "the camera answers no more"; }
+  const NegotiatedFormat& negotiated() const override { return negotiated_; }
   CameraUri identity() const override { return identity_; }
 
   std::optional<TransportCounts> Transport() override {
@@ -132,10 +133,11 @@ class AravisDevice : public CameraDevice {
   }
 
   std::vector<ControlRange> Controls() override { return AravisControls(camera_.get()); }
-  std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) override {
-    auto answers = HoldAravisControls(camera_.get(), wishes);
+  std::vector<ControlResult> LockControls(
+      const std::vector<ControlRequest>& control_requests) override {
+    auto results = LockAravisControls(camera_.get(), control_requests);
     RememberControls();
-    return answers;
+    return results;
   }
 
  private:
@@ -162,46 +164,46 @@ class AravisDevice : public CameraDevice {
     }
   }
 
-  void Take(ArvBuffer* buffer, CapturedPicture* picture) {
-    picture->arrival_ns = SteadyNow_ns();
+  void Take(ArvBuffer* buffer, CapturedImage* image) {
+    image->arrival_ns = SteadyNow_ns();
     // GigE Vision numbers frames from 1 to 65535 and leaves 0 out.
     const auto id = static_cast<std::int64_t>(arv_buffer_get_frame_id(buffer));
     constexpr std::int64_t kNumbers = 65535;
     const bool wrapped = id < last_id_ && last_id_ <= kNumbers && last_id_ - id > kNumbers / 2;
     number_ += last_id_ < 0 ? 0 : wrapped ? id - last_id_ + kNumbers : id - last_id_;
     last_id_ = id;
-    picture->number = number_;
+    image->number = number_;
     // Aravis' own stamp is on the wall clock: brought over by the clocks' difference now.
     const std::int64_t wall_ns = g_get_real_time() * 1000;
     const auto stamp_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
-    picture->timestamp_ns = stamp_ns - wall_ns + picture->arrival_ns;
-    picture->stamp_meaning = StampMeaning::kArrival;
-    picture->device_timestamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
-    picture->exposure_s = exposure_s_;
-    picture->gain = gain_;
-    picture->white_balance_k.reset();
-    picture->damaged = arv_buffer_get_status(buffer) != ARV_BUFFER_STATUS_SUCCESS;
-    picture->raw.bytes.clear();
-    if (picture->damaged) return;
+    image->timestamp_ns = stamp_ns - wall_ns + image->arrival_ns;
+    image->stamp_meaning = StampMeaning::kArrival;
+    image->device_timestamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
+    image->exposure_s = exposure_s_;
+    image->gain = gain_;
+    image->white_balance_k.reset();
+    image->damaged = arv_buffer_get_status(buffer) != ARV_BUFFER_STATUS_SUCCESS;
+    image->raw.bytes.clear();
+    if (image->damaged) return;
     const auto format = AravisFormatOf(arv_buffer_get_image_pixel_format(buffer));
     std::size_t size = 0;
     const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer, &size));
     gint x_padding = 0, y_padding = 0;
     arv_buffer_get_image_padding(buffer, &x_padding, &y_padding);
-    picture->raw.format = format ? format->ours : agreement_.format;
-    picture->raw.width = arv_buffer_get_image_width(buffer);
-    picture->raw.height = arv_buffer_get_image_height(buffer);
-    picture->raw.stride = TightStride(picture->raw.format, picture->raw.width) +
-                          static_cast<std::size_t>(std::max(x_padding, 0));
-    picture->raw.full_range = true;
-    picture->raw.bytes.assign(data, data + size);
-    picture->damaged = !format;
+    image->raw.format = format ? format->ours : negotiated_.format;
+    image->raw.width = arv_buffer_get_image_width(buffer);
+    image->raw.height = arv_buffer_get_image_height(buffer);
+    image->raw.stride = TightStride(image->raw.format, image->raw.width) +
+                        static_cast<std::size_t>(std::max(x_padding, 0));
+    image->raw.full_range = true;
+    image->raw.bytes.assign(data, data + size);
+    image->damaged = !format;
   }
 
   GObjectPtr<ArvCamera> camera_;
   GObjectPtr<ArvStream> stream_;
   CameraUri identity_;
-  PictureAgreement agreement_;
+  NegotiatedFormat negotiated_;
   TransportCounts transport_;
   bool started_ = false;
   std::unique_ptr<GigeProbe> probe_;  ///< Null for cameras on USB.
@@ -217,7 +219,7 @@ std::string Text(const char* text) { return text == nullptr ? "" : text; }
 }  // namespace
 
 Result<std::unique_ptr<CameraDevice>> OpenAravisDevice(const CameraUri& uri,
-                                                       const PictureWish& wish) {
+                                                       const FormatRequest& requested) {
   GErrorSlot error;
   // Where it was last is asked first: looking on all networks takes a second.
   GObjectPtr<ArvCamera> camera(arv_camera_new(uri.value.c_str(), error.Fresh()));
@@ -234,7 +236,7 @@ Result<std::unique_ptr<CameraDevice>> OpenAravisDevice(const CameraUri& uri,
     return tl::make_unexpected(Taken(uri.ToString(), "cannot open"));
   }
   auto device = std::make_unique<AravisDevice>(std::move(camera), uri);
-  PLEINAIR_RETURN_IF_ERROR(device->Agree(wish));
+  PLEINAIR_RETURN_IF_ERROR(device->Agree(requested));
   PLEINAIR_RETURN_IF_ERROR(device->Start());
   return std::unique_ptr<CameraDevice>(std::move(device));
 }
@@ -256,7 +258,7 @@ Result<std::vector<CameraDescription>> ListAravisCameras() {
       description.formats = AravisFormats(camera.get());
       description.controls = AravisControls(camera.get());
     } else {
-      description.trouble = error.words();
+      description.trouble = error.details();
     }
     cameras.push_back(std::move(description));
   }

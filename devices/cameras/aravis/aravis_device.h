@@ -13,7 +13,7 @@ namespace pleinair::devices {
 /// Looking for it sends a broadcast on every network interface.
 /// Errors, in words: not there, another program controls it, no format that we read.
 Result<std::unique_ptr<CameraDevice>> OpenAravisDevice(const CameraUri& uri,
-                                                       const PictureWish& wish);
+                                                       const FormatRequest& requested);
 
 /// Every camera that answers a broadcast on the networks, or is on USB.
 Result<std::vector<CameraDescription>> ListAravisCameras();

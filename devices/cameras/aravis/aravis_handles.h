@@ -33,7 +33,7 @@ class GErrorSlot {
   bool Is(ArvDeviceError code) const {
     return failed() && g_error_matches(error_, ARV_DEVICE_ERROR, code) != FALSE;
   }
-  std::string words() const { return failed() ? error_->message : ""; }
+  std::string details() const { return failed() ? error_->message : ""; }
 
  private:
   GError* error_ = nullptr;

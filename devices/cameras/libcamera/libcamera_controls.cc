@@ -47,15 +47,16 @@ std::vector<ControlRange> LibcameraControls(const libcamera::ControlInfoMap& inf
   return controls;
 }
 
-std::optional<ControlAnswer> AskLibcamera(const libcamera::ControlInfoMap& infos,
-                                          const ControlWish& wish, std::optional<double> now,
-                                          libcamera::ControlList* request) {
+std::optional<ControlResult> RequestLibcameraControl(const libcamera::ControlInfoMap& infos,
+                                                     const ControlRequest& requested,
+                                                     std::optional<double> now,
+                                                     libcamera::ControlList* request) {
   for (const Mapping& mapping : kMappings) {
     const auto info = infos.find(mapping.value);
-    if (mapping.control != wish.control || info == infos.end()) continue;
-    ControlAnswer answer;
-    answer.control = wish.control;
-    answer.held = true;
+    if (mapping.control != requested.control || info == infos.end()) continue;
+    ControlResult result;
+    result.control = requested.control;
+    result.locked = true;
     if (infos.find(mapping.automatic) != infos.end()) {
       if (mapping.automatic == &libcamera::controls::AfMode) {
         request->set(libcamera::controls::AfMode, libcamera::controls::AfModeManual);
@@ -63,19 +64,19 @@ std::optional<ControlAnswer> AskLibcamera(const libcamera::ControlInfoMap& infos
         request->set(libcamera::controls::AeEnable, false);
       }
     }
-    const std::optional<double> wanted = wish.value ? wish.value : now;
-    if (!wanted) return answer;
+    const std::optional<double> wanted = requested.value ? requested.value : now;
+    if (!wanted) return result;
     const double lowest = NumberOf(info->second.min()), highest = NumberOf(info->second.max());
     const double steps = std::clamp(*wanted / mapping.unit, lowest, highest);
     if (mapping.value->type() == libcamera::ControlTypeInteger32) {
       const double whole = std::round(steps);
       request->set(mapping.value->id(), libcamera::ControlValue(static_cast<std::int32_t>(whole)));
-      answer.value = whole * mapping.unit;
+      result.value = whole * mapping.unit;
     } else {
       request->set(mapping.value->id(), libcamera::ControlValue(static_cast<float>(steps)));
-      answer.value = steps * mapping.unit;
+      result.value = steps * mapping.unit;
     }
-    return answer;
+    return result;
   }
   return std::nullopt;
 }

@@ -79,7 +79,7 @@ class LibcameraDevice final : public CameraDevice {
     if (acquired_) camera_->release();
   }
 
-  Result<void> Agree(const PictureWish& wish) {
+  Result<void> Agree(const FormatRequest& requested) {
     const std::string where = identity_.ToString();
     if (const int failed = camera_->acquire(); failed != 0) {
       return tl::make_unexpected(LibcameraError(where, "cannot open", -failed));
@@ -90,8 +90,8 @@ class LibcameraDevice final : public CameraDevice {
       return InputError(where, "has no stream for viewing", "choose another camera");
     }
     libcamera::StreamConfiguration& stream = configuration_->at(0);
-    PLEINAIR_ASSIGN_OR_RETURN(const PictureChoice choice,
-                              ChoosePictures(LibcameraFormats(stream.formats()), wish, where));
+    PLEINAIR_ASSIGN_OR_RETURN(const FormatChoice choice,
+                              ChooseFormat(LibcameraFormats(stream.formats()), requested, where));
     stream.pixelFormat = *LibcameraFormatOf(choice.format);
     if (choice.size) {
       stream.size = {static_cast<unsigned>(choice.size->width),
@@ -111,15 +111,15 @@ class LibcameraDevice final : public CameraDevice {
     if (const int failed = camera_->configure(configuration_.get()); failed != 0) {
       return tl::make_unexpected(LibcameraError(where, "cannot set size and format", -failed));
     }
-    agreement_.format = *format;
-    agreement_.size = {static_cast<int>(stream.size.width), static_cast<int>(stream.size.height)};
+    negotiated_.format = *format;
+    negotiated_.size = {static_cast<int>(stream.size.width), static_cast<int>(stream.size.height)};
     Describe(stream);
     entry_ = KernelEntryOf(*manager_, camera_).value_or("");
     node_ = NodeBehind(*manager_, camera_);
     return {};
   }
 
-  Result<void> Start(const PictureWish& wish) {
+  Result<void> Start(const FormatRequest& requested) {
     const std::string where = identity_.ToString();
     libcamera::Stream* stream = configuration_->at(0).stream();
     allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
@@ -141,14 +141,14 @@ class LibcameraDevice final : public CameraDevice {
     }
     libcamera::ControlList controls(camera_->controls());
     const auto durations = camera_->controls().find(&libcamera::controls::FrameDurationLimits);
-    if (wish.rate_hz && durations != camera_->controls().end()) {
-      const auto duration_us = static_cast<std::int64_t>(1e6 / *wish.rate_hz);
+    if (requested.rate_hz && durations != camera_->controls().end()) {
+      const auto duration_us = static_cast<std::int64_t>(1e6 / *requested.rate_hz);
       const std::int64_t limits[2] = {duration_us, duration_us};
       controls.set(libcamera::controls::FrameDurationLimits,
                    libcamera::Span<const std::int64_t, 2>(limits));
-      agreement_.rate_hz = wish.rate_hz;
+      negotiated_.rate_hz = requested.rate_hz;
     }
-    agreement_.words = Differences(wish, agreement_);
+    negotiated_.details = Differences(requested, negotiated_);
     RememberControls();
     camera_->requestCompleted.connect(this, &LibcameraDevice::OnCompleted);
     if (const int failed = camera_->start(&controls); failed != 0) {
@@ -160,7 +160,7 @@ class LibcameraDevice final : public CameraDevice {
     return {};
   }
 
-  WaitOutcome Wait(milliseconds limit, CapturedPicture* picture) override {
+  WaitOutcome Wait(milliseconds limit, CapturedImage* image) override {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (true) {
       libcamera::Request* request = nullptr;
@@ -176,11 +176,11 @@ class LibcameraDevice final : public CameraDevice {
       }
       // The requests of a camera that left never complete: only the kernel's list of devices tells.
       if (request == nullptr) return GoneForATick() ? WaitOutcome::kGone : WaitOutcome::kNothing;
-      const bool taken = Take(*request, picture);
+      const bool taken = Take(*request, image);
       request->reuse(libcamera::Request::ReuseBuffers);
-      ApplyWishes(request);
+      ApplyControlRequests(request);
       camera_->queueRequest(request);  // What fails here is a camera that left: see above.
-      if (taken) return WaitOutcome::kPicture;
+      if (taken) return WaitOutcome::kImage;
     }
   }
 
@@ -190,8 +190,8 @@ class LibcameraDevice final : public CameraDevice {
     changed_.notify_all();
   }
 
-  std::string Words() const override { return "the camera is gone"; }
-  const PictureAgreement& agreement() const override { return agreement_; }
+  std::string StatusMessage() const override { return "the camera is gone"; }
+  const NegotiatedFormat& negotiated() const override { return negotiated_; }
   CameraUri identity() const override { return identity_; }
 
   std::vector<ControlRange> Controls() override {
@@ -206,29 +206,32 @@ class LibcameraDevice final : public CameraDevice {
     return better;
   }
 
-  std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) override {
-    std::vector<ControlAnswer> answers;
-    wishes_ = std::make_unique<libcamera::ControlList>(camera_->controls());
-    for (const ControlWish& wish : wishes) {
+  std::vector<ControlResult> LockControls(
+      const std::vector<ControlRequest>& control_requests) override {
+    std::vector<ControlResult> results;
+    control_requests_ = std::make_unique<libcamera::ControlList>(camera_->controls());
+    for (const ControlRequest& requested : control_requests) {
       // The node first: it reads back, and has white balance and focus, too.
       if (node_) {
-        ControlAnswer answer = HoldV4l2Controls(*node_, {wish}).front();
-        if (answer.value) {
-          answers.push_back(std::move(answer));
+        ControlResult result = LockV4l2Controls(*node_, {requested}).front();
+        if (result.value) {
+          results.push_back(std::move(result));
           continue;
         }
       }
-      const auto& now = wish.control == CameraControl::kExposure ? exposure_s_ : gain_;
-      auto answer = AskLibcamera(camera_->controls(), wish, now, wishes_.get());
-      if (!answer) {
-        answer = ControlAnswer{};
-        answer->control = wish.control;
-        answer->words = "the camera has no control of its " + std::string(NameOf(wish.control));
+      const auto& now = requested.control == CameraControl::kExposure ? exposure_s_ : gain_;
+      auto result =
+          RequestLibcameraControl(camera_->controls(), requested, now, control_requests_.get());
+      if (!result) {
+        result = ControlResult{};
+        result->control = requested.control;
+        result->details =
+            "the camera has no control of its " + std::string(NameOf(requested.control));
       }
-      answers.push_back(*std::move(answer));
+      results.push_back(*std::move(result));
     }
     RememberControls();
-    return answers;
+    return results;
   }
 
  private:
@@ -248,11 +251,11 @@ class LibcameraDevice final : public CameraDevice {
   bool GoneForATick() { return std::exchange(was_gone_, !IsThere()) && was_gone_; }
 
   void Describe(const libcamera::StreamConfiguration& stream) {
-    layout_.format = agreement_.format;
-    layout_.width = agreement_.size.width;
-    layout_.height = agreement_.size.height;
+    layout_.format = negotiated_.format;
+    layout_.width = negotiated_.size.width;
+    layout_.height = negotiated_.size.height;
     layout_.stride = stream.stride;
-    layout_.full_range = agreement_.format == PixelFormat::kGrey8;
+    layout_.full_range = negotiated_.format == PixelFormat::kGrey8;
     if (!stream.colorSpace) return;
     using Space = libcamera::ColorSpace;
     layout_.matrix = stream.colorSpace->ycbcrEncoding == Space::YcbcrEncoding::Rec709
@@ -275,33 +278,33 @@ class LibcameraDevice final : public CameraDevice {
     }
   }
 
-  void ApplyWishes(libcamera::Request* request) {
-    if (!wishes_ || wishes_->empty()) return;
-    request->controls().merge(*wishes_);
-    wishes_.reset();
+  void ApplyControlRequests(libcamera::Request* request) {
+    if (!control_requests_ || control_requests_->empty()) return;
+    request->controls().merge(*control_requests_);
+    control_requests_.reset();
   }
 
-  bool Take(libcamera::Request& request, CapturedPicture* picture) {
+  bool Take(libcamera::Request& request, CapturedImage* image) {
     const libcamera::FrameBuffer* buffer = request.buffers().begin()->second;
     const libcamera::FrameMetadata& facts = buffer->metadata();
     if (facts.status == libcamera::FrameMetadata::FrameCancelled) return false;
-    picture->arrival_ns = SteadyNow_ns();
-    picture->number = facts.sequence;
+    image->arrival_ns = SteadyNow_ns();
+    image->number = facts.sequence;
     const auto sensor = request.metadata().get(libcamera::controls::SensorTimestamp);
     const std::int64_t stamp_ns = sensor.value_or(static_cast<std::int64_t>(facts.timestamp));
-    picture->timestamp_ns = ToSteady_ns(stamp_ns, picture->arrival_ns);
+    image->timestamp_ns = ToSteady_ns(stamp_ns, image->arrival_ns);
     // "The time when the first row of the image sensor active array is exposed" (control_ids.yaml).
-    picture->stamp_meaning = StampMeaning::kExposureStart;
-    picture->device_timestamp_ns = stamp_ns;
+    image->stamp_meaning = StampMeaning::kExposureStart;
+    image->device_timestamp_ns = stamp_ns;
     const auto exposure_us = request.metadata().get(libcamera::controls::ExposureTime);
-    picture->exposure_s = exposure_us ? std::optional(*exposure_us * 1e-6) : exposure_s_;
+    image->exposure_s = exposure_us ? std::optional(*exposure_us * 1e-6) : exposure_s_;
     const auto gain = request.metadata().get(libcamera::controls::AnalogueGain);
-    picture->gain = gain ? std::optional<double>(*gain) : gain_;
+    image->gain = gain ? std::optional<double>(*gain) : gain_;
     const auto kelvins = request.metadata().get(libcamera::controls::ColourTemperature);
-    picture->white_balance_k = kelvins ? std::optional<double>(*kelvins) : white_balance_k_;
-    picture->damaged = facts.status != libcamera::FrameMetadata::FrameSuccess;
-    std::vector<std::uint8_t> bytes = std::move(picture->raw.bytes);
-    picture->raw = layout_;
+    image->white_balance_k = kelvins ? std::optional<double>(*kelvins) : white_balance_k_;
+    image->damaged = facts.status != libcamera::FrameMetadata::FrameSuccess;
+    std::vector<std::uint8_t> bytes = std::move(image->raw.bytes);
+    image->raw = layout_;
     bytes.clear();
     const MappedPlanes& planes = planes_.at(buffer);
     for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -309,7 +312,7 @@ class LibcameraDevice final : public CameraDevice {
       const std::size_t used = std::min<std::size_t>(facts.planes()[i].bytesused, plane.size());
       bytes.insert(bytes.end(), plane.begin(), plane.begin() + static_cast<std::ptrdiff_t>(used));
     }
-    picture->raw.bytes = std::move(bytes);
+    image->raw.bytes = std::move(bytes);
     return true;
   }
 
@@ -324,9 +327,9 @@ class LibcameraDevice final : public CameraDevice {
   std::vector<std::unique_ptr<libcamera::Request>> requests_;
   std::map<const libcamera::FrameBuffer*, MappedPlanes> planes_;
   std::optional<V4l2Node> node_;
-  PictureAgreement agreement_;
-  RawPicture layout_;
-  std::unique_ptr<libcamera::ControlList> wishes_;  ///< For the next request.
+  NegotiatedFormat negotiated_;
+  RawImage layout_;
+  std::unique_ptr<libcamera::ControlList> control_requests_;  ///< For the next request.
   std::optional<double> exposure_s_, gain_, white_balance_k_;
 
   std::mutex mutex_;
@@ -349,13 +352,13 @@ std::shared_ptr<libcamera::Camera> Find(libcamera::CameraManager& manager,
 }  // namespace
 
 Result<std::unique_ptr<CameraDevice>> OpenLibcameraDevice(const CameraUri& uri,
-                                                          const PictureWish& wish) {
+                                                          const FormatRequest& requested) {
   PLEINAIR_ASSIGN_OR_RETURN(auto manager, LibcameraManager());
   auto camera = Find(*manager, uri.value);
   if (!camera) return tl::make_unexpected(NotThere(uri.ToString()));
   auto device = std::make_unique<LibcameraDevice>(std::move(manager), std::move(camera));
-  PLEINAIR_RETURN_IF_ERROR(device->Agree(wish));
-  PLEINAIR_RETURN_IF_ERROR(device->Start(wish));
+  PLEINAIR_RETURN_IF_ERROR(device->Agree(requested));
+  PLEINAIR_RETURN_IF_ERROR(device->Start(requested));
   return std::unique_ptr<CameraDevice>(std::move(device));
 }
 

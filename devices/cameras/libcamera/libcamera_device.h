@@ -12,7 +12,7 @@ namespace pleinair::devices {
 /// Opens a camera by libcamera's name for it, or by its place in libcamera's list ("0"), and starts
 /// its stream. Errors, in words: not there, another program uses it, no format that we read.
 Result<std::unique_ptr<CameraDevice>> OpenLibcameraDevice(const CameraUri& uri,
-                                                          const PictureWish& wish);
+                                                          const FormatRequest& requested);
 
 /// Every camera that libcamera knows. Error: it cannot be started.
 Result<std::vector<CameraDescription>> ListLibcameraCameras();

@@ -30,7 +30,7 @@ std::optional<double> SetRate(const V4l2Node& node, std::optional<double> rate_h
 }
 
 // linux/videodev2.h, V4L2_MAP_YCBCR_ENC_DEFAULT and V4L2_MAP_QUANTIZATION_DEFAULT, in one place.
-void TakeColours(const v4l2_pix_format& format, RawPicture* layout) {
+void ReadColorEncoding(const v4l2_pix_format& format, RawImage* layout) {
   __u32 encoding = format.ycbcr_enc;
   if (encoding == V4L2_YCBCR_ENC_DEFAULT) {
     encoding = V4L2_MAP_YCBCR_ENC_DEFAULT(format.colorspace);
@@ -39,7 +39,7 @@ void TakeColours(const v4l2_pix_format& format, RawPicture* layout) {
   layout->matrix = is_709 ? YuvMatrix::kBt709 : YuvMatrix::kBt601;
   __u32 range = format.quantization;
   if (range == V4L2_QUANTIZATION_DEFAULT) {
-    // Deviation for grey: sensors without colour use all 256 values unless they say otherwise.
+    // Deviation for grey: sensors without color use all 256 values unless they say otherwise.
     range = V4L2_MAP_QUANTIZATION_DEFAULT(false, format.colorspace, encoding);
     if (layout->format == PixelFormat::kGrey8) range = V4L2_QUANTIZATION_FULL_RANGE;
   }
@@ -48,9 +48,10 @@ void TakeColours(const v4l2_pix_format& format, RawPicture* layout) {
 
 }  // namespace
 
-Result<V4l2Agreement> AgreeOnPictures(const V4l2Node& node, const PictureWish& wish) {
+Result<V4l2NegotiatedFormat> AgreeOnPictures(const V4l2Node& node, const FormatRequest& requested) {
   const std::vector<FormatDescription> formats = node.Formats();
-  PLEINAIR_ASSIGN_OR_RETURN(const PictureChoice choice, ChoosePictures(formats, wish, node.path()));
+  PLEINAIR_ASSIGN_OR_RETURN(const FormatChoice choice,
+                            ChooseFormat(formats, requested, node.path()));
   v4l2_format format{};
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   int result = node.Control(VIDIOC_G_FMT, &format);
@@ -72,7 +73,7 @@ Result<V4l2Agreement> AgreeOnPictures(const V4l2Node& node, const PictureWish& w
   pixels.field = V4L2_FIELD_NONE;
   pixels.bytesperline = 0;
   pixels.sizeimage = 0;
-  // Drivers are to choose the colours by themselves: what we would write is what was set before.
+  // Drivers are to choose the colors by themselves: what we would write is what was set before.
   pixels.colorspace = V4L2_COLORSPACE_DEFAULT;
   pixels.priv = 0;
   result = node.Control(VIDIOC_S_FMT, &format);
@@ -89,18 +90,18 @@ Result<V4l2Agreement> AgreeOnPictures(const V4l2Node& node, const PictureWish& w
     return InputError(node.path(), "sends interlaced pictures, whose halves show two moments",
                       "choose another input or size of the camera");
   }
-  V4l2Agreement agreement;
-  agreement.layout.format = *got;
-  agreement.layout.width = static_cast<int>(pixels.width);
-  agreement.layout.height = static_cast<int>(pixels.height);
-  agreement.layout.stride =
-      std::max<std::size_t>(pixels.bytesperline, TightStride(*got, agreement.layout.width));
-  TakeColours(pixels, &agreement.layout);
-  agreement.said.format = *got;
-  agreement.said.size = {agreement.layout.width, agreement.layout.height};
-  agreement.said.rate_hz = SetRate(node, choice.rate_hz);
-  agreement.said.words = Differences(wish, agreement.said);
-  return agreement;
+  V4l2NegotiatedFormat negotiated;
+  negotiated.layout.format = *got;
+  negotiated.layout.width = static_cast<int>(pixels.width);
+  negotiated.layout.height = static_cast<int>(pixels.height);
+  negotiated.layout.stride =
+      std::max<std::size_t>(pixels.bytesperline, TightStride(*got, negotiated.layout.width));
+  ReadColorEncoding(pixels, &negotiated.layout);
+  negotiated.reported.format = *got;
+  negotiated.reported.size = {negotiated.layout.width, negotiated.layout.height};
+  negotiated.reported.rate_hz = SetRate(node, choice.rate_hz);
+  negotiated.reported.details = Differences(requested, negotiated.reported);
+  return negotiated;
 }
 
 }  // namespace pleinair::devices

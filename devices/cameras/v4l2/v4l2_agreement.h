@@ -8,12 +8,12 @@
 
 namespace pleinair::devices {
 
-struct V4l2Agreement {
-  PictureAgreement said;  ///< What was agreed, and each difference from the wish.
-  RawPicture layout;      ///< The same as a picture without bytes.
+struct V4l2NegotiatedFormat {
+  NegotiatedFormat reported;  ///< What was agreed, and each difference from the wish.
+  RawImage layout;            ///< The same as an image without bytes.
 };
 
 /// Sets format, size and rate as near to the wish as the device goes and reads back what it took.
-Result<V4l2Agreement> AgreeOnPictures(const V4l2Node& node, const PictureWish& wish);
+Result<V4l2NegotiatedFormat> AgreeOnPictures(const V4l2Node& node, const FormatRequest& requested);
 
 }  // namespace pleinair::devices

@@ -63,15 +63,15 @@ int ValueForManual(const Mapping& mapping) {
   return mapping.control == CameraControl::kExposure ? V4L2_EXPOSURE_MANUAL : 0;
 }
 
-ControlAnswer Fulfil(const V4l2Node& node, const ControlWish& wish) {
-  const Mapping& mapping = MappingOf(wish.control);
-  const std::string name(NameOf(wish.control));
-  ControlAnswer answer;
-  answer.control = wish.control;
+ControlResult Fulfil(const V4l2Node& node, const ControlRequest& requested) {
+  const Mapping& mapping = MappingOf(requested.control);
+  const std::string name(NameOf(requested.control));
+  ControlResult result;
+  result.control = requested.control;
   v4l2_queryctrl range{}, automatic{};
   if (!Query(node, mapping.value_id, &range)) {
-    answer.words = "the camera has no control of its " + name;
-    return answer;
+    result.details = "the camera has no control of its " + name;
+    return result;
   }
   // Read before the automatism goes off: what it had found is what is to be held.
   const std::optional<int> found = Get(node, mapping.value_id);
@@ -79,33 +79,33 @@ ControlAnswer Fulfil(const V4l2Node& node, const ControlWish& wish) {
   if (Query(node, mapping.auto_id, &automatic)) {
     const int failed = Set(node, mapping.auto_id, ValueForManual(mapping));
     if (failed < 0) {
-      answer.words = V4l2Error(node.path(), name + " cannot be held", -failed).Message();
+      result.details = V4l2Error(node.path(), name + " cannot be held", -failed).Message();
     }
     const std::optional<int> now = Get(node, mapping.auto_id);
     is_auto = now && MeansAuto(mapping, *now);
   }
   std::optional<int> wanted = found;
-  if (wish.value) {
-    const double steps = std::round(*wish.value / mapping.unit);
+  if (requested.value) {
+    const double steps = std::round(*requested.value / mapping.unit);
     wanted = static_cast<int>(
         std::clamp(steps, static_cast<double>(range.minimum), static_cast<double>(range.maximum)));
     if (*wanted != steps) {
-      answer.words = name + " goes from " + std::to_string(range.minimum * mapping.unit) + " to " +
-                     std::to_string(range.maximum * mapping.unit);
+      result.details = name + " goes from " + std::to_string(range.minimum * mapping.unit) +
+                       " to " + std::to_string(range.maximum * mapping.unit);
     }
   }
   if (wanted && !is_auto) {
     const int failed = Set(node, mapping.value_id, *wanted);
     if (failed < 0) {
-      answer.words = V4l2Error(node.path(), name + " cannot be set", -failed).Message();
+      result.details = V4l2Error(node.path(), name + " cannot be set", -failed).Message();
     }
   }
   if (const std::optional<int> now = Get(node, mapping.value_id)) {
-    answer.value = *now * mapping.unit;
+    result.value = *now * mapping.unit;
   }
-  answer.held = !is_auto;
-  if (is_auto && answer.words.empty()) answer.words = name + " goes on changing by itself";
-  return answer;
+  result.locked = !is_auto;
+  if (is_auto && result.details.empty()) result.details = name + " goes on changing by itself";
+  return result;
 }
 
 }  // namespace
@@ -128,12 +128,13 @@ std::vector<ControlRange> V4l2Controls(const V4l2Node& node) {
   return controls;
 }
 
-std::vector<ControlAnswer> HoldV4l2Controls(const V4l2Node& node,
-                                            const std::vector<ControlWish>& wishes) {
-  std::vector<ControlAnswer> answers;
-  answers.reserve(wishes.size());
-  for (const ControlWish& wish : wishes) answers.push_back(Fulfil(node, wish));
-  return answers;
+std::vector<ControlResult> LockV4l2Controls(const V4l2Node& node,
+                                            const std::vector<ControlRequest>& control_requests) {
+  std::vector<ControlResult> results;
+  results.reserve(control_requests.size());
+  for (const ControlRequest& requested : control_requests)
+    results.push_back(Fulfil(node, requested));
+  return results;
 }
 
 }  // namespace pleinair::devices

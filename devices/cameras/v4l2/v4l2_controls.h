@@ -14,7 +14,7 @@ std::vector<ControlRange> V4l2Controls(const V4l2Node& node);
 
 /// Fulfils wishes one by one: the automatism off first (drivers refuse the value before), then the
 /// value, then reads back.
-std::vector<ControlAnswer> HoldV4l2Controls(const V4l2Node& node,
-                                            const std::vector<ControlWish>& wishes);
+std::vector<ControlResult> LockV4l2Controls(const V4l2Node& node,
+                                            const std::vector<ControlRequest>& control_requests);
 
 }  // namespace pleinair::devices

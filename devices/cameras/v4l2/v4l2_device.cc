@@ -22,9 +22,9 @@ constexpr __u32 kBuffers = 4;
 
 class V4l2Device : public CameraDevice {
  public:
-  V4l2Device(V4l2Node node, V4l2Agreement agreement, CameraUri identity)
+  V4l2Device(V4l2Node node, V4l2NegotiatedFormat negotiated, CameraUri identity)
       : node_(std::move(node)),
-        agreement_(std::move(agreement)),
+        negotiated_(std::move(negotiated)),
         identity_(std::move(identity)),
         wake_fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
 
@@ -59,11 +59,11 @@ class V4l2Device : public CameraDevice {
     result = node_.Control(VIDIOC_STREAMON, &type);
     if (result < 0) return fail("cannot start the stream", result);
     streaming_ = true;
-    RememberHeldControls();
+    RememberLockedControls();
     return {};
   }
 
-  WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) override {
+  WaitOutcome Wait(std::chrono::milliseconds limit, CapturedImage* image) override {
     const int events = node_.io().Poll(node_.fd(), wake_fd_, static_cast<int>(limit.count()));
     if (events == 0) return WaitOutcome::kNothing;
     if (events < 0) return Gone(-events);
@@ -75,10 +75,10 @@ class V4l2Device : public CameraDevice {
     }
     if (result < 0) return Gone(result == -EAGAIN ? ENODEV : -result);
     if (buffer.index >= buffers_.size()) return Gone(EIO);
-    Take(buffer, picture);
+    Take(buffer, image);
     const int queued = node_.Control(VIDIOC_QBUF, &buffer);
     if (queued < 0) return Gone(-queued);
-    return WaitOutcome::kPicture;
+    return WaitOutcome::kImage;
   }
 
   void Wake() override {
@@ -87,15 +87,16 @@ class V4l2Device : public CameraDevice {
     if (write(wake_fd_, &one, sizeof one) < 0) return;
   }
 
-  std::string Words() const override { return words_; }
-  const PictureAgreement& agreement() const override { return agreement_.said; }
+  std::string StatusMessage() const override { return status_message_; }
+  const NegotiatedFormat& negotiated() const override { return negotiated_.reported; }
   CameraUri identity() const override { return identity_; }
   std::vector<ControlRange> Controls() override { return V4l2Controls(node_); }
 
-  std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) override {
-    auto answers = HoldV4l2Controls(node_, wishes);
-    RememberHeldControls();
-    return answers;
+  std::vector<ControlResult> LockControls(
+      const std::vector<ControlRequest>& control_requests) override {
+    auto results = LockV4l2Controls(node_, control_requests);
+    RememberLockedControls();
+    return results;
   }
 
  private:
@@ -113,27 +114,27 @@ class V4l2Device : public CameraDevice {
   }
 
   WaitOutcome Gone(int error_number) {
-    words_ = V4l2Error(node_.path(), "the stream ended", error_number).what;
+    status_message_ = V4l2Error(node_.path(), "the stream ended", error_number).what;
     return WaitOutcome::kGone;
   }
 
   // Only what is held is known for every frame; asking for what changes by itself costs a USB
   // transfer each time.
-  void RememberHeldControls() {
-    held_ = {};
+  void RememberLockedControls() {
+    locked_ = {};
     bool exposure_is_auto = false;
     for (const ControlRange& range : Controls()) {
       if (range.control == CameraControl::kExposure) exposure_is_auto = range.is_auto;
       if (range.is_auto) continue;
-      if (range.control == CameraControl::kExposure) held_.exposure_s = range.value;
+      if (range.control == CameraControl::kExposure) locked_.exposure_s = range.value;
       // USB cameras have no switch for it of its own: it may follow the exposure.
-      if (range.control == CameraControl::kGain && !exposure_is_auto) held_.gain = range.value;
-      if (range.control == CameraControl::kWhiteBalance) held_.white_balance_k = range.value;
+      if (range.control == CameraControl::kGain && !exposure_is_auto) locked_.gain = range.value;
+      if (range.control == CameraControl::kWhiteBalance) locked_.white_balance_k = range.value;
     }
   }
 
-  void Take(const v4l2_buffer& buffer, CapturedPicture* picture) {
-    picture->arrival_ns = SteadyNow_ns();
+  void Take(const v4l2_buffer& buffer, CapturedImage* image) {
+    image->arrival_ns = SteadyNow_ns();
     // The driver's number has 32 bits.
     if (last_number_ >= 0) {
       last_number_ += static_cast<std::int32_t>(buffer.sequence -
@@ -141,7 +142,7 @@ class V4l2Device : public CameraDevice {
     } else {
       last_number_ = buffer.sequence;
     }
-    picture->number = last_number_;
+    image->number = last_number_;
     const std::int64_t stamp_ns =
         buffer.timestamp.tv_sec * std::int64_t{1'000'000'000} + buffer.timestamp.tv_usec * 1000L;
     // CLOCK_MONOTONIC is what std::chrono::steady_clock reads on Linux; any other clock is not.
@@ -149,44 +150,44 @@ class V4l2Device : public CameraDevice {
         (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     const bool start =
         (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
-    picture->timestamp_ns = steady ? stamp_ns : picture->arrival_ns;
-    picture->stamp_meaning = !steady ? StampMeaning::kArrival
-                             : start ? StampMeaning::kExposureStart
-                                     : StampMeaning::kExposureEnd;
-    picture->device_timestamp_ns = stamp_ns;
-    picture->exposure_s = held_.exposure_s;
-    picture->gain = held_.gain;
-    picture->white_balance_k = held_.white_balance_k;
-    picture->damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
+    image->timestamp_ns = steady ? stamp_ns : image->arrival_ns;
+    image->stamp_meaning = !steady ? StampMeaning::kArrival
+                           : start ? StampMeaning::kExposureStart
+                                   : StampMeaning::kExposureEnd;
+    image->device_timestamp_ns = stamp_ns;
+    image->exposure_s = locked_.exposure_s;
+    image->gain = locked_.gain;
+    image->white_balance_k = locked_.white_balance_k;
+    image->damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
     const Buffer& from = buffers_[buffer.index];
     const std::size_t used = std::min<std::size_t>(buffer.bytesused, from.length);
-    std::vector<std::uint8_t> bytes = std::move(picture->raw.bytes);
+    std::vector<std::uint8_t> bytes = std::move(image->raw.bytes);
     bytes.assign(from.address, from.address + used);
-    picture->raw = agreement_.layout;
-    picture->raw.bytes = std::move(bytes);
+    image->raw = negotiated_.layout;
+    image->raw.bytes = std::move(bytes);
   }
 
   V4l2Node node_;
-  V4l2Agreement agreement_;
+  V4l2NegotiatedFormat negotiated_;
   CameraUri identity_;
   int wake_fd_;
   std::vector<Buffer> buffers_;
   bool streaming_ = false;
   std::int64_t last_number_ = -1;
-  CapturedPicture held_;
-  std::string words_;
+  CapturedImage locked_;
+  std::string status_message_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<CameraDevice>> OpenV4l2Device(const std::shared_ptr<V4l2Io>& io,
                                                      const CameraUri& uri,
-                                                     const PictureWish& wish) {
+                                                     const FormatRequest& requested) {
   PLEINAIR_ASSIGN_OR_RETURN(const V4l2Io::Node found, FindV4l2Node(io, uri));
   PLEINAIR_ASSIGN_OR_RETURN(V4l2Node node, V4l2Node::Open(io, found.path));
-  PLEINAIR_ASSIGN_OR_RETURN(V4l2Agreement agreement, AgreeOnPictures(node, wish));
+  PLEINAIR_ASSIGN_OR_RETURN(V4l2NegotiatedFormat negotiated, AgreeOnPictures(node, requested));
   CameraUri identity = V4l2Identity(io, node);
-  auto device = std::make_unique<V4l2Device>(std::move(node), std::move(agreement), identity);
+  auto device = std::make_unique<V4l2Device>(std::move(node), std::move(negotiated), identity);
   PLEINAIR_RETURN_IF_ERROR(device->Start());
   return std::unique_ptr<CameraDevice>(std::move(device));
 }

@@ -13,6 +13,7 @@ namespace pleinair::devices {
 /// Errors, in words: not there, no permission, busy, too little bandwidth, no format that we read,
 /// a format that the camera does not have.
 Result<std::unique_ptr<CameraDevice>> OpenV4l2Device(const std::shared_ptr<V4l2Io>& io,
-                                                     const CameraUri& uri, const PictureWish& wish);
+                                                     const CameraUri& uri,
+                                                     const FormatRequest& requested);
 
 }  // namespace pleinair::devices

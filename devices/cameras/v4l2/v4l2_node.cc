@@ -22,7 +22,7 @@ std::string Text(const __u8 (&bytes)[N]) {
 // Against drivers that never end an enumeration.
 constexpr __u32 kMaxEntries = 256;
 
-std::vector<double> RatesOf(const V4l2Node& node, __u32 four_cc, PictureSize size) {
+std::vector<double> RatesOf(const V4l2Node& node, __u32 four_cc, ImageSize size) {
   std::vector<double> rates;
   for (__u32 i = 0; i < kMaxEntries; ++i) {
     v4l2_frmivalenum interval{};
@@ -48,7 +48,7 @@ std::vector<double> RatesOf(const V4l2Node& node, __u32 four_cc, PictureSize siz
 std::vector<FormatDescription::Size> SizesOf(const V4l2Node& node, __u32 four_cc) {
   std::vector<FormatDescription::Size> sizes;
   const auto add = [&](__u32 width, __u32 height) {
-    const PictureSize size{static_cast<int>(width), static_cast<int>(height)};
+    const ImageSize size{static_cast<int>(width), static_cast<int>(height)};
     sizes.push_back({size, RatesOf(node, four_cc, size)});
   };
   for (__u32 i = 0; i < kMaxEntries; ++i) {

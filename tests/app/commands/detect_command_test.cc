@@ -1,4 +1,4 @@
-// What `pleinair detect` prints about a rendered picture, field by field.
+// What `pleinair detect` prints about a rendered image, field by field.
 #include "app/commands/detect_command.h"
 
 #include <gmock/gmock.h>
@@ -42,18 +42,17 @@ class DetectCommand : public testing::Test {
 
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  void AddPicture(const std::string& name, const std::vector<RenderedMarker>& markers) {
-    GreyImage picture = tracker::RenderMarkers(kCamera, markers, {});
+  void AddImage(const std::string& name, const std::vector<RenderedMarker>& markers) {
+    GreyImage image = tracker::RenderMarkers(kCamera, markers, {});
     const std::string path = (folder_ / name).string();
-    ASSERT_TRUE(
-        cv::imwrite(path, cv::Mat(picture.height(), picture.width(), CV_8U, picture.data())));
+    ASSERT_TRUE(cv::imwrite(path, cv::Mat(image.height(), image.width(), CV_8U, image.data())));
     arguments_.pictures.push_back(path);
   }
 
   static RenderedMarker Marker() {
     RenderedMarker marker;
     marker.pattern = tracker::AprilTagPattern("tag36h11", 17);
-    marker.camera_from_marker = tracker::PoseSeenAt(
+    marker.camera_from_marker = tracker::PoseAtPixel(
         kCamera, {150, 120}, 90, marker.size, FromDegrees(35), FromDegrees(60), FromDegrees(20));
     return marker;
   }
@@ -64,8 +63,8 @@ class DetectCommand : public testing::Test {
 
 TEST_F(DetectCommand, PrintsEveryFieldOfTheContractOneLineAPicture) {
   const RenderedMarker marker = Marker();
-  AddPicture("tag.png", {marker});
-  AddPicture("empty.png", {});
+  AddImage("tag.png", {marker});
+  AddImage("empty.png", {});
   std::ostringstream out;
   const Result<void> result = RunDetect(arguments_, out);
   ASSERT_TRUE(result.has_value()) << result.error().Message();
@@ -126,7 +125,7 @@ TEST_F(DetectCommand, PrintsEveryFieldOfTheContractOneLineAPicture) {
 }
 
 TEST_F(DetectCommand, WritesNothingWhenALaterPictureIsMissing) {
-  AddPicture("tag.png", {Marker()});
+  AddImage("tag.png", {Marker()});
   arguments_.pictures.push_back((folder_ / "missing.png").string());
   std::ostringstream out;
   const Result<void> result = RunDetect(arguments_, out);
@@ -136,7 +135,7 @@ TEST_F(DetectCommand, WritesNothingWhenALaterPictureIsMissing) {
 }
 
 TEST_F(DetectCommand, NamesTheFamilyItDoesNotKnow) {
-  AddPicture("tag.png", {});
+  AddImage("tag.png", {});
   arguments_.families = {"qr"};
   std::ostringstream out;
   const Result<void> result = RunDetect(arguments_, out);

@@ -6,14 +6,14 @@
 namespace pleinair::app {
 namespace {
 
-TEST(PictureSize, IsTwoNumbersWithACross) {
+TEST(ImageSize, IsTwoNumbersWithACross) {
   const auto size = ParsePictureSize("--size", "1280x720");
   ASSERT_TRUE(size);
   EXPECT_EQ(size->width, 1280);
   EXPECT_EQ(size->height, 720);
 }
 
-TEST(PictureSize, RefusesAnythingElse) {
+TEST(ImageSize, RefusesAnythingElse) {
   for (const char* text : {"", "x", "1280", "1280x", "x720", "1280x720x3", "-64x64", "0x0", "15x15",
                            "99999999999x20", "1280 x 720", "20000x16"}) {
     EXPECT_FALSE(ParsePictureSize("--size", text)) << text;

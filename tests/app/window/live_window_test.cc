@@ -64,8 +64,8 @@ TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
                         "/dev/video0"};
   camera_options.stall_limit = std::chrono::hours(1);  // Where the test itself is held up.
   auto opened = devices::LiveCamera::OpenWith(
-      camera_options, [&](const devices::CameraUri& uri, const devices::PictureWish& wish) {
-        return fake.Open(uri, wish);
+      camera_options, [&](const devices::CameraUri& uri, const devices::FormatRequest& requested) {
+        return fake.Open(uri, requested);
       });
   ASSERT_TRUE(opened);
   devices::LiveCamera* camera = opened->get();

@@ -265,8 +265,8 @@ TEST(TriangleLayout, GivesEachTriangleAndVertexTexelsOfItsOwn) {
 }
 
 TEST(TriangleLayout, TellsTheSamplesThatShowATriangle) {
-  constexpr unsigned kLargest = (1U << glsl::kSamplesShift) - 1U;
-  for (const unsigned id : {1U, 70000U, kLargest}) {
+  constexpr unsigned kMax = (1U << glsl::kSamplesShift) - 1U;
+  for (const unsigned id : {1U, 70000U, kMax}) {
     // The first sample brings the number, others of the same sheet their bits alone.
     const unsigned seen =
         glsl::SeenTriangle(id, {0, 0, 1, 0}) + glsl::SeenTriangle(0U, {1, 0, 0, 1});
@@ -274,7 +274,7 @@ TEST(TriangleLayout, TellsTheSamplesThatShowATriangle) {
     EXPECT_EQ(glsl::SamplesOf(seen), glm::vec4(1.0F, 0.0F, 1.0F, 1.0F));
   }
   // No number of a triangle reaches into the bit that tells an object's from a real surface's.
-  EXPECT_LT(kLargest, glsl::kObjectBit);
+  EXPECT_LT(kMax, glsl::kObjectBit);
 }
 
 /// Level ground 1.5 m below the eye, 10 m to 20 km ahead; rays of a camera with f = 500 that looks

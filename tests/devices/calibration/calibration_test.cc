@@ -196,7 +196,7 @@ TEST(Calibration, FocalLengthThatIsZeroNegativeOrNanIsRefused) {
   EXPECT_THAT(Refusal(tests::Replaced(kKalibr, "585.0", "0")), HasSubstr("focal length"));
 }
 
-TEST(Calibration, PictureSizeMustBeOfThisWorld) {
+TEST(Calibration, ImageSizeMustBeOfThisWorld) {
   for (const char* width : {"0", "-640", "100001", "640.5", "1e12"}) {
     EXPECT_FALSE(ParseCalibration(tests::Replaced(kOwn, "640", width), "own")) << width;
     EXPECT_FALSE(

@@ -30,23 +30,23 @@ class FakeCamera {
       pictures_.clear();
     });
   }
-  /// A grey picture whose every pixel is `level`, with this number and stamp.
+  /// A grey image whose every pixel is `level`, with this number and stamp.
   void Send(std::int64_t number, std::uint8_t level, bool damaged = false) {
     SendAt(number, number * kPeriod_ns, level, damaged);
   }
   void SendAt(std::int64_t number, std::int64_t stamp_ns, std::uint8_t level, bool damaged) {
-    CapturedPicture picture;
-    picture.raw.format = PixelFormat::kGrey8;
-    picture.raw.width = size_.width;
-    picture.raw.height = size_.height;
-    picture.raw.stride = size_.width;
-    picture.raw.full_range = true;
-    picture.raw.bytes.assign(static_cast<std::size_t>(size_.width) * size_.height, level);
-    picture.number = number;
-    picture.timestamp_ns = stamp_ns;
-    picture.stamp_meaning = StampMeaning::kExposureStart;
-    picture.damaged = damaged;
-    Change([&] { pictures_.push_back(std::move(picture)); });
+    CapturedImage image;
+    image.raw.format = PixelFormat::kGrey8;
+    image.raw.width = size_.width;
+    image.raw.height = size_.height;
+    image.raw.stride = size_.width;
+    image.raw.full_range = true;
+    image.raw.bytes.assign(static_cast<std::size_t>(size_.width) * size_.height, level);
+    image.number = number;
+    image.timestamp_ns = stamp_ns;
+    image.stamp_meaning = StampMeaning::kExposureStart;
+    image.damaged = damaged;
+    Change([&] { pictures_.push_back(std::move(image)); });
   }
   /// Waits until everything that was sent has been taken from the "driver".
   void WaitUntilEmpty() {
@@ -54,31 +54,31 @@ class FakeCamera {
     changed_.wait(lock, [this] { return pictures_.empty() && waiting_; });
   }
   int opened() const { return opened_; }
-  std::vector<ControlWish> held() {
+  std::vector<ControlRequest> locked() {
     const std::lock_guard lock(mutex_);
-    return held_;
+    return locked_;
   }
 
-  Result<std::unique_ptr<CameraDevice>> Open(const CameraUri& uri, const PictureWish&) {
+  Result<std::unique_ptr<CameraDevice>> Open(const CameraUri& uri, const FormatRequest&) {
     const std::lock_guard lock(mutex_);
     if (!plugged_) return InputError(uri.ToString(), "there is no such camera", "plug it in");
     ++opened_;
-    asked_for_ = uri.ToString();
+    requested_uri_ = uri.ToString();
     return std::unique_ptr<CameraDevice>(new Device(this));
   }
-  std::string asked_for() {
+  std::string requested_uri() {
     const std::lock_guard lock(mutex_);
-    return asked_for_;
+    return requested_uri_;
   }
 
  private:
   class Device : public CameraDevice {
    public:
     explicit Device(FakeCamera* camera) : camera_(camera), unplugged_(camera->unplugged_) {
-      agreement_.format = PixelFormat::kGrey8;
-      agreement_.size = camera->size_;
+      negotiated_.format = PixelFormat::kGrey8;
+      negotiated_.size = camera->size_;
     }
-    WaitOutcome Wait(std::chrono::milliseconds limit, CapturedPicture* picture) override {
+    WaitOutcome Wait(std::chrono::milliseconds limit, CapturedImage* image) override {
       std::unique_lock lock(camera_->mutex_);
       camera_->waiting_ = true;
       camera_->changed_.notify_all();
@@ -88,27 +88,28 @@ class FakeCamera {
       woken_ = false;
       if (IsGone()) return WaitOutcome::kGone;
       if (camera_->pictures_.empty()) return WaitOutcome::kNothing;
-      *picture = std::move(camera_->pictures_.front());
+      *image = std::move(camera_->pictures_.front());
       camera_->pictures_.pop_front();
-      return WaitOutcome::kPicture;
+      return WaitOutcome::kImage;
     }
     void Wake() override {
       camera_->Change([this] { woken_ = true; });
     }
-    std::string Words() const override { return "the stream ended"; }
-    const PictureAgreement& agreement() const override { return agreement_; }
+    std::string StatusMessage() const override { return "the stream ended"; }
+    const NegotiatedFormat& negotiated() const override { return negotiated_; }
     CameraUri identity() const override {
       return {CameraUri::Backend::kV4l2, CameraUri::Key::kSerial, "0001"};
     }
     std::vector<ControlRange> Controls() override { return {}; }
-    std::vector<ControlAnswer> Hold(const std::vector<ControlWish>& wishes) override {
+    std::vector<ControlResult> LockControls(
+        const std::vector<ControlRequest>& control_requests) override {
       const std::lock_guard lock(camera_->mutex_);
-      camera_->held_ = wishes;
-      std::vector<ControlAnswer> answers;
-      answers.reserve(wishes.size());
-      for (const ControlWish& wish : wishes)
-        answers.push_back({wish.control, wish.value, true, ""});
-      return answers;
+      camera_->locked_ = control_requests;
+      std::vector<ControlResult> results;
+      results.reserve(control_requests.size());
+      for (const ControlRequest& requested : control_requests)
+        results.push_back({requested.control, requested.value, true, ""});
+      return results;
     }
 
    private:
@@ -116,7 +117,7 @@ class FakeCamera {
 
     FakeCamera* camera_;
     const int unplugged_;
-    PictureAgreement agreement_;
+    NegotiatedFormat negotiated_;
     bool woken_ = false;
   };
 
@@ -127,16 +128,16 @@ class FakeCamera {
     changed_.notify_all();
   }
 
-  const PictureSize size_;
+  const ImageSize size_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool plugged_ = true;
   int unplugged_ = 0;  // How often.
   bool waiting_ = false;
-  std::deque<CapturedPicture> pictures_;
+  std::deque<CapturedImage> pictures_;
   std::atomic<int> opened_{0};
-  std::vector<ControlWish> held_;
-  std::string asked_for_;
+  std::vector<ControlRequest> locked_;
+  std::string requested_uri_;
 };
 
 }  // namespace pleinair::devices

@@ -18,14 +18,15 @@ using Kind = CameraEvent::Kind;
 constexpr milliseconds kLong{20000};  // Only ever waited out by a failing test.
 
 std::unique_ptr<LiveCamera> Open(FakeCamera* camera, milliseconds stall_limit = milliseconds(1500),
-                                 std::vector<ControlWish> controls = {}) {
+                                 std::vector<ControlRequest> controls = {}) {
   LiveCameraOptions options;
   options.uri = {CameraUri::Backend::kV4l2, CameraUri::Key::kNode, "/dev/video0"};
   options.stall_limit = stall_limit;
   options.controls = std::move(controls);
-  auto opened = LiveCamera::OpenWith(
-      options,
-      [camera](const CameraUri& uri, const PictureWish& wish) { return camera->Open(uri, wish); });
+  auto opened =
+      LiveCamera::OpenWith(options, [camera](const CameraUri& uri, const FormatRequest& requested) {
+        return camera->Open(uri, requested);
+      });
   return opened ? *std::move(opened) : nullptr;
 }
 
@@ -94,12 +95,12 @@ TEST(LiveCamera, ComesBackByIdentityAfterAnUnplugAndHoldsItsControlsAgain) {
   const auto camera = Open(&fake, milliseconds(1500), {{CameraControl::kExposure, 0.01}});
   fake.Send(0, 50);
   ASSERT_TRUE(camera->NextWithin(kLong));
-  EXPECT_EQ(fake.asked_for(), "v4l2:/dev/video0");
+  EXPECT_EQ(fake.requested_uri(), "v4l2:/dev/video0");
   fake.Unplug();
   KindsUntil(camera.get(), Kind::kWaiting);
   fake.Plug();
   KindsUntil(camera.get(), Kind::kConnected);
-  EXPECT_EQ(fake.asked_for(), "v4l2:serial=0001");
+  EXPECT_EQ(fake.requested_uri(), "v4l2:serial=0001");
   fake.Send(0, 60);
   const auto frame = camera->NextWithin(kLong);
   ASSERT_TRUE(frame);
@@ -107,9 +108,9 @@ TEST(LiveCamera, ComesBackByIdentityAfterAnUnplugAndHoldsItsControlsAgain) {
   EXPECT_EQ(frame->lost_before, 0) << "what was not made cannot be lost";
   EXPECT_EQ(frame->index, 1) << "frames go on counting";
   EXPECT_EQ(camera->counts().connections, 2);
-  EXPECT_EQ(fake.held().size(), 1U);
-  ASSERT_EQ(camera->Answers().size(), 1U);
-  EXPECT_TRUE(camera->Answers()[0].held);
+  EXPECT_EQ(fake.locked().size(), 1U);
+  ASSERT_EQ(camera->ControlResults().size(), 1U);
+  EXPECT_TRUE(camera->ControlResults()[0].locked);
 }
 
 TEST(LiveCamera, NoticesASilentCameraOpensItAnewAndSaysWhenItRecovers) {
@@ -144,8 +145,10 @@ TEST(LiveCamera, FailsAtOnceWhereItIsNotToWait) {
   fake.Unplug();
   LiveCameraOptions options;
   options.wait_for_camera = false;
-  const auto opened = LiveCamera::OpenWith(
-      options, [&](const CameraUri& uri, const PictureWish& wish) { return fake.Open(uri, wish); });
+  const auto opened =
+      LiveCamera::OpenWith(options, [&](const CameraUri& uri, const FormatRequest& requested) {
+        return fake.Open(uri, requested);
+      });
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().what, "there is no such camera");
 }

@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string Refusal(std::string_view bytes) {
-  return tests::MessageOf(InspectPicture(bytes, "picture"));
+  return tests::MessageOf(InspectImage(bytes, "picture"));
 }
 
 // A PNG header that promises width × height pixels, and nothing after it but its end.
@@ -34,76 +34,74 @@ std::string PngOfSize(std::uint32_t width, std::uint32_t height) {
   return bytes;
 }
 
-TEST(PictureFile, SizeComesFromTheHeader) {
-  EXPECT_EQ(*InspectPictureFile(tests::Courtyard() / "frames" / "0000.jpg"),
-            (PictureSize{640, 480}));
-  EXPECT_EQ(*InspectPictureFile(tests::Courtyard() / "key" / "0036_truth.png"),
-            (PictureSize{640, 480}));
-  EXPECT_EQ(*InspectPicture(PngOfSize(16384, 1), "p"), (PictureSize{16384, 1}));
+TEST(ImageFile, SizeComesFromTheHeader) {
+  EXPECT_EQ(*InspectImageFile(tests::Courtyard() / "frames" / "0000.jpg"), (ImageSize{640, 480}));
+  EXPECT_EQ(*InspectImageFile(tests::Courtyard() / "key" / "0036_truth.png"),
+            (ImageSize{640, 480}));
+  EXPECT_EQ(*InspectImage(PngOfSize(16384, 1), "p"), (ImageSize{16384, 1}));
 }
 
-TEST(PictureFile, PictureCutShortAnywhereIsRefused) {
+TEST(ImageFile, PictureCutShortAnywhereIsRefused) {
   for (const char* name : {"frames/0000.jpg", "key/0036_objmask.png"}) {
     const std::string whole = tests::Content(tests::Courtyard() / name);
-    ASSERT_TRUE(InspectPicture(whole, name));
+    ASSERT_TRUE(InspectImage(whole, name));
     for (std::size_t length = 1; length < whole.size(); length += whole.size() / 97 + 1) {
-      EXPECT_FALSE(InspectPicture(whole.substr(0, length), name)) << name << " at " << length;
+      EXPECT_FALSE(InspectImage(whole.substr(0, length), name)) << name << " at " << length;
     }
     EXPECT_THAT(Refusal(whole.substr(0, whole.size() - 2)), HasSubstr("is cut short"));
   }
 }
 
-TEST(PictureFile, HugePictureIsRefusedBeforeAnyMemoryIsTaken) {
+TEST(ImageFile, HugePictureIsRefusedBeforeAnyMemoryIsTaken) {
   EXPECT_THAT(Refusal(PngOfSize(100'000, 100'000)), HasSubstr("100000x100000"));
   EXPECT_THAT(Refusal(PngOfSize(16'385, 1)), HasSubstr("at most 16384"));
   EXPECT_THAT(Refusal(PngOfSize(0, 480)), HasSubstr("has no pixels"));
 }
 
-TEST(PictureFile, OtherFormatsAreNotTried) {
+TEST(ImageFile, OtherFormatsAreNotTried) {
   EXPECT_THAT(Refusal("BM012345678901234567890"), HasSubstr("neither a PNG nor a JPEG"));
   EXPECT_THAT(Refusal(""), HasSubstr("neither a PNG nor a JPEG"));
 }
 
-TEST(PictureFile, DamagedDataIsAnError) {
+TEST(ImageFile, DamagedDataIsAnError) {
   const tests::TemporaryFolder folder;
   std::string bytes = tests::Content(tests::Courtyard() / "key" / "0036_truth.png");
   for (std::size_t i = 2000; i < 2100; ++i) bytes[i] = static_cast<char>(~bytes[i]);
-  EXPECT_THAT(tests::MessageOf(DecodePictureFile(folder.Write("damaged.png", bytes))),
+  EXPECT_THAT(tests::MessageOf(DecodeImageFile(folder.Write("damaged.png", bytes))),
               HasSubstr("damaged.png: is damaged"));
 }
 
-TEST(PictureFile, DecodesToTheBytesThatOpenCvGives) {
+TEST(ImageFile, DecodesToTheBytesThatOpenCvGives) {
   const std::filesystem::path file = tests::Courtyard() / "frames" / "0007.jpg";
-  const Result<Picture> picture = DecodePictureFile(file);
-  ASSERT_TRUE(picture) << picture.error().Message();
+  const Result<DecodedImage> image = DecodeImageFile(file);
+  ASSERT_TRUE(image) << image.error().Message();
   const cv::Mat bgr = cv::imread(file.string());
   cv::Mat grey;
   cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
   for (int y = 0; y < 480; y += 7) {
     for (int x = 0; x < 640; x += 7) {
       const auto& pixel = bgr.at<cv::Vec3b>(y, x);
-      ASSERT_EQ(picture->rgb(x, y, 0), pixel[2]);
-      ASSERT_EQ(picture->rgb(x, y, 1), pixel[1]);
-      ASSERT_EQ(picture->rgb(x, y, 2), pixel[0]);
-      ASSERT_EQ(picture->grey(x, y), grey.at<std::uint8_t>(y, x));
+      ASSERT_EQ(image->rgb(x, y, 0), pixel[2]);
+      ASSERT_EQ(image->rgb(x, y, 1), pixel[1]);
+      ASSERT_EQ(image->rgb(x, y, 2), pixel[0]);
+      ASSERT_EQ(image->grey(x, y), grey.at<std::uint8_t>(y, x));
       // Rec. ITU-R BT.601: Y = 0.299 R + 0.587 G + 0.114 B.
-      ASSERT_NEAR(picture->grey(x, y), 0.299 * pixel[2] + 0.587 * pixel[1] + 0.114 * pixel[0],
-                  0.51);
+      ASSERT_NEAR(image->grey(x, y), 0.299 * pixel[2] + 0.587 * pixel[1] + 0.114 * pixel[0], 0.51);
     }
   }
 }
 
-TEST(PictureFile, GreyPictureKeepsItsValuesInAllChannels) {
+TEST(ImageFile, GreyPictureKeepsItsValuesInAllChannels) {
   const tests::TemporaryFolder folder;
   cv::Mat ramp(1, 256, CV_8UC1);
   for (int i = 0; i < 256; ++i) ramp.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(i);
   cv::imwrite((folder / "ramp.png").string(), ramp);
-  const Result<Picture> picture = DecodePictureFile(folder / "ramp.png");
-  ASSERT_TRUE(picture) << picture.error().Message();
+  const Result<DecodedImage> image = DecodeImageFile(folder / "ramp.png");
+  ASSERT_TRUE(image) << image.error().Message();
   for (int i = 0; i < 256; ++i) {
-    EXPECT_EQ(picture->grey(i, 0), i);
-    EXPECT_EQ(picture->rgb(i, 0, 0), i);
-    EXPECT_EQ(picture->rgb(i, 0, 2), i);
+    EXPECT_EQ(image->grey(i, 0), i);
+    EXPECT_EQ(image->rgb(i, 0, 0), i);
+    EXPECT_EQ(image->rgb(i, 0, 2), i);
   }
 }
 

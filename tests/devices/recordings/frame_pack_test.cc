@@ -18,11 +18,11 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr PictureSize kSize{8, 4};
+constexpr ImageSize kSize{8, 4};
 constexpr std::int64_t kStart_ns = 5'000'000'000;
 
 Frame MakeFrame(int number) {
-  RawPicture raw;
+  RawImage raw;
   raw.format = PixelFormat::kYuyv;
   raw.width = kSize.width;
   raw.height = kSize.height;
@@ -41,11 +41,11 @@ Frame MakeFrame(int number) {
   frame.gain = 2.5;
   frame.loss = {.by_number = number % 3, .not_taken = 1};
   frame.lost_before = frame.loss.Total();
-  Picture picture;
-  EXPECT_TRUE(ConvertRawPicture(raw, &picture));
-  frame.rgb = picture.rgb;
-  frame.grey = picture.grey;
-  frame.raw = std::make_shared<const RawPicture>(std::move(raw));
+  DecodedImage image;
+  EXPECT_TRUE(ConvertRawImage(raw, &image));
+  frame.rgb = image.rgb;
+  frame.grey = image.grey;
+  frame.raw = std::make_shared<const RawImage>(std::move(raw));
   return frame;
 }
 

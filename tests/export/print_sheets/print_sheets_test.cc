@@ -31,8 +31,8 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 namespace sg = tracker::sg;
 
-tracker::PrintPattern PatternOf(const std::vector<std::string>& rows) {
-  tracker::PrintPattern pattern;
+tracker::MarkerPattern PatternOf(const std::vector<std::string>& rows) {
+  tracker::MarkerPattern pattern;
   pattern.modules = pattern.edge_modules = static_cast<int>(rows.size());
   for (const std::string& row : rows) {
     for (const char c : row) pattern.white.push_back(c == '.' ? 1 : 0);
@@ -56,7 +56,7 @@ bool FilledAt(const std::vector<std::vector<ModuleCorner>>& loops, int x, int y)
 TEST(PrintOutline, FillsExactlyTheBlackModulesOfRandomPatterns) {
   std::mt19937 random(1);
   for (int round = 0; round < 100; ++round) {
-    tracker::PrintPattern pattern;
+    tracker::MarkerPattern pattern;
     pattern.modules = pattern.edge_modules = 1 + round % 17;
     std::bernoulli_distribution white(0.1 + 0.8 * (round % 7) / 6.0);
     for (int i = 0; i < pattern.modules * pattern.modules; ++i) {
@@ -167,7 +167,7 @@ TEST(BoardSheet, ShowsWhatItsDescriptionSays) {
   for (int i = 0; i < 6; ++i) {
     const auto& marker = description["markers"][i];
     EXPECT_EQ(marker["id"], 40 + i);
-    EXPECT_EQ(sheet->prints[i].pattern.white, tracker::SgPrint(40 + i).white);
+    EXPECT_EQ(sheet->prints[i].pattern.white, tracker::SgMarkerPattern(40 + i).white);
     const CornersOnPage corners = FindCorners(sheet->prints[i]);
     for (int c = 0; c < 4; ++c) {
       EXPECT_NEAR(marker["corners_m"][c][0].get<double>() * 1e3, corners[c].x - centre.x, 1e-9);
@@ -229,23 +229,23 @@ TEST(SquareBoardSheet, HasItsCornersWhereItsDescriptionSays) {
   EXPECT_THAT(small.error().Message(), HasSubstr("--page"));
 }
 
-TEST(PrintPicture, HasWholePixelsForModulesAtMultiplesOfTheirNumber) {
-  const tracker::PrintPattern print = tracker::SgPrint(1234);
-  const Image<std::uint8_t> picture = RasterizePrint(print, 3 * sg::kPrint);
+TEST(PredictedImage, HasWholePixelsForModulesAtMultiplesOfTheirNumber) {
+  const tracker::MarkerPattern print = tracker::SgMarkerPattern(1234);
+  const Image<std::uint8_t> picture = RasterizePrint(print, 3 * sg::kModules);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
-      ASSERT_EQ(picture(x, y), print.white[y / 3 * sg::kPrint + x / 3] != 0 ? 255 : 0);
+      ASSERT_EQ(picture(x, y), print.white[y / 3 * sg::kModules + x / 3] != 0 ? 255 : 0);
     }
   }
 }
 
-TEST(PrintPicture, HoldsTheEdgeFractionExactlyAtAnyNumberOfPixels) {
-  const tracker::PrintPattern print = tracker::SgPrint(1234);
+TEST(PredictedImage, HoldsTheEdgeFractionExactlyAtAnyNumberOfPixels) {
+  const tracker::MarkerPattern print = tracker::SgMarkerPattern(1234);
   for (const int pixels : {48, 49, 100, 333, 500, 1001}) {
     const Image<std::uint8_t> picture = RasterizePrint(print, pixels);
     // Along the rim's first row that is black over the whole width, light that is missing is the
     // black square's edge.
-    const int y = pixels * (sg::kQuiet + 2) / sg::kPrint;
+    const int y = pixels * (sg::kQuiet + 2) / sg::kModules;
     double black_px = 0.0, moment = 0.0;
     for (int x = 0; x < pixels; ++x) {
       const double black = 1.0 - LinearFromSrgb8()[picture(x, y)];
@@ -258,8 +258,8 @@ TEST(PrintPicture, HoldsTheEdgeFractionExactlyAtAnyNumberOfPixels) {
   }
 }
 
-TEST(PrintPicture, HasTheMeanLightOfItsModules) {
-  const tracker::PrintPattern print = tracker::SgPrint(77);
+TEST(PredictedImage, HasTheMeanLightOfItsModules) {
+  const tracker::MarkerPattern print = tracker::SgMarkerPattern(77);
   double white = 0.0;
   for (const std::uint8_t module : print.white) white += module;
   const Image<std::uint8_t> picture = RasterizePrint(print, 1001);

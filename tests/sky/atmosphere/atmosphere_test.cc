@@ -83,13 +83,13 @@ TEST(AtmosphereSky, IsPositiveAndFiniteAtAnyHour) {
   }
 }
 
-/// In luminance, and in the colour channels as a share of the brightest.
+/// In luminance, and in the color channels as a share of the brightest.
 double ChangeOfLight(Vec3 a, Vec3 b) {
   const LinearRgb p = RgbInGamut(a), q = RgbInGamut(b);
-  const double colour =
+  const double color =
       std::max({std::fabs(p.r - q.r), std::fabs(p.g - q.g), std::fabs(p.b - q.b)}) /
       std::min(std::max({p.r, p.g, p.b}), std::max({q.r, q.g, q.b}));
-  return std::max({a.y / b.y - 1.0, b.y / a.y - 1.0, colour});
+  return std::max({a.y / b.y - 1.0, b.y / a.y - 1.0, color});
 }
 
 // Where the steepest places are: `sky_changes`.

@@ -41,14 +41,14 @@ struct Steepest {
   }
 };
 
-/// Of the luminance, and of the colour channels as a share of the brightest.
+/// Of the luminance, and of the color channels as a share of the brightest.
 struct Changes {
-  Steepest luminance, colour;
+  Steepest luminance, color;
 };
 
 double LuminanceChange(Vec3 a, Vec3 b) { return std::max(a.y / b.y, b.y / a.y) - 1.0; }
 
-double ColourChange(Vec3 a, Vec3 b) {
+double ColorChange(Vec3 a, Vec3 b) {
   const LinearRgb p = RgbInGamut(a), q = RgbInGamut(b);
   const double most = std::max({std::fabs(p.r - q.r), std::fabs(p.g - q.g), std::fabs(p.b - q.b)});
   return most / std::min(std::max({p.r, p.g, p.b}), std::max({q.r, q.g, q.b}));
@@ -60,7 +60,7 @@ void Sweep(const AtmosphereSky& sky, double sun, Changes* changes) {
     const Vec3 a = sky.Xyz(Towards(azimuth, elevation));
     const Vec3 b = sky.Xyz(Towards(next_azimuth, next_elevation));
     changes->luminance.Offer({LuminanceChange(a, b), sun, azimuth, elevation});
-    changes->colour.Offer({ColourChange(a, b), sun, azimuth, elevation});
+    changes->color.Offer({ColorChange(a, b), sun, azimuth, elevation});
   };
   for (const double azimuth : {0.0, 0.5, 1.0, 2.0, 5.0, 15.0, 40.0, 90.0, 130.0, 180.0}) {
     // Steps of 0.05° below 15°, of 0.1° above.
@@ -98,7 +98,7 @@ void PrintDirections() {
     }
     std::printf("| %g | %.2f %% | %s | %.2f %% | %s |\n", turbidity,
                 100.0 * changes.luminance.change, place(changes.luminance).c_str(),
-                100.0 * changes.colour.change, place(changes.colour).c_str());
+                100.0 * changes.color.change, place(changes.color).c_str());
     std::fflush(stdout);
   }
 }

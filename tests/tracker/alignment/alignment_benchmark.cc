@@ -1,4 +1,4 @@
-// How long fits of a print to a picture take, from a guess that is off by a share of its side.
+// How long fits of a print to an image take, from a guess that is off by a share of its side.
 
 #include <benchmark/benchmark.h>
 
@@ -14,8 +14,9 @@ namespace {
 
 struct Scene {
   CameraModel camera;
-  std::shared_ptr<const PrintPattern> print = std::make_shared<PrintPattern>(SgPrint(7));
-  GreyImage picture;
+  std::shared_ptr<const MarkerPattern> marker_pattern =
+      std::make_shared<MarkerPattern>(SgMarkerPattern(7));
+  GreyImage image;
   std::unique_ptr<LensGrid> lens;
   PixelWindow window;
   BlockFitState guess;
@@ -28,25 +29,26 @@ struct Scene {
     camera.cy = 119.8;
     if (bent) camera.distortion[0] = -0.2;
     RenderedMarker marker;
-    marker.pattern = print;
-    marker.camera_from_marker = PoseSeenAt(camera, {158.0, 121.0}, side_px, marker.size,
-                                           Radians(0.5), Radians(0.4), Radians(0.3));
+    marker.pattern = marker_pattern;
+    marker.camera_from_marker = PoseAtPixel(camera, {158.0, 121.0}, side_px, marker.size,
+                                            Radians(0.5), Radians(0.4), Radians(0.3));
     RenderingOptions options;
     options.blur_px = 0.6;
     options.noise_codes = 2.0;
-    picture = RenderMarkers(camera, {marker}, options);
+    image = RenderMarkers(camera, {marker}, options);
     lens = std::make_unique<LensGrid>(camera);
     std::array<Vec2, 4> corners = TrueCorners(camera, marker);
     const int half = static_cast<int>(0.62 * side_px) + 1;
     window = {0, 158 - half, 121 - half, 2 * half, 2 * half};
     for (int i = 0; i < 4; ++i) {
-      corners[i] = lens->Ideal(corners[i].x, corners[i].y);
+      corners[i] = lens->Undistort(corners[i].x, corners[i].y);
       corners[i].x += off * side_px * (i == 1 ? -0.5 : 1.0);
       corners[i].y += off * side_px * (i == 2 ? -0.7 : 0.6);
     }
-    const double half_edge = 0.5 * print->edge_modules, middle = 0.5 * print->modules;
-    guess.modules_from_ideal = Mat3{{half_edge, 0, middle, 0, -half_edge, middle, 0, 0, 1}} *
-                               Adjugate(HomographyToQuad(corners));
+    const double half_edge = 0.5 * marker_pattern->edge_modules,
+                 middle = 0.5 * marker_pattern->modules;
+    guess.modules_from_undistorted = Mat3{{half_edge, 0, middle, 0, -half_edge, middle, 0, 0, 1}} *
+                                     Adjugate(HomographyToQuad(corners));
     guess.blur_px = 0.7;
   }
 };
@@ -55,8 +57,8 @@ struct Scene {
 void FitFinely(benchmark::State& state) {
   const double side = static_cast<double>(state.range(0));
   const Scene scene(side, true, 0.004);
-  SeenWindow seen;
-  TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, &seen);
+  ObservedPatch observed;
+  TakeLinearWindow(*scene.lens, scene.image.view(), scene.window, &observed);
   BlockFit fit;
   BlockFitOptions options;
   options.steps = static_cast<int>(state.range(1));
@@ -64,7 +66,7 @@ void FitFinely(benchmark::State& state) {
   options.done_px = 0.0;
   for (auto _ : state) {
     BlockFitState at = scene.guess;
-    benchmark::DoNotOptimize(fit.Run(*scene.print, PrintPart::kWhole, seen,
+    benchmark::DoNotOptimize(fit.Run(*scene.marker_pattern, MarkerPart::kWhole, observed,
                                      BlockFit::BlocksAlong(1.2 * side, 14.0), options, &at));
   }
 }
@@ -74,15 +76,15 @@ BENCHMARK(FitFinely)->Args({120, 5})->Args({42, 5})->Args({16, 5})->Unit(benchma
 void FitFinelyUntilDone(benchmark::State& state) {
   const double side = static_cast<double>(state.range(0));
   const Scene scene(side, true, 0.004);
-  SeenWindow seen;
-  TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, &seen);
+  ObservedPatch observed;
+  TakeLinearWindow(*scene.lens, scene.image.view(), scene.window, &observed);
   BlockFit fit;
   BlockFitOptions options;
   options.steps = 5;
   options.fit_blur = true;
   for (auto _ : state) {
     BlockFitState at = scene.guess;
-    benchmark::DoNotOptimize(fit.Run(*scene.print, PrintPart::kWhole, seen,
+    benchmark::DoNotOptimize(fit.Run(*scene.marker_pattern, MarkerPart::kWhole, observed,
                                      BlockFit::BlocksAlong(1.2 * side, 14.0), options, &at));
   }
 }
@@ -91,8 +93,8 @@ BENCHMARK(FitFinelyUntilDone)->Arg(120)->Unit(benchmark::kMicrosecond);
 void FitCoarsely(benchmark::State& state) {
   const double side = static_cast<double>(state.range(0));
   const Scene scene(side, true, 0.03);
-  SeenWindow seen;
-  TakeCodeWindow(*scene.lens, scene.picture.view(), scene.window, &seen);
+  ObservedPatch observed;
+  TakeCodeWindow(*scene.lens, scene.image.view(), scene.window, &observed);
   BlockFit fit;
   BlockFitOptions options;
   options.steps = static_cast<int>(state.range(1));
@@ -100,7 +102,7 @@ void FitCoarsely(benchmark::State& state) {
   for (auto _ : state) {
     BlockFitState at = scene.guess;
     at.blur_px = 1.2;
-    benchmark::DoNotOptimize(fit.Run(*scene.print, PrintPart::kBorder, seen,
+    benchmark::DoNotOptimize(fit.Run(*scene.marker_pattern, MarkerPart::kBorder, observed,
                                      BlockFit::BlocksAlong(1.2 * side, 8.0), options, &at));
   }
 }
@@ -110,23 +112,24 @@ void Render(benchmark::State& state) {
   const Scene scene(static_cast<double>(state.range(0)), true, 0.0);
   WindowRays rays;
   LookUpRays(*scene.lens, scene.window, &rays);
-  PrintRaster raster;
-  PrintMap map;
-  PrintPicture picture;
+  MarkerRaster raster;
+  PlaneMap map;
+  PredictedImage image;
   const double blur_px = 0.1 * static_cast<double>(state.range(1));
   for (auto _ : state) {
-    raster.Render(*scene.print, scene.guess.modules_from_ideal, rays, blur_px, &map, &picture);
-    benchmark::DoNotOptimize(picture.white.data());
+    raster.Render(*scene.marker_pattern, scene.guess.modules_from_undistorted, rays, blur_px, &map,
+                  &image);
+    benchmark::DoNotOptimize(image.white.data());
   }
 }
 BENCHMARK(Render)->Args({120, 6})->Args({52, 12})->Unit(benchmark::kMicrosecond);
 
 void TakeWindow(benchmark::State& state) {
   const Scene scene(static_cast<double>(state.range(0)), true, 0.0);
-  SeenWindow seen;
+  ObservedPatch observed;
   for (auto _ : state) {
-    TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, &seen);
-    benchmark::DoNotOptimize(seen.value.data());
+    TakeLinearWindow(*scene.lens, scene.image.view(), scene.window, &observed);
+    benchmark::DoNotOptimize(observed.value.data());
   }
 }
 BENCHMARK(TakeWindow)->Arg(120)->Unit(benchmark::kMicrosecond);

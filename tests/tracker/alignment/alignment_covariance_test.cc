@@ -20,8 +20,8 @@ namespace {
 TEST(CovarianceOfCorners, IsThatOfWhereAMotionTakesThem) {
   // Of one motion that alone is uncertain, by a little, the corners go as it moves their places.
   const auto pixel_of = [](Vec2 unit) {
-    const Mat3 seen{{40, 7, 158, -5, 33, 121, 0.05, -0.02, 1}};
-    return Apply(seen, unit);
+    const Mat3 observed{{40, 7, 158, -5, 33, 121, 0.05, -0.02, 1}};
+    return Apply(observed, unit);
   };
   const std::array<double, 8> motion{2e-6, -1e-6, 3e-6, 1e-6, 2e-6, -2e-6, 4e-6, -3e-6};
   std::array<double, 64> motions{};
@@ -53,7 +53,7 @@ double MeanNees(double side_px, const RenderingOptions& rendering, int pictures,
                 void (*spoil)(AlignmentScene*, std::uint32_t seed)) {
   AlignmentView view;
   view.side_px = side_px;
-  SeenWindow seen;
+  ObservedPatch observed;
   BlockFit fit;
   double nees = 0.0;
   for (int k = 0; k < pictures; ++k) {
@@ -64,11 +64,11 @@ double MeanNees(double side_px, const RenderingOptions& rendering, int pictures,
     AlignmentScene scene = MakeScene(view, options);
     if (spoil != nullptr) spoil(&scene, options.seed);
     BlockFitState state = scene.Guess(0.4);
-    EXPECT_TRUE(FitWhole(scene, &seen, &fit, &state));
+    EXPECT_TRUE(FitWhole(scene, &observed, &fit, &state));
     const std::array<Vec2, 4> found = scene.Corners(state);
     const auto pixel_of = [&](Vec2 unit_down) {
-      return scene.lens->PixelOfIdeal(Apply(Adjugate(state.modules_from_ideal),
-                                            {24 + 20 * unit_down.x, 24 + 20 * unit_down.y}));
+      return scene.lens->PixelOfUndistorted(Apply(Adjugate(state.modules_from_undistorted),
+                                                  {24 + 20 * unit_down.x, 24 + 20 * unit_down.y}));
     };
     Eigen::Matrix<double, 8, 1> error;
     std::array<FittedCorner, 4> corners;
@@ -104,29 +104,28 @@ TEST(BlockFit, StatesACovarianceThatIsNotTooNarrowWhereTheModelIsWrong) {
     std::normal_distribution<double> normal(0.0, 12.0);
     std::vector<double> grain(100 * 100);
     for (double& value : grain) value = normal(random);
-    for (int y = 0; y < scene->picture.height(); ++y) {
-      for (int x = 0; x < scene->picture.width(); ++x) {
-        const double code = scene->picture(x, y) + grain[y / kGrain * 100 + x / kGrain];
-        scene->picture(x, y) = static_cast<std::uint8_t>(std::clamp(code, 0.0, 250.0));
+    for (int y = 0; y < scene->image.height(); ++y) {
+      for (int x = 0; x < scene->image.width(); ++x) {
+        const double code = scene->image(x, y) + grain[y / kGrain * 100 + x / kGrain];
+        scene->image(x, y) = static_cast<std::uint8_t>(std::clamp(code, 0.0, 250.0));
       }
     }
   };
   const auto cover = [](AlignmentScene* scene, std::uint32_t seed) {
     std::mt19937 random(seed);
-    for (int y = 0; y < scene->picture.height(); ++y) {
+    for (int y = 0; y < scene->image.height(); ++y) {
       for (int x = 0; x < 140 + static_cast<int>(seed); ++x) {
-        scene->picture(x, y) = static_cast<std::uint8_t>(120 + random() % 16);
+        scene->image(x, y) = static_cast<std::uint8_t>(120 + random() % 16);
       }
     }
   };
   const auto motion = [](AlignmentScene* scene, std::uint32_t) {
-    const GreyImage still = scene->picture;
+    const GreyImage still = scene->image;
     for (int y = 0; y < still.height(); ++y) {
       for (int x = 3; x + 3 < still.width(); ++x) {
         double light = 0.0;
         for (int d = -3; d <= 3; ++d) light += LinearFromSrgb8()[still(x + d, y)] / 7.0;
-        scene->picture(x, y) =
-            static_cast<std::uint8_t>(std::lround(255.0 * SrgbFromLinear(light)));
+        scene->image(x, y) = static_cast<std::uint8_t>(std::lround(255.0 * SrgbFromLinear(light)));
       }
     }
   };

@@ -35,7 +35,7 @@ Errors Measure(double side_px, double off_px, const RenderingOptions& rendering,
   std::mt19937 random(11);
   Errors errors;
   int corners = 0;
-  SeenWindow seen;
+  ObservedPatch observed;
   BlockFit fit;
   const int views = rendering.light ? 5 : 10;  // Light by the sample takes its time.
   for (int k = 0; k < views; ++k) {
@@ -44,7 +44,7 @@ Errors Measure(double side_px, double off_px, const RenderingOptions& rendering,
     AlignmentScene scene = MakeScene(RandomView(side_px, &random), options);
     if (cover != nullptr) cover(&scene);
     BlockFitState state = scene.Guess(off_px);
-    if (!FitWhole(scene, &seen, &fit, &state, fit_light)) {
+    if (!FitWhole(scene, &observed, &fit, &state, fit_light)) {
       ++errors.failures;
       continue;
     }
@@ -128,9 +128,9 @@ TEST(BlockFit, FindsMarkersCrossedByTheEdgeOfAShadow) {
 TEST(BlockFit, FindsMarkersOfWhichHalfIsCovered) {
   const auto cover = [](AlignmentScene* scene) {
     std::mt19937 random(5);
-    for (int y = 0; y < scene->picture.height(); ++y) {
+    for (int y = 0; y < scene->image.height(); ++y) {
       for (int x = 0; x < 158; ++x) {
-        scene->picture(x, y) = static_cast<std::uint8_t>(120 + random() % 16);
+        scene->image(x, y) = static_cast<std::uint8_t>(120 + random() % 16);
       }
     }
   };
@@ -138,7 +138,7 @@ TEST(BlockFit, FindsMarkersOfWhichHalfIsCovered) {
     const Errors errors =
         Measure(side, 0.4, {.blur_px = 0.6, .noise_codes = 2.0, .light = {}}, cover);
     EXPECT_EQ(errors.failures, 0);
-    // The covered corners hang on the others: four times as far out of what is seen.
+    // The covered corners hang on the others: four times as far out of what is observed.
     EXPECT_LT(errors.rms, 0.4) << side;
     EXPECT_LT(Norm(errors.mean), 0.1) << side;
   }
@@ -147,10 +147,10 @@ TEST(BlockFit, FindsMarkersOfWhichHalfIsCovered) {
 TEST(BlockFit, FindsTheBlurToo) {
   for (const double blur : {0.6, 0.9, 1.5}) {
     const AlignmentScene scene = MakeScene({}, {.blur_px = blur, .light = {}});
-    SeenWindow seen;
+    ObservedPatch observed;
     BlockFit fit;
     BlockFitState state = scene.Guess(0.4);
-    ASSERT_TRUE(FitWhole(scene, &seen, &fit, &state));
+    ASSERT_TRUE(FitWhole(scene, &observed, &fit, &state));
     EXPECT_NEAR(state.blur_px, blur, 0.01);
     EXPECT_GT(fit.Correlation(), 0.995);
   }
@@ -158,7 +158,7 @@ TEST(BlockFit, FindsTheBlurToo) {
 
 TEST(BlockFit, LooksAtTheBorderAloneWhereTheContentIsUnknown) {
   const AlignmentScene scene = MakeScene({}, {.blur_px = 0.6, .light = {}});
-  PrintPattern other = scene.print();
+  MarkerPattern other = scene.marker_pattern();
   for (int y = 0; y < other.unknown_modules; ++y) {
     for (int x = 0; x < other.unknown_modules; ++x) {
       std::uint8_t& white =
@@ -167,19 +167,19 @@ TEST(BlockFit, LooksAtTheBorderAloneWhereTheContentIsUnknown) {
     }
   }
   ASSERT_GT(other.unknown_modules, 0);
-  SeenWindow seen;
-  TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, &seen);
+  ObservedPatch observed;
+  TakeLinearWindow(*scene.lens, scene.image.view(), scene.window, &observed);
   BlockFit fit;
   BlockFitOptions options;
   options.fit_blur = true;
   BlockFitState state = scene.Guess(0.6);
-  ASSERT_TRUE(fit.Run(other, PrintPart::kBorder, seen, 8, options, &state));
+  ASSERT_TRUE(fit.Run(other, MarkerPart::kBorder, observed, 8, options, &state));
   const std::array<Vec2, 4> found = scene.Corners(state);
   for (int i = 0; i < 4; ++i) EXPECT_LT(Norm(found[i] - scene.truth[i]), 0.05);
   EXPECT_GT(fit.Correlation(), 0.98);
   const float first = static_cast<float>(other.unknown_first);
   const float last = first + static_cast<float>(other.unknown_modules);
-  for (std::size_t n = 0; n < seen.value.size(); ++n) {
+  for (std::size_t n = 0; n < observed.value.size(); ++n) {
     const float c = fit.map().column[n], r = fit.map().row[n];
     if (c > first && c < last && r > first && r < last) {
       ASSERT_EQ(fit.block_of()[n], -1);
@@ -192,17 +192,17 @@ TEST(BlockFit, DependsOnNothingThatCameBefore) {
   AlignmentView small;
   small.side_px = 30.0;
   const AlignmentScene before = MakeScene(small, {.noise_codes = 9.0, .light = {}});
-  SeenWindow seen;
+  ObservedPatch observed;
   BlockFit fresh, used;
   BlockFitState a = scene.Guess(0.5), b = scene.Guess(0.5), c = before.Guess(0.5);
-  ASSERT_TRUE(FitWhole(before, &seen, &used, &c));
-  ASSERT_TRUE(FitWhole(scene, &seen, &used, &b));
-  ASSERT_TRUE(FitWhole(scene, &seen, &fresh, &a));
-  EXPECT_EQ(a.modules_from_ideal, b.modules_from_ideal);
+  ASSERT_TRUE(FitWhole(before, &observed, &used, &c));
+  ASSERT_TRUE(FitWhole(scene, &observed, &used, &b));
+  ASSERT_TRUE(FitWhole(scene, &observed, &fresh, &a));
+  EXPECT_EQ(a.modules_from_undistorted, b.modules_from_undistorted);
   EXPECT_EQ(a.blur_px, b.blur_px);
   EXPECT_EQ(fresh.MotionCovariance(), used.MotionCovariance());
   EXPECT_EQ(fresh.block_of(), used.block_of());
-  EXPECT_EQ(fresh.picture().white, used.picture().white);
+  EXPECT_EQ(fresh.image().white, used.image().white);
 }
 
 TEST(BlockFit, AsksForNoMemoryAfterTheFirstFit) {
@@ -210,23 +210,23 @@ TEST(BlockFit, AsksForNoMemoryAfterTheFirstFit) {
   AlignmentView view;
   view.side_px = 40.0;
   const AlignmentScene smaller = MakeScene(view, {.blur_px = 0.6, .light = {}});
-  SeenWindow seen;
+  ObservedPatch observed;
   BlockFit fit;
   BlockFitState state = scene.Guess(0.5);
   // A blur as wide as any that comes needs the longest taps.
   state.blur_px = 2.5;
-  ASSERT_TRUE(FitWhole(scene, &seen, &fit, &state));
+  ASSERT_TRUE(FitWhole(scene, &observed, &fit, &state));
   const long before = Allocations();
   for (const AlignmentScene* at : {&smaller, &scene, &smaller}) {
     state = at->Guess(0.5);
-    ASSERT_TRUE(FitWhole(*at, &seen, &fit, &state));
+    ASSERT_TRUE(FitWhole(*at, &observed, &fit, &state));
   }
   EXPECT_EQ(Allocations(), before);
 }
 
 TEST(BlockFit, SurvivesWindowsThatShowNothing) {
   const AlignmentScene scene = MakeScene({}, {.light = {}});
-  SeenWindow seen;
+  ObservedPatch observed;
   BlockFit fit;
   BlockFitOptions options;
   options.fit_blur = true;
@@ -234,11 +234,11 @@ TEST(BlockFit, SurvivesWindowsThatShowNothing) {
        {PixelWindow{0, 5, 5, 0, 0}, PixelWindow{0, 5, 5, 1, 1}, PixelWindow{0, 100, 100, 3, 40},
         PixelWindow{0, 100, 100, 40, 3}, PixelWindow{0, 0, 0, 20, 20},
         PixelWindow{2, 30, 20, 7, 9}}) {
-    TakeLinearWindow(*scene.lens, scene.picture.view(), window, &seen);
+    TakeLinearWindow(*scene.lens, scene.image.view(), window, &observed);
     for (const int blocks : {0, 1, 8, 1000}) {
       BlockFitState state = scene.Guess(0.5);
-      fit.Run(scene.print(), PrintPart::kWhole, seen, blocks, options, &state);
-      fit.Run(scene.print(), PrintPart::kBorder, seen, blocks, options, &state);
+      fit.Run(scene.marker_pattern(), MarkerPart::kWhole, observed, blocks, options, &state);
+      fit.Run(scene.marker_pattern(), MarkerPart::kBorder, observed, blocks, options, &state);
       EXPECT_EQ(fit.block_of().size(), window.size());
     }
   }
@@ -246,24 +246,24 @@ TEST(BlockFit, SurvivesWindowsThatShowNothing) {
 
 TEST(BlockFit, SurvivesHomographiesAndRaysThatAreNone) {
   AlignmentScene scene = MakeScene({}, {.light = {}});
-  SeenWindow seen;
+  ObservedPatch observed;
   BlockFit fit;
   BlockFitOptions options;
   options.fit_blur = true;
-  TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, &seen);
+  TakeLinearWindow(*scene.lens, scene.image.view(), scene.window, &observed);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   for (const Mat3& none :
        {Mat3{{0, 0, 0, 0, 0, 0, 0, 0, 0}}, Mat3{{kNone, 0, 0, 0, 1, 0, 0, 0, 1}},
         Mat3{{1, 0, 0, 0, 1, 0, 0.01, 0, -1.6}}, Mat3{{1e30, 0, 0, 0, 1e30, 0, 0, 0, 1}}}) {
     BlockFitState state{none, 0.7};
-    fit.Run(scene.print(), PrintPart::kWhole, seen, 8, options, &state);
+    fit.Run(scene.marker_pattern(), MarkerPart::kWhole, observed, 8, options, &state);
   }
   // A third of the rays is not there; the rest must do.
-  for (std::size_t n = 0; n < seen.rays.x.size() / 3; ++n) {
-    seen.rays.x[n] = seen.rays.y[n] = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t n = 0; n < observed.rays.x.size() / 3; ++n) {
+    observed.rays.x[n] = observed.rays.y[n] = std::numeric_limits<float>::quiet_NaN();
   }
   BlockFitState state = scene.Guess(0.3);
-  ASSERT_TRUE(fit.Run(scene.print(), PrintPart::kWhole, seen, 8, options, &state));
+  ASSERT_TRUE(fit.Run(scene.marker_pattern(), MarkerPart::kWhole, observed, 8, options, &state));
   const std::array<Vec2, 4> found = scene.Corners(state);
   for (int i = 0; i < 4; ++i) EXPECT_LT(Norm(found[i] - scene.truth[i]), 0.3);
 }

@@ -17,11 +17,11 @@ namespace pleinair::tracker {
 namespace {
 
 /// The print's white at a point, its outermost modules going on.
-double WhiteAt(const PrintPattern& print, Vec2 modules) {
+double WhiteAt(const MarkerPattern& marker_pattern, Vec2 modules) {
   const auto index = [&](double at) {
-    return std::clamp(static_cast<int>(std::floor(at)), 0, print.modules - 1);
+    return std::clamp(static_cast<int>(std::floor(at)), 0, marker_pattern.modules - 1);
   };
-  return print.white[index(modules.y) * print.modules + index(modules.x)];
+  return marker_pattern.white[index(modules.y) * marker_pattern.modules + index(modules.x)];
 }
 
 /// A pixel's square convolved with the blur's Gaussian, along one axis.
@@ -31,8 +31,8 @@ double PixelAndBlur(double t, double sigma) {
 }
 
 /// The share of white in a pixel's light by brute force: 20 samples along a pixel.
-double BruteForce(const CameraModel& camera, const PrintPattern& print, const Mat3& modules,
-                  Vec2 pixel, double blur_px) {
+double BruteForce(const CameraModel& camera, const MarkerPattern& marker_pattern,
+                  const Mat3& modules, Vec2 pixel, double blur_px) {
   constexpr int kPerPixel = 20;
   const int reach = static_cast<int>(std::ceil((0.5 + 4.0 * blur_px) * kPerPixel));
   double sum = 0.0, all = 0.0;
@@ -41,15 +41,15 @@ double BruteForce(const CameraModel& camera, const PrintPattern& print, const Ma
     for (int i = -reach; i < reach; ++i) {
       const double dx = (i + 0.5) / kPerPixel, w = wy * PixelAndBlur(dx, blur_px);
       const Vec2 ray = UndistortPixel(camera, {pixel.x + dx, pixel.y + dy});
-      const Vec2 ideal{camera.fx * ray.x + camera.cx, camera.fy * ray.y + camera.cy};
-      sum += w * WhiteAt(print, Apply(modules, ideal));
+      const Vec2 undistorted{camera.fx * ray.x + camera.cx, camera.fy * ray.y + camera.cy};
+      sum += w * WhiteAt(marker_pattern, Apply(modules, undistorted));
       all += w;
     }
   }
   return sum / all;
 }
 
-TEST(PrintRaster, AgreesWithBruteForceSampling) {
+TEST(MarkerRaster, AgreesWithBruteForceSampling) {
   std::mt19937 random(3);
   struct Case {
     double side_px, tilt, blur_px;
@@ -69,23 +69,23 @@ TEST(PrintRaster, AgreesWithBruteForceSampling) {
     view.tilt = Radians(c.tilt);
     view.bent = c.bent;
     const AlignmentScene scene = MakeScene(view, {.light = {}});
-    const Mat3 modules = scene.Guess(0.0).modules_from_ideal;
+    const Mat3 modules = scene.Guess(0.0).modules_from_undistorted;
     WindowRays rays;
     LookUpRays(*scene.lens, scene.window, &rays);
-    PrintRaster raster;
-    PrintMap map;
-    PrintPicture picture;
-    raster.Render(scene.print(), modules, rays, c.blur_px, &map, &picture);
+    MarkerRaster raster;
+    PlaneMap map;
+    PredictedImage image;
+    raster.Render(scene.marker_pattern(), modules, rays, c.blur_px, &map, &image);
     double squares = 0.0;
     constexpr int kPixels = 40;
     for (int k = 0; k < kPixels; ++k) {
       const int x = static_cast<int>(random() % scene.window.width);
       const int y = static_cast<int>(random() % scene.window.height);
       const double expected = BruteForce(
-          scene.camera, scene.print(), modules,
+          scene.camera, scene.marker_pattern(), modules,
           {scene.window.Full(scene.window.x0 + x), scene.window.Full(scene.window.y0 + y)},
           c.blur_px);
-      const double error = picture.white[y * scene.window.width + x] - expected;
+      const double error = image.white[y * scene.window.width + x] - expected;
       EXPECT_NEAR(error, 0.0, c.most) << x << ", " << y;
       squares += error * error;
     }
@@ -93,26 +93,26 @@ TEST(PrintRaster, AgreesWithBruteForceSampling) {
   }
 }
 
-TEST(PrintRaster, ItsSlopesAreThoseOfItsPicture) {
+TEST(MarkerRaster, ItsSlopesAreThoseOfItsPicture) {
   for (const double side : {16.0, 120.0}) {
     AlignmentView view;
     view.side_px = side;
     view.bent = false;
     const AlignmentScene scene = MakeScene(view, {.light = {}});
-    const Mat3 modules = scene.Guess(0.0).modules_from_ideal;
+    const Mat3 modules = scene.Guess(0.0).modules_from_undistorted;
     WindowRays rays;
     LookUpRays(*scene.lens, scene.window, &rays);
-    PrintRaster raster;
-    PrintMap map;
+    MarkerRaster raster;
+    PlaneMap map;
     const auto render = [&](double dx, double dy) {
-      PrintPicture picture;
-      raster.Render(scene.print(), modules * Mat3{{1, 0, dx, 0, 1, dy, 0, 0, 1}}, rays, 0.6, &map,
-                    &picture);
-      return picture;
+      PredictedImage image;
+      raster.Render(scene.marker_pattern(), modules * Mat3{{1, 0, dx, 0, 1, dy, 0, 0, 1}}, rays,
+                    0.6, &map, &image);
+      return image;
     };
     constexpr double kStep = 0.25;  // Half as far as samples are apart.
-    const PrintPicture at = render(0, 0), right = render(kStep, 0), left = render(-kStep, 0);
-    const PrintPicture below = render(0, kStep), above = render(0, -kStep);
+    const PredictedImage at = render(0, 0), right = render(kStep, 0), left = render(-kStep, 0);
+    const PredictedImage below = render(0, kStep), above = render(0, -kStep);
     double worst = 0.0, steepest = 0.0, squares = 0.0;
     for (std::size_t n = 0; n < at.white.size(); ++n) {
       const double by_x = (right.white[n] - left.white[n]) / (2 * kStep);
@@ -128,18 +128,18 @@ TEST(PrintRaster, ItsSlopesAreThoseOfItsPicture) {
   }
 }
 
-TEST(PrintRaster, LooksWhereTheLensAndThePrintSay) {
+TEST(MarkerRaster, LooksWhereTheLensAndThePrintSay) {
   const AlignmentScene scene = MakeScene({}, {.light = {}});
-  const Mat3 modules = scene.Guess(0.0).modules_from_ideal;
+  const Mat3 modules = scene.Guess(0.0).modules_from_undistorted;
   WindowRays rays;
   LookUpRays(*scene.lens, scene.window, &rays);
-  PrintRaster raster;
-  PrintMap map;
-  PrintPicture picture;
-  raster.Render(scene.print(), modules, rays, 0.6, &map, &picture);
+  MarkerRaster raster;
+  PlaneMap map;
+  PredictedImage image;
+  raster.Render(scene.marker_pattern(), modules, rays, 0.6, &map, &image);
   const auto exact = [&](double x, double y) {
     const Vec2 ray = UndistortPixel(scene.camera, {x, y});
-    return Apply(modules, scene.lens->IdealOfRay(ray));
+    return Apply(modules, scene.lens->UndistortedOfRay(ray));
   };
   for (int y = 0; y < scene.window.height; y += 7) {
     for (int x = 0; x < scene.window.width; x += 7) {
@@ -155,30 +155,31 @@ TEST(PrintRaster, LooksWhereTheLensAndThePrintSay) {
   }
 }
 
-TEST(PrintRaster, RendersThePrintAloneAsWithItsSurroundings) {
+TEST(MarkerRaster, RendersThePrintAloneAsWithItsSurroundings) {
   AlignmentView view;
   view.roll = Radians(0.8);
   const AlignmentScene scene = MakeScene(view, {.light = {}});
-  const Mat3 modules = scene.Guess(0.0).modules_from_ideal;
+  const Mat3 modules = scene.Guess(0.0).modules_from_undistorted;
   WindowRays rays;
   LookUpRays(*scene.lens, scene.window, &rays);
-  PrintRaster raster;
-  PrintMap map;
-  PrintPicture all, print;
+  MarkerRaster raster;
+  PlaneMap map;
+  PredictedImage all, marker_pattern;
   std::vector<RowRange> ranges;
   for (const double blur : {0.3, 1.2, 3.5}) {
-    raster.Render(scene.print(), modules, rays, blur, &map, &all);
-    raster.RenderPrint(scene.print(), modules, rays, blur, &map, &print, &ranges);
+    raster.Render(scene.marker_pattern(), modules, rays, blur, &map, &all);
+    raster.RenderMarkerOnly(scene.marker_pattern(), modules, rays, blur, &map, &marker_pattern,
+                            &ranges);
     for (int y = 0; y < scene.window.height; ++y) {
       for (int x = 0; x < scene.window.width; ++x) {
         const std::size_t n = static_cast<std::size_t>(y) * scene.window.width + x;
-        const bool inside = map.column[n] > 0 && map.column[n] < scene.print().modules &&
-                            map.row[n] > 0 && map.row[n] < scene.print().modules;
+        const bool inside = map.column[n] > 0 && map.column[n] < scene.marker_pattern().modules &&
+                            map.row[n] > 0 && map.row[n] < scene.marker_pattern().modules;
         if (!inside) continue;
         ASSERT_TRUE(x >= ranges[y].begin && x < ranges[y].end);
-        ASSERT_EQ(all.white[n], print.white[n]);
-        ASSERT_EQ(all.white_x[n], print.white_x[n]);
-        ASSERT_EQ(all.white_y[n], print.white_y[n]);
+        ASSERT_EQ(all.white[n], marker_pattern.white[n]);
+        ASSERT_EQ(all.white_x[n], marker_pattern.white_x[n]);
+        ASSERT_EQ(all.white_y[n], marker_pattern.white_y[n]);
       }
     }
   }
@@ -196,20 +197,20 @@ TEST_P(RasterOnEveryTarget, DrawsWhatTheScalarReferenceDraws) {
         scene.window.width = width;
         WindowRays rays;
         LookUpRays(*scene.lens, scene.window, &rays);
-        PrintRaster simd, scalar(ScalarRasterKernels());
-        PrintMap map, scalar_map;
-        PrintPicture picture, scalar_picture;
+        MarkerRaster simd, scalar(ScalarRasterKernels());
+        PlaneMap map, scalar_map;
+        PredictedImage image, scalar_image;
         std::vector<RowRange> ranges, scalar_ranges;
-        const Mat3 modules = scene.Guess(0.0).modules_from_ideal;
-        simd.RenderPrint(scene.print(), modules, rays, blur, &map, &picture, &ranges);
-        scalar.RenderPrint(scene.print(), modules, rays, blur, &scalar_map, &scalar_picture,
-                           &scalar_ranges);
-        for (std::size_t n = 0; n < picture.white.size(); ++n) {
+        const Mat3 modules = scene.Guess(0.0).modules_from_undistorted;
+        simd.RenderMarkerOnly(scene.marker_pattern(), modules, rays, blur, &map, &image, &ranges);
+        scalar.RenderMarkerOnly(scene.marker_pattern(), modules, rays, blur, &scalar_map,
+                                &scalar_image, &scalar_ranges);
+        for (std::size_t n = 0; n < image.white.size(); ++n) {
           ASSERT_NEAR(map.column[n], scalar_map.column[n], 1e-4);
           ASSERT_NEAR(map.row_y[n], scalar_map.row_y[n], 1e-4);
-          ASSERT_NEAR(picture.white[n], scalar_picture.white[n], 2e-4);
-          ASSERT_NEAR(picture.white_x[n], scalar_picture.white_x[n], 2e-4);
-          ASSERT_NEAR(picture.white_y[n], scalar_picture.white_y[n], 2e-4);
+          ASSERT_NEAR(image.white[n], scalar_image.white[n], 2e-4);
+          ASSERT_NEAR(image.white_x[n], scalar_image.white_x[n], 2e-4);
+          ASSERT_NEAR(image.white_y[n], scalar_image.white_y[n], 2e-4);
         }
         for (std::size_t y = 0; y < ranges.size(); ++y) {
           ASSERT_NEAR(ranges[y].begin, scalar_ranges[y].begin, 1);
@@ -230,16 +231,16 @@ TEST(LensGrid, AgreesWithTheExactInverseOfTheLens) {
     const LensGrid lens(camera);
     for (double y = 0.3; y < camera.height; y += 13.7) {
       std::array<float, 20> row_x{}, row_y{};
-      lens.IdealRow(0.4, 15.9, 20, y, row_x.data(), row_y.data());
+      lens.UndistortRow(0.4, 15.9, 20, y, row_x.data(), row_y.data());
       for (int k = 0; k < 20; ++k) {
         const double x = 0.4 + 15.9 * k;
-        const Vec2 expected = lens.IdealOfRay(UndistortPixel(camera, {x, y}));
-        const Vec2 ideal = lens.Ideal(x, y);
-        EXPECT_NEAR(ideal.x, expected.x, 2e-3);
-        EXPECT_NEAR(ideal.y, expected.y, 2e-3);
-        EXPECT_NEAR(row_x[k], ideal.x, 1e-4);
-        EXPECT_NEAR(row_y[k], ideal.y, 1e-4);
-        const Vec2 back = lens.PixelOfIdeal(ideal);
+        const Vec2 expected = lens.UndistortedOfRay(UndistortPixel(camera, {x, y}));
+        const Vec2 undistorted = lens.Undistort(x, y);
+        EXPECT_NEAR(undistorted.x, expected.x, 2e-3);
+        EXPECT_NEAR(undistorted.y, expected.y, 2e-3);
+        EXPECT_NEAR(row_x[k], undistorted.x, 1e-4);
+        EXPECT_NEAR(row_y[k], undistorted.y, 1e-4);
+        const Vec2 back = lens.PixelOfUndistorted(undistorted);
         EXPECT_NEAR(back.x, x, 2e-3);
         EXPECT_NEAR(back.y, y, 2e-3);
       }
@@ -247,21 +248,21 @@ TEST(LensGrid, AgreesWithTheExactInverseOfTheLens) {
   }
 }
 
-TEST(ReducedPictures, AreRoundedMeansOfSquares) {
+TEST(ReducedImages, AreRoundedMeansOfSquares) {
   std::mt19937 random(1);
-  Image<std::uint8_t> picture(37, 22, 1);
+  Image<std::uint8_t> image(37, 22, 1);
   for (int y = 0; y < 22; ++y) {
-    for (int x = 0; x < 37; ++x) picture(x, y) = static_cast<std::uint8_t>(random());
+    for (int x = 0; x < 37; ++x) image(x, y) = static_cast<std::uint8_t>(random());
   }
-  ReducedPictures reduced;
-  reduced.SetPicture(picture.view());
+  ReducedImages reduced;
+  reduced.SetImage(image.view());
   const auto half = reduced.Level(1);
   ASSERT_EQ(half.width(), 18);
   ASSERT_EQ(half.height(), 11);
   for (int y = 0; y < 11; ++y) {
     for (int x = 0; x < 18; ++x) {
-      const int sum = picture(2 * x, 2 * y) + picture(2 * x + 1, 2 * y) +
-                      picture(2 * x, 2 * y + 1) + picture(2 * x + 1, 2 * y + 1);
+      const int sum = image(2 * x, 2 * y) + image(2 * x + 1, 2 * y) + image(2 * x, 2 * y + 1) +
+                      image(2 * x + 1, 2 * y + 1);
       EXPECT_EQ(half.row(y)[x], (sum + 2) / 4);
     }
   }

@@ -19,16 +19,17 @@ CameraModel SceneCamera(bool bent) {
   return camera;
 }
 
-Mat3 ModulesFromCorners(const PrintPattern& print, const std::array<Vec2, 4>& corners) {
-  const double half = 0.5 * print.edge_modules, middle = 0.5 * print.modules;
+Mat3 ModulesFromCorners(const MarkerPattern& marker_pattern, const std::array<Vec2, 4>& corners) {
+  const double half = 0.5 * marker_pattern.edge_modules, middle = 0.5 * marker_pattern.modules;
   return Mat3{{half, 0, middle, 0, -half, middle, 0, 0, 1}} * Adjugate(HomographyToQuad(corners));
 }
 
-std::array<Vec2, 4> CornersOf(const PrintPattern& print, const Mat3& modules_from_ideal) {
-  const double half = 0.5 * print.edge_modules, middle = 0.5 * print.modules;
+std::array<Vec2, 4> CornersOf(const MarkerPattern& marker_pattern,
+                              const Mat3& modules_from_undistorted) {
+  const double half = 0.5 * marker_pattern.edge_modules, middle = 0.5 * marker_pattern.modules;
   std::array<Vec2, 4> corners;
   for (int i = 0; i < 4; ++i) {
-    corners[i] = Apply(Adjugate(modules_from_ideal),
+    corners[i] = Apply(Adjugate(modules_from_undistorted),
                        {middle + half * kSquareCorners[i].x, middle - half * kSquareCorners[i].y});
   }
   return corners;
@@ -38,15 +39,15 @@ BlockFitState AlignmentScene::Guess(double off_px) const {
   std::array<Vec2, 4> corners;
   for (int i = 0; i < 4; ++i) {
     const double angle = 1.0 + 2.3 * i;
-    corners[i] =
-        lens->Ideal(truth[i].x + off_px * std::cos(angle), truth[i].y + off_px * std::sin(angle));
+    corners[i] = lens->Undistort(truth[i].x + off_px * std::cos(angle),
+                                 truth[i].y + off_px * std::sin(angle));
   }
-  return {ModulesFromCorners(print(), corners), 0.7};
+  return {ModulesFromCorners(marker_pattern(), corners), 0.7};
 }
 
 std::array<Vec2, 4> AlignmentScene::Corners(const BlockFitState& state) const {
-  std::array<Vec2, 4> corners = CornersOf(print(), state.modules_from_ideal);
-  for (Vec2& corner : corners) corner = lens->PixelOfIdeal(corner);
+  std::array<Vec2, 4> corners = CornersOf(marker_pattern(), state.modules_from_undistorted);
+  for (Vec2& corner : corners) corner = lens->PixelOfUndistorted(corner);
   return corners;
 }
 
@@ -54,11 +55,11 @@ AlignmentScene MakeScene(const AlignmentView& view, const RenderingOptions& opti
   AlignmentScene scene;
   scene.camera = SceneCamera(view.bent);
   scene.lens = std::make_unique<LensGrid>(scene.camera);
-  scene.marker.pattern = std::make_shared<PrintPattern>(SgPrint(7));
+  scene.marker.pattern = std::make_shared<MarkerPattern>(SgMarkerPattern(7));
   scene.marker.camera_from_marker =
-      PoseSeenAt(scene.camera, view.centre_px, view.side_px, scene.marker.size, view.tilt,
-                 view.tilt_axis, view.roll);
-  scene.picture = RenderMarkers(scene.camera, {scene.marker}, options);
+      PoseAtPixel(scene.camera, view.centre_px, view.side_px, scene.marker.size, view.tilt,
+                  view.tilt_axis, view.roll);
+  scene.image = RenderMarkers(scene.camera, {scene.marker}, options);
   scene.truth = TrueCorners(scene.camera, scene.marker);
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
   for (const Vec2& corner : scene.truth) {
@@ -77,9 +78,9 @@ AlignmentScene MakeScene(const AlignmentView& view, const RenderingOptions& opti
   return scene;
 }
 
-bool FitWhole(const AlignmentScene& scene, SeenWindow* seen, BlockFit* fit, BlockFitState* state,
-              bool fit_light) {
-  TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, seen);
+bool FitWhole(const AlignmentScene& scene, ObservedPatch* observed, BlockFit* fit,
+              BlockFitState* state, bool fit_light) {
+  TakeLinearWindow(*scene.lens, scene.image.view(), scene.window, observed);
   BlockFitOptions options;
   options.steps = 6;
   options.fit_blur = true;
@@ -88,8 +89,8 @@ bool FitWhole(const AlignmentScene& scene, SeenWindow* seen, BlockFit* fit, Bloc
   for (int i = 0; i < 4; ++i) {
     side = std::max(side, Norm(scene.truth[i] - scene.truth[(i + 1) % 4]));
   }
-  return fit->Run(scene.print(), PrintPart::kWhole, *seen, BlockFit::BlocksAlong(1.2 * side, 14.0),
-                  options, state);
+  return fit->Run(scene.marker_pattern(), MarkerPart::kWhole, *observed,
+                  BlockFit::BlocksAlong(1.2 * side, 14.0), options, state);
 }
 
 }  // namespace pleinair::tracker

@@ -12,20 +12,21 @@ namespace pleinair::tracker {
 CameraModel SceneCamera(bool bent);
 
 /// Homography to modules of a print from where the corners of its square are.
-Mat3 ModulesFromCorners(const PrintPattern& print, const std::array<Vec2, 4>& corners);
+Mat3 ModulesFromCorners(const MarkerPattern& marker_pattern, const std::array<Vec2, 4>& corners);
 /// … and where they are.
-std::array<Vec2, 4> CornersOf(const PrintPattern& print, const Mat3& modules_from_ideal);
+std::array<Vec2, 4> CornersOf(const MarkerPattern& marker_pattern,
+                              const Mat3& modules_from_undistorted);
 
-/// A print near the middle of a rendered picture, and the window that holds it.
+/// A print near the middle of a rendered image, and the window that holds it.
 struct AlignmentScene {
   CameraModel camera;
   std::unique_ptr<LensGrid> lens;
   RenderedMarker marker;
-  GreyImage picture;
+  GreyImage image;
   std::array<Vec2, 4> truth;  ///< Corners, in pixels.
   PixelWindow window;
 
-  const PrintPattern& print() const { return *marker.pattern; }
+  const MarkerPattern& marker_pattern() const { return *marker.pattern; }
   /// A guess with the corners off by `off_px` each along directions of their own.
   BlockFitState Guess(double off_px) const;
   std::array<Vec2, 4> Corners(const BlockFitState& state) const;
@@ -42,7 +43,7 @@ AlignmentScene MakeScene(const AlignmentView& view, const RenderingOptions& opti
 
 /// Fits the whole print, its blur and, if asked for, light's slope, from `state` on. `seen` and
 /// `fit` are left for looking at. False where the fit fails.
-bool FitWhole(const AlignmentScene& scene, SeenWindow* seen, BlockFit* fit, BlockFitState* state,
-              bool fit_light = false);
+bool FitWhole(const AlignmentScene& scene, ObservedPatch* observed, BlockFit* fit,
+              BlockFitState* state, bool fit_light = false);
 
 }  // namespace pleinair::tracker

@@ -17,9 +17,9 @@ namespace {
 
 struct Data {
   AlignmentScene scene;
-  SeenWindow seen;
-  PrintMap map;
-  PrintPicture picture;
+  ObservedPatch observed;
+  PlaneMap map;
+  PredictedImage image;
   std::vector<RowRange> ranges;
   std::vector<BlockLight> lights;
   KnownPart known{48.0F, 1.3F, 2.4F, 24.0F, 6.0F};
@@ -27,10 +27,10 @@ struct Data {
 
   explicit Data(int width) : scene(MakeScene({}, {.noise_codes = 3.0, .light = {}})) {
     if (width > 0) scene.window.width = width;
-    TakeLinearWindow(*scene.lens, scene.picture.view(), scene.window, &seen);
-    PrintRaster raster;
-    raster.RenderPrint(scene.print(), scene.Guess(0.5).modules_from_ideal, seen.rays, 0.7, &map,
-                       &picture, &ranges);
+    TakeLinearWindow(*scene.lens, scene.image.view(), scene.window, &observed);
+    MarkerRaster raster;
+    raster.RenderMarkerOnly(scene.marker_pattern(), scene.Guess(0.5).modules_from_undistorted,
+                            observed.rays, 0.7, &map, &image, &ranges);
     for (int k = 0; k < kBlocks * kBlocks; ++k) {
       const float gain = 0.5F + 0.02F * static_cast<float>(k);
       lights.push_back({gain, 0.05F, 1.0F / (gain * 0.35F), k % 7 == 3 ? 0.0F : 0.8F});
@@ -48,13 +48,14 @@ struct Results {
 
 Results Sum(const Data& data, BlockSums sums, int tile, bool blur) {
   Results results;
-  results.weight.assign(data.seen.value.size(), 0.0F);
-  results.block_of.resize(data.seen.value.size());
-  sums.Lay(data.scene.print(), data.known, data.seen, data.map, data.ranges, tile, Data::kBlocks);
-  sums.Levels(data.seen, data.picture, data.lights, &results.levels);
-  sums.Motions(data.seen, data.picture, data.lights, blur, &results.weight, &results.products,
+  results.weight.assign(data.observed.value.size(), 0.0F);
+  results.block_of.resize(data.observed.value.size());
+  sums.Lay(data.scene.marker_pattern(), data.known, data.observed, data.map, data.ranges, tile,
+           Data::kBlocks);
+  sums.Levels(data.observed, data.image, data.lights, &results.levels);
+  sums.Motions(data.observed, data.image, data.lights, blur, &results.weight, &results.products,
                &results.blocks);
-  sums.WriteBlocks(data.seen, &results.block_of);
+  sums.WriteBlocks(data.observed, &results.block_of);
   return results;
 }
 
@@ -118,22 +119,23 @@ TEST(BlockSums, AreThoseOfThePixelsOneByOne) {
       if (results.block_of[n] < 0) continue;
       ++pixels;
       const BlockLight& light = data.lights[results.block_of[n]];
-      const double r = data.seen.value[n] - light.offset - light.gain * data.picture.white[n];
+      const double r = data.observed.value[n] - light.offset - light.gain * data.image.white[n];
       const double z = r * light.inverse;
-      const double w = data.seen.certainty[n] * light.belief / ((1.0 + z * z) * (1.0 + z * z));
+      const double w =
+          data.observed.inverse_variance[n] * light.robust_weight / ((1.0 + z * z) * (1.0 + z * z));
       weight += w;
       EXPECT_NEAR(results.weight[n], w, 1e-4 * (1.0 + w));
       const double half = 20.0, u = (data.map.column[n] - 24.0) / half,
                    v = (data.map.row[n] - 24.0) / half;
       const double ux = data.map.column_x[n] / half, uy = data.map.column_y[n] / half;
       const double vx = data.map.row_x[n] / half, vy = data.map.row_y[n] / half;
-      const double px = data.picture.white_x[n], py = data.picture.white_y[n];
+      const double px = data.image.white_x[n], py = data.image.white_y[n];
       const double inverse = 1.0 / (ux * vy - uy * vx);
       const double pu = (px * vy - py * vx) * inverse, pv = (py * ux - px * uy) * inverse;
       double blur = 0.0;
       if (x > 0 && y > 0 && x + 1 < width && y + 1 < height) {
-        blur = 0.25 * (data.picture.white_x[n + 1] - data.picture.white_x[n - 1] +
-                       data.picture.white_y[n + width] - data.picture.white_y[n - width]);
+        blur = 0.25 * (data.image.white_x[n + 1] - data.image.white_x[n - 1] +
+                       data.image.white_y[n + width] - data.image.white_y[n - width]);
       }
       const double along = pu * u + pv * v;
       const std::array<double, kN> j{-pu,     -pu * u,   -pu * v,   -pv, -pv * u,

@@ -12,13 +12,13 @@ constexpr double kDegree = kRadiansPerDegree;
 
 }  // namespace
 
-std::shared_ptr<const PrintPattern> BoardPrint(const CalibrationBoard& board, bool legacy) {
+std::shared_ptr<const MarkerPattern> BoardPattern(const CalibrationBoard& board, bool legacy) {
   const bool charuco = board.kind == BoardKind::kCharuco;
   const int columns = board.columns + (charuco ? 0 : 1), rows = board.rows + (charuco ? 0 : 1);
-  const int marker = charuco ? ArucoPrint(board.dictionary, 0)->modules : 0;
+  const int marker = charuco ? ArucoMarkerPattern(board.dictionary, 0)->modules : 0;
   // Modules come twice, so that every board has its middle between two of them.
   const int square = 2 * (marker + 2);
-  auto print = std::make_shared<PrintPattern>();
+  auto print = std::make_shared<MarkerPattern>();
   print->edge_modules = square;
   print->modules = square * (std::max(columns, rows) + 1);
   print->white.assign(static_cast<std::size_t>(print->modules) * print->modules, 1);
@@ -36,7 +36,7 @@ std::shared_ptr<const PrintPattern> BoardPrint(const CalibrationBoard& board, bo
           at(column * square + i % square, row * square + i / square) = 0;
         }
       } else if (charuco) {
-        const PrintPattern code = *ArucoPrint(board.dictionary, id++);
+        const MarkerPattern code = *ArucoMarkerPattern(board.dictionary, id++);
         for (int i = 0; i < 4 * marker * marker; ++i) {
           const int x = i % (2 * marker), y = i / (2 * marker);
           at(column * square + 2 + x, row * square + 2 + y) = code.white[(y / 2) * marker + x / 2];
@@ -52,7 +52,7 @@ GreyImage RenderBoard(const CameraModel& camera, const CalibrationBoard& board,
                       const RenderingOptions& options, bool legacy) {
   std::vector<RenderedMarker> prints;
   if (board.kind != BoardKind::kMarkers) {
-    prints.push_back({BoardPrint(board, legacy), Metres(board.square_m), camera_from_board});
+    prints.push_back({BoardPattern(board, legacy), Metres(board.square_m), camera_from_board});
     return RenderMarkers(camera, prints, options);
   }
   const std::vector<Vec2> points = BoardPoints(board);
@@ -60,8 +60,8 @@ GreyImage RenderBoard(const CameraModel& camera, const CalibrationBoard& board,
     const Vec2 middle = (points[i] + points[i + 2]) * 0.5;
     const Transform<Marker, Marker> board_from_marker{{}, {middle.x, middle.y, 0.0}};
     const int number = board.first + static_cast<int>(i / 4);
-    prints.push_back({std::make_shared<const PrintPattern>(SgPrint(number)), Metres(board.square_m),
-                      camera_from_board * board_from_marker});
+    prints.push_back({std::make_shared<const MarkerPattern>(SgMarkerPattern(number)),
+                      Metres(board.square_m), camera_from_board * board_from_marker});
   }
   return RenderMarkers(camera, prints, options);
 }
@@ -79,7 +79,7 @@ std::vector<Transform<Camera, Marker>> BoardPoses(const CameraModel& camera, dou
       {.74, .50, .45, 1.0, -90, 3},  {.50, .27, .45, 0.9, 10, 180}, {.50, .73, .45, 0.9, 170, -3}};
   std::vector<Transform<Camera, Marker>> poses;
   for (const Place& place : kPlaces) {
-    poses.push_back(PoseSeenAt(
+    poses.push_back(PoseAtPixel(
         camera, {place.x * camera.width, place.y * camera.height}, place.size * camera.width,
         Metres(width_m), Radians(place.tilt * tilt_deg * kDegree),
         Radians(place.axis_deg * kDegree), Radians(place.roll_deg * kDegree)));

@@ -10,7 +10,8 @@ namespace pleinair::tracker {
 
 /// A chessboard or ChArUco board as a print; its `edge_modules` are one square, and its middle is
 /// the board's. `legacy`: laid out as before OpenCV 4.6.
-std::shared_ptr<const PrintPattern> BoardPrint(const CalibrationBoard& board, bool legacy = false);
+std::shared_ptr<const MarkerPattern> BoardPattern(const CalibrationBoard& board,
+                                                  bool legacy = false);
 
 /// A picture of the board.
 GreyImage RenderBoard(const CameraModel& camera, const CalibrationBoard& board,

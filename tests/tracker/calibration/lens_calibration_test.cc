@@ -35,7 +35,7 @@ CameraModel TrueCamera() {
 
 CalibrationBoard Charuco() { return {BoardKind::kCharuco, 8, 6, 0.03, 0.0, 0, "5x5_50"}; }
 
-/// How far apart two lenses see the same directions, px: RMS over the picture. A turn of the camera
+/// How far apart two lenses see the same directions, px: RMS over the image. A turn of the camera
 /// goes unseen in pictures, so the best one is taken out.
 double MapApart_px(const CameraModel& a, const CameraModel& b) {
   std::vector<Vec3> rays;
@@ -118,16 +118,16 @@ std::vector<PlaneView> DrawnViews(const CameraModel& camera,
       if (pixel.x < 0 || pixel.y < 0 || pixel.x >= camera.width || pixel.y >= camera.height)
         continue;
       view.on_board_m.push_back(at);
-      view.seen_px.push_back(pixel + Vec2{noise(random), noise(random)});
+      view.observed_px.push_back(pixel + Vec2{noise(random), noise(random)});
     }
-    if (view.seen_px.size() >= 6) views.push_back(std::move(view));
+    if (view.observed_px.size() >= 6) views.push_back(std::move(view));
   }
   return views;
 }
 
-void ExpectTheTrueLens(const std::vector<PlaneView>& views, std::size_t fewest_views) {
+void ExpectTheTrueLens(const std::vector<PlaneView>& views, std::size_t min_views) {
   const CameraModel truth = TrueCamera();
-  EXPECT_GE(views.size(), fewest_views);
+  EXPECT_GE(views.size(), min_views);
   const auto found = CalibrateLens(views, truth.width, truth.height);
   ASSERT_TRUE(found) << found.error().Message();
   const CameraModel& camera = found->fit.camera;
@@ -175,7 +175,7 @@ TEST(LensCalibration, KnowsBoardsFromBeforeOpenCv46ByLooking) {
   ASSERT_EQ(views.size(), 2U);
   for (std::size_t i = 0; i < views.size(); ++i) {
     EXPECT_LT(Rms(Residuals(TrueCamera(), poses[i], views[i])), 0.15);
-    EXPECT_EQ(views[i].seen_px.size(), 35U);
+    EXPECT_EQ(views[i].observed_px.size(), 35U);
   }
 }
 
@@ -188,9 +188,9 @@ std::string Refusal(const std::vector<Transform<Camera, Marker>>& poses) {
 
 Transform<Camera, Marker> Seen(double x, double y, double side_px, double tilt_deg,
                                double axis_deg) {
-  return PoseSeenAt(TrueCamera(), {x * 640.0, y * 480.0}, side_px, Metres(0.3),
-                    Radians(tilt_deg * kRadiansPerDegree), Radians(axis_deg * kRadiansPerDegree),
-                    Radians(0.0));
+  return PoseAtPixel(TrueCamera(), {x * 640.0, y * 480.0}, side_px, Metres(0.3),
+                     Radians(tilt_deg * kRadiansPerDegree), Radians(axis_deg * kRadiansPerDegree),
+                     Radians(0.0));
 }
 
 TEST(LensCalibration, IsSureOfGoodViews) {
@@ -200,7 +200,7 @@ TEST(LensCalibration, IsSureOfGoodViews) {
 TEST(LensCalibration, RefusesViewsFromStraightAhead) {
   std::vector<Transform<Camera, Marker>> poses;
   for (int i = 0; i < 12; ++i) {
-    // Facing the picture's plane, not the camera, wherever it stands.
+    // Facing the image's plane, not the camera, wherever it stands.
     Transform<Camera, Marker> pose = Seen(0.5, 0.5, 300.0, 0.0, 0.0);
     pose.rotation = {{1, 0, 0, 0, -1, 0, 0, 0, -1}};
     pose.translation_m = {0.12 * (i % 4 - 1.5), 0.09 * (i / 4 - 1.0), 0.5 + 0.05 * (i % 3)};
@@ -290,9 +290,9 @@ TEST(LensCalibration, RefusesBoardsThatAreNotAsDescribed) {
 TEST(LensCalibration, LeavesOutWhatContradictsTheRest) {
   const CameraModel camera = TrueCamera();
   auto views = DrawnViews(camera, BoardPoses(camera, 0.3, 40.0), 0.1);
-  views[3].seen_px[7].x += 9.0;  // A corner gone astray,
-  for (Vec2& seen : views[5].seen_px)
-    seen = seen * 0.8 + Vec2{40.0 + 0.0004 * seen.x * seen.y, 20.0};
+  views[3].observed_px[7].x += 9.0;  // A corner gone astray,
+  for (Vec2& observed : views[5].observed_px)
+    observed = observed * 0.8 + Vec2{40.0 + 0.0004 * observed.x * observed.y, 20.0};
   const auto found = CalibrateLens(views, camera.width, camera.height);
   ASSERT_TRUE(found) << found.error().Message();
   EXPECT_NEAR(found->fit.camera.fx / camera.fx, 1.0, 0.002);
@@ -366,7 +366,8 @@ TEST(LensUncertainty, IsTheSpreadOfFitsToRepeatedNoise) {
   for (int run = 0; run < kRuns; ++run) {
     auto views = exact;
     for (PlaneView& view : views) {
-      for (Vec2& seen : view.seen_px) seen = seen + Vec2{noise(random), noise(random)};
+      for (Vec2& observed : view.observed_px)
+        observed = observed + Vec2{noise(random), noise(random)};
     }
     const auto fit = FitLensFrom(views, *start, LensKind::kRadtan5, 0.0);
     ASSERT_TRUE(fit);
@@ -399,10 +400,10 @@ TEST(BoardFinder, FindsNothingInPicturesWithoutTheBoardAndSaysHowItIsCounted) {
   EXPECT_FALSE((*finder)->Find(empty.view()));
   EXPECT_EQ((*finder)->Hint(empty.view()), "");
   const CalibrationBoard real{BoardKind::kChessboard, 9, 6, 0.03, 0.0, 0, ""};
-  const GreyImage picture =
+  const GreyImage image =
       RenderBoard(TrueCamera(), real, BoardPoses(TrueCamera(), 0.3, 40.0)[0], {});
-  EXPECT_FALSE((*finder)->Find(picture.view()));
-  EXPECT_THAT((*finder)->Hint(picture.view()), HasSubstr("--chessboard 9x6"));
+  EXPECT_FALSE((*finder)->Find(image.view()));
+  EXPECT_THAT((*finder)->Hint(image.view()), HasSubstr("--chessboard 9x6"));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ void HardDecode(benchmark::State& state) {
   std::vector<GolayWord> words(256);
   for (auto& word : words) word = random() & 0xFFFFFFU;
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(DecodePrintedWord(words[++i % words.size()]));
+  for (auto _ : state) benchmark::DoNotOptimize(DecodeCodeword(words[++i % words.size()]));
 }
 BENCHMARK(HardDecode);
 

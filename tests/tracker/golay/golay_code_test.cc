@@ -70,8 +70,8 @@ TEST(GolayCode, GivesTheFrozenWords) {
   EXPECT_EQ(EncodeGolay(1), 0xA3B001U);
   EXPECT_EQ(EncodeGolay(2048), 0x7FF800U);
   EXPECT_EQ(EncodeGolay(4095), 0xFFFFFFU);
-  EXPECT_EQ(PrintedWord(0), 0xAAA555U);
-  EXPECT_EQ(PrintedWord(17), 0xD32544U);
+  EXPECT_EQ(CodewordOfNumber(0), 0xAAA555U);
+  EXPECT_EQ(CodewordOfNumber(17), 0xD32544U);
 }
 
 // The code is linear and the decoder looks only at the syndrome, which errors alone decide; eight
@@ -116,33 +116,33 @@ TEST(HardGolayDecoder, AcceptsMoreThanHalfOfAllRandomWords) {
   EXPECT_NEAR(static_cast<double>(accepted) / kWords, 0.5676, 0.005);
 }
 
-TEST(PrintedWord, IsDecodedToItsNumber) {
+TEST(CodewordOfNumber, IsDecodedToItsNumber) {
   for (int n = 0; n < kGolayNumbers; ++n) {
-    const auto decoding = DecodePrintedWord(PrintedWord(n));
+    const auto decoding = DecodeCodeword(CodewordOfNumber(n));
     ASSERT_TRUE(decoding);
     ASSERT_EQ(decoding->number, n);
     ASSERT_EQ(decoding->corrected_bits, 0);
   }
 }
 
-TEST(PrintedWord, LiesFourBitsOrMoreFromAUniformPatch) {
+TEST(CodewordOfNumber, LiesFourBitsOrMoreFromAUniformPatch) {
   int fewest = kGolayBits, most = 0;
   for (int n = 0; n < kGolayNumbers; ++n) {
-    fewest = std::min(fewest, std::popcount(PrintedWord(n)));
-    most = std::max(most, std::popcount(PrintedWord(n)));
+    fewest = std::min(fewest, std::popcount(CodewordOfNumber(n)));
+    most = std::max(most, std::popcount(CodewordOfNumber(n)));
   }
   EXPECT_EQ(fewest, 4);
   EXPECT_EQ(most, 20);
-  EXPECT_FALSE(DecodePrintedWord(0));
-  EXPECT_FALSE(DecodePrintedWord(kAllCells));
+  EXPECT_FALSE(DecodeCodeword(0));
+  EXPECT_FALSE(DecodeCodeword(kAllCells));
 }
 
-TEST(PrintedWord, OfNumberZeroIsTheChequerboardRoundTheCentre) {
+TEST(CodewordOfNumber, OfNumberZeroIsTheChequerboardRoundTheCentre) {
   int cell = 0;
   for (int row = 0; row < 5; ++row) {
     for (int column = 0; column < 5; ++column) {
       if (row == 2 && column == 2) continue;
-      EXPECT_EQ(PrintedWord(0) >> cell & 1U, (row + column) % 2 == 0 ? 1U : 0U)
+      EXPECT_EQ(CodewordOfNumber(0) >> cell & 1U, (row + column) % 2 == 0 ? 1U : 0U)
           << row << ", " << column;
       ++cell;
     }

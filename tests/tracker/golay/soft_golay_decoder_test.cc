@@ -26,7 +26,7 @@ using ::testing::HasSubstr;
 CellLikelihoods CleanCells(int number, float likelihood = 4.0F) {
   CellLikelihoods cells;
   for (int i = 0; i < kGolayBits; ++i) {
-    cells[i] = (PrintedWord(number) >> i & 1U) != 0 ? likelihood : -likelihood;
+    cells[i] = (CodewordOfNumber(number) >> i & 1U) != 0 ? likelihood : -likelihood;
   }
   return cells;
 }
@@ -42,7 +42,7 @@ CellLikelihoods Erase(CellLikelihoods cells, GolayWord erased) {
 double Correlation(const CellLikelihoods& cells, int number) {
   double sum = 0.0;
   for (int i = 0; i < kGolayBits; ++i) {
-    sum += (PrintedWord(number) >> i & 1U) != 0 ? cells[i] : -cells[i];
+    sum += (CodewordOfNumber(number) >> i & 1U) != 0 ? cells[i] : -cells[i];
   }
   return sum;
 }
@@ -101,10 +101,10 @@ TEST(SoftGolayDecoder, KnowsPrintsWithoutAWrongCellAsDecodeDoes) {
   SoftGolayDecoder some;
   ASSERT_TRUE(some.SetNumbersInUse(std::vector<int>{3, 7, 4095}).has_value());
   for (int number = 0; number < kGolayNumbers; ++number) {
-    const GolayWord print = PrintedWord(number);
-    ASSERT_EQ(SoftGolayDecoder().NumberOfPrint(print), number);
-    ASSERT_EQ(some.NumberOfPrint(print).has_value(), number == 3 || number == 7 || number == 4095);
-    ASSERT_FALSE(SoftGolayDecoder().NumberOfPrint(print ^ (1U << (number % kGolayBits))));
+    const GolayWord print = CodewordOfNumber(number);
+    ASSERT_EQ(SoftGolayDecoder().NumberOfCells(print), number);
+    ASSERT_EQ(some.NumberOfCells(print).has_value(), number == 3 || number == 7 || number == 4095);
+    ASSERT_FALSE(SoftGolayDecoder().NumberOfCells(print ^ (1U << (number % kGolayBits))));
   }
   const CellLikelihoods cells = CleanCells(7, 6.0F);
   EXPECT_EQ(SoftGolayDecoder().Decode(cells).number, 7);
@@ -120,7 +120,7 @@ TEST(SoftGolayDecoder, ReadsEveryCleanPrint) {
     ASSERT_FLOAT_EQ(decoding.score, 24 * 4.0F);
     // The nearest other word differs in eight cells.
     ASSERT_FLOAT_EQ(decoding.margin, 2 * 8 * 4.0F);
-    ASSERT_EQ(std::popcount(PrintedWord(n) ^ PrintedWord(*decoding.second_number)), 8);
+    ASSERT_EQ(std::popcount(CodewordOfNumber(n) ^ CodewordOfNumber(*decoding.second_number)), 8);
     ASSERT_FLOAT_EQ(decoding.agreement, 1.0F);
     ASSERT_EQ(decoding.disagreements, 0);
     ASSERT_EQ(decoding.erasures, 0);
@@ -148,7 +148,7 @@ TEST(SoftGolayDecoder, EqualsBruteForceOnRandomLikelihoods) {
     int disagreements = 0;
     for (int i = 0; i < kGolayBits; ++i) {
       evidence += std::abs(cells[i]);
-      const bool white = (PrintedWord(decoding.number) >> i & 1U) != 0;
+      const bool white = (CodewordOfNumber(decoding.number) >> i & 1U) != 0;
       disagreements += (white && cells[i] < 0) || (!white && cells[i] > 0) ? 1 : 0;
     }
     EXPECT_NEAR(decoding.agreement, sorted[0] / evidence, 1e-4);
@@ -163,7 +163,7 @@ TEST(SoftGolayDecoder, CorrectsFourDoubtfulCellsThatTheHardDecoderRefuses) {
   for (int round = 0; round < 1000; ++round) {
     const int number = static_cast<int>(random() % kGolayNumbers);
     const GolayWord wrong = RandomPattern(random, 4);
-    ASSERT_FALSE(DecodePrintedWord(PrintedWord(number) ^ wrong));
+    ASSERT_FALSE(DecodeCodeword(CodewordOfNumber(number) ^ wrong));
     CellLikelihoods cells = CleanCells(number);
     for (int i = 0; i < kGolayBits; ++i) {
       if ((wrong >> i & 1U) != 0) cells[i] *= -0.5F;
@@ -320,7 +320,7 @@ TEST(SoftGolayDecoder, TellsPrintsFromRandomCellsByMarginAndAgreement) {
   std::mt19937 random(8);
   std::normal_distribution<float> clutter(0.0F, 4.0F), noise(0.0F, 1.0F);
   const SoftGolayDecoder decoder;
-  int random_accepted = 0, prints_accepted = 0;
+  int random_accepted = 0, markers_accepted = 0;
   constexpr int kRounds = 20'000;
   const auto accepts = [&](const CellLikelihoods& cells) {
     const SoftGolayDecoding decoding = decoder.Decode(cells);
@@ -332,10 +332,10 @@ TEST(SoftGolayDecoder, TellsPrintsFromRandomCellsByMarginAndAgreement) {
     random_accepted += accepts(cells) ? 1 : 0;
     cells = CleanCells(static_cast<int>(random() % kGolayNumbers));
     for (float& cell : cells) cell += noise(random);
-    prints_accepted += accepts(cells) ? 1 : 0;
+    markers_accepted += accepts(cells) ? 1 : 0;
   }
   EXPECT_LT(random_accepted, 0.002 * kRounds);
-  EXPECT_GT(prints_accepted, 0.999 * kRounds);
+  EXPECT_GT(markers_accepted, 0.999 * kRounds);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Pictures found by their texture: where they are, how much of them is seen, and that nothing else
-// passes for them.
+// Pictures found by their texture: where they are, how much of them is observed, and that nothing
+// else passes for them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ struct View {
 void PrintTo(const View& view, std::ostream* out) { *out << view.name; }
 
 /// Two frames of a view, from directions that a seed says.
-class PictureSeen : public testing::TestWithParam<View> {
+class ImageSeen : public testing::TestWithParam<View> {
  protected:
   static void ExpectFound(const Subject& subject) {
     const View& view = GetParam();
@@ -149,8 +149,8 @@ class PictureSeen : public testing::TestWithParam<View> {
     ASSERT_GE(side, 3);
     ASSERT_EQ(detection.visibility.size(), static_cast<std::size_t>(side) * side);
     if (covered == 0.0) return;
-    double hidden = 0.0, seen = 0.0;
-    int hidden_blocks = 0, seen_blocks = 0;
+    double hidden = 0.0, observed = 0.0;
+    int hidden_blocks = 0, observed_blocks = 0;
     for (int row = 0; row < side; ++row) {
       for (int column = 0; column < side; ++column) {
         const int from_side = from_left ? column : side - 1 - column;
@@ -159,21 +159,21 @@ class PictureSeen : public testing::TestWithParam<View> {
           hidden += visible;
           ++hidden_blocks;
         } else if (from_side > covered * side) {
-          seen += visible;
-          ++seen_blocks;
+          observed += visible;
+          ++observed_blocks;
         }
       }
     }
     EXPECT_LT(hidden, 0.2 * hidden_blocks);
-    EXPECT_GT(seen, 0.75 * seen_blocks);
+    EXPECT_GT(observed, 0.75 * observed_blocks);
   }
 };
 
-TEST_P(PictureSeen, IsFoundWhereItIs) { ExpectFound(Leaves()); }
-TEST_P(PictureSeen, IsFoundWhereItIsIfAPhotograph) { ExpectFound(Photo()); }
+TEST_P(ImageSeen, IsFoundWhereItIs) { ExpectFound(Leaves()); }
+TEST_P(ImageSeen, IsFoundWhereItIsIfAPhotograph) { ExpectFound(Photo()); }
 
 INSTANTIATE_TEST_SUITE_P(
-    PictureTarget, PictureSeen,
+    PictureTarget, ImageSeen,
     testing::Values(View{.name = "Plain"}, View{.name = "Frontal", .tilt_deg = 0},
                     View{.name = "Tilted45", .tilt_deg = 45},
                     View{.name = "Tilted60", .tilt_deg = 60},

@@ -48,7 +48,7 @@ GreyImage Grey(const cv::Mat& from) {
 
 /// The least of some runs, in milliseconds of this thread.
 template <typename Run>
-double LeastTime_ms(int runs, Run run) {
+double MinTime_ms(int runs, Run run) {
   double least = 1e9;
   for (int i = 0; i < runs; ++i) {
     const double start = Now_ms();
@@ -93,7 +93,7 @@ void PrintTimes() {
   const TestPicture picture = DeadLeaves(1, 640, 480);
   std::printf("| step | ms |\n| --- | --- |\n");
   const GreyImage codes = picture.Codes();
-  std::printf("| making a target | %.0f |\n", LeastTime_ms(kMakings, [&] {
+  std::printf("| making a target | %.0f |\n", MinTime_ms(kMakings, [&] {
                 targets.push_back(std::make_shared<const PictureTarget>(
                     *MakePictureTarget(codes.view(), Metres(0.4), "leaves")));
               }));
@@ -110,7 +110,7 @@ void PrintTimes() {
     const std::vector<bool> wanted(static_cast<std::size_t>(count), true);
     std::vector<TargetGuess> guesses;
     std::printf("| searching a cluttered frame for %d | %.1f |\n", count,
-                LeastTime_ms(kRuns, [&] { search.Find(clutter.view(), wanted, &guesses); }));
+                MinTime_ms(kRuns, [&] { search.Find(clutter.view(), wanted, &guesses); }));
   }
   for (const double side_px : {100.0, 330.0}) {
     const HungPicture hung = HangAt(Camera(), picture, {320, 240}, side_px, 20.0, 30.0, 40.0);
@@ -120,7 +120,7 @@ void PrintTimes() {
           Camera(), {.families = {}, .consecutive_frames = follows, .targets = {targets.front()}});
       (void)tracker->Track(frame.view());
       std::printf("| %s one of %.0f px | %.1f |\n", follows ? "following" : "finding", side_px,
-                  LeastTime_ms(kRuns, [&] { (void)tracker->Track(frame.view()); }));
+                  MinTime_ms(kRuns, [&] { (void)tracker->Track(frame.view()); }));
     }
   }
 }
@@ -155,14 +155,14 @@ class Evaluation {
         for (unsigned seed = 1; seed <= kFramesOfView; ++seed) {
           const auto [hung, frame] = Frame(picture, view, seed);
           const double start = Now_ms();
-          const auto sightings = tracker->Track(frame.view());
+          const auto observations = tracker->Track(frame.view());
           ms += Now_ms() - start;
           ++shown;
-          if (!sightings || sightings->size() != 1) continue;
+          if (!observations || observations->size() != 1) continue;
           const auto truth = TrueCorners(Camera(), hung);
           double square = 0.0;
           for (int i = 0; i < 4; ++i) {
-            const double off_px = Norm((*sightings)[0].detection.corners_px[i] - truth[i]);
+            const double off_px = Norm((*observations)[0].detection.corners_px[i] - truth[i]);
             square += 0.25 * off_px * off_px;
           }
           ++found;
@@ -170,7 +170,7 @@ class Evaluation {
           worst = std::max(worst, std::sqrt(square));
           const Vec3 at = hung.camera_from_marker.translation_m;
           position +=
-              Norm((*sightings)[0].pose.best.camera_from_marker.translation_m - at) / Norm(at);
+              Norm((*observations)[0].pose.best.camera_from_marker.translation_m - at) / Norm(at);
         }
       }
       std::printf("| %s | %d of %d | %.3f | %.2f | %.5f | %.1f |\n", view.name, found, shown,
@@ -194,15 +194,15 @@ class Evaluation {
     int frames = 0, falsely = 0, mirrored = 0;
     for (std::size_t i = 0; i < photographs_.size(); ++i) {
       for (int part = 0; part < kPartsOfPhotograph; ++part, ++frames) {
-        const auto sightings = tracker->Track(
+        const auto observations = tracker->Track(
             Part(photographs_[i].picture, 100 * static_cast<unsigned>(i) + part).view());
-        for (const Sighting& sighting : *sightings) {
-          if (source[sighting.detection.id] == i) continue;
+        for (const MarkerObservation& observation : *observations) {
+          if (source[observation.detection.id] == i) continue;
           ++falsely;
           std::printf("%s in %s, part %d: %.0f %% visible\n",
-                      photographs_[source[sighting.detection.id]].file.c_str(),
+                      photographs_[source[observation.detection.id]].file.c_str(),
                       photographs_[i].file.c_str(), part,
-                      100.0 * sighting.detection.visible_fraction);
+                      100.0 * observation.detection.visible_fraction);
         }
         mirrored += static_cast<int>(tracker->Warnings().size());
       }

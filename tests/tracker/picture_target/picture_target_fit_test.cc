@@ -22,16 +22,16 @@ Mat3 TargetFromCorners(const std::array<Vec2, 4>& corners) {
   return kTargetFromUnit * Adjugate(HomographyToQuad(corners));
 }
 
-std::array<Vec2, 4> CornersOf(const Mat3& target_from_ideal) {
+std::array<Vec2, 4> CornersOf(const Mat3& target_from_undistorted) {
   std::array<Vec2, 4> corners;
   for (int i = 0; i < 4; ++i) {
-    corners[i] = Apply(Adjugate(target_from_ideal),
+    corners[i] = Apply(Adjugate(target_from_undistorted),
                        {kHalf + kHalf * kSquareCorners[i].x, kHalf - kHalf * kSquareCorners[i].y});
   }
   return corners;
 }
 
-/// A picture that hangs in view, as it is seen and as it should look.
+/// A picture that hangs in view, as it is observed and as it should look.
 class PictureAlignment : public testing::Test {
  protected:
   PictureAlignment()
@@ -44,11 +44,11 @@ class PictureAlignment : public testing::Test {
   }
 
   /// Takes a window around the picture.
-  SeenWindow See(const GreyImage& frame, int level) const {
-    SeenWindow seen;
+  ObservedPatch See(const GreyImage& frame, int level) const {
+    ObservedPatch observed;
     TakeLinearWindow(lens_, frame.view(),
-                     {level, 0, 0, frame.width() >> level, frame.height() >> level}, &seen);
-    return seen;
+                     {level, 0, 0, frame.width() >> level, frame.height() >> level}, &observed);
+    return observed;
   }
 
   const CameraModel camera_ = SgCamera(320, 240, 400);
@@ -65,20 +65,20 @@ TEST_F(PictureAlignment, PredictsWhatAPerfectCameraSees) {
     SCOPED_TRACE(testing::Message() << view.side_px << " px, " << view.tilt_deg << " degrees");
     const HungPicture hung = Hung(view.side_px, view.tilt_deg);
     const GreyImage frame = RenderPictures(camera_, {hung}, {.blur_px = view.blur_px});
-    const SeenWindow seen = See(frame, 0);
+    const ObservedPatch observed = See(frame, 0);
     PictureRaster raster;
-    PrintMap map;
-    PrintPicture predicted;
+    PlaneMap map;
+    PredictedImage predicted;
     std::vector<RowRange> ranges;
-    raster.Render(pyramid_, TargetFromCorners(TrueCorners(camera_, hung)), seen.rays, view.blur_px,
-                  &map, &predicted, &ranges);
+    raster.Render(pyramid_, TargetFromCorners(TrueCorners(camera_, hung)), observed.rays,
+                  view.blur_px, &map, &predicted, &ranges);
     // The renderer's white is 0.8; the pyramid's is what the brightest exceed.
     double pp = 0.0, pi = 0.0, ii = 0.0;
-    for (std::size_t k = 0; k < seen.value.size(); ++k) {
+    for (std::size_t k = 0; k < observed.value.size(); ++k) {
       if (!(map.column[k] > 4 && map.column[k] < 60 && map.row[k] > 4 && map.row[k] < 60)) continue;
       pp += predicted.white[k] * predicted.white[k];
-      pi += predicted.white[k] * seen.value[k];
-      ii += seen.value[k] * seen.value[k];
+      pi += predicted.white[k] * observed.value[k];
+      ii += observed.value[k] * observed.value[k];
     }
     ASSERT_GT(pp, 0.0);
     // What is left over after one gain: interpolation blurs a little more than nothing.
@@ -88,23 +88,23 @@ TEST_F(PictureAlignment, PredictsWhatAPerfectCameraSees) {
 
 TEST_F(PictureAlignment, SlopesAreThoseOfThePrediction) {
   const HungPicture hung = Hung(120, 30);
-  const SeenWindow seen = See(RenderPictures(camera_, {hung}, {}), 0);
+  const ObservedPatch observed = See(RenderPictures(camera_, {hung}, {}), 0);
   PictureRaster raster;
-  PrintMap map;
-  PrintPicture at, moved;
+  PlaneMap map;
+  PredictedImage at, moved;
   std::vector<RowRange> ranges;
-  const Mat3 target_from_ideal = TargetFromCorners(TrueCorners(camera_, hung));
+  const Mat3 target_from_undistorted = TargetFromCorners(TrueCorners(camera_, hung));
   constexpr double kBlur_px = 1.5, kStep_px = 0.05;
-  raster.Render(pyramid_, target_from_ideal, seen.rays, kBlur_px, &map, &at, &ranges);
+  raster.Render(pyramid_, target_from_undistorted, observed.rays, kBlur_px, &map, &at, &ranges);
   for (const bool along_x : {true, false}) {
     // The derivative by the place of the camera, from both sides.
     std::vector<double> difference(at.white.size(), 0.0);
     for (const double sign : {1.0, -1.0}) {
       const Mat3 shift{
           {1, 0, along_x ? sign * kStep_px : 0, 0, 1, along_x ? 0 : sign * kStep_px, 0, 0, 1}};
-      PrintMap moved_map;
-      raster.Render(pyramid_, target_from_ideal * shift, seen.rays, kBlur_px, &moved_map, &moved,
-                    &ranges);
+      PlaneMap moved_map;
+      raster.Render(pyramid_, target_from_undistorted * shift, observed.rays, kBlur_px, &moved_map,
+                    &moved, &ranges);
       for (std::size_t k = 0; k < difference.size(); ++k) {
         difference[k] += sign * moved.white[k] / (2.0 * kStep_px);
       }
@@ -133,12 +133,12 @@ TEST_F(PictureAlignment, ComesBackFromPixelsAwayToHundredths) {
       for (int i = 0; i < 4; ++i) {
         guess[i] = guess[i] + Vec2{off_px * std::cos(2.1 * i), off_px * std::sin(2.1 * i)};
       }
-      const SeenWindow seen = See(frame, 0);
+      const ObservedPatch observed = See(frame, 0);
       PictureFitState state{TargetFromCorners(guess)};
       PictureFit fit;
-      ASSERT_TRUE(fit.Run(pyramid_, seen, 8, {.steps = 20, .fit_blur = true, .least_weight = 0.01},
-                          &state));
-      const std::array<Vec2, 4> corners = CornersOf(state.target_from_ideal);
+      ASSERT_TRUE(fit.Run(pyramid_, observed, 8,
+                          {.steps = 20, .fit_blur = true, .min_weight = 0.01}, &state));
+      const std::array<Vec2, 4> corners = CornersOf(state.target_from_undistorted);
       for (int i = 0; i < 4; ++i) EXPECT_LT(Norm(corners[i] - truth[i]), 0.06) << "corner " << i;
       EXPECT_GT(fit.Correlation(), 0.97);
       EXPECT_NEAR(state.blur_px, 0.5, 0.25);
@@ -149,16 +149,16 @@ TEST_F(PictureAlignment, ComesBackFromPixelsAwayToHundredths) {
 TEST_F(PictureAlignment, SaysWhichBlocksAreCovered) {
   HungPicture hung = Hung(160, 20);
   hung.cover = [](Vec2 at) { return at.y < 0.5 ? 0.3 + 0.2 * std::sin(40 * at.x) : -1.0; };
-  const SeenWindow seen =
+  const ObservedPatch observed =
       See(RenderPictures(camera_, {hung}, {.blur_px = 0.6, .noise_codes = 1.0}), 0);
   PictureFitState state{TargetFromCorners(TrueCorners(camera_, hung))};
   PictureFit fit;
-  ASSERT_TRUE(fit.Run(pyramid_, seen, 8, {.steps = 4}, &state));
-  fit.Compare(seen);
+  ASSERT_TRUE(fit.Run(pyramid_, observed, 8, {.steps = 4}, &state));
+  fit.Compare(observed);
   for (int row = 0; row < 8; ++row) {
     for (int column = 0; column < 8; ++column) {
       const TargetBlock& block = fit.blocks()[row * 8 + column];
-      if (!block.tells || row == 3 || row == 4) continue;
+      if (!block.informative || row == 3 || row == 4) continue;
       if (row < 4) {
         EXPECT_LT(block.detail_correlation, 0.6) << row << ", " << column;
       } else {

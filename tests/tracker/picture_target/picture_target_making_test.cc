@@ -58,7 +58,7 @@ TEST(TargetMaking, KeepsShapeSizeAndLight) {
   // Seen from many sides, and every feature on the picture.
   EXPECT_GT(target->views.size(), 40U);
   EXPECT_GT(target->keypoints.size(), 1000U);
-  EXPECT_LE(target->keypoints.size(), static_cast<std::size_t>(kMostTargetKeypoints));
+  EXPECT_LE(target->keypoints.size(), static_cast<std::size_t>(kMaxTargetKeypoints));
   ASSERT_EQ(target->keypoints.size(), target->descriptors.size());
   for (const TargetKeypoint& keypoint : target->keypoints) {
     const Vec2 place = PlaceOnTarget(*target, keypoint);

@@ -13,7 +13,7 @@ namespace {
 /// A blank print as large as the picture's longer side; the picture lies on it.
 RenderedMarker OnPaper(const HungPicture& hung, double background) {
   static const auto kPaper =
-      std::make_shared<PrintPattern>(PrintPattern{.modules = 1, .edge_modules = 1, .white = {1}});
+      std::make_shared<MarkerPattern>(MarkerPattern{.modules = 1, .edge_modules = 1, .white = {1}});
   RenderedMarker marker;
   marker.pattern = kPaper;
   marker.size = Metres(std::max(hung.width_m, hung.height_m()));
@@ -107,8 +107,8 @@ HungPicture HangAt(const CameraModel& camera, const TestPicture& picture, Vec2 c
   HungPicture hung;
   hung.picture = &picture;
   hung.camera_from_marker =
-      PoseSeenAt(camera, centre_px, side_px, Metres(std::max(hung.width_m, hung.height_m())),
-                 FromDegrees(tilt_deg), FromDegrees(axis_deg), FromDegrees(roll_deg));
+      PoseAtPixel(camera, centre_px, side_px, Metres(std::max(hung.width_m, hung.height_m())),
+                  FromDegrees(tilt_deg), FromDegrees(axis_deg), FromDegrees(roll_deg));
   return hung;
 }
 

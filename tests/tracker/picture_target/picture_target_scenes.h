@@ -33,8 +33,8 @@ class TestPicture {
   Image<float> linear_;
 };
 
-/// Leaves that fall on one another until nothing else is seen, each with a shade and a grain of its
-/// own: sizes and contrasts are distributed as in photographs (Lee, Mumford, Huang, "Occlusion
+/// Leaves that fall on one another until nothing else is observed, each with a shade and a grain of
+/// its own: sizes and contrasts are distributed as in photographs (Lee, Mumford, Huang, "Occlusion
 /// models for natural images", 2001).
 TestPicture DeadLeaves(std::uint32_t seed, int width, int height);
 
@@ -51,7 +51,7 @@ struct HungPicture {
   double height_m() const { return width_m / picture->Aspect(); }
 };
 
-/// Hung with its longer side `side_px` long were it frontal, as PoseSeenAt says.
+/// Hung with its longer side `side_px` long were it frontal, as PoseAtPixel says.
 HungPicture HangAt(const CameraModel& camera, const TestPicture& picture, Vec2 centre_px,
                    double side_px, double tilt_deg = 0.0, double axis_deg = 0.0,
                    double roll_deg = 0.0);

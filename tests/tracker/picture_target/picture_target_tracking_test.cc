@@ -60,7 +60,7 @@ class PictureTracking : public testing::Test {
     tracker_ = *std::move(tracker);
   }
 
-  void ExpectPicture(int frame, Covered covered, DetectionPath path, double corner_px = 0.1) {
+  void ExpectImage(int frame, Covered covered, DetectionPath path, double corner_px = 0.1) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
     const auto found = Track(tracker_.get(), Frame(frame, covered));
     ASSERT_EQ(found.size(), 1U) << Summary(found);
@@ -85,29 +85,29 @@ class PictureTracking : public testing::Test {
 };
 
 TEST_F(PictureTracking, FollowsAPictureWhileAHandPassesOverIt) {
-  ExpectPicture(0, Covered::kNothing, DetectionPath::kSurfGolay);
+  ExpectImage(0, Covered::kNothing, DetectionPath::kSurfGolay);
   for (int frame = 1; frame < 6; ++frame) {
-    ExpectPicture(frame, Covered::kNothing, DetectionPath::kTracked);
+    ExpectImage(frame, Covered::kNothing, DetectionPath::kTracked);
   }
   for (int frame = 6; frame < 10; ++frame) {
-    ExpectPicture(frame, Covered::kHalf, DetectionPath::kTracked, 0.3);
+    ExpectImage(frame, Covered::kHalf, DetectionPath::kTracked, 0.3);
   }
-  ExpectPicture(10, Covered::kNothing, DetectionPath::kTracked);
+  ExpectImage(10, Covered::kNothing, DetectionPath::kTracked);
 }
 
 TEST_F(PictureTracking, SaysSinceWhenAPictureIsLostAndFindsItAgain) {
   EXPECT_THAT(Track(tracker_.get(), GreyImage(320, 240)), IsEmpty());
-  EXPECT_THAT(tracker_->Lost(), IsEmpty());  // Never seen is not lost.
+  EXPECT_THAT(tracker_->Lost(), IsEmpty());  // Never observed is not lost.
   Track(tracker_.get(), GreyImage(320, 240));
   Track(tracker_.get(), GreyImage(320, 240));
-  ExpectPicture(0, Covered::kNothing, DetectionPath::kSurfGolay);
-  ExpectPicture(1, Covered::kNothing, DetectionPath::kTracked);
+  ExpectImage(0, Covered::kNothing, DetectionPath::kSurfGolay);
+  ExpectImage(1, Covered::kNothing, DetectionPath::kTracked);
   ExpectLost(Frame(2, Covered::kAll), 1);
   ExpectLost(Frame(3, Covered::kAll), 2);
   ExpectLost(DeadLeaves(77, 320, 240).Codes(), 3);
   // Far from where it went.
-  ExpectPicture(20, Covered::kNothing, DetectionPath::kSurfGolay);
-  ExpectPicture(21, Covered::kNothing, DetectionPath::kTracked);
+  ExpectImage(20, Covered::kNothing, DetectionPath::kSurfGolay);
+  ExpectImage(21, Covered::kNothing, DetectionPath::kTracked);
 }
 
 TEST_F(PictureTracking, HoldsTheSameMemoryAfterManyFrames) {
@@ -125,7 +125,7 @@ TEST_F(PictureTracking, HoldsTheSameMemoryAfterManyFrames) {
   EXPECT_NEAR(static_cast<double>(LiveBytes()), static_cast<double>(before), 4096.0);
 }
 
-TEST(PictureMemory, IsAskedForInAHandfulOfPiecesForAFollowedPicture) {
+TEST(ImageMemory, IsAskedForInAHandfulOfPiecesForAFollowedPicture) {
   PictureDetector detector(Camera(), {Leaves().target}, true);
   const GreyImage frame = Frame(0);
   for (int i = 0; i < 5; ++i) ASSERT_EQ(detector.Detect(frame.view()).size(), 1U);

@@ -41,8 +41,9 @@ TEST(PoseCovariance, TellsTheTruthForGaussianNoiseOnTheCorners) {
   Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(corner_covariance.data()) = covariance;
   for (const double tilt_deg : {20.0, 50.0, 70.0}) {
     RenderedMarker marker;
-    marker.camera_from_marker = PoseSeenAt(camera, {400, 180}, 120, marker.size,
-                                           FromDegrees(tilt_deg), FromDegrees(100), FromDegrees(5));
+    marker.camera_from_marker =
+        PoseAtPixel(camera, {400, 180}, 120, marker.size, FromDegrees(tilt_deg), FromDegrees(100),
+                    FromDegrees(5));
     const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
     constexpr int kDraws = 1000;
     double sum = 0.0;
@@ -65,8 +66,8 @@ TEST(PoseCovariance, TellsTheTruthForGaussianNoiseOnTheCorners) {
 TEST(PoseCovariance, CountsWithTheOtherPoseWhereTheCornersHardlyTellThemApart) {
   const CameraModel camera{.width = 640, .height = 480, .fx = 600, .fy = 605, .cx = 322, .cy = 238};
   RenderedMarker marker;
-  marker.camera_from_marker = PoseSeenAt(camera, {400, 180}, 24, marker.size, FromDegrees(12),
-                                         FromDegrees(100), FromDegrees(5));
+  marker.camera_from_marker = PoseAtPixel(camera, {400, 180}, 24, marker.size, FromDegrees(12),
+                                          FromDegrees(100), FromDegrees(5));
   const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0.0, 0.06);
@@ -103,14 +104,14 @@ TEST(PoseCovariance, IsNotTooNarrowForNoiseInThePicture) {
   constexpr int kDraws = 150;
   for (int draw = 0; draw < kDraws; ++draw) {
     marker.camera_from_marker =
-        PoseSeenAt(camera, {55.0 + 0.01 * draw, 48.0 - 0.02 * draw}, 56, marker.size,
-                   FromDegrees(40), FromDegrees(2.4 * draw), FromDegrees(3.7 * draw));
+        PoseAtPixel(camera, {55.0 + 0.01 * draw, 48.0 - 0.02 * draw}, 56, marker.size,
+                    FromDegrees(40), FromDegrees(2.4 * draw), FromDegrees(3.7 * draw));
     RenderingOptions options{.blur_px = 0.5, .noise_codes = 5.0, .light = {}};
     options.seed = static_cast<std::uint32_t>(draw + 1);
-    const auto sightings = tracker->Track(RenderMarkers(camera, {marker}, options).view());
-    ASSERT_TRUE(sightings.has_value());
-    ASSERT_EQ(sightings->size(), 1U);
-    sum += Nees((*sightings)[0].pose, marker.camera_from_marker);
+    const auto observations = tracker->Track(RenderMarkers(camera, {marker}, options).view());
+    ASSERT_TRUE(observations.has_value());
+    ASSERT_EQ(observations->size(), 1U);
+    sum += Nees((*observations)[0].pose, marker.camera_from_marker);
   }
   RecordProperty("mean_nees", std::to_string(sum / kDraws));
   EXPECT_LT(sum / kDraws, 6.0 + Band(kDraws));

@@ -17,8 +17,8 @@ CameraModel Camera640() {
 RenderedMarker MarkerAt(const CameraModel& camera, Vec2 centre_px, double side_px,
                         double tilt_deg) {
   RenderedMarker marker;
-  marker.camera_from_marker = PoseSeenAt(camera, centre_px, side_px, marker.size,
-                                         FromDegrees(tilt_deg), FromDegrees(25), FromDegrees(40));
+  marker.camera_from_marker = PoseAtPixel(camera, centre_px, side_px, marker.size,
+                                          FromDegrees(tilt_deg), FromDegrees(25), FromDegrees(40));
   return marker;
 }
 

@@ -36,9 +36,9 @@ double FromTheMinimum(const CameraModel& camera, const RenderedMarker& marker,
                       const std::array<Vec2, 4>& corners, double sigma_px,
                       const Transform<Camera, Marker>& pose) {
   const auto errors = [&](const Transform<Camera, Marker>& at) {
-    RenderedMarker seen = marker;
-    seen.camera_from_marker = at;
-    const std::array<Vec2, 4> projected = TrueCorners(camera, seen);
+    RenderedMarker observed = marker;
+    observed.camera_from_marker = at;
+    const std::array<Vec2, 4> projected = TrueCorners(camera, observed);
     Vector8 all;
     for (int i = 0; i < 4; ++i) {
       const Vec2 error = (projected[i] - corners[i]) * (1.0 / sigma_px);
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(PlanarPose, PoseRefinement,
                          testing::Values(Seen{"Frontal", 120, 0}, Seen{"SmallAndFrontal", 14, 0},
                                          Seen{"Ambiguous", 14, 7}, Seen{"Undecided", 30, 5},
                                          Seen{"Tilted", 120, 50}, Seen{"Steep", 60, 78}),
-                         [](const auto& seen) { return seen.param.name; });
+                         [](const auto& observed) { return observed.param.name; });
 
 // A step that gains 1e-8 of χ² moves the corners by a ten-thousandth of their error: the pose ends
 // about so near to the minimum, however the camera sees the marker, and no run of short steps stops
@@ -96,8 +96,8 @@ TEST_P(PoseRefinement, EndsTwoTenThousandthsOfTheCornersErrorFromTheMinimum) {
     for (int draw = 0; draw < 40; ++draw) {
       RenderedMarker marker;
       marker.camera_from_marker =
-          PoseSeenAt(camera, {330, 250}, GetParam().side_px, marker.size,
-                     FromDegrees(GetParam().tilt_deg), FromDegrees(25 + draw), FromDegrees(40));
+          PoseAtPixel(camera, {330, 250}, GetParam().side_px, marker.size,
+                      FromDegrees(GetParam().tilt_deg), FromDegrees(25 + draw), FromDegrees(40));
       std::array<Vec2, 4> corners = TrueCorners(camera, marker);
       for (Vec2& corner : corners) corner = corner + Vec2{noise(random), noise(random)};
       const auto pose =

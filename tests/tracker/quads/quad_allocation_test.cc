@@ -13,20 +13,20 @@ namespace {
 
 TEST(QuadDetector, AsksForNoMemoryAfterTheFirstPictures) {
   const CameraModel camera = Pinhole(240, 200);
-  std::vector<GreyImage> pictures;
+  std::vector<GreyImage> images;
   for (const unsigned seed : {1U, 2U}) {
-    pictures.push_back(RenderMarkers(camera,
-                                     {PrintAt(camera, seed, {70, 90}, 60, 20, 30, 40),
-                                      PrintAt(camera, seed + 7, {180, 90}, 20 * seed, 40, 30, 4)},
-                                     {.noise_codes = 12.0, .seed = seed, .light = {}}));
+    images.push_back(RenderMarkers(camera,
+                                   {MarkerAt(camera, seed, {70, 90}, 60, 20, 30, 40),
+                                    MarkerAt(camera, seed + 7, {180, 90}, 20 * seed, 40, 30, 4)},
+                                   {.noise_codes = 12.0, .seed = seed, .light = {}}));
   }
   QuadDetector detector;
   std::vector<Quad> quads;
-  for (const GreyImage& picture : pictures) detector.Detect(picture.view(), &quads);
+  for (const GreyImage& image : images) detector.Detect(image.view(), &quads);
   const long before = Allocations();
   for (int i = 0; i < 3; ++i) {
-    for (const GreyImage& picture : pictures) {
-      detector.Detect(picture.view(), &quads);
+    for (const GreyImage& image : images) {
+      detector.Detect(image.view(), &quads);
       ASSERT_GE(quads.size(), 2U);
     }
   }

@@ -13,10 +13,10 @@
 namespace pleinair::tracker {
 namespace {
 
-std::vector<Quad> Detect(const GreyImage& picture) {
+std::vector<Quad> Detect(const GreyImage& image) {
   QuadDetector detector;
   std::vector<Quad> quads;
-  detector.Detect(picture.view(), &quads);
+  detector.Detect(image.view(), &quads);
   return quads;
 }
 
@@ -31,7 +31,7 @@ TEST(QuadDetector, FindsPrintsFromTwoHundredToFifteenPixels) {
   for (const double side : {200.0, 130.0, 70.0, 40.0, 28.0, 22.0, 18.0, 16.0, 15.0}) {
     for (const double roll : {0.0, 17.0, 45.0}) {
       const RenderedMarker print =
-          PrintAt(camera, static_cast<unsigned>(side + roll), {161.3, 152.8}, side, 10, 30, roll);
+          MarkerAt(camera, static_cast<unsigned>(side + roll), {161.3, 152.8}, side, 10, 30, roll);
       EXPECT_LT(ErrorOf(camera, print, {.blur_px = 0.55, .light = {}}), 1.0)
           << side << " px, turned by " << roll;
     }
@@ -42,7 +42,7 @@ TEST(QuadDetector, FindsPrintsTiltedToEightyTwoDegrees) {
   const CameraModel camera = Pinhole(220, 220);
   for (const double tilt : {30.0, 60.0, 70.0, 78.0, 80.0, 82.0}) {
     for (const double axis : {0.0, 50.0}) {
-      const RenderedMarker print = PrintAt(camera, 5, {109.0, 111.0}, 130, tilt, axis, 15);
+      const RenderedMarker print = MarkerAt(camera, 5, {109.0, 111.0}, 130, tilt, axis, 15);
       EXPECT_LT(ErrorOf(camera, print, {.blur_px = 0.55, .light = {}}), 2.0)
           << tilt << " degrees about " << axis;
     }
@@ -52,7 +52,7 @@ TEST(QuadDetector, FindsPrintsTiltedToEightyTwoDegrees) {
 TEST(QuadDetector, FindsPrintsInNoise) {
   const CameraModel camera = Pinhole(160, 160);
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
-    const RenderedMarker print = PrintAt(camera, seed, {80.0, 81.0}, 80, 20, 70, 9.0 * seed);
+    const RenderedMarker print = MarkerAt(camera, seed, {80.0, 81.0}, 80, 20, 70, 9.0 * seed);
     EXPECT_LT(ErrorOf(camera, print, {.noise_codes = 25.0, .seed = seed, .light = {}}), 2.0)
         << "seed " << seed;
   }
@@ -60,7 +60,7 @@ TEST(QuadDetector, FindsPrintsInNoise) {
 
 TEST(QuadDetector, FindsPrintsInTheDark) {
   const CameraModel camera = Pinhole(160, 160);
-  RenderedMarker print = PrintAt(camera, 8, {80.0, 80.0}, 80, 20, 70, 30);
+  RenderedMarker print = MarkerAt(camera, 8, {80.0, 80.0}, 80, 20, 70, 30);
   print.black = 0.0012;  // Code 4.
   print.white = 0.0212;  // Code 40.
   for (const unsigned seed : {1U, 2U, 3U}) {
@@ -72,7 +72,7 @@ TEST(QuadDetector, FindsPrintsInTheDark) {
 
 TEST(QuadDetector, FindsPrintsOutOfFocus) {
   const CameraModel camera = Pinhole(180, 180);
-  const RenderedMarker print = PrintAt(camera, 3, {91.0, 88.0}, 100, 15, 120, 25);
+  const RenderedMarker print = MarkerAt(camera, 3, {91.0, 88.0}, 100, 15, 120, 25);
   // A disk of 2.5 px radius spreads light as a Gaussian of half that.
   EXPECT_LT(ErrorOf(camera, print, {.blur_px = 1.25, .light = {}}), 0.5);
   EXPECT_LT(ErrorOf(camera, print, {.blur_px = 2.5, .light = {}}), 1.0);
@@ -80,7 +80,7 @@ TEST(QuadDetector, FindsPrintsOutOfFocus) {
 
 TEST(QuadDetector, FindsPrintsMovedDuringTheExposure) {
   const CameraModel camera = Pinhole(180, 180);
-  const RenderedMarker print = PrintAt(camera, 3, {91.0, 88.0}, 100, 15, 120, 25);
+  const RenderedMarker print = MarkerAt(camera, 3, {91.0, 88.0}, 100, 15, 120, 25);
   const GreyImage sharp = RenderMarkers(camera, {print}, {.blur_px = 0.55, .light = {}});
   constexpr int kReach = 3;  // 7 px along the rows.
   GreyImage moved = sharp;
@@ -96,7 +96,7 @@ TEST(QuadDetector, FindsPrintsMovedDuringTheExposure) {
 
 TEST(QuadDetector, FindsPrintsWhereLightFallsTenToOne) {
   const CameraModel camera = Pinhole(200, 200);
-  const RenderedMarker print = PrintAt(camera, 11, {100.0, 100.0}, 110, 15, 120, 25);
+  const RenderedMarker print = MarkerAt(camera, 11, {100.0, 100.0}, 110, 15, 120, 25);
   for (const double direction : {0.0, 1.0, 2.5}) {
     const auto light = [direction](Vec2 pixel) {
       const double along =
@@ -109,7 +109,7 @@ TEST(QuadDetector, FindsPrintsWhereLightFallsTenToOne) {
 
 TEST(QuadDetector, FindsPrintsCrossedByTheEdgeOfAShadow) {
   const CameraModel camera = Pinhole(200, 200);
-  const RenderedMarker print = PrintAt(camera, 11, {100.0, 100.0}, 110, 15, 120, 25);
+  const RenderedMarker print = MarkerAt(camera, 11, {100.0, 100.0}, 110, 15, 120, 25);
   for (const double ratio : {2.0, 4.0, 8.0, 12.0}) {
     for (const double direction : {0.3, 2.0, 4.0}) {
       const auto light = [=](Vec2 pixel) {
@@ -128,7 +128,7 @@ TEST(QuadDetector, FindsFiftyPrintsAtOnceAndLittleElse) {
   std::vector<RenderedMarker> prints;
   for (int i = 0; i < 50; ++i) {
     const Vec2 centre{24.0 + 48.0 * (i % 10), 30.0 + 60.0 * (i / 10.0 - i % 10 / 10.0)};
-    prints.push_back(PrintAt(camera, i, centre, 28.0, 1.0 * (i % 5) * 8, 7.0 * i, 13.0 * i));
+    prints.push_back(MarkerAt(camera, i, centre, 28.0, 1.0 * (i % 5) * 8, 7.0 * i, 13.0 * i));
   }
   const std::vector<Quad> quads =
       Detect(RenderMarkers(camera, prints, {.blur_px = 0.55, .noise_codes = 2.0, .light = {}}));
@@ -141,22 +141,22 @@ TEST(QuadDetector, FindsFiftyPrintsAtOnceAndLittleElse) {
 TEST(QuadDetector, FindsPrintsWhoseQuietZoneLiesInClutter) {
   const CameraModel camera = Pinhole(160, 160);
   // Checks of the print's own black and white, as wide as its rim, right up to the quiet zone.
-  const RenderedMarker print = PrintAt(camera, 21, {80.0, 80.0}, 60, 20, 40, 33);
-  RenderedMarker checks = PrintAt(camera, 0, {80.0, 80.0}, 150, 0, 0, 0);
-  auto pattern = std::make_shared<PrintPattern>();
+  const RenderedMarker print = MarkerAt(camera, 21, {80.0, 80.0}, 60, 20, 40, 33);
+  RenderedMarker checks = MarkerAt(camera, 0, {80.0, 80.0}, 150, 0, 0, 0);
+  auto pattern = std::make_shared<MarkerPattern>();
   pattern->modules = pattern->edge_modules = 24;
   for (int i = 0; i < 24 * 24; ++i) pattern->white.push_back((i % 24 + i / 24) % 2);
   checks.pattern = pattern;
-  const GreyImage picture =
+  const GreyImage image =
       RenderMarkers(camera, {checks, print}, {.blur_px = 0.55, .noise_codes = 3.0, .light = {}});
-  EXPECT_LT(NearestError(Detect(picture), TrueCorners(camera, print)), 0.5);
+  EXPECT_LT(NearestError(Detect(image), TrueCorners(camera, print)), 0.5);
   // On black.
   EXPECT_LT(ErrorOf(camera, print, {.background = 0.04, .blur_px = 0.55, .light = {}}), 0.5);
 }
 
 TEST(QuadDetector, GivesCornersClockwiseAndTheContrastOfTheRim) {
   const CameraModel camera = Pinhole(160, 160);
-  const RenderedMarker print = PrintAt(camera, 2, {80.0, 80.0}, 90, 0, 0, 0);
+  const RenderedMarker print = MarkerAt(camera, 2, {80.0, 80.0}, 90, 0, 0, 0);
   const std::vector<Quad> quads = Detect(RenderMarkers(camera, {print}, {.light = {}}));
   ASSERT_EQ(quads.size(), 1U);
   const std::array<Vec2, 4>& corners = quads[0].corners_px;
@@ -170,12 +170,12 @@ TEST(QuadDetector, GivesCornersClockwiseAndTheContrastOfTheRim) {
 }
 
 TEST(QuadDetector, FindsNothingThatIsNoDarkQuadrilateral) {
-  GreyImage picture(120, 120);
+  GreyImage image(120, 120);
   const auto draw = [&](auto dark) {
     for (int y = 0; y < 120; ++y) {
-      for (int x = 0; x < 120; ++x) picture(x, y) = dark(x - 60, y - 60) ? 30 : 220;
+      for (int x = 0; x < 120; ++x) image(x, y) = dark(x - 60, y - 60) ? 30 : 220;
     }
-    return Detect(picture).size();
+    return Detect(image).size();
   };
   EXPECT_EQ(draw([](int x, int y) { return std::abs(x) < 30 && std::abs(y) < 30; }), 1U);
   EXPECT_EQ(draw([](int x, int y) { return x * x + y * y < 900; }), 0U) << "disk";
@@ -188,9 +188,9 @@ TEST(QuadDetector, FindsNothingThatIsNoDarkQuadrilateral) {
 
 TEST(QuadDetector, FindsNothingInPicturesOfOneValueAndLittleInNoise) {
   for (const int value : {0, 128, 255}) {
-    GreyImage picture(640, 480);
-    std::fill_n(picture.data(), picture.size(), static_cast<std::uint8_t>(value));
-    EXPECT_TRUE(Detect(picture).empty());
+    GreyImage image(640, 480);
+    std::fill_n(image.data(), image.size(), static_cast<std::uint8_t>(value));
+    EXPECT_TRUE(Detect(image).empty());
   }
   GreyImage noise(640, 480);
   std::mt19937 random(3);
@@ -204,11 +204,11 @@ TEST(QuadDetector, TakesPicturesOfAnySize) {
   std::mt19937 random(3);
   for (const int width : {0, 1, 3, 7, 8, 9, 63, 64, 65}) {
     for (const int height : {0, 1, 5, 8, 17, 200}) {
-      GreyImage picture(width, height);
-      for (std::size_t i = 0; i < picture.size(); ++i) {
-        picture.data()[i] = static_cast<std::uint8_t>(random() % 2 * 255);
+      GreyImage image(width, height);
+      for (std::size_t i = 0; i < image.size(); ++i) {
+        image.data()[i] = static_cast<std::uint8_t>(random() % 2 * 255);
       }
-      for (const Quad& quad : Detect(picture)) {
+      for (const Quad& quad : Detect(image)) {
         for (const Vec2 corner : quad.corners_px) {
           EXPECT_TRUE(corner.x > -1 && corner.x < width && corner.y > -1 && corner.y < height);
         }
@@ -217,34 +217,34 @@ TEST(QuadDetector, TakesPicturesOfAnySize) {
   }
 }
 
-TEST(QuadDetector, FindsAPrintInAnEightThousandPixelPicture) {
+TEST(QuadDetector, FindsAMarkerInAnEightThousandPixelImage) {
   const CameraModel camera = Pinhole(160, 160);
-  const RenderedMarker print = PrintAt(camera, 2, {80.0, 80.0}, 90, 30, 20, 10);
+  const RenderedMarker print = MarkerAt(camera, 2, {80.0, 80.0}, 90, 30, 20, 10);
   const GreyImage small = RenderMarkers(camera, {print}, {.light = {}});
-  GreyImage picture(7680, 4320);
-  std::fill_n(picture.data(), picture.size(), small(0, 0));
+  GreyImage image(7680, 4320);
+  std::fill_n(image.data(), image.size(), small(0, 0));
   constexpr int kLeft = 7301, kTop = 4003;
   for (int y = 0; y < 160; ++y) {
-    for (int x = 0; x < 160; ++x) picture(kLeft + x, kTop + y) = small(x, y);
+    for (int x = 0; x < 160; ++x) image(kLeft + x, kTop + y) = small(x, y);
   }
   std::array<Vec2, 4> truth = TrueCorners(camera, print);
   for (Vec2& corner : truth) corner = corner + Vec2{kLeft, kTop};
-  EXPECT_LT(NearestError(Detect(picture), truth), 0.5);
+  EXPECT_LT(NearestError(Detect(image), truth), 0.5);
 }
 
 TEST(QuadDetector, SeesThroughAStrideWhatItSeesInAWholePicture) {
   const CameraModel camera = Pinhole(163, 161);
-  const GreyImage picture = RenderMarkers(camera, {PrintAt(camera, 2, {80, 80}, 90, 30, 20, 10)},
-                                          {.noise_codes = 4.0, .light = {}});
+  const GreyImage image = RenderMarkers(camera, {MarkerAt(camera, 2, {80, 80}, 90, 30, 20, 10)},
+                                        {.noise_codes = 4.0, .light = {}});
   GreyImage wide(300, 161);
   for (std::size_t i = 0; i < wide.size(); ++i) wide.data()[i] = static_cast<std::uint8_t>(i * 97);
   for (int y = 0; y < 161; ++y) {
-    for (int x = 0; x < 163; ++x) wide(70 + x, y) = picture(x, y);
+    for (int x = 0; x < 163; ++x) wide(70 + x, y) = image(x, y);
   }
   QuadDetector detector;
   std::vector<Quad> quads;
   detector.Detect({wide.data() + 70, 163, 161, 1, 300}, &quads);
-  const std::vector<Quad> whole = Detect(picture);
+  const std::vector<Quad> whole = Detect(image);
   ASSERT_GE(whole.size(), 1U);
   ASSERT_EQ(quads.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -255,8 +255,8 @@ TEST(QuadDetector, SeesThroughAStrideWhatItSeesInAWholePicture) {
 
 TEST(QuadDetector, GivesTheSameQuadsWhateverItSawBefore) {
   const CameraModel camera = Pinhole(200, 200);
-  const GreyImage picture = RenderMarkers(camera, {PrintAt(camera, 2, {80, 80}, 90, 30, 20, 10)},
-                                          {.noise_codes = 9.0, .light = {}});
+  const GreyImage image = RenderMarkers(camera, {MarkerAt(camera, 2, {80, 80}, 90, 30, 20, 10)},
+                                        {.noise_codes = 9.0, .light = {}});
   QuadDetector detector;
   std::vector<Quad> quads;
   GreyImage other(331, 97);
@@ -264,8 +264,8 @@ TEST(QuadDetector, GivesTheSameQuadsWhateverItSawBefore) {
     other.data()[i] = static_cast<std::uint8_t>(i * i / 7);
   }
   detector.Detect(other.view(), &quads);
-  detector.Detect(picture.view(), &quads);
-  const std::vector<Quad> fresh = Detect(picture);
+  detector.Detect(image.view(), &quads);
+  const std::vector<Quad> fresh = Detect(image);
   ASSERT_EQ(quads.size(), fresh.size());
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     EXPECT_EQ(quads[i].corners_px, fresh[i].corners_px);

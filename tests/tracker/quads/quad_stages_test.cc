@@ -18,17 +18,17 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Noise whose range changes over the picture, so that some neighbourhoods have contrast.
+/// Noise whose range changes over the image, so that some neighbourhoods have contrast.
 GreyImage UnevenNoise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
-  GreyImage picture(width, height);
+  GreyImage image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int range = 1 + (x / 16 * 37 + y / 16 * 11) % 250;
-      picture(x, y) = static_cast<std::uint8_t>((x + 2 * y) % 6 + random() % range);
+      image(x, y) = static_cast<std::uint8_t>((x + 2 * y) % 6 + random() % range);
     }
   }
-  return picture;
+  return image;
 }
 
 class DarkMaskVectors : public OnEveryTarget {};
@@ -37,16 +37,16 @@ TEST_P(DarkMaskVectors, GiveWhatTheScalarReferenceGives) {
   for (const int width : {4, 15, 16, 31, 60, 64, 66, 127, 128, 200, 321}) {
     for (const DarkContrast contrast :
          {DarkContrast{64, 1, 5}, DarkContrast{64, 2, 4}, DarkContrast{30, 1, 2}}) {
-      const GreyImage picture = UnevenNoise(width, 37, width);
+      const GreyImage image = UnevenNoise(width, 37, width);
       DarkMaskBuffers buffers, scalar_buffers;
       BitMask mask, scalar_mask;
-      ComputeDarkMask(picture.view(), contrast, SimdDarkMaskKernels(), &buffers, &mask);
-      ComputeDarkMask(picture.view(), contrast, ScalarDarkMaskKernels(), &scalar_buffers,
+      ComputeDarkMask(image.view(), contrast, SimdDarkMaskKernels(), &buffers, &mask);
+      ComputeDarkMask(image.view(), contrast, ScalarDarkMaskKernels(), &scalar_buffers,
                       &scalar_mask);
       EXPECT_EQ(mask.words, scalar_mask.words) << width;
       Image<std::uint8_t> half, scalar_half;
-      HalveImage(picture.view(), SimdDarkMaskKernels(), &half);
-      HalveImage(picture.view(), ScalarDarkMaskKernels(), &scalar_half);
+      HalveImage(image.view(), SimdDarkMaskKernels(), &half);
+      HalveImage(image.view(), ScalarDarkMaskKernels(), &scalar_half);
       ASSERT_EQ(half.size(), scalar_half.size());
       EXPECT_TRUE(std::equal(half.data(), half.data() + half.size(), scalar_half.data())) << width;
     }
@@ -58,24 +58,24 @@ INSTANTIATE_TEST_SUITE_P(All, DarkMaskVectors,
 
 TEST(DarkMask, ThresholdsHalfWayBetweenTheExtremesOfNineTiles) {
   // A step from 20 to 200 with one column of 111 between: half way is 110.
-  GreyImage picture(32, 12);
+  GreyImage image(32, 12);
   for (int y = 0; y < 12; ++y) {
-    for (int x = 0; x < 32; ++x) picture(x, y) = x < 16 ? 20 : x == 16 ? 111 : 200;
+    for (int x = 0; x < 32; ++x) image(x, y) = x < 16 ? 20 : x == 16 ? 111 : 200;
   }
   DarkMaskBuffers buffers;
   BitMask mask;
-  ComputeDarkMask(picture.view(), {64, 2, 4}, ScalarDarkMaskKernels(), &buffers, &mask);
+  ComputeDarkMask(image.view(), {64, 2, 4}, ScalarDarkMaskKernels(), &buffers, &mask);
   for (int x = 0; x < 32; ++x) {
     // Left of 12 a tile has no bright neighbour, hence no contrast.
     EXPECT_EQ(mask(x, 5), x >= 12 && x < 16) << x;
   }
-  for (int y = 0; y < 12; ++y) picture(16, y) = 109;
-  ComputeDarkMask(picture.view(), {64, 2, 4}, ScalarDarkMaskKernels(), &buffers, &mask);
+  for (int y = 0; y < 12; ++y) image(16, y) = 109;
+  ComputeDarkMask(image.view(), {64, 2, 4}, ScalarDarkMaskKernels(), &buffers, &mask);
   EXPECT_TRUE(mask(16, 5));
   // A quarter of the way is 65.
   for (const int value : {64, 66}) {
-    for (int y = 0; y < 12; ++y) picture(16, y) = static_cast<std::uint8_t>(value);
-    ComputeDarkMask(picture.view(), {64, 2, 2}, ScalarDarkMaskKernels(), &buffers, &mask);
+    for (int y = 0; y < 12; ++y) image(16, y) = static_cast<std::uint8_t>(value);
+    ComputeDarkMask(image.view(), {64, 2, 2}, ScalarDarkMaskKernels(), &buffers, &mask);
     EXPECT_EQ(mask(16, 5), value == 64);
   }
 }
@@ -84,13 +84,13 @@ TEST(DarkMask, HasNoSpeckleWhereThereIsOnlyNoise) {
   std::mt19937 random(5);
   for (const double sigma : {2.0, 8.0, 16.0}) {
     std::normal_distribution<double> noise(150.0, sigma);
-    GreyImage picture(320, 240);
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-      picture.data()[i] = static_cast<std::uint8_t>(std::clamp(noise(random), 0.0, 255.0));
+    GreyImage image(320, 240);
+    for (std::size_t i = 0; i < image.size(); ++i) {
+      image.data()[i] = static_cast<std::uint8_t>(std::clamp(noise(random), 0.0, 255.0));
     }
     DarkMaskBuffers buffers;
     BitMask mask;
-    ComputeDarkMask(picture.view(), {150, 2, 4}, SimdDarkMaskKernels(), &buffers, &mask);
+    ComputeDarkMask(image.view(), {150, 2, 4}, SimdDarkMaskKernels(), &buffers, &mask);
     DarkComponents components;
     components.Find(mask);
     EXPECT_LT(components.runs().size(), 1000U)
@@ -100,14 +100,14 @@ TEST(DarkMask, HasNoSpeckleWhereThereIsOnlyNoise) {
 
 /// Flood fill: for each component in the order of its first pixel, its extent and area.
 std::vector<std::vector<int>> Filled(const BitMask& mask) {
-  std::vector<std::uint8_t> seen(static_cast<std::size_t>(mask.width) * mask.height);
+  std::vector<std::uint8_t> observed(static_cast<std::size_t>(mask.width) * mask.height);
   std::vector<std::vector<int>> found;
   for (int y = 0; y < mask.height; ++y) {
     for (int x = 0; x < mask.width; ++x) {
-      if (!mask(x, y) || seen[y * mask.width + x] != 0) continue;
+      if (!mask(x, y) || observed[y * mask.width + x] != 0) continue;
       std::vector<int> component{x, x, y, y, 0};
       std::vector<std::pair<int, int>> open{{x, y}};
-      seen[y * mask.width + x] = 1;
+      observed[y * mask.width + x] = 1;
       while (!open.empty()) {
         const auto [i, j] = open.back();
         open.pop_back();
@@ -115,8 +115,8 @@ std::vector<std::vector<int>> Filled(const BitMask& mask) {
                      std::min(component[2], j), std::max(component[3], j), component[4] + 1};
         for (int v = std::max(j - 1, 0); v <= std::min(j + 1, mask.height - 1); ++v) {
           for (int u = std::max(i - 1, 0); u <= std::min(i + 1, mask.width - 1); ++u) {
-            if (!mask(u, v) || seen[v * mask.width + u] != 0) continue;
-            seen[v * mask.width + u] = 1;
+            if (!mask(u, v) || observed[v * mask.width + u] != 0) continue;
+            observed[v * mask.width + u] = 1;
             open.emplace_back(u, v);
           }
         }
@@ -157,7 +157,7 @@ TEST(DarkComponents, AreThoseOfAFloodFill) {
   }
 }
 
-/// A square of `side_px` turned about the middle of a picture.
+/// A square of `side_px` turned about the middle of an image.
 Quad TurnedSquare(double side_px, double turn_deg, double middle_px) {
   Quad quad{};
   for (int i = 0; i < 4; ++i) {
@@ -173,7 +173,7 @@ DarkComponent SeenAtHalfSize(const Quad& square, double side_px) {
   const Vec2 middle = (square.corners_px[0] + square.corners_px[2]) * 0.5;
   const Vec2 along = (square.corners_px[1] - square.corners_px[0]) * (1.0 / side_px);
   const int size = static_cast<int>(2.0 * middle.x);
-  GreyImage picture(size, size);
+  GreyImage image(size, size);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const Vec2 at{x - middle.x, y - middle.y};
@@ -183,11 +183,11 @@ DarkComponent SeenAtHalfSize(const Quad& square, double side_px) {
       };
       const double share =
           dark(at.x * along.x + at.y * along.y) * dark(at.x * along.y - at.y * along.x);
-      picture(x, y) = static_cast<std::uint8_t>(230.0 - 200.0 * share);
+      image(x, y) = static_cast<std::uint8_t>(230.0 - 200.0 * share);
     }
   }
   GreyImage half;
-  HalveImage(picture.view(), ScalarDarkMaskKernels(), &half);
+  HalveImage(image.view(), ScalarDarkMaskKernels(), &half);
   DarkMaskBuffers buffers;
   BitMask mask;
   ComputeDarkMask(half.view(), {150, 1, 2}, ScalarDarkMaskKernels(), &buffers, &mask);

@@ -7,10 +7,10 @@
 
 namespace pleinair::tracker {
 
-std::shared_ptr<const PrintPattern> OutlinedPrint(unsigned seed) {
+std::shared_ptr<const MarkerPattern> OutlinedMarker(unsigned seed) {
   constexpr int kQuiet = 4, kRim = 4, kEdge = 40, kModules = kEdge + 2 * kQuiet;
   constexpr int kBlock = 4;
-  auto pattern = std::make_shared<PrintPattern>();
+  auto pattern = std::make_shared<MarkerPattern>();
   pattern->modules = kModules;
   pattern->edge_modules = kEdge;
   pattern->white.assign(kModules * kModules, 1);
@@ -40,13 +40,13 @@ CameraModel Pinhole(int width, int height) {
   return camera;
 }
 
-RenderedMarker PrintAt(const CameraModel& camera, unsigned seed, Vec2 centre_px, double side_px,
-                       double tilt_deg, double axis_deg, double roll_deg) {
+RenderedMarker MarkerAt(const CameraModel& camera, unsigned seed, Vec2 centre_px, double side_px,
+                        double tilt_deg, double axis_deg, double roll_deg) {
   RenderedMarker marker;
-  marker.pattern = OutlinedPrint(seed);
+  marker.pattern = OutlinedMarker(seed);
   marker.camera_from_marker =
-      PoseSeenAt(camera, centre_px, side_px, marker.size, FromDegrees(tilt_deg),
-                 FromDegrees(axis_deg), FromDegrees(roll_deg));
+      PoseAtPixel(camera, centre_px, side_px, marker.size, FromDegrees(tilt_deg),
+                  FromDegrees(axis_deg), FromDegrees(roll_deg));
   return marker;
 }
 

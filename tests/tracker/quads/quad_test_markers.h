@@ -11,14 +11,14 @@
 namespace pleinair::tracker {
 
 /// A print with the outlines of the marker: an edge of 40 modules, of which four are rim, four
-/// modules of quiet zone, blots and cells of either colour within, different for each seed.
-std::shared_ptr<const PrintPattern> OutlinedPrint(unsigned seed);
+/// modules of quiet zone, blots and cells of either color within, different for each seed.
+std::shared_ptr<const MarkerPattern> OutlinedMarker(unsigned seed);
 
 /// A pinhole camera without distortion, focal length 600 px.
 CameraModel Pinhole(int width, int height);
 
-RenderedMarker PrintAt(const CameraModel& camera, unsigned seed, Vec2 centre_px, double side_px,
-                       double tilt_deg = 0.0, double axis_deg = 0.0, double roll_deg = 0.0);
+RenderedMarker MarkerAt(const CameraModel& camera, unsigned seed, Vec2 centre_px, double side_px,
+                        double tilt_deg = 0.0, double axis_deg = 0.0, double roll_deg = 0.0);
 
 /// RMS distance in pixels of the corners of the quad that lies nearest; infinite where none is.
 double NearestError(const std::vector<Quad>& quads, const std::array<Vec2, 4>& truth);

@@ -60,18 +60,18 @@ Errors Measure(const CameraModel& camera, const Sweep& sweep) {
                       camera.height / 2.0 + sweep.jitter_px * (2 * unit(random) - 1)};
     const double side_px =
         sweep.min_side_px + (sweep.max_side_px - sweep.min_side_px) * unit(random);
-    marker.camera_from_marker = PoseSeenAt(
+    marker.camera_from_marker = PoseAtPixel(
         camera, centre, side_px, marker.size, FromDegrees(sweep.max_tilt_deg * unit(random)),
         FromDegrees(360 * unit(random)), FromDegrees(360 * unit(random)));
     RenderingOptions rendering = sweep.rendering;
     rendering.seed = static_cast<std::uint32_t>(i + 1);
-    const GreyImage picture = RenderMarkers(camera, {marker}, rendering);
-    const std::vector<Candidate> found = (*detector)->Detect(picture.view());
+    const GreyImage image = RenderMarkers(camera, {marker}, rendering);
+    const std::vector<Candidate> found = (*detector)->Detect(image.view());
     if (found.size() != 1) continue;
     ++errors.found;
     const std::array<Vec2, 4> truth = TrueCorners(camera, marker);
     const std::array<Vec2, 4>& raw = found[0].detection.corners_px;
-    const auto alignment = AlignPrint(camera, *found[0].pattern, picture.view(), raw);
+    const auto alignment = AlignMarker(camera, *found[0].pattern, image.view(), raw);
     errors.aligned += alignment.has_value();
     const std::array<Vec2, 4>& corners = alignment ? alignment->corners_px : raw;
     const Vec2 middle = (truth[0] + truth[1] + truth[2] + truth[3]) * 0.25;
@@ -96,9 +96,9 @@ Errors Measure(const CameraModel& camera, const Sweep& sweep) {
   return errors;
 }
 
-class PrintAlignmentThroughLens : public testing::TestWithParam<CameraModel> {};
+class MarkerAlignmentThroughLens : public testing::TestWithParam<CameraModel> {};
 
-TEST_P(PrintAlignmentThroughLens, HasNoBiasInCleanPictures) {
+TEST_P(MarkerAlignmentThroughLens, HasNoBiasInCleanPictures) {
   const Errors errors = Measure(GetParam(), {});
   EXPECT_EQ(errors.found, 20);
   EXPECT_EQ(errors.aligned, 20);
@@ -109,7 +109,7 @@ TEST_P(PrintAlignmentThroughLens, HasNoBiasInCleanPictures) {
   EXPECT_NEAR(errors.outward_px, 0.0, 0.01);
 }
 
-TEST_P(PrintAlignmentThroughLens, HasNoBiasInBlurredNoisyPictures) {
+TEST_P(MarkerAlignmentThroughLens, HasNoBiasInBlurredNoisyPictures) {
   Sweep sweep;
   sweep.rendering.blur_px = 0.8;
   sweep.rendering.noise_codes = 3.0;
@@ -127,12 +127,12 @@ std::string LensName(const testing::TestParamInfo<CameraModel>& lens) {
   return kNames[lens.index];
 }
 
-INSTANTIATE_TEST_SUITE_P(Lenses, PrintAlignmentThroughLens,
+INSTANTIATE_TEST_SUITE_P(Lenses, MarkerAlignmentThroughLens,
                          testing::Values(Pinhole(), Barrel(), Fisheye()), LensName);
 
-TEST(PrintAlignment, IsBetterThanTheDetectorAcrossAHardShadow) {
+TEST(MarkerAlignment, IsBetterThanTheDetectorAcrossAHardShadow) {
   Sweep sweep;
-  // A shadow's edge, 1 px soft, through the middle of the picture: a third of the light behind it.
+  // A shadow's edge, 1 px soft, through the middle of the image: a third of the light behind it.
   sweep.rendering.light = [](Vec2 pixel) {
     const double distance = (pixel.x - 88) * 0.8 + (pixel.y - 70) * 0.6;
     return 0.33 + 0.67 * std::clamp(distance + 0.5, 0.0, 1.0);
@@ -142,7 +142,7 @@ TEST(PrintAlignment, IsBetterThanTheDetectorAcrossAHardShadow) {
   EXPECT_LT(errors.rms_px, 0.5 * errors.raw_rms_px);
 }
 
-TEST(PrintAlignment, IsBetterThanTheDetectorUnderAGradient) {
+TEST(MarkerAlignment, IsBetterThanTheDetectorUnderAGradient) {
   Sweep sweep;
   sweep.rendering.light = [](Vec2 pixel) { return std::exp(-pixel.x / 60.0) * 1.2; };
   const Errors errors = Measure(Pinhole(), sweep);
@@ -150,7 +150,7 @@ TEST(PrintAlignment, IsBetterThanTheDetectorUnderAGradient) {
   EXPECT_LT(errors.rms_px, 0.03);
 }
 
-TEST(PrintAlignment, IsBetterThanTheDetectorOnTwelvePixels) {
+TEST(MarkerAlignment, IsBetterThanTheDetectorOnTwelvePixels) {
   Sweep sweep{
       .poses = 40, .min_side_px = 12, .max_side_px = 16, .max_tilt_deg = 25, .rendering = {}};
   sweep.rendering.noise_codes = 1.0;
@@ -159,7 +159,7 @@ TEST(PrintAlignment, IsBetterThanTheDetectorOnTwelvePixels) {
   EXPECT_LT(errors.rms_px, 0.5 * errors.raw_rms_px);
 }
 
-TEST(PrintAlignment, IsBetterThanTheDetectorWhenTheWhiteIsClipped) {
+TEST(MarkerAlignment, IsBetterThanTheDetectorWhenTheWhiteIsClipped) {
   Sweep sweep;
   sweep.rendering.light = [](Vec2) { return 2.0; };
   const Errors errors = Measure(Pinhole(), sweep);
@@ -167,36 +167,36 @@ TEST(PrintAlignment, IsBetterThanTheDetectorWhenTheWhiteIsClipped) {
   EXPECT_LT(errors.rms_px, 0.5 * errors.raw_rms_px);
 }
 
-TEST(PrintAlignment, TellsTheBlur) {
+TEST(MarkerAlignment, TellsTheBlur) {
   const CameraModel camera = Pinhole();
   RenderedMarker marker;
   marker.pattern = AprilTagPattern("tag36h11", 5);
-  marker.camera_from_marker = PoseSeenAt(camera, {88, 71}, 70, marker.size, FromDegrees(30),
-                                         FromDegrees(70), FromDegrees(12));
+  marker.camera_from_marker = PoseAtPixel(camera, {88, 71}, 70, marker.size, FromDegrees(30),
+                                          FromDegrees(70), FromDegrees(12));
   for (const double blur_px : {0.7, 1.0, 2.0}) {
-    const GreyImage picture = RenderMarkers(camera, {marker}, {.blur_px = blur_px, .light = {}});
+    const GreyImage image = RenderMarkers(camera, {marker}, {.blur_px = blur_px, .light = {}});
     const auto alignment =
-        AlignPrint(camera, *marker.pattern, picture.view(), TrueCorners(camera, marker));
+        AlignMarker(camera, *marker.pattern, image.view(), TrueCorners(camera, marker));
     ASSERT_TRUE(alignment.has_value());
     EXPECT_NEAR(alignment->blur_px, blur_px, 0.05);
   }
 }
 
-TEST(PrintAlignment, RefusesWhatIsNotThere) {
+TEST(MarkerAlignment, RefusesWhatIsNotThere) {
   const CameraModel camera = Pinhole();
   const auto pattern = AprilTagPattern("tag36h11", 0);
   const std::array<Vec2, 4> corners{{{50, 40}, {110, 42}, {108, 100}, {52, 98}}};
-  GreyImage picture(camera.width, camera.height);
-  EXPECT_FALSE(AlignPrint(camera, *pattern, picture.view(), corners).has_value()) << "blank";
+  GreyImage image(camera.width, camera.height);
+  EXPECT_FALSE(AlignMarker(camera, *pattern, image.view(), corners).has_value()) << "blank";
   std::mt19937 random(1);
   for (int i = 0; i < camera.width * camera.height; ++i) {
-    picture.data()[i] = static_cast<std::uint8_t>(random() >> 24);
+    image.data()[i] = static_cast<std::uint8_t>(random() >> 24);
   }
-  EXPECT_FALSE(AlignPrint(camera, *pattern, picture.view(), corners).has_value()) << "noise";
+  EXPECT_FALSE(AlignMarker(camera, *pattern, image.view(), corners).has_value()) << "noise";
   const std::array<Vec2, 4> point{{{50, 40}, {50, 40}, {50, 40}, {50, 40}}};
-  EXPECT_FALSE(AlignPrint(camera, *pattern, picture.view(), point).has_value()) << "no area";
+  EXPECT_FALSE(AlignMarker(camera, *pattern, image.view(), point).has_value()) << "no area";
   const std::array<Vec2, 4> outside{{{-90, -90}, {-40, -90}, {-40, -40}, {-90, -40}}};
-  EXPECT_FALSE(AlignPrint(camera, *pattern, picture.view(), outside).has_value()) << "outside";
+  EXPECT_FALSE(AlignMarker(camera, *pattern, image.view(), outside).has_value()) << "outside";
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ namespace pleinair::tracker {
 namespace {
 
 // Two halves, black at the left: coverage across one straight edge is known in closed form.
-PrintPattern Halves() { return {.modules = 2, .edge_modules = 2, .white = {0, 1, 0, 1}}; }
+MarkerPattern Halves() { return {.modules = 2, .edge_modules = 2, .white = {0, 1, 0, 1}}; }
 
-TEST(PrintCoverage, OfAPixelOnAStraightEdgeIsTheShareOfItsArea) {
-  const PrintPattern pattern = Halves();
+TEST(MarkerCoverage, OfAPixelOnAStraightEdgeIsTheShareOfItsArea) {
+  const MarkerPattern pattern = Halves();
   constexpr double kPerPixel = 0.02;  // Half edges: the print is 100 px wide.
   for (const double offset_px : {-0.4, -0.2, 0.0, 0.1, 0.3}) {
     const Coverage coverage = CoverageOfPixel(pattern, {offset_px * kPerPixel, 0.1}, {kPerPixel, 0},
@@ -23,8 +23,8 @@ TEST(PrintCoverage, OfAPixelOnAStraightEdgeIsTheShareOfItsArea) {
   }
 }
 
-TEST(PrintCoverage, OfABlurredEdgeIsTheGaussianIntegral) {
-  const PrintPattern pattern = Halves();
+TEST(MarkerCoverage, OfABlurredEdgeIsTheGaussianIntegral) {
+  const MarkerPattern pattern = Halves();
   constexpr double kPerPixel = 0.02, kBlur_px = 1.5;
   for (double offset_px = -4.0; offset_px <= 4.0; offset_px += 0.5) {
     // Mean of Φ over the pixel's width, by the midpoint rule.
@@ -39,7 +39,7 @@ TEST(PrintCoverage, OfABlurredEdgeIsTheGaussianIntegral) {
   }
 }
 
-TEST(PrintCoverage, DerivativesAreThoseOfFiniteDifferences) {
+TEST(MarkerCoverage, DerivativesAreThoseOfFiniteDifferences) {
   const auto pattern = AprilTagPattern("tag36h11", 11);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> place(-1.2, 1.2), step(-0.04, 0.04), blur(0.2, 1.5);
@@ -54,7 +54,7 @@ TEST(PrintCoverage, DerivativesAreThoseOfFiniteDifferences) {
     };
     const Coverage coverage = CoverageOfPixel(*pattern, centre, d_x, d_y, blur_px);
     constexpr double kStep = 1e-6;
-    // Where a column comes into reach the sum jumps by Φ(-3.2) = 7e-4, seen as a slope of 700.
+    // Where a column comes into reach the sum jumps by Φ(-3.2) = 7e-4, observed as a slope of 700.
     const double by_u = (white(kStep, 0, 0) - white(-kStep, 0, 0)) / (2 * kStep);
     const double by_v = (white(0, kStep, 0) - white(0, -kStep, 0)) / (2 * kStep);
     const double by_blur = (white(0, 0, kStep) - white(0, 0, -kStep)) / (2 * kStep);

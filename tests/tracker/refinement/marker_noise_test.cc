@@ -9,11 +9,11 @@
 namespace pleinair::tracker {
 namespace {
 
-std::vector<PrintResidual> Draw(const PrintNoise& noise, double covered) {
+std::vector<MarkerResidual> Draw(const MarkerNoise& noise, double covered) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::vector<PrintResidual> residuals;
+  std::vector<MarkerResidual> residuals;
   for (int i = 0; i < 8000; ++i) {
     const double gain = i % 2 == 0 ? 0.0 : 20.0 + 180.0 * unit(random);
     const double codes = unit(random) < covered ? 150.0 * (unit(random) - 0.5)
@@ -23,26 +23,26 @@ std::vector<PrintResidual> Draw(const PrintNoise& noise, double covered) {
   return residuals;
 }
 
-TEST(PrintNoise, IsFoundAsItWasDrawn) {
-  for (const PrintNoise drawn : {PrintNoise{1.5, 0.05}, PrintNoise{3.0, 0.1}}) {
-    const PrintNoise found = EstimatePrintNoise(Draw(drawn, 0.0));
+TEST(MarkerNoise, IsFoundAsItWasDrawn) {
+  for (const MarkerNoise drawn : {MarkerNoise{1.5, 0.05}, MarkerNoise{3.0, 0.1}}) {
+    const MarkerNoise found = EstimateMarkerNoise(Draw(drawn, 0.0));
     EXPECT_NEAR(found.flat_codes, drawn.flat_codes, 0.05 * drawn.flat_codes);
     EXPECT_NEAR(found.edge_share, drawn.edge_share, 0.15 * drawn.edge_share);
   }
 }
 
-TEST(PrintNoise, LeavesEdgesNothingOfTheirOwnWhenAllPixelsAreAlike) {
-  EXPECT_LT(EstimatePrintNoise(Draw({4.0, 0.0}, 0.0)).edge_share, 0.01);
+TEST(MarkerNoise, LeavesEdgesNothingOfTheirOwnWhenAllPixelsAreAlike) {
+  EXPECT_LT(EstimateMarkerNoise(Draw({4.0, 0.0}, 0.0)).edge_share, 0.01);
 }
 
-TEST(PrintNoise, IsHardlyMovedWhenATenthIsCovered) {
-  const PrintNoise found = EstimatePrintNoise(Draw({2.0, 0.06}, 0.1));
+TEST(MarkerNoise, IsHardlyMovedWhenATenthIsCovered) {
+  const MarkerNoise found = EstimateMarkerNoise(Draw({2.0, 0.06}, 0.1));
   EXPECT_NEAR(found.flat_codes, 2.0, 0.4);
   EXPECT_NEAR(found.edge_share, 0.06, 0.015);
 }
 
-TEST(PrintNoise, IsThatOfRoundingWhereNothingIsLeftOver) {
-  const PrintNoise found = EstimatePrintNoise(std::vector<PrintResidual>(100));
+TEST(MarkerNoise, IsThatOfRoundingWhereNothingIsLeftOver) {
+  const MarkerNoise found = EstimateMarkerNoise(std::vector<MarkerResidual>(100));
   EXPECT_DOUBLE_EQ(found.flat_codes, 0.3);
   EXPECT_DOUBLE_EQ(found.edge_share, 0.0);
 }

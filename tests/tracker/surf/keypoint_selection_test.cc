@@ -13,9 +13,9 @@ namespace pleinair::tracker {
 namespace {
 
 TEST(KeypointSelection, KeepsWhatTheRuleOfFairSharesSays) {
-  const GreyImage picture = TestTexture(3, 150).Draw(300, 260, 0, 1);
+  const GreyImage image = TestTexture(3, 150).Draw(300, 260, 0, 1);
   std::vector<SurfKeypoint> all;
-  Surf({.max_keypoints = 100000, .bucket_px = 0}).Detect(picture.view(), &all);
+  Surf({.max_keypoints = 100000, .bucket_px = 0}).Detect(image.view(), &all);
   ASSERT_GT(all.size(), 40u);
   constexpr int kBucket_px = 80;
   for (const std::size_t most : {std::size_t{0}, std::size_t{5}, all.size() / 3, all.size() - 1}) {

@@ -14,8 +14,8 @@ namespace pleinair::tracker {
 namespace {
 
 TEST(Surf, AsksForNoMemoryAfterTheFirstPictures) {
-  const GreyImage pictures[] = {TestTexture(1, 170).Draw(320, 240, 0, 1),
-                                TestTexture(1, 170).Draw(320, 240, 1, 1)};
+  const GreyImage images[] = {TestTexture(1, 170).Draw(320, 240, 0, 1),
+                              TestTexture(1, 170).Draw(320, 240, 1, 1)};
   Surf surf({.double_size = true});
   DescriptorMatcher matcher;
   std::vector<SurfKeypoint> keypoints;
@@ -23,19 +23,19 @@ TEST(Surf, AsksForNoMemoryAfterTheFirstPictures) {
   std::vector<QuantisedDescriptor> quantised;
   std::vector<DescriptorMatch> of_frame;
   std::vector<DescriptorMatch> of_templates;
-  const auto process = [&](const GreyImage& picture) {
-    surf.Detect(picture.view(), &keypoints);
+  const auto process = [&](const GreyImage& image) {
+    surf.Detect(image.view(), &keypoints);
     surf.Describe(&keypoints, &descriptors);
     Quantise(keypoints, descriptors, &quantised);
     matcher.Match(quantised, 3, &of_frame, &of_templates);
   };
-  process(pictures[0]);
+  process(images[0]);
   ASSERT_GT(keypoints.size(), 50u);
   matcher.SetTemplates(quantised);
-  for (const GreyImage& picture : pictures) process(picture);
+  for (const GreyImage& image : images) process(image);
   const long before = Allocations();
   for (int i = 0; i < 3; ++i) {
-    for (const GreyImage& picture : pictures) process(picture);
+    for (const GreyImage& image : images) process(image);
   }
   EXPECT_EQ(Allocations() - before, 0);
 }

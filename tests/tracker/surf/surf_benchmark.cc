@@ -1,4 +1,4 @@
-// Time of SURF and its peers on a picture of 640x480, and of matching descriptors. The picture is
+// Time of SURF and its peers on an image of 640x480, and of matching descriptors. The image is
 // the first one named in PLEINAIR_SURF_PICTURE, or a texture made here.
 
 #include <cstdlib>
@@ -24,7 +24,7 @@ constexpr int kHeight = 480;
 constexpr int kFeatures = 400;
 
 const cv::Mat& Picture() {
-  static const cv::Mat picture = [] {
+  static const cv::Mat image = [] {
     cv::Mat grey;
     if (const char* file = std::getenv("PLEINAIR_SURF_PICTURE")) {
       grey = cv::imread(file, cv::IMREAD_GRAYSCALE);
@@ -36,7 +36,7 @@ const cv::Mat& Picture() {
     GreyImage texture = TestTexture(1, 400).Draw(kWidth, kHeight, 0, 1);
     return cv::Mat(kHeight, kWidth, CV_8U, texture.data()).clone();
   }();
-  return picture;
+  return image;
 }
 
 ImageView<const std::uint8_t> View(const cv::Mat& grey) {

@@ -5,7 +5,7 @@
 // Repeatability and matching score after Mikolajczyk et al., "A Comparison of Affine Region
 // Detectors", IJCV 65, 2005: regions correspond when the overlap error (1 - intersection / union of
 // one region and the other one mapped) is below 40 %, one to one. Repeatability is the number of
-// correspondences over the smaller number of regions in the part that both pictures show; the
+// correspondences over the smaller number of regions in the part that both images show; the
 // matching score counts those of them whose descriptors are nearest neighbours. A region is a
 // circle of half the described window.
 
@@ -32,7 +32,7 @@ constexpr int kHeight = 480;
 constexpr int kMaxFeatures = 500;
 constexpr double kMaxOverlapError = 0.4;
 
-/// A change of the picture: a homography and what happens to the pixels after it.
+/// A change of the image: a homography and what happens to the pixels after it.
 struct Warp {
   std::string group;
   cv::Matx33d homography = cv::Matx33d::eye();
@@ -53,7 +53,7 @@ cv::Matx33d Similarity(double degrees, double zoom) {
   return AboutMiddle({c, -s, 0, s, c, 0, 0, 0, 1});
 }
 
-/// The picture plane tilted about an axis in the picture, seen with a focal length of 600 px.
+/// The image plane tilted about an axis in the image, observed with a focal length of 600 px.
 cv::Matx33d Tilt(double degrees, double axis_degrees) {
   const double t = degrees * std::numbers::pi / 180;
   const double f = 600;
@@ -132,7 +132,7 @@ cv::Matx22d Jacobian(const cv::Matx33d& h, double x, double y) {
           (h(1, 0) - p.y * h(2, 0)) / w, (h(1, 1) - p.y * h(2, 1)) / w};
 }
 
-/// Overlap error of a circle of the first picture, mapped, and one of the second, by counting the
+/// Overlap error of a circle of the first image, mapped, and one of the second, by counting the
 /// points of a grid.
 double OverlapError(const cv::Point2d& middle, const cv::Matx22d& inverse_jacobian, double radius,
                     const Feature& other) {
@@ -155,7 +155,7 @@ double OverlapError(const cv::Point2d& middle, const cv::Matx22d& inverse_jacobi
   return 1 - static_cast<double>(both) / std::max(either, 1);
 }
 
-bool InPicture(const cv::Point2d& p) {
+bool InImage(const cv::Point2d& p) {
   return p.x >= 0 && p.y >= 0 && p.x <= kWidth - 1 && p.y <= kHeight - 1;
 }
 
@@ -180,17 +180,17 @@ struct Score {
 };
 
 Score Compare(const FeatureSet& first, const FeatureSet& second, const cv::Matx33d& h) {
-  // Only the part that both pictures show counts.
+  // Only the part that both images show counts.
   std::vector<int> shared_first;
   std::vector<int> shared_second;
   for (std::size_t i = 0; i < first.features.size(); ++i) {
-    if (InPicture(Map(h, first.features[i].x, first.features[i].y))) {
+    if (InImage(Map(h, first.features[i].x, first.features[i].y))) {
       shared_first.push_back(static_cast<int>(i));
     }
   }
   const cv::Matx33d back = h.inv();
   for (std::size_t j = 0; j < second.features.size(); ++j) {
-    if (InPicture(Map(back, second.features[j].x, second.features[j].y))) {
+    if (InImage(Map(back, second.features[j].x, second.features[j].y))) {
       shared_second.push_back(static_cast<int>(j));
     }
   }
@@ -259,15 +259,15 @@ double Milliseconds() {
 
 int Main(const std::vector<std::string>& files) {
   cv::setNumThreads(1);
-  std::vector<cv::Mat> pictures;
+  std::vector<cv::Mat> images;
   for (const std::string& file : files) {
-    cv::Mat picture = cv::imread(file, cv::IMREAD_GRAYSCALE);
-    if (picture.empty()) {
+    cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
+    if (image.empty()) {
       std::fprintf(stderr, "%s: is no picture that OpenCV reads\n", file.c_str());
       return 2;
     }
-    cv::resize(picture, picture, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
-    pictures.push_back(picture);
+    cv::resize(image, image, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
+    images.push_back(image);
   }
   const std::vector<Peer> peers = MakePeers(kMaxFeatures);
 
@@ -275,11 +275,11 @@ int Main(const std::vector<std::string>& files) {
   for (const Peer& peer : peers) {
     std::vector<double> times;
     double features = 0;
-    for (const cv::Mat& picture : pictures) {
+    for (const cv::Mat& image : images) {
       double fastest = 1e9;
       for (int run = 0; run < 8; ++run) {
         const double start = Milliseconds();
-        const std::size_t count = peer.run(picture).features.size();
+        const std::size_t count = peer.run(image).features.size();
         fastest = std::min(fastest, Milliseconds() - start);
         if (run == 0) features += static_cast<double>(count);
       }
@@ -287,15 +287,15 @@ int Main(const std::vector<std::string>& files) {
     }
     std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
     std::printf("| %s | %.2f | %.0f |\n", peer.name.c_str(), times[times.size() / 2],
-                features / static_cast<double>(pictures.size()));
+                features / static_cast<double>(images.size()));
   }
 
   std::vector<std::string> groups;
   std::vector<std::vector<Score>> sums;
   std::vector<int> counts;
-  std::vector<std::vector<FeatureSet>> originals(pictures.size());
-  for (std::size_t p = 0; p < pictures.size(); ++p) {
-    for (const Peer& peer : peers) originals[p].push_back(peer.run(pictures[p]));
+  std::vector<std::vector<FeatureSet>> originals(images.size());
+  for (std::size_t p = 0; p < images.size(); ++p) {
+    for (const Peer& peer : peers) originals[p].push_back(peer.run(images[p]));
   }
   for (const Warp& warp : MakeWarps()) {
     if (groups.empty() || groups.back() != warp.group) {
@@ -303,8 +303,8 @@ int Main(const std::vector<std::string>& files) {
       sums.emplace_back(peers.size());
       counts.push_back(0);
     }
-    for (std::size_t p = 0; p < pictures.size(); ++p) {
-      const cv::Mat warped = Apply(warp, pictures[p]);
+    for (std::size_t p = 0; p < images.size(); ++p) {
+      const cv::Mat warped = Apply(warp, images[p]);
       ++counts.back();
       for (std::size_t k = 0; k < peers.size(); ++k) {
         const Score score = Compare(originals[p][k], peers[k].run(warped), warp.homography);

@@ -149,7 +149,7 @@ TEST_P(SurfKernels, MaximaAreFoundAtEveryPlaceOfTheRow) {
   EXPECT_EQ(found, expected);
 }
 
-/// A keypoint in the middle of a picture, with the box (and its step) nearest to 2 s and to s.
+/// A keypoint in the middle of an image, with the box (and its step) nearest to 2 s and to s.
 struct Described {
   SurfKeypoint keypoint;
   int wavelet_box, wavelet_step, sample_box, sample_step;

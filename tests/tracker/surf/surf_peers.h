@@ -16,7 +16,7 @@ struct Feature {
   double angle;   ///< rad, x right, y down.
 };
 
-/// Features of one picture; row i of the descriptors (CV_32F, or CV_8U bits) belongs to feature i.
+/// Features of one image; row i of the descriptors (CV_32F, or CV_8U bits) belongs to feature i.
 struct FeatureSet {
   std::vector<Feature> features;
   cv::Mat descriptors;

@@ -13,11 +13,11 @@
 namespace pleinair::tracker::reference {
 
 /// Response (Bay et al. 2008, Eq. (3)) of the filters of `filter_size` px at (x, y); 0 where they
-/// leave the picture. `laplacian`, if given, gets D_xx + D_yy.
+/// leave the image. `laplacian`, if given, gets D_xx + D_yy.
 double Response(const GreyImage& grey, int filter_size, int x, int y, double* laplacian = nullptr);
 
 /// The samples (not interpolated) at which a middle layer of an octave is the largest of its
-/// 3 x 3 x 3 neighbours, which all fit into the picture.
+/// 3 x 3 x 3 neighbours, which all fit into the image.
 struct Sample {
   int filter_size, x, y;
   auto operator<=>(const Sample&) const = default;
@@ -25,7 +25,7 @@ struct Sample {
 std::vector<Sample> Maxima(const GreyImage& grey, int octave, int step, double threshold);
 
 /// Mean (grey 0..255) of the box of `box` px around a point, sampled every `step` px and
-/// interpolated, from the pixels inside the picture nearest to it.
+/// interpolated, from the pixels inside the image nearest to it.
 double BoxMean(const GreyImage& grey, int box, int step, double x, double y);
 
 /// Section 4.1 (a window of a half-turn, a Gaussian of 2.5 s), without the histogram: the window

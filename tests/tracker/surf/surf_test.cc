@@ -14,10 +14,10 @@
 namespace pleinair::tracker {
 namespace {
 
-std::vector<SurfKeypoint> Detect(const GreyImage& picture, const SurfOptions& options = {}) {
+std::vector<SurfKeypoint> Detect(const GreyImage& image, const SurfOptions& options = {}) {
   Surf surf(options);
   std::vector<SurfKeypoint> keypoints;
-  surf.Detect(picture.view(), &keypoints);
+  surf.Detect(image.view(), &keypoints);
   return keypoints;
 }
 
@@ -45,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes, SurfBlobs, testing::Values(1.4, 1.8, 2.5, 3.2, 4
 TEST_P(SurfBlobs, AreFoundWhereTheyAreAsLargeAsTheyAre) {
   const double sigma = GetParam();
   for (const double contrast : {80.0, -60.0}) {
-    const GreyImage picture = DrawBlobs(150, 140, 100, {{70.3, 64.6, sigma, contrast}});
-    const auto keypoints = Detect(picture, {.double_size = true});
+    const GreyImage image = DrawBlobs(150, 140, 100, {{70.3, 64.6, sigma, contrast}});
+    const auto keypoints = Detect(image, {.double_size = true});
     ASSERT_FALSE(keypoints.empty());
     const SurfKeypoint& strongest = keypoints[0];
     EXPECT_NEAR(strongest.x, 70.3, 0.2);
@@ -59,16 +59,16 @@ TEST_P(SurfBlobs, AreFoundWhereTheyAreAsLargeAsTheyAre) {
 
 TEST(Surf, FindsAMaximumBetweenTwoPixelsOnce) {
   // Equal responses on both sides, exactly.
-  const GreyImage picture = DrawBlobs(120, 120, 100, {{59.5, 59.5, 3, 90}});
-  const auto keypoints = Detect(picture);
+  const GreyImage image = DrawBlobs(120, 120, 100, {{59.5, 59.5, 3, 90}});
+  const auto keypoints = Detect(image);
   ASSERT_EQ(keypoints.size(), 1u);
   EXPECT_NEAR(keypoints[0].x, 59.5, 0.1);
   EXPECT_NEAR(keypoints[0].y, 59.5, 0.1);
 }
 
 TEST(Surf, OrdersKeypointsByStrength) {
-  const GreyImage picture = TestTexture(3, 150).Draw(300, 260, 0, 1);
-  const auto keypoints = Detect(picture);
+  const GreyImage image = TestTexture(3, 150).Draw(300, 260, 0, 1);
+  const auto keypoints = Detect(image);
   ASSERT_GT(keypoints.size(), 40u);
   EXPECT_TRUE(std::is_sorted(keypoints.begin(), keypoints.end(),
                              [](const auto& a, const auto& b) { return a.response > b.response; }));
@@ -85,9 +85,9 @@ TEST(Surf, ResponseGrowsWithTheSquareOfTheContrast) {
 }
 
 TEST(Surf, KeepsTheStrongestWithoutBuckets) {
-  const GreyImage picture = TestTexture(3, 150).Draw(300, 260, 0, 1);
-  const auto all = Detect(picture, {.max_keypoints = 100000, .bucket_px = 0});
-  const auto some = Detect(picture, {.max_keypoints = 30, .bucket_px = 0});
+  const GreyImage image = TestTexture(3, 150).Draw(300, 260, 0, 1);
+  const auto all = Detect(image, {.max_keypoints = 100000, .bucket_px = 0});
+  const auto some = Detect(image, {.max_keypoints = 30, .bucket_px = 0});
   ASSERT_EQ(some.size(), 30u);
   for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(some[i].response, all[i].response);
 }
@@ -98,20 +98,20 @@ TEST(Surf, ABusyCornerDoesNotUseUpTheKeypoints) {
   for (int y = 20; y < 190; y += 20) {
     for (int x = 20; x < 190; x += 20) blobs.push_back({x + 0.3, y + 0.6, 3, 100});
   }
-  const GreyImage picture = DrawBlobs(320, 200, 80, blobs);
+  const GreyImage image = DrawBlobs(320, 200, 80, blobs);
   const auto is_the_faint_one = [](const SurfKeypoint& k) { return std::abs(k.x - 270) < 1; };
-  const auto strongest = Detect(picture, {.max_keypoints = 40, .bucket_px = 0});
+  const auto strongest = Detect(image, {.max_keypoints = 40, .bucket_px = 0});
   ASSERT_EQ(strongest.size(), 40u);
   EXPECT_TRUE(std::none_of(strongest.begin(), strongest.end(), is_the_faint_one));
-  const auto fair = Detect(picture, {.max_keypoints = 40, .bucket_px = 80});
+  const auto fair = Detect(image, {.max_keypoints = 40, .bucket_px = 80});
   ASSERT_EQ(fair.size(), 40u);
   EXPECT_TRUE(std::any_of(fair.begin(), fair.end(), is_the_faint_one));
 }
 
 TEST(Surf, SamplesAsCoarseAsAskedForFindTheSameLargeBlob) {
-  const GreyImage picture = DrawBlobs(200, 200, 90, {{101.2, 98.7, 4.5, 90}});
+  const GreyImage image = DrawBlobs(200, 200, 90, {{101.2, 98.7, 4.5, 90}});
   for (const int first_step : {1, 2, 4}) {
-    const auto keypoints = Detect(picture, {.first_step = first_step});
+    const auto keypoints = Detect(image, {.first_step = first_step});
     ASSERT_FALSE(keypoints.empty()) << first_step;
     EXPECT_NEAR(keypoints[0].x, 101.2, 0.3);
     EXPECT_NEAR(keypoints[0].y, 98.7, 0.3);
@@ -123,10 +123,10 @@ struct Features {
   std::vector<SurfDescriptor> descriptors;
 };
 
-Features DetectAndDescribe(const GreyImage& picture, const SurfOptions& options = {}) {
+Features DetectAndDescribe(const GreyImage& image, const SurfOptions& options = {}) {
   Surf surf(options);
   Features features;
-  surf.Detect(picture.view(), &features.keypoints);
+  surf.Detect(image.view(), &features.keypoints);
   surf.Describe(&features.keypoints, &features.descriptors);
   return features;
 }
@@ -137,7 +137,7 @@ float SquaredDistance(const SurfDescriptor& a, const SurfDescriptor& b) {
   return sum;
 }
 
-/// How well the features of a picture are found again in a turned and zoomed one.
+/// How well the features of an image are found again in a turned and zoomed one.
 struct Repeat {
   double repeated;  ///< Share found again within 1.5 px and 25 % of scale.
   double matched;   ///< Of these, share that is also the nearest descriptor.
@@ -164,7 +164,7 @@ Repeat FindAgain(const TestTexture& texture, double angle, double zoom,
     const double border = 12 * std::max(scale, static_cast<double>(k.scale));
     if (x < border || y < border || x > kSize - border || y > kSize - border) continue;
     if (k.x < border || k.y < border || k.x > kSize - border || k.y > kSize - border) continue;
-    if (scale < 1.8 || scale > 8) continue;  // What both pictures can show.
+    if (scale < 1.8 || scale > 8) continue;  // What both images can show.
     ++visible;
     const auto is_repeat = [&](const SurfKeypoint& other) {
       return std::hypot(other.x - x, other.y - y) < 1.5 &&
@@ -214,14 +214,14 @@ TEST(Surf, FindsAndMatchesKeypointsOfAZoomedPicture) {
 }
 
 TEST(Surf, DescriptorsDoNotDependOnContrastAndBrightness) {
-  const GreyImage picture = TestTexture(4, 150).Draw(200, 200, 0, 1);
-  GreyImage changed = picture;
+  const GreyImage image = TestTexture(4, 150).Draw(200, 200, 0, 1);
+  GreyImage changed = image;
   for (std::size_t i = 0; i < changed.size(); ++i) {
     changed.data()[i] = static_cast<std::uint8_t>(std::lround(0.5 * changed.data()[i] + 70));
   }
   // Upright, since a direction may jump where two are equally good.
   const SurfOptions options = {.upright = true};
-  const Features before = DetectAndDescribe(picture, options);
+  const Features before = DetectAndDescribe(image, options);
   Surf surf(options);
   std::vector<SurfKeypoint> unused;
   surf.Detect(changed.view(), &unused);
@@ -277,17 +277,17 @@ TEST(Surf, UprightKeypointsHaveNoAngle) {
 }
 
 TEST(Surf, GivesTheSameTwice) {
-  const GreyImage picture = TestTexture(8, 150).Draw(250, 210, 0, 1);
+  const GreyImage image = TestTexture(8, 150).Draw(250, 210, 0, 1);
   Surf surf({.double_size = true});
   std::vector<SurfKeypoint> first;
   std::vector<SurfDescriptor> first_descriptors;
-  surf.Detect(picture.view(), &first);
+  surf.Detect(image.view(), &first);
   surf.Describe(&first, &first_descriptors);
   // Another size in between must leave nothing behind.
   std::vector<SurfKeypoint> second;
   std::vector<SurfDescriptor> second_descriptors;
   surf.Detect(DrawNoise(333, 77, 1).view(), &second);
-  surf.Detect(picture.view(), &second);
+  surf.Detect(image.view(), &second);
   surf.Describe(&second, &second_descriptors);
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -298,16 +298,16 @@ TEST(Surf, GivesTheSameTwice) {
 }
 
 TEST(Surf, ReadsRowsWithAStride) {
-  const GreyImage picture = TestTexture(8, 150).Draw(250, 210, 0, 1);
+  const GreyImage image = TestTexture(8, 150).Draw(250, 210, 0, 1);
   GreyImage wide = DrawNoise(300, 230, 5);
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) wide(x + 10, y + 5) = picture(x, y);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) wide(x + 10, y + 5) = image(x, y);
   }
   const ImageView<const std::uint8_t> inner(&wide(10, 5), 250, 210, 1, 300);
   Surf surf({});
   std::vector<SurfKeypoint> keypoints;
   surf.Detect(inner, &keypoints);
-  const auto expected = Detect(picture);
+  const auto expected = Detect(image);
   ASSERT_EQ(keypoints.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(keypoints[i].x, expected[i].x);
 }

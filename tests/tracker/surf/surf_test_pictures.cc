@@ -23,15 +23,15 @@ std::uint8_t ToByte(double grey) {
 }  // namespace
 
 GreyImage DrawBlobs(int width, int height, double ground, const std::vector<TestBlob>& blobs) {
-  GreyImage picture(width, height);
+  GreyImage image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       double grey = ground;
       for (const TestBlob& blob : blobs) grey += BlobAt(blob, x, y);
-      picture(x, y) = ToByte(grey);
+      image(x, y) = ToByte(grey);
     }
   }
-  return picture;
+  return image;
 }
 
 TestTexture::TestTexture(unsigned seed, double half) {
@@ -68,26 +68,26 @@ double TestTexture::operator()(double x, double y) const {
 }
 
 GreyImage TestTexture::Draw(int width, int height, double angle_rad, double zoom) const {
-  GreyImage picture(width, height);
+  GreyImage image(width, height);
   const double c = std::cos(angle_rad) / zoom;
   const double s = std::sin(angle_rad) / zoom;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double dx = x - (width - 1) / 2.0;
       const double dy = y - (height - 1) / 2.0;
-      picture(x, y) = ToByte((*this)(c * dx + s * dy, -s * dx + c * dy));
+      image(x, y) = ToByte((*this)(c * dx + s * dy, -s * dx + c * dy));
     }
   }
-  return picture;
+  return image;
 }
 
 GreyImage DrawNoise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
-  GreyImage picture(width, height);
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    picture.data()[i] = static_cast<std::uint8_t>(random() >> 24);
+  GreyImage image(width, height);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    image.data()[i] = static_cast<std::uint8_t>(random() >> 24);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace pleinair::tracker

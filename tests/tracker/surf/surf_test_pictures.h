@@ -7,7 +7,7 @@
 
 namespace pleinair::tracker {
 
-/// A Gaussian blob of a picture made for a test.
+/// A Gaussian blob of an image made for a test.
 struct TestBlob {
   double x, y;      ///< px
   double sigma;     ///< px
@@ -25,7 +25,7 @@ class TestTexture {
   /// Grey level, around 128.
   double operator()(double x, double y) const;
 
-  /// The texture seen through (x, y) -> angle, zoom: its origin is at the middle of the picture.
+  /// The texture observed through (x, y) -> angle, zoom: its origin is at the middle of the image.
   GreyImage Draw(int width, int height, double angle_rad, double zoom) const;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 /// A dark parallelogram on a light ground, blurred as by a lens: its corner at `corner`, its sides
 /// along `a` and `b` (unit vectors).
 GreyImage Wedge(Vec2 corner, Vec2 a, Vec2 b) {
-  GreyImage picture(64, 64);
+  GreyImage image(64, 64);
   const double cross = a.x * b.y - a.y * b.x;
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
@@ -24,15 +24,15 @@ GreyImage Wedge(Vec2 corner, Vec2 a, Vec2 b) {
       const double from_a = (a.x * to.y - a.y * to.x) * (cross > 0 ? 1 : -1);
       const double from_b = (to.x * b.y - to.y * b.x) * (cross > 0 ? 1 : -1);
       const auto inside = [](double distance) { return 0.5 * (1 + std::erf(distance / 0.9)); };
-      picture(x, y) =
+      image(x, y) =
           static_cast<std::uint8_t>(std::lround(180.0 - 120.0 * inside(from_a) * inside(from_b)));
     }
   }
-  return picture;
+  return image;
 }
 
-ImageView<const std::uint8_t> View(const GreyImage& picture) {
-  return {picture.data(), picture.width(), picture.height(), 1, picture.width()};
+ImageView<const std::uint8_t> View(const GreyImage& image) {
+  return {image.data(), image.width(), image.height(), 1, image.width()};
 }
 
 TEST(CornerPoints, LieWhereTheSidesMeet) {
@@ -59,12 +59,12 @@ TEST(CornerPoints, LieWhereTheSidesMeet) {
 
 TEST(CornerPoints, AreNotFoundOnEdgesNorWhereNothingIs) {
   CornerPoints detector;
-  GreyImage picture(80, 60);
-  EXPECT_TRUE(detector.Find(View(picture)).empty());
+  GreyImage image(80, 60);
+  EXPECT_TRUE(detector.Find(View(image)).empty());
   for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 80; ++x) picture(x, y) = 2 * x + y > 110 ? 200 : 40;
+    for (int x = 0; x < 80; ++x) image(x, y) = 2 * x + y > 110 ? 200 : 40;
   }
-  EXPECT_TRUE(detector.Find(View(picture)).empty());
+  EXPECT_TRUE(detector.Find(View(image)).empty());
   for (const int size : {0, 1, 5, 8}) {
     EXPECT_TRUE(detector.Find(View(GreyImage(size, size))).empty()) << size;
   }
@@ -72,7 +72,7 @@ TEST(CornerPoints, AreNotFoundOnEdgesNorWhereNothingIs) {
 
 /// The farthest that a corner of the content is from the nearest true one, in cells: a lattice does
 /// not know which way round it lies.
-double CellsApart(const CameraModel& camera, const Mat3& modules_from_ideal,
+double CellsApart(const CameraModel& camera, const Mat3& modules_from_undistorted,
                   const RenderedMarker& marker) {
   const auto square = TrueCorners(camera, marker);
   const Mat3 pixel_from_unit = HomographyToQuad(square);
@@ -82,8 +82,8 @@ double CellsApart(const CameraModel& camera, const Mat3& modules_from_ideal,
   const double cell = Norm(truth[0] - truth[1]) / sg::kCells;
   double farthest = 0.0;
   for (const Vec2& corner : kSquareCorners) {
-    constexpr double kMiddle = 0.5 * sg::kPrint, kSide = 0.5 * sg::kCells * sg::kCell;
-    const Vec2 at = Apply(Adjugate(modules_from_ideal),
+    constexpr double kMiddle = 0.5 * sg::kModules, kSide = 0.5 * sg::kCells * sg::kCell;
+    const Vec2 at = Apply(Adjugate(modules_from_undistorted),
                           {kMiddle + kSide * corner.x, kMiddle + kSide * corner.y});
     double nearest = 1e9;
     for (const Vec2& other : truth) nearest = std::min(nearest, Norm(at - other) / cell);
@@ -104,10 +104,10 @@ TEST(CellLattice, FindsTheCellsOfAMarkerWhoseBorderIsCoveredWholly) {
         const Vec2 p = ModulesOf(at);
         return std::max(std::fabs(p.x - 20), std::fabs(p.y - 20)) > 10.5 ? 0.3 : -1.0;
       };
-      const GreyImage picture =
+      const GreyImage image =
           RenderMarkers(camera, {marker}, {.blur_px = 0.6, .noise_codes = 1.0, .seed = 1});
       std::vector<LatticeGuess> guesses;
-      lattice.Find(View(picture), 1.0, &guesses);
+      lattice.Find(View(image), 1.0, &guesses);
       ++all;
       // A row of cells that shows no corner may be missing on either side.
       for (const LatticeGuess& guess : guesses) {
@@ -117,7 +117,7 @@ TEST(CellLattice, FindsTheCellsOfAMarkerWhoseBorderIsCoveredWholly) {
           const int column = shift % 3 - 1, row = shift / 3 - 1;
           by(0, 2) = sg::kCell * column;
           by(1, 2) = sg::kCell * row;
-          here = here || CellsApart(camera, by * guess.modules_from_ideal, marker) < 0.3;
+          here = here || CellsApart(camera, by * guess.modules_from_undistorted, marker) < 0.3;
         }
         if (!here) continue;
         ++found;

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kNumber = 2741;
 
-TEST(NumberProof, ProveANumberUnderOneCoverButNotUnderScatteredErrors) {
-  const GolayWord word = PrintedWord(kNumber);
+TEST(DecodingConfidence, ProveANumberUnderOneCoverButNotUnderScatteredErrors) {
+  const GolayWord word = CodewordOfNumber(kNumber);
   const auto white = [&](int k) { return (word >> k & 1U) != 0; };
   CellLikelihoods plain{};
   for (int k = 0; k < sg::kCodeCells; ++k) plain[k] = white(k) ? 5.0F : -5.0F;
@@ -76,7 +76,7 @@ CellLikelihoods CellsUnder(int number, const std::function<double(int)>& hides, 
   return cells;
 }
 
-TEST(NumberProof, LeaveOpenWhichOfTwoNumbersLiesUnderACoverThatBothExplain) {
+TEST(DecodingConfidence, LeaveOpenWhichOfTwoNumbersLiesUnderACoverThatBothExplain) {
   // Ink over the two columns to the left and half of the third. Of 361 five white cells are under
   // it; 1609 has only three of its own where it is black, but they lie round a corner.
   const CellLikelihoods cells = CellsUnder(
@@ -100,7 +100,7 @@ TEST(NumberProof, LeaveOpenWhichOfTwoNumbersLiesUnderACoverThatBothExplain) {
   EXPECT_GT(alone->apart_bits, 8.0);
 }
 
-TEST(NumberProof, GiveUnderBarsAndBlobsTheNumberThatIsThere) {
+TEST(DecodingConfidence, GiveUnderBarsAndBlobsTheNumberThatIsThere) {
   std::mt19937 random(17);
   const auto draw = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);

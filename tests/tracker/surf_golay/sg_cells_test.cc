@@ -33,16 +33,16 @@ class ReadCells {
  public:
   ReadCells(const CameraModel& camera, const RenderedMarker& marker,
             const RenderingOptions& options, bool with_glare = false)
-      : lens_(camera), blank_(SgPrintOfWord(0)) {
-    const GreyImage picture = RenderMarkers(camera, {marker}, options);
+      : lens_(camera), blank_(SgMarkerPatternOfWord(0)) {
+    const GreyImage image = RenderMarkers(camera, {marker}, options);
     BlockFitState state{ModulesFromSquareCorners(TrueCorners(camera, marker)), 0.5};
-    TakeLinearWindow(lens_, picture.view(), {0, 0, 0, camera.width, camera.height}, &seen_);
+    TakeLinearWindow(lens_, image.view(), {0, 0, 0, camera.width, camera.height}, &seen_);
     BlockFitOptions fitting;
     fitting.fit_blur = true;
-    PrintLight light;
-    ok_ = fit_.Run(blank_, PrintPart::kBorder, seen_, 8, fitting, &state) &&
-          PrintLightMeter().Measure(blank_, fit_, seen_, false, &light);
-    if (ok_) CellReader().Read(blank_, fit_, seen_, state, light, with_glare, &cells_);
+    MarkerLight light;
+    ok_ = fit_.Run(blank_, MarkerPart::kBorder, seen_, 8, fitting, &state) &&
+          MarkerLightEstimator().Measure(blank_, fit_, seen_, false, &light);
+    if (ok_) CellReader().ReadCells(blank_, fit_, seen_, state, light, with_glare, &cells_);
   }
 
   bool ok() const { return ok_; }
@@ -51,8 +51,8 @@ class ReadCells {
 
  private:
   LensGrid lens_;
-  PrintPattern blank_;
-  SeenWindow seen_;
+  MarkerPattern blank_;
+  ObservedPatch seen_;
   BlockFit fit_;
   CellReading cells_;
   bool ok_ = false;
@@ -64,7 +64,7 @@ RenderedMarker Marker(const CameraModel& camera, double side_px) {
   return SgMarkerAt(camera, kNumber, {80, 75}, side_px, 20, 50, 8);
 }
 
-/// Cells whose likelihood plainly speaks for the other colour.
+/// Cells whose likelihood plainly speaks for the other color.
 int PlainlyWrong(const CellReading& cells) {
   int wrong = 0;
   for (int k = 0; k < sg::kCodeCells; ++k) {
@@ -86,7 +86,7 @@ TEST(SgCells, AreBlackOrWhiteAsPrintedHoweverSmall) {
     ASSERT_TRUE(cells.ok());
     for (int k = 0; k < sg::kCodeCells; ++k) {
       SCOPED_TRACE(testing::Message() << "cell " << k);
-      EXPECT_TRUE(cells->seen[k]);
+      EXPECT_TRUE(cells->observed[k]);
       EXPECT_NEAR(cells->white[k], IsWhite(kNumber, k) ? 1.0 : 0.0, side_px > 30 ? 0.1 : 0.25);
       EXPECT_GT(IsWhite(kNumber, k) ? cells->likelihoods[k] : -cells->likelihoods[k], 2.0F);
     }
@@ -127,10 +127,10 @@ TEST(SgCells, AreNotSeenBeyondThePicture) {
     SCOPED_TRACE(testing::Message() << "cell " << k);
     const double middle_px = 148 + 55 * CellMiddle(k).x;
     if (middle_px > 170) {
-      EXPECT_FALSE(cells->seen[k]);
+      EXPECT_FALSE(cells->observed[k]);
       EXPECT_EQ(cells->likelihoods[k], 0.0F);
     } else if (middle_px < 145) {
-      EXPECT_TRUE(cells->seen[k]);
+      EXPECT_TRUE(cells->observed[k]);
     }
   }
   EXPECT_EQ(PlainlyWrong(*cells), 0);
@@ -188,7 +188,7 @@ TEST(SgCells, ShowAroundHighlightsByWhatIsKnownBesideThem) {
   struct {
     Vec2 middle;
     double radius_px;
-    float least_margin;
+    float min_margin;
   } constexpr kSpots[] = {
       {{90, 65}, 24, 15.0F}, {{70, 85}, 24, 15.0F}, {{50, 65}, 16, 60.0F}, {{70, 65}, 16, 35.0F}};
   const CameraModel camera = SgCamera(160, 150, 300);
@@ -203,11 +203,11 @@ TEST(SgCells, ShowAroundHighlightsByWhatIsKnownBesideThem) {
     ASSERT_TRUE(cells.ok());
     const SoftGolayDecoding decoding = SoftGolayDecoder().Decode(cells->likelihoods);
     EXPECT_EQ(decoding.number, kNumber);
-    EXPECT_GT(decoding.margin, spot.least_margin);
+    EXPECT_GT(decoding.margin, spot.min_margin);
   }
 }
 
-// Paper near the brightest that the picture can hold looks no whiter than white where it glares.
+// Paper near the brightest that the image can hold looks no whiter than white where it glares.
 TEST(SgCells, GlareWhereLightDrownsThem) {
   const CameraModel camera = SgCamera(160, 150, 300);
   RenderedMarker marker = Marker(camera, 110);
@@ -261,8 +261,8 @@ TEST(SgCells, AreToldAtAGlanceWhereAPrintLiesOpen) {
     for (const double side_px : {100.0, 40.0, 24.0}) {
       SCOPED_TRACE(testing::Message() << "number " << number << ", edge " << side_px << " px");
       const RenderedMarker marker = SgMarkerAt(camera, number, {80, 75}, side_px, 35, 50, 8);
-      const GreyImage picture = RenderMarkers(camera, {marker}, options);
-      const auto cells = GlanceAtCells(picture.view(), lens, TruePlace(camera, marker));
+      const GreyImage image = RenderMarkers(camera, {marker}, options);
+      const auto cells = SampleCellsFast(image.view(), lens, TruePlace(camera, marker));
       ASSERT_TRUE(cells.has_value());
       for (int k = 0; k < sg::kCodeCells; ++k) EXPECT_EQ((*cells)[k] > 0, IsWhite(number, k));
     }
@@ -274,8 +274,8 @@ TEST(SgCells, AreNotToldAtAGlanceWhereAnythingIsDoubtful) {
   const LensGrid lens(camera);
   const RenderedMarker marker = Marker(camera, 90);
   const auto told = [&](const RenderedMarker& of, const RenderingOptions& options) {
-    const GreyImage picture = RenderMarkers(camera, {of}, options);
-    return GlanceAtCells(picture.view(), lens, TruePlace(camera, of)).has_value();
+    const GreyImage image = RenderMarkers(camera, {of}, options);
+    return SampleCellsFast(image.view(), lens, TruePlace(camera, of)).has_value();
   };
   ASSERT_TRUE(told(marker, {.blur_px = 0.5}));
   RenderedMarker covered = marker;
@@ -292,7 +292,7 @@ TEST(SgCells, AreNotToldAtAGlanceWhereAnythingIsDoubtful) {
 // A hand is darker than any white cell that lies open beside it, and much lighter than ink.
 TEST(SgCells, PartIntoBlackAndWhiteWithoutAHandForInk) {
   CellReading cells;
-  cells.seen.fill(true);
+  cells.observed.fill(true);
   for (int k = 0; k < sg::kCodeCells; ++k) {
     const bool covered = k % 2 == 0;
     const float open = k % 4 == 1 ? 1.0F : 0.01F;
@@ -315,22 +315,22 @@ TEST(SgCells, PartIntoBlackAndWhiteWithoutAHandForInk) {
 TEST(SgCells, LeaveNothingOfTheReadingBefore) {
   CellReading cells;
   cells.likelihoods.fill(7.0F);
-  cells.seen.fill(true);
+  cells.observed.fill(true);
   cells.glaring = true;
   const CameraModel camera = SgCamera(64, 48);
   const LensGrid lens(camera);
-  const PrintPattern blank = SgPrintOfWord(0);
-  SeenWindow seen;
+  const MarkerPattern blank = SgMarkerPatternOfWord(0);
+  ObservedPatch observed;
   BlockFit fit;
   // A print that lies beside the window has no cells there.
   const BlockFitState state{Mat3{{0.5, 0, 900, 0, 0.5, 900, 0, 0, 1}}, 0.5};
-  const GreyImage picture(camera.width, camera.height);
-  TakeLinearWindow(lens, picture.view(), {0, 0, 0, camera.width, camera.height}, &seen);
-  fit.Evaluate(blank, PrintPart::kBorder, seen, 4, state);
-  CellReader().Read(blank, fit, seen, state, {}, false, &cells);
+  const GreyImage image(camera.width, camera.height);
+  TakeLinearWindow(lens, image.view(), {0, 0, 0, camera.width, camera.height}, &observed);
+  fit.Evaluate(blank, MarkerPart::kBorder, observed, 4, state);
+  CellReader().ReadCells(blank, fit, observed, state, {}, false, &cells);
   EXPECT_FALSE(cells.glaring);
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    EXPECT_FALSE(cells.seen[k]);
+    EXPECT_FALSE(cells.observed[k]);
     EXPECT_EQ(cells.likelihoods[k], 0.0F);
   }
 }

@@ -1,4 +1,4 @@
-// S-G markers in single pictures: found, told apart and measured.
+// S-G markers in single images: found, told apart and measured.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ RenderingOptions Picture(std::uint32_t seed) {
   return {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed};
 }
 
-void ExpectOnly(const std::vector<Sighting>& found, int number) {
+void ExpectOnly(const std::vector<MarkerObservation>& found, int number) {
   ASSERT_EQ(found.size(), 1U) << Summary(found);
   EXPECT_EQ(found[0].detection.family, "sg");
   EXPECT_EQ(found[0].detection.id, number) << Summary(found);
@@ -65,14 +65,13 @@ TEST(SgDetection, MeasuresThroughNoiseAsLargeAsThePrintsContrast) {
 }
 
 /// Noise of photons and of reading them out: of variance 0.0288 at white, 0.0023 at black.
-void AddPhotonNoise(std::uint32_t seed, GreyImage* picture) {
+void AddPhotonNoise(std::uint32_t seed, GreyImage* image) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
-  for (int y = 0; y < picture->height(); ++y) {
-    for (int x = 0; x < picture->width(); ++x) {
-      const double light = LinearFromSrgb((*picture)(x, y) / 255.0);
-      (*picture)(x, y) =
-          Srgb8FromLinear(light + std::sqrt(0.0288 * light + 0.0023) * normal(random));
+  for (int y = 0; y < image->height(); ++y) {
+    for (int x = 0; x < image->width(); ++x) {
+      const double light = LinearFromSrgb((*image)(x, y) / 255.0);
+      (*image)(x, y) = Srgb8FromLinear(light + std::sqrt(0.0288 * light + 0.0023) * normal(random));
     }
   }
 }
@@ -86,9 +85,9 @@ TEST(SgDetection, MeasuresThroughPhotonNoise) {
   constexpr int kPictures = 6;
   for (std::uint32_t seed = 1; seed <= kPictures; ++seed) {
     const RenderedMarker marker = SgMarkerAt(camera, 2000, {161, 118}, 80, 20, 30.0 * seed, 15);
-    GreyImage picture = RenderMarkers(camera, {marker}, {.blur_px = 0.5});
-    AddPhotonNoise(seed, &picture);
-    const auto found = Track(tracker.get(), picture);
+    GreyImage image = RenderMarkers(camera, {marker}, {.blur_px = 0.5});
+    AddPhotonNoise(seed, &image);
+    const auto found = Track(tracker.get(), image);
     ASSERT_EQ(found.size(), 1U) << "seed " << seed;
     const double rms = CornerRms(found[0], TrueCorners(camera, marker));
     squares += rms * rms;
@@ -186,12 +185,12 @@ TEST(SgDetection, DoesNotReportANumberThatIsNotInUse) {
   const CameraModel camera = SgCamera();
   const std::vector<RenderedMarker> markers{SgMarkerAt(camera, 17, {80, 110}, 80, 20, 0, 10),
                                             SgMarkerAt(camera, 3000, {230, 120}, 80, 30, 90, 100)};
-  const GreyImage picture = RenderMarkers(camera, markers, Picture(6));
+  const GreyImage image = RenderMarkers(camera, markers, Picture(6));
   std::vector<int> in_use(50);
   std::iota(in_use.begin(), in_use.end(), 0);
-  ExpectOnly(Track(MakeSgTracker(camera, {.numbers_in_use = in_use}).get(), picture), 17);
-  ExpectOnly(Track(MakeSgTracker(camera, {.numbers_in_use = {3000}}).get(), picture), 3000);
-  const auto none = Track(MakeSgTracker(camera, {.numbers_in_use = {18}}).get(), picture);
+  ExpectOnly(Track(MakeSgTracker(camera, {.numbers_in_use = in_use}).get(), image), 17);
+  ExpectOnly(Track(MakeSgTracker(camera, {.numbers_in_use = {3000}}).get(), image), 3000);
+  const auto none = Track(MakeSgTracker(camera, {.numbers_in_use = {18}}).get(), image);
   EXPECT_TRUE(none.empty()) << Summary(none);
 }
 
@@ -209,34 +208,34 @@ TEST(SgDetection, RefusesNumbersThatDoNotExist) {
 TEST(SgDetection, RefusesAMirroredPrintAndSaysSo) {
   const CameraModel camera = SgCamera();
   RenderedMarker marker = SgMarkerAt(camera, 321, {150, 120}, 110, 20, 70, 30);
-  PrintPattern mirrored = *marker.pattern;
+  MarkerPattern mirrored = *marker.pattern;
   for (int row = 0; row < mirrored.modules; ++row) {
     std::reverse(mirrored.white.begin() + row * mirrored.modules,
                  mirrored.white.begin() + (row + 1) * mirrored.modules);
   }
   const auto tracker = MakeSgTracker(camera);
   const GreyImage right_way_round = RenderMarkers(camera, {marker}, Picture(7));
-  marker.pattern = std::make_shared<PrintPattern>(mirrored);
+  marker.pattern = std::make_shared<MarkerPattern>(mirrored);
   const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, Picture(7)));
   EXPECT_TRUE(found.empty()) << Summary(found);
   ASSERT_EQ(tracker->Warnings().size(), 1U);
   EXPECT_THAT(tracker->Warnings()[0], HasSubstr("mirror"));
   EXPECT_THAT(tracker->Warnings()[0], HasSubstr("321"));
-  // The warning is about one picture, not for ever.
+  // The warning is about one image, not for ever.
   ExpectOnly(Track(tracker.get(), right_way_round), 321);
   EXPECT_THAT(tracker->Warnings(), IsEmpty());
 }
 
 TEST(SgDetection, GivesTheSameBytesForTheSamePictures) {
   const CameraModel camera = SgCamera();
-  const std::vector<GreyImage> pictures{
+  const std::vector<GreyImage> images{
       RenderMarkers(camera, {SgMarkerAt(camera, 9, {90, 100}, 80, 50, 0, 20)}, Picture(8)),
       RenderMarkers(camera, {SgMarkerAt(camera, 10, {200, 130}, 26, 20, 0, 20)}, Picture(9))};
   for (const bool consecutive : {false, true}) {
     const auto one = MakeSgTracker(camera, {.consecutive_frames = consecutive});
     const auto other = MakeSgTracker(camera, {.consecutive_frames = consecutive});
-    for (const GreyImage& picture : pictures) {
-      const auto first = Track(one.get(), picture), second = Track(other.get(), picture);
+    for (const GreyImage& image : images) {
+      const auto first = Track(one.get(), image), second = Track(other.get(), image);
       ASSERT_EQ(first.size(), second.size());
       EXPECT_FALSE(first.empty());
       for (std::size_t i = 0; i < first.size(); ++i) {

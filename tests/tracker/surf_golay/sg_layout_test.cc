@@ -22,7 +22,7 @@ using ::testing::Ge;
 using ::testing::SizeIs;
 
 constexpr int kRim = 4, kBand = 5;  ///< Modules.
-constexpr int kLeastAsymmetry = 150;
+constexpr int kMinAsymmetry = 150;
 
 struct Module {
   int x, y;
@@ -33,11 +33,11 @@ using Modules = std::set<Module>;
 /// Modules from the nearest side of the black square.
 int FromSide(Module m) { return std::min({m.x, m.y, kEdge - 1 - m.x, kEdge - 1 - m.y}); }
 
-Modules ModulesOf(char colour) {
+Modules ModulesOf(char color) {
   Modules modules;
   for (int y = 0; y < kEdge; ++y) {
     for (int x = 0; x < kEdge; ++x) {
-      if (kBorder[y][x] == colour) modules.insert({x, y});
+      if (kBorder[y][x] == color) modules.insert({x, y});
     }
   }
   return modules;
@@ -135,7 +135,7 @@ TEST(SgLayoutTest, LooksOtherwiseTurnedOrMirroredInAnyWay) {
         differing += kBorder[y][x] != kBorder[sy][sx] ? 1 : 0;
       }
     }
-    EXPECT_GE(differing, kLeastAsymmetry) << "symmetry " << symmetry;
+    EXPECT_GE(differing, kMinAsymmetry) << "symmetry " << symmetry;
   }
 }
 
@@ -169,12 +169,12 @@ TEST(SgLayoutTest, SpreadsItsWhiteSoThatAnyHalfHasEnough) {
   EXPECT_THAT(shares, Each(Ge(0.42)));
 }
 
-TEST(SgPrintTest, DiffersForEveryNumberAndOnlyInItsCells) {
+TEST(SgMarkerPatternTest, DiffersForEveryNumberAndOnlyInItsCells) {
   std::set<std::string> prints;
-  const PrintPattern first = SgPrint(0);
+  const MarkerPattern first = SgMarkerPattern(0);
   constexpr int kBegin = sg::kQuiet + sg::kContent, kEnd = kBegin + sg::kCells * sg::kCell;
   for (int number = 0; number < 4096; ++number) {
-    const PrintPattern print = SgPrint(number);
+    const MarkerPattern print = SgMarkerPattern(number);
     EXPECT_TRUE(prints.emplace(print.white.begin(), print.white.end()).second) << number;
     for (int y = 0; y < print.modules; ++y) {
       for (int x = 0; x < print.modules; ++x) {
@@ -186,8 +186,8 @@ TEST(SgPrintTest, DiffersForEveryNumberAndOnlyInItsCells) {
   }
 }
 
-TEST(SgPrintTest, IsTheBorderInAWhiteMargin) {
-  const PrintPattern print = SgPrint(17);
+TEST(SgMarkerPatternTest, IsTheBorderInAWhiteMargin) {
+  const MarkerPattern print = SgMarkerPattern(17);
   ASSERT_EQ(print.modules, 48);
   ASSERT_EQ(print.edge_modules, 40);
   for (int y = 0; y < print.modules; ++y) {
@@ -201,10 +201,10 @@ TEST(SgPrintTest, IsTheBorderInAWhiteMargin) {
   }
 }
 
-TEST(SgPrintTest, TakesAnotherBorderForTheSameWord) {
+TEST(SgMarkerPatternTest, TakesAnotherBorderForTheSameWord) {
   sg::Border plain;
   plain.fill("########################################");
-  const PrintPattern print = SgPrintOfWord(0xFFFFFF, plain);
+  const MarkerPattern print = SgMarkerPatternOfWord(0xFFFFFF, plain);
   int white = 0;
   for (int i = 0; i < print.modules * print.modules; ++i) white += print.white[i];
   constexpr int kMargin = 48 * 48 - 40 * 40, kCells = 25 * 16;

@@ -1,4 +1,4 @@
-// Pictures that hold no S-G marker, and pictures that are hardly pictures.
+// Pictures that hold no S-G marker, and images that are hardly images.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,30 +18,30 @@ namespace {
 
 using testing::IsEmpty;
 
-void ExpectNothing(Tracker* tracker, const GreyImage& picture) {
-  const auto found = Track(tracker, picture);
+void ExpectNothing(Tracker* tracker, const GreyImage& image) {
+  const auto found = Track(tracker, image);
   EXPECT_TRUE(found.empty()) << Summary(found);
 }
 
 GreyImage Filled(const CameraModel& camera, std::uint8_t code) {
-  GreyImage picture(camera.width, camera.height);
-  std::fill_n(picture.data(), picture.size(), code);
-  return picture;
+  GreyImage image(camera.width, camera.height);
+  std::fill_n(image.data(), image.size(), code);
+  return image;
 }
 
 GreyImage Noise(const CameraModel& camera, unsigned seed, double deviation, int grain_px) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(128.0, deviation);
-  GreyImage picture(camera.width, camera.height);
+  GreyImage image(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
-      picture(x, y) = x % grain_px != 0 ? picture(x - 1, y)
-                      : y % grain_px != 0
-                          ? picture(x, y - 1)
-                          : static_cast<std::uint8_t>(std::clamp(noise(random), 0.0, 255.0));
+      image(x, y) = x % grain_px != 0 ? image(x - 1, y)
+                    : y % grain_px != 0
+                        ? image(x, y - 1)
+                        : static_cast<std::uint8_t>(std::clamp(noise(random), 0.0, 255.0));
     }
   }
-  return picture;
+  return image;
 }
 
 TEST(SgDetection, SeesNothingInBlankAndNoisyPictures) {
@@ -89,9 +89,9 @@ TEST(SgDetection, RefusesPicturesThatAreNotItsCameras) {
 }
 
 /// Random modules; with the three eyes of a QR code where asked. Quiet zone as the marker's.
-std::shared_ptr<const PrintPattern> RandomGrid(unsigned seed, int side, bool eyes) {
+std::shared_ptr<const MarkerPattern> RandomGrid(unsigned seed, int side, bool eyes) {
   std::mt19937 random(seed);
-  PrintPattern grid;
+  MarkerPattern grid;
   grid.modules = side + 8;
   grid.edge_modules = side;
   grid.white.assign(static_cast<std::size_t>(grid.modules) * grid.modules, 1);
@@ -108,24 +108,24 @@ std::shared_ptr<const PrintPattern> RandomGrid(unsigned seed, int side, bool eye
       grid.white[(y + 4) * grid.modules + x + 4] = white ? 1 : 0;
     }
   }
-  return std::make_shared<PrintPattern>(grid);
+  return std::make_shared<MarkerPattern>(grid);
 }
 
-std::shared_ptr<const PrintPattern> Chequers(int side) {
-  PrintPattern grid;
+std::shared_ptr<const MarkerPattern> Chequers(int side) {
+  MarkerPattern grid;
   grid.modules = side + 2;
   grid.edge_modules = side;
   grid.white.assign(static_cast<std::size_t>(grid.modules) * grid.modules, 1);
   for (int y = 1; y <= side; ++y) {
     for (int x = 1; x <= side; ++x) grid.white[y * grid.modules + x] = (x + y) & 1;
   }
-  return std::make_shared<PrintPattern>(grid);
+  return std::make_shared<MarkerPattern>(grid);
 }
 
-/// The rim of a marker, its border's colours drawn at random, and cells that are half wrong.
-std::shared_ptr<const PrintPattern> ForgedBorder(unsigned seed) {
+/// The rim of a marker, its border's colors drawn at random, and cells that are half wrong.
+std::shared_ptr<const MarkerPattern> ForgedBorder(unsigned seed) {
   std::mt19937 random(seed);
-  PrintPattern print = SgPrintOfWord(PrintedWord(17) ^ 0x0F0F0F);
+  MarkerPattern print = SgMarkerPatternOfWord(CodewordOfNumber(17) ^ 0x0F0F0F);
   for (int y = 4; y < 36; y += 2) {
     for (int x = 4; x < 36; x += 2) {
       if (x >= 8 && x < 32 && y >= 8 && y < 32) continue;
@@ -135,12 +135,12 @@ std::shared_ptr<const PrintPattern> ForgedBorder(unsigned seed) {
       }
     }
   }
-  return std::make_shared<PrintPattern>(print);
+  return std::make_shared<MarkerPattern>(print);
 }
 
 TEST(SgDetection, SeesNoMarkerInOtherPrints) {
   const CameraModel camera = SgCamera();
-  std::vector<std::pair<std::string, std::shared_ptr<const PrintPattern>>> prints;
+  std::vector<std::pair<std::string, std::shared_ptr<const MarkerPattern>>> prints;
   for (const int side : {3, 5, 8, 11, 40}) {
     prints.emplace_back("chequers " + std::to_string(side), Chequers(side));
   }
@@ -158,10 +158,10 @@ TEST(SgDetection, SeesNoMarkerInOtherPrints) {
     SCOPED_TRACE(name);
     RenderedMarker marker = SgMarkerAt(camera, 0, {161, 118}, 120, 25, 30.0 * seed, 20.0 * seed);
     marker.pattern = print;
-    const GreyImage picture =
+    const GreyImage image =
         RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++});
-    ExpectNothing(tracker.get(), picture);
-    ExpectNothing(one.get(), picture);
+    ExpectNothing(tracker.get(), image);
+    ExpectNothing(one.get(), image);
     EXPECT_THAT(tracker->Warnings(), IsEmpty());
   }
 }
@@ -172,18 +172,18 @@ TEST(SgDetection, GivesNoNumberToCellsThatAreNoNumbers) {
   const auto one = MakeSgTracker(camera, {.numbers_in_use = {17}});
   // All black and all white lie four cells from the nearest number (golay_code.h), as does what is
   // four cells from 17; the last two are half wrong.
-  const GolayWord near = PrintedWord(17);
+  const GolayWord near = CodewordOfNumber(17);
   std::uint32_t seed = 1;
   for (const GolayWord word : {0U, 0xFFFFFFU, near ^ 0xFU, near ^ 0x208041U, near ^ 0x700001U,
                                near ^ 0xFFF000U, near ^ 0xA5A5A5U}) {
     SCOPED_TRACE(testing::Message() << "word " << std::hex << word);
     for (const double side_px : {130.0, 44.0}) {
       RenderedMarker marker = SgMarkerAt(camera, 0, {161, 118}, side_px, 25, 30.0 * seed, 10);
-      marker.pattern = std::make_shared<PrintPattern>(SgPrintOfWord(word));
-      const GreyImage picture =
+      marker.pattern = std::make_shared<MarkerPattern>(SgMarkerPatternOfWord(word));
+      const GreyImage image =
           RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++});
-      if (!DecodePrintedWord(word)) ExpectNothing(tracker.get(), picture);
-      if (std::popcount(word ^ near) > 4) ExpectNothing(one.get(), picture);
+      if (!DecodeCodeword(word)) ExpectNothing(tracker.get(), image);
+      if (std::popcount(word ^ near) > 4) ExpectNothing(one.get(), image);
     }
   }
 }
@@ -196,20 +196,20 @@ TEST(SgDetection, GivesMirroredPrintsNoNumberFromAnywhere) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     RenderedMarker marker = SgMarkerAt(camera, 400 * seed, {161, 118}, 40.0 + 12 * seed, 8.0 * seed,
                                        50.0 * seed, 45.0 * seed);
-    PrintPattern mirrored = *marker.pattern;
+    MarkerPattern mirrored = *marker.pattern;
     for (int row = 0; row < mirrored.modules; ++row) {
       std::reverse(mirrored.white.begin() + row * mirrored.modules,
                    mirrored.white.begin() + (row + 1) * mirrored.modules);
     }
-    marker.pattern = std::make_shared<PrintPattern>(mirrored);
-    const GreyImage picture =
+    marker.pattern = std::make_shared<MarkerPattern>(mirrored);
+    const GreyImage image =
         RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed});
-    ExpectNothing(tracker.get(), picture);
-    ExpectNothing(keypoints.get(), picture);
+    ExpectNothing(tracker.get(), image);
+    ExpectNothing(keypoints.get(), image);
   }
 }
 
-// Each pair differs in eight cells that have one colour on the first print and touch each other: as
+// Each pair differs in eight cells that have one color on the first print and touch each other: as
 // the second print would look under one cover of ink or paper.
 TEST(SgNegative, TakesAPrintNotInUseForNoCoveredOneThatIsAndStillReadsThatOneCovered) {
   struct {
@@ -231,7 +231,7 @@ TEST(SgNegative, TakesAPrintNotInUseForNoCoveredOneThatIsAndStillReadsThatOneCov
 
     // A hand on all but one or two of the cells that differ: what is left still tells.
     for (const int left_open : {1, 2}) {
-      GolayWord hidden = PrintedWord(printed) ^ PrintedWord(in_use);
+      GolayWord hidden = CodewordOfNumber(printed) ^ CodewordOfNumber(in_use);
       for (int i = 0; i < left_open; ++i) hidden &= hidden - 1;
       RenderedMarker held = SgMarkerAt(camera, printed, {161, 118}, 60, 0, 0, 25.0 * seed);
       held.cover = [hidden](Vec2 at) {
@@ -259,12 +259,12 @@ TEST(SgNegative, TakesAPrintNotInUseForNoCoveredOneThatIsAndStillReadsThatOneCov
 }
 
 // What covers the cells of a marker may look like the border of another one, squeezed or small: of
-// a print across one whose border lies open at least half must be seen.
+// a print across one whose border lies open at least half must be observed.
 TEST(SgNegative, SeesNoMostlyCoveredPrintAcrossAnotherWhoseBorderLiesOpen) {
   const CameraModel camera = SgCamera();
   const auto tracker = MakeSgTracker(camera);
   RenderedMarker open = SgMarkerAt(camera, 17, {161, 118}, 190, 10, 30, 10);
-  const PrintPattern small = SgPrint(2741);
+  const MarkerPattern small = SgMarkerPattern(2741);
   for (const int hidden_columns : {8, 13}) {
     SCOPED_TRACE(testing::Message() << hidden_columns << " columns hidden");
     open.cover = [&](Vec2 at) {
@@ -298,8 +298,8 @@ TEST(SgNegative, TakesNoHandForPaperInTheShade) {
   const auto tracker = MakeSgTracker(camera);
   for (const auto& hand : kHands) {
     SCOPED_TRACE(testing::Message() << hand.printed << " printed, hand of light " << hand.light);
-    const GolayWord hidden = PrintedWord(hand.printed) ^ PrintedWord(hand.made_up);
-    ASSERT_EQ(PrintedWord(hand.printed) & hidden, 0U);
+    const GolayWord hidden = CodewordOfNumber(hand.printed) ^ CodewordOfNumber(hand.made_up);
+    ASSERT_EQ(CodewordOfNumber(hand.printed) & hidden, 0U);
     GolayWord half_hidden = 0;
     for (int k = 0; std::popcount(half_hidden) < hand.half_cells; ++k) {
       half_hidden |= ~hidden & 1U << k;

@@ -73,22 +73,22 @@ TEST(SgOcclusion, FindsBordersThatAreAThirdToAHalfCoveredByTheirKeypoints) {
     ASSERT_LT(BorderShare(cover), 0.52);
     RenderedMarker marker = SgMarkerAt(camera, 2000, {161, 118}, 130, 20, 30.0 * seed, 15);
     Lay(cover, &marker);
-    const GreyImage picture =
+    const GreyImage image =
         RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++});
     for (Tracker* const tracker : {hybrid.get(), keypoints.get()}) {
-      const auto found = Track(tracker, picture);
+      const auto found = Track(tracker, image);
       ASSERT_EQ(found.size(), 1U) << (tracker == hybrid.get() ? "hybrid" : "surf-golay");
       EXPECT_EQ(found[0].detection.id, 2000);
       EXPECT_EQ(found[0].detection.path, DetectionPath::kSurfGolay);
       EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.1);
       EXPECT_LT(found[0].detection.visible_fraction, 0.85);
     }
-    const auto none = Track(fast.get(), picture);
+    const auto none = Track(fast.get(), image);
     EXPECT_TRUE(none.empty()) << Summary(none);
   }
 }
 
-/// Hands that leave little more than the cells to be seen.
+/// Hands that leave little more than the cells to be observed.
 constexpr CoveredBorder kHiddenBorders[] = {
     {"a cross is seen",
      [](Vec2 p) {
@@ -191,14 +191,14 @@ TEST(SgOcclusion, ReadsTheNumberWithAFifthOfTheContentCovered) {
             RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
         // What is as black or as white as the print may hide the number, but not turn it into
         // another.
-        const bool like_print = light < 0.1 || light > 0.7;
+        const bool like_marker = light < 0.1 || light > 0.7;
         EXPECT_LE(found.size(), 1U);
-        if (!like_print) {
+        if (!like_marker) {
           EXPECT_EQ(found.size(), 1U);
         }
-        for (const Sighting& sighting : found) {
-          EXPECT_EQ(sighting.detection.id, number);
-          EXPECT_LT(CornerRms(sighting, TrueCorners(camera, marker)), 0.1);
+        for (const MarkerObservation& observation : found) {
+          EXPECT_EQ(observation.detection.id, number);
+          EXPECT_LT(CornerRms(observation, TrueCorners(camera, marker)), 0.1);
         }
       }
     }
@@ -358,8 +358,8 @@ TEST(SgOcclusion, TellsWhichPartsOfThePrintAreSeen) {
       const int side = detection.visibility_side;
       ASSERT_GE(side, 4);
       ASSERT_EQ(detection.visibility.size(), static_cast<std::size_t>(side) * side);
-      const double block = static_cast<double>(sg::kPrint) / side;
-      double seen = 0.0;
+      const double block = static_cast<double>(sg::kModules) / side;
+      double observed = 0.0;
       for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
           int covered = 0;
@@ -376,10 +376,10 @@ TEST(SgOcclusion, TellsWhichPartsOfThePrintAreSeen) {
           if (covered == 0) {
             EXPECT_GT(visibility, 0.7F);
           }
-          seen += 1.0 - covered / static_cast<double>(kProbes * kProbes);
+          observed += 1.0 - covered / static_cast<double>(kProbes * kProbes);
         }
       }
-      EXPECT_NEAR(detection.visible_fraction, seen / (side * side), 0.15);
+      EXPECT_NEAR(detection.visible_fraction, observed / (side * side), 0.15);
     }
   }
 }

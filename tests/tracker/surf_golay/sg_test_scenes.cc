@@ -23,10 +23,10 @@ CameraModel SgCamera(int width, int height, double focal_px) {
 RenderedMarker SgMarkerAt(const CameraModel& camera, int number, Vec2 centre_px, double side_px,
                           double tilt_deg, double axis_deg, double roll_deg) {
   RenderedMarker marker;
-  marker.pattern = std::make_shared<PrintPattern>(SgPrint(number));
+  marker.pattern = std::make_shared<MarkerPattern>(SgMarkerPattern(number));
   marker.camera_from_marker =
-      PoseSeenAt(camera, centre_px, side_px, marker.size, FromDegrees(tilt_deg),
-                 FromDegrees(axis_deg), FromDegrees(roll_deg));
+      PoseAtPixel(camera, centre_px, side_px, marker.size, FromDegrees(tilt_deg),
+                  FromDegrees(axis_deg), FromDegrees(roll_deg));
   return marker;
 }
 
@@ -40,16 +40,16 @@ std::unique_ptr<Tracker> MakeSgTracker(const CameraModel& camera, const SgTracke
   return std::move(*tracker);
 }
 
-std::vector<Sighting> Track(Tracker* tracker, const GreyImage& picture) {
-  auto sightings = tracker->Track(picture.view());
-  EXPECT_TRUE(sightings.has_value()) << sightings.error().Message();
-  return sightings ? *std::move(sightings) : std::vector<Sighting>();
+std::vector<MarkerObservation> Track(Tracker* tracker, const GreyImage& image) {
+  auto observations = tracker->Track(image.view());
+  EXPECT_TRUE(observations.has_value()) << observations.error().Message();
+  return observations ? *std::move(observations) : std::vector<MarkerObservation>();
 }
 
-double CornerRms(const Sighting& sighting, const std::array<Vec2, 4>& truth) {
+double CornerRms(const MarkerObservation& observation, const std::array<Vec2, 4>& truth) {
   double sum = 0.0;
   for (int i = 0; i < 4; ++i) {
-    const double distance_px = Norm(sighting.detection.corners_px[i] - truth[i]);
+    const double distance_px = Norm(observation.detection.corners_px[i] - truth[i]);
     sum += 0.25 * distance_px * distance_px;
   }
   return std::sqrt(sum);
@@ -62,19 +62,19 @@ double RotationApart_deg(const Mat3& a, const Mat3& b) {
   return ToDegrees(Radians(2.0 * std::asin(std::min(1.0, std::sqrt(square / 8.0)))));
 }
 
-std::string Summary(const std::vector<Sighting>& sightings) {
+std::string Summary(const std::vector<MarkerObservation>& observations) {
   std::string text;
-  for (const Sighting& sighting : sightings) {
-    text += (text.empty() ? "" : ", ") + std::to_string(sighting.detection.id) + " " +
-            PathName(sighting.detection.path) + " at " +
-            std::to_string(std::lround(sighting.detection.corners_px[0].x)) + "," +
-            std::to_string(std::lround(sighting.detection.corners_px[0].y)) + " " +
-            std::to_string(std::lround(100.0 * sighting.detection.visible_fraction)) + " %";
+  for (const MarkerObservation& observation : observations) {
+    text += (text.empty() ? "" : ", ") + std::to_string(observation.detection.id) + " " +
+            PathName(observation.detection.path) + " at " +
+            std::to_string(std::lround(observation.detection.corners_px[0].x)) + "," +
+            std::to_string(std::lround(observation.detection.corners_px[0].y)) + " " +
+            std::to_string(std::lround(100.0 * observation.detection.visible_fraction)) + " %";
   }
   return "[" + text + "]";
 }
 
-bool IsWhite(int number, int cell) { return (PrintedWord(number) >> cell & 1U) != 0; }
+bool IsWhite(int number, int cell) { return (CodewordOfNumber(number) >> cell & 1U) != 0; }
 
 Vec2 ModulesOf(Vec2 at) { return {0.5 * sg::kEdge * (1.0 + at.x), 0.5 * sg::kEdge * (1.0 - at.y)}; }
 

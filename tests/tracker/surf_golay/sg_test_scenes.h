@@ -11,10 +11,10 @@
 
 namespace pleinair::tracker {
 
-/// A pinhole camera with its axis in the picture's middle.
+/// A pinhole camera with its axis in the image's middle.
 CameraModel SgCamera(int width = 320, int height = 240, double focal_px = 400.0);
 
-/// Marker `number`, with its edge `side_px` long were it frontal, as PoseSeenAt says.
+/// Marker `number`, with its edge `side_px` long were it frontal, as PoseAtPixel says.
 RenderedMarker SgMarkerAt(const CameraModel& camera, int number, Vec2 centre_px, double side_px,
                           double tilt_deg = 0.0, double axis_deg = 0.0, double roll_deg = 0.0);
 
@@ -28,17 +28,17 @@ struct SgTrackerOptions {
 std::unique_ptr<Tracker> MakeSgTracker(const CameraModel& camera,
                                        const SgTrackerOptions& options = {});
 
-/// What the tracker sees in a picture; the test fails where that is an error.
-std::vector<Sighting> Track(Tracker* tracker, const GreyImage& picture);
+/// What the tracker sees in an image; the test fails where that is an error.
+std::vector<MarkerObservation> Track(Tracker* tracker, const GreyImage& image);
 
 /// RMS distance of a detection's corners from the truth, px.
-double CornerRms(const Sighting& sighting, const std::array<Vec2, 4>& truth);
+double CornerRms(const MarkerObservation& observation, const std::array<Vec2, 4>& truth);
 
 /// Angle between two rotations.
 double RotationApart_deg(const Mat3& a, const Mat3& b);
 
-/// "[17 surf-golay at 81,70 60 %]": what a failed test shows of a list of sightings.
-std::string Summary(const std::vector<Sighting>& sightings);
+/// "[17 surf-golay at 81,70 60 %]": what a failed test shows of a list of observations.
+std::string Summary(const std::vector<MarkerObservation>& observations);
 
 /// Whether a cell of the code is printed white in the marker of that number.
 bool IsWhite(int number, int cell);

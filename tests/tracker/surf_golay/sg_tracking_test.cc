@@ -36,10 +36,10 @@ std::array<Vec2, 4> Truth(const CameraModel& camera, Vec2 centre_px, int frame) 
 class SgTracking : public testing::Test {
  protected:
   /// Shows the tracker a frame and expects marker 17, with its corners where they are.
-  void ExpectMarker(const GreyImage& picture, Vec2 centre_px, int frame,
+  void ExpectMarker(const GreyImage& image, Vec2 centre_px, int frame,
                     std::optional<DetectionPath> path, double corner_px = 0.1) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
-    const auto found = Track(tracker_.get(), picture);
+    const auto found = Track(tracker_.get(), image);
     ASSERT_EQ(found.size(), 1U) << Summary(found);
     EXPECT_EQ(found[0].detection.id, 17);
     if (path) {
@@ -49,8 +49,8 @@ class SgTracking : public testing::Test {
     EXPECT_THAT(tracker_->Lost(), IsEmpty());
   }
 
-  void ExpectLost(const GreyImage& picture, int since) {
-    const auto found = Track(tracker_.get(), picture);
+  void ExpectLost(const GreyImage& image, int since) {
+    const auto found = Track(tracker_.get(), image);
     EXPECT_TRUE(found.empty()) << Summary(found);
     const std::vector<LostMarker> lost = tracker_->Lost();
     ASSERT_EQ(lost.size(), 1U);
@@ -126,21 +126,21 @@ TEST_F(SgTracking, SeesAtOnceThatAnotherNumberHangsInTheSamePlace) {
 }
 
 // The last step of a fit may be 0.06 px, which leaves a fortieth of itself: followed again through
-// the same picture, from where it was found, a marker stays where it is.
+// the same image, from where it was found, a marker stays where it is.
 TEST(SgTrackingAgain, FindsAMarkerOfAnySizeWhereItFindsItAgain) {
   const CameraModel camera = SgCamera(160, 150);
   for (const double side_px : {50.0, 58.0, 90.0}) {
     SCOPED_TRACE(testing::Message() << "edge " << side_px << " px");
     const auto tracker = MakeSgTracker(camera, {.consecutive_frames = true});
-    const auto picture = [&](Vec2 centre_px) {
+    const auto image = [&](Vec2 centre_px) {
       const RenderedMarker marker = SgMarkerAt(camera, 17, centre_px, side_px, 25, 40, 10);
       return RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = 41});
     };
-    Track(tracker.get(), picture({80, 75}));
-    const GreyImage moved = picture({81.7, 76.1});
+    Track(tracker.get(), image({80, 75}));
+    const GreyImage moved = image({81.7, 76.1});
     const auto first = Track(tracker.get(), moved);
     ASSERT_EQ(first.size(), 1U) << Summary(first);
-    std::vector<Sighting> last;
+    std::vector<MarkerObservation> last;
     for (int frame = 0; frame < 6; ++frame) last = Track(tracker.get(), moved);
     ASSERT_EQ(last.size(), 1U) << Summary(last);
     EXPECT_LT(CornerRms(first[0], last[0].detection.corners_px), 0.003);
@@ -157,15 +157,15 @@ TEST(SgTrackingAgain, FindsALargeMarkerAtOnceWhereItStaysWhenFollowed) {
       SCOPED_TRACE(testing::Message() << "edge " << side_px << " px, way round " << way);
       const RenderedMarker marker = SgMarkerAt(camera, 17, {142.5 - 0.7 * way, 130.0 + 0.4 * way},
                                                side_px, 25, 40 + 20 * way, 10 + 30 * way);
-      const GreyImage picture =
+      const GreyImage image =
           RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = 41});
       const auto tracker =
           MakeSgTracker(camera, {.strategy = SgStrategy::kFast, .consecutive_frames = true});
-      const auto first = Track(tracker.get(), picture);
+      const auto first = Track(tracker.get(), image);
       ASSERT_EQ(first.size(), 1U) << Summary(first);
       EXPECT_STREQ(PathName(first[0].detection.path), "fast");
-      std::vector<Sighting> last;
-      for (int frame = 0; frame < 6; ++frame) last = Track(tracker.get(), picture);
+      std::vector<MarkerObservation> last;
+      for (int frame = 0; frame < 6; ++frame) last = Track(tracker.get(), image);
       ASSERT_EQ(last.size(), 1U) << Summary(last);
       EXPECT_LT(CornerRms(first[0], last[0].detection.corners_px), 0.002);
     }
@@ -198,8 +198,8 @@ TEST_F(SgTracking, NeverMistakesAMarkerForItsNeighbour) {
 
 TEST(SgTrackingAgain, FollowsAMarkerThatJumpsToNoPlaceWhereItIsNot) {
   const CameraModel camera = SgCamera();
-  // Small and seen from low: a fit that begins beside it may find a part of it elsewhere, as it did
-  // after these of sixty jumps.
+  // Small and observed from low: a fit that begins beside it may find a part of it elsewhere, as it
+  // did after these of sixty jumps.
   for (const int jump : {17, 20, 30, 40, 43, 47}) {
     SCOPED_TRACE(testing::Message() << "jump " << jump);
     const auto tracker = MakeSgTracker(camera, {.consecutive_frames = true});

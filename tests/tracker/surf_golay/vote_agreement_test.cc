@@ -14,7 +14,7 @@ TEST(VoteAgreement, VectorsFindTheSameVotesAsOneByOne) {
     return std::uniform_real_distribution<float>(least, most)(random);
   };
   constexpr int kVotes = 203;
-  VoteWitnesses votes;
+  VoteData votes;
   votes.Resize(kVotes);
   int found = 0;
   for (int round = 0; round < 40; ++round) {
@@ -33,8 +33,8 @@ TEST(VoteAgreement, VectorsFindTheSameVotesAsOneByOne) {
                         .rotation_rad = draw(-3.1F, 3.1F),
                         .far_px = 25.0F,
                         .near_px = 20.0F,
-                        .smallest_px = 25.0F,
-                        .largest_px = 80.0F,
+                        .min_px = 25.0F,
+                        .max_px = 80.0F,
                         .turn_rad = 1.5F};
     const int first = round % 7, last = kVotes - round % 5;
     std::vector<std::int32_t> agreeing(kVotes + kVoteSlack), expected(kVotes + kVoteSlack);

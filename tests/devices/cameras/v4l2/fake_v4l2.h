@@ -98,14 +98,14 @@ class FakeV4l2 : public V4l2Io {
         static_cast<v4l2_format*>(argument)->fmt.pix = pixels;
         return 0;
       case VIDIOC_S_FMT: {
-        v4l2_pix_format& wish = static_cast<v4l2_format*>(argument)->fmt.pix;
-        wish.width = 8;  // All it can do.
-        wish.height = 4;
-        wish.bytesperline = 16;
-        wish.field = V4L2_FIELD_NONE;
-        wish.colorspace = pixels.colorspace;
-        wish.quantization = pixels.quantization;
-        wish.ycbcr_enc = pixels.ycbcr_enc;
+        v4l2_pix_format& requested = static_cast<v4l2_format*>(argument)->fmt.pix;
+        requested.width = 8;  // All it can do.
+        requested.height = 4;
+        requested.bytesperline = 16;
+        requested.field = V4L2_FIELD_NONE;
+        requested.colorspace = pixels.colorspace;
+        requested.quantization = pixels.quantization;
+        requested.ycbcr_enc = pixels.ycbcr_enc;
         return 0;
       }
       case VIDIOC_S_PARM:

@@ -19,8 +19,8 @@ const CameraUri kNode{CameraUri::Backend::kV4l2, CameraUri::Key::kNode, "/dev/vi
 
 Result<std::unique_ptr<CameraDevice>> Open(const std::shared_ptr<FakeV4l2>& io,
                                            const CameraUri& uri = kNode,
-                                           const PictureWish& wish = {}) {
-  return OpenV4l2Device(io, uri, wish);
+                                           const FormatRequest& requested = {}) {
+  return OpenV4l2Device(io, uri, requested);
 }
 
 std::string Set(__u32 id, int value) { return std::to_string(id) + "=" + std::to_string(value); }
@@ -31,40 +31,40 @@ TEST(V4l2Device, DeliversWhatTheDriverSaysOfAPicture) {
   ASSERT_TRUE(device) << device.error().Message();
   EXPECT_TRUE(io->streaming);
   io->next.sequence = 41;
-  CapturedPicture picture;
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
-  EXPECT_EQ(picture.number, 41);
-  EXPECT_EQ(picture.timestamp_ns, 12'345'678'000);
-  EXPECT_EQ(picture.stamp_meaning, StampMeaning::kExposureStart);
-  EXPECT_EQ(picture.raw.bytes.size(), 64U);
-  EXPECT_EQ(picture.raw.format, PixelFormat::kYuyv);
-  EXPECT_FALSE(picture.damaged);
+  CapturedImage image;
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
+  EXPECT_EQ(image.number, 41);
+  EXPECT_EQ(image.timestamp_ns, 12'345'678'000);
+  EXPECT_EQ(image.stamp_meaning, StampMeaning::kExposureStart);
+  EXPECT_EQ(image.raw.bytes.size(), 64U);
+  EXPECT_EQ(image.raw.format, PixelFormat::kYuyv);
+  EXPECT_FALSE(image.damaged);
   io->next.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_ERROR;
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
-  EXPECT_EQ(picture.stamp_meaning, StampMeaning::kExposureEnd);
-  EXPECT_TRUE(picture.damaged);
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
+  EXPECT_EQ(image.stamp_meaning, StampMeaning::kExposureEnd);
+  EXPECT_TRUE(image.damaged);
 }
 
 TEST(V4l2Device, TakesArrivalWhereTheDriversClockIsAnother) {
   const auto io = std::make_shared<FakeV4l2>();
   const auto device = Open(io);
   io->next.flags = V4L2_BUF_FLAG_TIMESTAMP_COPY;
-  CapturedPicture picture;
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
-  EXPECT_EQ(picture.stamp_meaning, StampMeaning::kArrival);
-  EXPECT_EQ(picture.timestamp_ns, picture.arrival_ns);
-  EXPECT_EQ(picture.device_timestamp_ns, 12'345'678'000);
+  CapturedImage image;
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
+  EXPECT_EQ(image.stamp_meaning, StampMeaning::kArrival);
+  EXPECT_EQ(image.timestamp_ns, image.arrival_ns);
+  EXPECT_EQ(image.device_timestamp_ns, 12'345'678'000);
 }
 
 TEST(V4l2Device, CountsOnWhenTheDriversNumberWrapsRound) {
   const auto io = std::make_shared<FakeV4l2>();
   const auto device = Open(io);
-  CapturedPicture picture;
+  CapturedImage image;
   io->next.sequence = 0xFFFFFFFF;
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
   io->next.sequence = 1;
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
-  EXPECT_EQ(picture.number, 0x100000001);
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
+  EXPECT_EQ(image.number, 0x100000001);
 }
 
 TEST(V4l2Device, IsGoneAlikeForEveryWayInWhichDriversSayIt) {
@@ -72,16 +72,16 @@ TEST(V4l2Device, IsGoneAlikeForEveryWayInWhichDriversSayIt) {
     const auto io = std::make_shared<FakeV4l2>();
     const auto device = Open(io);
     io->failing[VIDIOC_DQBUF] = error;
-    CapturedPicture picture;
-    EXPECT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kGone) << error;
-    EXPECT_THAT((*device)->Words(), HasSubstr("the stream ended"));
+    CapturedImage image;
+    EXPECT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kGone) << error;
+    EXPECT_THAT((*device)->StatusMessage(), HasSubstr("the stream ended"));
   }
   const auto io = std::make_shared<FakeV4l2>();
   const auto device = Open(io);
   io->poll_events = POLLHUP;
   io->failing[VIDIOC_DQBUF] = EAGAIN;
-  CapturedPicture picture;
-  EXPECT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kGone);
+  CapturedImage image;
+  EXPECT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kGone);
 }
 
 TEST(V4l2Device, GivesEverythingBackAtItsEnd) {
@@ -108,13 +108,13 @@ TEST(V4l2Device, GivesEverythingBackWhereItCannotStart) {
 }
 
 TEST(V4l2Device, SaysInWordsWhatADriverMeans) {
-  const auto words = [](unsigned long request, int error) {
+  const auto details = [](unsigned long request, int error) {
     const auto io = std::make_shared<FakeV4l2>();
     io->failing[request] = error;
     return Open(io).error().Message();
   };
-  EXPECT_THAT(words(VIDIOC_STREAMON, ENOSPC), HasSubstr("too little bandwidth"));
-  EXPECT_THAT(words(VIDIOC_S_FMT, EBUSY), HasSubstr("another program"));
+  EXPECT_THAT(details(VIDIOC_STREAMON, ENOSPC), HasSubstr("too little bandwidth"));
+  EXPECT_THAT(details(VIDIOC_S_FMT, EBUSY), HasSubstr("another program"));
   const auto io = std::make_shared<FakeV4l2>();
   io->nodes["/dev/video0"].open_error = EACCES;
   EXPECT_THAT(Open(io).error().Message(), HasSubstr("no permission"));
@@ -122,20 +122,20 @@ TEST(V4l2Device, SaysInWordsWhatADriverMeans) {
 
 TEST(V4l2Device, TellsEachDifferenceBetweenAskedAndGot) {
   const auto io = std::make_shared<FakeV4l2>();
-  PictureWish wish;
-  wish.size = PictureSize{640, 480};
-  wish.rate_hz = 60.0;
-  const auto device = Open(io, kNode, wish);
+  FormatRequest requested;
+  requested.size = ImageSize{640, 480};
+  requested.rate_hz = 60.0;
+  const auto device = Open(io, kNode, requested);
   ASSERT_TRUE(device);
-  EXPECT_THAT((*device)->agreement().words,
+  EXPECT_THAT((*device)->negotiated().details,
               ElementsAre("asked for 640x480, got 8x4", "asked for 60 Hz, got 30 Hz"));
 }
 
 TEST(V4l2Device, RefusesAFormatThatTheCameraHasNotByName) {
   const auto io = std::make_shared<FakeV4l2>();
-  PictureWish wish;
-  wish.format = PixelFormat::kNv12;
-  EXPECT_EQ(Open(io, kNode, wish).error().what, "does not send NV12 but YUYV, MJPG");
+  FormatRequest requested;
+  requested.format = PixelFormat::kNv12;
+  EXPECT_EQ(Open(io, kNode, requested).error().what, "does not send NV12 but YUYV, MJPG");
   io->formats = {V4L2_PIX_FMT_Y16};
   EXPECT_THAT(Open(io).error().what, HasSubstr("no pictures that are read here, but Y16"));
 }
@@ -144,16 +144,16 @@ TEST(V4l2Device, TakesTheDriversWordOnColours) {
   const auto io = std::make_shared<FakeV4l2>();
   io->pixels.colorspace = V4L2_COLORSPACE_REC709;
   auto device = Open(io);
-  CapturedPicture picture;
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
-  EXPECT_EQ(picture.raw.matrix, YuvMatrix::kBt709);
-  EXPECT_FALSE(picture.raw.full_range);
+  CapturedImage image;
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
+  EXPECT_EQ(image.raw.matrix, YuvMatrix::kBt709);
+  EXPECT_FALSE(image.raw.full_range);
   io->pixels.quantization = V4L2_QUANTIZATION_FULL_RANGE;
   io->pixels.ycbcr_enc = V4L2_YCBCR_ENC_601;
   device = Open(io);
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
-  EXPECT_EQ(picture.raw.matrix, YuvMatrix::kBt601);
-  EXPECT_TRUE(picture.raw.full_range);
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
+  EXPECT_EQ(image.raw.matrix, YuvMatrix::kBt601);
+  EXPECT_TRUE(image.raw.full_range);
 }
 
 TEST(V4l2Node, IsFoundBySerialPastTheMetadataNode) {
@@ -200,19 +200,19 @@ TEST(V4l2Controls, AreHeldByTurningTheAutomatismOffFirst) {
                   {V4L2_CID_EXPOSURE_ABSOLUTE, 250},
                   {V4L2_CID_GAIN, 64}};
   const auto device = Open(io);
-  const auto answers = (*device)->Hold(
+  const auto results = (*device)->LockControls(
       {{CameraControl::kExposure, 0.01}, {CameraControl::kGain, {}}, {CameraControl::kFocus, 3.0}});
   EXPECT_THAT(io->calls, ElementsAre(Set(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL),
                                      Set(V4L2_CID_EXPOSURE_ABSOLUTE, 100), Set(V4L2_CID_GAIN, 64)));
-  ASSERT_EQ(answers.size(), 3U);
-  EXPECT_NEAR(*answers[0].value, 0.01, 1e-9);
-  EXPECT_TRUE(answers[0].held);
-  EXPECT_TRUE(answers[1].held);
-  EXPECT_FALSE(answers[2].held);
-  EXPECT_EQ(answers[2].words, "the camera has no control of its focus");
-  CapturedPicture picture;
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
-  EXPECT_NEAR(*picture.exposure_s, 0.01, 1e-9);
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_NEAR(*results[0].value, 0.01, 1e-9);
+  EXPECT_TRUE(results[0].locked);
+  EXPECT_TRUE(results[1].locked);
+  EXPECT_FALSE(results[2].locked);
+  EXPECT_EQ(results[2].details, "the camera has no control of its focus");
+  CapturedImage image;
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
+  EXPECT_NEAR(*image.exposure_s, 0.01, 1e-9);
 }
 
 TEST(V4l2Controls, SayNothingOfAnExposureThatChangesByItself) {
@@ -221,10 +221,10 @@ TEST(V4l2Controls, SayNothingOfAnExposureThatChangesByItself) {
                   {V4L2_CID_EXPOSURE_ABSOLUTE, 250},
                   {V4L2_CID_GAIN, 64}};
   const auto device = Open(io);
-  CapturedPicture picture;
-  ASSERT_EQ((*device)->Wait(milliseconds(1), &picture), WaitOutcome::kPicture);
-  EXPECT_FALSE(picture.exposure_s);
-  EXPECT_FALSE(picture.gain);
+  CapturedImage image;
+  ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
+  EXPECT_FALSE(image.exposure_s);
+  EXPECT_FALSE(image.gain);
 }
 
 }  // namespace
