@@ -20,9 +20,10 @@ enum class WhenFull {
 
 /// A bounded queue between two threads.
 template <typename T>
-class HandOver {
+class BoundedQueue {
  public:
-  HandOver(std::size_t capacity, WhenFull when_full) : capacity_(capacity), when_full_(when_full) {}
+  BoundedQueue(std::size_t capacity, WhenFull when_full)
+      : capacity_(capacity), when_full_(when_full) {}
 
   /// False where it was closed or, with kRefuse, full.
   bool Give(T item) {

@@ -8,7 +8,7 @@
 namespace pleinair {
 
 /// For large tables that are read from end to end: asks the kernel for pages of 2 MiB, at whose
-/// borders alone the processor stops reading ahead. Where it has none to give, nothing changes.
+/// borders alone the processor stops estimate ahead. Where it has none to give, nothing changes.
 template <typename T>
 class HugePageAllocator {
  public:

@@ -60,14 +60,15 @@ class GlComposer : public Composer {
   void SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) override;
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
-                           LinearRgb gain) override;
-  void SetMarkerBoard(double board_size_m) override { board_size_m_ = board_size_m; }
-  void LookForShade(bool look) override { looks_for_shade_ = look; }
-  Result<void> SetSunlight(const std::shared_ptr<const SeenSunlight>& sunlight) override;
-  Result<void> SetLook(const std::optional<PictureLook>& look) override {
+                           LinearRgb exposure_scale) override;
+  void SetMarkerMargin(double board_size_m) override { board_size_m_ = board_size_m; }
+  void AssumeUnmodelledShadows(bool look) override { assumes_unmodelled_shadows_ = look; }
+  Result<void> SetSunTransmittance(
+      const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) override;
+  Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {
     PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
     look_ = look;
-    return picture_.SetLook(look);
+    return picture_.SetCameraLook(look);
   }
 
  private:
@@ -75,18 +76,19 @@ class GlComposer : public Composer {
              gl::EglContext context)
       : context_(std::move(context)), camera_(camera), scene_(scene) {}
 
-  Result<void> UploadSunlight(const SeenSunlight& sunlight);
+  Result<void> UploadSunlight(const SunTransmittanceMap& sun_transmittance);
   bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
   Result<void> SetRenderSize(const ComposerOptions& options);
   shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) const;
   Result<void> MakeShadows(const shadows::ShadowMapOptions& options);
   /// The programs for the shadow maps as they are and the air that a frame has.
-  Result<const SurfacePrograms*> ProgramsFor(const DrawnFrame& frame);
+  Result<const SurfacePrograms*> ProgramsFor(const FrameUniforms& frame);
   Result<void> SortSurfaces();
   Result<void> DrawScene(const SurfacePrograms& programs, const shadows::View& view,
-                         const DrawnFrame& frame);
-  DrawnFrame FrameOf(const shadows::View& view, const Transform<Camera, Marker>& camera_from_marker,
-                     LinearRgb gain) const;
+                         const FrameUniforms& frame);
+  FrameUniforms FrameOf(const shadows::View& view,
+                        const Transform<Camera, Marker>& camera_from_marker,
+                        LinearRgb exposure_scale) const;
   FogSplits FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const;
   Result<void> DrawDebugView(const shadows::View& view);
 
@@ -97,13 +99,13 @@ class GlComposer : public Composer {
   RenderCamera render_camera_;
   RenderTargets targets_;
   CameraPicture picture_;
-  std::optional<PictureLook> look_;
+  std::optional<CameraLook> look_;
   double board_size_m_ = 0.0;
-  bool looks_for_shade_ = true;
+  bool assumes_unmodelled_shadows_ = true;
   gl::GlTexture environment_;
-  std::shared_ptr<const SeenSunlight> sunlight_;
+  std::shared_ptr<const SunTransmittanceMap> sun_transmittance_;
   gl::GlTexture sunlight_map_;
-  RatioPass ratio_pass_;
+  ShadowRatioPass ratio_pass_;
   ObjectPass object_pass_;
   // With shadows of one step of the sun, and of two that fade into one another, without and with
   // haze; made when needed.
@@ -128,7 +130,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
                                                 EnvironmentMap::kHeight, EnvironmentMap::kLevels));
   c.environment_.SetWrap(GL_REPEAT);
   PLEINAIR_RETURN_IF_ERROR(c.UploadSunlight({}));
-  PLEINAIR_ASSIGN_OR_RETURN(c.ratio_pass_, RatioPass::Create());
+  PLEINAIR_ASSIGN_OR_RETURN(c.ratio_pass_, ShadowRatioPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.object_pass_, ObjectPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
@@ -150,7 +152,7 @@ Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
       picture_, CameraPicture::Create(camera_, render_camera, supersampling, options.response));
   render_camera_ = render_camera;
   debug_view_.reset();
-  return picture_.SetLook(look_);
+  return picture_.SetCameraLook(look_);
 }
 
 shadows::ShadowMapOptions GlComposer::MapOptions(const ComposerOptions& options) const {
@@ -182,14 +184,14 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   return {};
 }
 
-Result<const SurfacePrograms*> GlComposer::ProgramsFor(const DrawnFrame& frame) {
+Result<const SurfacePrograms*> GlComposer::ProgramsFor(const FrameUniforms& frame) {
   std::optional<SurfacePrograms>& made =
-      surface_programs_[shadows_.Fades() ? 1 : 0][frame.hazy ? 1 : 0];
+      surface_programs_[shadows_.Fades() ? 1 : 0][frame.needs_airlight ? 1 : 0];
   if (!made) {
     PLEINAIR_ASSIGN_OR_RETURN(
         SurfacePrograms programs,
         SurfacePrograms::Create(shadows_.options(), {.fades = shadows_.Fades(),
-                                                     .hazy = frame.hazy,
+                                                     .needs_airlight = frame.needs_airlight,
                                                      .textured = surfaces_.HasTextures(),
                                                      .glossy = surfaces_.HasGloss()}));
     made.emplace(std::move(programs));
@@ -216,22 +218,24 @@ void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world)
   sun_normal_ = day.SunNormalIrradiance();
 }
 
-Result<void> GlComposer::SetSunlight(const std::shared_ptr<const SeenSunlight>& sunlight) {
-  if (sunlight == sunlight_) return {};
+Result<void> GlComposer::SetSunTransmittance(
+    const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) {
+  if (sun_transmittance == sun_transmittance_) return {};
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  PLEINAIR_RETURN_IF_ERROR(UploadSunlight(sunlight ? *sunlight : SeenSunlight{}));
-  sunlight_ = sunlight;
+  PLEINAIR_RETURN_IF_ERROR(
+      UploadSunlight(sun_transmittance ? *sun_transmittance : SunTransmittanceMap{}));
+  sun_transmittance_ = sun_transmittance;
   return {};
 }
 
 /// Of an empty map: one texel, all of the sun.
-Result<void> GlComposer::UploadSunlight(const SeenSunlight& sunlight) {
-  const bool empty = sunlight.share.empty();
-  PLEINAIR_ASSIGN_OR_RETURN(
-      sunlight_map_,
-      gl::GlTexture::Create2D(GL_R16F, empty ? 1 : sunlight.width, empty ? 1 : sunlight.height));
+Result<void> GlComposer::UploadSunlight(const SunTransmittanceMap& sun_transmittance) {
+  const bool empty = sun_transmittance.share.empty();
+  PLEINAIR_ASSIGN_OR_RETURN(sunlight_map_,
+                            gl::GlTexture::Create2D(GL_R16F, empty ? 1 : sun_transmittance.width,
+                                                    empty ? 1 : sun_transmittance.height));
   constexpr float kAll = 1.0F;
-  sunlight_map_.Upload(GL_RED, GL_FLOAT, empty ? &kAll : sunlight.share.data());
+  sunlight_map_.Upload(GL_RED, GL_FLOAT, empty ? &kAll : sun_transmittance.share.data());
   return {};
 }
 
@@ -264,7 +268,8 @@ Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
 Result<void> GlComposer::SortSurfaces() {
   SceneSurfaces::SunOnPhantoms sun;
   // Where the picture is asked how much of the sun there is, the sky's light, too, counts by that.
-  sun.whole = looks_for_shade_ || (sunlight_ && !sunlight_->share.empty());
+  sun.whole =
+      assumes_unmodelled_shadows_ || (sun_transmittance_ && !sun_transmittance_->share.empty());
   if (HasSun()) {
     sun.window = shadows_.Window();
     sun.normal_lux = ToGlm(sun_normal_);
@@ -274,7 +279,7 @@ Result<void> GlComposer::SortSurfaces() {
 }
 
 Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadows::View& view,
-                                   const DrawnFrame& frame) {
+                                   const FrameUniforms& frame) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // Open surfaces come as two, one a side. Clockwise, because the picture's rows go down.
@@ -287,42 +292,44 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadow
   object_pass_.Draw(targets_, surfaces_, programs, frame, environment_,
                     PictureOf(render_camera_, view, surfaces_.object_bounds()));
   picture_.BindForShading(2, 3, 4);
-  ratio_pass_.Draw(targets_, surfaces_, programs, frame, {looks_for_shade_, board_size_m_});
+  ratio_pass_.Draw(targets_, surfaces_, programs, frame,
+                   {assumes_unmodelled_shadows_, board_size_m_});
   glDisable(GL_DEPTH_TEST);
   return {};
 }
 
 /// Of surfaces that are sorted.
-DrawnFrame GlComposer::FrameOf(const shadows::View& view,
-                               const Transform<Camera, Marker>& camera_from_marker,
-                               LinearRgb gain) const {
-  DrawnFrame frame;
+FrameUniforms GlComposer::FrameOf(const shadows::View& view,
+                                  const Transform<Camera, Marker>& camera_from_marker,
+                                  LinearRgb exposure_scale) const {
+  FrameUniforms frame;
   frame.clip_from_marker = glm::mat4(view.ClipFromMarker());
   frame.eye_m = ToGlm(camera_from_marker.Inverse().translation_m);
   frame.ray = RaysThroughPixels(render_camera_, view);
-  frame.gain = ToGlm(gain);
+  frame.exposure_scale = ToGlm(exposure_scale);
   if (HasSun()) frame.to_sun = ToGlm(to_sun_);
   frame.sun_normal_lux = ToGlm(sun_normal_);
-  if (sunlight_ && !sunlight_->share.empty()) {
-    const auto rows = sunlight_->TextureFromMarker();
+  if (sun_transmittance_ && !sun_transmittance_->share.empty()) {
+    const auto rows = sun_transmittance_->TextureFromMarker();
     for (int i = 0; i < 2; ++i) {
       frame.texture_from_marker[i] = {rows[i][0], rows[i][1], rows[i][2], rows[i][3]};
     }
   }
   frame.fog = FogBeforeObjects(view, frame.eye_m);
   const auto is_noticed = [&](const glm::vec3& light) {
-    const glm::vec3 shown = frame.gain * light;
+    const glm::vec3 shown = frame.exposure_scale * light;
     return std::max({shown.r, shown.g, shown.b}) > kNoticeableAir;
   };
-  frame.hazy = is_noticed(frame.fog.inscattered.back());
-  frame.steady_hazy = frame.hazy && is_noticed(frame.fog.MostLightPerMetre() *
-                                               surfaces_.MostSteadyChangeFarFrom(frame.eye_m));
+  frame.needs_airlight = is_noticed(frame.fog.inscattered.back());
+  frame.linear_needs_airlight =
+      frame.needs_airlight &&
+      is_noticed(frame.fog.MaxLightPerMetre() * surfaces_.MaxLinearChangeFarFrom(frame.eye_m));
   return frame;
 }
 
 Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
                                      const Transform<Camera, Marker>& camera_from_marker,
-                                     LinearRgb gain) {
+                                     LinearRgb exposure_scale) {
   CHECK_EQ(rgb.width(), camera_.width);
   CHECK_EQ(rgb.height(), camera_.height);
   CHECK_EQ(rgb.channels(), 3);
@@ -335,7 +342,7 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
     PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {to_sun_}, view));
   }
   PLEINAIR_RETURN_IF_ERROR(SortSurfaces());
-  const DrawnFrame frame = FrameOf(view, camera_from_marker, gain);
+  const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
   PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, view, frame));
   picture_.Draw(targets_);

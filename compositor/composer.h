@@ -52,28 +52,29 @@ class Composer {
   /// the light among surfaces, which costs more, stays.
   virtual void SetSun(const sky::SkyModel& daylight, const Mat3& marker_from_world) = 0;
 
-  /// Edge of the white board that the marker is printed on, where no phantom's colour counts.
-  virtual void SetMarkerBoard(double board_size_m) = 0;
+  /// Edge of the white board that the marker is printed on, where no phantom's color counts.
+  virtual void SetMarkerMargin(double board_size_m) = 0;
 
   /// Whether what no phantom stands for, trees say, may shade what the phantoms leave in the sun
   /// (the default): then pictures are asked how much of it is there, and only that is taken away.
   /// Where nothing does, asking costs: dark joints and edges look a little shaded.
-  virtual void LookForShade(bool look) = 0;
+  virtual void AssumeUnmodelledShadows(bool look) = 0;
 
   /// How much of the sun what no phantom stands for leaves to the virtual objects; null: all of it,
   /// as at first. Errors: no memory.
-  virtual Result<void> SetSunlight(const std::shared_ptr<const SeenSunlight>& sunlight) = 0;
+  virtual Result<void> SetSunTransmittance(
+      const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) = 0;
 
   /// Blur and grain that drawn pixels get from now on, those of the camera's own; nothing: as
   /// sharp and clean as they are drawn. Blur that the drawing has anyway (half a pixel's width) is
   /// not added again, and noise below two steps of 8 bits is left out.
-  virtual Result<void> SetLook(const std::optional<PictureLook>& look) = 0;
+  virtual Result<void> SetCameraLook(const std::optional<CameraLook>& look) = 0;
 
   /// The picture with the virtual objects in it. `gain`: display-linear value per radiance and
-  /// channel (LightReading). Pixels that no virtual thing touches keep their bytes.
+  /// channel (ExposureEstimate). Pixels that no virtual thing touches keep their bytes.
   virtual Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                                    const Transform<Camera, Marker>& camera_from_marker,
-                                   LinearRgb gain) = 0;
+                                   LinearRgb exposure_scale) = 0;
 };
 
 }  // namespace pleinair::compositor

@@ -26,12 +26,12 @@ std::optional<double> ParseNumber(std::string_view text) {
   return value;
 }
 
-CsvRecords::CsvRecords(std::string_view text, std::string name)
+CsvReader::CsvReader(std::string_view text, std::string name)
     : text_(text), name_(std::move(name)) {
   if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
 }
 
-Result<bool> CsvRecords::Next() {
+Result<bool> CsvReader::Next() {
   int blank_line = 0;
   while (at_ < text_.size()) {
     PLEINAIR_RETURN_IF_ERROR(ReadRecord());
@@ -45,7 +45,7 @@ Result<bool> CsvRecords::Next() {
   return false;
 }
 
-Result<std::optional<std::size_t>> CsvRecords::FindColumn(std::string_view name) const {
+Result<std::optional<std::size_t>> CsvReader::FindColumn(std::string_view name) const {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (Trimmed(fields_[i]) != name) continue;
@@ -57,7 +57,7 @@ Result<std::optional<std::size_t>> CsvRecords::FindColumn(std::string_view name)
   return found;
 }
 
-Result<void> CsvRecords::CheckFieldCount(std::size_t columns) const {
+Result<void> CsvReader::CheckFieldCount(std::size_t columns) const {
   if (fields_.size() == columns) return {};
   return InputError(
       Where(),
@@ -65,7 +65,7 @@ Result<void> CsvRecords::CheckFieldCount(std::size_t columns) const {
       "correct the row");
 }
 
-Result<void> CsvRecords::ReadRecord() {
+Result<void> CsvReader::ReadRecord() {
   line_ = next_line_;
   // The strings are used again: a million rows allocate once.
   std::size_t count = 0;

@@ -19,10 +19,10 @@ std::optional<double> ParseNumber(std::string_view text);
 /// Splits CSV records (RFC 4180) one by one: a byte order mark, CRLF and quoted fields are
 /// understood. Blank lines may end the text; before a record they are an error, since something is
 /// missing there. `text` must outlive it.
-class CsvRecords {
+class CsvReader {
  public:
   /// `name` is the file's, for errors, which say the line.
-  CsvRecords(std::string_view text, std::string name);
+  CsvReader(std::string_view text, std::string name);
 
   /// Reads the next record; false at the end. Errors: a blank line before it, an open quote.
   Result<bool> Next();

@@ -34,14 +34,14 @@ class GlFramebuffer {
 
   /// Draws go here from now on; the viewport becomes the whole picture.
   void Bind() const;
-  /// Clears one colour attachment.
+  /// Clears one color attachment.
   void ClearColor(int index, float r, float g, float b, float a) const;
   /// The same of unsigned integers, all channels.
   void ClearUnsigned(int index, unsigned value) const;
   void ClearDepth(float depth) const;
-  /// Copies colour 0 (resolving samples) and, where asked for, depth to `target` of the same size.
+  /// Copies color 0 (resolving samples) and, where asked for, depth to `target` of the same size.
   void BlitTo(const GlFramebuffer& target, GLbitfield mask = GL_COLOR_BUFFER_BIT) const;
-  /// Reads a colour attachment; rows bottom-up as GL has them, without padding.
+  /// Reads a color attachment; rows bottom-up as GL has them, without padding.
   void ReadPixels(int color_index, GLenum format, GLenum type, void* pixels) const;
 
   int width() const { return width_; }

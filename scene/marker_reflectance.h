@@ -6,13 +6,13 @@ namespace pleinair::scene {
 
 /// What is known of the printed marker as a surface: where it is white and black and how much it
 /// reflects. Metres.
-struct MarkerPrint {
+struct MarkerReflectance {
   double size_m = 0.0;         ///< Edge of the outer black square.
   double board_size_m = 0.0;   ///< Edge of the white board around it; not below size_m.
   double black_band_m = 0.0;   ///< Width of the band along the outer edge that is surely black.
   double albedo_black = 0.04;  ///< Diffuse reflectances, 0…1.
   double albedo_white = 0.80;
-  bool operator==(const MarkerPrint&) const = default;
+  bool operator==(const MarkerReflectance&) const = default;
 };
 
 }  // namespace pleinair::scene

@@ -17,7 +17,7 @@ namespace {
 // The light is read from so many frames, at least so far apart, as replay does; and again after a
 // while, since clouds pass.
 constexpr int kLightFrames = 8;
-constexpr double kBetweenLooks_s = 0.3, kBetweenMeasurements_s = 60.0;
+constexpr double kBetweenEstimates_s = 0.3, kBetweenMeasurements_s = 60.0;
 // Of lights that stand until the daylight coefficients are there.
 constexpr int kFewRays = 48;
 constexpr std::chrono::milliseconds kLookAround{100};
@@ -32,30 +32,30 @@ void LowerPriority() {
 
 }  // namespace
 
-bool LiveLight::Wanted::operator==(const Wanted& other) const {
+bool BackgroundLight::Wanted::operator==(const Wanted& other) const {
   return edit.sky == other.edit.sky && edit.heading_deg == other.edit.heading_deg &&
-         edit.objects == other.edit.objects && print == other.print;
+         edit.objects == other.edit.objects && marker_reflectance == other.marker_reflectance;
 }
 
-LiveLight::LiveLight(Setup setup)
+BackgroundLight::BackgroundLight(Setup setup)
     : setup_(std::move(setup)),
       heading_(setup_.scene.marker.heading),
       wanted_{setup_.edit, setup_.time, {}},
-      next_look_(setup_.time) {
-  UseGivenSky(setup_.time, &setup_.skies);
+      next_estimate_(setup_.time) {
+  UseOverriddenSky(setup_.time, &setup_.skies);
 }
 
-Result<std::unique_ptr<LiveLight>> LiveLight::Create(Setup setup) {
-  std::unique_ptr<LiveLight> light(new LiveLight(std::move(setup)));
+Result<std::unique_ptr<BackgroundLight>> BackgroundLight::Create(Setup setup) {
+  std::unique_ptr<BackgroundLight> light(new BackgroundLight(std::move(setup)));
   PLEINAIR_RETURN_IF_ERROR(light->Place(light->setup_.edit.objects));
   light->Make(light->wanted_);
   light->thread_ = std::thread([self = light.get()] { self->Run(); });
   return light;
 }
 
-LiveLight::~LiveLight() { Stop(); }
+BackgroundLight::~BackgroundLight() { Stop(); }
 
-void LiveLight::Stop() {
+void BackgroundLight::Stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -64,43 +64,43 @@ void LiveLight::Stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void LiveLight::SetEdit(const SceneEdit& edit) {
+void BackgroundLight::SetEdit(const SceneEdit& edit) {
   const std::lock_guard lock(mutex_);
   wanted_.edit = edit;
   changed_.notify_all();
 }
 
-void LiveLight::SetTime(UtcTime time) {
+void BackgroundLight::SetTime(UtcTime time) {
   const std::lock_guard lock(mutex_);
   wanted_.time = time;
 }
 
-void LiveLight::SetPrint(const scene::MarkerPrint& print) {
+void BackgroundLight::SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance) {
   const std::lock_guard lock(mutex_);
-  wanted_.print = print;
+  wanted_.marker_reflectance = marker_reflectance;
   changed_.notify_all();
 }
 
-void LiveLight::Show(std::shared_ptr<const devices::Frame> frame,
-                     const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
+void BackgroundLight::Show(std::shared_ptr<const devices::Frame> frame,
+                           const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
   const std::lock_guard lock(mutex_);
-  if (time < next_look_) return;
-  next_look_ = time.PlusSeconds(kBetweenLooks_s);
+  if (time < next_estimate_) return;
+  next_estimate_ = time.PlusSeconds(kBetweenEstimates_s);
   shown_ = Shown{std::move(frame), camera_from_marker, time};
   changed_.notify_all();
 }
 
-std::shared_ptr<const SceneLight> LiveLight::Take() {
+std::shared_ptr<const BakedLighting> BackgroundLight::Take() {
   const std::lock_guard lock(mutex_);
   return std::move(newest_);
 }
 
-LiveLight::Progress LiveLight::progress() const {
+BackgroundLight::Progress BackgroundLight::progress() const {
   const std::lock_guard lock(mutex_);
   return progress_;
 }
 
-void LiveLight::Run() {
+void BackgroundLight::Run() {
   LowerPriority();
   compositor::CoefficientWorker worker;  // Here, because its threads are as patient as this one.
   while (true) {
@@ -119,7 +119,7 @@ void LiveLight::Run() {
       if (!Place(wanted.edit.objects)) wanted.edit.objects = placed_objects_;
     }
     if (NeedsLight(wanted)) Make(wanted);
-    if (shown) Look(*shown, wanted);
+    if (shown) EstimateLight(*shown, wanted);
     if (wanted_for_ != solver_ || wanted.edit.convergence != coefficients_convergence_) {
       WantCoefficients(wanted, &worker);
     }
@@ -127,7 +127,7 @@ void LiveLight::Run() {
 }
 
 /// A solver for the objects at these places.
-Result<void> LiveLight::Place(const std::vector<ObjectPlace>& objects) {
+Result<void> BackgroundLight::Place(const std::vector<ObjectPlace>& objects) {
   placed_objects_ = objects;
   const std::size_t phantoms = setup_.placed.size() - objects.size();
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -143,7 +143,7 @@ Result<void> LiveLight::Place(const std::vector<ObjectPlace>& objects) {
   return {};
 }
 
-bool LiveLight::NeedsLight(const Wanted& wanted) const {
+bool BackgroundLight::NeedsLight(const Wanted& wanted) const {
   if (!made_for_ || !(*made_for_ == wanted)) return true;
   const sky::SunPosition sun = scene::SunOver(WithEdit(setup_.scene, wanted.edit).place_time,
                                               wanted.time.PlusSeconds(wanted.edit.later_s));
@@ -151,15 +151,15 @@ bool LiveLight::NeedsLight(const Wanted& wanted) const {
 }
 
 /// What the user says of sun and sky, where he does, under the sun of a moment.
-void LiveLight::UseGivenSky(UtcTime time, compositor::DaySkies* skies) const {
-  const auto given = compositor::GivenSky(setup_.scene, setup_.light.overrides,
-                                          scene::SunOver(setup_.scene.place_time, time));
+void BackgroundLight::UseOverriddenSky(UtcTime time, compositor::SkyState* skies) const {
+  const auto given = compositor::OverriddenSky(setup_.scene, setup_.light.overrides,
+                                               scene::SunOver(setup_.scene.place_time, time));
   if (!given) return;
   skies->source = given->skies;
-  skies->scale = given->sky_scale;
+  skies->scale = given->sky_radiance_scale;
 }
 
-LightOrder LiveLight::OrderFor(const Wanted& wanted) {
+LightingRequest BackgroundLight::LightingRequestFor(const Wanted& wanted) {
   scene::SceneDescription scene = setup_.scene;
   scene.marker.heading = heading_;
   scene = WithEdit(scene, wanted.edit);
@@ -176,68 +176,70 @@ LightOrder LiveLight::OrderFor(const Wanted& wanted) {
     skies_of_ = wanted.edit.sky;
   }
   // Whether trees shade the ground is no matter of the air. With a heading given as well nothing is
-  // looked at anew (MayLook), and what shades it under that one is not known.
-  if (wanted.edit.sky) skies_.other_shade = wanted.edit.heading_deg || found_skies_.other_shade;
+  // looked at anew (MayEstimate), and what shades it under that one is not known.
+  if (wanted.edit.sky)
+    skies_.unmodelled_shadows = wanted.edit.heading_deg || found_skies_.unmodelled_shadows;
   return {wanted.time.PlusSeconds(wanted.edit.later_s),
           scene.place_time,
           scene.marker,
           skies_,
           solver_,
           coefficients_,
-          wanted.print,
+          wanted.marker_reflectance,
           setup_.response};
 }
 
-void LiveLight::Make(const Wanted& wanted) {
-  auto light = std::make_shared<SceneLight>(OrderFor(wanted));
+void BackgroundLight::Make(const Wanted& wanted) {
+  auto light = std::make_shared<BakedLighting>(LightingRequestFor(wanted));
   light->objects = placed_objects_;
   made_for_ = wanted;
   made_sun_ = light->sun;
   const std::lock_guard lock(mutex_);
-  progress_.heading_deg = ToDegrees(light->order.marker.heading);
+  progress_.heading_deg = ToDegrees(light->request.marker.heading);
   newest_ = std::move(light);
 }
 
 /// Whether what frames show is the light that the scene is drawn in: not of another time or place.
-bool LiveLight::MayLook(const Wanted& wanted) const {
-  return !setup_.scene.phantoms.empty() && wanted.print.size_m > 0.0 &&
+bool BackgroundLight::MayEstimate(const Wanted& wanted) const {
+  return !setup_.scene.phantoms.empty() && wanted.marker_reflectance.size_m > 0.0 &&
          !(wanted.edit.sky && wanted.edit.heading_deg) && wanted.edit.later_s == 0.0 &&
          wanted.edit.latitude_deg == setup_.scene.place_time.latitude_deg &&
          wanted.edit.longitude_deg == setup_.scene.place_time.longitude_deg;
 }
 
-void LiveLight::Look(const Shown& shown, const Wanted& wanted) {
-  if (!MayLook(wanted)) {
-    look_.reset();
+void BackgroundLight::EstimateLight(const Shown& shown, const Wanted& wanted) {
+  if (!MayEstimate(wanted)) {
+    estimator_.reset();
     const std::lock_guard lock(mutex_);
-    progress_.frames_in_look = 0;
+    progress_.frames_in_estimate = 0;
     return;
   }
-  if (!look_) {
-    look_ = std::make_unique<compositor::LightLook>(solver_, setup_.camera, wanted.print,
-                                                    setup_.scene, setup_.light.overrides,
-                                                    shown.time, setup_.response);
+  if (!estimator_) {
+    estimator_ = std::make_unique<compositor::LightEstimator>(
+        solver_, setup_.camera, wanted.marker_reflectance, setup_.scene, setup_.light.overrides,
+        shown.time, setup_.response);
   }
-  look_->Add(shown.frame->rgb.view(), shown.camera_from_marker);
+  estimator_->Add(shown.frame->rgb.view(), shown.camera_from_marker);
   {
     const std::lock_guard lock(mutex_);
-    progress_.frames_in_look = look_->frames();
+    progress_.frames_in_estimate = estimator_->frames();
   }
-  if (look_->frames() < kLightFrames) return;
-  const compositor::FoundLight found = look_->Settle(&memory_);
-  look_.reset();
+  if (estimator_->frames() < kLightFrames) return;
+  const compositor::LightEstimate found = estimator_->Estimate(&light_filter_);
+  estimator_.reset();
   found_skies_ = found.skies;
-  if (found_skies_.source) UseGivenSky(shown.time, &found_skies_);
+  if (found_skies_.source) UseOverriddenSky(shown.time, &found_skies_);
   heading_ = found.heading;
   made_for_.reset();
   const std::lock_guard lock(mutex_);
   progress_.measured = found.measured;
-  progress_.frames_in_look = 0;
-  next_look_ = shown.time.PlusSeconds(kBetweenMeasurements_s);
+  progress_.frames_in_estimate = 0;
+  next_estimate_ = shown.time.PlusSeconds(kBetweenMeasurements_s);
   shown_.reset();  // It came meanwhile, and would begin the next look too early.
 }
 
-void LiveLight::WantCoefficients(const Wanted& wanted, compositor::CoefficientWorker* worker) {
+void BackgroundLight::WantCoefficients(const Wanted& wanted,
+                                       compositor::CoefficientWorker* worker) {
   wanted_for_ = solver_;
   coefficients_convergence_ = wanted.edit.convergence;
   compositor::CoefficientOptions options;
@@ -251,7 +253,7 @@ void LiveLight::WantCoefficients(const Wanted& wanted, compositor::CoefficientWo
 }
 
 /// Where new ones are there, of the scene as it stands now.
-void LiveLight::TakeCoefficients(const compositor::CoefficientWorker& worker) {
+void BackgroundLight::TakeCoefficients(const compositor::CoefficientWorker& worker) {
   const auto newest = worker.Newest();
   {
     const std::lock_guard lock(mutex_);

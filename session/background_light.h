@@ -28,9 +28,9 @@ namespace pleinair::session {
 /// of sun and sky. The first lights are traced with few rays; meanwhile daylight coefficients are
 /// computed, from which each further light takes a fraction of a second. A moved object begins this
 /// anew; until its next light is there it is drawn with the last. Then the frames are looked at for
-/// the phantoms' shadows, as replay does, and again every minute; LightMemory has what they tell
+/// the phantoms' shadows, as replay does, and again every minute; LightFilter has what they tell
 /// together.
-class LiveLight {
+class BackgroundLight {
  public:
   struct Setup {
     CameraModel camera;
@@ -38,32 +38,32 @@ class LiveLight {
     std::vector<compositor::PlacedModel> placed;  ///< Phantoms, then objects.
     LightOptions light;
     SceneEdit edit;
-    compositor::DaySkies skies;  ///< As stated.
+    compositor::SkyState skies;  ///< As stated.
     UtcTime time;
     CameraResponse response = {};
   };
 
   /// Makes the first light and starts. Errors: the geometry.
-  static Result<std::unique_ptr<LiveLight>> Create(Setup setup);
-  ~LiveLight();
+  static Result<std::unique_ptr<BackgroundLight>> Create(Setup setup);
+  ~BackgroundLight();
 
   /// These change what the next light is made for; any thread.
   void SetEdit(const SceneEdit& edit);
   void SetTime(UtcTime time);
-  void SetPrint(const scene::MarkerPrint& print);
+  void SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance);
 
   /// Offers a frame to measure the light in; few are taken.
   void Show(std::shared_ptr<const devices::Frame> frame,
             const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
 
   /// The newest light where it was not taken yet, otherwise null.
-  std::shared_ptr<const SceneLight> Take();
+  std::shared_ptr<const BakedLighting> Take();
 
   /// How the work is going.
   struct Progress {
     compositor::MeasuredLight measured;
     double heading_deg = 0.0;     ///< Of the marker, in use.
-    int frames_in_look = 0;       ///< Looked at since the last measurement; 0: none is under way.
+    int frames_in_estimate = 0;   ///< Looked at since the last measurement; 0: none is under way.
     double coefficients = 0.0;    ///< 0…1: share of the daylight coefficients that is computed.
     bool failed_to_keep = false;  ///< Some could not be written to the cache.
   };
@@ -75,7 +75,7 @@ class LiveLight {
   struct Wanted {
     SceneEdit edit;
     UtcTime time;
-    scene::MarkerPrint print;
+    scene::MarkerReflectance marker_reflectance;
     /// Of what a light is made for besides the sun's place.
     bool operator==(const Wanted& other) const;
   };
@@ -85,17 +85,17 @@ class LiveLight {
     UtcTime time;
   };
 
-  explicit LiveLight(Setup setup);
+  explicit BackgroundLight(Setup setup);
   void Run();
   Result<void> Place(const std::vector<ObjectPlace>& objects);
   void Make(const Wanted& wanted);
   bool NeedsLight(const Wanted& wanted) const;
-  void Look(const Shown& shown, const Wanted& wanted);
+  void EstimateLight(const Shown& shown, const Wanted& wanted);
   void WantCoefficients(const Wanted& wanted, compositor::CoefficientWorker* worker);
   void TakeCoefficients(const compositor::CoefficientWorker& worker);
-  LightOrder OrderFor(const Wanted& wanted);
-  void UseGivenSky(UtcTime time, compositor::DaySkies* skies) const;
-  bool MayLook(const Wanted& wanted) const;
+  LightingRequest LightingRequestFor(const Wanted& wanted);
+  void UseOverriddenSky(UtcTime time, compositor::SkyState* skies) const;
+  bool MayEstimate(const Wanted& wanted) const;
 
   Setup setup_;  // Its places of models follow the edits.
   std::thread thread_;
@@ -106,13 +106,13 @@ class LiveLight {
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
   double coefficients_convergence_ = 0.0;
   std::shared_ptr<const compositor::LightSolver> wanted_for_;  // Their scene, ordered.
-  compositor::DaySkies skies_;
+  compositor::SkyState skies_;
   std::optional<SceneEdit::Sky> skies_of_;  // The edit's air that they were made for.
-  compositor::LightMemory
-      memory_;  // Of the looks so far; heading and skies are its last conclusions.
-  compositor::DaySkies found_skies_;
+  compositor::LightFilter
+      light_filter_;  // Of the looks so far; heading and skies are its last conclusions.
+  compositor::SkyState found_skies_;
   Radians heading_;
-  std::unique_ptr<compositor::LightLook> look_;
+  std::unique_ptr<compositor::LightEstimator> estimator_;
   std::optional<Wanted> made_for_;
   sky::SunPosition made_sun_;
 
@@ -121,8 +121,8 @@ class LiveLight {
   bool stop_ = false;
   Wanted wanted_;
   std::optional<Shown> shown_;
-  UtcTime next_look_;
-  std::shared_ptr<const SceneLight> newest_;
+  UtcTime next_estimate_;
+  std::shared_ptr<const BakedLighting> newest_;
   Progress progress_;
 };
 

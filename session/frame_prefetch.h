@@ -14,13 +14,13 @@
 namespace pleinair::session {
 
 /// Reads a recording's frames on a thread of its own, a few ahead of who asks for them.
-class FramesAhead {
+class FramePrefetcher {
  public:
-  explicit FramesAhead(std::unique_ptr<devices::FrameSource> source)
+  explicit FramePrefetcher(std::unique_ptr<devices::FrameSource> source)
       : source_(std::move(source)), thread_([this] { Run(); }) {}
-  ~FramesAhead() { Finish(); }
-  FramesAhead(const FramesAhead&) = delete;
-  FramesAhead& operator=(const FramesAhead&) = delete;
+  ~FramePrefetcher() { Finish(); }
+  FramePrefetcher(const FramePrefetcher&) = delete;
+  FramePrefetcher& operator=(const FramePrefetcher&) = delete;
 
   std::optional<std::int64_t> FrameCount() const { return source_->FrameCount(); }
 
@@ -52,7 +52,7 @@ class FramesAhead {
 
   std::unique_ptr<devices::FrameSource> source_;
   StageTimes times_;  // Of the thread, until it has ended.
-  HandOver<Result<std::optional<devices::Frame>>> read_{kAhead, WhenFull::kWait};
+  BoundedQueue<Result<std::optional<devices::Frame>>> read_{kAhead, WhenFull::kWait};
   std::thread thread_;  // Last: it uses the others.
 };
 

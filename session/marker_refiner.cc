@@ -10,7 +10,7 @@
 
 namespace pleinair::session {
 
-void PrintMeasurer::Measure(std::span<Seen> frames) {
+void MarkerRefiner::Measure(std::span<Seen> frames) {
   for (const Seen& seen : frames) {
     for (const tracker::MarkerObservation& observation : seen.observations) {
       const MarkerName name{observation.detection.family, observation.detection.id};
@@ -30,14 +30,14 @@ void PrintMeasurer::Measure(std::span<Seen> frames) {
   }
 }
 
-std::vector<tracker::MarkerObservation> PrintMeasurer::Measure(
+std::vector<tracker::MarkerObservation> MarkerRefiner::Measure(
     ImageView<const std::uint8_t> grey, std::vector<tracker::MarkerObservation> observations) {
   Seen seen{grey, std::move(observations)};
   Measure({&seen, 1});
   return std::move(seen.observations);
 }
 
-PrintMeasurer::Alignments PrintMeasurer::Align(const Seen& seen) const {
+MarkerRefiner::Alignments MarkerRefiner::Align(const Seen& seen) const {
   Alignments alignments(seen.observations.size());
   for (std::size_t k = 0; k < alignments.size(); ++k) {
     const tracker::MarkerDetection& detection = seen.observations[k].detection;
@@ -49,7 +49,7 @@ PrintMeasurer::Alignments PrintMeasurer::Align(const Seen& seen) const {
   return alignments;
 }
 
-void PrintMeasurer::TakeOver(const std::optional<tracker::MarkerAlignment>& alignment,
+void MarkerRefiner::TakeOver(const std::optional<tracker::MarkerAlignment>& alignment,
                              tracker::MarkerObservation* observation) {
   tracker::MarkerDetection& detection = observation->detection;
   Marker& marker = markers_.at({detection.family, detection.id});

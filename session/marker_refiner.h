@@ -20,9 +20,9 @@ namespace pleinair::session {
 /// print_alignment.h). That takes some 20 ms a marker, which a recording has and a camera has not,
 /// and leaves a third of the error that the tracker's own fit by blocks has. AprilTags have been
 /// measured so already.
-class PrintMeasurer {
+class MarkerRefiner {
  public:
-  PrintMeasurer(const CameraModel& camera, double marker_size_m)
+  MarkerRefiner(const CameraModel& camera, double marker_size_m)
       : camera_(camera), marker_size_m_(marker_size_m) {}
 
   /// What the tracker saw in a frame.

@@ -28,8 +28,8 @@ double RotationAngle(const Mat3& a, const Mat3& b) {
   return std::atan2(Norm(twice_sine_axis), trace - 1.0);
 }
 
-void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
-                       const std::vector<tracker::MarkerObservation>& marker_observations) {
+void MarkerTracks::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
+                            const std::vector<tracker::MarkerObservation>& marker_observations) {
   ++frames_;
   std::map<MarkerName, std::vector<Observation>> candidates;
   bool duplicates = false;
@@ -55,7 +55,7 @@ void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
   }
   if (duplicates) ++frames_with_duplicates_;
   for (const auto& [marker, options] : candidates) {
-    std::vector<Observation>& path = paths_[marker];
+    std::vector<Observation>& path = tracks_[marker];
     auto chosen = options.begin();
     if (!path.empty() && timestamp_ns - path.back().timestamp_ns <= kMemoryNs) {
       const Transform<Camera, Marker>& last = path.back().camera_from_marker;
@@ -67,34 +67,34 @@ void Session::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
   }
 }
 
-void Session::ForgetAllBut(std::size_t observations) {
-  for (auto& [marker, path] : paths_) {
+void MarkerTracks::ForgetAllBut(std::size_t observations) {
+  for (auto& [marker, path] : tracks_) {
     if (path.size() > observations) {
       path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(observations));
     }
   }
 }
 
-bool MayAnchor(const MarkerName& marker, const scene::MarkerDescription& declared) {
+bool MayBeReferenceMarker(const MarkerName& marker, const scene::MarkerDescription& declared) {
   return marker.family == declared.family.value_or(marker.family) &&
          marker.id == declared.id.value_or(marker.id);
 }
 
-std::optional<MarkerName> Session::Anchor() const {
+std::optional<MarkerName> MarkerTracks::ReferenceMarker() const {
   std::optional<MarkerName> most;
   std::size_t marker_observations = 0;
-  for (const auto& [marker, path] : paths_) {
-    if (!MayAnchor(marker, declared_) || path.size() <= marker_observations) continue;
+  for (const auto& [marker, path] : tracks_) {
+    if (!MayBeReferenceMarker(marker, declared_) || path.size() <= marker_observations) continue;
     most = marker;
     marker_observations = path.size();
   }
   return most;
 }
 
-const std::vector<Observation>& Session::Path(const MarkerName& marker) const {
+const std::vector<Observation>& MarkerTracks::TrackOf(const MarkerName& marker) const {
   static const std::vector<Observation> kNever;
-  const auto found = paths_.find(marker);
-  return found == paths_.end() ? kNever : found->second;
+  const auto found = tracks_.find(marker);
+  return found == tracks_.end() ? kNever : found->second;
 }
 
 }  // namespace pleinair::session

@@ -23,7 +23,7 @@ struct MarkerName {
 };
 
 /// Whether a scene that declares this may stand on that marker.
-bool MayAnchor(const MarkerName& marker, const scene::MarkerDescription& declared);
+bool MayBeReferenceMarker(const MarkerName& marker, const scene::MarkerDescription& declared);
 
 /// What is kept of one sighting of one marker: bounded, whatever the picture's size.
 struct Observation {
@@ -39,11 +39,11 @@ struct Observation {
   std::vector<std::uint8_t> visibility{};
 };
 
-/// What is known of a recording's markers across its frames: which one anchors the scene and where
-/// the camera stood in each frame.
-class Session {
+/// What is known of a recording's markers across its frames: which one reference markers the scene
+/// and where the camera stood in each frame.
+class MarkerTracks {
  public:
-  explicit Session(const scene::MarkerDescription& declared) : declared_(declared) {}
+  explicit MarkerTracks(const scene::MarkerDescription& declared) : declared_(declared) {}
 
   /// Adds the sightings of one frame; frames come in order. Where a marker is seen more than once,
   /// or its planar pose is ambiguous, what lies nearest to its last pose counts.
@@ -56,11 +56,11 @@ class Session {
   /// Of the markers that have the family and the number that the scene declares, or any where it
   /// does not say, the one that is seen most (the first by name of equals); nothing where there is
   /// none.
-  std::optional<MarkerName> Anchor() const;
+  std::optional<MarkerName> ReferenceMarker() const;
 
   /// All that was seen of a marker, in order of frames.
-  const std::vector<Observation>& Path(const MarkerName& marker) const;
-  const std::map<MarkerName, std::vector<Observation>>& paths() const { return paths_; }
+  const std::vector<Observation>& TrackOf(const MarkerName& marker) const;
+  const std::map<MarkerName, std::vector<Observation>>& tracks() const { return tracks_; }
 
   std::int64_t frames() const { return frames_; }
   /// Frames in which some marker was seen twice or more.
@@ -68,7 +68,7 @@ class Session {
 
  private:
   scene::MarkerDescription declared_;
-  std::map<MarkerName, std::vector<Observation>> paths_;
+  std::map<MarkerName, std::vector<Observation>> tracks_;
   std::int64_t frames_ = 0;
   std::int64_t frames_with_duplicates_ = 0;
 };

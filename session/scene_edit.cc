@@ -60,7 +60,7 @@ scene::SceneDescription WithEdit(const scene::SceneDescription& scene, const Sce
   return edited;
 }
 
-SceneEdit::Sky StatedAir(const scene::SceneDescription& scene) {
+SceneEdit::Sky DescribedAir(const scene::SceneDescription& scene) {
   // As sky/daylight.h has it.
   constexpr double kHazyTurbidity = 3.2, kPartlyCloudyCover = 0.6;
   SceneEdit::Sky air{sky::kDefaultTurbidity, 0.0};

@@ -43,7 +43,7 @@ struct SceneEdit {
   double convergence = 0.01;  ///< compositor::CoefficientOptions.
   std::vector<ObjectPlace> objects;
   /// Drawn objects keep the brightness that the marker was last read to give them.
-  bool hold_gain = false;
+  bool lock_exposure = false;
   bool operator==(const SceneEdit&) const = default;
 };
 
@@ -56,6 +56,6 @@ SceneEdit UneditedScene(const scene::SceneDescription& scene,
 scene::SceneDescription WithEdit(const scene::SceneDescription& scene, const SceneEdit& edit);
 
 /// The haze and clouds that a scene's words stand for (sky/daylight.h).
-SceneEdit::Sky StatedAir(const scene::SceneDescription& scene);
+SceneEdit::Sky DescribedAir(const scene::SceneDescription& scene);
 
 }  // namespace pleinair::session

@@ -10,35 +10,39 @@ namespace {
 // after half of that, the sun itself moves in every frame.
 constexpr double kSunStep = 0.25 * kRadiansPerDegree;
 
-std::vector<compositor::LitMesh> LightAmongSurfaces(const LightOrder& order,
+std::vector<compositor::LitMesh> LightAmongSurfaces(const LightingRequest& request,
                                                     const sky::SkyModel& daylight,
                                                     const Mat3& marker_from_world) {
-  if (!order.coefficients) {
-    const auto& sunlight = order.skies.sunlight;
-    const bool holds = sunlight && sunlight->HoldsFor(marker_from_world * daylight.ToSun().xyz);
-    return order.solver->SolveUnderTrees(daylight, marker_from_world,
-                                         holds ? *sunlight : compositor::SeenSunlight{});
+  if (!request.coefficients) {
+    const auto& sun_transmittance = request.skies.sun_transmittance;
+    const bool holds =
+        sun_transmittance && sun_transmittance->HoldsFor(marker_from_world * daylight.ToSun().xyz);
+    return request.solver->SolveUnderTrees(
+        daylight, marker_from_world,
+        holds ? *sun_transmittance : compositor::SunTransmittanceMap{});
   }
-  return order.solver->Relight(*order.coefficients, daylight, marker_from_world);
+  return request.solver->Relight(*request.coefficients, daylight, marker_from_world);
 }
 
 }  // namespace
 
-SceneLight::SceneLight(const LightOrder& light_order)
-    : order(light_order),
-      marker_from_world(scene::MarkerFromWorld(order.marker)),
-      sun(scene::SunOver(order.place, order.time)),
-      model(order.skies.source->ForSun(sun.ToSun(), sun.distance_au)),
-      daylight(*model, order.skies.scale, {1.0, 1.0, 1.0}),
-      meshes(LightAmongSurfaces(order, daylight, marker_from_world)) {
-  auto& sunlight = order.skies.sunlight;
-  if (sunlight && !sunlight->HoldsFor(marker_from_world * model->ToSun().xyz)) {
-    sunlight.reset();  // At another hour trees shade other places.
+BakedLighting::BakedLighting(const LightingRequest& lighting_request)
+    : request(lighting_request),
+      marker_from_world(scene::MarkerFromWorld(request.marker)),
+      sun(scene::SunOver(request.place, request.time)),
+      model(request.skies.source->ForSun(sun.ToSun(), sun.distance_au)),
+      daylight(*model, request.skies.scale, {1.0, 1.0, 1.0}),
+      meshes(LightAmongSurfaces(request, daylight, marker_from_world)) {
+  auto& sun_transmittance = request.skies.sun_transmittance;
+  if (sun_transmittance && !sun_transmittance->HoldsFor(marker_from_world * model->ToSun().xyz)) {
+    sun_transmittance.reset();  // At another hour trees shade other places.
   }
-  from_below = order.solver->RadianceFromBelow(daylight, marker_from_world,
-                                               sunlight ? *sunlight : compositor::SeenSunlight{});
-  if (order.print.size_m <= 0.0) return;
-  meter.emplace(order.print, *order.solver, daylight, marker_from_world, order.response);
+  from_below = request.solver->RadianceFromBelow(
+      daylight, marker_from_world,
+      sun_transmittance ? *sun_transmittance : compositor::SunTransmittanceMap{});
+  if (request.marker_reflectance.size_m <= 0.0) return;
+  meter.emplace(request.marker_reflectance, *request.solver, daylight, marker_from_world,
+                request.response);
 }
 
 bool IsNearSun(const sky::SunPosition& made_for, const sky::SunPosition& now) {

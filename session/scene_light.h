@@ -20,33 +20,33 @@
 namespace pleinair::session {
 
 /// All that the light of a moment is made from; nothing in it changes meanwhile.
-struct LightOrder {
+struct LightingRequest {
   UtcTime time;
   scene::PlaceTime place;
   scene::MarkerDescription marker;
-  compositor::DaySkies skies;
+  compositor::SkyState skies;
   std::shared_ptr<const compositor::LightSolver> solver;
   /// Of the solver's scene: the light of any moment in milliseconds. Null: rays are traced.
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients;
-  scene::MarkerPrint print;
+  scene::MarkerReflectance marker_reflectance;
   CameraResponse response;
 };
 
 /// Sun, sky and the light among surfaces at one moment, and the meter that knows what light it
 /// leaves on the marker. Neither copied nor moved: its parts refer to each other.
-struct SceneLight {
-  explicit SceneLight(const LightOrder& order);
-  SceneLight(const SceneLight&) = delete;
-  SceneLight& operator=(const SceneLight&) = delete;
+struct BakedLighting {
+  explicit BakedLighting(const LightingRequest& request);
+  BakedLighting(const BakedLighting&) = delete;
+  BakedLighting& operator=(const BakedLighting&) = delete;
 
-  LightOrder order;
+  LightingRequest request;
   Mat3 marker_from_world;
   sky::SunPosition sun;
   std::shared_ptr<const sky::SkyModel> model;
-  compositor::ScaledDaylight daylight;
+  compositor::ScaledSky daylight;
   std::vector<compositor::LitMesh> meshes;
-  LinearRgb from_below;                         ///< LightSolver::RadianceFromBelow().
-  std::optional<compositor::LightMeter> meter;  ///< Where the order knows a print.
+  LinearRgb from_below;                               ///< LightSolver::RadianceFromBelow().
+  std::optional<compositor::MarkerLightMeter> meter;  ///< Where the order knows a print.
   std::vector<ObjectPlace> objects;  ///< Where they stood; empty: as the scene describes them.
 };
 

@@ -69,23 +69,24 @@ std::shared_ptr<const tracker::MarkerPattern> PatternOf(const MarkerName& marker
   return std::make_shared<const tracker::MarkerPattern>(tracker::SgMarkerPattern(marker.id));
 }
 
-scene::MarkerPrint PrintOf(const scene::MarkerDescription& described, const MarkerName& marker) {
-  scene::MarkerPrint print;
-  print.size_m = described.size_m;
-  print.board_size_m =
+scene::MarkerReflectance MarkerReflectanceOf(const scene::MarkerDescription& described,
+                                             const MarkerName& marker) {
+  scene::MarkerReflectance marker_reflectance;
+  marker_reflectance.size_m = described.size_m;
+  marker_reflectance.board_size_m =
       described.board_size_m > 0.0 ? described.board_size_m : described.size_m * kUsualBoard;
-  print.albedo_black = described.albedo_black;
-  print.albedo_white = described.albedo_white;
+  marker_reflectance.albedo_black = described.albedo_black;
+  marker_reflectance.albedo_white = described.albedo_white;
   if (const auto pattern = PatternOf(marker)) {
     // Families whose square is white outside have no ring; the meter sees that for itself.
-    print.black_band_m =
+    marker_reflectance.black_band_m =
         described.size_m * std::max(1, BlackRings(*pattern)) / pattern->edge_modules;
   }
-  return print;
+  return marker_reflectance;
 }
 
-compositor::PrintCover CoverOf(const scene::MarkerDescription& described, const MarkerName& marker,
-                               const Observation& seen) {
+compositor::MarkerVisibility VisibilityOf(const scene::MarkerDescription& described,
+                                          const MarkerName& marker, const Observation& seen) {
   const auto pattern = PatternOf(marker);
   if (pattern == nullptr || seen.visibility_side <= 0) return {};
   return {seen.visibility_side, described.size_m * pattern->Extent(), seen.visibility};

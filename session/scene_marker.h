@@ -26,11 +26,12 @@ std::shared_ptr<const tracker::MarkerPattern> PatternOf(const MarkerName& marker
 
 /// The print as a light meter wants to know it: sizes and reflectances as the scene states them,
 /// and the black band as wide as it is in this marker's print.
-scene::MarkerPrint PrintOf(const scene::MarkerDescription& described, const MarkerName& marker);
+scene::MarkerReflectance MarkerReflectanceOf(const scene::MarkerDescription& described,
+                                             const MarkerName& marker);
 
 /// Which part of the print was seen, for what is to be put before the virtual objects; without
 /// squares where the tracker cannot tell (AprilTags).
-compositor::PrintCover CoverOf(const scene::MarkerDescription& described, const MarkerName& marker,
-                               const Observation& seen);
+compositor::MarkerVisibility VisibilityOf(const scene::MarkerDescription& described,
+                                          const MarkerName& marker, const Observation& seen);
 
 }  // namespace pleinair::session

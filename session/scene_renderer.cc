@@ -19,8 +19,8 @@ namespace {
 // Blur and grain change slowly: read in every so many frames, medians over so many readings.
 constexpr int kLookStep = 5;
 constexpr std::size_t kLookWindow = 5;
-// Where no marker could be read, the gain is guessed so that white paper on the ground shows as
-// this display-linear value.
+// Where no marker could be read, the exposure scale is guessed so that white paper on the ground
+// shows as this display-linear value.
 constexpr double kGuessedWhite = 0.8;
 
 using Clock = std::chrono::steady_clock;
@@ -74,7 +74,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     placed.push_back(std::move(model));
   }
   if (scene.objects.empty()) return renderer;
-  renderer->skies_.source = compositor::StatedSky(scene);
+  renderer->skies_.source = compositor::DescribedSky(scene);
   compositor::ComposerOptions composing = options;
   if (!scene.camera_response.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(composing.response,
@@ -89,30 +89,31 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   return renderer;
 }
 
-void SceneRenderer::SetMarkerPrint(const scene::MarkerPrint& print) {
-  print_ = print;
-  if (composer_) composer_->SetMarkerBoard(print.board_size_m);
+void SceneRenderer::SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance) {
+  marker_reflectance_ = marker_reflectance;
+  if (composer_) composer_->SetMarkerMargin(marker_reflectance.board_size_m);
   if (!lit_ || light_from_outside_) return;
-  meter_.emplace(print_, *solver_, lit_->daylight, scene::MarkerFromWorld(scene_.marker),
-                 response_);
+  meter_.emplace(marker_reflectance_, *solver_, lit_->daylight,
+                 scene::MarkerFromWorld(scene_.marker), response_);
 }
 
 bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phantoms.empty(); }
 
-void SceneRenderer::LookAtLight(ImageView<const std::uint8_t> rgb,
-                                const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
-  if (!look_) {
-    look_ = std::make_unique<compositor::LightLook>(solver_, camera_, print_, scene_,
-                                                    options_.overrides, time, response_);
+void SceneRenderer::ObserveLight(ImageView<const std::uint8_t> rgb,
+                                 const Transform<Camera, Marker>& camera_from_marker,
+                                 UtcTime time) {
+  if (!estimator_) {
+    estimator_ = std::make_unique<compositor::LightEstimator>(
+        solver_, camera_, marker_reflectance_, scene_, options_.overrides, time, response_);
   }
-  look_->Add(rgb, camera_from_marker);
+  estimator_->Add(rgb, camera_from_marker);
 }
 
-void SceneRenderer::SettleLight() {
-  if (!look_) return;
-  compositor::LightMemory of_no_other_look;
-  const compositor::FoundLight found = look_->Settle(&of_no_other_look);
-  look_.reset();
+void SceneRenderer::EstimateLight() {
+  if (!estimator_) return;
+  compositor::LightFilter of_no_other_look;
+  const compositor::LightEstimate found = estimator_->Estimate(&of_no_other_look);
+  estimator_.reset();
   summary_.measured = found.measured;
   scene_.marker.heading = found.heading;
   if (found.skies.source) skies_ = found.skies;
@@ -122,16 +123,16 @@ void SceneRenderer::SettleLight() {
 void SceneRenderer::OverrideLight(const sky::SunPosition& sun) {
   compositor::MeasuredLight& light = summary_.measured;
   light.sun_to_sky_stated =
-      compositor::SunToSky(*compositor::StatedSky(scene_)->ForSun(sun.ToSun(), sun.distance_au));
+      compositor::SunToSky(*compositor::DescribedSky(scene_)->ForSun(sun.ToSun(), sun.distance_au));
   if (options_.overrides.heading_deg) {
     light.heading_source = compositor::MeasuredLight::Source::kOverride;
   }
-  const auto given = compositor::GivenSky(scene_, options_.overrides, sun);
+  const auto given = compositor::OverriddenSky(scene_, options_.overrides, sun);
   if (!given) return;
   light.sun_source = compositor::MeasuredLight::Source::kOverride;
   // What lies in the shade of trees was looked for under this sky.
   skies_.source = given->skies;
-  skies_.scale = given->sky_scale;
+  skies_.scale = given->sky_radiance_scale;
 }
 
 std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficients(
@@ -146,13 +147,13 @@ std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficie
   return coefficients_;
 }
 
-LightOrder SceneRenderer::OrderLight(UtcTime time) const {
-  return {time,    scene_.place_time, scene_.marker, skies_,
-          solver_, coefficients_,     print_,        response_};
+LightingRequest SceneRenderer::MakeLightingRequest(UtcTime time) const {
+  return {time,    scene_.place_time, scene_.marker,       skies_,
+          solver_, coefficients_,     marker_reflectance_, response_};
 }
 
-Result<void> SceneRenderer::TakeLight(std::shared_ptr<const SceneLight> light) {
-  const compositor::ScaledDaylight& daylight = light->daylight;
+Result<void> SceneRenderer::TakeLight(std::shared_ptr<const BakedLighting> light) {
+  const compositor::ScaledSky& daylight = light->daylight;
   const Mat3& marker_from_world = light->marker_from_world;
   const LinearRgb sun = daylight.SunNormalIrradiance();
   const LinearRgb sky = daylight.SkyHorizontalIrradiance();
@@ -162,13 +163,14 @@ Result<void> SceneRenderer::TakeLight(std::shared_ptr<const SceneLight> light) {
   summary_.measured.sun_shines = Luminance(sun) > 0.0;
   const LinearRgb ground = sky + sun * std::max(0.0, light->sun.ToSun().xyz.z);
   const double white = scene_.marker.albedo_white / std::numbers::pi;
-  guessed_gain_ = LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
-  composer_->LookForShade(light->order.skies.other_shade);
-  PLEINAIR_RETURN_IF_ERROR(composer_->SetSunlight(light->order.skies.sunlight));
+  guessed_exposure_scale_ =
+      LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white);
+  composer_->AssumeUnmodelledShadows(light->request.skies.unmodelled_shadows);
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetSunTransmittance(light->request.skies.sun_transmittance));
   PLEINAIR_RETURN_IF_ERROR(
       composer_->SetLight(light->meshes, daylight, marker_from_world, light->from_below));
   meter_ = light->meter;
-  solver_ = light->order.solver;
+  solver_ = light->request.solver;
   lit_ = std::move(light);
   MoveObjects();
   return {};
@@ -179,12 +181,12 @@ Result<void> SceneRenderer::PrepareLight(UtcTime time) {
   return UpdateLight(time.PlusSeconds(later_s_));
 }
 
-Result<void> SceneRenderer::UseLight(std::shared_ptr<const SceneLight> light) {
+Result<void> SceneRenderer::UseLight(std::shared_ptr<const BakedLighting> light) {
   if (!composer_) return {};
   if (!lit_) OverrideLight(light->sun);
   light_from_outside_ = true;
-  skies_ = light->order.skies;
-  if (!heading_is_edited_) scene_.marker.heading = light->order.marker.heading;
+  skies_ = light->request.skies;
+  if (!heading_is_edited_) scene_.marker.heading = light->request.marker.heading;
   return TakeLight(std::move(light));
 }
 
@@ -192,7 +194,7 @@ Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
   scene_ = WithEdit(scene_, edit);
   later_s_ = edit.later_s;
   heading_is_edited_ = edit.heading_deg.has_value();
-  hold_gain_ = edit.hold_gain;
+  lock_exposure_ = edit.lock_exposure;
   if (!composer_) return {};
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
     compositor::PlacedModel& placed = placed_[scene_.phantoms.size() + i];
@@ -229,67 +231,69 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   if (!lit_) OverrideLight(summary_.sun);
   if (!light_from_outside_ && !(lit_ && IsNearSun(lit_->sun, summary_.sun))) {
     if (!options_.cache.empty()) Coefficients({});
-    return TakeLight(std::make_shared<const SceneLight>(OrderLight(time)));
+    return TakeLight(std::make_shared<const BakedLighting>(MakeLightingRequest(time)));
   }
   const auto model = skies_.source->ForSun(summary_.sun.ToSun(), summary_.sun.distance_au);
-  composer_->SetSun(compositor::ScaledDaylight(*model, skies_.scale, {1.0, 1.0, 1.0}),
+  composer_->SetSun(compositor::ScaledSky(*model, skies_.scale, {1.0, 1.0, 1.0}),
                     scene::MarkerFromWorld(scene_.marker));
   return {};
 }
 
-void SceneRenderer::UpdateGain(ImageView<const std::uint8_t> rgb,
-                               const Transform<Camera, Marker>& camera_from_marker) {
-  using GainSource = LightSummary::GainSource;
+void SceneRenderer::UpdateExposureScale(ImageView<const std::uint8_t> rgb,
+                                        const Transform<Camera, Marker>& camera_from_marker) {
+  using ExposureScaleSource = LightSummary::ExposureScaleSource;
   if (scene_.exposure_scale) {
-    summary_.gain_source = GainSource::kScene;
-    summary_.gain = *scene_.exposure_scale;
+    summary_.exposure_scale_source = ExposureScaleSource::kScene;
+    summary_.exposure_scale = *scene_.exposure_scale;
     return;
   }
-  // Held once there is a reading to hold.
-  if (hold_gain_ && !gains_.empty()) return;
-  const auto reading = meter_ ? meter_->Measure(rgb, camera_, camera_from_marker) : std::nullopt;
-  if (reading) {
-    gains_.Add(reading->gain * skies_.print_shade, reading->error);
-    ++summary_.readings;
-    summary_.dappled_readings += reading->dappled ? 1 : 0;
-    summary_.print_lit_share = reading->lit_share;
+  // Held once there is a estimate to hold.
+  if (lock_exposure_ && !exposure_filter_.empty()) return;
+  const auto estimate = meter_ ? meter_->Measure(rgb, camera_, camera_from_marker) : std::nullopt;
+  if (estimate) {
+    exposure_filter_.Add(estimate->exposure_scale * skies_.marker_shade, estimate->error);
+    ++summary_.exposure_estimates;
+    summary_.dappled_estimates += estimate->dappled ? 1 : 0;
+    summary_.marker_sunlit_share = estimate->sunlit_share;
   }
-  summary_.gain_source = gains_.empty() ? GainSource::kGuess : GainSource::kMarker;
-  summary_.gain = gains_.empty() ? guessed_gain_ : gains_.Gain();
-  if (!gains_.empty()) summary_.gain_error = gains_.Error();
-  summary_.gain_change = gains_.Change();
+  summary_.exposure_scale_source =
+      exposure_filter_.empty() ? ExposureScaleSource::kGuess : ExposureScaleSource::kMarker;
+  summary_.exposure_scale =
+      exposure_filter_.empty() ? guessed_exposure_scale_ : exposure_filter_.ExposureScale();
+  if (!exposure_filter_.empty()) summary_.exposure_scale_error = exposure_filter_.Error();
+  summary_.exposure_scale_change = exposure_filter_.Change();
 }
 
-Result<void> SceneRenderer::UpdateLook(ImageView<const std::uint8_t> rgb,
-                                       const Transform<Camera, Marker>& camera_from_marker) {
-  using compositor::PictureLook;
-  if (!options_.match_look || frames_to_look_-- > 0) return {};
-  const auto seen =
-      compositor::MeasurePictureLook(rgb, camera_, camera_from_marker, print_, response_);
+Result<void> SceneRenderer::UpdateCameraLook(ImageView<const std::uint8_t> rgb,
+                                             const Transform<Camera, Marker>& camera_from_marker) {
+  using compositor::CameraLook;
+  if (!options_.match_look || frames_to_camera_look_-- > 0) return {};
+  const auto seen = compositor::MeasureCameraLook(rgb, camera_, camera_from_marker,
+                                                  marker_reflectance_, response_);
   if (!seen) return {};
-  frames_to_look_ = kLookStep - 1;
-  recent_looks_.push_back(*seen);
-  if (recent_looks_.size() > kLookWindow) recent_looks_.pop_front();
-  PictureLook look;
+  frames_to_camera_look_ = kLookStep - 1;
+  recent_camera_looks_.push_back(*seen);
+  if (recent_camera_looks_.size() > kLookWindow) recent_camera_looks_.pop_front();
+  CameraLook look;
   const auto median = [&](const auto& value) {
-    std::vector<double> values(recent_looks_.size());
-    std::transform(recent_looks_.begin(), recent_looks_.end(), values.begin(), value);
+    std::vector<double> values(recent_camera_looks_.size());
+    std::transform(recent_camera_looks_.begin(), recent_camera_looks_.end(), values.begin(), value);
     return Median(std::move(values));
   };
-  look.blur_px = median([](const PictureLook& l) { return l.blur_px; });
+  look.blur_px = median([](const CameraLook& l) { return l.blur_px; });
   for (int c = 0; c < 3; ++c) {
-    look.noise_constant[c] = median([c](const PictureLook& l) { return l.noise_constant[c]; });
-    look.noise_slope[c] = median([c](const PictureLook& l) { return l.noise_slope[c]; });
+    look.noise_constant[c] = median([c](const CameraLook& l) { return l.noise_constant[c]; });
+    look.noise_slope[c] = median([c](const CameraLook& l) { return l.noise_slope[c]; });
   }
-  look.neighbour_correlation = median([](const PictureLook& l) { return l.neighbour_correlation; });
-  look.channel_correlation = median([](const PictureLook& l) { return l.channel_correlation; });
+  look.neighbour_correlation = median([](const CameraLook& l) { return l.neighbour_correlation; });
+  look.channel_correlation = median([](const CameraLook& l) { return l.channel_correlation; });
   summary_.look = look;
-  return composer_->SetLook(look);
+  return composer_->SetCameraLook(look);
 }
 
 Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
                                        const Transform<Camera, Marker>& camera_from_marker,
-                                       UtcTime time, const compositor::PrintCover& cover) {
+                                       UtcTime time, const compositor::MarkerVisibility& cover) {
   times_ = {};
   if (!composer_) {
     RgbImage copy(rgb.width(), rgb.height(), rgb.channels());
@@ -303,12 +307,12 @@ Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
   PLEINAIR_RETURN_IF_ERROR(UpdateLight(time.PlusSeconds(later_s_)));
   times_.light_ms = MillisecondsSince(start);
   start = Clock::now();
-  UpdateGain(rgb, camera_from_marker);
-  PLEINAIR_RETURN_IF_ERROR(UpdateLook(rgb, camera_from_marker));
+  UpdateExposureScale(rgb, camera_from_marker);
+  PLEINAIR_RETURN_IF_ERROR(UpdateCameraLook(rgb, camera_from_marker));
   times_.meter_ms = MillisecondsSince(start);
   start = Clock::now();
   PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,
-                            composer_->Compose(rgb, camera_from_marker, summary_.gain));
+                            composer_->Compose(rgb, camera_from_marker, summary_.exposure_scale));
   compositor::PutInFront(rgb, compositor::MaskOccluder(rgb, camera_, camera_from_marker, cover),
                          &composed);
   times_.compose_ms = MillisecondsSince(start);

@@ -41,26 +41,29 @@ struct LightSummary {
   sky::SunPosition sun;
   double sun_normal_lux = 0.0;
   double sky_horizontal_lux = 0.0;
-  /// Who says what the camera's gain is; kGuess: no frame could be read and the scene gives none.
-  enum class GainSource { kMarker, kScene, kGuess };
-  GainSource gain_source = GainSource::kMarker;
-  LinearRgb gain;  ///< Display-linear value per cd/m².
-  /// See GainHistory::Error(); of kMarker.
-  LinearRgb gain_error;
-  /// See GainHistory::Change().
-  double gain_change = 1.0;
-  int readings = 0;          ///< Frames in which the marker served as a light meter.
-  int dappled_readings = 0;  ///< Of these, the ones in which leaves shade it.
-  /// Share of the print that the phantoms leave in the sun, of the last reading.
-  double print_lit_share = 0.0;
+  /// Who says what the camera's exposure scale is; kGuess: no frame could be read and the scene
+  /// gives none.
+  enum class ExposureScaleSource { kMarker, kScene, kGuess };
+  ExposureScaleSource exposure_scale_source = ExposureScaleSource::kMarker;
+  LinearRgb exposure_scale;  ///< Display-linear value per cd/m².
+  /// See ExposureFilter::Error(); of kMarker.
+  LinearRgb exposure_scale_error;
+  /// See ExposureFilter::Change().
+  double exposure_scale_change = 1.0;
+  int exposure_estimates = 0;  ///< Frames in which the marker served as a light meter.
+  int dappled_estimates = 0;   ///< Of these, the ones in which leaves shade it.
+  /// Share of the print that the phantoms leave in the sun, of the last estimate.
+  double marker_sunlit_share = 0.0;
   /// Blur and grain of the last frames; nothing where they are not matched or cannot be read.
-  std::optional<compositor::PictureLook> look;
+  std::optional<compositor::CameraLook> look;
   compositor::MeasuredLight measured;  ///< Sun, sky and heading.
 };
 
 /// Share of the readings in which leaves shade the print; 0 without any.
 inline double DappledShare(const LightSummary& light) {
-  return light.readings > 0 ? static_cast<double>(light.dappled_readings) / light.readings : 0.0;
+  return light.exposure_estimates > 0
+             ? static_cast<double>(light.dappled_estimates) / light.exposure_estimates
+             : 0.0;
 }
 
 /// Milliseconds spent in the last Render(), by stage.
@@ -91,7 +94,7 @@ class SceneRenderer {
 
   /// Which print the frames show, before the first is rendered: it is the light meter. With light
   /// that is made elsewhere it counts from the next on.
-  void SetMarkerPrint(const scene::MarkerPrint& print);
+  void SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance);
 
   /// Whether frames can tell more of the light than the scene and the user do: at least whether
   /// anything but phantoms shades the ground.
@@ -99,15 +102,15 @@ class SceneRenderer {
 
   /// Looks at a frame for the phantoms' own shadows, before the first is rendered. All the frames
   /// that are looked at share one sun: that of `time` of the first.
-  void LookAtLight(ImageView<const std::uint8_t> rgb,
-                   const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
+  void ObserveLight(ImageView<const std::uint8_t> rgb,
+                    const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
 
   /// Draws conclusions from the frames looked at: heading, sun and sky from now on.
-  void SettleLight();
+  void EstimateLight();
 
   /// The order for the light of a moment as the scene has it now. Not where there is nothing to
   /// draw.
-  LightOrder OrderLight(UtcTime time) const;
+  LightingRequest MakeLightingRequest(UtcTime time) const;
 
   /// The daylight coefficients of the scene: traced on the first call, or read from the cache.
   /// `progress` is called with the share of the work that is done, 0…1; it may be empty. Call only
@@ -120,7 +123,7 @@ class SceneRenderer {
 
   /// Takes a light over that was made elsewhere; from then on Render() only moves the sun and
   /// leaves new light to others.
-  Result<void> UseLight(std::shared_ptr<const SceneLight> light);
+  Result<void> UseLight(std::shared_ptr<const BakedLighting> light);
 
   /// Changes the scene: at once what is cheap (place, time, heading, drawing, where objects
   /// stand), with the next light the rest.
@@ -145,7 +148,7 @@ class SceneRenderer {
   /// has it, is before them.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
                           const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
-                          const compositor::PrintCover& cover = {});
+                          const compositor::MarkerVisibility& cover = {});
 
   const LightSummary& light() const { return summary_; }
   const RenderTimes& times() const { return times_; }
@@ -154,35 +157,35 @@ class SceneRenderer {
   SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene);
 
   void OverrideLight(const sky::SunPosition& sun);
-  Result<void> TakeLight(std::shared_ptr<const SceneLight> light);
+  Result<void> TakeLight(std::shared_ptr<const BakedLighting> light);
   void MoveObjects();
   Result<void> UpdateLight(UtcTime time);
-  Result<void> UpdateLook(ImageView<const std::uint8_t> rgb,
-                          const Transform<Camera, Marker>& camera_from_marker);
-  void UpdateGain(ImageView<const std::uint8_t> rgb,
-                  const Transform<Camera, Marker>& camera_from_marker);
+  Result<void> UpdateCameraLook(ImageView<const std::uint8_t> rgb,
+                                const Transform<Camera, Marker>& camera_from_marker);
+  void UpdateExposureScale(ImageView<const std::uint8_t> rgb,
+                           const Transform<Camera, Marker>& camera_from_marker);
 
   CameraModel camera_;
   CameraResponse response_;
   scene::SceneDescription scene_;
-  scene::MarkerPrint print_;
+  scene::MarkerReflectance marker_reflectance_;
   LightOptions options_;  // Without a cache rays are traced for every place of the sun.
-  compositor::DaySkies skies_;
+  compositor::SkyState skies_;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
-  std::unique_ptr<compositor::LightLook> look_;  // What was seen of the light so far.
+  std::unique_ptr<compositor::LightEstimator> estimator_;  // What was seen of the light so far.
   std::vector<compositor::PlacedModel> placed_;
   std::shared_ptr<const compositor::LightSolver> solver_;
   std::unique_ptr<compositor::Composer> composer_;
-  std::optional<compositor::LightMeter> meter_;
-  std::shared_ptr<const SceneLight> lit_;  // The light in use.
+  std::optional<compositor::MarkerLightMeter> meter_;
+  std::shared_ptr<const BakedLighting> lit_;  // The light in use.
   double later_s_ = 0.0;
   bool heading_is_edited_ = false;
-  bool hold_gain_ = false;
+  bool lock_exposure_ = false;
   bool light_from_outside_ = false;
-  compositor::GainHistory gains_;
-  LinearRgb guessed_gain_;
-  int frames_to_look_ = 0;  // Until the blur is measured again.
-  std::deque<compositor::PictureLook> recent_looks_;
+  compositor::ExposureFilter exposure_filter_;
+  LinearRgb guessed_exposure_scale_;
+  int frames_to_camera_look_ = 0;  // Until the blur is measured again.
+  std::deque<compositor::CameraLook> recent_camera_looks_;
   LightSummary summary_;
   RenderTimes times_;
 };

@@ -38,9 +38,9 @@ double SteppedSide(double length) {
 // Margin, metres, as wide as the widest kernel around `shown` metres in a map of that size. A slice
 // beside the scene shows a point of it.
 double UsefulMargin(double shown, int resolution) {
-  constexpr double kLeastShownM = 0.05;
+  constexpr double kMinShown_m = 0.05;
   const double texels = WidestKernel(resolution);
-  return std::max(shown, kLeastShownM) * texels / (resolution - 2 - 2.0 * texels);
+  return std::max(shown, kMinShown_m) * texels / (resolution - 2 - 2.0 * texels);
 }
 
 }  // namespace

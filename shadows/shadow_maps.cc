@@ -15,7 +15,7 @@ namespace {
 constexpr double kShadowBorder = 4.0;
 
 // Depth beyond the casters' own bounds, so that none is cut at the ends of the range.
-constexpr double kDepthSlackM = 0.01;
+constexpr double kDepthSlack_m = 0.01;
 
 // Highest a caster can stand above a receiver decides how far a kernel reaches.
 double KernelReach(const ShadowMapOptions& options, double depth_range_m) {
@@ -209,7 +209,7 @@ Result<int> ShadowMaps::UpdateForRegion(std::span<const ShadowCaster> casters,
   const double coarsest_texel =
       std::max(scene_size.x, scene_size.y) / options_.resolutions[options_.partitions - 1];
   const double margin = KernelReach(options_, extent.depth_max - extent.depth_min) +
-                        2.0 * kDepthSlackM + (kShadowBorder + 2.0) * coarsest_texel;
+                        2.0 * kDepthSlack_m + (kShadowBorder + 2.0) * coarsest_texel;
   // No band: whatever the objects shade lies far from the finest map's border.
   return Redraw(casters, axes, FitWindowsToRegion(axes, focus, scene, options_.partitions, margin),
                 0.0);
@@ -225,7 +225,7 @@ std::pair<double, double> ShadowMaps::DepthRange(const LightWindow& window,
     high = std::min(high, window.receivers_max);
     low = std::min(std::max(low, window.receivers_min), high);
   }
-  return {low - kDepthSlackM, high + kDepthSlackM};
+  return {low - kDepthSlack_m, high + kDepthSlack_m};
 }
 
 Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const LightAxes& axes,
@@ -236,7 +236,7 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
     all.depth_min = i == 0 ? extent.depth_min : std::min(all.depth_min, extent.depth_min);
     all.depth_max = i == 0 ? extent.depth_max : std::max(all.depth_max, extent.depth_max);
   }
-  const double reach = KernelReach(options_, all.depth_max - all.depth_min + 2.0 * kDepthSlackM);
+  const double reach = KernelReach(options_, all.depth_max - all.depth_min + 2.0 * kDepthSlack_m);
 
   int redrawn = 0;
   for (int i = 0; i < options_.partitions; ++i) {
@@ -361,9 +361,9 @@ void ShadowMaps::DrawMoments(int slice) {
     program.Set("slice", source_slice);
     program.Set("resolution", resolution);
     program.Set("axis", glm::ivec2(along_u ? 1 : 0, along_u ? 0 : 1));
-    program.Set("sigma_texels", static_cast<float>(std::clamp(
-                                    sigma_m / (along_u ? texel.x : texel.y),
-                                    options_.least_blur_texels, options_.most_blur_texels)));
+    program.Set("sigma_texels",
+                static_cast<float>(std::clamp(sigma_m / (along_u ? texel.x : texel.y),
+                                              options_.min_blur_texels, options_.max_blur_texels)));
     glDrawArrays(GL_TRIANGLES, 0, 3);
   };
   pass(first_program_, blur_target_, depth_, slice, true);

@@ -38,7 +38,7 @@ struct ShadowMapOptions {
   Metres blur_blocker_distance{1.0};
   /// Moment methods: standard deviation of the blur where that would be less than this many texels
   /// (a blur below a texel smooths nothing) or more (it would cost too much).
-  double least_blur_texels = 1.0, most_blur_texels = 4.0;
+  double min_blur_texels = 1.0, max_blur_texels = 4.0;
   /// How far a surface may lie above another before it shades it, along the ray.
   Metres bias{0.0005};
   /// Maps fitted to the view: share of a partition's side over which it fades into the next.

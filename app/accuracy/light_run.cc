@@ -68,7 +68,8 @@ LightPicture PictureOf(const std::string& recording, const ComparedPicture& comp
 }  // namespace
 
 Result<std::vector<LightPicture>> MeasureLight(const std::string& recording) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TruePicture> truths, FindKeyFrames(recording, false));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<GroundTruthImage> truths,
+                            FindKeyFrames(recording, false));
   std::vector<LightPicture> pictures;
   if (truths.empty()) return pictures;
   static std::mutex one_at_a_time;
@@ -80,7 +81,7 @@ Result<std::vector<LightPicture>> MeasureLight(const std::string& recording) {
   options.write_frames = true;
   options.write_video = false;
   PLEINAIR_RETURN_IF_ERROR(Replay(options));
-  for (const TruePicture& truth : truths) {
+  for (const GroundTruthImage& truth : truths) {
     PLEINAIR_ASSIGN_OR_RETURN(const ComparedPicture compared,
                               ComparePicture(options.output, truth, kPageWidth_px));
     pictures.push_back(PictureOf(recording, compared));

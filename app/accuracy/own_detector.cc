@@ -38,7 +38,7 @@ class OwnDetector final : public accuracy::Detector {
       PLEINAIR_ASSIGN_OR_RETURN(still_, Create(false));
     }
     tracker_ = film ? film_.get() : still_.get();
-    measurer_ = std::make_unique<session::PrintMeasurer>(camera_, options_.tracker.marker_size_m);
+    refiner_ = std::make_unique<session::MarkerRefiner>(camera_, options_.tracker.marker_size_m);
     return {};
   }
 
@@ -50,7 +50,7 @@ class OwnDetector final : public accuracy::Detector {
     const auto detected = Clock::now();
     seen.stages_ms.emplace_back("detect", Milliseconds(detected - start));
     if (options_.measure_prints) {
-      observations = measurer_->Measure(grey, std::move(observations));
+      observations = refiner_->Measure(grey, std::move(observations));
       seen.stages_ms.emplace_back("measure", Milliseconds(Clock::now() - detected));
     }
     seen.lost = static_cast<int>(tracker_->Lost().size());
@@ -93,7 +93,7 @@ class OwnDetector final : public accuracy::Detector {
   const OwnDetectorOptions options_;
   std::unique_ptr<tracker::Tracker> still_, film_;
   tracker::Tracker* tracker_ = nullptr;
-  std::unique_ptr<session::PrintMeasurer> measurer_;
+  std::unique_ptr<session::MarkerRefiner> refiner_;
 };
 
 }  // namespace

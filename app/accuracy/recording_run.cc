@@ -29,7 +29,7 @@ struct SeenFrame {
 };
 
 /// The marker whose truth is known.
-struct Anchor {
+struct ReferenceMarker {
   std::string family;
   int number = 0;
   Metres size;
@@ -41,9 +41,10 @@ struct Anchor {
 };
 
 std::unique_ptr<Detector> MakePeer(const std::string& name, const CameraModel& camera,
-                                   const Anchor& anchor) {
-  return name == "apriltag" ? accuracy::MakeAprilTagPeer(camera, anchor.family, anchor.size)
-                            : accuracy::MakeArucoPeer(camera, anchor.family, anchor.size);
+                                   const ReferenceMarker& reference_marker) {
+  return name == "apriltag"
+             ? accuracy::MakeAprilTagPeer(camera, reference_marker.family, reference_marker.size)
+             : accuracy::MakeArucoPeer(camera, reference_marker.family, reference_marker.size);
 }
 
 /// One recording from opening to records.
@@ -54,7 +55,7 @@ class RecordingRun {
 
   Result<std::vector<FrameRecord>> Measure() {
     PLEINAIR_RETURN_IF_ERROR(LookThrough());
-    PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
+    PLEINAIR_RETURN_IF_ERROR(ChooseReferenceMarker());
     PLEINAIR_RETURN_IF_ERROR(FindTruth());
     for (SeenFrame& frame : frames_) {
       if (truth_.contains(frame.index)) AddRecord(kOwnName, frame.index, std::move(frame.seen));
@@ -90,7 +91,7 @@ class RecordingRun {
     }
   }
 
-  Result<void> ChooseAnchor() {
+  Result<void> ChooseReferenceMarker() {
     anchor_.size = Metres(scene_.marker.size_m);
     std::map<std::pair<std::string, int>, int> observations;
     for (const SeenFrame& frame : frames_) {
@@ -215,7 +216,7 @@ class RecordingRun {
   std::int64_t period_ns_ = 0;
   std::optional<std::int64_t> start_ns_;  ///< Of the recording, by its own clock's stamps.
   std::vector<SeenFrame> frames_;
-  Anchor anchor_;
+  ReferenceMarker anchor_;
   bool is_aligned_ = false;
   std::map<std::int64_t, MarkerTruth> truth_;  ///< By frame.
   std::vector<FrameRecord> records_;

@@ -49,12 +49,12 @@ Bad BadnessOf(const FrameRecord& record) {
   return bad;
 }
 
-std::string Outline(const std::array<Vec2, 4>& corners, const char* colour) {
+std::string Outline(const std::array<Vec2, 4>& corners, const char* color) {
   std::string points;
   for (const Vec2 corner : corners)
     points += fmt::format("{:.1f},{:.1f} ", corner.x + 0.5, corner.y + 0.5);
   return fmt::format("<polygon points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>",
-                     points, colour);
+                     points, color);
 }
 
 std::string PictureHtml(const Bad& bad, const GreyImage& grey) {

@@ -291,7 +291,7 @@ class SceneRun {
   // A fifth of the picture a side, there where most pixels are penumbra.
   PixelWindow MostShadedWindow() const {
     PixelWindow best{0, 0, options_.width / 5, options_.height / 5};
-    int most = -1;
+    int maximum = -1;
     for (int j = 0; j < 9; ++j) {
       for (int i = 0; i < 9; ++i) {
         PixelWindow window = best;
@@ -304,8 +304,8 @@ class SceneRun {
             if (truth_picture_.depth_m(x, y) > 0.0F && v > 0.01F && v < 0.99F) ++count;
           }
         }
-        if (count > most) {
-          most = count;
+        if (count > maximum) {
+          maximum = count;
           best = window;
         }
       }

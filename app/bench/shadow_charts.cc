@@ -15,26 +15,26 @@ namespace pleinair::app {
 namespace {
 
 constexpr double kWidth = 760, kHeight = 460, kLeft = 70, kRight = 150, kTop = 40, kBottom = 50;
-constexpr exports::DrawingColour kInk{40, 40, 40}, kGrid{225, 225, 225};
+constexpr exports::DrawingColor kInk{40, 40, 40}, kGrid{225, 225, 225};
 // By method, in the order of ShadowMethods().
-constexpr std::array<exports::DrawingColour, 17> kColours{{{120, 120, 120},
-                                                           {158, 202, 225},
-                                                           {66, 146, 198},
-                                                           {8, 81, 156},
-                                                           {0, 128, 128},
-                                                           {253, 190, 110},
-                                                           {230, 130, 40},
-                                                           {166, 86, 40},
-                                                           {150, 100, 200},
-                                                           {90, 60, 140},
-                                                           {190, 210, 90},
-                                                           {110, 160, 60},
-                                                           {255, 170, 190},
-                                                           {250, 120, 150},
-                                                           {240, 70, 90},
-                                                           {215, 20, 40},
-                                                           {140, 0, 0}}};
-constexpr exports::DrawingColour kFront{60, 60, 60};
+constexpr std::array<exports::DrawingColor, 17> kColors{{{120, 120, 120},
+                                                         {158, 202, 225},
+                                                         {66, 146, 198},
+                                                         {8, 81, 156},
+                                                         {0, 128, 128},
+                                                         {253, 190, 110},
+                                                         {230, 130, 40},
+                                                         {166, 86, 40},
+                                                         {150, 100, 200},
+                                                         {90, 60, 140},
+                                                         {190, 210, 90},
+                                                         {110, 160, 60},
+                                                         {255, 170, 190},
+                                                         {250, 120, 150},
+                                                         {240, 70, 90},
+                                                         {215, 20, 40},
+                                                         {140, 0, 0}}};
+constexpr exports::DrawingColor kFront{60, 60, 60};
 
 struct Axis {
   double low = 1e30, high = 0.0, start = 0.0, length = 0.0;
@@ -47,7 +47,7 @@ struct Axis {
   }
 };
 
-void AddGrid(const Axis& axis, bool along_x, exports::LineDrawing* drawing) {
+void AddGrid(const Axis& axis, bool along_x, exports::VectorDrawing* drawing) {
   for (int decade = -4; decade <= 4; ++decade) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double value = factor * std::pow(10.0, decade);
@@ -67,14 +67,14 @@ void AddGrid(const Axis& axis, bool along_x, exports::LineDrawing* drawing) {
 
 /// The Pareto front: what nothing else is both quicker and better than, as a dashed stair.
 void AddFront(const ShadowBenchResult& result, const std::string& scene, const Axis& x,
-              const Axis& y, exports::LineDrawing* drawing) {
+              const Axis& y, exports::VectorDrawing* drawing) {
   std::vector<std::pair<double, double>> rows;
   for (const ShadowBenchRow& row : result.rows) {
     if (row.scene != scene) continue;
     rows.emplace_back(std::max(row.time.cpu_ms, 0.01), std::max(row.errors.rmse, 1e-4));
   }
   std::sort(rows.begin(), rows.end());
-  exports::DrawingLine front{.points = {}, .colour = kFront, .width = 1.2, .dashed = true};
+  exports::DrawingLine front{.points = {}, .color = kFront, .width = 1.2, .dashed = true};
   double best = 1e30;
   for (const auto& [ms, rmse] : rows) {
     if (rmse >= best) continue;
@@ -85,8 +85,8 @@ void AddFront(const ShadowBenchResult& result, const std::string& scene, const A
   if (front.points.size() > 1) drawing->lines.push_back(front);
 }
 
-exports::LineDrawing Chart(const ShadowBenchResult& result, const std::string& scene) {
-  exports::LineDrawing drawing;
+exports::VectorDrawing Chart(const ShadowBenchResult& result, const std::string& scene) {
+  exports::VectorDrawing drawing;
   drawing.width = kWidth;
   drawing.height = kHeight;
   drawing.title = "Error over time: " + scene;
@@ -113,19 +113,19 @@ exports::LineDrawing Chart(const ShadowBenchResult& result, const std::string& s
   AddFront(result, scene, x, y, &drawing);
   double legend = kTop + 8;
   for (const shadows::ShadowMethodTraits& traits : shadows::ShadowMethods()) {
-    const exports::DrawingColour colour = kColours[static_cast<std::size_t>(traits.method)];
+    const exports::DrawingColor color = kColors[static_cast<std::size_t>(traits.method)];
     exports::DrawingLine line;
-    line.colour = colour;
+    line.color = color;
     line.width = traits.name.starts_with("ours") ? 3.0 : 1.5;
     for (const ShadowBenchRow& row : result.rows) {
       if (row.scene != scene || row.method != traits.method) continue;
       line.points.push_back(
           {x.At(std::max(row.time.cpu_ms, 0.01)), y.At(std::max(row.errors.rmse, 1e-4))});
-      drawing.discs.push_back({line.points.back(), line.width + 1.5, colour});
+      drawing.discs.push_back({line.points.back(), line.width + 1.5, color});
     }
     if (line.points.empty()) continue;
     if (line.points.size() > 1) drawing.lines.push_back(line);
-    drawing.discs.push_back({{kWidth - kRight + 22, legend}, 4.0, colour});
+    drawing.discs.push_back({{kWidth - kRight + 22, legend}, 4.0, color});
     drawing.texts.push_back({{kWidth - kRight + 78, legend}, 12.0, std::string(traits.name), kInk});
     legend += 22;
   }

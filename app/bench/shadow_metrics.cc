@@ -156,7 +156,7 @@ Result<ClosedFormErrors> MeasureClosedForms(const shadows::BenchScene& scene,
   if (count > 1.0) {
     errors.width_slope = (count * sum_xy - sum_x * sum_y) / (count * sum_xx - sum_x * sum_x);
   }
-  for (const shadows::ContactLine& contact : scene.contacts) {
+  for (const shadows::ContactEdge& contact : scene.contacts) {
     // Half a millimetre a step, from the foot outwards; the first dark point ends the gap.
     constexpr double kStepM = 0.0005;
     const shadows::ProbeGrid grid{contact.middle - glm::dvec3(0.5 * contact.length, 0.0, 0.0),

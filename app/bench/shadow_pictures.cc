@@ -102,12 +102,12 @@ RgbImage ErrorPicture(const shadows::VisibilityPicture& result,
     for (int x = 0; x < picture.width(); ++x) {
       const float error = result.visibility(x, y) - truth.visibility(x, y);
       const bool compared = IsCompared(result.depth_m(x, y), truth.depth_m(x, y));
-      const float least = 1.0F - std::min(std::abs(error), 1.0F);
-      const float red = error < 0.0F ? least : 1.0F, blue = error > 0.0F ? least : 1.0F;
-      const std::array<float, 3> colour{red, least, blue};
+      const float minimum = 1.0F - std::min(std::abs(error), 1.0F);
+      const float red = error < 0.0F ? minimum : 1.0F, blue = error > 0.0F ? minimum : 1.0F;
+      const std::array<float, 3> color{red, minimum, blue};
       for (int c = 0; c < 3; ++c) {
         picture(x, y, c) = static_cast<std::uint8_t>(
-            std::lround(255.0F * (compared ? colour[static_cast<std::size_t>(c)] : 0.75F)));
+            std::lround(255.0F * (compared ? color[static_cast<std::size_t>(c)] : 0.75F)));
       }
     }
   }

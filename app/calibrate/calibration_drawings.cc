@@ -13,10 +13,10 @@ namespace {
 using tracker::LensCalibration;
 
 constexpr double kWidth = 800.0;
-constexpr exports::DrawingColour kSoft{190, 188, 182}, kInk{60, 66, 74}, kBlue{44, 98, 181},
+constexpr exports::DrawingColor kSoft{190, 188, 182}, kInk{60, 66, 74}, kBlue{44, 98, 181},
     kRed{194, 69, 45};
 
-exports::DrawingColour Between(exports::DrawingColour a, exports::DrawingColour b, double share) {
+exports::DrawingColor Between(exports::DrawingColor a, exports::DrawingColor b, double share) {
   const auto mix = [&](std::uint8_t from, std::uint8_t to) {
     return static_cast<std::uint8_t>(std::lround(from + (to - from) * share));
   };
@@ -24,18 +24,18 @@ exports::DrawingColour Between(exports::DrawingColour a, exports::DrawingColour 
 }
 
 /// Blue, green, ochre, red.
-exports::DrawingColour Heat(double share) {
-  constexpr exports::DrawingColour kSteps[] = {kBlue, {47, 125, 79}, {214, 160, 40}, kRed};
+exports::DrawingColor Heat(double share) {
+  constexpr exports::DrawingColor kSteps[] = {kBlue, {47, 125, 79}, {214, 160, 40}, kRed};
   const double at = std::clamp(share, 0.0, 1.0) * 3.0;
   const int step = std::min(2, static_cast<int>(at));
   return Between(kSteps[step], kSteps[step + 1], at - step);
 }
 
 /// A drawing of the picture, with its frame; pixels are `scale` units large.
-exports::LineDrawing PictureFrame(const CameraModel& camera, const std::string& title,
-                                  double* scale) {
+exports::VectorDrawing PictureFrame(const CameraModel& camera, const std::string& title,
+                                    double* scale) {
   *scale = kWidth / camera.width;
-  exports::LineDrawing drawing;
+  exports::VectorDrawing drawing;
   drawing.width = kWidth;
   drawing.height = camera.height * *scale;
   drawing.title = title;
@@ -72,10 +72,10 @@ std::vector<Vec2> Outline(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-exports::LineDrawing CoverageDrawing(const LensCalibration& calibration) {
+exports::VectorDrawing CoverageDrawing(const LensCalibration& calibration) {
   const CameraModel& camera = calibration.fit.camera;
   double scale = 1.0;
-  exports::LineDrawing drawing =
+  exports::VectorDrawing drawing =
       PictureFrame(camera,
                    fmt::format("{} views cover {:.0f} % of the picture", calibration.views.size(),
                                100.0 * calibration.coverage.Share()),
@@ -130,9 +130,9 @@ std::vector<ResidualRegion> ResidualRegions(const LensCalibration& calibration) 
   return regions;
 }
 
-exports::LineDrawing ResidualDrawing(const LensCalibration& calibration) {
+exports::VectorDrawing ResidualDrawing(const LensCalibration& calibration) {
   double scale = 1.0;
-  exports::LineDrawing drawing =
+  exports::VectorDrawing drawing =
       PictureFrame(calibration.fit.camera, "Residuals by region", &scale);
   const double cell_width = kWidth / kRegionColumns, cell_height = drawing.height / kRegionRows;
   for (int i = 1; i < kRegionColumns; ++i) {
@@ -157,10 +157,10 @@ exports::LineDrawing ResidualDrawing(const LensCalibration& calibration) {
       continue;
     }
     const Vec2 end = middle + region.mean_px * arrow_scale;
-    const exports::DrawingColour colour =
+    const exports::DrawingColor color =
         Heat(Norm(region.mean_px) / std::max(calibration.rms_px, 1e-12));
-    drawing.lines.push_back({{middle, end}, colour, 2.5, false});
-    drawing.discs.push_back({middle, 3.0, colour});
+    drawing.lines.push_back({{middle, end}, color, 2.5, false});
+    drawing.discs.push_back({middle, 3.0, color});
     drawing.texts.push_back({label, 15.0, fmt::format("{:.3f} px", region.rms_px), kInk});
   }
   drawing.texts.push_back(
@@ -171,10 +171,10 @@ exports::LineDrawing ResidualDrawing(const LensCalibration& calibration) {
   return drawing;
 }
 
-exports::LineDrawing DistortionDrawing(const LensCalibration& calibration) {
+exports::VectorDrawing DistortionDrawing(const LensCalibration& calibration) {
   const CameraModel& camera = calibration.fit.camera;
   double scale = 1.0;
-  exports::LineDrawing drawing = PictureFrame(camera, "Distortion", &scale);
+  exports::VectorDrawing drawing = PictureFrame(camera, "Distortion", &scale);
   const auto add_line = [&](bool upright, double at_px) {
     const int length = upright ? camera.height : camera.width;
     exports::DrawingLine plain{{}, kSoft, 1.0, true}, bent{{}, kBlue, 1.6, false};
@@ -200,12 +200,12 @@ exports::LineDrawing DistortionDrawing(const LensCalibration& calibration) {
   return drawing;
 }
 
-exports::LineDrawing PlacesDrawing(const LensCalibration& calibration) {
+exports::VectorDrawing PlacesDrawing(const LensCalibration& calibration) {
   struct Side {
     Vec2 from, to;
   };
   const CameraModel& camera = calibration.fit.camera;
-  exports::LineDrawing drawing;
+  exports::VectorDrawing drawing;
   drawing.width = kWidth;
   drawing.height = 0.45 * kWidth;
   drawing.title = "Where the board stood";
@@ -214,19 +214,19 @@ exports::LineDrawing PlacesDrawing(const LensCalibration& calibration) {
   std::vector<Side> above, beside;
   for (std::size_t i = 0; i < calibration.views.size(); ++i) {
     const auto& on_board = calibration.views[i].on_board_m;
-    Vec2 least = on_board.front(), most = least;
+    Vec2 minimum = on_board.front(), maximum = minimum;
     for (const Vec2 at : on_board) {
-      least = {std::min(least.x, at.x), std::min(least.y, at.y)};
-      most = {std::max(most.x, at.x), std::max(most.y, at.y)};
+      minimum = {std::min(minimum.x, at.x), std::min(minimum.y, at.y)};
+      maximum = {std::max(maximum.x, at.x), std::max(maximum.y, at.y)};
     }
     const auto in_camera = [&](double x, double y) {
       return (calibration.fit.camera_from_board[i] * Point<Marker>{{x, y, 0.0}}).xyz;
     };
-    const Vec2 middle = (least + most) * 0.5;
+    const Vec2 middle = (minimum + maximum) * 0.5;
     // Both middle lines of the board: from above one of them is seen at its full length.
     for (const auto& [a, b] :
-         {std::pair{in_camera(least.x, middle.y), in_camera(most.x, middle.y)},
-          std::pair{in_camera(middle.x, least.y), in_camera(middle.x, most.y)}}) {
+         {std::pair{in_camera(minimum.x, middle.y), in_camera(maximum.x, middle.y)},
+          std::pair{in_camera(middle.x, minimum.y), in_camera(middle.x, maximum.y)}}) {
       above.push_back({{a.x, a.z}, {b.x, b.z}});
       beside.push_back({{a.y, a.z}, {b.y, b.z}});
       farthest = std::max({farthest, a.z, b.z});

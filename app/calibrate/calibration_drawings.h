@@ -7,18 +7,18 @@ namespace pleinair::app {
 
 /// Where in the picture the board was seen: each view's outline, each corner coloured by how far
 /// off it is (blue none, red three times the RMS), and crosses where nothing was seen.
-exports::LineDrawing CoverageDrawing(const tracker::LensCalibration& calibration);
+exports::VectorDrawing CoverageDrawing(const tracker::LensCalibration& calibration);
 
 /// Residuals by regions of the picture: the mean as an arrow, drawn `kArrowScale` times as long,
 /// and the RMS in px. Arrows that point the same way beside each other are what the lens model
 /// misses.
-exports::LineDrawing ResidualDrawing(const tracker::LensCalibration& calibration);
+exports::VectorDrawing ResidualDrawing(const tracker::LensCalibration& calibration);
 
 /// What the lens does to a grid: without distortion (grey, dashed) and with it.
-exports::LineDrawing DistortionDrawing(const tracker::LensCalibration& calibration);
+exports::VectorDrawing DistortionDrawing(const tracker::LensCalibration& calibration);
 
 /// Where the board stood, from above and from the side, with the camera's field of view.
-exports::LineDrawing PlacesDrawing(const tracker::LensCalibration& calibration);
+exports::VectorDrawing PlacesDrawing(const tracker::LensCalibration& calibration);
 
 /// A part of the picture and its residuals.
 struct ResidualRegion {

@@ -20,7 +20,7 @@ using tracker::LensCalibration;
 
 constexpr int kDrawingWidth_px = 800;
 constexpr int kThumbnailWidth_px = 360;
-constexpr std::size_t kMostThumbnails = 24;
+constexpr std::size_t kMaxThumbnails = 24;
 
 constexpr const char* kStyle =
     "svg{max-width:100%;height:auto;border-radius:8px;display:block}"
@@ -33,7 +33,7 @@ std::string Card(const std::string& figure, const std::string& caption) {
                      files::EscapeMarkup(figure), files::EscapeMarkup(caption));
 }
 
-std::string Figure(const exports::LineDrawing& drawing, const std::string& caption) {
+std::string Figure(const exports::VectorDrawing& drawing, const std::string& caption) {
   std::string svg = exports::DrawingSvg(drawing, kDrawingWidth_px);
   svg.erase(0, svg.find("<svg"));
   return "<figure>" + svg + "<figcaption>" + files::EscapeMarkup(caption) +
@@ -76,7 +76,7 @@ std::string Tried(const LensCalibration& calibration) {
   return html + "</table>\n";
 }
 
-double LargestRms(const LensCalibration& calibration) {
+double MaxRms(const LensCalibration& calibration) {
   double largest = 0.0;
   for (const auto& residuals : calibration.residuals_px) {
     largest = std::max(largest, tracker::Rms(residuals));
@@ -109,7 +109,7 @@ std::string Thumbnail(const CollectedView& view, const LensCalibration& calibrat
 }
 
 std::string Views(const LensCalibration& calibration, const std::vector<CollectedView>& views) {
-  const double largest = LargestRms(calibration);
+  const double largest = MaxRms(calibration);
   std::string table = "<table><tr><th>view</th><th>corners</th><th>RMS</th><th></th></tr>\n";
   std::string thumbnails;
   std::size_t shown = 0;
@@ -123,7 +123,7 @@ std::string Views(const LensCalibration& calibration, const std::vector<Collecte
     const auto source = std::find_if(views.begin(), views.end(), [&](const CollectedView& each) {
       return each.view.name == view.name && !each.grey.empty();
     });
-    if (source != views.end() && shown++ < kMostThumbnails) {
+    if (source != views.end() && shown++ < kMaxThumbnails) {
       thumbnails += Thumbnail(*source, calibration, used);
     }
   }

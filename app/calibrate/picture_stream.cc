@@ -65,7 +65,7 @@ class Camera final : public PictureStream {
   Result<std::optional<NamedPicture>> Next() override {
     while (!InterruptGuard::Interrupted()) {
       auto frame = camera_->NextWithin(std::chrono::milliseconds(200));
-      for (const devices::CameraEvent& event : camera_->TakeEvents()) Tell(event);
+      for (const devices::CameraEvent& event : camera_->TakeEvents()) Report(event);
       if (frame) {
         return NamedPicture{"frame " + std::to_string(frame->index), std::move(frame->grey)};
       }
@@ -77,7 +77,7 @@ class Camera final : public PictureStream {
   bool is_live() const override { return true; }
 
  private:
-  static void Tell(const devices::CameraEvent& event) {
+  static void Report(const devices::CameraEvent& event) {
     using Kind = devices::CameraEvent::Kind;
     if (event.kind == Kind::kGone) std::cerr << "The camera is gone; waiting for it.\n";
     if (event.kind == Kind::kStalled) std::cerr << "The camera sends nothing; waiting for it.\n";

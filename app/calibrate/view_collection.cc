@@ -32,7 +32,7 @@ Result<void> CheckSize(const NamedPicture& picture, const std::string& first_nam
 }
 
 /// After each view of a camera, what is still missing.
-void TellProgress(const Collection& collection, const tracker::ViewCoverage& coverage) {
+void ReportProgress(const Collection& collection, const tracker::ViewCoverage& coverage) {
   std::string bare;
   constexpr const char* kHalves[] = {"left", "right", "top", "bottom"};
   const auto halves = coverage.Halves();
@@ -66,8 +66,8 @@ Result<Collection> CollectViews(PictureStream& pictures, tracker::BoardFinder& f
   GreyImage first;
   const auto start = Clock::now();
   ProgressBar bar("Looking for the board", pictures.Count(), "pictures");
-  const auto most = static_cast<std::size_t>(options.most_views);
-  while (collection.views.size() < most || !pictures.is_film()) {
+  const auto maximum = static_cast<std::size_t>(options.max_views);
+  while (collection.views.size() < maximum || !pictures.is_film()) {
     if (pictures.is_live() && options.seconds &&
         std::chrono::duration<double>(Clock::now() - start).count() > *options.seconds) {
       break;
@@ -94,7 +94,7 @@ Result<Collection> CollectViews(PictureStream& pictures, tracker::BoardFinder& f
     view->name = picture->name;
     coverage.Add(view->observed_px, collection.width, collection.height);
     collection.views.push_back({*std::move(view), std::move(picture->grey)});
-    if (pictures.is_live() && !options.quiet) TellProgress(collection, coverage);
+    if (pictures.is_live() && !options.quiet) ReportProgress(collection, coverage);
   }
   if (collection.looked_at == 0) {
     return InputError("", "not a single picture came", "see whether the camera sends any");

@@ -24,7 +24,7 @@ struct Collection {
 };
 
 struct CollectionOptions {
-  int most_views = 60;
+  int max_views = 60;
   std::optional<double> seconds;  ///< For cameras.
   bool quiet = false;             ///< Says nothing of single views.
 };

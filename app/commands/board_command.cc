@@ -60,14 +60,14 @@ Result<exports::Board> CheckBoard(const Options& options) {
                                   board.Count(), board.first, tracker::kGolayNumbers - 1),
                       "start lower or print fewer");
   }
-  board.gap_mm = options.gap_mm.value_or(exports::SmallestGap_mm(board.size_mm) * 2.0);
-  if (!(board.gap_mm >= exports::SmallestGap_mm(board.size_mm)) ||
-      board.gap_mm > exports::kLargestMarker_mm) {
+  board.gap_mm = options.gap_mm.value_or(exports::MinGap_mm(board.size_mm) * 2.0);
+  if (!(board.gap_mm >= exports::MinGap_mm(board.size_mm)) ||
+      board.gap_mm > exports::kMaxMarker_mm) {
     return InputError("--gap-mm",
                       fmt::format("a gap of {:g} mm leaves markers of {:g} mm without their white "
                                   "margin",
                                   board.gap_mm, board.size_mm),
-                      fmt::format("give {:g} mm or more", exports::SmallestGap_mm(board.size_mm)));
+                      fmt::format("give {:g} mm or more", exports::MinGap_mm(board.size_mm)));
   }
   return board;
 }
@@ -140,7 +140,7 @@ Result<Printed> PrintSquares(const Options& options, exports::PageSize page) {
   }
   double square_mm = options.square_mm.value_or(0.0);
   if (!options.square_mm) {
-    PLEINAIR_ASSIGN_OR_RETURN(square_mm, exports::LargestSquare_mm(board, page));
+    PLEINAIR_ASSIGN_OR_RETURN(square_mm, exports::MaxSquare_mm(board, page));
   }
   board.square_m = square_mm * 1e-3;
   if (charuco) {
@@ -212,7 +212,7 @@ void AddBoardCommand(CLI::App& app, CommandResult& result) {
   of_markers.push_back(
       command->add_option("--size-mm", options->board.size_mm, "Outer edge of each black square")
           ->type_name("MM")
-          ->check(CLI::Range(exports::kSmallestMarker_mm, exports::kLargestMarker_mm))
+          ->check(CLI::Range(exports::kMinMarker_mm, exports::kMaxMarker_mm))
           ->capture_default_str());
   of_markers.push_back(
       command
@@ -236,12 +236,12 @@ void AddBoardCommand(CLI::App& app, CommandResult& result) {
   command
       ->add_option("--square-mm", options->square_mm,
                    "Side of a square; default: the most whole millimetres that fit the page")
-      ->check(CLI::Range(exports::kSmallestMarker_mm, exports::kLargestMarker_mm))
+      ->check(CLI::Range(exports::kMinMarker_mm, exports::kMaxMarker_mm))
       ->type_name("MM");
   command
       ->add_option("--marker-mm", options->marker_mm,
                    "Side of a ChArUco marker's black square; default 0.75 of a square")
-      ->check(CLI::Range(1.0, exports::kLargestMarker_mm))
+      ->check(CLI::Range(1.0, exports::kMaxMarker_mm))
       ->type_name("MM");
   command->add_option("--page", options->page, "A5 to A0, letter, A4-landscape or 300x400 in mm")
       ->type_name("PAGE")

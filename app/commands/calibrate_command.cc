@@ -144,7 +144,7 @@ std::map<std::string, double> Notes(const LensCalibration& calibration) {
 }
 
 Result<void> WriteCoverage(const std::string& file, const LensCalibration& calibration) {
-  const exports::LineDrawing drawing = CoverageDrawing(calibration);
+  const exports::VectorDrawing drawing = CoverageDrawing(calibration);
   constexpr int kWidth_px = 1200;
   if (file.ends_with(".svg"))
     return WriteFileAtomically(file, exports::DrawingSvg(drawing, kWidth_px));
@@ -268,7 +268,7 @@ Result<void> Run(const Options& options) {
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(const auto pictures, OpenPictures(options.sources, requested));
   CollectionOptions collection_options;
-  collection_options.most_views = options.views;
+  collection_options.max_views = options.views;
   collection_options.seconds = options.seconds;
   PLEINAIR_ASSIGN_OR_RETURN(Collection collection,
                             CollectViews(*pictures, *finder, collection_options));

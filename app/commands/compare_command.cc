@@ -80,7 +80,8 @@ void Print(const Options& options, const Comparison& comparison) {
 }
 
 Result<void> Run(const Options& options) {
-  PLEINAIR_ASSIGN_OR_RETURN(const auto truths, FindTruePictures(options.truth, options.glossy));
+  PLEINAIR_ASSIGN_OR_RETURN(const auto truths,
+                            FindGroundTruthImages(options.truth, options.glossy));
   Comparison comparison;
   comparison.command = "pleinair compare " + options.pictures + " " + options.truth;
   if (options.glossy) comparison.command += " --glossy";
@@ -90,7 +91,7 @@ Result<void> Run(const Options& options) {
   const int width_px = options.report.empty() ? 0 : kReportWidth_px;
   {
     ProgressBar bar("Comparing", static_cast<std::int64_t>(truths.size()), "pictures");
-    for (const TruePicture& truth : truths) {
+    for (const GroundTruthImage& truth : truths) {
       PLEINAIR_ASSIGN_OR_RETURN(ComparedPicture compared,
                                 ComparePicture(options.pictures, truth, width_px));
       scores.push_back(compared.scores);

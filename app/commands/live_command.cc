@@ -196,8 +196,8 @@ Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Argum
         std::chrono::duration<double>(Clock::now() - start).count() >= *arguments.seconds) {
       break;
     }
-    TellEvents(source.camera, arguments.json);
-    if (const auto interval = report->Poll(session)) Tell(*interval, arguments.json);
+    ReportEvents(source.camera, arguments.json);
+    if (const auto interval = report->Poll(session)) Report(*interval, arguments.json);
     PLEINAIR_ASSIGN_OR_RETURN(auto drawn, session.Draw(std::chrono::milliseconds(50)));
     if (drawn) last = std::move(drawn->picture);
   }
@@ -221,8 +221,8 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   options.ui_scale = arguments.ui_scale;
   options.screenshots = arguments.screenshots;
   options.poll_camera = [&] {
-    if (const auto interval = report->Poll(session)) Tell(*interval, arguments.json);
-    return TellEvents(source.camera, arguments.json);
+    if (const auto interval = report->Poll(session)) Report(*interval, arguments.json);
+    return ReportEvents(source.camera, arguments.json);
   };
   options.width = window.width;
   options.height = window.height;
@@ -288,11 +288,11 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   LiveReport report(arguments.report_every_s.value_or(arguments.json ? kReportEvery_s : 0.0));
   auto last = arguments.headless ? DrawAll(*session, source, arguments, &report)
                                  : ShowAll(*session, window, source, arguments, scene, &report);
-  TellEvents(source.camera, arguments.json);
-  TellControls(source.camera);
+  ReportEvents(source.camera, arguments.json);
+  ReportControls(source.camera);
   session->Stop();
-  if (const auto interval = report.Finish(*session)) Tell(*interval, arguments.json);
-  Tell(session->statistics(), arguments.json);
+  if (const auto interval = report.Finish(*session)) Report(*interval, arguments.json);
+  Report(session->statistics(), arguments.json);
   if (session->FailedToKeepLight()) {
     std::cerr << "warning: " << CouldNotKeepLight(arguments.light.cache) << '\n';
   }

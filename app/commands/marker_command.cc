@@ -41,7 +41,7 @@ constexpr const char* kExamples =
 
 constexpr const char* kIdPattern = "{id}";
 // Fewer pixels than modules cannot show them; the upper end is 400 megapixels.
-constexpr int kFewestPixels = sg::kModules;
+constexpr int kMinPixels = sg::kModules;
 constexpr int kMaxPixels = 20'000;
 
 struct Options {
@@ -104,7 +104,7 @@ void Print(const nlohmann::json& object) {
 Result<void> WriteBarePrint(const fs::path& file, int number, const Options& options) {
   const int pixels = *options.pixels;
   const double side_m = options.size_mm * 1e-3 * sg::kModules / sg::kEdge;
-  Image<std::uint8_t> picture = exports::RasterizePrint(tracker::SgMarkerPattern(number), pixels);
+  Image<std::uint8_t> picture = exports::RasterizeMarker(tracker::SgMarkerPattern(number), pixels);
   PLEINAIR_ASSIGN_OR_RETURN(const std::string png,
                             exports::EncodeGrayPng(picture.view(), pixels / side_m));
   PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(file, png));
@@ -215,7 +215,7 @@ void AddMarkerCommand(CLI::App& app, CommandResult& result) {
       ->required();
   command->add_option("--size-mm", options->size_mm, "Outer edge of the black square")
       ->type_name("MM")
-      ->check(CLI::Range(exports::kSmallestMarker_mm, exports::kLargestMarker_mm))
+      ->check(CLI::Range(exports::kMinMarker_mm, exports::kMaxMarker_mm))
       ->capture_default_str();
   CLI::Option* page =
       command
@@ -228,7 +228,7 @@ void AddMarkerCommand(CLI::App& app, CommandResult& result) {
                    "The bare print with its white margin as a PNG of N x N pixels; multiples of 48 "
                    "are sharpest")
       ->type_name("N")
-      ->check(CLI::Range(kFewestPixels, kMaxPixels))
+      ->check(CLI::Range(kMinPixels, kMaxPixels))
       ->excludes(page);
   command
       ->add_option("-o,--output", options->output,

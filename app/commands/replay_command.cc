@@ -98,7 +98,7 @@ std::string CommandText(const Arguments& arguments) {
   }
   const compositor::LightOverrides& given = light.overrides;
   if (given.max_patches) text += " --light-patches " + std::to_string(*given.max_patches);
-  if (given.as_stated) text += " --light stated";
+  if (given.as_described) text += " --light stated";
   if (!light.match_look) text += " --look clean";
   if (light.hands_in_front) text += " --hands";
   if (given.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *given.sun_to_sky);
@@ -178,7 +178,8 @@ Result<void> Run(const CLI::App& command, Arguments& arguments) {
     return {};
   }
   std::cerr << report.path.size() << " of " << report.frames << " frames have a pose";
-  if (report.anchor) std::cerr << " (marker " << report.anchor->ToString() << ")";
+  if (report.reference_marker)
+    std::cerr << " (marker " << report.reference_marker->ToString() << ")";
   std::cerr << "; ";
   std::cerr << "results in " << OneLine(arguments.output) << ":";
   for (const std::string& output : report.outputs) std::cerr << ' ' << output;

@@ -104,7 +104,7 @@ Result<void> RunMoment(const SkyOptions& options, const sky::SkySource& source,
     picture.erase("model");
     if (file->kind == SkyFileKind::kPng) {
       const SkyExposure exposure = ExposureFor(*file, light);
-      picture["gain_per_cd_m2"] = exposure.gain;
+      picture["gain_per_cd_m2"] = exposure.exposure_scale;
       picture["ev100"] = exposure.Ev100();
     } else {
       picture["value_per_cd_m2"] = file->scale;

@@ -35,7 +35,7 @@ constexpr const char* kExamples =
 
 constexpr int kFirstYear = 1678;
 constexpr int kLastYear = 2261;
-constexpr int kMostDays = 3660;
+constexpr int kMaxDays = 3660;
 
 struct Options {
   ObserverOptions observer;
@@ -144,7 +144,7 @@ void AddSunCommand(CLI::App& app, CommandResult& result) {
   CLI::Option* days =
       command->add_option("--days", options->days, "A table of that many days from --day on")
           ->type_name("N")
-          ->check(CLI::Range(1, kMostDays))
+          ->check(CLI::Range(1, kMaxDays))
           ->needs(day);
   CLI::Option* path =
       command->add_option("--path", options->path, "Sun-path picture of a year, .svg or .png")
@@ -157,7 +157,7 @@ void AddSunCommand(CLI::App& app, CommandResult& result) {
                           ->needs(path);
   CLI::Option* size = command->add_option("--size", options->size_px, "Its width in pixels")
                           ->type_name("N")
-                          ->check(CLI::Range(kSmallestSunPath_px, kLargestSunPath_px))
+                          ->check(CLI::Range(kMinSunPath_px, kMaxSunPath_px))
                           ->capture_default_str()
                           ->needs(path);
   CLI::Option* offset =

@@ -18,7 +18,7 @@ Result<void> WriteSunPath(const sky::Observer& observer, const SunPathOptions& o
     return InputError(options.file, "is neither SVG nor PNG",
                       "name a file that ends in .svg or .png");
   }
-  const exports::LineDrawing drawing =
+  const exports::VectorDrawing drawing =
       DrawSunPath({observer, options.year, options.offset, options.model, options.moment});
   if (svg) {
     PLEINAIR_RETURN_IF_ERROR(

@@ -10,8 +10,8 @@
 
 namespace pleinair::app {
 
-constexpr int kSmallestSunPath_px = 200;
-constexpr int kLargestSunPath_px = 8'000;
+constexpr int kMinSunPath_px = 200;
+constexpr int kMaxSunPath_px = 8'000;
 
 /// The picture that `pleinair sun --path` writes.
 struct SunPathOptions {

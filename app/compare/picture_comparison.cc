@@ -28,8 +28,8 @@ Result<Image<std::uint8_t>> ReadRegion(const std::filesystem::path& file, const 
 
 }  // namespace
 
-Result<ComparedPicture> ComparePicture(const std::filesystem::path& pictures, const TruePicture& of,
-                                       int jpeg_width_px) {
+Result<ComparedPicture> ComparePicture(const std::filesystem::path& pictures,
+                                       const GroundTruthImage& of, int jpeg_width_px) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto file, FindPicture(pictures, of.name));
   PLEINAIR_ASSIGN_OR_RETURN(const RgbImage picture, ReadPicture(file));
   PLEINAIR_ASSIGN_OR_RETURN(const RgbImage truth, ReadPicture(of.truth));

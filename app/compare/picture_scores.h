@@ -8,7 +8,7 @@
 
 namespace pleinair::app {
 
-/// How far a picture is from the truth. Differences of colour are means of CIEDE2000; PSNR in dB
+/// How far a picture is from the truth. Differences of color are means of CIEDE2000; PSNR in dB
 /// and SSIM on 8-bit sRGB. A region without a pixel is not a number.
 struct PictureScores {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

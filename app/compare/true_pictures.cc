@@ -19,13 +19,13 @@ bool IsFile(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-Result<std::vector<TruePicture>> OfKeyFrames(const fs::path& folder, const Json& scene,
-                                             bool glossy) {
+Result<std::vector<GroundTruthImage>> OfKeyFrames(const fs::path& folder, const Json& scene,
+                                                  bool glossy) {
   const char* const truth = glossy ? "truth_glossy" : "truth";
-  std::vector<TruePicture> pictures;
+  std::vector<GroundTruthImage> pictures;
   for (const Json& key : scene.at("key_frames")) {
     if (!key.contains(truth)) continue;
-    TruePicture picture;
+    GroundTruthImage picture;
     picture.name = fmt::format("{:04}", key.at("frame").get<int>());
     picture.truth = folder / key.at(truth).get<std::string>();
     if (key.contains("object_mask") && key.contains("shadow")) {
@@ -45,13 +45,13 @@ Result<std::vector<TruePicture>> OfKeyFrames(const fs::path& folder, const Json&
 
 }  // namespace
 
-Result<std::vector<TruePicture>> FindKeyFrames(const fs::path& folder, bool glossy) {
+Result<std::vector<GroundTruthImage>> FindKeyFrames(const fs::path& folder, bool glossy) {
   const fs::path scene = folder / "scene.json";
-  if (!IsFile(scene)) return std::vector<TruePicture>();
+  if (!IsFile(scene)) return std::vector<GroundTruthImage>();
   try {
     std::ifstream stream(scene);
     const Json json = Json::parse(stream);
-    if (!json.contains("key_frames")) return std::vector<TruePicture>();
+    if (!json.contains("key_frames")) return std::vector<GroundTruthImage>();
     return OfKeyFrames(folder, json, glossy);
   } catch (const Json::exception& problem) {
     return InputError(scene.string(), std::string("cannot be read: ") + problem.what(),
@@ -59,19 +59,19 @@ Result<std::vector<TruePicture>> FindKeyFrames(const fs::path& folder, bool glos
   }
 }
 
-Result<std::vector<TruePicture>> FindTruePictures(const fs::path& folder, bool glossy) {
+Result<std::vector<GroundTruthImage>> FindGroundTruthImages(const fs::path& folder, bool glossy) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     return InputError(folder.string(), "is no folder", "name a recording with true pictures");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(std::vector<TruePicture> pictures, FindKeyFrames(folder, glossy));
+  PLEINAIR_ASSIGN_OR_RETURN(std::vector<GroundTruthImage> pictures, FindKeyFrames(folder, glossy));
   if (!IsFile(folder / "scene.json")) {
     for (const auto& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() != ".png" || !entry.is_regular_file(error)) continue;
       pictures.push_back({entry.path().stem().string(), entry.path(), {}, {}});
     }
     std::sort(pictures.begin(), pictures.end(),
-              [](const TruePicture& a, const TruePicture& b) { return a.name < b.name; });
+              [](const GroundTruthImage& a, const GroundTruthImage& b) { return a.name < b.name; });
   }
   if (pictures.empty()) {
     return InputError(folder.string(), "has no true picture",

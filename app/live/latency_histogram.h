@@ -15,7 +15,7 @@ namespace pleinair::app {
 class LatencyHistogram {
  public:
   void Add(double milliseconds) {
-    const double step = std::log(std::max(milliseconds, kLeast_ms) / kLeast_ms) / std::log(kRatio);
+    const double step = std::log(std::max(milliseconds, kMin_ms) / kMin_ms) / std::log(kRatio);
     ++counts_[std::min(static_cast<std::size_t>(step), counts_.size() - 1)];
     ++count_;
     worst_ms_ = std::max(worst_ms_, milliseconds);
@@ -31,13 +31,13 @@ class LatencyHistogram {
     for (std::size_t i = 0; i < counts_.size(); ++i) {
       below += counts_[i];
       if (count_ > 0 && static_cast<double>(below) >= rank) {
-        return std::min(kLeast_ms * std::pow(kRatio, static_cast<double>(i + 1)), worst_ms_);
+        return std::min(kMin_ms * std::pow(kRatio, static_cast<double>(i + 1)), worst_ms_);
       }
     }
     return 0.0;
   }
 
-  static constexpr double kLeast_ms = 0.1, kRatio = 1.02;
+  static constexpr double kMin_ms = 0.1, kRatio = 1.02;
   std::array<std::int64_t, 700> counts_{};
   std::int64_t count_ = 0;
   double worst_ms_ = 0.0;

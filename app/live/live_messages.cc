@@ -68,7 +68,7 @@ nlohmann::json Json(const LiveInterval& i) {
 
 }  // namespace
 
-std::string TellEvents(devices::LiveCamera* camera, bool json) {
+std::string ReportEvents(devices::LiveCamera* camera, bool json) {
   std::string last;
   if (camera == nullptr) return last;
   for (const devices::CameraEvent& event : camera->TakeEvents()) {
@@ -85,14 +85,14 @@ std::string TellEvents(devices::LiveCamera* camera, bool json) {
   return last;
 }
 
-void TellControls(const devices::LiveCamera* camera) {
+void ReportControls(const devices::LiveCamera* camera) {
   if (camera == nullptr) return;
   for (const devices::ControlResult& result : camera->ControlResults()) {
     if (!result.details.empty()) std::cerr << "camera: " << result.details << '\n';
   }
 }
 
-void Tell(const LiveInterval& i, bool json) {
+void Report(const LiveInterval& i, bool json) {
   if (json) {
     std::cout << Json(i).dump() << std::endl;
     return;
@@ -104,7 +104,7 @@ void Tell(const LiveInterval& i, bool json) {
       i.latency.median_ms, i.latency.p95_ms, i.latency.worst_ms, i.memory_mb);
 }
 
-void Tell(const LiveStatistics& s, bool json) {
+void Report(const LiveStatistics& s, bool json) {
   if (json) {
     std::cout << Json(s).dump() << '\n';
     return;

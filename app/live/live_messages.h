@@ -15,14 +15,14 @@ namespace pleinair::app {
 
 /// Tells what the camera has reported since the last call; gives the last of it in words. Nothing
 /// where it is null.
-std::string TellEvents(devices::LiveCamera* camera, bool json);
+std::string ReportEvents(devices::LiveCamera* camera, bool json);
 
 /// What became of the controls that were asked of the camera.
-void TellControls(const devices::LiveCamera* camera);
+void ReportControls(const devices::LiveCamera* camera);
 
-void Tell(const LiveInterval& interval, bool json);
+void Report(const LiveInterval& interval, bool json);
 
 /// At the end of a session.
-void Tell(const LiveStatistics& statistics, bool json);
+void Report(const LiveStatistics& statistics, bool json);
 
 }  // namespace pleinair::app

@@ -28,9 +28,9 @@ Result<std::unique_ptr<LiveOutput>> LiveOutput::Create(const Options& options,
       new LiveOutput(options, camera, scene, std::move(folder), std::move(detections)));
 }
 
-Result<void> LiveOutput::Add(const session::Session& session, std::int64_t frame_index,
+Result<void> LiveOutput::Add(const session::MarkerTracks& marker_tracks, std::int64_t frame_index,
                              std::int64_t timestamp_ns, const std::string& line) {
-  for (const auto& [marker, observations] : session.paths()) {
+  for (const auto& [marker, observations] : marker_tracks.tracks()) {
     if (observations.empty() || observations.back().frame_index != frame_index) continue;
     // Poses of recordings count from their start, as the line's time does.
     exports::PathPose pose = ObservedPose(observations.back());
@@ -51,19 +51,21 @@ Result<void> LiveOutput::Finish(UtcTime start) {
 Result<void> LiveOutput::Write(UtcTime start) {
   PLEINAIR_RETURN_IF_ERROR(detections_.Finish());
   PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
-  exports::CameraPath anchors;
+  exports::CameraPath reference_markers;
   for (const auto& [marker, path] : paths_) {
     PLEINAIR_RETURN_IF_ERROR(
         WriteMarkerPath(marker, path, options_.exports, folder_.staging()).map([](auto) {}));
-    if (session::MayAnchor(marker, scene_.marker) && path.poses.size() > anchors.poses.size()) {
-      anchors = path;
+    if (session::MayBeReferenceMarker(marker, scene_.marker) &&
+        path.poses.size() > reference_markers.poses.size()) {
+      reference_markers = path;
     }
   }
   scene_.place_time.start = start;
-  anchors.camera = camera_;
-  PLEINAIR_RETURN_IF_ERROR(ExportPath({std::move(anchors), scene_, std::move(markers_seen_)},
-                                      options_.exports, folder_.staging())
-                               .map([](const auto&) {}));
+  reference_markers.camera = camera_;
+  PLEINAIR_RETURN_IF_ERROR(
+      ExportPath({std::move(reference_markers), scene_, std::move(markers_seen_)}, options_.exports,
+                 folder_.staging())
+          .map([](const auto&) {}));
   return folder_.Commit();
 }
 

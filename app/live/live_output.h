@@ -37,7 +37,7 @@ class LiveOutput {
                                                     const scene::SceneDescription& scene);
 
   /// Adds a frame that the session has just taken in, and its line of detections.jsonl.
-  Result<void> Add(const session::Session& session, std::int64_t frame_index,
+  Result<void> Add(const session::MarkerTracks& marker_tracks, std::int64_t frame_index,
                    std::int64_t timestamp_ns, const std::string& line);
 
   /// Writes the paths and moves everything to its place. `start`: of the first frame.

@@ -46,7 +46,7 @@ class LiveRecorder {
 
   std::unique_ptr<devices::FramePackWriter> writer_;
   // Two seconds at 30 Hz: what a disk may pause for.
-  HandOver<std::shared_ptr<const devices::Frame>> queue_{60, WhenFull::kRefuse};
+  BoundedQueue<std::shared_ptr<const devices::Frame>> queue_{60, WhenFull::kRefuse};
   mutable std::mutex mutex_;
   std::int64_t recorded_ = 0;
   std::optional<Error> trouble_;

@@ -45,7 +45,7 @@ class LiveSession::Detections {
 LiveSession::LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptions options)
     : options_(std::move(options)),
       source_(std::move(source)),
-      session_(options_.scene.marker),
+      marker_tracks_(options_.scene.marker),
       recording_(options_.camera),
       captured_(1, options_.lossless ? WhenFull::kWait : WhenFull::kReplaceOldest),
       tracked_(1, options_.lossless ? WhenFull::kWait : WhenFull::kReplaceOldest) {}
@@ -78,16 +78,16 @@ Result<void> LiveSession::Prepare() {
         output_, LiveOutput::Create(*options_.output, options_.camera, options_.scene));
   }
   if (options_.lossless || options_.output) {
-    measurer_.emplace(options_.camera, options_.scene.marker.size_m);
+    refiner_.emplace(options_.camera, options_.scene.marker.size_m);
   }
   if (options_.lossless) return {};
   edit_ = session::UneditedScene(options_.scene, options_.composer, options_.light.convergence);
   if (!renderer_->DrawsObjects()) return {};
   const UtcTime start = options_.start.value_or(WallClock());
   PLEINAIR_ASSIGN_OR_RETURN(
-      light_, session::LiveLight::Create({options_.camera, options_.scene, renderer_->placed(),
-                                          options_.light, edit_, renderer_->OrderLight(start).skies,
-                                          start, renderer_->response()}));
+      light_, session::BackgroundLight::Create(
+                  {options_.camera, options_.scene, renderer_->placed(), options_.light, edit_,
+                   renderer_->MakeLightingRequest(start).skies, start, renderer_->response()}));
   return renderer_->UseLight(light_->Take());
 }
 
@@ -216,17 +216,18 @@ void LiveSession::Track() {
 
 Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   PLEINAIR_ASSIGN_OR_RETURN(auto observations, tracker_->Track(frame->grey.view()));
-  if (measurer_) observations = measurer_->Measure(frame->grey.view(), std::move(observations));
-  session_.AddFrame(frame->index, frame->timestamp_ns, observations);
-  if (!options_.lossless) session_.ForgetAllBut(kObservationsKept);
+  if (refiner_) observations = refiner_->Measure(frame->grey.view(), std::move(observations));
+  marker_tracks_.AddFrame(frame->index, frame->timestamp_ns, observations);
+  if (!options_.lossless) marker_tracks_.ForgetAllBut(kObservationsKept);
   PLEINAIR_RETURN_IF_ERROR(WriteSightings(*frame, observations));
-  Tracked tracked{std::move(frame), std::nullopt, session_.Anchor(), {}};
-  if (!tracked.anchor) return tracked;
-  const std::vector<session::Observation>& path = session_.Path(*tracked.anchor);
+  Tracked tracked{std::move(frame), std::nullopt, marker_tracks_.ReferenceMarker(), {}};
+  if (!tracked.reference_marker) return tracked;
+  const std::vector<session::Observation>& path = marker_tracks_.TrackOf(*tracked.reference_marker);
   if (path.back().frame_index == tracked.frame->index) {
     tracked.camera_from_marker = path.back().camera_from_marker;
     if (options_.light.hands_in_front) {
-      tracked.cover = session::CoverOf(options_.scene.marker, *tracked.anchor, path.back());
+      tracked.cover =
+          session::VisibilityOf(options_.scene.marker, *tracked.reference_marker, path.back());
     }
   }
   return tracked;
@@ -244,7 +245,7 @@ Result<void> LiveSession::WriteSightings(
       DetectionsWriter::Line(frame.index, since_start_ns, observations, tracker_->Lost());
   if (detections_) PLEINAIR_RETURN_IF_ERROR(detections_->writer().Add(line));
   if (output_) {
-    PLEINAIR_RETURN_IF_ERROR(output_->Add(session_, frame.index, since_start_ns, line));
+    PLEINAIR_RETURN_IF_ERROR(output_->Add(marker_tracks_, frame.index, since_start_ns, line));
   }
   return {};
 }
@@ -293,11 +294,12 @@ Result<std::optional<DrawnFrame>> LiveSession::Draw(std::chrono::milliseconds li
 Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   const auto start = Clock::now();
   const UtcTime moment = MomentOf(*tracked.frame);
-  if (tracked.anchor && tracked.anchor != shown_anchor_) {
-    const scene::MarkerPrint print = session::PrintOf(options_.scene.marker, *tracked.anchor);
-    renderer_->SetMarkerPrint(print);
-    if (light_) light_->SetPrint(print);
-    shown_anchor_ = tracked.anchor;
+  if (tracked.reference_marker && tracked.reference_marker != shown_reference_marker_) {
+    const scene::MarkerReflectance marker_reflectance =
+        session::MarkerReflectanceOf(options_.scene.marker, *tracked.reference_marker);
+    renderer_->SetMarkerReflectance(marker_reflectance);
+    if (light_) light_->SetMarkerReflectance(marker_reflectance);
+    shown_reference_marker_ = tracked.reference_marker;
   }
   PLEINAIR_RETURN_IF_ERROR(TakeEdit(*tracked.frame));
   DrawnFrame drawn{tracked.frame, tracked.camera_from_marker, {}, moment, {}};

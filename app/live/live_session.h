@@ -116,8 +116,8 @@ class LiveSession {
   struct Tracked {
     FramePtr frame;
     std::optional<Transform<Camera, Marker>> camera_from_marker;
-    std::optional<session::MarkerName> anchor;
-    compositor::PrintCover cover;  ///< Where hands are to be in front.
+    std::optional<session::MarkerName> reference_marker;
+    compositor::MarkerVisibility cover;  ///< Where hands are to be in front.
   };
 
   LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptions options);
@@ -141,19 +141,19 @@ class LiveSession {
   std::unique_ptr<devices::FrameSource> source_;
   std::unique_ptr<tracker::Tracker> tracker_;
   std::unique_ptr<session::SceneRenderer> renderer_;
-  std::optional<session::PrintMeasurer> measurer_;
+  std::optional<session::MarkerRefiner> refiner_;
   class Detections;
   std::unique_ptr<Detections> detections_;
   std::unique_ptr<LiveOutput> output_;
-  session::Session session_;
+  session::MarkerTracks marker_tracks_;
   RecordingSwitch recording_;
 
-  HandOver<FramePtr> captured_;
-  HandOver<Tracked> tracked_;
-  std::unique_ptr<session::LiveLight> light_;  // Not where frames are drawn without loss.
+  BoundedQueue<FramePtr> captured_;
+  BoundedQueue<Tracked> tracked_;
+  std::unique_ptr<session::BackgroundLight> light_;  // Not where frames are drawn without loss.
 
   std::atomic<bool> stop_ = false;
-  std::optional<session::MarkerName> shown_anchor_;
+  std::optional<session::MarkerName> shown_reference_marker_;
   LiveDetail detail_;
   session::SceneEdit edit_;
   bool edited_ = false;

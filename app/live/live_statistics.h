@@ -31,7 +31,7 @@ struct LiveStatistics {
   session::RenderTimes render;
   double draw_ms = 0.0;
   session::Detail detail = session::Detail::kFine;
-  session::LiveLight::Progress light;
+  session::BackgroundLight::Progress light;
 
   /// Frames captured of which nothing else here tells: those on their way while the session runs,
   /// at most five; none when it has ended.

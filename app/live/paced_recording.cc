@@ -6,7 +6,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestLag{250};
+constexpr std::chrono::milliseconds kMaxLag{250};
 
 }  // namespace
 
@@ -39,7 +39,7 @@ Result<std::optional<devices::Frame>> PacedRecording::Next() {
   if (!start_) start_ = Clock::now() - since_start;
   // Read too slowly it plays later from here on: its pictures are not to come older and older.
   const auto late = Clock::now() - (*start_ + since_start);
-  if (late > kLongestLag) *start_ += late;
+  if (late > kMaxLag) *start_ += late;
   const Clock::time_point due = *start_ + since_start;
   std::this_thread::sleep_until(due);
   (*frame)->timestamp_ns =

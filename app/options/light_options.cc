@@ -16,7 +16,9 @@ void AddLightOptions(CLI::App& command, session::LightOptions& options) {
   command
       .add_option_function<std::string>(
           "--light",
-          [&options](const std::string& from) { options.overrides.as_stated = from == "stated"; },
+          [&options](const std::string& from) {
+            options.overrides.as_described = from == "stated";
+          },
           "measured: sun, sky and heading from the shadows that phantoms cast in the "
           "frames; stated: as the scene says")
       ->check(CLI::IsMember({"measured", "stated"}))
@@ -46,7 +48,7 @@ void AddLightOptions(CLI::App& command, session::LightOptions& options) {
       .add_option("--sun-to-sky", options.overrides.sun_to_sky,
                   "The sun's light on level ground over the sky's, instead of measuring it: 4 on "
                   "a clear noon, 0.5 in thick haze, 0 where no sun shines")
-      ->check(NumberRange(0.0, compositor::kHighestSunToSky));
+      ->check(NumberRange(0.0, compositor::kMaxSunToSky));
   command
       .add_option("--heading", options.overrides.heading_deg,
                   "Heading of the marker in degrees, instead of the scene's, and not refined")

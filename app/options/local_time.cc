@@ -12,7 +12,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr int kMostHours = 15;
+constexpr int kMaxHours = 15;
 
 /// One or two digits, the whole text; nothing otherwise.
 std::optional<int> ParseDigits(std::string_view text) {
@@ -32,7 +32,7 @@ std::optional<UtcOffset> ParseSigned(std::string_view text) {
   if (colon != std::string_view::npos) {
     minutes = text.size() == colon + 3 ? ParseDigits(text.substr(colon + 1)) : std::nullopt;
   }
-  if (!hours || *hours > kMostHours || !minutes || *minutes > 59) return std::nullopt;
+  if (!hours || *hours > kMaxHours || !minutes || *minutes > 59) return std::nullopt;
   return UtcOffset{(text[0] == '-' ? -1 : 1) * (*hours * 60 + *minutes)};
 }
 

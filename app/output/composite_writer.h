@@ -53,7 +53,7 @@ class CompositeWriter {
   // Of the thread, until it has ended.
   StageTimes times_;
   Result<void> result_;
-  HandOver<Item> items_{kWaiting, WhenFull::kWait};
+  BoundedQueue<Item> items_{kWaiting, WhenFull::kWait};
   std::thread thread_;  // Last: it uses the others.
 };
 

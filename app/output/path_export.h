@@ -15,7 +15,8 @@ namespace pleinair::app {
 
 /// What frames were taken with and show, for the forms of other programs.
 struct PathExport {
-  exports::CameraPath path;  ///< Of the anchor, with the camera of the frames that are written.
+  exports::CameraPath
+      path;  ///< Of the reference marker, with the camera of the frames that are written.
   const scene::SceneDescription& scene;
   std::vector<exports::MarkersMessage> markers;  ///< For MCAP alone: what was seen, frame by frame.
 };
@@ -30,8 +31,9 @@ Result<std::vector<std::string>> WriteMarkerPath(const session::MarkerName& mark
                                                  const std::set<exports::PathFormat>& formats,
                                                  const std::filesystem::path& folder);
 
-/// Writes the anchor's path into a folder, `camera.glb`, `colmap/` or `camera.mcap`; gives their
-/// names. MCAP holds what was seen even where the anchor never was, the others are left out then.
+/// Writes the reference marker's path into a folder, `camera.glb`, `colmap/` or `camera.mcap`;
+/// gives their names. MCAP holds what was seen even where the reference marker never was, the
+/// others are left out then.
 /// (`euroc` is WriteMarkerPath's affair.)
 Result<std::vector<std::string>> ExportPath(PathExport what,
                                             const std::set<exports::PathFormat>& formats,

@@ -93,9 +93,9 @@ class Replayer {
         renderer_,
         session::SceneRenderer::Create(output_camera_, scene_, options_.composer, options_.light));
     PLEINAIR_RETURN_IF_ERROR(SeekMarkers(std::move(recording), **tracker));
-    PLEINAIR_RETURN_IF_ERROR(ChooseAnchor());
+    PLEINAIR_RETURN_IF_ERROR(ChooseReferenceMarker());
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(report_.recording));
-    PLEINAIR_RETURN_IF_ERROR(LookAtLight());
+    PLEINAIR_RETURN_IF_ERROR(ObserveLight());
     PLEINAIR_RETURN_IF_ERROR(TraceLight());
     PLEINAIR_ASSIGN_OR_RETURN(recording, OpenRecording());
     PLEINAIR_RETURN_IF_ERROR(ComposeFrames(std::move(recording.frames)));
@@ -111,22 +111,25 @@ class Replayer {
   }
 
   Result<void> SeekMarkers(devices::Recording recording, tracker::Tracker& tracker) {
-    const MarkerSearch search{report_.recording, scene_, folder_.staging() / "detections.jsonl",
-                              options_.exports.contains(exports::PathFormat::kMcap)};
-    PLEINAIR_ASSIGN_OR_RETURN(found_, FindMarkers(search, std::move(recording), tracker, &times_));
+    const TrackRecordingOptions search{report_.recording, scene_,
+                                       folder_.staging() / "detections.jsonl",
+                                       options_.exports.contains(exports::PathFormat::kMcap)};
+    PLEINAIR_ASSIGN_OR_RETURN(found_,
+                              TrackRecording(search, std::move(recording), tracker, &times_));
     report_.outputs.emplace_back("detections.jsonl");
-    report_.frames = found_->session.frames();
+    report_.frames = found_->marker_tracks.frames();
     return {};
   }
 
-  Result<void> ChooseAnchor() {
-    report_.anchor = found_->session.Anchor();
-    if (report_.anchor) {
-      report_.path = found_->session.Path(*report_.anchor);
-      renderer_->SetMarkerPrint(session::PrintOf(scene_.marker, *report_.anchor));
+  Result<void> ChooseReferenceMarker() {
+    report_.reference_marker = found_->marker_tracks.ReferenceMarker();
+    if (report_.reference_marker) {
+      report_.path = found_->marker_tracks.TrackOf(*report_.reference_marker);
+      renderer_->SetMarkerReflectance(
+          session::MarkerReflectanceOf(scene_.marker, *report_.reference_marker));
     }
     PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
-    for (const auto& [marker, observed] : found_->session.paths()) {
+    for (const auto& [marker, observed] : found_->marker_tracks.tracks()) {
       report_.markers.push_back(marker);
       PLEINAIR_ASSIGN_OR_RETURN(
           const std::vector<std::string> written,
@@ -146,7 +149,7 @@ class Replayer {
     return {};
   }
 
-  Result<void> LookAtLight() {
+  Result<void> ObserveLight() {
     const std::vector<std::size_t> chosen = LightFrames(report_.path);
     if (chosen.empty() || !renderer_->CanMeasureLight()) return {};
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenRecording());
@@ -162,13 +165,13 @@ class Replayer {
       ++next;
       Resize(*frame);
       times_.Measure("look at light", [&] {
-        renderer_->LookAtLight(frame->rgb.view(), at.camera_from_marker, MomentOf(*frame));
+        renderer_->ObserveLight(frame->rgb.view(), at.camera_from_marker, MomentOf(*frame));
         return 0;
       });
       bar.Advance();
     }
     times_.Measure("settle light", [&] {
-      renderer_->SettleLight();
+      renderer_->EstimateLight();
       return 0;
     });
     return {};
@@ -207,7 +210,7 @@ class Replayer {
   }
 
   void Warn() {
-    report_.warnings = MarkerWarnings(report_, found_->session, scene_);
+    report_.warnings = MarkerWarnings(report_, found_->marker_tracks, scene_);
     for (std::string& sentence : found_->warnings.Sentences()) {
       report_.warnings.push_back(std::move(sentence));
     }
@@ -248,7 +251,7 @@ class Replayer {
       pictures = folder_.staging() / "frames";
       report_.outputs.emplace_back("frames/%04d.png");
     }
-    session::FramesAhead frames(std::move(source));
+    session::FramePrefetcher frames(std::move(source));
     CompositeWriter writer(std::move(pictures), std::move(video));
     auto pose = report_.path.begin();
     ProgressBar bar("Composing", report_.frames);
@@ -280,9 +283,9 @@ class Replayer {
   }
 
   Result<RgbImage> Render(const devices::Frame& frame, const session::Observation& seen) {
-    compositor::PrintCover cover;
+    compositor::MarkerVisibility cover;
     if (options_.light.hands_in_front)
-      cover = session::CoverOf(scene_.marker, *report_.anchor, seen);
+      cover = session::VisibilityOf(scene_.marker, *report_.reference_marker, seen);
     auto composed =
         renderer_->Render(frame.rgb.view(), seen.camera_from_marker, MomentOf(frame), cover);
     if (scene_.objects.empty()) return composed;
@@ -336,10 +339,10 @@ class Replayer {
       return {};
     }
     PLEINAIR_ASSIGN_OR_RETURN(const session::Observation view, ViewOfDay());
-    session::LightOrder order = renderer_->OrderLight(scene_.place_time.start);
-    order.coefficients = TraceCoefficients();
+    session::LightingRequest request = renderer_->MakeLightingRequest(scene_.place_time.start);
+    request.coefficients = TraceCoefficients();
     PLEINAIR_ASSIGN_OR_RETURN(
-        const auto day, DayRenderer::Create(output_camera_, renderer_->placed(), std::move(order),
+        const auto day, DayRenderer::Create(output_camera_, renderer_->placed(), std::move(request),
                                             options_.composer));
     PLEINAIR_ASSIGN_OR_RETURN(const std::vector<std::string> written,
                               times_.Measure("draw day", [&] {
@@ -377,7 +380,7 @@ class Replayer {
   scene::SceneDescription scene_;
   CameraModel output_camera_;
   std::unique_ptr<session::SceneRenderer> renderer_;
-  std::optional<FoundMarkers> found_;
+  std::optional<RecordingTracks> found_;
   std::set<std::int64_t> pictured_;
   TimeLapseMoments day_moments_;
   const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();

@@ -15,12 +15,12 @@ namespace pleinair::app {
 namespace {
 
 // A reading that comes out differently in every frame should not fill the report.
-constexpr std::size_t kMostKinds = 8;
+constexpr std::size_t kMaxKinds = 8;
 // Sun over sky on level ground below which nobody speaks of a sun.
 constexpr double kNoticeableSun = 0.1;
 constexpr double kNoticeableTurnDeg = 1.0;
-// Where exposure is locked the gain stays within some hundredths.
-constexpr double kNoticeableGainChange = 1.3;
+// Where exposure is locked the exposure scale stays within some hundredths.
+constexpr double kNoticeableExposureChange = 1.3;
 // Civil dusk has ended: nobody films by this light.
 constexpr double kNightDeg = -6.0;
 
@@ -54,7 +54,7 @@ void FrameWarnings::Add(std::int64_t frame_index, const std::vector<std::string>
     auto entry = std::find_if(entries_.begin(), entries_.end(),
                               [&](const Entry& other) { return other.text == text; });
     if (entry == entries_.end()) {
-      if (entries_.size() == kMostKinds) continue;
+      if (entries_.size() == kMaxKinds) continue;
       entry = entries_.insert(entries_.end(), Entry{text, frame_index, frame_index, 1});
     } else if (entry->last_frame != frame_index) {
       entry->last_frame = frame_index;
@@ -74,22 +74,23 @@ std::vector<std::string> FrameWarnings::Sentences() const {
   return sentences;
 }
 
-std::vector<std::string> MarkerWarnings(const ReplayReport& report, const session::Session& session,
+std::vector<std::string> MarkerWarnings(const ReplayReport& report,
+                                        const session::MarkerTracks& marker_tracks,
                                         const scene::SceneDescription& scene) {
   std::vector<std::string> warnings;
   const auto missing = report.frames - static_cast<std::int64_t>(report.path.size());
-  if (!report.anchor) {
+  if (!report.reference_marker) {
     warnings.push_back(NeverSeen(report, scene.marker));
   } else if (missing > 0) {
     warnings.push_back(
         fmt::format("{} of {} frames show no marker {}: they are left as they were recorded.",
-                    missing, report.frames, report.anchor->ToString()));
+                    missing, report.frames, report.reference_marker->ToString()));
   }
-  if (session.frames_with_duplicates() > 0) {
+  if (marker_tracks.frames_with_duplicates() > 0) {
     warnings.push_back(fmt::format(
         "{} frames show a marker of the same number twice: the one nearest to its last place "
         "counts.",
-        session.frames_with_duplicates()));
+        marker_tracks.frames_with_duplicates()));
   }
   const std::int64_t ambiguous = SummarizePath(report.path).ambiguous_frames;
   if (ambiguous > 0) {
@@ -104,21 +105,23 @@ std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel
   // By file: one may stand for both a phantom and an object.
   std::map<std::filesystem::path, std::set<std::string>> by_file;
   for (const compositor::PlacedModel& placed : models) {
-    std::set<std::string> left_out = compositor::LeftOut(*placed.model);
+    std::set<std::string> unsupported_features = compositor::UnsupportedFeatures(*placed.model);
     // Of a phantom nothing counts but the light that it reflects.
     if (placed.is_phantom) {
-      std::erase_if(left_out,
+      std::erase_if(unsupported_features,
                     [](const std::string& what) { return what != compositor::kVertexColors; });
     }
-    by_file[placed.model->file].merge(left_out);
+    by_file[placed.model->file].merge(unsupported_features);
   }
   std::vector<std::string> warnings;
-  for (auto& [file, left_out] : by_file) {
-    if (left_out.empty()) continue;
-    const std::size_t more = left_out.size() - std::min(left_out.size(), kMostKinds);
-    for (std::size_t i = 0; i < more; ++i) left_out.erase(std::prev(left_out.end()));
+  for (auto& [file, unsupported_features] : by_file) {
+    if (unsupported_features.empty()) continue;
+    const std::size_t more =
+        unsupported_features.size() - std::min(unsupported_features.size(), kMaxKinds);
+    for (std::size_t i = 0; i < more; ++i)
+      unsupported_features.erase(std::prev(unsupported_features.end()));
     warnings.push_back(fmt::format("Of {} this is not drawn: {}{}.", file.string(),
-                                   fmt::join(left_out, ", "),
+                                   fmt::join(unsupported_features, ", "),
                                    more > 0 ? fmt::format(" and {} more", more) : ""));
   }
   return warnings;
@@ -136,17 +139,17 @@ std::vector<std::string> DrawingWarnings(std::optional<int> samples) {
 std::vector<std::string> LightWarnings(const session::LightSummary& summary) {
   const compositor::MeasuredLight& light = summary.measured;
   std::vector<std::string> warnings;
-  if (summary.gain_source == session::LightSummary::GainSource::kGuess) {
+  if (summary.exposure_scale_source == session::LightSummary::ExposureScaleSource::kGuess) {
     warnings.emplace_back(
         "The marker could not be read as a light meter in any frame: the camera's gain is a guess. "
         "Set it in the scene if the brightness is wrong.");
   }
-  if (summary.gain_change > kNoticeableGainChange) {
+  if (summary.exposure_scale_change > kNoticeableExposureChange) {
     warnings.push_back(fmt::format(
         "The marker's brightness changed by a factor of {:.1f}. That is taken for the camera's "
         "exposure, sun and sky for the same throughout: if a cloud passed, shadows are too deep or "
         "too faint before or after it. Replay the parts one by one, or lock the exposure.",
-        summary.gain_change));
+        summary.exposure_scale_change));
   }
   const double elevation_deg = ToDegrees(summary.sun.elevation);
   if (elevation_deg < kNightDeg) {

@@ -30,7 +30,8 @@ class FrameWarnings {
 };
 
 /// What the user should know of how a replay's markers were found, a sentence each.
-std::vector<std::string> MarkerWarnings(const ReplayReport& report, const session::Session& session,
+std::vector<std::string> MarkerWarnings(const ReplayReport& report,
+                                        const session::MarkerTracks& marker_tracks,
                                         const scene::SceneDescription& scene);
 
 /// What models' files have that does not show, a sentence a file.

@@ -25,7 +25,7 @@ struct TrackedFrame {
 };
 
 /// A frame's moment must be one that UtcTime reaches; some videos' stamps run for centuries.
-Result<void> CheckMoment(const MarkerSearch& search, const devices::Frame& frame) {
+Result<void> CheckMoment(const TrackRecordingOptions& search, const devices::Frame& frame) {
   std::int64_t moment_ns = 0;
   if (!__builtin_add_overflow(search.scene.place_time.start.nanoseconds_since_1970(),
                               frame.timestamp_ns, &moment_ns)) {
@@ -37,10 +37,10 @@ Result<void> CheckMoment(const MarkerSearch& search, const devices::Frame& frame
 }
 
 /// Measures tracked frames and keeps what is found.
-Result<void> TakeTracked(const MarkerSearch& search, std::vector<TrackedFrame> tracked,
-                         tracker::Tracker& tracker, session::PrintMeasurer& measurer,
-                         DetectionsWriter& detections, StageTimes* times, FoundMarkers* found) {
-  std::vector<session::PrintMeasurer::Seen> seen;
+Result<void> TakeTracked(const TrackRecordingOptions& search, std::vector<TrackedFrame> tracked,
+                         tracker::Tracker& tracker, session::MarkerRefiner& measurer,
+                         DetectionsWriter& detections, StageTimes* times, RecordingTracks* found) {
+  std::vector<session::MarkerRefiner::Seen> seen;
   seen.reserve(tracked.size());
   StageTimes together;
   together.Measure("measure", [&] {
@@ -57,7 +57,7 @@ Result<void> TakeTracked(const MarkerSearch& search, std::vector<TrackedFrame> t
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const devices::Frame& frame = tracked[i].frame;
     times->Add("measure", together.Summarize()[0].total_ms / static_cast<double>(tracked.size()));
-    found->session.AddFrame(frame.index, frame.timestamp_ns, seen[i].observations);
+    found->marker_tracks.AddFrame(frame.index, frame.timestamp_ns, seen[i].observations);
     std::string line = DetectionsWriter::Line(frame.index, frame.timestamp_ns, seen[i].observations,
                                               tracked[i].lost);
     PLEINAIR_RETURN_IF_ERROR(detections.Add(line));
@@ -68,12 +68,13 @@ Result<void> TakeTracked(const MarkerSearch& search, std::vector<TrackedFrame> t
 
 }  // namespace
 
-Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording recording,
-                                 tracker::Tracker& tracker, StageTimes* times) {
+Result<RecordingTracks> TrackRecording(const TrackRecordingOptions& search,
+                                       devices::Recording recording, tracker::Tracker& tracker,
+                                       StageTimes* times) {
   PLEINAIR_ASSIGN_OR_RETURN(auto detections, DetectionsWriter::Create(search.detections));
-  FoundMarkers found{.session = session::Session(search.scene.marker)};
-  session::PrintMeasurer measurer(recording.camera, search.scene.marker.size_m);
-  session::FramesAhead frames(std::move(recording.frames));
+  RecordingTracks found{.marker_tracks = session::MarkerTracks(search.scene.marker)};
+  session::MarkerRefiner measurer(recording.camera, search.scene.marker.size_m);
+  session::FramePrefetcher frames(std::move(recording.frames));
   ProgressBar bar("Finding markers", frames.FrameCount());
   std::vector<TrackedFrame> tracked;
   StageTimes measuring_times;  // Of the thread that measures, as long as it does.
@@ -109,14 +110,14 @@ Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording 
   times->Add(measuring_times);
   times->Add(frames.Finish());
   PLEINAIR_RETURN_IF_ERROR(detections.Finish());
-  if (found.session.frames() == 0) {
+  if (found.marker_tracks.frames() == 0) {
     return InputError(search.recording, "holds no frames", "record it again");
   }
   return found;
 }
 
 Result<std::optional<devices::Frame>> NextFrame(const std::string& recording,
-                                                session::FramesAhead& frames) {
+                                                session::FramePrefetcher& frames) {
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(recording));
   return frames.Next();
 }

@@ -19,16 +19,16 @@
 namespace pleinair::app {
 
 /// What is known of a recording before its markers are sought.
-struct MarkerSearch {
+struct TrackRecordingOptions {
   std::string recording;  ///< Its name, for errors.
   const scene::SceneDescription& scene;
   std::filesystem::path detections;  ///< File to write what is seen to, a line a frame.
   bool keep_messages = false;        ///< Also in memory.
 };
 
-/// What FindMarkers gives: the markers' poses and prints, and what went wrong on the way.
-struct FoundMarkers {
-  session::Session session;
+/// What TrackRecording gives: the markers' poses and prints, and what went wrong on the way.
+struct RecordingTracks {
+  session::MarkerTracks marker_tracks;
   FrameWarnings warnings{};  ///< The tracker's.
   std::vector<exports::MarkersMessage>
       messages{};                ///< The lines of `detections`, if they are to be kept.
@@ -38,11 +38,12 @@ struct FoundMarkers {
 /// Tracks the markers of a recording's frames and measures their prints; reading, tracking and
 /// measuring run beside each other. Adds the time of each stage to `times`.
 /// Errors: a frame that cannot be read or lies centuries away, no frames, the file, an interrupt.
-Result<FoundMarkers> FindMarkers(const MarkerSearch& search, devices::Recording recording,
-                                 tracker::Tracker& tracker, StageTimes* times);
+Result<RecordingTracks> TrackRecording(const TrackRecordingOptions& search,
+                                       devices::Recording recording, tracker::Tracker& tracker,
+                                       StageTimes* times);
 
 /// The next frame; nothing at the end. Errors: the source's, an interrupt.
 Result<std::optional<devices::Frame>> NextFrame(const std::string& recording,
-                                                session::FramesAhead& frames);
+                                                session::FramePrefetcher& frames);
 
 }  // namespace pleinair::app

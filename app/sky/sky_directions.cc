@@ -25,14 +25,14 @@ struct AngleColumn {
 constexpr AngleColumn kAzimuth{"azimuth_deg", -360.0, 360.0};
 constexpr AngleColumn kElevation{"elevation_deg", -90.0, 90.0};
 
-Result<std::size_t> RequireColumn(const files::CsvRecords& header, const AngleColumn& column) {
+Result<std::size_t> RequireColumn(const files::CsvReader& header, const AngleColumn& column) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::size_t> found, header.FindColumn(column.name));
   if (found) return *found;
   return InputError(header.Where(), std::string("the column ") + column.name + " is missing",
                     std::string(kHeaderHelp));
 }
 
-Result<double> ReadAngle(const files::CsvRecords& record, std::size_t at,
+Result<double> ReadAngle(const files::CsvReader& record, std::size_t at,
                          const AngleColumn& column) {
   const std::string& text = record.fields()[at];
   const std::optional<double> value = files::ParseNumber(text);
@@ -45,7 +45,7 @@ Result<double> ReadAngle(const files::CsvRecords& record, std::size_t at,
 }  // namespace
 
 Result<SkyDirectionTable> ParseSkyDirections(std::string_view text, const std::string& name) {
-  files::CsvRecords records(text, name);
+  files::CsvReader records(text, name);
   PLEINAIR_ASSIGN_OR_RETURN(const bool has_header, records.Next());
   if (!has_header) return InputError(name, "is empty", std::string(kHeaderHelp));
   SkyDirectionTable table;

@@ -38,7 +38,7 @@ class SrgbTable {
 
 }  // namespace
 
-double SkyExposure::Ev100() const { return std::log2(1.0 / (kSaturation * gain)); }
+double SkyExposure::Ev100() const { return std::log2(1.0 / (kSaturation * exposure_scale)); }
 
 SkyExposure ExposureOf(double ev100) { return {1.0 / (kSaturation * std::exp2(ev100))}; }
 
@@ -56,12 +56,12 @@ RgbImage ToneMap(const LightImage& light, SkyExposure exposure) {
     const double luminance = Luminance(radiance);
     LinearRgb shown;
     if (luminance > 0.0) {
-      const double v = exposure.gain * luminance;
+      const double v = exposure.exposure_scale * luminance;
       const double grey = std::min(1.0, v * (1.0 + v / (kWhite * kWhite)) / (1.0 + v));
-      const LinearRgb colour = radiance * (grey / luminance);
-      const double highest = std::max({colour.r, colour.g, colour.b});
+      const LinearRgb color = radiance * (grey / luminance);
+      const double highest = std::max({color.r, color.g, color.b});
       const double kept = highest > 1.0 ? (1.0 - grey) / (highest - grey) : 1.0;
-      shown = LinearRgb{grey, grey, grey} * (1.0 - kept) + colour * kept;
+      shown = LinearRgb{grey, grey, grey} * (1.0 - kept) + color * kept;
     }
     picture.data()[i] = kCodes(shown.r);
     picture.data()[i + 1] = kCodes(shown.g);

@@ -10,7 +10,7 @@ namespace pleinair::app {
 namespace {
 
 constexpr int kMin_px = 16;
-constexpr int kLargest_px = 8192;
+constexpr int kMax_px = 8192;
 constexpr double kDaySeconds = 86'400.0;
 
 /// The aerosol of the turbidity, with what was given instead; nothing where nothing was.
@@ -227,7 +227,7 @@ void AddSkyOptions(CLI::App& command, SkyOptions& options) {
       .add_option("--size", options.size_px,
                   "Width in pixels; a fisheye is as high, a latlong half as high")
       ->type_name("N")
-      ->check(CLI::Range(kMin_px, kLargest_px));
+      ->check(CLI::Range(kMin_px, kMax_px));
   command
       .add_option("--centre-azimuth,--center-azimuth", options.centre_azimuth_deg,
                   "In the middle of a latlong; 90 for Blender and three.js")

@@ -23,10 +23,10 @@ int HeightOf(const SkyPictureOptions& options) {
 
 double FisheyeRadius(const SkyPictureOptions& options) { return 0.5 * options.width_px; }
 
-void Put(LightImage* picture, int x, int y, LinearRgb colour) {
-  (*picture)(x, y, 0) = static_cast<float>(colour.r);
-  (*picture)(x, y, 1) = static_cast<float>(colour.g);
-  (*picture)(x, y, 2) = static_cast<float>(colour.b);
+void Put(LightImage* picture, int x, int y, LinearRgb color) {
+  (*picture)(x, y, 0) = static_cast<float>(color.r);
+  (*picture)(x, y, 1) = static_cast<float>(color.g);
+  (*picture)(x, y, 2) = static_cast<float>(color.b);
 }
 
 /// Rows handed to whichever processor is free.

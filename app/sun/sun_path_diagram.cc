@@ -21,27 +21,27 @@ constexpr double kHeight = 1090.0;
 constexpr Vec2 kCentre{500.0, 550.0};
 constexpr double kHorizonRadius = 400.0;
 
-constexpr exports::DrawingColour kGrid{205, 210, 215};
-constexpr exports::DrawingColour kHorizon{70, 75, 80};
-constexpr exports::DrawingColour kQuiet{110, 115, 120};
-constexpr exports::DrawingColour kInk{25, 28, 32};
-constexpr exports::DrawingColour kHours{214, 150, 40};
-constexpr exports::DrawingColour kHourText{150, 95, 10};
-constexpr exports::DrawingColour kSun{250, 190, 0};
+constexpr exports::DrawingColor kGrid{205, 210, 215};
+constexpr exports::DrawingColor kHorizon{70, 75, 80};
+constexpr exports::DrawingColor kQuiet{110, 115, 120};
+constexpr exports::DrawingColor kInk{25, 28, 32};
+constexpr exports::DrawingColor kHours{214, 150, 40};
+constexpr exports::DrawingColor kHourText{150, 95, 10};
+constexpr exports::DrawingColor kSun{250, 190, 0};
 
 constexpr int kDayOfArcs = 21;  // Solstices and equinoxes fall on it or beside it.
 constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                  "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
 
 /// From blue in December to red in June.
-exports::DrawingColour ColourOfMonth(int month) {
-  constexpr std::array<exports::DrawingColour, 7> kRamp = {{{38, 70, 160},
-                                                            {40, 110, 175},
-                                                            {35, 140, 150},
-                                                            {60, 150, 80},
-                                                            {170, 150, 30},
-                                                            {210, 110, 30},
-                                                            {200, 50, 40}}};
+exports::DrawingColor ColorOfMonth(int month) {
+  constexpr std::array<exports::DrawingColor, 7> kRamp = {{{38, 70, 160},
+                                                           {40, 110, 175},
+                                                           {35, 140, 150},
+                                                           {60, 150, 80},
+                                                           {170, 150, 30},
+                                                           {210, 110, 30},
+                                                           {200, 50, 40}}};
   return kRamp[static_cast<std::size_t>(month <= 6 ? month : 12 - month)];
 }
 
@@ -80,7 +80,7 @@ class Diagram {
     drawing_.height = kHeight;
   }
 
-  exports::LineDrawing Draw() && {
+  exports::VectorDrawing Draw() && {
     DrawGrid();
     DrawHours();
     DrawDays();
@@ -101,12 +101,12 @@ class Diagram {
     return {sun.azimuth, sun.elevation_refracted};
   }
 
-  void AddText(Vec2 centre, double size, std::string text, exports::DrawingColour colour) {
-    drawing_.texts.push_back({centre, size, std::move(text), colour});
+  void AddText(Vec2 centre, double size, std::string text, exports::DrawingColor color) {
+    drawing_.texts.push_back({centre, size, std::move(text), color});
   }
 
-  void AddCircle(double radius, exports::DrawingColour colour, double width) {
-    exports::DrawingLine circle{{}, colour, width, false};
+  void AddCircle(double radius, exports::DrawingColor color, double width) {
+    exports::DrawingLine circle{{}, color, width, false};
     for (int degrees = 0; degrees <= 360; degrees += 2) {
       const double a = FromDegrees(degrees).value();
       circle.points.push_back(kCentre + Vec2{std::sin(a), -std::cos(a)} * radius);
@@ -153,20 +153,20 @@ class Diagram {
         suns.push_back(Look(events.noon.PlusSeconds(s)));
       }
       const bool second_half = month > 6;
-      const exports::DrawingColour colour = ColourOfMonth(month);
+      const exports::DrawingColor color = ColorOfMonth(month);
       const bool turning_point = month % 3 == 0;
       const auto parts = VisibleParts(suns);
       for (const std::vector<Vec2>& part : parts) {
-        drawing_.lines.push_back({part, colour, turning_point ? 2.4 : 1.5, second_half});
+        drawing_.lines.push_back({part, color, turning_point ? 2.4 : 1.5, second_half});
       }
-      if (!parts.empty()) NameDay(month, parts, colour);
+      if (!parts.empty()) NameDay(month, parts, color);
     }
   }
 
   /// At the rim where the sun rises in the first half of the year and sets in the second; where it
   /// does neither, on the path itself.
   void NameDay(int month, const std::vector<std::vector<Vec2>>& parts,
-               exports::DrawingColour colour) {
+               exports::DrawingColor color) {
     constexpr double kFromRim = 64.0;
     const std::string name = fmt::format("{} {}", kDayOfArcs, kMonths[month - 1]);
     const bool second_half = month > 6;
@@ -174,7 +174,7 @@ class Diagram {
     const double radius = Norm(end - kCentre);
     if (radius > kHorizonRadius - 1.0) {
       AddText(kCentre + (end - kCentre) * ((kHorizonRadius + kFromRim) / radius), 13.0, name,
-              colour);
+              color);
     } else {
       // Neighbouring months apart from each other, outside of the hours' names.
       constexpr double kOutwards = 12.0;
@@ -184,8 +184,7 @@ class Diagram {
       const Vec2 at = path[static_cast<std::size_t>(static_cast<double>(path.size()) *
                                                     (second_half ? 1.0 - share : share))];
       const Vec2 from_centre = at - kCentre;
-      AddText(at + from_centre * (kOutwards / std::max(1.0, Norm(from_centre))), 12.0, name,
-              colour);
+      AddText(at + from_centre * (kOutwards / std::max(1.0, Norm(from_centre))), 12.0, name, color);
     }
   }
 
@@ -263,7 +262,7 @@ class Diagram {
   }
 
   const SunPathFacts& facts_;
-  exports::LineDrawing drawing_;
+  exports::VectorDrawing drawing_;
 };
 
 }  // namespace
@@ -274,6 +273,6 @@ Vec2 ProjectOnSunPath(Radians azimuth, Radians elevation) {
   return kCentre + Vec2{std::sin(azimuth.value()), -std::cos(azimuth.value())} * radius;
 }
 
-exports::LineDrawing DrawSunPath(const SunPathFacts& facts) { return Diagram(facts).Draw(); }
+exports::VectorDrawing DrawSunPath(const SunPathFacts& facts) { return Diagram(facts).Draw(); }
 
 }  // namespace pleinair::app

@@ -29,6 +29,6 @@ Vec2 ProjectOnSunPath(Radians azimuth, Radians elevation);
 /// the hours of a clock (a figure of eight each, by the equation of time), rings of elevation every
 /// 10° and the compass. The sun is where it is seen, refraction included. First half of the year
 /// solid, second half (from June to December) dashed.
-exports::LineDrawing DrawSunPath(const SunPathFacts& facts);
+exports::VectorDrawing DrawSunPath(const SunPathFacts& facts);
 
 }  // namespace pleinair::app

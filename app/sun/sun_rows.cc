@@ -83,14 +83,14 @@ Result<void> WriteSunTable(const std::string& csv, const sky::Observer& defaults
 
 Result<void> WriteSunSeries(const sky::Observer& observer, UtcTime from, UtcTime until,
                             double step_s, const SunRowsOptions& options) {
-  constexpr double kMostRows = 10e6;
+  constexpr double kMaxRows = 10e6;
   const double seconds =
       static_cast<double>(until.nanoseconds_since_1970() - from.nanoseconds_since_1970()) * 1e-9;
   if (seconds < 0.0) return InputError("--until", "lies before --time", "exchange the two");
   if (!(step_s > 0.0) || !std::isfinite(step_s)) {
     return InputError("--step", "is not a positive number of seconds", "give for example 600");
   }
-  if (seconds / step_s >= kMostRows) {
+  if (seconds / step_s >= kMaxRows) {
     return InputError("--step", "gives more than ten million rows", "take a longer step");
   }
   const auto count = static_cast<std::size_t>(seconds / step_s + 1e-9) + 1;

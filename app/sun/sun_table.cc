@@ -32,7 +32,7 @@ Result<void> SetObserverField(const ObserverField& field, std::string_view text,
 
 Result<SunTable> ParseSunTable(std::string_view text, const std::string& name,
                                const sky::Observer& defaults) {
-  files::CsvRecords reader(text, name);
+  files::CsvReader reader(text, name);
   PLEINAIR_ASSIGN_OR_RETURN(const bool has_header, reader.Next());
   constexpr const char* kHeaderHelp =
       "start it with the line utc,lat,lon or utc,lat,lon,height_m,pressure_mbar,temperature_c";

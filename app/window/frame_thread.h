@@ -31,7 +31,7 @@ class FrameThread {
   void Run();
 
   LiveSession& session_;
-  HandOver<DrawnFrame> frames_{1, WhenFull::kReplaceOldest};
+  BoundedQueue<DrawnFrame> frames_{1, WhenFull::kReplaceOldest};
   std::atomic<bool> stop_ = false, ended_ = false;
   mutable std::mutex mutex_;
   std::optional<Error> error_;

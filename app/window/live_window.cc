@@ -228,7 +228,7 @@ class LiveWindow {
                             0xFF3030E0);
       right -= letter * 1.5F;
     }
-    const std::string words = StatusWords();
+    const std::string words = StatusMessage();
     std::string rate = fmt::format("{:.0f} ms", state_.statistics.latency.median_ms);
     if (state_.shown_per_second > 0.0) {
       rate = fmt::format("{:.1f} a second, ", state_.shown_per_second) + rate;
@@ -241,7 +241,7 @@ class LiveWindow {
     draw->AddText({letter, text_top}, 0xFFB8B8B8, CutTo(right - letter, words).c_str());
   }
 
-  std::string StatusWords() const {
+  std::string StatusMessage() const {
     if (camera_is_away_) return state_.camera_words;
     if (!state_.message.empty()) return state_.message;
     if (state_.has_frame && !state_.camera_from_marker) return "no marker in sight";

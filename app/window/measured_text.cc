@@ -15,7 +15,7 @@ std::string MeasuredSunText(const compositor::MeasuredLight& drawn,
         return "the shade of trees";
       case Source::kMarker:
         return "a shadow's edge on the marker";
-      case Source::kStated:
+      case Source::kDescription:
       case Source::kOverride:
         return "";
     }

@@ -8,7 +8,7 @@ namespace pleinair::app {
 namespace {
 
 // Sine of the lowest sun whose shadows can be followed to their tips.
-constexpr double kLowestSun = 0.02;
+constexpr double kMinSunSine = 0.02;
 
 /// Angle of a level direction from the marker's heading direction, clockwise from above.
 double ClockwiseFromHeading(const scene::MarkerDescription& marker, Vec3 direction) {
@@ -24,7 +24,7 @@ Vec3 UpOf(const scene::MarkerDescription& marker) {
 
 std::optional<Vec3> NorthPole::ShadowTip(const scene::MarkerDescription& marker,
                                          Vec3 to_sun_in_world) const {
-  if (to_sun_in_world.z < kLowestSun) return std::nullopt;
+  if (to_sun_in_world.z < kMinSunSine) return std::nullopt;
   const Vec3 to_sun = scene::MarkerFromWorld(marker) * to_sun_in_world;
   const Vec3 top = foot + UpOf(marker) * height_m;
   return top - to_sun * (height_m / to_sun_in_world.z);
@@ -35,7 +35,7 @@ std::optional<double> HeadingForShadow(const scene::MarkerDescription& marker,
   const Vec3 up = UpOf(marker);
   const Vec3 offset = towards - pole.foot;
   const Vec3 level = offset - up * Dot(offset, up);
-  if (to_sun_in_world.z < kLowestSun || Norm(level) < 1e-3) return std::nullopt;
+  if (to_sun_in_world.z < kMinSunSine || Norm(level) < 1e-3) return std::nullopt;
   const double shadow_azimuth = std::atan2(-to_sun_in_world.x, -to_sun_in_world.y);
   const double heading = (shadow_azimuth - ClockwiseFromHeading(marker, level)) / kRadiansPerDegree;
   return heading - 360.0 * std::floor(heading / 360.0);

@@ -11,9 +11,9 @@
 namespace pleinair::app {
 namespace {
 
-constexpr double kSmallestScale = 1e-6, kLargestScale = 1e6;
+constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
 // Below this slope of the view, sights on level ground run off to the horizon.
-constexpr double kLeastSlope = 0.02;
+constexpr double kMinSlope = 0.02;
 
 /// The inverse of a rotation times a scale.
 Mat3 Inverse(const Mat3& linear, double scale) {
@@ -105,7 +105,7 @@ ViewerAxes AxesOf(const Transform<Camera, Marker>& camera_from_marker, Vec3 up) 
 
 session::ObjectPlace DraggedLevel(const session::ObjectPlace& place, const Sight& from,
                                   const Sight& to, Vec3 hold, Vec3 up) {
-  if (std::abs(Dot(to.direction, up)) < kLeastSlope) return place;
+  if (std::abs(Dot(to.direction, up)) < kMinSlope) return place;
   const auto start = MeetPlane(from, hold, up), end = MeetPlane(to, hold, up);
   if (!start || !end) return place;
   session::ObjectPlace moved = place;
@@ -116,7 +116,7 @@ session::ObjectPlace DraggedLevel(const session::ObjectPlace& place, const Sight
 session::ObjectPlace DraggedUpright(const session::ObjectPlace& place, const Sight& from,
                                     const Sight& to, Vec3 hold, Vec3 up) {
   const Vec3 facing = from.direction - up * Dot(from.direction, up);
-  if (Norm(facing) < kLeastSlope) return place;
+  if (Norm(facing) < kMinSlope) return place;
   const auto start = MeetPlane(from, hold, Normalized(facing));
   const auto end = MeetPlane(to, hold, Normalized(facing));
   if (!start || !end) return place;
@@ -137,7 +137,7 @@ session::ObjectPlace Turned(const ObjectBox& box, const session::ObjectPlace& pl
 session::ObjectPlace Scaled(const ObjectBox& box, const session::ObjectPlace& place, double factor,
                             Vec3 up) {
   session::ObjectPlace scaled = place;
-  scaled.scale = std::clamp(place.scale * factor, kSmallestScale, kLargestScale);
+  scaled.scale = std::clamp(place.scale * factor, kMinScale, kMaxScale);
   return Keeping(BoxFoot(box, place, up), place, scaled);
 }
 

@@ -69,7 +69,7 @@ std::string HoursMinutes(double seconds) {
 }
 
 // Texels a side, and double at each step of its bar.
-constexpr int kSmallestMap = 128;
+constexpr int kMinMap = 128;
 
 void Fog(compositor::ComposerOptions* drawing) {
   double fog = *std::max_element(drawing->fog.begin(), drawing->fog.end());
@@ -208,7 +208,7 @@ void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
 void ScenePanel::Air(WindowState* state) {
   session::SceneEdit& edit = state->edit;
   bool by_hand = edit.sky.has_value();
-  session::SceneEdit::Sky sky = edit.sky.value_or(session::StatedAir(state->scene));
+  session::SceneEdit::Sky sky = edit.sky.value_or(session::DescribedAir(state->scene));
   bool changed = Slider("turbidity", &sky.turbidity, 1.2, 10.0, "%.1f", true);
   Hint("Haze: 1.2 high mountains, 1.8 a clear day, 3 hazy, 6 and more thick haze.");
   changed = Slider("cloud cover", &sky.cloud_cover, 0.0, 1.0, "%.2f") || changed;
@@ -217,7 +217,7 @@ void ScenePanel::Air(WindowState* state) {
     edit.sky = by_hand ? std::optional(sky) : std::nullopt;
   }
   Hint("Otherwise haze and clouds are as the shadows in the pictures tell, or as the scene says.");
-  if (state->statistics.light.frames_in_look > 0) {
+  if (state->statistics.light.frames_in_estimate > 0) {
     Quiet("looking at shadows…");
   } else if (!edit.sky) {
     Quiet(MeasuredSunText(state->light.measured, state->statistics.light.measured));
@@ -282,10 +282,10 @@ void ScenePanel::Shadows(WindowState* state) {
     ImGui::PushID(i);
     int& size = drawing.shadow_sizes[i];
     constexpr int kMapSizes = 6;  // Steps of the bar from 1 on; 0: left open.
-    int step = size > 0 ? 1 + std::countr_zero(static_cast<unsigned>(size) / kSmallestMap) : 0;
+    int step = size > 0 ? 1 + std::countr_zero(static_cast<unsigned>(size) / kMinMap) : 0;
     const std::string shown = size > 0 ? std::to_string(size) : "auto";
     if (ImGui::SliderInt("##texels", &step, 0, kMapSizes, shown.c_str())) {
-      size = step > 0 ? kSmallestMap << (std::min(step, kMapSizes) - 1) : 0;
+      size = step > 0 ? kMinMap << (std::min(step, kMapSizes) - 1) : 0;
     }
     ImGui::SameLine();
     ImGui::Text("texels of map %d", i + 1);

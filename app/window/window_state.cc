@@ -151,7 +151,7 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
       return;
     case Action::kLockExposure:
       state->exposure_locked = !state->exposure_locked;
-      state->edit.hold_gain = state->exposure_locked;
+      state->edit.lock_exposure = state->exposure_locked;
       state->wants_exposure_change = true;
       return;
     default:

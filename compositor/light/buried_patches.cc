@@ -7,17 +7,17 @@ namespace {
 
 /// Above this share of rays that meet the inside of bodies a patch is itself inside: from outside
 /// the share is 0 but for rays that slip through an edge, from inside a half or more.
-constexpr double kInsideShare = 0.25;
+constexpr double kBuriedShare = 0.25;
 
 /// Sides of phantoms that look into the earth: they see neither sky nor, mostly, anything else.
-std::vector<std::uint8_t> EarthwardPatches(const LightScene& scene, const GatheredLight& gathered) {
+std::vector<std::uint8_t> EarthwardPatches(const PatchScene& scene, const FinalGather& gathered) {
   std::vector<std::uint8_t> earthward(scene.patch_count);
   const double rays = gathered.rays;
-  for (const LightScene::Sheet& sheet : scene.sheets) {
-    if (sheet.twin < 0 || !sheet.mesh.is_phantom) continue;
-    for (std::uint32_t i = 0; i < sheet.patch_count; ++i) {
-      const GatheredLight::Patch& light = gathered.patches[sheet.first_patch + i];
-      earthward[sheet.first_patch + i] =
+  for (const PatchScene::MeshSide& mesh_side : scene.mesh_sides) {
+    if (mesh_side.twin < 0 || !mesh_side.mesh.is_phantom) continue;
+    for (std::uint32_t i = 0; i < mesh_side.patch_count; ++i) {
+      const FinalGather::Patch& light = gathered.patches[mesh_side.first_patch + i];
+      earthward[mesh_side.first_patch + i] =
           light.sky_rays[1] < 0.02 * rays && light.hit_rays[1] < 0.3 * rays;
     }
   }
@@ -26,17 +26,18 @@ std::vector<std::uint8_t> EarthwardPatches(const LightScene& scene, const Gather
 
 }  // namespace
 
-std::array<std::vector<std::uint8_t>, 2> InsidePatches(const LightScene& scene,
-                                                       const GatheredLight& gathered, int threads) {
+std::array<std::vector<std::uint8_t>, 2> FindBuriedPatches(const PatchScene& scene,
+                                                           const FinalGather& gathered,
+                                                           int threads) {
   const std::vector<std::uint8_t> earthward = EarthwardPatches(scene, gathered);
-  std::array<std::vector<std::uint8_t>, 2> inside;
-  for (auto& flags : inside) flags.resize(scene.patch_count);
+  std::array<std::vector<std::uint8_t>, 2> buried_patches;
+  for (auto& flags : buried_patches) flags.resize(scene.patch_count);
   ParallelFor(gathered.blocks.size(), threads, [&](std::size_t block) {
     ForEachPatch(
         gathered, block,
-        [&](std::uint32_t patch, const GatheredLight::Hit* first, const GatheredLight::Hit* last) {
-          std::array<std::uint32_t, 2> count = gathered.patches[patch].inside_rays;
-          for (const GatheredLight::Hit* hit = first; hit != last; ++hit) {
+        [&](std::uint32_t patch, const FinalGather::Hit* first, const FinalGather::Hit* last) {
+          std::array<std::uint32_t, 2> count = gathered.patches[patch].buried_rays;
+          for (const FinalGather::Hit* hit = first; hit != last; ++hit) {
             if (hit->back == 0 && hit->close == 0) continue;
             const auto corners = CornersOf(scene.faces[hit->face], *hit);
             const bool buried =
@@ -47,11 +48,11 @@ std::array<std::vector<std::uint8_t>, 2> InsidePatches(const LightScene& scene,
             count[1] += hit->without;
           }
           for (const int k : {0, 1}) {
-            inside[k][patch] = count[k] > kInsideShare * gathered.rays;
+            buried_patches[k][patch] = count[k] > kBuriedShare * gathered.rays;
           }
         });
   });
-  return inside;
+  return buried_patches;
 }
 
 }  // namespace pleinair::compositor

@@ -13,11 +13,11 @@ namespace {
 constexpr double kTouchingM = 0.02;
 // Sine of the least angle between surfaces that change each other's light within a short way.
 constexpr double kMinSine = 0.3;
-constexpr double kShortestM = 0.02;
+constexpr double kMinEdge_m = 0.02;
 constexpr std::uint32_t kFewSegments = 4;
 // What finding them may take: boxes compared, and of those that overlap, triangles. Each of the two
 // takes some tenths of a second; bundled scenes need a thousandth of it.
-constexpr std::size_t kMostTriangles = 200'000, kMostBoxes = 50'000'000, kMostPairs = 200'000;
+constexpr std::size_t kMaxTriangles = 200'000, kMaxBoxes = 50'000'000, kMaxPairs = 200'000;
 // Ends of lines that are thought equal lie no farther apart than this.
 constexpr double kSamePlaceM = 1e-3;
 
@@ -50,25 +50,25 @@ struct Triangles {
 };
 
 bool IsCoarse(const std::array<std::array<float, 3>, 3>& corners,
-              const ContactLines::FinestEdge& finest_edge) {
+              const ContactEdges::EdgeLimit& edge_limit) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto &a = corners[i], &b = corners[(i + 1) % 3];
     const std::array<float, 3> middle{(a[0] + b[0]) * 0.5F, (a[1] + b[1]) * 0.5F,
                                       (a[2] + b[2]) * 0.5F};
-    if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > finest_edge(middle)) return true;
+    if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > edge_limit(middle)) return true;
   }
   return false;
 }
 
 /// The phantoms'; none where they are too many.
 Triangles PhantomTriangles(const std::vector<SurfaceMesh>& surfaces,
-                           const ContactLines::FinestEdge& finest_edge) {
+                           const ContactEdges::EdgeLimit& edge_limit) {
   Triangles triangles;
   std::size_t count = 0;
   for (const SurfaceMesh& surface : surfaces) {
     if (surface.is_phantom) count += surface.indices.size() / 3;
   }
-  if (count > kMostTriangles) return triangles;
+  if (count > kMaxTriangles) return triangles;
   for (const SurfaceMesh& surface : surfaces) {
     if (!surface.is_phantom) continue;
     for (std::size_t t = 0; t + 2 < surface.indices.size(); t += 3) {
@@ -86,7 +86,7 @@ Triangles PhantomTriangles(const std::vector<SurfaceMesh>& surfaces,
       const Vec3 around{kTouchingM, kTouchingM, kTouchingM};
       triangle.low = Least(Least(a, b), c) - around;
       triangle.high = Most(Most(a, b), c) + around;
-      (IsCoarse(positions, finest_edge) ? triangles.coarse : triangles.fine).push_back(triangle);
+      (IsCoarse(positions, edge_limit) ? triangles.coarse : triangles.fine).push_back(triangle);
     }
   }
   return triangles;
@@ -112,7 +112,7 @@ std::vector<Vec3> StripOf(const Triangle& triangle, const Triangle& plane) {
   return strip;
 }
 
-std::optional<ContactLines::Segment> ContactOf(const Triangle& a, const Triangle& b) {
+std::optional<ContactEdges::Segment> ContactOf(const Triangle& a, const Triangle& b) {
   if (!a.SeesPartOf(b) || !b.SeesPartOf(a)) return std::nullopt;
   const Vec3 across = Cross(a.normal, b.normal);
   const double sine = Norm(across);
@@ -124,23 +124,23 @@ std::optional<ContactLines::Segment> ContactOf(const Triangle& a, const Triangle
       (Cross(b.normal, along) * at_a + Cross(along, a.normal) * at_b) * (1.0 / sine);
   double from = -1e300, to = 1e300;
   for (const auto& strip : {StripOf(a, b), StripOf(b, a)}) {
-    double least = 1e300, most = -1e300;
+    double minimum = 1e300, maximum = -1e300;
     for (const Vec3 point : strip) {
-      least = std::min(least, Dot(point - origin, along));
-      most = std::max(most, Dot(point - origin, along));
+      minimum = std::min(minimum, Dot(point - origin, along));
+      maximum = std::max(maximum, Dot(point - origin, along));
     }
-    from = std::max(from, least);
-    to = std::min(to, most);
+    from = std::max(from, minimum);
+    to = std::min(to, maximum);
   }
-  if (to - from < kShortestM) return std::nullopt;
-  return ContactLines::Segment{origin + along * from, origin + along * to};
+  if (to - from < kMinEdge_m) return std::nullopt;
+  return ContactEdges::Segment{origin + along * from, origin + along * to};
 }
 
 double DistanceToBox(Vec3 low, Vec3 high, Vec3 point) {
   return Norm(Most(Most(low - point, point - high), {}));
 }
 
-double DistanceToSegment(const ContactLines::Segment& segment, Vec3 point) {
+double DistanceToSegment(const ContactEdges::Segment& segment, Vec3 point) {
   const Vec3 along = segment.to - segment.from;
   const double share = std::clamp(Dot(point - segment.from, along) / Dot(along, along), 0.0, 1.0);
   return Norm(segment.from + along * share - point);
@@ -177,7 +177,7 @@ class ContactSweep {
     });
   }
 
-  std::vector<ContactLines::Segment>& segments() { return segments_; }
+  std::vector<ContactEdges::Segment>& segments() { return segments_; }
 
  private:
   using Iterator = std::vector<Triangle>::const_iterator;
@@ -188,12 +188,12 @@ class ContactSweep {
   bool Meet(const Triangle& a, Iterator b, Iterator end) {
     const double last = Dot(a.high, axis_);
     for (; b != end && Start(*b) <= last; ++b) {
-      if (++boxes_ > kMostBoxes) return false;
+      if (++boxes_ > kMaxBoxes) return false;
       if (b->low.x > a.high.x || a.low.x > b->high.x || b->low.y > a.high.y ||
           a.low.y > b->high.y || b->low.z > a.high.z || a.low.z > b->high.z) {
         continue;
       }
-      if (++pairs_ > kMostPairs) return false;
+      if (++pairs_ > kMaxPairs) return false;
       if (const auto segment = ContactOf(a, *b)) segments_.push_back(*segment);
     }
     return true;
@@ -201,19 +201,19 @@ class ContactSweep {
 
   Vec3 axis_;
   std::size_t boxes_ = 0, pairs_ = 0;
-  std::vector<ContactLines::Segment> segments_;
+  std::vector<ContactEdges::Segment> segments_;
 };
 
 /// Leaves one of those with the same ends, whichever way they run.
-void DropDuplicates(std::vector<ContactLines::Segment>* segments) {
+void DropDuplicates(std::vector<ContactEdges::Segment>* segments) {
   using Place = std::array<double, 3>;
   struct Keyed {
     std::array<Place, 2> ends;
-    ContactLines::Segment segment;
+    ContactEdges::Segment segment;
   };
   std::vector<Keyed> keyed;
   keyed.reserve(segments->size());
-  for (const ContactLines::Segment& segment : *segments) {
+  for (const ContactEdges::Segment& segment : *segments) {
     const auto rounded = [](Vec3 p) {
       const auto round = [](double v) { return std::round(v / kSamePlaceM); };
       return Place{round(p.x), round(p.y), round(p.z)};
@@ -232,20 +232,19 @@ void DropDuplicates(std::vector<ContactLines::Segment>* segments) {
 
 }  // namespace
 
-ContactLines::ContactLines(const std::vector<SurfaceMesh>& surfaces,
-                           const FinestEdge& finest_edge) {
-  Triangles triangles = PhantomTriangles(surfaces, finest_edge);
+ContactEdges::ContactEdges(const std::vector<SurfaceMesh>& surfaces, const EdgeLimit& edge_limit) {
+  Triangles triangles = PhantomTriangles(surfaces, edge_limit);
   if (triangles.coarse.empty()) return;
   ContactSweep sweep;
   if (!sweep.Run(&triangles)) return;
   DropDuplicates(&sweep.segments());
-  if (sweep.segments().empty() || sweep.segments().size() > kMostSegments) return;
+  if (sweep.segments().empty() || sweep.segments().size() > kMaxSegments) return;
   segments_ = std::move(sweep.segments());
   nodes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(segments_.size()), 0});
   Divide(0);
 }
 
-void ContactLines::Divide(std::uint32_t index) {
+void ContactEdges::Divide(std::uint32_t index) {
   const std::uint32_t first = nodes_[index].first, last = nodes_[index].last;
   Vec3 low{1e300, 1e300, 1e300}, high = -low;
   for (std::uint32_t i = first; i < last; ++i) {
@@ -269,11 +268,11 @@ void ContactLines::Divide(std::uint32_t index) {
   Divide(children + 1);
 }
 
-bool ContactLines::IsWithin(const std::array<float, 3>& point, double reach_m) const {
+bool ContactEdges::IsWithin(const std::array<float, 3>& point, double reach_m) const {
   return !nodes_.empty() && IsWithin(0, {point[0], point[1], point[2]}, reach_m);
 }
 
-bool ContactLines::IsWithin(std::uint32_t index, Vec3 point, double reach_m) const {
+bool ContactEdges::IsWithin(std::uint32_t index, Vec3 point, double reach_m) const {
   const Node& node = nodes_[index];
   if (DistanceToBox(node.low, node.high, point) > reach_m) return false;
   if (node.children != 0) {

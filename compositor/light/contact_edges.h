@@ -14,23 +14,23 @@ namespace pleinair::compositor {
 /// The lines along which real surfaces meet so that they see each other: the foot of a wall, the
 /// inner edge of a step. What one reflects onto the other, and hides from it, changes there within
 /// a small part of the surfaces' size.
-class ContactLines {
+class ContactEdges {
  public:
   /// Longest edge that is fine enough about a point though surfaces meet there, metres.
-  using FinestEdge = std::function<double(const std::array<float, 3>& point)>;
+  using EdgeLimit = std::function<double(const std::array<float, 3>& point)>;
 
   /// Without lines: nothing meets.
-  ContactLines() = default;
+  ContactEdges() = default;
   /// Of the phantoms among `surfaces`. Of two triangles that meet, one at least has an edge longer
-  /// than `finest_edge` at its middle: where both are finer nothing needs more vertices, as among a
+  /// than `edge_limit` at its middle: where both are finer nothing needs more vertices, as among a
   /// tree's leaves. Marker coordinates, metres.
   ///
-  /// None at all where finding them would take long or they would be more than `kMostSegments`:
+  /// None at all where finding them would take long or they would be more than `kMaxSegments`:
   /// time and memory are bounded whatever the phantoms are. Which scenes those are depends on the
   /// surfaces alone, not on the machine.
-  ContactLines(const std::vector<SurfaceMesh>& surfaces, const FinestEdge& finest_edge);
+  ContactEdges(const std::vector<SurfaceMesh>& surfaces, const EdgeLimit& edge_limit);
 
-  static constexpr std::size_t kMostSegments = 4'000;
+  static constexpr std::size_t kMaxSegments = 4'000;
 
   struct Segment {
     Vec3 from, to;

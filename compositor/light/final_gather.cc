@@ -12,11 +12,11 @@
 namespace pleinair::compositor {
 namespace {
 
-using Hit = GatheredLight::Hit;
+using Hit = FinalGather::Hit;
 
-// Real ground comes in layers (a lawn's sheet over paving); what lies between them is not seen.
+// Real ground comes in layers (a lawn's mesh side over paving); what lies between them is not seen.
 constexpr double kLayerGapM = 0.02;
-constexpr std::uint32_t kSpotSalt = 0x5B, kTreesSalt = 0x7E;
+constexpr std::uint32_t kSampleSalt = 0x5B, kTreesSalt = 0x7E;
 // So many rays tell whether a lower side sees the land alone, as the ground's does.
 constexpr std::uint32_t kLandRays = 32;
 
@@ -24,29 +24,31 @@ class Gatherer {
  public:
   /// Without `sky` rays are told by `patches`, without `to_sun` no sun is asked for. `sunlight`:
   /// null where no trees shade it.
-  Gatherer(const LightScene& scene, const SkyTable* sky, const SkyPatches* patches,
-           std::optional<Vec3> to_sun, const SeenSunlight* sunlight, int rays)
-      : scene_(scene), sky_(sky), patches_(patches), sunlight_(sunlight), rays_(rays) {
+  Gatherer(const PatchScene& scene, const SkyTable* sky, const SkyPatches* patches,
+           std::optional<Vec3> to_sun, const SunTransmittanceMap* sun_transmittance, int rays)
+      : scene_(scene), sky_(sky), patches_(patches), sunlight_(sun_transmittance), rays_(rays) {
     if (to_sun) sun_frame_.emplace(*to_sun);
     is_phantom_ = scene.ArePhantoms();
-    for (const LightScene::Sheet& sheet : scene.sheets) {
-      has_twin_.insert(has_twin_.end(), sheet.patch_count, sheet.twin >= 0);
+    for (const PatchScene::MeshSide& mesh_side : scene.mesh_sides) {
+      has_twin_.insert(has_twin_.end(), mesh_side.patch_count, mesh_side.twin >= 0);
     }
   }
 
-  GatheredLight::Patch GatherPatch(std::uint32_t patch, GatheredLight::Block* block) const {
-    GatheredLight::Patch light;
-    const std::uint32_t first = patch == 0 ? 0 : scene_.spot_ends[patch - 1];
-    const std::uint32_t spots = scene_.spot_ends[patch] - first;
+  FinalGather::Patch GatherPatch(std::uint32_t patch, FinalGather::Block* block) const {
+    FinalGather::Patch light;
+    const std::uint32_t first = patch == 0 ? 0 : scene_.surface_sample_ends[patch - 1];
+    const std::uint32_t surface_samples = scene_.surface_sample_ends[patch] - first;
     const bool phantom = is_phantom_[patch];
-    const bool land_alone =
-        spots == 1 && phantom && has_twin_[patch] != 0 && SeesLandAlone(scene_.spots[first], patch);
+    const bool land_alone = surface_samples == 1 && phantom && has_twin_[patch] != 0 &&
+                            SeesLandAlone(scene_.surface_samples[first], patch);
     for (int i = 0; i < rays_; ++i) {
       const auto ray = static_cast<std::uint32_t>(i);
-      // A patch of many spots gathers the mean over them.
-      const LightScene::Spot& spot = scene_.AnySpot(patch, Hash(Hash(patch, ray), kSpotSalt));
-      const Vec3 origin = spot.origin;
-      const TangentFrame frame(Normalized({spot.normal[0], spot.normal[1], spot.normal[2]}));
+      // A patch of many surface samples gathers the mean over them.
+      const PatchScene::PatchSample& surface_sample =
+          scene_.AnyPatchSample(patch, Hash(Hash(patch, ray), kSampleSalt));
+      const Vec3 origin = surface_sample.origin;
+      const TangentFrame frame(Normalized(
+          {surface_sample.normal[0], surface_sample.normal[1], surface_sample.normal[2]}));
       const Vec3 direction =
           CosineDirection(frame, ShiftedHammersley(ray, static_cast<std::uint32_t>(rays_), patch));
       const std::uint32_t seed = Hash(patch, ray);
@@ -58,7 +60,7 @@ class Gatherer {
         AddSky(direction, true, phantom, &light, block);
         continue;
       }
-      const bool phantom_hit = scene_.sheets[scene_.FaceOf(hit).sheet].mesh.is_phantom;
+      const bool phantom_hit = scene_.mesh_sides[scene_.FaceOf(hit).mesh_side].mesh.is_phantom;
       AddHit(hit, origin, direction, seed, trees, true, phantom && phantom_hit, &light,
              &block->hits);
       if (!phantom || phantom_hit) continue;
@@ -77,21 +79,22 @@ class Gatherer {
                            : patches_->At(direction) == patches_->land();
   }
 
-  bool SeesLandAlone(const LightScene::Spot& spot, std::uint32_t patch) const {
-    const TangentFrame frame(Normalized({spot.normal[0], spot.normal[1], spot.normal[2]}));
+  bool SeesLandAlone(const PatchScene::PatchSample& surface_sample, std::uint32_t patch) const {
+    const TangentFrame frame(
+        Normalized({surface_sample.normal[0], surface_sample.normal[1], surface_sample.normal[2]}));
     if (!IsBelowHorizon(frame.normal)) return false;
     for (std::uint32_t i = 0; i < kLandRays; ++i) {
       const Vec3 direction = CosineDirection(frame, ShiftedHammersley(i, kLandRays, patch));
       if (!IsBelowHorizon(direction) ||
-          scene_.rays->Occluded(RayTargets::kEverything, spot.origin, direction)) {
+          scene_.rays->Occluded(RayTargets::kEverything, surface_sample.origin, direction)) {
         return false;
       }
     }
     return true;
   }
 
-  void AddSky(Vec3 direction, bool with, bool without, GatheredLight::Patch* light,
-              GatheredLight::Block* block) const {
+  void AddSky(Vec3 direction, bool with, bool without, FinalGather::Patch* light,
+              FinalGather::Block* block) const {
     bool above = false;
     std::array<float, 3> radiance{};
     if (sky_ != nullptr) {
@@ -100,7 +103,7 @@ class Gatherer {
     } else {
       const int patch = patches_->At(direction);
       above = patch != patches_->land();
-      GatheredLight::Escape escape{};
+      FinalGather::Escape escape{};
       escape.patch = static_cast<std::uint16_t>(patch) & ((1U << 14) - 1);
       escape.with = with;
       escape.without = without;
@@ -115,13 +118,13 @@ class Gatherer {
 
   /// `trees`: the ray meets the sun where they leave more than this share of it.
   void AddHit(const RayHit& hit, Vec3 origin, Vec3 direction, std::uint32_t seed, double trees,
-              bool with, bool without, GatheredLight::Patch* light, std::vector<Hit>* hits) const {
-    const LightScene::Face& face = scene_.FaceOf(hit);
+              bool with, bool without, FinalGather::Patch* light, std::vector<Hit>* hits) const {
+    const PatchScene::Face& face = scene_.FaceOf(hit);
     const bool inside = hit.back && face.back_offset == 0;
     for (const int k : {0, 1}) {
       if (!(k == 0 ? with : without)) continue;
       ++light->hit_rays[k];
-      if (inside) ++light->inside_rays[k];
+      if (inside) ++light->buried_rays[k];
     }
     if (inside) return;  // Black.
     Hit record{};
@@ -129,14 +132,14 @@ class Gatherer {
     record.with = with;
     record.without = without;
     record.back = hit.back;
-    record.close = hit.distance_m < kLayerGapM && scene_.sheets[face.sheet].mesh.is_phantom;
+    record.close = hit.distance_m < kLayerGapM && scene_.mesh_sides[face.mesh_side].mesh.is_phantom;
     record.u = Quantized(hit.u);
     record.v = Quantized(hit.v);
     const Vec3 normal = hit.back ? -face.normal : face.normal;
     if (sun_frame_ && Dot(normal, sun_frame_->normal) > 0.0) {
       const Vec3 to_sun =
           SunDiscDirection(*sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
-      const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffsetM;
+      const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffset_m;
       // Of half a sun every second ray meets all.
       const bool past_trees = sunlight_ == nullptr || trees < sunlight_->At(point);
       const bool lit = past_trees && !scene_.rays->Occluded(RayTargets::kEverything, point, to_sun);
@@ -151,30 +154,30 @@ class Gatherer {
     return static_cast<std::uint16_t>(std::lround(std::clamp(weight, 0.0F, 1.0F) * 65535.0F));
   }
 
-  const LightScene& scene_;
+  const PatchScene& scene_;
   const SkyTable* sky_;
   const SkyPatches* patches_;
-  const SeenSunlight* sunlight_;
+  const SunTransmittanceMap* sunlight_;
   std::optional<TangentFrame> sun_frame_;
   int rays_;
   std::vector<std::uint8_t> is_phantom_, has_twin_;  ///< By patch.
 };
 
 std::size_t BlockCount(std::uint32_t patches) {
-  return (patches + GatheredLight::kBlockSize - 1) / GatheredLight::kBlockSize;
+  return (patches + FinalGather::kBlockSize - 1) / FinalGather::kBlockSize;
 }
 
-GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int rays, int threads,
-                         const std::atomic<bool>* stop) {
-  GatheredLight gathered;
+FinalGather GatherWith(const PatchScene& scene, const Gatherer& gatherer, int rays, int threads,
+                       const std::atomic<bool>* stop) {
+  FinalGather gathered;
   gathered.rays = rays;
   gathered.patches.resize(scene.patch_count);
   gathered.blocks.resize(BlockCount(scene.patch_count));
   ParallelFor(gathered.blocks.size(), threads, [&](std::size_t index) {
     if (stop != nullptr && *stop) return;
-    GatheredLight::Block& block = gathered.blocks[index];
-    const auto first = static_cast<std::uint32_t>(index) * GatheredLight::kBlockSize;
-    const std::uint32_t last = std::min(first + GatheredLight::kBlockSize, scene.patch_count);
+    FinalGather::Block& block = gathered.blocks[index];
+    const auto first = static_cast<std::uint32_t>(index) * FinalGather::kBlockSize;
+    const std::uint32_t last = std::min(first + FinalGather::kBlockSize, scene.patch_count);
     for (std::uint32_t patch = first; patch < last; ++patch) {
       gathered.patches[patch] = gatherer.GatherPatch(patch, &block);
       block.ends.push_back(static_cast<std::uint32_t>(block.hits.size()));
@@ -188,24 +191,25 @@ GatheredLight GatherWith(const LightScene& scene, const Gatherer& gatherer, int 
 
 }  // namespace
 
-GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun,
-                     const SeenSunlight& sunlight, int rays, int threads) {
-  const SeenSunlight* const trees = sunlight.share.empty() ? nullptr : &sunlight;
+FinalGather Gather(const PatchScene& scene, const SkyTable& sky, Vec3 to_sun,
+                   const SunTransmittanceMap& sun_transmittance, int rays, int threads) {
+  const SunTransmittanceMap* const trees =
+      sun_transmittance.share.empty() ? nullptr : &sun_transmittance;
   return GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, trees, rays), rays, threads,
                     nullptr);
 }
 
-GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays,
-                            int threads, const std::atomic<bool>* stop) {
+FinalGather GatherPatches(const PatchScene& scene, const SkyPatches& patches, int rays, int threads,
+                          const std::atomic<bool>* stop) {
   return GatherWith(scene, Gatherer(scene, nullptr, &patches, std::nullopt, nullptr, rays), rays,
                     threads, stop);
 }
 
-PatchLight Reflect(const LightScene& scene, const GatheredLight& gathered,
-                   const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
-                   int threads) {
+PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
+                          const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
+                          int threads) {
   constexpr float kPi = std::numbers::pi_v<float>;
-  const auto inside = InsidePatches(scene, gathered, threads);
+  const auto inside = FindBuriedPatches(scene, gathered, threads);
   const float weight = kPi / static_cast<float>(gathered.rays);
   PatchLight light;
   for (const int k : {0, 1}) {
@@ -223,11 +227,11 @@ PatchLight Reflect(const LightScene& scene, const GatheredLight& gathered,
       ForEachPatch(gathered, block, [&](std::uint32_t patch, const Hit* first, const Hit* last) {
         auto sum = gathered.patches[patch].sky;
         for (const Hit* hit = first; hit != last; ++hit) {
-          const LightScene::Face& face = scene.faces[hit->face];
+          const PatchScene::Face& face = scene.faces[hit->face];
           const auto corners = CornersOf(face, *hit);
           const float u = static_cast<float>(hit->u) / 65535.0F;
           const float v = static_cast<float>(hit->v) / 65535.0F;
-          const auto& albedo = scene.sheets[face.sheet].albedo;
+          const auto& albedo = scene.mesh_sides[face.mesh_side].albedo;
           const auto cosine = static_cast<float>(std::fabs(Dot(face.normal, to_sun)));
           for (const int k : {0, 1}) {
             if ((k == 0 ? hit->with : hit->without) == 0) continue;

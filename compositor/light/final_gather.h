@@ -13,7 +13,7 @@
 namespace pleinair::compositor {
 
 /// What the rays of every patch met, so that reflections can be followed without tracing again.
-struct GatheredLight {
+struct FinalGather {
   /// A surface that a patch sees, in 8 bytes: there are millions.
   struct Hit {
     std::uint32_t face : 26;
@@ -31,7 +31,7 @@ struct GatheredLight {
   struct Patch {
     std::array<std::array<float, 3>, 2> sky{};   ///< Sum of radiances of rays that left.
     std::array<std::uint32_t, 2> sky_rays{};     ///< How many of them went above the horizon.
-    std::array<std::uint32_t, 2> inside_rays{};  ///< Rays that met the inside of a body.
+    std::array<std::uint32_t, 2> buried_rays{};  ///< Rays that met the inside of a body.
     std::array<std::uint32_t, 2> hit_rays{};
   };
 
@@ -58,13 +58,13 @@ struct GatheredLight {
 /// Sends `rays` cosine-weighted rays from every patch. A ray whose nearest surface is
 /// a phantom's serves both cases, so that they differ by what the objects change and not by noise.
 /// `sunlight`: how much of the sun trees leave to what the rays meet.
-GatheredLight Gather(const LightScene& scene, const SkyTable& sky, Vec3 to_sun,
-                     const SeenSunlight& sunlight, int rays, int threads);
+FinalGather Gather(const PatchScene& scene, const SkyTable& sky, Vec3 to_sun,
+                   const SunTransmittanceMap& sun_transmittance, int rays, int threads);
 
 /// The same for whatever sky: rays that leave are told by the patch that they leave through, and no
 /// sun is asked for. Once `stop` is set it ends soon, and what it gives is of no use.
-GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, int rays,
-                            int threads, const std::atomic<bool>* stop = nullptr);
+FinalGather GatherPatches(const PatchScene& scene, const SkyPatches& patches, int rays, int threads,
+                          const std::atomic<bool>* stop = nullptr);
 
 /// Irradiance on every patch after `bounces` reflections; [0]: with the virtual objects, [1]:
 /// phantoms alone (meaningless for patches of objects). Patches that lie inside a body, such as
@@ -72,8 +72,8 @@ GatheredLight GatherPatches(const LightScene& scene, const SkyPatches& patches, 
 struct PatchLight {
   std::array<std::vector<std::array<float, 3>>, 2> irradiance;
 };
-PatchLight Reflect(const LightScene& scene, const GatheredLight& gathered,
-                   const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
-                   int threads);
+PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
+                          const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
+                          int threads);
 
 }  // namespace pleinair::compositor

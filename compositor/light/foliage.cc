@@ -15,14 +15,14 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr double kLargestLeafM = 0.5;
-constexpr std::size_t kFewestLeaves = 50;
+constexpr double kMaxLeaf_m = 0.5;
+constexpr std::size_t kMinLeafCount = 50;
 // Of the leaves' size: how far they lie about at least in the direction in which they do least.
-constexpr double kLeastSpread = 0.5;
+constexpr double kMinSpread = 0.5;
 // Tiles of a roof and bricks round a corner face as their neighbours do: of some pieces, each
 // beside the nearest other, so many must be turned by more than 37°. Leaves of any direction are so
 // by 0.8.
-constexpr double kSameWay = 0.8, kLeastTurned = 0.4;
+constexpr double kSameWay = 0.8, kMinTurnedShare = 0.4;
 constexpr std::size_t kPiecesAsked = 200;
 
 /// Which vertices hang together by triangles or lie in one place, as a forest.
@@ -57,34 +57,34 @@ class Pieces {
 
 /// A piece's box, and the way its largest triangle faces.
 struct Extent {
-  std::array<double, 3> least, most;
+  std::array<double, 3> minimum, maximum;
   Vec3 twice_area;
   Extent() {
-    least.fill(std::numeric_limits<double>::infinity());
-    most.fill(-std::numeric_limits<double>::infinity());
+    minimum.fill(std::numeric_limits<double>::infinity());
+    maximum.fill(-std::numeric_limits<double>::infinity());
   }
   void Include(const std::array<Vec3, 3>& triangle) {
     for (const Vec3 p : triangle) {
       const std::array<double, 3> point{p.x, p.y, p.z};
       for (int k = 0; k < 3; ++k) {
-        least[k] = std::min(least[k], point[k]);
-        most[k] = std::max(most[k], point[k]);
+        minimum[k] = std::min(minimum[k], point[k]);
+        maximum[k] = std::max(maximum[k], point[k]);
       }
     }
     const Vec3 area = Cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
     if (Dot(area, area) > Dot(twice_area, twice_area)) twice_area = area;
   }
   double LongestSide() const {
-    return std::max({most[0] - least[0], most[1] - least[1], most[2] - least[2]});
+    return std::max({maximum[0] - minimum[0], maximum[1] - minimum[1], maximum[2] - minimum[2]});
   }
   Vec3 Middle() const {
-    return Vec3{least[0] + most[0], least[1] + most[1], least[2] + most[2]} * 0.5;
+    return Vec3{minimum[0] + maximum[0], minimum[1] + maximum[1], minimum[2] + maximum[2]} * 0.5;
   }
 };
 
 /// How far points lie about in the direction in which they do least: its standard deviation, or
 /// less, down to 1/√3 of it where all directions are alike. 0 in a plane.
-double LeastSpread(const std::vector<Vec3>& points) {
+double MinSpread(const std::vector<Vec3>& points) {
   const double share = 1.0 / static_cast<double>(points.size());
   Vec3 mean;
   for (const Vec3 point : points) mean = mean + point * share;
@@ -113,11 +113,11 @@ double ShareTurned(const std::vector<Vec3>& middles, const std::vector<Vec3>& ar
   for (std::size_t k = 0; k < asked; ++k) {
     const std::size_t i = k * middles.size() / asked;
     std::size_t nearest = i;
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < middles.size(); ++j) {
       const Vec3 apart = middles[j] - middles[i];
-      if (j == i || Dot(apart, apart) >= least) continue;
-      least = Dot(apart, apart);
+      if (j == i || Dot(apart, apart) >= minimum) continue;
+      minimum = Dot(apart, apart);
       nearest = j;
     }
     const double both = Norm(areas[i]) * Norm(areas[nearest]);
@@ -155,8 +155,8 @@ SurfaceMesh PartOf(const SurfaceMesh& surface, const Keep& keep) {
 
 }  // namespace
 
-std::optional<SurfaceMesh> TakeLooseLeaves(SurfaceMesh* surface) {
-  if (!surface->is_phantom || surface->closed || surface->indices.size() < 3 * kFewestLeaves) {
+std::optional<SurfaceMesh> ExtractFoliage(SurfaceMesh* surface) {
+  if (!surface->is_phantom || surface->closed || surface->indices.size() < 3 * kMinLeafCount) {
     return {};
   }
   Pieces pieces(*surface);
@@ -173,14 +173,14 @@ std::optional<SurfaceMesh> TakeLooseLeaves(SurfaceMesh* surface) {
   std::vector<double> sizes;
   std::vector<Vec3> middles, areas;
   for (const auto& [piece, extent] : extents) {
-    if (extent.LongestSide() > kLargestLeafM) continue;
+    if (extent.LongestSide() > kMaxLeaf_m) continue;
     small[piece] = 1;
     sizes.push_back(extent.LongestSide());
     middles.push_back(extent.Middle());
     areas.push_back(extent.twice_area);
   }
-  if (sizes.size() < kFewestLeaves || LeastSpread(middles) < kLeastSpread * Median(sizes) ||
-      ShareTurned(middles, areas) < kLeastTurned) {
+  if (sizes.size() < kMinLeafCount || MinSpread(middles) < kMinSpread * Median(sizes) ||
+      ShareTurned(middles, areas) < kMinTurnedShare) {
     return {};
   }
   SurfaceMesh leaves =

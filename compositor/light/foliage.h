@@ -18,6 +18,6 @@ namespace pleinair::compositor {
 /// than half their size, and face other ways than those next to them. So a hedge, a crown of leaves
 /// or of cards is taken; blades that stand on one lawn, a fence's links, tiles, slabs and bricks
 /// are not.
-std::optional<SurfaceMesh> TakeLooseLeaves(SurfaceMesh* surface);
+std::optional<SurfaceMesh> ExtractFoliage(SurfaceMesh* surface);
 
 }  // namespace pleinair::compositor

@@ -20,7 +20,7 @@ namespace {
 
 // About five seconds on two processors.
 constexpr std::uint32_t kRayBudget = 25'000'000;
-constexpr std::uint32_t kFewestRays = 32;
+constexpr std::uint32_t kMinRays = 32;
 
 // Reflectance of the land beyond the phantoms; 0.2 is the customary value for mixed ground.
 constexpr double kLandAlbedo = 0.2;
@@ -28,42 +28,43 @@ constexpr double kLandAlbedo = 0.2;
 constexpr std::uint32_t kSunRays = 256;
 constexpr std::size_t kSkySeenPatches = 64;
 // Triangles of phantoms that are asked how much of the sun reaches them: up to a second's rays.
-constexpr std::size_t kMostReached = 200'000;
+constexpr std::size_t kMaxVisited = 200'000;
 
 class EmbreeLightSolver : public LightSolver {
  public:
-  EmbreeLightSolver(LightScene scene, const LightSolverOptions& options)
+  EmbreeLightSolver(PatchScene scene, const LightSolverOptions& options)
       : scene_(std::move(scene)), options_(options) {
-    static std::atomic<std::uint64_t> sheets{0};
-    first_geometry_ = 1 + sheets.fetch_add(scene_.sheets.size());
+    static std::atomic<std::uint64_t> mesh_sides{0};
+    first_geometry_ = 1 + mesh_sides.fetch_add(scene_.mesh_sides.size());
   }
 
-  std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel& day, const Mat3& marker_from_world,
-                                       const SeenSunlight& sunlight) const override {
+  std::vector<LitMesh> SolveUnderTrees(
+      const sky::SkyModel& day, const Mat3& marker_from_world,
+      const SunTransmittanceMap& sun_transmittance) const override {
     const SkyTable sky(day, marker_from_world, kLandAlbedo);
     const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
     const LinearRgb sun = day.SunNormalIrradiance();
-    const GatheredLight gathered =
-        Gather(scene_, sky, to_sun, sunlight, RaysPerPatch(), options_.threads);
-    const PatchLight light =
-        Reflect(scene_, gathered,
-                {static_cast<float>(sun.r), static_cast<float>(sun.g), static_cast<float>(sun.b)},
-                to_sun, options_.bounces, options_.threads);
-    std::vector<LitMesh> meshes = MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
+    const FinalGather gathered =
+        Gather(scene_, sky, to_sun, sun_transmittance, RaysPerPatch(), options_.threads);
+    const PatchLight light = SolveRadiosity(
+        scene_, gathered,
+        {static_cast<float>(sun.r), static_cast<float>(sun.g), static_cast<float>(sun.b)}, to_sun,
+        options_.bounces, options_.threads);
+    std::vector<LitMesh> meshes = MakeLitMeshes(light, [&](const PatchScene::MeshSide& mesh_side) {
       double rays = 0.0;
-      for (std::size_t i = 0; i < sheet.patch_count; ++i) {
-        rays += gathered.patches[sheet.first_patch + i].sky_rays[0];
+      for (std::size_t i = 0; i < mesh_side.patch_count; ++i) {
+        rays += gathered.patches[mesh_side.first_patch + i].sky_rays[0];
       }
       return rays;
     });
     // Without a sun there is nothing to be asked.
-    std::size_t left = Luminance(sun) > 0.0 ? kMostReached : 0;
+    std::size_t left = Luminance(sun) > 0.0 ? kMaxVisited : 0;
     for (LitMesh& mesh : meshes) {
       if (mesh.is_phantom && mesh.indices.size() / 3 <= left) {
         left -= mesh.indices.size() / 3;
-        mesh.sun_reach = FindSunReach(*scene_.rays, mesh, to_sun, options_.threads);
-        mesh.reached_to_sun = {static_cast<float>(to_sun.x), static_cast<float>(to_sun.y),
-                               static_cast<float>(to_sun.z)};
+        mesh.sun_visibility = ClassifySunVisibility(*scene_.rays, mesh, to_sun, options_.threads);
+        mesh.sun_visibility_to_sun = {static_cast<float>(to_sun.x), static_cast<float>(to_sun.y),
+                                      static_cast<float>(to_sun.z)};
       }
     }
     return meshes;
@@ -97,14 +98,14 @@ class EmbreeLightSolver : public LightSolver {
       coefficients.without.Multiply(sky, sun, std::span(light.irradiance[1]).subspan(first, count),
                                     first);
     }
-    return MakeLitMeshes(light, [&](const LightScene::Sheet& sheet) {
-      // Some patches of a sheet tell which side of it looks to the sky.
-      const std::size_t size = sheet.patch_count;
+    return MakeLitMeshes(light, [&](const PatchScene::MeshSide& mesh_side) {
+      // Some patches of a mesh side tell which side of it looks to the sky.
+      const std::size_t size = mesh_side.patch_count;
       const std::size_t step = std::max<std::size_t>(1, size / kSkySeenPatches);
       double straight = 0.0;
       for (std::size_t i = 0; i < size; i += step) {
         for (int patch = 0; patch < patches.count(); ++patch) {
-          straight += coefficients.with.At(sheet.first_patch + i, patch, 0);
+          straight += coefficients.with.At(mesh_side.first_patch + i, patch, 0);
         }
       }
       return straight;
@@ -113,7 +114,7 @@ class EmbreeLightSolver : public LightSolver {
 
   double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const override {
     const TangentFrame frame(Normalized(to_sun_in_marker));
-    const Vec3 origin = point.xyz + frame.normal * kRayOffsetM;
+    const Vec3 origin = point.xyz + frame.normal * kRayOffset_m;
     std::uint32_t visible = 0;
     for (std::uint32_t i = 0; i < kSunRays; ++i) {
       const Vec3 direction = SunDiscDirection(frame, ShiftedHammersley(i, kSunRays, 0));
@@ -122,29 +123,29 @@ class EmbreeLightSolver : public LightSolver {
     return static_cast<double>(visible) / kSunRays;
   }
 
-  bool ReachesPhantomsOnly(Point<Marker> point, Vec3 direction) const override {
-    return !scene_.rays->Occluded(RayTargets::kPhantoms, point.xyz + direction * kRayOffsetM,
+  bool IsUnoccludedPhantomsOnly(Point<Marker> point, Vec3 direction) const override {
+    return !scene_.rays->Occluded(RayTargets::kPhantoms, point.xyz + direction * kRayOffset_m,
                                   direction);
   }
 
   std::optional<PhantomSurface> FirstPhantom(Point<Marker> eye, Vec3 direction) const override {
     RayHit hit, leaf;
     const bool found = scene_.rays->Intersect(RayTargets::kPhantoms, eye.xyz, direction, &hit);
-    if (scene_.loose_leaves != nullptr &&
-        scene_.loose_leaves->Intersect(RayTargets::kPhantoms, eye.xyz, direction, &leaf) &&
+    if (scene_.foliage != nullptr &&
+        scene_.foliage->Intersect(RayTargets::kPhantoms, eye.xyz, direction, &leaf) &&
         (!found || leaf.distance_m < hit.distance_m)) {
       PhantomSurface surface;
       surface.point = {eye.xyz + direction * leaf.distance_m};
-      surface.is_loose_leaf = true;
+      surface.is_foliage = true;
       return surface;
     }
     if (!found) return {};
-    const LightScene::Face& face = scene_.FaceOf(hit);
+    const PatchScene::Face& face = scene_.FaceOf(hit);
     const int side = hit.back ? 1 : 0;
-    const auto& albedo = scene_.sheets[face.sheet].albedo;
+    const auto& albedo = scene_.mesh_sides[face.mesh_side].albedo;
     return PhantomSurface{{eye.xyz + direction * hit.distance_m},
                           hit.back ? -face.normal : face.normal,
-                          static_cast<int>(face.sheet) * 2 + side,
+                          static_cast<int>(face.mesh_side) * 2 + side,
                           {albedo[0], albedo[1], albedo[2]},
                           false};
   }
@@ -165,7 +166,7 @@ class EmbreeLightSolver : public LightSolver {
   }
 
   LinearRgb RadianceFromBelow(const sky::SkyModel& day, const Mat3& marker_from_world,
-                              const SeenSunlight& sunlight) const override {
+                              const SunTransmittanceMap& sun_transmittance) const override {
     const std::vector<Vec3> middles = ObjectMiddles();
     if (middles.empty()) return {};
     const SkyTable sky(day, marker_from_world, kLandAlbedo);
@@ -174,7 +175,7 @@ class EmbreeLightSolver : public LightSolver {
     LinearRgb irradiance;
     for (const Vec3 middle : middles) {
       irradiance = irradiance + FollowPaths(middle, down, sky, sun_frame, day.SunNormalIrradiance(),
-                                            sunlight, kMeterPaths);
+                                            sun_transmittance, kMarkerPaths);
     }
     return irradiance * (std::numbers::inv_pi / static_cast<double>(middles.size()));
   }
@@ -186,10 +187,10 @@ class EmbreeLightSolver : public LightSolver {
       Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
     };
     std::map<int, Box> boxes;
-    for (const LightScene::Sheet& sheet : scene_.sheets) {
-      if (sheet.mesh.is_phantom) continue;
-      Box& box = boxes[sheet.mesh.placed_model];
-      for (const auto& [x, y, z] : sheet.mesh.positions) {
+    for (const PatchScene::MeshSide& mesh_side : scene_.mesh_sides) {
+      if (mesh_side.mesh.is_phantom) continue;
+      Box& box = boxes[mesh_side.mesh.placed_model];
+      for (const auto& [x, y, z] : mesh_side.mesh.positions) {
         box.low = {std::min<double>(box.low.x, x), std::min<double>(box.low.y, y),
                    std::min<double>(box.low.z, z)};
         box.high = {std::max<double>(box.high.x, x), std::max<double>(box.high.y, y),
@@ -204,11 +205,11 @@ class EmbreeLightSolver : public LightSolver {
 
   /// Irradiance at a point whose surface has `frame`, by paths through the phantoms.
   LinearRgb FollowPaths(Vec3 point, const TangentFrame& frame, const SkyTable& sky,
-                        const TangentFrame& sun_frame, LinearRgb sun, const SeenSunlight& sunlight,
-                        std::uint32_t paths) const {
+                        const TangentFrame& sun_frame, LinearRgb sun,
+                        const SunTransmittanceMap& sun_transmittance, std::uint32_t paths) const {
     LinearRgb sum;
     for (std::uint32_t path = 0; path < paths; ++path) {
-      Vec3 origin = point + frame.normal * kRayOffsetM;
+      Vec3 origin = point + frame.normal * kRayOffset_m;
       Vec3 direction = CosineDirection(frame, ShiftedHammersley(path, paths, 0));
       LinearRgb throughput{1.0, 1.0, 1.0};
       for (int bounce = 0;; ++bounce) {
@@ -218,17 +219,17 @@ class EmbreeLightSolver : public LightSolver {
           sum = sum + throughput * LinearRgb{radiance[0], radiance[1], radiance[2]};
           break;
         }
-        const LightScene::Face& face = scene_.FaceOf(hit);
+        const PatchScene::Face& face = scene_.FaceOf(hit);
         if (bounce == options_.bounces || (hit.back && face.back_offset == 0)) break;
-        const auto& albedo = scene_.sheets[face.sheet].albedo;
+        const auto& albedo = scene_.mesh_sides[face.mesh_side].albedo;
         throughput = throughput * LinearRgb{albedo[0], albedo[1], albedo[2]};
         const TangentFrame at_hit(hit.back ? -face.normal : face.normal);
-        origin = origin + direction * hit.distance_m + at_hit.normal * kRayOffsetM;
+        origin = origin + direction * hit.distance_m + at_hit.normal * kRayOffset_m;
         const std::uint32_t seed = Hash(path, static_cast<std::uint32_t>(bounce));
         const double cosine = Dot(at_hit.normal, sun_frame.normal);
         const Vec3 to_sun = SunDiscDirection(sun_frame, RandomPoint(seed, 1));
         if (cosine > 0.0 && !scene_.rays->Occluded(RayTargets::kPhantoms, origin, to_sun)) {
-          sum = sum + throughput * sun * (sunlight.At(origin) * cosine / std::numbers::pi);
+          sum = sum + throughput * sun * (sun_transmittance.At(origin) * cosine / std::numbers::pi);
         }
         direction = CosineDirection(at_hit, RandomPoint(seed, 3));
       }
@@ -243,7 +244,7 @@ class EmbreeLightSolver : public LightSolver {
   int RaysPerPatch() const {
     const std::uint32_t affordable = kRayBudget / std::max(1U, scene_.patch_count);
     const auto wanted = static_cast<std::uint32_t>(std::max(1, options_.rays_per_vertex));
-    return static_cast<int>(std::min(wanted, std::max(kFewestRays, affordable)));
+    return static_cast<int>(std::min(wanted, std::max(kMinRays, affordable)));
   }
 
   struct Run {
@@ -252,12 +253,12 @@ class EmbreeLightSolver : public LightSolver {
   /// The phantoms' patches, as few runs of them as can be.
   std::vector<Run> PhantomPatches() const {
     std::vector<Run> runs;
-    for (const LightScene::Sheet& sheet : scene_.sheets) {
-      if (!sheet.mesh.is_phantom) continue;
-      if (runs.empty() || runs.back().first + runs.back().count != sheet.first_patch) {
-        runs.push_back({sheet.first_patch, 0});
+    for (const PatchScene::MeshSide& mesh_side : scene_.mesh_sides) {
+      if (!mesh_side.mesh.is_phantom) continue;
+      if (runs.empty() || runs.back().first + runs.back().count != mesh_side.first_patch) {
+        runs.push_back({mesh_side.first_patch, 0});
       }
-      runs.back().count += sheet.patch_count;
+      runs.back().count += mesh_side.patch_count;
     }
     return runs;
   }
@@ -266,45 +267,47 @@ class EmbreeLightSolver : public LightSolver {
   template <typename SkySeen>
   std::vector<LitMesh> MakeLitMeshes(const PatchLight& light, const SkySeen& sky_seen) const {
     std::vector<LitMesh> meshes;
-    for (std::size_t i = 0; i < scene_.sheets.size(); ++i) {
-      const int twin = scene_.sheets[i].twin;
+    for (std::size_t i = 0; i < scene_.mesh_sides.size(); ++i) {
+      const int twin = scene_.mesh_sides[i].twin;
       if (twin >= 0 && static_cast<std::size_t>(twin) < i) continue;
-      meshes.push_back(MakeLitMesh(scene_.sheets[i], light));
+      meshes.push_back(MakeLitMesh(scene_.mesh_sides[i], light));
       if (twin < 0) continue;
-      meshes.push_back(MakeLitMesh(scene_.sheets[twin], light));
-      if (sky_seen(scene_.sheets[twin]) > sky_seen(scene_.sheets[i])) {
+      meshes.push_back(MakeLitMesh(scene_.mesh_sides[twin], light));
+      if (sky_seen(scene_.mesh_sides[twin]) > sky_seen(scene_.mesh_sides[i])) {
         std::swap(meshes.back(), meshes[meshes.size() - 2]);
       }
     }
     return meshes;
   }
 
-  LitMesh MakeLitMesh(const LightScene::Sheet& sheet, const PatchLight& light) const {
+  LitMesh MakeLitMesh(const PatchScene::MeshSide& mesh_side, const PatchLight& light) const {
     LitMesh mesh;
-    mesh.is_phantom = sheet.mesh.is_phantom;
-    mesh.placed_model = sheet.mesh.placed_model;
-    mesh.material = sheet.mesh.material;
-    mesh.geometry = first_geometry_ + static_cast<std::uint64_t>(&sheet - scene_.sheets.data());
-    mesh.role = sheet.mesh.role;
-    mesh.positions = sheet.mesh.positions;
-    mesh.normals = sheet.mesh.normals;
-    mesh.uvs = sheet.mesh.uvs;
-    mesh.indices = sheet.mesh.indices;
-    mesh.ambient_with = scene_.VertexLight(sheet, light.irradiance[0]);
-    if (mesh.is_phantom) mesh.ambient_without = scene_.VertexLight(sheet, light.irradiance[1]);
+    mesh.is_phantom = mesh_side.mesh.is_phantom;
+    mesh.placed_model = mesh_side.mesh.placed_model;
+    mesh.material = mesh_side.mesh.material;
+    mesh.geometry =
+        first_geometry_ + static_cast<std::uint64_t>(&mesh_side - scene_.mesh_sides.data());
+    mesh.role = mesh_side.mesh.role;
+    mesh.positions = mesh_side.mesh.positions;
+    mesh.normals = mesh_side.mesh.normals;
+    mesh.uvs = mesh_side.mesh.uvs;
+    mesh.indices = mesh_side.mesh.indices;
+    mesh.ambient_with = scene_.VertexLight(mesh_side, light.irradiance[0]);
+    if (mesh.is_phantom) mesh.ambient_without = scene_.VertexLight(mesh_side, light.irradiance[1]);
     return mesh;
   }
 
-  LightScene scene_;
+  PatchScene scene_;
   LightSolverOptions options_;
-  std::uint64_t first_geometry_ = 0;  // LitMesh::geometry of the first sheet; the others follow.
+  std::uint64_t first_geometry_ =
+      0;  // LitMesh::geometry of the first mesh side; the others follow.
 };
 
 }  // namespace
 
 Result<std::unique_ptr<LightSolver>> LightSolver::Create(const std::vector<PlacedModel>& scene,
                                                          const LightSolverOptions& options) {
-  PLEINAIR_ASSIGN_OR_RETURN(LightScene light_scene, LightScene::Create(scene, options));
+  PLEINAIR_ASSIGN_OR_RETURN(PatchScene light_scene, PatchScene::Create(scene, options));
   return std::make_unique<EmbreeLightSolver>(std::move(light_scene), options);
 }
 

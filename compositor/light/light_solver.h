@@ -24,9 +24,9 @@ struct PhantomSurface {
   Vec3 normal;         ///< Unit, towards the eye.
   int surface = 0;     ///< Equal for points of one side of one surface of one material.
   LinearRgb albedo{};  ///< That the phantom states, textures as their mean.
-  /// Of a phantom's loose leaves (loose_leaves.h): what is seen there is a leaf or what stands
+  /// Of a phantom's loose leaves (foliage.h): what is seen there is a leaf or what stands
   /// behind, and tells of no surface. Only `point` is set.
-  bool is_loose_leaf = false;
+  bool is_foliage = false;
 };
 
 /// Computes where the day's light goes among phantoms and virtual objects (Embree). Keeps the ray
@@ -46,9 +46,9 @@ class LightSolver {
   }
   /// As Solve(); of the sun, surfaces reflect what `sunlight` leaves it. A map without cells, as
   /// made by default, stands for no trees.
-  virtual std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel& daylight,
-                                               const Mat3& marker_from_world,
-                                               const SeenSunlight& sunlight) const = 0;
+  virtual std::vector<LitMesh> SolveUnderTrees(
+      const sky::SkyModel& daylight, const Mat3& marker_from_world,
+      const SunTransmittanceMap& sun_transmittance) const = 0;
 
   /// The scene's daylight coefficients, with which Relight() gives the light of any day: from the
   /// cache where it has them, otherwise computed and put there. Several seconds; may run beside
@@ -66,27 +66,27 @@ class LightSolver {
   virtual double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3 to_sun_in_marker) const = 0;
 
   /// Whether nothing of the phantoms lies between a point and one point of the sky.
-  virtual bool ReachesPhantomsOnly(Point<Marker> point, Vec3 direction) const = 0;
+  virtual bool IsUnoccludedPhantomsOnly(Point<Marker> point, Vec3 direction) const = 0;
 
   /// The phantom that a line of sight meets first; nothing where it meets none. `direction` unit.
   virtual std::optional<PhantomSurface> FirstPhantom(Point<Marker> eye, Vec3 direction) const = 0;
 
   /// Sky and bounced light on small surfaces at `points` that all face `normal`, phantoms only:
-  /// what reaches the marker's print. One value a point, in their order; `paths` are followed for
+  /// what reaches the marker's marker. One value a point, in their order; `paths` are followed for
   /// each. Ask for many points at once: the sky is tabulated anew for every call.
   virtual std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points,
                                                      Vec3 normal, const sky::SkyModel& daylight,
                                                      const Mat3& marker_from_world,
-                                                     std::uint32_t paths = kMeterPaths) const = 0;
+                                                     std::uint32_t paths = kMarkerPaths) const = 0;
 
   /// Mean radiance that comes from below the horizon to where the virtual objects stand: of the
   /// phantoms in sun and shade, textures as their mean, and of the land where they end, seen from
   /// the middle of each object and averaged. For glossy reflections. `sunlight` as above. cd/m²,
   /// linear Rec.709; black without an object.
   virtual LinearRgb RadianceFromBelow(const sky::SkyModel& daylight, const Mat3& marker_from_world,
-                                      const SeenSunlight& sunlight = {}) const = 0;
+                                      const SunTransmittanceMap& sun_transmittance = {}) const = 0;
 
-  static constexpr std::uint32_t kMeterPaths = 2048;
+  static constexpr std::uint32_t kMarkerPaths = 2048;
 };
 
 }  // namespace pleinair::compositor

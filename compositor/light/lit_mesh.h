@@ -9,7 +9,7 @@
 namespace pleinair::compositor {
 
 /// What the phantoms leave a triangle of the sun.
-enum class SunReach : std::uint8_t {
+enum class SunVisibility : std::uint8_t {
   kSome,  ///< A part of it, or not known.
   kAll,
   kNone,
@@ -28,8 +28,8 @@ struct LitMesh {
   int material = 0;      ///< Index into that model's materials.
   /// Equal for meshes that nothing but their light tells apart; 0: not known.
   std::uint64_t geometry = 0;
-  /// kDrawn casts no shadow, kLight is not drawn. Phantoms are kAll, their loose leaves kDrawn
-  /// (compositor/light/foliage.h).
+  /// kRenderOnly casts no shadow, kShadowOnly is not drawn. Phantoms are kAll, their loose leaves
+  /// kRenderOnly (compositor/light/foliage.h).
   MeshRole role = MeshRole::kAll;
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;
@@ -41,8 +41,8 @@ struct LitMesh {
   std::vector<std::uint32_t> indices;
   /// Of phantoms, by triangle; empty: not known, as of very large ones, of a light by coefficients
   /// and of one without a sun.
-  std::vector<SunReach> sun_reach;
-  std::array<float, 3> reached_to_sun{};  ///< Of sun_reach: towards the sun, unit.
+  std::vector<SunVisibility> sun_visibility;
+  std::array<float, 3> sun_visibility_to_sun{};  ///< Of sun_visibility: towards the sun, unit.
 };
 
 }  // namespace pleinair::compositor

@@ -15,7 +15,7 @@ namespace pleinair::compositor {
 namespace {
 
 using Float3 = std::array<float, 3>;
-using Share = SurfacePatches::Share;
+using InterpolationWeight = SurfacePatches::InterpolationWeight;
 
 Vec3 ToVec3(const Float3& a) { return {a[0], a[1], a[2]}; }
 
@@ -58,7 +58,7 @@ class Sharer {
     FindNear();
   }
 
-  void Add(std::uint32_t vertex, std::vector<Share>* shares) const {
+  void Add(std::uint32_t vertex, std::vector<InterpolationWeight>* interpolation_weights) const {
     const std::uint32_t own = patches_.patch_of[vertex];
     const Vec3 position = ToVec3(mesh_.positions[vertex]), normal = ToVec3(mesh_.normals[vertex]);
     const TangentFrame frame(Normalized(normal));
@@ -85,7 +85,7 @@ class Sharer {
     };
     for (std::uint32_t i = first_near_[own]; i < first_near_[own + 1]; ++i) add(near_[i]);
     if (sum < 1e-6) {
-      shares->push_back({own, 1.0F});
+      interpolation_weights->push_back({own, 1.0F});
       return;
     }
     std::array<std::array<double, kUnknowns>, kUnknowns> normal_matrix{};
@@ -102,7 +102,7 @@ class Sharer {
     const auto fit = FirstRowOfInverse(normal_matrix);
     for (std::size_t k = 0; k < size; ++k) {
       const double value = std::inner_product(fit.begin(), fit.end(), rows[k].begin(), 0.0);
-      shares->push_back({chosen[k], static_cast<float>(weights[k] * value)});
+      interpolation_weights->push_back({chosen[k], static_cast<float>(weights[k] * value)});
     }
   }
 
@@ -182,38 +182,41 @@ class Sharer {
 
 }  // namespace
 
-void ShareLight(const SurfaceMesh& mesh, const std::vector<double>& widths_m, int threads,
-                SurfacePatches* patches) {
+void ComputeInterpolationWeights(const SurfaceMesh& mesh, const std::vector<double>& widths_m,
+                                 int threads, SurfacePatches* patches) {
   const std::size_t vertices = patches->patch_of.size();
   const Sharer sharer(mesh, *patches, widths_m);
   constexpr std::size_t kBlock = 4096;
   struct Block {
-    std::vector<Share> shares;
+    std::vector<InterpolationWeight> interpolation_weights;
     std::vector<std::uint32_t> ends;
   };
   std::vector<Block> blocks((vertices + kBlock - 1) / kBlock);
   ParallelFor(blocks.size(), threads, [&](std::size_t b) {
     const std::size_t last = std::min(vertices, (b + 1) * kBlock);
     for (std::size_t v = b * kBlock; v < last; ++v) {
-      sharer.Add(static_cast<std::uint32_t>(v), &blocks[b].shares);
-      blocks[b].ends.push_back(static_cast<std::uint32_t>(blocks[b].shares.size()));
+      sharer.Add(static_cast<std::uint32_t>(v), &blocks[b].interpolation_weights);
+      blocks[b].ends.push_back(static_cast<std::uint32_t>(blocks[b].interpolation_weights.size()));
     }
   });
   for (Block& block : blocks) {
-    const auto base = static_cast<std::uint32_t>(patches->shares.size());
-    for (const std::uint32_t end : block.ends) patches->share_ends.push_back(base + end);
-    patches->shares.insert(patches->shares.end(), block.shares.begin(), block.shares.end());
+    const auto base = static_cast<std::uint32_t>(patches->interpolation_weights.size());
+    for (const std::uint32_t end : block.ends) patches->interpolation_ends.push_back(base + end);
+    patches->interpolation_weights.insert(patches->interpolation_weights.end(),
+                                          block.interpolation_weights.begin(),
+                                          block.interpolation_weights.end());
     block = {};
   }
 }
 
 std::vector<Float3> SurfacePatches::Interpolate(std::span<const Float3> light) const {
-  std::vector<Float3> values(share_ends.size());
+  std::vector<Float3> values(interpolation_ends.size());
   std::uint32_t at = 0;
   for (std::size_t v = 0; v < values.size(); ++v) {
     Float3 sum{};
-    for (; at < share_ends[v]; ++at) {
-      for (int c = 0; c < 3; ++c) sum[c] += shares[at].weight * light[shares[at].patch][c];
+    for (; at < interpolation_ends[v]; ++at) {
+      for (int c = 0; c < 3; ++c)
+        sum[c] += interpolation_weights[at].weight * light[interpolation_weights[at].patch][c];
     }
     for (int c = 0; c < 3; ++c) values[v][c] = std::max(0.0F, sum[c]);
   }

@@ -17,13 +17,13 @@ namespace pleinair::compositor {
 namespace {
 
 // Hit records keep a face's index in 26 bits.
-constexpr std::size_t kMostFaces = std::size_t{1} << 26;
+constexpr std::size_t kMaxFaces = std::size_t{1} << 26;
 
 Vec3 ToVec3(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
 /// How much of a surface is where its texture has so much alpha.
 double ShareThere(std::uint8_t alpha, const Material& material) {
-  if (material.alpha == Material::Alpha::kCutOut) {
+  if (material.alpha == Material::Alpha::kCutout) {
     return material.opacity * static_cast<float>(alpha) >= 255.0F * material.alpha_cutoff ? 1.0
                                                                                           : 0.0;
   }
@@ -52,7 +52,7 @@ std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture, const Materia
   return mean;
 }
 
-/// A metal sends as much light back as a matt surface of its colour, if to other places: without it
+/// A metal sends as much light back as a matt surface of its color, if to other places: without it
 /// a polished thing would blacken what it stands on.
 std::array<float, 3> ReflectanceOf(const Model& model, int material_index) {
   if (material_index < 0 || static_cast<std::size_t>(material_index) >= model.materials.size()) {
@@ -92,12 +92,12 @@ Result<void> CheckModel(const PlacedModel& placed) {
 /// The file of the model with the most triangles, to be named when there are too many or none.
 std::string LargestModel(const std::vector<PlacedModel>& models) {
   std::string file = "scene";
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   for (const PlacedModel& placed : models) {
     std::size_t size = 1;
     for (const Mesh& mesh : placed.model->meshes) size += mesh.indices.size();
-    if (size > most) file = placed.model->file.string();
-    most = std::max(most, size);
+    if (size > maximum) file = placed.model->file.string();
+    maximum = std::max(maximum, size);
   }
   return file;
 }
@@ -117,7 +117,7 @@ SurfaceMesh OtherSide(const SurfaceMesh& mesh) {
 /// either side of it: origins are pulled towards the middle of the neighbouring triangles.
 std::vector<Vec3> GatherOrigins(const SurfaceMesh& mesh) {
   constexpr double kPull = 0.1;
-  constexpr double kMostPullM = 4e-3;
+  constexpr double kMaxPull_m = 4e-3;
   std::vector<Vec3> centre_sum(mesh.positions.size());
   std::vector<double> count(mesh.positions.size());
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -135,60 +135,62 @@ std::vector<Vec3> GatherOrigins(const SurfaceMesh& mesh) {
     const Vec3 position = ToVec3(mesh.positions[v]);
     Vec3 pull;
     if (count[v] > 0.0) pull = (centre_sum[v] * (1.0 / count[v]) - position) * kPull;
-    if (const double length = Norm(pull); length > kMostPullM) pull = pull * (kMostPullM / length);
-    origins.push_back(position + pull + ToVec3(mesh.normals[v]) * kRayOffsetM);
+    if (const double length = Norm(pull); length > kMaxPull_m) pull = pull * (kMaxPull_m / length);
+    origins.push_back(position + pull + ToVec3(mesh.normals[v]) * kRayOffset_m);
   }
   return origins;
 }
 
-/// A patch's spots: of its many vertices some, evenly chosen, are enough.
-constexpr std::uint32_t kMostSpots = 64;
+/// A patch's surface samples: of its many vertices some, evenly chosen, are enough.
+constexpr std::uint32_t kMaxSurfaceSamples = 64;
 
-void AddSpots(const LightScene::Sheet& sheet, LightScene* scene) {
-  const std::vector<Vec3> origins = GatherOrigins(sheet.mesh);
+void AddSurfaceSamples(const PatchScene::MeshSide& mesh_side, PatchScene* scene) {
+  const std::vector<Vec3> origins = GatherOrigins(mesh_side.mesh);
   const auto add = [&](std::uint32_t vertex) {
-    scene->spots.push_back({origins[vertex], sheet.mesh.normals[vertex]});
+    scene->surface_samples.push_back({origins[vertex], mesh_side.mesh.normals[vertex]});
   };
-  if (!sheet.groups) {
+  if (!mesh_side.groups) {
     for (std::uint32_t vertex = 0; vertex < origins.size(); ++vertex) {
       add(vertex);
-      scene->spot_ends.push_back(static_cast<std::uint32_t>(scene->spots.size()));
+      scene->surface_sample_ends.push_back(
+          static_cast<std::uint32_t>(scene->surface_samples.size()));
     }
     return;
   }
   std::uint32_t first = 0;
-  for (const std::uint32_t last : sheet.groups->member_ends) {
+  for (const std::uint32_t last : mesh_side.groups->member_ends) {
     const std::uint32_t size = last - first;
-    const std::uint32_t count = std::min(size, kMostSpots);
+    const std::uint32_t count = std::min(size, kMaxSurfaceSamples);
     for (std::uint64_t i = 0; i < count; ++i) {
-      add(sheet.groups->members[first + static_cast<std::uint32_t>(i * size / count)]);
+      add(mesh_side.groups->members[first + static_cast<std::uint32_t>(i * size / count)]);
     }
-    scene->spot_ends.push_back(static_cast<std::uint32_t>(scene->spots.size()));
+    scene->surface_sample_ends.push_back(static_cast<std::uint32_t>(scene->surface_samples.size()));
     first = last;
   }
 }
 
 void AddSheet(SurfaceMesh mesh, const std::array<float, 3>& albedo,
-              std::shared_ptr<const SurfacePatches> groups, LightScene* scene) {
-  LightScene::Sheet sheet;
-  sheet.albedo = albedo;
-  sheet.first_patch = scene->patch_count;
-  sheet.patch_count = groups ? groups->count : static_cast<std::uint32_t>(mesh.positions.size());
-  sheet.groups = std::move(groups);
-  sheet.mesh = std::move(mesh);
-  scene->patch_count += sheet.patch_count;
-  AddSpots(sheet, scene);
-  scene->sheets.push_back(std::move(sheet));
+              std::shared_ptr<const SurfacePatches> groups, PatchScene* scene) {
+  PatchScene::MeshSide mesh_side;
+  mesh_side.albedo = albedo;
+  mesh_side.first_patch = scene->patch_count;
+  mesh_side.patch_count =
+      groups ? groups->count : static_cast<std::uint32_t>(mesh.positions.size());
+  mesh_side.groups = std::move(groups);
+  mesh_side.mesh = std::move(mesh);
+  scene->patch_count += mesh_side.patch_count;
+  AddSurfaceSamples(mesh_side, scene);
+  scene->mesh_sides.push_back(std::move(mesh_side));
 }
 
-void AddFaces(const SurfaceMesh& mesh, const SurfacePatches* groups, std::uint32_t sheet,
-              LightScene* scene) {
+void AddFaces(const SurfaceMesh& mesh, const SurfacePatches* groups, std::uint32_t mesh_side,
+              PatchScene* scene) {
   const std::uint32_t base = scene->patch_count;
   const auto size =
       groups != nullptr ? groups->count : static_cast<std::uint32_t>(mesh.positions.size());
   scene->first_face.push_back(static_cast<std::uint32_t>(scene->faces.size()));
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    LightScene::Face face;
+    PatchScene::Face face;
     std::array<Vec3, 3> p;
     for (int c = 0; c < 3; ++c) {
       p[c] = ToVec3(mesh.positions[mesh.indices[i + c]]);
@@ -196,7 +198,7 @@ void AddFaces(const SurfaceMesh& mesh, const SurfacePatches* groups, std::uint32
       face.patches[c] = base + (groups != nullptr ? groups->patch_of[vertex] : vertex);
     }
     face.back_offset = mesh.closed ? 0 : size;
-    face.sheet = sheet;
+    face.mesh_side = mesh_side;
     const Vec3 normal = Cross(p[1] - p[0], p[2] - p[0]);
     const double norm = Norm(normal);
     face.normal = norm > 0.0 ? normal * (1.0 / norm) : ToVec3(mesh.normals[mesh.indices[i]]);
@@ -206,25 +208,25 @@ void AddFaces(const SurfaceMesh& mesh, const SurfacePatches* groups, std::uint32
 
 }  // namespace
 
-std::vector<std::array<float, 3>> LightScene::VertexLight(
-    const Sheet& sheet, std::span<const std::array<float, 3>> patch_light) const {
-  const auto of_sheet = patch_light.subspan(sheet.first_patch, sheet.patch_count);
-  if (sheet.groups) return sheet.groups->Interpolate(of_sheet);
+std::vector<std::array<float, 3>> PatchScene::VertexLight(
+    const MeshSide& mesh_side, std::span<const std::array<float, 3>> patch_light) const {
+  const auto of_sheet = patch_light.subspan(mesh_side.first_patch, mesh_side.patch_count);
+  if (mesh_side.groups) return mesh_side.groups->Interpolate(of_sheet);
   return {of_sheet.begin(), of_sheet.end()};
 }
 
-Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
+Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
                                       const LightSolverOptions& options) {
   std::vector<SurfaceMesh> surfaces;
   for (std::size_t i = 0; i < models.size(); ++i) {
     PLEINAIR_RETURN_IF_ERROR(CheckModel(models[i]));
     for (SurfaceMesh& surface : OrientedSurfaces(models[i], static_cast<int>(i))) {
       // Of phantoms nothing but their light is drawn.
-      if (surface.is_phantom && surface.role == MeshRole::kDrawn) continue;
+      if (surface.is_phantom && surface.role == MeshRole::kRenderOnly) continue;
       if (surface.is_phantom) {
         surface.role = MeshRole::kAll;
-        if (auto leaves = TakeLooseLeaves(&surface)) {
-          leaves->role = MeshRole::kDrawn;
+        if (auto leaves = ExtractFoliage(&surface)) {
+          leaves->role = MeshRole::kRenderOnly;
           surfaces.push_back(*std::move(leaves));
         }
       }
@@ -246,7 +248,7 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
   std::vector<SurfacePatches> divided =
       DividedIntoPatches(surfaces, tessellation, options.max_patches, options.threads);
 
-  LightScene scene;
+  PatchScene scene;
   std::vector<RayMesh> ray_meshes, leaf_meshes;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     SurfaceMesh& surface = surfaces[i];
@@ -256,11 +258,11 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
     }
     const std::array<float, 3> albedo =
         ReflectanceOf(*models[surface.placed_model].model, surface.material);
-    const auto front = static_cast<int>(scene.sheets.size());
-    if (surface.role == MeshRole::kDrawn && surface.is_phantom) {
+    const auto front = static_cast<int>(scene.mesh_sides.size());
+    if (surface.role == MeshRole::kRenderOnly && surface.is_phantom) {
       leaf_meshes.push_back({surface.positions, surface.indices, true});
     }
-    if (surface.role != MeshRole::kDrawn) {
+    if (surface.role != MeshRole::kRenderOnly) {
       ray_meshes.push_back({surface.positions, surface.indices, surface.is_phantom});
       AddFaces(surface, groups.get(), static_cast<std::uint32_t>(front), &scene);
     }
@@ -269,11 +271,11 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
     AddSheet(std::move(surface), albedo, groups, &scene);
     if (!closed) {
       AddSheet(std::move(back), albedo, groups, &scene);
-      scene.sheets[front].twin = front + 1;
-      scene.sheets[front + 1].twin = front;
+      scene.mesh_sides[front].twin = front + 1;
+      scene.mesh_sides[front + 1].twin = front;
     }
   }
-  if (scene.faces.size() >= kMostFaces) {
+  if (scene.faces.size() >= kMaxFaces) {
     return InputError(LargestModel(models),
                       "with the scene's other models it has more than 67 million triangles, "
                       "subdivided for the light",
@@ -281,8 +283,7 @@ Result<LightScene> LightScene::Create(const std::vector<PlacedModel>& models,
   }
   PLEINAIR_ASSIGN_OR_RETURN(scene.rays, RayScene::Create(ray_meshes, LargestModel(models)));
   if (!leaf_meshes.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(scene.loose_leaves,
-                              RayScene::Create(leaf_meshes, LargestModel(models)));
+    PLEINAIR_ASSIGN_OR_RETURN(scene.foliage, RayScene::Create(leaf_meshes, LargestModel(models)));
   }
   return scene;
 }

@@ -17,68 +17,69 @@ namespace pleinair::compositor {
 struct PlacedModel;
 struct LightSolverOptions;
 
-/// The scene as the light solver sees it: sheets of patches that gather and store light, and the
-/// faces that rays hit. An open surface is two sheets, one for each side; a closed body one. Each
-/// vertex of a tessellated surface is a patch; where there are too many of them for that, a patch
-/// is a group of vertices (surface_patches.h).
-struct LightScene {
-  struct Sheet {
+/// The scene as the light solver sees it: mesh sides of patches that gather and store light, and
+/// the faces that rays hit. An open surface is two mesh sides, one for each side; a closed body
+/// one. Each vertex of a tessellated surface is a patch; where there are too many of them for that,
+/// a patch is a group of vertices (surface_patches.h).
+struct PatchScene {
+  struct MeshSide {
     SurfaceMesh mesh;
-    std::array<float, 3> albedo{};  ///< Linear; texture averaged; a metal's colour.
+    std::array<float, 3> albedo{};  ///< Linear; texture averaged; a metal's color.
     std::uint32_t first_patch = 0, patch_count = 0;
-    int twin = -1;                                 ///< The other side's sheet.
+    int twin = -1;                                 ///< The other side's mesh side.
     std::shared_ptr<const SurfacePatches> groups;  ///< Null: each vertex is a patch.
   };
 
   /// Where a patch gathers light: a little above its surface and away from its edges.
-  struct Spot {
+  struct PatchSample {
     Vec3 origin;
     std::array<float, 3> normal{};
   };
 
   struct Face {
-    std::array<std::uint32_t, 3> patches{};  ///< At the corners; scene-wide, of the front's sheet.
+    std::array<std::uint32_t, 3>
+        patches{};                  ///< At the corners; scene-wide, of the front's mesh side.
     std::uint32_t back_offset = 0;  ///< To add for the back's patches; 0: the back is inside.
-    std::uint32_t sheet = 0;        ///< Of the front.
+    std::uint32_t mesh_side = 0;    ///< Of the front.
     Vec3 normal;                    ///< Of the front, unit.
   };
 
-  std::vector<Sheet> sheets;
+  std::vector<MeshSide> mesh_sides;
   std::vector<Face> faces;                ///< None of what is drawn alone.
   std::vector<std::uint32_t> first_face;  ///< By mesh of the ray scene.
   std::uint32_t patch_count = 0;
-  std::vector<Spot> spots;               ///< By patch.
-  std::vector<std::uint32_t> spot_ends;  ///< One past each patch's last spot.
+  std::vector<PatchSample> surface_samples;        ///< By patch.
+  std::vector<std::uint32_t> surface_sample_ends;  ///< One past each patch's last surface sample.
   std::unique_ptr<RayScene> rays;
-  std::unique_ptr<RayScene> loose_leaves;  ///< Of phantoms, which hide what is seen; may be null.
+  std::unique_ptr<RayScene> foliage;  ///< Of phantoms, which hide what is seen; may be null.
 
   const Face& FaceOf(const RayHit& hit) const { return faces[first_face[hit.mesh] + hit.triangle]; }
 
-  /// One of a patch's spots, as a hash says.
-  const Spot& AnySpot(std::uint32_t patch, std::uint32_t hash) const {
-    const std::uint32_t first = patch == 0 ? 0 : spot_ends[patch - 1];
-    return spots[first + hash % (spot_ends[patch] - first)];
+  /// One of a patch's surface samples, as a hash says.
+  const PatchSample& AnyPatchSample(std::uint32_t patch, std::uint32_t hash) const {
+    const std::uint32_t first = patch == 0 ? 0 : surface_sample_ends[patch - 1];
+    return surface_samples[first + hash % (surface_sample_ends[patch] - first)];
   }
 
   /// By patch.
   std::vector<std::uint8_t> ArePhantoms() const {
     std::vector<std::uint8_t> are;
     are.reserve(patch_count);
-    for (const Sheet& sheet : sheets) {
-      are.insert(are.end(), sheet.patch_count, sheet.mesh.is_phantom ? 1 : 0);
+    for (const MeshSide& mesh_side : mesh_sides) {
+      are.insert(are.end(), mesh_side.patch_count, mesh_side.mesh.is_phantom ? 1 : 0);
     }
     return are;
   }
 
-  /// The light of a sheet's vertices from that of all patches.
+  /// The light of a mesh side's vertices from that of all patches.
   std::vector<std::array<float, 3>> VertexLight(
-      const Sheet& sheet, std::span<const std::array<float, 3>> patch_light) const;
+      const MeshSide& mesh_side, std::span<const std::array<float, 3>> patch_light) const;
 
-  static Result<LightScene> Create(const std::vector<PlacedModel>& models,
+  static Result<PatchScene> Create(const std::vector<PlacedModel>& models,
                                    const LightSolverOptions& options);
 };
 
 /// How far rays start above a surface, metres.
-inline constexpr double kRayOffsetM = 3e-4;
+inline constexpr double kRayOffset_m = 3e-4;
 
 }  // namespace pleinair::compositor

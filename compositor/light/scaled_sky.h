@@ -11,31 +11,31 @@ namespace pleinair::compositor {
 /// A sky and its sun, each made brighter or darker a channel: what light is left when one of them
 /// is taken away, and the light that was measured where a model's shape is believed and its
 /// strength is not. `model` must live as long.
-class ScaledDaylight : public sky::SkyModel {
+class ScaledSky : public sky::SkyModel {
  public:
-  ScaledDaylight(const sky::SkyModel& model, LinearRgb sky_scale, LinearRgb sun_scale)
-      : model_(model), sky_scale_(sky_scale), sun_scale_(sun_scale) {}
+  ScaledSky(const sky::SkyModel& model, LinearRgb sky_radiance_scale, LinearRgb sun_scale)
+      : model_(model), sky_radiance_scale_(sky_radiance_scale), sun_scale_(sun_scale) {}
 
   LinearRgb SkyRadiance(Direction<World> from) const override {
-    return model_.SkyRadiance(from) * sky_scale_;
+    return model_.SkyRadiance(from) * sky_radiance_scale_;
   }
   LinearRgb SunNormalIrradiance() const override {
     return model_.SunNormalIrradiance() * sun_scale_;
   }
   LinearRgb SkyHorizontalIrradiance() const override {
-    return model_.SkyHorizontalIrradiance() * sky_scale_;
+    return model_.SkyHorizontalIrradiance() * sky_radiance_scale_;
   }
   Direction<World> ToSun() const override { return model_.ToSun(); }
   AirBetween AirTo(Direction<World> towards, Metres distance) const override {
     AirBetween air = model_.AirTo(towards, distance);
-    air.inscattered = air.inscattered * sky_scale_;
+    air.inscattered = air.inscattered * sky_radiance_scale_;
     return air;
   }
   std::vector<std::string> Notes() const override { return model_.Notes(); }
 
  private:
   const sky::SkyModel& model_;
-  LinearRgb sky_scale_, sun_scale_;
+  LinearRgb sky_radiance_scale_, sun_scale_;
 };
 
 }  // namespace pleinair::compositor

@@ -12,15 +12,16 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr double kCellPx = 2.0;  // About the distance of spots.
+constexpr double kCellPx = 2.0;  // About the distance of surface samples.
 constexpr int kWidest = 512;
-// Of the spots along either direction, left out at either end: far ground spreads them thin.
+// Of the surface samples along either direction, left out at either end: far ground spreads them
+// thin.
 constexpr double kOutside = 0.01;
-// What the cells around one count in it, of a spot's weight; alone where it has none.
+// What the cells around one count in it, of a surface sample's weight; alone where it has none.
 constexpr double kNeighbours = 0.25;
 // The shadow of a tree's crown moves half a metre meanwhile, its gaps' own size, of leaves that are
 // ten metres off.
-constexpr double kFarthestSun = 3.0 * kRadiansPerDegree;
+constexpr double kMaxSunAngle_rad = 3.0 * kRadiansPerDegree;
 
 /// Sums and weights of cells.
 struct Level {
@@ -31,8 +32,8 @@ struct Level {
   std::size_t At(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-/// Each cell's mean, of cells without a spot the mean about them: pull and push (Gortler et al.,
-/// The Lumigraph, 1996, section 3.3.2).
+/// Each cell's mean, of cells without a surface sample the mean about them: pull and push (Gortler
+/// et al., The Lumigraph, 1996, section 3.3.2).
 std::vector<double> FillGaps(const Level& level) {
   if (level.Size() == 1) return {level.sum[0] / level.weight[0]};
   Level coarse((level.width + 1) / 2, (level.height + 1) / 2);
@@ -67,7 +68,7 @@ std::vector<double> FillGaps(const Level& level) {
 
 }  // namespace
 
-double SeenSunlight::At(Vec3 point) const {
+double SunTransmittanceMap::At(Vec3 point) const {
   if (share.empty()) return 1.0;
   const double x =
       std::clamp((Dot(point, across_x) - first_x) / cell_m, 0.0, static_cast<double>(width - 1));
@@ -83,11 +84,11 @@ double SeenSunlight::At(Vec3 point) const {
          v * ((1 - u) * cell(left, top + 1) + u * cell(left + 1, top + 1));
 }
 
-bool SeenSunlight::HoldsFor(Vec3 direction) const {
-  return Dot(direction, to_sun) >= std::cos(kFarthestSun);
+bool SunTransmittanceMap::HoldsFor(Vec3 direction) const {
+  return Dot(direction, to_sun) >= std::cos(kMaxSunAngle_rad);
 }
 
-std::array<std::array<float, 4>, 2> SeenSunlight::TextureFromMarker() const {
+std::array<std::array<float, 4>, 2> SunTransmittanceMap::TextureFromMarker() const {
   const auto row = [&](Vec3 across, double first, int cells) {
     const double scale = 1.0 / (cell_m * cells);
     return std::array{static_cast<float>(across.x * scale), static_cast<float>(across.y * scale),
@@ -97,18 +98,19 @@ std::array<std::array<float, 4>, 2> SeenSunlight::TextureFromMarker() const {
   return {row(across_x, first_x, width), row(across_y, first_y, height)};
 }
 
-SeenSunlight MapSeenSunlight(Vec3 to_sun, std::span<const SunlitSpot> spots) {
-  SeenSunlight map;
-  if (spots.empty()) return map;
+SunTransmittanceMap BuildSunTransmittanceMap(Vec3 to_sun,
+                                             std::span<const SunlitSample> surface_samples) {
+  SunTransmittanceMap map;
+  if (surface_samples.empty()) return map;
   const TangentFrame sun(Normalized(to_sun));
   map.to_sun = sun.normal;
   map.across_x = sun.tangent;
   map.across_y = sun.bitangent;
   std::vector<double> xs, ys, footprints;
-  for (const SunlitSpot& spot : spots) {
-    xs.push_back(Dot(spot.point, map.across_x));
-    ys.push_back(Dot(spot.point, map.across_y));
-    footprints.push_back(spot.footprint_m);
+  for (const SunlitSample& surface_sample : surface_samples) {
+    xs.push_back(Dot(surface_sample.point, map.across_x));
+    ys.push_back(Dot(surface_sample.point, map.across_y));
+    footprints.push_back(surface_sample.footprint_m);
   }
   map.first_x = Quantile(xs, kOutside);
   map.first_y = Quantile(ys, kOutside);
@@ -119,17 +121,18 @@ SeenSunlight MapSeenSunlight(Vec3 to_sun, std::span<const SunlitSpot> spots) {
   map.width = static_cast<int>(wide / map.cell_m) + 1;
   map.height = static_cast<int>(high / map.cell_m) + 1;
   Level level(map.width, map.height);
-  for (std::size_t i = 0; i < spots.size(); ++i) {
+  for (std::size_t i = 0; i < surface_samples.size(); ++i) {
     const auto x = std::lround((xs[i] - map.first_x) / map.cell_m);
     const auto y = std::lround((ys[i] - map.first_y) / map.cell_m);
     if (x < 0 || y < 0 || x >= map.width || y >= map.height) continue;
     const std::size_t cell = level.At(static_cast<int>(x), static_cast<int>(y));
-    level.sum[cell] += spots[i].share;
+    level.sum[cell] += surface_samples[i].share;
     level.weight[cell] += 1.0;
   }
-  // A few spots may lie in opposite corners, outside the box of both directions' quantiles.
+  // A few surface samples may lie in opposite corners, outside the box of both directions'
+  // quantiles.
   if (std::none_of(level.weight.begin(), level.weight.end(), [](double w) { return w > 0.0; })) {
-    return SeenSunlight{};
+    return SunTransmittanceMap{};
   }
   const std::vector<double> filled = FillGaps(level);
   map.share.assign(filled.begin(), filled.end());

@@ -11,7 +11,7 @@ namespace pleinair::compositor {
 /// How much of the sun comes through what no phantom stands for (trees), as a map across the sun's
 /// rays: what a ray shows on the real surface at its end holds for whatever virtual thing it meets
 /// before. Marker coordinates, metres.
-struct SeenSunlight {
+struct SunTransmittanceMap {
   Vec3 to_sun;                      ///< Unit, of the sun whose rays these are.
   Vec3 across_x, across_y;          ///< Unit; with the sun's rays a right-handed frame.
   double first_x = 0, first_y = 0;  ///< Along these, of the first cell's middle.
@@ -29,14 +29,15 @@ struct SeenSunlight {
 };
 
 /// A place on a real surface that the phantoms leave in the sun.
-struct SunlitSpot {
+struct SunlitSample {
   Vec3 point;
   double share = 1.0;        ///< Of the sun that is there.
   double footprint_m = 0.0;  ///< Edge of a pixel there.
 };
 
-/// The map that spots tell of; between them it is smooth. Empty without spots, and where the few
-/// that there are all lie beyond its border.
-SeenSunlight MapSeenSunlight(Vec3 to_sun, std::span<const SunlitSpot> spots);
+/// The map that surface samples tell of; between them it is smooth. Empty without surface samples,
+/// and where the few that there are all lie beyond its border.
+SunTransmittanceMap BuildSunTransmittanceMap(Vec3 to_sun,
+                                             std::span<const SunlitSample> surface_samples);
 
 }  // namespace pleinair::compositor

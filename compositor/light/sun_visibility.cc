@@ -31,9 +31,9 @@ Vec3 At(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-std::vector<SunReach> FindSunReach(const RayScene& rays, const LitMesh& phantom, Vec3 to_sun,
-                                   int threads) {
-  std::vector<SunReach> reach(phantom.indices.size() / 3, SunReach::kNone);
+std::vector<SunVisibility> ClassifySunVisibility(const RayScene& rays, const LitMesh& phantom,
+                                                 Vec3 to_sun, int threads) {
+  std::vector<SunVisibility> reach(phantom.indices.size() / 3, SunVisibility::kNone);
   if (Norm(to_sun) == 0.0) return reach;
   const TangentFrame frame(Normalized(to_sun));
   std::array<Vec3, kRim.size()> rim;
@@ -52,15 +52,15 @@ std::vector<SunReach> FindSunReach(const RayScene& rays, const LitMesh& phantom,
       const Vec3 place = corners[0] * a + corners[1] * b + corners[2] * c;
       for (const Vec3& direction : rim) {
         const bool hidden =
-            rays.Occluded(RayTargets::kPhantoms, place + direction * kRayOffsetM, direction);
+            rays.Occluded(RayTargets::kPhantoms, place + direction * kRayOffset_m, direction);
         (hidden ? shaded : lit) = true;
       }
       if (lit && shaded) break;
     }
     if (lit && shaded) {
-      reach[triangle] = SunReach::kSome;
+      reach[triangle] = SunVisibility::kSome;
     } else if (lit) {
-      reach[triangle] = SunReach::kAll;
+      reach[triangle] = SunVisibility::kAll;
     }
   });
   return reach;

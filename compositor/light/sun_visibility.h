@@ -15,7 +15,7 @@ namespace pleinair::compositor {
 /// from this must differ little by it. kNone where it is turned away from the sun.
 ///
 /// `to_sun`: unit, marker coordinates; zero: without a sun.
-std::vector<SunReach> FindSunReach(const RayScene& rays, const LitMesh& phantom, Vec3 to_sun,
-                                   int threads);
+std::vector<SunVisibility> ClassifySunVisibility(const RayScene& rays, const LitMesh& phantom,
+                                                 Vec3 to_sun, int threads);
 
 }  // namespace pleinair::compositor

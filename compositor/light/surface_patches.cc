@@ -20,7 +20,7 @@ constexpr double kWorthwhile = 0.5;
 // How much wider patches are made at a time until there are few enough of them, and how far that
 // may go: beyond, a surface is one.
 constexpr double kWidening = 1.15;
-constexpr int kMostWidenings = 100;
+constexpr int kMaxWidenings = 100;
 // Loose pieces are joined where they leave so small a share of the patches to be had unused.
 constexpr double kTooLoose = 0.25;
 // Normals within about 25° of an axis, or of a face's edge or corner, are alike.
@@ -56,10 +56,10 @@ std::uint32_t NormalGroup(const Float3& n) {
   for (int i = 1; i < 3; ++i) {
     if (std::fabs(n[i]) > std::fabs(n[axis])) axis = i;
   }
-  const float most = std::fabs(n[axis]);
+  const float maximum = std::fabs(n[axis]);
   auto group = static_cast<std::uint32_t>(2 * axis + (n[axis] < 0.0F ? 1 : 0));
   for (const int side : {(axis + 1) % 3, (axis + 2) % 3}) {
-    const double slope = most > 0.0F ? n[side] / most : 0.0;
+    const double slope = maximum > 0.0F ? n[side] / maximum : 0.0;
     group = group * 3 + (slope < -kAlikeNormals ? 0 : slope > kAlikeNormals ? 2 : 1);
   }
   return group;
@@ -232,7 +232,7 @@ SurfacePatches Divider::Patches(int threads) const {
   FindLinks(&patches);
   std::vector<double> widths_m;
   for (std::uint32_t v = 0; v < patch_of_.size(); ++v) widths_m.push_back(WidthM(v, scale_));
-  ShareLight(mesh_, widths_m, threads, &patches);
+  ComputeInterpolationWeights(mesh_, widths_m, threads, &patches);
   return patches;
 }
 
@@ -270,7 +270,7 @@ std::vector<SurfacePatches> DividedIntoPatches(const std::vector<SurfaceMesh>& s
   bool fits = false;
   for (const bool hang_together : {true, false}) {
     double scale = std::max(narrowest, 1e-3);
-    for (int i = 0; i < kMostWidenings && !fits; ++i, scale *= kWidening) {
+    for (int i = 0; i < kMaxWidenings && !fits; ++i, scale *= kWidening) {
       fits = divide_all(scale, hang_together) <= max_patches;
       if (hang_together && loose_cost() < kTooLoose * static_cast<double>(max_patches)) break;
     }

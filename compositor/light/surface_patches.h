@@ -20,7 +20,7 @@ namespace pleinair::compositor {
 struct SurfacePatches {
   /// A share of a patch's light in a vertex'. Shares of a vertex add up to 1; single ones may be
   /// slightly negative.
-  struct Share {
+  struct InterpolationWeight {
     std::uint32_t patch = 0;
     float weight = 0.0F;
   };
@@ -29,9 +29,9 @@ struct SurfacePatches {
   std::vector<std::uint32_t> patch_of;  ///< Of each vertex.
   /// Vertices by patch, those of patch p from member_ends[p − 1] (0 for the first) on.
   std::vector<std::uint32_t> members, member_ends;
-  std::vector<std::array<std::uint32_t, 2>> links;  ///< Neighbours, each pair once.
-  std::vector<Share> shares;                        ///< By vertex, as members are by patch.
-  std::vector<std::uint32_t> share_ends;
+  std::vector<std::array<std::uint32_t, 2>> links;         ///< Neighbours, each pair once.
+  std::vector<InterpolationWeight> interpolation_weights;  ///< By vertex, as members are by patch.
+  std::vector<std::uint32_t> interpolation_ends;
 
   /// Light of all vertices from that of the patches; never negative.
   std::vector<std::array<float, 3>> Interpolate(std::span<const std::array<float, 3>> light) const;

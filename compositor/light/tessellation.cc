@@ -23,17 +23,17 @@ struct EdgeLengths {
   double near_m;
   double growth_per_m;
 
-  double InTheOpen(const std::array<float, 3>& point) const {
+  double InSunlight(const std::array<float, 3>& point) const {
     return near_m + growth_per_m * distance(point);
   }
-  double AtContact(double in_the_open) const {
-    return std::max(near_m, kContactShare * in_the_open);
+  double AtContact(double in_sunlight) const {
+    return std::max(near_m, kContactShare * in_sunlight);
   }
 };
 
 class Refiner {
  public:
-  Refiner(const EdgeLengths& lengths, const ContactLines& contacts)
+  Refiner(const EdgeLengths& lengths, const ContactEdges& contacts)
       : lengths_(lengths), contacts_(contacts) {}
 
   /// Splits until every edge fits; false when more than `max_vertices` would be needed.
@@ -56,7 +56,7 @@ class Refiner {
     const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
     if (length <= lengths_.near_m) return false;
     const std::array<float, 3> middle = Midpoint(a, b);
-    const double open = lengths_.InTheOpen(middle);
+    const double open = lengths_.InSunlight(middle);
     if (length > open) return true;
     // At a contact a share of that, and more the farther from it.
     const double finest = lengths_.AtContact(open);
@@ -137,7 +137,7 @@ class Refiner {
   }
 
   const EdgeLengths& lengths_;
-  const ContactLines& contacts_;
+  const ContactEdges& contacts_;
 };
 
 std::size_t CountVertices(const std::vector<SurfaceMesh>& surfaces) {
@@ -165,12 +165,12 @@ void Tessellate(const TessellationOptions& options, std::vector<SurfaceMesh>* su
   if (CountVertices(*surfaces) >= options.max_vertices) return;
   const ObjectDistance distance(*surfaces);
   EdgeLengths lengths{distance, options.near_edge_m, options.growth_per_m};
-  const ContactLines contacts(*surfaces, [&lengths](const std::array<float, 3>& point) {
-    return lengths.AtContact(lengths.InTheOpen(point));
+  const ContactEdges contacts(*surfaces, [&lengths](const std::array<float, 3>& point) {
+    return lengths.AtContact(lengths.InSunlight(point));
   });
   if (RefineAll({lengths, contacts}, options.max_vertices, surfaces)) return;
   // Contacts are not worth coarser triangles everywhere else.
-  const ContactLines none;
+  const ContactEdges none;
   for (int coarser = 0; coarser < 34; ++coarser) {  // Up to a million times.
     if (RefineAll({lengths, none}, options.max_vertices, surfaces)) return;
     lengths.near_m *= 1.5;

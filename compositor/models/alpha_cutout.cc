@@ -15,12 +15,12 @@ namespace {
 
 // Glass is there for light and shadows where it hides so much at least of what lies behind.
 constexpr float kDenseGlass = 0.5F;
-constexpr int kMostHalvings = 6;
-constexpr double kFinest_texels = 2.0;
+constexpr int kMaxHalvings = 6;
+constexpr double kMinFilterWidth_texels = 2.0;
 // Coordinates beyond this many repetitions of a texture have lost their texels to rounding.
-constexpr double kMostRepetitions = 4096.0;
+constexpr double kMaxRepetitions = 4096.0;
 // What a triangle's box is asked for: so many cells of a level at most, along each axis.
-constexpr int kMostCells = 4;
+constexpr int kMaxCells = 4;
 
 /// The least and the most alpha in the cells of a texture, each level's twice as wide.
 class AlphaLevels {
@@ -45,10 +45,10 @@ class AlphaLevels {
   }
 
   struct Range {
-    std::uint8_t least = 255, most = 0;
+    std::uint8_t minimum = 255, maximum = 0;
     void Include(Range other) {
-      least = std::min(least, other.least);
-      most = std::max(most, other.most);
+      minimum = std::min(minimum, other.minimum);
+      maximum = std::max(maximum, other.maximum);
     }
   };
 
@@ -63,7 +63,7 @@ class AlphaLevels {
     for (const auto& [x0, x1] : Wrapped(low[0], high[0], width_)) {
       for (const auto& [y0, y1] : Wrapped(low[1], high[1], height_)) {
         std::size_t l = 0;
-        while (std::max(x1 - x0, y1 - y0) >> l >= kMostCells && l + 1 < levels_.size()) ++l;
+        while (std::max(x1 - x0, y1 - y0) >> l >= kMaxCells && l + 1 < levels_.size()) ++l;
         for (int y = y0 >> l; y <= y1 >> l; ++y) {
           for (int x = x0 >> l; x <= x1 >> l; ++x) range.Include(levels_[l].At(x, y));
         }
@@ -117,11 +117,11 @@ class Cutter {
         alpha_(alpha),
         mesh_(*mesh) {}
 
-  void Cut(std::size_t most_triangles) {
+  void Cut(std::size_t max_triangles) {
     for (std::size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
       Sort({{mesh_.indices[i], mesh_.indices[i + 1], mesh_.indices[i + 2]}, 0, 0.0});
     }
-    while (!pieces_.empty() && pieces_.size() + whole_.size() / 3 + 3 <= most_triangles) {
+    while (!pieces_.empty() && pieces_.size() + whole_.size() / 3 + 3 <= max_triangles) {
       const Piece piece = pieces_.top();
       pieces_.pop();
       const auto [a, b, c] = piece.corners;
@@ -157,7 +157,7 @@ class Cutter {
       }
     }
     for (int k = 0; k < 2; ++k) {
-      if (!(low[k] > -kMostRepetitions * size[k] && high[k] < kMostRepetitions * size[k])) {
+      if (!(low[k] > -kMaxRepetitions * size[k] && high[k] < kMaxRepetitions * size[k])) {
         return Keep(piece);
       }
     }
@@ -165,10 +165,10 @@ class Cutter {
     const auto floor_of = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
     const AlphaLevels::Range range = alpha_.Of({floor_of(low[0]), floor_of(low[1])},
                                                {floor_of(high[0]) + 1, floor_of(high[1]) + 1});
-    if (opacity_ * range.most < cutoff_) return;
+    if (opacity_ * range.maximum < cutoff_) return;
     piece.size_texels = std::max(high[0] - low[0], high[1] - low[1]);
-    if (opacity_ * range.least >= cutoff_ || piece.halvings == kMostHalvings ||
-        piece.size_texels < kFinest_texels) {
+    if (opacity_ * range.minimum >= cutoff_ || piece.halvings == kMaxHalvings ||
+        piece.size_texels < kMinFilterWidth_texels) {
       return Keep(piece);
     }
     pieces_.push(piece);
@@ -227,7 +227,7 @@ void DropUnused(Mesh* mesh) {
 }
 
 /// No alpha of a texture makes more of a surface than its material's own.
-bool IsWhollyCutOut(const Material& material) {
+bool IsWhollyCutout(const Material& material) {
   return material.alpha != Material::Alpha::kIgnored && material.opacity < CutoffOf(material);
 }
 
@@ -241,15 +241,15 @@ int HolesOf(const Model& model, const Mesh& mesh) {
 
 }  // namespace
 
-void CutHoles(Model* model, std::size_t most_added) {
+void ApplyAlphaCutout(Model* model, std::size_t max_added) {
   std::map<int, AlphaLevels> levels;
   std::vector<Mesh> drawn;
   for (Mesh& mesh : model->meshes) {
     const Material& material = model->materials[static_cast<std::size_t>(mesh.material)];
     const bool is_glass = material.alpha == Material::Alpha::kBlended;
-    if (IsWhollyCutOut(material)) {
+    if (IsWhollyCutout(material)) {
       if (is_glass) {
-        mesh.role = MeshRole::kDrawn;
+        mesh.role = MeshRole::kRenderOnly;
       } else {
         mesh.indices.clear();
       }
@@ -259,18 +259,19 @@ void CutHoles(Model* model, std::size_t most_added) {
     if (texture < 0) continue;
     const auto& picture = model->textures[static_cast<std::size_t>(texture)];
     const AlphaLevels& alpha = levels.try_emplace(texture, picture).first->second;
-    if (material.opacity * static_cast<float>(alpha.Whole().least) >= 255.0F * CutoffOf(material)) {
+    if (material.opacity * static_cast<float>(alpha.Whole().minimum) >=
+        255.0F * CutoffOf(material)) {
       continue;
     }
     const std::size_t before = mesh.indices.size() / 3;
     Mesh whole = mesh;
-    Cutter(material, alpha, &mesh).Cut(before + most_added);
+    Cutter(material, alpha, &mesh).Cut(before + max_added);
     DropUnused(&mesh);
     const std::size_t after = mesh.indices.size() / 3;
-    most_added -= std::min(most_added, after > before ? after - before : 0);
+    max_added -= std::min(max_added, after > before ? after - before : 0);
     if (mesh.indices.empty() && !is_glass) continue;
-    mesh.role = MeshRole::kLight;
-    whole.role = MeshRole::kDrawn;
+    mesh.role = MeshRole::kShadowOnly;
+    whole.role = MeshRole::kRenderOnly;
     drawn.push_back(std::move(whole));
   }
   std::erase_if(model->meshes, [](const Mesh& mesh) { return mesh.indices.empty(); });

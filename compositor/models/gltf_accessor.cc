@@ -86,7 +86,7 @@ Result<Elements> ElementsOf(const tinygltf::Model& gltf, int view, std::size_t o
   std::size_t stride = gltf.bufferViews[static_cast<std::size_t>(view)].byteStride;
   if (stride == 0) stride = element_size;
   // glTF 2.0, 5.11.4: strides are at most 252, so that no product below can overflow.
-  const bool fits = stride >= element_size && stride <= 252 && count <= kMostVertices * 6 &&
+  const bool fits = stride >= element_size && stride <= 252 && count <= kMaxVertices * 6 &&
                     offset <= bytes.size() && count > 0 &&
                     (count - 1) * stride + element_size <= bytes.size() - offset;
   if (!fits) return GltfError(where, "an accessor reaches beyond its buffer view");
@@ -103,7 +103,7 @@ Result<void> CheckAccessor(const tinygltf::Model& gltf, int index, std::size_t c
   if (ComponentCount(accessor.type) != components || ComponentSize(accessor.componentType) == 0) {
     return GltfError(where, "accessor " + std::to_string(index) + " has another type than its use");
   }
-  if (accessor.count > kMostTriangles * 3) return GltfError(where, "an accessor is too large");
+  if (accessor.count > kMaxTriangles * 3) return GltfError(where, "an accessor is too large");
   return {};
 }
 
@@ -128,7 +128,7 @@ Result<std::vector<double>> Components(const tinygltf::Model& gltf, int index,
     for (std::size_t i = 0; i < accessor.count; ++i) copy(elements.At(i), &values[i * components]);
   } else if (accessor.sparse.isSparse) {
     // No bytes in the file stand behind these zeros: do not let a number allocate gigabytes.
-    if (accessor.count > kMostVertices) return GltfError(where, "an accessor is too large");
+    if (accessor.count > kMaxVertices) return GltfError(where, "an accessor is too large");
     values.resize(accessor.count * components);
   } else {
     return GltfError(where, "accessor " + std::to_string(index) + " has no data");
@@ -186,7 +186,7 @@ template <std::size_t N>
 Result<std::vector<std::array<float, N>>> ReadGltfFloats(const tinygltf::Model& gltf, int accessor,
                                                          const std::string& where) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<double> values, Components(gltf, accessor, N, where));
-  if (values.size() / N > kMostVertices) {
+  if (values.size() / N > kMaxVertices) {
     return GltfError(where, "has more than 20 million vertices");
   }
   std::vector<std::array<float, N>> elements(values.size() / N);

@@ -16,7 +16,7 @@ namespace pleinair::compositor {
 namespace {
 
 // Of an extension, in messages.
-constexpr std::size_t kLongestName = 64;
+constexpr std::size_t kMaxNameLength = 64;
 
 class MaterialReader {
  public:
@@ -81,7 +81,7 @@ class MaterialReader {
     material.double_sided = source.doubleSided;
     material.specular_f0 = kDielectricF0;
     material.base_under_coat = 1.0F - kDielectricF0;
-    material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutOut
+    material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutout
                      : source.alphaMode == "BLEND" ? Material::Alpha::kBlended
                                                    : Material::Alpha::kIgnored;
     // Beyond 1 all of it is cut out (glTF 2.0, 3.9.4): how far beyond does not matter.
@@ -109,28 +109,28 @@ class MaterialReader {
       }
     }
     uv_maps_.push_back(uv_map);
-    NoteLeftOut(source, &material);
+    NoteUnsupported(source, &material);
     model_.materials.push_back(std::move(material));
     return {};
   }
 
-  static void NoteLeftOut(const tinygltf::Material& source, Material* material) {
-    if (source.normalTexture.index >= 0) material->left_out.insert("normal maps");
+  static void NoteUnsupported(const tinygltf::Material& source, Material* material) {
+    if (source.normalTexture.index >= 0) material->unsupported_features.insert("normal maps");
     const auto& emission = source.emissiveFactor;
     if (std::any_of(emission.begin(), emission.end(), [](double value) { return value > 0.0; })) {
-      material->left_out.insert("emission");
+      material->unsupported_features.insert("emission");
     }
     for (const auto& [extension, value] : source.extensions) {
       // How strong an emission is of which that was said already.
       if (extension == "KHR_materials_emissive_strength") continue;
-      material->left_out.insert(Shortened(extension));
+      material->unsupported_features.insert(Shortened(extension));
     }
   }
 
   /// Whole letters of UTF-8.
   static std::string Shortened(const std::string& name) {
-    if (name.size() <= kLongestName) return name;
-    std::size_t end = kLongestName;
+    if (name.size() <= kMaxNameLength) return name;
+    std::size_t end = kMaxNameLength;
     while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
     return name.substr(0, end);
   }

@@ -58,7 +58,7 @@ class GltfReader {
     PLEINAIR_ASSIGN_OR_RETURN(uv_maps_, ReadGltfMaterials(gltf_, encoded_, file_, &model_));
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
     if (model_.meshes.empty()) return GltfError(where_, "its scene has no triangles");
-    if (!gltf_.animations.empty()) model_.left_out.insert("animations");
+    if (!gltf_.animations.empty()) model_.unsupported_features.insert("animations");
     return std::move(model_);
   }
 
@@ -133,7 +133,7 @@ class GltfReader {
                          "the placement of node " + std::to_string(index) + " is not finite");
       }
       if (node.mesh >= 0) {
-        if (node.skin >= 0) model_.left_out.insert("skins");
+        if (node.skin >= 0) model_.unsupported_features.insert("skins");
         PLEINAIR_RETURN_IF_ERROR(ReadMesh(node.mesh, placement));
       }
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
@@ -158,15 +158,15 @@ class GltfReader {
                              const GltfPlacement& placement) {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     const auto position = primitive.attributes.find("POSITION");
-    if (mode < TINYGLTF_MODE_TRIANGLES) model_.left_out.insert(kPointsAndLines);
+    if (mode < TINYGLTF_MODE_TRIANGLES) model_.unsupported_features.insert(kPointsAndLines);
     if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) return {};
-    if (primitive.attributes.contains("COLOR_0")) model_.left_out.insert(kVertexColors);
-    if (!primitive.targets.empty()) model_.left_out.insert("morph targets");
+    if (primitive.attributes.contains("COLOR_0")) model_.unsupported_features.insert(kVertexColors);
+    if (!primitive.targets.empty()) model_.unsupported_features.insert("morph targets");
     Mesh mesh;
     mesh.name = name;
     PLEINAIR_ASSIGN_OR_RETURN(mesh.positions, ReadGltfFloats<3>(gltf_, position->second, where_));
     vertex_count_ += mesh.positions.size();
-    if (vertex_count_ > kMostVertices) {
+    if (vertex_count_ > kMaxVertices) {
       return GltfError(where_, "has more than 20 million vertices");
     }
     if (primitive.material >= 0 && !IsGltfIndex(primitive.material, gltf_.materials.size())) {
@@ -218,7 +218,7 @@ class GltfReader {
       }
     }
     triangle_count_ += order.size();
-    if (triangle_count_ > kMostTriangles) {
+    if (triangle_count_ > kMaxTriangles) {
       return GltfError(where_, "has more than 40 million triangles");
     }
     if (mode == TINYGLTF_MODE_TRIANGLES) {

@@ -9,7 +9,7 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr float kFarthestUv = 1e8F;
+constexpr float kMaxUv = 1e8F;
 
 }  // namespace
 
@@ -18,8 +18,8 @@ std::array<float, 2> UvMap::operator()(const std::array<float, 2>& uv) const {
   const double u = scale[0] * uv[0], v = scale[1] * uv[1];
   // What no float holds is out of reach like what is too far, and no number at all.
   const auto narrowed = [](double value) {
-    return std::fabs(value) <= kFarthestUv ? static_cast<float>(value)
-                                           : std::numeric_limits<float>::infinity();
+    return std::fabs(value) <= kMaxUv ? static_cast<float>(value)
+                                      : std::numeric_limits<float>::infinity();
   };
   return {narrowed(offset[0] + c * u + s * v), narrowed(offset[1] - s * u + c * v)};
 }
@@ -49,7 +49,7 @@ UvMap UvMapOf(const tinygltf::TextureInfo& texture) {
 }
 
 bool IsWithinReach(const std::array<float, 2>& uv) {
-  return std::ranges::all_of(uv, [](float value) { return std::fabs(value) <= kFarthestUv; });
+  return std::ranges::all_of(uv, [](float value) { return std::fabs(value) <= kMaxUv; });
 }
 
 }  // namespace pleinair::compositor

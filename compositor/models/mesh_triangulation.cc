@@ -73,7 +73,7 @@ std::vector<std::uint32_t> TriangulatePolygon(const std::vector<Vec3>& corners) 
   std::vector<std::uint32_t> left(corners.size());
   std::iota(left.begin(), left.end(), 0U);
   if (!IsConvex(flat)) {
-    if (corners.size() > kMostConcaveCorners) return {};
+    if (corners.size() > kMaxConcaveCorners) return {};
     while (left.size() > 3) {
       std::size_t ear = 0;
       while (ear < left.size() && !IsEar(flat, left, ear)) ++ear;

@@ -20,7 +20,7 @@ Result<std::string> ReadWholeFile(const std::filesystem::path& file) {
   }
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) return InputError(file.string(), "cannot be read: " + error.message());
-  if (size > kMostFileBytes) {
+  if (size > kMaxFileBytes) {
     return InputError(file.string(), "is larger than 4 GiB", "use a simpler model");
   }
   errno = 0;

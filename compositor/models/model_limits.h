@@ -6,9 +6,9 @@
 namespace pleinair::compositor {
 
 // What a hostile or broken file may at most make us allocate.
-inline constexpr std::size_t kMostVertices = 20'000'000;
-inline constexpr std::size_t kMostTriangles = 40'000'000;
-inline constexpr int kMostTexturePixelsASide = 16'384;
-inline constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{4} << 30;
+inline constexpr std::size_t kMaxVertices = 20'000'000;
+inline constexpr std::size_t kMaxTriangles = 40'000'000;
+inline constexpr int kMaxTextureSide_px = 16'384;
+inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
 
 }  // namespace pleinair::compositor

@@ -32,7 +32,7 @@ Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& o
         material.alpha = Material::Alpha::kIgnored;
       }
     }
-    CutHoles(&model);
+    ApplyAlphaCutout(&model);
     if (model.meshes.empty()) {
       return InputError(file.string(), "nothing of it can be seen: its textures are transparent",
                         "check their alpha");

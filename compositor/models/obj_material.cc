@@ -13,7 +13,7 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr std::size_t kMostMaterials = 100'000;
+constexpr std::size_t kMaxMaterials = 100'000;
 
 /// What the classic statements say, turned into a Material when its statements have ended.
 struct Draft {
@@ -35,7 +35,7 @@ class MtlParser {
       const std::string_view keyword = lines_.Word();
       if (keyword == "newmtl") {
         Finish();
-        if (model_->materials.size() >= kMostMaterials) return Fail("has too many materials");
+        if (model_->materials.size() >= kMaxMaterials) return Fail("has too many materials");
         draft_.emplace();
         draft_->material.name = std::string(lines_.Rest());
       } else if (draft_) {
@@ -105,12 +105,12 @@ class MtlParser {
     } else if (keyword == "map_Kd") {
       PLEINAIR_ASSIGN_OR_RETURN(material.base_color_texture, Texture());
     } else {
-      NoteLeftOut(keyword);
+      NoteUnsupported(keyword);
     }
     return {};
   }
 
-  void NoteLeftOut(std::string_view keyword) {
+  void NoteUnsupported(std::string_view keyword) {
     static const std::map<std::string_view, const char*> kNames = {
         {"Ke", "emission"},
         {"map_Ke", "emission"},
@@ -136,7 +136,7 @@ class MtlParser {
       const auto color = Color();
       if (!color || *color == std::array<float, 3>{}) return;
     }
-    draft_->material.left_out.insert(found->second);
+    draft_->material.unsupported_features.insert(found->second);
   }
 
   /// The file's name stands last, after options such as "-s 1 1 1"; it may contain blanks.

@@ -13,8 +13,8 @@ namespace pleinair::compositor {
 /// coat and roughness where illum asks for highlights, Pr and Pm (the physically based extension)
 /// as roughness and metallic, map_Kd as texture. A texture replaces a Kd of zero or white by
 /// white and is multiplied by any other. A d (or 1 − Tr) between 0 and 1 is how much of what lies
-/// behind is hidden. The rest is passed over; Material::left_out says what of it would show.
-/// Errors: name the file and line.
+/// behind is hidden. The rest is passed over; Material::unsupported_features says what of it would
+/// show. Errors: name the file and line.
 Result<void> ParseMtl(std::string_view text, const std::filesystem::path& file,
                       const ObjCompanions& companions, Model* model);
 

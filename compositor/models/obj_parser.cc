@@ -57,8 +57,8 @@ class ObjParser {
       // Texture coordinates that no face of the mesh has are no use to anybody.
       if (!has_uvs_[static_cast<std::size_t>(&mesh - model_.meshes.data())]) mesh.uvs.clear();
     }
-    if (has_colors_) model_.left_out.insert(kVertexColors);
-    if (has_lines_) model_.left_out.insert(kPointsAndLines);
+    if (has_colors_) model_.unsupported_features.insert(kVertexColors);
+    if (has_lines_) model_.unsupported_features.insert(kPointsAndLines);
     return std::move(model_);
   }
 
@@ -72,7 +72,7 @@ class ObjParser {
   Result<void> Statement(std::string_view keyword) {
     if (keyword == "v") {
       PLEINAIR_RETURN_IF_ERROR(Vector<3>(&positions_, 3));
-      // Beyond the place, its weight at most; colours are three more.
+      // Beyond the place, its weight at most; colors are three more.
       has_colors_ |= !lines_.Word().empty() && !lines_.Word().empty();
       return {};
     }
@@ -105,7 +105,7 @@ class ObjParser {
       }
       values[i] = *value;
     }
-    if (list->size() >= kMostVertices) return Fail("has more than 20 million vertices");
+    if (list->size() >= kMaxVertices) return Fail("has more than 20 million vertices");
     list->push_back(values);
     return {};
   }
@@ -164,11 +164,11 @@ class ObjParser {
     const std::uint32_t mesh_index = CurrentMesh();
     std::vector<std::uint32_t> vertices;
     for (const Corner& corner : corners) {
-      if (vertices_.size() >= kMostVertices) return Fail("has more than 20 million vertices");
+      if (vertices_.size() >= kMaxVertices) return Fail("has more than 20 million vertices");
       vertices.push_back(Vertex(mesh_index, corner));
     }
     Mesh& mesh = model_.meshes[mesh_index];
-    if (index_count_ + triangles.size() > 3 * kMostTriangles) {
+    if (index_count_ + triangles.size() > 3 * kMaxTriangles) {
       return Fail("has more than 40 million triangles");
     }
     index_count_ += triangles.size();

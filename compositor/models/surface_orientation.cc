@@ -222,7 +222,7 @@ std::vector<Triangle> CollectTriangles(const Model& model,
   Welder<3> welder;
   for (std::uint32_t m = 0; m < model.meshes.size(); ++m) {
     const Mesh& mesh = model.meshes[m];
-    if ((mesh.role == MeshRole::kDrawn) != drawn_alone) continue;
+    if ((mesh.role == MeshRole::kRenderOnly) != drawn_alone) continue;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       Triangle triangle;
       triangle.mesh = m;

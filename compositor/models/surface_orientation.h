@@ -30,7 +30,7 @@ struct PlacedModel;
 /// face outwards, open surfaces as most of their area does. Normals follow the winding; equal
 /// corners become one vertex; triangles without area are left out. Each mesh yields at most two
 /// surfaces, what belongs to closed bodies and what does not; a body may span several meshes. What
-/// is drawn with holes (MeshRole::kDrawn) is no closed body: they show its inside.
+/// is drawn with holes (MeshRole::kRenderOnly) is no closed body: they show its inside.
 std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_index);
 
 }  // namespace pleinair::compositor

@@ -110,7 +110,7 @@ Result<Image<std::uint8_t>> DecodeTexture(std::span<const std::byte> bytes,
     return InputError(where, "the texture's file is too large", kConvert);
   }
   if (const auto stated = StatedSize(bytes);
-      stated && std::max(stated->width, stated->height) > kMostTexturePixelsASide) {
+      stated && std::max(stated->width, stated->height) > kMaxTextureSide_px) {
     return InputError(where,
                       "the texture is " + std::to_string(stated->width) + " × " +
                           std::to_string(stated->height) + " pixels",

@@ -10,12 +10,12 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr int kAzimuths = 12, kElevations = 3, kDistances = 13;
-constexpr double kHighestElevation = 30.0 * std::numbers::pi / 180.0;
-constexpr double kNearest_m = 4.0;  // And doubled from node to node: 16 km at the end.
+constexpr double kMaxElevation = 30.0 * std::numbers::pi / 180.0;
+constexpr double kMinDistance_m = 4.0;  // And doubled from node to node: 16 km at the end.
 
 glm::dvec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
 
-double DistanceOf(int node) { return kNearest_m * std::exp2(node); }
+double DistanceOf(int node) { return kMinDistance_m * std::exp2(node); }
 
 std::size_t NodeOf(int azimuth, int elevation, int distance) {
   return (static_cast<std::size_t>(azimuth % kAzimuths) * kElevations + elevation) * kDistances +
@@ -30,7 +30,7 @@ AerialFog::AerialFog(const sky::SkyModel& day, const Mat3& marker_from_world)
   for (int azimuth = 0; azimuth < kAzimuths; ++azimuth) {
     const double a = 2.0 * std::numbers::pi * azimuth / kAzimuths;
     for (int elevation = 0; elevation < kElevations; ++elevation) {
-      const double e = kHighestElevation * (elevation - 1);
+      const double e = kMaxElevation * (elevation - 1);
       const Direction<World> towards{
           {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)}};
       for (int distance = 0; distance < kDistances; ++distance) {
@@ -50,9 +50,9 @@ AerialFog::Air AerialFog::At(const glm::dvec3& towards, double distance_m) const
   const double azimuth =
       (std::atan2(world.x, world.y) / (2.0 * std::numbers::pi) + 1.0) * kAzimuths;
   const double elevation = std::clamp(
-      std::asin(std::clamp(world.z, -1.0, 1.0)) / kHighestElevation + 1.0, 0.0, kElevations - 1.0);
-  const double distance =
-      std::clamp(std::log2(std::max(distance_m, kNearest_m) / kNearest_m), 0.0, kDistances - 1.0);
+      std::asin(std::clamp(world.z, -1.0, 1.0)) / kMaxElevation + 1.0, 0.0, kElevations - 1.0);
+  const double distance = std::clamp(
+      std::log2(std::max(distance_m, kMinDistance_m) / kMinDistance_m), 0.0, kDistances - 1.0);
   const int a = static_cast<int>(azimuth);
   const int e = std::min(static_cast<int>(elevation), kElevations - 2);
   const int d = std::min(static_cast<int>(distance), kDistances - 2);
@@ -87,20 +87,20 @@ FogSplits AerialFog::Along(const glm::dvec3& towards, std::span<const double> sp
   return fog;
 }
 
-glm::vec3 FogSplits::MostLightPerMetre() const {
-  glm::vec3 most(0.0F), light(0.0F), depth(0.0F);
+glm::vec3 FogSplits::MaxLightPerMetre() const {
+  glm::vec3 maximum(0.0F), light(0.0F), depth(0.0F);
   float distance = 0.0F;
   for (int i = 0; i < kMax; ++i) {
     // Where a stretch begins its light grows fastest: x / (1 − e^−x) times its mean, 1 + x at most.
     const glm::vec3 x = optical_depth[i] - depth;
     const glm::vec3 faster = glm::max(1.0F + x, glm::vec3(1.0F));
     const float length_m = distance_m[i] - distance;
-    if (length_m > 0.0F) most = glm::max(most, faster * (inscattered[i] - light) / length_m);
+    if (length_m > 0.0F) maximum = glm::max(maximum, faster * (inscattered[i] - light) / length_m);
     depth = optical_depth[i];
     light = inscattered[i];
     distance = distance_m[i];
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace pleinair::compositor

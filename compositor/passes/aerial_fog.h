@@ -22,7 +22,7 @@ struct FogSplits {
   std::array<glm::vec3, kMax> inscattered{};  ///< cd/m².
 
   /// What a metre of air adds at the most, wherever it lies on the way.
-  glm::vec3 MostLightPerMetre() const;
+  glm::vec3 MaxLightPerMetre() const;
 };
 
 /// The sky's aerial perspective, kept by direction and distance so that it outlives the sky model:

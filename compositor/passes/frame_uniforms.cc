@@ -4,20 +4,20 @@
 
 namespace pleinair::compositor {
 
-void DrawnFrame::Set(const gl::GlProgram& program) const {
+void FrameUniforms::Set(const gl::GlProgram& program) const {
   program.Set("u_eye_m", eye_m);
-  program.Set("u_gain", gain);
+  program.Set("u_exposure_scale", exposure_scale);
   program.Set("u_to_sun", to_sun);
   program.Set("u_sun_normal_lux", sun_normal_lux);
 }
 
-void DrawnFrame::SetRays(const gl::GlProgram& program) const {
+void FrameUniforms::SetRays(const gl::GlProgram& program) const {
   program.Set("u_ray", ray[0]);
   program.Set("u_ray_x", ray[1]);
   program.Set("u_ray_y", ray[2]);
 }
 
-void DrawnFrame::SetFog(const gl::GlProgram& program) const {
+void FrameUniforms::SetFog(const gl::GlProgram& program) const {
   program.SetArray("u_fog_split_m",
                    std::vector<float>(fog.distance_m.begin(), fog.distance_m.end()));
   program.SetArray("u_fog_optical_depth",
@@ -26,9 +26,9 @@ void DrawnFrame::SetFog(const gl::GlProgram& program) const {
                    std::vector<glm::vec3>(fog.inscattered.begin(), fog.inscattered.end()));
 }
 
-void DrawnFrame::SetSunlight(const gl::GlProgram& program) const {
-  program.Set("u_sunlight_s", texture_from_marker[0]);
-  program.Set("u_sunlight_t", texture_from_marker[1]);
+void FrameUniforms::SetSunTransmittance(const gl::GlProgram& program) const {
+  program.Set("u_sun_transmittance_s", texture_from_marker[0]);
+  program.Set("u_sun_transmittance_t", texture_from_marker[1]);
 }
 
 }  // namespace pleinair::compositor

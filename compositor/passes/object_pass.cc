@@ -31,7 +31,7 @@ Result<ObjectPass> ObjectPass::Create() {
 }
 
 void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                              const DrawnFrame& frame) const {
+                              const FrameUniforms& frame) const {
   const bool textured = surfaces.HasTextures();
   const gl::GlProgram& id_program = surfaces.HasAlpha() ? alpha_id_program_
                                     : textured          ? textured_id_program_
@@ -44,13 +44,13 @@ void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces&
 }
 
 void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                      const SurfacePrograms& programs, const DrawnFrame& frame,
+                      const SurfacePrograms& programs, const FrameUniforms& frame,
                       const gl::GlTexture& environment, const PixelRect& within) const {
   glEnable(GL_SCISSOR_TEST);
   glScissor(within.x, within.y, within.width, within.height);
   no_attributes_.Bind();
   surfaces.object_triangles().Bind();
-  surfaces.object_records().Bind(2);
+  surfaces.object_materials().Bind(2);
   targets.BeginSorting();
   glDepthFunc(GL_ALWAYS);
   targets.ids().Bind(0);
@@ -72,12 +72,12 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
   for (int kind = 0; kind < 2; ++kind) {
     const gl::GlProgram& program = kind == 0 ? programs.objects : programs.objects_in_own_shade;
     program.Use();
-    program.Set("u_depth", RatioPass::DepthOf(static_cast<ChangingTriangles::Change>(kind)));
+    program.Set("u_depth", ShadowRatioPass::DepthOf(static_cast<AffectedTriangles::Change>(kind)));
     program.Set("u_samples", static_cast<float>(targets.samples()));
     frame.Set(program);
     frame.SetRays(program);
     frame.SetFog(program);
-    frame.SetSunlight(program);
+    frame.SetSunTransmittance(program);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
   glDepthMask(GL_TRUE);

@@ -22,16 +22,16 @@ class ObjectPass {
   static Result<ObjectPass> Create();
 
   /// Draws which triangles of the objects the samples show, over the numbers of the real surfaces
-  /// that RatioPass::DrawSurfaces() drew and behind their depth. Binds textures to unit 0.
+  /// that ShadowRatioPass::DrawSurfaces() drew and behind their depth. Binds textures to unit 0.
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                    const DrawnFrame& frame) const;
+                    const FrameUniforms& frame) const;
 
   /// Shades what DrawSurfaces() found into targets.objects(). `within`: where objects are in the
   /// picture. The shadow maps and, at unit 5, the map of the sunlight must have been bound, and
   /// GL_DEPTH_TEST be enabled and GL_CULL_FACE not. Binds textures of its own to units 0 to 4, 6
   /// and 7; leaves the depth written and tested with GL_LESS, and no scissors.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
-            const SurfacePrograms& programs, const DrawnFrame& frame,
+            const SurfacePrograms& programs, const FrameUniforms& frame,
             const gl::GlTexture& environment, const PixelRect& within) const;
 
  private:

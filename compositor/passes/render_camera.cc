@@ -9,7 +9,7 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr double kWidestTangent = 3.732;  // tan 75°.
-constexpr int kLargestSide = 8192;
+constexpr int kMaxSide = 8192;
 
 Vec2 ClampedRay(const CameraModel& camera, Vec2 pixel) {
   const Vec2 ray = UndistortPixel(camera, pixel);
@@ -47,9 +47,9 @@ RenderCamera FitRenderCamera(const CameraModel& camera, double supersampling) {
     include(camera.width, y);
   }
   render.width =
-      std::clamp(static_cast<int>(std::ceil((right - left) * render.fx)) + 2, 1, kLargestSide);
+      std::clamp(static_cast<int>(std::ceil((right - left) * render.fx)) + 2, 1, kMaxSide);
   render.height =
-      std::clamp(static_cast<int>(std::ceil((bottom - top) * render.fy)) + 2, 1, kLargestSide);
+      std::clamp(static_cast<int>(std::ceil((bottom - top) * render.fy)) + 2, 1, kMaxSide);
   render.cx = -left * render.fx + 0.5;
   render.cy = -top * render.fy + 0.5;
   return render;

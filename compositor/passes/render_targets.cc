@@ -15,9 +15,9 @@ constexpr std::array<GLenum, 3> kSampledFormats{GL_R32UI, GL_RGBA16F, GL_DEPTH_C
 int RenderTargets::SamplesGiven() {
   int samples = kWantedSamples;
   for (const GLenum format : kSampledFormats) {
-    GLint most = 1;
-    glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_SAMPLES, 1, &most);
-    samples = std::min(samples, static_cast<int>(most));
+    GLint maximum = 1;
+    glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_SAMPLES, 1, &maximum);
+    samples = std::min(samples, static_cast<int>(maximum));
   }
   return samples;
 }
@@ -51,7 +51,7 @@ Result<RenderTargets> RenderTargets::Create(int width, int height) {
   PLEINAIR_ASSIGN_OR_RETURN(targets.draw_ratio_,
                             gl::GlFramebuffer::Create({{{&targets.ratio_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
-      targets.draw_ratio_and_haze_,
+      targets.draw_ratio_and_airlight_,
       gl::GlFramebuffer::Create({{{&targets.ratio_}, {&targets.objects_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
       targets.pass_,
@@ -83,7 +83,7 @@ void RenderTargets::BeginRatio() const {
   draw_ratio_.ClearColor(0, 1, 1, 1, 1);
 }
 
-void RenderTargets::BeginHaze() const { draw_ratio_and_haze_.Bind(); }
+void RenderTargets::BeginAirlight() const { draw_ratio_and_airlight_.Bind(); }
 
 void RenderTargets::BeginPass(bool back) const { (back ? back_ : pass_).Bind(); }
 

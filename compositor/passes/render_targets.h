@@ -15,17 +15,17 @@ class RenderTargets {
 
   /// Draws go to the numbers of triangles, a sample each, and to their depth; cleared to 0.
   void BeginSurfaces() const;
-  /// Draws go there still; `textured`: and to what textures leave of the base colour (colour 1).
+  /// Draws go there still; `textured`: and to what textures leave of the base color (color 1).
   void BeginObjectIds(bool textured) const;
   /// Draws go, once a pixel, to what the numbers say of it, and its depth.
   void BeginSorting() const;
-  /// Draws go to objects(), the objects' premultiplied display-linear colour with coverage, with
+  /// Draws go to objects(), the objects' premultiplied display-linear color with coverage, with
   /// the depth that sorting gave; cleared to 0.
   void BeginObjects() const;
   /// Draws go to the differential ratio, cleared to 1, with the depth that sorting gave.
   void BeginRatio() const;
-  /// After BeginRatio(): draws go to the ratio (colour 0) and to objects() (colour 1).
-  void BeginHaze() const;
+  /// After BeginRatio(): draws go to the ratio (color 0) and to objects() (color 1).
+  void BeginAirlight() const;
   /// Where one pass over ratio() and objects() may be drawn into; `back`: from there into them.
   void BeginPass(bool back) const;
   const gl::GlTexture& passed_ratio() const { return passed_ratio_; }
@@ -48,7 +48,7 @@ class RenderTargets {
   gl::GlTexture seen_, kinds_, ratio_, objects_;
   gl::GlTexture passed_ratio_, passed_objects_;
   gl::GlFramebuffer draw_ids_, draw_ids_and_texels_, sort_, draw_objects_;
-  gl::GlFramebuffer draw_ratio_, draw_ratio_and_haze_;
+  gl::GlFramebuffer draw_ratio_, draw_ratio_and_airlight_;
   gl::GlFramebuffer pass_, back_;
 };
 

@@ -13,7 +13,7 @@ namespace pleinair::compositor {
 namespace {
 
 // Sides of the two finest maps that are left open; those of the others are half of it.
-constexpr int kSmallestOpenMap = 1024, kLargestOpenMap = 2048;
+constexpr int kMinMapWithoutSize_px = 1024, kMaxMapWithoutSize_px = 2048;
 constexpr float kReachSlack = 1.25F, kReachTexels = 6.0F;
 
 }  // namespace
@@ -23,7 +23,7 @@ shadows::ShadowMapOptions SceneShadows::MapOptions(const ComposerOptions& option
   map_options.method = options.shadow_method;
   map_options.partitions = options.shadow_partitions;
   const int fine = std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(picture_px))),
-                              kSmallestOpenMap, kLargestOpenMap);
+                              kMinMapWithoutSize_px, kMaxMapWithoutSize_px);
   for (std::size_t i = 0; i < options.shadow_sizes.size(); ++i) {
     const int open = i < 2 ? fine : fine / 2;
     map_options.resolutions[i] = options.shadow_sizes[i] > 0 ? options.shadow_sizes[i] : open;

@@ -58,12 +58,12 @@ void ShadowDebugView::Draw(const shadows::ShadowMaps& maps, const glm::mat4& cli
   map_program_.Use();
   maps.BindDepth(0);
   const shadows::ShadowMapOptions& options = maps.options();
-  const int most = *std::max_element(options.resolutions.begin(),
-                                     options.resolutions.begin() + options.partitions);
+  const int maximum = *std::max_element(options.resolutions.begin(),
+                                        options.resolutions.begin() + options.partitions);
   const int gap = std::max(output.height() / 100, 1);
   int left = gap;
   for (int i = 0; i < options.partitions; ++i) {
-    const int side = std::max(output.height() / 4 * options.resolutions[i] / most, 1);
+    const int side = std::max(output.height() / 4 * options.resolutions[i] / maximum, 1);
     // Row 0 of the picture is its top.
     glViewport(left, output.height() - gap - side, side, side);
     map_program_.Set("u_slice", i);

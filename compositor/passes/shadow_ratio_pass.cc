@@ -4,8 +4,8 @@
 
 namespace pleinair::compositor {
 
-Result<RatioPass> RatioPass::Create() {
-  RatioPass pass;
+Result<ShadowRatioPass> ShadowRatioPass::Create() {
+  ShadowRatioPass pass;
   PLEINAIR_ASSIGN_OR_RETURN(
       pass.id_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                                                .fragment = "compositor/shaders/triangle_id.frag"}));
@@ -13,27 +13,28 @@ Result<RatioPass> RatioPass::Create() {
       pass.sort_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                              .fragment = "compositor/shaders/changing_pixels.frag"}));
-  gl::ProgramStages steady{.vertex = "compositor/shaders/screen_triangle.vert",
-                           .fragment = "compositor/shaders/steady_ratio.frag"};
-  PLEINAIR_ASSIGN_OR_RETURN(pass.steady_program_, gl::GlProgram::Create(steady));
-  steady.defines = {"HAZE"};
-  PLEINAIR_ASSIGN_OR_RETURN(pass.steady_program_in_haze_, gl::GlProgram::Create(steady));
+  gl::ProgramStages linear_ratio{.vertex = "compositor/shaders/screen_triangle.vert",
+                                 .fragment = "compositor/shaders/steady_ratio.frag"};
+  PLEINAIR_ASSIGN_OR_RETURN(pass.linear_program_, gl::GlProgram::Create(linear_ratio));
+  linear_ratio.defines = {"AIRLIGHT"};
+  PLEINAIR_ASSIGN_OR_RETURN(pass.linear_program_with_airlight_,
+                            gl::GlProgram::Create(linear_ratio));
   pass.no_attributes_ = gl::GlVertexArray::Create();
   return pass;
 }
 
-void RatioPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                             const DrawnFrame& frame) const {
+void ShadowRatioPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                                   const FrameUniforms& frame) const {
   targets.BeginSurfaces();
   id_program_.Use();
   id_program_.Set("u_clip_from_marker", frame.clip_from_marker);
   surfaces.DrawPhantoms(id_program_);
 }
 
-void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                     const SurfacePrograms& programs, const DrawnFrame& frame,
-                     const Shade& shade) const {
-  using Change = ChangingTriangles::Change;
+void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                           const SurfacePrograms& programs, const FrameUniforms& frame,
+                           const ShadowOptions& options) const {
+  using Change = AffectedTriangles::Change;
   no_attributes_.Bind();
   surfaces.triangles().Bind();
   targets.BeginSorting();
@@ -47,37 +48,37 @@ void RatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   targets.seen().Bind(0);
-  const auto draw = [&](const gl::GlProgram& program, Change change, bool hazy) {
+  const auto draw = [&](const gl::GlProgram& program, Change change, bool needs_airlight) {
     program.Use();
     program.Set("u_depth", DepthOf(change));
     program.Set("u_samples", static_cast<float>(targets.samples()));
     frame.Set(program);
     frame.SetRays(program);
-    if (hazy) frame.SetFog(program);
+    if (needs_airlight) frame.SetFog(program);
     if (change == Change::kSun) {
-      program.Set("u_looks", shade.look ? 1.0F : 0.0F);
-      program.Set("u_board_half_m", static_cast<float>(shade.board_m / 2));
-      frame.SetSunlight(program);
+      program.Set("u_assumes_unmodelled_shadows", options.assume_unmodelled ? 1.0F : 0.0F);
+      program.Set("u_margin_half_m", static_cast<float>(options.margin_size_m / 2));
+      frame.SetSunTransmittance(program);
     }
     glDrawArrays(GL_TRIANGLES, 0, 3);
   };
-  const auto draw_steady = [&](const gl::GlProgram& program, bool hazy) {
-    surfaces.triangles().BindSteady();
-    draw(program, Change::kSteadySky, hazy);
+  const auto draw_linear = [&](const gl::GlProgram& program, bool needs_airlight) {
+    surfaces.triangles().BindLinearRatios();
+    draw(program, Change::kLinearSky, needs_airlight);
     surfaces.triangles().Bind();
   };
-  if (!frame.steady_hazy) draw_steady(steady_program_, false);
-  if (frame.hazy) {
+  if (!frame.linear_needs_airlight) draw_linear(linear_program_, false);
+  if (frame.needs_airlight) {
     // The air before a surface is seen beside the objects that cover the pixel in part.
-    targets.BeginHaze();
+    targets.BeginAirlight();
     glEnablei(GL_BLEND, 1);
     glBlendFuncSeparatei(1, GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
   }
   for (const Change change : {Change::kSun, Change::kSunlitSky}) {
-    draw(programs.phantoms[change], change, frame.hazy);
+    draw(programs.phantoms[change], change, frame.needs_airlight);
   }
-  if (frame.steady_hazy) draw_steady(steady_program_in_haze_, true);
-  if (frame.hazy) glDisablei(GL_BLEND, 1);
+  if (frame.linear_needs_airlight) draw_linear(linear_program_with_airlight_, true);
+  if (frame.needs_airlight) glDisablei(GL_BLEND, 1);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
 }

@@ -28,7 +28,7 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
     std::vector<std::string> defines =
         shadows::FadingShadowMaps::ShaderDefines(shading, SceneShadows::kSets, permutation.fades);
     defines.insert(defines.end(), of_pass.begin(), of_pass.end());
-    if (permutation.hazy) defines.emplace_back("HAZE");
+    if (permutation.needs_airlight) defines.emplace_back("AIRLIGHT");
     if (permutation.textured) defines.emplace_back("TEXTURED");
     if (permutation.glossy) defines.emplace_back("GLOSSY");
     return gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
@@ -36,10 +36,10 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
                                   .defines = std::move(defines)});
   };
   SurfacePrograms programs;
-  PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[ChangingTriangles::kSun],
+  PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[AffectedTriangles::kSun],
                             make("phantom_ratio.frag", {"SUN_MAY_CHANGE"}, options.method));
   PLEINAIR_ASSIGN_OR_RETURN(
-      programs.phantoms[ChangingTriangles::kSunlitSky],
+      programs.phantoms[AffectedTriangles::kSunlitSky],
       make("phantom_ratio.frag", {"SKY_CHANGES"}, MethodForSky(options.method)));
   PLEINAIR_ASSIGN_OR_RETURN(programs.objects, make("virtual_object.frag", {}, options.method));
   PLEINAIR_ASSIGN_OR_RETURN(programs.objects_in_own_shade,

@@ -10,21 +10,22 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr double kCoarseStepDeg = 0.75, kFineStepDeg = 0.125, kFineReachDeg = 1.5;
+constexpr double kCoarseStepDeg = 0.75, kFineStepDeg = 0.125, kFineReach_deg = 1.5;
 constexpr int kGroups = 8;  // Left out one after the other.
-constexpr int kFewestSpots = 12;
+constexpr int kMinSurfaceSamples = 12;
 constexpr double kGrazing = 0.1;  // Cosine below which a surface hardly sees the sun.
 // Spots whose brightness departs further from their cell's median are something else's.
 constexpr double kOutlier = 1.5;
 // What a heading must reach to be believed: standard errors of the contrast, and its own.
 constexpr double kSignificance = 4.0;
-constexpr double kLargestUncertaintyDeg = 1.0;
-constexpr double kSmallestContrast = 0.08;
-constexpr int kFewestCells = 4;
+constexpr double kMaxUncertainty_deg = 1.0;
+constexpr double kMinContrast = 0.08;
+constexpr int kMinCells = 4;
 
-/// The spots of one cell, as indices into the samples, with their brightness about its mean.
+/// The surface samples of one cell, as indices into the samples, with their brightness about its
+/// mean.
 struct Cell {
-  std::vector<std::uint32_t> spots;
+  std::vector<std::uint32_t> surface_samples;
   std::vector<double> brightness;
 };
 
@@ -49,14 +50,14 @@ std::vector<Cell> CellsOf(const SurfaceSamples& samples, Vec3 to_sun) {
   for (std::uint32_t i = 0; i < samples.samples().size(); ++i) {
     const SurfaceSample& sample = samples.samples()[i];
     if (sample.frames == 0 || Dot(sample.normal, to_sun) < kGrazing) continue;
-    all[sample.cell].spots.push_back(i);
+    all[sample.cell].surface_samples.push_back(i);
   }
   std::vector<Cell> cells;
   for (Cell& cell : all) {
-    if (cell.spots.size() < kFewestSpots) continue;
+    if (cell.surface_samples.size() < kMinSurfaceSamples) continue;
     std::vector<double> values;
-    for (const std::uint32_t spot : cell.spots) {
-      const auto& log_rgb = samples.samples()[spot].log_rgb;
+    for (const std::uint32_t surface_sample : cell.surface_samples) {
+      const auto& log_rgb = samples.samples()[surface_sample].log_rgb;
       values.push_back((log_rgb[0] + log_rgb[1] + log_rgb[2]) / 3);
     }
     std::vector<double> sorted = values;
@@ -115,17 +116,18 @@ class Search {
  private:
   Fit FitCell(const Cell& cell, Vec3 sun) const {
     double lit = 0.0, bright = 0.0, product = 0.0;
-    for (std::size_t i = 0; i < cell.spots.size(); ++i) {
+    for (std::size_t i = 0; i < cell.surface_samples.size(); ++i) {
       bright += cell.brightness[i];
-      if (!solver_.ReachesPhantomsOnly(samples_.samples()[cell.spots[i]].point, sun)) continue;
+      if (!solver_.IsUnoccludedPhantomsOnly(samples_.samples()[cell.surface_samples[i]].point, sun))
+        continue;
       lit += 1.0;
       product += cell.brightness[i];
     }
-    const auto count = static_cast<double>(cell.spots.size());
+    const auto count = static_cast<double>(cell.surface_samples.size());
     Fit fit;
     fit.variance = lit - lit * lit / count;
     fit.covariance = product - bright * lit / count;
-    fit.cells = fit.variance > 1.5 ? 1 : 0;  // Two spots on either side at the least.
+    fit.cells = fit.variance > 1.5 ? 1 : 0;  // Two surface samples on either side at the least.
     return fit;
   }
 
@@ -176,17 +178,18 @@ Vec3 Turned(Vec3 direction, Vec3 unit_axis, Radians angle) {
          unit_axis * (Dot(unit_axis, direction) * (1 - c));
 }
 
-std::optional<HeadingReading> ReadHeading(const LightSolver& solver, const SurfaceSamples& samples,
-                                          Vec3 up, Vec3 to_sun) {
+std::optional<HeadingEstimate> EstimateHeading(const LightSolver& solver,
+                                               const SurfaceSamples& samples, Vec3 up,
+                                               Vec3 to_sun) {
   if (Dot(up, to_sun) <= 0.0) return std::nullopt;
   const Search search(solver, samples, up, to_sun);
-  const std::vector<double> coarse = Steps(-kLargestHeadingErrorDeg - kFineReachDeg,
-                                           kLargestHeadingErrorDeg + kFineReachDeg, kCoarseStepDeg);
+  const std::vector<double> coarse = Steps(-kMaxHeadingError_deg - kFineReach_deg,
+                                           kMaxHeadingError_deg + kFineReach_deg, kCoarseStepDeg);
   const std::vector<Cell> cells = search.Crossed(CellsOf(samples, to_sun), coarse);
-  if (static_cast<int>(cells.size()) < kFewestCells) return std::nullopt;
+  if (static_cast<int>(cells.size()) < kMinCells) return std::nullopt;
   const double about = Best(search.FitAll(cells, coarse), coarse, -1, nullptr);
   const std::vector<double> fine =
-      Steps(about - kFineReachDeg, about + kFineReachDeg, kFineStepDeg);
+      Steps(about - kFineReach_deg, about + kFineReach_deg, kFineStepDeg);
   const Search::Fits fits = search.FitAll(cells, fine);
   std::size_t at = 0;
   const double best = Best(fits, fine, -1, &at);
@@ -210,13 +213,13 @@ std::optional<HeadingReading> ReadHeading(const LightSolver& solver, const Surfa
   const double uncertainty_deg =
       std::hypot(std::sqrt(offset_spread * kScale), kFineStepDeg / std::sqrt(12.0));
   const double contrast_error = std::sqrt(contrast_spread * kScale);
-  if (whole.cells < kFewestCells || whole.Contrast() < kSmallestContrast ||
-      whole.Contrast() < kSignificance * contrast_error ||
-      uncertainty_deg > kLargestUncertaintyDeg || std::fabs(best) > kLargestHeadingErrorDeg) {
+  if (whole.cells < kMinCells || whole.Contrast() < kMinContrast ||
+      whole.Contrast() < kSignificance * contrast_error || uncertainty_deg > kMaxUncertainty_deg ||
+      std::fabs(best) > kMaxHeadingError_deg) {
     return std::nullopt;
   }
-  return HeadingReading{FromDegrees(best), FromDegrees(uncertainty_deg), whole.Contrast(),
-                        whole.cells};
+  return HeadingEstimate{FromDegrees(best), FromDegrees(uncertainty_deg), whole.Contrast(),
+                         whole.cells};
 }
 
 }  // namespace pleinair::compositor

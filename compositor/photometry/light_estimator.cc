@@ -20,16 +20,16 @@ namespace pleinair::compositor {
 namespace {
 
 // Logarithmic, between planes of one material: what an overcast sky may leave unexplained.
-constexpr double kMostPlaneContrast = 0.6;
+constexpr double kMaxPlaneContrast = 0.6;
 // The same, of planes that an overcast sky explains: patterns, bumps and stated places of phantoms.
 constexpr double kPlaneContrastUnderCloud = 0.3;
-// Planes of several materials, compared by their stated colours: of so many, facing so many ways.
+// Planes of several materials, compared by their stated colors: of so many, facing so many ways.
 // Logarithmic, root mean square: at least so much must be unexplained under each sun, and so many
-// times what is under clouds. Rough colours add to both alike.
-constexpr int kFewestSurfaces = 4, kFewestDirections = 3;
-constexpr double kLeastAmongPlanes = 0.2, kTimesWorse = 2.0;
+// times what is under clouds. Rough colors add to both alike.
+constexpr int kMinSurfaces = 4, kMinDirections = 3;
+constexpr double kMinContrastAmongPlanes = 0.2, kTimesWorse = 2.0;
 // Frames in which the print must be divided by a shadow, where so many were looked at.
-constexpr int kFewestDivided = 2;
+constexpr int kMinDividedFrames = 2;
 // Skies that a sun may have beside it, of the words': as they say, and in haze.
 constexpr std::array kSkiesWithSun{1.0, 2.0, 4.0};
 
@@ -40,28 +40,26 @@ constexpr LinearRgb kHazierSky{2.0, 2.0, 2.0};
 
 /// How planes agree with the words' sun beside each of kSkiesWithSun.
 template <typename Contrast>
-std::vector<PlaneContrast> SunlitContrasts(const Contrast& contrast_under,
-                                           const sky::SkyModel& day) {
-  std::vector<PlaneContrast> contrasts;
+std::vector<OvercastTest> SunlitContrasts(const Contrast& contrast_under,
+                                          const sky::SkyModel& day) {
+  std::vector<OvercastTest> contrasts;
   contrasts.reserve(kSkiesWithSun.size());
   for (const double sky : kSkiesWithSun) {
-    contrasts.push_back(
-        contrast_under(ScaledDaylight(day, LinearRgb{1, 1, 1} * sky, {1.0, 1.0, 1.0})));
+    contrasts.push_back(contrast_under(ScaledSky(day, LinearRgb{1, 1, 1} * sky, {1.0, 1.0, 1.0})));
   }
   return contrasts;
 }
 
 /// Whether planes agree with an overcast sky and with none that has a sun: those of one material
-/// by themselves, or those of several materials by their stated colours.
-bool IsLitByCloudsAlone(const PlaneContrast& clouds, const std::vector<PlaneContrast>& sunlit) {
+/// by themselves, or those of several materials by their stated colors.
+bool IsLitByCloudsAlone(const OvercastTest& clouds, const std::vector<OvercastTest>& sunlit) {
   const bool within = clouds.within < kPlaneContrastUnderCloud &&
                       std::all_of(sunlit.begin(), sunlit.end(),
-                                  [](const auto& sun) { return sun.within > kMostPlaneContrast; });
-  const bool comparable =
-      clouds.surfaces >= kFewestSurfaces && clouds.directions >= kFewestDirections;
+                                  [](const auto& sun) { return sun.within > kMaxPlaneContrast; });
+  const bool comparable = clouds.surfaces >= kMinSurfaces && clouds.directions >= kMinDirections;
   const bool among =
       comparable && std::all_of(sunlit.begin(), sunlit.end(), [&](const auto& sun) {
-        return sun.among > kLeastAmongPlanes && sun.among > kTimesWorse * clouds.among;
+        return sun.among > kMinContrastAmongPlanes && sun.among > kTimesWorse * clouds.among;
       });
   return within || among;
 }
@@ -72,9 +70,11 @@ bool MayShine(scene::Cloudiness stated) {
 
 }  // namespace
 
-LightLook::LightLook(std::shared_ptr<const LightSolver> solver, const CameraModel& camera,
-                     const scene::MarkerPrint& print, const scene::SceneDescription& scene,
-                     const LightOverrides& overrides, UtcTime time, const CameraResponse& response)
+LightEstimator::LightEstimator(std::shared_ptr<const LightSolver> solver, const CameraModel& camera,
+                               const scene::MarkerReflectance& marker_reflectance,
+                               const scene::SceneDescription& scene,
+                               const LightOverrides& overrides, UtcTime time,
+                               const CameraResponse& response)
     : solver_(std::move(solver)),
       camera_(camera),
       scene_(scene),
@@ -82,127 +82,130 @@ LightLook::LightLook(std::shared_ptr<const LightSolver> solver, const CameraMode
       time_(time),
       sun_(scene::SunOver(scene.place_time, time)),
       day_(SunlitSky(scene)->ForSun(sun_.ToSun(), sun_.distance_au)),
-      samples_(*solver_, camera, print, response),
-      meter_(print, *solver_, *day_, scene::MarkerFromWorld(scene.marker), response) {}
+      samples_(*solver_, camera, marker_reflectance, response),
+      meter_(marker_reflectance, *solver_, *day_, scene::MarkerFromWorld(scene.marker), response) {}
 
-void LightLook::Add(ImageView<const std::uint8_t> rgb,
-                    const Transform<Camera, Marker>& camera_from_marker) {
-  if (const auto reading = meter_.Measure(rgb, camera_, camera_from_marker)) {
-    gain_ = reading->gain;
-    dappled_ += reading->dappled ? 1 : 0;
+void LightEstimator::Add(ImageView<const std::uint8_t> rgb,
+                         const Transform<Camera, Marker>& camera_from_marker) {
+  if (const auto estimate = meter_.Measure(rgb, camera_, camera_from_marker)) {
+    exposure_scale_ = estimate->exposure_scale;
+    dappled_ += estimate->dappled ? 1 : 0;
     // Leaves make two levels now and then, but neither is the open sun.
     const auto shadow = meter_.FindShadow(rgb, camera_, camera_from_marker);
-    if (shadow && !reading->dappled) print_shadows_.push_back(*shadow);
+    if (shadow && !estimate->dappled) marker_shadow_edges_.push_back(*shadow);
   }
-  samples_.AddFrame(rgb, camera_from_marker, gain_);
+  samples_.AddFrame(rgb, camera_from_marker, exposure_scale_);
 }
 
-bool LightLook::IsPrintDivided(const UnmodelledShade& shade) const {
-  const auto divided = static_cast<int>(print_shadows_.size());
-  return divided > 0 && divided >= std::min(kFewestDivided, samples_.frames()) &&
-         2 * divided >= samples_.frames() && !shade.ShadesPrint() &&
-         (shade.crossed > 0 || MayShine(scene_.cloudiness));
+bool LightEstimator::IsMarkerDivided(const UnmodelledShadows& unmodelled) const {
+  const auto divided = static_cast<int>(marker_shadow_edges_.size());
+  return divided > 0 && divided >= std::min(kMinDividedFrames, samples_.frames()) &&
+         2 * divided >= samples_.frames() && !unmodelled.ShadesMarker() &&
+         (unmodelled.boundary_cells > 0 || MayShine(scene_.cloudiness));
 }
 
-void LightLook::SettleAsStated(FoundLight* found) const {
-  const auto skies = StatedSky(scene_);
+void LightEstimator::UseDescribedLight(LightEstimate* found) const {
+  const auto skies = DescribedSky(scene_);
   const auto day = skies->ForSun(sun_.ToSun(), sun_.distance_au);
   const double ratio = SunToSky(*day);
   // Without a sun there is no shade to be found.
   if (ratio <= 0.0 || overrides_.sun_to_sky.value_or(ratio) <= 0.0) return;
-  const double sky_scale = ratio / overrides_.sun_to_sky.value_or(ratio);
-  const UnmodelledShade shade =
-      FindUnmodelledShade(*solver_, samples_, meter_, *day, scene::MarkerFromWorld(scene_.marker),
-                          LinearRgb{1, 1, 1} * sky_scale);
-  if (shade.sunlit == 0) return;
-  found->skies = {skies, {1.0, 1.0, 1.0}, shade.Matters()};
-  found->measured.shaded = shade.shaded;
+  const double sky_radiance_scale = ratio / overrides_.sun_to_sky.value_or(ratio);
+  const UnmodelledShadows unmodelled =
+      FindUnmodelledShadows(*solver_, samples_, meter_, *day, scene::MarkerFromWorld(scene_.marker),
+                            LinearRgb{1, 1, 1} * sky_radiance_scale);
+  if (unmodelled.sunlit == 0) return;
+  found->skies = {skies, {1.0, 1.0, 1.0}, unmodelled.Matters()};
+  found->measured.shaded = unmodelled.shaded;
 }
 
 /// Where leaves and the like shade the ground, and whether they shade the print.
-void LightLook::TakeShade(UnmodelledShade shade, FoundLight* found) const {
-  found->skies.sunlight = std::make_shared<const SeenSunlight>(std::move(shade.sunlight));
-  if (2 * dappled_ > samples_.frames() || shade.ShadesPrint()) {
-    found->skies.print_shade =
-        PrintShade(shade.open_gain, shade.sun_on_print, shade.ambient_on_print);
+void LightEstimator::UseUnmodelledShadows(UnmodelledShadows unmodelled,
+                                          LightEstimate* found) const {
+  found->skies.sun_transmittance =
+      std::make_shared<const SunTransmittanceMap>(std::move(unmodelled.sun_transmittance));
+  if (2 * dappled_ > samples_.frames() || unmodelled.ShadesMarker()) {
+    found->skies.marker_shade = MarkerShadeCorrection(
+        unmodelled.sunlit_scale, unmodelled.sun_on_marker, unmodelled.ambient_on_marker);
   }
-  found->measured.print_shade = std::exp(MeanLog(found->skies.print_shade));
+  found->measured.marker_shade = std::exp(MeanLog(found->skies.marker_shade));
 }
 
-void LightLook::UseHeading(const LightMemory& memory, FoundLight* found) const {
-  const auto known = overrides_.heading_deg ? std::nullopt : memory.Heading(time_);
+void LightEstimator::UseHeading(const LightFilter& light_filter, LightEstimate* found) const {
+  const auto known = overrides_.heading_deg ? std::nullopt : light_filter.Heading(time_);
   const HeadingOffset offset = known.value_or(HeadingOffset{});
   found->heading = Radians(scene_.marker.heading.value() + offset.offset.value());
   found->measured.heading_offset = offset.offset;
   found->measured.heading_error = known ? std::optional(offset.error) : std::nullopt;
   found->measured.heading_source =
-      known ? MeasuredLight::Source::kMeasured : MeasuredLight::Source::kStated;
+      known ? MeasuredLight::Source::kMeasured : MeasuredLight::Source::kDescription;
 }
 
-SunSkyReading LightLook::SettleHeading(LightMemory* memory, FoundLight* found) const {
+SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
+                                                    LightEstimate* found) const {
   scene::MarkerDescription marker = scene_.marker;
   const Mat3 stated = scene::MarkerFromWorld(marker);
-  LightMemory with_reading = *memory;
+  LightFilter with_reading = *light_filter;
   if (!overrides_.heading_deg) {
     const Vec3 up = stated * Vec3{0.0, 0.0, 1.0};
-    if (const auto heading = ReadHeading(*solver_, samples_, up, stated * day_->ToSun().xyz)) {
-      with_reading.AddHeading(WeighedHeading(*heading), time_);
+    if (const auto heading = EstimateHeading(*solver_, samples_, up, stated * day_->ToSun().xyz)) {
+      with_reading.AddHeading(WeightedHeading(*heading), time_);
     }
   }
   UseHeading(with_reading, found);
   marker.heading = found->heading;
-  const SunSkyReading reading =
-      ReadSunAndSky(FindShadowEdges(*solver_, samples_, *day_, scene::MarkerFromWorld(marker)));
-  if (reading.sun == SunSkyReading::Sun::kShines) {
-    *memory = with_reading;
+  const SunSkyRatio estimate = EstimateSunSkyRatio(
+      FindShadowEdges(*solver_, samples_, *day_, scene::MarkerFromWorld(marker)));
+  if (estimate.sun == SunSkyRatio::Sun::kShines) {
+    *light_filter = with_reading;
   } else {
     // Without a sun it was not shadows that the heading was read from.
-    UseHeading(*memory, found);
+    UseHeading(*light_filter, found);
   }
-  found->measured.edges = reading.edges;
-  found->measured.edges_agreeing = reading.agreeing;
-  found->measured.edges_with_contrast = reading.share_with_contrast;
-  return reading;
+  found->measured.edges = estimate.edges;
+  found->measured.edges_agreeing = estimate.agreeing;
+  found->measured.edges_with_contrast = estimate.share_with_contrast;
+  return estimate;
 }
 
-FoundLight LightLook::Settle(LightMemory* memory) const {
-  FoundLight found;
+LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
+  LightEstimate found;
   found.heading = scene_.marker.heading;
   MeasuredLight& light = found.measured;
   light.frames = samples_.frames();
-  if (overrides_.as_stated) {
-    SettleAsStated(&found);
+  if (overrides_.as_described) {
+    UseDescribedLight(&found);
     return found;
   }
-  const SunSkyReading reading = SettleHeading(memory, &found);
-  using Sun = SunSkyReading::Sun;
+  const SunSkyRatio estimate = EstimateHeadingAndRatio(light_filter, &found);
+  using Sun = SunSkyRatio::Sun;
   scene::MarkerDescription marker = scene_.marker;
   marker.heading = found.heading;
-  const auto shade_under = [&](LinearRgb sky_scale) {
-    return FindUnmodelledShade(*solver_, samples_, meter_, *day_, scene::MarkerFromWorld(marker),
-                               sky_scale);
+  const auto shade_under = [&](LinearRgb sky_radiance_scale) {
+    return FindUnmodelledShadows(*solver_, samples_, meter_, *day_, scene::MarkerFromWorld(marker),
+                                 sky_radiance_scale);
   };
   const bool overridden = overrides_.sun_to_sky.has_value();
   if (overridden && *overrides_.sun_to_sky <= 0.0) return found;
-  LinearRgb scale = reading.sky_scale;
-  const auto known = overridden ? std::nullopt : memory->SkyBesideSun(time_);
-  if (known && reading.sun != Sun::kShines) scale = known->scale;
+  LinearRgb scale = estimate.sky_radiance_scale;
+  const auto known = overridden ? std::nullopt : light_filter->SkyBesideSun(time_);
+  if (known && estimate.sun != Sun::kShines) scale = known->scale;
   if (overridden) scale = LinearRgb{1, 1, 1} * (SunToSky(*day_) / *overrides_.sun_to_sky);
-  UnmodelledShade shade = shade_under(scale);
+  UnmodelledShadows unmodelled = shade_under(scale);
   const bool may_shine = MayShine(scene_.cloudiness);
   const auto plane_contrast = [&](const sky::SkyModel& day) {
-    return FindPlaneContrast(*solver_, samples_, day, scene::MarkerFromWorld(marker));
+    return TestForOvercast(*solver_, samples_, day, scene::MarkerFromWorld(marker));
   };
   const auto overcast = OvercastSky();
   const auto settle_overcast = [&] {
     light.sun_source = MeasuredLight::Source::kMeasured;
     found.skies.source = overcast;
-    memory->AddClouds();
-    memory->Keep(light, found.skies);
+    light_filter->AddClouds();
+    light_filter->Keep(light, found.skies);
     return found;
   };
   const auto settle_as_before = [&] {
-    memory->Recall(time_, &light, &found.skies);
+    light_filter->Recall(time_, &light, &found.skies);
     return found;
   };
   const auto contrast_under_cloud = [&] {
@@ -210,58 +213,60 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
   };
   // Soft shade is wide where it is looked for as shallow as haze makes it, too.
   const bool edges_hidden =
-      may_shine && shade.HidesEdges() &&
-      (shade.CastBySun() || shade.IsWide() || shade_under(kHazierSky).IsWide());
-  if (reading.sun == Sun::kHidden && !edges_hidden) {
+      may_shine && unmodelled.HidesEdges() &&
+      (unmodelled.CastBySun() || unmodelled.IsWide() || shade_under(kHazierSky).IsWide());
+  if (estimate.sun == Sun::kHidden && !edges_hidden) {
     // Who gives the ratio says that the sun shines; where it does is not seen, nor then its shade.
     if (overridden) return found;
-    light.sun_doubtful = shade.CastBySun() || contrast_under_cloud().within > kMostPlaneContrast;
+    light.sun_doubtful =
+        unmodelled.CastBySun() || contrast_under_cloud().within > kMaxPlaneContrast;
     // Where the sun stands is doubtful, too: what lies in its shade would be a guess.
     if (light.sun_doubtful) return settle_as_before();
     return settle_overcast();
   }
   // Too few edges to tell, behind a house, say: planes that are lit as no sun would tell as well.
-  if (!overridden && may_shine && reading.sun == Sun::kUnknown && !shade.CastBySun() &&
+  if (!overridden && may_shine && estimate.sun == Sun::kUnknown && !unmodelled.CastBySun() &&
       IsLitByCloudsAlone(contrast_under_cloud(), SunlitContrasts(plane_contrast, *day_))) {
     light.edges_agreeing = 0;
     return settle_overcast();
   }
-  const auto use_sun = [&](const SunSkyReading& seen) {
-    memory->AddSun(WeighedScale(seen, scene_.cloudiness), time_);
-    const auto with_seen = memory->SkyBesideSun(time_);
+  const auto use_sun = [&](const SunSkyRatio& seen) {
+    light_filter->AddSun(WeightedScale(seen, scene_.cloudiness), time_);
+    const auto with_seen = light_filter->SkyBesideSun(time_);
     scale = with_seen->scale;
     light.sun_to_sky_error = with_seen->relative_error;
   };
-  if (!overridden && reading.sun == Sun::kShines) {
+  if (!overridden && estimate.sun == Sun::kShines) {
     light.sun_source = MeasuredLight::Source::kMeasured;
-    SunSkyReading edges = reading;
-    if (shade.HidesEdges()) {
+    SunSkyRatio edges = estimate;
+    if (unmodelled.HidesEdges()) {
       // Half-light on the sunny side makes the sky look too strong, there and between the leaves:
       // the weaker counts.
-      const SunSkyReading depth =
-          ReadShadeDepth(*solver_, shade, *day_, scene::MarkerFromWorld(marker));
-      if (depth.sun == Sun::kShines && depth.sky_scale.g < reading.sky_scale.g) {
+      const SunSkyRatio depth =
+          EstimateRatioFromShade(*solver_, unmodelled, *day_, scene::MarkerFromWorld(marker));
+      if (depth.sun == Sun::kShines && depth.sky_radiance_scale.g < estimate.sky_radiance_scale.g) {
         edges = depth;
         light.sun_source = MeasuredLight::Source::kShade;
         light.shade_places = depth.agreeing;
       }
     }
     use_sun(edges);
-    if (light.sun_source == MeasuredLight::Source::kShade) shade = shade_under(scale);
+    if (light.sun_source == MeasuredLight::Source::kShade) unmodelled = shade_under(scale);
   } else if (!overridden) {
     // One material and a sharp edge: surer than the deepest of the trees' shade.
-    SunSkyReading seen;
-    if (IsPrintDivided(shade)) {
-      seen = ReadPrintShadow(*solver_, print_shadows_, *day_, scene::MarkerFromWorld(marker));
+    SunSkyRatio seen;
+    if (IsMarkerDivided(unmodelled)) {
+      seen = EstimateRatioFromMarkerShadow(*solver_, marker_shadow_edges_, *day_,
+                                           scene::MarkerFromWorld(marker));
     }
     if (seen.sun == Sun::kShines) {
       light.sun_source = MeasuredLight::Source::kMarker;
     } else {
-      if (!may_shine || shade.sunlit == 0) return settle_as_before();
+      if (!may_shine || unmodelled.sunlit == 0) return settle_as_before();
       // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
-      const UnmodelledShade probe = shade_under(kHazierSky);
+      const UnmodelledShadows probe = shade_under(kHazierSky);
       if (probe.Matters()) {
-        seen = ReadShadeDepth(*solver_, probe, *day_, scene::MarkerFromWorld(marker));
+        seen = EstimateRatioFromShade(*solver_, probe, *day_, scene::MarkerFromWorld(marker));
       }
       if (seen.sun == Sun::kShines) {
         light.sun_source = MeasuredLight::Source::kShade;
@@ -270,21 +275,21 @@ FoundLight LightLook::Settle(LightMemory* memory) const {
     }
     if (seen.sun == Sun::kShines) {
       use_sun(seen);
-      shade = shade_under(scale);
+      unmodelled = shade_under(scale);
     }
   }
-  const bool told = overridden || light.sun_source != MeasuredLight::Source::kStated;
-  if (!told && memory->SawClouds()) return settle_as_before();
-  if (!told) memory->RecallReasons(time_, &light);
-  if (told || known) {
-    const MeasuredSky sky = SkyScaledBesideSun(*day_, scale, sun_.distance_au);
-    found.skies = {sky.skies, sky.sky_scale, shade.Matters()};
+  const bool estimated = overridden || light.sun_source != MeasuredLight::Source::kDescription;
+  if (!estimated && light_filter->ObservedClouds()) return settle_as_before();
+  if (!estimated) light_filter->RestoreSources(time_, &light);
+  if (estimated || known) {
+    const SkyFit sky = SkyScaledBesideSun(*day_, scale, sun_.distance_au);
+    found.skies = {sky.skies, sky.sky_radiance_scale, unmodelled.Matters()};
   } else {
-    found.skies = {StatedSky(scene_), {1.0, 1.0, 1.0}, shade.Matters()};
+    found.skies = {DescribedSky(scene_), {1.0, 1.0, 1.0}, unmodelled.Matters()};
   }
-  light.shaded = shade.shaded;
-  if (shade.Matters()) TakeShade(std::move(shade), &found);
-  if (!overridden) memory->Keep(light, found.skies);
+  light.shaded = unmodelled.shaded;
+  if (unmodelled.Matters()) UseUnmodelledShadows(std::move(unmodelled), &found);
+  if (!overridden) light_filter->Keep(light, found.skies);
   return found;
 }
 

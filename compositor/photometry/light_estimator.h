@@ -20,39 +20,40 @@
 namespace pleinair::compositor {
 
 /// What frames have told of the light.
-struct FoundLight {
+struct LightEstimate {
   MeasuredLight measured;
   Radians heading;  ///< Of the marker.
   /// Null source: no frames have told yet, the scene's words hold.
-  DaySkies skies;
+  SkyState skies;
 };
 
 /// Reads heading, sun and sky from the shadows that phantoms cast in frames. All frames share one
 /// sun: that of the first's time.
-class LightLook {
+class LightEstimator {
  public:
   /// `scene`: with the stated or overriding heading.
-  LightLook(std::shared_ptr<const LightSolver> solver, const CameraModel& camera,
-            const scene::MarkerPrint& print, const scene::SceneDescription& scene,
-            const LightOverrides& overrides, UtcTime time, const CameraResponse& response);
+  LightEstimator(std::shared_ptr<const LightSolver> solver, const CameraModel& camera,
+                 const scene::MarkerReflectance& marker_reflectance,
+                 const scene::SceneDescription& scene, const LightOverrides& overrides,
+                 UtcTime time, const CameraResponse& response);
 
   void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker);
   int frames() const { return samples_.frames(); }
 
   /// Draws the conclusions, as far as the overrides leave any. Takes a second or two. `memory`:
   /// of earlier looks in the same scene, whose readings count as well; gets this look's.
-  FoundLight Settle(LightMemory* memory) const;
+  LightEstimate Estimate(LightFilter* light_filter) const;
 
  private:
   /// The heading, with what it makes of the shadows' edges.
-  SunSkyReading SettleHeading(LightMemory* memory, FoundLight* found) const;
-  void TakeShade(UnmodelledShade shade, FoundLight* found) const;
+  SunSkyRatio EstimateHeadingAndRatio(LightFilter* light_filter, LightEstimate* found) const;
+  void UseUnmodelledShadows(UnmodelledShadows unmodelled, LightEstimate* found) const;
   /// Whether a shadow's edge divides the print, not only in a frame now and then. Under words that
   /// have no sun the ground must show some such edge as well: a print may be wet or dirty.
-  bool IsPrintDivided(const UnmodelledShade& shade) const;
-  void UseHeading(const LightMemory& memory, FoundLight* found) const;
+  bool IsMarkerDivided(const UnmodelledShadows& unmodelled) const;
+  void UseHeading(const LightFilter& light_filter, LightEstimate* found) const;
   /// Where nothing is to be measured: whether anything but phantoms shades the ground all the same.
-  void SettleAsStated(FoundLight* found) const;
+  void UseDescribedLight(LightEstimate* found) const;
 
   std::shared_ptr<const LightSolver> solver_;
   CameraModel camera_;
@@ -62,10 +63,10 @@ class LightLook {
   sky::SunPosition sun_;
   std::unique_ptr<sky::SkyModel> day_;  // With a sun, whatever the scene says.
   SurfaceSamples samples_;
-  LightMeter meter_;
-  int dappled_ = 0;                         // Frames in which leaves shade the print.
-  std::vector<PrintShadow> print_shadows_;  // One a frame whose print is divided.
-  LinearRgb gain_{1.0, 1.0, 1.0};           // Of the last frame that could be metered.
+  MarkerLightMeter meter_;
+  int dappled_ = 0;                                    // Frames in which leaves shade the print.
+  std::vector<MarkerShadowEdge> marker_shadow_edges_;  // One a frame whose print is divided.
+  LinearRgb exposure_scale_{1.0, 1.0, 1.0};            // Of the last frame that could be metered.
 };
 
 }  // namespace pleinair::compositor

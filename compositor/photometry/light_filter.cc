@@ -11,53 +11,53 @@ LinearRgb Log(LinearRgb c) { return {std::log(c.r), std::log(c.g), std::log(c.b)
 
 }  // namespace
 
-void LightMemory::AddHeading(const HeadingOffset& seen, UtcTime time) {
+void LightFilter::AddHeading(const HeadingOffset& seen, UtcTime time) {
   heading_offset_.Add(seen.offset.value(), seen.error.value(), time);
 }
 
-std::optional<HeadingOffset> LightMemory::Heading(UtcTime time) const {
+std::optional<HeadingOffset> LightFilter::Heading(UtcTime time) const {
   if (!heading_offset_.known()) return std::nullopt;
   return HeadingOffset{Radians(heading_offset_.value()), Radians(heading_offset_.ErrorAt(time))};
 }
 
-void LightMemory::AddSun(const SkyScale& seen, UtcTime time) {
-  const LinearRgb kept = Log(sky_scale_), now = Log(seen.scale);
+void LightFilter::AddSun(const SkyRadianceScale& seen, UtcTime time) {
+  const LinearRgb kept = Log(sky_radiance_scale_), now = Log(seen.scale);
   const double weight = log_sky_.Add(Luminance(now), seen.relative_error, time);
-  seen_ = Seen::kSun;
+  seen_ = Observed::kSun;
   if (weight == 1.0) {
-    sky_scale_ = seen.scale;  // Not rounded by a logarithm.
+    sky_radiance_scale_ = seen.scale;  // Not rounded by a logarithm.
     return;
   }
   const auto mixed = [&](double was, double is) { return std::exp(was + weight * (is - was)); };
-  sky_scale_ = {mixed(kept.r, now.r), mixed(kept.g, now.g), mixed(kept.b, now.b)};
+  sky_radiance_scale_ = {mixed(kept.r, now.r), mixed(kept.g, now.g), mixed(kept.b, now.b)};
 }
 
-std::optional<SkyScale> LightMemory::SkyBesideSun(UtcTime time) const {
-  if (seen_ != Seen::kSun) return std::nullopt;
-  return SkyScale{sky_scale_, log_sky_.ErrorAt(time)};
+std::optional<SkyRadianceScale> LightFilter::SkyBesideSun(UtcTime time) const {
+  if (seen_ != Observed::kSun) return std::nullopt;
+  return SkyRadianceScale{sky_radiance_scale_, log_sky_.ErrorAt(time)};
 }
 
-void LightMemory::Keep(const MeasuredLight& light, const DaySkies& skies) {
+void LightFilter::Keep(const MeasuredLight& light, const SkyState& skies) {
   reasons_ = light;
   skies_ = skies;
 }
 
-void LightMemory::RecallReasons(UtcTime time, MeasuredLight* light) const {
-  if (!reasons_ || reasons_->sun_source == MeasuredLight::Source::kStated) return;
+void LightFilter::RestoreSources(UtcTime time, MeasuredLight* light) const {
+  if (!reasons_ || reasons_->sun_source == MeasuredLight::Source::kDescription) return;
   light->sun_source = reasons_->sun_source;
   light->edges = reasons_->edges;
   light->edges_agreeing = reasons_->edges_agreeing;
   light->shade_places = reasons_->shade_places;
   light->edges_with_contrast = reasons_->edges_with_contrast;
   light->sun_to_sky_error =
-      seen_ == Seen::kSun ? std::optional(log_sky_.ErrorAt(time)) : std::nullopt;
+      seen_ == Observed::kSun ? std::optional(log_sky_.ErrorAt(time)) : std::nullopt;
 }
 
-void LightMemory::Recall(UtcTime time, MeasuredLight* light, DaySkies* skies) const {
+void LightFilter::Recall(UtcTime time, MeasuredLight* light, SkyState* skies) const {
   if (!reasons_) return;
-  RecallReasons(time, light);
+  RestoreSources(time, light);
   light->shaded = reasons_->shaded;
-  light->print_shade = reasons_->print_shade;
+  light->marker_shade = reasons_->marker_shade;
   *skies = skies_;
 }
 

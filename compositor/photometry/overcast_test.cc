@@ -14,8 +14,8 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr std::size_t kFewestSpots = 40;
-// Where the model is asked, spread over the spots of a plane.
+constexpr std::size_t kMinSurfaceSamples = 40;
+// Where the model is asked, spread over the surface samples of a plane.
 constexpr std::size_t kProbes = 12;
 constexpr std::uint32_t kPaths = 128;
 
@@ -37,24 +37,25 @@ double SpreadOf(const std::map<int, std::vector<double>>& values) {
 
 }  // namespace
 
-PlaneContrast FindPlaneContrast(const LightSolver& solver, const SurfaceSamples& samples,
-                                const sky::SkyModel& day, const Mat3& marker_from_world) {
+OvercastTest TestForOvercast(const LightSolver& solver, const SurfaceSamples& samples,
+                             const sky::SkyModel& day, const Mat3& marker_from_world) {
   const auto& all = samples.samples();
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
   std::map<SurfacePlane, std::vector<std::uint32_t>> planes;
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     if (all[i].frames > 0) planes[PlaneOf(all[i].surface, all[i].normal)].push_back(i);
   }
-  PlaneContrast contrast;
+  OvercastTest contrast;
   std::map<int, std::vector<double>> off;      // By surface, of its planes: beside the model,
-  std::map<int, std::vector<double>> off_all;  // … and beside its stated colour.
+  std::map<int, std::vector<double>> off_all;  // … and beside its stated color.
   std::vector<Vec3> directions;
-  for (const auto& [plane, spots] : planes) {
-    if (spots.size() < kFewestSpots) continue;
-    const SurfaceSample& first = all[spots.front()];
+  for (const auto& [plane, surface_samples] : planes) {
+    if (surface_samples.size() < kMinSurfaceSamples) continue;
+    const SurfaceSample& first = all[surface_samples.front()];
     std::vector<Point<Marker>> probes;
     for (std::size_t i = 0; i < kProbes; ++i) {
-      probes.push_back(all[spots[(2 * i + 1) * spots.size() / (2 * kProbes)]].point);
+      probes.push_back(
+          all[surface_samples[(2 * i + 1) * surface_samples.size() / (2 * kProbes)]].point);
     }
     const double sun = day.SunNormalIrradiance().g * std::max(0.0, Dot(first.normal, to_sun));
     const auto ambient =
@@ -64,7 +65,8 @@ PlaneContrast FindPlaneContrast(const LightSolver& solver, const SurfaceSamples&
       const double open = sun > 0.0 ? solver.SunVisibilityPhantomsOnly(probes[i], to_sun) : 0.0;
       modelled.push_back(std::log(std::max(ambient[i].g + sun * open, 1e-9)));
     }
-    for (const std::uint32_t spot : spots) seen.push_back(all[spot].log_rgb[1]);
+    for (const std::uint32_t surface_sample : surface_samples)
+      seen.push_back(all[surface_sample].log_rgb[1]);
     const double beside = Median(seen) - Median(modelled);
     if (first.surface >= 0) off[first.surface].push_back(beside);
     if (first.albedo.g <= 0.0) continue;
@@ -75,8 +77,8 @@ PlaneContrast FindPlaneContrast(const LightSolver& solver, const SurfaceSamples&
     }
   }
   for (const auto& [surface, values] : off) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    contrast.within = std::max(contrast.within, *most - *least);
+    const auto [minimum, maximum] = std::minmax_element(values.begin(), values.end());
+    contrast.within = std::max(contrast.within, *maximum - *minimum);
   }
   contrast.surfaces = static_cast<int>(off_all.size());
   contrast.directions = static_cast<int>(directions.size());

@@ -12,7 +12,7 @@ constexpr double kContradiction = 3.0;
 
 }  // namespace
 
-double DriftingNumber::ErrorAt(UtcTime time) const {
+double RandomWalkFilter::ErrorAt(UtcTime time) const {
   // A recording that begins again goes back in time.
   const auto since_ns =
       std::max<std::int64_t>(0, time.nanoseconds_since_1970() - time_.nanoseconds_since_1970());
@@ -20,7 +20,7 @@ double DriftingNumber::ErrorAt(UtcTime time) const {
   return std::sqrt(variance_ + drift_per_minute_ * drift_per_minute_ * minutes);
 }
 
-double DriftingNumber::Add(double value, double error, UtcTime time) {
+double RandomWalkFilter::Add(double value, double error, UtcTime time) {
   const double kept = ErrorAt(time) * ErrorAt(time), seen = error * error;
   const double off = value - value_;
   const bool replaces = !known_ || off * off >= kContradiction * kContradiction * (kept + seen);

@@ -7,11 +7,11 @@ namespace pleinair::compositor {
 /// A number that is measured again and again while it changes slowly. Measurements are combined by
 /// their uncertainties; what was known counts the less the older it is. A measurement that
 /// contradicts it far beyond both uncertainties replaces it: then the thing itself has changed.
-class DriftingNumber {
+class RandomWalkFilter {
  public:
   /// `drift_per_minute`: standard deviation of what the number itself changes by within a minute.
   /// Of changes that do not depend on each other, the variances add.
-  explicit DriftingNumber(double drift_per_minute) : drift_per_minute_(drift_per_minute) {}
+  explicit RandomWalkFilter(double drift_per_minute) : drift_per_minute_(drift_per_minute) {}
 
   /// Counts a measurement in. Gives its weight in the new value, beside what was known until now:
   /// 1 where nothing was, or where it replaces that. `error`: one standard deviation.

@@ -16,11 +16,11 @@ constexpr double kThickestCover = 0.98;
 // How near a sky's strength beside its sun must come to what is wanted, logarithmic: each try is an
 // atmosphere of its own, and what is left the sky is scaled by.
 constexpr double kNearEnough = 0.01;
-constexpr int kMostTries = 12;
+constexpr int kMaxTries = 12;
 constexpr double kFarOff = 5.0;
 // How far a compass and a person may be off.
 constexpr double kHeadingDoubtDeg = 4.0;
-// Doubt of the colour of a sky beside its sun, logarithmic: of the model, of the measurement.
+// Doubt of the color of a sky beside its sun, logarithmic: of the model, of the measurement.
 constexpr double kModelColorDoubt = 0.10, kMeasuredColorDoubt = 0.08;
 
 sky::SkyCondition ConditionOf(scene::Cloudiness cloudiness) {
@@ -61,7 +61,7 @@ double ZeroBetween(double low, double high, const Function& function) {
   if (at_high <= 0.0) return high;
   double tried = 0.5 * (low + high);
   int last_side = 0;
-  for (int i = 0; i < kMostTries; ++i) {
+  for (int i = 0; i < kMaxTries; ++i) {
     tried = (low * at_high - high * at_low) / (at_high - at_low);
     const double value = function(tried);
     if (std::fabs(value) < kNearEnough) break;
@@ -86,14 +86,14 @@ std::shared_ptr<const sky::SkySource> Make(double turbidity, double cover) {
 
 }  // namespace
 
-std::shared_ptr<const sky::SkySource> StatedSky(const scene::SceneDescription& scene) {
+std::shared_ptr<const sky::SkySource> DescribedSky(const scene::SceneDescription& scene) {
   return sky::CreateDaylight({ConditionOf(scene.cloudiness), scene.turbidity.value_or(0.0)});
 }
 
 std::shared_ptr<const sky::SkySource> SunlitSky(const scene::SceneDescription& scene) {
   const bool veiled = scene.cloudiness == scene::Cloudiness::kPartlyCloudy ||
                       scene.cloudiness == scene::Cloudiness::kOvercast;
-  return veiled ? sky::CreateDaylight({sky::SkyCondition::kClear, 0.0}) : StatedSky(scene);
+  return veiled ? sky::CreateDaylight({sky::SkyCondition::kClear, 0.0}) : DescribedSky(scene);
 }
 
 std::shared_ptr<const sky::SkySource> OvercastSky() {
@@ -106,7 +106,7 @@ double SunToSky(const sky::SkyModel& day) {
   return sky > 0.0 ? sun / sky : 0.0;
 }
 
-MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au) {
+SkyFit SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au) {
   const double wanted = Luminance(sky_over_sun);
   if (!(wanted > 0.0) || !std::isfinite(wanted)) return {OvercastSky()};  // There is no sun.
   /// By how much too strong a sky is beside its sun, logarithmic.
@@ -118,7 +118,7 @@ MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double
   };
   const auto hazy = [](double log_turbidity) { return Make(std::exp(log_turbidity), 0.0); };
   const auto cloudy = [](double cover) { return Make(kCloudyTurbidity, cover); };
-  MeasuredSky measured;
+  SkyFit measured;
   const double haze =
       ZeroBetween(std::log(kClearest), std::log(kHaziest),
                   [&](double log_turbidity) { return excess(hazy(log_turbidity)); });
@@ -127,26 +127,27 @@ MeasuredSky SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double
                        : cloudy(ZeroBetween(0.0, kThickestCover,
                                             [&](double cover) { return excess(cloudy(cover)); }));
   const auto day = measured.skies->ForSun(to_sun, sun_distance_au);
-  measured.sky_scale = sky_over_sun * day->SunNormalIrradiance() / day->SkyHorizontalIrradiance();
+  measured.sky_radiance_scale =
+      sky_over_sun * day->SunNormalIrradiance() / day->SkyHorizontalIrradiance();
   return measured;
 }
 
-MeasuredSky SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double sun_distance_au) {
+SkyFit SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double sun_distance_au) {
   const LinearRgb share = day.SkyHorizontalIrradiance() / day.SunNormalIrradiance();
   return SkyWithShare(share * scale, day.ToSun(), sun_distance_au);
 }
 
-std::optional<MeasuredSky> GivenSky(const scene::SceneDescription& scene,
+std::optional<SkyFit> OverriddenSky(const scene::SceneDescription& scene,
                                     const LightOverrides& overrides, const sky::SunPosition& sun) {
   if (!overrides.sun_to_sky) return std::nullopt;
-  if (*overrides.sun_to_sky <= 0.0 || sun.ToSun().xyz.z <= 0.0) return MeasuredSky{OvercastSky()};
+  if (*overrides.sun_to_sky <= 0.0 || sun.ToSun().xyz.z <= 0.0) return SkyFit{OvercastSky()};
   const auto day = SunlitSky(scene)->ForSun(sun.ToSun(), sun.distance_au);
   const double scale = SunToSky(*day) / *overrides.sun_to_sky;
   return SkyScaledBesideSun(*day, {scale, scale, scale}, sun.distance_au);
 }
 
-SkyScale WeighedScale(const SunSkyReading& reading, scene::Cloudiness stated) {
-  const LinearRgb& s = reading.sky_scale;
+SkyRadianceScale WeightedScale(const SunSkyRatio& estimate, scene::Cloudiness stated) {
+  const LinearRgb& s = estimate.sky_radiance_scale;
   const double log_r = std::log(s.r), log_g = std::log(s.g), log_b = std::log(s.b);
   // Rec.709's weights, as everywhere for luminance.
   const double log_mean = Luminance({log_r, log_g, log_b});
@@ -154,18 +155,19 @@ SkyScale WeighedScale(const SunSkyReading& reading, scene::Cloudiness stated) {
     return prior * prior / (prior * prior + measured * measured);
   };
   const double doubt = DoubtOf(stated);
-  const double mean = log_mean * share(doubt, reading.log_uncertainty);
+  const double mean = log_mean * share(doubt, estimate.log_uncertainty);
   const double color = share(kModelColorDoubt, kMeasuredColorDoubt);
   return {{std::exp(mean + color * (log_r - log_mean)), std::exp(mean + color * (log_g - log_mean)),
            std::exp(mean + color * (log_b - log_mean))},
-          reading.log_uncertainty * std::sqrt(share(doubt, reading.log_uncertainty))};
+          estimate.log_uncertainty * std::sqrt(share(doubt, estimate.log_uncertainty))};
 }
 
-HeadingOffset WeighedHeading(const HeadingReading& reading) {
-  const double measured = ToDegrees(reading.uncertainty);
+HeadingOffset WeightedHeading(const HeadingEstimate& estimate) {
+  const double measured = ToDegrees(estimate.uncertainty);
   const double trust = kHeadingDoubtDeg * kHeadingDoubtDeg /
                        (kHeadingDoubtDeg * kHeadingDoubtDeg + measured * measured);
-  return {FromDegrees(ToDegrees(reading.offset) * trust), FromDegrees(measured * std::sqrt(trust))};
+  return {FromDegrees(ToDegrees(estimate.offset) * trust),
+          FromDegrees(measured * std::sqrt(trust))};
 }
 
 }  // namespace pleinair::compositor

@@ -16,25 +16,26 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr double kGrazing = 0.1;
-constexpr int kDiscDirections = 8;  // Round the rim of the sun's disc, besides its centre.
-constexpr double kBlurPx = 1.5;     // Spots nearer to an edge than this mix both sides.
-constexpr int kFewestSpots = 5;     // A side.
-constexpr std::size_t kMostEdges = 120;
+constexpr int kDiscDirections = 8;     // Round the rim of the sun's disc, besides its centre.
+constexpr double kBlurPx = 1.5;        // Spots nearer to an edge than this mix both sides.
+constexpr int kMinSurfaceSamples = 5;  // A side.
+constexpr std::size_t kMaxEdges = 120;
 constexpr std::uint32_t kPaths = 384;
-// What a material's own pattern adds to the doubt of one edge, however many spots there are.
+// What a material's own pattern adds to the doubt of one edge, however many surface samples there
+// are.
 constexpr double kPatternNoise = 0.05;
-// Doubt about what phantoms leave out (leaves, small things) and about their colours.
+// Doubt about what phantoms leave out (leaves, small things) and about their colors.
 constexpr double kModelNoise = 0.10;
 // Edges whose model says that they are weaker than this tell nothing.
-constexpr double kSmallestStep = 0.25;
+constexpr double kMinStep = 0.25;
 // A step counts from a quarter of the predicted on, against noise from three standard deviations.
 constexpr double kStepShare = 0.25, kStepSigmas = 2.5;
 // By weight, edges with a step that there must be for a sun, and that a hidden sun may leave.
 constexpr double kSunShare = 0.30, kNoSunShare = 0.12;
-constexpr int kFewestForSun = 3, kFewestForNoSun = 6;
+constexpr int kMinEdgesForSun = 3, kMinEdgesForNoSun = 6;
 constexpr double kAgreement = 0.35;
-// How much more than the others an edge may change colour, logarithmic.
-constexpr double kLargestColorOff = 0.12;
+// How much more than the others an edge may change color, logarithmic.
+constexpr double kMaxColorOffset = 0.12;
 constexpr int kGroups = 8;
 
 using Rgb = std::array<double, 3>;
@@ -44,28 +45,30 @@ enum class Side : std::uint8_t { kLit, kShaded, kNeither };
 
 /// Clear of every edge by the sun's width and the picture's blur?
 Side SideOf(const LightSolver& solver, const SurfaceSample& sample, const TangentFrame& sun) {
-  const bool lit = solver.ReachesPhantomsOnly(sample.point, sun.normal);
+  const bool lit = solver.IsUnoccludedPhantomsOnly(sample.point, sun.normal);
   constexpr double kRim = 0.98;
   for (int i = 0; i < kDiscDirections; ++i) {
     const Vec3 direction =
         SunDiscDirection(sun, {kRim * kRim, static_cast<double>(i) / kDiscDirections});
-    if (solver.ReachesPhantomsOnly(sample.point, direction) != lit) return Side::kNeither;
+    if (solver.IsUnoccludedPhantomsOnly(sample.point, direction) != lit) return Side::kNeither;
   }
   const TangentFrame around(sample.normal);
   const double step = kBlurPx * sample.footprint_m;
   for (const Vec3 aside : {around.tangent, -around.tangent, around.bitangent, -around.bitangent}) {
     const Point<Marker> beside{sample.point.xyz + aside * step};
-    if (solver.ReachesPhantomsOnly(beside, sun.normal) != lit) return Side::kNeither;
+    if (solver.IsUnoccludedPhantomsOnly(beside, sun.normal) != lit) return Side::kNeither;
   }
   return lit ? Side::kLit : Side::kShaded;
 }
 
-/// Median over spots and the variance of that median; a channel, or (−1) the channels' mean.
+/// Median over surface samples and the variance of that median; a channel, or (−1) the channels'
+/// mean.
 std::pair<double, double> MedianBrightness(const SurfaceSamples& samples,
-                                           const std::vector<std::uint32_t>& spots, int channel) {
+                                           const std::vector<std::uint32_t>& surface_samples,
+                                           int channel) {
   std::vector<double> values;
-  for (const std::uint32_t spot : spots) {
-    const Rgb& log_rgb = samples.samples()[spot].log_rgb;
+  for (const std::uint32_t surface_sample : surface_samples) {
+    const Rgb& log_rgb = samples.samples()[surface_sample].log_rgb;
     values.push_back(channel >= 0 ? log_rgb[channel] : (log_rgb[0] + log_rgb[1] + log_rgb[2]) / 3);
   }
   const double median = Median(values);
@@ -75,15 +78,18 @@ std::pair<double, double> MedianBrightness(const SurfaceSamples& samples,
   return {median, 1.571 * sigma * sigma / static_cast<double>(values.size())};
 }
 
-/// The spot nearest to the middle of some.
-Point<Marker> Middle(const SurfaceSamples& samples, const std::vector<std::uint32_t>& spots) {
+/// The surface sample nearest to the middle of some.
+Point<Marker> Middle(const SurfaceSamples& samples,
+                     const std::vector<std::uint32_t>& surface_samples) {
   Vec3 mean;
-  for (const std::uint32_t spot : spots) mean = mean + samples.samples()[spot].point.xyz;
-  mean = mean * (1.0 / static_cast<double>(spots.size()));
-  const auto nearest = std::min_element(spots.begin(), spots.end(), [&](auto a, auto b) {
-    return Norm(samples.samples()[a].point.xyz - mean) <
-           Norm(samples.samples()[b].point.xyz - mean);
-  });
+  for (const std::uint32_t surface_sample : surface_samples)
+    mean = mean + samples.samples()[surface_sample].point.xyz;
+  mean = mean * (1.0 / static_cast<double>(surface_samples.size()));
+  const auto nearest =
+      std::min_element(surface_samples.begin(), surface_samples.end(), [&](auto a, auto b) {
+        return Norm(samples.samples()[a].point.xyz - mean) <
+               Norm(samples.samples()[b].point.xyz - mean);
+      });
   return samples.samples()[*nearest].point;
 }
 
@@ -98,12 +104,12 @@ std::vector<Candidate> Candidates(const LightSolver& solver, const SurfaceSample
   std::vector<Side> sides(all.size(), Side::kNeither);
   // Cells that no edge crosses need not be looked at closely.
   std::vector<std::uint8_t> seen(samples.cells());
-  std::vector<std::uint8_t> reached(all.size());
+  std::vector<std::uint8_t> sun_visible(all.size());
   ParallelFor(all.size(), 0, [&](std::size_t i) {
-    reached[i] = solver.ReachesPhantomsOnly(all[i].point, sun.normal) ? 1 : 2;
+    sun_visible[i] = solver.IsUnoccludedPhantomsOnly(all[i].point, sun.normal) ? 1 : 2;
   });
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].frames > 0) seen[all[i].cell] |= reached[i];
+    if (all[i].frames > 0) seen[all[i].cell] |= sun_visible[i];
   }
   ParallelFor(all.size(), 0, [&](std::size_t i) {
     if (seen[all[i].cell] == 3 && all[i].frames > 0 && Dot(all[i].normal, sun.normal) >= kGrazing) {
@@ -115,16 +121,16 @@ std::vector<Candidate> Candidates(const LightSolver& solver, const SurfaceSample
     if (sides[i] == Side::kLit) cells[all[i].cell].lit.push_back(i);
     if (sides[i] == Side::kShaded) cells[all[i].cell].shaded.push_back(i);
   }
-  std::erase_if(cells, [](const Candidate& cell) { return cell.Size() < kFewestSpots; });
+  std::erase_if(cells, [](const Candidate& cell) { return cell.Size() < kMinSurfaceSamples; });
   std::stable_sort(cells.begin(), cells.end(),
                    [](const Candidate& a, const Candidate& b) { return a.Size() > b.Size(); });
-  if (cells.size() > kMostEdges) cells.resize(kMostEdges);
+  if (cells.size() > kMaxEdges) cells.resize(kMaxEdges);
   return cells;
 }
 
 double Mean(LinearRgb c) { return (c.r + c.g + c.b) / 3; }
 
-/// How far an edge's colours are from what the model says, red and blue against green.
+/// How far an edge's colors are from what the model says, red and blue against green.
 std::array<double, 2> ColorOff(const ShadowEdge& edge) {
   const LinearRgb predicted = edge.Predicted({1, 1, 1});
   return {edge.contrast.r - edge.contrast.g - (predicted.r - predicted.g),
@@ -132,7 +138,7 @@ std::array<double, 2> ColorOff(const ShadowEdge& edge) {
 }
 
 /// Edges on either side of which the same material lies: a joint of mortar along an edge, say,
-/// changes the colour otherwise than all the other edges do.
+/// changes the color otherwise than all the other edges do.
 std::vector<std::uint8_t> OfOneMaterial(const std::vector<ShadowEdge>& edges,
                                         const std::vector<std::uint8_t>& telling) {
   std::array<std::vector<double>, 2> off;
@@ -145,19 +151,19 @@ std::vector<std::uint8_t> OfOneMaterial(const std::vector<ShadowEdge>& edges,
   const std::array<double, 2> usual{Median(off[0]), Median(off[1])};
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (const int k : {0, 1}) {
-      const double limit = kLargestColorOff + edges[i].uncertainty;
+      const double limit = kMaxColorOffset + edges[i].uncertainty;
       if (std::fabs(ColorOff(edges[i])[k] - usual[k]) > limit) good[i] = 0;
     }
   }
   return good;
 }
 
-/// Where `sky_scale` minimises the weighted absolute difference of measured and predicted
+/// Where `sky_radiance_scale` minimises the weighted absolute difference of measured and predicted
 /// contrast over some edges, a channel; golden ratios apart on a fixed grid, so that it cannot
 /// end in a wrong valley.
 double FitScale(const std::vector<ShadowEdge>& edges, const std::vector<std::uint8_t>& used,
                 int channel) {
-  double best_log = 0.0, least = 1e300;
+  double best_log = 0.0, minimum = 1e300;
   const auto cost_at = [&](double log_scale) {
     const double scale = std::exp(log_scale);
     double cost = 0.0;
@@ -177,8 +183,8 @@ double FitScale(const std::vector<ShadowEdge>& edges, const std::vector<std::uin
     for (int i = 0; i <= steps; ++i) {
       const double log_scale = from + i * step;
       const double cost = cost_at(log_scale);
-      if (cost < least) {
-        least = cost;
+      if (cost < minimum) {
+        minimum = cost;
         best_log = log_scale;
       }
     }
@@ -191,9 +197,9 @@ double FitScale(const std::vector<ShadowEdge>& edges, const std::vector<std::uin
 
 }  // namespace
 
-LinearRgb ShadowEdge::Predicted(LinearRgb sky_scale) const {
-  const LinearRgb lit = sky_lit * sky_scale + reflected_lit + sun;
-  const LinearRgb shaded = sky_shaded * sky_scale + reflected_shaded;
+LinearRgb ShadowEdge::Predicted(LinearRgb sky_radiance_scale) const {
+  const LinearRgb lit = sky_lit * sky_radiance_scale + reflected_lit + sun;
+  const LinearRgb shaded = sky_shaded * sky_radiance_scale + reflected_shaded;
   return {std::log(lit.r / shaded.r), std::log(lit.g / shaded.g), std::log(lit.b / shaded.b)};
 }
 
@@ -219,8 +225,8 @@ std::vector<ShadowEdge> FindShadowEdges(const LightSolver& solver, const Surface
                                      MedianBrightness(samples, candidates[i].shaded, -1).second +
                                      kPatternNoise * kPatternNoise);
   }
-  const ScaledDaylight sky_alone(day, {1, 1, 1}, {});
-  const ScaledDaylight sun_alone(day, {}, {1, 1, 1});
+  const ScaledSky sky_alone(day, {1, 1, 1}, {});
+  const ScaledSky sun_alone(day, {}, {1, 1, 1});
   for (const auto& [n, members] : by_normal) {
     const Vec3 normal{n[0], n[1], n[2]};
     std::vector<Point<Marker>> points;
@@ -248,8 +254,8 @@ std::vector<ShadowEdge> FindShadowEdges(const LightSolver& solver, const Surface
   return edges;
 }
 
-SunSkyReading ReadSunAndSky(const std::vector<ShadowEdge>& edges) {
-  SunSkyReading reading;
+SunSkyRatio EstimateSunSkyRatio(const std::vector<ShadowEdge>& edges) {
+  SunSkyRatio estimate;
   // A sky so strong that the sun counts for nothing: what is left are the corners' own shades.
   constexpr LinearRgb kSkyAlone{1e6, 1e6, 1e6};
   std::vector<double> without_sun(edges.size()), predicted(edges.size());
@@ -257,7 +263,7 @@ SunSkyReading ReadSunAndSky(const std::vector<ShadowEdge>& edges) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     without_sun[i] = Mean(edges[i].Predicted(kSkyAlone));
     predicted[i] = Mean(edges[i].Predicted({1, 1, 1})) - without_sun[i];
-    telling[i] = predicted[i] >= kSmallestStep ? 1 : 0;
+    telling[i] = predicted[i] >= kMinStep ? 1 : 0;
   }
   telling = OfOneMaterial(edges, telling);
   double all = 0.0, with = 0.0, against = 0.0;
@@ -269,20 +275,20 @@ SunSkyReading ReadSunAndSky(const std::vector<ShadowEdge>& edges) {
     const double threshold =
         std::max(kStepShare * predicted[i], kStepSigmas * edges[i].uncertainty);
     steps[i] = step > threshold ? 1 : 0;
-    ++reading.edges;
+    ++estimate.edges;
     all += weight;
     with += step > threshold ? weight : 0.0;
     against += step < -threshold ? weight : 0.0;
   }
-  if (reading.edges == 0) return reading;
-  reading.share_with_contrast = (with - against) / all;
+  if (estimate.edges == 0) return estimate;
+  estimate.share_with_contrast = (with - against) / all;
   const auto stepping = std::count(steps.begin(), steps.end(), 1);
-  if (reading.share_with_contrast < kNoSunShare && reading.edges >= kFewestForNoSun) {
-    reading.sun = SunSkyReading::Sun::kHidden;
-    reading.agreeing = reading.edges - static_cast<int>(stepping);
-    return reading;
+  if (estimate.share_with_contrast < kNoSunShare && estimate.edges >= kMinEdgesForNoSun) {
+    estimate.sun = SunSkyRatio::Sun::kHidden;
+    estimate.agreeing = estimate.edges - static_cast<int>(stepping);
+    return estimate;
   }
-  if (reading.share_with_contrast < kSunShare || stepping < kFewestForSun) return reading;
+  if (estimate.share_with_contrast < kSunShare || stepping < kMinEdgesForSun) return estimate;
 
   // Edges without a step lie in some other thing's shadow. Of the others, those count that the
   // scale most of them agree on explains.
@@ -293,11 +299,12 @@ SunSkyReading ReadSunAndSky(const std::vector<ShadowEdge>& edges) {
     const double off = edges[i].contrast.g - edges[i].Predicted({about, about, about}).g;
     used[i] = steps[i] != 0 && std::fabs(off) < kAgreement + edges[i].uncertainty ? 1 : 0;
   }
-  reading.agreeing = static_cast<int>(std::count(used.begin(), used.end(), 1));
-  if (reading.agreeing < kFewestForSun) return reading;
-  reading.sun = SunSkyReading::Sun::kShines;
-  reading.sky_scale = {std::exp(FitScale(edges, used, 0)), std::exp(FitScale(edges, used, 1)),
-                       std::exp(FitScale(edges, used, 2))};
+  estimate.agreeing = static_cast<int>(std::count(used.begin(), used.end(), 1));
+  if (estimate.agreeing < kMinEdgesForSun) return estimate;
+  estimate.sun = SunSkyRatio::Sun::kShines;
+  estimate.sky_radiance_scale = {std::exp(FitScale(edges, used, 0)),
+                                 std::exp(FitScale(edges, used, 1)),
+                                 std::exp(FitScale(edges, used, 2))};
   // Jackknife over an eighth of the edges each.
   std::array<double, kGroups> logs{};
   double sum = 0.0;
@@ -305,16 +312,16 @@ SunSkyReading ReadSunAndSky(const std::vector<ShadowEdge>& edges) {
     std::vector<std::uint8_t> left = used;
     for (std::size_t i = g; i < left.size(); i += kGroups) left[i] = 0;
     const bool empty = std::find(left.begin(), left.end(), 1) == left.end();
-    logs[g] = empty ? std::log(reading.sky_scale.g) : FitScale(edges, left, 1);
+    logs[g] = empty ? std::log(estimate.sky_radiance_scale.g) : FitScale(edges, left, 1);
     sum += logs[g];
   }
   double spread = 0.0;
   for (const double value : logs) spread += std::pow(value - sum / kGroups, 2);
   // What all edges have wrong together does not show in their spread.
   constexpr double kCommonDoubt = 0.05;
-  reading.log_uncertainty =
+  estimate.log_uncertainty =
       std::sqrt(spread * (kGroups - 1.0) / kGroups + kCommonDoubt * kCommonDoubt);
-  return reading;
+  return estimate;
 }
 
 }  // namespace pleinair::compositor

@@ -8,19 +8,19 @@
 namespace pleinair::compositor {
 namespace {
 
-// A new spot every few pixels: about so many a frame.
-constexpr double kSpotsPerFrame = 32000.0;
+// A new surface sample every few pixels: about so many a frame.
+constexpr double kSamplesPerFrame = 32000.0;
 constexpr std::size_t kMaxSamples = 150'000;
 // A cell spans about so many pixels: wide enough for both sides of a soft edge, so narrow that
 // little but the light changes across it.
 constexpr double kCellPx = 32.0;
-constexpr double kSmallestCellM = 0.02;
+constexpr double kMinCell_m = 0.02;
 constexpr double kNormalSteps = 16.0;
 // 8-bit codes beyond which a value is clipped or mostly noise.
 constexpr int kClippedCode = 250, kDarkCode = 5;
 constexpr double kBoardMarginM = 0.02;
-constexpr int kPrintSurface = -1;
-constexpr int kPrintSpots = 96;  // A side of the board.
+constexpr int kMarkerSurface = -1;
+constexpr int kMarkerSamples = 96;  // A side of the board.
 
 constexpr double kPlaneSteps = 1e3;
 
@@ -30,22 +30,23 @@ SurfacePlane PlaneOf(int surface, Vec3 normal) {
   const auto rounded = [](double value) {
     return static_cast<int>(std::lround(value * kPlaneSteps));
   };
-  return {std::max(surface, kPrintSurface),
+  return {std::max(surface, kMarkerSurface),
           {rounded(normal.x), rounded(normal.y), rounded(normal.z)}};
 }
 
 SurfaceSamples::SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
-                               const scene::MarkerPrint& print, const CameraResponse& response)
-    : solver_(solver), camera_(camera), print_(print), response_(response) {}
+                               const scene::MarkerReflectance& marker,
+                               const CameraResponse& response)
+    : solver_(solver), camera_(camera), marker_(marker), response_(response) {}
 
-bool SurfaceSamples::IsOnBoard(Point<Marker> point) const {
-  const double half = print_.board_size_m / 2 + kBoardMarginM;
+bool SurfaceSamples::IsOnMargin(Point<Marker> point) const {
+  const double half = marker_.board_size_m / 2 + kBoardMarginM;
   return std::fabs(point.xyz.x) < half && std::fabs(point.xyz.y) < half &&
          std::fabs(point.xyz.z) < half / 4;
 }
 
 bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
-                             const Transform<Camera, Marker>& pose, LinearRgb gain,
+                             const Transform<Camera, Marker>& pose, LinearRgb exposure_scale,
                              SurfaceSample* sample, Vec2* pixel) const {
   const Point<Camera> in_camera = pose * sample->point;
   const Vec3 eye = pose.Inverse().translation_m;
@@ -57,7 +58,7 @@ bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
   if (!linear) return false;
   const auto seen = solver_.FirstPhantom({eye}, to_eye * (-1.0 / distance));
   if (seen && Norm(seen->point.xyz - eye) < distance - 3 * sample->footprint_m - 0.01) return false;
-  const std::array<double, 3> scale{gain.r, gain.g, gain.b};
+  const std::array<double, 3> scale{exposure_scale.r, exposure_scale.g, exposure_scale.b};
   for (int c = 0; c < 3; ++c) {
     const auto& light = response_.Linear(c);
     if ((*linear)[c] >= light[kClippedCode] || (*linear)[c] <= light[kDarkCode]) return true;
@@ -69,16 +70,16 @@ bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
   return true;
 }
 
-void SurfaceSamples::AddSpot(const PhantomSurface& spot, double distance_m) {
-  const auto& [point, normal, surface, albedo, is_loose_leaf] = spot;
+void SurfaceSamples::AddSurfaceSample(const PhantomSurface& surface_sample, double distance_m) {
+  const auto& [point, normal, surface, albedo, is_foliage] = surface_sample;
   SurfaceSample sample;
   sample.point = point;
   sample.normal = normal;
   sample.surface = surface;
   sample.albedo = albedo;
   sample.footprint_m = distance_m / std::max(1.0, std::min(camera_.fx, camera_.fy));
-  const int level = static_cast<int>(
-      std::lround(std::log2(std::max(kCellPx * sample.footprint_m, kSmallestCellM))));
+  const int level =
+      static_cast<int>(std::lround(std::log2(std::max(kCellPx * sample.footprint_m, kMinCell_m))));
   const double size_m = std::exp2(level);
   const auto step = [](double value, double size) {
     return static_cast<int>(std::floor(value / size + 0.5));
@@ -95,31 +96,32 @@ void SurfaceSamples::AddSpot(const PhantomSurface& spot, double distance_m) {
   samples_.push_back(sample);
 }
 
-void SurfaceSamples::AddPrint(double distance_m) {
+void SurfaceSamples::AddMarker(double distance_m) {
   // The middle half of the white around the square.
-  const double half = print_.size_m / 2;
-  const double margin_m = (print_.board_size_m - print_.size_m) / 2;
+  const double half = marker_.size_m / 2;
+  const double margin_m = (marker_.board_size_m - marker_.size_m) / 2;
   if (margin_m <= 0.0) return;
-  const LinearRgb white = LinearRgb{1, 1, 1} * print_.albedo_white;
+  const LinearRgb white = LinearRgb{1, 1, 1} * marker_.albedo_white;
   for (int side = 0; side < 4; ++side) {
     const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
     const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
-    for (int i = 0; i < kPrintSpots; ++i) {
-      const double x = half * (2.0 * (i + 0.5) / kPrintSpots - 1.0);
+    for (int i = 0; i < kMarkerSamples; ++i) {
+      const double x = half * (2.0 * (i + 0.5) / kMarkerSamples - 1.0);
       for (const double outwards : {0.3, 0.5, 0.7}) {
         const double y = half + outwards * margin_m;
-        AddSpot({{{c * x - s * y, s * x + c * y, 0.0}}, {0, 0, 1}, kPrintSurface - side, white},
-                distance_m);
+        AddSurfaceSample(
+            {{{c * x - s * y, s * x + c * y, 0.0}}, {0, 0, 1}, kMarkerSurface - side, white},
+            distance_m);
       }
     }
   }
 }
 
 void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
-                              const Transform<Camera, Marker>& pose, LinearRgb gain) {
+                              const Transform<Camera, Marker>& pose, LinearRgb exposure_scale) {
   const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(rgb.width()) *
-                                                          rgb.height() / kSpotsPerFrame)));
-  if (frames_++ == 0) AddPrint(Norm(pose.translation_m));
+                                                          rgb.height() / kSamplesPerFrame)));
+  if (frames_++ == 0) AddMarker(Norm(pose.translation_m));
   const int columns = rgb.width() / step, rows = rgb.height() / step;
   std::vector<std::uint8_t> taken(static_cast<std::size_t>(columns) * rows);
   const auto take = [&](Vec2 pixel) {
@@ -128,7 +130,7 @@ void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
   };
   Vec2 pixel;
   for (SurfaceSample& sample : samples_) {
-    if (Observe(rgb, pose, gain, &sample, &pixel)) take(pixel);
+    if (Observe(rgb, pose, exposure_scale, &sample, &pixel)) take(pixel);
   }
   const auto marker_from_camera = pose.Inverse();
   const Point<Marker> eye{marker_from_camera.translation_m};
@@ -140,9 +142,9 @@ void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
           UndistortPixel(camera_, {column * step + step / 2.0, row * step + step / 2.0});
       const Vec3 direction = Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1.0});
       const auto seen = solver_.FirstPhantom(eye, direction);
-      if (!seen || seen->is_loose_leaf || IsOnBoard(seen->point)) continue;
-      AddSpot(*seen, Norm(seen->point.xyz - eye.xyz));
-      Observe(rgb, pose, gain, &samples_.back(), &pixel);
+      if (!seen || seen->is_foliage || IsOnMargin(seen->point)) continue;
+      AddSurfaceSample(*seen, Norm(seen->point.xyz - eye.xyz));
+      Observe(rgb, pose, exposure_scale, &samples_.back(), &pixel);
     }
   }
 }

@@ -16,39 +16,40 @@
 
 namespace pleinair::compositor {
 
-/// A spot of a real surface with its brightness, averaged over the frames that show it.
+/// A surface sample of a real surface with its brightness, averaged over the frames that show it.
 struct SurfaceSample {
   Point<Marker> point;
   Vec3 normal;
-  double footprint_m = 0.0;         ///< Edge of a pixel where it was first seen.
-  std::array<double, 3> log_rgb{};  ///< Mean logarithm of linear light over the frame's gain.
-  int surface = 0;                  ///< PhantomSurface's; below 0: the print's white.
-  LinearRgb albedo{};               ///< Stated for the surface.
-  std::uint32_t cell = 0;           ///< Spots of one cell: neighbours on one material and plane.
-  int frames = 0;                   ///< That show it unclipped.
+  double footprint_m = 0.0;  ///< Edge of a pixel where it was first seen.
+  std::array<double, 3>
+      log_rgb{};           ///< Mean logarithm of linear light over the frame's exposure scale.
+  int surface = 0;         ///< PhantomSurface's; below 0: the marker's white.
+  LinearRgb albedo{};      ///< Stated for the surface.
+  std::uint32_t cell = 0;  ///< Spots of one cell: neighbours on one material and plane.
+  int frames = 0;          ///< That show it unclipped.
 };
 
-/// A plane of one material: PhantomSurface's surface, all of the print's white being one, and the
+/// A plane of one material: PhantomSurface's surface, all of the marker's white being one, and the
 /// normal in thousandths, since those of one plane differ by rounding.
 using SurfacePlane = std::pair<int, std::array<int, 3>>;
 
 SurfacePlane PlaneOf(int surface, Vec3 normal);
 
-/// What frames show of the phantoms' surfaces and of the print's white, spread over the surfaces
+/// What frames show of the phantoms' surfaces and of the marker's white, spread over the surfaces
 /// themselves, so that several frames of a moving camera add up. Sun and weather must be the same
 /// in all of them.
 class SurfaceSamples {
  public:
   /// `solver` must live as long.
   SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
-                 const scene::MarkerPrint& print, const CameraResponse& response = {});
+                 const scene::MarkerReflectance& marker, const CameraResponse& response = {});
 
   /// `gain`: the camera's scale in this frame, of which only the change from frame to frame counts.
   void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
-                LinearRgb gain);
+                LinearRgb exposure_scale);
 
   const std::vector<SurfaceSample>& samples() const { return samples_; }
-  const scene::MarkerPrint& print() const { return print_; }
+  const scene::MarkerReflectance& marker() const { return marker_; }
   std::uint32_t cells() const { return static_cast<std::uint32_t>(cells_.size()); }
   int frames() const { return frames_; }
 
@@ -57,14 +58,14 @@ class SurfaceSamples {
 
   /// Whether a sample shows at a pixel of a frame; adds its brightness there.
   bool Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
-               LinearRgb gain, SurfaceSample* sample, Vec2* pixel) const;
-  void AddSpot(const PhantomSurface& surface, double distance_m);
-  void AddPrint(double distance_m);
-  bool IsOnBoard(Point<Marker> point) const;
+               LinearRgb exposure_scale, SurfaceSample* sample, Vec2* pixel) const;
+  void AddSurfaceSample(const PhantomSurface& surface, double distance_m);
+  void AddMarker(double distance_m);
+  bool IsOnMargin(Point<Marker> point) const;
 
   const LightSolver& solver_;
   CameraModel camera_;
-  scene::MarkerPrint print_;
+  scene::MarkerReflectance marker_;
   CameraResponse response_;
   std::vector<SurfaceSample> samples_;
   std::map<CellKey, std::uint32_t> cells_;

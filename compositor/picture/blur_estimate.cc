@@ -13,10 +13,11 @@ namespace {
 
 constexpr int kStripesPerSide = 48;
 constexpr double kNarrowestBandPx = 5.0;
-constexpr double kFarthestPx = 14.0;  // From an edge: a blur of a third of it still shows whole.
-constexpr int kFewestPixels = 40;     // Of a side's edge.
-constexpr double kBadFit = 0.12;      // RMS of a side's fit, of the step from black to white.
-constexpr double kLeastBlurPx = 0.2;
+constexpr double kMaxEdgeDistance_px =
+    14.0;                         // From an edge: a blur of a third of it still shows whole.
+constexpr int kMinPixels = 40;    // Of a side's edge.
+constexpr double kBadFit = 0.12;  // RMS of a side's fit, of the step from black to white.
+constexpr double kMinBlur_px = 0.2;
 
 double Gauss(double t) { return std::exp(-t * t / 2) / std::sqrt(2 * std::numbers::pi); }
 double GaussIntegral(double t) { return 0.5 * std::erfc(-t / std::numbers::sqrt2); }
@@ -55,7 +56,7 @@ std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels) {
     const double determinant = b00 * b11 - a01 * a01;
     if (!(determinant > 0.0)) return std::nullopt;
     const double new_shift = shift + (b11 * g0 - a01 * g1) / determinant;
-    const double new_blur = std::max(kLeastBlurPx, blur + (b00 * g1 - a01 * g0) / determinant);
+    const double new_blur = std::max(kMinBlur_px, blur + (b00 * g1 - a01 * g0) / determinant);
     const double new_cost = cost_of(new_shift, new_blur);
     if (new_cost > cost) {
       damping = damping * 10 + 1e-6;
@@ -75,13 +76,15 @@ std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels) {
 
 /// Adds the pixels of a strip across a side, brightness 0 in the black and 1 in the white; `along`:
 /// −1 at one of the side's ends, 1 at the other.
-void AddStripe(const PrintInPicture& print, int side, double along,
+void AddStripe(const MarkerInImage& marker, int side, double along,
                std::vector<EdgePixel>* pixels) {
   const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
   const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
-  const double half = print.print().size_m / 2;
-  const double band_m = std::min(print.white_m(), print.print().black_band_m);
-  const auto at = [&](double x, double y) { return print.PixelOf({c * x - s * y, s * x + c * y}); };
+  const double half = marker.marker().size_m / 2;
+  const double band_m = std::min(marker.white_m(), marker.marker().black_band_m);
+  const auto at = [&](double x, double y) {
+    return marker.PixelOf({c * x - s * y, s * x + c * y});
+  };
   const auto edge = at(along * half, half), beside = at((along + 0.01) * half, half);
   const auto outer = at(along * half, half + band_m / 2);
   const auto inner = at(along * half, half - band_m / 2);
@@ -94,7 +97,7 @@ void AddStripe(const PrintInPicture& print, int side, double along,
   if (normal.x * outwards.x + normal.y * outwards.y < 0.0) normal = normal * -1.0;
   const double band_px = std::fabs(normal.x * outwards.x + normal.y * outwards.y);
   if (band_px < kNarrowestBandPx) return;
-  const double reach = std::min(0.9 * band_px, kFarthestPx);
+  const double reach = std::min(0.9 * band_px, kMaxEdgeDistance_px);
   // The levels on either side, far from the edge, then every pixel whose centre lies in a strip
   // of one pixel's width.
   double white = 0.0, black = 0.0;
@@ -105,13 +108,13 @@ void AddStripe(const PrintInPicture& print, int side, double along,
   const int r = static_cast<int>(std::ceil(reach)) + 1;
   for (int y = y0 - r; y <= y0 + r; ++y) {
     for (int x = x0 - r; x <= x0 + r; ++x) {
-      if (!print.IsInside(x, y)) continue;
+      if (!marker.IsInside(x, y)) continue;
       const Vec2 offset = Vec2{static_cast<double>(x), static_cast<double>(y)} - *edge;
       if (std::fabs(offset.x * tangent.x + offset.y * tangent.y) > 0.5) continue;
       const double distance = offset.x * normal.x + offset.y * normal.y;
       if (std::fabs(distance) > reach) continue;
-      if (print.IsClipped(x, y, 2)) return;
-      const double value = print.Grey(x, y);
+      if (marker.IsClipped(x, y, 2)) return;
+      const double value = marker.Grey(x, y);
       strip.push_back({distance, value});
       if (distance > 0.7 * reach) {
         white += value;
@@ -135,15 +138,15 @@ void AddStripe(const PrintInPicture& print, int side, double along,
 
 }  // namespace
 
-std::vector<double> BlurOfSides(const PrintInPicture& print) {
+std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker) {
   std::vector<double> blurs;
   for (int side = 0; side < 4; ++side) {
     std::vector<EdgePixel> pixels;
     for (int i = 0; i < kStripesPerSide; ++i) {
       // Away from the corners, where two edges meet.
-      AddStripe(print, side, 0.8 * (2.0 * (i + 0.5) / kStripesPerSide - 1.0), &pixels);
+      AddStripe(marker, side, 0.8 * (2.0 * (i + 0.5) / kStripesPerSide - 1.0), &pixels);
     }
-    if (static_cast<int>(pixels.size()) < kFewestPixels) continue;
+    if (static_cast<int>(pixels.size()) < kMinPixels) continue;
     if (const auto blur = FitBlur(pixels)) blurs.push_back(*blur);
   }
   return blurs;

@@ -8,6 +8,6 @@ namespace pleinair::compositor {
 
 /// Standard deviation, pixels, of the spread of each side of the outer black square: of those that
 /// show well enough, at most four. Apart from where light or an occluder changes.
-std::vector<double> BlurOfSides(const PrintInPicture& print);
+std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker);
 
 }  // namespace pleinair::compositor

@@ -10,20 +10,20 @@
 
 namespace pleinair::compositor {
 
-double PictureLook::NoiseSigma(int channel, double light) const {
+double CameraLook::NoiseSigma(int channel, double light) const {
   return std::sqrt(noise_constant[channel] + noise_slope[channel] * std::max(0.0, light));
 }
 
-std::optional<PictureLook> MeasurePictureLook(ImageView<const std::uint8_t> rgb,
-                                              const CameraModel& camera,
-                                              const Transform<Camera, Marker>& camera_from_marker,
-                                              const scene::MarkerPrint& print,
-                                              const CameraResponse& response) {
-  if (!(print.size_m > 0.0) || !(print.black_band_m > 0.0)) return std::nullopt;
-  const PrintInPicture in_picture(rgb, camera, camera_from_marker, print, response);
-  const std::vector<double> blurs = BlurOfSides(in_picture);
+std::optional<CameraLook> MeasureCameraLook(ImageView<const std::uint8_t> rgb,
+                                            const CameraModel& camera,
+                                            const Transform<Camera, Marker>& camera_from_marker,
+                                            const scene::MarkerReflectance& marker,
+                                            const CameraResponse& response) {
+  if (!(marker.size_m > 0.0) || !(marker.black_band_m > 0.0)) return std::nullopt;
+  const MarkerInImage in_picture(rgb, camera, camera_from_marker, marker, response);
+  const std::vector<double> blurs = EstimateEdgeBlur(in_picture);
   if (blurs.size() < 2) return std::nullopt;
-  PictureLook look;
+  CameraLook look;
   double sum = 0.0;
   for (const double blur : blurs) sum += blur * blur;
   // Motion blurs some sides more than others: their mean square is what one number can say.

@@ -13,7 +13,7 @@
 namespace pleinair::compositor {
 
 /// How a camera's picture looks beside a perfect one: what a drawn thing needs to sit in it.
-struct PictureLook {
+struct CameraLook {
   /// Standard deviation of an edge's spread, pixels: lens, focus, motion and the pixel's own width
   /// (0.29) together.
   double blur_px = 0.0;
@@ -26,13 +26,13 @@ struct PictureLook {
   double NoiseSigma(int channel, double light) const;
 };
 
-/// Measures the look of one frame on the print: the spread of the outer black square's edges, and
+/// Measures the look of one frame on the marker: the spread of the outer black square's edges, and
 /// the noise of its black band and of the white around it, apart from where light or an occluder
-/// changes. Nothing where the print is too small (bands below five pixels) or mostly hidden.
-std::optional<PictureLook> MeasurePictureLook(ImageView<const std::uint8_t> rgb,
-                                              const CameraModel& camera,
-                                              const Transform<Camera, Marker>& camera_from_marker,
-                                              const scene::MarkerPrint& print,
-                                              const CameraResponse& response);
+/// changes. Nothing where the marker is too small (bands below five pixels) or mostly hidden.
+std::optional<CameraLook> MeasureCameraLook(ImageView<const std::uint8_t> rgb,
+                                            const CameraModel& camera,
+                                            const Transform<Camera, Marker>& camera_from_marker,
+                                            const scene::MarkerReflectance& marker,
+                                            const CameraResponse& response);
 
 }  // namespace pleinair::compositor

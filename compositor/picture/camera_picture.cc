@@ -20,9 +20,9 @@ namespace {
 constexpr double kOwnBlurPx = 0.29, kWarpedBlurPx = 0.33;
 // Less blur than this does not show; of noise of less than so many steps of 8 bits nobody can tell
 // whether it is the sensor's or what compression leaves.
-constexpr double kLeastBlurPx = 0.3, kLeastNoiseSteps = 2.0;
-constexpr double kMostBlurPx = 12.0;
-constexpr int kGrainSide = 256, kCodeTableSize = 4096;
+constexpr double kMinBlur_px = 0.3, kMinNoiseSteps = 2.0;
+constexpr double kMaxBlur_px = 12.0;
+constexpr int kGrainSide = 256, kPixelValueTableSize = 4096;
 }  // namespace
 
 Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const RenderCamera& render,
@@ -68,33 +68,34 @@ Result<void> CameraPicture::CreateResponseTables() {
   for (int code = 0; code < 256; ++code) {
     for (int c = 0; c < 3; ++c) tables[0].push_back(response_.Linear(c)[code]);
   }
-  for (int i = 0; i < kCodeTableSize; ++i) {
-    const double root = static_cast<double>(i) / (kCodeTableSize - 1);
+  for (int i = 0; i < kPixelValueTableSize; ++i) {
+    const double root = static_cast<double>(i) / (kPixelValueTableSize - 1);
     for (int c = 0; c < 3; ++c) {
       tables[1].push_back(static_cast<float>(response_.Encoded(root * root, c)));
     }
   }
-  PLEINAIR_ASSIGN_OR_RETURN(light_of_code_, gl::GlTexture::Create2D(GL_RGB32F, 256, 1));
-  PLEINAIR_ASSIGN_OR_RETURN(code_of_light_, gl::GlTexture::Create2D(GL_RGB32F, kCodeTableSize, 1));
-  light_of_code_.Upload(GL_RGB, GL_FLOAT, tables[0].data());
-  code_of_light_.Upload(GL_RGB, GL_FLOAT, tables[1].data());
+  PLEINAIR_ASSIGN_OR_RETURN(light_of_pixel_value_, gl::GlTexture::Create2D(GL_RGB32F, 256, 1));
+  PLEINAIR_ASSIGN_OR_RETURN(pixel_value_of_light_,
+                            gl::GlTexture::Create2D(GL_RGB32F, kPixelValueTableSize, 1));
+  light_of_pixel_value_.Upload(GL_RGB, GL_FLOAT, tables[0].data());
+  pixel_value_of_light_.Upload(GL_RGB, GL_FLOAT, tables[1].data());
   return {};
 }
 
-Result<void> CameraPicture::SetLook(const std::optional<PictureLook>& look) {
+Result<void> CameraPicture::SetCameraLook(const std::optional<CameraLook>& look) {
   added_blur_px_ = 0.0;
   grain_look_.reset();
   if (!look) return {};
   const double own = camera_.HasDistortion() ? kWarpedBlurPx : kOwnBlurPx;
   if (look->blur_px > own) {
-    added_blur_px_ = std::min(std::sqrt(look->blur_px * look->blur_px - own * own), kMostBlurPx);
+    added_blur_px_ = std::min(std::sqrt(look->blur_px * look->blur_px - own * own), kMaxBlur_px);
   }
-  if (added_blur_px_ < kLeastBlurPx) added_blur_px_ = 0.0;
+  if (added_blur_px_ < kMinBlur_px) added_blur_px_ = 0.0;
   // Of a medium grey, where eyes tell most.
   constexpr int kGreyCode = 118;
   const auto& table = response_.Linear(1);
   const double step = table[kGreyCode + 1] - table[kGreyCode];
-  if (look->NoiseSigma(1, table[kGreyCode]) < kLeastNoiseSteps * step) return {};
+  if (look->NoiseSigma(1, table[kGreyCode]) < kMinNoiseSteps * step) return {};
   grain_look_ = look;
   constexpr double kSameCorrelation = 0.05;
   if (std::fabs(look->neighbour_correlation - grain_correlation_) > kSameCorrelation) {
@@ -125,7 +126,7 @@ void CameraPicture::Blur(const RenderTargets& targets) const {
 }
 
 void CameraPicture::SetGrain() const {
-  const PictureLook& look = *grain_look_;
+  const CameraLook& look = *grain_look_;
   const auto to_glm = [](const std::array<double, 3>& a) { return glm::vec3(a[0], a[1], a[2]); };
   const std::uint32_t offset = Hash(pictures_, 0x6A);
   grain_program_.Set("u_grain_offset",
@@ -147,8 +148,8 @@ void CameraPicture::Draw(const RenderTargets& targets) {
   if (grain_look_) SetGrain();
   ++pictures_;
   if (!response_.IsSrgb()) {
-    light_of_code_.Bind(4);
-    code_of_light_.Bind(5);
+    light_of_pixel_value_.Bind(4);
+    pixel_value_of_light_.Bind(5);
   }
   background_.Bind(0);
   targets.ratio().Bind(1);

@@ -25,8 +25,8 @@ class CameraPicture {
   static Result<CameraPicture> Create(const CameraModel& camera, const RenderCamera& render,
                                       double supersampling, const CameraResponse& response);
 
-  /// As Composer::SetLook().
-  Result<void> SetLook(const std::optional<PictureLook>& look);
+  /// As Composer::SetCameraLook().
+  Result<void> SetCameraLook(const std::optional<CameraLook>& look);
 
   /// Takes the camera's picture, `rgb`, of its size and without gaps between rows.
   void SetBackground(ImageView<const std::uint8_t> rgb);
@@ -36,7 +36,7 @@ class CameraPicture {
   void BindForShading(int background_unit, int positions_unit, int light_unit) const {
     background_.Bind(background_unit);
     camera_positions_.Bind(positions_unit);
-    light_of_code_.Bind(light_unit);
+    light_of_pixel_value_.Bind(light_unit);
   }
   /// The picture, with whatever else was drawn into framebuffer() since.
   RgbImage Read() const;
@@ -53,12 +53,12 @@ class CameraPicture {
   CameraResponse response_;
   double supersampling_ = 1.0;
   gl::GlTexture background_, positions_, camera_positions_, output_;
-  gl::GlTexture light_of_code_, code_of_light_, grain_;
+  gl::GlTexture light_of_pixel_value_, pixel_value_of_light_, grain_;
   gl::GlFramebuffer output_framebuffer_;
   gl::GlVertexArray no_attributes_;
   gl::GlProgram blur_program_, composite_program_, grain_program_;
   double added_blur_px_ = 0.0;  // Camera pixels; 0: none.
-  std::optional<PictureLook> grain_look_;
+  std::optional<CameraLook> grain_look_;
   double grain_correlation_ = -1.0;  // Of the grain in memory.
   std::uint32_t pictures_ = 0;       // Composed so far: each gets grain of its own.
 };

@@ -15,33 +15,34 @@
 
 namespace pleinair::compositor {
 
-/// The marker's print as one frame shows it: where its places lie among the pixels, and the linear
+/// The marker's marker as one frame shows it: where its places lie among the pixels, and the linear
 /// light there (1 = brightest). Refers to what it is made of, which must outlive it.
-class PrintInPicture {
+class MarkerInImage {
  public:
-  PrintInPicture(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
-                 const Transform<Camera, Marker>& camera_from_marker,
-                 const scene::MarkerPrint& print, const CameraResponse& response)
+  MarkerInImage(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+                const Transform<Camera, Marker>& camera_from_marker,
+                const scene::MarkerReflectance& marker, const CameraResponse& response)
       : rgb_(rgb),
         camera_(camera),
         camera_from_marker_(camera_from_marker),
-        print_(print),
+        marker_(marker),
         response_(response) {}
 
   ImageView<const std::uint8_t> rgb() const { return rgb_; }
   const CameraModel& camera() const { return camera_; }
   const Transform<Camera, Marker>& camera_from_marker() const { return camera_from_marker_; }
-  const scene::MarkerPrint& print() const { return print_; }
+  const scene::MarkerReflectance& marker() const { return marker_; }
 
   /// Width of the white around the outer black square, metres.
   double white_m() const {
-    const double margin_m = (print_.board_size_m - print_.size_m) / 2;
-    return margin_m > 0.0 ? margin_m : print_.black_band_m;
+    const double margin_m = (marker_.board_size_m - marker_.size_m) / 2;
+    return margin_m > 0.0 ? margin_m : marker_.black_band_m;
   }
 
-  /// Of a place on the print (marker coordinates, metres); nothing where it lies behind the camera.
-  std::optional<Vec2> PixelOf(Vec2 on_print) const {
-    const Point<Camera> p = camera_from_marker_ * Point<Marker>{{on_print.x, on_print.y, 0.0}};
+  /// Of a place on the marker (marker coordinates, metres); nothing where it lies behind the
+  /// camera.
+  std::optional<Vec2> PixelOf(Vec2 on_marker) const {
+    const Point<Camera> p = camera_from_marker_ * Point<Marker>{{on_marker.x, on_marker.y, 0.0}};
     if (p.xyz.z <= 0.0) return std::nullopt;
     return ProjectToPixel(camera_, p);
   }
@@ -73,7 +74,7 @@ class PrintInPicture {
   ImageView<const std::uint8_t> rgb_;
   const CameraModel& camera_;
   const Transform<Camera, Marker>& camera_from_marker_;
-  const scene::MarkerPrint& print_;
+  const scene::MarkerReflectance& marker_;
   const CameraResponse& response_;
 };
 

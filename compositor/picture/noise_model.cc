@@ -14,7 +14,7 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr int kFewestPairs = 150;  // Of a level's noise.
+constexpr int kMinPairs = 150;  // Of a level's noise.
 // Noise: the largest 5 % of the differences are something else's; a normal distribution cut at
 // 1.96 standard deviations keeps 0.7588 of its variance.
 constexpr double kKept = 0.95, kKeptVariance = 0.7588;
@@ -25,9 +25,9 @@ constexpr double kTooFarFromMedian = 0.35;
 constexpr int kBlock = 8;
 // Nearer to an edge than a compressed block is wide, what compression leaves of the edge passes
 // for noise of about so many steps of 8 bits.
-constexpr double kBlockReachPx = 8.5, kEdgeSteps = 3.0;
+constexpr double kBlockReach_px = 8.5, kEdgeSteps = 3.0;
 constexpr double kSmoothest = 0.02, kSmoothestVariance = 0.62;
-constexpr int kMaxBlocks = 1200, kFewestBlocks = 60;
+constexpr int kMaxBlocks = 1200, kMinBlocks = 60;
 constexpr int kDarkestGrey = 25, kBrightestGrey = 235;
 
 /// Light and noise of the band or of the white: variances a channel, correlations.
@@ -48,16 +48,16 @@ double TrimmedVariance(std::vector<double> differences) {
 
 /// Noise of the middle of the black band or of the white round it, from differences of pixels side
 /// by side and three apart: light that changes slowly cancels.
-std::optional<Level> NoiseOf(const PrintInPicture& print, bool white, double clearance_px) {
-  const int width = print.rgb().width(), height = print.rgb().height();
-  const double size_m = print.print().size_m, white_m = print.white_m();
-  const CameraModel& camera = print.camera();
-  const Transform<Camera, Marker>& pose = print.camera_from_marker();
+std::optional<Level> NoiseOf(const MarkerInImage& marker, bool white, double clearance_px) {
+  const int width = marker.rgb().width(), height = marker.rgb().height();
+  const double size_m = marker.marker().size_m, white_m = marker.white_m();
+  const CameraModel& camera = marker.camera();
+  const Transform<Camera, Marker>& pose = marker.camera_from_marker();
   Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
   const double reach = size_m / 2 + white_m;
   for (const Vec2 corner :
        {Vec2{-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}}) {
-    const auto pixel = print.PixelOf(corner);
+    const auto pixel = marker.PixelOf(corner);
     if (!pixel) return std::nullopt;
     low = {std::min(low.x, pixel->x), std::min(low.y, pixel->y)};
     high = {std::max(high.x, pixel->x), std::max(high.y, pixel->y)};
@@ -83,17 +83,17 @@ std::optional<Level> NoiseOf(const PrintInPicture& print, bool white, double cle
       const double outwards = std::max(std::fabs(at.x), std::fabs(at.y)) - size_m / 2;
       const bool inside =
           white ? outwards > clear_m && outwards < white_m - clear_m
-                : outwards < -clear_m && outwards > -print.print().black_band_m + clear_m;
-      if (!inside || print.IsClipped(x, y, 3)) continue;
+                : outwards < -clear_m && outwards > -marker.marker().black_band_m + clear_m;
+      if (!inside || marker.IsClipped(x, y, 3)) continue;
       good[static_cast<std::size_t>(y - y0) * columns + (x - x0)] = 1;
-      greys.push_back(print.Grey(x, y));
+      greys.push_back(marker.Grey(x, y));
     }
   }
-  if (static_cast<int>(greys.size()) < kFewestPairs) return std::nullopt;
+  if (static_cast<int>(greys.size()) < kMinPairs) return std::nullopt;
   const double usual = Median(greys);
   const auto is_good = [&](int x, int y) {
     return x <= x1 && y <= y1 && good[static_cast<std::size_t>(y - y0) * columns + (x - x0)] != 0 &&
-           std::fabs(print.Grey(x, y) - usual) < kTooFarFromMedian * usual + 0.01;
+           std::fabs(marker.Grey(x, y) - usual) < kTooFarFromMedian * usual + 0.01;
   };
   std::array<std::vector<double>, 3> beside, apart;
   std::vector<double> sums;
@@ -102,14 +102,14 @@ std::optional<Level> NoiseOf(const PrintInPicture& print, bool white, double cle
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       if (!is_good(x, y)) continue;
-      for (int c = 0; c < 3; ++c) level.light[c] += print.Light(x, y, c);
+      for (int c = 0; c < 3; ++c) level.light[c] += marker.Light(x, y, c);
       ++count;
       for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
         for (const int lag : {1, 3}) {
           if (!is_good(x + lag * dx, y + lag * dy)) continue;
           double sum = 0.0;
           for (int c = 0; c < 3; ++c) {
-            const double d = print.Light(x + lag * dx, y + lag * dy, c) - print.Light(x, y, c);
+            const double d = marker.Light(x + lag * dx, y + lag * dy, c) - marker.Light(x, y, c);
             (lag == 1 ? beside : apart)[c].push_back(d);
             sum += d;
           }
@@ -118,14 +118,14 @@ std::optional<Level> NoiseOf(const PrintInPicture& print, bool white, double cle
       }
     }
   }
-  if (static_cast<int>(apart[0].size()) < kFewestPairs) return std::nullopt;
+  if (static_cast<int>(apart[0].size()) < kMinPairs) return std::nullopt;
   double variance_sum = 0.0, root_sum = 0.0, beside_sum = 0.0, apart_sum = 0.0;
   for (int c = 0; c < 3; ++c) {
     level.light[c] /= count;
     const double of_apart = TrimmedVariance(apart[c]) / 2;
     beside_sum += TrimmedVariance(beside[c]) / 2;
     apart_sum += of_apart;
-    level.variance[c] = std::max(0.0, of_apart - print.RoundingAt(c, level.light[c]));
+    level.variance[c] = std::max(0.0, of_apart - marker.RoundingAt(c, level.light[c]));
     variance_sum += of_apart;
     root_sum += std::sqrt(of_apart);
   }
@@ -138,8 +138,8 @@ std::optional<Level> NoiseOf(const PrintInPicture& print, bool white, double cle
 }
 
 /// Noise of the picture's smoothest blocks over `look`'s, variances; at most 1.
-double NoiseOfSmoothest(const PrintInPicture& print, const PictureLook& look) {
-  const ImageView<const std::uint8_t> rgb = print.rgb();
+double NoiseOfSmoothest(const MarkerInImage& marker, const CameraLook& look) {
+  const ImageView<const std::uint8_t> rgb = marker.rgb();
   const int columns = rgb.width() / kBlock, rows = rgb.height() / kBlock;
   const int step = std::max(1, columns * rows / kMaxBlocks);
   constexpr int kGreen = 1, kLag = 3;
@@ -153,11 +153,11 @@ double NoiseOfSmoothest(const PrintInPicture& print, const PictureLook& look) {
       for (int x = x0; x < x0 + kBlock; ++x) {
         const int code = rgb(x, y, kGreen);
         usable = usable && code >= kDarkestGrey && code <= kBrightestGrey;
-        const double light = print.Light(x, y, kGreen);
+        const double light = marker.Light(x, y, kGreen);
         sum += light;
         for (const auto& [dx, dy] : {std::pair{kLag, 0}, std::pair{0, kLag}}) {
           if (x + dx >= x0 + kBlock || y + dy >= y0 + kBlock) continue;
-          const double d = print.Light(x + dx, y + dy, kGreen) - light;
+          const double d = marker.Light(x + dx, y + dy, kGreen) - light;
           squares += d * d;
           ++count;
         }
@@ -166,10 +166,10 @@ double NoiseOfSmoothest(const PrintInPicture& print, const PictureLook& look) {
     if (!usable) continue;
     const double light = sum / (kBlock * kBlock);
     const double predicted =
-        std::pow(look.NoiseSigma(kGreen, light), 2) + print.RoundingAt(kGreen, light);
+        std::pow(look.NoiseSigma(kGreen, light), 2) + marker.RoundingAt(kGreen, light);
     if (predicted > 0.0) shares.push_back(squares / (2 * count) / predicted);
   }
-  if (static_cast<int>(shares.size()) < kFewestBlocks) return 1.0;
+  if (static_cast<int>(shares.size()) < kMinBlocks) return 1.0;
   const auto at =
       shares.begin() + static_cast<std::ptrdiff_t>(kSmoothest * static_cast<double>(shares.size()));
   std::nth_element(shares.begin(), at, shares.end());
@@ -178,18 +178,18 @@ double NoiseOfSmoothest(const PrintInPicture& print, const PictureLook& look) {
 
 }  // namespace
 
-bool MeasureNoise(const PrintInPicture& print, double blur_px, PictureLook* look) {
-  // Out of the reach of an edge's compression block, where the print is large enough for that.
+bool MeasureNoise(const MarkerInImage& marker, double blur_px, CameraLook* look) {
+  // Out of the reach of an edge's compression block, where the marker is large enough for that.
   const double near_px = 1.0 + 2.5 * blur_px;
-  auto white = NoiseOf(print, true, std::max(near_px, kBlockReachPx));
-  auto black = NoiseOf(print, false, std::max(near_px, kBlockReachPx));
+  auto white = NoiseOf(marker, true, std::max(near_px, kBlockReach_px));
+  auto black = NoiseOf(marker, false, std::max(near_px, kBlockReach_px));
   for (auto* level : {&white, &black}) {
     if (*level) continue;
-    *level = NoiseOf(print, level == &white, near_px);
+    *level = NoiseOf(marker, level == &white, near_px);
     if (!*level) continue;
     for (int c = 0; c < 3; ++c) {
       const double of_edges =
-          12 * print.RoundingAt(c, (*level)->light[c]) * kEdgeSteps * kEdgeSteps;
+          12 * marker.RoundingAt(c, (*level)->light[c]) * kEdgeSteps * kEdgeSteps;
       (*level)->variance[c] = std::max(0.0, (*level)->variance[c] - of_edges);
     }
   }
@@ -208,8 +208,8 @@ bool MeasureNoise(const PrintInPicture& print, double blur_px, PictureLook* look
         std::max(0.0, black->variance[c] - look->noise_slope[c] * black->light[c]);
   }
   const Level& brighter = white ? *white : *black;
-  // What compression leaves around the print's edges is not noise: it is not elsewhere.
-  const double share = NoiseOfSmoothest(print, *look);
+  // What compression leaves around the marker's edges is not noise: it is not elsewhere.
+  const double share = NoiseOfSmoothest(marker, *look);
   for (int c = 0; c < 3; ++c) {
     look->noise_constant[c] *= share;
     look->noise_slope[c] *= share;

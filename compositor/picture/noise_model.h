@@ -5,9 +5,9 @@
 
 namespace pleinair::compositor {
 
-/// Measures the noise of the print's black band and of the white around it, out of the reach of
+/// Measures the noise of the marker's black band and of the white around it, out of the reach of
 /// edges that are `blur_px` wide, and writes the noise's part of `look`. Returns false, and writes
 /// nothing, where neither shows enough pixels.
-bool MeasureNoise(const PrintInPicture& print, double blur_px, PictureLook* look);
+bool MeasureNoise(const MarkerInImage& marker, double blur_px, CameraLook* look);
 
 }  // namespace pleinair::compositor

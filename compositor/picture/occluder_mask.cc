@@ -12,16 +12,16 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr double kCovered = 0.35, kSeen = 0.75;  // Of a square.
-constexpr int kFewestCovered = 3;                // Squares: less is a highlight or a leaf.
+constexpr int kMinCoveredSquares = 3;            // Squares: less is a highlight or a leaf.
 // Colour in bins of the logarithms of red and blue over green.
 constexpr int kBins = 24;
 constexpr double kWidestLog = 1.2;
-constexpr int kDarkestSum = 36;  // Codes of the three channels: below, colour is noise.
-// As an occluder's colour than as the print's own, and than as what lies around the print, where
+constexpr int kDarkestSum = 36;  // Codes of the three channels: below, color is noise.
+// As an occluder's color than as the marker's own, and than as what lies around the marker, where
 // the occluder comes from.
 constexpr double kLikelier = 3.0, kAsLikely = 0.8;
-constexpr double kFewestOfColor = 0.002, kNobodys = 0.002;
-constexpr double kFewestSeeds = 30.0;
+constexpr double kMinShareOfColor = 0.002, kNobodys = 0.002;
+constexpr double kMinSeeds = 30.0;
 constexpr int kClosings = 2, kClosingReach = 3;
 
 struct Rect {
@@ -31,9 +31,9 @@ struct Rect {
 class Masker {
  public:
   Masker(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
-         const Transform<Camera, Marker>& pose, const PrintCover& cover)
+         const Transform<Camera, Marker>& pose, const MarkerVisibility& cover)
       : rgb_(rgb), camera_(camera), cover_(cover), marker_from_camera_(pose.Inverse()) {
-    const double half = cover.print_size_m / 2;
+    const double half = cover.marker_area_size_m / 2;
     Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
     for (const Vec2 c : {Vec2{-half, -half}, {half, -half}, {half, half}, {-half, half}}) {
       const Point<Camera> p = pose * Point<Marker>{{c.x, c.y, 0.0}};
@@ -42,16 +42,16 @@ class Masker {
       low = {std::min(low.x, pixel.x), std::min(low.y, pixel.y)};
       high = {std::max(high.x, pixel.x), std::max(high.y, pixel.y)};
     }
-    print_ = {std::max(0, static_cast<int>(low.x)), std::max(0, static_cast<int>(low.y)),
-              std::min(rgb.width() - 1, static_cast<int>(high.x) + 1),
-              std::min(rgb.height() - 1, static_cast<int>(high.y) + 1)};
+    marker_ = {std::max(0, static_cast<int>(low.x)), std::max(0, static_cast<int>(low.y)),
+               std::min(rgb.width() - 1, static_cast<int>(high.x) + 1),
+               std::min(rgb.height() - 1, static_cast<int>(high.y) + 1)};
   }
 
   Image<std::uint8_t> Make() {
     Image<std::uint8_t> mask(rgb_.width(), rgb_.height(), 1);
-    // What of the print is covered and seen, and the colours of either.
-    for (int y = print_.y0; y <= print_.y1; ++y) {
-      for (int x = print_.x0; x <= print_.x1; ++x) {
+    // What of the marker is covered and seen, and the colors of either.
+    for (int y = marker_.y0; y <= marker_.y1; ++y) {
+      for (int x = marker_.x0; x <= marker_.x1; ++x) {
         const double seen = SeenAt(x, y);
         if (seen < 0.0) continue;
         inside_.push_back({x, y});
@@ -80,15 +80,15 @@ class Masker {
     double all = 0.0;
   };
 
-  /// Of the square under a pixel, between the squares' middles; −1 beside the print.
+  /// Of the square under a pixel, between the squares' middles; −1 beside the marker.
   double SeenAt(int x, int y) const {
     const Vec2 ray = UndistortPixel(camera_, {static_cast<double>(x), static_cast<double>(y)});
     const Vec3 direction = marker_from_camera_.rotation * Vec3{ray.x, ray.y, 1.0};
     const Vec3 eye = marker_from_camera_.translation_m;
     if (direction.z == 0.0) return -1.0;
     const Vec3 at = eye + direction * (-eye.z / direction.z);
-    const double u = (at.x / cover_.print_size_m + 0.5) * cover_.side;
-    const double v = (0.5 - at.y / cover_.print_size_m) * cover_.side;
+    const double u = (at.x / cover_.marker_area_size_m + 0.5) * cover_.side;
+    const double v = (0.5 - at.y / cover_.marker_area_size_m) * cover_.side;
     if (u < 0.0 || v < 0.0 || u >= cover_.side || v >= cover_.side) return -1.0;
     const auto square = [&](int column, int row) {
       column = std::clamp(column, 0, cover_.side - 1);
@@ -102,7 +102,7 @@ class Masker {
            (square(column, row + 1) * (1 - fu) + square(column + 1, row + 1) * fu) * fv;
   }
 
-  /// −1 where a pixel is too dark or too bright to have a colour.
+  /// −1 where a pixel is too dark or too bright to have a color.
   int BinOf(int x, int y) const {
     const int r = rgb_(x, y, 0), g = rgb_(x, y, 1), b = rgb_(x, y, 2);
     if (r + g + b < kDarkestSum || (r > 250 && g > 250 && b > 250)) return -1;
@@ -121,21 +121,21 @@ class Masker {
     colors->all += 1.0;
   }
 
-  /// A ring around the print, the arm that comes through it included.
+  /// A ring around the marker, the arm that comes through it included.
   void CountSurroundings() {
     constexpr int kStep = 2;
-    const int reach = std::max(print_.x1 - print_.x0, print_.y1 - print_.y0) / 2;
-    for (int y = std::max(0, print_.y0 - reach);
-         y <= std::min(rgb_.height() - 1, print_.y1 + reach); y += kStep) {
-      for (int x = std::max(0, print_.x0 - reach);
-           x <= std::min(rgb_.width() - 1, print_.x1 + reach); x += kStep) {
-        const bool beside = x < print_.x0 || x > print_.x1 || y < print_.y0 || y > print_.y1;
+    const int reach = std::max(marker_.x1 - marker_.x0, marker_.y1 - marker_.y0) / 2;
+    for (int y = std::max(0, marker_.y0 - reach);
+         y <= std::min(rgb_.height() - 1, marker_.y1 + reach); y += kStep) {
+      for (int x = std::max(0, marker_.x0 - reach);
+           x <= std::min(rgb_.width() - 1, marker_.x1 + reach); x += kStep) {
+        const bool beside = x < marker_.x0 || x > marker_.x1 || y < marker_.y0 || y > marker_.y1;
         if (beside) CountColor(x, y, &surroundings_);
       }
     }
   }
 
-  /// Share of the colours in a bin and the eight around it: shading moves a hand's colour a little.
+  /// Share of the colors in a bin and the eight around it: shading moves a hand's color a little.
   static double NearBy(const Colors& colors, int bin) {
     double sum = 0.0;
     for (int dr = -1; dr <= 1; ++dr) {
@@ -147,9 +147,9 @@ class Masker {
     return sum / (9.0 * colors.all);
   }
 
-  /// By bin, whether a colour is the occluder's; empty where it has none of its own.
+  /// By bin, whether a color is the occluder's; empty where it has none of its own.
   std::vector<std::uint8_t> OccluderColors() const {
-    if (covered_.all < kFewestSeeds || other_.all < kFewestSeeds) return {};
+    if (covered_.all < kMinSeeds || other_.all < kMinSeeds) return {};
     std::vector<std::uint8_t> theirs(kBins * kBins);
     double own = 0.0;
     for (int bin = 0; bin < kBins * kBins; ++bin) {
@@ -159,8 +159,8 @@ class Masker {
           surroundings_.all > 0.0 ? surroundings_.counts[bin] / surroundings_.all : 0.0;
       // What nobody else has belongs to what it hangs together with: a redder fingertip.
       const bool nobodys = seen < kNobodys && around < kNobodys;
-      const bool likely =
-          covered >= kFewestOfColor && covered >= kLikelier * seen && covered >= kAsLikely * around;
+      const bool likely = covered >= kMinShareOfColor && covered >= kLikelier * seen &&
+                          covered >= kAsLikely * around;
       if (!likely && !nobodys) continue;
       theirs[bin] = 1;
       own += covered_.counts[bin] / covered_.all;
@@ -169,7 +169,7 @@ class Masker {
     return own > kMostlyOwn ? theirs : std::vector<std::uint8_t>{};
   }
 
-  /// Flood from the covered squares through the occluder's colours; on the print, colour decides
+  /// Flood from the covered squares through the occluder's colors; on the marker, color decides
   /// in squares that are partly covered.
   void Grow(const std::vector<std::uint8_t>& theirs, Image<std::uint8_t>* mask) const {
     std::vector<std::pair<int, int>> open;
@@ -222,9 +222,9 @@ class Masker {
 
   ImageView<const std::uint8_t> rgb_;
   const CameraModel& camera_;
-  const PrintCover& cover_;
+  const MarkerVisibility& cover_;
   Transform<Marker, Camera> marker_from_camera_;
-  Rect print_{0, 0, -1, -1};
+  Rect marker_{0, 0, -1, -1};
   std::vector<std::pair<int, int>> inside_;
   Colors covered_, other_, surroundings_;
 };
@@ -233,10 +233,10 @@ class Masker {
 
 Image<std::uint8_t> MaskOccluder(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                                  const Transform<Camera, Marker>& camera_from_marker,
-                                 const PrintCover& cover) {
+                                 const MarkerVisibility& cover) {
   const auto covered = std::count_if(cover.seen.begin(), cover.seen.end(),
                                      [](std::uint8_t seen) { return seen < kCovered * 255; });
-  if (cover.side <= 0 || covered < kFewestCovered) return {};
+  if (cover.side <= 0 || covered < kMinCoveredSquares) return {};
   return Masker(rgb, camera, camera_from_marker, cover).Make();
 }
 

@@ -34,10 +34,10 @@ FogAir FogUpTo(float distance_m, const float split_m[kFogSplits],
   return air;
 }
 
-// What a virtual shadow of ratio R (differential.glsl) adds to R times a hazy picture, display-linear.
+// What a virtual shadow of ratio R (differential.glsl) adds to R times a needs_airlight picture, display-linear.
 // The picture P = L τ + A has the air's light A in it, which no shadow takes away: R L τ + A =
 // R P + (1 − R) A. A picture darker than the air is said to be takes that to be its air.
-vec3 AirBeforeShadow(vec3 ratio, vec3 air_light, vec3 picture) {
+vec3 AirlightOverShadow(vec3 ratio, vec3 air_light, vec3 picture) {
   return (1.0f - ratio) * min(air_light, picture);
 }
 

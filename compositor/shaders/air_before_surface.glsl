@@ -1,14 +1,14 @@
-#ifndef COMPOSITOR_AIR_BEFORE_SURFACE_GLSL
-#define COMPOSITOR_AIR_BEFORE_SURFACE_GLSL
-// HAZE: the air between the eye and the real surfaces. Without it there is none, and nothing is
+#ifndef COMPOSITOR_AERIAL_PERSPECTIVE_GLSL
+#define COMPOSITOR_AERIAL_PERSPECTIVE_GLSL
+// AIRLIGHT: the air between the eye and the real surfaces. Without it there is none, and nothing is
 // drawn of it.
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/picture_light.glsl"
 
-uniform vec3 u_gain;  // Display-linear value per radiance.
+uniform vec3 u_exposure_scale;  // Display-linear value per radiance.
 
-#ifdef HAZE
+#ifdef AIRLIGHT
 layout(location = 1) out vec4 out_color;  // Added to the picture, covering nothing.
 
 uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/passes/aerial_fog.h.
@@ -17,7 +17,7 @@ uniform vec3 u_fog_inscattered[kFogSplits];
 #endif
 
 FogAir AirUpTo(float distance_m) {
-#ifdef HAZE
+#ifdef AIRLIGHT
   return FogUpTo(distance_m, u_fog_split_m, u_fog_optical_depth, u_fog_inscattered);
 #else
   return FogAir(vec3(1.0), vec3(0.0));
@@ -25,17 +25,17 @@ FogAir AirUpTo(float distance_m) {
 }
 
 // What is added to a picture whose surface's light changes by `ratio`, display-linear.
-vec3 HazeOver(vec3 ratio, FogAir air) {
-#ifdef HAZE
-  return AirBeforeShadow(ratio, u_gain * air.light, PictureLight());
+vec3 AirlightOver(vec3 ratio, FogAir air) {
+#ifdef AIRLIGHT
+  return AirlightOverShadow(ratio, u_exposure_scale * air.light, PictureLight());
 #else
   return vec3(0.0);
 #endif
 }
 
-void DrawHaze(vec3 haze) {
-#ifdef HAZE
-  out_color = vec4(haze, 0.0);
+void WriteAirlight(vec3 airlight) {
+#ifdef AIRLIGHT
+  out_color = vec4(airlight, 0.0);
 #endif
 }
 

@@ -15,22 +15,22 @@ layout(binding = 3) uniform sampler2D u_positions;    // RenderPositions(), texe
 layout(location = 0) out vec4 out_encoded;
 
 #ifdef CAMERA_RESPONSE
-layout(binding = 4) uniform sampler2D u_light_of_code;  // 256 texels.
-layout(binding = 5) uniform sampler2D u_code_of_light;  // Evenly by the square root of light.
+layout(binding = 4) uniform sampler2D u_light_of_pixel_value;  // 256 texels.
+layout(binding = 5) uniform sampler2D u_pixel_value_of_light;  // Evenly by the square root of light.
 
 vec3 LinearFromEncoded(vec3 encoded) {
   ivec3 code = ivec3(encoded * 255.0 + 0.5);
-  return vec3(texelFetch(u_light_of_code, ivec2(code.r, 0), 0).r,
-              texelFetch(u_light_of_code, ivec2(code.g, 0), 0).g,
-              texelFetch(u_light_of_code, ivec2(code.b, 0), 0).b);
+  return vec3(texelFetch(u_light_of_pixel_value, ivec2(code.r, 0), 0).r,
+              texelFetch(u_light_of_pixel_value, ivec2(code.g, 0), 0).g,
+              texelFetch(u_light_of_pixel_value, ivec2(code.b, 0), 0).b);
 }
 
 vec3 EncodedFromLinear(vec3 light) {
-  float size = float(textureSize(u_code_of_light, 0).x);
+  float size = float(textureSize(u_pixel_value_of_light, 0).x);
   vec3 at = (sqrt(clamp(light, 0.0, 1.0)) * (size - 1.0) + 0.5) / size;
-  return vec3(texture(u_code_of_light, vec2(at.r, 0.5)).r,
-              texture(u_code_of_light, vec2(at.g, 0.5)).g,
-              texture(u_code_of_light, vec2(at.b, 0.5)).b);
+  return vec3(texture(u_pixel_value_of_light, vec2(at.r, 0.5)).r,
+              texture(u_pixel_value_of_light, vec2(at.g, 0.5)).g,
+              texture(u_pixel_value_of_light, vec2(at.b, 0.5)).b);
 }
 #else
 vec3 LinearFromEncoded(vec3 encoded) { return LinearFromSrgb(encoded); }

@@ -1,6 +1,6 @@
 #version 450 core
 // What of a pixel is to be shaded as a virtual object: the triangles that its samples show, one for
-// each piece of surface, with the samples that show that piece. A piece is of one sheet, bent by no
+// each piece of surface, with the samples that show that piece. A piece is of one component, bent by no
 // more than kAlike and nowhere farther apart than the pixel reaches: a round body's far side, seen
 // past its near side's edge, is another. The pixel's depth says for the passes that shade whether the
 // sun may shine on any of them (KindOf).
@@ -11,7 +11,7 @@
 layout(binding = 0) uniform usampler2DMS u_ids;
 uniform int u_samples;  // A pixel, 4 at most.
 
-layout(location = 0) out uvec4 out_seen;  // First to last: SeenTriangle.
+layout(location = 0) out uvec4 out_visible;  // First to last: VisibleTriangle.
 
 const float kAlike = 0.9;  // Cosine.
 
@@ -21,7 +21,7 @@ void main() {
   uvec4 left = uvec4(0u);
   for (int i = 0; i < u_samples; ++i) left[i] = texelFetch(u_ids, pixel, i).r;
   left *= uvec4(greaterThan(left, uvec4(kObjectBit)));
-  uvec4 seen = uvec4(0u), sheets = uvec4(~0u);
+  uvec4 seen = uvec4(0u), components = uvec4(~0u);
   vec3 normals[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   vec3 positions_m[4] = normals;
   uint kind = kNothing;
@@ -34,30 +34,30 @@ void main() {
     bool shown = id != 0u;
     id &= ~kObjectBit;
     uvec4 triangle = TriangleOf(id);
-    uint sheet = SheetOf(triangle);
-    SurfaceRecord record = RecordOf(int(ValueOfSheet(int(sheet))));
-    SeenSurface here =
-        SurfaceSeen(Moved(VertexOf(triangle.x), record), Moved(VertexOf(triangle.y), record),
+    uint component = ComponentOf(triangle);
+    MaterialRecord record = RecordOf(int(ValueOfComponent(int(component))));
+    VisibleSurface here =
+        VisibleSurfaceOf(Moved(VertexOf(triangle.x), record), Moved(VertexOf(triangle.y), record),
                     Moved(VertexOf(triangle.z), record), gl_FragCoord.xy);
     float reach_m = 2.0 * (length(here.step_x) + length(here.step_y));
     bool known = false;
     for (int k = 0; k < 4; ++k) {
-      bool same = shown && !known && sheets[k] == sheet &&
+      bool same = shown && !known && components[k] == component &&
                   dot(normals[k], here.flat_normal) > kAlike &&
                   distance(positions_m[k], here.position_m) < reach_m;
-      seen[k] += same ? SeenTriangle(0u, samples) : 0u;
+      seen[k] += same ? VisibleTriangle(0u, samples) : 0u;
       known = known || same;
     }
     for (int k = 0; k < 4; ++k) {
       bool first = shown && !known && found == k;
-      seen[k] += first ? SeenTriangle(id, samples) : 0u;
-      sheets[k] = first ? sheet : sheets[k];
+      seen[k] += first ? VisibleTriangle(id, samples) : 0u;
+      components[k] = first ? component : components[k];
       normals[k] = first ? here.flat_normal : normals[k];
       positions_m[k] = first ? here.position_m : positions_m[k];
     }
     found += known ? 0 : 1;
     kind = shown ? min(kind, KindOf(triangle)) : kind;
   } while (left != uvec4(0u));
-  out_seen = seen;
+  out_visible = seen;
   gl_FragDepth = DepthOfKind(kind);
 }

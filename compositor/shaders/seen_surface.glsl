@@ -1,5 +1,5 @@
-#ifndef COMPOSITOR_SEEN_SURFACE_GLSL
-#define COMPOSITOR_SEEN_SURFACE_GLSL
+#ifndef COMPOSITOR_VISIBLE_SURFACE_GLSL
+#define COMPOSITOR_VISIBLE_SURFACE_GLSL
 // What a pixel shows of a surface, from its triangle's number: what a rasteriser would hand to
 // a shader, but once for a pixel however many triangles meet in it.
 
@@ -12,20 +12,20 @@ uniform vec3 u_ray;
 uniform vec3 u_ray_x;
 uniform vec3 u_ray_y;
 
-struct SeenSurface {
+struct VisibleSurface {
   vec3 position_m, normal;
   vec3 flat_normal;     // Of the triangle, on the side of `normal`; unit.
   vec3 step_x, step_y;  // How far the position moves to the next pixel, metres.
   vec3 ambient_with, ambient_without;
 };
 
-SeenSurface SurfaceSeen(TableVertex a, TableVertex b, TableVertex c, vec2 pixel) {
+VisibleSurface VisibleSurfaceOf(BufferVertex a, BufferVertex b, BufferVertex c, vec2 pixel) {
   vec3 ab = b.position_m - a.position_m, ac = c.position_m - a.position_m;
   vec3 across = cross(ab, ac);
   vec3 ray = u_ray + pixel.x * u_ray_x + pixel.y * u_ray_y;
   PlaneHit hit = HitPlane(across, a.position_m - u_eye_m, b.position_m - u_eye_m,
                           c.position_m - u_eye_m, ray, u_ray_x, u_ray_y);
-  SeenSurface seen;
+  VisibleSurface seen;
   seen.position_m = u_eye_m + hit.along * ray;
   seen.step_x = hit.step_x;
   seen.step_y = hit.step_y;

@@ -2,7 +2,7 @@
 // Which triangle a sample of the picture shows: its number in a table of
 // compositor/surfaces/visibility_buffer.h, from 1 on. 0: nothing that changes.
 //
-// OBJECT: of a virtual object. TEXTURED: with what its textures leave of base colour, roughness and
+// OBJECT: of a virtual object. TEXTURED: with what its textures leave of base color, roughness and
 // metallic, too. ALPHA: only on the samples that its alpha covers.
 
 #include "compositor/shaders/triangle_layout.glsl"

@@ -1,5 +1,5 @@
 #version 450 core
-// A virtual object's display-linear colour in a pixel: the sum over its samples, each piece of surface
+// A virtual object's display-linear color in a pixel: the sum over its samples, each piece of surface
 // (object_pixels.frag) shaded once, and the share of them that it covers. Drawn with NO_SUN where all
 // that a pixel shows is turned away from the sun.
 //
@@ -19,13 +19,13 @@
 uniform float u_samples;         // A pixel.
 uniform vec3 u_to_sun;           // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;   // Linear Rec.709.
-uniform vec3 u_gain;             // Display-linear value per radiance.
+uniform vec3 u_exposure_scale;             // Display-linear value per radiance.
 
 uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/passes/aerial_fog.h.
 uniform vec3 u_fog_optical_depth[kFogSplits];
 uniform vec3 u_fog_inscattered[kFogSplits];
 
-layout(binding = 0) uniform usampler2D u_seen;  // Of object_pixels.frag.
+layout(binding = 0) uniform usampler2D u_visible;  // Of object_pixels.frag.
 #ifdef GLOSSY
 layout(binding = 3) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
 #endif
@@ -38,7 +38,7 @@ layout(location = 0) out vec4 out_color;
 
 #ifdef TEXTURED
 // The material times its textures: the mean of the samples that show the piece.
-SurfaceRecord Textured(SurfaceRecord record, vec4 samples) {
+MaterialRecord Textured(MaterialRecord record, vec4 samples) {
   vec3 color = vec3(0.0);
   vec2 coat = vec2(0.0);
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -70,7 +70,7 @@ vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
 }
 
 // What metals and coats mirror of the sun, `sun` with the surface's cosine in it, and of the rest.
-vec3 MirroredRadiance(SeenSurface surface, SurfaceRecord record, vec3 sun) {
+vec3 MirroredRadiance(VisibleSurface surface, MaterialRecord record, vec3 sun) {
   vec3 normal = surface.normal;
   vec3 to_eye = normalize(u_eye_m - surface.position_m);
   vec3 f0 = mix(vec3(record.dielectric_f0), record.base_color, record.metallic);
@@ -93,14 +93,14 @@ vec3 MirroredRadiance(SeenSurface surface, SurfaceRecord record, vec3 sun) {
 }
 #endif
 
-vec3 ColorOf(SeenSurface surface, SurfaceRecord record) {
+vec3 ColorOf(VisibleSurface surface, MaterialRecord record) {
 #ifdef NO_SUN
   vec3 sun = vec3(0.0);
 #else
   float n_dot_l = max(dot(surface.normal, u_to_sun), 0.0);
   float visibility = ShadowVisibility(1, surface.position_m, surface.flat_normal, surface.step_x,
                                       surface.step_y);
-  visibility *= SeenSunlight(surface.position_m);
+  visibility *= SunTransmittance(surface.position_m);
   vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);
 #endif
 
@@ -112,18 +112,18 @@ vec3 ColorOf(SeenSurface surface, SurfaceRecord record) {
 #endif
   FogAir air = FogUpTo(distance(u_eye_m, surface.position_m), u_fog_split_m, u_fog_optical_depth,
                        u_fog_inscattered);
-  return u_gain * (radiance * air.left + air.light);
+  return u_exposure_scale * (radiance * air.left + air.light);
 }
 
 void main() {
-  uvec4 seen = texelFetch(u_seen, ivec2(gl_FragCoord.xy), 0);
+  uvec4 seen = texelFetch(u_visible, ivec2(gl_FragCoord.xy), 0);
   vec4 sum = vec4(0.0);
   do {
     vec4 samples = SamplesOf(seen.x);
     uvec4 triangle = TriangleOf(IdOf(seen.x));
-    SurfaceRecord record = RecordOf(int(ValueOfSheet(int(SheetOf(triangle)))));
-    SeenSurface surface =
-        SurfaceSeen(Moved(VertexOf(triangle.x), record), Moved(VertexOf(triangle.y), record),
+    MaterialRecord record = RecordOf(int(ValueOfComponent(int(ComponentOf(triangle)))));
+    VisibleSurface surface =
+        VisibleSurfaceOf(Moved(VertexOf(triangle.x), record), Moved(VertexOf(triangle.y), record),
                     Moved(VertexOf(triangle.z), record), gl_FragCoord.xy);
 #ifdef TEXTURED
     record = Textured(record, samples);

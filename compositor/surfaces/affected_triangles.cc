@@ -11,7 +11,7 @@ constexpr float kSameSun = 1e-3F;  // Radians: a fifth of the sun's radius, a qu
 
 }  // namespace
 
-ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : triangles_(phantom.indices) {
+AffectedTriangles::AffectedTriangles(const LitMesh& phantom) : triangles_(phantom.indices) {
   const std::size_t count = phantom.positions.size();
   positions_.reserve(count);
   normals_.reserve(count);
@@ -24,7 +24,7 @@ ChangingTriangles::ChangingTriangles(const LitMesh& phantom) : triangles_(phanto
   SetLight(phantom);
 }
 
-void ChangingTriangles::SetLight(const LitMesh& phantom) {
+void AffectedTriangles::SetLight(const LitMesh& phantom) {
   const std::size_t count = phantom.ambient_with.size();
   sky_changes_.clear();
   ambient_with_.clear();
@@ -41,12 +41,12 @@ void ChangingTriangles::SetLight(const LitMesh& phantom) {
     sky_changes_.push_back(
         glm::any(glm::greaterThan(glm::abs(with - without), kNoticeable * without)));
   }
-  sun_reach_ = phantom.sun_reach;
-  const auto& [x, y, z] = phantom.reached_to_sun;
-  reached_to_sun_ = {x, y, z};
+  sun_visibility_ = phantom.sun_visibility;
+  const auto& [x, y, z] = phantom.sun_visibility_to_sun;
+  sun_visibility_to_sun_ = {x, y, z};
 }
 
-ChangingTriangles::Sorted ChangingTriangles::ChangeOf(const SunWindow& window,
+AffectedTriangles::Sorted AffectedTriangles::ChangeOf(const SunWindow& window,
                                                       const SunFootprint& objects,
                                                       std::size_t first_index) const {
   bool sky_changes = false, sunlit = false;
@@ -64,15 +64,14 @@ ChangingTriangles::Sorted ChangingTriangles::ChangeOf(const SunWindow& window,
   if (!sky_changes) return {kNothing, false};
   // A sun that has moved on casts other shadows than it did for the light.
   const bool known =
-      !sun_reach_.empty() && glm::distance(window.to_sun, reached_to_sun_) < kSameSun;
-  const SunReach reach = known ? sun_reach_[first_index / 3] : SunReach::kSome;
-  if (!sunlit || reach == SunReach::kNone) return {kSteadySky, false};
-  return reach == SunReach::kAll ? Sorted{kSteadySky, true} : Sorted{kSunlitSky, false};
+      !sun_visibility_.empty() && glm::distance(window.to_sun, sun_visibility_to_sun_) < kSameSun;
+  const SunVisibility reach = known ? sun_visibility_[first_index / 3] : SunVisibility::kSome;
+  if (!sunlit || reach == SunVisibility::kNone) return {kLinearSky, false};
+  return reach == SunVisibility::kAll ? Sorted{kLinearSky, true} : Sorted{kSunlitSky, false};
 }
 
-std::optional<SteadyRatio> ChangingTriangles::SteadyOf(std::size_t first_index,
-                                                       const glm::vec3& to_sun,
-                                                       const glm::vec3& sun_normal_lux) const {
+std::optional<LinearShadowRatio> AffectedTriangles::LinearRatioOf(
+    std::size_t first_index, const glm::vec3& to_sun, const glm::vec3& sun_normal_lux) const {
   std::array<glm::vec3, 3> corners_m{}, with{}, without{}, ratios{};
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t vertex = triangles_[first_index + k];
@@ -80,30 +79,30 @@ std::optional<SteadyRatio> ChangingTriangles::SteadyOf(std::size_t first_index,
     const glm::vec3 sun = std::max(glm::dot(normals_[vertex], to_sun), 0.0F) * sun_normal_lux;
     with[k] = ambient_with_[vertex] + sun;
     without[k] = ambient_without_[vertex] + sun;
-    ratios[k] = SteadyRatio::Between(with[k], without[k], glm::vec3(0.0F));
+    ratios[k] = LinearShadowRatio::Between(with[k], without[k], glm::vec3(0.0F));
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t next = (k + 1) % 3;
-    if (!SteadyRatio::IsLinear({with[k], with[next]}, {without[k], without[next]})) {
+    if (!LinearShadowRatio::IsLinear({with[k], with[next]}, {without[k], without[next]})) {
       return std::nullopt;
     }
   }
-  return SteadyRatio::Of(corners_m, ratios);
+  return LinearShadowRatio::Of(corners_m, ratios);
 }
 
-void ChangingTriangles::Sort(const SunWindow& window, const SunFootprint& objects,
+void AffectedTriangles::Sort(const SunWindow& window, const SunFootprint& objects,
                              const glm::vec3& sun_normal_lux) {
   for (auto& kind : kinds_) kind.clear();
-  steady_.clear();
-  steady_corners_.clear();
+  linear_ratios_.clear();
+  linear_corners_.clear();
   for (std::size_t i = 0; i < triangles_.size(); i += 3) {
     auto [change, in_sun] = ChangeOf(window, objects, i);
-    if (change == kSteadySky) {
-      const std::optional<SteadyRatio> steady =
-          SteadyOf(i, window.to_sun, in_sun ? sun_normal_lux : glm::vec3(0.0F));
-      if (steady) {
-        steady_.push_back(*steady);
-        steady_corners_.push_back({triangles_[i], triangles_[i + 1], triangles_[i + 2]});
+    if (change == kLinearSky) {
+      const std::optional<LinearShadowRatio> linear_ratios =
+          LinearRatioOf(i, window.to_sun, in_sun ? sun_normal_lux : glm::vec3(0.0F));
+      if (linear_ratios) {
+        linear_ratios_.push_back(*linear_ratios);
+        linear_corners_.push_back({triangles_[i], triangles_[i + 1], triangles_[i + 2]});
       } else {
         change = kSunlitSky;
       }
@@ -119,16 +118,16 @@ void ChangingTriangles::Sort(const SunWindow& window, const SunFootprint& object
   }
 }
 
-float ChangingTriangles::MostSteadyChangeFarFrom(const glm::vec3& eye_m) const {
-  float most = 0.0F;
-  for (std::size_t i = 0; i < steady_.size(); ++i) {
-    const glm::vec4& range = steady_[i].range;
+float AffectedTriangles::MaxLinearChangeFarFrom(const glm::vec3& eye_m) const {
+  float maximum = 0.0F;
+  for (std::size_t i = 0; i < linear_ratios_.size(); ++i) {
+    const glm::vec4& range = linear_ratios_[i].range;
     const float change = std::max(std::abs(1.0F - range.x), std::abs(1.0F - range.y));
-    for (const std::uint32_t corner : steady_corners_[i]) {
-      most = std::max(most, change * glm::distance(positions_[corner], eye_m));
+    for (const std::uint32_t corner : linear_corners_[i]) {
+      maximum = std::max(maximum, change * glm::distance(positions_[corner], eye_m));
     }
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace pleinair::compositor

@@ -16,19 +16,19 @@ namespace pleinair::compositor {
 /// Sorts a phantom's triangles by what virtual objects may change of their light: what they leave
 /// alone needs no shading, and what has all of the sun or none of it anyway no look into shadow
 /// maps.
-class ChangingTriangles {
+class AffectedTriangles {
  public:
   /// In the order of the sorted triangles.
   enum Change {
     kSun,        ///< The sun's light may change.
     kSunlitSky,  ///< Only the sky's, and the sun shines on it unless something hides it.
-    kSteadySky,  ///< Only the sky's, phantoms leave it all of the sun or none shines on it, and the
+    kLinearSky,  ///< Only the sky's, phantoms leave it all of the sun or none shines on it, and the
                  ///< ratio is linear along it.
     kNothing,
     kChanges
   };
 
-  explicit ChangingTriangles(const LitMesh& phantom);
+  explicit AffectedTriangles(const LitMesh& phantom);
   /// Another light on the same triangles: counts from the next Sort() on.
   void SetLight(const LitMesh& phantom);
 
@@ -37,11 +37,11 @@ class ChangingTriangles {
   void Sort(const SunWindow& window, const SunFootprint& objects, const glm::vec3& sun_normal_lux);
   std::span<const std::uint32_t> indices() const { return indices_; }
   const std::array<int, kChanges>& ends() const { return ends_; }
-  /// What objects change of the kSteadySky triangles, in their order.
-  std::span<const SteadyRatio> steady() const { return steady_; }
+  /// What objects change of the kLinearSky triangles, in their order.
+  std::span<const LinearShadowRatio> linear_ratios() const { return linear_ratios_; }
   /// The most of any place on them, of how far from 1 the ratio is, times the metres to the eye:
   /// what the air before it counts by.
-  float MostSteadyChangeFarFrom(const glm::vec3& eye_m) const;
+  float MaxLinearChangeFarFrom(const glm::vec3& eye_m) const;
 
   /// A change of light, relative, that no 8-bit picture shows: a quarter of a code at white.
   static constexpr float kNoticeable = 0.002F;
@@ -49,25 +49,25 @@ class ChangingTriangles {
  private:
   struct Sorted {
     Change change;
-    bool in_sun;  // Of kSteadySky: all of the sun, not none.
+    bool in_sun;  // Of kLinearSky: all of the sun, not none.
   };
   Sorted ChangeOf(const SunWindow& window, const SunFootprint& objects,
                   std::size_t first_index) const;
   /// Nothing where the ratio is not linear along the triangle. `sun_normal_lux`: as far as it
   /// reaches.
-  std::optional<SteadyRatio> SteadyOf(std::size_t first_index, const glm::vec3& to_sun,
-                                      const glm::vec3& sun_normal_lux) const;
+  std::optional<LinearShadowRatio> LinearRatioOf(std::size_t first_index, const glm::vec3& to_sun,
+                                                 const glm::vec3& sun_normal_lux) const;
 
   std::vector<glm::vec3> positions_, normals_;
   std::vector<glm::vec3> ambient_with_, ambient_without_;
-  std::vector<bool> sky_changes_;         // By vertex.
-  std::vector<SunReach> sun_reach_;       // By triangle as the mesh has them, or empty.
-  glm::vec3 reached_to_sun_{0.0F};        // Where the sun stood for that.
-  std::vector<std::uint32_t> triangles_;  // The mesh's indices.
-  std::vector<std::uint32_t> indices_;    // Sorted.
+  std::vector<bool> sky_changes_;              // By vertex.
+  std::vector<SunVisibility> sun_visibility_;  // By triangle as the mesh has them, or empty.
+  glm::vec3 sun_visibility_to_sun_{0.0F};      // Where the sun stood for that.
+  std::vector<std::uint32_t> triangles_;       // The mesh's indices.
+  std::vector<std::uint32_t> indices_;         // Sorted.
   std::array<std::vector<std::uint32_t>, kChanges> kinds_;
-  std::vector<SteadyRatio> steady_;
-  std::vector<std::array<std::uint32_t, 3>> steady_corners_;  // Their vertices.
+  std::vector<LinearShadowRatio> linear_ratios_;
+  std::vector<std::array<std::uint32_t, 3>> linear_corners_;  // Their vertices.
   std::array<int, kChanges> ends_{};
 };
 

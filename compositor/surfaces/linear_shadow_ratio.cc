@@ -4,13 +4,13 @@
 
 namespace pleinair::compositor {
 
-glm::vec3 SteadyRatio::Between(const glm::vec3& ambient_with, const glm::vec3& ambient_without,
-                               const glm::vec3& sun) {
+glm::vec3 LinearShadowRatio::Between(const glm::vec3& ambient_with,
+                                     const glm::vec3& ambient_without, const glm::vec3& sun) {
   return (ambient_with + sun) / glm::max(ambient_without + sun, glm::vec3(1e-6F));
 }
 
-bool SteadyRatio::IsLinear(const std::array<glm::vec3, 2>& with,
-                           const std::array<glm::vec3, 2>& without) {
+bool LinearShadowRatio::IsLinear(const std::array<glm::vec3, 2>& with,
+                                 const std::array<glm::vec3, 2>& without) {
   constexpr float kHardlySeen = 0.004F;  // Half a code of 8 bits at white, less below.
   const glm::vec3 none(0.0F);
   const glm::vec3 middle = Between(with[0] + with[1], without[0] + without[1], none);
@@ -20,8 +20,8 @@ bool SteadyRatio::IsLinear(const std::array<glm::vec3, 2>& with,
   return glm::all(glm::lessThan(glm::abs(middle - mean), glm::vec3(kHardlySeen)));
 }
 
-SteadyRatio SteadyRatio::Of(const std::array<glm::vec3, 3>& corners_m,
-                            const std::array<glm::vec3, 3>& ratios) {
+LinearShadowRatio LinearShadowRatio::Of(const std::array<glm::vec3, 3>& corners_m,
+                                        const std::array<glm::vec3, 3>& ratios) {
   // In double precision: of a small triangle far from the origin large terms cancel.
   const glm::dvec3 a(corners_m[0]), ab = glm::dvec3(corners_m[1]) - a,
                                     ac = glm::dvec3(corners_m[2]) - a;
@@ -29,8 +29,8 @@ SteadyRatio SteadyRatio::Of(const std::array<glm::vec3, 3>& corners_m,
   const double area_squared = glm::dot(across, across);
   const bool has_area = area_squared > 1e-24;
   const glm::dvec3 normal = has_area ? across / glm::sqrt(area_squared) : glm::dvec3(0.0, 0.0, 1.0);
-  SteadyRatio steady;
-  steady.plane = glm::vec4(glm::vec3(normal), static_cast<float>(glm::dot(normal, a)));
+  LinearShadowRatio linear_ratio;
+  linear_ratio.plane = glm::vec4(glm::vec3(normal), static_cast<float>(glm::dot(normal, a)));
   float low = ratios[0].x, high = ratios[0].x;
   for (int c = 0; c < 3; ++c) {
     const double at_a = ratios[0][c], at_b = ratios[1][c], at_c = ratios[2][c];
@@ -41,14 +41,14 @@ SteadyRatio SteadyRatio::Of(const std::array<glm::vec3, 3>& corners_m,
                   area_squared
             : glm::dvec3(0.0);
     const double at_origin = has_area ? at_a - glm::dot(gradient, a) : (at_a + at_b + at_c) / 3.0;
-    steady.channels[c] = glm::vec4(glm::vec3(gradient), static_cast<float>(at_origin));
+    linear_ratio.channels[c] = glm::vec4(glm::vec3(gradient), static_cast<float>(at_origin));
     for (const glm::vec3& ratio : ratios) {
       low = std::min(low, ratio[c]);
       high = std::max(high, ratio[c]);
     }
   }
-  steady.range = {low, high, 0.0F, 0.0F};
-  return steady;
+  linear_ratio.range = {low, high, 0.0F, 0.0F};
+  return linear_ratio;
 }
 
 }  // namespace pleinair::compositor

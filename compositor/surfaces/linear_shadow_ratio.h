@@ -9,7 +9,7 @@ namespace pleinair::compositor {
 /// the sun is either everywhere or nowhere: linear from corner to corner, so that pixels need not
 /// work it out from the light itself. Twin of shaders/steady_ratio.glsl, which takes it as five
 /// texels in this order. Marker coordinates, metres.
-struct SteadyRatio {
+struct LinearShadowRatio {
   glm::vec4 plane;  ///< Unit normal; its dot product with a place of the triangle.
   /// Red, green and blue: gradient along the triangle, and the ratio at the origin.
   std::array<glm::vec4, 3> channels;
@@ -29,8 +29,8 @@ struct SteadyRatio {
                        const std::array<glm::vec3, 2>& without);
 
   /// `ratios`: at the corners. Of a triangle without an area, their mean.
-  static SteadyRatio Of(const std::array<glm::vec3, 3>& corners_m,
-                        const std::array<glm::vec3, 3>& ratios);
+  static LinearShadowRatio Of(const std::array<glm::vec3, 3>& corners_m,
+                              const std::array<glm::vec3, 3>& ratios);
 };
 
 }  // namespace pleinair::compositor

@@ -6,10 +6,10 @@
 
 namespace pleinair::compositor {
 
-void SurfaceRecords::Set(std::size_t surface, const Material& material,
-                         const glm::mat4& marker_from_lit) {
-  const std::size_t first = kTexelsASurface * surface;
-  texels_.resize(std::max(texels_.size(), first + kTexelsASurface));
+void MaterialTable::Set(std::size_t surface, const Material& material,
+                        const glm::mat4& marker_from_lit) {
+  const std::size_t first = kTexelsPerSurface * surface;
+  texels_.resize(std::max(texels_.size(), first + kTexelsPerSurface));
   const auto& [r, g, b] = material.base_color;
   texels_[first] = {r, g, b, material.metallic};
   texels_[first + 1] = {material.roughness, material.specular_f0, material.base_under_coat, 0.0F};
@@ -21,8 +21,8 @@ void SurfaceRecords::Set(std::size_t surface, const Material& material,
   }
 }
 
-Result<void> SurfaceRecords::Upload() {
-  return UploadRows(texels_, kSurfacesARow * kTexelsASurface, GL_RGBA32F, GL_RGBA, GL_FLOAT,
+Result<void> MaterialTable::Upload() {
+  return UploadRows(texels_, kSurfacesPerRow * kTexelsPerSurface, GL_RGBA32F, GL_RGBA, GL_FLOAT,
                     &texture_);
 }
 

@@ -66,8 +66,8 @@ Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
       objects.push_back(&lit[i]);
     }
   }
-  PLEINAIR_RETURN_IF_ERROR(phantom_table_.SetLight(phantoms));
-  return object_table_.SetLight(objects);
+  PLEINAIR_RETURN_IF_ERROR(phantom_buffer_.SetLight(phantoms));
+  return object_buffer_.SetLight(objects);
 }
 
 Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
@@ -103,8 +103,8 @@ Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
       objects.push_back(&mesh);
     }
   }
-  PLEINAIR_ASSIGN_OR_RETURN(phantom_table_, TriangleTable::Create(phantoms, green_albedos));
-  PLEINAIR_ASSIGN_OR_RETURN(object_table_, TriangleTable::Create(objects, object_numbers));
+  PLEINAIR_ASSIGN_OR_RETURN(phantom_buffer_, VisibilityBuffer::Create(phantoms, green_albedos));
+  PLEINAIR_ASSIGN_OR_RETURN(object_buffer_, VisibilityBuffer::Create(objects, object_numbers));
   objects_sorted_ = false;
   geometries_.reserve(lit.size());
   for (const LitMesh& mesh : lit) geometries_.push_back(mesh.geometry);
@@ -150,12 +150,12 @@ void SceneSurfaces::PlaceCasters() {
   }
 }
 
-float SceneSurfaces::MostSteadyChangeFarFrom(const glm::vec3& eye_m) const {
-  float most = 0.0F;
-  for (const ChangingTriangles& triangles : phantom_triangles_) {
-    most = std::max(most, triangles.MostSteadyChangeFarFrom(eye_m));
+float SceneSurfaces::MaxLinearChangeFarFrom(const glm::vec3& eye_m) const {
+  float maximum = 0.0F;
+  for (const AffectedTriangles& triangles : phantom_triangles_) {
+    maximum = std::max(maximum, triangles.MaxLinearChangeFarFrom(eye_m));
   }
-  return most;
+  return maximum;
 }
 
 SunFootprint SceneSurfaces::FootprintOf(const SunWindow& window) const {
@@ -199,11 +199,11 @@ Result<void> SceneSurfaces::SortPhantoms(const SunOnPhantoms& sun) {
     triangles->Sort(sun.window, footprint, sun.normal_lux);
     surface.SetIndices(triangles->indices());
     sorted.push_back({triangles->indices(),
-                      std::span(triangles->ends()).first(ChangingTriangles::kNothing),
-                      triangles->steady()});
+                      std::span(triangles->ends()).first(AffectedTriangles::kNothing),
+                      triangles->linear_ratios()});
     ++triangles;
   }
-  PLEINAIR_RETURN_IF_ERROR(phantom_table_.SetTriangles(sorted));
+  PLEINAIR_RETURN_IF_ERROR(phantom_buffer_.SetTriangles(sorted));
   sorted_for_ = sun;
   return {};
 }
@@ -213,12 +213,12 @@ void SceneSurfaces::DrawPhantoms(const gl::GlProgram& program) const {
   for (const SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
     const auto& ends = phantom_triangles_[phantom].ends();
-    program.Set("u_first_id", phantom_table_.first_id(phantom));
+    program.Set("u_first_id", phantom_buffer_.first_id(phantom));
     program.Set("u_step", 1);
-    surface.Draw(0, ends[ChangingTriangles::kSteadySky]);
+    surface.Draw(0, ends[AffectedTriangles::kLinearSky]);
     program.Set("u_first_id", 0);
     program.Set("u_step", 0);
-    surface.Draw(ends[ChangingTriangles::kSteadySky], ends[ChangingTriangles::kNothing]);
+    surface.Draw(ends[AffectedTriangles::kLinearSky], ends[AffectedTriangles::kNothing]);
     ++phantom;
   }
 }
@@ -240,15 +240,15 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
       objects_sorted_ = false;
     }
     if (!objects_placed_) {
-      object_records_.Set(sorted.size(), MaterialOf(surface),
-                          glm::mat4(moved_[surface.placed_model()]));
+      object_materials_.Set(sorted.size(), MaterialOf(surface),
+                            glm::mat4(moved_[surface.placed_model()]));
     }
     ends.push_back({triangles->facing_end(), surface.index_count()});
     sorted.push_back({triangles->indices(), ends.back(), {}});
     ++triangles;
   }
-  if (!objects_sorted_) PLEINAIR_RETURN_IF_ERROR(object_table_.SetTriangles(sorted));
-  if (!objects_placed_) PLEINAIR_RETURN_IF_ERROR(object_records_.Upload());
+  if (!objects_sorted_) PLEINAIR_RETURN_IF_ERROR(object_buffer_.SetTriangles(sorted));
+  if (!objects_placed_) PLEINAIR_RETURN_IF_ERROR(object_materials_.Upload());
   objects_sorted_ = objects_placed_ = true;
   return {};
 }
@@ -270,7 +270,7 @@ void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
     program.Set("u_alpha_cutoff", material.alpha_cutoff);
     program.Set("u_surface", static_cast<int>(object));
     program.Set("u_marker_from_lit", glm::mat4(moved_[surface.placed_model()]));
-    program.Set("u_first_id", object_table_.first_id(object));
+    program.Set("u_first_id", object_buffer_.first_id(object));
     surface.Draw();
     ++object;
   }

@@ -53,18 +53,18 @@ class SceneSurfaces {
   /// Draws the numbers that the phantoms' triangles have in triangles(), of those that change;
   /// `program` of shaders/triangle_id.frag is in use.
   void DrawPhantoms(const gl::GlProgram& program) const;
-  const TriangleTable& triangles() const { return phantom_table_; }
-  /// ChangingTriangles::MostSteadyChangeFarFrom() of all phantoms.
-  float MostSteadyChangeFarFrom(const glm::vec3& eye_m) const;
+  const VisibilityBuffer& triangles() const { return phantom_buffer_; }
+  /// AffectedTriangles::MaxLinearChangeFarFrom() of all phantoms.
+  float MaxLinearChangeFarFrom(const glm::vec3& eye_m) const;
   /// Tells which of the objects' triangles may face the sun, `to_sun` zero: none, and where the
   /// objects stand. Errors (system): no memory.
   Result<void> SortObjects(const glm::vec3& to_sun);
   /// Draws the numbers that the objects' triangles have in object_triangles(), with their textures;
   /// `program` of shaders/triangle_id.frag is in use.
   void DrawObjects(const gl::GlProgram& program) const;
-  const TriangleTable& object_triangles() const { return object_table_; }
+  const VisibilityBuffer& object_triangles() const { return object_buffer_; }
   /// By the values of object_triangles().
-  const SurfaceRecords& object_records() const { return object_records_; }
+  const MaterialTable& object_materials() const { return object_materials_; }
   /// Some of the objects have textures or alpha.
   bool HasTextures() const { return has_textures_; }
   /// Some mirror their surroundings: a metal or a coat does.
@@ -93,12 +93,12 @@ class SceneSurfaces {
   std::vector<std::uint64_t> geometries_;  // LitMesh::geometry of the surfaces.
   std::vector<shadows::Box> lit_bounds_;   // Of the surfaces, where they were lit.
   std::vector<glm::dmat4> moved_;          // By placed model: marker from where it was lit.
-  std::vector<ChangingTriangles> phantom_triangles_;      // Of the phantoms among them, in order.
-  std::vector<FacingTriangles> object_triangles_;         // Of the objects, in order.
+  std::vector<AffectedTriangles> phantom_triangles_;      // Of the phantoms among them, in order.
+  std::vector<SunFacingTriangles> object_triangles_;      // Of the objects, in order.
   std::vector<std::vector<glm::vec3>> object_positions_;  // Of their vertices, where they were lit.
-  TriangleTable phantom_table_, object_table_;
-  SurfaceRecords object_records_;
-  // object_table_ and object_records_ are as object_triangles_ and moved_ are.
+  VisibilityBuffer phantom_buffer_, object_buffer_;
+  MaterialTable object_materials_;
+  // object_buffer_ and object_materials_ are as object_triangles_ and moved_ are.
   bool objects_sorted_ = false, objects_placed_ = false;
   std::optional<SunOnPhantoms> sorted_for_;  // As SortPhantoms() was called.
   std::vector<shadows::ShadowCaster> casters_, phantom_casters_;

@@ -5,13 +5,13 @@
 
 namespace pleinair::compositor {
 
-FacingTriangles::FacingTriangles(const LitMesh& object)
+SunFacingTriangles::SunFacingTriangles(const LitMesh& object)
     : indices_(object.indices), facing_end_(static_cast<int>(object.indices.size())) {
   normals_.reserve(object.normals.size());
   for (const auto& [x, y, z] : object.normals) normals_.emplace_back(x, y, z);
 }
 
-bool FacingTriangles::Sort(const glm::vec3& to_sun) {
+bool SunFacingTriangles::Sort(const glm::vec3& to_sun) {
   const bool no_sun = to_sun == glm::vec3(0.0F);
   if (sorted_for_ && (to_sun == *sorted_for_ ||
                       (!no_sun && glm::distance(to_sun, *sorted_for_) < 0.9F * kMargin))) {

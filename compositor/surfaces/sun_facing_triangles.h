@@ -12,9 +12,9 @@ namespace pleinair::compositor {
 
 /// Sorts a virtual object's triangles by whether the sun may shine on them: those that are turned
 /// away from it, some half of a body, need no look into shadow maps.
-class FacingTriangles {
+class SunFacingTriangles {
  public:
-  explicit FacingTriangles(const LitMesh& object);
+  explicit SunFacingTriangles(const LitMesh& object);
 
   /// Sorts anew where the sun has moved by more than kMargin allows; returns whether it did.
   /// `to_sun`: unit, as the object stands in its mesh; zero without a sun, which none faces.

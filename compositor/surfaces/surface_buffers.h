@@ -16,7 +16,7 @@
 namespace pleinair::compositor {
 
 /// A mesh in the renderer's memory, for shaders/scene_surface.vert: where it is, not how it is lit
-/// (TriangleTable).
+/// (VisibilityBuffer).
 class SurfaceBuffers {
  public:
   static Result<SurfaceBuffers> Create(const LitMesh& mesh);
@@ -29,8 +29,8 @@ class SurfaceBuffers {
   void Draw(int begin, int end) const;
   bool is_phantom() const { return is_phantom_; }
   /// Of a virtual object, and to be seen.
-  bool IsDrawnObject() const { return !is_phantom_ && role_ != MeshRole::kLight; }
-  bool CastsShadow() const { return role_ != MeshRole::kDrawn; }
+  bool IsDrawnObject() const { return !is_phantom_ && role_ != MeshRole::kShadowOnly; }
+  bool CastsShadow() const { return role_ != MeshRole::kRenderOnly; }
   int placed_model() const { return placed_model_; }
   int material() const { return material_; }
   const gl::GlVertexArray& vertex_array() const { return vertex_array_; }
@@ -47,7 +47,7 @@ class SurfaceBuffers {
   gl::GlVertexArray vertex_array_;
 };
 
-/// A model's textures as the renderer samples them: those of colours decoded from sRGB, mip-mapped,
+/// A model's textures as the renderer samples them: those of colors decoded from sRGB, mip-mapped,
 /// repeating.
 Result<std::vector<gl::GlTexture>> UploadTextures(const Model& model);
 

@@ -14,7 +14,7 @@ using Texel = std::array<float, 4>;
 
 }  // namespace
 
-std::vector<std::uint32_t> SheetsOf(const LitMesh& mesh, std::uint32_t first) {
+std::vector<std::uint32_t> ComponentsOf(const LitMesh& mesh, std::uint32_t first) {
   std::vector<std::uint32_t> parents(mesh.positions.size());
   std::iota(parents.begin(), parents.end(), 0U);
   const auto root_of = [&](std::uint32_t vertex) {
@@ -29,40 +29,40 @@ std::vector<std::uint32_t> SheetsOf(const LitMesh& mesh, std::uint32_t first) {
     parents[std::max(a, b)] = std::min(a, b);
   }
   // A piece's root is its first vertex: numbered when it is met.
-  std::vector<std::uint32_t> sheets(parents.size());
-  for (std::uint32_t vertex = 0; vertex < sheets.size(); ++vertex) {
+  std::vector<std::uint32_t> components(parents.size());
+  for (std::uint32_t vertex = 0; vertex < components.size(); ++vertex) {
     const std::uint32_t root = root_of(vertex);
-    sheets[vertex] = root == vertex ? first++ : sheets[root];
+    components[vertex] = root == vertex ? first++ : components[root];
   }
-  return sheets;
+  return components;
 }
 
-Result<TriangleTable> TriangleTable::Create(std::span<const LitMesh* const> meshes,
-                                            std::span<const float> values) {
-  TriangleTable table;
-  std::vector<float> sheet_values;
+Result<VisibilityBuffer> VisibilityBuffer::Create(std::span<const LitMesh* const> meshes,
+                                                  std::span<const float> values) {
+  VisibilityBuffer table;
+  std::vector<float> component_values;
   std::uint32_t vertices = 0;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const LitMesh& mesh = *meshes[m];
     table.first_vertices_.push_back(vertices);
     vertices += static_cast<std::uint32_t>(mesh.positions.size());
-    const auto sheets = SheetsOf(mesh, static_cast<std::uint32_t>(sheet_values.size()));
-    if (!sheets.empty()) {
-      sheet_values.resize(*std::max_element(sheets.begin(), sheets.end()) + std::size_t{1},
-                          values[m]);
+    const auto components = ComponentsOf(mesh, static_cast<std::uint32_t>(component_values.size()));
+    if (!components.empty()) {
+      component_values.resize(
+          *std::max_element(components.begin(), components.end()) + std::size_t{1}, values[m]);
     }
-    table.sheets_.insert(table.sheets_.end(), sheets.begin(), sheets.end());
+    table.components_.insert(table.components_.end(), components.begin(), components.end());
   }
   PLEINAIR_RETURN_IF_ERROR(
-      UploadRows(sheet_values, kTrianglesARow, GL_R32F, GL_RED, GL_FLOAT, &table.values_));
+      UploadRows(component_values, kTrianglesPerRow, GL_R32F, GL_RED, GL_FLOAT, &table.values_));
   return table;
 }
 
-Result<void> TriangleTable::SetLight(std::span<const LitMesh* const> meshes) {
+Result<void> VisibilityBuffer::SetLight(std::span<const LitMesh* const> meshes) {
   std::size_t count = 0;
   for (const LitMesh* mesh : meshes) count += mesh->positions.size();
   std::vector<Texel> vertices;
-  vertices.reserve(kTexelsAVertex * (count + kVerticesARow));
+  vertices.reserve(kTexelsPerVertex * (count + kVerticesPerRow));
   for (const LitMesh* mesh : meshes) {
     for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
       const auto& [x, y, z] = mesh->positions[i];
@@ -74,35 +74,37 @@ Result<void> TriangleTable::SetLight(std::span<const LitMesh* const> meshes) {
       vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {r0, g0, b0, nz}});
     }
   }
-  return UploadRows(vertices, kVerticesARow * kTexelsAVertex, GL_RGBA32F, GL_RGBA, GL_FLOAT,
+  return UploadRows(vertices, kVerticesPerRow * kTexelsPerVertex, GL_RGBA32F, GL_RGBA, GL_FLOAT,
                     &vertices_);
 }
 
-Result<void> TriangleTable::SetTriangles(std::span<const SortedTriangles> meshes) {
+Result<void> VisibilityBuffer::SetTriangles(std::span<const SortedTriangles> meshes) {
   texels_.clear();
-  steady_ratios_.clear();
+  linear_ratio_texels_.clear();
   first_ids_.clear();
   for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
     first_ids_.push_back(static_cast<int>(texels_.size()) + 1);
     const std::uint32_t first = first_vertices_[mesh];
-    const auto& [indices, ends, steady] = meshes[mesh];
+    const auto& [indices, ends, linear_ratios] = meshes[mesh];
     std::uint32_t kind = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(ends.back()); i += 3) {
       while (i >= static_cast<std::size_t>(ends[kind])) ++kind;
       texels_.push_back({first + indices[i], first + indices[i + 1], first + indices[i + 2],
-                         kind | sheets_[first + indices[i]] << kKindBits});
+                         kind | components_[first + indices[i]] << kKindBits});
     }
-    if (steady.empty()) continue;
-    steady_ratios_.resize(texels_.size() - steady.size());
-    steady_ratios_.insert(steady_ratios_.end(), steady.begin(), steady.end());
+    if (linear_ratios.empty()) continue;
+    linear_ratio_texels_.resize(texels_.size() - linear_ratios.size());
+    linear_ratio_texels_.insert(linear_ratio_texels_.end(), linear_ratios.begin(),
+                                linear_ratios.end());
   }
-  PLEINAIR_RETURN_IF_ERROR(UploadRows(steady_ratios_, kSteadyARow, GL_RGBA32F, GL_RGBA, GL_FLOAT,
-                                      &steady_, SteadyRatio::kTexels));
-  return UploadRows(texels_, kTrianglesARow, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+  PLEINAIR_RETURN_IF_ERROR(UploadRows(linear_ratio_texels_, kLinearRatiosPerRow, GL_RGBA32F,
+                                      GL_RGBA, GL_FLOAT, &linear_ratios_,
+                                      LinearShadowRatio::kTexels));
+  return UploadRows(texels_, kTrianglesPerRow, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                     &triangles_);
 }
 
-void TriangleTable::Bind() const {
+void VisibilityBuffer::Bind() const {
   triangles_.Bind(1);
   vertices_.Bind(6);
   values_.Bind(7);

@@ -51,8 +51,8 @@ AVRational RateFraction(double rate_hz) {
   }
   const AVRational fraction = av_d2q(rate_hz, 10000);
   if (fraction.num > 0) return fraction;
-  constexpr double kLongestPeriod_s = std::numeric_limits<int>::max();
-  return {1, static_cast<int>(std::min(std::round(1.0 / rate_hz), kLongestPeriod_s))};
+  constexpr double kMaxPeriod_s = std::numeric_limits<int>::max();
+  return {1, static_cast<int>(std::min(std::round(1.0 / rate_hz), kMaxPeriod_s))};
 }
 
 /// libav's error number as an Error about `file`. What the system says of files is told as such;

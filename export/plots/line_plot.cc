@@ -40,8 +40,8 @@ std::string TickLabel(double value, double step) {
 
 }  // namespace
 
-double TickStep(double low, double high, int most) {
-  const double raw = (high - low) / most;
+double TickStep(double low, double high, int maximum) {
+  const double raw = (high - low) / maximum;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (factor * power >= raw) return factor * power;

@@ -18,6 +18,6 @@ std::string LinePlotSvg(const std::string& title, const std::string& y_unit,
                         const std::vector<PlotLine>& lines, const std::string& x_unit = "s");
 
 /// Steps of 1, 2 or 5 times a power of ten that cut `low`…`high` into at most `most` parts.
-double TickStep(double low, double high, int most);
+double TickStep(double low, double high, int maximum);
 
 }  // namespace pleinair::exports

@@ -25,7 +25,7 @@ std::string Number(double value) {
   return text == "-0" ? "0" : text;
 }
 
-std::string Hex(DrawingColour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
+std::string Hex(DrawingColor c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
 /// The parts of a line that dashes cover.
 std::vector<std::vector<Vec2>> CutDashes(const std::vector<Vec2>& points) {
@@ -66,7 +66,7 @@ class Canvas {
       std::vector<cv::Point> points;
       points.reserve(piece.size());
       for (const Vec2 p : piece) points.push_back(ToFixed(p));
-      cv::polylines(*picture_, points, false, ToScalar(line.colour), width, cv::LINE_AA, kShift);
+      cv::polylines(*picture_, points, false, ToScalar(line.color), width, cv::LINE_AA, kShift);
     }
   }
 
@@ -88,7 +88,7 @@ class Canvas {
                        static_cast<int>(std::lround(text.centre.y * scale_ + 0.36 * size_px)));
     const int halo = pen + static_cast<int>(std::lround(size_px * kHalo));
     cv::putText(*picture_, text.text, at, kFont, scale, cv::Scalar::all(255), halo, cv::LINE_AA);
-    cv::putText(*picture_, text.text, at, kFont, scale, ToScalar(text.colour), pen, cv::LINE_AA);
+    cv::putText(*picture_, text.text, at, kFont, scale, ToScalar(text.color), pen, cv::LINE_AA);
   }
 
  private:
@@ -101,7 +101,7 @@ class Canvas {
     };
     return {fixed(p.x), fixed(p.y)};
   }
-  static cv::Scalar ToScalar(DrawingColour c) {
+  static cv::Scalar ToScalar(DrawingColor c) {
     return {static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)};
   }
 
@@ -111,7 +111,7 @@ class Canvas {
 
 }  // namespace
 
-std::string DrawingSvg(const LineDrawing& drawing, int width_px) {
+std::string DrawingSvg(const VectorDrawing& drawing, int width_px) {
   const double height_px = width_px * drawing.height / drawing.width;
   std::string svg = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -129,7 +129,7 @@ std::string DrawingSvg(const LineDrawing& drawing, int width_px) {
       fmt::format_to(out, "{}{},{}", separator, Number(p.x), Number(p.y));
       separator = " ";
     }
-    fmt::format_to(out, "\" stroke=\"{}\" stroke-width=\"{}\"", Hex(line.colour),
+    fmt::format_to(out, "\" stroke=\"{}\" stroke-width=\"{}\"", Hex(line.color),
                    Number(line.width));
     if (line.dashed) fmt::format_to(out, " stroke-dasharray=\"{}\"", Number(kDash));
     svg += "/>\n";
@@ -150,12 +150,12 @@ std::string DrawingSvg(const LineDrawing& drawing, int width_px) {
                    "<text {0} stroke=\"#fff\" stroke-width=\"{1}\" stroke-linejoin=\"round\">{2}"
                    "</text><text {0} fill=\"{3}\">{2}</text>\n",
                    place, Number(kHalo * text.size), files::EscapeMarkup(text.text),
-                   Hex(text.colour));
+                   Hex(text.color));
   }
   return svg + "</g>\n</svg>\n";
 }
 
-RgbImage RasterizeDrawing(const LineDrawing& drawing, int width_px) {
+RgbImage RasterizeDrawing(const VectorDrawing& drawing, int width_px) {
   const int height_px = static_cast<int>(std::lround(width_px * drawing.height / drawing.width));
   RgbImage large(width_px * kSupersampling, height_px * kSupersampling, 3);
   std::fill_n(large.data(), large.size(), std::uint8_t{255});

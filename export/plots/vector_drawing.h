@@ -10,14 +10,14 @@
 namespace pleinair::exports {
 
 /// sRGB, 8 bits a channel.
-struct DrawingColour {
+struct DrawingColor {
   std::uint8_t r = 0, g = 0, b = 0;
 };
 
 /// An open line through points; a closed one repeats its first.
 struct DrawingLine {
   std::vector<Vec2> points;
-  DrawingColour colour;
+  DrawingColor color;
   double width = 1.0;
   bool dashed = false;
 };
@@ -25,7 +25,7 @@ struct DrawingLine {
 struct DrawingDisc {
   Vec2 centre;
   double radius = 1.0;
-  DrawingColour fill;
+  DrawingColor fill;
 };
 
 /// One line of ASCII text, centred on `centre`; with a white halo, so that it can stand on lines.
@@ -33,12 +33,12 @@ struct DrawingText {
   Vec2 centre;
   double size = 12.0;  ///< Of the font.
   std::string text;
-  DrawingColour colour;
+  DrawingColor color;
 };
 
 /// A drawing of coloured lines on white: in units of its own, x right, y down, from the top-left
 /// corner. Lines are drawn first, then discs, then texts, each in their order.
-struct LineDrawing {
+struct VectorDrawing {
   double width = 0.0, height = 0.0;
   std::string title;
   std::vector<DrawingLine> lines;
@@ -47,9 +47,9 @@ struct LineDrawing {
 };
 
 /// SVG 1.1, `width_px` wide. Coordinates are rounded, so equal drawings give equal bytes.
-std::string DrawingSvg(const LineDrawing& drawing, int width_px);
+std::string DrawingSvg(const VectorDrawing& drawing, int width_px);
 
 /// The same as an 8-bit sRGB picture.
-RgbImage RasterizeDrawing(const LineDrawing& drawing, int width_px);
+RgbImage RasterizeDrawing(const VectorDrawing& drawing, int width_px);
 
 }  // namespace pleinair::exports

@@ -12,7 +12,7 @@ namespace pleinair::exports {
 
 double RoundedMetres(double mm) { return std::round(mm * 1e9) / 1e12; }
 
-double SmallestGap_mm(double size_mm) { return size_mm * tracker::sg::kQuiet / tracker::sg::kEdge; }
+double MinGap_mm(double size_mm) { return size_mm * tracker::sg::kQuiet / tracker::sg::kEdge; }
 
 std::string DescribeBoard(const Board& board) {
   nlohmann::ordered_json description = {{"format", 1},

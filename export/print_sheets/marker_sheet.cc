@@ -16,7 +16,7 @@ namespace {
 
 namespace sg = tracker::sg;
 
-SheetPrint PlacePrint(int number, double size_mm, Vec2 centre) {
+SheetMarker PlaceMarkerOnSheet(int number, double size_mm, Vec2 centre) {
   const double module_mm = size_mm / sg::kEdge;
   const double half = 0.5 * sg::kModules * module_mm;
   return {tracker::SgMarkerPattern(number), centre - Vec2{half, half}, module_mm};
@@ -45,7 +45,7 @@ Result<Sheet> MarkerSheet(int number, double size_mm, PageSize page) {
   const Vec2 area{size_mm + 2.0 * quiet_mm, size_mm + 2.0 * quiet_mm};
   PLEINAIR_RETURN_IF_ERROR(CheckFit(legend, area, page));
   const Vec2 top_left = PlaceArea(area, page);
-  sheet.prints.push_back(PlacePrint(number, size_mm, top_left + area * 0.5));
+  sheet.prints.push_back(PlaceMarkerOnSheet(number, size_mm, top_left + area * 0.5));
   AddLegend(&sheet, legend, top_left, area, quiet_mm);
   return sheet;
 }
@@ -76,13 +76,13 @@ Result<Sheet> BoardSheet(const Board& board, PageSize page) {
   for (int i = 0; i < board.Count(); ++i) {
     const Vec2 centre = board.Centre_mm(i);
     sheet.prints.push_back(
-        PlacePrint(board.first + i, board.size_mm, middle + Vec2{centre.x, -centre.y}));
+        PlaceMarkerOnSheet(board.first + i, board.size_mm, middle + Vec2{centre.x, -centre.y}));
   }
   AddLegend(&sheet, legend, top_left, area, quiet_mm);
   return sheet;
 }
 
-CornersOnPage FindCorners(const SheetPrint& print) {
+CornersOnPage FindCorners(const SheetMarker& print) {
   const int quiet = (print.pattern.modules - print.pattern.edge_modules) / 2;
   const double edge_mm = print.pattern.edge_modules * print.module_mm;
   const Vec2 first = print.top_left_mm + Vec2{1.0, 1.0} * (quiet * print.module_mm);

@@ -11,8 +11,8 @@
 namespace pleinair::exports {
 
 /// Edges that can be printed: modules of 0.1 mm at least, and a page that a PDF can hold.
-constexpr double kSmallestMarker_mm = 4.0;
-constexpr double kLargestMarker_mm = 4000.0;
+constexpr double kMinMarker_mm = 4.0;
+constexpr double kMaxMarker_mm = 4000.0;
 
 /// Errors (input): a length from the command line that is no number; ranges let "nan" pass.
 Result<void> CheckLength(const std::string& option, double length_mm);
@@ -43,6 +43,6 @@ struct Board {
 Result<Sheet> BoardSheet(const Board& board, PageSize page);
 
 /// Where the corners of a print stand on its page.
-CornersOnPage FindCorners(const SheetPrint& print);
+CornersOnPage FindCorners(const SheetMarker& print);
 
 }  // namespace pleinair::exports

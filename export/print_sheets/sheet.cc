@@ -20,8 +20,8 @@ constexpr NamedPage kPages[] = {
     {"A2", {420, 594}}, {"A1", {594, 841}}, {"A0", {841, 1189}},
 };
 constexpr std::string_view kLandscape = "-landscape";
-constexpr double kSmallestSide_mm = 30.0;
-constexpr double kLargestSide_mm = 5000.0;  // PDF readers stop at 14,400 points, 5,080 mm.
+constexpr double kMinSide_mm = 30.0;
+constexpr double kMaxSide_mm = 5000.0;  // PDF readers stop at 14,400 points, 5,080 mm.
 
 constexpr PageSize Turned(PageSize page) { return {page.height_mm, page.width_mm}; }
 
@@ -36,7 +36,7 @@ bool ParseSides(const std::string& text, PageSize* page) {
 }
 
 bool SideInRange(double side_mm) {  // False for NaN.
-  return side_mm >= kSmallestSide_mm && side_mm <= kLargestSide_mm;
+  return side_mm >= kMinSide_mm && side_mm <= kMaxSide_mm;
 }
 
 }  // namespace
@@ -53,9 +53,8 @@ Result<PageSize> ParsePageSize(const std::string& text) {
                       "or WIDTHxHEIGHT in mm, for example 300x400");
   }
   if (!SideInRange(page.width_mm) || !SideInRange(page.height_mm)) {
-    return InputError(
-        "--page", "a page of " + text + " mm cannot be made",
-        fmt::format("give sides from {} to {} mm", kSmallestSide_mm, kLargestSide_mm));
+    return InputError("--page", "a page of " + text + " mm cannot be made",
+                      fmt::format("give sides from {} to {} mm", kMinSide_mm, kMaxSide_mm));
   }
   return page;
 }

@@ -30,7 +30,7 @@ std::string PageName(PageSize page);
 /// up to whole millimetres.
 PageSize FindPageFor(PageSize needed);
 
-struct SheetPrint {
+struct SheetMarker {
   tracker::MarkerPattern pattern;
   Vec2 top_left_mm;  ///< Of the quiet zone.
   double module_mm = 0.0;
@@ -55,7 +55,7 @@ struct SheetText {
 struct Sheet {
   PageSize page;
   std::string title;
-  std::vector<SheetPrint> prints;
+  std::vector<SheetMarker> prints;
   std::vector<SheetRectangle> rectangles;
   std::vector<SheetTriangle> triangles;
   std::vector<SheetText> texts;

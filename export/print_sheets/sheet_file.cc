@@ -15,12 +15,12 @@ namespace pleinair::exports {
 namespace {
 
 // The largest page with a name, A0, has 144 megapixels.
-constexpr double kMostMegapixels = 200.0;
+constexpr double kMaxMegapixels = 200.0;
 
 Result<std::string> RenderPng(const Sheet& sheet) {
   const double megapixels =
       sheet.page.width_mm * sheet.page.height_mm * kSheetPixelsPerMm * kSheetPixelsPerMm * 1e-6;
-  if (megapixels > kMostMegapixels) {
+  if (megapixels > kMaxMegapixels) {
     return InputError("--page",
                       "a page of " + PageName(sheet.page) + " mm is too large for a PNG picture",
                       "use --pdf or --svg, or a page no larger than A0");

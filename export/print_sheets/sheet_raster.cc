@@ -65,8 +65,8 @@ void DrawModules(const AxisCoverage& across, const AxisCoverage& down, IsBlack i
   }
 }
 
-void DrawPrint(const tracker::MarkerPattern& print, Vec2 top_left_px, double module_px,
-               Image<std::uint8_t>* picture) {
+void DrawMarker(const tracker::MarkerPattern& print, Vec2 top_left_px, double module_px,
+                Image<std::uint8_t>* picture) {
   DrawModules(
       AxisCoverage(top_left_px.x, module_px, print.modules, picture->width()),
       AxisCoverage(top_left_px.y, module_px, print.modules, picture->height()),
@@ -104,9 +104,9 @@ Image<std::uint8_t> RasterizeSheet(const Sheet& sheet) {
   const int height = static_cast<int>(std::lround(sheet.page.height_mm * kSheetPixelsPerMm));
   Image<std::uint8_t> picture(width, height);
   std::fill_n(picture.data(), picture.size(), std::uint8_t{255});
-  for (const SheetPrint& print : sheet.prints) {
-    DrawPrint(print.pattern, print.top_left_mm * kSheetPixelsPerMm,
-              print.module_mm * kSheetPixelsPerMm, &picture);
+  for (const SheetMarker& print : sheet.prints) {
+    DrawMarker(print.pattern, print.top_left_mm * kSheetPixelsPerMm,
+               print.module_mm * kSheetPixelsPerMm, &picture);
   }
   for (const SheetRectangle& r : sheet.rectangles) {
     const Vec2 start = r.top_left_mm * kSheetPixelsPerMm, size = r.size_mm * kSheetPixelsPerMm;
@@ -120,10 +120,10 @@ Image<std::uint8_t> RasterizeSheet(const Sheet& sheet) {
   return picture;
 }
 
-Image<std::uint8_t> RasterizePrint(const tracker::MarkerPattern& print, int pixels) {
+Image<std::uint8_t> RasterizeMarker(const tracker::MarkerPattern& print, int pixels) {
   Image<std::uint8_t> picture(pixels, pixels);
   std::fill_n(picture.data(), picture.size(), std::uint8_t{255});
-  DrawPrint(print, {0.0, 0.0}, static_cast<double>(pixels) / print.modules, &picture);
+  DrawMarker(print, {0.0, 0.0}, static_cast<double>(pixels) / print.modules, &picture);
   return picture;
 }
 

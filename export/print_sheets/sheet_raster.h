@@ -19,7 +19,7 @@ Image<std::uint8_t> RasterizeSheet(const Sheet& sheet);
 
 /// The bare print, quiet zone included, as `pixels` × `pixels`. Modules end on whole pixels where
 /// `pixels` is a multiple of the print's modules, and are smoothed as above elsewhere.
-Image<std::uint8_t> RasterizePrint(const tracker::MarkerPattern& print, int pixels);
+Image<std::uint8_t> RasterizeMarker(const tracker::MarkerPattern& print, int pixels);
 
 /// A grey picture as PNG with its resolution (pHYs) and nothing that varies between runs. Errors
 /// (system): no memory.

@@ -20,7 +20,7 @@ using tracker::CalibrationBoard;
 
 // White around the board, of a square: what OpenCV's search for chessboards needs.
 constexpr double kMargin = 0.5;
-constexpr double kSmallestSquare_mm = 4.0;
+constexpr double kMinSquare_mm = 4.0;
 
 struct Sides {
   int columns = 0, rows = 0;
@@ -71,13 +71,13 @@ tracker::MarkerPattern Squares(Sides squares) {
 
 }  // namespace
 
-Result<double> LargestSquare_mm(const CalibrationBoard& board, PageSize page) {
+Result<double> MaxSquare_mm(const CalibrationBoard& board, PageSize page) {
   // The legend's lines hardly depend on the size.
   const auto fits = [&](double square_mm) {
     return CheckFit(LegendOf({board, square_mm}, square_mm), AreaOf(board, square_mm), page);
   };
   double square_mm = std::floor(std::max(page.width_mm, page.height_mm));
-  while (square_mm > kSmallestSquare_mm && !fits(square_mm)) square_mm -= 1.0;
+  while (square_mm > kMinSquare_mm && !fits(square_mm)) square_mm -= 1.0;
   PLEINAIR_RETURN_IF_ERROR(fits(square_mm));
   return square_mm;
 }

@@ -20,7 +20,7 @@ struct SquareBoard {
 
 /// The largest whole millimetres for the board's squares with which it fits the page. Errors
 /// (input): not even the smallest does.
-Result<double> LargestSquare_mm(const tracker::CalibrationBoard& board, PageSize page);
+Result<double> MaxSquare_mm(const tracker::CalibrationBoard& board, PageSize page);
 
 /// A page with the board, true to scale, with a dimension arrow over its first square, a ruler and
 /// how to print it. Errors (input): a page that it does not fit, a dictionary that is not known.

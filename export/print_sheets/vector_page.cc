@@ -38,7 +38,7 @@ std::string PdfContent(const Sheet& sheet) {
   // From here on millimetres from the top-left corner, y down.
   fmt::format_to(out, "0 g\n{0} 0 0 -{0} 0 {1} cm\n", fmt::format("{:.8f}", kPointsPerMm),
                  fmt::format("{:.6f}", sheet.page.height_mm * kPointsPerMm));
-  for (const SheetPrint& print : sheet.prints) {
+  for (const SheetMarker& print : sheet.prints) {
     fmt::format_to(out, "q {0} 0 0 {0} {1} {2} cm\n", fmt::format("{:.6f}", print.module_mm),
                    Number(print.top_left_mm.x), Number(print.top_left_mm.y));
     for (const auto& loop : TraceBlackOutlines(print.pattern)) {
@@ -110,7 +110,7 @@ std::string WriteSvg(const Sheet& sheet) {
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
       width, height, files::EscapeMarkup(sheet.title));
   auto out = std::back_inserter(svg);
-  for (const SheetPrint& print : sheet.prints) {
+  for (const SheetMarker& print : sheet.prints) {
     fmt::format_to(out,
                    "<path fill-rule=\"evenodd\" transform=\"translate({} {}) scale({:.6f})\" d=\"",
                    Number(print.top_left_mm.x), Number(print.top_left_mm.y), print.module_mm);

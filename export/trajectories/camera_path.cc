@@ -14,7 +14,7 @@ constexpr double kLengthTolerance = 0.01;
 constexpr double kMaxDistance = 1e9;
 
 // 285 years; leaves room to count on.
-constexpr std::int64_t kLongestNs = 9'000'000'000'000'000'000;
+constexpr std::int64_t kMaxTime_ns = 9'000'000'000'000'000'000;
 
 bool IsNear(Vec3 place) {
   return std::abs(place.x) <= kMaxDistance && std::abs(place.y) <= kMaxDistance &&
@@ -40,7 +40,7 @@ Result<void> AddPose(const std::string& where, PathPose pose, CameraPath* path) 
   if (!path->poses.empty() && pose.timestamp_ns <= path->poses.back().timestamp_ns) {
     return InputError(where, "is not later than the pose before", "sort the lines by time");
   }
-  if (pose.timestamp_ns > kLongestNs || pose.timestamp_ns < -kLongestNs) {
+  if (pose.timestamp_ns > kMaxTime_ns || pose.timestamp_ns < -kMaxTime_ns) {
     return InputError(where, "has a time stamp of more than 9e9 seconds",
                       "mend it, or get a whole copy of the file");
   }

@@ -13,7 +13,7 @@
 namespace pleinair::exports {
 namespace {
 
-constexpr int kLargestSide = 100000;
+constexpr int kMaxSide = 100000;
 
 /// Where a model's parameters go: one or two focal lengths, cx, cy, then distortion coefficients,
 /// each to its place in CameraModel::distortion.
@@ -97,8 +97,8 @@ Result<CameraModel> CameraFromColmap(const ColmapCamera& camera, const std::stri
     return InputError(where, "has a parameter that is not finite",
                       "mend it, or get a whole copy of the file");
   }
-  if (camera.width < 1 || camera.height < 1 || camera.width > kLargestSide ||
-      camera.height > kLargestSide) {
+  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxSide ||
+      camera.height > kMaxSide) {
     return InputError(where, fmt::format("has a picture of {}x{}", camera.width, camera.height),
                       "sides are 1 to 100000 pixels");
   }

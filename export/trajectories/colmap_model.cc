@@ -80,8 +80,8 @@ Result<CameraPath> PathFromColmap(ColmapModel model, double frame_rate_hz) {
     PathPose pose;
     const double index =
         numbered ? static_cast<double>(*pictures[i].number) : static_cast<double>(i);
-    constexpr double kMostSeconds = 9e9;
-    if (!(index / frame_rate_hz <= kMostSeconds)) {
+    constexpr double kMaxTime_s = 9e9;
+    if (!(index / frame_rate_hz <= kMaxTime_s)) {
       return InputError(picture.where, "lies centuries after the first picture",
                         "give the frame rate that the pictures were taken with");
     }

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kFloat = 5126, kUnsignedByte = 5121;
 constexpr int kPoints = 0, kTriangleStrip = 5;
 constexpr int kArrayBuffer = 34962;
-constexpr double kNearest_m = 0.01;
+constexpr double kMinDistance_m = 0.01;
 
 /// The scene's binary data and what the JSON says of it.
 class Buffer {
@@ -29,15 +29,15 @@ class Buffer {
   int AddFloats(const std::vector<float>& values, int components, bool vertices) {
     const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const std::size_t count = values.size() / components;
-    Json least = Json::array(), most = Json::array();
+    Json minimum = Json::array(), maximum = Json::array();
     for (int c = 0; c < components; ++c) {
       float low = std::numeric_limits<float>::max(), high = -low;
       for (std::size_t i = 0; i < count; ++i) {
         low = std::min(low, values[i * components + c]);
         high = std::max(high, values[i * components + c]);
       }
-      least.push_back(low);
-      most.push_back(high);
+      minimum.push_back(low);
+      maximum.push_back(high);
     }
     BeginView(values.size() * sizeof(float), vertices);
     for (const float value : values) PutLittleEndian(value, &bytes_);
@@ -45,12 +45,12 @@ class Buffer {
                         {"componentType", kFloat},
                         {"count", count},
                         {"type", types[components - 1]},
-                        {"min", least},
-                        {"max", most}});
+                        {"min", minimum},
+                        {"max", maximum}});
   }
 
   /// Colours of four bytes, as vertices.
-  int AddColours(const std::string& rgba) {
+  int AddColors(const std::string& rgba) {
     BeginView(rgba.size(), true);
     bytes_ += rgba;
     return AddAccessor({{"bufferView", views_.size() - 1},
@@ -133,7 +133,7 @@ Json CameraJson(const CameraModel& lens, std::int64_t first_ns) {
           {"perspective",
            {{"yfov", 2.0 * std::atan(0.5 * vertical)},
             {"aspectRatio", horizontal / vertical},
-            {"znear", kNearest_m}}},
+            {"znear", kMinDistance_m}}},
           {"extras", {{"pleinair", LensJson(lens, first_ns)}}}};
 }
 
@@ -161,17 +161,17 @@ void AddThings(const CameraPath& path, const GltfPathOptions& options, Buffer* b
   }
   if (path.points.empty()) return;
   std::vector<float> places;
-  std::string colours;
+  std::string colors;
   for (const PathPoint& point : path.points) {
     const Vec3 p = (scene * point.place).xyz;
     for (const double c : {p.x, p.y, p.z}) places.push_back(static_cast<float>(c));
-    for (const std::uint8_t code : point.rgb) colours += static_cast<char>(code);
-    colours += '\xFF';
+    for (const std::uint8_t code : point.rgb) colors += static_cast<char>(code);
+    colors += '\xFF';
   }
-  add("points", {{"attributes",
-                  {{"POSITION", buffer->AddFloats(places, 3, true)},
-                   {"COLOR_0", buffer->AddColours(colours)}}},
-                 {"mode", kPoints}});
+  add("points",
+      {{"attributes",
+        {{"POSITION", buffer->AddFloats(places, 3, true)}, {"COLOR_0", buffer->AddColors(colors)}}},
+       {"mode", kPoints}});
 }
 
 void AppendWord(std::size_t value, std::string* bytes) {

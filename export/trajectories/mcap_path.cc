@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr const char* kCamera = "camera";
 // A print is thin; viewers want some height.
-constexpr double kPrintThickness_m = 0.001;
+constexpr double kMarkerThickness_m = 0.001;
 
 // JSON Schemas of what is written. The names are those of Foxglove's published message types, which
 // viewers know by name.
@@ -62,8 +62,8 @@ Json PoseInFrameSchema() {
 }
 
 Json SceneSchema() {
-  const Json colour = Object({{"r", Number()}, {"g", Number()}, {"b", Number()}, {"a", Number()}});
-  const Json cube = Object({{"pose", PoseSchema()}, {"size", VectorSchema()}, {"color", colour}});
+  const Json color = Object({{"r", Number()}, {"g", Number()}, {"b", Number()}, {"a", Number()}});
+  const Json cube = Object({{"pose", PoseSchema()}, {"size", VectorSchema()}, {"color", color}});
   const Json nothing = List(Object(Json::object()));
   const Json entity = Object({{"timestamp", TimeSchema("time")},
                               {"frame_id", Text()},
@@ -116,10 +116,10 @@ Json SceneJson(const McapPathOptions& options, std::uint64_t time_ns) {
   const Json nothing = Json::array();
   const double size = options.marker_size_m;
   // What lies below the print's face.
-  const Json pose{{"position", VectorJson({0, 0, -0.5 * kPrintThickness_m})},
+  const Json pose{{"position", VectorJson({0, 0, -0.5 * kMarkerThickness_m})},
                   {"orientation", TurnJson({})}};
   const Json cube{{"pose", pose},
-                  {"size", VectorJson({size, size, kPrintThickness_m})},
+                  {"size", VectorJson({size, size, kMarkerThickness_m})},
                   {"color", {{"r", 0.1}, {"g", 0.1}, {"b", 0.1}, {"a", 1.0}}}};
   Json entity{
       {"timestamp", TimeJson(time_ns)}, {"frame_id", options.reference}, {"id", "marker"},

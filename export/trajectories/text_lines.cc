@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kSeparators = " \t,";
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
-constexpr double kMostSeconds = 9e9;  // What 64 bits of nanoseconds hold.
+constexpr double kMaxTime_s = 9e9;  // What 64 bits of nanoseconds hold.
 constexpr std::size_t kShown = 40;
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -101,7 +101,7 @@ std::string_view TextLines::Rest(std::size_t fields) const {
 
 Result<std::int64_t> NanosecondsFromSeconds(std::string_view seconds, const std::string& where) {
   const std::optional<double> about = files::ParseNumber(seconds);
-  if (!about || std::abs(*about) > kMostSeconds) {
+  if (!about || std::abs(*about) > kMaxTime_s) {
     return InputError(where,
                       fmt::format("\"{}\" is not a time in seconds", seconds.substr(0, kShown)),
                       "write seconds and decimals, for example 1305031098.6659");
@@ -132,8 +132,8 @@ std::string SecondsText(std::int64_t nanoseconds) {
   const std::int64_t whole = nanoseconds / kNanoseconds, rest = nanoseconds % kNanoseconds;
   std::string text =
       fmt::format("{}{}.{:09}", nanoseconds < 0 ? "-" : "", std::abs(whole), std::abs(rest));
-  constexpr std::size_t kFewestDecimals = 6;
-  const std::size_t shortest = text.size() - 9 + kFewestDecimals;
+  constexpr std::size_t kMinDecimals = 6;
+  const std::size_t shortest = text.size() - 9 + kMinDecimals;
   while (text.size() > shortest && text.back() == '0') text.pop_back();
   return text;
 }

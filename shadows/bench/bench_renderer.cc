@@ -97,21 +97,21 @@ Result<View> BenchRenderer::Tightened(const View& view) {
   DrawDepth(target_, view);
   std::vector<float> depths(static_cast<std::size_t>(width_) * height_);
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-  float least = 1.0F, most = 0.0F;
+  float minimum = 1.0F, maximum = 0.0F;
   for (const float depth : depths) {
     if (depth >= 1.0F) continue;
-    least = std::min(least, depth);
-    most = std::max(most, depth);
+    minimum = std::min(minimum, depth);
+    maximum = std::max(maximum, depth);
   }
-  if (least > most)
+  if (minimum > maximum)
     return InputError("the view", "shows no surface", "turn the camera to the scene");
   const auto metres = [&](double depth) {
     return 2.0 * view.near_m * view.far_m /
            (view.far_m + view.near_m - (2.0 * depth - 1.0) * (view.far_m - view.near_m));
   };
   View tightened = view;
-  tightened.near_m = Stepped(metres(least), -1);
-  tightened.far_m = Stepped(metres(most) * 1.001, 1);
+  tightened.near_m = Stepped(metres(minimum), -1);
+  tightened.far_m = Stepped(metres(maximum) * 1.001, 1);
   return tightened;
 }
 
@@ -180,7 +180,7 @@ Result<VisibilityPicture> BenchRenderer::DrawPartitions(const View& view) {
 }
 
 Result<FrameTime> BenchRenderer::Time(const View& view, int frames) {
-  FrameTime least{1e30, 1e30, 1e30};
+  FrameTime minimum{1e30, 1e30, 1e30};
   for (int i = 0; i < frames; ++i) {
     maps_.front().Invalidate();
     glFinish();
@@ -188,16 +188,16 @@ Result<FrameTime> BenchRenderer::Time(const View& view, int frames) {
     auto start = Clock::now();
     PLEINAIR_RETURN_IF_ERROR(UpdateMaps(view));
     glFinish();
-    least.maps_ms = std::min(least.maps_ms, MillisecondsSince(start));
+    minimum.maps_ms = std::min(minimum.maps_ms, MillisecondsSince(start));
     start = Clock::now();
     DrawDepth(DrawTarget(), view);
     DrawVisible(view_program_, view);
     glFinish();
-    least.scene_ms = std::min(least.scene_ms, MillisecondsSince(start));
-    least.cpu_ms = std::min(least.cpu_ms,
-                            1e3 * static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC);
+    minimum.scene_ms = std::min(minimum.scene_ms, MillisecondsSince(start));
+    minimum.cpu_ms = std::min(minimum.cpu_ms,
+                              1e3 * static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC);
   }
-  return least;
+  return minimum;
 }
 
 Result<std::vector<float>> BenchRenderer::Probe(const ProbeGrid& grid) {

@@ -25,7 +25,7 @@ struct StraightEdge {
 };
 
 /// A foot where a vertical wall, along x, meets the ground on its shadow side.
-struct ContactLine {
+struct ContactEdge {
   glm::dvec3 middle{0.0};
   double length = 0.0;
   double away_y = 1.0;  ///< ±1: along y, away from the wall.
@@ -38,7 +38,7 @@ struct BenchScene {
   glm::dvec3 to_sun{0.0, 0.0, 1.0};  ///< Unit.
   View view;  ///< Its depths bound what can be seen; the renderer tightens them.
   std::vector<StraightEdge> edges = {};
-  std::vector<ContactLine> contacts = {};
+  std::vector<ContactEdge> contacts = {};
 };
 
 /// A camera at `eye` that looks at `target`, x level, with `fov` radians across.

@@ -35,7 +35,7 @@ float ShadowWidestKernel(float resolution) { return min(128.0f, resolution / 8.0
 // disc's widest ray has there. All of it would be too much: what is seen from the sun may hide
 // something lower beneath it, or the ray may have met the same thing before; a sunlit wall that
 // rises from the ground has a hundredth.
-float ShadowLeastHeight(float distance_m, float tan_radius) {
+float ShadowMinHeight(float distance_m, float tan_radius) {
   return max(0.1f * distance_m / tan_radius, 0.0f);
 }
 
@@ -45,20 +45,20 @@ const float kShadowWallRise = 3.0f;
 
 // The same height for the search, which looks over the disc's widest ray and the pixel together:
 // `away_m` from the receiver, of which the pixel has `pixel_m`.
-float ShadowLeastHeightSought(float away_m, float pixel_m, float tan_radius) {
-  return max(ShadowLeastHeight(away_m - pixel_m, tan_radius), kShadowWallRise * away_m);
+float ShadowMinHeightSought(float away_m, float pixel_m, float tan_radius) {
+  return max(ShadowMinHeight(away_m - pixel_m, tan_radius), kShadowWallRise * away_m);
 }
 
 // Cosines of the sun's incidence, below which: a surface counts as turned away (it gets less than a
 // thousandth of the sun's light, and derivatives of positions tell its side no better); its plane is
 // taken to be no steeper (what lies beyond an edge-on leaf's rim is not its plane, but the ground
 // under a sun of 0.3° is); and its steepness excuses no more depth.
-const float kShadowLeastFacing = 0.001f, kShadowSteepest = 0.005f, kShadowMostRise = 0.02f;
+const float kShadowMinFacing = 0.001f, kShadowSteepest = 0.005f, kShadowMaxRise = 0.02f;
 
-bool ShadowFaces(float facing) { return facing > kShadowLeastFacing; }
+bool ShadowFaces(float facing) { return facing > kShadowMinFacing; }
 float ShadowPlaneFacing(float facing) { return max(facing, kShadowSteepest); }
 // Of a plane that rises by `slope` from texel to texel.
-float ShadowRise(float slope, float facing) { return slope * min(facing / kShadowMostRise, 1.0f); }
+float ShadowRise(float slope, float facing) { return slope * min(facing / kShadowMaxRise, 1.0f); }
 
 // Standard normal distribution function by the logistic fit of Bowling et al. 2009, "A logistic
 // approximation to the cumulative normal distribution", Eq. (10): error at most 1.4e-4.

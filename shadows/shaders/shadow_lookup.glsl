@@ -62,9 +62,9 @@ ShadowQuad ShadowFetch(int set, int slice, vec4 size, ShadowReceiver r, vec2 cor
   return quad;
 }
 
-vec4 ShadowBlocks(ShadowQuad quad, float least_height) {
+vec4 ShadowBlocks(ShadowQuad quad, float min_height) {
   return vec4(greaterThan(quad.excess, vec4(0.0))) *
-         vec4(greaterThan(quad.height, vec4(least_height)));
+         vec4(greaterThan(quad.height, vec4(min_height)));
 }
 
 // Between 2×2 texels in a quad's order; f: from the lower left one's centre to the others'.
@@ -74,9 +74,9 @@ float ShadowBilinear(vec4 quad, vec2 f) {
 }
 
 // Share of the 2×2 texels around `texel` that let light pass, weighted bilinearly.
-float ShadowTap(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel, float least_height) {
+float ShadowTap(int set, int slice, vec4 size, ShadowReceiver r, vec2 texel, float min_height) {
   vec2 corner = floor(texel - 0.5);
-  vec4 blocks = ShadowBlocks(ShadowFetch(set, slice, size, r, corner), least_height);
+  vec4 blocks = ShadowBlocks(ShadowFetch(set, slice, size, r, corner), min_height);
   return 1.0 - ShadowBilinear(blocks, texel - 0.5 - corner);
 }
 

@@ -4,19 +4,19 @@
 #include "shadows/shaders/shadow_formulae.glsl"
 #include "shadows/shaders/shadow_lookup.glsl"
 
-float ShadowFromMoments(int set, int slice, vec4 size, ShadowReceiver r, float least_sigma) {
+float ShadowFromMoments(int set, int slice, vec4 size, ShadowReceiver r, float min_sigma) {
   vec2 map_texels = vec2(textureSize(shadow_maps[2 * set], 0).xy);
   // The border's texels are the slice's own: beyond them another size's map may lie.
   vec2 texel = clamp(r.texel, vec2(0.5), vec2(size.z - 0.5));
   vec4 moments = textureLod(shadow_maps[2 * set], vec3(texel / map_texels, float(slice)), 0.0);
-  float sigma = least_sigma + r.rise / size.w;
+  float sigma = min_sigma + r.rise / size.w;
   float depth = (r.depth - r.bias) / size.w - 0.5;
 #ifdef SHADOW_METHOD_EXPONENTIAL
   vec2 warped = ShadowWarp(depth);
   // A deviation of depth, carried through the warp: its derivative is c times the warp itself.
-  vec2 least = 2.0 * kShadowWarp * warped * sigma;
+  vec2 minimum = 2.0 * kShadowWarp * warped * sigma;
   vec2 mean = moments.xz;
-  vec2 variance = max(moments.yw - mean * mean, least * least);
+  vec2 variance = max(moments.yw - mean * mean, minimum * minimum);
   return min(VarianceVisibility(warped.x, mean.x, variance.x),
              VarianceVisibility(warped.y, mean.y, variance.y));
 #else

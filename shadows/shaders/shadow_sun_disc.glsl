@@ -33,8 +33,8 @@ vec3 ShadowBounds(int set, int slice, vec4 size, vec2 texel, float reach) {
 
 // Points for an area of `square_texels` over π, a tap seeing four texels: `a_texel` each on top of
 // `least`. Not a whole number: the last point weighs less, so that nothing jumps where one is added.
-float ShadowCount(float square_texels, float a_texel, float least, float most) {
-  return clamp(least + a_texel * square_texels, least, most);
+float ShadowCount(float square_texels, float a_texel, float minimum, float maximum) {
+  return clamp(minimum + a_texel * square_texels, minimum, maximum);
 }
 
 // VogelDisc's turn from point to point, 2.39996 rad: spares a sine and a cosine a point.
@@ -84,7 +84,7 @@ float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_rad
 // together. Looks of the disc each moved to another place in the pixel tremble twice as much.
 // Where it is not wanted, one look.
 float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius,
-                       float height, float most, bool wanted) {
+                       float height, float maximum, bool wanted) {
   // A look is a tent of variance 1/6 texel² an axis; a disc of radius ρ has ρ²/4.
   float texel_m = max(size.x, size.y);
   float disc_m = min(height * tan_radius, ShadowWidestKernel(size.z) * min(size.x, size.y));
@@ -95,7 +95,7 @@ float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float ta
   vec2 along = vec2(across.x, skew) / sqrt(max(across.x, 1e-12));  // Cholesky's factors.
   mat2 ellipse = 2.0 * mat2(along, vec2(0.0, sqrt(max(across.y - along.y * along.y, 0.0))));
   float visible = 0.0;
-  float count = wanted ? ShadowCount(ellipse[0].x * ellipse[1].y, 2.0, 20.0, most) : 0.0;
+  float count = wanted ? ShadowCount(ellipse[0].x * ellipse[1].y, 2.0, 20.0, maximum) : 0.0;
   vec2 spoke = vec2(1.0, 0.0);
   int i = 0;
   do {
@@ -103,8 +103,8 @@ float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float ta
     vec2 texel = r.texel + ellipse * (radius * spoke);
     spoke = kGoldenTurn * spoke;
     float weight = min(count - float(i), 1.0);
-    float least_m = ShadowLeastHeight(radius * filter_m - texel_m, tan_radius);
-    visible += weight * ShadowTap(set, slice, size, r, texel, least_m);
+    float min_m = ShadowMinHeight(radius * filter_m - texel_m, tan_radius);
+    visible += weight * ShadowTap(set, slice, size, r, texel, min_m);
   } while (float(++i) < count);
   return visible / max(count, 1e-3);
 }
@@ -162,8 +162,8 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
     vec2 corner = floor(r.texel + offset_m / size.xy - 0.5);
     ShadowQuad quad = ShadowFetch(set, slice, size, r, corner);
     float away_m = length(offset_m) - texel_m;
-    float least_m = ShadowLeastHeightSought(away_m, pixel_m, tan_radius);
-    vec4 blocks = ShadowBlocks(quad, least_m);
+    float min_m = ShadowMinHeightSought(away_m, pixel_m, tan_radius);
+    vec4 blocks = ShadowBlocks(quad, min_m);
     height_sum += weight * dot(blocks, quad.height);
     blockers += weight * dot(blocks, vec4(1.0));
   } while (float(++i) < search_count);

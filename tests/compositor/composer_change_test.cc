@@ -25,10 +25,12 @@ TEST(Composer, ShadesAMovedModelWhereItStandsNow) {
   ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
                                     (*solver)->RadianceFromBelow(light, Mat3{})));
   const RgbImage picture = EvenPicture(77);
-  ASSERT_TRUE((*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain}));
+  ASSERT_TRUE((*composer)->Compose(picture.view(), kFromAbove,
+                                   {kExposureScale, kExposureScale, kExposureScale}));
   // Half as large, a quarter turned and 0.4 m aside.
   (*composer)->MoveModel(0, {{0, -0.5, 0, 0.5, 0, 0, 0, 0, 0.5}}, {0.4, 0.2, 0});
-  const auto moved = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+  const auto moved = (*composer)->Compose(picture.view(), kFromAbove,
+                                          {kExposureScale, kExposureScale, kExposureScale});
   ASSERT_TRUE(moved.has_value());
   EXPECT_EQ(SeenAt(*moved, {0, 0, 0.3}), LinearFromSrgb8()[77]);
   EXPECT_NEAR(SeenAt(*moved, {0.4, 0.2, 0.15}), Level(0.5), 0.02);
@@ -44,7 +46,8 @@ TEST(Composer, DrawsAFurtherLightAsIfItWereTheFirst) {
   const SouthernSun sunny, overcast(0.0);
   const RgbImage picture = EvenPicture(120);
   const auto compose = [&](Composer* composer) -> Bytes {
-    const auto composed = composer->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+    const auto composed = composer->Compose(picture.view(), kFromAbove,
+                                            {kExposureScale, kExposureScale, kExposureScale});
     EXPECT_TRUE(composed.has_value());
     return {composed->data(), composed->data() + composed->size()};
   };
@@ -79,11 +82,11 @@ class SunReachOfWallTest : public ::testing::Test {
     const auto solver = LightSolver::Create(scene_, {.rays_per_vertex = 64});
     const auto composer = Composer::Create(kCamera, scene_, {});
     EXPECT_TRUE(solver.has_value() && composer.has_value());
-    (*composer)->LookForShade(false);
+    (*composer)->AssumeUnmodelledShadows(false);
     const auto compose = [&](const std::vector<LitMesh>& lit) {
       EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}, {}));
-      auto composed =
-          (*composer)->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+      auto composed = (*composer)->Compose(EvenPicture(200).view(), kFromAbove,
+                                           {kExposureScale, kExposureScale, kExposureScale});
       EXPECT_TRUE(composed.has_value());
       return *std::move(composed);
     };
@@ -91,17 +94,17 @@ class SunReachOfWallTest : public ::testing::Test {
     Pictures pictures;
     pictures.known = compose(lit);
     for (LitMesh& mesh : lit) {
-      for (SunReach& reach : mesh.sun_reach) {
-        if (reach == SunReach::kAll) reach = SunReach::kNone;
+      for (SunVisibility& reach : mesh.sun_visibility) {
+        if (reach == SunVisibility::kAll) reach = SunVisibility::kNone;
       }
     }
     pictures.misled = compose(lit);
-    for (LitMesh& mesh : lit) mesh.sun_reach.clear();
+    for (LitMesh& mesh : lit) mesh.sun_visibility.clear();
     pictures.looked_up = compose(lit);
     return pictures;
   }
 
-  static int MostDifference(const RgbImage& a, const RgbImage& b) {
+  static int MaxDifference(const RgbImage& a, const RgbImage& b) {
     int most = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
       most = std::max(most, std::abs(a.data()[i] - b.data()[i]));
@@ -119,8 +122,8 @@ TEST_F(SunReachOfWallTest, IsDrawnAsShadowMapsWouldHaveIt) {
       std::count_if(pictures.known.data(), pictures.known.data() + pictures.known.size(),
                     [](std::uint8_t code) { return code < 200; });
   EXPECT_GT(changed, 10'000) << "the sky's light changes far around the cube";
-  EXPECT_LE(MostDifference(pictures.known, pictures.looked_up), 2) << "but for half-light";
-  EXPECT_GT(MostDifference(pictures.misled, pictures.looked_up), 5) << "it is what is drawn";
+  EXPECT_LE(MaxDifference(pictures.known, pictures.looked_up), 2) << "but for half-light";
+  EXPECT_GT(MaxDifference(pictures.misled, pictures.looked_up), 5) << "it is what is drawn";
 }
 
 /// An overcast sky in air so thick that half of what is three metres away is seen.
@@ -141,21 +144,24 @@ TEST(Composer, LeavesTheAirBeforeAContactShadowFromTheFirstFrameOn) {
   ASSERT_TRUE(solver.has_value() && composer.has_value());
   const RgbImage picture = EvenPicture(150);
   const SouthernSun overcast(0.0);
-  const OvercastInHaze hazy;
+  const OvercastInHaze needs_airlight;
   const auto lit = (*solver)->Solve(overcast, Mat3{});
   const auto compose = [&](const sky::SkyModel& day) {
     EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}, {}));
-    auto composed = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+    auto composed = (*composer)->Compose(picture.view(), kFromAbove,
+                                         {kExposureScale, kExposureScale, kExposureScale});
     EXPECT_TRUE(composed.has_value());
     return *std::move(composed);
   };
-  const RgbImage in_haze = compose(hazy);
-  const auto again = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+  const RgbImage in_haze = compose(needs_airlight);
+  const auto again = (*composer)->Compose(picture.view(), kFromAbove,
+                                          {kExposureScale, kExposureScale, kExposureScale});
   ASSERT_TRUE(again.has_value());
   EXPECT_TRUE(std::equal(in_haze.data(), in_haze.data() + in_haze.size(), again->data()));
   // In clear air the picture shows the ratio; half of this one's light is the air's.
   const RgbImage clear = compose(overcast);
-  const double before = LinearFromSrgb8()[150], air = kGain * OvercastInHaze::kAirlight / 2;
+  const double before = LinearFromSrgb8()[150],
+               air = kExposureScale * OvercastInHaze::kAirlight / 2;
   ASSERT_LT(air, before);
   for (const Vec3& beside : {Vec3{-0.19, 0, 0}, Vec3{0.19, 0.05, 0}, Vec3{0, -0.2, 0}}) {
     const double ratio = SeenAt(clear, beside) / before;
@@ -186,8 +192,8 @@ TEST(Composer, BelievesNoDarkCornerOfAPhantom) {
     }
   }
   ASSERT_TRUE((*composer)->SetLight(lit, overcast, Mat3{}, {}));
-  const auto composed =
-      (*composer)->Compose(EvenPicture(150).view(), kFromAbove, {kGain, kGain, kGain});
+  const auto composed = (*composer)->Compose(EvenPicture(150).view(), kFromAbove,
+                                             {kExposureScale, kExposureScale, kExposureScale});
   ASSERT_TRUE(composed.has_value());
   for (int twentieth = 10; twentieth < 18; ++twentieth) {
     const double at = twentieth / 20.0;
@@ -202,8 +208,8 @@ TEST(Composer, MovesTheShadowOfAModelThatTurnsWithinItsBox) {
   const std::vector<PlacedModel> scene{kGround, Place(posts, false)};
   const auto composer = ComposerInTheSun(scene);
   const auto shares = [&] {
-    const auto composed =
-        composer->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+    const auto composed = composer->Compose(EvenPicture(200).view(), kFromAbove,
+                                            {kExposureScale, kExposureScale, kExposureScale});
     EXPECT_TRUE(composed);
     const double before = LinearFromSrgb8()[200];
     return std::pair{SeenAt(*composed, {-0.3, -0.16, 0}) / before,

@@ -27,7 +27,7 @@ class HazySouthernSun : public SouthernSun {
 
 TEST(Composer, SeesTheObjectThroughAsMuchFogAsItIsToldTo) {
   const SouthernSun clear;
-  const HazySouthernSun hazy;
+  const HazySouthernSun needs_airlight;
   const std::vector<PlacedModel> scene{kGround, kCube};
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
   ASSERT_TRUE(solver.has_value());
@@ -39,16 +39,16 @@ TEST(Composer, SeesTheObjectThroughAsMuchFogAsItIsToldTo) {
     options.fog.fill(fog);
     EXPECT_TRUE((*composer)->SetOptions(options));
     EXPECT_TRUE((*composer)->SetLight(lit, day, Mat3{}, (*solver)->RadianceFromBelow(day, Mat3{})));
-    const auto composed =
-        (*composer)->Compose(EvenPicture(128).view(), kFromAbove, {kGain, kGain, kGain});
+    const auto composed = (*composer)->Compose(EvenPicture(128).view(), kFromAbove,
+                                               {kExposureScale, kExposureScale, kExposureScale});
     return SeenAt(*composed, {0, 0, 0.3});
   };
   const double plain = top(clear, 1.0);
-  EXPECT_EQ(top(hazy, 0.0), plain);
+  EXPECT_EQ(top(needs_airlight, 0.0), plain);
   for (const double fog : {1.0, 2.0}) {
     const double left = std::exp2(-fog * 2.7 / 3.0);
-    EXPECT_NEAR(top(hazy, fog), plain * left + kGain * HazySouthernSun::kAirlight * (1.0 - left),
-                0.02)
+    EXPECT_NEAR(top(needs_airlight, fog),
+                plain * left + kExposureScale * HazySouthernSun::kAirlight * (1.0 - left), 0.02)
         << fog;
   }
 }
@@ -67,8 +67,8 @@ TEST(Composer, DrawsFogOfDifferentPartitionsWithoutASeam) {
   ASSERT_TRUE(composer.has_value());
   ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(day, Mat3{}), day, Mat3{},
                                     (*solver)->RadianceFromBelow(day, Mat3{})));
-  const auto composed =
-      (*composer)->Compose(EvenPicture(0).view(), eye_level, {kGain, kGain, kGain});
+  const auto composed = (*composer)->Compose(EvenPicture(0).view(), eye_level,
+                                             {kExposureScale, kExposureScale, kExposureScale});
   ASSERT_TRUE(composed.has_value());
   const shadows::View view =
       ViewOf(FitRenderCamera(kCamera, 1.0), eye_level, {{-400, -400, 0}, {400, 400, 0}});
@@ -90,7 +90,8 @@ TEST(Composer, DrawsFogOfDifferentPartitionsWithoutASeam) {
     }
     const double left = std::exp2(-through_m / 3.0);
     const double seen = LinearFromSrgb8()[(*composed)(160, y, 1)];
-    EXPECT_NEAR(seen, kGain * (radiance * left + HazySouthernSun::kAirlight * (1.0 - left)), 0.02)
+    EXPECT_NEAR(
+        seen, kExposureScale * (radiance * left + HazySouthernSun::kAirlight * (1.0 - left)), 0.02)
         << "row " << y << ", " << distance << " m";
     // Fog may thicken from row to row; a seam would be a step.
     if (last >= 0.0 && distance < 60.0) {
@@ -111,7 +112,7 @@ class HazySouthernField : public SouthernSun {
   static constexpr double kLeft = 0.6, kAirlight = 6000.0;
   /// How a surface 200 m away shows.
   static double Shown(double radiance) {
-    return kGain * (radiance * kLeft + kAirlight * (1.0 - kLeft));
+    return kExposureScale * (radiance * kLeft + kAirlight * (1.0 - kLeft));
   }
 };
 
@@ -132,15 +133,15 @@ TEST(Composer, FadesAShadowOnARealSurface200MetresAwayAsHazeFadesARealOne) {
     options.fog.fill(fog);
     EXPECT_TRUE((*composer)->SetOptions(options));
     const auto code = static_cast<std::uint8_t>(std::lround(255.0 * SrgbFromLinear(picture)));
-    const auto composed =
-        (*composer)->Compose(EvenPicture(code).view(), from_far_above, {kGain, kGain, kGain});
+    const auto composed = (*composer)->Compose(EvenPicture(code).view(), from_far_above,
+                                               {kExposureScale, kExposureScale, kExposureScale});
     const Vec2 pixel = ProjectToPixel(kCamera, from_far_above * Point<Marker>{{0, 20, 0}});
     return LinearFromSrgb8()[(*composed)(static_cast<int>(std::lround(pixel.x)),
                                          static_cast<int>(std::lround(pixel.y)), 1)];
   };
   const double sunlit = 0.3 * (kSkyLux + kSunLux * std::numbers::sqrt2 / 2) / std::numbers::pi;
   // As a near picture would have it, to know what the tower leaves of the light.
-  const double ratio = shadow(kGain * sunlit, 0.0) / (kGain * sunlit);
+  const double ratio = shadow(kExposureScale * sunlit, 0.0) / (kExposureScale * sunlit);
   EXPECT_NEAR(ratio, 0.23, 0.06);
   EXPECT_NEAR(shadow(HazySouthernField::Shown(sunlit), 1.0),
               HazySouthernField::Shown(ratio * sunlit), 0.006);
@@ -148,8 +149,9 @@ TEST(Composer, FadesAShadowOnARealSurface200MetresAwayAsHazeFadesARealOne) {
             HazySouthernField::Shown(ratio * sunlit) - 0.04);
   // Half the air: half the optical depth.
   const double left = std::sqrt(HazySouthernField::kLeft);
-  const double air = kGain * HazySouthernField::kAirlight * (1.0 - left);
-  EXPECT_NEAR(shadow(kGain * sunlit * left + air, 0.5), kGain * ratio * sunlit * left + air, 0.006);
+  const double air = kExposureScale * HazySouthernField::kAirlight * (1.0 - left);
+  EXPECT_NEAR(shadow(kExposureScale * sunlit * left + air, 0.5),
+              kExposureScale * ratio * sunlit * left + air, 0.006);
   // Shade that the picture has there already is known for it through the haze.
   const double shaded = HazySouthernField::Shown(0.3 * kSkyLux / std::numbers::pi);
   EXPECT_NEAR(shadow(shaded, 1.0), shaded, 0.015);

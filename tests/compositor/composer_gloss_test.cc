@@ -19,7 +19,8 @@ TEST(Composer, MirrorsTheSkyInPolishedMetal) {
   plate.materials[0].roughness = 0.1F;
   const RgbImage composed = Compose({Place(plate, false)}, EvenPicture(0));
   // The sun, 45° off, is mirrored elsewhere.
-  EXPECT_NEAR(SeenAt(composed, {0, 0, 0.1}), kGain * 0.7 * kSkyLux * std::numbers::inv_pi, 0.01);
+  EXPECT_NEAR(SeenAt(composed, {0, 0, 0.1}), kExposureScale * 0.7 * kSkyLux * std::numbers::inv_pi,
+              0.01);
 }
 
 TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
@@ -30,7 +31,8 @@ TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
     plate.materials[0].specular_f0 = f0;
     return SeenAt(Compose({Place(plate, false)}, EvenPicture(0), kCamera, sun_lux), {0, 0, 0.1});
   };
-  EXPECT_NEAR(seen(0.1F, 0.5F, kSunLux), 0.5 * kGain * kSkyLux * std::numbers::inv_pi, 0.01);
+  EXPECT_NEAR(seen(0.1F, 0.5F, kSunLux), 0.5 * kExposureScale * kSkyLux * std::numbers::inv_pi,
+              0.01);
   EXPECT_GT(seen(0.5F, 0.1F, kSunLux), seen(0.5F, 0.1F, 0.0) + 0.02);
 }
 
@@ -57,8 +59,8 @@ TEST(Composer, LightsAThinSheetsFarSideByTheSkyAlone) {
   const Vec3 normal{0.0, 0.8, 0.6};
   constexpr double kAlbedo = 0.6, kSkySeen = 0.8, kLandAlbedo = 0.2;
   const double land = kLandAlbedo * (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
-  const double expected =
-      kGain * kAlbedo * std::numbers::inv_pi * (kSkySeen * kSkyLux + (1 - kSkySeen) * land);
+  const double expected = kExposureScale * kAlbedo * std::numbers::inv_pi *
+                          (kSkySeen * kSkyLux + (1 - kSkySeen) * land);
   for (const bool turned : {false, true}) {
     const Model sheet = SquareFacing(normal, kAlbedo, turned);
     EXPECT_NEAR(SeenAt(Compose({Place(sheet, false)}, EvenPicture(0)), {0, 0, 0}), expected,
@@ -81,11 +83,11 @@ TEST(Composer, ShowsTheSunsHighlightAsTheMicrofacetModelHasIt) {
   const double distribution = 1.0 / (std::numbers::pi * kAlpha2);
   const double visibility = 0.25 / (c * std::sqrt(c * c * (1 - kAlpha2) + kAlpha2));
   const double fresnel = kF0 + (1 - kF0) * std::pow(1 - c, 5);
-  const double expected = kGain * kSunLux * c * distribution * visibility * fresnel;
+  const double expected = kExposureScale * kSunLux * c * distribution * visibility * fresnel;
   EXPECT_NEAR(seen(kSunLux) - seen(0.0), expected, 0.03 * expected);
 }
 
-TEST(Composer, AddsACoatToWhatItLeavesOfTheColour) {
+TEST(Composer, AddsACoatToWhatItLeavesOfTheColor) {
   const auto seen = [](float f0, float left) {
     Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.4F);
     plate.materials[0].roughness = 0.1F;
@@ -94,7 +96,7 @@ TEST(Composer, AddsACoatToWhatItLeavesOfTheColour) {
     return SeenAt(Compose({Place(plate, false)}, EvenPicture(0)), {0, 0, 0.1});
   };
   const double bare = seen(0.0F, 1.0F);
-  const double coat = 0.1 * kGain * kSkyLux * std::numbers::inv_pi;
+  const double coat = 0.1 * kExposureScale * kSkyLux * std::numbers::inv_pi;
   EXPECT_NEAR(seen(0.1F, 1.0F), bare + coat, 0.006);
   EXPECT_NEAR(seen(0.1F, 0.9F), 0.9 * bare + coat, 0.006);
 }

@@ -32,7 +32,7 @@ Model TexturedSquare(Image<std::uint8_t> texture) {
   return square;
 }
 
-TEST(Composer, ColoursAnObjectByItsTextureAndLeavesTheCameraWhatIsCutOut) {
+TEST(Composer, ColorsAnObjectByItsTextureAndLeavesTheCameraWhatIsCutOut) {
   constexpr int kSide = 64;
   const std::uint8_t dark = Srgb8FromLinear(0.1), bright = Srgb8FromLinear(0.6);
   Image<std::uint8_t> texture(kSide, kSide, 4);
@@ -48,7 +48,7 @@ TEST(Composer, ColoursAnObjectByItsTextureAndLeavesTheCameraWhatIsCutOut) {
   EXPECT_NEAR(SeenAt(composed, {0.35, -0.25, 0.1}), Level(0.6), 0.02);
   EXPECT_NEAR(SeenAt(composed, {0.35, 0.35, 0.1}), Level(0.6), 0.02);
   EXPECT_EQ(SeenAt(composed, {-0.35, 0.35, 0.1}), LinearFromSrgb8()[77]);
-  // An object without a texture beside it keeps its own colour.
+  // An object without a texture beside it keeps its own color.
   EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), Level(0.5), 0.02);
 }
 
@@ -78,7 +78,7 @@ TEST(Composer, SmoothsASlantedEdgeInFourSteps) {
   EXPECT_GT(pixels[4], 1000);
 }
 
-TEST(Composer, TellsMetalFromPaintByTheTexture) {
+TEST(Composer, SeparatesMetalFromPaintByTheTexture) {
   constexpr int kSide = 64;
   Model plate = TexturedSquare(Image<std::uint8_t>(kSide, kSide, 3));
   plate.materials[0].base_color_texture = -1;
@@ -94,7 +94,8 @@ TEST(Composer, TellsMetalFromPaintByTheTexture) {
   }
   const RgbImage composed = Compose({Place(plate, false)}, EvenPicture(0));
   // The sun, 45° off, is mirrored elsewhere but by a rougher surface.
-  EXPECT_NEAR(SeenAt(composed, {-0.3, 0, 0.1}), kGain * 0.7 * kSkyLux * std::numbers::inv_pi, 0.01);
+  EXPECT_NEAR(SeenAt(composed, {-0.3, 0, 0.1}),
+              kExposureScale * 0.7 * kSkyLux * std::numbers::inv_pi, 0.01);
   EXPECT_NEAR(SeenAt(composed, {0.3, 0, 0.1}), Level(0.7), 0.01);
 }
 
@@ -131,7 +132,7 @@ TEST(Composer, ShowsThroughGlassWhatLiesBehind) {
       LetThrough({pane(0.5F, 0.1F, Alpha::kBlended), pane(0.5F, 0.3F, Alpha::kBlended)});
   EXPECT_NEAR(both, 0.25, 0.03);
   EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kIgnored)}), 0.0);
-  EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kCutOut)}), 1.0);
+  EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kCutout)}), 1.0);
 }
 
 TEST(Composer, DrawsWhatCastsNoShadow) {
@@ -139,7 +140,7 @@ TEST(Composer, DrawsWhatCastsNoShadow) {
   Model pane = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
   pane.materials[0].opacity = 0.3F;
   pane.materials[0].alpha = Material::Alpha::kBlended;
-  pane.meshes[0].role = MeshRole::kDrawn;
+  pane.meshes[0].role = MeshRole::kRenderOnly;
   EXPECT_NEAR(LetThrough({Place(pane, false)}), 0.7, 0.02);
 }
 
@@ -194,7 +195,7 @@ TEST(Composer, CoversAsMuchOfAMinifiedCardAsItsTextureDoes) {
     mesh.normals.insert(mesh.normals.end(), square.normals.begin(), square.normals.end());
     mesh.uvs.insert(mesh.uvs.end(), square.uvs.begin(), square.uvs.end());
   }
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   ASSERT_EQ(card.meshes.size(), 2U);
   EXPECT_NEAR(LetThrough({Place(card, false)}, small), 0.5, 0.03);
   // Drawn as the light meets it, the holes would count twice.
@@ -213,9 +214,9 @@ TEST(Composer, ShadesTheGroundByWhatIsLeftOfACardAlone) {
     }
   }
   Model card = TexturedSquare(std::move(texture));
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   const RgbImage composed = Compose({kGround, Place(card, false)}, EvenPicture(150), kCamera,
-                                    kSunLux, {}, {}, /*look_for_shade=*/false);
+                                    kSunLux, {}, {}, /*assume_unmodelled_shadows=*/false);
   const double lit = LinearFromSrgb8()[150];
   // The sun, 45° high in the south, comes through the hole to the ground seen through it.
   EXPECT_GT(SeenAt(composed, {0, 0.1, 0}), 0.75 * lit);
@@ -329,16 +330,17 @@ TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
   const std::vector<PlacedModel> scene{Place(ground, true), turned};
   const auto composer = ComposerInTheSun(scene);
   const auto compose = [&] {
-    return composer->Compose(EvenPicture(200).view(), kFromAbove, {kGain, kGain, kGain});
+    return composer->Compose(EvenPicture(200).view(), kFromAbove,
+                             {kExposureScale, kExposureScale, kExposureScale});
   };
   const auto footprint = compose();
-  auto sunny = std::make_shared<SeenSunlight>();
+  auto sunny = std::make_shared<SunTransmittanceMap>();
   sunny->across_x = {1, 0, 0};
   sunny->across_y = {0, 1, 0};
   sunny->cell_m = 1.0;
   sunny->width = sunny->height = 1;
   sunny->share = {1.0F};
-  ASSERT_TRUE(composer->SetSunlight(sunny));
+  ASSERT_TRUE(composer->SetSunTransmittance(sunny));
   const auto whole = compose();
   ASSERT_TRUE(footprint.has_value());
   ASSERT_TRUE(whole.has_value());
@@ -358,7 +360,8 @@ TEST(Composer, LeavesDepthAndBlendingAsDrawingBegins) {
   const SouthernSun light;
   ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
                                     (*solver)->RadianceFromBelow(light, Mat3{})));
-  ASSERT_TRUE((*composer)->Compose(EvenPicture(77).view(), kFromAbove, {kGain, kGain, kGain}));
+  ASSERT_TRUE((*composer)->Compose(EvenPicture(77).view(), kFromAbove,
+                                   {kExposureScale, kExposureScale, kExposureScale}));
   GLint depth_function = 0;
   glGetIntegerv(GL_DEPTH_FUNC, &depth_function);
   EXPECT_EQ(depth_function, GL_LESS);

@@ -76,7 +76,8 @@ inline const CameraModel kCamera{
 // Three metres above the marker, looking straight down; picture up is the marker's +y (north).
 inline const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 3}};
 // Display-linear value per radiance: white ground in full light shows as 0.8.
-inline const double kGain = 0.8 * std::numbers::pi / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
+inline const double kExposureScale =
+    0.8 * std::numbers::pi / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
 
 inline const PlacedModel kGround = Place(MakeBox({-4, -4, 0}, {4, 4, 0}, 0.3F), true);
 inline const PlacedModel kCube =
@@ -84,23 +85,24 @@ inline const PlacedModel kCube =
 
 inline RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
                         const CameraModel& camera = kCamera, double sun_lux = kSunLux,
-                        ComposerOptions options = {}, const std::optional<PictureLook>& look = {},
-                        bool look_for_shade = true) {
+                        ComposerOptions options = {}, const std::optional<CameraLook>& look = {},
+                        bool assume_unmodelled_shadows = true) {
   LightSolverOptions solver_options;
   solver_options.rays_per_vertex = 64;
   const auto solver = LightSolver::Create(scene, solver_options);
   if (!solver) ADD_FAILURE() << solver.error().Message();
   auto composer = Composer::Create(camera, scene, options);
   if (!composer) ADD_FAILURE() << composer.error().Message();
-  (*composer)->LookForShade(look_for_shade);
+  (*composer)->AssumeUnmodelledShadows(assume_unmodelled_shadows);
   const SouthernSun light(sun_lux);
   const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
                                          (*solver)->RadianceFromBelow(light, Mat3{}));
   if (!set) ADD_FAILURE() << set.error().Message();
-  if (const auto looks = (*composer)->SetLook(look); !looks) {
+  if (const auto looks = (*composer)->SetCameraLook(look); !looks) {
     ADD_FAILURE() << looks.error().Message();
   }
-  auto composed = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+  auto composed = (*composer)->Compose(picture.view(), kFromAbove,
+                                       {kExposureScale, kExposureScale, kExposureScale});
   if (!composed) ADD_FAILURE() << composed.error().Message();
   return *std::move(composed);
 }
@@ -120,7 +122,9 @@ inline double SeenAt(const RgbImage& picture, Vec3 point, const CameraModel& cam
 
 inline const double kLevelLux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
 /// Display-linear value of a level face of so much reflectance.
-inline double Level(double albedo) { return kGain * albedo * kLevelLux * std::numbers::inv_pi; }
+inline double Level(double albedo) {
+  return kExposureScale * albedo * kLevelLux * std::numbers::inv_pi;
+}
 
 /// Draws the scene in the southern sun. No shade of trees is looked for: then what no object hides
 /// from the sun is not asked for it.
@@ -130,7 +134,7 @@ inline std::unique_ptr<Composer> ComposerInTheSun(const std::vector<PlacedModel>
   auto composer = Composer::Create(kCamera, scene, {});
   EXPECT_TRUE(composer.value()->SetLight(solver.value()->Solve(light, Mat3{}), light, Mat3{},
                                          solver.value()->RadianceFromBelow(light, Mat3{})));
-  composer.value()->LookForShade(false);
+  composer.value()->AssumeUnmodelledShadows(false);
   return std::move(composer.value());
 }
 

@@ -46,7 +46,7 @@ TEST(Composer, KeepsTheBytesThatNoVirtualThingTouches) {
 TEST(Composer, LightsALevelFaceWithTheWholeSkyAndTheSun) {
   const RgbImage composed = Compose({kGround, kCube}, EvenPicture(128));
   const double lux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
-  EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), kGain * 0.5 * lux / std::numbers::pi, 0.01);
+  EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), kExposureScale * 0.5 * lux / std::numbers::pi, 0.01);
 }
 
 TEST(Composer, CastsTheShadowAwayFromTheSunAndLeavesTheSkysShare) {
@@ -104,33 +104,33 @@ TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
   // On the ground the tree's shade ends north of the cube, where the cube's shadow falls: its west
   // half lies in shade.
   const Vec3 to_sun = light.ToSun().xyz;
-  std::vector<SunlitSpot> spots;
+  std::vector<SunlitSample> surface_samples;
   for (int i = 0; i < 100; ++i) {
     for (int j = 0; j < 110; ++j) {
       const double x = -0.495 + 0.01 * i, y = -0.5 + 0.01 * j;
-      spots.push_back({{x, y, 0.0}, x < 0.0 ? 0.0 : 1.0, 0.005});
+      surface_samples.push_back({{x, y, 0.0}, x < 0.0 ? 0.0 : 1.0, 0.005});
     }
   }
   const auto seen_on_top = [&] {
-    const auto composed =
-        (*composer)->Compose(EvenPicture(150).view(), kFromAbove, {kGain, kGain, kGain});
+    const auto composed = (*composer)->Compose(EvenPicture(150).view(), kFromAbove,
+                                               {kExposureScale, kExposureScale, kExposureScale});
     EXPECT_TRUE(composed);
     return std::pair{SeenAt(*composed, {-0.08, 0.05, 0.3}), SeenAt(*composed, {0.08, 0.05, 0.3})};
   };
   const auto open = seen_on_top();
   EXPECT_NEAR(open.first, open.second, 0.01);
-  ASSERT_TRUE((*composer)->SetSunlight(
-      std::make_shared<const SeenSunlight>(MapSeenSunlight(to_sun, spots))));
+  ASSERT_TRUE((*composer)->SetSunTransmittance(std::make_shared<const SunTransmittanceMap>(
+      BuildSunTransmittanceMap(to_sun, surface_samples))));
   const auto [shaded, sunlit] = seen_on_top();
   EXPECT_NEAR(sunlit, open.second, 0.01);
   EXPECT_NEAR(shaded / sunlit, kSkyLux / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2), 0.03);
-  ASSERT_TRUE((*composer)->SetSunlight(nullptr));
+  ASSERT_TRUE((*composer)->SetSunTransmittance(nullptr));
   EXPECT_EQ(seen_on_top(), open);
 }
 
 TEST(Composer, ShadesTheObjectWhereARealWallKeepsTheSunFromIt) {
   const PlacedModel wall = Place(MakeBox({-3, -0.8, 0}, {3, -0.7, 2.5}, 0.3F), true);
-  const double sky_alone = kGain * 0.5 * kSkyLux / std::numbers::pi;
+  const double sky_alone = kExposureScale * 0.5 * kSkyLux / std::numbers::pi;
   const double shaded = SeenAt(Compose({kGround, wall, kCube}, EvenPicture(120)), {0, 0, 0.3});
   EXPECT_LT(shaded, 1.05 * sky_alone);
   EXPECT_GT(shaded, 0.5 * sky_alone);  // The wall hides some of the sky.
@@ -241,7 +241,8 @@ TEST(Composer, DrawsAfterAChangeOfOptionsAsOneMadeWithThem) {
   paper.shadow_method = ShadowMethod::kGaussian;
   for (const ComposerOptions& options : {half, large, sized, paper, ComposerOptions{}}) {
     ASSERT_TRUE((*composer)->SetOptions(options));
-    const auto changed = (*composer)->Compose(picture.view(), kFromAbove, {kGain, kGain, kGain});
+    const auto changed = (*composer)->Compose(picture.view(), kFromAbove,
+                                              {kExposureScale, kExposureScale, kExposureScale});
     ASSERT_TRUE(changed.has_value());
     const RgbImage made = Compose(scene, picture, kCamera, kSunLux, options);
     EXPECT_TRUE(std::equal(made.data(), made.data() + made.size(), changed->data()));
@@ -277,21 +278,21 @@ TEST(Composer, BlursWhatIsDrawnAsTheCameraDoes) {
   const PlacedModel slab = Place(MakeBox({-0.304, -0.8, 0.1}, {0.8, 0.8, 0.1}, 0.8F), false);
   const RgbImage black = EvenPicture(0);
   for (const double blur_px : {0.8, 2.0, 4.0}) {
-    PictureLook look;
+    CameraLook look;
     look.blur_px = blur_px;
     const RgbImage composed = Compose({slab}, black, kCamera, kSunLux, {}, look);
     EXPECT_NEAR(EdgeSpread(composed, 120), blur_px, 0.06 * blur_px + 0.05);
     EXPECT_EQ(composed(2, 2, 1), 0);
   }
   // As sharp as a pixel is wide, where the camera is.
-  PictureLook sharp;
+  CameraLook sharp;
   sharp.blur_px = 0.3;
   EXPECT_LT(EdgeSpread(Compose({slab}, black, kCamera, kSunLux, {}, sharp), 120), 0.55);
 }
 
 TEST(Composer, GivesWhatIsDrawnTheCamerasGrain) {
   const PlacedModel slab = Place(MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.3F), false);
-  PictureLook look;
+  CameraLook look;
   look.blur_px = 0.3;
   look.noise_constant = {2e-5, 2e-5, 2e-5};
   look.noise_slope = {4e-4, 4e-4, 4e-4};
@@ -332,7 +333,7 @@ TEST(Composer, ReadsAndWritesTheCamerasOwnCodes) {
            255.0;
   };
   const double lux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
-  EXPECT_NEAR(seen({0, 0, 0.3}), kGain * 0.5 * lux / std::numbers::pi, 0.01);
+  EXPECT_NEAR(seen({0, 0, 0.3}), kExposureScale * 0.5 * lux / std::numbers::pi, 0.01);
   // The same share of the light is left in the shadow as with any other codes.
   const double share = seen({0, 0.30, 0}) / (128 / 255.0);
   const RgbImage srgb = Compose({kGround, kCube}, EvenPicture(188));

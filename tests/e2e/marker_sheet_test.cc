@@ -88,7 +88,7 @@ TEST_P(PrintedSheet, IsTrueToScaleAndTheSameAsPdfSvgAndPng) {
     const int middle = print.x + print.width / 2;
     EXPECT_NEAR(BlackAlong(page(cv::Range(rim_y, rim_y + 1), cv::Range(print.x, middle))),
                 middle / kPixelsPerMm - corner(0, 0), 0.1);
-    // Hairlines between modules or a module of the wrong colour would differ by more.
+    // Hairlines between modules or a module of the wrong color would differ by more.
     cv::Mat difference;
     cv::absdiff(page(print), png(print), difference);
     int grossly = 0;
@@ -147,7 +147,7 @@ TEST(MarkerSheet, OfSeveralNumbersIsOnePdfOrOneFileEach) {
               ElementsAre("all.pdf", "d", "d/sg-3.png", "d/sg-7.png", "m3.svg", "m7.svg"));
 }
 
-TEST(MarkerPicture, IsTheBarePrintAndSaysItsEdgeFraction) {
+TEST(MarkerImage, IsTheBarePrintAndSaysItsEdgeFraction) {
   const TemporaryFolder folder;
   const RunResult run =
       RunPleinair({"marker", "5", "--png", "--pixels", "480", "-o", folder / "m.png", "--json"});

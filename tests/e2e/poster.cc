@@ -21,8 +21,8 @@ Vec2 PixelOf(const Transform<Camera, Marker>& camera_from_marker, double x, doub
 }
 
 /// Linear light of the board's white margin, for a reflectance of 1; B, G, R.
-std::array<double, 3> LightOnTheBoard(const cv::Mat& frame,
-                                      const Transform<Camera, Marker>& camera_from_marker) {
+std::array<double, 3> LightOnTheMargin(const cv::Mat& frame,
+                                       const Transform<Camera, Marker>& camera_from_marker) {
   std::array<double, 3> sum{};
   int count = 0;
   for (double along = -0.25; along <= 0.25; along += 0.01) {
@@ -56,7 +56,7 @@ cv::Mat Poster(int seed) {
 
 void PastePoster(const cv::Mat& poster, double width_m,
                  const Transform<Camera, Marker>& camera_from_marker, cv::Mat* frame) {
-  const std::array<double, 3> light = LightOnTheBoard(*frame, camera_from_marker);
+  const std::array<double, 3> light = LightOnTheMargin(*frame, camera_from_marker);
   const Transform<Marker, Camera> marker_from_camera = camera_from_marker.Inverse();
   const double height_m = width_m * poster.rows / poster.cols;
   cv::Mat linear(poster.size(), CV_32F);

@@ -158,7 +158,7 @@ TEST(Replay, ShowsOnATerminalHowFarItIs) {
   }
 }
 
-TEST(Replay, SaysThatTheLightChangedMeanwhile) {
+TEST(Replay, ReportsThatTheLightChangedMeanwhile) {
   // Medians of five readings in a row are compared: of the second five three are darker.
   constexpr int kFrames = 8;
   const TemporaryFolder folder;
@@ -181,7 +181,7 @@ TEST(Replay, SaysThatTheLightChangedMeanwhile) {
   EXPECT_THAT(warning(), HasSubstr("brightness changed by a factor of 2"));
 }
 
-TEST(Replay, SaysThatTheLightCouldNotBeKept) {
+TEST(Replay, ReportsThatTheLightCouldNotBeKept) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
   // /proc refuses new folders to everybody, also to root.
@@ -296,7 +296,7 @@ TEST(Replay, LeavesFramesWithoutAMarkerAsTheyAreAndSaysSo) {
   EXPECT_EQ(frames[1].at("markers").size(), 0U);
 }
 
-TEST(Replay, SaysThatWithoutPhantomsNothingTakesTheShadow) {
+TEST(Replay, ReportsThatWithoutPhantomsNothingTakesTheShadow) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
   std::string scene = ReadFile(folder / "site/scene.toml");
@@ -349,7 +349,7 @@ TEST(Command, HelpOfEverySubcommandHasExamples) {
   }
 }
 
-TEST(Command, SaysItsVersion) {
+TEST(Command, ReportsItsVersion) {
   const RunResult run = RunPleinair({"--version"});
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, StartsWith("pleinair "));

@@ -82,7 +82,7 @@ class SgDetect : public ::testing::Test {
   cv::Mat print_;
 };
 
-TEST_F(SgDetect, TellsNumberCornersPoseAndVisibilityOfAPrintedMarker) {
+TEST_F(SgDetect, ReportsNumberCornersPoseAndVisibilityOfAPrintedMarker) {
   const std::string picture = Save("whole.png", With({70, 40}));
   const RunResult run = Detect({picture});
   EXPECT_THAT(run.err, IsEmpty());
@@ -182,7 +182,7 @@ TEST_F(SgDetect, FollowsAMarkerAndSaysSinceWhenItIsLost) {
   }
 }
 
-TEST_F(SgDetect, WarnsOfAMirroredPrint) {
+TEST_F(SgDetect, WarnsOfAMirroredMarker) {
   cv::Mat mirrored;
   cv::flip(With({70, 40}), mirrored, 1);
   const RunResult run = Detect({Save("mirrored.png", mirrored)});

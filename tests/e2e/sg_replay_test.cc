@@ -103,7 +103,7 @@ TEST(SgReplay, LooksOnlyForTheNumberThatTheSceneNames) {
   EXPECT_TRUE(Report(folder)["marker"].is_null());
 }
 
-TEST(SgReplay, SaysSinceWhenAMarkerIsLost) {
+TEST(SgReplay, ReportsSinceWhenAMarkerIsLost) {
   const TemporaryFolder folder;
   MakeRecording(folder / "site", 4, [](json&) {});
   const cv::Mat blank(480, 640, CV_8UC3, cv::Scalar(90, 120, 150));
@@ -125,7 +125,7 @@ TEST(SgReplay, SaysSinceWhenAMarkerIsLost) {
   EXPECT_EQ(Report(folder)["poses"]["lost"], json::parse(R"({"frames":2,"longest":2})"));
 }
 
-TEST(SgReplay, SaysThatThePrintIsMirrored) {
+TEST(SgReplay, ReportsThatTheMarkerIsMirrored) {
   const TemporaryFolder folder;
   MakeRecording(folder / "site", 3, LeaveUnnamed);
   for (const char* name : {"0000", "0001", "0002"}) {

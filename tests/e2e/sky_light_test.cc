@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-TEST(Sky, TellsTheIlluminancesOfAPlaceAndATime) {
+TEST(Sky, ReportsTheIlluminancesOfAPlaceAndATime) {
   const json noon = RunJson(
       {"sky", "--at", "50.0875,14.4213", "--time", "2025-09-14T11:05:00Z", "--model", "perez"});
   EXPECT_NEAR(noon.at("sun_azimuth_deg").get<double>(), 182.4589, 1e-3);

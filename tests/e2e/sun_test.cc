@@ -70,7 +70,7 @@ TEST(Sun, TakesTheDayFromTheOffsetOfTheTime) {
               AllOf(StartsWith("2025-06-21T13:0"), EndsWith("+02:00")));
 }
 
-TEST(Sun, SaysWhyThereIsNoSunrise) {
+TEST(Sun, ReportsWhyThereIsNoSunrise) {
   const auto text = [](const char* time) {
     return RunPleinair({"sun", "--at", "69.65,18.96", "--time", time}).out;
   };
@@ -86,7 +86,7 @@ TEST(Sun, SaysWhyThereIsNoSunrise) {
   EXPECT_EQ(night.at("sun"), "stays down");
 }
 
-TEST(Sun, TellsADayWithTwoSunsets) {
+TEST(Sun, ReportsADayWithTwoSunsets) {
   const std::vector<std::string> fairbanks = {"sun",   "--at",       "64.84,-147.72",
                                               "--day", "2025-07-15", "--utc-offset=-08:00"};
   const json day = RunJson(fairbanks);
@@ -106,7 +106,7 @@ TEST(Sun, TellsADayWithTwoSunsets) {
                               HasSubstr("none: sun stays above -6 degrees")));
 }
 
-TEST(Sun, TellsADayWithoutASunset) {
+TEST(Sun, ReportsADayWithoutASunset) {
   const RunResult run =
       RunPleinair({"sun", "--at", "64.84,-147.72", "--day", "2025-05-30", "--utc-offset=-08:00"});
   EXPECT_THAT(run.out, AllOf(HasSubstr("sunset                   none on this day\n"),

@@ -145,14 +145,14 @@ TEST_F(Target, IsFollowedAndSaidToBeLost) {
   }
 }
 
-TEST_F(Target, SaysInWordsHowGoodItIs) {
+TEST_F(Target, ReportsInWordsHowGoodItIs) {
   const RunResult run = Make();
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("\"poster\", 420.0 x 315.0 mm"), HasSubstr("of 100 (good)"),
                              HasSubstr("features over")));
 }
 
-TEST_F(Target, WarnsOfAMirroredPrint) {
+TEST_F(Target, WarnsOfAMirroredMarker) {
   ASSERT_EQ(Make().exit_code, 0);
   cv::Mat mirrored;
   cv::flip(With({110, 60}, poster_), mirrored, 1);

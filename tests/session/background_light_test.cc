@@ -28,10 +28,10 @@ using std::chrono::milliseconds;
 constexpr const char* kNoon = "2025-09-14T11:05:00Z";
 
 /// A box on level ground.
-LiveLight::Setup BoxOnGround() {
+BackgroundLight::Setup BoxOnGround() {
   using compositor::testing::BoxModel;
   using compositor::testing::Ground;
-  LiveLight::Setup setup;
+  BackgroundLight::Setup setup;
   setup.camera = tests::SmallCameraOptions().camera;
   setup.scene = tests::SmallCameraOptions().scene;
   setup.scene.place_time.start = *UtcTime::Parse(kNoon);
@@ -41,23 +41,23 @@ LiveLight::Setup BoxOnGround() {
       compositor::testing::Phantom(Ground(0.6, {0.3F, 0.3F, 0.3F})),
       compositor::testing::Object(BoxModel({0, 0, 0}, {0.3, 0.3, 0.3}, {0.5F, 0.4F, 0.3F}))};
   setup.edit = UneditedScene(setup.scene, {});
-  setup.skies.source = compositor::StatedSky(setup.scene);
+  setup.skies.source = compositor::DescribedSky(setup.scene);
   setup.time = *UtcTime::Parse(kNoon);
   return setup;
 }
 
-TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
-  const LiveLight::Setup setup = BoxOnGround();
+TEST(BackgroundLight, RelightsAMovedObjectWhileOthersLookOn) {
+  const BackgroundLight::Setup setup = BoxOnGround();
   SceneEdit edit = setup.edit;
-  auto light = LiveLight::Create(setup);
+  auto light = BackgroundLight::Create(setup);
   ASSERT_TRUE(light) << light.error().Message();
-  std::shared_ptr<const SceneLight> in_use = (*light)->Take();
+  std::shared_ptr<const BakedLighting> in_use = (*light)->Take();
   ASSERT_NE(in_use, nullptr) << "the first light is there at once";
   const auto until_coefficients = [&] {
     int seen_without = 0;
-    while (!in_use->order.coefficients || in_use->objects != edit.objects) {
+    while (!in_use->request.coefficients || in_use->objects != edit.objects) {
       if (auto newest = (*light)->Take()) in_use = newest;
-      seen_without += in_use->order.coefficients ? 0 : 1;
+      seen_without += in_use->request.coefficients ? 0 : 1;
       std::this_thread::sleep_for(milliseconds(1));
     }
     return seen_without;
@@ -68,30 +68,30 @@ TEST(LiveLight, RelightsAMovedObjectWhileOthersLookOn) {
   (*light)->SetEdit(edit);
   EXPECT_EQ((*light)->Take(), nullptr) << "asking does not wait; the last light stays";
   EXPECT_GT(until_coefficients(), 0);
-  EXPECT_NE(in_use->order.solver, before->order.solver);
+  EXPECT_NE(in_use->request.solver, before->request.solver);
   while ((*light)->progress().coefficients < 1.0) std::this_thread::sleep_for(milliseconds(1));
   (*light)->Stop();
   // What came of it is what is made from nothing for that place.
   compositor::CoefficientOptions options;
   options.convergence = edit.convergence;
-  const auto fresh = in_use->order.solver->Coefficients(
+  const auto fresh = in_use->request.solver->Coefficients(
       scene::MarkerFromWorld(setup.scene.marker) * Vec3{0, 0, 1}, options, {});
   const auto meshes =
-      in_use->order.solver->Relight(fresh, in_use->daylight, in_use->marker_from_world);
+      in_use->request.solver->Relight(fresh, in_use->daylight, in_use->marker_from_world);
   ASSERT_EQ(meshes.size(), in_use->meshes.size());
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     EXPECT_EQ(meshes[i].ambient_with, in_use->meshes[i].ambient_with);
   }
 }
 
-TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
-  LiveLight::Setup setup = BoxOnGround();
+TEST(BackgroundLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
+  BackgroundLight::Setup setup = BoxOnGround();
   const Vec3 to_sun = scene::MarkerFromWorld(setup.scene.marker) *
                       scene::SunOver(setup.scene.place_time, setup.time).ToSun().xyz;
-  const std::vector<compositor::SunlitSpot> spots{{{0, 0, 0}, 0.2, 0.01}};
-  setup.skies.sunlight =
-      std::make_shared<const compositor::SeenSunlight>(compositor::MapSeenSunlight(to_sun, spots));
-  auto light = LiveLight::Create(setup);
+  const std::vector<compositor::SunlitSample> surface_samples{{{0, 0, 0}, 0.2, 0.01}};
+  setup.skies.sun_transmittance = std::make_shared<const compositor::SunTransmittanceMap>(
+      compositor::BuildSunTransmittanceMap(to_sun, surface_samples));
+  auto light = BackgroundLight::Create(setup);
   ASSERT_TRUE(light) << light.error().Message();
   const auto has_map = [&](double later_s, double heading_deg) {
     SceneEdit edit = setup.edit;
@@ -101,9 +101,9 @@ TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
     // A sanitized build on a busy machine takes some ten seconds a light.
     for (int i = 0; i < 60'000; ++i) {
       const auto newest = (*light)->Take();
-      if (newest && newest->order.time == setup.time.PlusSeconds(later_s) &&
-          std::fabs(ToDegrees(newest->order.marker.heading) - heading_deg) < 1e-9) {
-        return newest->order.skies.sunlight != nullptr;
+      if (newest && newest->request.time == setup.time.PlusSeconds(later_s) &&
+          std::fabs(ToDegrees(newest->request.marker.heading) - heading_deg) < 1e-9) {
+        return newest->request.skies.sun_transmittance != nullptr;
       }
       std::this_thread::sleep_for(milliseconds(1));
     }
@@ -119,7 +119,7 @@ TEST(LiveLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
 /// The next light of which this holds. Waits without a limit: a sanitized build on a busy machine
 /// takes some ten seconds a light.
 template <typename Condition>
-std::shared_ptr<const SceneLight> Await(LiveLight& light, const Condition& is_wanted) {
+std::shared_ptr<const BakedLighting> Await(BackgroundLight& light, const Condition& is_wanted) {
   while (true) {
     auto newest = light.Take();
     if (newest && is_wanted(*newest)) return newest;
@@ -127,50 +127,51 @@ std::shared_ptr<const SceneLight> Await(LiveLight& light, const Condition& is_wa
   }
 }
 
-double SunToSkyOf(const compositor::DaySkies& skies, const SceneLight& at) {
-  return compositor::SunToSky(compositor::ScaledDaylight(
+double SunToSkyOf(const compositor::SkyState& skies, const BakedLighting& at) {
+  return compositor::SunToSky(compositor::ScaledSky(
       *skies.source->ForSun(at.sun.ToSun(), at.sun.distance_au), skies.scale, {1.0, 1.0, 1.0}));
 }
 
-TEST(LiveLight, TakesTheSkyThatIsGiven) {
-  LiveLight::Setup setup = BoxOnGround();
+TEST(BackgroundLight, TakesTheSkyThatIsGiven) {
+  BackgroundLight::Setup setup = BoxOnGround();
   for (const double ratio : {2.0, 0.0}) {
     setup.light.overrides.sun_to_sky = ratio;
-    auto light = LiveLight::Create(setup);
+    auto light = BackgroundLight::Create(setup);
     ASSERT_TRUE(light) << light.error().Message();
     const auto first = (*light)->Take();
     ASSERT_NE(first, nullptr);
-    EXPECT_NEAR(SunToSkyOf(first->order.skies, *first), ratio, 0.01 * ratio + 1e-9);
+    EXPECT_NEAR(SunToSkyOf(first->request.skies, *first), ratio, 0.01 * ratio + 1e-9);
   }
 }
 
-TEST(LiveLight, KeepsTheCoefficientsOfTheSceneAsItBeganAlone) {
+TEST(BackgroundLight, KeepsTheCoefficientsOfTheSceneAsItBeganAlone) {
   const auto cache =
       std::filesystem::path(testing::TempDir()) / ("live_light_cache_" + std::to_string(getpid()));
   const auto kept = [&] {
     using Iterator = std::filesystem::directory_iterator;
     return std::filesystem::exists(cache) ? std::distance(Iterator(cache), Iterator()) : 0;
   };
-  LiveLight::Setup setup = BoxOnGround();
+  BackgroundLight::Setup setup = BoxOnGround();
   setup.light.cache = cache;
   setup.light.sky_division = 2;
   {
-    auto light = LiveLight::Create(setup);
+    auto light = BackgroundLight::Create(setup);
     ASSERT_TRUE(light) << light.error().Message();
-    const auto lit = Await(**light, [](const auto& l) { return l.order.coefficients != nullptr; });
-    EXPECT_EQ(lit->order.coefficients->division, 2);
+    const auto lit =
+        Await(**light, [](const auto& l) { return l.request.coefficients != nullptr; });
+    EXPECT_EQ(lit->request.coefficients->division, 2);
     EXPECT_EQ(kept(), 1);
     SceneEdit edit = setup.edit;
     edit.objects[0].translation_m = {-0.3, 0.1, 0.0};
     (*light)->SetEdit(edit);
     Await(**light,
-          [&](const auto& l) { return l.order.coefficients && l.objects == edit.objects; });
+          [&](const auto& l) { return l.request.coefficients && l.objects == edit.objects; });
     EXPECT_EQ(kept(), 1) << "of a place that is tried out";
   }
-  auto again = LiveLight::Create(setup);
+  auto again = BackgroundLight::Create(setup);
   ASSERT_TRUE(again) << again.error().Message();
-  const auto lit = Await(**again, [](const auto& l) { return l.order.coefficients != nullptr; });
-  EXPECT_TRUE(lit->order.coefficients->from_cache);
+  const auto lit = Await(**again, [](const auto& l) { return l.request.coefficients != nullptr; });
+  EXPECT_TRUE(lit->request.coefficients->from_cache);
   EXPECT_FALSE((*again)->progress().failed_to_keep);
   std::filesystem::remove_all(cache);
 }
@@ -180,7 +181,7 @@ class LiveYard {
  public:
   /// `off_deg`: of the stated heading.
   explicit LiveYard(double off_deg) {
-    LiveLight::Setup setup;
+    BackgroundLight::Setup setup;
     setup.camera = yard_.camera();
     setup.scene = tests::YardScene(yard_, off_deg, time_);
     setup.placed = PhotographedYard::Phantoms();
@@ -189,18 +190,18 @@ class LiveYard {
     setup.placed.push_back(compositor::testing::Object(
         compositor::testing::BoxModel({2.4, -2.5, 0.0}, {2.5, -2.4, 0.1}, {0.5F, 0.5F, 0.5F})));
     setup.edit = UneditedScene(setup.scene, {});
-    setup.skies.source = compositor::StatedSky(setup.scene);
+    setup.skies.source = compositor::DescribedSky(setup.scene);
     setup.time = time_;
-    light_ = *LiveLight::Create(setup);
-    light_->SetPrint(yard_.print());
+    light_ = *BackgroundLight::Create(setup);
+    light_->SetMarkerReflectance(yard_.print());
   }
 
   const PhotographedYard& yard() const { return yard_; }
-  LiveLight::Progress progress() const { return light_->progress(); }
+  BackgroundLight::Progress progress() const { return light_->progress(); }
 
   /// Shows a picture as often as a look takes, a minute after the last look; gives the light that
   /// is made then.
-  std::shared_ptr<const SceneLight> LookAt(const RgbImage& picture) {
+  std::shared_ptr<const BakedLighting> LookAt(const RgbImage& picture) {
     auto frame = std::make_shared<devices::Frame>();
     frame->rgb = picture;
     time_ = time_.PlusSeconds(61.0);
@@ -211,26 +212,26 @@ class LiveYard {
       const int before = seen;
       while (seen == before) {
         std::this_thread::sleep_for(milliseconds(1));
-        seen = light_->progress().frames_in_look;
+        seen = light_->progress().frames_in_estimate;
       }
     } while (seen > 0);
     // Another light than any that was asked for before.
     light_->SetTime(asked_for_ = asked_for_.PlusSeconds(600.0));
-    return Await(*light_, [&](const SceneLight& l) { return l.order.time == asked_for_; });
+    return Await(*light_, [&](const BakedLighting& l) { return l.request.time == asked_for_; });
   }
 
  private:
   PhotographedYard yard_;
   UtcTime time_ = *UtcTime::Parse("2025-09-14T13:50:00Z");
   UtcTime asked_for_ = time_;
-  std::unique_ptr<LiveLight> light_;
+  std::unique_ptr<BackgroundLight> light_;
 };
 
-TEST(LiveLight, KeepsWhatFramesToldWhenTheNextOnesTellNothing) {
+TEST(BackgroundLight, KeepsWhatFramesToldWhenTheNextOnesTellNothing) {
   constexpr double kOffDeg = 3.0;
   LiveYard live(kOffDeg);
   using Source = compositor::MeasuredLight::Source;
-  const auto told = live.LookAt(live.yard().Photograph(0, {.sky_scale = {2.5, 2.5, 2.5}}));
+  const auto told = live.LookAt(live.yard().Photograph(0, {.sky_radiance_scale = {2.5, 2.5, 2.5}}));
   const compositor::MeasuredLight measured = live.progress().measured;
   ASSERT_EQ(measured.heading_source, Source::kMeasured);
   EXPECT_NEAR(ToDegrees(measured.heading_offset), -kOffDeg, 0.5);
@@ -239,12 +240,12 @@ TEST(LiveLight, KeepsWhatFramesToldWhenTheNextOnesTellNothing) {
   std::fill_n(blinded.data(), blinded.size(), std::uint8_t{255});
   const auto blind = live.LookAt(blinded);
   const compositor::MeasuredLight kept = live.progress().measured;
-  EXPECT_EQ(blind->order.marker.heading.value(), told->order.marker.heading.value());
-  const double ratio = SunToSkyOf(told->order.skies, *told);
-  EXPECT_NEAR(SunToSkyOf(blind->order.skies, *told), ratio, 0.02 * ratio);
+  EXPECT_EQ(blind->request.marker.heading.value(), told->request.marker.heading.value());
+  const double ratio = SunToSkyOf(told->request.skies, *told);
+  EXPECT_NEAR(SunToSkyOf(blind->request.skies, *told), ratio, 0.02 * ratio);
   scene::SceneDescription clear;
   clear.cloudiness = scene::Cloudiness::kClear;
-  EXPECT_GT(SunToSkyOf({compositor::StatedSky(clear)}, *told), 1.3 * ratio)
+  EXPECT_GT(SunToSkyOf({compositor::DescribedSky(clear)}, *told), 1.3 * ratio)
       << "it was not as the words say";
   EXPECT_EQ(kept.heading_source, Source::kMeasured);
   EXPECT_GT(kept.heading_error, measured.heading_error) << "as old as it is";

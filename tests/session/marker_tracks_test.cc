@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pleinair::session {
+namespace pleinair::marker_tracks {
 namespace {
 
 tracker::MarkerObservation Seen(int id, double x_m, const std::string& family = "tag36h11") {
@@ -29,75 +29,76 @@ Mat3 AboutX(double angle) {
   return {{1, 0, 0, 0, c, -s, 0, s, c}};
 }
 
-TEST(Session, AnchorsOnTheDeclaredMarkerThoughAnotherIsSeenMore) {
-  Session session(Declared(3));
-  session.AddFrame(0, 0, {Seen(3, 0), Seen(5, 1)});
-  session.AddFrame(1, 1, {Seen(5, 1)});
-  ASSERT_TRUE(session.Anchor());
-  EXPECT_EQ(session.Anchor()->id, 3);
+TEST(MarkerTracks, TakesTheDeclaredMarkerAsReferenceThoughAnotherIsSeenMore) {
+  MarkerTracks marker_tracks(Declared(3));
+  marker_tracks.AddFrame(0, 0, {Seen(3, 0), Seen(5, 1)});
+  marker_tracks.AddFrame(1, 1, {Seen(5, 1)});
+  ASSERT_TRUE(marker_tracks.ReferenceMarker());
+  EXPECT_EQ(marker_tracks.ReferenceMarker()->id, 3);
 }
 
-TEST(Session, AnchorsOnTheMarkerOfTheFamilySeenMost) {
-  Session session(Declared(std::nullopt));
-  session.AddFrame(0, 0, {Seen(5, 1), Seen(3, 0), Seen(9, 0, "sg")});
-  session.AddFrame(1, 1, {Seen(5, 1), Seen(9, 0, "sg")});
-  session.AddFrame(2, 2, {Seen(9, 0, "sg")});
-  EXPECT_EQ(session.Anchor()->ToString(), "tag36h11_5");
-  EXPECT_EQ(session.frames(), 3);
+TEST(MarkerTracks, TakesTheMarkerOfTheFamilySeenMostAsReference) {
+  MarkerTracks marker_tracks(Declared(std::nullopt));
+  marker_tracks.AddFrame(0, 0, {Seen(5, 1), Seen(3, 0), Seen(9, 0, "sg")});
+  marker_tracks.AddFrame(1, 1, {Seen(5, 1), Seen(9, 0, "sg")});
+  marker_tracks.AddFrame(2, 2, {Seen(9, 0, "sg")});
+  EXPECT_EQ(marker_tracks.ReferenceMarker()->ToString(), "tag36h11_5");
+  EXPECT_EQ(marker_tracks.frames(), 3);
 }
 
-TEST(Session, AnchorsOnTheMarkerSeenMostWhereNoFamilyIsDeclared) {
+TEST(MarkerTracks, TakesTheMarkerSeenMostAsReferenceWhereNoFamilyIsDeclared) {
   const std::vector<tracker::MarkerObservation> frame{Seen(5, 1), Seen(3, 0), Seen(9, 0, "sg")};
-  Session any(Declared(std::nullopt, std::nullopt)), five(Declared(5, std::nullopt));
-  for (Session* session : {&any, &five}) {
-    session->AddFrame(0, 0, frame);
-    session->AddFrame(1, 1, {Seen(9, 0, "sg")});
+  MarkerTracks any(Declared(std::nullopt, std::nullopt)), five(Declared(5, std::nullopt));
+  for (MarkerTracks* marker_tracks : {&any, &five}) {
+    marker_tracks->AddFrame(0, 0, frame);
+    marker_tracks->AddFrame(1, 1, {Seen(9, 0, "sg")});
   }
-  EXPECT_EQ(any.Anchor()->ToString(), "sg_9");
-  EXPECT_EQ(five.Anchor()->ToString(), "tag36h11_5");
+  EXPECT_EQ(any.ReferenceMarker()->ToString(), "sg_9");
+  EXPECT_EQ(five.ReferenceMarker()->ToString(), "tag36h11_5");
 }
 
-TEST(Session, KeepsHowMuchOfTheMarkerWasSeenAndHowItWasFound) {
+TEST(MarkerTracks, KeepsHowMuchOfTheMarkerWasSeenAndHowItWasFound) {
   tracker::MarkerObservation half = Seen(9, 0, "sg");
   half.detection.visible_fraction = 0.5;
   half.detection.path = tracker::DetectionPath::kSurfGolay;
-  Session session(Declared(std::nullopt, std::nullopt));
-  session.AddFrame(0, 0, {half});
-  const Observation& kept = session.Path({"sg", 9}).at(0);
+  MarkerTracks marker_tracks(Declared(std::nullopt, std::nullopt));
+  marker_tracks.AddFrame(0, 0, {half});
+  const Observation& kept = marker_tracks.TrackOf({"sg", 9}).at(0);
   EXPECT_EQ(kept.visible_fraction, 0.5);
   EXPECT_EQ(kept.path, tracker::DetectionPath::kSurfGolay);
 }
 
-TEST(Session, HasNoAnchorWhereTheDeclaredMarkerIsNeverSeen) {
-  Session session(Declared(4));
-  session.AddFrame(0, 0, {Seen(5, 1)});
-  EXPECT_FALSE(session.Anchor());
+TEST(MarkerTracks, HasNoReferenceWhereTheDeclaredMarkerIsNeverSeen) {
+  MarkerTracks marker_tracks(Declared(4));
+  marker_tracks.AddFrame(0, 0, {Seen(5, 1)});
+  EXPECT_FALSE(marker_tracks.ReferenceMarker());
 }
 
-TEST(Session, KeepsToTheNearerOfTwoMarkersOfOneNumber) {
-  Session session(Declared(std::nullopt));
-  session.AddFrame(0, 0, {Seen(1, 0.0)});
-  session.AddFrame(1, 66'666'667, {Seen(1, 1.0), Seen(1, 0.05)});
-  EXPECT_NEAR(session.Path({"tag36h11", 1})[1].camera_from_marker.translation_m.x, 0.05, 1e-12);
-  EXPECT_EQ(session.frames_with_duplicates(), 1);
+TEST(MarkerTracks, KeepsToTheNearerOfTwoMarkersOfOneNumber) {
+  MarkerTracks marker_tracks(Declared(std::nullopt));
+  marker_tracks.AddFrame(0, 0, {Seen(1, 0.0)});
+  marker_tracks.AddFrame(1, 66'666'667, {Seen(1, 1.0), Seen(1, 0.05)});
+  EXPECT_NEAR(marker_tracks.TrackOf({"tag36h11", 1})[1].camera_from_marker.translation_m.x, 0.05,
+              1e-12);
+  EXPECT_EQ(marker_tracks.frames_with_duplicates(), 1);
 }
 
-TEST(Session, DoesNotFlipToTheOtherPlanarSolution) {
-  Session session(Declared(std::nullopt));
+TEST(MarkerTracks, DoesNotFlipToTheOtherPlanarSolution) {
+  MarkerTracks marker_tracks(Declared(std::nullopt));
   tracker::MarkerObservation first = Seen(1, 0.0);
   first.pose.best.camera_from_marker.rotation = AboutX(0.1);
-  session.AddFrame(0, 0, {first});
+  marker_tracks.AddFrame(0, 0, {first});
   tracker::MarkerObservation ambiguous = Seen(1, 0.0);
   ambiguous.pose.best.camera_from_marker.rotation = AboutX(-0.1);
   ambiguous.pose.alternative = ambiguous.pose.best;
   ambiguous.pose.alternative->camera_from_marker.rotation = AboutX(0.11);
   ambiguous.pose.ambiguity_ratio = 0.5;
-  session.AddFrame(1, 66'666'667, {ambiguous});
-  const auto& path = session.Path({"tag36h11", 1});
+  marker_tracks.AddFrame(1, 66'666'667, {ambiguous});
+  const auto& path = marker_tracks.TrackOf({"tag36h11", 1});
   EXPECT_LT(RotationAngle(path[1].camera_from_marker.rotation, AboutX(0.11)), 1e-9);
   // Where the picture itself tells, it is believed.
   ambiguous.pose.ambiguity_ratio = 0.01;
-  session.AddFrame(2, 133'333'333, {ambiguous});
+  marker_tracks.AddFrame(2, 133'333'333, {ambiguous});
   EXPECT_LT(RotationAngle(path[2].camera_from_marker.rotation, AboutX(-0.1)), 1e-9);
 }
 
@@ -108,4 +109,4 @@ TEST(RotationAngle, IsExactNearZeroAndNearAHalfTurn) {
 }
 
 }  // namespace
-}  // namespace pleinair::session
+}  // namespace pleinair::marker_tracks

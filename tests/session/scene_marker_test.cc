@@ -61,10 +61,10 @@ TEST(SceneMarker, PrintsAreTheSizeOfTheirModules) {
 TEST(SceneMarker, MetersLightOnTheBandThatIsBlackInItsPrint) {
   const scene::MarkerDescription marker = Scene("sg", 17).marker;
   // The rim of an S-G marker is 4 of 40 modules; an AprilTag's band is one of 8 or of 6.
-  EXPECT_DOUBLE_EQ(PrintOf(marker, {"sg", 17}).black_band_m, 0.04);
-  EXPECT_DOUBLE_EQ(PrintOf(marker, {"tag36h11", 0}).black_band_m, 0.05);
-  EXPECT_DOUBLE_EQ(PrintOf(marker, {"tag16h5", 0}).black_band_m, 0.4 / 6);
-  EXPECT_EQ(PrintOf(marker, {"sg", 17}).board_size_m, 0.5);
+  EXPECT_DOUBLE_EQ(MarkerReflectanceOf(marker, {"sg", 17}).black_band_m, 0.04);
+  EXPECT_DOUBLE_EQ(MarkerReflectanceOf(marker, {"tag36h11", 0}).black_band_m, 0.05);
+  EXPECT_DOUBLE_EQ(MarkerReflectanceOf(marker, {"tag16h5", 0}).black_band_m, 0.4 / 6);
+  EXPECT_EQ(MarkerReflectanceOf(marker, {"sg", 17}).board_size_m, 0.5);
 }
 
 }  // namespace

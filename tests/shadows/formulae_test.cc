@@ -68,27 +68,27 @@ TEST(ShadowWidestKernel, IsTheOneThatWindowsLeaveRoomFor) {
 
 // A metre of height is 4.65 mm of the disc's radius: a tenth of that counts, a wall's foot does
 // not.
-TEST(ShadowLeastHeight, TellsBlockersFromAWallsFoot) {
+TEST(ShadowMinHeight, TellsBlockersFromAWallsFoot) {
   const float tan_radius = std::tan(glm::radians(0.2665F));
-  EXPECT_LT(glsl::ShadowLeastHeight(0.00465F, tan_radius), 0.11F);
-  EXPECT_GT(glsl::ShadowLeastHeight(0.00465F, tan_radius), 5.0F * 0.00465F);
-  EXPECT_EQ(glsl::ShadowLeastHeight(-0.01F, tan_radius), 0.0F);
+  EXPECT_LT(glsl::ShadowMinHeight(0.00465F, tan_radius), 0.11F);
+  EXPECT_GT(glsl::ShadowMinHeight(0.00465F, tan_radius), 5.0F * 0.00465F);
+  EXPECT_EQ(glsl::ShadowMinHeight(-0.01F, tan_radius), 0.0F);
 }
 
 // A wall in the sun stands beside the receiver: what a pixel covers of it rises by cot of the sun's
 // distance from the zenith, less than 3 down to 18°, and shades nothing. What rises more does.
-TEST(ShadowLeastHeight, OfWhatThePixelAloneCoversPassesOverALitWallsFoot) {
+TEST(ShadowMinHeight, OfWhatThePixelAloneCoversPassesOverALitWallsFoot) {
   const float tan_radius = std::tan(glm::radians(0.2665F));
   for (const float pixel_m : {0.001F, 0.02F}) {
     for (const float share : {0.1F, 0.5F, 1.0F}) {
       const float away_m = share * pixel_m;
-      const float least_m = glsl::ShadowLeastHeightSought(away_m, pixel_m, tan_radius);
-      EXPECT_GT(least_m, 2.9F * away_m);
-      EXPECT_LT(least_m, 3.1F * away_m);
+      const float min_m = glsl::ShadowMinHeightSought(away_m, pixel_m, tan_radius);
+      EXPECT_GT(min_m, 2.9F * away_m);
+      EXPECT_LT(min_m, 3.1F * away_m);
     }
     // Beyond the pixel the disc decides, as everywhere.
-    EXPECT_EQ(glsl::ShadowLeastHeightSought(pixel_m + 0.01F, pixel_m, tan_radius),
-              glsl::ShadowLeastHeight(pixel_m + 0.01F - pixel_m, tan_radius));
+    EXPECT_EQ(glsl::ShadowMinHeightSought(pixel_m + 0.01F, pixel_m, tan_radius),
+              glsl::ShadowMinHeight(pixel_m + 0.01F - pixel_m, tan_radius));
   }
 }
 

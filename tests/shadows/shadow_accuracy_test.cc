@@ -67,7 +67,7 @@ TEST_F(ShadowAccuracy, OfTheSunsDiscIsBetterThanThatOfMoments) {
   struct Variant {
     ShadowMethod method;
     int resolution;
-    double most_in_penumbra, most_leak, most_darkening;
+    double max_in_penumbra, max_leak, max_darkening;
   };
   constexpr Variant kVariants[] = {
       {ShadowMethod::kSunDisc, 2048, 0.07, 2e-3, 5e-4},
@@ -93,9 +93,9 @@ TEST_F(ShadowAccuracy, OfTheSunsDiscIsBetterThanThatOfMoments) {
                   variant.resolution, 1e3 * maps.uniforms().slices[0].size.x, errors.penumbra_rmse,
                   errors.rmse, errors.leak, errors.darkening);
       EXPECT_GT(errors.penumbra_points, 100);
-      EXPECT_LT(errors.penumbra_rmse, variant.most_in_penumbra) << name << ' ' << elevation;
-      EXPECT_LT(errors.leak, variant.most_leak) << name << ' ' << elevation;
-      EXPECT_LT(errors.darkening, variant.most_darkening) << name << ' ' << elevation;
+      EXPECT_LT(errors.penumbra_rmse, variant.max_in_penumbra) << name << ' ' << elevation;
+      EXPECT_LT(errors.leak, variant.max_leak) << name << ' ' << elevation;
+      EXPECT_LT(errors.darkening, variant.max_darkening) << name << ' ' << elevation;
       if (variant.method != ShadowMethod::kSunDisc) {
         EXPECT_LT(of_sun_disc.penumbra_rmse, 0.7 * errors.penumbra_rmse)
             << name << ' ' << elevation;

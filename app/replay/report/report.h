@@ -29,9 +29,10 @@ struct ReplayReport {
   int width = 0, height = 0;  ///< Of the output, pixels.
   double frame_rate_hz = 0.0;
   std::int64_t frames = 0;
-  std::optional<session::MarkerName> anchor;
+  std::optional<session::MarkerName> reference_marker;
   std::vector<session::MarkerName> markers;  ///< Every marker seen.
-  std::vector<session::Observation> path;    ///< Of the anchor, a frame it was seen in each.
+  std::vector<session::Observation>
+      path;  ///< Of the reference marker, a frame it was seen in each.
   scene::PlaceTime place_time;
   scene::Cloudiness cloudiness = scene::Cloudiness::kClear;
   std::size_t virtual_objects = 0, phantoms = 0;

@@ -134,27 +134,30 @@ std::string MeasuredCards(const compositor::MeasuredLight& light) {
   return html;
 }
 
-/// What the camera's gain is and who says so.
-std::string GainCard(const session::LightSummary& light) {
-  using GainSource = session::LightSummary::GainSource;
-  const std::string gain =
-      fmt::format("{:.3g} {:.3g} {:.3g}", light.gain.r, light.gain.g, light.gain.b);
+/// What the camera's exposure scale is and who says so.
+std::string ExposureScaleCard(const session::LightSummary& light) {
+  using ExposureScaleSource = session::LightSummary::ExposureScaleSource;
+  const std::string exposure_scale = fmt::format("{:.3g} {:.3g} {:.3g}", light.exposure_scale.r,
+                                                 light.exposure_scale.g, light.exposure_scale.b);
   const std::string what = "camera gain (r g b per cd/m²), ";
-  if (light.gain_source == GainSource::kScene) return Card(gain, what + "as the scene gives it");
-  if (light.gain_source == GainSource::kGuess) return Card(gain, what + "guessed");
-  const LinearRgb& error = light.gain_error;
-  return Card(gain, what + fmt::format("± {:.1f} {:.1f} {:.1f} % by the marker in {} frames, "
-                                       "changed by a factor of {:.2f}",
-                                       error.r * 100, error.g * 100, error.b * 100, light.readings,
-                                       light.gain_change));
+  if (light.exposure_scale_source == ExposureScaleSource::kScene)
+    return Card(exposure_scale, what + "as the scene gives it");
+  if (light.exposure_scale_source == ExposureScaleSource::kGuess)
+    return Card(exposure_scale, what + "guessed");
+  const LinearRgb& error = light.exposure_scale_error;
+  return Card(exposure_scale,
+              what + fmt::format("± {:.1f} {:.1f} {:.1f} % by the marker in {} frames, "
+                                 "changed by a factor of {:.2f}",
+                                 error.r * 100, error.g * 100, error.b * 100,
+                                 light.exposure_estimates, light.exposure_scale_change));
 }
 
 /// Whether the sun reaches the marker; nothing where it served as no light meter.
 std::string MarkerCard(const session::LightSummary& light) {
-  if (light.readings == 0) return "";
-  std::string figure = fmt::format("{:.0f} % in the sun", light.print_lit_share * 100);
-  if (light.print_lit_share <= 0.0) figure = "in shade";
-  if (light.print_lit_share >= 1.0) figure = "in the sun";
+  if (light.exposure_estimates == 0) return "";
+  std::string figure = fmt::format("{:.0f} % in the sun", light.marker_sunlit_share * 100);
+  if (light.marker_sunlit_share <= 0.0) figure = "in shade";
+  if (light.marker_sunlit_share >= 1.0) figure = "in the sun";
   if (!light.measured.sun_shines) figure = "no sun";
   return Card(figure, fmt::format("marker, as the phantoms leave it; leaves shade it in {:.0f} % "
                                   "of frames",
@@ -176,7 +179,7 @@ std::string Light(const ReplayReport& report) {
   html += Card(fmt::format("{:.1f} klx", light.sky_horizontal_lux / 1000), "sky, on level ground");
   html += MeasuredCards(light.measured);
   html += MarkerCard(light);
-  html += GainCard(light);
+  html += ExposureScaleCard(light);
   if (light.look) {
     html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.look->blur_px,
                              1000 * light.look->NoiseSigma(1, session::kMediumLight)),
@@ -197,7 +200,8 @@ std::string ReportHtml(const ReplayReport& report) {
           files::EscapeMarkup(report.version) + ": <code>" + files::EscapeMarkup(report.command) +
           "</code></p>\n<div class=\"cards\">\n";
   html += Card(fmt::format("{} of {}", report.path.size(), report.frames), "frames with a pose");
-  html += Card(report.anchor ? report.anchor->ToString() : "none", "marker that anchors the scene");
+  html += Card(report.reference_marker ? report.reference_marker->ToString() : "none",
+               "marker that anchors the scene");
   html += Card(fmt::format("{}×{}, {:.4g} Hz", report.width, report.height, report.frame_rate_hz),
                "output");
   if (!report.path.empty()) {

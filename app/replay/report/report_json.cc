@@ -22,7 +22,7 @@ std::string Dump(const Json& json, int indent) {
 
 const char* SourceName(compositor::MeasuredLight::Source source) {
   switch (source) {
-    case compositor::MeasuredLight::Source::kStated:
+    case compositor::MeasuredLight::Source::kDescription:
       return "stated";
     case compositor::MeasuredLight::Source::kMeasured:
       return "measured";
@@ -36,13 +36,13 @@ const char* SourceName(compositor::MeasuredLight::Source source) {
   return "stated";
 }
 
-const char* SourceName(session::LightSummary::GainSource source) {
+const char* SourceName(session::LightSummary::ExposureScaleSource source) {
   switch (source) {
-    case session::LightSummary::GainSource::kMarker:
+    case session::LightSummary::ExposureScaleSource::kMarker:
       return "marker";
-    case session::LightSummary::GainSource::kScene:
+    case session::LightSummary::ExposureScaleSource::kScene:
       return "scene";
-    case session::LightSummary::GainSource::kGuess:
+    case session::LightSummary::ExposureScaleSource::kGuess:
       return "guess";
   }
   return "guess";
@@ -73,11 +73,11 @@ Json MeasuredJson(const compositor::MeasuredLight& light) {
           {"shade_places", light.shade_places},
           {"sun_doubtful", light.sun_doubtful},
           {"shaded_without_phantom", Rounded(light.shaded)},
-          {"open_sun_over_brightest_of_print", Rounded(light.print_shade)}};
+          {"open_sun_over_brightest_of_print", Rounded(light.marker_shade)}};
 }
 
 /// Noise as its standard deviation at a medium light, in thousandths of the brightest.
-Json LookJson(const compositor::PictureLook& look) {
+Json LookJson(const compositor::CameraLook& look) {
   Json noise;
   for (int c = 0; c < 3; ++c)
     noise.push_back(Rounded(1000 * look.NoiseSigma(c, session::kMediumLight)));
@@ -88,21 +88,22 @@ Json LookJson(const compositor::PictureLook& look) {
 }
 
 Json LightJson(const session::LightSummary& light) {
-  const bool is_metered = light.gain_source == session::LightSummary::GainSource::kMarker;
+  const bool is_metered =
+      light.exposure_scale_source == session::LightSummary::ExposureScaleSource::kMarker;
   // Without a sun a print lies neither in it nor in shade.
-  const bool may_be_lit = light.readings > 0 && light.measured.sun_shines;
+  const bool may_be_lit = light.exposure_estimates > 0 && light.measured.sun_shines;
   return {{"sun_azimuth_deg", Rounded(ToDegrees(light.sun.azimuth))},
           {"sun_elevation_deg", Rounded(ToDegrees(light.sun.elevation))},
           {"sun_elevation_refracted_deg", Rounded(ToDegrees(light.sun.elevation_refracted))},
           {"sun_normal_lux", Rounded(light.sun_normal_lux)},
           {"sky_horizontal_lux", Rounded(light.sky_horizontal_lux)},
-          {"gain_rgb", ColorJson(light.gain)},
-          {"gain_from", SourceName(light.gain_source)},
-          {"gain_relative_error_rgb", is_metered ? ColorJson(light.gain_error) : Json()},
-          {"gain_change", IfKnown(is_metered, light.gain_change)},
-          {"gain_readings", light.readings},
-          {"marker_in_sun", IfKnown(may_be_lit, light.print_lit_share)},
-          {"marker_dappled", IfKnown(light.readings > 0, session::DappledShare(light))},
+          {"gain_rgb", ColorJson(light.exposure_scale)},
+          {"gain_from", SourceName(light.exposure_scale_source)},
+          {"gain_relative_error_rgb", is_metered ? ColorJson(light.exposure_scale_error) : Json()},
+          {"gain_change", IfKnown(is_metered, light.exposure_scale_change)},
+          {"gain_readings", light.exposure_estimates},
+          {"marker_in_sun", IfKnown(may_be_lit, light.marker_sunlit_share)},
+          {"marker_dappled", IfKnown(light.exposure_estimates > 0, session::DappledShare(light))},
           {"look", light.look ? LookJson(*light.look) : Json()},
           {"measured", MeasuredJson(light.measured)}};
 }
@@ -158,7 +159,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["frames_with_pose"] = report.path.size();
   json["size_px"] = {report.width, report.height};
   json["frame_rate_hz"] = Rounded(report.frame_rate_hz);
-  json["marker"] = report.anchor ? Json(report.anchor->ToString()) : Json();
+  json["marker"] = report.reference_marker ? Json(report.reference_marker->ToString()) : Json();
   json["markers_seen"] = Json::array();
   for (const session::MarkerName& marker : report.markers)
     json["markers_seen"].push_back(marker.ToString());
@@ -183,7 +184,7 @@ std::string SummaryJson(const ReplayReport& report, const std::filesystem::path&
   json["folder"] = folder.string();
   json["frames"] = report.frames;
   json["frames_with_pose"] = report.path.size();
-  json["marker"] = report.anchor ? Json(report.anchor->ToString()) : Json();
+  json["marker"] = report.reference_marker ? Json(report.reference_marker->ToString()) : Json();
   json["outputs"] = report.outputs;
   json["warnings"] = report.warnings;
   json["timings"] = TimingsJson(report);

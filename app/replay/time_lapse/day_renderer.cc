@@ -26,8 +26,8 @@ constexpr double kDark_lux = 0.05;
 
 }  // namespace
 
-DayRenderer::DayRenderer(const CameraModel& camera, session::LightOrder order)
-    : order_(std::move(order)), width_(camera.width), height_(camera.height) {
+DayRenderer::DayRenderer(const CameraModel& camera, session::LightingRequest request)
+    : request_(std::move(request)), width_(camera.width), height_(camera.height) {
   rays_.reserve(static_cast<std::size_t>(width_) * height_);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
@@ -39,9 +39,9 @@ DayRenderer::DayRenderer(const CameraModel& camera, session::LightOrder order)
 
 Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
     const CameraModel& camera, std::vector<compositor::PlacedModel> placed,
-    session::LightOrder order, const compositor::ComposerOptions& options) {
-  std::unique_ptr<DayRenderer> renderer(new DayRenderer(camera, std::move(order)));
-  renderer->order_.print = {};  // Nothing is metered.
+    session::LightingRequest request, const compositor::ComposerOptions& options) {
+  std::unique_ptr<DayRenderer> renderer(new DayRenderer(camera, std::move(request)));
+  renderer->request_.marker_reflectance = {};  // Nothing is metered.
   for (compositor::PlacedModel& model : placed) model.is_phantom = false;
   compositor::ComposerOptions drawing = options;
   drawing.response = {};
@@ -57,30 +57,31 @@ Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
 }
 
 LinearRgb DayRenderer::LevelLight(UtcTime time) const {
-  const sky::SunPosition sun = scene::SunOver(order_.place, time);
-  const auto model = order_.skies.source->ForSun(sun.ToSun(), sun.distance_au);
-  return model->SkyHorizontalIrradiance() * order_.skies.scale +
+  const sky::SunPosition sun = scene::SunOver(request_.place, time);
+  const auto model = request_.skies.source->ForSun(sun.ToSun(), sun.distance_au);
+  return model->SkyHorizontalIrradiance() * request_.skies.scale +
          model->SunNormalIrradiance() * std::max(0.0, sun.ToSun().xyz.z);
 }
 
 Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_from_marker,
-                                     UtcTime time, LinearRgb gain) {
-  session::LightOrder order = order_;
-  order.time = time;
-  session::SceneLight light(order);
+                                     UtcTime time, LinearRgb exposure_scale) {
+  session::LightingRequest request = request_;
+  request.time = time;
+  session::BakedLighting light(request);
   for (compositor::LitMesh& mesh : light.meshes) {
     mesh.is_phantom = false;
     mesh.ambient_without.clear();
   }
   PLEINAIR_RETURN_IF_ERROR(
       composer_->SetLight(light.meshes, light.daylight, light.marker_from_world, light.from_below));
-  return composer_->Compose(Far(light, camera_from_marker, gain).view(), camera_from_marker, gain);
+  return composer_->Compose(Far(light, camera_from_marker, exposure_scale).view(),
+                            camera_from_marker, exposure_scale);
 }
 
 /// What lies behind the scene: sky and land.
-RgbImage DayRenderer::Far(const session::SceneLight& light,
+RgbImage DayRenderer::Far(const session::BakedLighting& light,
                           const Transform<Camera, Marker>& camera_from_marker,
-                          LinearRgb gain) const {
+                          LinearRgb exposure_scale) const {
   const compositor::SkyTable sky(light.daylight, light.marker_from_world, kLandAlbedo);
   const Mat3 marker_from_camera = camera_from_marker.rotation.Transposed();
   RgbImage picture(width_, height_, 3);
@@ -89,19 +90,19 @@ RgbImage DayRenderer::Far(const session::SceneLight& light,
     std::uint8_t* at = picture.view().row(y);
     for (int x = 0; x < width_; ++x, ++ray) {
       const auto radiance = sky.Radiance(marker_from_camera * *ray);
-      *at++ = Srgb8FromLinear(radiance[0] * gain.r);
-      *at++ = Srgb8FromLinear(radiance[1] * gain.g);
-      *at++ = Srgb8FromLinear(radiance[2] * gain.b);
+      *at++ = Srgb8FromLinear(radiance[0] * exposure_scale.r);
+      *at++ = Srgb8FromLinear(radiance[1] * exposure_scale.g);
+      *at++ = Srgb8FromLinear(radiance[2] * exposure_scale.b);
     }
   }
   return picture;
 }
 
-LinearRgb GainOfDay(LinearRgb level_light, LinearRgb brightest) {
-  const double light = Luminance(level_light), most = Luminance(brightest);
-  if (light < kDark_lux || most <= 0.0) return {};
-  const double white = kWhite * std::pow(light / most, kDimming);
-  const LinearRgb balance{most / brightest.r, most / brightest.g, most / brightest.b};
+LinearRgb ExposureScaleOfDay(LinearRgb level_light, LinearRgb brightest) {
+  const double light = Luminance(level_light), maximum = Luminance(brightest);
+  if (light < kDark_lux || maximum <= 0.0) return {};
+  const double white = kWhite * std::pow(light / maximum, kDimming);
+  const LinearRgb balance{maximum / brightest.r, maximum / brightest.g, maximum / brightest.b};
   return balance * (white * std::numbers::pi / (kPaper * light));
 }
 

@@ -13,7 +13,7 @@
 
 namespace pleinair::app {
 
-/// Draws a whole scene, phantoms in their own colours and virtual objects, under the sky of any
+/// Draws a whole scene, phantoms in their own colors and virtual objects, under the sky of any
 /// moment: each picture's light is one product with the daylight coefficients.
 class DayRenderer {
  public:
@@ -21,29 +21,30 @@ class DayRenderer {
   /// `placed`: the models that its solver was made of. Errors as Composer::Create().
   static Result<std::unique_ptr<DayRenderer>> Create(const CameraModel& camera,
                                                      std::vector<compositor::PlacedModel> placed,
-                                                     session::LightOrder order,
+                                                     session::LightingRequest request,
                                                      const compositor::ComposerOptions& options);
 
   /// Sun and sky on level ground, lux.
   LinearRgb LevelLight(UtcTime time) const;
 
-  /// What a camera with this gain (display-linear value per cd/m²) sees. Nothing of the marker.
+  /// What a camera with this exposure scale (display-linear value per cd/m²) sees. Nothing of the
+  /// marker.
   Result<RgbImage> Render(const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
-                          LinearRgb gain);
+                          LinearRgb exposure_scale);
 
  private:
-  DayRenderer(const CameraModel& camera, session::LightOrder order);
-  RgbImage Far(const session::SceneLight& light,
-               const Transform<Camera, Marker>& camera_from_marker, LinearRgb gain) const;
+  DayRenderer(const CameraModel& camera, session::LightingRequest request);
+  RgbImage Far(const session::BakedLighting& light,
+               const Transform<Camera, Marker>& camera_from_marker, LinearRgb exposure_scale) const;
 
-  session::LightOrder order_;
+  session::LightingRequest request_;
   int width_, height_;
   std::vector<Vec3> rays_;  // Of the pixels, camera coordinates, unit.
   std::unique_ptr<compositor::Composer> composer_;
 };
 
-/// The gain of a camera that sets itself to the light, though not wholly: dusk shows darker than
-/// noon. White balance is the brightest moment's and stays, so that a low sun is warm.
-LinearRgb GainOfDay(LinearRgb level_light, LinearRgb brightest);
+/// The exposure scale of a camera that sets itself to the light, though not wholly: dusk shows
+/// darker than noon. White balance is the brightest moment's and stays, so that a low sun is warm.
+LinearRgb ExposureScaleOfDay(LinearRgb level_light, LinearRgb brightest);
 
 }  // namespace pleinair::app

@@ -11,10 +11,10 @@ namespace pleinair::app {
 namespace {
 
 constexpr int kMinutesOfDay = 1440;
-constexpr std::size_t kMostPictures = 1440;
+constexpr std::size_t kMaxPictures = 1440;
 // Light comes before the sun and stays after it.
 constexpr double kTwilight_s = 1800.0;
-constexpr double kShortest_s = 1.0;
+constexpr double kMinPeriod_s = 1.0;
 
 constexpr const char* kHoursRemedy = "write 05:00..21:00, 05:00..21:00+02:00 or day";
 constexpr const char* kEveryRemedy = "write 10min, 90s or 1h";
@@ -64,7 +64,7 @@ Result<TimeLapseOptions> ParseTimeLapse(const std::string& hours, const std::str
   const std::string_view unit(parsed.ptr, every.data() + every.size());
   const double seconds = unit == "s" ? 1.0 : unit == "min" ? 60.0 : unit == "h" ? 3600.0 : 0.0;
   options.every_s = number * seconds;
-  if (parsed.ec != std::errc() || !(options.every_s >= kShortest_s && options.every_s <= 86'400)) {
+  if (parsed.ec != std::errc() || !(options.every_s >= kMinPeriod_s && options.every_s <= 86'400)) {
     return InputError("--every", "\"" + every.substr(0, 40) + "\" is not a step of time",
                       kEveryRemedy);
   }
@@ -100,9 +100,9 @@ Result<TimeLapseMoments> MomentsOf(const TimeLapseOptions& options, const scene:
   const double span_s =
       static_cast<double>(until.nanoseconds_since_1970() - from.nanoseconds_since_1970()) * 1e-9;
   const auto steps = static_cast<std::size_t>(span_s / options.every_s + 1e-6);
-  if (steps >= kMostPictures) {
+  if (steps >= kMaxPictures) {
     return InputError("--every", "gives " + std::to_string(steps + 1) + " pictures",
-                      "take longer steps: " + std::to_string(kMostPictures) + " are the most");
+                      "take longer steps: " + std::to_string(kMaxPictures) + " are the most");
   }
   for (std::size_t i = 0; i <= steps; ++i) {
     moments.times.push_back(from.PlusSeconds(static_cast<double>(i) * options.every_s));

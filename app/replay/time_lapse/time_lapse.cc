@@ -25,12 +25,12 @@ namespace fs = std::filesystem;
 
 constexpr double kPicturesPerSecond = 12.0;
 // Of the sheet.
-constexpr std::size_t kColumns = 4, kMostTiles = 16;
+constexpr std::size_t kColumns = 4, kMaxTiles = 16;
 constexpr int kTileWidth_px = 320, kCaption_px = 22;
 
 /// A strip with a time in it.
 RgbImage Caption(const std::string& text) {
-  exports::LineDrawing drawing;
+  exports::VectorDrawing drawing;
   drawing.width = kTileWidth_px;
   drawing.height = kCaption_px;
   drawing.texts.push_back(
@@ -48,7 +48,7 @@ void Paste(const RgbImage& from, int left, int top, RgbImage* onto) {
 class ContactSheet {
  public:
   ContactSheet(std::size_t pictures, double aspect)
-      : tiles_(std::min(pictures, kMostTiles)),
+      : tiles_(std::min(pictures, kMaxTiles)),
         pictures_(pictures),
         tile_height_(static_cast<int>(std::lround(kTileWidth_px * aspect))) {
     const std::size_t columns = std::min(tiles_, kColumns);
@@ -120,7 +120,8 @@ Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
     const UtcTime time = moments.times[i];
     PLEINAIR_ASSIGN_OR_RETURN(
         const RgbImage picture,
-        renderer.Render(camera_from_marker, time, GainOfDay(renderer.LevelLight(time), brightest)));
+        renderer.Render(camera_from_marker, time,
+                        ExposureScaleOfDay(renderer.LevelLight(time), brightest)));
     if (!video) {
       PLEINAIR_ASSIGN_OR_RETURN(
           video,

@@ -15,7 +15,7 @@ namespace pleinair::compositor {
 /// straight (the same in all channels) and what comes after reflections in red, green and blue.
 ///
 /// Eight bits each against the largest of 16 patches in a plane: a hundred thousand vertices take
-/// 80 MB, and reading them is what a product costs. An entry is right to 1/510 of the largest of
+/// 80 MB, and estimate them is what a product costs. An entry is right to 1/510 of the largest of
 /// its 16, their sum to 0.1 % (tests/compositor/light/daylight/daylight_coefficients_test.cc).
 class CoefficientMatrix {
  public:

@@ -11,7 +11,7 @@ namespace pleinair::compositor {
 namespace {
 
 // Computations in a row that newer wishes may end.
-constexpr int kMostGivenUp = 2;
+constexpr int kMaxGivenUp = 2;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ class CoefficientWorker::Work {
       const std::lock_guard lock(mutex_);
       wish_ = std::move(wish);
       share_ = 0.0;
-      if (given_up_ < kMostGivenUp) stop_ = true;
+      if (given_up_ < kMaxGivenUp) stop_ = true;
     }
     changed_.notify_all();
   }

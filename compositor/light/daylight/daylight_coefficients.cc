@@ -20,10 +20,10 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr int kP = CoefficientMatrix::kPatches;
-constexpr int kMostReflections = 24;
+constexpr int kMaxReflections = 24;
 // About ten seconds of two processors.
 constexpr std::uint32_t kRayBudget = 25'000'000;
-constexpr std::uint32_t kFewestRays = 32;
+constexpr std::uint32_t kMinRays = 32;
 constexpr double kShareOfRays = 0.35;  // Of the time, for the progress.
 
 /// Raise it whenever something else is computed for the same geometry and options: rays, sampling,
@@ -37,14 +37,14 @@ using Straight = std::array<float, kP>;
 
 class Transfer {
  public:
-  Transfer(const LightScene& scene, const GatheredLight& gathered, const SkyPatches& patches,
+  Transfer(const PatchScene& scene, const FinalGather& gathered, const SkyPatches& patches,
            int threads)
       : scene_(scene),
         gathered_(gathered),
         patches_(patches),
         is_phantom_(scene.ArePhantoms()),
         threads_(threads),
-        inside_(InsidePatches(scene, gathered, threads)),
+        inside_(FindBuriedPatches(scene, gathered, threads)),
         weight_(std::numbers::pi_v<float> / static_cast<float>(gathered.rays)) {}
 
   /// One chunk of patches in one case (0: with the objects, 1: without); how many reflections.
@@ -60,8 +60,8 @@ class Transfer {
     }
     double all = Total(arriving);
     int reflections = 0;
-    while (reflections < kMostReflections) {
-      arriving = Reflect(arriving, k);
+    while (reflections < kMaxReflections) {
+      arriving = SolveRadiosity(arriving, k);
       FillFromNeighbours(scene_, inside_[k], &arriving);
       ++reflections;
       for (std::size_t v = 0; v < sum.size(); ++v) {
@@ -96,19 +96,19 @@ class Transfer {
     const bool fine = patches_.division() > 1;
     std::vector<Straight> straight(scene_.patch_count);
     ParallelFor(gathered_.blocks.size(), threads_, [&](std::size_t index) {
-      const GatheredLight::Block& block = gathered_.blocks[index];
+      const FinalGather::Block& block = gathered_.blocks[index];
       std::uint32_t at = 0;
       for (std::size_t i = 0; i < block.escape_ends.size(); ++i) {
-        Straight& light = straight[index * GatheredLight::kBlockSize + i];
+        Straight& light = straight[index * FinalGather::kBlockSize + i];
         for (; at < block.escape_ends[i]; ++at) {
-          const GatheredLight::Escape& escape = block.escapes[at];
+          const FinalGather::Escape& escape = block.escapes[at];
           if (escape.patch / kP != chunk || (k == 0 ? escape.with : escape.without) == 0) continue;
           if (fine && escape.patch != patches_.land()) continue;
           light[escape.patch % kP] += weight_;
         }
         if (fine) {
-          AddFinePatches(static_cast<std::uint32_t>(index * GatheredLight::kBlockSize + i), chunk,
-                         k, &light);
+          AddFinePatches(static_cast<std::uint32_t>(index * FinalGather::kBlockSize + i), chunk, k,
+                         &light);
         }
       }
     });
@@ -121,46 +121,48 @@ class Transfer {
     const int last = std::min((chunk + 1) * kP, patches_.count());
     for (int patch = chunk * kP; patch < last; ++patch) {
       const std::uint32_t seed = Hash(Hash(at, kFineSalt), static_cast<std::uint32_t>(patch));
-      const LightScene::Spot& spot = scene_.AnySpot(at, Hash(seed, 1));
+      const PatchScene::PatchSample& surface_sample = scene_.AnyPatchSample(at, Hash(seed, 1));
       const Vec3 direction =
           patches_.Within(patch, UnitFromHash(Hash(seed, 2)), UnitFromHash(Hash(seed, 3)));
-      const double cosine =
-          Dot(Normalized({spot.normal[0], spot.normal[1], spot.normal[2]}), direction);
-      if (cosine <= 0.0 || scene_.rays->Occluded(targets, spot.origin, direction)) continue;
+      const double cosine = Dot(Normalized({surface_sample.normal[0], surface_sample.normal[1],
+                                            surface_sample.normal[2]}),
+                                direction);
+      if (cosine <= 0.0 || scene_.rays->Occluded(targets, surface_sample.origin, direction))
+        continue;
       (*light)[patch % kP] = static_cast<float>(cosine * patches_.SolidAngle(patch));
     }
   }
 
-  std::vector<ChunkLight> Reflect(const std::vector<ChunkLight>& arriving, int k) const {
+  std::vector<ChunkLight> SolveRadiosity(const std::vector<ChunkLight>& arriving, int k) const {
     constexpr float kInvPi = std::numbers::inv_pi_v<float>;
     std::vector<ChunkLight> reflected(arriving.size());
     ParallelFor(gathered_.blocks.size(), threads_, [&](std::size_t index) {
       std::vector<ReflectingPlace> places;
-      ForEachPatch(gathered_, index,
-                   [&](std::uint32_t patch, const GatheredLight::Hit* first,
-                       const GatheredLight::Hit* last) {
-                     places.clear();
-                     for (const GatheredLight::Hit* hit = first; hit != last; ++hit) {
-                       if ((k == 0 ? hit->with : hit->without) == 0) continue;
-                       const LightScene::Face& face = scene_.faces[hit->face];
-                       const auto corners = CornersOf(face, *hit);
-                       const float u = static_cast<float>(hit->u) / 65535.0F;
-                       const float v = static_cast<float>(hit->v) / 65535.0F;
-                       const auto& albedo = scene_.sheets[face.sheet].albedo;
-                       const float factor = kInvPi * weight_;
-                       places.push_back(
-                           {{&arriving[corners[0]], &arriving[corners[1]], &arriving[corners[2]]},
-                            {1.0F - u - v, u, v},
-                            {albedo[0] * factor, albedo[1] * factor, albedo[2] * factor}});
-                     }
-                     AddReflections(places, &reflected[patch]);
-                   });
+      ForEachPatch(
+          gathered_, index,
+          [&](std::uint32_t patch, const FinalGather::Hit* first, const FinalGather::Hit* last) {
+            places.clear();
+            for (const FinalGather::Hit* hit = first; hit != last; ++hit) {
+              if ((k == 0 ? hit->with : hit->without) == 0) continue;
+              const PatchScene::Face& face = scene_.faces[hit->face];
+              const auto corners = CornersOf(face, *hit);
+              const float u = static_cast<float>(hit->u) / 65535.0F;
+              const float v = static_cast<float>(hit->v) / 65535.0F;
+              const auto& albedo = scene_.mesh_sides[face.mesh_side].albedo;
+              const float factor = kInvPi * weight_;
+              places.push_back(
+                  {{&arriving[corners[0]], &arriving[corners[1]], &arriving[corners[2]]},
+                   {1.0F - u - v, u, v},
+                   {albedo[0] * factor, albedo[1] * factor, albedo[2] * factor}});
+            }
+            AddInterreflections(places, &reflected[patch]);
+          });
     });
     return reflected;
   }
 
-  const LightScene& scene_;
-  const GatheredLight& gathered_;
+  const PatchScene& scene_;
+  const FinalGather& gathered_;
   const SkyPatches& patches_;
   std::vector<std::uint8_t> is_phantom_;
   int threads_;
@@ -170,7 +172,7 @@ class Transfer {
 
 }  // namespace
 
-DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
+DaylightCoefficients ComputeCoefficients(const PatchScene& scene, Vec3 up,
                                          const CoefficientOptions& options,
                                          const CoefficientProgress& progress) {
   const auto report = [&](double share) {
@@ -183,8 +185,8 @@ DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
   const SkyPatches patches = coefficients.Patches();
   const std::uint32_t affordable = kRayBudget / std::max(1U, scene.patch_count);
   const int rays = static_cast<int>(std::min(static_cast<std::uint32_t>(options.rays_per_vertex),
-                                             std::max(kFewestRays, affordable)));
-  const GatheredLight gathered = GatherPatches(scene, patches, rays, options.threads, options.stop);
+                                             std::max(kMinRays, affordable)));
+  const FinalGather gathered = GatherPatches(scene, patches, rays, options.threads, options.stop);
   if (options.stop != nullptr && *options.stop) return coefficients;
   report(kShareOfRays);
   Transfer transfer(scene, gathered, patches, options.threads);
@@ -203,7 +205,7 @@ DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
   return coefficients;
 }
 
-std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOptions& options) {
+std::uint64_t GeometryHash(const PatchScene& scene, Vec3 up, const CoefficientOptions& options) {
   // Fowler, Noll & Vo, FNV-1a.
   std::uint64_t hash = 0xCBF29CE484222325ULL;
   const auto add = [&](const void* bytes, std::size_t size) {
@@ -223,14 +225,14 @@ std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOp
                             static_cast<double>(options.division),
                             static_cast<double>(options.rays_per_vertex)};
   add(numbers, sizeof numbers);
-  for (const LightScene::Sheet& sheet : scene.sheets) {
-    add_all(sheet.mesh.positions);
-    add_all(sheet.mesh.normals);
-    add_all(sheet.mesh.indices);
-    add_all(sheet.albedo);
-    if (sheet.groups) add_all(sheet.groups->patch_of);
-    const std::int32_t flags[] = {sheet.mesh.is_phantom, sheet.mesh.closed, sheet.twin,
-                                  sheet.mesh.role == MeshRole::kDrawn};
+  for (const PatchScene::MeshSide& mesh_side : scene.mesh_sides) {
+    add_all(mesh_side.mesh.positions);
+    add_all(mesh_side.mesh.normals);
+    add_all(mesh_side.mesh.indices);
+    add_all(mesh_side.albedo);
+    if (mesh_side.groups) add_all(mesh_side.groups->patch_of);
+    const std::int32_t flags[] = {mesh_side.mesh.is_phantom, mesh_side.mesh.closed, mesh_side.twin,
+                                  mesh_side.mesh.role == MeshRole::kRenderOnly};
     add(flags, sizeof flags);
   }
   return hash;

@@ -14,7 +14,7 @@
 
 namespace pleinair::compositor {
 
-struct LightScene;
+struct PatchScene;
 
 struct CoefficientOptions {
   int division = 1;           ///< Of Tregenza's patches, 1…4.
@@ -54,13 +54,13 @@ struct DaylightCoefficients {
   SkyPatches Patches() const { return {up, division}; }
 };
 
-DaylightCoefficients ComputeCoefficients(const LightScene& scene, Vec3 up,
+DaylightCoefficients ComputeCoefficients(const PatchScene& scene, Vec3 up,
                                          const CoefficientOptions& options,
                                          const CoefficientProgress& progress);
 
 /// A number that any change of what the coefficients depend on changes, the version of the method
 /// among them: FNV-1a, 64 bits.
-std::uint64_t GeometryHash(const LightScene& scene, Vec3 up, const CoefficientOptions& options);
+std::uint64_t GeometryHash(const PatchScene& scene, Vec3 up, const CoefficientOptions& options);
 
 /// Writes what ReadCoefficients() reads, "HASH.dlc" in a folder, which is made. A file that cannot
 /// be written is no error: the next run computes again. Returns whether it is there.

@@ -46,11 +46,11 @@ namespace pleinair::compositor {
 
 HWY_EXPORT(AddPlaces);
 
-void AddReflections(std::span<const ReflectingPlace> places, ChunkLight* sum) {
+void AddInterreflections(std::span<const ReflectingPlace> places, ChunkLight* sum) {
   HWY_DYNAMIC_DISPATCH(AddPlaces)(places.data(), places.size(), sum->data());
 }
 
-void AddReflectionsScalar(std::span<const ReflectingPlace> places, ChunkLight* sum) {
+void AddInterreflectionsScalar(std::span<const ReflectingPlace> places, ChunkLight* sum) {
   constexpr std::size_t kP = CoefficientMatrix::kPatches;
   for (const ReflectingPlace& place : places) {
     for (std::size_t i = 0; i < sum->size(); ++i) {

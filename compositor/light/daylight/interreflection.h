@@ -22,8 +22,8 @@ struct ReflectingPlace {
 };
 
 /// Adds to `sum` what comes from all places.
-void AddReflections(std::span<const ReflectingPlace> places, ChunkLight* sum);
+void AddInterreflections(std::span<const ReflectingPlace> places, ChunkLight* sum);
 /// The same, one number after the other.
-void AddReflectionsScalar(std::span<const ReflectingPlace> places, ChunkLight* sum);
+void AddInterreflectionsScalar(std::span<const ReflectingPlace> places, ChunkLight* sum);
 
 }  // namespace pleinair::compositor

@@ -15,35 +15,36 @@ namespace {
 constexpr int kPairsPerSide = 40;
 constexpr double kInSun = 0.98, kInShade = 0.02;  // Sun visibility beyond which no penumbra is.
 constexpr int kClippedCode = 252, kBlackClippedCode = 243;
-// White over black, at the least, where the print is the right way round. The reflectances'
+// White over black, at the least, where the marker is the right way round. The reflectances'
 // ratio is 20; glare bright enough to bring it down to this leaves nothing to measure.
 constexpr double kClearlyBrighter = 1.25;
-// A shadow's edge on the print: light on its two sides differs by more than this factor.
+// A shadow's edge on the marker: light on its two sides differs by more than this factor.
 constexpr double kShadowContrast = 1.6;
 constexpr double kShadowShare = 0.15;
-// Relative spread of a print's light from which on leaves are dappling it; from a little less to a
-// little more its brightest spots count more and more, so that no frame differs much from the next.
+// Relative spread of a marker's light from which on leaves are dappling it; from a little less to a
+// little more its brightest surface samples count more and more, so that no frame differs much from
+// the next.
 constexpr double kDappled = 0.10, kHardlyDappled = 0.08, kSurelyDappled = 0.12;
-// Pairs in the sun that a shadow across the print must leave.
-constexpr int kFewestBright = 6;
+// Pairs in the sun that a shadow across the marker must leave.
+constexpr int kMinBrightPairs = 6;
 // Share of its pairs that are the brightest.
 constexpr double kBrightest = 0.2;
 // Share of clipped whites up to which white counts: their median is known then; and of the
 // brightest, of which fewer may be, since the brightest of the rest are no longer the brightest.
-constexpr double kMaxClippedShare = 0.45, kMostClippedBrightest = 0.2;
+constexpr double kMaxClippedShare = 0.45, kMaxClippedShareOfBrightest = 0.2;
 // Share of the darkest whites by which light is told to be uneven where others clip, and how far
 // below the middle they lie in a normal distribution, in standard deviations.
 constexpr double kDarkest = 0.05, kDarkestSigmas = 1.645;
 // Pairs on either side whose blacks are looked at together.
 constexpr std::size_t kNeighbours = 2;
-constexpr double kSmallestBandPx = 3.0;
+constexpr double kMinBand_px = 3.0;
 // A median's standard error over a mean's, of a normal distribution: sqrt(π / 2).
 constexpr double kMedianError = 1.2533;
 
 // How much stronger than the model's the sky may be beside the sun where a shadow is looked for:
 // haze makes it shallower.
 constexpr double kHaze = 2.0;
-// Share of the pairs that are white on neither side: from then on something covers the print.
+// Share of the pairs that are white on neither side: from then on something covers the marker.
 constexpr double kCovered = 0.1;
 
 using Rgb = std::array<double, 3>;
@@ -82,19 +83,19 @@ std::optional<double> ShadowThreshold(const std::vector<double>& values) {
 
 }  // namespace
 
-LightMeter::LightMeter(const scene::MarkerPrint& print, const LightSolver& solver,
-                       const sky::SkyModel& day, const Mat3& marker_from_world,
-                       const CameraResponse& response)
-    : print_(print), response_(response) {
+MarkerLightMeter::MarkerLightMeter(const scene::MarkerReflectance& marker,
+                                   const LightSolver& solver, const sky::SkyModel& day,
+                                   const Mat3& marker_from_world, const CameraResponse& response)
+    : marker_(marker), response_(response) {
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
   const Vec3 normal{0, 0, 1};
   const LinearRgb sun = day.SunNormalIrradiance();
   const double cosine = std::max(0.0, Dot(normal, to_sun));
-  const double half = print.size_m / 2;
-  // The middle of each band. Without a known board there is still a quiet zone around every print.
-  const double margin_m = (print.board_size_m - print.size_m) / 2;
-  const double white_m = (margin_m > 0.0 ? margin_m : print.black_band_m) / 2;
-  const double black_m = print.black_band_m / 2;
+  const double half = marker.size_m / 2;
+  // The middle of each band. Without a known board there is still a quiet zone around every marker.
+  const double margin_m = (marker.board_size_m - marker.size_m) / 2;
+  const double white_m = (margin_m > 0.0 ? margin_m : marker.black_band_m) / 2;
+  const double black_m = marker.black_band_m / 2;
   int lit = 0;
   std::vector<Point<Marker>> edges;
   for (int side = 0; side < 4; ++side) {
@@ -105,7 +106,7 @@ LightMeter::LightMeter(const scene::MarkerPrint& print, const LightSolver& solve
       return Point<Marker>{{c * x - s * y, s * x + c * y, 0.0}};
     };
     // Away from the corners, where the neighbouring side's bands are near.
-    const double reach = half - print.black_band_m;
+    const double reach = half - marker.black_band_m;
     for (int i = 0; i < kPairsPerSide; ++i) {
       const double along = reach * (2.0 * (i + 0.5) / kPairsPerSide - 1.0);
       Pair pair{on_side(along, white_m), on_side(along, -black_m), {}, 0.0};
@@ -125,36 +126,38 @@ LightMeter::LightMeter(const scene::MarkerPrint& print, const LightSolver& solve
     pairs_[i].irradiance = ambient[i] + sun * (cosine * pairs_[i].sun_visibility);
   }
   in_sun_ = lit >= kMinimumPairs;
-  if (!ambient.empty() && cosine > kGrazingPrint) {
-    const LinearRgb hazy = ambient[ambient.size() / 2] * kHaze;
+  if (!ambient.empty() && cosine > kGrazingMarkerCosine) {
+    const LinearRgb needs_airlight = ambient[ambient.size() / 2] * kHaze;
     const auto depth = [&](double of_sun, double of_ambient) {
       return of_ambient > 0.0 ? std::log1p(of_sun * cosine / of_ambient) : 0.0;
     };
-    shadow_depth_ = {depth(sun.r, hazy.r), depth(sun.g, hazy.g), depth(sun.b, hazy.b)};
+    shadow_depth_ = {depth(sun.r, needs_airlight.r), depth(sun.g, needs_airlight.g),
+                     depth(sun.b, needs_airlight.b)};
   }
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (in_sun_ && pairs_[i].sun_visibility < 0.5) continue;
     places_.push_back(edges[i]);
-    light_on_print_ = light_on_print_ + pairs_[i].irradiance;
+    light_on_marker_ = light_on_marker_ + pairs_[i].irradiance;
   }
   if (!places_.empty())
-    light_on_print_ = light_on_print_ * (1.0 / static_cast<double>(places_.size()));
-  lit_share_ = pairs_.empty() ? 0.0 : static_cast<double>(lit) / static_cast<double>(pairs_.size());
+    light_on_marker_ = light_on_marker_ * (1.0 / static_cast<double>(places_.size()));
+  sunlit_share_ =
+      pairs_.empty() ? 0.0 : static_cast<double>(lit) / static_cast<double>(pairs_.size());
 }
 
-LightMeter::Samples LightMeter::SamplesIn(
+MarkerLightMeter::Samples MarkerLightMeter::SamplesIn(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
   Samples samples;
   samples.pairs.reserve(pairs_.size());
-  const double albedo_step = print_.albedo_white - print_.albedo_black;
+  const double albedo_step = marker_.albedo_white - marker_.albedo_black;
   for (const Pair& pair : pairs_) {
     const Point<Camera> white_in_camera = camera_from_marker * pair.white;
     const Point<Camera> black_in_camera = camera_from_marker * pair.black;
     if (white_in_camera.xyz.z <= 0.0 || black_in_camera.xyz.z <= 0.0) continue;
     const Vec2 white_px = ProjectToPixel(camera, white_in_camera);
     const Vec2 black_px = ProjectToPixel(camera, black_in_camera);
-    if (Norm(white_px - black_px) < kSmallestBandPx) continue;
+    if (Norm(white_px - black_px) < kMinBand_px) continue;
     const auto white = SampleLinear(rgb, white_px, response_);
     const auto black = SampleLinear(rgb, black_px, response_);
     if (!white || !black) continue;
@@ -180,11 +183,12 @@ LightMeter::Samples LightMeter::SamplesIn(
       const bool clipped = (*white)[c] >= clipped_at(c, kClippedCode);
       const bool black_counts = (*black)[c] < clipped_at(c, kBlackClippedCode) && (*black)[c] > 0.0;
       if (clipped) {
-        sample.white_gain[c] = std::numeric_limits<double>::infinity();
+        sample.white_scale[c] = std::numeric_limits<double>::infinity();
       } else {
-        sample.white_gain[c] = difference > 0.0 ? difference / (albedo_step * per_albedo) : NAN;
+        sample.white_scale[c] = difference > 0.0 ? difference / (albedo_step * per_albedo) : NAN;
       }
-      sample.black_gain[c] = black_counts ? (*black)[c] / (print_.albedo_black * per_albedo) : NAN;
+      sample.black_scale[c] =
+          black_counts ? (*black)[c] / (marker_.albedo_black * per_albedo) : NAN;
       sample.level += (*white)[c] / per_albedo;
     }
     if (sample.level > 0.0) samples.pairs.push_back(sample);
@@ -192,7 +196,7 @@ LightMeter::Samples LightMeter::SamplesIn(
   return samples;
 }
 
-std::optional<PrintShadow> LightMeter::FindShadow(
+std::optional<MarkerShadowEdge> MarkerLightMeter::FindShadow(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
   const Samples samples = SamplesIn(rgb, camera, camera_from_marker);
@@ -200,17 +204,17 @@ std::optional<PrintShadow> LightMeter::FindShadow(
       kCovered * static_cast<double>(samples.pairs.size())) {
     return std::nullopt;
   }
-  std::vector<PrintPair> usable;
+  std::vector<MarkerPair> usable;
   usable.reserve(samples.pairs.size());
   for (const Sample& sample : samples.pairs) {
-    if (std::isfinite(Sum(sample.white_gain))) usable.push_back(sample.seen);
+    if (std::isfinite(Sum(sample.white_scale))) usable.push_back(sample.seen);
   }
-  return FindPrintShadow(usable, shadow_depth_,
-                         print_.albedo_black / (print_.albedo_white - print_.albedo_black));
+  return FindMarkerShadowEdge(usable, shadow_depth_,
+                              marker_.albedo_black / (marker_.albedo_white - marker_.albedo_black));
 }
 
-std::vector<double> LightMeter::GainsBy(const std::vector<Sample>& pairs, Rgb Sample::*by,
-                                        std::size_t channel) {
+std::vector<double> MarkerLightMeter::ScalesBy(const std::vector<Sample>& pairs, Rgb Sample::*by,
+                                               std::size_t channel) {
   std::vector<double> values;
   values.reserve(pairs.size());
   for (const Sample& pair : pairs) {
@@ -220,76 +224,78 @@ std::vector<double> LightMeter::GainsBy(const std::vector<Sample>& pairs, Rgb Sa
   return values;
 }
 
-std::optional<LightMeter::ChannelGain> LightMeter::MedianOf(const std::vector<double>& values,
-                                                            int fewest) {
-  if (static_cast<int>(values.size()) < fewest) return std::nullopt;
-  const double gain = Median(values);
-  if (!(gain > 0.0) || !std::isfinite(gain)) return std::nullopt;
+std::optional<MarkerLightMeter::ChannelScale> MarkerLightMeter::MedianOf(
+    const std::vector<double>& values, int min_count) {
+  if (static_cast<int>(values.size()) < min_count) return std::nullopt;
+  const double exposure_scale = Median(values);
+  if (!(exposure_scale > 0.0) || !std::isfinite(exposure_scale)) return std::nullopt;
   const double low = Quantile(values, 0.25), high = Quantile(values, 0.75);
   // Of clipped whites no more is known than that they are brighter than the rest: as if they were
   // as far from the middle as the darker ones.
-  const double between = std::isfinite(high) ? high - low : 2.0 * (gain - low);
+  const double between = std::isfinite(high) ? high - low : 2.0 * (exposure_scale - low);
   // Interquartile range of a normal distribution: 1.349 standard deviations.
-  const double spread = between / 1.349 / gain;
-  return ChannelGain{gain, kMedianError * spread / std::sqrt(static_cast<double>(values.size())),
-                     spread};
+  const double spread = between / 1.349 / exposure_scale;
+  return ChannelScale{exposure_scale,
+                      kMedianError * spread / std::sqrt(static_cast<double>(values.size())),
+                      spread};
 }
 
-double LightMeter::ClippedShare(const std::vector<Sample>& pairs, std::size_t channel) {
+double MarkerLightMeter::ClippedShare(const std::vector<Sample>& pairs, std::size_t channel) {
   const auto clipped = std::count_if(pairs.begin(), pairs.end(), [&](const Sample& pair) {
-    return std::isinf(pair.white_gain[channel]);
+    return std::isinf(pair.white_scale[channel]);
   });
   return static_cast<double>(clipped) / static_cast<double>(pairs.size());
 }
 
-std::optional<LightMeter::ChannelGain> LightMeter::BlackGainOf(const std::vector<Sample>& pairs,
-                                                               std::size_t channel, int fewest) {
-  auto gain = MedianOf(GainsBy(pairs, &Sample::black_gain, channel), fewest);
-  if (!gain) return std::nullopt;
+std::optional<MarkerLightMeter::ChannelScale> MarkerLightMeter::BlackScaleOf(
+    const std::vector<Sample>& pairs, std::size_t channel, int min_count) {
+  auto exposure_scale = MedianOf(ScalesBy(pairs, &Sample::black_scale, channel), min_count);
+  if (!exposure_scale) return std::nullopt;
   // Blacks are so dark that their noise looks like leaves. Whites that are not clipped tell better:
   // in even light they all lie near where it clips.
-  std::vector<double> whites = GainsBy(pairs, &Sample::white_gain, channel);
+  std::vector<double> whites = ScalesBy(pairs, &Sample::white_scale, channel);
   const double low = whites.empty() ? INFINITY : Quantile(whites, kDarkest);
   std::erase_if(whites, [](double white) { return std::isinf(white); });
   if (std::isfinite(low)) {
     const double clips = *std::max_element(whites.begin(), whites.end());
-    gain->spread = (clips - low) / kDarkestSigmas / clips;
+    exposure_scale->spread = (clips - low) / kDarkestSigmas / clips;
   }
-  return gain;
+  return exposure_scale;
 }
 
-std::optional<std::array<LightMeter::ChannelGain, 3>> LightMeter::GainsOf(
-    const std::vector<Sample>& pairs, int fewest) {
-  std::array<std::optional<ChannelGain>, 3> channels;
+std::optional<std::array<MarkerLightMeter::ChannelScale, 3>> MarkerLightMeter::ScalesOf(
+    const std::vector<Sample>& pairs, int min_count) {
+  std::array<std::optional<ChannelScale>, 3> channels;
   std::array<bool, 3> by_black{};
   // Glare makes blacks too bright; by how much, channels show of which both are read.
   double log_glare = 0.0;
   int with_both = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto black = BlackGainOf(pairs, c, fewest);
+    const auto black = BlackScaleOf(pairs, c, min_count);
     if (ClippedShare(pairs, c) <= kMaxClippedShare) {
-      channels[c] = MedianOf(GainsBy(pairs, &Sample::white_gain, c), fewest);
+      channels[c] = MedianOf(ScalesBy(pairs, &Sample::white_scale, c), min_count);
     }
     by_black[c] = !channels[c];
     if (by_black[c]) {
       channels[c] = black;
     } else if (black) {
-      log_glare += std::log(black->gain / channels[c]->gain);
+      log_glare += std::log(black->exposure_scale / channels[c]->exposure_scale);
       ++with_both;
     }
     if (!channels[c]) return std::nullopt;
   }
   for (std::size_t c = 0; c < 3; ++c) {
-    if (by_black[c] && with_both > 0) channels[c]->gain /= std::exp(log_glare / with_both);
+    if (by_black[c] && with_both > 0)
+      channels[c]->exposure_scale /= std::exp(log_glare / with_both);
   }
   return std::array{*channels[0], *channels[1], *channels[2]};
 }
 
-std::array<std::optional<LightMeter::ChannelGain>, 3> LightMeter::BrightestOf(
-    std::vector<Sample> pairs, int fewest) {
+std::array<std::optional<MarkerLightMeter::ChannelScale>, 3> MarkerLightMeter::BrightestOf(
+    std::vector<Sample> pairs, int min_count) {
   const auto count = static_cast<std::size_t>(kBrightest * static_cast<double>(pairs.size()));
   const std::size_t kept =
-      std::min(pairs.size(), std::max(count, static_cast<std::size_t>(fewest)));
+      std::min(pairs.size(), std::max(count, static_cast<std::size_t>(min_count)));
   const auto take_brightest = [&] {
     std::sort(pairs.begin(), pairs.end(),
               [](const Sample& a, const Sample& b) { return a.level > b.level; });
@@ -298,11 +304,11 @@ std::array<std::optional<LightMeter::ChannelGain>, 3> LightMeter::BrightestOf(
   };
   std::vector<Sample> blacks = pairs;
   take_brightest();
-  Rgb Sample::*by = &Sample::white_gain;
+  Rgb Sample::*by = &Sample::white_scale;
   if (std::max({ClippedShare(pairs, 0), ClippedShare(pairs, 1), ClippedShare(pairs, 2)}) >
-      kMostClippedBrightest) {
+      kMaxClippedShareOfBrightest) {
     // Which white is the brightest is not seen, and the brightest of the rest may be half-lit.
-    std::erase_if(blacks, [](const Sample& pair) { return std::isnan(Sum(pair.black_gain)); });
+    std::erase_if(blacks, [](const Sample& pair) { return std::isnan(Sum(pair.black_scale)); });
     pairs = blacks;
     // The mean of some neighbours, so that it is not their noise that chooses.
     for (std::size_t i = 0; i < blacks.size(); ++i) {
@@ -310,25 +316,26 @@ std::array<std::optional<LightMeter::ChannelGain>, 3> LightMeter::BrightestOf(
       const std::size_t end = std::min(blacks.size(), i + kNeighbours + 1);
       pairs[i].level = 0.0;
       for (std::size_t k = first; k < end; ++k) {
-        pairs[i].level += Sum(blacks[k].black_gain) / static_cast<double>(end - first);
+        pairs[i].level += Sum(blacks[k].black_scale) / static_cast<double>(end - first);
       }
     }
     take_brightest();
-    by = &Sample::black_gain;
+    by = &Sample::black_scale;
   }
-  std::array<std::optional<ChannelGain>, 3> gains;
-  for (std::size_t c = 0; c < 3; ++c) gains[c] = MedianOf(GainsBy(pairs, by, c), fewest);
-  return gains;
+  std::array<std::optional<ChannelScale>, 3> exposure_scales;
+  for (std::size_t c = 0; c < 3; ++c)
+    exposure_scales[c] = MedianOf(ScalesBy(pairs, by, c), min_count);
+  return exposure_scales;
 }
 
-std::optional<LightReading> LightMeter::Measure(
+std::optional<ExposureEstimate> MarkerLightMeter::Measure(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
   auto [samples, contrary] = SamplesIn(rgb, camera, camera_from_marker);
-  // A print the other way round, or not where it is thought to be: the gain of its white, taken
-  // for black, would be twenty times too high.
+  // A marker the other way round, or not where it is thought to be: the exposure scale of its
+  // white, taken for black, would be twenty times too high.
   if (contrary > samples.size()) return std::nullopt;
-  // Where the sun reaches the print, the sunlit part alone counts: there the model's doubt about
+  // Where the sun reaches the marker, the sunlit part alone counts: there the model's doubt about
   // the sky's share matters least.
   const auto lit = std::count_if(samples.begin(), samples.end(),
                                  [](const Sample& sample) { return sample.in_sun; });
@@ -341,39 +348,42 @@ std::optional<LightReading> LightMeter::Measure(
     const double threshold = ShadowThreshold(levels).value_or(0.0);
     const auto bright = std::count_if(levels.begin(), levels.end(),
                                       [&](double level) { return level >= threshold; });
-    if (bright < kFewestBright)
+    if (bright < kMinBrightPairs)
       return std::nullopt;  // The others would say that the shade is the sun.
     std::erase_if(samples, [&](const Sample& sample) { return sample.level < threshold; });
     few_bright = bright < kMinimumPairs;
   }
-  const int fewest = few_bright ? kFewestBright : kMinimumPairs;
-  if (static_cast<int>(samples.size()) < fewest) return std::nullopt;
+  const int min_count = few_bright ? kMinBrightPairs : kMinimumPairs;
+  if (static_cast<int>(samples.size()) < min_count) return std::nullopt;
 
-  LightReading reading;
-  reading.lit_share = lit_share_;
-  reading.pairs = static_cast<int>(samples.size());
-  const auto gains = GainsOf(samples, fewest);
-  if (!gains) return std::nullopt;
-  std::array<ChannelGain, 3> channels = *gains;
-  // Under leaves no edge divides light from shade: its brightest spots come nearest to the sun.
-  // They are the same in each channel, though blue, the sky's colour, may hardly show it.
+  ExposureEstimate estimate;
+  estimate.sunlit_share = sunlit_share_;
+  estimate.pairs = static_cast<int>(samples.size());
+  const auto exposure_scales = ScalesOf(samples, min_count);
+  if (!exposure_scales) return std::nullopt;
+  std::array<ChannelScale, 3> channels = *exposure_scales;
+  // Under leaves no edge divides light from shade: its brightest surface samples come nearest to
+  // the sun. They are the same in each channel, though blue, the sky's color, may hardly show it.
   const double spread = std::max({channels[0].spread, channels[1].spread, channels[2].spread});
   if (lit >= kMinimumPairs && spread > kHardlyDappled) {
-    reading.dappled = spread > kDappled;
+    estimate.dappled = spread > kDappled;
     const double part =
         std::min(1.0, (spread - kHardlyDappled) / (kSurelyDappled - kHardlyDappled));
-    const auto bright = BrightestOf(std::move(samples), fewest);
+    const auto bright = BrightestOf(std::move(samples), min_count);
     const bool whole = bright[0] && bright[1] && bright[2];
     for (std::size_t c = 0; c < 3; ++c) {
-      ChannelGain& channel = channels[c];
-      if (whole) channel.gain *= std::pow(bright[c]->gain / channel.gain, part);
+      ChannelScale& channel = channels[c];
+      if (whole)
+        channel.exposure_scale *=
+            std::pow(bright[c]->exposure_scale / channel.exposure_scale, part);
       // How near to the sun is not known, however many pairs there are.
       channel.error += part * (channel.spread - channel.error);
     }
   }
-  reading.error = {channels[0].error, channels[1].error, channels[2].error};
-  reading.gain = {channels[0].gain, channels[1].gain, channels[2].gain};
-  return reading;
+  estimate.error = {channels[0].error, channels[1].error, channels[2].error};
+  estimate.exposure_scale = {channels[0].exposure_scale, channels[1].exposure_scale,
+                             channels[2].exposure_scale};
+  return estimate;
 }
 
 }  // namespace pleinair::compositor

@@ -5,17 +5,17 @@
 
 namespace pleinair::compositor {
 
-LinearRgb PrintShade(double open_gain, LinearRgb sun, LinearRgb sky) {
+LinearRgb MarkerShadeCorrection(double sunlit_scale, LinearRgb sun, LinearRgb sky) {
   if (!(std::min({sun.r, sun.g, sun.b}) > 0.0)) return {1, 1, 1};
   const auto shade = [&](double part) { return (sun + sky) / (sun * part + sky); };
-  double least = 0.0, most = 1.0;
+  double minimum = 0.0, maximum = 1.0;
   constexpr int kBisections = 20;
   for (int i = 0; i < kBisections; ++i) {
-    const double part = (least + most) / 2;
-    (MeanLog(shade(part)) > std::log(open_gain) ? least : most) = part;
+    const double part = (minimum + maximum) / 2;
+    (MeanLog(shade(part)) > std::log(sunlit_scale) ? minimum : maximum) = part;
   }
-  const LinearRgb shaded = shade((least + most) / 2);
-  return shaded * std::sqrt(std::max(1.0, open_gain / std::exp(MeanLog(shaded))));
+  const LinearRgb shaded = shade((minimum + maximum) / 2);
+  return shaded * std::sqrt(std::max(1.0, sunlit_scale / std::exp(MeanLog(shaded))));
 }
 
 }  // namespace pleinair::compositor

@@ -15,63 +15,66 @@ namespace {
 
 // So many pairs at least, and in the middle half between the levels at most this share of them: of
 // pairs along a square the edge of a shadow as wide as half of it leaves a fifth there.
-constexpr std::size_t kFewestPairs = 24;
-constexpr double kMostBetween = 0.1;
-// Share of a part's pairs on one side of the print, at most.
-constexpr double kMostOnASide = 0.75;
+constexpr std::size_t kMinPairs = 24;
+constexpr double kMaxBetween = 0.1;
+// Share of a part's pairs on one side of the marker, at most.
+constexpr double kMaxShareOnOneSide = 0.75;
 // The black's step over that which its reflectance gives: inks, glare and blur make it uncertain;
 // under a cover it is near 0 or falls where the white rises.
-constexpr double kLeastBlackStep = 0.4, kMostBlackStep = 2.5;
+constexpr double kMinBlackStep = 0.4, kMaxBlackStep = 2.5;
 // What casts the shadow takes of the sky, most of it the bright part about the sun. How much is not
 // known: a band 0.2 rad wide, a column's at arm's length or a wall's edge, takes 3 % of an even sky
 // and several times that in haze. The doubt of the sky's strength is logarithmic.
 constexpr double kTakenByCaster = 0.1, kCasterDoubt = 0.15;
 constexpr std::uint32_t kPaths = 384;
 
-/// The pairs as a cell of spots, sorted by brightness.
-ShadeCell CellOf(std::span<const PrintPair> pairs, LinearRgb depth) {
-  ShadeCell cell;
+/// The pairs as a cell of surface samples, sorted by brightness.
+ShadowCell CellOf(std::span<const MarkerPair> pairs, LinearRgb depth) {
+  ShadowCell cell;
   cell.normal = {0, 0, 1};
   cell.depth = depth.g;
-  cell.colour_step = {depth.r - depth.g, depth.b - depth.g};
-  cell.spots.reserve(pairs.size());
-  for (const PrintPair& pair : pairs) {
+  cell.color_step = {depth.r - depth.g, depth.b - depth.g};
+  cell.surface_samples.reserve(pairs.size());
+  for (const MarkerPair& pair : pairs) {
     const auto& [red, green, blue] = pair.step;
-    cell.spots.push_back(
+    cell.surface_samples.push_back(
         {MeanLog(pair.step), {std::log(red / green), std::log(blue / green)}, pair.place.xyz});
   }
-  std::sort(cell.spots.begin(), cell.spots.end(),
-            [](const ShadeSpot& a, const ShadeSpot& b) { return a.value < b.value; });
+  std::sort(cell.surface_samples.begin(), cell.surface_samples.end(),
+            [](const ShadowSample& a, const ShadowSample& b) { return a.value < b.value; });
   return cell;
 }
 
 /// Whether more than a few pairs lie between the levels, as in half-light.
-bool HasHalfLight(const ShadeCell& cell, const TwoLevels& levels) {
+bool HasHalfLight(const ShadowCell& cell, const TwoLevels& levels) {
   const double apart = levels.high - levels.low;
-  const auto between = std::count_if(cell.spots.begin(), cell.spots.end(), [&](const auto& spot) {
-    return spot.value > levels.low + apart / 4 && spot.value < levels.high - apart / 4;
-  });
-  return static_cast<double>(between) > kMostBetween * static_cast<double>(cell.spots.size());
+  const auto between = std::count_if(cell.surface_samples.begin(), cell.surface_samples.end(),
+                                     [&](const auto& surface_sample) {
+                                       return surface_sample.value > levels.low + apart / 4 &&
+                                              surface_sample.value < levels.high - apart / 4;
+                                     });
+  return static_cast<double>(between) >
+         kMaxBetween * static_cast<double>(cell.surface_samples.size());
 }
 
-/// Whether a good part of the spots lies beside the print's side that has most of them: one side
-/// alone may lie in half-light all along, as sharp as any shadow.
-bool GoesRoundACorner(std::span<const ShadeSpot> spots) {
+/// Whether a good part of the surface samples lies beside the marker's side that has most of them:
+/// one side alone may lie in half-light all along, as sharp as any shadow.
+bool GoesRoundACorner(std::span<const ShadowSample> surface_samples) {
   std::array<std::size_t, 4> sides{};
-  for (const ShadeSpot& spot : spots) {
-    const Vec3 p = spot.point;
+  for (const ShadowSample& surface_sample : surface_samples) {
+    const Vec3 p = surface_sample.point;
     const bool across = std::fabs(p.x) > std::fabs(p.y);
     const bool far = (across ? p.x : p.y) > 0.0;
     ++sides[(across ? 2U : 0U) + (far ? 1U : 0U)];
   }
-  const auto most = static_cast<double>(*std::max_element(sides.begin(), sides.end()));
-  return most < kMostOnASide * static_cast<double>(spots.size());
+  const auto maximum = static_cast<double>(*std::max_element(sides.begin(), sides.end()));
+  return maximum < kMaxShareOnOneSide * static_cast<double>(surface_samples.size());
 }
 
 /// Whether the black's step from one part to the other is that of its reflectance.
-bool BlackFollows(std::span<const PrintPair> pairs, double threshold, double black_share) {
+bool BlackFollows(std::span<const MarkerPair> pairs, double threshold, double black_share) {
   std::vector<double> dark, bright, dark_step, bright_step;
-  for (const PrintPair& pair : pairs) {
+  for (const MarkerPair& pair : pairs) {
     const bool is_dark = MeanLog(pair.step) < threshold;
     (is_dark ? dark : bright).push_back(pair.black);
     (is_dark ? dark_step : bright_step).push_back(pair.step.r + pair.step.g + pair.step.b);
@@ -79,44 +82,47 @@ bool BlackFollows(std::span<const PrintPair> pairs, double threshold, double bla
   if (dark.empty() || bright.empty()) return false;
   const double black = Median(bright) - Median(dark);
   const double expected = (Median(bright_step) - Median(dark_step)) * black_share;
-  return black > kLeastBlackStep * expected && black < kMostBlackStep * expected;
+  return black > kMinBlackStep * expected && black < kMaxBlackStep * expected;
 }
 
-Point<Marker> Middle(std::span<const ShadeSpot> spots) {
+Point<Marker> Middle(std::span<const ShadowSample> surface_samples) {
   Vec3 sum;
-  for (const ShadeSpot& spot : spots) sum = sum + spot.point;
-  return {sum * (1.0 / static_cast<double>(spots.size()))};
+  for (const ShadowSample& surface_sample : surface_samples) sum = sum + surface_sample.point;
+  return {sum * (1.0 / static_cast<double>(surface_samples.size()))};
 }
 
 }  // namespace
 
-std::optional<PrintShadow> FindPrintShadow(std::span<const PrintPair> pairs, LinearRgb depth,
-                                           double black_share) {
-  if (pairs.size() < kFewestPairs || !(std::min({depth.r, depth.g, depth.b}) > 0.0)) return {};
-  const ShadeCell cell = CellOf(pairs, depth);
-  const TwoLevels levels = SplitInTwo(cell.spots);
-  if (!IsCrossed(cell, levels) || !IsSharp(levels) || HasHalfLight(cell, levels)) return {};
+std::optional<MarkerShadowEdge> FindMarkerShadowEdge(std::span<const MarkerPair> pairs,
+                                                     LinearRgb depth, double black_share) {
+  if (pairs.size() < kMinPairs || !(std::min({depth.r, depth.g, depth.b}) > 0.0)) return {};
+  const ShadowCell cell = CellOf(pairs, depth);
+  const TwoLevels levels = SplitInTwo(cell.surface_samples);
+  if (!HasShadowBoundary(cell, levels) || !IsSharp(levels) || HasHalfLight(cell, levels)) return {};
   if (!BlackFollows(pairs, (levels.low + levels.high) / 2, black_share)) return {};
-  const std::span<const ShadeSpot> spots(cell.spots);
-  const auto dark = spots.first(levels.low_count), bright = spots.subspan(levels.low_count);
+  const std::span<const ShadowSample> surface_samples(cell.surface_samples);
+  const auto dark = surface_samples.first(levels.low_count),
+             bright = surface_samples.subspan(levels.low_count);
   if (!GoesRoundACorner(dark) || !GoesRoundACorner(bright)) return {};
-  return PrintShadow{CrossingOf(cell, levels).contrast, Middle(bright), Middle(dark)};
+  return MarkerShadowEdge{CrossingOf(cell, levels).contrast, Middle(bright), Middle(dark)};
 }
 
-SunSkyReading ReadPrintShadow(const LightSolver& solver, std::span<const PrintShadow> shadows,
-                              const sky::SkyModel& daylight, const Mat3& marker_from_world) {
-  SunSkyReading reading;
+SunSkyRatio EstimateRatioFromMarkerShadow(const LightSolver& solver,
+                                          std::span<const MarkerShadowEdge> shadows,
+                                          const sky::SkyModel& daylight,
+                                          const Mat3& marker_from_world) {
+  SunSkyRatio estimate;
   const Vec3 normal{0, 0, 1};
   const Vec3 to_sun = marker_from_world * daylight.ToSun().xyz;
   const double cosine = Dot(normal, to_sun);
-  if (shadows.empty() || cosine < kGrazingPrint) return reading;
+  if (shadows.empty() || cosine < kGrazingMarkerCosine) return estimate;
   std::vector<Point<Marker>> places;
-  for (const PrintShadow& shadow : shadows) {
+  for (const MarkerShadowEdge& shadow : shadows) {
     places.push_back(shadow.lit);
     places.push_back(shadow.shaded);
   }
   const auto light = [&](LinearRgb of_sky, LinearRgb of_sun) {
-    return solver.AmbientPhantomsOnly(places, normal, ScaledDaylight(daylight, of_sky, of_sun),
+    return solver.AmbientPhantomsOnly(places, normal, ScaledSky(daylight, of_sky, of_sun),
                                       marker_from_world, kPaths);
   };
   const std::vector<LinearRgb> sky = light({1, 1, 1}, {}), reflected = light({}, {1, 1, 1});
@@ -124,7 +130,7 @@ SunSkyReading ReadPrintShadow(const LightSolver& solver, std::span<const PrintSh
   std::array<std::vector<double>, 3> log_scales;
   for (std::size_t i = 0; i < shadows.size(); ++i) {
     // What a phantom casts the model knows; the share of the sky left by others is a guess.
-    const bool by_phantom = !solver.ReachesPhantomsOnly(shadows[i].shaded, to_sun);
+    const bool by_phantom = !solver.IsUnoccludedPhantomsOnly(shadows[i].shaded, to_sun);
     const double left = by_phantom ? 1.0 : 1.0 - kTakenByCaster;
     // exp(contrast) = (k sky + reflected + sun) / (k left sky' + reflected'), solved for k.
     const auto scale = [&](auto channel) {
@@ -143,16 +149,16 @@ SunSkyReading ReadPrintShadow(const LightSolver& solver, std::span<const PrintSh
     for (std::size_t c = 0; c < 3; ++c) log_scales[c].push_back(std::log(scales[c]));
   }
   const std::vector<double>& green = log_scales[1];
-  reading.edges = reading.agreeing = static_cast<int>(green.size());
-  if (green.empty()) return reading;
-  reading.sun = SunSkyReading::Sun::kShines;
-  reading.sky_scale = {std::exp(Median(log_scales[0])), std::exp(Median(green)),
-                       std::exp(Median(log_scales[2]))};
+  estimate.edges = estimate.agreeing = static_cast<int>(green.size());
+  if (green.empty()) return estimate;
+  estimate.sun = SunSkyRatio::Sun::kShines;
+  estimate.sky_radiance_scale = {std::exp(Median(log_scales[0])), std::exp(Median(green)),
+                                 std::exp(Median(log_scales[2]))};
   double square = 0.0;
   for (const double log_scale : green) square += std::pow(log_scale - Median(green), 2);
   const auto count = static_cast<double>(green.size());
-  reading.log_uncertainty = std::sqrt(square / count / count + kCasterDoubt * kCasterDoubt);
-  return reading;
+  estimate.log_uncertainty = std::sqrt(square / count / count + kCasterDoubt * kCasterDoubt);
+  return estimate;
 }
 
 }  // namespace pleinair::compositor

@@ -13,12 +13,12 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr std::size_t kFewestPlaces = 8;
+constexpr std::size_t kMinPlaces = 8;
 constexpr std::uint32_t kPaths = 384;
 // Of the places, those that are deep enough to lie beside the whole sun and in none of it.
 constexpr double kDeepShare = 0.5;
 // Contrast below which a step tells nothing of what made it.
-constexpr double kSmallestStep = 0.25;
+constexpr double kMinStep = 0.25;
 // Doubt, logarithmic, of what all places have in common: half-light on either side makes the sky
 // look stronger beside the sun, what the crown takes of it weaker.
 constexpr double kCommonDoubt = 0.25;
@@ -30,10 +30,10 @@ double ScaleOf(double contrast, double sun, double sky, double reflected) {
 }
 
 /// How strong the sky is, from how deep the shade is at these places.
-SunSkyReading ReadPlaces(const LightSolver& solver, const std::vector<ShadeCrossing>& crossings,
-                         double shaded, const sky::SkyModel& daylight,
-                         const Mat3& marker_from_world) {
-  SunSkyReading reading;
+SunSkyRatio ReadPlaces(const LightSolver& solver, const std::vector<ShadowCrossing>& crossings,
+                       double shaded, const sky::SkyModel& daylight,
+                       const Mat3& marker_from_world) {
+  SunSkyRatio estimate;
   const Vec3 to_sun = marker_from_world * daylight.ToSun().xyz;
   // By plane, since that is how ambient light is asked for.
   std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
@@ -41,10 +41,10 @@ SunSkyReading ReadPlaces(const LightSolver& solver, const std::vector<ShadeCross
     const Vec3 n = crossings[i].normal;
     by_normal[{n.x, n.y, n.z}].push_back(i);
   }
-  const ScaledDaylight sky_alone(daylight, {1, 1, 1}, {});
+  const ScaledSky sky_alone(daylight, {1, 1, 1}, {});
   // What reflects lies in the same shade, as far as it goes.
   const double sunlit = 1.0 - shaded;
-  const ScaledDaylight sun_alone(daylight, {}, {sunlit, sunlit, sunlit});
+  const ScaledSky sun_alone(daylight, {}, {sunlit, sunlit, sunlit});
   struct Place {
     LinearRgb log_scale;
     double depth = 0.0;
@@ -62,7 +62,7 @@ SunSkyReading ReadPlaces(const LightSolver& solver, const std::vector<ShadeCross
     const LinearRgb sun = daylight.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun));
     for (std::size_t k = 0; k < members.size(); ++k) {
       const LinearRgb& contrast = crossings[members[k]].contrast;
-      if (std::min({contrast.r, contrast.g, contrast.b}) < kSmallestStep) continue;
+      if (std::min({contrast.r, contrast.g, contrast.b}) < kMinStep) continue;
       const double r = ScaleOf(contrast.r, sun.r, sky[k].r, reflected[k].r);
       const double g = ScaleOf(contrast.g, sun.g, sky[k].g, reflected[k].g);
       const double b = ScaleOf(contrast.b, sun.b, sky[k].b, reflected[k].b);
@@ -70,8 +70,8 @@ SunSkyReading ReadPlaces(const LightSolver& solver, const std::vector<ShadeCross
       places.push_back({{std::log(r), std::log(g), std::log(b)}, g});
     }
   }
-  reading.edges = static_cast<int>(places.size());
-  if (places.size() < kFewestPlaces) return reading;
+  estimate.edges = static_cast<int>(places.size());
+  if (places.size() < kMinPlaces) return estimate;
   std::sort(places.begin(), places.end(),
             [](const Place& a, const Place& b) { return a.depth < b.depth; });
   places.resize(static_cast<std::size_t>(kDeepShare * static_cast<double>(places.size())));
@@ -82,26 +82,26 @@ SunSkyReading ReadPlaces(const LightSolver& solver, const std::vector<ShadeCross
     return Quantile(values, 0.5);
   };
   const double green = middle([](LinearRgb c) { return c.g; });
-  reading.sun = SunSkyReading::Sun::kShines;
-  reading.agreeing = static_cast<int>(places.size());
-  reading.sky_scale = {std::exp(middle([](LinearRgb c) { return c.r; })), std::exp(green),
-                       std::exp(middle([](LinearRgb c) { return c.b; }))};
+  estimate.sun = SunSkyRatio::Sun::kShines;
+  estimate.agreeing = static_cast<int>(places.size());
+  estimate.sky_radiance_scale = {std::exp(middle([](LinearRgb c) { return c.r; })), std::exp(green),
+                                 std::exp(middle([](LinearRgb c) { return c.b; }))};
   double square = 0.0;
   for (const Place& place : places) square += std::pow(place.log_scale.g - green, 2);
   const auto count = static_cast<double>(places.size());
-  reading.log_uncertainty = std::sqrt(square / count / count + kCommonDoubt * kCommonDoubt);
-  return reading;
+  estimate.log_uncertainty = std::sqrt(square / count / count + kCommonDoubt * kCommonDoubt);
+  return estimate;
 }
 
 }  // namespace
 
-SunSkyReading ReadShadeDepth(const LightSolver& solver, const UnmodelledShade& shade,
-                             const sky::SkyModel& daylight, const Mat3& marker_from_world) {
-  const SunSkyReading reading =
-      ReadPlaces(solver, shade.crossings, shade.shaded, daylight, marker_from_world);
-  if (reading.sun == SunSkyReading::Sun::kShines) return reading;
-  if (!shade.IsWide() && !shade.ShadesPrint()) return reading;
-  return ReadPlaces(solver, shade.deepest, shade.shaded, daylight, marker_from_world);
+SunSkyRatio EstimateRatioFromShade(const LightSolver& solver, const UnmodelledShadows& unmodelled,
+                                   const sky::SkyModel& daylight, const Mat3& marker_from_world) {
+  const SunSkyRatio estimate =
+      ReadPlaces(solver, unmodelled.crossings, unmodelled.shaded, daylight, marker_from_world);
+  if (estimate.sun == SunSkyRatio::Sun::kShines) return estimate;
+  if (!unmodelled.IsWide() && !unmodelled.ShadesMarker()) return estimate;
+  return ReadPlaces(solver, unmodelled.deepest, unmodelled.shaded, daylight, marker_from_world);
 }
 
 }  // namespace pleinair::compositor

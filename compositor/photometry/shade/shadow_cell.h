@@ -10,11 +10,11 @@
 
 namespace pleinair::compositor {
 
-/// A spot's logarithmic brightness, and where it lies.
-struct ShadeSpot {
-  double value = 0.0;              ///< Mean of the logarithms of linear red, green and blue.
-  std::array<double, 2> colour{};  ///< Logarithms of red and blue over green.
-  Vec3 point;                      ///< Marker coordinates, metres.
+/// A surface sample's logarithmic brightness, and where it lies.
+struct ShadowSample {
+  double value = 0.0;             ///< Mean of the logarithms of linear red, green and blue.
+  std::array<double, 2> color{};  ///< Logarithms of red and blue over green.
+  Vec3 point;                     ///< Marker coordinates, metres.
 };
 
 /// Two levels of brightness, by two-means.
@@ -26,34 +26,37 @@ struct TwoLevels {
 };
 
 /// What is seen of a small place on one material that faces the sun.
-struct ShadeCell {
-  std::vector<ShadeSpot> spots;
-  std::vector<double> in_sun;           // Values of the spots that the model has in the sun.
-  bool lit = false;                     // Whether the model has some spot in the sun,
-  bool unlit = false;                   // and whether some in the shade.
-  double depth = 0.0;                   // Of a shadow there, logarithmic, green.
-  std::array<double, 2> colour_step{};  // Red and blue against green.
+struct ShadowCell {
+  std::vector<ShadowSample> surface_samples;
+  std::vector<double> in_sun;  // Values of the surface samples that the model has in the sun.
+  bool lit = false;            // Whether the model has some surface sample in the sun,
+  bool unlit = false;          // and whether some in the shade.
+  double depth = 0.0;          // Of a shadow there, logarithmic, green.
+  std::array<double, 2> color_step{};  // Red and blue against green.
   int surface = 0;
   Vec3 normal;  // Of its surface, unit, marker coordinates, towards the eye.
 
   SurfacePlane Plane() const { return PlaneOf(surface, normal); }
-  double Median() const { return spots[spots.size() / 2].value; }  // They are sorted.
+  double Median() const {
+    return surface_samples[surface_samples.size() / 2].value;
+  }  // They are sorted.
 };
 
-/// Of sorted spots.
-TwoLevels SplitInTwo(const std::vector<ShadeSpot>& sorted);
+/// Of sorted surface samples.
+TwoLevels SplitInTwo(const std::vector<ShadowSample>& sorted);
 
 /// Whether little lies between the levels: a shadow's edge, no gradient or mottling.
 bool IsSharp(const TwoLevels& levels);
 
-/// Whether a shadow's edge divides a cell of sorted spots: two sharp levels, or two on a side each.
-bool IsCrossed(const ShadeCell& cell, const TwoLevels& levels);
+/// Whether a shadow's edge divides a cell of sorted surface samples: two sharp levels, or two on a
+/// side each.
+bool HasShadowBoundary(const ShadowCell& cell, const TwoLevels& levels);
 
 /// What a crossed cell shows.
-ShadeCrossing CrossingOf(const ShadeCell& cell, const TwoLevels& levels);
+ShadowCrossing CrossingOf(const ShadowCell& cell, const TwoLevels& levels);
 
 /// A cell that lies wholly in shade, darker than in the open by `contrast` (logarithmic, mean of
 /// the channels), which is divided among the channels as the model's shadow is.
-ShadeCrossing DeepPlaceOf(const ShadeCell& cell, double contrast);
+ShadowCrossing CrossingOfShadowedCell(const ShadowCell& cell, double contrast);
 
 }  // namespace pleinair::compositor

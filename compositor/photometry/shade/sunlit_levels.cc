@@ -18,153 +18,160 @@ using Rgb = std::array<double, 3>;
 // Of a surface's cells in the open so many are darker than what counts as its sunlit level.
 constexpr double kSunlitQuantile = 0.8;
 // The brightest places of a surface, and how much brighter than its mean a pattern makes them.
-constexpr double kOpenTop = 0.95, kPattern = 0.15;
+constexpr double kSunlitTop = 0.95, kPattern = 0.15;
 // Logarithmic: how near surfaces' gains must be to agree.
 constexpr double kAgreement = 0.26;
-// Logarithmic: how much too bright beside the print surfaces of two colours must be (1.5 times), or
-// of one (twice), for the print to be taken for shaded, and of how many cells, or of which share.
+// Logarithmic: how much too bright beside the marker surfaces of two colors must be (1.5 times), or
+// of one (twice), for the marker to be taken for shaded, and of how many cells, or of which share.
 constexpr double kTooBright = 0.405, kTooBrightAlone = 0.693;
-constexpr std::size_t kFewestBrightCells = 8;
-constexpr double kLeastBrightShare = 0.05;
+constexpr std::size_t kMinBrightCells = 8;
+constexpr double kMinBrightShare = 0.05;
 // Of the cells of a surface that is said to have a part in the open.
-constexpr double kLeastOpenShare = 0.25;
-// Cells in shade with which a surface contradicts one colour alone.
-constexpr std::ptrdiff_t kFewestShadedCells = 3;
-// Logarithmic: darker than the brighter ones by more than colours are misjudged.
+constexpr double kMinSunlitShare = 0.25;
+// Cells in shade with which a surface contradicts one color alone.
+constexpr std::ptrdiff_t kMinShadowedCells = 3;
+// Logarithmic: darker than the brighter ones by more than colors are misjudged.
 constexpr double kSurelyDarker = 0.5;
 
-/// What one surface tells of the gain.
-struct Told {
-  OpenSurface* surface = nullptr;
-  Rgb colour{};
-  double predicted = 0.0;  // Brightness in the open sun at the frames' gain.
-  double gain = 0.0;       // Logarithmic: its level over that.
-  std::size_t open = 0;    // Cells about as bright as that.
+/// What one surface tells of the exposure scale.
+struct SunlitEstimate {
+  SunlitSurface* surface = nullptr;
+  Rgb color{};
+  double predicted = 0.0;       // Brightness in the open sun at the frames' exposure scale.
+  double exposure_scale = 0.0;  // Logarithmic: its level over that.
+  std::size_t open = 0;         // Cells about as bright as that.
 };
 
-std::size_t Cells(const std::vector<Told>& surfaces) {
+std::size_t Cells(const std::vector<SunlitEstimate>& surfaces) {
   std::size_t cells = 0;
-  for (const Told& told : surfaces) cells += told.open;
+  for (const SunlitEstimate& estimate : surfaces) cells += estimate.open;
   return cells;
 }
 
-double MedianGain(const std::vector<Told>& surfaces) {
-  std::vector<double> gains;
-  gains.reserve(Cells(surfaces));
-  for (const Told& told : surfaces) gains.insert(gains.end(), told.open, told.gain);
-  return gains.empty() ? 0.0 : Quantile(gains, 0.5);
+double MedianExposureScale(const std::vector<SunlitEstimate>& surfaces) {
+  std::vector<double> exposure_scales;
+  exposure_scales.reserve(Cells(surfaces));
+  for (const SunlitEstimate& estimate : surfaces)
+    exposure_scales.insert(exposure_scales.end(), estimate.open, estimate.exposure_scale);
+  return exposure_scales.empty() ? 0.0 : Quantile(exposure_scales, 0.5);
 }
 
-/// What each colour tells, as the median of its surfaces of a gain above `least`.
-std::vector<double> GainsByColour(const std::vector<Told>& surfaces, double least) {
-  std::map<Rgb, std::vector<double>> by_colour;
-  for (const Told& told : surfaces) {
-    if (told.gain > least) by_colour[told.colour].push_back(told.gain);
+/// What each color tells, as the median of its surfaces of a exposure scale above `least`.
+std::vector<double> ScalesByColor(const std::vector<SunlitEstimate>& surfaces, double floor) {
+  std::map<Rgb, std::vector<double>> by_color;
+  for (const SunlitEstimate& estimate : surfaces) {
+    if (estimate.exposure_scale > floor)
+      by_color[estimate.color].push_back(estimate.exposure_scale);
   }
   std::vector<double> medians;
-  medians.reserve(by_colour.size());
-  for (const auto& [colour, gains] : by_colour) medians.push_back(Median(gains));
+  medians.reserve(by_color.size());
+  for (const auto& [color, exposure_scales] : by_color) medians.push_back(Median(exposure_scales));
   return medians;
 }
 
-/// Whether surfaces of two colours at least are near `gain`.
-bool ColoursAgree(const std::vector<Told>& surfaces, double gain) {
-  const std::vector<double> gains =
-      GainsByColour(surfaces, -std::numeric_limits<double>::infinity());
-  return std::count_if(gains.begin(), gains.end(), [&](double of_colour) {
-           return std::fabs(of_colour - gain) < kAgreement;
+/// Whether surfaces of two colors at least are near `gain`.
+bool ColorsAgree(const std::vector<SunlitEstimate>& surfaces, double exposure_scale) {
+  const std::vector<double> exposure_scales =
+      ScalesByColor(surfaces, -std::numeric_limits<double>::infinity());
+  return std::count_if(exposure_scales.begin(), exposure_scales.end(), [&](double of_color) {
+           return std::fabs(of_color - exposure_scale) < kAgreement;
          }) > 1;
 }
 
 /// Whether a surface's cells show sun and shade: a few in shade, or a good part. Not where a shadow
 /// is so faint that patterns are as deep.
-bool ShowsBoth(const OpenSurface& surface, bool few) {
+bool ShowsBoth(const SunlitSurface& surface, bool few) {
   if (surface.depth < kAgreement) return false;
-  const double deep = kShadeDepth * surface.depth;
+  const double deep = kShadowDepthShare * surface.depth;
   if (!few) return Quantile(surface.medians, 0.9) - Quantile(surface.medians, 0.1) > deep;
   return std::count_if(surface.medians.begin(), surface.medians.end(), [&](double median) {
            return median < surface.level - deep;
-         }) >= kFewestShadedCells;
+         }) >= kMinShadowedCells;
 }
 
 /// Whether a darker surface shows both places in the open and some in shade, so that it does not
-/// lie in shade as a whole: against one colour alone by a few of them, against more by a good part
+/// lie in shade as a whole: against one color alone by a few of them, against more by a good part
 /// and in not much fewer cells.
-bool IsContradicted(const std::vector<Told>& surfaces, double gain, bool agreed,
+bool IsContradicted(const std::vector<SunlitEstimate>& surfaces, double exposure_scale, bool agreed,
                     std::size_t bright_cells) {
-  const std::size_t fewest =
-      agreed ? std::max(bright_cells / 2, kFewestBrightCells) : kFewestBrightCells;
-  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Told& told) {
-    const auto cells = static_cast<double>(told.surface->medians.size());
-    return !told.surface->shades_print && told.gain < gain - kAgreement && told.open >= fewest &&
-           static_cast<double>(told.open) > kLeastOpenShare * cells &&
-           ShowsBoth(*told.surface, !agreed);
+  const std::size_t min_count =
+      agreed ? std::max(bright_cells / 2, kMinBrightCells) : kMinBrightCells;
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const SunlitEstimate& estimate) {
+    const auto cells = static_cast<double>(estimate.surface->medians.size());
+    return !estimate.surface->shades_marker &&
+           estimate.exposure_scale < exposure_scale - kAgreement && estimate.open >= min_count &&
+           static_cast<double>(estimate.open) > kMinSunlitShare * cells &&
+           ShowsBoth(*estimate.surface, !agreed);
   });
 }
 
-/// The gain of the brightest surfaces that are enough to be believed; 0 without.
-OpenGain BrightestGain(std::vector<Told> surfaces) {
-  std::sort(surfaces.begin(), surfaces.end(),
-            [](const Told& a, const Told& b) { return a.gain > b.gain; });
+/// The exposure scale of the brightest surfaces that are enough to be believed; 0 without.
+SunlitScale BrightestScale(std::vector<SunlitEstimate> surfaces) {
+  std::sort(surfaces.begin(), surfaces.end(), [](const SunlitEstimate& a, const SunlitEstimate& b) {
+    return a.exposure_scale > b.exposure_scale;
+  });
   const auto enough =
-      std::max(kFewestBrightCells,
-               static_cast<std::size_t>(kLeastBrightShare * static_cast<double>(Cells(surfaces))));
+      std::max(kMinBrightCells,
+               static_cast<std::size_t>(kMinBrightShare * static_cast<double>(Cells(surfaces))));
   for (std::size_t first = 0; first < surfaces.size(); ++first) {
-    std::vector<Told> near;
+    std::vector<SunlitEstimate> near;
     std::copy_if(surfaces.begin() + static_cast<std::ptrdiff_t>(first), surfaces.end(),
-                 std::back_inserter(near),
-                 [&](const Told& told) { return told.gain > surfaces[first].gain - kAgreement; });
+                 std::back_inserter(near), [&](const SunlitEstimate& estimate) {
+                   return estimate.exposure_scale > surfaces[first].exposure_scale - kAgreement;
+                 });
     if (Cells(near) < enough) continue;
-    const double gain = MedianGain(near);
-    // Brighter ones, whom these contradict, say all the same that the print is too dark: between.
-    const std::vector<double> colours = GainsByColour(surfaces, gain - kAgreement);
-    const bool alike = ColoursAgree(near, gain);
-    const bool agreed = alike || (first > 0 && colours.size() > 1);
-    const bool believed = gain > (agreed ? kTooBright : kTooBrightAlone) &&
-                          !IsContradicted(surfaces, gain, agreed, Cells(near));
+    const double exposure_scale = MedianExposureScale(near);
+    // Brighter ones, whom these contradict, say all the same that the marker is too dark: between.
+    const std::vector<double> colors = ScalesByColor(surfaces, exposure_scale - kAgreement);
+    const bool alike = ColorsAgree(near, exposure_scale);
+    const bool agreed = alike || (first > 0 && colors.size() > 1);
+    const bool believed = exposure_scale > (agreed ? kTooBright : kTooBrightAlone) &&
+                          !IsContradicted(surfaces, exposure_scale, agreed, Cells(near));
     if (believed) {
-      if (alike || gain > kTooBrightAlone) return {gain, true};
-      const double sum = std::accumulate(colours.begin(), colours.end(), 0.0);
-      return {sum / static_cast<double>(colours.size()), true};
+      if (alike || exposure_scale > kTooBrightAlone) return {exposure_scale, true};
+      const double sum = std::accumulate(colors.begin(), colors.end(), 0.0);
+      return {sum / static_cast<double>(colors.size()), true};
     }
-    if (gain <= kTooBright) break;
+    if (exposure_scale <= kTooBright) break;
   }
   return {};
 }
 
-/// Marks the surface whose shade the print lies in, if one shows that.
-bool MarkShadeBesidePrint(const OpenLight& light, const std::vector<std::uint8_t>& reached,
-                          const SurfaceSamples& samples, OpenSurfaces* surfaces) {
-  const auto beside = FindBesidePrint(samples, reached);
+/// Marks the surface whose shade the marker lies in, if one shows that.
+bool MarkShadeAroundMarker(const SunlitIrradiance& light,
+                           const std::vector<std::uint8_t>& sun_visible,
+                           const SurfaceSamples& samples, SunlitSurfaces* surfaces) {
+  const auto beside = FindMarkerSurroundings(samples, sun_visible);
   const auto found = beside ? surfaces->find(beside->plane) : surfaces->end();
   if (found == surfaces->end()) return false;
-  OpenSurface& surface = found->second;
-  const double in_prints_light =
+  SunlitSurface& surface = found->second;
+  const double in_markers_light =
       light.log_unit() + MeanLog(beside->albedo * (1 / std::numbers::pi));
   // Where a shadow is no deeper than patterns are, a dark place may be a pattern.
-  surface.shades_print = surface.depth >= kAgreement &&
-                         std::fabs(beside->brightness - in_prints_light) < kAgreement &&
-                         beside->brightness < surface.level - kShadeDepth * surface.depth;
-  return surface.shades_print;
+  surface.shades_marker = surface.depth >= kAgreement &&
+                          std::fabs(beside->brightness - in_markers_light) < kAgreement &&
+                          beside->brightness < surface.level - kShadowDepthShare * surface.depth;
+  return surface.shades_marker;
 }
 
 }  // namespace
 
-OpenLight::OpenLight(const LightSolver& solver, const LightMeter& meter, const sky::SkyModel& day,
-                     const Mat3& marker_from_world, LinearRgb sky_scale)
+SunlitIrradiance::SunlitIrradiance(const LightSolver& solver, const MarkerLightMeter& meter,
+                                   const sky::SkyModel& day, const Mat3& marker_from_world,
+                                   LinearRgb sky_radiance_scale)
     : solver_(solver),
-      day_(day, sky_scale, {1, 1, 1}),
+      day_(day, sky_radiance_scale, {1, 1, 1}),
       marker_from_world_(marker_from_world),
       to_sun_(Normalized(marker_from_world * day.ToSun().xyz)),
-      log_unit_(MeanLog(meter.light_on_print())),
-      sun_on_print_(meter.in_sun() ? SunOn({0, 0, 1}) : LinearRgb{}),
-      ambient_on_print_(Ambient(meter.places(), {0, 0, 1})) {}
+      log_unit_(MeanLog(meter.light_on_marker())),
+      sun_on_marker_(meter.in_sun() ? SunOn({0, 0, 1}) : LinearRgb{}),
+      ambient_on_marker_(Ambient(meter.places(), {0, 0, 1})) {}
 
-LinearRgb OpenLight::SunOn(Vec3 normal) const {
+LinearRgb SunlitIrradiance::SunOn(Vec3 normal) const {
   return day_.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun_));
 }
 
-LinearRgb OpenLight::Ambient(const std::vector<Point<Marker>>& places, Vec3 normal) const {
+LinearRgb SunlitIrradiance::Ambient(const std::vector<Point<Marker>>& places, Vec3 normal) const {
   constexpr std::size_t kProbes = 12;
   constexpr std::uint32_t kPaths = 256;
   std::vector<Point<Marker>> probes;
@@ -179,69 +186,69 @@ LinearRgb OpenLight::Ambient(const std::vector<Point<Marker>>& places, Vec3 norm
   return sum * (1.0 / kProbes);
 }
 
-std::vector<double> OpenSurface::SunlitCells() const {
-  const double shade = Quantile(medians, kSunlitQuantile) - kShadeDepth * depth;
+std::vector<double> SunlitSurface::SunlitCells() const {
+  const double shade = Quantile(medians, kSunlitQuantile) - kShadowDepthShare * depth;
   std::vector<double> open;
   std::copy_if(medians.begin(), medians.end(), std::back_inserter(open),
                [&](double value) { return value >= shade; });
   return open;
 }
 
-double OpenSurface::BrightLevel() const {
+double SunlitSurface::BrightLevel() const {
   // Where leaves leave half-light everywhere, few places lie in the open.
-  return std::max(Quantile(SunlitCells(), 0.5), Quantile(tops, kOpenTop) - kPattern);
+  return std::max(Quantile(SunlitCells(), 0.5), Quantile(tops, kSunlitTop) - kPattern);
 }
 
-double OpenSurface::SunlitLevel() const {
-  return all_shaded ? level : Quantile(medians, kSunlitQuantile);
+double SunlitSurface::SunlitLevel() const {
+  return all_in_shadow ? level : Quantile(medians, kSunlitQuantile);
 }
 
-OpenGain FindOpenLevels(const OpenLight& light, const std::vector<std::uint8_t>& reached,
-                        const SurfaceSamples& samples, OpenSurfaces* surfaces) {
+SunlitScale FindSunlitLevels(const SunlitIrradiance& light,
+                             const std::vector<std::uint8_t>& sun_visible,
+                             const SurfaceSamples& samples, SunlitSurfaces* surfaces) {
   struct Places {
     LinearRgb albedo;
     std::vector<Point<Marker>> lit;
   };
   std::map<SurfacePlane, Places> places;
   for (std::size_t i = 0; i < samples.samples().size(); ++i) {
-    if (reached[i] == 0) continue;
-    const SurfaceSample& spot = samples.samples()[i];
-    Places& of = places[PlaneOf(spot.surface, spot.normal)];
-    of.albedo = spot.albedo;
-    of.lit.push_back(spot.point);
+    if (sun_visible[i] == 0) continue;
+    const SurfaceSample& surface_sample = samples.samples()[i];
+    Places& of = places[PlaneOf(surface_sample.surface, surface_sample.normal)];
+    of.albedo = surface_sample.albedo;
+    of.lit.push_back(surface_sample.point);
   }
-  const LinearRgb on_print = light.sun_on_print() + light.ambient_on_print();
-  std::vector<Told> all;
+  const LinearRgb on_marker = light.sun_on_marker() + light.ambient_on_marker();
+  std::vector<SunlitEstimate> all;
   for (auto& [plane, surface] : *surfaces) {
     surface.level = surface.BrightLevel();
     const auto& [albedo, lit] = places.at(plane);
-    if (surface.SunlitCells().size() < kFewestCells ||
-        std::min({albedo.r, albedo.g, albedo.b}) <= 0.0)
+    if (surface.SunlitCells().size() < kMinCells || std::min({albedo.r, albedo.g, albedo.b}) <= 0.0)
       continue;
     const LinearRgb on_surface = light.SunOn(surface.normal) + light.Ambient(lit, surface.normal);
     const double predicted =
-        light.log_unit() + MeanLog(on_surface / on_print * albedo * (1 / std::numbers::pi));
-    const double least = surface.level - kAgreement;
+        light.log_unit() + MeanLog(on_surface / on_marker * albedo * (1 / std::numbers::pi));
+    const double floor = surface.level - kAgreement;
     const auto near = std::count_if(surface.medians.begin(), surface.medians.end(),
-                                    [least](double median) { return median > least; });
+                                    [floor](double median) { return median > floor; });
     all.push_back({&surface,
                    {albedo.r, albedo.g, albedo.b},
                    predicted,
                    surface.level - predicted,
                    static_cast<std::size_t>(std::max<std::ptrdiff_t>(near, 1))});
   }
-  const bool shown_beside_print = MarkShadeBesidePrint(light, reached, samples, surfaces);
-  if (OpenGain brightest = BrightestGain(all); brightest.log > 0.0) {
-    brightest.shown_beside_print = shown_beside_print;
-    for (const Told& told : all) {
-      if (told.gain > brightest.log - kSurelyDarker) continue;
-      told.surface->all_shaded = true;
-      told.surface->level = told.predicted + brightest.log;
+  const bool shown_by_surroundings = MarkShadeAroundMarker(light, sun_visible, samples, surfaces);
+  if (SunlitScale brightest = BrightestScale(all); brightest.log > 0.0) {
+    brightest.shown_by_surroundings = shown_by_surroundings;
+    for (const SunlitEstimate& estimate : all) {
+      if (estimate.exposure_scale > brightest.log - kSurelyDarker) continue;
+      estimate.surface->all_in_shadow = true;
+      estimate.surface->level = estimate.predicted + brightest.log;
     }
     return brightest;
   }
-  const double gain = MedianGain(all);
-  return {gain, !all.empty() && ColoursAgree(all, gain), shown_beside_print};
+  const double exposure_scale = MedianExposureScale(all);
+  return {exposure_scale, !all.empty() && ColorsAgree(all, exposure_scale), shown_by_surroundings};
 }
 
 }  // namespace pleinair::compositor

@@ -21,215 +21,227 @@ namespace {
 using Rgb = std::array<double, 3>;
 
 constexpr double kGrazing = 0.2;
-constexpr std::size_t kFewestSpots = 12;
+constexpr std::size_t kMinSurfaceSamples = 12;
 // Of the cells that the model has in the sun, the darkest beside their surface's open level.
 constexpr double kDeepestShare = 0.4;
 
-// Beside a phantom's own edge: so many spots in the sun; darker by this share of a shadow's depth
-// than the brightest places, of which so many are darker, for leaves leave a part of the sun.
-constexpr std::size_t kFewestBesideEdge = 6;
-constexpr double kDimDepth = 0.25, kOpenQuantile = 0.9;
+// Beside a phantom's own edge: so many surface samples in the sun; darker by this share of a
+// shadow's depth than the brightest places, of which so many are darker, for leaves leave a part of
+// the sun.
+constexpr std::size_t kMinCountBesideEdge = 6;
+constexpr double kDimDepth = 0.25, kSunlitReferenceQuantile = 0.9;
 
-// Share of the sun below which a spot has none of it and above which it has all: between, patterns
-// that are darker or brighter than their mean and true half-light look alike.
+// Share of the sun below which a surface sample has none of it and above which it has all: between,
+// patterns that are darker or brighter than their mean and true half-light look alike.
 constexpr double kNoSun = 0.1, kAllSun = 0.9;
 
-/// How much of the sun is on every spot that the model has in the sun.
-void MapSunlight(const OpenLight& light, const std::vector<std::uint8_t>& reached,
-                 const SurfaceSamples& samples, const OpenSurfaces& surfaces,
-                 UnmodelledShade* shade) {
-  shade->sun_on_print = light.sun_on_print();
-  shade->ambient_on_print = light.ambient_on_print();
-  const double log_gain = std::log(shade->open_gain);
-  std::vector<SunlitSpot> spots;
+/// How much of the sun is on every surface sample that the model has in the sun.
+void MapSunlight(const SunlitIrradiance& light, const std::vector<std::uint8_t>& sun_visible,
+                 const SurfaceSamples& samples, const SunlitSurfaces& surfaces,
+                 UnmodelledShadows* unmodelled) {
+  unmodelled->sun_on_marker = light.sun_on_marker();
+  unmodelled->ambient_on_marker = light.ambient_on_marker();
+  const double log_exposure_scale = std::log(unmodelled->sunlit_scale);
+  std::vector<SunlitSample> surface_samples;
   for (std::size_t i = 0; i < samples.samples().size(); ++i) {
-    const SurfaceSample& spot = samples.samples()[i];
-    if (reached[i] == 0 || Dot(spot.normal, light.to_sun()) < kGrazing) continue;
-    double level = std::max(0.0, log_gain) + light.log_unit() +
-                   std::log(spot.albedo.g / std::numbers::pi);  // Of the print's white.
-    if (spot.surface >= 0) {
-      const auto found = surfaces.find(PlaneOf(spot.surface, spot.normal));
-      if (found == surfaces.end() || found->second.medians.size() < kFewestCells) continue;
+    const SurfaceSample& surface_sample = samples.samples()[i];
+    if (sun_visible[i] == 0 || Dot(surface_sample.normal, light.to_sun()) < kGrazing) continue;
+    double level = std::max(0.0, log_exposure_scale) + light.log_unit() +
+                   std::log(surface_sample.albedo.g / std::numbers::pi);  // Of the marker's white.
+    if (surface_sample.surface >= 0) {
+      const auto found = surfaces.find(PlaneOf(surface_sample.surface, surface_sample.normal));
+      if (found == surfaces.end() || found->second.medians.size() < kMinCells) continue;
       level = found->second.level;
     }
-    const double brightness = (spot.log_rgb[0] + spot.log_rgb[1] + spot.log_rgb[2]) / 3;
-    const LinearRgb sun = light.SunOn(spot.normal), sky = light.sky();
+    const double brightness =
+        (surface_sample.log_rgb[0] + surface_sample.log_rgb[1] + surface_sample.log_rgb[2]) / 3;
+    const LinearRgb sun = light.SunOn(surface_sample.normal), sky = light.sky();
     const double ambient_share = sky.g / (sky.g + sun.g);
     const double share = (std::exp(brightness - level) - ambient_share) / (1 - ambient_share);
     const double t = std::clamp((share - kNoSun) / (kAllSun - kNoSun), 0.0, 1.0);
-    spots.push_back({spot.point.xyz, t * t * (3 - 2 * t), spot.footprint_m});
+    surface_samples.push_back(
+        {surface_sample.point.xyz, t * t * (3 - 2 * t), surface_sample.footprint_m});
   }
-  shade->sunlight = MapSeenSunlight(light.to_sun(), spots);
+  unmodelled->sun_transmittance = BuildSunTransmittanceMap(light.to_sun(), surface_samples);
 }
 
 /// Looks at the sunny sides of the phantoms' own shadows.
-void CountShadedEdges(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
-                      UnmodelledShade* shade) {
+void CountShadedEdges(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sunlit,
+                      UnmodelledShadows* unmodelled) {
   int shaded = 0;
-  shade->beside_edges = 0;
-  for (const ShadeCell& cell : cells) {
+  unmodelled->beside_edges = 0;
+  for (const ShadowCell& cell : cells) {
     const auto surface = sunlit.find(cell.Plane());
-    if (!cell.unlit || cell.in_sun.size() < kFewestBesideEdge || surface == sunlit.end()) continue;
-    const double open = surface->second.all_shaded
+    if (!cell.unlit || cell.in_sun.size() < kMinCountBesideEdge || surface == sunlit.end())
+      continue;
+    const double open = surface->second.all_in_shadow
                             ? surface->second.level
-                            : Quantile(surface->second.medians, kOpenQuantile);
-    ++shade->beside_edges;
+                            : Quantile(surface->second.medians, kSunlitReferenceQuantile);
+    ++unmodelled->beside_edges;
     shaded += Quantile(cell.in_sun, 0.5) < open - kDimDepth * cell.depth ? 1 : 0;
   }
-  if (shade->beside_edges > 0) {
-    shade->edges_shaded = static_cast<double>(shaded) / shade->beside_edges;
+  if (unmodelled->beside_edges > 0) {
+    unmodelled->shadowed_edges_share = static_cast<double>(shaded) / unmodelled->beside_edges;
   }
 }
 
 /// The share of the cells that the model has wholly in the sun that are darker than their
 /// surface's `level` by so much as shade.
 template <typename Level>
-double ShadedShare(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
+double ShadedShare(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sunlit,
                    const Level& level, int* count) {
   int shaded = 0;
   *count = 0;
-  for (const ShadeCell& cell : cells) {
+  for (const ShadowCell& cell : cells) {
     if (!cell.lit || cell.unlit) continue;
     ++*count;
     const double open = level(sunlit.at(cell.Plane()));
-    shaded += cell.Median() < open - kShadeDepth * cell.depth ? 1 : 0;
+    shaded += cell.Median() < open - kShadowDepthShare * cell.depth ? 1 : 0;
   }
   return *count > 0 ? static_cast<double>(shaded) / *count : 0.0;
 }
 
 /// Looks at the places that the model has in the sun. Of a ground that hardly has a place in the
 /// open its few brightest tell: most of it is as dark as the rest, but not as all the sun.
-void CountShaded(const std::vector<ShadeCell>& cells, const OpenSurfaces& sunlit,
-                 UnmodelledShade* shade) {
-  shade->shaded = ShadedShare(
-      cells, sunlit, [](const OpenSurface& surface) { return surface.SunlitLevel(); },
-      &shade->sunlit);
-  shade->dim = ShadedShare(
-      cells, sunlit, [](const OpenSurface& surface) { return surface.level; }, &shade->sunlit);
-  if (shade->IsWide()) shade->shaded = std::max(shade->shaded, shade->dim);
+void CountShaded(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sunlit,
+                 UnmodelledShadows* unmodelled) {
+  unmodelled->shaded = ShadedShare(
+      cells, sunlit, [](const SunlitSurface& surface) { return surface.SunlitLevel(); },
+      &unmodelled->sunlit);
+  unmodelled->dim = ShadedShare(
+      cells, sunlit, [](const SunlitSurface& surface) { return surface.level; },
+      &unmodelled->sunlit);
+  if (unmodelled->IsWide()) unmodelled->shaded = std::max(unmodelled->shaded, unmodelled->dim);
 }
 
 /// The darkest places beside their surfaces' open levels.
-std::vector<ShadeCrossing> DeepestPlaces(const std::vector<ShadeCell>& cells,
-                                         const OpenSurfaces& sunlit) {
+std::vector<ShadowCrossing> DeepestPlaces(const std::vector<ShadowCell>& cells,
+                                          const SunlitSurfaces& sunlit) {
   struct Place {
     double contrast = 0.0;
-    const ShadeCell* cell = nullptr;
+    const ShadowCell* cell = nullptr;
   };
   std::vector<Place> places;
-  for (const ShadeCell& cell : cells) {
+  for (const ShadowCell& cell : cells) {
     if (!cell.lit || cell.unlit) continue;
-    const OpenSurface& surface = sunlit.at(cell.Plane());
-    if (surface.medians.size() < kFewestCells) continue;
+    const SunlitSurface& surface = sunlit.at(cell.Plane());
+    if (surface.medians.size() < kMinCells) continue;
     places.push_back({surface.level - cell.Median(), &cell});
   }
   std::sort(places.begin(), places.end(),
             [](const Place& a, const Place& b) { return a.contrast > b.contrast; });
   places.resize(static_cast<std::size_t>(kDeepestShare * static_cast<double>(places.size())));
-  std::vector<ShadeCrossing> deepest;
+  std::vector<ShadowCrossing> deepest;
   deepest.reserve(places.size());
-  for (const auto& [contrast, cell] : places) deepest.push_back(DeepPlaceOf(*cell, contrast));
+  for (const auto& [contrast, cell] : places)
+    deepest.push_back(CrossingOfShadowedCell(*cell, contrast));
   return deepest;
 }
 
 }  // namespace
 
-UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamples& samples,
-                                    const LightMeter& meter, const sky::SkyModel& day,
-                                    const Mat3& marker_from_world, LinearRgb sky_scale) {
-  UnmodelledShade shade;
+UnmodelledShadows FindUnmodelledShadows(const LightSolver& solver, const SurfaceSamples& samples,
+                                        const MarkerLightMeter& meter, const sky::SkyModel& day,
+                                        const Mat3& marker_from_world,
+                                        LinearRgb sky_radiance_scale) {
+  UnmodelledShadows unmodelled;
   const Vec3 to_sun = Normalized(marker_from_world * day.ToSun().xyz);
   const LinearRgb sun = day.SunNormalIrradiance();
-  const LinearRgb sky = day.SkyHorizontalIrradiance() * sky_scale;
-  if (day.ToSun().xyz.z <= 0.0 || Luminance(sun) <= 0.0 || Luminance(sky) <= 0.0) return shade;
+  const LinearRgb sky = day.SkyHorizontalIrradiance() * sky_radiance_scale;
+  if (day.ToSun().xyz.z <= 0.0 || Luminance(sun) <= 0.0 || Luminance(sky) <= 0.0) return unmodelled;
   const auto& all = samples.samples();
-  std::vector<std::uint8_t> reached(all.size());
+  std::vector<std::uint8_t> sun_visible(all.size());
   ParallelFor(all.size(), 0, [&](std::size_t i) {
-    reached[i] = all[i].frames > 0 && solver.ReachesPhantomsOnly(all[i].point, to_sun) ? 1 : 0;
+    sun_visible[i] =
+        all[i].frames > 0 && solver.IsUnoccludedPhantomsOnly(all[i].point, to_sun) ? 1 : 0;
   });
-  std::vector<ShadeCell> cells(samples.cells());
+  std::vector<ShadowCell> cells(samples.cells());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const SurfaceSample& spot = all[i];
-    const double cosine = Dot(spot.normal, to_sun);
-    if (spot.frames == 0 || spot.surface < 0 || cosine < kGrazing) continue;
-    ShadeCell& cell = cells[spot.cell];
-    const auto& rgb = spot.log_rgb;
-    cell.spots.push_back(
-        {(rgb[0] + rgb[1] + rgb[2]) / 3, {rgb[0] - rgb[1], rgb[2] - rgb[1]}, spot.point.xyz});
-    (reached[i] != 0 ? cell.lit : cell.unlit) = true;
-    if (reached[i] != 0) cell.in_sun.push_back(cell.spots.back().value);
+    const SurfaceSample& surface_sample = all[i];
+    const double cosine = Dot(surface_sample.normal, to_sun);
+    if (surface_sample.frames == 0 || surface_sample.surface < 0 || cosine < kGrazing) continue;
+    ShadowCell& cell = cells[surface_sample.cell];
+    const auto& rgb = surface_sample.log_rgb;
+    cell.surface_samples.push_back({(rgb[0] + rgb[1] + rgb[2]) / 3,
+                                    {rgb[0] - rgb[1], rgb[2] - rgb[1]},
+                                    surface_sample.point.xyz});
+    (sun_visible[i] != 0 ? cell.lit : cell.unlit) = true;
+    if (sun_visible[i] != 0) cell.in_sun.push_back(cell.surface_samples.back().value);
     const auto depth = [&](double of_sun, double of_sky) {
       return std::log1p(of_sun * cosine / of_sky);
     };
     const Rgb depths{depth(sun.r, sky.r), depth(sun.g, sky.g), depth(sun.b, sky.b)};
     cell.depth = depths[1];
-    cell.colour_step = {depths[0] - depths[1], depths[2] - depths[1]};
-    cell.surface = spot.surface;
-    cell.normal = spot.normal;
+    cell.color_step = {depths[0] - depths[1], depths[2] - depths[1]};
+    cell.surface = surface_sample.surface;
+    cell.normal = surface_sample.normal;
   }
-  std::erase_if(cells, [](const ShadeCell& cell) { return cell.spots.size() < kFewestSpots; });
+  std::erase_if(cells, [](const ShadowCell& cell) {
+    return cell.surface_samples.size() < kMinSurfaceSamples;
+  });
   int edges = 0;
   // Medians of the cells that the model has in the sun, by plane and material.
-  OpenSurfaces sunlit;
-  for (ShadeCell& cell : cells) {
-    ++shade.places;
-    std::sort(cell.spots.begin(), cell.spots.end(),
-              [](const ShadeSpot& a, const ShadeSpot& b) { return a.value < b.value; });
-    const TwoLevels levels = SplitInTwo(cell.spots);
-    const bool crossed = IsCrossed(cell, levels);
-    edges += crossed ? 1 : 0;
+  SunlitSurfaces sunlit;
+  for (ShadowCell& cell : cells) {
+    ++unmodelled.places;
+    std::sort(cell.surface_samples.begin(), cell.surface_samples.end(),
+              [](const ShadowSample& a, const ShadowSample& b) { return a.value < b.value; });
+    const TwoLevels levels = SplitInTwo(cell.surface_samples);
+    const bool boundary_cells = HasShadowBoundary(cell, levels);
+    edges += boundary_cells ? 1 : 0;
     if (!cell.lit || cell.unlit) continue;
-    OpenSurface& surface = sunlit[cell.Plane()];
+    SunlitSurface& surface = sunlit[cell.Plane()];
     surface.normal = cell.normal;
     surface.medians.push_back(cell.Median());
-    surface.tops.push_back(cell.spots[cell.spots.size() * 3 / 4].value);
+    surface.tops.push_back(cell.surface_samples[cell.surface_samples.size() * 3 / 4].value);
     surface.depth = cell.depth;
-    if (crossed) shade.crossings.push_back(CrossingOf(cell, levels));
+    if (boundary_cells) unmodelled.crossings.push_back(CrossingOf(cell, levels));
   }
-  if (shade.places > 0) shade.edges = static_cast<double>(edges) / shade.places;
-  shade.crossed = edges;
+  if (unmodelled.places > 0) unmodelled.edges = static_cast<double>(edges) / unmodelled.places;
+  unmodelled.boundary_cells = edges;
   for (auto& [plane, surface] : sunlit) surface.level = surface.BrightLevel();
-  CountShaded(cells, sunlit, &shade);
-  CountShadedEdges(cells, sunlit, &shade);
-  if ((!shade.Matters() && !shade.HidesEdges()) || meter.places().empty()) return shade;
-  const OpenLight light(solver, meter, day, marker_from_world, sky_scale);
-  const OpenGain gain = FindOpenLevels(light, reached, samples, &sunlit);
-  shade.open_gain = std::exp(gain.log);
-  shade.open_gain_agreed = gain.agreed;
-  shade.shown_beside_print = gain.shown_beside_print;
+  CountShaded(cells, sunlit, &unmodelled);
+  CountShadedEdges(cells, sunlit, &unmodelled);
+  if ((!unmodelled.Matters() && !unmodelled.HidesEdges()) || meter.places().empty())
+    return unmodelled;
+  const SunlitIrradiance light(solver, meter, day, marker_from_world, sky_radiance_scale);
+  const SunlitScale exposure_scale = FindSunlitLevels(light, sun_visible, samples, &sunlit);
+  unmodelled.sunlit_scale = std::exp(exposure_scale.log);
+  unmodelled.sunlit_scale_agreed = exposure_scale.agreed;
+  unmodelled.shown_by_surroundings = exposure_scale.shown_by_surroundings;
   // Once more, with the levels of surfaces that have no part in the open.
-  CountShaded(cells, sunlit, &shade);
-  CountShadedEdges(cells, sunlit, &shade);
-  shade.deepest = DeepestPlaces(cells, sunlit);
-  if (shade.Matters()) MapSunlight(light, reached, samples, sunlit, &shade);
-  return shade;
+  CountShaded(cells, sunlit, &unmodelled);
+  CountShadedEdges(cells, sunlit, &unmodelled);
+  unmodelled.deepest = DeepestPlaces(cells, sunlit);
+  if (unmodelled.Matters()) MapSunlight(light, sun_visible, samples, sunlit, &unmodelled);
+  return unmodelled;
 }
 
-bool UnmodelledShade::CastBySun() const {
-  constexpr int kFewestEdges = 3;
-  constexpr double kSmallestShare = 0.008;
-  return crossed >= kFewestEdges && edges >= kSmallestShare;
+bool UnmodelledShadows::CastBySun() const {
+  constexpr int kMinEdges = 3;
+  constexpr double kMinShare = 0.008;
+  return boundary_cells >= kMinEdges && edges >= kMinShare;
 }
 
-bool UnmodelledShade::IsWide() const {
-  constexpr double kSmallestShare = 0.15;
-  return dim >= kSmallestShare;
+bool UnmodelledShadows::IsWide() const {
+  constexpr double kMinShare = 0.15;
+  return dim >= kMinShare;
 }
 
-bool UnmodelledShade::ShadesPrint() const {
+bool UnmodelledShadows::ShadesMarker() const {
   constexpr double kDarker = 1.5, kDarkerAsShown = 1.2;
-  return open_gain_agreed && open_gain > (shown_beside_print ? kDarkerAsShown : kDarker);
+  return sunlit_scale_agreed && sunlit_scale > (shown_by_surroundings ? kDarkerAsShown : kDarker);
 }
 
-bool UnmodelledShade::HidesEdges() const {
-  constexpr int kFewestPlaces = 6;
+bool UnmodelledShadows::HidesEdges() const {
+  constexpr int kMinPlaces = 6;
   constexpr double kMax = 0.6;
-  return beside_edges >= kFewestPlaces && edges_shaded >= kMax;
+  return beside_edges >= kMinPlaces && shadowed_edges_share >= kMax;
 }
 
-bool UnmodelledShade::Matters() const {
-  constexpr double kSmallestShare = 0.02;
-  return shaded >= kSmallestShare;
+bool UnmodelledShadows::Matters() const {
+  constexpr double kMinShare = 0.02;
+  return shaded >= kMinShare;
 }
 
 }  // namespace pleinair::compositor

@@ -15,28 +15,29 @@ namespace pleinair::compositor {
 
 /// Shadows in view that no phantom explains: a tree's, a neighbouring house's, or the phantoms' own
 /// where the sun does not stand where it is thought to.
-struct UnmodelledShade {
-  int places = 0;             ///< Small cells of one material that face the sun.
-  int crossed = 0;            ///< Of them, those that a shadow's edge crosses.
-  double edges = 0.0;         ///< Their share.
-  int sunlit = 0;             ///< Cells that the model has wholly in the sun.
-  double shaded = 0.0;        ///< Share of them that lie in shade.
-  double dim = 0.0;           ///< The same beside their surfaces' open levels, which few may reach.
-  int beside_edges = 0;       ///< Places on the sunny side of the phantoms' own shadows.
-  double edges_shaded = 0.0;  ///< Share of them that lie in shade all the same.
+struct UnmodelledShadows {
+  int places = 0;          ///< Small cells of one material that face the sun.
+  int boundary_cells = 0;  ///< Of them, those that a shadow's edge crosses.
+  double edges = 0.0;      ///< Their share.
+  int sunlit = 0;          ///< Cells that the model has wholly in the sun.
+  double shaded = 0.0;     ///< Share of them that lie in shade.
+  double dim = 0.0;        ///< The same beside their surfaces' open levels, which few may reach.
+  int beside_edges = 0;    ///< Places on the sunny side of the phantoms' own shadows.
+  double shadowed_edges_share = 0.0;  ///< Share of them that lie in shade all the same.
   /// Gain of the camera that phantoms' places in the open sun tell of, over that of the frames:
-  /// above 1 where the print, or the brightest of it, has less than the open sun.
-  double open_gain = 1.0;
-  /// Whether that is believed (OpenGain::agreed).
-  bool open_gain_agreed = false;
-  bool shown_beside_print = false;  ///< OpenGain's.
-  /// Where Matters(): the sun's light on the print in the open and all other, as phantoms leave it.
-  LinearRgb sun_on_print, ambient_on_print;
-  SeenSunlight sunlight;  ///< Where Matters().
-  std::vector<ShadeCrossing> crossings;
+  /// above 1 where the marker, or the brightest of it, has less than the open sun.
+  double sunlit_scale = 1.0;
+  /// Whether that is believed (SunlitScale::agreed).
+  bool sunlit_scale_agreed = false;
+  bool shown_by_surroundings = false;  ///< SunlitScale's.
+  /// Where Matters(): the sun's light on the marker in the open and all other, as phantoms leave
+  /// it.
+  LinearRgb sun_on_marker, ambient_on_marker;
+  SunTransmittanceMap sun_transmittance;  ///< Where Matters().
+  std::vector<ShadowCrossing> crossings;
   /// The darkest of the cells that the model has wholly in the sun, beside the light in the open:
   /// where no edge shows how deep the shade is. Where something shades what is in view.
-  std::vector<ShadeCrossing> deepest;
+  std::vector<ShadowCrossing> deepest;
 
   /// Whether the edges are more than chance and things that no phantom stands for bring about: a
   /// sun must cast them.
@@ -44,10 +45,10 @@ struct UnmodelledShade {
   /// Whether so much is so dark that hardly anything but a sun's shade makes it so, though a crown
   /// leaves no sharp edge.
   bool IsWide() const;
-  /// Whether the print is so much darker than what lies in the open that it must lie in shade, even
-  /// if evenly: no stated colour is believed to be so far off. Less will do where the surface that
-  /// it lies on shows that.
-  bool ShadesPrint() const;
+  /// Whether the marker is so much darker than what lies in the open that it must lie in shade,
+  /// even if evenly: no stated color is believed to be so far off. Less will do where the surface
+  /// that it lies on shows that.
+  bool ShadesMarker() const;
   /// Whether what casts them keeps the sun from the phantoms' own shadows, too, which then show no
   /// edge under whatever sun; where the sun is thought to stand elsewhere than it does, most of
   /// these places lie in the open.
@@ -56,11 +57,13 @@ struct UnmodelledShade {
   bool Matters() const;
 };
 
-/// Looks for shadows of about the depth that `daylight` gives them where the sky is `sky_scale`
-/// times as strong beside its sun; `marker_from_world` with the heading in use. `meter`: by which
-/// the samples' gains were read.
-UnmodelledShade FindUnmodelledShade(const LightSolver& solver, const SurfaceSamples& samples,
-                                    const LightMeter& meter, const sky::SkyModel& daylight,
-                                    const Mat3& marker_from_world, LinearRgb sky_scale);
+/// Looks for shadows of about the depth that `daylight` gives them where the sky is
+/// `sky_radiance_scale` times as strong beside its sun; `marker_from_world` with the heading in
+/// use. `meter`: by which the samples' gains were read.
+UnmodelledShadows FindUnmodelledShadows(const LightSolver& solver, const SurfaceSamples& samples,
+                                        const MarkerLightMeter& meter,
+                                        const sky::SkyModel& daylight,
+                                        const Mat3& marker_from_world,
+                                        LinearRgb sky_radiance_scale);
 
 }  // namespace pleinair::compositor

@@ -10,7 +10,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-TEST(RatioText, SaysWhatTheDataDoNotBound) {
+TEST(RatioText, ReportsWhatTheDataDoNotBound) {
   EXPECT_EQ(RatioText(0.419, {0.38, 0.466}), "0.42 (0.38–0.47)");
   EXPECT_EQ(RatioText(28.571, {13.07, kInfinity}), "28.57 (13.07 or more)");
   EXPECT_EQ(RatioText(0.5, {kNone, kNone}), "0.50 (no interval)");

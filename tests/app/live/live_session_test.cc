@@ -190,7 +190,7 @@ TEST(LiveSession, StopsInTheMiddleWithoutWaitingForTheSource) {
   }
 }
 
-TEST(LiveSession, SaysSoWhereTheCamerasSizeIsNotTheCalibrations) {
+TEST(LiveSession, ReportsSoWhereTheCamerasSizeIsNotTheCalibrations) {
   LiveOptions options = Options();
   options.camera.width = 320;
   auto session =
@@ -203,17 +203,17 @@ TEST(LiveSession, SaysSoWhereTheCamerasSizeIsNotTheCalibrations) {
   EXPECT_THAT(drawn.error().what, testing::HasSubstr("160x120"));
 }
 
-TEST(HandOver, ReplacesWaitsOrRefusesWhenItIsFull) {
-  HandOver<int> newest(1, WhenFull::kReplaceOldest);
+TEST(BoundedQueue, ReplacesWaitsOrRefusesWhenItIsFull) {
+  BoundedQueue<int> newest(1, WhenFull::kReplaceOldest);
   EXPECT_TRUE(newest.Give(1));
   EXPECT_TRUE(newest.Give(2));
   EXPECT_EQ(newest.Take(), 2);
   EXPECT_EQ(newest.dropped(), 1);
-  HandOver<int> refusing(1, WhenFull::kRefuse);
+  BoundedQueue<int> refusing(1, WhenFull::kRefuse);
   EXPECT_TRUE(refusing.Give(1));
   EXPECT_FALSE(refusing.Give(2));
   EXPECT_EQ(refusing.Take(), 1);
-  HandOver<int> waiting(1, WhenFull::kWait);
+  BoundedQueue<int> waiting(1, WhenFull::kWait);
   std::thread giver([&] {
     for (int i = 0; i < 100; ++i) waiting.Give(i);
     waiting.Close();

@@ -12,7 +12,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-TEST(FrameWarnings, SayEachThingOnceWithItsFrames) {
+TEST(FrameWarnings, ReportEachThingOnceWithItsFrames) {
   FrameWarnings warnings;
   EXPECT_THAT(warnings.Sentences(), IsEmpty());
   warnings.Add(2, {"a marker is mirrored"});
@@ -36,12 +36,12 @@ std::string WhereNothingWasSeen(std::optional<std::string> family, std::optional
   ReplayReport report;
   report.frames = 3;
   report.markers = {{"tag36h11", 4}};
-  const auto warnings = MarkerWarnings(report, session::Session(scene.marker), scene);
+  const auto warnings = MarkerWarnings(report, session::MarkerTracks(scene.marker), scene);
   EXPECT_THAT(warnings, SizeIs(1));
   return warnings.empty() ? "" : warnings[0];
 }
 
-TEST(ModelWarnings, SayOnceOfAFileWhatOfItDoesNotShow) {
+TEST(ModelWarnings, ReportOnceOfAFileWhatOfItDoesNotShow) {
   compositor::Model model;
   model.file = "lamp.glb";
   model.materials.resize(2);
@@ -62,7 +62,7 @@ TEST(ModelWarnings, SayOnceOfAFileWhatOfItDoesNotShow) {
               ElementsAre("Of lamp.glb this is not drawn: colours of vertices."));
 }
 
-TEST(MarkerWarnings, SayWhatWasLookedForInVain) {
+TEST(MarkerWarnings, ReportWhatWasLookedForInVain) {
   EXPECT_THAT(WhereNothingWasSeen("tag25h9", 2), HasSubstr("(tag25h9_2) was seen in no frame"));
   EXPECT_THAT(WhereNothingWasSeen("tag25h9", 2), Not(HasSubstr("S-G")));
   EXPECT_THAT(WhereNothingWasSeen("sg", 17), HasSubstr("only number 17 was looked for"));
@@ -70,13 +70,13 @@ TEST(MarkerWarnings, SayWhatWasLookedForInVain) {
   EXPECT_THAT(WhereNothingWasSeen({}, {}), HasSubstr("Seen: tag36h11_4."));
 }
 
-TEST(DrawingWarnings, SayThatEdgesGetFewSamples) {
+TEST(DrawingWarnings, ReportThatEdgesGetFewSamples) {
   EXPECT_THAT(DrawingWarnings(std::nullopt), IsEmpty());
   EXPECT_THAT(DrawingWarnings(4), IsEmpty());
   EXPECT_THAT(DrawingWarnings(1), ElementsAre(HasSubstr("gives 1 of 4 samples a pixel")));
 }
 
-TEST(LightWarnings, SayWhatTheLightCannotBe) {
+TEST(LightWarnings, ReportWhatTheLightCannotBe) {
   session::LightSummary light;
   light.sun.elevation = FromDegrees(30);
   EXPECT_THAT(LightWarnings(light), IsEmpty());
@@ -92,9 +92,9 @@ TEST(LightWarnings, SayWhatTheLightCannotBe) {
   light.measured.sun_to_sky_stated = 4.0;
   EXPECT_THAT(LightWarnings(light), IsEmpty());
   light.measured = {};
-  light.gain_change = 2.5;
+  light.exposure_scale_change = 2.5;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("changed by a factor of 2.5")));
-  light.gain_change = 1.1;
+  light.exposure_scale_change = 1.1;
   light.sun.elevation = FromDegrees(-5);
   EXPECT_THAT(LightWarnings(light), IsEmpty());
   light.sun.elevation = FromDegrees(-12);

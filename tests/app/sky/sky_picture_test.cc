@@ -154,21 +154,21 @@ TEST(SkyPicture, LightsItsGround) {
 }
 
 TEST(SkyExposure, FollowsIso12232) {
-  EXPECT_NEAR(ExposureOf(0.0).gain, 1.0 / 1.2, 1e-12);
-  EXPECT_NEAR(ExposureOf(15.0).gain * 1.2 * 32768.0, 1.0, 1e-12);
+  EXPECT_NEAR(ExposureOf(0.0).exposure_scale, 1.0 / 1.2, 1e-12);
+  EXPECT_NEAR(ExposureOf(15.0).exposure_scale * 1.2 * 32768.0, 1.0, 1e-12);
   EXPECT_NEAR(ExposureOf(11.5).Ev100(), 11.5, 1e-12);
 }
 
 TEST(SkyExposure, ShowsTheNightDarkerThanTheDay) {
   double last = 0.0;
   for (double lux = 1e-4; lux < 2e5; lux *= 1.5) {
-    const double shown = AutomaticExposure(Lux(lux)).gain * lux / pi;
+    const double shown = AutomaticExposure(Lux(lux)).exposure_scale * lux / pi;
     EXPECT_GE(shown, last) << lux;
     EXPECT_LT(shown, 0.7);
     last = shown;
   }
   EXPECT_GT(last, 0.5);
-  EXPECT_TRUE(std::isfinite(AutomaticExposure(Lux(0.0)).gain));
+  EXPECT_TRUE(std::isfinite(AutomaticExposure(Lux(0.0)).exposure_scale));
 }
 
 TEST(ToneMap, KeepsOrderAndHueAndStaysOnTheScreen) {
@@ -215,7 +215,7 @@ TEST(SunPath, IsStereographic) {
 
 TEST(SunPath, DrawsTwelveDaysAndTheHoursOfTheClock) {
   const sky::Observer prague{.latitude = FromDegrees(50.0875), .longitude = FromDegrees(14.4213)};
-  const exports::LineDrawing drawing =
+  const exports::VectorDrawing drawing =
       DrawSunPath({prague, 2025, {60}, sky::SunModel::kPrecise, {}});
   const auto has = [&](const std::string& text) {
     return std::any_of(drawing.texts.begin(), drawing.texts.end(),
@@ -238,7 +238,7 @@ TEST(SunPath, DrawsTwelveDaysAndTheHoursOfTheClock) {
 
 TEST(SunPath, HasNoWinterDaysInThePolarNight) {
   const sky::Observer tromso{.latitude = FromDegrees(69.65), .longitude = FromDegrees(18.96)};
-  const exports::LineDrawing drawing =
+  const exports::VectorDrawing drawing =
       DrawSunPath({tromso, 2025, {60}, sky::SunModel::kPrecise, {}});
   const auto count = [&](const std::string& text) {
     return std::count_if(drawing.texts.begin(), drawing.texts.end(),

@@ -7,7 +7,7 @@ namespace {
 
 using Source = compositor::MeasuredLight::Source;
 
-TEST(MeasuredText, SaysHowWellSunAndHeadingAreKnown) {
+TEST(MeasuredText, ReportsHowWellSunAndHeadingAreKnown) {
   compositor::MeasuredLight drawn, measured;
   drawn.sun_to_sky = 4.0;
   EXPECT_EQ(MeasuredSunText(drawn, measured), "") << "nothing was measured";

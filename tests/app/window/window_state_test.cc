@@ -113,9 +113,9 @@ TEST(WindowState, TheScrubBarKeepsTheDayAndNowIsNow) {
 TEST(WindowState, TheExposureLockHoldsTheCameraAndTheBrightnessOfObjects) {
   WindowState state = State();
   Do(Action::kLockExposure, false, {}, &state);
-  EXPECT_TRUE(state.exposure_locked && state.edit.hold_gain && state.wants_exposure_change);
+  EXPECT_TRUE(state.exposure_locked && state.edit.lock_exposure && state.wants_exposure_change);
   Do(Action::kLockExposure, false, {}, &state);
-  EXPECT_FALSE(state.exposure_locked || state.edit.hold_gain);
+  EXPECT_FALSE(state.exposure_locked || state.edit.lock_exposure);
 }
 
 TEST(WindowLayout, GivesThePictureTheLargestPlaceThatThePanelLeaves) {

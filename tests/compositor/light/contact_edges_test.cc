@@ -24,7 +24,7 @@ using testing::Phantom;
 
 constexpr std::array<float, 3> kGrey{0.5F, 0.5F, 0.5F};
 
-ContactLines LinesOf(const std::vector<PlacedModel>& models, double finest_m = 0.04) {
+ContactEdges LinesOf(const std::vector<PlacedModel>& models, double finest_m = 0.04) {
   std::vector<SurfaceMesh> surfaces;
   for (std::size_t i = 0; i < models.size(); ++i) {
     for (SurfaceMesh& surface : OrientedSurfaces(models[i], static_cast<int>(i))) {
@@ -34,14 +34,14 @@ ContactLines LinesOf(const std::vector<PlacedModel>& models, double finest_m = 0
   return {surfaces, [finest_m](const auto&) { return finest_m; }};
 }
 
-double TotalLength(const ContactLines& lines) {
+double TotalLength(const ContactEdges& lines) {
   double total = 0.0;
   for (const auto& segment : lines.segments()) total += Norm(segment.to - segment.from);
   return total;
 }
 
-TEST(ContactLines, GoRoundTheFootOfABox) {
-  const ContactLines lines = LinesOf(
+TEST(ContactEdges, GoRoundTheFootOfABox) {
+  const ContactEdges lines = LinesOf(
       {Phantom(Ground(3.0, kGrey)), Phantom(BoxModel({0.5, -1.0, 0.0}, {0.8, 1.0, 1.5}, kGrey))});
   // Each side's two triangles meet the ground's one or two: the foot, and pieces of it again.
   ASSERT_FALSE(lines.segments().empty());
@@ -59,7 +59,7 @@ TEST(ContactLines, GoRoundTheFootOfABox) {
   EXPECT_FALSE(lines.IsWithin({0.65F, 0.0F, 1.5F}, 1.0)) << "not the box' upper edges";
 }
 
-TEST(ContactLines, AreFoundAcrossASmallGapAndNotAcrossALargeOne) {
+TEST(ContactEdges, AreFoundAcrossASmallGapAndNotAcrossALargeOne) {
   const auto box = [](double bottom) {
     return Phantom(BoxModel({0.5, -1.0, bottom}, {0.8, 1.0, 1.5}, kGrey));
   };
@@ -69,7 +69,7 @@ TEST(ContactLines, AreFoundAcrossASmallGapAndNotAcrossALargeOne) {
   EXPECT_TRUE(LinesOf({ground, box(0.1)}).segments().empty());
 }
 
-TEST(ContactLines, AreNotWhereNothingIsSeenOfTheOtherSurface) {
+TEST(ContactEdges, AreNotWhereNothingIsSeenOfTheOtherSurface) {
   // A body's own edges, layers of ground, and what is virtual.
   EXPECT_TRUE(LinesOf({Phantom(BoxModel({0, 0, 0}, {1, 1, 1}, kGrey))}).segments().empty());
   EXPECT_TRUE(LinesOf({Phantom(Ground(3.0, kGrey)), Phantom(Ground(1.0, kGrey, false, 0.01))})
@@ -80,7 +80,7 @@ TEST(ContactLines, AreNotWhereNothingIsSeenOfTheOtherSurface) {
                   .empty());
 }
 
-TEST(ContactLines, AreTheInnerEdgesOfARoom) {
+TEST(ContactEdges, AreTheInnerEdgesOfARoom) {
   // The six faces of a cube see each other along its twelve edges, if it is open (no lid: eight).
   Mesh room;
   testing::AddQuad(&room, {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}});
@@ -88,7 +88,7 @@ TEST(ContactLines, AreTheInnerEdgesOfARoom) {
   testing::AddQuad(&room, {{{-1, 1, 0}, {1, 1, 0}, {1, 1, 1}, {-1, 1, 1}}});
   testing::AddQuad(&room, {{{-1, -1, 0}, {-1, 1, 0}, {-1, 1, 1}, {-1, -1, 1}}});
   testing::AddQuad(&room, {{{1, -1, 0}, {1, -1, 1}, {1, 1, 1}, {1, 1, 0}}});
-  const ContactLines lines = LinesOf({Phantom(testing::ModelOf(room, kGrey))});
+  const ContactEdges lines = LinesOf({Phantom(testing::ModelOf(room, kGrey))});
   for (const double z : {0.0, 0.5}) {
     EXPECT_TRUE(lines.IsWithin({-1.0F, 1.0F, static_cast<float>(z)}, 0.01));
   }
@@ -112,16 +112,16 @@ std::shared_ptr<Model> Cards(int count, double side_m, double step_m) {
   return testing::ModelOf(std::move(mesh), kGrey);
 }
 
-TEST(ContactLines, AreFewHoweverManyCardsCross) {
+TEST(ContactEdges, AreFewHoweverManyCardsCross) {
   // Cards of 15 cm, 4 cm apart, cross some forty others each; of 1 m, nearly all.
-  const ContactLines some = LinesOf({Phantom(Cards(20, 0.15, 0.04))});
+  const ContactEdges some = LinesOf({Phantom(Cards(20, 0.15, 0.04))});
   EXPECT_GT(some.segments().size(), 20U);
-  EXPECT_LE(some.segments().size(), ContactLines::kMostSegments);
+  EXPECT_LE(some.segments().size(), ContactEdges::kMaxSegments);
   EXPECT_TRUE(LinesOf({Phantom(Cards(3000, 0.15, 0.04))}).segments().empty());
   EXPECT_TRUE(LinesOf({Phantom(Cards(1500, 1.0, 0.01))}).segments().empty());
 }
 
-TEST(ContactLines, AreNotAmongFineLeavesButWhereTheyTouchAWall) {
+TEST(ContactEdges, AreNotAmongFineLeavesButWhereTheyTouchAWall) {
   // What crosses among leaves of 5 cm needs no more vertices; the box' foot keeps its line.
   const PlacedModel ground = Phantom(Ground(3.0, kGrey));
   const PlacedModel wall = Phantom(BoxModel({1.0, -1.0, 0.0}, {1.3, 1.0, 1.5}, kGrey));
@@ -133,19 +133,19 @@ TEST(ContactLines, AreNotAmongFineLeavesButWhereTheyTouchAWall) {
   EXPECT_GT(LinesOf({ground, wall, leaves}, 0.1).segments().size(), bare);
 }
 
-TEST(ContactLines, GoRoundABoxOfFineTriangles) {
+TEST(ContactEdges, GoRoundABoxOfFineTriangles) {
   // The ground is coarse: its vertices are too few at the foot of whatever stands there.
   Mesh fence;
   for (int i = 0; i < 20; ++i) {
     const double x = 0.05 * i;
     testing::AddQuad(&fence, {{{x, 0, 0}, {x + 0.05, 0, 0}, {x + 0.05, 0, 0.05}, {x, 0, 0.05}}});
   }
-  const ContactLines lines =
+  const ContactEdges lines =
       LinesOf({Phantom(Ground(3.0, kGrey)), Phantom(testing::ModelOf(fence, kGrey))}, 0.1);
   EXPECT_TRUE(lines.IsWithin({0.52F, 0.01F, 0.0F}, 0.02));
 }
 
-TEST(ContactLines, AreToldOnceWhereSurfacesLieTwice) {
+TEST(ContactEdges, AreToldOnceWhereSurfacesLieTwice) {
   const PlacedModel ground = Phantom(Ground(3.0, kGrey));
   const PlacedModel box = Phantom(BoxModel({0.5, -1.0, 0.0}, {0.8, 1.0, 1.5}, kGrey));
   EXPECT_EQ(LinesOf({ground, box, box}).segments().size(),

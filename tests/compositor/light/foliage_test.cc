@@ -40,10 +40,10 @@ Mesh Scattered(int count, double size, Vec3 middle, Vec3 reach) {
 std::optional<SurfaceMesh> LeavesOf(Mesh mesh, SurfaceMesh* rest, bool is_phantom = true) {
   const PlacedModel placed{ModelOf(std::move(mesh), {0.2F, 0.3F, 0.1F}), {}, {}, is_phantom};
   *rest = OrientedSurfaces(placed, 0).front();
-  return TakeLooseLeaves(rest);
+  return ExtractFoliage(rest);
 }
 
-TEST(LooseLeaves, AreTakenFromATreeWhoseBoughsStay) {
+TEST(Foliage, AreTakenFromATreeWhoseBoughsStay) {
   constexpr int kLeaves = 200;
   Mesh tree = Scattered(kLeaves, 0.15, {0, 0, 3}, {1.2, 1.2, 0.8});
   AddQuad(&tree, {{{0, 0, 0}, {0.1, 0, 0}, {0.1, 0, 3}, {0, 0, 3}}});
@@ -56,7 +56,7 @@ TEST(LooseLeaves, AreTakenFromATreeWhoseBoughsStay) {
   EXPECT_EQ(rest.positions.size(), 4U);
 }
 
-TEST(LooseLeaves, AreNeitherFewNorLargeNorAnObjects) {
+TEST(Foliage, AreNeitherFewNorLargeNorAnObjects) {
   SurfaceMesh rest;
   EXPECT_FALSE(LeavesOf(Scattered(40, 0.15, {0, 0, 3}, {1.2, 1.2, 0.8}), &rest));
   EXPECT_FALSE(LeavesOf(Scattered(200, 0.9, {0, 0, 3}, {3, 3, 3}), &rest));
@@ -64,7 +64,7 @@ TEST(LooseLeaves, AreNeitherFewNorLargeNorAnObjects) {
   EXPECT_EQ(rest.indices.size(), 6U * 200);
 }
 
-TEST(LooseLeaves, AreNotWhatLiesInOnePlane) {
+TEST(Foliage, AreNotWhatLiesInOnePlane) {
   SurfaceMesh rest;
   // Blades of a lawn, of its height or shorter; a fence's links aslant.
   EXPECT_FALSE(LeavesOf(Scattered(400, 0.08, {0, 0, 0.05}, {2, 2, 0.02}), &rest));
@@ -77,7 +77,7 @@ TEST(LooseLeaves, AreNotWhatLiesInOnePlane) {
   EXPECT_FALSE(LeavesOf(links, &rest));
 }
 
-TEST(LooseLeaves, AreNotTilesOfARoofOrBricksRoundACorner) {
+TEST(Foliage, AreNotTilesOfARoofOrBricksRoundACorner) {
   Mesh roof, wall;
   for (int i = 0; i < 20; ++i) {
     for (int k = 0; k < 10; ++k) {
@@ -97,7 +97,7 @@ TEST(LooseLeaves, AreNotTilesOfARoofOrBricksRoundACorner) {
   EXPECT_FALSE(LeavesOf(wall, &rest));
 }
 
-TEST(LooseLeaves, HideWhatStandsBehindFromWhatIsMeasured) {
+TEST(Foliage, HideWhatStandsBehindFromWhatIsMeasured) {
   const auto solver = LightSolver::Create(
       {{Ground(3, {0.3F, 0.3F, 0.3F}), {}, {}, true},
        {ModelOf(Scattered(4000, 0.2, {0, 0, 2}, {1, 1, 0.6}), {0.1F, 0.2F, 0.05F}), {}, {}, true}},
@@ -105,15 +105,15 @@ TEST(LooseLeaves, HideWhatStandsBehindFromWhatIsMeasured) {
   ASSERT_TRUE(solver);
   const auto through = (*solver)->FirstPhantom({{0, 0, 5}}, {0, 0, -1});
   ASSERT_TRUE(through);
-  EXPECT_TRUE(through->is_loose_leaf);
+  EXPECT_TRUE(through->is_foliage);
   EXPECT_GT(through->point.xyz.z, 1.2);
   const auto beside = (*solver)->FirstPhantom({{2, 2, 5}}, {0, 0, -1});
   ASSERT_TRUE(beside);
-  EXPECT_FALSE(beside->is_loose_leaf);
+  EXPECT_FALSE(beside->is_foliage);
   EXPECT_NEAR(beside->point.xyz.z, 0.0, 1e-6);
 }
 
-TEST(LooseLeaves, LetSunAndSkyThroughAndAreDrawnAllTheSame) {
+TEST(Foliage, LetSunAndSkyThroughAndAreDrawnAllTheSame) {
   // So dense that hardly a ray from the middle of the ground would pass.
   const Mesh crown = Scattered(4000, 0.2, {0, 0, 2}, {1, 1, 0.6});
   const auto solver = LightSolver::Create({{Ground(1.5, {0.3F, 0.3F, 0.3F}), {}, {}, true},
@@ -123,7 +123,7 @@ TEST(LooseLeaves, LetSunAndSkyThroughAndAreDrawnAllTheSame) {
   EXPECT_EQ((*solver)->SunVisibilityPhantomsOnly({{0, 0, 0}}, {0, 0, 1}), 1.0);
   const auto lit = (*solver)->Solve(UniformDay({1, 1, 1}), {});
   const auto drawn_leaves = std::count_if(lit.begin(), lit.end(), [](const LitMesh& mesh) {
-    return mesh.placed_model == 1 && mesh.is_phantom && mesh.role == MeshRole::kDrawn;
+    return mesh.placed_model == 1 && mesh.is_phantom && mesh.role == MeshRole::kRenderOnly;
   });
   EXPECT_EQ(drawn_leaves, 2);  // Either side.
 }

@@ -25,10 +25,11 @@ constexpr double kLand = 0.2;
 
 PlacedModel Vase() { return Object(BoxModel({-0.1, -0.1, 0.2}, {0.1, 0.1, 0.6}, {})); }
 
-double FromBelow(const std::vector<PlacedModel>& scene, const SeenSunlight& sunlight = {},
+double FromBelow(const std::vector<PlacedModel>& scene,
+                 const SunTransmittanceMap& sun_transmittance = {},
                  const Mat3& marker_from_world = {}) {
   const auto solver = *LightSolver::Create(scene, {.rays_per_vertex = 1, .near_edge_m = 1.0});
-  return solver->RadianceFromBelow(kDay, marker_from_world, sunlight).g * std::numbers::pi;
+  return solver->RadianceFromBelow(kDay, marker_from_world, sun_transmittance).g * std::numbers::pi;
 }
 
 TEST(RadianceFromBelow, IsWhatTheGroundReflects) {
@@ -46,14 +47,14 @@ TEST(RadianceFromBelow, KnowsTexturesByTheirMean) {
   EXPECT_NEAR(FromBelow({Phantom(paving), Vase()}), 0.4 * kLevel, 0.01 * kLevel);
 }
 
-TEST(RadianceFromBelow, DoesNotKnowTheColourOfHoles) {
+TEST(RadianceFromBelow, DoesNotKnowTheColorOfHoles) {
   auto leaves = Ground(50.0, {0.8F, 0.8F, 0.8F});
   leaves->meshes[0].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   leaves->materials[0].base_color_texture = 0;
   Image<std::uint8_t> white_beside_hole(2, 1, 4);
   for (int c = 0; c < 4; ++c) white_beside_hole(0, 0, c) = 255;
   leaves->textures.push_back(white_beside_hole);
-  leaves->materials[0].alpha = Material::Alpha::kCutOut;
+  leaves->materials[0].alpha = Material::Alpha::kCutout;
   EXPECT_NEAR(FromBelow({Phantom(leaves), Vase()}), 0.8 * kLevel, 0.01 * kLevel);
   leaves->materials[0].alpha = Material::Alpha::kIgnored;
   EXPECT_NEAR(FromBelow({Phantom(leaves), Vase()}), 0.4 * kLevel, 0.01 * kLevel);
@@ -69,8 +70,8 @@ TEST(RadianceFromBelow, OfAYardInTheShadeOfAWallLacksTheSun) {
 }
 
 TEST(RadianceFromBelow, UnderTreesHasTheSunThatTheyLeave) {
-  const auto map =
-      MapSeenSunlight(kDay.ToSun().xyz, std::vector<SunlitSpot>{{{0.0, 0.0, 0.0}, 0.25, 0.1}});
+  const auto map = BuildSunTransmittanceMap(
+      kDay.ToSun().xyz, std::vector<SunlitSample>{{{0.0, 0.0, 0.0}, 0.25, 0.1}});
   EXPECT_NEAR(FromBelow({Phantom(Ground(50.0, {0.4F, 0.4F, 0.4F})), Vase()}, map),
               0.4 * (kSkyLevel + 0.25 * 0.8 * kSun), 0.01 * kLevel);
 }

@@ -222,7 +222,7 @@ TEST(LightSolver, TintsTheGroundBesideASunlitRedWall) {
   EXPECT_NEAR(near.without[0], near.without[1], 1e-3F * near.without[1]);
 }
 
-TEST(LightSolver, LetsAMetalSendAsMuchLightBackAsAMattThingOfItsColour) {
+TEST(LightSolver, LetsAMetalSendAsMuchLightBackAsAMattThingOfItsColor) {
   const auto beside = [](float metallic) {
     auto box = BoxModel({-0.1, -1.0, 0.0}, {0.0, 1.0, 1.0}, {0.9F, 0.6F, 0.3F});
     box->materials[0].metallic = metallic;

@@ -38,7 +38,8 @@ TEST(LightUnderTrees, SendsBackFromTheGroundTheSunThatTreesLeaveIt) {
   const UniformDay day({0, 0, 0}, {60e3, 60e3, 60e3}, {0.3, 0.2, 1});
   const auto on_side = [&](double share) {
     // One cell is the same everywhere.
-    SeenSunlight map = MapSeenSunlight(day.ToSun().xyz, std::vector<SunlitSpot>{{{}, share, 0.1}});
+    SunTransmittanceMap map =
+        BuildSunTransmittanceMap(day.ToSun().xyz, std::vector<SunlitSample>{{{}, share, 0.1}});
     return MeanOnSide(solver->SolveUnderTrees(day, Mat3{}, map));
   };
   const float open = MeanOnSide(solver->Solve(day, Mat3{}));
@@ -50,25 +51,25 @@ TEST(LightUnderTrees, SendsBackFromTheGroundTheSunThatTreesLeaveIt) {
   EXPECT_NEAR(on_side(0.5), 0.5 * (open + land), 0.03 * open);  // Rays' noise.
 }
 
-TEST(LightUnderTrees, IsEvenBetweenSpotsThatLieFarApart) {
-  // Grazed ground shows fewer spots along the line of sight than the map has cells: the sun that
-  // grows across them grows between them, too.
+TEST(LightUnderTrees, IsEvenBetweenSamplesThatLieFarApart) {
+  // Grazed ground shows fewer surface samples along the line of sight than the map has cells: the
+  // sun that grows across them grows between them, too.
   const auto share = [](Vec3 at) { return 0.5 + 0.4 * at.y; };
-  std::vector<SunlitSpot> spots;
+  std::vector<SunlitSample> surface_samples;
   for (int i = 0; i < 100; ++i) {
     for (int j = 0; j <= 25; ++j) {
       const Vec3 at{-1.0 + 0.02 * i, -1.0 + 0.08 * j, 0.0};
-      spots.push_back({at, share(at), 0.01});
+      surface_samples.push_back({at, share(at), 0.01});
     }
   }
-  const SeenSunlight map = MapSeenSunlight({0, 0, 1}, spots);
+  const SunTransmittanceMap map = BuildSunTransmittanceMap({0, 0, 1}, surface_samples);
   ASSERT_NEAR(map.cell_m, 0.02, 1e-9);
   double farthest = 0.0;
   for (int i = 0; i < 140; ++i) {
     const Vec3 at{0.013, -0.7 + 0.01 * i, 0.0};
     farthest = std::max(farthest, std::fabs(map.At(at) - share(at)));
   }
-  EXPECT_LT(farthest, 0.02);  // Of 0.032 from one row of spots to the next.
+  EXPECT_LT(farthest, 0.02);  // Of 0.032 from one row of surface samples to the next.
 }
 
 }  // namespace

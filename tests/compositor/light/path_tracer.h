@@ -20,7 +20,7 @@
 namespace pleinair::compositor::testing {
 
 /// A path tracer as textbooks have it (Kajiya 1986, "The Rendering Equation"), for matt models in
-/// one colour a material: an oracle that shares nothing with what it judges but models and Embree.
+/// one color a material: an oracle that shares nothing with what it judges but models and Embree.
 /// Every path is followed until chance ends it; the sun is asked for at each surface it meets, the
 /// sky where it leaves. What it meets is lit on the side it is met from. Marker and world are one.
 class PathTracer {

@@ -17,7 +17,7 @@ using testing::UniformDay;
 
 Vec3 At(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
-TEST(SunReach, IsAllInTheOpenNoneInAShadowAndSomeOnItsEdge) {
+TEST(SunVisibility, IsAllInTheOpenNoneInAShadowAndSomeOnItsEdge) {
   // A wall 0.8 m high along y = 0, a sun 45° high in the south: shade from y = 0 to 0.8.
   const std::vector<PlacedModel> scene{
       Phantom(Ground(4.0, {0.3F, 0.3F, 0.3F})),
@@ -27,7 +27,7 @@ TEST(SunReach, IsAllInTheOpenNoneInAShadowAndSomeOnItsEdge) {
   const UniformDay day({1000, 1000, 1000}, {60e3, 60e3, 60e3}, {0, -1, 1});
   int all = 0, none = 0, some = 0, turned_away = 0;
   for (const LitMesh& mesh : (*solver)->Solve(day, Mat3{})) {
-    ASSERT_EQ(mesh.sun_reach.size(), mesh.indices.size() / 3);
+    ASSERT_EQ(mesh.sun_visibility.size(), mesh.indices.size() / 3);
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
       double low = 1e9, high = -1e9, level = 0.0, facing = 0.0;
       for (std::size_t k = i; k < i + 3; ++k) {
@@ -37,18 +37,18 @@ TEST(SunReach, IsAllInTheOpenNoneInAShadowAndSomeOnItsEdge) {
         level = std::max(level, std::fabs(p.z));
         facing = std::max(facing, Dot(At(mesh.normals[mesh.indices[k]]), {0, -1, 1}));
       }
-      const SunReach reach = mesh.sun_reach[i / 3];
+      const SunVisibility reach = mesh.sun_visibility[i / 3];
       if (facing <= 0.0) {
-        EXPECT_EQ(reach, SunReach::kNone) << "turned away";
+        EXPECT_EQ(reach, SunVisibility::kNone) << "turned away";
         ++turned_away;
       } else if (level < 1e-6 && low > 0.83) {
-        EXPECT_EQ(reach, SunReach::kAll) << low << " to " << high;
+        EXPECT_EQ(reach, SunVisibility::kAll) << low << " to " << high;
         ++all;
       } else if (level < 1e-6 && low > 0.01 && high < 0.77) {
-        EXPECT_EQ(reach, SunReach::kNone) << low << " to " << high;
+        EXPECT_EQ(reach, SunVisibility::kNone) << low << " to " << high;
         ++none;
       } else if (level < 1e-6 && low < 0.77 && high > 0.83) {
-        EXPECT_EQ(reach, SunReach::kSome) << low << " to " << high;
+        EXPECT_EQ(reach, SunVisibility::kSome) << low << " to " << high;
         ++some;
       }
     }
@@ -59,7 +59,7 @@ TEST(SunReach, IsAllInTheOpenNoneInAShadowAndSomeOnItsEdge) {
   EXPECT_GT(turned_away, 2);
 }
 
-TEST(SunReach, IsNotKnownOfALightByCoefficients) {
+TEST(SunVisibility, IsNotKnownOfALightByCoefficients) {
   const auto solver =
       LightSolver::Create({Phantom(Ground(1.0, {0.3F, 0.3F, 0.3F}))}, {.rays_per_vertex = 16});
   ASSERT_TRUE(solver) << solver.error().Message();
@@ -68,21 +68,21 @@ TEST(SunReach, IsNotKnownOfALightByCoefficients) {
   const std::vector<LitMesh> lit = (*solver)->Relight(coefficients, day, Mat3{});
   ASSERT_FALSE(lit.empty());
   for (const LitMesh& mesh : lit) {
-    EXPECT_TRUE(mesh.sun_reach.empty()) << "rays would take longer than the light";
+    EXPECT_TRUE(mesh.sun_visibility.empty()) << "rays would take longer than the light";
   }
 }
 
-TEST(SunReach, IsNotAskedUnderAnOvercastSky) {
+TEST(SunVisibility, IsNotAskedUnderAnOvercastSky) {
   const auto solver =
       LightSolver::Create({Phantom(Ground(1.0, {0.3F, 0.3F, 0.3F}))}, {.rays_per_vertex = 16});
   ASSERT_TRUE(solver) << solver.error().Message();
   const std::vector<LitMesh> lit =
       (*solver)->Solve(UniformDay({1000, 1000, 1000}, {0, 0, 0}, {0, -1, 1}), Mat3{});
   ASSERT_FALSE(lit.empty());
-  for (const LitMesh& mesh : lit) EXPECT_TRUE(mesh.sun_reach.empty());
+  for (const LitMesh& mesh : lit) EXPECT_TRUE(mesh.sun_visibility.empty());
 }
 
-TEST(SunReach, SeesAStripOfShadeAQuarterOfATriangleWideWhereverItFalls) {
+TEST(SunVisibility, SeesAStripOfShadeAQuarterOfATriangleWideWhereverItFalls) {
   LitMesh triangle;
   triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   triangle.normals.assign(3, {0, 0, 1});
@@ -94,7 +94,8 @@ TEST(SunReach, SeesAStripOfShadeAQuarterOfATriangleWideWhereverItFalls) {
         {{from, -1, 1}, {to, -1, 1}, {to, 2, 1}, {from, 2, 1}}, {0, 1, 2, 0, 2, 3}, true};
     const auto rays = RayScene::Create({strip}, "strip");
     ASSERT_TRUE(rays) << rays.error().Message();
-    EXPECT_EQ(FindSunReach(**rays, triangle, {0, 0, 1}, 1)[0], SunReach::kSome) << from;
+    EXPECT_EQ(ClassifySunVisibility(**rays, triangle, {0, 0, 1}, 1)[0], SunVisibility::kSome)
+        << from;
   }
 }
 

@@ -52,7 +52,7 @@ TEST(Tessellation, KeepsEdgesShorterWherePhantomsMeet) {
     surfaces.push_back(std::move(surface));
   }
   Tessellate({}, &surfaces);
-  double at_foot = 0.0, in_the_open = 0.0;
+  double at_foot = 0.0, in_sunlight = 0.0;
   const SurfaceMesh& ground = surfaces[0];
   for (std::size_t i = 0; i < ground.indices.size(); ++i) {
     const auto& a = ground.positions[ground.indices[i]];
@@ -60,11 +60,11 @@ TEST(Tessellation, KeepsEdgesShorterWherePhantomsMeet) {
     const float x = (a[0] + b[0]) / 2.0F, y = (a[1] + b[1]) / 2.0F;
     if (std::fabs(y) > 0.5F) continue;
     if (std::fabs(x - 4.2F) < 0.05F) at_foot = std::max(at_foot, Length(a, b));
-    if (std::fabs(x + 4.2F) < 0.3F) in_the_open = std::max(in_the_open, Length(a, b));
+    if (std::fabs(x + 4.2F) < 0.3F) in_sunlight = std::max(in_sunlight, Length(a, b));
   }
   EXPECT_GT(at_foot, 0.1);
   EXPECT_LT(at_foot, 0.42);
-  EXPECT_GT(in_the_open, 0.5);
+  EXPECT_GT(in_sunlight, 0.5);
 }
 
 TEST(Tessellation, KeepsAreaAndLeavesNoGaps) {

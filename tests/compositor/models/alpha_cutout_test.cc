@@ -47,7 +47,7 @@ template <typename Inside>
 double Area(const Model& model, const Inside& inside) {
   double area = 0.0;
   for (const Mesh& mesh : model.meshes) {
-    if (mesh.role == MeshRole::kDrawn) continue;
+    if (mesh.role == MeshRole::kRenderOnly) continue;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
       Vec3 p[3];
       for (int c = 0; c < 3; ++c) {
@@ -66,9 +66,9 @@ double Area(const Model& model) {
   return Area(model, [](double, double) { return true; });
 }
 
-TEST(CutHoles, LeavesWhatIsNoHole) {
+TEST(ApplyAlphaCutout, LeavesWhatIsNoHole) {
   Model card = Card(1.0F, RoundHole);
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   const double hole = std::numbers::pi * 0.3 * 0.3;
   // All that is drawn is there, and up to a 64th of the side and a texel beyond it.
   EXPECT_NEAR(Area(card), 1.0 - hole, 2 * std::numbers::pi * 0.3 * (1.0 / 64 + 1.0 / 128));
@@ -78,59 +78,59 @@ TEST(CutHoles, LeavesWhatIsNoHole) {
   EXPECT_LT(card.meshes[0].indices.size() / 3, 2000U);
   // What is drawn is whole.
   ASSERT_EQ(card.meshes.size(), 2U);
-  EXPECT_EQ(card.meshes[0].role, MeshRole::kLight);
-  EXPECT_EQ(card.meshes[1].role, MeshRole::kDrawn);
+  EXPECT_EQ(card.meshes[0].role, MeshRole::kShadowOnly);
+  EXPECT_EQ(card.meshes[1].role, MeshRole::kRenderOnly);
   EXPECT_EQ(card.meshes[1].indices, Card(1.0F, RoundHole).meshes[0].indices);
 }
 
-TEST(CutHoles, FollowsATextureThatRepeats) {
+TEST(ApplyAlphaCutout, FollowsATextureThatRepeats) {
   Model card = Card(3.0F, LeftHalf);
   for (auto& uv : card.meshes[0].uvs) uv[0] -= 7.0F;
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   EXPECT_NEAR(Area(card), 0.5, 0.1);
   EXPECT_EQ(Area(card, [](double x, double) { return std::fabs(x - 1.25 / 3) < 0.02; }), 0.0);
 }
 
-TEST(CutHoles, KeepsToItsLimitAndAllThatIsDrawn) {
+TEST(ApplyAlphaCutout, KeepsToItsLimitAndAllThatIsDrawn) {
   Model card = Card(8.0F, RoundHole);
-  CutHoles(&card, 100);
+  ApplyAlphaCutout(&card, 100);
   EXPECT_LE(card.meshes[0].indices.size() / 3, 102U);
   EXPECT_GT(Area(card), 1.0 - std::numbers::pi * 0.3 * 0.3);
 }
 
-TEST(CutHoles, ChangesNothingWhereNoHoleIsCut) {
+TEST(ApplyAlphaCutout, ChangesNothingWhereNoHoleIsCut) {
   Model card = Card(1.0F, Nowhere);
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   EXPECT_EQ(card.meshes[0].indices.size(), 6U);
   card = Card(1.0F, RoundHole);
   card.materials[0].alpha = Material::Alpha::kIgnored;
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   EXPECT_EQ(card.meshes[0].indices.size(), 6U);
   // Whatever the file has for coordinates.
   card = Card(1.0F, RoundHole);
   card.meshes[0].uvs[0] = {1e30F, -1e30F};
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   EXPECT_EQ(card.meshes[0].indices.size(), 6U);
   card = Card(1.0F, RoundHole);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (auto& uv : card.meshes[0].uvs) uv = {nan, nan};
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   EXPECT_EQ(card.meshes[0].indices.size(), 6U);
 }
 
-TEST(CutHoles, LetsLightThroughGlassThatHidesLessThanHalf) {
+TEST(ApplyAlphaCutout, LetsLightThroughGlassThatHidesLessThanHalf) {
   const auto card_of = [](float opacity, bool (*is_hole)(double, double)) {
     Model card = Card(1.0F, is_hole);
     card.materials[0].alpha = Material::Alpha::kBlended;
     card.materials[0].alpha_cutoff = 0.1F;  // Says nothing of glass.
     card.materials[0].opacity = opacity;
-    CutHoles(&card);
+    ApplyAlphaCutout(&card);
     return card;
   };
   const auto drawn = [](const Model& card) {
     std::size_t indices = 0;
     for (const Mesh& mesh : card.meshes) {
-      if (mesh.role != MeshRole::kLight) indices += mesh.indices.size();
+      if (mesh.role != MeshRole::kShadowOnly) indices += mesh.indices.size();
     }
     return indices;
   };
@@ -146,22 +146,22 @@ TEST(CutHoles, LetsLightThroughGlassThatHidesLessThanHalf) {
   }
 }
 
-TEST(CutHoles, TakesOutWhatItsMaterialAloneCutsOut) {
+TEST(ApplyAlphaCutout, TakesOutWhatItsMaterialAloneCutsOut) {
   Model card = Card(1.0F, Nowhere);
   card.materials[0].base_color_texture = -1;
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   ASSERT_EQ(card.meshes.size(), 1U);
   card.materials[0].opacity = 0.4F;
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   EXPECT_TRUE(card.meshes.empty());
 }
 
-TEST(CutHoles, LeavesNothingOfAMeshThatIsNothingButHoles) {
+TEST(ApplyAlphaCutout, LeavesNothingOfAMeshThatIsNothingButHoles) {
   Model card = Card(1.0F, Everywhere);
   card.materials.push_back({});
   card.meshes.push_back(card.meshes[0]);
   card.meshes[1].material = 1;
-  CutHoles(&card);
+  ApplyAlphaCutout(&card);
   ASSERT_EQ(card.meshes.size(), 1U);
   EXPECT_EQ(card.meshes[0].material, 1);
 }

@@ -122,7 +122,7 @@ TEST(GltfModel, ReadsWhatAlphaMeans) {
   const auto material = [&] { return file.Load()->materials[0]; };
   EXPECT_EQ(material().alpha, Material::Alpha::kIgnored);
   file.alpha = R"("alphaMode":"MASK","alphaCutoff":0.25,)";
-  EXPECT_EQ(material().alpha, Material::Alpha::kCutOut);
+  EXPECT_EQ(material().alpha, Material::Alpha::kCutout);
   EXPECT_FLOAT_EQ(material().alpha_cutoff, 0.25F);
   file.alpha = R"("alphaMode":"BLEND",)";
   EXPECT_EQ(material().alpha, Material::Alpha::kBlended);
@@ -144,7 +144,7 @@ TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
   auto model = file.Load();
   ASSERT_TRUE(model) << model.error().Message();
   const Material& material = model->materials[0];
-  // One picture, read as colour and as numbers.
+  // One picture, read as color and as numbers.
   ASSERT_EQ(model->textures.size(), 2U);
   EXPECT_NE(material.metallic_roughness_texture, material.base_color_texture);
   EXPECT_FLOAT_EQ(material.metallic, 1.0F);
@@ -158,24 +158,26 @@ TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
   EXPECT_EQ(model->textures.size(), 1U) << "the picture is kept though nothing is drawn with it";
 }
 
-TEST(GltfModel, TellsWhatItLeavesOut) {
+TEST(GltfModel, ReportsWhatItLeavesOut) {
   TriangleFile file;
-  EXPECT_THAT(LeftOut(*file.Load()), IsEmpty());
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()), IsEmpty());
   file.alpha = R"("normalTexture":{"index":0},"emissiveFactor":[0,0,0],)";
-  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("normal maps"));
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()), ElementsAre("normal maps"));
   file.alpha = R"("emissiveFactor":[0,2,0],"extensions":{"KHR_materials_transmission":)"
                R"({"transmissionFactor":1},"KHR_materials_emissive_strength":{}},)";
-  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("KHR_materials_transmission", "emission"));
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()),
+              ElementsAre("KHR_materials_transmission", "emission"));
   file = {};
   file.attributes = R"(,"COLOR_0":0)";
   file.node = R"({"mesh":0,"skin":0})";
   file.extra = R"(,"skins":[{"joints":[0]}],"animations":[{"channels":[],"samplers":[]}])";
-  EXPECT_THAT(LeftOut(*file.Load()), ElementsAre("animations", "colours of vertices", "skins"));
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()),
+              ElementsAre("animations", "colours of vertices", "skins"));
   // Nobody sees a material that nothing has.
   file = {};
   file.color_texture = R"({"index":0}}},{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{)"
                        R"("metallicFactor":1)";
-  EXPECT_THAT(LeftOut(*file.Load()), IsEmpty());
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()), IsEmpty());
 }
 
 TEST(GltfModel, MovesTextureCoordinatesAsTheFileAsks) {

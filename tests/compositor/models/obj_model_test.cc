@@ -131,7 +131,7 @@ TEST(ObjModel, GivesASurfaceOfStatedRoughnessACoat) {
   EXPECT_EQ(smooth.specular_f0, kDielectricF0);
   EXPECT_EQ(smooth.roughness, 0.25F);
   EXPECT_EQ(model->materials[model->meshes[1].material].specular_f0, 0.0F);
-  EXPECT_EQ(model->left_out, std::set<std::string>{kPointsAndLines});
+  EXPECT_EQ(model->unsupported_features, std::set<std::string>{kPointsAndLines});
 }
 
 TEST(ObjModel, TakesGlassForOpaqueWhereAsked) {
@@ -139,25 +139,25 @@ TEST(ObjModel, TakesGlassForOpaqueWhereAsked) {
   folder.Write("thin.mtl", "newmtl a\nKd 0.5 0.5 0.5\nd 0.2\n");
   const auto file =
       folder.Write("model.obj", std::string("mtllib thin.mtl\n") + kSquare + "usemtl a\nf 1 2 3\n");
-  EXPECT_EQ(LoadModel(file)->meshes[0].role, MeshRole::kDrawn) << "it casts no shadow";
+  EXPECT_EQ(LoadModel(file)->meshes[0].role, MeshRole::kRenderOnly) << "it casts no shadow";
   const auto phantom = LoadModel(file, {.opaque_glass = true});
   ASSERT_TRUE(phantom);
   EXPECT_EQ(phantom->meshes[0].role, MeshRole::kAll);
 }
 
-TEST(ObjModel, TellsWhatItLeavesOut) {
+TEST(ObjModel, ReportsWhatItLeavesOut) {
   const TemporaryFolder folder;
-  const auto left_out = [&](const std::string& material, const std::string& points) {
+  const auto unsupported_features = [&](const std::string& material, const std::string& points) {
     folder.Write("one.mtl", "newmtl a\nKd 0.5 0.5 0.5\n" + material);
-    return LeftOut(
+    return UnsupportedFeatures(
         *LoadModel(folder.Write("model.obj", "mtllib one.mtl\n" + points + "usemtl a\nf 1 2 3\n")));
   };
   const std::string plain = "v 0 0 0 1\nv 1 0 0\nv 1 1 0\n";
-  EXPECT_THAT(left_out("Ke 0 0 0\nNi 1.45\nKa 1 1 1\n", plain), IsEmpty());
-  EXPECT_THAT(left_out("Ke 0 0 0.5\nmap_Bump -bm 0.2 bumps.png\n", plain),
+  EXPECT_THAT(unsupported_features("Ke 0 0 0\nNi 1.45\nKa 1 1 1\n", plain), IsEmpty());
+  EXPECT_THAT(unsupported_features("Ke 0 0 0.5\nmap_Bump -bm 0.2 bumps.png\n", plain),
               ElementsAre("emission", "normal maps"));
-  EXPECT_THAT(left_out("newmtl b\nKe 1 1 1\n", plain), IsEmpty()) << "nothing has it";
-  EXPECT_THAT(left_out("", "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\n"),
+  EXPECT_THAT(unsupported_features("newmtl b\nKe 1 1 1\n", plain), IsEmpty()) << "nothing has it";
+  EXPECT_THAT(unsupported_features("", "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\n"),
               ElementsAre("colours of vertices"));
 }
 

@@ -24,17 +24,17 @@ const PhotographedYard& Yard() {
 }
 
 /// What a sunny yard tells where the scene has the sun `off_deg` beside its place.
-FoundLight Settle(double off_deg, const PhotographedYard::Light& light,
-                  const LightOverrides& overrides = {},
-                  const char* said_time = "2025-09-14T13:50:00Z") {
+LightEstimate Estimate(double off_deg, const PhotographedYard::Light& light,
+                       const LightOverrides& overrides = {},
+                       const char* said_time = "2025-09-14T13:50:00Z") {
   const PhotographedYard& yard = Yard();
   const UtcTime time = *UtcTime::Parse(said_time);
   const scene::SceneDescription scene = tests::YardScene(yard, off_deg, time);
   const std::shared_ptr<const LightSolver> solver(&yard.solver(), [](const auto*) {});
-  LightLook look(solver, yard.camera(), yard.print(), scene, overrides, time, {});
+  LightEstimator look(solver, yard.camera(), yard.print(), scene, overrides, time, {});
   for (const int i : {0, 1}) look.Add(yard.Photograph(i, light).view(), PhotographedYard::Pose(i));
-  LightMemory memory;
-  return look.Settle(&memory);
+  LightFilter light_filter;
+  return look.Estimate(&light_filter);
 }
 
 LightOverrides SunToSkyOf(double ratio) {
@@ -43,59 +43,59 @@ LightOverrides SunToSkyOf(double ratio) {
   return overrides;
 }
 
-TEST(LightLook, SeesThatTheSunShines) {
-  const FoundLight found = Settle(0.0, {});
+TEST(LightEstimator, SeesThatTheSunShines) {
+  const LightEstimate found = Estimate(0.0, {});
   EXPECT_FALSE(found.measured.sun_doubtful);
   EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kMeasured);
   EXPECT_GT(found.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
-  EXPECT_EQ(found.skies.print_shade, (LinearRgb{1, 1, 1}));
+  EXPECT_EQ(found.skies.marker_shade, (LinearRgb{1, 1, 1}));
 }
 
-TEST(LightLook, SeesThatNoSunShines) {
-  const FoundLight found = Settle(0.0, {.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+TEST(LightEstimator, SeesThatNoSunShines) {
+  const LightEstimate found = Estimate(0.0, {.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_FALSE(found.measured.sun_doubtful);
   EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kMeasured);
   EXPECT_EQ(found.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
 }
 
-TEST(LightLook, SeesByPlanesThatNoSunShinesWhereAllLiesBehindAWall) {
+TEST(LightEstimator, SeesByPlanesThatNoSunShinesWhereAllLiesBehindAWall) {
   // The scene's sun stands low behind the yard's wall: hardly an edge of a shadow is in view.
   const auto settle = [](const PhotographedYard::Light& light) {
-    return Settle(245.0, light, {}, "2025-09-14T16:45:00Z");
+    return Estimate(245.0, light, {}, "2025-09-14T16:45:00Z");
   };
-  const FoundLight veiled = settle({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  const LightEstimate veiled = settle({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled.measured.edges, 3);
   EXPECT_EQ(veiled.measured.sun_source, MeasuredLight::Source::kMeasured);
   ASSERT_NE(veiled.skies.source, nullptr);
   EXPECT_EQ(veiled.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
   // Under a sun that stands elsewhere planes are not lit as by clouds either.
-  EXPECT_EQ(settle({}).measured.sun_source, MeasuredLight::Source::kStated);
+  EXPECT_EQ(settle({}).measured.sun_source, MeasuredLight::Source::kDescription);
 }
 
-TEST(LightLook, SeesByStatedColoursThatNoSunShinesWherePlanesOfOneMaterialDoNotTell) {
+TEST(LightEstimator, SeesByStatedColorsThatNoSunShinesWherePlanesOfOneMaterialDoNotTell) {
   // Beside the wall, in view of another part of the sky.
   const auto settle = [](PhotographedYard::Light light) {
-    light.colours_as_stated = true;
-    return Settle(230.0, light, {}, "2025-09-14T16:45:00Z").measured;
+    light.colors_as_described = true;
+    return Estimate(230.0, light, {}, "2025-09-14T16:45:00Z").measured;
   };
-  const MeasuredLight veiled = settle({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  const MeasuredLight veiled = settle({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled.edges, 3);
   EXPECT_EQ(veiled.sun_source, MeasuredLight::Source::kMeasured);
-  EXPECT_EQ(settle({}).sun_source, MeasuredLight::Source::kStated);
+  EXPECT_EQ(settle({}).sun_source, MeasuredLight::Source::kDescription);
 }
 
-TEST(LightLook, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
+TEST(LightEstimator, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
   const PhotographedYard& yard = Yard();
   const auto tree = [&](Vec3 p) {
     return yard.IsBesideShadowEdge(p) || std::sin(9 * p.x) * std::sin(11 * p.y + 3 * p.z) > 0.0;
   };
-  const FoundLight hazy = Settle(0.0, {.sky_scale = {2.5, 2.5, 2.5}, .shaded = tree});
+  const LightEstimate hazy = Estimate(0.0, {.sky_radiance_scale = {2.5, 2.5, 2.5}, .shaded = tree});
   EXPECT_FALSE(hazy.measured.sun_doubtful);
   EXPECT_EQ(hazy.measured.sun_source, MeasuredLight::Source::kShade);
   EXPECT_GE(hazy.measured.shade_places, 4);
   EXPECT_GT(hazy.measured.sun_to_sky_error, 0.1);
   ASSERT_NE(hazy.skies.source, nullptr);
-  EXPECT_NE(hazy.skies.sunlight, nullptr);
+  EXPECT_NE(hazy.skies.sun_transmittance, nullptr);
   // Words that have the sky much fainter beside the sun count for something; less than half.
   const sky::SkyModel& model = yard.model();
   const auto off = [&](const sky::SkySource& skies, LinearRgb scale) {
@@ -107,7 +107,7 @@ TEST(LightLook, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
   };
   scene::SceneDescription words;
   words.cloudiness = scene::Cloudiness::kClear;
-  const double stated = off(*StatedSky(words), {1, 1, 1});
+  const double stated = off(*DescribedSky(words), {1, 1, 1});
   EXPECT_GT(stated, 0.8);
   EXPECT_LT(off(*hazy.skies.source, hazy.skies.scale), 0.5 * stated);
 }
@@ -122,12 +122,12 @@ class BareGround {
     day_ = SunlitSky(scene_)->ForSun(sun.ToSun(), sun.distance_au);
   }
 
-  /// What frames tell in which the sky is `sky_scale` times as strong beside the sun as a clear
-  /// day's, and something shades what is within `reach_m` of the print's middle where x is below
-  /// `shadow_to_x_m`.
-  FoundLight Settle(scene::Cloudiness said, double sky_scale, double shadow_to_x_m,
-                    double reach_m = 0.4) const {
-    const LinearRgb sky = day_->SkyHorizontalIrradiance() * sky_scale;
+  /// What frames tell in which the sky is `sky_radiance_scale` times as strong beside the sun as a
+  /// clear day's, and something shades what is within `reach_m` of the print's middle where x is
+  /// below `shadow_to_x_m`.
+  LightEstimate Estimate(scene::Cloudiness said, double sky_radiance_scale, double shadow_to_x_m,
+                         double reach_m = 0.4) const {
+    const LinearRgb sky = day_->SkyHorizontalIrradiance() * sky_radiance_scale;
     const LinearRgb open = sky + day_->SunNormalIrradiance() * day_->ToSun().xyz.z;
     RgbImage picture(camera_.width, camera_.height, 3);
     const auto marker_from_camera = camera_from_marker_.Inverse();
@@ -142,7 +142,8 @@ class BareGround {
         if (from_middle < print_.board_size_m / 2) albedo = print_.albedo_white;
         if (from_middle < print_.size_m / 2) albedo = print_.albedo_black;
         const bool shaded = from_middle < reach_m && p.x < shadow_to_x_m;
-        const LinearRgb light = (shaded ? sky : open) * (albedo / std::numbers::pi * kGain);
+        const LinearRgb light =
+            (shaded ? sky : open) * (albedo / std::numbers::pi * kExposureScale);
         picture(x, y, 0) = Srgb8FromLinear(light.r);
         picture(x, y, 1) = Srgb8FromLinear(light.g);
         picture(x, y, 2) = Srgb8FromLinear(light.b);
@@ -150,35 +151,35 @@ class BareGround {
     }
     scene::SceneDescription scene = scene_;
     scene.cloudiness = said;
-    LightLook look(solver_, camera_, print_, scene, {}, time_, {});
+    LightEstimator look(solver_, camera_, print_, scene, {}, time_, {});
     for (int i = 0; i < 2; ++i) look.Add(picture.view(), camera_from_marker_);
-    LightMemory memory;
-    return look.Settle(&memory);
+    LightFilter light_filter;
+    return look.Estimate(&light_filter);
   }
 
   /// How much stronger than the clear day's the sky is that was found, beside the sun.
-  double SkyScaleOf(const FoundLight& found) const {
+  double SkyScaleOf(const LightEstimate& found) const {
     const auto day = found.skies.source->ForSun(day_->ToSun(), 1.0);
     return SunToSky(*day_) / SunToSky(*day) * found.skies.scale.g;
   }
 
  private:
-  static constexpr double kGain = 3.0e-5;
+  static constexpr double kExposureScale = 3.0e-5;
   UtcTime time_ = *UtcTime::Parse("2025-09-14T13:50:00Z");
   scene::SceneDescription scene_;
   std::unique_ptr<sky::SkyModel> day_;
   std::shared_ptr<const LightSolver> solver_ = *LightSolver::Create(
       {testing::Phantom(testing::Ground(3.0, {0.3F, 0.3F, 0.3F}))}, {.rays_per_vertex = 64});
   CameraModel camera_{.width = 400, .height = 300, .fx = 330, .fy = 330, .cx = 200, .cy = 150};
-  scene::MarkerPrint print_{.size_m = 0.6, .board_size_m = 0.8, .black_band_m = 0.1};
+  scene::MarkerReflectance print_{.size_m = 0.6, .board_size_m = 0.8, .black_band_m = 0.1};
   Transform<Camera, Marker> camera_from_marker_ = PhotographedYard::Pose(0);
 };
 
-TEST(LightLook, ReadsTheSkyFromAShadowAcrossTheMarkerThatNoPhantomCasts) {
+TEST(LightEstimator, ReadsTheSkyFromAShadowAcrossTheMarkerThatNoPhantomCasts) {
   using scene::Cloudiness;
   const BareGround ground;
   constexpr double kSkyScale = 2.5;
-  const auto expect_told = [&](const FoundLight& found) {
+  const auto expect_told = [&](const LightEstimate& found) {
     EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kMarker);
     EXPECT_FALSE(found.measured.sun_doubtful);
     EXPECT_GT(found.measured.sun_to_sky_error, 0.1);
@@ -186,81 +187,81 @@ TEST(LightLook, ReadsTheSkyFromAShadowAcrossTheMarkerThatNoPhantomCasts) {
     const double off = std::fabs(std::log(ground.SkyScaleOf(found) / kSkyScale));
     EXPECT_LT(off, 0.5 * std::log(kSkyScale)) << "weighed against the words, less certain than it";
   };
-  expect_told(ground.Settle(Cloudiness::kClear, kSkyScale, 0.1));
-  expect_told(ground.Settle(Cloudiness::kHazy, kSkyScale, 0.1));
+  expect_told(ground.Estimate(Cloudiness::kClear, kSkyScale, 0.1));
+  expect_told(ground.Estimate(Cloudiness::kHazy, kSkyScale, 0.1));
   // Against words that have no sun the ground must show the shadow as well.
-  constexpr double kBeyondPrint = 1.5;
-  expect_told(ground.Settle(Cloudiness::kOvercast, kSkyScale, 0.1, kBeyondPrint));
+  constexpr double kBeyondMarker = 1.5;
+  expect_told(ground.Estimate(Cloudiness::kOvercast, kSkyScale, 0.1, kBeyondMarker));
   const auto source = [&](Cloudiness said, double shadow_to_x_m) {
-    return ground.Settle(said, kSkyScale, shadow_to_x_m).measured.sun_source;
+    return ground.Estimate(said, kSkyScale, shadow_to_x_m).measured.sun_source;
   };
-  EXPECT_EQ(source(Cloudiness::kOvercast, 0.1), MeasuredLight::Source::kStated);
-  EXPECT_EQ(source(Cloudiness::kClear, -1.0), MeasuredLight::Source::kStated);
+  EXPECT_EQ(source(Cloudiness::kOvercast, 0.1), MeasuredLight::Source::kDescription);
+  EXPECT_EQ(source(Cloudiness::kClear, -1.0), MeasuredLight::Source::kDescription);
 }
 
-TEST(LightLook, KeepsTheMapUnderAGivenRatio) {
+TEST(LightEstimator, KeepsTheMapUnderAGivenRatio) {
   const PhotographedYard& yard = Yard();
   const auto leaves = [&](Vec3 p) { return std::sin(9 * p.x) * std::sin(11 * p.y) > 0.0; };
-  const FoundLight found = Settle(0.0, {.shaded = leaves}, SunToSkyOf(2.0));
+  const LightEstimate found = Estimate(0.0, {.shaded = leaves}, SunToSkyOf(2.0));
   EXPECT_FALSE(found.measured.sun_doubtful);
-  EXPECT_NE(found.skies.sunlight, nullptr);
+  EXPECT_NE(found.skies.sun_transmittance, nullptr);
   ASSERT_NE(found.skies.source, nullptr);
   EXPECT_GT(found.skies.source->ForSun(yard.model().ToSun(), 1.0)->SunNormalIrradiance().g, 0.0);
 }
 
 /// How pixels are asked for shade where the user says of the light what `overrides` has.
-DaySkies GivenSkies(const LightOverrides& overrides, const PhotographedYard::Light& light) {
-  const FoundLight found = Settle(0.0, light, overrides);
-  EXPECT_EQ(found.measured.heading_source, MeasuredLight::Source::kStated);
-  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kStated);
+SkyState GivenSkies(const LightOverrides& overrides, const PhotographedYard::Light& light) {
+  const LightEstimate found = Estimate(0.0, light, overrides);
+  EXPECT_EQ(found.measured.heading_source, MeasuredLight::Source::kDescription);
+  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kDescription);
   EXPECT_EQ(found.measured.heading_offset.value(), 0.0);
   EXPECT_NE(found.skies.source, nullptr);
   return found.skies;
 }
 
-TEST(LightLook, AsksUnderAStatedLightForShadeAlone) {
+TEST(LightEstimator, AsksUnderAStatedLightForShadeAlone) {
   LightOverrides stated;
-  stated.as_stated = true;
-  const DaySkies open = GivenSkies(stated, {});
-  EXPECT_FALSE(open.other_shade) << "joints and edges would look shaded";
+  stated.as_described = true;
+  const SkyState open = GivenSkies(stated, {});
+  EXPECT_FALSE(open.unmodelled_shadows) << "joints and edges would look shaded";
   EXPECT_EQ(open.scale, (LinearRgb{1, 1, 1}));
-  const DaySkies hazy = GivenSkies(stated, {.sky_scale = {1.5, 1.5, 1.5}});
-  EXPECT_FALSE(hazy.other_shade);
-  const auto of = [](const DaySkies& skies) {
+  const SkyState hazy = GivenSkies(stated, {.sky_radiance_scale = {1.5, 1.5, 1.5}});
+  EXPECT_FALSE(hazy.unmodelled_shadows);
+  const auto of = [](const SkyState& skies) {
     return skies.source->ForSun({{0.6, 0.0, 0.8}}, 1.0)->SkyHorizontalIrradiance();
   };
   EXPECT_EQ(of(hazy), of(open)) << "measured, though it is stated";
   const auto leaves = [](Vec3 p) { return std::sin(9 * p.x) * std::sin(11 * p.y) > 0.0; };
-  const DaySkies shaded = GivenSkies(stated, {.shaded = leaves});
-  EXPECT_TRUE(shaded.other_shade);
-  EXPECT_EQ(shaded.sunlight, nullptr);
-  EXPECT_EQ(shaded.print_shade, (LinearRgb{1, 1, 1}));
+  const SkyState shaded = GivenSkies(stated, {.shaded = leaves});
+  EXPECT_TRUE(shaded.unmodelled_shadows);
+  EXPECT_EQ(shaded.sun_transmittance, nullptr);
+  EXPECT_EQ(shaded.marker_shade, (LinearRgb{1, 1, 1}));
 }
 
-TEST(LightLook, AsksForShadeWhereRatioAndHeadingAreGiven) {
+TEST(LightEstimator, AsksForShadeWhereRatioAndHeadingAreGiven) {
   LightOverrides given = SunToSkyOf(3.0);
   given.heading_deg = 0.0;  // That it is given counts; the scene has it already.
-  EXPECT_FALSE(GivenSkies(given, {}).other_shade);
+  EXPECT_FALSE(GivenSkies(given, {}).unmodelled_shadows);
   const auto leaves = [](Vec3 p) { return std::sin(9 * p.x) * std::sin(11 * p.y) > 0.0; };
-  const DaySkies shaded = GivenSkies(given, {.shaded = leaves});
-  EXPECT_TRUE(shaded.other_shade);
-  EXPECT_NE(shaded.sunlight, nullptr);
+  const SkyState shaded = GivenSkies(given, {.shaded = leaves});
+  EXPECT_TRUE(shaded.unmodelled_shadows);
+  EXPECT_NE(shaded.sun_transmittance, nullptr);
 }
 
-TEST(LightLook, DoubtsNoSunThatIsGiven) {
+TEST(LightEstimator, DoubtsNoSunThatIsGiven) {
   // Elsewhere than the shadows say: doubtful as the words have it, not as the user does.
-  const FoundLight found = Settle(60.0, {}, SunToSkyOf(2.0));
+  const LightEstimate found = Estimate(60.0, {}, SunToSkyOf(2.0));
   EXPECT_FALSE(found.measured.sun_doubtful);
-  EXPECT_EQ(found.skies.sunlight, nullptr);
+  EXPECT_EQ(found.skies.sun_transmittance, nullptr);
 }
 
-TEST(LightLook, SettlesANightWhoseRatioIsGiven) {
+TEST(LightEstimator, SettlesANightWhoseRatioIsGiven) {
   // A lamp lights the yard, say, and no ratio makes a sun of one below the horizon.
   const PhotographedYard::Light lamp{.sun_scale = 0.0};
   for (const double ratio : {0.0, 2.0}) {
-    const FoundLight found = Settle(0.0, lamp, SunToSkyOf(ratio), "2025-09-14T23:00:00Z");
-    EXPECT_EQ(found.skies.sunlight, nullptr);
-    EXPECT_EQ(found.skies.print_shade, (LinearRgb{1, 1, 1}));
+    const LightEstimate found = Estimate(0.0, lamp, SunToSkyOf(ratio), "2025-09-14T23:00:00Z");
+    EXPECT_EQ(found.skies.sun_transmittance, nullptr);
+    EXPECT_EQ(found.skies.marker_shade, (LinearRgb{1, 1, 1}));
     if (found.skies.source == nullptr) continue;
     const auto sky = found.skies.source->ForSun({{0.8, 0.0, -0.6}}, 1.0);
     EXPECT_EQ(sky->SunNormalIrradiance().g, 0.0);
@@ -268,12 +269,12 @@ TEST(LightLook, SettlesANightWhoseRatioIsGiven) {
   }
 }
 
-TEST(LightLook, BelievesTheWordsAloneWhereTheSunStandsElsewhere) {
-  const FoundLight found = Settle(60.0, {});
+TEST(LightEstimator, BelievesTheWordsAloneWhereTheSunStandsElsewhere) {
+  const LightEstimate found = Estimate(60.0, {});
   EXPECT_TRUE(found.measured.sun_doubtful);
-  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kStated);
+  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kDescription);
   EXPECT_EQ(found.skies.source, nullptr);
-  EXPECT_EQ(found.skies.sunlight, nullptr) << "the phantoms' own shadows would be leaves'";
+  EXPECT_EQ(found.skies.sun_transmittance, nullptr) << "the phantoms' own shadows would be leaves'";
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ class PhotographedYard {
       : marker_from_world_(marker_from_world),
         model_(sky, {62e3, 55e3, 44e3}, marker_from_world.Transposed() * to_sun),
         solver_(*LightSolver::Create(Phantoms(), {.rays_per_vertex = 128, .near_edge_m = 0.1})),
-        sky_(solver_->Solve(ScaledDaylight(model_, {1, 1, 1}, {}), marker_from_world)),
-        sun_(solver_->Solve(ScaledDaylight(model_, {}, {1, 1, 1}), marker_from_world)) {
+        sky_(solver_->Solve(ScaledSky(model_, {1, 1, 1}, {}), marker_from_world)),
+        sun_(solver_->Solve(ScaledSky(model_, {}, {1, 1, 1}), marker_from_world)) {
     for (std::size_t m = 0; m < sky_.size(); ++m) {
       for (std::size_t i = 0; i < sky_[m].positions.size(); ++i) {
         const auto& p = sky_[m].positions[i];
@@ -51,7 +51,7 @@ class PhotographedYard {
   Vec3 ToSun() const { return marker_from_world_ * model_.ToSun().xyz; }
   const LightSolver& solver() const { return *solver_; }
   const CameraModel& camera() const { return camera_; }
-  const scene::MarkerPrint& print() const { return print_; }
+  const scene::MarkerReflectance& marker() const { return marker_; }
 
   /// Whether a place lies within a step of an edge of the phantoms' shadows, on either side.
   bool IsBesideShadowEdge(Vec3 p) const {
@@ -61,20 +61,20 @@ class PhotographedYard {
         const double angle = 2 * std::numbers::pi * i / 12;
         const Vec3 beside =
             p + Vec3{reach * std::cos(angle), reach * std::sin(angle), i % 2 * reach + 1e-3};
-        (solver_->ReachesPhantomsOnly({beside}, ToSun()) ? lit : shaded) = true;
+        (solver_->IsUnoccludedPhantomsOnly({beside}, ToSun()) ? lit : shaded) = true;
       }
     }
     return lit && shaded;
   }
 
   struct Light {
-    LinearRgb sky_scale{1.0, 1.0, 1.0};
+    LinearRgb sky_radiance_scale{1.0, 1.0, 1.0};
     double sun_scale = 1.0;
     /// Whether something that no phantom stands for keeps the sun from a point.
     std::function<bool(Vec3)> shaded = [](Vec3) { return false; };
-    /// Whether things have the colours that the model states of them, the print its white;
+    /// Whether things have the colors that the model states of them, the marker its white;
     /// otherwise they all have one, patterned.
-    bool colours_as_stated = false;
+    bool colors_as_described = false;
     /// How much brighter than that a thing is at a point.
     std::function<double(Vec3)> brighter = [](Vec3) { return 1.0; };
   };
@@ -102,19 +102,19 @@ class PhotographedYard {
                                   Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1}));
         if (!seen) continue;
         const LinearRgb e = Irradiance(*seen, light, sun);
-        const LinearRgb albedo = (light.colours_as_stated ? StatedAlbedo(*seen) : Albedo(*seen)) *
+        const LinearRgb albedo = (light.colors_as_described ? StatedAlbedo(*seen) : Albedo(*seen)) *
                                  light.brighter(seen->point.xyz);
         const LinearRgb radiance = e * albedo * (1 / std::numbers::pi);
-        image(x, y, 0) = response.Encoded8(radiance.r * kGain, 0);
-        image(x, y, 1) = response.Encoded8(radiance.g * kGain, 1);
-        image(x, y, 2) = response.Encoded8(radiance.b * kGain, 2);
+        image(x, y, 0) = response.Encoded8(radiance.r * kExposureScale, 0);
+        image(x, y, 1) = response.Encoded8(radiance.g * kExposureScale, 1);
+        image(x, y, 2) = response.Encoded8(radiance.b * kExposureScale, 2);
       }
     }
     return image;
   }
 
   /// Display-linear value per radiance.
-  static constexpr double kGain = 2.0e-5;
+  static constexpr double kExposureScale = 2.0e-5;
 
  private:
   static std::array<int, 3> Bin(Vec3 p) {
@@ -137,9 +137,9 @@ class PhotographedYard {
 
   LinearRgb StatedAlbedo(const PhantomSurface& at) const {
     const Vec3 p = at.point.xyz;
-    const bool on_print =
-        std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < print_.board_size_m / 2;
-    return on_print ? LinearRgb{1, 1, 1} * print_.albedo_white : at.albedo;
+    const bool on_marker =
+        std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < marker_.board_size_m / 2;
+    return on_marker ? LinearRgb{1, 1, 1} * marker_.albedo_white : at.albedo;
   }
 
   LinearRgb Irradiance(const PhantomSurface& at, const Light& light,
@@ -162,7 +162,7 @@ class PhotographedYard {
             least = distance;
             const auto& s = sky_[m].ambient_without[i];
             const auto& b = sun_[m].ambient_without[i];
-            ambient = LinearRgb{s[0], s[1], s[2]} * light.sky_scale +
+            ambient = LinearRgb{s[0], s[1], s[2]} * light.sky_radiance_scale +
                       LinearRgb{b[0], b[1], b[2]} * light.sun_scale;
           }
         }
@@ -171,14 +171,15 @@ class PhotographedYard {
     const double cosine = std::max(0.0, Dot(at.normal, sun.normal));
     if (cosine == 0.0 || light.sun_scale == 0.0 || light.shaded(at.point.xyz)) return ambient;
     constexpr int kRays = 12;
-    int reached = 0;
+    int sun_visible = 0;
     for (std::uint32_t i = 0; i < kRays; ++i) {
-      reached += solver_->ReachesPhantomsOnly(at.point,
-                                              SunDiscDirection(sun, ShiftedHammersley(i, kRays, 1)))
-                     ? 1
-                     : 0;
+      sun_visible += solver_->IsUnoccludedPhantomsOnly(
+                         at.point, SunDiscDirection(sun, ShiftedHammersley(i, kRays, 1)))
+                         ? 1
+                         : 0;
     }
-    return ambient + model_.SunNormalIrradiance() * (light.sun_scale * cosine * reached / kRays);
+    return ambient +
+           model_.SunNormalIrradiance() * (light.sun_scale * cosine * sun_visible / kRays);
   }
 
   Mat3 marker_from_world_;
@@ -187,7 +188,7 @@ class PhotographedYard {
   std::vector<LitMesh> sky_, sun_;
   std::map<std::array<int, 3>, std::vector<std::pair<std::size_t, std::size_t>>> vertices_;
   CameraModel camera_{.width = 400, .height = 300, .fx = 330, .fy = 330, .cx = 200, .cy = 150};
-  scene::MarkerPrint print_{.size_m = 0.2, .board_size_m = 0.25, .black_band_m = 0.02};
+  scene::MarkerReflectance marker_{.size_m = 0.2, .board_size_m = 0.25, .black_band_m = 0.02};
 };
 
 }  // namespace pleinair::compositor::testing

@@ -20,36 +20,37 @@ using testing::PhotographedYard;
 using testing::ShadowLight;
 constexpr Vec3 kUp{0, 0, 1};
 
-void ExpectScale(const SunSkyReading& reading, LinearRgb truth) {
-  ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
-  EXPECT_NEAR(reading.sky_scale.r / truth.r, 1.0, 0.1);
-  EXPECT_NEAR(reading.sky_scale.g / truth.g, 1.0, 0.1);
-  EXPECT_NEAR(reading.sky_scale.b / truth.b, 1.0, 0.1);
+void ExpectScale(const SunSkyRatio& estimate, LinearRgb truth) {
+  ASSERT_EQ(estimate.sun, SunSkyRatio::Sun::kShines);
+  EXPECT_NEAR(estimate.sky_radiance_scale.r / truth.r, 1.0, 0.1);
+  EXPECT_NEAR(estimate.sky_radiance_scale.g / truth.g, 1.0, 0.1);
+  EXPECT_NEAR(estimate.sky_radiance_scale.b / truth.b, 1.0, 0.1);
   // It knows how well it knows.
-  EXPECT_LT(std::fabs(std::log(reading.sky_scale.g / truth.g)), 3 * reading.log_uncertainty);
-  EXPECT_LT(reading.log_uncertainty, 0.15);
+  EXPECT_LT(std::fabs(std::log(estimate.sky_radiance_scale.g / truth.g)),
+            3 * estimate.log_uncertainty);
+  EXPECT_LT(estimate.log_uncertainty, 0.15);
 }
 
-TEST_F(ShadowLight, TellsHowStrongTheSkyIsBesideTheSun) {
+TEST_F(ShadowLight, EstimatesHowStrongTheSkyIsBesideTheSun) {
   for (const double scale : {0.6, 1.0, 2.5}) {
-    ExpectScale(Read(Look({.sky_scale = {scale, scale, scale}})), {scale, scale, scale});
+    ExpectScale(Read(Look({.sky_radiance_scale = {scale, scale, scale}})), {scale, scale, scale});
   }
 }
 
-TEST_F(ShadowLight, TellsTheColourOfTheSkyBesideTheSuns) {
-  ExpectScale(Read(Look({.sky_scale = {0.8, 1.0, 1.4}})), {0.8, 1.0, 1.4});
+TEST_F(ShadowLight, EstimatesTheColorOfTheSkyBesideTheSuns) {
+  ExpectScale(Read(Look({.sky_radiance_scale = {0.8, 1.0, 1.4}})), {0.8, 1.0, 1.4});
 }
 
 TEST_F(ShadowLight, SeesThatNoSunShines) {
-  const SunSkyReading reading = Read(Look({.sky_scale = {3, 3, 3}, .sun_scale = 0.0}));
-  EXPECT_EQ(reading.sun, SunSkyReading::Sun::kHidden);
-  EXPECT_GE(reading.edges, 6);
+  const SunSkyRatio estimate = Read(Look({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0}));
+  EXPECT_EQ(estimate.sun, SunSkyRatio::Sun::kHidden);
+  EXPECT_GE(estimate.edges, 6);
 }
 
 TEST_F(ShadowLight, SeesAFaintSunThroughThickHaze) {
-  const SunSkyReading reading = Read(Look({.sky_scale = {5, 5, 5}}));
-  ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
-  EXPECT_NEAR(reading.sky_scale.g, 5.0, 1.0);
+  const SunSkyRatio estimate = Read(Look({.sky_radiance_scale = {5, 5, 5}}));
+  ASSERT_EQ(estimate.sun, SunSkyRatio::Sun::kShines);
+  EXPECT_NEAR(estimate.sky_radiance_scale.g, 5.0, 1.0);
 }
 
 TEST_F(ShadowLight, LeavesOutPlacesInTheShadowOfATreeThatNoPhantomStandsFor) {
@@ -57,7 +58,7 @@ TEST_F(ShadowLight, LeavesOutPlacesInTheShadowOfATreeThatNoPhantomStandsFor) {
     // Half the yard, in patches.
     return p.x < 0.0 && std::sin(9 * p.x) * std::sin(11 * p.y + 3 * p.z) > -0.6;
   };
-  ExpectScale(Read(Look({.sky_scale = {1, 1, 1}, .shaded = tree}, 3)), {1, 1, 1});
+  ExpectScale(Read(Look({.sky_radiance_scale = {1, 1, 1}, .shaded = tree}, 3)), {1, 1, 1});
 }
 
 TEST_F(ShadowLight, IsNotMisledByChangingExposure) {
@@ -67,7 +68,7 @@ TEST_F(ShadowLight, IsNotMisledByChangingExposure) {
 TEST_F(ShadowLight, ReadsCodesByTheCamerasOwnResponse) {
   const CameraResponse gentle = testing::GentleResponse();
   const auto read_as = [&](const CameraResponse& response) {
-    SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print(), response);
+    SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker(), response);
     for (const int i : {0, 1}) {
       samples.AddFrame(yard_->Photograph(i, {}, gentle).view(), PhotographedYard::Pose(i),
                        {1, 1, 1});
@@ -76,56 +77,57 @@ TEST_F(ShadowLight, ReadsCodesByTheCamerasOwnResponse) {
   };
   ExpectScale(read_as(gentle), {1, 1, 1});
   // Taken for sRGB, whose codes stand for more contrast, the shade is too deep for so much sky.
-  const SunSkyReading wrong = read_as({});
-  ASSERT_EQ(wrong.sun, SunSkyReading::Sun::kShines);
-  EXPECT_LT(wrong.sky_scale.g, 0.85);
+  const SunSkyRatio wrong = read_as({});
+  ASSERT_EQ(wrong.sun, SunSkyRatio::Sun::kShines);
+  EXPECT_LT(wrong.sky_radiance_scale.g, 0.85);
 }
 
-TEST_F(ShadowLight, TellsTheSkyFromAShadowAcrossThePrint) {
+TEST_F(ShadowLight, EstimatesTheSkyFromAShadowAcrossTheMarker) {
   const LinearRgb sun = yard_->model().SunNormalIrradiance() * Dot(kUp, yard_->ToSun());
   const Point<Marker> lit{{0.3, -0.3, 0.0}};
   // Dark before the wall, which takes of the sky, by something that hides a tenth of it; and behind
   // the wall, whose own shadow that is.
   const Point<Marker> before_wall{{0.1, 1.0, 0.0}}, behind_wall{{0.1, 1.8, 0.0}};
-  PrintShadow shadow;
+  MarkerShadowEdge shadow;
   for (const auto& [shaded, left] : {std::pair{before_wall, 0.9}, {behind_wall, 1.0}}) {
     shadow = {{}, lit, shaded};
     const auto ambient = [&](LinearRgb of_sky, LinearRgb of_sun) {
       return yard_->solver().AmbientPhantomsOnly(std::vector{shadow.lit, shadow.shaded}, kUp,
-                                                 ScaledDaylight(yard_->model(), of_sky, of_sun),
-                                                 Mat3{}, 2048);
+                                                 ScaledSky(yard_->model(), of_sky, of_sun), Mat3{},
+                                                 2048);
     };
     for (const double truth : {0.5, 1.0, 3.0}) {
       const auto sky = ambient(LinearRgb{1, 1, 1} * truth, {}), reflected = ambient({}, {1, 1, 1});
       const LinearRgb ratio = (sky[0] + reflected[0] + sun) / (sky[1] * left + reflected[1]);
       shadow.contrast = {std::log(ratio.r), std::log(ratio.g), std::log(ratio.b)};
-      const SunSkyReading reading =
-          ReadPrintShadow(yard_->solver(), std::vector{shadow, shadow}, yard_->model(), Mat3{});
-      ASSERT_EQ(reading.sun, SunSkyReading::Sun::kShines);
-      EXPECT_NEAR(reading.sky_scale.r / truth, 1.0, 0.05);
-      EXPECT_NEAR(reading.sky_scale.g / truth, 1.0, 0.05);
-      EXPECT_NEAR(reading.sky_scale.b / truth, 1.0, 0.05);
-      EXPECT_GT(reading.log_uncertainty, 0.1);
+      const SunSkyRatio estimate = EstimateRatioFromMarkerShadow(
+          yard_->solver(), std::vector{shadow, shadow}, yard_->model(), Mat3{});
+      ASSERT_EQ(estimate.sun, SunSkyRatio::Sun::kShines);
+      EXPECT_NEAR(estimate.sky_radiance_scale.r / truth, 1.0, 0.05);
+      EXPECT_NEAR(estimate.sky_radiance_scale.g / truth, 1.0, 0.05);
+      EXPECT_NEAR(estimate.sky_radiance_scale.b / truth, 1.0, 0.05);
+      EXPECT_GT(estimate.log_uncertainty, 0.1);
     }
   }
-  const auto unknown = [](const SunSkyReading& reading) {
-    return reading.sun == SunSkyReading::Sun::kUnknown;
+  const auto unknown = [](const SunSkyRatio& estimate) {
+    return estimate.sun == SunSkyRatio::Sun::kUnknown;
   };
-  EXPECT_TRUE(unknown(ReadPrintShadow(yard_->solver(), {}, yard_->model(), Mat3{})));
+  EXPECT_TRUE(unknown(EstimateRatioFromMarkerShadow(yard_->solver(), {}, yard_->model(), Mat3{})));
   shadow.contrast = {1.5, 1.5, 1.5};
   const testing::UniformDay low({3000, 4200, 6500}, {62e3, 55e3, 44e3}, {1.0, 0.0, 0.15});
-  EXPECT_TRUE(unknown(ReadPrintShadow(yard_->solver(), std::vector{shadow}, low, Mat3{})));
+  EXPECT_TRUE(
+      unknown(EstimateRatioFromMarkerShadow(yard_->solver(), std::vector{shadow}, low, Mat3{})));
 }
 
-TEST_F(ShadowLight, SaysNothingWhereNoPhantomCastsAShadowInView) {
+TEST_F(ShadowLight, ReportsNothingWhereNoPhantomCastsAShadowInView) {
   const auto bare =
       LightSolver::Create({testing::Phantom(testing::Ground(5.0, {0.3F, 0.3F, 0.3F}))}, {});
   ASSERT_TRUE(bare);
-  SurfaceSamples samples(**bare, yard_->camera(), yard_->print());
+  SurfaceSamples samples(**bare, yard_->camera(), yard_->marker());
   samples.AddFrame(yard_->Photograph(0, {}).view(), PhotographedYard::Pose(0), {1, 1, 1});
-  EXPECT_EQ(ReadSunAndSky(FindShadowEdges(**bare, samples, yard_->model(), Mat3{})).sun,
-            SunSkyReading::Sun::kUnknown);
-  EXPECT_FALSE(ReadHeading(**bare, samples, kUp, yard_->model().ToSun().xyz));
+  EXPECT_EQ(EstimateSunSkyRatio(FindShadowEdges(**bare, samples, yard_->model(), Mat3{})).sun,
+            SunSkyRatio::Sun::kUnknown);
+  EXPECT_FALSE(EstimateHeading(**bare, samples, kUp, yard_->model().ToSun().xyz));
 }
 
 TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
@@ -133,7 +135,7 @@ TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
   for (const double error_deg : {-7.0, -3.0, 0.0, 3.0}) {
     // The scene states a heading from which the sun stands so far off its true place.
     const Vec3 stated = Turned(yard_->model().ToSun().xyz, kUp, FromDegrees(error_deg));
-    const auto heading = ReadHeading(yard_->solver(), samples, kUp, stated);
+    const auto heading = EstimateHeading(yard_->solver(), samples, kUp, stated);
     ASSERT_TRUE(heading) << error_deg;
     EXPECT_NEAR(ToDegrees(heading->offset), -error_deg, 0.25);
     EXPECT_LT(ToDegrees(heading->uncertainty), 0.3);
@@ -141,21 +143,21 @@ TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
 }
 
 TEST_F(ShadowLight, BelievesTheStatedHeadingUnderAnOvercastSky) {
-  const SurfaceSamples samples = Look({.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
-  EXPECT_FALSE(ReadHeading(yard_->solver(), samples, kUp, yard_->model().ToSun().xyz));
+  const SurfaceSamples samples = Look({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
+  EXPECT_FALSE(EstimateHeading(yard_->solver(), samples, kUp, yard_->model().ToSun().xyz));
 }
 
 TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
   const auto contrast = [](const PhotographedYard& yard, const PhotographedYard::Light& light) {
-    SurfaceSamples samples(yard.solver(), yard.camera(), yard.print());
+    SurfaceSamples samples(yard.solver(), yard.camera(), yard.marker());
     for (const int i : {0, 1}) {
       samples.AddFrame(yard.Photograph(i, light).view(), PhotographedYard::Pose(i), {1, 1, 1});
     }
     // The overcast sky's model has no sun.
     const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
-    return FindPlaneContrast(yard.solver(), samples, overcast, Mat3{}).within;
+    return TestForOvercast(yard.solver(), samples, overcast, Mat3{}).within;
   };
-  const double veiled = contrast(*yard_, {.sky_scale = {3, 3, 3}, .sun_scale = 0.0});
+  const double veiled = contrast(*yard_, {.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled, 0.3);
   // This sun lights tops and the sides in view nearly alike: more than none does, too little to
   // doubt an overcast sky (compositor/photometry/light_estimator.cc: 0.6).
@@ -165,23 +167,23 @@ TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
   EXPECT_GT(contrast(PhotographedYard({-0.2, 0.3, 0.9}), {}), 0.6);
 }
 
-TEST_F(ShadowLight, MakesPlanesOfSeveralMaterialsDifferFromTheirStatedColours) {
+TEST_F(ShadowLight, MakesPlanesOfSeveralMaterialsDifferFromTheirStatedColors) {
   const PhotographedYard yard({-0.2, 0.3, 0.9});
   const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
   const auto among = [&](const PhotographedYard::Light& light, const sky::SkyModel& day) {
-    SurfaceSamples samples(yard.solver(), yard.camera(), yard.print());
+    SurfaceSamples samples(yard.solver(), yard.camera(), yard.marker());
     samples.AddFrame(yard.Photograph(0, light).view(), PhotographedYard::Pose(0), {1, 1, 1});
-    const PlaneContrast contrast = FindPlaneContrast(yard.solver(), samples, day, Mat3{});
-    // Ground, wall, block and print; upwards, forwards and sideways.
+    const OvercastTest contrast = TestForOvercast(yard.solver(), samples, day, Mat3{});
+    // Ground, wall, block and marker; upwards, forwards and sideways.
     EXPECT_GE(contrast.surfaces, 4);
     EXPECT_GE(contrast.directions, 3);
     return contrast.among;
   };
   const PhotographedYard::Light veiled{
-      .sky_scale = {3, 3, 3}, .sun_scale = 0.0, .colours_as_stated = true};
+      .sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0, .colors_as_described = true};
   EXPECT_LT(among(veiled, overcast), 0.12);
   EXPECT_GT(among(veiled, yard.model()), 0.25);
-  const PhotographedYard::Light sunny{.colours_as_stated = true};
+  const PhotographedYard::Light sunny{.colors_as_described = true};
   EXPECT_LT(among(sunny, yard.model()), 0.12);
   EXPECT_GT(among(sunny, overcast), 0.25);
 }

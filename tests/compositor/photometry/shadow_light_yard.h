@@ -22,21 +22,23 @@ class ShadowLight : public ::testing::Test {
 
   static SurfaceSamples Look(const PhotographedYard::Light& light, int pictures = 2,
                              double exposure_step = 1.0) {
-    SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->print());
+    SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker());
     for (int i = 0; i < pictures; ++i) {
-      const double gain = i == 0 ? 1.0 : exposure_step;
+      const double exposure_scale = i == 0 ? 1.0 : exposure_step;
       RgbImage picture = yard_->Photograph(i, light);
-      if (gain != 1.0) {
+      if (exposure_scale != 1.0) {
         for (std::size_t k = 0; k < picture.size(); ++k) {
-          picture.data()[k] = Srgb8FromLinear(LinearFromSrgb8()[picture.data()[k]] * gain);
+          picture.data()[k] =
+              Srgb8FromLinear(LinearFromSrgb8()[picture.data()[k]] * exposure_scale);
         }
       }
-      samples.AddFrame(picture.view(), PhotographedYard::Pose(i), {gain, gain, gain});
+      samples.AddFrame(picture.view(), PhotographedYard::Pose(i),
+                       {exposure_scale, exposure_scale, exposure_scale});
     }
     return samples;
   }
-  static SunSkyReading Read(const SurfaceSamples& samples) {
-    return ReadSunAndSky(FindShadowEdges(yard_->solver(), samples, yard_->model(), Mat3{}));
+  static SunSkyRatio Read(const SurfaceSamples& samples) {
+    return EstimateSunSkyRatio(FindShadowEdges(yard_->solver(), samples, yard_->model(), Mat3{}));
   }
 
   static inline PhotographedYard* yard_ = nullptr;

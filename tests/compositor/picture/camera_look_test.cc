@@ -13,7 +13,8 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr scene::MarkerPrint kPrint{.size_m = 0.4, .board_size_m = 0.52, .black_band_m = 0.05};
+constexpr scene::MarkerReflectance kMarker{
+    .size_m = 0.4, .board_size_m = 0.52, .black_band_m = 0.05};
 const CameraModel kCamera{
     .width = 400, .height = 300, .fx = 380, .fy = 380, .cx = 199.5, .cy = 149.5};
 // A metre away, askew, so that no edge lies along the pixels.
@@ -29,21 +30,21 @@ struct Photograph {
   double blur_px = 0.0;         ///< Beyond the pixel's own width.
   double noise_constant = 0.0;  ///< Variances of linear light.
   double noise_slope = 0.0;
-  bool textured = false;  ///< The ground around the print.
+  bool textured = false;  ///< The ground around the marker.
   double hand_to_x_px = 0.0;
 };
 
-/// The print on grey ground through a camera: 8 × 8 samples a pixel, Gaussian blur, noise, 8 bits.
+/// The marker on grey ground through a camera: 8 × 8 samples a pixel, Gaussian blur, noise, 8 bits.
 RgbImage Take(const Photograph& how, std::uint32_t seed = 1, const CameraResponse& response = {}) {
   const auto from_camera = kPose.Inverse();
   const auto albedo = [&](Vec3 at) {
     const double m = std::max(std::fabs(at.x), std::fabs(at.y));
-    if (m > kPrint.board_size_m / 2) {
+    if (m > kMarker.board_size_m / 2) {
       const double waves = std::sin(170 * at.x) * std::sin(140 * at.y);
       return how.textured ? 0.25 * (1 + 0.5 * waves) : 0.25;
     }
-    if (m > kPrint.size_m / 2) return 0.6;
-    return m > kPrint.size_m / 2 - kPrint.black_band_m || at.x > 0.05 ? 0.03 : 0.6;
+    if (m > kMarker.size_m / 2) return 0.6;
+    return m > kMarker.size_m / 2 - kMarker.black_band_m || at.x > 0.05 ? 0.03 : 0.6;
   };
   constexpr int kSub = 8;
   Image<float> light(kCamera.width, kCamera.height);
@@ -94,17 +95,17 @@ RgbImage Take(const Photograph& how, std::uint32_t seed = 1, const CameraRespons
   return picture;
 }
 
-std::optional<PictureLook> Measure(const Photograph& how) {
-  return MeasurePictureLook(Take(how).view(), kCamera, kPose, kPrint, {});
+std::optional<CameraLook> Measure(const Photograph& how) {
+  return MeasureCameraLook(Take(how).view(), kCamera, kPose, kMarker, {});
 }
 
-TEST(PictureLook, ReadsCodesByTheCamerasOwnResponse) {
+TEST(CameraLook, ReadsCodesByTheCamerasOwnResponse) {
   const CameraResponse gentle = testing::GentleResponse();
   const Photograph how{.blur_px = 1.0, .noise_constant = 1e-5, .noise_slope = 2e-4};
   const auto srgb = Measure(how);
   const RgbImage picture = Take(how, 1, gentle);
   const auto read_as = [&](const CameraResponse& response) {
-    return MeasurePictureLook(picture.view(), kCamera, kPose, kPrint, response);
+    return MeasureCameraLook(picture.view(), kCamera, kPose, kMarker, response);
   };
   const auto look = read_as(gentle), wrong = read_as({});
   ASSERT_TRUE(srgb && look && wrong);
@@ -119,7 +120,7 @@ TEST(PictureLook, ReadsCodesByTheCamerasOwnResponse) {
   }
 }
 
-TEST(PictureLook, ReadsTheBlurOffThePrintsEdges) {
+TEST(CameraLook, ReadsTheBlurOffTheMarkersEdges) {
   for (const double blur : {0.0, 0.5, 1.0, 2.0}) {
     const auto look = Measure({.blur_px = blur});
     ASSERT_TRUE(look) << blur;
@@ -138,7 +139,7 @@ TEST(PictureLook, ReadsTheBlurOffThePrintsEdges) {
   }
 }
 
-TEST(PictureLook, ReadsTheNoiseOffTheFlatPartsOfThePrint) {
+TEST(CameraLook, ReadsTheNoiseOffTheFlatPartsOfTheMarker) {
   for (const bool textured : {false, true}) {
     const Photograph how{
         .blur_px = 0.6, .noise_constant = 1e-5, .noise_slope = 3e-4, .textured = textured};
@@ -154,17 +155,17 @@ TEST(PictureLook, ReadsTheNoiseOffTheFlatPartsOfThePrint) {
   }
 }
 
-TEST(PictureLook, IsNotMisledByAHandOverASideOfThePrint) {
+TEST(CameraLook, IsNotMisledByAHandOverASideOfTheMarker) {
   const auto look = Measure({.blur_px = 1.0, .hand_to_x_px = 150});
   ASSERT_TRUE(look);
   EXPECT_NEAR(look->blur_px, std::hypot(1.0, 1 / std::sqrt(12.0)), 0.12);
 }
 
-TEST(PictureLook, SaysNothingOfAPrintThatIsHiddenOrTooSmall) {
+TEST(CameraLook, ReportsNothingOfAMarkerThatIsHiddenOrTooSmall) {
   EXPECT_FALSE(Measure({.hand_to_x_px = 400}));
   auto far = kPose;
   far.translation_m = far.translation_m * 30.0;
-  EXPECT_FALSE(MeasurePictureLook(Take({}).view(), kCamera, far, kPrint, {}));
+  EXPECT_FALSE(MeasureCameraLook(Take({}).view(), kCamera, far, kMarker, {}));
 }
 
 TEST(PictureGrain, HasTheCorrelationAskedForAndNoSeam) {

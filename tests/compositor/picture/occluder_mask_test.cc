@@ -9,31 +9,31 @@ namespace {
 
 const CameraModel kCamera{
     .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 159.5, .cy = 119.5};
-// A metre above a print of 0.4 m: 120 pixels.
+// A metre above a marker of 0.4 m: 120 pixels.
 const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 1}};
 constexpr int kSquares = 12;
 
-/// An arm that comes in from the picture's right edge and ends in the middle of the print.
+/// An arm that comes in from the picture's right edge and ends in the middle of the marker.
 bool IsArm(int x, int y) { return x > 160 && std::abs(y - 120) < 14; }
 
 struct Scene {
   RgbImage picture{320, 240, 3};
-  PrintCover cover{kSquares, 0.4, std::vector<std::uint8_t>(kSquares* kSquares, 255)};
+  MarkerVisibility cover{kSquares, 0.4, std::vector<std::uint8_t>(kSquares* kSquares, 255)};
 };
 
 Scene Make(std::array<int, 3> arm, bool covered = true) {
   Scene scene;
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
-      const bool print = std::abs(x - 160) < 60 && std::abs(y - 120) < 60;
+      const bool marker = std::abs(x - 160) < 60 && std::abs(y - 120) < 60;
       const int shade = ((x / 7 + y / 7) % 3) * 12;
       std::array<int, 3> color{110 + shade, 105 + shade, 95 + shade};
-      if (print)
+      if (marker)
         color = (x / 10 + y / 10) % 2 == 0 ? std::array{225, 225, 222} : std::array{45, 45, 46};
       if (covered && IsArm(x, y))
         color = {arm[0] + shade / 3, arm[1] + shade / 3, arm[2] + shade / 3};
       for (int c = 0; c < 3; ++c) scene.picture(x, y, c) = static_cast<std::uint8_t>(color[c]);
-      if (!print || !covered || !IsArm(x, y)) continue;
+      if (!marker || !covered || !IsArm(x, y)) continue;
       const int column = (x - 100) * kSquares / 120, row = (y - 60) * kSquares / 120;
       scene.cover.seen[static_cast<std::size_t>(row) * kSquares + column] = 0;
     }
@@ -41,12 +41,12 @@ Scene Make(std::array<int, 3> arm, bool covered = true) {
   return scene;
 }
 
-TEST(OccluderMask, IsEmptyWhereNothingCoversThePrint) {
+TEST(OccluderMask, IsEmptyWhereNothingCoversTheMarker) {
   const Scene scene = Make({0, 0, 0}, false);
   EXPECT_TRUE(MaskOccluder(scene.picture.view(), kCamera, kFromAbove, scene.cover).empty());
 }
 
-TEST(OccluderMask, FollowsAnArmByItsColourToThePicturesEdge) {
+TEST(OccluderMask, FollowsAnArmByItsColorToThePicturesEdge) {
   const Scene scene = Make({190, 130, 100});
   const auto mask = MaskOccluder(scene.picture.view(), kCamera, kFromAbove, scene.cover);
   ASSERT_FALSE(mask.empty());
@@ -62,7 +62,7 @@ TEST(OccluderMask, FollowsAnArmByItsColourToThePicturesEdge) {
   EXPECT_EQ(mask(310, 60), 0);
 }
 
-TEST(OccluderMask, StaysOnThePrintWhereColourTellsNothing) {
+TEST(OccluderMask, StaysOnTheMarkerWhereColorTellsNothing) {
   // A glove as grey as the ground.
   const Scene scene = Make({112, 107, 97});
   const auto mask = MaskOccluder(scene.picture.view(), kCamera, kFromAbove, scene.cover);

@@ -47,7 +47,7 @@ TEST(AerialFog, AddsNoMoreLightAMetreThanItSays) {
   const FogSplits fog = AerialFog(EvenAir(), Mat3{})
                             .Along({0, 1, 0}, std::vector<double>{2.0, 60.0, 250.0, 1500.0},
                                    std::vector<double>{1.0, 3.0, 0.5});
-  const glm::vec3 most = fog.MostLightPerMetre();
+  const glm::vec3 most = fog.MaxLightPerMetre();
   EXPECT_LT(most.g, 4.0 * EvenAir::kGreen * EvenAir::kAirlight) << "nor much less";
   glm::vec3 before(0.0F);
   for (int metre = 1; metre <= 1600; ++metre) {
@@ -110,14 +110,14 @@ TEST(AerialFog, FadesAVirtualShadowAsARealOne) {
     const glm::vec3 air_light = air.light / 10000.0F;
     const glm::vec3 picture = lit * air.left + air_light;
     const glm::vec3 real_shadow = ratio * lit * air.left + air_light;
-    const glm::vec3 shadow = ratio * picture + glsl::AirBeforeShadow(ratio, air_light, picture);
+    const glm::vec3 shadow = ratio * picture + glsl::AirlightOverShadow(ratio, air_light, picture);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(shadow[c], real_shadow[c], 1e-6) << distance;
   }
 }
 
 TEST(AerialFog, NeverLightsAShadowUpBeyondThePicture) {
   const glm::vec3 ratio(0.25F), picture(0.1F), air_light(0.7F);
-  const glm::vec3 shadow = ratio * picture + glsl::AirBeforeShadow(ratio, air_light, picture);
+  const glm::vec3 shadow = ratio * picture + glsl::AirlightOverShadow(ratio, air_light, picture);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(shadow[c], picture[c], 1e-7);
 }
 
@@ -164,61 +164,66 @@ TEST(DifferentialRatio, NeverDarkensARealShadowTwiceNorLightensIt) {
   EXPECT_EQ(glsl::DifferentialRatio(ambient, ambient, sun, 1.0F, 0.3F), glm::vec3(1.0F));
 }
 
-TEST(SteadyRatio, IsTheDifferentialRatioWhereObjectsTakeNothingOfTheSun) {
+TEST(LinearShadowRatio, IsTheDifferentialRatioWhereObjectsTakeNothingOfTheSun) {
   const glm::vec3 with(900.0F, 800.0F, 700.0F), without(1000.0F, 1100.0F, 1200.0F),
       sun(3000.0F, 2000.0F, 1000.0F);
   for (const float visibility : {0.0F, 1.0F}) {
     const glm::vec3 ratio = glsl::DifferentialRatio(with, without, sun, visibility, visibility);
-    EXPECT_LT(glm::distance(SteadyRatio::Between(with, without, visibility * sun), ratio), 1e-6F);
+    EXPECT_LT(glm::distance(LinearShadowRatio::Between(with, without, visibility * sun), ratio),
+              1e-6F);
   }
 }
 
-glm::vec3 SteadySeen(const SteadyRatio& steady, const glm::vec3& eye_m, const glm::vec3& ray) {
-  return glsl::SteadyAlong(eye_m, ray, steady.plane, steady.channels[0], steady.channels[1],
-                           steady.channels[2], steady.range)
+glm::vec3 LinearRatioSeen(const LinearShadowRatio& linear_ratio, const glm::vec3& eye_m,
+                          const glm::vec3& ray) {
+  return glsl::LinearRatioAlong(eye_m, ray, linear_ratio.plane, linear_ratio.channels[0],
+                                linear_ratio.channels[1], linear_ratio.channels[2],
+                                linear_ratio.range)
       .ratio;
 }
 
-TEST(SteadyRatio, IsLinearOverATriangleWhereverItLies) {
+TEST(LinearShadowRatio, IsLinearOverATriangleWhereverItLies) {
   const std::array<glm::vec3, 3> ratios{glm::vec3(0.5F, 0.6F, 0.7F), glm::vec3(0.9F, 0.8F, 1.0F),
                                         glm::vec3(1.1F, 0.95F, 0.75F)};
   // A hand's breadth, far from the origin and tilted, and a long way off.
   for (const glm::vec3& at : {glm::vec3(0.0F), glm::vec3(30.0F, -20.0F, 5.0F)}) {
     const std::array<glm::vec3, 3> corners{at, at + glm::vec3(0.1F, 0.02F, 0.01F),
                                            at + glm::vec3(-0.01F, 0.08F, 0.05F)};
-    const SteadyRatio steady = SteadyRatio::Of(corners, ratios);
+    const LinearShadowRatio linear_ratio = LinearShadowRatio::Of(corners, ratios);
     const glm::vec3 eye_m = at + glm::vec3(0.5F, -1.0F, 1.5F);
     for (const glm::vec3& share : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1),
                                    glm::vec3(0.2F, 0.5F, 0.3F)}) {
       const glm::vec3 place = corners[0] * share.x + corners[1] * share.y + corners[2] * share.z;
       const glm::vec3 ratio = ratios[0] * share.x + ratios[1] * share.y + ratios[2] * share.z;
-      EXPECT_LT(glm::distance(SteadySeen(steady, eye_m, 3.0F * (place - eye_m)), ratio), 1e-3F);
-      const glsl::SteadyPlace seen =
-          glsl::SteadyAlong(eye_m, place - eye_m, steady.plane, steady.channels[0],
-                            steady.channels[1], steady.channels[2], steady.range);
+      EXPECT_LT(glm::distance(LinearRatioSeen(linear_ratio, eye_m, 3.0F * (place - eye_m)), ratio),
+                1e-3F);
+      const glsl::LinearRatioPoint seen = glsl::LinearRatioAlong(
+          eye_m, place - eye_m, linear_ratio.plane, linear_ratio.channels[0],
+          linear_ratio.channels[1], linear_ratio.channels[2], linear_ratio.range);
       EXPECT_LT(glm::distance(seen.position_m, place), 1e-4F);
     }
   }
 }
 
-TEST(SteadyRatio, KeepsWithinItsCornersBesideTheTriangle) {
+TEST(LinearShadowRatio, KeepsWithinItsCornersBesideTheTriangle) {
   const std::array<glm::vec3, 3> corners{glm::vec3(0.0F), glm::vec3(0.1F, 0.0F, 0.0F),
                                          glm::vec3(0.0F, 0.1F, 0.0F)};
   const std::array<glm::vec3, 3> ratios{glm::vec3(0.5F), glm::vec3(0.9F), glm::vec3(0.7F)};
-  const SteadyRatio steady = SteadyRatio::Of(corners, ratios);
+  const LinearShadowRatio linear_ratio = LinearShadowRatio::Of(corners, ratios);
   const glm::vec3 eye_m(0.0F, 0.0F, 1.0F);
   // Beside it, along its plane, away from it, and straight up.
   for (const glm::vec3& ray : {glm::vec3(5.0F, 0.0F, -1.0F), glm::vec3(1.0F, 0.0F, 0.0F),
                                glm::vec3(-1.0F, 0.0F, 1e-9F), glm::vec3(0.0F, 0.0F, 1.0F)}) {
-    const glm::vec3 seen = SteadySeen(steady, eye_m, ray);
+    const glm::vec3 seen = LinearRatioSeen(linear_ratio, eye_m, ray);
     for (int c = 0; c < 3; ++c) {
       EXPECT_GE(seen[c], 0.5F);
       EXPECT_LE(seen[c], 0.9F);
     }
   }
   // Three corners on a line.
-  const SteadyRatio thin = SteadyRatio::Of({corners[0], corners[1], 2.0F * corners[1]}, ratios);
-  EXPECT_NEAR(SteadySeen(thin, eye_m, {0.0F, 0.0F, -1.0F}).x, 0.7F, 1e-6F);
+  const LinearShadowRatio thin =
+      LinearShadowRatio::Of({corners[0], corners[1], 2.0F * corners[1]}, ratios);
+  EXPECT_NEAR(LinearRatioSeen(thin, eye_m, {0.0F, 0.0F, -1.0F}).x, 0.7F, 1e-6F);
 }
 
 TEST(TexelCode, KeepsRoughnessAndMetallicApart) {
@@ -235,22 +240,22 @@ TEST(TexelCode, KeepsRoughnessAndMetallicApart) {
 }
 
 TEST(TriangleLayout, IsReadAsItIsWritten) {
-  EXPECT_EQ(glsl::kTrianglesARow, TriangleTable::kTrianglesARow);
-  EXPECT_EQ(glsl::kVerticesARow, TriangleTable::kVerticesARow);
-  EXPECT_EQ(glsl::kTexelsAVertex, TriangleTable::kTexelsAVertex);
-  EXPECT_EQ(glsl::kKindBits, static_cast<int>(TriangleTable::kKindBits));
-  EXPECT_EQ(glsl::kNothing, static_cast<unsigned>(ChangingTriangles::kNothing));
-  EXPECT_EQ(glsl::kTexelsASurface, SurfaceRecords::kTexelsASurface);
-  EXPECT_EQ(glsl::kSurfacesARow, SurfaceRecords::kSurfacesARow);
-  EXPECT_EQ(glsl::kTexelsASteady, SteadyRatio::kTexels);
-  EXPECT_EQ(sizeof(SteadyRatio), SteadyRatio::kTexels * 4 * sizeof(float));
-  EXPECT_EQ(glsl::kSteadyARow, TriangleTable::kSteadyARow);
-  for (const auto change : {ChangingTriangles::kSun, ChangingTriangles::kSunlitSky,
-                            ChangingTriangles::kSteadySky, ChangingTriangles::kNothing}) {
-    const glm::uvec4 triangle(0, 0, 0, change | 12345U << TriangleTable::kKindBits);
+  EXPECT_EQ(glsl::kTrianglesPerRow, VisibilityBuffer::kTrianglesPerRow);
+  EXPECT_EQ(glsl::kVerticesPerRow, VisibilityBuffer::kVerticesPerRow);
+  EXPECT_EQ(glsl::kTexelsPerVertex, VisibilityBuffer::kTexelsPerVertex);
+  EXPECT_EQ(glsl::kKindBits, static_cast<int>(VisibilityBuffer::kKindBits));
+  EXPECT_EQ(glsl::kNothing, static_cast<unsigned>(AffectedTriangles::kNothing));
+  EXPECT_EQ(glsl::kTexelsPerSurface, MaterialTable::kTexelsPerSurface);
+  EXPECT_EQ(glsl::kSurfacesPerRow, MaterialTable::kSurfacesPerRow);
+  EXPECT_EQ(glsl::kTexelsPerLinearRatio, LinearShadowRatio::kTexels);
+  EXPECT_EQ(sizeof(LinearShadowRatio), LinearShadowRatio::kTexels * 4 * sizeof(float));
+  EXPECT_EQ(glsl::kLinearRatiosPerRow, VisibilityBuffer::kLinearRatiosPerRow);
+  for (const auto change : {AffectedTriangles::kSun, AffectedTriangles::kSunlitSky,
+                            AffectedTriangles::kLinearSky, AffectedTriangles::kNothing}) {
+    const glm::uvec4 triangle(0, 0, 0, change | 12345U << VisibilityBuffer::kKindBits);
     EXPECT_EQ(glsl::KindOf(triangle), static_cast<unsigned>(change));
-    EXPECT_EQ(glsl::SheetOf(triangle), 12345U);
-    EXPECT_EQ(glsl::DepthOfKind(change), RatioPass::DepthOf(change));
+    EXPECT_EQ(glsl::ComponentOf(triangle), 12345U);
+    EXPECT_EQ(glsl::DepthOfKind(change), ShadowRatioPass::DepthOf(change));
   }
 }
 
@@ -264,12 +269,12 @@ TEST(TriangleLayout, GivesEachTriangleAndVertexTexelsOfItsOwn) {
   EXPECT_EQ(glsl::TexelOfSurface(819), glm::ivec2(0, 1));
 }
 
-TEST(TriangleLayout, TellsTheSamplesThatShowATriangle) {
+TEST(TriangleLayout, ReportsTheSamplesThatShowATriangle) {
   constexpr unsigned kMax = (1U << glsl::kSamplesShift) - 1U;
   for (const unsigned id : {1U, 70000U, kMax}) {
     // The first sample brings the number, others of the same sheet their bits alone.
     const unsigned seen =
-        glsl::SeenTriangle(id, {0, 0, 1, 0}) + glsl::SeenTriangle(0U, {1, 0, 0, 1});
+        glsl::VisibleTriangle(id, {0, 0, 1, 0}) + glsl::VisibleTriangle(0U, {1, 0, 0, 1});
     EXPECT_EQ(glsl::IdOf(seen), id);
     EXPECT_EQ(glsl::SamplesOf(seen), glm::vec4(1.0F, 0.0F, 1.0F, 1.0F));
   }

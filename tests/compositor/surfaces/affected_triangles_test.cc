@@ -35,33 +35,34 @@ const SunWindow kWindow{{1.0F, 0.0F, 0.0F, -0.9F}, {0.0F, 1.0F, 0.0F, 0.0F}, 1.0
 
 constexpr glm::vec3 kSun(4000.0F, 3000.0F, 2000.0F);
 
-TEST(ChangingTriangles, AreThoseInTheSunsWindowAndThoseWhoseSkyChanges) {
+TEST(AffectedTriangles, AreThoseInTheSunsWindowAndThoseWhoseSkyChanges) {
   LitMesh mesh = Row();
   mesh.ambient_with[3 * 3 + 1][2] = 990.0F;  // A corner of the last, in blue alone.
   mesh.ambient_with[0][0] = 999.0F;          // Less than is seen.
-  ChangingTriangles triangles(mesh);
+  AffectedTriangles triangles(mesh);
   triangles.Sort(kWindow, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 6, 12));
   EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 9, 10, 11, 0, 1, 2, 6, 7, 8));
 }
 
-TEST(ChangingTriangles, InTheirOwnShadeNeedNoShadowMaps) {
+TEST(AffectedTriangles, InTheirOwnShadeNeedNoShadowMaps) {
   LitMesh mesh = Row();
   mesh.ambient_with[4][0] = mesh.ambient_with[10][0] = 900.0F;
   for (auto& normal : mesh.normals) normal = {0.0F, 0.0F, -1.0F};
-  ChangingTriangles triangles(mesh);
+  AffectedTriangles triangles(mesh);
   triangles.Sort(kWindow, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 6, 12));
   triangles.Sort({}, {}, {});
   EXPECT_THAT(triangles.ends(), ElementsAre(0, 0, 6, 12)) << "without a sun";
 }
 
-TEST(ChangingTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun) {
+TEST(AffectedTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun) {
   LitMesh mesh = Row();
   for (auto& light : mesh.ambient_with) light[0] = 900.0F;
-  mesh.reached_to_sun = {0.0F, 0.0F, 1.0F};
-  mesh.sun_reach = {SunReach::kAll, SunReach::kNone, SunReach::kNone, SunReach::kSome};
-  ChangingTriangles triangles(mesh);
+  mesh.sun_visibility_to_sun = {0.0F, 0.0F, 1.0F};
+  mesh.sun_visibility = {SunVisibility::kAll, SunVisibility::kNone, SunVisibility::kNone,
+                         SunVisibility::kSome};
+  AffectedTriangles triangles(mesh);
   triangles.Sort(kWindow, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 12, 12)) << "objects may shade the second";
   EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 9, 10, 11, 0, 1, 2, 6, 7, 8));
@@ -69,46 +70,47 @@ TEST(ChangingTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun)
   later.to_sun = {0.0F, 0.004F, 1.0F};
   triangles.Sort(later, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12)) << "the sun has moved on";
-  mesh.sun_reach.clear();
+  mesh.sun_visibility.clear();
   triangles.SetLight(mesh);
   triangles.Sort(kWindow, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12)) << "not known of another light";
 }
 
-TEST(ChangingTriangles, KnowTheRatioWherePhantomsLeaveAllOfTheSunOrNone) {
+TEST(AffectedTriangles, KnowTheRatioWherePhantomsLeaveAllOfTheSunOrNone) {
   LitMesh mesh = Row();
   for (auto& light : mesh.ambient_with) light = {900.0F, 800.0F, 700.0F};
-  mesh.reached_to_sun = {0.0F, 0.0F, 1.0F};
-  mesh.sun_reach = {SunReach::kAll, SunReach::kNone, SunReach::kNone, SunReach::kSome};
-  ChangingTriangles triangles(mesh);
+  mesh.sun_visibility_to_sun = {0.0F, 0.0F, 1.0F};
+  mesh.sun_visibility = {SunVisibility::kAll, SunVisibility::kNone, SunVisibility::kNone,
+                         SunVisibility::kSome};
+  AffectedTriangles triangles(mesh);
   triangles.Sort(kWindow, {}, kSun);
-  ASSERT_EQ(triangles.steady().size(), 2U) << "the first and the third";
-  const auto& [lit, shaded] = std::pair(triangles.steady()[0], triangles.steady()[1]);
+  ASSERT_EQ(triangles.linear_ratios().size(), 2U) << "the first and the third";
+  const auto& [lit, shaded] = std::pair(triangles.linear_ratios()[0], triangles.linear_ratios()[1]);
   EXPECT_NEAR(lit.channels[0].w, 4900.0 / 5000.0, 1e-6);
   EXPECT_NEAR(lit.channels[1].w, 3800.0 / 4000.0, 1e-6);
   EXPECT_NEAR(lit.channels[2].w, 2700.0 / 3000.0, 1e-6);
   EXPECT_NEAR(shaded.channels[0].w, 0.9, 1e-6);
   EXPECT_NEAR(shaded.channels[2].w, 0.7, 1e-6);
   // Three tenths, seen from the corner at (2.5, 0) four metres below it, and the other two nearer.
-  EXPECT_NEAR(triangles.MostSteadyChangeFarFrom({2.0F, 0.0F, -4.0F}), 0.3 * std::hypot(0.5, 4.0),
+  EXPECT_NEAR(triangles.MaxLinearChangeFarFrom({2.0F, 0.0F, -4.0F}), 0.3 * std::hypot(0.5, 4.0),
               1e-5);
 }
 
-TEST(ChangingTriangles, AreAllThatTheSunReachesWhereItsWindowIsUnknown) {
-  ChangingTriangles triangles(Row());
+TEST(AffectedTriangles, AreAllThatTheSunReachesWhereItsWindowIsUnknown) {
+  AffectedTriangles triangles(Row());
   triangles.Sort(SunWindow::Everywhere({0, 0, 1}), {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(12, 12, 12, 12));
 }
 
-TEST(ChangingTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {
-  ChangingTriangles triangles(Row());
+TEST(AffectedTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {
+  AffectedTriangles triangles(Row());
   const auto sunlit = [&](float reach_m, glm::vec2 low, glm::vec2 high) {
     SunWindow window = kWindow;
     window.reach_m = reach_m;
     SunFootprint objects(window);
     objects.Include(low, high);
     triangles.Sort(window, objects, kSun);
-    return triangles.ends()[ChangingTriangles::kSun] / 3;
+    return triangles.ends()[AffectedTriangles::kSun] / 3;
   };
   // The second triangle alone is in the window: from 0.1 to 0.6 of its side, up to 0.5 across.
   EXPECT_EQ(sunlit(0.0F, {0.3F, 0.3F}, {0.4F, 0.35F}), 1);
@@ -118,7 +120,7 @@ TEST(ChangingTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {
   EXPECT_EQ(sunlit(0.0F, {-0.5F, -0.5F}, {1.5F, 1.5F}), 1) << "larger than the window";
 }
 
-TEST(ChangingTriangles, AreAllWhereAnObjectLiesNobodyKnowsWhere) {
+TEST(AffectedTriangles, AreAllWhereAnObjectLiesNobodyKnowsWhere) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const auto& [low, high] : {std::pair{glm::vec2(nan), glm::vec2(nan)},
                                   {glm::vec2(nan, 0.0F), glm::vec2(0.1F)},
@@ -135,11 +137,11 @@ TEST(ChangingTriangles, AreAllWhereAnObjectLiesNobodyKnowsWhere) {
   EXPECT_TRUE(objects.Touches({nan, nan}, {nan, nan}));
 }
 
-TEST(FacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {
+TEST(SunFacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {
   LitMesh mesh = Row();
   for (int i = 3; i < 6; ++i) mesh.normals[i] = {0.0F, 0.0F, -1.0F};
   mesh.normals[9] = {0.0F, 0.0F, -1.0F};  // One corner of the last: part of it may face the sun.
-  FacingTriangles triangles(mesh);
+  SunFacingTriangles triangles(mesh);
   EXPECT_EQ(triangles.facing_end(), 12) << "not sorted yet";
   EXPECT_TRUE(triangles.Sort({0.0F, 0.0F, 1.0F}));
   EXPECT_EQ(triangles.facing_end(), 9);
@@ -148,10 +150,10 @@ TEST(FacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {
   EXPECT_EQ(triangles.facing_end(), 6) << "the second and the last";
 }
 
-TEST(FacingTriangles, HoldWhileTheSunMovesLessThanTheirMargin) {
+TEST(SunFacingTriangles, HoldWhileTheSunMovesLessThanTheirMargin) {
   LitMesh mesh = Row();
   mesh.normals[0] = mesh.normals[1] = mesh.normals[2] = {0.999F, 0.0F, -0.045F};
-  FacingTriangles triangles(mesh);
+  SunFacingTriangles triangles(mesh);
   triangles.Sort({0.0F, 0.0F, 1.0F});
   EXPECT_EQ(triangles.facing_end(), 12) << "a sun 3° farther on reaches the first";
   EXPECT_FALSE(triangles.Sort({0.03F, 0.0F, 0.99955F}));
@@ -160,10 +162,10 @@ TEST(FacingTriangles, HoldWhileTheSunMovesLessThanTheirMargin) {
   EXPECT_EQ(triangles.facing_end(), 0) << "without a sun";
 }
 
-TEST(TriangleTable, TellsPiecesThatDoNotHangTogetherApart) {
+TEST(VisibilityBuffer, TellsPiecesThatDoNotHangTogetherApart) {
   LitMesh mesh = Row();
   mesh.indices = {0, 1, 2, 2, 1, 3, 6, 7, 8, 4, 8, 5};
-  EXPECT_THAT(SheetsOf(mesh, 7), ElementsAre(7, 7, 7, 7, 8, 8, 8, 8, 8, 9, 10, 11));
+  EXPECT_THAT(ComponentsOf(mesh, 7), ElementsAre(7, 7, 7, 7, 8, 8, 8, 8, 8, 9, 10, 11));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// So many triangles apart, each a sheet of its own.
+/// So many triangles apart, each a component of its own.
 LitMesh Loose(std::uint32_t triangles) {
   LitMesh mesh;
   mesh.indices.resize(3 * std::size_t{triangles});
@@ -28,21 +28,21 @@ LitMesh Loose(std::uint32_t triangles) {
   return mesh;
 }
 
-class TriangleTableTest : public gl::GlTest {
+class VisibilityBufferTest : public gl::GlTest {
  protected:
   struct Triangles {
     GLint texture = 0, rows = 0;
     std::vector<std::array<std::uint32_t, 4>> texels;  // By number, from 1 on.
   };
   /// What shaders have at unit 1.
-  static Triangles Bound(const TriangleTable& table) {
+  static Triangles Bound(const VisibilityBuffer& table) {
     table.Bind();
     glActiveTexture(GL_TEXTURE1);
     Triangles bound;
     glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound.texture);
     const auto id = static_cast<GLuint>(bound.texture);
     glGetTextureLevelParameteriv(id, 0, GL_TEXTURE_HEIGHT, &bound.rows);
-    bound.texels.resize(std::size_t{TriangleTable::kTrianglesARow} *
+    bound.texels.resize(std::size_t{VisibilityBuffer::kTrianglesPerRow} *
                         static_cast<std::size_t>(bound.rows));
     glGetTextureImage(id, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                       static_cast<GLsizei>(bound.texels.size() * sizeof bound.texels[0]),
@@ -51,10 +51,10 @@ class TriangleTableTest : public gl::GlTest {
   }
 };
 
-TEST_F(TriangleTableTest, NumbersTheTrianglesOfAllMeshesUpToTheirLastEnds) {
+TEST_F(VisibilityBufferTest, NumbersTheTrianglesOfAllMeshesUpToTheirLastEnds) {
   const LitMesh first = Loose(4), second = Loose(2);
   const std::vector<const LitMesh*> meshes{&first, &second};
-  auto table = TriangleTable::Create(meshes, std::vector<float>{0.25F, 0.5F});
+  auto table = VisibilityBuffer::Create(meshes, std::vector<float>{0.25F, 0.5F});
   ASSERT_TRUE(table.has_value()) << table.error().Message();
   // Another order; of the first mesh's four the last has no number.
   const std::vector<std::uint32_t> order{3, 4, 5, 0, 1, 2, 6, 7, 8, 9, 10, 11};
@@ -66,47 +66,48 @@ TEST_F(TriangleTableTest, NumbersTheTrianglesOfAllMeshesUpToTheirLastEnds) {
   EXPECT_EQ(table->first_id(1), 4);
   const Triangles bound = Bound(*table);
   const auto triangle = [&](int id) { return bound.texels[static_cast<std::size_t>(id) - 1]; };
-  const auto sheet_and_kind = [](std::uint32_t sheet, std::uint32_t kind) {
-    return sheet << TriangleTable::kKindBits | kind;
+  const auto component_and_kind = [](std::uint32_t component, std::uint32_t kind) {
+    return component << VisibilityBuffer::kKindBits | kind;
   };
-  EXPECT_THAT(triangle(1), ElementsAre(3, 4, 5, sheet_and_kind(1, 0)));
-  EXPECT_THAT(triangle(2), ElementsAre(0, 1, 2, sheet_and_kind(0, 2)));
-  EXPECT_THAT(triangle(3), ElementsAre(6, 7, 8, sheet_and_kind(2, 2)));
-  // Vertices and sheets of the second mesh follow those of the whole first.
-  EXPECT_THAT(triangle(4), ElementsAre(12, 13, 14, sheet_and_kind(4, 1)));
-  EXPECT_THAT(triangle(5), ElementsAre(15, 16, 17, sheet_and_kind(5, 1)));
-  // What is asked of sheets lies at unit 7: four sheets of one value and two of the other.
+  EXPECT_THAT(triangle(1), ElementsAre(3, 4, 5, component_and_kind(1, 0)));
+  EXPECT_THAT(triangle(2), ElementsAre(0, 1, 2, component_and_kind(0, 2)));
+  EXPECT_THAT(triangle(3), ElementsAre(6, 7, 8, component_and_kind(2, 2)));
+  // Vertices and components of the second mesh follow those of the whole first.
+  EXPECT_THAT(triangle(4), ElementsAre(12, 13, 14, component_and_kind(4, 1)));
+  EXPECT_THAT(triangle(5), ElementsAre(15, 16, 17, component_and_kind(5, 1)));
+  // What is asked of components lies at unit 7: four components of one value and two of the other.
   glActiveTexture(GL_TEXTURE7);
   GLint values_texture = 0;
   glGetIntegerv(GL_TEXTURE_BINDING_2D, &values_texture);
-  std::vector<float> values(TriangleTable::kTrianglesARow);
+  std::vector<float> values(VisibilityBuffer::kTrianglesPerRow);
   glGetTextureImage(static_cast<GLuint>(values_texture), 0, GL_RED, GL_FLOAT,
                     static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
   values.resize(6);
   EXPECT_THAT(values, ElementsAre(0.25F, 0.25F, 0.25F, 0.25F, 0.5F, 0.5F));
 }
 
-TEST_F(TriangleTableTest, KeepsSteadyRatiosByTheNumbersOfTheirTriangles) {
+TEST_F(VisibilityBufferTest, KeepsSteadyRatiosByTheNumbersOfTheirTriangles) {
   const LitMesh first = Loose(4), second = Loose(3);
   const std::vector<const LitMesh*> meshes{&first, &second};
-  auto table = TriangleTable::Create(meshes, std::vector<float>{0.25F, 0.5F});
+  auto table = VisibilityBuffer::Create(meshes, std::vector<float>{0.25F, 0.5F});
   ASSERT_TRUE(table.has_value()) << table.error().Message();
-  const auto steady = [](float mark) {
-    SteadyRatio ratio{};
+  const auto linear_ratios = [](float mark) {
+    LinearShadowRatio ratio{};
     ratio.plane.w = mark;
     ratio.range.x = -mark;
     return ratio;
   };
-  const std::vector<SteadyRatio> of_first{steady(3.0F), steady(4.0F)}, of_second{steady(7.0F)};
+  const std::vector<LinearShadowRatio> of_first{linear_ratios(3.0F), linear_ratios(4.0F)},
+      of_second{linear_ratios(7.0F)};
   const std::array<int, 2> first_ends{6, 12}, second_ends{6, 9};
   const std::vector<SortedTriangles> sorted{{first.indices, first_ends, of_first},
                                             {second.indices, second_ends, of_second}};
   ASSERT_TRUE(table->SetTriangles(sorted));
-  table->BindSteady();
+  table->BindLinearRatios();
   glActiveTexture(GL_TEXTURE1);
   GLint texture = 0;
   glGetIntegerv(GL_TEXTURE_BINDING_2D, &texture);
-  std::vector<SteadyRatio> bound(TriangleTable::kSteadyARow);
+  std::vector<LinearShadowRatio> bound(VisibilityBuffer::kLinearRatiosPerRow);
   glGetTextureImage(static_cast<GLuint>(texture), 0, GL_RGBA, GL_FLOAT,
                     static_cast<GLsizei>(bound.size() * sizeof bound[0]), bound.data());
   for (const std::size_t id : {3U, 4U, 7U}) {
@@ -115,10 +116,11 @@ TEST_F(TriangleTableTest, KeepsSteadyRatiosByTheNumbersOfTheirTriangles) {
   }
 }
 
-TEST_F(TriangleTableTest, GrowsWhereMoreTrianglesChangeAndKeepsItsMemoryWhereFewerDo) {
-  constexpr int kAll = 3 * (TriangleTable::kTrianglesARow + 10);
+TEST_F(VisibilityBufferTest, GrowsWhereMoreTrianglesChangeAndKeepsItsMemoryWhereFewerDo) {
+  constexpr int kAll = 3 * (VisibilityBuffer::kTrianglesPerRow + 10);
   const LitMesh mesh = Loose(kAll / 3);
-  auto table = TriangleTable::Create(std::vector<const LitMesh*>{&mesh}, std::vector<float>{0.0F});
+  auto table =
+      VisibilityBuffer::Create(std::vector<const LitMesh*>{&mesh}, std::vector<float>{0.0F});
   ASSERT_TRUE(table.has_value()) << table.error().Message();
   std::vector<Triangles> seen;
   for (const int end : {0, 3, kAll, 6, kAll}) {
@@ -127,7 +129,7 @@ TEST_F(TriangleTableTest, GrowsWhereMoreTrianglesChangeAndKeepsItsMemoryWhereFew
     seen.push_back(Bound(*table));
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(end) / 3; ++i) {
       ASSERT_THAT(seen.back().texels[i],
-                  ElementsAre(3 * i, 3 * i + 1, 3 * i + 2, i << TriangleTable::kKindBits));
+                  ElementsAre(3 * i, 3 * i + 1, 3 * i + 2, i << VisibilityBuffer::kKindBits));
     }
   }
   EXPECT_EQ(seen[0].rows, 1);

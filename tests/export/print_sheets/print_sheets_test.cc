@@ -146,7 +146,7 @@ TEST(MarkerSheet, KeepsAllInkOutOfTheWhiteMarginAndOnThePage) {
   }
 }
 
-TEST(MarkerSheet, SaysWhichPageWouldFit) {
+TEST(MarkerSheet, ReportsWhichPageWouldFit) {
   const auto sheet = MarkerSheet(17, 200.0, {210, 297});
   ASSERT_FALSE(sheet);
   EXPECT_THAT(sheet.error().Message(), HasSubstr("--page A3"));
@@ -199,7 +199,7 @@ TEST(SquareBoardSheet, HasItsCornersWhereItsDescriptionSays) {
                    0,
                    charuco ? "4x4_50" : ""};
     board.board.square_m = 1.0;
-    const auto largest = LargestSquare_mm(board.board, {210, 297});
+    const auto largest = MaxSquare_mm(board.board, {210, 297});
     ASSERT_TRUE(largest);
     EXPECT_EQ(*largest, charuco ? 27.0 : 23.0);  // (210 - 2 * 10) / (6 or 7, and 1 of white)
     board.board.square_m = 0.018;
@@ -224,14 +224,14 @@ TEST(SquareBoardSheet, HasItsCornersWhereItsDescriptionSays) {
     }
   }
   const auto small =
-      LargestSquare_mm({tracker::BoardKind::kChessboard, 60, 60, 1.0, 0.0, 0, ""}, {210, 297});
+      MaxSquare_mm({tracker::BoardKind::kChessboard, 60, 60, 1.0, 0.0, 0, ""}, {210, 297});
   ASSERT_FALSE(small);
   EXPECT_THAT(small.error().Message(), HasSubstr("--page"));
 }
 
 TEST(PredictedImage, HasWholePixelsForModulesAtMultiplesOfTheirNumber) {
   const tracker::MarkerPattern print = tracker::SgMarkerPattern(1234);
-  const Image<std::uint8_t> picture = RasterizePrint(print, 3 * sg::kModules);
+  const Image<std::uint8_t> picture = RasterizeMarker(print, 3 * sg::kModules);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       ASSERT_EQ(picture(x, y), print.white[y / 3 * sg::kModules + x / 3] != 0 ? 255 : 0);
@@ -242,7 +242,7 @@ TEST(PredictedImage, HasWholePixelsForModulesAtMultiplesOfTheirNumber) {
 TEST(PredictedImage, HoldsTheEdgeFractionExactlyAtAnyNumberOfPixels) {
   const tracker::MarkerPattern print = tracker::SgMarkerPattern(1234);
   for (const int pixels : {48, 49, 100, 333, 500, 1001}) {
-    const Image<std::uint8_t> picture = RasterizePrint(print, pixels);
+    const Image<std::uint8_t> picture = RasterizeMarker(print, pixels);
     // Along the rim's first row that is black over the whole width, light that is missing is the
     // black square's edge.
     const int y = pixels * (sg::kQuiet + 2) / sg::kModules;
@@ -262,7 +262,7 @@ TEST(PredictedImage, HasTheMeanLightOfItsModules) {
   const tracker::MarkerPattern print = tracker::SgMarkerPattern(77);
   double white = 0.0;
   for (const std::uint8_t module : print.white) white += module;
-  const Image<std::uint8_t> picture = RasterizePrint(print, 1001);
+  const Image<std::uint8_t> picture = RasterizeMarker(print, 1001);
   double light = 0.0;
   for (std::size_t i = 0; i < picture.size(); ++i) light += LinearFromSrgb8()[picture.data()[i]];
   EXPECT_NEAR(light / static_cast<double>(picture.size()),

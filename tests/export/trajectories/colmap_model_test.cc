@@ -210,7 +210,7 @@ void ExpectSamePath(const CameraPath& a, const CameraPath& b) {
   ASSERT_EQ(a.points.size(), b.points.size());
 }
 
-TEST(ColmapBinary, TellsWhatTheTextTells) {
+TEST(ColmapBinary, ReportsWhatTheTextTells) {
   const auto binary = PathOfBinary(BinaryExample()), text = PathOfText(ColmapExample());
   ASSERT_TRUE(binary) << binary.error().Message();
   ExpectSamePath(*binary, *text);

@@ -63,7 +63,7 @@ TEST(TumPath, WritesWhatItReads) {
   }
 }
 
-TEST(TumPath, TellsTheCameraInTheMarkersFrame) {
+TEST(TumPath, ReportsTheCameraInTheMarkersFrame) {
   session::Observation seen;
   seen.timestamp_ns = 1'066'667'000;
   seen.camera_from_marker =

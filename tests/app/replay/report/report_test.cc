@@ -32,7 +32,7 @@ ReplayReport Example() {
   report.recording = "<b>site & \"garden\"</b>";
   report.command = "pleinair replay 'x'";
   report.frames = 3;
-  report.anchor = session::MarkerName{"tag36h11", 7};
+  report.reference_marker = session::MarkerName{"tag36h11", 7};
   report.path = {At(0, 0.0), At(1, 0.1), At(2, 0.2)};
   report.warnings = {"<script>alert(1)</script>"};
   report.timings = {{"track", 3, 1.5, 2.5, 6.0}, {kWholeReplay, 1, 1500.0, 1500.0, 1500.0}};
@@ -102,7 +102,7 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
 
 using Source = compositor::MeasuredLight::Source;
 
-/// A sun, a heading and a gain that frames told of.
+/// A sun, a heading and a exposure scale that frames told of.
 session::LightSummary MeasuredSummary() {
   session::LightSummary light;
   light.sun.azimuth = FromDegrees(151.2);
@@ -110,12 +110,12 @@ session::LightSummary MeasuredSummary() {
   light.sun.elevation_refracted = FromDegrees(41.6);
   light.sun_normal_lux = 92300.0;
   light.sky_horizontal_lux = 12700.0;
-  light.gain = {3e-5, 2.5e-5, 2e-5};
-  light.gain_error = {0.011, 0.022, 0.033};
-  light.gain_change = 1.25;
-  light.readings = 40;
-  light.dappled_readings = 10;
-  light.print_lit_share = 0.625;
+  light.exposure_scale = {3e-5, 2.5e-5, 2e-5};
+  light.exposure_scale_error = {0.011, 0.022, 0.033};
+  light.exposure_scale_change = 1.25;
+  light.exposure_estimates = 40;
+  light.dappled_estimates = 10;
+  light.marker_sunlit_share = 0.625;
   light.measured.sun_source = light.measured.heading_source = Source::kMeasured;
   light.measured.sun_to_sky = 4.55;
   light.measured.sun_to_sky_stated = 4.74;
@@ -221,13 +221,14 @@ TEST(ReportLight, ClaimsNoCertaintyOfWhatIsOnlySaid) {
   EXPECT_THAT(PageOf(light), HasSubstr("sun over sky on level ground, as the user says"));
 }
 
-TEST(ReportLight, SaysWhoGaveTheGain) {
+TEST(ReportLight, ReportsWhoGaveTheExposure) {
   session::LightSummary light = MeasuredSummary();
-  light.readings = light.dappled_readings = 0;
+  light.exposure_estimates = light.dappled_estimates = 0;
   for (const auto& [source, name, words] :
-       {std::tuple{session::LightSummary::GainSource::kScene, "scene", "as the scene gives it"},
-        std::tuple{session::LightSummary::GainSource::kGuess, "guess", "guessed"}}) {
-    light.gain_source = source;
+       {std::tuple{session::LightSummary::ExposureScaleSource::kScene, "scene",
+                   "as the scene gives it"},
+        std::tuple{session::LightSummary::ExposureScaleSource::kGuess, "guess", "guessed"}}) {
+    light.exposure_scale_source = source;
     const nlohmann::json json = JsonOf(light);
     EXPECT_EQ(json["gain_from"], name);
     for (const char* key :
@@ -242,11 +243,11 @@ TEST(ReportLight, SaysWhoGaveTheGain) {
   }
 }
 
-TEST(ReportLight, SaysWhetherTheMarkerLiesInTheSun) {
+TEST(ReportLight, ReportsWhetherTheMarkerLiesInTheSun) {
   session::LightSummary light = MeasuredSummary();
-  light.print_lit_share = 1.0;
+  light.marker_sunlit_share = 1.0;
   EXPECT_THAT(PageOf(light), HasSubstr("<b>in the sun</b>"));
-  light.print_lit_share = 0.0;
+  light.marker_sunlit_share = 0.0;
   EXPECT_EQ(JsonOf(light)["marker_in_sun"], 0.0);
   EXPECT_THAT(PageOf(light), HasSubstr("<b>in shade</b>"));
   light.measured.sun_shines = false;
@@ -254,9 +255,9 @@ TEST(ReportLight, SaysWhetherTheMarkerLiesInTheSun) {
   EXPECT_THAT(PageOf(light), HasSubstr("<b>no sun</b><span>marker"));
 }
 
-TEST(ReportLight, SaysThatTheSunIsDoubtful) {
+TEST(ReportLight, ReportsThatTheSunIsDoubtful) {
   session::LightSummary light = MeasuredSummary();
-  light.measured.sun_source = Source::kStated;
+  light.measured.sun_source = Source::kDescription;
   light.measured.sun_to_sky_error.reset();
   light.measured.sun_doubtful = true;
   light.measured.edges_with_contrast = -0.04;
@@ -266,7 +267,7 @@ TEST(ReportLight, SaysThatTheSunIsDoubtful) {
   EXPECT_THAT(PageOf(light), HasSubstr("<b>0 %</b><span>of 45 edges"));
 }
 
-TEST(ReportLight, SaysThatNoSunShone) {
+TEST(ReportLight, ReportsThatNoSunShone) {
   session::LightSummary light = MeasuredSummary();
   light.measured.sun_shines = false;
   light.measured.sun_to_sky = 0.0;

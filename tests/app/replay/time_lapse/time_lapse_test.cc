@@ -83,19 +83,19 @@ class DayOfABox : public ::testing::Test {
     ASSERT_TRUE(solver);
     scene::SceneDescription scene;
     scene.place_time = Prague();
-    session::LightOrder order{scene.place_time.start,
-                              scene.place_time,
-                              {},
-                              {compositor::StatedSky(scene)},
-                              *std::move(solver),
-                              {},
-                              {},
-                              {}};
+    session::LightingRequest request{scene.place_time.start,
+                                     scene.place_time,
+                                     {},
+                                     {compositor::DescribedSky(scene)},
+                                     *std::move(solver),
+                                     {},
+                                     {},
+                                     {}};
     compositor::CoefficientOptions options;
     options.rays_per_vertex = 64;
-    order.coefficients = std::make_shared<const compositor::DaylightCoefficients>(
-        order.solver->Coefficients({0, 0, 1}, options, {}));
-    auto day = DayRenderer::Create(camera_, placed, std::move(order), {});
+    request.coefficients = std::make_shared<const compositor::DaylightCoefficients>(
+        request.solver->Coefficients({0, 0, 1}, options, {}));
+    auto day = DayRenderer::Create(camera_, placed, std::move(request), {});
     ASSERT_TRUE(day) << day.error().Message();
     day_ = *std::move(day);
     for (int hour = 0; hour < 24; ++hour) {
@@ -112,8 +112,8 @@ class DayOfABox : public ::testing::Test {
   RgbImage Picture(double hour_utc,
                    const Transform<Camera, Marker>& camera_from_marker = camera_from_marker_) {
     const UtcTime time = At(hour_utc);
-    auto picture =
-        day_->Render(camera_from_marker, time, GainOfDay(day_->LevelLight(time), brightest_));
+    auto picture = day_->Render(camera_from_marker, time,
+                                ExposureScaleOfDay(day_->LevelLight(time), brightest_));
     EXPECT_TRUE(picture);
     return picture ? *std::move(picture) : RgbImage(96, 96, 3);
   }

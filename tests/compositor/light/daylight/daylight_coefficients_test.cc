@@ -31,10 +31,10 @@ using testing::UniformDay;
 constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 
-LightScene SceneOf(const std::vector<PlacedModel>& models, double edge_m = 0.1) {
+PatchScene SceneOf(const std::vector<PlacedModel>& models, double edge_m = 0.1) {
   LightSolverOptions options;
   options.near_edge_m = edge_m;
-  auto scene = LightScene::Create(models, options);
+  auto scene = PatchScene::Create(models, options);
   EXPECT_TRUE(scene.has_value());
   return *std::move(scene);
 }
@@ -54,10 +54,10 @@ std::vector<std::array<float, 3>> UnderUniformLight(const DaylightCoefficients& 
                  std::vector<LinearRgb>(total));
 }
 
-/// Mean over a sheet, by area.
-double MeanOver(const LightScene& scene, std::size_t sheet,
+/// Mean over a mesh side, by area.
+double MeanOver(const PatchScene& scene, std::size_t mesh_side,
                 const std::vector<std::array<float, 3>>& light, double* area_m2 = nullptr) {
-  const LightScene::Sheet& s = scene.sheets[sheet];
+  const PatchScene::MeshSide& s = scene.mesh_sides[mesh_side];
   double sum = 0.0, area = 0.0;
   for (std::size_t t = 0; t + 2 < s.mesh.indices.size(); t += 3) {
     std::array<Vec3, 3> p;
@@ -128,7 +128,7 @@ TEST(SkyPatches, KeepTheSunsIrradianceWhereverItStands) {
 }
 
 TEST(DaylightCoefficients, GiveAnUnoccludedPatchTheSkysHorizontalIlluminance) {
-  const LightScene scene = SceneOf({Phantom(Ground(1.0, {0.3F, 0.3F, 0.3F}))});
+  const PatchScene scene = SceneOf({Phantom(Ground(1.0, {0.3F, 0.3F, 0.3F}))});
   const auto coefficients = ComputeCoefficients(scene, kUp, {}, {});
   // Steep towards the zenith, as no patch is.
   class Steep : public UniformDay {
@@ -150,7 +150,7 @@ TEST(DaylightCoefficients, GiveAnUnoccludedPatchTheSkysHorizontalIlluminance) {
 }
 
 TEST(DaylightCoefficients, SumToAWholeHemisphereOnAConvexBody) {
-  const LightScene scene =
+  const PatchScene scene =
       SceneOf({Object(BoxModel({-0.3, -0.3, 0.5}, {0.3, 0.3, 1.1}, {0.5F, 0.5F, 0.5F}))});
   const auto light = UnderUniformLight(ComputeCoefficients(scene, kUp, {}, {}));
   for (const auto& value : light) EXPECT_NEAR(value[1], kPi, 0.01 * kPi);
@@ -163,15 +163,15 @@ TEST(DaylightCoefficients, AreReciprocal) {
   Mesh upright, level;
   AddQuad(&upright, {{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}});
   AddQuad(&level, {{{0, -2, 0}, {1, -2, 0}, {1, 0, 0}, {0, 0, 0}}});
-  const LightScene scene =
+  const PatchScene scene =
       SceneOf({Object(ModelOf(upright, {0, 0, 0})), Object(ModelOf(level, {0, 0, 0}))}, 0.05);
   const auto light =
       UnderUniformLight(ComputeCoefficients(scene, kUp, {.rays_per_vertex = 512}, {}));
   // The side that faces the other one has less light.
   double area1 = 0.0, area2 = 0.0, least1 = 1e9, least2 = 1e9;
-  for (std::size_t sheet = 0; sheet < scene.sheets.size(); ++sheet) {
-    const bool first = scene.sheets[sheet].mesh.placed_model == 0;
-    const double mean = MeanOver(scene, sheet, light, first ? &area1 : &area2);
+  for (std::size_t mesh_side = 0; mesh_side < scene.mesh_sides.size(); ++mesh_side) {
+    const bool first = scene.mesh_sides[mesh_side].mesh.placed_model == 0;
+    const double mean = MeanOver(scene, mesh_side, light, first ? &area1 : &area2);
     (first ? least1 : least2) = std::min(first ? least1 : least2, mean);
   }
   const double f12 = 1 - least1 / kPi, f21 = 1 - least2 / kPi;
@@ -189,7 +189,7 @@ TEST(DaylightCoefficients, KeepAllLightInAWhiteBox) {
     AddQuad(&box, {{{-1, 1, 0}, {1, 1, 0}, {1, 1, 1}, {-1, 1, 1}}});
     AddQuad(&box, {{{-1, -1, 0}, {-1, 1, 0}, {-1, 1, 1}, {-1, -1, 1}}});
     AddQuad(&box, {{{1, -1, 0}, {1, -1, 1}, {1, 1, 1}, {1, 1, 0}}});
-    const LightScene scene = SceneOf({Object(ModelOf(box, {albedo, albedo, albedo}))}, 0.3);
+    const PatchScene scene = SceneOf({Object(ModelOf(box, {albedo, albedo, albedo}))}, 0.3);
     const auto light = UnderUniformLight(
         ComputeCoefficients(scene, kUp, {.rays_per_vertex = 256, .convergence = 1e-4}, {}));
     double sum = 0.0;
@@ -202,7 +202,7 @@ TEST(DaylightCoefficients, KeepAllLightInAWhiteBox) {
 }
 
 TEST(DaylightCoefficients, FollowReflectionsUntilTheyHaveConverged) {
-  const LightScene scene =
+  const PatchScene scene =
       SceneOf({Phantom(Ground(1.5, {0.8F, 0.8F, 0.8F})),
                Object(BoxModel({-0.5, 0.2, 0.0}, {0.5, 0.3, 0.8}, {0.8F, 0.8F, 0.8F}))});
   const auto coarse = ComputeCoefficients(scene, kUp, {.convergence = 0.1}, {});
@@ -290,7 +290,7 @@ TEST_F(Yard, ComesOutOfTheCacheAsItWentIn) {
   EXPECT_TRUE(found.from_cache);
   EXPECT_EQ(found.with.codes(), made.with.codes());
   EXPECT_EQ(found.without.scales(), made.without.scales());
-  // Another geometry, colour or direction of up is another entry.
+  // Another geometry, color or direction of up is another entry.
   auto models = Models();
   models[0] = Phantom(Ground(3.0, {0.4F, 0.35F, 0.31F}));
   auto other = LightSolver::Create(models, {.near_edge_m = 0.2});
@@ -307,7 +307,7 @@ TEST_F(Yard, ComesOutOfTheCacheAsItWentIn) {
   fs::remove_all(folder);
 }
 
-TEST(AddReflections, AddsWithVectorUnitsAsOneByOne) {
+TEST(AddInterreflections, AddsWithVectorUnitsAsOneByOne) {
   std::vector<ChunkLight> light(9);
   for (std::uint32_t v = 0; v < light.size(); ++v) {
     for (std::uint32_t i = 0; i < light[v].size(); ++i) {
@@ -321,8 +321,8 @@ TEST(AddReflections, AddsWithVectorUnitsAsOneByOne) {
         {{&light[i], &light[i + 1], &light[i + 2]}, {1 - u - v, u, v}, {0.5F, 0.1F, 0.03F}});
   }
   ChunkLight fast = light[0], slow = light[0];
-  AddReflections(places, &fast);
-  AddReflectionsScalar(places, &slow);
+  AddInterreflections(places, &fast);
+  AddInterreflectionsScalar(places, &slow);
   EXPECT_GT(slow[0], light[0][0]);
   for (std::size_t i = 0; i < slow.size(); ++i) EXPECT_NEAR(fast[i], slow[i], 1e-5 * slow[i]) << i;
 }

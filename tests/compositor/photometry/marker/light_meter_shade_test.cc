@@ -1,4 +1,4 @@
-// The print as a light meter under leaves, and where a shadow leaves it little of the sun.
+// The marker as a light meter under leaves, and where a shadow leaves it little of the sun.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,20 +12,20 @@
 namespace pleinair::compositor {
 namespace {
 
-using testing::ExpectGain;
+using testing::ExpectExposureScale;
 using testing::kAmbientLux;
 using testing::kCamera;
+using testing::kExposureScale;
 using testing::kFromAbove;
-using testing::kGain;
 using testing::kSunLux;
 using testing::MeterFor;
 using testing::Photograph;
 
-/// A print under leaves that leave between a quarter and all of the sun; no edge divides light from
-/// shade. `blue`: how much of that blue shows, as under a blue sky. `exposure`: of kGain, clipped
-/// at white.
+/// A marker under leaves that leave between a quarter and all of the sun; no edge divides light
+/// from shade. `blue`: how much of that blue shows, as under a blue sky. `exposure`: of
+/// kExposureScale, clipped at white.
 RgbImage UnderLeaves(double blue, double* mean, double exposure = 1.0) {
-  RgbImage picture = Photograph(kGain, -1.0);
+  RgbImage picture = Photograph(kExposureScale, -1.0);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const double leaves = std::sin(0.31 * x + 0.05 * y) * std::sin(0.23 * y - 0.08 * x);
@@ -42,34 +42,34 @@ RgbImage UnderLeaves(double blue, double* mean, double exposure = 1.0) {
   return picture;
 }
 
-TEST(LightMeter, TakesTheBrightestSpotsUnderLeaves) {
+TEST(MarkerLightMeter, TakesTheBrightestSamplesUnderLeaves) {
   double mean = 0.0;
   const RgbImage picture = UnderLeaves(1.0, &mean);
   ASSERT_LT(mean, 0.8) << "the middle of the light is far below the sun";
-  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
-  ASSERT_TRUE(reading);
-  EXPECT_TRUE(reading->dappled);
+  const auto estimate = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ASSERT_TRUE(estimate);
+  EXPECT_TRUE(estimate->dappled);
   EXPECT_FALSE(MeterFor(-1.0).FindShadow(picture.view(), kCamera, kFromAbove));
-  EXPECT_GT(reading->error.g, 0.10);
-  EXPECT_NEAR(reading->gain.r / kGain.r, 1.0, 0.08);
-  EXPECT_NEAR(reading->gain.g / kGain.g, 1.0, 0.08);
-  EXPECT_NEAR(reading->gain.b / kGain.b, 1.0, 0.08);
+  EXPECT_GT(estimate->error.g, 0.10);
+  EXPECT_NEAR(estimate->exposure_scale.r / kExposureScale.r, 1.0, 0.08);
+  EXPECT_NEAR(estimate->exposure_scale.g / kExposureScale.g, 1.0, 0.08);
+  EXPECT_NEAR(estimate->exposure_scale.b / kExposureScale.b, 1.0, 0.08);
 }
 
-TEST(LightMeter, TakesTheSameSpotsUnderLeavesForEachChannel) {
+TEST(MarkerLightMeter, TakesTheSameSamplesUnderLeavesForEachChannel) {
   // So little that blue by itself would be taken for evenly lit, at the middle of its light.
   double mean = 0.0;
   const RgbImage picture = UnderLeaves(0.35, &mean);
-  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
-  ASSERT_TRUE(reading);
-  EXPECT_TRUE(reading->dappled);
-  EXPECT_LT(reading->error.b, 0.10);
-  EXPECT_GT(reading->error.g, 0.10);
-  const double bright_g = reading->gain.g / kGain.g;
-  EXPECT_NEAR(reading->gain.b / kGain.b, 1.0 - 0.35 * (1.0 - bright_g), 0.02);
+  const auto estimate = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ASSERT_TRUE(estimate);
+  EXPECT_TRUE(estimate->dappled);
+  EXPECT_LT(estimate->error.b, 0.10);
+  EXPECT_GT(estimate->error.g, 0.10);
+  const double bright_g = estimate->exposure_scale.g / kExposureScale.g;
+  EXPECT_NEAR(estimate->exposure_scale.b / kExposureScale.b, 1.0 - 0.35 * (1.0 - bright_g), 0.02);
 }
 
-TEST(LightMeter, TakesTheSameSpotsUnderLeavesWhereOneChannelIsClipped) {
+TEST(MarkerLightMeter, TakesTheSameSamplesUnderLeavesWhereOneChannelIsClipped) {
   double mean = 0.0;
   RgbImage picture = UnderLeaves(1.0, &mean);
   // Half as much again of red: clipped on the very brightest spots, though not on most.
@@ -79,32 +79,34 @@ TEST(LightMeter, TakesTheSameSpotsUnderLeavesWhereOneChannelIsClipped) {
       picture(x, y, 0) = Srgb8FromLinear(std::min(red, 1.0));
     }
   }
-  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
-  ASSERT_TRUE(reading);
-  ASSERT_TRUE(reading->dappled);
-  EXPECT_NEAR(reading->gain.r / reading->gain.g, 1.5 * kGain.r / kGain.g, 0.03);
-  EXPECT_NEAR(reading->gain.b / reading->gain.g, kGain.b / kGain.g, 0.03);
+  const auto estimate = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ASSERT_TRUE(estimate);
+  ASSERT_TRUE(estimate->dappled);
+  EXPECT_NEAR(estimate->exposure_scale.r / estimate->exposure_scale.g,
+              1.5 * kExposureScale.r / kExposureScale.g, 0.03);
+  EXPECT_NEAR(estimate->exposure_scale.b / estimate->exposure_scale.g,
+              kExposureScale.b / kExposureScale.g, 0.03);
 }
 
-TEST(LightMeter, ReadsTheSunUnderLeavesWhereItClipsEvenMostOfThePrint) {
+TEST(MarkerLightMeter, ReadsTheSunUnderLeavesWhereItClipsEvenMostOfTheMarker) {
   // White clips wherever more than half of the sun is: most spots that are left are half-lit.
   for (const double exposure : {1.6, 2.2}) {
     double mean = 0.0;
     const RgbImage picture = UnderLeaves(1.0, &mean, exposure);
-    const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
-    ASSERT_TRUE(reading);
-    EXPECT_TRUE(reading->dappled);
-    EXPECT_NEAR(reading->gain.r / (exposure * kGain.r), 1.0, 0.1) << exposure;
-    EXPECT_NEAR(reading->gain.g / (exposure * kGain.g), 1.0, 0.1) << exposure;
-    EXPECT_NEAR(reading->gain.b / (exposure * kGain.b), 1.0, 0.1) << exposure;
+    const auto estimate = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(estimate);
+    EXPECT_TRUE(estimate->dappled);
+    EXPECT_NEAR(estimate->exposure_scale.r / (exposure * kExposureScale.r), 1.0, 0.1) << exposure;
+    EXPECT_NEAR(estimate->exposure_scale.g / (exposure * kExposureScale.g), 1.0, 0.1) << exposure;
+    EXPECT_NEAR(estimate->exposure_scale.b / (exposure * kExposureScale.b), 1.0, 0.1) << exposure;
   }
 }
 
-/// Phantoms leave the print's right side in the sun, and something else of that side a strip of
+/// Phantoms leave the marker's right side in the sun, and something else of that side a strip of
 /// `sunlit_m`. `half_light`: of the strip's light, where it ends; towards its middle all is left.
 RgbImage SunlitStrip(double sunlit_m, double half_light) {
-  RgbImage picture = Photograph(kGain, 1.0);
-  const RgbImage sunlit = Photograph(kGain, -1.0);
+  RgbImage picture = Photograph(kExposureScale, 1.0);
+  const RgbImage sunlit = Photograph(kExposureScale, -1.0);
   const int half = static_cast<int>(sunlit_m / 2 * kCamera.fy);
   for (int y = 120 - half; y <= 120 + half; ++y) {
     const double left = 1.0 - (1.0 - half_light) * std::abs(y - 120) / half;
@@ -119,24 +121,24 @@ RgbImage SunlitStrip(double sunlit_m, double half_light) {
 
 constexpr double kStripFromX_m = 0.17;
 
-TEST(LightMeter, ReadsTheSunOffTheFewSpotsThatAShadowLeavesIt) {
+TEST(MarkerLightMeter, ReadsTheSunOffTheFewSamplesThatAShadowLeavesIt) {
   const RgbImage picture = SunlitStrip(0.06, 1.0);
-  const auto reading = MeterFor(kStripFromX_m).Measure(picture.view(), kCamera, kFromAbove);
-  ExpectGain(reading, kGain);
-  EXPECT_LT(reading->pairs, LightMeter::kMinimumPairs);
-  EXPECT_FALSE(reading->dappled) << "a sharp edge and one level are no leaves";
+  const auto estimate = MeterFor(kStripFromX_m).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectExposureScale(estimate, kExposureScale);
+  EXPECT_LT(estimate->pairs, MarkerLightMeter::kMinimumPairs);
+  EXPECT_FALSE(estimate->dappled) << "a sharp edge and one level are no leaves";
 }
 
-TEST(LightMeter, TakesAFewSpotsOfUnevenLightForASpotBetweenLeaves) {
+TEST(MarkerLightMeter, TakesAFewSamplesOfUnevenLightForASampleBetweenLeaves) {
   const RgbImage picture = SunlitStrip(0.06, 0.5);
-  const auto reading = MeterFor(kStripFromX_m).Measure(picture.view(), kCamera, kFromAbove);
-  ASSERT_TRUE(reading);
-  EXPECT_LT(reading->pairs, LightMeter::kMinimumPairs);
-  EXPECT_TRUE(reading->dappled);
-  EXPECT_GT(reading->error.g, 0.1);
+  const auto estimate = MeterFor(kStripFromX_m).Measure(picture.view(), kCamera, kFromAbove);
+  ASSERT_TRUE(estimate);
+  EXPECT_LT(estimate->pairs, MarkerLightMeter::kMinimumPairs);
+  EXPECT_TRUE(estimate->dappled);
+  EXPECT_GT(estimate->error.g, 0.1);
 }
 
-TEST(LightMeter, SaysNothingWhereAShadowLeavesFewerThanSixSpotsInTheSun) {
+TEST(MarkerLightMeter, ReportsNothingWhereAShadowLeavesFewerThanSixSamplesInTheSun) {
   // Of the right side's pairs something covers half, so that few are enough for a level.
   const auto measure = [](double sunlit_m) {
     RgbImage picture = SunlitStrip(sunlit_m, 1.0);
@@ -148,14 +150,14 @@ TEST(LightMeter, SaysNothingWhereAShadowLeavesFewerThanSixSpotsInTheSun) {
     return MeterFor(kStripFromX_m).Measure(picture.view(), kCamera, kFromAbove);
   };
   EXPECT_FALSE(measure(0.026));
-  ExpectGain(measure(0.06), kGain);
+  ExpectExposureScale(measure(0.06), kExposureScale);
 }
 
-TEST(LightMeter, ChangesLittleWhereLeavesBeginToShow) {
+TEST(MarkerLightMeter, ChangesLittleWhereLeavesBeginToShow) {
   double before = 0.0;
   bool even = false, dappled = false;
   for (int step = 10; step <= 60; ++step) {
-    RgbImage picture = Photograph(kGain, -1.0);
+    RgbImage picture = Photograph(kExposureScale, -1.0);
     for (int y = 0; y < picture.height(); ++y) {
       for (int x = 0; x < picture.width(); ++x) {
         const double leaves = std::sin(0.31 * x + 0.05 * y) * std::sin(0.23 * y - 0.08 * x);
@@ -165,13 +167,13 @@ TEST(LightMeter, ChangesLittleWhereLeavesBeginToShow) {
         }
       }
     }
-    const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
-    ASSERT_TRUE(reading);
-    (reading->dappled ? dappled : even) = true;
+    const auto estimate = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(estimate);
+    (estimate->dappled ? dappled : even) = true;
     if (step > 10) {
-      EXPECT_NEAR(reading->gain.g / before, 1.0, 0.03) << step;
+      EXPECT_NEAR(estimate->exposure_scale.g / before, 1.0, 0.03) << step;
     }
-    before = reading->gain.g;
+    before = estimate->exposure_scale.g;
   }
   EXPECT_TRUE(even && dappled);
 }

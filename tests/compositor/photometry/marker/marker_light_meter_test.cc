@@ -17,36 +17,36 @@
 namespace pleinair::compositor {
 namespace {
 
-using testing::ExpectGain;
+using testing::ExpectExposureScale;
 using testing::kAmbientLux;
 using testing::kCamera;
+using testing::kExposureScale;
 using testing::kFromAbove;
-using testing::kGain;
-using testing::kPrint;
+using testing::kMarker;
 using testing::kSunLux;
 using testing::MeterFor;
 using testing::Photograph;
 
-TEST(LightMeter, ReadsExposureAndWhiteBalanceOfASunlitPrint) {
-  const RgbImage picture = Photograph(kGain, -1.0);
-  const auto reading = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
-  ExpectGain(reading, kGain);
-  EXPECT_LT(std::max({reading->error.r, reading->error.g, reading->error.b}), 0.005);
-  EXPECT_FALSE(reading->dappled);
-  EXPECT_EQ(reading->lit_share, 1.0);
+TEST(MarkerLightMeter, ReadsExposureAndWhiteBalanceOfASunlitMarker) {
+  const RgbImage picture = Photograph(kExposureScale, -1.0);
+  const auto estimate = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectExposureScale(estimate, kExposureScale);
+  EXPECT_LT(std::max({estimate->error.r, estimate->error.g, estimate->error.b}), 0.005);
+  EXPECT_FALSE(estimate->dappled);
+  EXPECT_EQ(estimate->sunlit_share, 1.0);
 }
 
-TEST(LightMeter, TellsHowCertainItsReadingIs) {
+TEST(MarkerLightMeter, EstimatesHowCertainItsReadingIs) {
   // More noise in green: gains scatter from picture to picture as each says of itself.
   constexpr int kPictures = 60;
-  const RgbImage clean = Photograph(kGain, -1.0);
-  const LightMeter meter = MeterFor(-1.0);
+  const RgbImage clean = Photograph(kExposureScale, -1.0);
+  const MarkerLightMeter meter = MeterFor(-1.0);
   std::mt19937 random(5);
   std::normal_distribution<double> noise;
   LinearRgb said;
   std::array<double, 3> sum{}, squares{};
   for (int i = 0; i < kPictures; ++i) {
-    RgbImage picture = Photograph(kGain, -1.0);
+    RgbImage picture = Photograph(kExposureScale, -1.0);
     for (int y = 0; y < picture.height(); ++y) {
       for (int x = 0; x < picture.width(); ++x) {
         for (const int c : {0, 1, 2}) {
@@ -55,11 +55,11 @@ TEST(LightMeter, TellsHowCertainItsReadingIs) {
         }
       }
     }
-    const auto reading = meter.Measure(picture.view(), kCamera, kFromAbove);
-    ASSERT_TRUE(reading);
-    ASSERT_FALSE(reading->dappled);
-    said = said + reading->error * (1.0 / kPictures);
-    const LinearRgb off = reading->gain / kGain;
+    const auto estimate = meter.Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(estimate);
+    ASSERT_FALSE(estimate->dappled);
+    said = said + estimate->error * (1.0 / kPictures);
+    const LinearRgb off = estimate->exposure_scale / kExposureScale;
     for (const int c : {0, 1, 2}) {
       const std::array values{off.r, off.g, off.b};
       const double value = values[c];
@@ -76,30 +76,30 @@ TEST(LightMeter, TellsHowCertainItsReadingIs) {
   }
 }
 
-TEST(LightMeter, KnowsWhichPartLiesInThePhantomsShadow) {
-  const RgbImage picture = Photograph(kGain, 0.05);
-  const auto reading = MeterFor(0.05).Measure(picture.view(), kCamera, kFromAbove);
-  ExpectGain(reading, kGain);
-  EXPECT_GT(reading->lit_share, 0.2);
-  EXPECT_LT(reading->lit_share, 0.8);
+TEST(MarkerLightMeter, KnowsWhichPartLiesInThePhantomsShadow) {
+  const RgbImage picture = Photograph(kExposureScale, 0.05);
+  const auto estimate = MeterFor(0.05).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectExposureScale(estimate, kExposureScale);
+  EXPECT_GT(estimate->sunlit_share, 0.2);
+  EXPECT_LT(estimate->sunlit_share, 0.8);
 }
 
-TEST(LightMeter, ReadsAPrintThatLiesWhollyInShadow) {
-  const RgbImage picture = Photograph(kGain * 5.0, 1.0);
-  const auto reading = MeterFor(1.0).Measure(picture.view(), kCamera, kFromAbove);
-  ExpectGain(reading, kGain * 5.0);
-  EXPECT_EQ(reading->lit_share, 0.0);
+TEST(MarkerLightMeter, ReadsAMarkerThatLiesWhollyInShadow) {
+  const RgbImage picture = Photograph(kExposureScale * 5.0, 1.0);
+  const auto estimate = MeterFor(1.0).Measure(picture.view(), kCamera, kFromAbove);
+  ExpectExposureScale(estimate, kExposureScale * 5.0);
+  EXPECT_EQ(estimate->sunlit_share, 0.0);
 }
 
-TEST(LightMeter, TakesTheSunlitPartWhenAnUnknownShadowCrossesThePrint) {
-  const RgbImage picture = Photograph(kGain, 0.05);
-  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
+TEST(MarkerLightMeter, TakesTheSunlitPartWhenAnUnknownShadowCrossesTheMarker) {
+  const RgbImage picture = Photograph(kExposureScale, 0.05);
+  ExpectExposureScale(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kExposureScale);
 }
 
-TEST(LightMeter, TellsHowDeepTheShadowIsThatDividesThePrint) {
+TEST(MarkerLightMeter, EstimatesHowDeepTheShadowIsThatDividesTheMarker) {
   const double contrast = std::log((kAmbientLux + kSunLux) / kAmbientLux);
-  const auto expect = [&](const LightMeter& meter, double shadow_to_x_m, double veil) {
-    const RgbImage picture = Photograph(kGain, shadow_to_x_m, veil);
+  const auto expect = [&](const MarkerLightMeter& meter, double shadow_to_x_m, double veil) {
+    const RgbImage picture = Photograph(kExposureScale, shadow_to_x_m, veil);
     const auto shadow = meter.FindShadow(picture.view(), kCamera, kFromAbove);
     ASSERT_TRUE(shadow);
     EXPECT_NEAR(shadow->contrast.r, contrast, 0.05);
@@ -113,17 +113,17 @@ TEST(LightMeter, TellsHowDeepTheShadowIsThatDividesThePrint) {
   expect(MeterFor(0.05), 0.05, 0.0);   // and of a phantom.
 }
 
-TEST(LightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
+TEST(MarkerLightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
   const auto shadow = [](const RgbImage& picture) {
-    const LightMeter meter = MeterFor(-1.0);
+    const MarkerLightMeter meter = MeterFor(-1.0);
     EXPECT_TRUE(meter.Measure(picture.view(), kCamera, kFromAbove));
     return meter.FindShadow(picture.view(), kCamera, kFromAbove);
   };
-  EXPECT_FALSE(shadow(Photograph(kGain, -1.0)));
-  // Grey things on the print, in the sun: over all of it to the left, over white or black alone.
+  EXPECT_FALSE(shadow(Photograph(kExposureScale, -1.0)));
+  // Grey things on the marker, in the sun: over all of it to the left, over white or black alone.
   const auto with_cover = [](double share_of_white, const auto& covers) {
-    RgbImage picture = Photograph(kGain, -1.0);
-    const RgbImage grey = Photograph(kGain * share_of_white, -1.0, 0.0,
+    RgbImage picture = Photograph(kExposureScale, -1.0);
+    const RgbImage grey = Photograph(kExposureScale * share_of_white, -1.0, 0.0,
                                      {.size_m = 0.0, .board_size_m = 0.5, .black_band_m = 0.05});
     for (int y = 0; y < picture.height(); ++y) {
       for (int x = 0; x < picture.width(); ++x) {
@@ -140,34 +140,35 @@ TEST(LightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
       shadow(with_cover(0.7, [](int x, int) { return x >= -kEdgePx && x < -kEdgePx / 2; })));
 }
 
-TEST(LightMeter, CancelsVeilingGlare) {
-  const RgbImage picture = Photograph(kGain, -1.0, 0.05);
-  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
+TEST(MarkerLightMeter, CancelsVeilingGlare) {
+  const RgbImage picture = Photograph(kExposureScale, -1.0, 0.05);
+  ExpectExposureScale(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kExposureScale);
 }
 
-TEST(LightMeter, FallsBackToTheBlackWhereTheWhiteIsClipped) {
-  const RgbImage picture = Photograph(kGain * 3.0, -1.0);
-  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain * 3.0);
+TEST(MarkerLightMeter, FallsBackToTheBlackWhereTheWhiteIsClipped) {
+  const RgbImage picture = Photograph(kExposureScale * 3.0, -1.0);
+  ExpectExposureScale(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove),
+                      kExposureScale * 3.0);
 }
 
-TEST(LightMeter, ReadsAnEvenPrintThroughNoiseAndGlareWhereItBeginsToClip) {
+TEST(MarkerLightMeter, ReadsAnEvenMarkerThroughNoiseAndGlareWhereItBeginsToClip) {
   constexpr double kVeil = 0.006;
-  const LightMeter meter = MeterFor(-1.0);
+  const MarkerLightMeter meter = MeterFor(-1.0);
   std::mt19937 random(11);
   std::normal_distribution<double> noise(0.0, 4.0);
   double before = 1.0;
   // Red clips from 1.4 on, green from 1.7, blue from 2.1.
   for (int step = 0; step < 70; ++step) {
     const double exposure = 1.2 + 0.02 * step;
-    RgbImage picture = Photograph(kGain * exposure, -1.0, kVeil);
+    RgbImage picture = Photograph(kExposureScale * exposure, -1.0, kVeil);
     for (std::size_t i = 0; i < picture.size(); ++i) {
       const double code = std::clamp(picture.data()[i] + noise(random), 0.0, 255.0);
       picture.data()[i] = static_cast<std::uint8_t>(std::lround(code));
     }
-    const auto reading = meter.Measure(picture.view(), kCamera, kFromAbove);
-    ASSERT_TRUE(reading) << exposure;
-    EXPECT_FALSE(reading->dappled) << exposure;
-    const LinearRgb off = reading->gain / (kGain * exposure);
+    const auto estimate = meter.Measure(picture.view(), kCamera, kFromAbove);
+    ASSERT_TRUE(estimate) << exposure;
+    EXPECT_FALSE(estimate->dappled) << exposure;
+    const LinearRgb off = estimate->exposure_scale / (kExposureScale * exposure);
     // Blacks alone have the glare in them: 0.006 of 0.05.
     const double most = exposure < 2.0 ? 0.07 : 0.18;
     EXPECT_NEAR(off.r, 1.0, most) << exposure;
@@ -181,50 +182,51 @@ TEST(LightMeter, ReadsAnEvenPrintThroughNoiseAndGlareWhereItBeginsToClip) {
   }
 }
 
-TEST(LightMeter, ReadsCodesByTheCamerasOwnResponse) {
+TEST(MarkerLightMeter, ReadsCodesByTheCamerasOwnResponse) {
   const CameraResponse gentle = testing::GentleResponse();
   // Well exposed, and so bright that the white clips.
   for (const double exposure : {1.0, 3.0}) {
-    const RgbImage picture = Photograph(kGain * exposure, -1.0, 0.0, kPrint, gentle);
-    ExpectGain(MeterFor(-1.0, gentle).Measure(picture.view(), kCamera, kFromAbove),
-               kGain * exposure);
+    const RgbImage picture = Photograph(kExposureScale * exposure, -1.0, 0.0, kMarker, gentle);
+    ExpectExposureScale(MeterFor(-1.0, gentle).Measure(picture.view(), kCamera, kFromAbove),
+                        kExposureScale * exposure);
     const auto wrong = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
     ASSERT_TRUE(wrong);
-    EXPECT_GT(std::fabs(std::log(wrong->gain.b / (kGain.b * exposure))), 0.15) << exposure;
+    EXPECT_GT(std::fabs(std::log(wrong->exposure_scale.b / (kExposureScale.b * exposure))), 0.15)
+        << exposure;
   }
 }
 
-TEST(LightMeter, SaysNothingOfAPrintWithBlackOutsideAndWhiteInside) {
-  scene::MarkerPrint reversed = kPrint;
+TEST(MarkerLightMeter, ReportsNothingOfAMarkerWithBlackOutsideAndWhiteInside) {
+  scene::MarkerReflectance reversed = kMarker;
   std::swap(reversed.albedo_black, reversed.albedo_white);
   // Dark, well exposed, and so bright that the white clips.
   for (const double exposure : {0.2, 1.0, 1.3, 3.0}) {
-    const RgbImage picture = Photograph(kGain * exposure, -1.0, 0.0, reversed);
+    const RgbImage picture = Photograph(kExposureScale * exposure, -1.0, 0.0, reversed);
     EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove).has_value())
         << exposure;
   }
 }
 
-TEST(LightMeter, SaysNothingOfAnEvenlyColouredSurface) {
-  scene::MarkerPrint even = kPrint;
+TEST(MarkerLightMeter, ReportsNothingOfAnEvenlyColoredSurface) {
+  scene::MarkerReflectance even = kMarker;
   even.albedo_black = even.albedo_white;
-  const RgbImage picture = Photograph(kGain, -1.0, 0.0, even);
+  const RgbImage picture = Photograph(kExposureScale, -1.0, 0.0, even);
   EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove).has_value());
 }
 
-TEST(LightMeter, ReadsThePartOfAPrintThatGlareLeaves) {
-  // A strip over the print's right side reflects the sun: there black looks like white.
-  RgbImage picture = Photograph(kGain, -1.0);
+TEST(MarkerLightMeter, ReadsThePartOfAMarkerThatGlareLeaves) {
+  // A strip over the marker's right side reflects the sun: there black looks like white.
+  RgbImage picture = Photograph(kExposureScale, -1.0);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 200; x < picture.width(); ++x) {
       for (int c = 0; c < 3; ++c) picture(x, y, c) = 180;
     }
   }
-  ExpectGain(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kGain);
+  ExpectExposureScale(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove), kExposureScale);
 }
 
-TEST(LightMeter, SaysNothingOfAMarkerThatIsTooSmallOrOutOfThePicture) {
-  const RgbImage picture = Photograph(kGain, -1.0);
+TEST(MarkerLightMeter, ReportsNothingOfAMarkerThatIsTooSmallOrOutOfThePicture) {
+  const RgbImage picture = Photograph(kExposureScale, -1.0);
   Transform<Camera, Marker> far = kFromAbove;
   far.translation_m.z = 8.0;
   EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, far).has_value());

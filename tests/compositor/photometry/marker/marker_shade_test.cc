@@ -18,28 +18,29 @@ void ExpectNear(LinearRgb value, LinearRgb expected) {
   EXPECT_NEAR(value.b / expected.b, 1.0, 1e-3);
 }
 
-TEST(PrintShade, IsThatOfAPrintWithAPartOfTheSun) {
+TEST(MarkerShadeCorrection, IsThatOfAMarkerWithAPartOfTheSun) {
   for (const double part : {0.0, 0.1, 0.5, 0.9}) {
-    ExpectNear(PrintShade(std::exp(MeanLog(OpenOver(part))), kSun, kSky), OpenOver(part));
+    ExpectNear(MarkerShadeCorrection(std::exp(MeanLog(OpenOver(part))), kSun, kSky),
+               OpenOver(part));
   }
 }
 
-TEST(PrintShade, IsBluerThanTheOpen) {
-  const LinearRgb shade = PrintShade(2.0, kSun, kSky);
+TEST(MarkerShadeCorrection, IsBluerThanTheOpen) {
+  const LinearRgb shade = MarkerShadeCorrection(2.0, kSun, kSky);
   EXPECT_GT(shade.r, 1.2 * shade.b) << "what is missing is the sun's colour";
 }
 
-TEST(PrintShade, TakesTheRootOfWhatIsMoreThanAllTheSun) {
+TEST(MarkerShadeCorrection, TakesTheRootOfWhatIsMoreThanAllTheSun) {
   const double all_sun = std::exp(MeanLog(OpenOver(0.0)));
   for (const double more : {1.1, 1.5, 2.0}) {
-    ExpectNear(PrintShade(all_sun * more, kSun, kSky), OpenOver(0.0) * std::sqrt(more));
+    ExpectNear(MarkerShadeCorrection(all_sun * more, kSun, kSky), OpenOver(0.0) * std::sqrt(more));
   }
 }
 
-TEST(PrintShade, IsNoneWhereThePrintIsNoDarkerOrThereIsNoSun) {
-  ExpectNear(PrintShade(1.0, kSun, kSky), {1, 1, 1});
-  ExpectNear(PrintShade(0.7, kSun, kSky), {1, 1, 1});
-  EXPECT_EQ(PrintShade(1.8, {}, kSky), (LinearRgb{1, 1, 1}));
+TEST(MarkerShadeCorrection, IsNoneWhereTheMarkerIsNoDarkerOrThereIsNoSun) {
+  ExpectNear(MarkerShadeCorrection(1.0, kSun, kSky), {1, 1, 1});
+  ExpectNear(MarkerShadeCorrection(0.7, kSun, kSky), {1, 1, 1});
+  EXPECT_EQ(MarkerShadeCorrection(1.8, {}, kSky), (LinearRgb{1, 1, 1}));
 }
 
 }  // namespace

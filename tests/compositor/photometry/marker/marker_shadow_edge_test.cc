@@ -18,9 +18,9 @@ const LinearRgb kSky{0.9, 1.0, 1.25}, kSun{4.9, 4.7, 4.3};
 const LinearRgb kDepth{std::log1p(kSun.r / kSky.r / 2), std::log1p(kSun.g / kSky.g / 2),
                        std::log1p(kSun.b / kSky.b / 2)};
 
-/// Pairs along a print's edges, where `sun` (0…1) of the sun arrives, under a veil.
-std::vector<PrintPair> PairsIn(const std::function<double(Vec3)>& sun, double veil = 0.0) {
-  std::vector<PrintPair> pairs;
+/// Pairs along a marker's edges, where `sun` (0…1) of the sun arrives, under a veil.
+std::vector<MarkerPair> PairsIn(const std::function<double(Vec3)>& sun, double veil = 0.0) {
+  std::vector<MarkerPair> pairs;
   constexpr int kASide = 40;
   for (int side = 0; side < 4; ++side) {
     for (int i = 0; i < kASide; ++i) {
@@ -35,8 +35,8 @@ std::vector<PrintPair> PairsIn(const std::function<double(Vec3)>& sun, double ve
   return pairs;
 }
 
-std::optional<PrintShadow> Find(const std::vector<PrintPair>& pairs) {
-  return FindPrintShadow(pairs, kDepth, kBlackShare);
+std::optional<MarkerShadowEdge> Find(const std::vector<MarkerPair>& pairs) {
+  return FindMarkerShadowEdge(pairs, kDepth, kBlackShare);
 }
 
 /// Sunlight across a shadow's edge through `at`, of a sun's disc: `width_m` from all to nothing.
@@ -48,7 +48,7 @@ std::function<double(Vec3)> Edge(double angle, double at_m, double width_m) {
   };
 }
 
-TEST(PrintShadow, FindsHowDeepASharpShadowIs) {
+TEST(MarkerShadowEdge, FindsHowDeepASharpShadowIs) {
   for (const double angle : {0.0, 0.4, 0.8, 2.0, 4.4}) {
     for (const double at : {-0.1, 0.0, 0.1}) {
       for (const double veil : {0.0, 0.3}) {
@@ -64,8 +64,8 @@ TEST(PrintShadow, FindsHowDeepASharpShadowIs) {
   }
 }
 
-TEST(PrintShadow, LeavesHalfLightAlone) {
-  // Of a roof or a crown far off: as wide as half of the print and more. Wherever its edge lies.
+TEST(MarkerShadowEdge, LeavesHalfLightAlone) {
+  // Of a roof or a crown far off: as wide as half of the marker and more. Wherever its edge lies.
   for (const double width : {0.5, 1.0, 1.5, 2.0, 4.0}) {
     for (int step = 0; step < 16; ++step) {
       const double angle = 0.1 * step;
@@ -83,10 +83,10 @@ TEST(PrintShadow, LeavesHalfLightAlone) {
   EXPECT_FALSE(Find(PairsIn([](Vec3 p) { return 0.5 + (p.x + p.y) / kSize / 2; })));
 }
 
-TEST(PrintShadow, TakesNothingThatLiesOnThePrintForAShadow) {
+TEST(MarkerShadowEdge, TakesNothingThatLiesOnTheMarkerForAShadow) {
   const auto covered = [](double white, double black) {
-    std::vector<PrintPair> pairs = PairsIn([](Vec3) { return 1.0; });
-    for (PrintPair& pair : pairs) {
+    std::vector<MarkerPair> pairs = PairsIn([](Vec3) { return 1.0; });
+    for (MarkerPair& pair : pairs) {
       if (pair.place.xyz.x > 0.0) continue;
       pair.step = pair.step * ((white - black) / (kWhite - kBlack));
       pair.black *= black / kBlack;
@@ -100,12 +100,12 @@ TEST(PrintShadow, TakesNothingThatLiesOnThePrintForAShadow) {
   EXPECT_FALSE(Find(covered(kWhite, 0.75 * kWhite)));     // and over the black.
 }
 
-TEST(PrintShadow, LooksForNoneWithoutASunOrWithFewPairs) {
-  const std::vector<PrintPair> pairs = PairsIn(Edge(0.0, 0.0, 0.01));
+TEST(MarkerShadowEdge, LooksForNoneWithoutASunOrWithFewPairs) {
+  const std::vector<MarkerPair> pairs = PairsIn(Edge(0.0, 0.0, 0.01));
   ASSERT_TRUE(Find(pairs));
-  EXPECT_FALSE(FindPrintShadow(pairs, {}, kBlackShare));
-  EXPECT_FALSE(FindPrintShadow({}, kDepth, kBlackShare));
-  EXPECT_FALSE(FindPrintShadow(std::span(pairs).first(20), kDepth, kBlackShare));
+  EXPECT_FALSE(FindMarkerShadowEdge(pairs, {}, kBlackShare));
+  EXPECT_FALSE(FindMarkerShadowEdge({}, kDepth, kBlackShare));
+  EXPECT_FALSE(FindMarkerShadowEdge(std::span(pairs).first(20), kDepth, kBlackShare));
 }
 
 }  // namespace

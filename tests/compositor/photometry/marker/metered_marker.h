@@ -1,6 +1,6 @@
 #pragma once
 
-// A print photographed from above in light that is known, and its light meter.
+// A marker photographed from above in light that is known, and its light meter.
 
 #include <gtest/gtest.h>
 
@@ -29,12 +29,12 @@ class OverheadSun : public sky::SkyModel {
   Direction<World> ToSun() const override { return {{0, 0, 1}}; }
 };
 
-/// Phantoms that leave half the print (x below `shadow_to_x_m`) in shadow.
+/// Phantoms that leave half the marker (x below `shadow_to_x_m`) in shadow.
 class HalfShadow : public LightSolver {
  public:
   explicit HalfShadow(double shadow_to_x_m) : shadow_to_x_m_(shadow_to_x_m) {}
   std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel&, const Mat3&,
-                                       const SeenSunlight&) const override {
+                                       const SunTransmittanceMap&) const override {
     return {};
   }
   DaylightCoefficients Coefficients(Vec3, const CoefficientOptions&,
@@ -48,7 +48,7 @@ class HalfShadow : public LightSolver {
   double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3) const override {
     return point.xyz.x < shadow_to_x_m_ ? 0.0 : 1.0;
   }
-  bool ReachesPhantomsOnly(Point<Marker>, Vec3) const override { return true; }
+  bool IsUnoccludedPhantomsOnly(Point<Marker>, Vec3) const override { return true; }
   std::optional<PhantomSurface> FirstPhantom(Point<Marker>, Vec3) const override { return {}; }
   std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3,
                                              const sky::SkyModel&, const Mat3&,
@@ -56,7 +56,7 @@ class HalfShadow : public LightSolver {
     return std::vector<LinearRgb>(points.size(), {kAmbientLux, kAmbientLux, kAmbientLux});
   }
   LinearRgb RadianceFromBelow(const sky::SkyModel&, const Mat3&,
-                              const SeenSunlight&) const override {
+                              const SunTransmittanceMap&) const override {
     return {};
   }
 
@@ -64,44 +64,49 @@ class HalfShadow : public LightSolver {
   double shadow_to_x_m_;
 };
 
-inline const scene::MarkerPrint kPrint{.size_m = 0.4, .board_size_m = 0.5, .black_band_m = 0.05};
+inline const scene::MarkerReflectance kMarker{
+    .size_m = 0.4, .board_size_m = 0.5, .black_band_m = 0.05};
 inline const CameraModel kCamera{
     .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};
-// One metre above the print, looking straight down.
+// One metre above the marker, looking straight down.
 inline const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 1}};
 
-/// The print in the light of OverheadSun; left of `shadow_to_x_m` in shadow, and an even veil
+/// The marker in the light of OverheadSun; left of `shadow_to_x_m` in shadow, and an even veil
 /// added.
-inline RgbImage Photograph(LinearRgb gain, double shadow_to_x_m, double veil = 0.0,
-                           const scene::MarkerPrint& print = kPrint,
+inline RgbImage Photograph(LinearRgb exposure_scale, double shadow_to_x_m, double veil = 0.0,
+                           const scene::MarkerReflectance& marker = kMarker,
                            const CameraResponse& response = {}) {
   RgbImage picture(kCamera.width, kCamera.height, 3);
   for (int y = 0; y < kCamera.height; ++y) {
     for (int x = 0; x < kCamera.width; ++x) {
       const Vec2 ray = UndistortPixel(kCamera, {static_cast<double>(x), static_cast<double>(y)});
       const double distance = std::max(std::fabs(ray.x), std::fabs(ray.y));
-      const double albedo = distance < print.size_m / 2 ? print.albedo_black : print.albedo_white;
+      const double albedo =
+          distance < marker.size_m / 2 ? marker.albedo_black : marker.albedo_white;
       const double lux = kAmbientLux + (ray.x < shadow_to_x_m ? 0.0 : kSunLux);
       const double radiance = albedo * lux / std::numbers::pi;
-      picture(x, y, 0) = response.Encoded8(gain.r * radiance + veil, 0);
-      picture(x, y, 1) = response.Encoded8(gain.g * radiance + veil, 1);
-      picture(x, y, 2) = response.Encoded8(gain.b * radiance + veil, 2);
+      picture(x, y, 0) = response.Encoded8(exposure_scale.r * radiance + veil, 0);
+      picture(x, y, 1) = response.Encoded8(exposure_scale.g * radiance + veil, 1);
+      picture(x, y, 2) = response.Encoded8(exposure_scale.b * radiance + veil, 2);
     }
   }
   return picture;
 }
 
-inline LightMeter MeterFor(double predicted_shadow_to_x_m, const CameraResponse& response = {}) {
-  return LightMeter(kPrint, HalfShadow(predicted_shadow_to_x_m), OverheadSun(), Mat3{}, response);
+inline MarkerLightMeter MeterFor(double predicted_shadow_to_x_m,
+                                 const CameraResponse& response = {}) {
+  return MarkerLightMeter(kMarker, HalfShadow(predicted_shadow_to_x_m), OverheadSun(), Mat3{},
+                          response);
 }
 
-inline const LinearRgb kGain{3.0e-5, 2.5e-5, 2.0e-5};
+inline const LinearRgb kExposureScale{3.0e-5, 2.5e-5, 2.0e-5};
 
-inline void ExpectGain(const std::optional<LightReading>& reading, LinearRgb gain) {
-  ASSERT_TRUE(reading.has_value());
-  EXPECT_NEAR(reading->gain.r / gain.r, 1.0, 0.02);
-  EXPECT_NEAR(reading->gain.g / gain.g, 1.0, 0.02);
-  EXPECT_NEAR(reading->gain.b / gain.b, 1.0, 0.02);
+inline void ExpectExposureScale(const std::optional<ExposureEstimate>& estimate,
+                                LinearRgb exposure_scale) {
+  ASSERT_TRUE(estimate.has_value());
+  EXPECT_NEAR(estimate->exposure_scale.r / exposure_scale.r, 1.0, 0.02);
+  EXPECT_NEAR(estimate->exposure_scale.g / exposure_scale.g, 1.0, 0.02);
+  EXPECT_NEAR(estimate->exposure_scale.b / exposure_scale.b, 1.0, 0.02);
 }
 
 }  // namespace pleinair::compositor::testing
