@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "accuracy/seen_print.h"
+#include "accuracy/marker_pose.h"
 #include "accuracy/sweep_poses.h"
 
 namespace pleinair::accuracy {

@@ -6,9 +6,9 @@
 
 #include "accuracy/background.h"
 #include "accuracy/jpeg_loss.h"
+#include "accuracy/marker_pose.h"
 #include "accuracy/point_spread.h"
 #include "accuracy/random.h"
-#include "accuracy/seen_print.h"
 #include "base/check.h"
 #include "base/srgb.h"
 #include "tracker/pose/homography.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/marker_art.h"
+#include "accuracy/marker_texture.h"
 #include "accuracy/occluders.h"
 #include "accuracy/scene.h"
 #include "base/camera_model.h"

@@ -7,7 +7,7 @@
 
 #include "accuracy/frame_record.h"
 #include "accuracy/frame_renderer.h"
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 
 namespace pleinair::accuracy {
 

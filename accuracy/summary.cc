@@ -11,7 +11,7 @@
 #include "accuracy/film_summary.h"
 #include "accuracy/light_summary.h"
 #include "accuracy/peer_summary.h"
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 
 namespace pleinair::accuracy {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "accuracy/frame_record.h"
-#include "accuracy/picture_record.h"
+#include "accuracy/image_record.h"
 #include "accuracy/statistics.h"
 
 namespace pleinair::accuracy {

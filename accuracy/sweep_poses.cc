@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/seen_print.h"
+#include "accuracy/marker_pose.h"
 
 namespace pleinair::accuracy {
 namespace {

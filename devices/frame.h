@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/image.h"
-#include "devices/images/raw_picture.h"
+#include "devices/images/raw_image.h"
 
 namespace pleinair::devices {
 

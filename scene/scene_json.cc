@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "files/json_fields.h"
+#include "scene/cloudiness.h"
 #include "scene/scene_facts.h"
-#include "scene/sky_words.h"
 
 namespace pleinair::scene {
 namespace {

@@ -21,8 +21,8 @@
 #include <sstream>
 #include <utility>
 
+#include "scene/cloudiness.h"
 #include "scene/scene_facts.h"
-#include "scene/sky_words.h"
 
 namespace pleinair::scene {
 namespace {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "compositor/photometry/day_skies.h"
+#include "compositor/photometry/sky_state.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 

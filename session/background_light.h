@@ -12,14 +12,14 @@
 #include "base/error.h"
 #include "base/utc_time.h"
 #include "compositor/light/daylight/coefficient_worker.h"
-#include "compositor/photometry/day_skies.h"
 #include "compositor/photometry/light_estimator.h"
 #include "compositor/photometry/light_filter.h"
+#include "compositor/photometry/sky_state.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
+#include "session/baked_lighting.h"
 #include "session/light_options.h"
 #include "session/scene_edit.h"
-#include "session/scene_light.h"
 
 namespace pleinair::session {
 

@@ -11,8 +11,8 @@
 #include "base/image.h"
 #include "session/marker_tracks.h"
 #include "tracker/marker_pattern.h"
+#include "tracker/observation.h"
 #include "tracker/refinement/marker_alignment.h"
-#include "tracker/sighting.h"
 
 namespace pleinair::session {
 

@@ -10,7 +10,7 @@
 
 #include "base/frames.h"
 #include "scene/scene_description.h"
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 
 namespace pleinair::session {
 

@@ -9,7 +9,7 @@
 #include "tracker/golay/golay_code.h"
 #include "tracker/picture_target/target_file.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::session {
 namespace {

@@ -5,7 +5,7 @@
 #include "base/frames.h"
 #include "base/units.h"
 #include "base/vector.h"
-#include "sky/colour.h"
+#include "sky/color.h"
 
 namespace pleinair::sky {
 

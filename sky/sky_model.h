@@ -11,7 +11,7 @@
 #include "base/units.h"
 #include "base/vector.h"
 #include "sky/atmosphere/aerosol.h"
-#include "sky/colour.h"
+#include "sky/color.h"
 
 namespace pleinair::sky {
 

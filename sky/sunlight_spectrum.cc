@@ -6,7 +6,7 @@
 
 #include "sky/air_mass.h"
 #include "sky/cie_observer.h"
-#include "sky/colour.h"
+#include "sky/color.h"
 
 namespace pleinair::sky {
 namespace {

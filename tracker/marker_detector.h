@@ -10,7 +10,7 @@
 #include "base/image.h"
 #include "base/units.h"
 #include "tracker/marker_pattern.h"
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 
 namespace pleinair::tracker {
 

@@ -8,7 +8,7 @@
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/image.h"
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 #include "tracker/surf_golay/sg_options.h"
 #include "tracker/unmeasured_markers.h"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "app/compare/picture_comparison.h"
-#include "app/compare/true_pictures.h"
+#include "app/compare/ground_truth_images.h"
+#include "app/compare/image_comparison.h"
 #include "app/replay/replay.h"
 #include "base/atomic_file.h"
 #include "files/base64.h"

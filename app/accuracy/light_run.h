@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/picture_record.h"
+#include "accuracy/image_record.h"
 #include "base/error.h"
 
 namespace pleinair::app {

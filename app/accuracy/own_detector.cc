@@ -61,7 +61,7 @@ class OwnDetector final : public accuracy::Detector {
                               .pose = observation.pose,
                               .pose_has_covariance = true,
                               .visible_fraction = observation.detection.visible_fraction,
-                              .path = tracker::PathName(observation.detection.path),
+                              .path = tracker::TrajectoryName(observation.detection.path),
                               .family = observation.detection.family});
     }
     return seen;

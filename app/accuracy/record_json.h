@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "accuracy/frame_record.h"
-#include "accuracy/picture_record.h"
+#include "accuracy/image_record.h"
 #include "base/error.h"
 
 namespace pleinair::app {

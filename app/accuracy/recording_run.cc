@@ -8,8 +8,8 @@
 #include <memory>
 #include <utility>
 
+#include "accuracy/marker_pose.h"
 #include "accuracy/scoring.h"
-#include "accuracy/seen_print.h"
 #include "app/accuracy/own_detector.h"
 #include "app/accuracy/recording_truth.h"
 #include "devices/recordings/recording.h"
@@ -127,7 +127,8 @@ class RecordingRun {
 
   Result<void> FindTruth() {
     PLEINAIR_ASSIGN_OR_RETURN(RecordingTruth truth, ReadRecordingTruth(path_));
-    for (exports::PathPose& pose : truth.poses) pose.timestamp_ns = SinceStart(pose.timestamp_ns);
+    for (exports::TrajectoryPose& pose : truth.poses)
+      pose.timestamp_ns = SinceStart(pose.timestamp_ns);
     Transform<Marker, exports::Reference> marker_from_reference;
     is_aligned_ = !truth.in_marker_frame;
     if (is_aligned_) {
@@ -149,7 +150,7 @@ class RecordingRun {
                       "give times in seconds since the recording's start, or since 1970");
   }
 
-  std::vector<PosePair> PairsWith(const std::vector<exports::PathPose>& truth) const {
+  std::vector<PosePair> PairsWith(const std::vector<exports::TrajectoryPose>& truth) const {
     std::vector<PosePair> pairs;
     for (const SeenFrame& frame : frames_) {
       const auto pose = PoseAt(truth, frame.timestamp_ns, period_ns_);

@@ -8,7 +8,7 @@
 #include "accuracy/scoring.h"
 #include "accuracy/statistics.h"
 #include "devices/recordings/euroc.h"
-#include "export/trajectories/path_files.h"
+#include "export/trajectories/trajectory_files.h"
 #include "files/text_file.h"
 
 namespace pleinair::app {
@@ -22,21 +22,22 @@ bool IsFile(const fs::path& file) {
 }
 
 Result<RecordingTruth> ReadTum(const fs::path& file, bool in_marker_frame) {
-  PLEINAIR_ASSIGN_OR_RETURN(exports::CameraPath path,
-                            exports::ReadPath(file, exports::PathFormat::kTum, {}));
+  PLEINAIR_ASSIGN_OR_RETURN(exports::CameraTrajectory path,
+                            exports::ReadTrajectory(file, exports::TrajectoryFormat::kTum, {}));
   return RecordingTruth{std::move(path.poses), in_marker_frame};
 }
 
 Result<RecordingTruth> ReadEuroc(const fs::path& file, const fs::path& sensor) {
-  exports::PathReading reading;
+  exports::TrajectoryReading reading;
   if (IsFile(sensor)) {
     PLEINAIR_ASSIGN_OR_RETURN(const std::string yaml,
                               files::ReadWholeFile(sensor, files::kMaxCalibrationBytes));
     PLEINAIR_ASSIGN_OR_RETURN(reading.body_from_camera,
                               devices::ParseEurocExtrinsics(yaml, sensor.string()));
   }
-  PLEINAIR_ASSIGN_OR_RETURN(exports::CameraPath path,
-                            exports::ReadPath(file, exports::PathFormat::kEuroc, reading));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      exports::CameraTrajectory path,
+      exports::ReadTrajectory(file, exports::TrajectoryFormat::kEuroc, reading));
   return RecordingTruth{std::move(path.poses), false};
 }
 
@@ -47,8 +48,8 @@ Quaternion Weighted(const Quaternion& a, double weight_a, const Quaternion& b, d
           weight_a * a.w + w * b.w};
 }
 
-Transform<exports::Reference, Camera> Between(const exports::PathPose& before,
-                                              const exports::PathPose& after,
+Transform<exports::Reference, Camera> Between(const exports::TrajectoryPose& before,
+                                              const exports::TrajectoryPose& after,
                                               std::int64_t timestamp_ns) {
   const double share = static_cast<double>(timestamp_ns - before.timestamp_ns) /
                        static_cast<double>(after.timestamp_ns - before.timestamp_ns);
@@ -74,11 +75,12 @@ Result<RecordingTruth> ReadRecordingTruth(const fs::path& recording) {
 }
 
 std::optional<Transform<exports::Reference, Camera>> PoseAt(
-    const std::vector<exports::PathPose>& poses, std::int64_t timestamp_ns,
+    const std::vector<exports::TrajectoryPose>& poses, std::int64_t timestamp_ns,
     std::int64_t period_ns) {
-  const auto after = std::lower_bound(
-      poses.begin(), poses.end(), timestamp_ns,
-      [](const exports::PathPose& pose, std::int64_t time) { return pose.timestamp_ns < time; });
+  const auto after = std::lower_bound(poses.begin(), poses.end(), timestamp_ns,
+                                      [](const exports::TrajectoryPose& pose, std::int64_t time) {
+                                        return pose.timestamp_ns < time;
+                                      });
   const bool has_before = after != poses.begin(), has_after = after != poses.end();
   const std::int64_t to_before = has_before ? timestamp_ns - (after - 1)->timestamp_ns : 0;
   const std::int64_t to_after = has_after ? after->timestamp_ns - timestamp_ns : 0;

@@ -7,13 +7,13 @@
 
 #include "base/error.h"
 #include "base/frames.h"
-#include "export/trajectories/camera_path.h"
+#include "export/trajectories/camera_trajectory.h"
 
 namespace pleinair::app {
 
 /// Where a recording's camera was, by somebody who knows.
 struct RecordingTruth {
-  std::vector<exports::PathPose> poses;  ///< Times as the file has them.
+  std::vector<exports::TrajectoryPose> poses;  ///< Times as the file has them.
   /// The reference is the marker (truth.tum); else it is a frame of the author's own, such as a
   /// motion capture system's.
   bool in_marker_frame = true;
@@ -30,7 +30,8 @@ Result<RecordingTruth> ReadRecordingTruth(const std::filesystem::path& recording
 /// within a frame period, else that of a neighbour within a quarter of a period; nothing without
 /// such.
 std::optional<Transform<exports::Reference, Camera>> PoseAt(
-    const std::vector<exports::PathPose>& poses, std::int64_t timestamp_ns, std::int64_t period_ns);
+    const std::vector<exports::TrajectoryPose>& poses, std::int64_t timestamp_ns,
+    std::int64_t period_ns);
 
 /// How a frame of reference lies in the marker's, by what a detector found: the mean over the
 /// moments, without those whose rotation is off by more than three times the median (poses that

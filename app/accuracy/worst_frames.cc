@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/accuracy/accuracy_run.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 #include "files/base64.h"
 #include "files/markup_escape.h"
 

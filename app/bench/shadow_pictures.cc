@@ -10,7 +10,7 @@
 
 #include "app/bench/shadow_metrics.h"
 #include "base/atomic_file.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 
 namespace pleinair::app {
 namespace {

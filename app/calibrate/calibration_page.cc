@@ -8,7 +8,7 @@
 
 #include "app/calibrate/calibration_drawings.h"
 #include "base/units.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 #include "export/plots/page_style.h"
 #include "files/base64.h"
 #include "files/markup_escape.h"

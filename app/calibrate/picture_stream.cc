@@ -11,7 +11,7 @@
 #include "app/terminal/interrupt.h"
 #include "devices/cameras/camera_uri.h"
 #include "devices/cameras/live_camera.h"
-#include "devices/images/picture_file.h"
+#include "devices/images/image_file.h"
 #include "devices/recordings/frame_pack.h"
 #include "devices/recordings/video_file.h"
 

@@ -21,7 +21,7 @@
 #include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
 #include "devices/calibration/calibration_text.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 
 namespace pleinair::app {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "app/commands/command.h"
 #include "app/compare/compare_html.h"
-#include "app/compare/picture_comparison.h"
-#include "app/compare/picture_scores.h"
-#include "app/compare/true_pictures.h"
+#include "app/compare/ground_truth_images.h"
+#include "app/compare/image_comparison.h"
+#include "app/compare/image_scores.h"
 #include "app/replay/time_lapse/time_lapse.h"
 #include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"

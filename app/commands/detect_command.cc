@@ -15,7 +15,7 @@
 #include "app/options/option_use.h"
 #include "app/output/pose_json.h"
 #include "devices/calibration/calibration.h"
-#include "devices/images/picture_file.h"
+#include "devices/images/image_file.h"
 #include "tracker/picture_target/target_file.h"
 #include "tracker/tracker.h"
 

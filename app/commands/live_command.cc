@@ -26,7 +26,7 @@
 #include "app/options/picture_size.h"
 #include "app/replay/replay.h"
 #include "app/terminal/interrupt.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 #ifdef PLEINAIR_WINDOW
 #include "app/window/live_window.h"
 #endif
@@ -276,7 +276,7 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   if (!arguments.output.empty()) {
     options.output.emplace().folder = arguments.output;
     for (const std::string& name : arguments.exports) {
-      options.output->exports.insert(exports::PathFormatNamed(name).value());
+      options.output->exports.insert(exports::TrajectoryFormatNamed(name).value());
     }
   }
   if (source.camera != nullptr) {

@@ -20,7 +20,7 @@
 #include "export/print_sheets/vector_page.h"
 #include "tracker/golay/golay_code.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::app {
 namespace {

@@ -8,7 +8,7 @@
 #include "app/commands/command.h"
 #include "app/options/number_range.h"
 #include "devices/calibration/calibration.h"
-#include "export/trajectories/path_files.h"
+#include "export/trajectories/trajectory_files.h"
 #include "files/text_file.h"
 
 namespace pleinair::app {
@@ -33,20 +33,21 @@ struct Arguments {
   bool json = false;
 };
 
-Result<exports::PathFormat> FormatOf(const std::string& stated, const std::string& file) {
-  if (const auto named = exports::PathFormatNamed(stated)) return *named;
-  return exports::PathFormatOf(file);
+Result<exports::TrajectoryFormat> FormatOf(const std::string& stated, const std::string& file) {
+  if (const auto named = exports::TrajectoryFormatNamed(stated)) return *named;
+  return exports::TrajectoryFormatOf(file);
 }
 
 Result<void> Run(const Arguments& arguments) {
-  PLEINAIR_ASSIGN_OR_RETURN(const exports::PathFormat from,
+  PLEINAIR_ASSIGN_OR_RETURN(const exports::TrajectoryFormat from,
                             FormatOf(arguments.from, arguments.input));
-  PLEINAIR_ASSIGN_OR_RETURN(const exports::PathFormat to, FormatOf(arguments.to, arguments.output));
+  PLEINAIR_ASSIGN_OR_RETURN(const exports::TrajectoryFormat to,
+                            FormatOf(arguments.to, arguments.output));
   std::error_code error;
   if (std::filesystem::equivalent(arguments.input, arguments.output, error)) {
     return InputError(arguments.output, "is what is read", "name another file to write");
   }
-  exports::PathReading reading;
+  exports::TrajectoryReading reading;
   reading.frame_rate_hz = arguments.frame_rate_hz;
   if (!arguments.extrinsics.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(
@@ -55,19 +56,19 @@ Result<void> Run(const Arguments& arguments) {
     PLEINAIR_ASSIGN_OR_RETURN(reading.body_from_camera,
                               devices::ParseEurocExtrinsics(yaml, arguments.extrinsics));
   }
-  PLEINAIR_ASSIGN_OR_RETURN(exports::CameraPath path,
-                            exports::ReadPath(arguments.input, from, reading));
+  PLEINAIR_ASSIGN_OR_RETURN(exports::CameraTrajectory path,
+                            exports::ReadTrajectory(arguments.input, from, reading));
   if (!arguments.calibration.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(path.camera, devices::ReadCalibration(arguments.calibration));
   }
-  exports::ScalePath(arguments.scale, &path);
-  exports::PathWriting writing;
+  exports::ScaleTrajectory(arguments.scale, &path);
+  exports::TrajectoryWriting writing;
   writing.up = arguments.axes == "z-up"   ? exports::UpAxis::kZ
                : arguments.axes == "y-up" ? exports::UpAxis::kY
                                           : exports::UpAxis::kMinusY;
   writing.marker_size_m = arguments.marker_size_mm * 1e-3;
   writing.body_from_camera = reading.body_from_camera;
-  if (auto written = exports::WritePath(path, arguments.output, to, writing); !written) {
+  if (auto written = exports::WriteTrajectory(path, arguments.output, to, writing); !written) {
     Error failure = std::move(written).error();
     if (failure.where.empty()) failure.where = arguments.output;
     return tl::make_unexpected(std::move(failure));

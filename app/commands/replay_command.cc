@@ -154,7 +154,7 @@ Result<void> Run(const CLI::App& command, Arguments& arguments) {
     options.time_lapse->frame = arguments.time_lapse_frame;
   }
   for (const std::string& name : arguments.exports) {
-    options.exports.insert(exports::PathFormatNamed(name).value());
+    options.exports.insert(exports::TrajectoryFormatNamed(name).value());
   }
   options.composer.shadow_method = ShadowMethodsByName().at(arguments.shadows);
   if (!arguments.shader_directory.empty()) {

@@ -7,7 +7,7 @@
 
 #include "app/sun/sun_path_diagram.h"
 #include "base/atomic_file.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 
 namespace pleinair::app {
 

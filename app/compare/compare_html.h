@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/compare/picture_scores.h"
+#include "app/compare/image_scores.h"
 
 namespace pleinair::app {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/output/observed_path.h"
-#include "app/output/path_export.h"
+#include "app/output/observed_trajectory.h"
+#include "app/output/trajectory_export.h"
 
 namespace pleinair::app {
 
@@ -33,11 +33,11 @@ Result<void> LiveOutput::Add(const session::MarkerTracks& marker_tracks, std::in
   for (const auto& [marker, observations] : marker_tracks.tracks()) {
     if (observations.empty() || observations.back().frame_index != frame_index) continue;
     // Poses of recordings count from their start, as the line's time does.
-    exports::PathPose pose = ObservedPose(observations.back());
+    exports::TrajectoryPose pose = ObservedPose(observations.back());
     pose.timestamp_ns = timestamp_ns;
     paths_[marker].poses.push_back(std::move(pose));
   }
-  if (options_.exports.contains(exports::PathFormat::kMcap))
+  if (options_.exports.contains(exports::TrajectoryFormat::kMcap))
     markers_seen_.push_back({timestamp_ns, line});
   return detections_.Add(line);
 }
@@ -51,10 +51,10 @@ Result<void> LiveOutput::Finish(UtcTime start) {
 Result<void> LiveOutput::Write(UtcTime start) {
   PLEINAIR_RETURN_IF_ERROR(detections_.Finish());
   PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
-  exports::CameraPath reference_markers;
+  exports::CameraTrajectory reference_markers;
   for (const auto& [marker, path] : paths_) {
     PLEINAIR_RETURN_IF_ERROR(
-        WriteMarkerPath(marker, path, options_.exports, folder_.staging()).map([](auto) {}));
+        WriteMarkerTrajectory(marker, path, options_.exports, folder_.staging()).map([](auto) {}));
     if (session::MayBeReferenceMarker(marker, scene_.marker) &&
         path.poses.size() > reference_markers.poses.size()) {
       reference_markers = path;
@@ -63,8 +63,8 @@ Result<void> LiveOutput::Write(UtcTime start) {
   scene_.place_time.start = start;
   reference_markers.camera = camera_;
   PLEINAIR_RETURN_IF_ERROR(
-      ExportPath({std::move(reference_markers), scene_, std::move(markers_seen_)}, options_.exports,
-                 folder_.staging())
+      ExportTrajectory({std::move(reference_markers), scene_, std::move(markers_seen_)},
+                       options_.exports, folder_.staging())
           .map([](const auto&) {}));
   return folder_.Commit();
 }

@@ -12,9 +12,9 @@
 #include "app/output/output_folder.h"
 #include "base/camera_model.h"
 #include "base/error.h"
-#include "export/trajectories/camera_path.h"
-#include "export/trajectories/mcap_path.h"
-#include "export/trajectories/path_files.h"
+#include "export/trajectories/camera_trajectory.h"
+#include "export/trajectories/mcap_trajectory.h"
+#include "export/trajectories/trajectory_files.h"
 #include "scene/scene_description.h"
 #include "session/marker_tracks.h"
 
@@ -28,7 +28,7 @@ class LiveOutput {
  public:
   struct Options {
     std::filesystem::path folder;
-    std::set<exports::PathFormat> exports;  ///< Besides TUM.
+    std::set<exports::TrajectoryFormat> exports;  ///< Besides TUM.
   };
 
   /// Errors: of OutputFolder; a lens that a form cannot hold.
@@ -53,7 +53,7 @@ class LiveOutput {
   scene::SceneDescription scene_;
   OutputFolder folder_;
   DetectionsWriter detections_;
-  std::map<session::MarkerName, exports::CameraPath> paths_;
+  std::map<session::MarkerName, exports::CameraTrajectory> paths_;
   std::vector<exports::MarkersMessage> markers_seen_;  // For MCAP alone.
 };
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 
 namespace pleinair::app {
 

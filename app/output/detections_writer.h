@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 
 namespace pleinair::app {
 

@@ -40,7 +40,7 @@ Json SightingJson(const tracker::MarkerObservation& observation) {
                      {"visible_fraction", detection.visible_fraction},
                      {"visibility", std::move(visibility)},
                      {"alternative", alternative},
-                     {"path", tracker::PathName(detection.path)}});
+                     {"path", tracker::TrajectoryName(detection.path)}});
   return marker;
 }
 

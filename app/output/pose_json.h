@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 
 namespace pleinair::app {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "app/output/composite_writer.h"
-#include "app/output/observed_path.h"
+#include "app/output/observed_trajectory.h"
 #include "app/output/output_folder.h"
-#include "app/output/path_export.h"
+#include "app/output/trajectory_export.h"
 #include "app/replay/frame_choice.h"
 #include "app/replay/replay_warnings.h"
 #include "app/replay/report/report_html.h"
@@ -24,9 +24,9 @@
 #include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
 #include "devices/recordings/recording.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 #include "export/images/video_writer.h"
-#include "export/trajectories/path_files.h"
+#include "export/trajectories/trajectory_files.h"
 #include "session/frame_prefetch.h"
 #include "session/scene_marker.h"
 #include "session/scene_renderer.h"
@@ -113,7 +113,7 @@ class Replayer {
   Result<void> SeekMarkers(devices::Recording recording, tracker::Tracker& tracker) {
     const TrackRecordingOptions search{report_.recording, scene_,
                                        folder_.staging() / "detections.jsonl",
-                                       options_.exports.contains(exports::PathFormat::kMcap)};
+                                       options_.exports.contains(exports::TrajectoryFormat::kMcap)};
     PLEINAIR_ASSIGN_OR_RETURN(found_,
                               TrackRecording(search, std::move(recording), tracker, &times_));
     report_.outputs.emplace_back("detections.jsonl");
@@ -131,17 +131,17 @@ class Replayer {
     PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
     for (const auto& [marker, observed] : found_->marker_tracks.tracks()) {
       report_.markers.push_back(marker);
-      PLEINAIR_ASSIGN_OR_RETURN(
-          const std::vector<std::string> written,
-          WriteMarkerPath(marker, ObservedPath(observed), options_.exports, folder_.staging()));
+      PLEINAIR_ASSIGN_OR_RETURN(const std::vector<std::string> written,
+                                WriteMarkerTrajectory(marker, ObservedTrajectory(observed),
+                                                      options_.exports, folder_.staging()));
       report_.outputs.insert(report_.outputs.end(), written.begin(), written.end());
     }
-    exports::CameraPath path = ObservedPath(report_.path);
+    exports::CameraTrajectory path = ObservedTrajectory(report_.path);
     path.camera = output_camera_;
     PLEINAIR_ASSIGN_OR_RETURN(
         const std::vector<std::string> exported,
-        ExportPath({std::move(path), scene_, std::exchange(found_->messages, {})}, options_.exports,
-                   folder_.staging()));
+        ExportTrajectory({std::move(path), scene_, std::exchange(found_->messages, {})},
+                         options_.exports, folder_.staging()));
     report_.outputs.insert(report_.outputs.end(), exported.begin(), exported.end());
     if (options_.time_lapse && DrawsDay()) PLEINAIR_RETURN_IF_ERROR(ViewOfDay());
     Warn();

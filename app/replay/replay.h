@@ -10,7 +10,7 @@
 #include "app/replay/time_lapse/moments.h"
 #include "base/error.h"
 #include "compositor/composer_options.h"
-#include "export/trajectories/path_files.h"
+#include "export/trajectories/trajectory_files.h"
 #include "session/light_options.h"
 
 namespace pleinair::app {
@@ -22,7 +22,7 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> calibration;  ///< Needed for a plain video.
   bool write_frames = false;
   bool write_video = true;
-  std::set<exports::PathFormat> exports;  ///< Forms of the path besides TUM.
+  std::set<exports::TrajectoryFormat> exports;  ///< Forms of the path besides TUM.
   compositor::ComposerOptions composer;
   session::LightOptions light;
   std::optional<ImageSize> size;  ///< Of the output; markers are sought at the recording's size.

@@ -92,7 +92,7 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report,
         "counts.",
         marker_tracks.frames_with_duplicates()));
   }
-  const std::int64_t ambiguous = SummarizePath(report.path).ambiguous_frames;
+  const std::int64_t ambiguous = SummarizeTrajectory(report.path).ambiguous_frames;
   if (ambiguous > 0) {
     warnings.push_back(fmt::format(
         "In {} frames the marker is too small or too frontal to tell its tilt for certain.",

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/stage_times.h"
 #include "devices/recordings/recording.h"
-#include "export/trajectories/mcap_path.h"
+#include "export/trajectories/mcap_trajectory.h"
 #include "scene/scene_description.h"
 #include "session/frame_prefetch.h"
 #include "session/marker_tracks.h"

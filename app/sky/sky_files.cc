@@ -12,8 +12,8 @@
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
+#include "export/images/image_writer.h"
 #include "export/images/light_writer.h"
-#include "export/images/picture_writer.h"
 #include "export/images/video_writer.h"
 
 namespace pleinair::app {

@@ -12,9 +12,9 @@ Result<ShadowRatioPass> ShadowRatioPass::Create() {
   PLEINAIR_ASSIGN_OR_RETURN(
       pass.sort_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
-                             .fragment = "compositor/shaders/changing_pixels.frag"}));
+                             .fragment = "compositor/shaders/affected_pixels.frag"}));
   gl::ProgramStages linear_ratio{.vertex = "compositor/shaders/screen_triangle.vert",
-                                 .fragment = "compositor/shaders/steady_ratio.frag"};
+                                 .fragment = "compositor/shaders/linear_shadow_ratio.frag"};
   PLEINAIR_ASSIGN_OR_RETURN(pass.linear_program_, gl::GlProgram::Create(linear_ratio));
   linear_ratio.defines = {"AIRLIGHT"};
   PLEINAIR_ASSIGN_OR_RETURN(pass.linear_program_with_airlight_,

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "compositor/photometry/day_skies.h"
+#include "compositor/photometry/sky_state.h"
 
 namespace pleinair::compositor {
 namespace {

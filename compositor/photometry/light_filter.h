@@ -4,9 +4,9 @@
 
 #include "base/utc_time.h"
 #include "base/vector.h"
-#include "compositor/photometry/day_skies.h"
 #include "compositor/photometry/random_walk_filter.h"
 #include "compositor/photometry/sky_fit.h"
+#include "compositor/photometry/sky_state.h"
 
 namespace pleinair::compositor {
 

@@ -5,8 +5,8 @@
 // past its near side's edge, is another. The pixel's depth says for the passes that shade whether the
 // sun may shine on any of them (KindOf).
 
-#include "compositor/shaders/seen_surface.glsl"
-#include "compositor/shaders/surface_record.glsl"
+#include "compositor/shaders/visible_surface.glsl"
+#include "compositor/shaders/material_table.glsl"
 
 layout(binding = 0) uniform usampler2DMS u_ids;
 uniform int u_samples;  // A pixel, 4 at most.

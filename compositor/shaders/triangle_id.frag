@@ -5,7 +5,7 @@
 // OBJECT: of a virtual object. TEXTURED: with what its textures leave of base color, roughness and
 // metallic, too. ALPHA: only on the samples that its alpha covers.
 
-#include "compositor/shaders/triangle_layout.glsl"
+#include "compositor/shaders/visibility_buffer_layout.glsl"
 
 uniform int u_first_id;
 uniform int u_step;  // 1; 0 where a whole draw is one number.

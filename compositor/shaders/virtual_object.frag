@@ -8,9 +8,9 @@
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/ggx.glsl"
-#include "compositor/shaders/seen_sunlight.glsl"
-#include "compositor/shaders/seen_surface.glsl"
-#include "compositor/shaders/surface_record.glsl"
+#include "compositor/shaders/sun_transmittance_map.glsl"
+#include "compositor/shaders/visible_surface.glsl"
+#include "compositor/shaders/material_table.glsl"
 #ifndef SHADOW_SETS
 #define SHADOW_SETS 2  // 0: phantoms alone, 1: with the virtual objects.
 #endif

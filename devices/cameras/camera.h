@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "devices/images/raw_picture.h"
+#include "devices/images/raw_image.h"
 
 namespace pleinair::devices {
 

@@ -9,7 +9,7 @@
 #include "devices/calibration/calibration.h"
 #include "devices/recordings/euroc.h"
 #include "devices/recordings/frame_pack.h"
-#include "devices/recordings/picture_sequence.h"
+#include "devices/recordings/image_sequence.h"
 #include "devices/recordings/recording_manifest.h"
 #include "devices/recordings/video_file.h"
 #include "files/text_file.h"

@@ -10,7 +10,7 @@
 
 #include <opencv2/videoio.hpp>
 
-#include "devices/images/cv_picture.h"
+#include "devices/images/cv_image.h"
 #include "devices/recordings/video_container.h"
 
 namespace pleinair::devices {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "devices/frame_source.h"
-#include "devices/images/picture_file.h"
+#include "devices/images/image_file.h"
 
 namespace pleinair::devices {
 

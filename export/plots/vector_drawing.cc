@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 #include "files/markup_escape.h"
 
 namespace pleinair::exports {

@@ -9,7 +9,7 @@
 
 #include "export/print_sheets/sheet_legend.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::exports {
 namespace {

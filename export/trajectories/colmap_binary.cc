@@ -140,12 +140,12 @@ Result<std::vector<ColmapPicture>> ParseImages(std::string_view bytes, const std
   return pictures;
 }
 
-Result<std::vector<PathPoint>> ParsePoints(std::string_view bytes, const std::string& name) {
-  std::vector<PathPoint> points;
+Result<std::vector<TrajectoryPoint>> ParsePoints(std::string_view bytes, const std::string& name) {
+  std::vector<TrajectoryPoint> points;
   EntryFile file(bytes, name);
   while (file.Next()) {
     file.reader.Get<std::uint64_t>();  // Its number.
-    PathPoint point;
+    TrajectoryPoint point;
     point.place.xyz = GetVector(&file.reader);
     for (std::uint8_t& code : point.rgb) code = file.reader.Get<std::uint8_t>();
     point.error_px = file.reader.Get<double>();
@@ -207,7 +207,7 @@ ColmapFiles ColmapBinary(const ColmapModel& model) {
   }
   PutLittleEndian(std::uint64_t{model.points.size()}, &files.points3d);
   std::uint64_t point_number = 0;
-  for (const PathPoint& point : model.points) {
+  for (const TrajectoryPoint& point : model.points) {
     PutLittleEndian(++point_number, &files.points3d);
     PutAll({point.place.xyz.x, point.place.xyz.y, point.place.xyz.z}, &files.points3d);
     for (const std::uint8_t code : point.rgb) PutLittleEndian(code, &files.points3d);

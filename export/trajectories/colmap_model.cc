@@ -46,11 +46,11 @@ Result<CameraModel> CameraOf(const ColmapModel& model) {
 
 }  // namespace
 
-Result<CameraPath> PathFromColmap(ColmapModel model, double frame_rate_hz) {
+Result<CameraTrajectory> TrajectoryFromColmap(ColmapModel model, double frame_rate_hz) {
   if (model.pictures.empty()) {
     return InputError(model.images_file, "holds no pictures", "get a whole copy of it");
   }
-  CameraPath path;
+  CameraTrajectory path;
   PLEINAIR_ASSIGN_OR_RETURN(path.camera, CameraOf(model));
   path.points = std::move(model.points);
   struct Numbered {
@@ -77,7 +77,7 @@ Result<CameraPath> PathFromColmap(ColmapModel model, double frame_rate_hz) {
                         "their times",
                         "leave one of them in the model");
     }
-    PathPose pose;
+    TrajectoryPose pose;
     const double index =
         numbered ? static_cast<double>(*pictures[i].number) : static_cast<double>(i);
     constexpr double kMaxTime_s = 9e9;
@@ -93,7 +93,7 @@ Result<CameraPath> PathFromColmap(ColmapModel model, double frame_rate_hz) {
   return path;
 }
 
-Result<ColmapModel> ColmapFromPath(const CameraPath& path) {
+Result<ColmapModel> ColmapFromTrajectory(const CameraTrajectory& path) {
   if (!path.camera) {
     return InputError("", "a COLMAP model needs the camera's lens, which the path has not",
                       "give it with --calibration");
@@ -103,7 +103,7 @@ Result<ColmapModel> ColmapFromPath(const CameraPath& path) {
   model.cameras.emplace(kCamera, *path.camera);
   model.points = path.points;
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
-    const PathPose& pose = path.poses[i];
+    const TrajectoryPose& pose = path.poses[i];
     ColmapPicture picture;
     picture.name = pose.picture.empty() ? fmt::format("frames/{:04}.png", i) : pose.picture;
     picture.camera_id = kCamera;

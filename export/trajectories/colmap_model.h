@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "export/trajectories/camera_path.h"
+#include "export/trajectories/camera_trajectory.h"
 
 namespace pleinair::exports {
 
@@ -30,7 +30,7 @@ struct ColmapModel {
   std::string images_file;  ///< For errors.
   std::map<std::int64_t, CameraModel> cameras;
   std::vector<ColmapPicture> pictures;
-  std::vector<PathPoint> points;
+  std::vector<TrajectoryPoint> points;
 };
 
 /// The path of the one camera of a model. COLMAP knows no time: a picture's is its number, which
@@ -38,12 +38,12 @@ struct ColmapModel {
 /// order by name counts.
 /// Errors: no pictures, pictures of several cameras or of a camera that is not there, two pictures
 /// of one number.
-Result<CameraPath> PathFromColmap(ColmapModel model, double frame_rate_hz);
+Result<CameraTrajectory> TrajectoryFromColmap(ColmapModel model, double frame_rate_hz);
 
 /// A model with the path's pictures, its camera and its points: known poses, as COLMAP's FAQ wants
 /// them for triangulation. Pictures that have no name get `frames/%04d.png` with their place in the
 /// path.
 /// Errors: the path has no camera.
-Result<ColmapModel> ColmapFromPath(const CameraPath& path);
+Result<ColmapModel> ColmapFromTrajectory(const CameraTrajectory& path);
 
 }  // namespace pleinair::exports

@@ -86,8 +86,8 @@ Result<std::vector<ColmapPicture>> ParseImages(std::string_view text, const std:
   return pictures;
 }
 
-Result<std::vector<PathPoint>> ParsePoints(std::string_view text, const std::string& name) {
-  std::vector<PathPoint> points;
+Result<std::vector<TrajectoryPoint>> ParsePoints(std::string_view text, const std::string& name) {
+  std::vector<TrajectoryPoint> points;
   std::optional<std::int64_t> stated;
   TextLines lines(text, name);
   while (lines.NextOfAnyKind()) {
@@ -95,7 +95,7 @@ Result<std::vector<PathPoint>> ParsePoints(std::string_view text, const std::str
     if (lines.fields().empty()) continue;
     PLEINAIR_RETURN_IF_ERROR(lines.Integer(0));
     PLEINAIR_ASSIGN_OR_RETURN(const std::vector<double> n, lines.Numbers(1, 7));
-    PathPoint point;
+    TrajectoryPoint point;
     point.place.xyz = {n[0], n[1], n[2]};
     PLEINAIR_RETURN_IF_ERROR(CheckPose(lines.Where(), point.place.xyz, Quaternion{}));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -158,7 +158,7 @@ ColmapFiles ColmapText(const ColmapModel& model) {
       "TRACK[] as (IMAGE_ID, POINT2D_IDX)\n# Number of points: {}, mean track length: 0\n",
       model.points.size());
   for (std::size_t i = 0; i < model.points.size(); ++i) {
-    const PathPoint& point = model.points[i];
+    const TrajectoryPoint& point = model.points[i];
     const Vec3 at = point.place.xyz;
     files.points3d += fmt::format("{} {:.12g} {:.12g} {:.12g} {} {} {} {:.6g}\n", i + 1, at.x, at.y,
                                   at.z, point.rgb[0], point.rgb[1], point.rgb[2], point.error_px);

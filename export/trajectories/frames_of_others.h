@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/frames.h"
-#include "export/trajectories/camera_path.h"
+#include "export/trajectories/camera_trajectory.h"
 
 namespace pleinair::exports {
 

@@ -6,7 +6,7 @@
 
 #include "sky/atmosphere/atmosphere.h"
 #include "sky/atmosphere/twilight.h"
-#include "sky/colour.h"
+#include "sky/color.h"
 
 namespace pleinair::sky {
 namespace {

@@ -10,7 +10,7 @@
 #include "sky/atmosphere/air_medium.h"
 #include "sky/atmosphere/optical_depth.h"
 #include "sky/atmosphere/scattered_light.h"
-#include "sky/colour.h"
+#include "sky/color.h"
 
 namespace pleinair::sky {
 

@@ -13,7 +13,7 @@
 #define PLEINAIR_SKY_ATMOSPHERE_GLSL
 
 #include "sky/shaders/sky_angles.glsl"
-#include "sky/shaders/sky_colour.glsl"
+#include "sky/shaders/sky_color.glsl"
 
 const int kAtmosphereRings = 64;
 const int kAtmosphereSectors = 40;

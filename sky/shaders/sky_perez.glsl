@@ -10,7 +10,7 @@
 #define PLEINAIR_SKY_PEREZ_GLSL
 
 #include "sky/shaders/sky_angles.glsl"
-#include "sky/shaders/sky_colour.glsl"
+#include "sky/shaders/sky_color.glsl"
 
 const float kPerezLowestTurbidity = 2.0f;
 const float kPerezHighestTurbidity = 10.0f;

@@ -10,7 +10,7 @@
 #include "accuracy/occluders.h"
 #include "accuracy/sweeps.h"
 #include "tests/tracker/marker_rendering.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::accuracy {
 namespace {

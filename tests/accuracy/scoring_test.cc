@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "accuracy/marker_pose.h"
 #include "accuracy/random.h"
-#include "accuracy/seen_print.h"
 #include "accuracy/statistics.h"
 #include "accuracy/summary.h"
 #include "accuracy/sweeps.h"

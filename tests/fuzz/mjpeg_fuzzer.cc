@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "devices/images/raw_picture.h"
+#include "devices/images/raw_image.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static pleinair::devices::DecodedImage image;

@@ -9,16 +9,16 @@
 #include "export/trajectories/colmap_binary.h"
 #include "export/trajectories/colmap_model.h"
 #include "export/trajectories/colmap_text.h"
-#include "export/trajectories/euroc_path.h"
-#include "export/trajectories/tum_path.h"
+#include "export/trajectories/euroc_trajectory.h"
+#include "export/trajectories/tum_trajectory.h"
 
 namespace {
 
 using pleinair::Result;
-using pleinair::exports::CameraPath;
+using pleinair::exports::CameraTrajectory;
 
 // A path is whole: times ascend, poses are finite rotations; an error says what is wrong.
-void Check(const Result<CameraPath>& path) {
+void Check(const Result<CameraTrajectory>& path) {
   if (!path) {
     if (path.error().what.empty()) std::abort();
     return;
@@ -45,7 +45,7 @@ void CheckModel(Result<pleinair::exports::ColmapModel> model) {
     if (model.error().what.empty()) std::abort();
     return;
   }
-  Check(pleinair::exports::PathFromColmap(*std::move(model), 30.0));
+  Check(pleinair::exports::TrajectoryFromColmap(*std::move(model), 30.0));
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   Check(pleinair::exports::ParseTum(text, "file"));
   const auto mounting = pleinair::devices::ParseEurocExtrinsics(text, "file");
-  Check(pleinair::exports::ParseEurocPath(
+  Check(pleinair::exports::ParseEurocTrajectory(
       text, "file",
       mounting.value_or(pleinair::Transform<pleinair::devices::EurocBody, pleinair::Camera>{})));
   pleinair::exports::ColmapFiles files;

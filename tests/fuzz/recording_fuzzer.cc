@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "devices/images/picture_file.h"
+#include "devices/images/image_file.h"
 #include "devices/recordings/euroc.h"
 #include "devices/recordings/recording_manifest.h"
 #include "scene/scene_facts.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 #include "tracker/tracker.h"
 
 namespace {

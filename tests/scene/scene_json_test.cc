@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/cloudiness.h"
 #include "scene/scene_facts.h"
-#include "scene/sky_words.h"
 #include "tests/temporary_folder.h"
 
 namespace pleinair::scene {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "compositor/photometry/day_skies.h"
+#include "compositor/photometry/sky_state.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 #include "session/background_light.h"

@@ -44,7 +44,7 @@ class SkyOnTheGpu : public gl::GlTest {
     GlTest::SetUp();
     static const std::array<std::string, 7> kNames = {
         "tests/sky/sky_twins.comp",        "sky/shaders/sky_angles.glsl",
-        "sky/shaders/sky_colour.glsl",     "sky/shaders/sky_perez.glsl",
+        "sky/shaders/sky_color.glsl",      "sky/shaders/sky_perez.glsl",
         "sky/shaders/sky_atmosphere.glsl", "sky/shaders/sky_cie.glsl",
         "sky/shaders/sky_clouds.glsl"};
     static const auto kTexts = [] {

@@ -19,7 +19,7 @@ extern "C" {
 
 #include "base/check.h"
 #include "tests/tracker/marker_rendering.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::tracker {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "accuracy/seen_print.h"
+#include "accuracy/marker_pose.h"
 #include "base/camera_model.h"
 #include "base/frames.h"
 #include "base/image.h"

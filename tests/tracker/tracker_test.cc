@@ -57,7 +57,7 @@ TEST(Tracker, GivesThePosesOfTwoMarkersInOrderOfTheirNumbers) {
     EXPECT_EQ(observation.detection.id, i == 0 ? 4 : 9);
     EXPECT_EQ(observation.detection.family, "tag36h11");
     EXPECT_GT(observation.detection.visible_fraction, 0.95);
-    EXPECT_STREQ(PathName(observation.detection.path), "fast");
+    EXPECT_STREQ(TrajectoryName(observation.detection.path), "fast");
     const auto& pose = observation.pose.best.camera_from_marker;
     EXPECT_LT(Norm(pose.translation_m - marker.camera_from_marker.translation_m),
               3e-4 * Norm(marker.camera_from_marker.translation_m));

@@ -8,11 +8,11 @@
 #include <fstream>
 
 #include "tools/marker_search/guess_rate.h"
-#include "tools/marker_search/layout_picture.h"
+#include "tools/marker_search/layout_image.h"
 #include "tools/marker_search/layout_search.h"
 #include "tools/marker_search/surroundings.h"
 #include "tracker/golay/golay_code.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::marker_search {
 namespace {

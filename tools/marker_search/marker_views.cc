@@ -7,7 +7,7 @@
 #include "tools/marker_search/surroundings.h"
 #include "tracker/golay/golay_code.h"
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::marker_search {
 namespace {

@@ -5,7 +5,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "tools/marker_search/random_draws.h"
-#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/marker_raster.h"
 #include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::marker_search {

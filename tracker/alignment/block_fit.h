@@ -7,9 +7,9 @@
 
 #include "base/vector.h"
 #include "tracker/alignment/lens_grid.h"
+#include "tracker/alignment/marker_raster.h"
 #include "tracker/alignment/motion_equations.h"
-#include "tracker/alignment/print_raster.h"
-#include "tracker/alignment/seen_window.h"
+#include "tracker/alignment/observed_patch.h"
 #include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "tracker/alignment/print_raster.h"
-#include "tracker/alignment/seen_window.h"
+#include "tracker/alignment/marker_raster.h"
+#include "tracker/alignment/observed_patch.h"
 #include "tracker/alignment/tile_kernels.h"
 #include "tracker/marker_pattern.h"
 

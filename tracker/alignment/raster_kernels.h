@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/marker_raster.h"
 
 namespace pleinair::tracker {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/marker_raster.h"
 #include "tracker/alignment/raster_kernels.h"
 
 namespace pleinair::tracker {

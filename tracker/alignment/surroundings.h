@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "tracker/alignment/block_sums.h"
-#include "tracker/alignment/print_raster.h"
-#include "tracker/alignment/seen_window.h"
+#include "tracker/alignment/marker_raster.h"
+#include "tracker/alignment/observed_patch.h"
 #include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {

@@ -2,7 +2,7 @@
 
 #include "tracker/calibration/board_finders.h"
 #include "tracker/refinement/marker_alignment.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::tracker {

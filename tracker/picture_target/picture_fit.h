@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "tracker/alignment/marker_raster.h"
 #include "tracker/alignment/motion_equations.h"
-#include "tracker/alignment/print_raster.h"
-#include "tracker/alignment/seen_window.h"
+#include "tracker/alignment/observed_patch.h"
 #include "tracker/picture_target/picture_pyramid.h"
 #include "tracker/picture_target/picture_raster.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/marker_raster.h"
 #include "tracker/picture_target/picture_pyramid.h"
 
 namespace pleinair::tracker {

@@ -5,7 +5,7 @@
 
 #include "base/camera_model.h"
 #include "base/units.h"
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 
 namespace pleinair::tracker {
 

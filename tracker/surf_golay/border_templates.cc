@@ -7,13 +7,13 @@
 
 #include "base/srgb.h"
 #include "tracker/alignment/lens_grid.h"
-#include "tracker/alignment/print_raster.h"
+#include "tracker/alignment/marker_raster.h"
 #include "tracker/golay/golay_code.h"
 #include "tracker/surf/keypoint_clusters.h"
 #include "tracker/surf/surf.h"
 #include "tracker/surf/view_draws.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tracker/alignment/block_fit.h"
-#include "tracker/alignment/seen_window.h"
+#include "tracker/alignment/observed_patch.h"
 #include "tracker/marker_pattern.h"
 #include "tracker/surf_golay/cell_light.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tracker/alignment/block_fit.h"
-#include "tracker/alignment/seen_window.h"
+#include "tracker/alignment/observed_patch.h"
 
 namespace pleinair::tracker {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "tracker/surf_golay/number_proof.h"
-#include "tracker/surf_golay/print_square.h"
+#include "tracker/surf_golay/decoding_confidence.h"
+#include "tracker/surf_golay/marker_square.h"
 
 namespace pleinair::tracker {
 namespace {

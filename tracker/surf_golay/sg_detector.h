@@ -14,9 +14,9 @@
 #include "tracker/alignment/lens_grid.h"
 #include "tracker/marker_detector.h"
 #include "tracker/quads/quad_detector.h"
-#include "tracker/surf_golay/border_probe.h"
 #include "tracker/surf_golay/border_search.h"
 #include "tracker/surf_golay/cell_lattice.h"
+#include "tracker/surf_golay/orientation_test.h"
 #include "tracker/surf_golay/sg_options.h"
 #include "tracker/surf_golay/sg_reader.h"
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
-#include "tracker/surf_golay/number_proof.h"
-#include "tracker/surf_golay/print_square.h"
+#include "tracker/surf_golay/decoding_confidence.h"
+#include "tracker/surf_golay/marker_square.h"
 #include "tracker/surf_golay/sg_detector.h"
 
 namespace pleinair::tracker {

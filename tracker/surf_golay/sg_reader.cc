@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_split.h"
-#include "tracker/surf_golay/number_proof.h"
-#include "tracker/surf_golay/print_square.h"
+#include "tracker/surf_golay/decoding_confidence.h"
+#include "tracker/surf_golay/fast_cell_sampling.h"
+#include "tracker/surf_golay/marker_square.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -17,8 +17,8 @@
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
 #include "tracker/surf_golay/cover_mask.h"
+#include "tracker/surf_golay/marker_windows.h"
 #include "tracker/surf_golay/pixel_noise.h"
-#include "tracker/surf_golay/print_windows.h"
 #include "tracker/surf_golay/sg_reading.h"
 
 namespace pleinair::tracker {

@@ -6,7 +6,7 @@
 
 #include "tracker/pose/corner_covariance.h"
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/print_square.h"
+#include "tracker/surf_golay/marker_square.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "base/units.h"
-#include "tracker/sighting.h"
+#include "tracker/observation.h"
 
 namespace pleinair::app {
-PoseStatistics SummarizePath(const std::vector<session::Observation>& path) {
+PoseStatistics SummarizeTrajectory(const std::vector<session::Observation>& path) {
   PoseStatistics statistics;
   if (path.empty()) return statistics;
   std::vector<double> distances_m, errors_px, turns_deg, moves_m, visible;

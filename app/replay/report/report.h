@@ -65,7 +65,7 @@ struct PoseStatistics {
   std::array<std::int64_t, 3> found_by{};          ///< Frames by tracker::DetectionPath.
 };
 
-PoseStatistics SummarizePath(const std::vector<session::Observation>& path);
+PoseStatistics SummarizeTrajectory(const std::vector<session::Observation>& path);
 
 /// Frames after the first observation in which the marker was not seen.
 struct LostFrames {

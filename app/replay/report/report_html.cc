@@ -191,7 +191,7 @@ std::string Light(const ReplayReport& report) {
 }  // namespace
 
 std::string ReportHtml(const ReplayReport& report) {
-  const PoseStatistics poses = SummarizePath(report.path);
+  const PoseStatistics poses = SummarizeTrajectory(report.path);
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
   html += "<title>pleinair: " + files::EscapeMarkup(report.recording) + "</title><style>";

@@ -109,12 +109,12 @@ Json LightJson(const session::LightSummary& light) {
 }
 
 Json PosesJson(const ReplayReport& report) {
-  const PoseStatistics s = SummarizePath(report.path);
+  const PoseStatistics s = SummarizeTrajectory(report.path);
   const LostFrames lost = CountLostFrames(report.path, report.frames);
   Json found_by;
   for (const auto path : {tracker::DetectionPath::kFast, tracker::DetectionPath::kSurfGolay,
                           tracker::DetectionPath::kTracked}) {
-    found_by[tracker::PathName(path)] = s.found_by[static_cast<std::size_t>(path)];
+    found_by[tracker::TrajectoryName(path)] = s.found_by[static_cast<std::size_t>(path)];
   }
   return {
       {"distance_m",

@@ -9,7 +9,7 @@
 #include "base/image.h"
 #include "compositor/composer.h"
 #include "compositor/models/placed_model.h"
-#include "session/scene_light.h"
+#include "session/baked_lighting.h"
 
 namespace pleinair::app {
 

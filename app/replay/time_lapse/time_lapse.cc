@@ -13,7 +13,7 @@
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 #include "export/images/video_writer.h"
 #include "export/plots/vector_drawing.h"
 #include "files/base64.h"

@@ -8,7 +8,7 @@
 #include "devices/cameras/aravis/aravis_camera.h"
 #include "devices/cameras/aravis/aravis_handles.h"
 #include "devices/cameras/aravis/gige_probe.h"
-#include "devices/cameras/picture_choice.h"
+#include "devices/cameras/format_choice.h"
 
 namespace pleinair::devices {
 namespace {

@@ -17,10 +17,10 @@
 #include <string>
 #include <utility>
 
+#include "devices/cameras/format_choice.h"
 #include "devices/cameras/libcamera/libcamera_controls.h"
 #include "devices/cameras/libcamera/libcamera_manager.h"
 #include "devices/cameras/libcamera/mapped_planes.h"
-#include "devices/cameras/picture_choice.h"
 #include "devices/cameras/v4l2/v4l2_controls.h"
 
 namespace pleinair::devices {

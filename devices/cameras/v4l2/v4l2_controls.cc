@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "devices/cameras/v4l2/v4l2_words.h"
+#include "devices/cameras/v4l2/v4l2_status.h"
 
 namespace pleinair::devices {
 namespace {

@@ -9,10 +9,10 @@
 #include <cerrno>
 #include <utility>
 
-#include "devices/cameras/v4l2/v4l2_agreement.h"
 #include "devices/cameras/v4l2/v4l2_controls.h"
+#include "devices/cameras/v4l2/v4l2_negotiation.h"
 #include "devices/cameras/v4l2/v4l2_node.h"
-#include "devices/cameras/v4l2/v4l2_words.h"
+#include "devices/cameras/v4l2/v4l2_status.h"
 
 namespace pleinair::devices {
 namespace {

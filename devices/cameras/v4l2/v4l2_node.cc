@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "devices/cameras/v4l2/v4l2_controls.h"
-#include "devices/cameras/v4l2/v4l2_words.h"
+#include "devices/cameras/v4l2/v4l2_status.h"
 
 namespace pleinair::devices {
 namespace {

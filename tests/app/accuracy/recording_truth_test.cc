@@ -4,17 +4,17 @@
 
 #include <cmath>
 
+#include "accuracy/marker_pose.h"
 #include "accuracy/random.h"
 #include "accuracy/scoring.h"
-#include "accuracy/seen_print.h"
 
 namespace pleinair::app {
 namespace {
 
 TEST(RecordingTruth, LiesBetweenItsNeighboursAndNowhereElse) {
   const Mat3 turn = accuracy::RotationAbout({0, 0, 1}, 0.1);
-  const std::vector<exports::PathPose> poses{{100, {Mat3{}, {0, 0, 1}}, ""},
-                                             {200, {turn, {1, 0, 1}}, ""}};
+  const std::vector<exports::TrajectoryPose> poses{{100, {Mat3{}, {0, 0, 1}}, ""},
+                                                   {200, {turn, {1, 0, 1}}, ""}};
   const auto between = PoseAt(poses, 150, 100);
   ASSERT_TRUE(between.has_value());
   EXPECT_NEAR(between->translation_m.x, 0.5, 1e-12);

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "base/srgb.h"
-#include "compositor/photometry/day_skies.h"
 #include "compositor/photometry/light_estimator.h"
+#include "compositor/photometry/sky_state.h"
 #include "scene/sun_over_place.h"
 #include "tests/yard_scene.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "compositor/photometry/day_skies.h"
 #include "compositor/photometry/light_filter.h"
+#include "compositor/photometry/sky_state.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -18,11 +18,11 @@ namespace glsl {
 using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/differential.glsl"
+#include "compositor/shaders/linear_shadow_ratio.glsl"
 #include "compositor/shaders/plane_hit.glsl"
 #include "compositor/shaders/srgb_transfer.glsl"
-#include "compositor/shaders/steady_ratio.glsl"
 #include "compositor/shaders/texel_code.glsl"
-#include "compositor/shaders/triangle_layout.glsl"
+#include "compositor/shaders/visibility_buffer_layout.glsl"
 }  // namespace glsl
 
 namespace pleinair::compositor {

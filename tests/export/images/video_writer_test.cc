@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "devices/recordings/video_file.h"
-#include "export/images/picture_writer.h"
+#include "export/images/image_writer.h"
 
 namespace pleinair::exports {
 namespace {

@@ -21,7 +21,7 @@
 #include "export/print_sheets/sheet_raster.h"
 #include "export/print_sheets/square_board.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::exports {
 namespace {

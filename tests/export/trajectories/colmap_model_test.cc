@@ -49,14 +49,14 @@ const ColmapFiles& ColmapExample() {
   return kTexts;
 }
 
-Result<CameraPath> PathOf(Result<ColmapModel> model) {
+Result<CameraTrajectory> PathOf(Result<ColmapModel> model) {
   if (!model) return tl::make_unexpected(std::move(model).error());
-  return PathFromColmap(*std::move(model), 30.0);
+  return TrajectoryFromColmap(*std::move(model), 30.0);
 }
-Result<CameraPath> PathOfText(const ColmapFiles& files) {
+Result<CameraTrajectory> PathOfText(const ColmapFiles& files) {
   return PathOf(ParseColmapText(files, "model"));
 }
-Result<CameraPath> PathOfBinary(const ColmapFiles& files) {
+Result<CameraTrajectory> PathOfBinary(const ColmapFiles& files) {
   return PathOf(ParseColmapBinary(files, "model"));
 }
 
@@ -82,7 +82,7 @@ TEST(ColmapModel, ReadsTheDocumentationsOwnExample) {
 
 TEST(ColmapModel, WritesWhatItReads) {
   const auto path = PathOfText(ColmapExample());
-  const auto model = ColmapFromPath(*path);
+  const auto model = ColmapFromTrajectory(*path);
   ASSERT_TRUE(model);
   EXPECT_THAT(ColmapText(*model).images,
               HasSubstr(" -0.737434 1.02973 3.74354 1 P1180141.JPG\n\n"));
@@ -92,7 +92,7 @@ TEST(ColmapModel, WritesWhatItReads) {
   EXPECT_EQ(again->poses[1].picture, "P1180142.JPG");
   EXPECT_NEAR(again->poses[1].reference_from_camera.translation_m.x,
               path->poses[1].reference_from_camera.translation_m.x, 1e-9);
-  EXPECT_FALSE(ColmapFromPath(CameraPath{}));
+  EXPECT_FALSE(ColmapFromTrajectory(CameraTrajectory{}));
 }
 
 TEST(ColmapCamera, EveryKnownModelDistortsAsItsFormulaSays) {
@@ -193,7 +193,7 @@ ColmapFiles BinaryExample() {
   return {bytes("cameras.bin"), bytes("images.bin"), bytes("points3D.bin")};
 }
 
-void ExpectSamePath(const CameraPath& a, const CameraPath& b) {
+void ExpectSamePath(const CameraTrajectory& a, const CameraTrajectory& b) {
   ASSERT_EQ(a.poses.size(), b.poses.size());
   for (std::size_t i = 0; i < a.poses.size(); ++i) {
     EXPECT_EQ(a.poses[i].picture, b.poses[i].picture);
@@ -215,17 +215,20 @@ TEST(ColmapBinary, ReportsWhatTheTextTells) {
   ASSERT_TRUE(binary) << binary.error().Message();
   ExpectSamePath(*binary, *text);
   // COLMAP writes points in an order of its own.
-  for (const PathPoint& point : text->points) {
-    EXPECT_TRUE(std::any_of(binary->points.begin(), binary->points.end(), [&](const PathPoint& p) {
-      return p.place.xyz == point.place.xyz && p.rgb == point.rgb && p.error_px == point.error_px;
-    })) << point.error_px;
+  for (const TrajectoryPoint& point : text->points) {
+    EXPECT_TRUE(std::any_of(binary->points.begin(), binary->points.end(),
+                            [&](const TrajectoryPoint& p) {
+                              return p.place.xyz == point.place.xyz && p.rgb == point.rgb &&
+                                     p.error_px == point.error_px;
+                            }))
+        << point.error_px;
   }
 }
 
 TEST(ColmapBinary, WritesWhatItReads) {
   auto path = *PathOfBinary(BinaryExample());
   path.camera->distortion = {0.1, 0.2, 0.3, 0.4, 0.5};
-  const ColmapFiles files = ColmapBinary(*ColmapFromPath(path));
+  const ColmapFiles files = ColmapBinary(*ColmapFromTrajectory(path));
   const auto again = PathOfBinary(files);
   ASSERT_TRUE(again) << again.error().Message();
   ExpectSamePath(*again, path);

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <string>
 
-#include "app/output/observed_path.h"
-#include "export/trajectories/euroc_path.h"
+#include "app/output/observed_trajectory.h"
+#include "export/trajectories/euroc_trajectory.h"
 #include "export/trajectories/text_lines.h"
-#include "export/trajectories/tum_path.h"
+#include "export/trajectories/tum_trajectory.h"
 #include "tests/error_message.h"
 
 namespace pleinair::exports {
@@ -23,8 +23,8 @@ Mat3 About(Vec3 axis, double angle) {
   return RotationOf({a.x, a.y, a.z, std::cos(angle / 2)});
 }
 
-CameraPath OnePose(const Transform<Reference, Camera>& pose) {
-  CameraPath path;
+CameraTrajectory OnePose(const Transform<Reference, Camera>& pose) {
+  CameraTrajectory path;
   path.poses.push_back({1'066'667'000, pose, ""});
   return path;
 }
@@ -68,7 +68,7 @@ TEST(TumPath, ReportsTheCameraInTheMarkersFrame) {
   seen.timestamp_ns = 1'066'667'000;
   seen.camera_from_marker =
       Transform<Marker, Camera>{About({0, 0, 1}, std::numbers::pi / 2), {1, 2, 3}}.Inverse();
-  EXPECT_THAT(TumText(ObservedPath({seen}), "comment"),
+  EXPECT_THAT(TumText(ObservedTrajectory({seen}), "comment"),
               HasSubstr("\n1.066667 1.000000000 2.000000000 3.000000000 0.000000000 0.000000000 "
                         "0.707106781 0.707106781\n"));
 }
@@ -129,14 +129,14 @@ constexpr const char* kEurocSensor =
     "         0.0, 0.0, 0.0, 1.0]\n";
 
 TEST(EurocPath, ReadsTheBodysPathAndTheCamerasThroughItsMounting) {
-  const auto body = ParseEurocPath(kEurocExample, "data.csv");
+  const auto body = ParseEurocTrajectory(kEurocExample, "data.csv");
   ASSERT_TRUE(body) << body.error().Message();
   EXPECT_EQ(body->poses[0].timestamp_ns, 1'403'636'580'838'555'648);
   EXPECT_EQ(body->poses[0].reference_from_camera.translation_m,
             (Vec3{4.688319, -1.786938, 0.783338}));
   const auto mounting = devices::ParseEurocExtrinsics(kEurocSensor, "sensor.yaml");
   ASSERT_TRUE(mounting) << mounting.error().Message();
-  const auto camera = ParseEurocPath(kEurocExample, "data.csv", *mounting);
+  const auto camera = ParseEurocTrajectory(kEurocExample, "data.csv", *mounting);
   // By matrices of another program (NumPy).
   const auto& pose = camera->poses[0].reference_from_camera;
   EXPECT_NEAR(pose.translation_m.x, 4.66612097, 1e-6);
@@ -144,7 +144,7 @@ TEST(EurocPath, ReadsTheBodysPathAndTheCamerasThroughItsMounting) {
   EXPECT_NEAR(pose.translation_m.z, 0.761367244, 1e-6);
   EXPECT_NEAR(pose.rotation(0, 2), -0.851204070, 1e-5);
   EXPECT_NEAR(pose.rotation(2, 1), -0.910832474, 1e-5);
-  const std::string text = EurocPathText(*camera, *mounting);
+  const std::string text = EurocTrajectoryText(*camera, *mounting);
   EXPECT_THAT(text, AllOf(StartsWith("#timestamp [ns],p_RS_R_x [m],"),
                           HasSubstr("\n1403636580838555648,4.688319000,-1.786938000,0.783338000,"
                                     "0.534")));
@@ -154,7 +154,8 @@ TEST(EurocPath, RefusesWhatIsNoPathOrMounting) {
   for (const char* wrong :
        {"12,0,0,0,1,0,0", "12.5,0,0,0,1,0,0,0", "12,0,0,0,0,0,0,0", "12,0,0,nan,1,0,0,0",
         "9223372036854775807,0,0,0,1,0,0,0", "10,0,0,0,1,0,0,0", "12,cam0.png"}) {
-    const auto path = ParseEurocPath("10,0,0,0,1,0,0,0\n" + std::string(wrong) + "\n", "f.csv");
+    const auto path =
+        ParseEurocTrajectory("10,0,0,0,1,0,0,0\n" + std::string(wrong) + "\n", "f.csv");
     EXPECT_THAT(tests::MessageOf(path), StartsWith("f.csv:2: ")) << wrong;
   }
   for (const char* wrong :

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "export/trajectories/gltf_path.h"
-#include "export/trajectories/mcap_path.h"
+#include "export/trajectories/gltf_trajectory.h"
+#include "export/trajectories/mcap_trajectory.h"
 #include "export/trajectories/mcap_writer.h"
 
 namespace pleinair::exports {
@@ -33,8 +33,8 @@ T NumberAt(std::string_view bytes, std::size_t at) {
 
 /// Two metres above a marker on the ground, looking down, the picture's top to the north; then
 /// from the south, level, at a height of one metre.
-CameraPath TwoPoses() {
-  CameraPath path;
+CameraTrajectory TwoPoses() {
+  CameraTrajectory path;
   path.camera =
       CameraModel{.width = 640, .height = 480, .fx = 500, .fy = 510, .cx = 320, .cy = 241};
   path.poses.push_back({2'000'000'000, {{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 2}}, ""});
@@ -70,7 +70,7 @@ Glb TakeApart(std::string_view glb) {
 }
 
 TEST(GltfPath, MovesACameraAsGltfHasItWithYUp) {
-  const auto glb = GltfFromPath(TwoPoses(), {});
+  const auto glb = GltfFromTrajectory(TwoPoses(), {});
   ASSERT_TRUE(glb) << glb.error().Message();
   const Glb scene = TakeApart(*glb);
   const Json& animation = scene.json["animations"][0];
@@ -92,9 +92,9 @@ TEST(GltfPath, MovesACameraAsGltfHasItWithYUp) {
 }
 
 TEST(GltfPath, ShowsMarkerAndPointsInTheSameScene) {
-  CameraPath path = TwoPoses();
+  CameraTrajectory path = TwoPoses();
   path.points.push_back({{{1, 2, 3}}, {255, 128, 0}, 0.5});
-  const auto glb = GltfFromPath(path, {.up = UpAxis::kZ, .marker_size_m = 0.5});
+  const auto glb = GltfFromTrajectory(path, {.up = UpAxis::kZ, .marker_size_m = 0.5});
   ASSERT_TRUE(glb);
   const Glb scene = TakeApart(*glb);
   EXPECT_EQ(scene.json["scenes"][0]["nodes"], Json({0, 1, 2}));
@@ -111,17 +111,17 @@ TEST(GltfPath, ShowsMarkerAndPointsInTheSameScene) {
 }
 
 TEST(GltfPath, TurnsTheShortWayBetweenAnyTwoPoses) {
-  CameraPath path;
+  CameraTrajectory path;
   path.camera = TwoPoses().camera;
   for (int i = 0; i < 40; ++i) {
     const double angle = i * 0.3;
     const Mat3 turn = RotationOf({0, std::sin(angle / 2), 0, std::cos(angle / 2)});
     path.poses.push_back({i * 1'000'000, {turn, {}}, ""});
   }
-  const auto text = GltfFromPath(path, {.up = UpAxis::kY, .binary = false});
+  const auto text = GltfFromTrajectory(path, {.up = UpAxis::kY, .binary = false});
   ASSERT_TRUE(text);
   EXPECT_THAT(*text, HasSubstr("data:application/octet-stream;base64,"));
-  const auto glb = GltfFromPath(path, {.up = UpAxis::kY});
+  const auto glb = GltfFromTrajectory(path, {.up = UpAxis::kY});
   const std::vector<float> q = TakeApart(*glb).Floats(2);
   for (std::size_t i = 4; i < q.size(); i += 4) {
     EXPECT_GT(q[i] * q[i - 4] + q[i + 1] * q[i - 3] + q[i + 2] * q[i - 2] + q[i + 3] * q[i - 1],
@@ -130,11 +130,11 @@ TEST(GltfPath, TurnsTheShortWayBetweenAnyTwoPoses) {
 }
 
 TEST(GltfPath, RefusesALensThatNoPerspectiveCameraHas) {
-  CameraPath path = TwoPoses();
+  CameraTrajectory path = TwoPoses();
   path.camera->distortion_model = DistortionModel::kEquidistant;
-  EXPECT_FALSE(GltfFromPath(path, {}));
+  EXPECT_FALSE(GltfFromTrajectory(path, {}));
   path.camera.reset();
-  EXPECT_FALSE(GltfFromPath(path, {}));
+  EXPECT_FALSE(GltfFromTrajectory(path, {}));
 }
 
 /// Reads an MCAP file as its specification says, chunk by chunk through the summary's index, and
@@ -247,12 +247,12 @@ class McapReader {
 };
 
 TEST(McapPath, HoldsCameraPosesAndMarkers) {
-  McapPathOptions options;
+  McapTrajectoryOptions options;
   options.start_ns = 1'700'000'000'000'000'000;
   options.marker_size_m = 0.48;
   options.markers = {{1'900'000'000, R"({"frame":0,"timestamp_s":1.9,"markers":[],"lost":[]})"},
                      {2'600'000'000, R"({"frame":2,"timestamp_s":2.6,"markers":[],"lost":[]})"}};
-  const auto file = McapFromPath(TwoPoses(), options);
+  const auto file = McapFromTrajectory(TwoPoses(), options);
   ASSERT_TRUE(file) << file.error().Message();
   McapReader reader(*file);
   EXPECT_EQ(reader.schema_names["/camera/calibration"], "foxglove.CameraCalibration");
@@ -273,9 +273,9 @@ TEST(McapPath, HoldsCameraPosesAndMarkers) {
 }
 
 TEST(McapPath, HasNoTimesBeforeNineteenSeventy) {
-  McapPathOptions options;
+  McapTrajectoryOptions options;
   options.start_ns = -10'000'000'000;
-  EXPECT_FALSE(McapFromPath(TwoPoses(), options));
+  EXPECT_FALSE(McapFromTrajectory(TwoPoses(), options));
 }
 
 TEST(McapWriter, SplitsALongFileIntoChunksThatAreAllFound) {

@@ -7,7 +7,7 @@
 
 #include "sky/atmosphere/air_medium.h"
 #include "sky/cie_observer.h"
-#include "sky/colour.h"
+#include "sky/color.h"
 
 namespace pleinair::sky {
 namespace {

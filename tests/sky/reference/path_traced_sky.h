@@ -6,7 +6,7 @@
 
 #include "base/vector.h"
 #include "sky/atmosphere/aerosol.h"
-#include "sky/colour.h"
+#include "sky/color.h"
 
 namespace pleinair::sky::reference {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sky/colour.h"
+#include "sky/color.h"
 #include "tests/sky/reference/path_traced_sky.h"
 
 namespace pleinair::sky::reference {

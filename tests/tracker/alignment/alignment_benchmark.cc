@@ -7,7 +7,7 @@
 #include "tests/tracker/marker_rendering.h"
 #include "tracker/alignment/block_fit.h"
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -10,7 +10,7 @@
 #include "tests/tracker/alignment/alignment_scene.h"
 #include "tests/tracker/surf/on_every_target.h"
 #include "tracker/alignment/raster_kernels.h"
-#include "tracker/alignment/reduced_pictures.h"
+#include "tracker/alignment/reduced_images.h"
 #include "tracker/pose/homography.h"
 
 namespace pleinair::tracker {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "tracker/calibration/aruco_dictionaries.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -65,7 +65,7 @@ class PictureTracking : public testing::Test {
     const auto found = Track(tracker_.get(), Frame(frame, covered));
     ASSERT_EQ(found.size(), 1U) << Summary(found);
     EXPECT_EQ(found[0].detection.name, "leaves");
-    EXPECT_STREQ(PathName(found[0].detection.path), PathName(path));
+    EXPECT_STREQ(TrajectoryName(found[0].detection.path), TrajectoryName(path));
     EXPECT_LT(CornerRms(found[0], TrueCorners(Camera(), Hung(frame))), corner_px);
     EXPECT_THAT(tracker_->Lost(), IsEmpty());
   }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/tracker/surf/surf_test_pictures.h"
+#include "tests/tracker/surf/surf_test_images.h"
 #include "tracker/surf/surf.h"
 
 namespace pleinair::tracker {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tracker/counted_memory.h"
-#include "tests/tracker/surf/surf_test_pictures.h"
+#include "tests/tracker/surf/surf_test_images.h"
 #include "tracker/surf/descriptor_matcher.h"
 #include "tracker/surf/quantised_descriptor.h"
 #include "tracker/surf/surf.h"

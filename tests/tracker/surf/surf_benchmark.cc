@@ -12,7 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/tracker/surf/surf_peers.h"
-#include "tests/tracker/surf/surf_test_pictures.h"
+#include "tests/tracker/surf/surf_test_images.h"
 #include "tracker/surf/descriptor_matcher.h"
 #include "tracker/surf/surf.h"
 

@@ -13,7 +13,7 @@
 
 #include "tests/tracker/surf/on_every_target.h"
 #include "tests/tracker/surf/surf_reference.h"
-#include "tests/tracker/surf/surf_test_pictures.h"
+#include "tests/tracker/surf/surf_test_images.h"
 #include "tracker/surf/box_levels.h"
 #include "tracker/surf/descriptor_matcher.h"
 #include "tracker/surf/double_size.h"

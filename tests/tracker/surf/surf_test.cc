@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/tracker/surf/surf_test_pictures.h"
+#include "tests/tracker/surf/surf_test_images.h"
 #include "tracker/surf/quantised_descriptor.h"
 
 namespace pleinair::tracker {

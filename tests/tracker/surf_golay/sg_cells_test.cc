@@ -12,12 +12,12 @@
 #include "tests/tracker/surf_golay/sg_test_scenes.h"
 #include "tracker/golay/golay_code.h"
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/cell_glance.h"
 #include "tracker/surf_golay/cell_light.h"
 #include "tracker/surf_golay/cell_reader.h"
 #include "tracker/surf_golay/cell_split.h"
-#include "tracker/surf_golay/print_square.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/fast_cell_sampling.h"
+#include "tracker/surf_golay/marker_square.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 namespace {

@@ -11,7 +11,7 @@
 #include "tracker/april_tag_detector.h"
 #include "tracker/golay/golay_code.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 namespace {

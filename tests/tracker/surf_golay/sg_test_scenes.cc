@@ -7,7 +7,7 @@
 
 #include "tracker/golay/golay_code.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_print.h"
+#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 
@@ -66,7 +66,7 @@ std::string Summary(const std::vector<MarkerObservation>& observations) {
   std::string text;
   for (const MarkerObservation& observation : observations) {
     text += (text.empty() ? "" : ", ") + std::to_string(observation.detection.id) + " " +
-            PathName(observation.detection.path) + " at " +
+            TrajectoryName(observation.detection.path) + " at " +
             std::to_string(std::lround(observation.detection.corners_px[0].x)) + "," +
             std::to_string(std::lround(observation.detection.corners_px[0].y)) + " " +
             std::to_string(std::lround(100.0 * observation.detection.visible_fraction)) + " %";

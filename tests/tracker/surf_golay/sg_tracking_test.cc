@@ -43,7 +43,7 @@ class SgTracking : public testing::Test {
     ASSERT_EQ(found.size(), 1U) << Summary(found);
     EXPECT_EQ(found[0].detection.id, 17);
     if (path) {
-      EXPECT_STREQ(PathName(found[0].detection.path), PathName(*path));
+      EXPECT_STREQ(TrajectoryName(found[0].detection.path), TrajectoryName(*path));
     }
     EXPECT_LT(CornerRms(found[0], Truth(camera_, centre_px, frame)), corner_px);
     EXPECT_THAT(tracker_->Lost(), IsEmpty());
@@ -163,7 +163,7 @@ TEST(SgTrackingAgain, FindsALargeMarkerAtOnceWhereItStaysWhenFollowed) {
           MakeSgTracker(camera, {.strategy = SgStrategy::kFast, .consecutive_frames = true});
       const auto first = Track(tracker.get(), image);
       ASSERT_EQ(first.size(), 1U) << Summary(first);
-      EXPECT_STREQ(PathName(first[0].detection.path), "fast");
+      EXPECT_STREQ(TrajectoryName(first[0].detection.path), "fast");
       std::vector<MarkerObservation> last;
       for (int frame = 0; frame < 6; ++frame) last = Track(tracker.get(), image);
       ASSERT_EQ(last.size(), 1U) << Summary(last);

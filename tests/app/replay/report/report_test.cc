@@ -277,18 +277,18 @@ TEST(ReportLight, ReportsThatNoSunShone) {
                                        "of 45 shadow edges agree"));
 }
 
-TEST(SummarizePath, DoesNotCountStepsAcrossFramesWithoutAPose) {
-  const PoseStatistics statistics = SummarizePath({At(0, 0.0), At(1, 0.1), At(5, 3.0)});
+TEST(SummarizeTrajectory, DoesNotCountStepsAcrossFramesWithoutAPose) {
+  const PoseStatistics statistics = SummarizeTrajectory({At(0, 0.0), At(1, 0.1), At(5, 3.0)});
   EXPECT_NEAR(statistics.path_length_m, 0.1, 1e-12);
   EXPECT_NEAR(statistics.distance_max_m, std::sqrt(13.0), 1e-12);
 }
 
-TEST(SummarizePath, CountsPosesThatMayBeTheOtherPlanarSolution) {
+TEST(SummarizeTrajectory, CountsPosesThatMayBeTheOtherPlanarSolution) {
   std::vector<session::Observation> path = {At(0, 0.0), At(1, 0.1), At(2, 0.2), At(3, 0.3)};
   path[1].ambiguity_ratio = 0.0005;  // Certain: below 0.001.
   path[2].ambiguity_ratio = 0.01;
   path[3].ambiguity_ratio = 0.9;
-  EXPECT_EQ(SummarizePath(path).ambiguous_frames, 2);
+  EXPECT_EQ(SummarizeTrajectory(path).ambiguous_frames, 2);
 }
 
 TEST(LinePlot, LeavesAGapWhereAPointIsMissing) {

@@ -12,7 +12,7 @@
 
 #include "base/srgb.h"
 #include "tests/compositor/gentle_response.h"
-#include "tests/compositor/photometry/marker/metered_marker.h"
+#include "tests/compositor/photometry/marker/photographed_marker.h"
 
 namespace pleinair::compositor {
 namespace {

@@ -1,0 +1,47 @@
+#version 450 core
+// What the virtual objects change of the real surfaces' light in a pixel as phantom_ratio.frag does,
+// where the sun's part in it is known of each triangle: AffectedTriangles::kLinearSky of
+// compositor/surfaces/affected_triangles.h.
+// AIRLIGHT: so far away that the air before the surface counts.
+
+#include "compositor/shaders/aerial_perspective.glsl"
+#include "compositor/shaders/linear_shadow_ratio.glsl"
+#include "compositor/shaders/visibility_buffer_layout.glsl"
+
+uniform float u_samples;  // A pixel.
+uniform vec3 u_eye_m;     // Centre of projection, marker coordinates.
+uniform vec3 u_ray;       // As in seen_surface.glsl.
+uniform vec3 u_ray_x;
+uniform vec3 u_ray_y;
+
+layout(location = 0) out vec4 out_ratio;
+
+layout(binding = 0) uniform usampler2D u_visible;   // Of changing_pixels.frag.
+layout(binding = 1) uniform sampler2D u_linear_ratios;  // kTexelsPerLinearRatio by triangle.
+
+LinearRatioPoint PlaceOn(uint id) {
+  ivec2 at = TexelOfLinearRatio(int(max(id, 1u)) - 1);
+  vec3 ray = u_ray + gl_FragCoord.x * u_ray_x + gl_FragCoord.y * u_ray_y;
+  return LinearRatioAlong(u_eye_m, ray, texelFetch(u_linear_ratios, at, 0),
+                     texelFetch(u_linear_ratios, at + ivec2(1, 0), 0),
+                     texelFetch(u_linear_ratios, at + ivec2(2, 0), 0),
+                     texelFetch(u_linear_ratios, at + ivec2(3, 0), 0),
+                     texelFetch(u_linear_ratios, at + ivec2(4, 0), 0));
+}
+
+void main() {
+  uvec4 seen = texelFetch(u_visible, ivec2(gl_FragCoord.xy), 0);
+  vec3 ratio = vec3(0.0), airlight = vec3(0.0);
+  float samples = 0.0;
+  do {
+    float count = dot(SamplesOf(seen.x), vec4(1.0));
+    LinearRatioPoint place = PlaceOn(IdOf(seen.x));
+    ratio += count * place.ratio;
+    airlight += count * AirlightOver(place.ratio, AirUpTo(distance(u_eye_m, place.position_m)));
+    samples += count;
+    seen = uvec4(seen.yzw, 0u);
+  } while (seen.x != 0u);
+  // The others show what does not change, or objects.
+  out_ratio = vec4((ratio + (u_samples - samples)) / u_samples, 1.0);
+  WriteAirlight(airlight / u_samples);
+}

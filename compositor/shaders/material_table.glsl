@@ -1,0 +1,37 @@
+#ifndef COMPOSITOR_MATERIAL_TABLE_GLSL
+#define COMPOSITOR_MATERIAL_TABLE_GLSL
+// Materials and places of the virtual objects' surfaces as compositor/surfaces/material_table.h lays them out.
+
+#include "compositor/shaders/visibility_buffer_layout.glsl"
+
+layout(binding = 2) uniform sampler2D u_surfaces;
+
+struct MaterialRecord {
+  vec3 base_color;  // Linear reflectance, before its texture.
+  float metallic, roughness;
+  float dielectric_f0;       // Normal reflectance of the coat; 0: purely diffuse.
+  float base_under_coat;     // What the coat leaves of the base color's light.
+  vec4 row_x, row_y, row_z;  // Marker from where it was lit. Angles stay.
+};
+
+MaterialRecord RecordOf(int surface) {
+  ivec2 at = TexelOfSurface(surface);
+  vec4 color = texelFetch(u_surfaces, at, 0);
+  vec4 coat = texelFetch(u_surfaces, at + ivec2(1, 0), 0);
+  return MaterialRecord(color.rgb, color.a, coat.x, coat.y, coat.z,
+                       texelFetch(u_surfaces, at + ivec2(2, 0), 0),
+                       texelFetch(u_surfaces, at + ivec2(3, 0), 0),
+                       texelFetch(u_surfaces, at + ivec2(4, 0), 0));
+}
+
+BufferVertex Moved(BufferVertex vertex, MaterialRecord record) {
+  vec4 place = vec4(vertex.position_m, 1.0);
+  vec3 normal = vertex.normal;
+  vertex.position_m =
+      vec3(dot(record.row_x, place), dot(record.row_y, place), dot(record.row_z, place));
+  vertex.normal = vec3(dot(record.row_x.xyz, normal), dot(record.row_y.xyz, normal),
+                       dot(record.row_z.xyz, normal));
+  return vertex;
+}
+
+#endif

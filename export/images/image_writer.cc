@@ -1,0 +1,63 @@
+#include "export/images/image_writer.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <system_error>
+
+#include "base/atomic_file.h"
+#include "files/png_rows.h"
+
+namespace pleinair::exports {
+namespace {
+
+cv::Mat Wrap(ImageView<const std::uint8_t> rgb) {
+  // OpenCV has no const view; nobody writes through this one.
+  return {rgb.height(), rgb.width(), CV_8UC3, const_cast<std::uint8_t*>(rgb.data()),
+          static_cast<std::size_t>(rgb.stride())};
+}
+
+}  // namespace
+
+Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::uint8_t> rgb) {
+  CHECK_EQ(rgb.channels(), 3);
+  errno = 0;
+  std::FILE* out = std::fopen(file.c_str(), "wb");
+  if (out == nullptr) return tl::make_unexpected(WriteError(file, errno));
+  bool good = files::WritePngRows(rgb, {.fast = true}, out);
+  int error_number = errno;
+  if (std::fclose(out) != 0 && good) {
+    good = false;
+    error_number = errno;
+  }
+  if (good) return {};
+  std::error_code ignored;
+  // Never a device or a pipe that stands where a file was expected.
+  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  return tl::make_unexpected(WriteError(file, error_number != 0 ? error_number : EIO));
+}
+
+std::vector<std::uint8_t> EncodeJpeg(ImageView<const std::uint8_t> rgb, int max_width,
+                                     int quality) {
+  cv::Mat bgr;
+  cv::cvtColor(Wrap(rgb), bgr, cv::COLOR_RGB2BGR);
+  if (bgr.cols > max_width) {
+    const double scale = static_cast<double>(max_width) / bgr.cols;
+    cv::resize(bgr, bgr, {}, scale, scale, cv::INTER_AREA);
+  }
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return bytes;
+}
+
+RgbImage ResizeRgb(ImageView<const std::uint8_t> rgb, int width, int height) {
+  RgbImage resized(width, height, 3);
+  cv::Mat target(height, width, CV_8UC3, resized.data());
+  const bool shrinks = width <= rgb.width() && height <= rgb.height();
+  cv::resize(Wrap(rgb), target, target.size(), 0, 0, shrinks ? cv::INTER_AREA : cv::INTER_CUBIC);
+  return resized;
+}
+
+}  // namespace pleinair::exports

@@ -1,0 +1,68 @@
+#include "export/trajectories/camera_trajectory.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace pleinair::exports {
+namespace {
+
+// Files state a quaternion to three digits or more; what is farther off is no rotation.
+constexpr double kLengthTolerance = 0.01;
+// Farther than any camera goes, and far inside what 32-bit floats hold.
+constexpr double kMaxDistance = 1e9;
+
+// 285 years; leaves room to count on.
+constexpr std::int64_t kMaxTime_ns = 9'000'000'000'000'000'000;
+
+bool IsNear(Vec3 place) {
+  return std::abs(place.x) <= kMaxDistance && std::abs(place.y) <= kMaxDistance &&
+         std::abs(place.z) <= kMaxDistance;
+}
+
+}  // namespace
+
+Result<void> CheckPose(const std::string& where, Vec3 shift, const Quaternion& turn) {
+  const double length = std::sqrt(Dot(turn, turn));
+  if (!(std::abs(length - 1.0) <= kLengthTolerance)) {
+    return InputError(where, fmt::format("has a quaternion of length {:.4g} instead of 1", length),
+                      "mend it, or get a whole copy of the file");
+  }
+  if (!IsNear(shift)) {
+    return InputError(where, "has a place farther off than 1e9",
+                      "mend it, or get a whole copy of the file");
+  }
+  return {};
+}
+
+Result<void> AddPose(const std::string& where, TrajectoryPose pose, CameraTrajectory* path) {
+  if (!path->poses.empty() && pose.timestamp_ns <= path->poses.back().timestamp_ns) {
+    return InputError(where, "is not later than the pose before", "sort the lines by time");
+  }
+  if (pose.timestamp_ns > kMaxTime_ns || pose.timestamp_ns < -kMaxTime_ns) {
+    return InputError(where, "has a time stamp of more than 9e9 seconds",
+                      "mend it, or get a whole copy of the file");
+  }
+  path->poses.push_back(std::move(pose));
+  return {};
+}
+
+void ScaleTrajectory(double factor, CameraTrajectory* path) {
+  for (TrajectoryPose& pose : path->poses) {
+    pose.reference_from_camera.translation_m = pose.reference_from_camera.translation_m * factor;
+  }
+  for (TrajectoryPoint& point : path->points) point.place.xyz = point.place.xyz * factor;
+}
+
+Trajectory TrajectoryOf(const CameraTrajectory& path) {
+  const Transform<Marker, Reference> marker_from_reference;
+  Trajectory trajectory;
+  trajectory.reserve(path.poses.size());
+  for (const TrajectoryPose& pose : path.poses) {
+    trajectory.push_back({pose.timestamp_ns, marker_from_reference * pose.reference_from_camera});
+  }
+  return trajectory;
+}
+
+}  // namespace pleinair::exports
