@@ -1,6 +1,7 @@
 #include "tests/architecture/include_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <map>
 #include <set>
@@ -34,6 +35,21 @@ const std::map<std::string, Names, std::less<>>& AllowedModules() {
         "session", "export", "accuracy"}},
   };
   return kAllowed;
+}
+
+/// The folders inside compositor from the ground up: a folder may include those before it.
+constexpr std::array kCompositorFolders = {"models",   "light",  "photometry",
+                                           "surfaces", "passes", "picture"};
+
+/// Position of a file in that order. GLSL twins and plain options lie below all folders, the
+/// composer above.
+std::size_t CompositorFloor(const fs::path& file) {
+  const fs::path in_compositor = file.lexically_relative("compositor");
+  if (in_compositor == "composer_options.h") return 0;
+  const std::string folder = in_compositor.has_parent_path() ? in_compositor.begin()->string() : "";
+  if (folder == "shaders") return 0;
+  const auto at = std::find(kCompositorFolders.begin(), kCompositorFolders.end(), folder);
+  return 1 + static_cast<std::size_t>(at - kCompositorFolders.begin());
 }
 
 /// Libraries and how to know them by the beginning of an include.
@@ -166,6 +182,12 @@ std::vector<std::string> FindBreaches(const fs::path& file, std::string_view tex
     if (AllowedModules().contains(other) && other != module && !rule->second.contains(other)) {
       breaches.push_back(what + module + " may not know " + other);
     }
+    if (module == "compositor" && other == module &&
+        CompositorFloor(include.path) > CompositorFloor(file)) {
+      breaches.push_back(
+          what + "the folders of compositor are " +
+          "models, light, photometry, surfaces, passes, picture, from the ground up");
+    }
     if (include.path.find("..") != std::string::npos) {
       breaches.push_back(what + "paths are written from the root of the tree");
     }
@@ -195,6 +217,67 @@ std::vector<std::string> FindBreachesBelow(const fs::path& root) {
     breaches.insert(breaches.end(), of_file.begin(), of_file.end());
   }
   return breaches;
+}
+
+UnitIncludes ReadUnitIncludes(const fs::path& root) {
+  UnitIncludes units;
+  const auto unit_of = [](fs::path file) { return file.replace_extension().generic_string(); };
+  const auto is_unit = [](const fs::path& file) {
+    return file.extension() == ".h" || file.extension() == ".cc";
+  };
+  for (const fs::path& file : SourcesBelow(root)) {
+    if (is_unit(file)) units[unit_of(file)];
+  }
+  for (const fs::path& file : SourcesBelow(root)) {
+    if (!is_unit(file)) continue;
+    std::ifstream in(root / file, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    for (const Include& include : ParseIncludes(text)) {
+      const std::string other = unit_of(include.path);
+      if (other != unit_of(file) && units.contains(other)) units[unit_of(file)].insert(other);
+    }
+  }
+  return units;
+}
+
+std::vector<std::vector<std::string>> FindLoops(const UnitIncludes& includes) {
+  // Tarjan 1972, "Depth-first search and linear graph algorithms", section 4: LOWLINK.
+  struct Visit {
+    std::size_t number = 0, low_link = 0;
+    bool on_stack = false;
+  };
+  std::map<std::string, Visit> visits;
+  std::vector<std::string> stack;
+  std::vector<std::vector<std::string>> loops;
+  const auto visit = [&](const auto& self, const std::string& unit) -> void {
+    Visit& here = visits[unit];
+    here = {visits.size(), visits.size(), true};
+    stack.push_back(unit);
+    const auto edges = includes.find(unit);
+    for (const std::string& other :
+         edges == includes.end() ? std::set<std::string>() : edges->second) {
+      if (!visits.contains(other)) {
+        self(self, other);
+        here.low_link = std::min(here.low_link, visits[other].low_link);
+      } else if (visits[other].on_stack) {
+        here.low_link = std::min(here.low_link, visits[other].number);
+      }
+    }
+    if (here.low_link != here.number) return;
+    std::vector<std::string> component;
+    do {
+      component.push_back(stack.back());
+      visits[stack.back()].on_stack = false;
+      stack.pop_back();
+    } while (component.back() != unit);
+    if (component.size() < 2) return;
+    std::sort(component.begin(), component.end());
+    loops.push_back(std::move(component));
+  };
+  for (const auto& [unit, others] : includes) {
+    if (!visits.contains(unit)) visit(visit, unit);
+  }
+  return loops;
 }
 
 std::size_t CountSources(const fs::path& root) { return SourcesBelow(root).size(); }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,15 +18,27 @@ struct Include {
 /// The include directives of a source text, also indented ones; those in comments do not count.
 std::vector<Include> ParseIncludes(std::string_view text);
 
-/// Breaches of the order of modules and of the rules about libraries in one file, a line each
-/// ("tracker/x.cc:3: includes gl/y.h: tracker may know only base"). `file` is relative to the root
-/// of the source tree, "tracker/x.cc".
+/// Breaches in one file of the order of modules, of the order of the folders inside compositor and
+/// of the rules about libraries, a line each ("tracker/x.cc:3: includes gl/y.h: tracker may not
+/// know gl"). `file` is relative to the root of the source tree, "tracker/x.cc".
 std::vector<std::string> FindBreaches(const std::filesystem::path& file, std::string_view text);
 
 /// The same for every .h, .cc and shader below the module folders of `root`.
 std::vector<std::string> FindBreachesBelow(const std::filesystem::path& root);
 
-/// How many files FindBreachesBelow looks at.
+/// A unit and the units that it includes. A unit is a header with its source, named by their path
+/// without an ending: "tracker/tracker".
+using UnitIncludes = std::map<std::string, std::set<std::string>>;
+
+/// The include graph of the .h and .cc files below the module folders of `root`. A unit that
+/// includes its own header has no edge to itself.
+UnitIncludes ReadUnitIncludes(const std::filesystem::path& root);
+
+/// Loops of units: the strongly connected components of more than one unit (Tarjan 1972), each in
+/// alphabetical order.
+std::vector<std::vector<std::string>> FindLoops(const UnitIncludes& includes);
+
+/// How many files FindBreachesBelow reads.
 std::size_t CountSources(const std::filesystem::path& root);
 
 }  // namespace pleinair::architecture

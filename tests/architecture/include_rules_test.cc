@@ -27,6 +27,36 @@ TEST(IncludeRules, CatchAnIncludeAgainstTheOrderOfModules) {
               ElementsAre(HasSubstr("shadows may not know compositor")));
 }
 
+TEST(IncludeRules, CatchAnIncludeAgainstTheOrderOfFoldersInCompositor) {
+  EXPECT_THAT(
+      FindBreaches("compositor/models/model.cc", "#include \"compositor/light/lit_mesh.h\""),
+      ElementsAre(HasSubstr("from the ground up")));
+  EXPECT_THAT(FindBreaches("compositor/passes/a.cc", "#include \"compositor/composer.h\""),
+              ElementsAre(HasSubstr("from the ground up")));
+  EXPECT_THAT(FindBreaches("compositor/photometry/marker/a.cc",
+                           "#include \"compositor/surfaces/scene_surfaces.h\""),
+              ElementsAre(HasSubstr("from the ground up")));
+  EXPECT_THAT(FindBreaches("compositor/composer.cc", "#include \"compositor/passes/a.h\""),
+              IsEmpty());
+  EXPECT_THAT(FindBreaches("compositor/passes/a.cc",
+                           "#include \"compositor/composer_options.h\"\n"
+                           "#include \"compositor/surfaces/b.h\"\n"),
+              IsEmpty());
+}
+
+TEST(IncludeRules, LeaveNoLoopOfMoreThanFourUnits) {
+  for (const auto& loop : FindLoops(ReadUnitIncludes(tests::SourceTree()))) {
+    EXPECT_LE(loop.size(), 4U) << ::testing::PrintToString(loop);
+  }
+}
+
+TEST(FindLoops, GivesEachLoopOnceAndNoChain) {
+  const UnitIncludes includes = {{"a", {"b"}}, {"b", {"c"}}, {"c", {"a", "d"}}, {"d", {"e"}},
+                                 {"e", {"d"}}, {"f", {"a"}}, {"g", {}}};
+  EXPECT_THAT(FindLoops(includes),
+              ::testing::UnorderedElementsAre(ElementsAre("a", "b", "c"), ElementsAre("d", "e")));
+}
+
 TEST(IncludeRules, CatchOpenCvWhereABareMachineMustBuild) {
   EXPECT_THAT(FindBreaches("compositor/models/model.cc", "#include <opencv2/core.hpp>"),
               ElementsAre(HasSubstr("compositor may not know OpenCV")));
