@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/options/light_options.h"
 #include "app/output/composite_writer.h"
 #include "app/output/observed_trajectory.h"
 #include "app/output/output_folder.h"

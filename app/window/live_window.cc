@@ -23,6 +23,7 @@
 #include "app/window/window_state.h"
 #include "base/atomic_file.h"
 #include "devices/cameras/camera.h"
+#include "devices/cameras/live_camera.h"
 #include "export/images/image_writer.h"
 
 namespace pleinair::app {

@@ -14,6 +14,7 @@
 
 #include "base/srgb.h"
 #include "compositor/composer.h"
+#include "compositor/light/light_solver.h"
 
 namespace pleinair::compositor {
 

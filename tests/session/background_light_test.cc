@@ -193,7 +193,7 @@ class LiveYard {
     setup.skies.source = compositor::DescribedSky(setup.scene);
     setup.time = time_;
     light_ = *BackgroundLight::Create(setup);
-    light_->SetMarkerReflectance(yard_.print());
+    light_->SetMarkerReflectance(yard_.marker());
   }
 
   const PhotographedYard& yard() const { return yard_; }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pleinair::marker_tracks {
+namespace pleinair::session {
 namespace {
 
 tracker::MarkerObservation Seen(int id, double x_m, const std::string& family = "tag36h11") {
@@ -109,4 +109,4 @@ TEST(RotationAngle, IsExactNearZeroAndNearAHalfTurn) {
 }
 
 }  // namespace
-}  // namespace pleinair::marker_tracks
+}  // namespace pleinair::session

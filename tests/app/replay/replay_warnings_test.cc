@@ -45,8 +45,8 @@ TEST(ModelWarnings, ReportOnceOfAFileWhatOfItDoesNotShow) {
   compositor::Model model;
   model.file = "lamp.glb";
   model.materials.resize(2);
-  model.materials[0].left_out = {"normal maps", "emission"};
-  model.materials[1].left_out = {"KHR_materials_sheen"};  // Of nothing.
+  model.materials[0].unsupported_features = {"normal maps", "emission"};
+  model.materials[1].unsupported_features = {"KHR_materials_sheen"};  // Of nothing.
   model.meshes.emplace_back();
   const auto place = [](const compositor::Model& of, bool is_phantom) {
     compositor::PlacedModel placed;
@@ -57,7 +57,7 @@ TEST(ModelWarnings, ReportOnceOfAFileWhatOfItDoesNotShow) {
   EXPECT_THAT(ModelWarnings({place(model, false), place(model, false)}),
               ElementsAre("Of lamp.glb this is not drawn: emission, normal maps."));
   EXPECT_THAT(ModelWarnings({place(model, true)}), IsEmpty());
-  model.left_out = {compositor::kVertexColors};
+  model.unsupported_features = {compositor::kVertexColors};
   EXPECT_THAT(ModelWarnings({place(model, true)}),
               ElementsAre("Of lamp.glb this is not drawn: colours of vertices."));
 }

@@ -1,4 +1,5 @@
 #include "compositor/light/sun_visibility.h"
+#include "compositor/light/light_solver.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "compositor/light/surface_patches.h"
+#include "compositor/light/light_solver.h"
 
 #include <gtest/gtest.h>
 

@@ -31,7 +31,7 @@ LightEstimate Estimate(double off_deg, const PhotographedYard::Light& light,
   const UtcTime time = *UtcTime::Parse(said_time);
   const scene::SceneDescription scene = tests::YardScene(yard, off_deg, time);
   const std::shared_ptr<const LightSolver> solver(&yard.solver(), [](const auto*) {});
-  LightEstimator look(solver, yard.camera(), yard.print(), scene, overrides, time, {});
+  LightEstimator look(solver, yard.camera(), yard.marker(), scene, overrides, time, {});
   for (const int i : {0, 1}) look.Add(yard.Photograph(i, light).view(), PhotographedYard::Pose(i));
   LightFilter light_filter;
   return look.Estimate(&light_filter);

@@ -109,11 +109,11 @@ TEST(PageSize, ToFitIsTheSmallestWithAName) {
 }
 
 TEST(MarkerNumbers, AreReadAloneAndAsRanges) {
-  EXPECT_THAT(*ParseMarkerNumbers({"17", "3-5", "0", "4095-4095"}),
+  EXPECT_THAT(*app::ParseMarkerNumbers({"17", "3-5", "0", "4095-4095"}),
               ElementsAre(17, 3, 4, 5, 0, 4095));
   for (const char* bad : {"4096", "-1", "5-4", "1-4096", "a", "", "1.5", "3-", "0x10", "1-2-3",
                           "99999999999999999999"}) {
-    const auto numbers = ParseMarkerNumbers({bad});
+    const auto numbers = app::ParseMarkerNumbers({bad});
     ASSERT_FALSE(numbers) << bad;
     EXPECT_THAT(numbers.error().Message(), HasSubstr("0 to 4095"));
   }

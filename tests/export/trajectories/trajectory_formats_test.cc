@@ -68,7 +68,7 @@ TEST(TumPath, ReportsTheCameraInTheMarkersFrame) {
   seen.timestamp_ns = 1'066'667'000;
   seen.camera_from_marker =
       Transform<Marker, Camera>{About({0, 0, 1}, std::numbers::pi / 2), {1, 2, 3}}.Inverse();
-  EXPECT_THAT(TumText(ObservedTrajectory({seen}), "comment"),
+  EXPECT_THAT(TumText(app::ObservedTrajectory({seen}), "comment"),
               HasSubstr("\n1.066667 1.000000000 2.000000000 3.000000000 0.000000000 0.000000000 "
                         "0.707106781 0.707106781\n"));
 }
