@@ -14,7 +14,7 @@ const std::vector<std::string>& SweepCameraNames();
 CameraModel SweepCamera(const std::string& name);
 
 /// What each sweep varies, one word each: distance, angle, border, content, blur, noise, light,
-/// many, ambiguity, negative, jitter, sequence, sequence_occl, wild. docs/accuracy-report.md
+/// many, ambiguity, negative, jitter, sequence, sequence_occl, wild. docs/method/accuracy.md
 /// describes them.
 const std::vector<std::string>& SweepNames();
 

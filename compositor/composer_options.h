@@ -7,7 +7,7 @@
 
 namespace pleinair::compositor {
 
-/// How the virtual shadows' edges are made; docs/shadows.md compares the methods.
+/// How the virtual shadows' edges are made; docs/measurements/shadows.md compares the methods.
 using shadows::ShadowMethod;
 
 /// How a Composer draws.
@@ -19,7 +19,8 @@ struct ComposerOptions {
   int shadow_partitions = 2;  ///< Partitions of the shadow maps, 1…4.
   /// Texels a side of each partition's map, 16…8192; powers of two where the method has a pyramid
   /// (shadows::MapContent::kDepthBounds). 0: as fine as the picture shows; finer ones cost a look
-  /// at every texel that a pixel covers, and 1024 are enough for 640 pixels (docs/performance.md).
+  /// at every texel that a pixel covers, and 1024 are enough for 640 pixels
+  /// (docs/method/shadows.md).
   std::array<int, 4> shadow_sizes{};
   double shadow_split_weight = 0.5;  ///< λ of the paper's Eq. 11, for maps fitted to the view.
   /// Methods that blur moments: distance of the blocker at which the blur has the sun's width.

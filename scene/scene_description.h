@@ -69,10 +69,10 @@ struct SceneDescription {
 };
 
 /// Reads a scene.json of a rendered recording (its ground truth is not looked at), what a
-/// recording.json says of the scene, or a scene.toml written by hand (docs/formats.md). Told
-/// apart by content. Unknown TOML keys are refused with their line.
-/// Errors: file missing or cut short, place, time or marker missing, values not finite or out of
-/// range, a time without offset, models or a target that are not there.
+/// recording.json says of the scene, or a scene.toml written by hand
+/// (docs/guide/reference/recordings.md). Told apart by content. Unknown TOML keys are refused with
+/// their line. Errors: file missing or cut short, place, time or marker missing, values not finite
+/// or out of range, a time without offset, models or a target that are not there.
 Result<SceneDescription> ReadSceneDescription(const std::filesystem::path& file);
 
 }  // namespace pleinair::scene

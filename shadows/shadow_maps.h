@@ -68,10 +68,10 @@ struct ShadowCaster {
 };
 
 /// Z-partitioned shadow maps of the sun (Kolivand & Sunar 2014, with the deviations that
-/// docs/shadows.md explains): per partition a depth map along the sun's rays, and what the chosen
-/// visibility needs of it (a pyramid of depth bounds, or blurred moments). Maps are redrawn only
-/// when casters, windows or the sun change; FadingShadowMaps follows a moving sun without jumps.
-/// Needs a current GL context; move-only.
+/// docs/method/shadows.md explains): per partition a depth map along the sun's rays, and what the
+/// chosen visibility needs of it (a pyramid of depth bounds, or blurred moments). Maps are redrawn
+/// only when casters, windows or the sun change; FadingShadowMaps follows a moving sun without
+/// jumps. Needs a current GL context; move-only.
 ///
 ///     auto maps = ShadowMaps::Create({});
 ///     maps->UpdateForRegion(casters, to_sun, bounds_of_virtual_objects);

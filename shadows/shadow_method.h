@@ -8,7 +8,7 @@
 namespace pleinair::shadows {
 
 /// How visibility is taken from the maps: one renderer, one family of shaders, a permutation each.
-/// docs/shadows.md has the measured errors and times.
+/// docs/measurements/shadows.md has the measured errors and times.
 enum class ShadowMethod {
   kPlain,                 ///< One comparison a point (Williams 1978).
   kPcf3,                  ///< Percentage-closer filtering, 3×3 bilinear comparisons (Reeves 1987).

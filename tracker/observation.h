@@ -53,7 +53,7 @@ struct PoseSolution {
 };
 
 /// Ambiguity ratio below which a pose is certain not to be the other planar solution: of such fewer
-/// than one in 1,000 are (docs/sg-detection.md).
+/// than one in 1,000 are (docs/measurements/sg-marker.md).
 inline constexpr double kCertainRatio = 1e-3;
 
 struct PoseEstimate {

@@ -26,7 +26,7 @@ struct UnreadFilm {
 };
 std::vector<UnreadFilm> UnreadFilms(const AccuracyReport& report);
 
-/// report.json (docs/accuracy-report.md). Numbers have nine significant digits; what is not a
+/// report.json (docs/guide/accuracy-runs.md). Numbers have nine significant digits; what is not a
 /// number is null.
 std::string AccuracyJson(const AccuracyReport& report);
 

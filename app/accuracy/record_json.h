@@ -9,8 +9,8 @@
 
 namespace pleinair::app {
 
-/// A frame's record as one line of JSON (docs/accuracy-report.md, records.jsonl). Numbers are the
-/// shortest that read back the same. `with_times`: what its stages took.
+/// A frame's record as one line of JSON (docs/guide/reference/accuracy-files.md, records.jsonl).
+/// Numbers are the shortest that read back the same. `with_times`: what its stages took.
 std::string RecordJson(const accuracy::FrameRecord& record, bool with_times);
 
 /// Errors (input): not what RecordJson writes; `where` names file and line.

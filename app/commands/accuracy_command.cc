@@ -34,7 +34,7 @@ constexpr const char* kExamples =
     "  pleinair report diff out/before out/after\n"
     "DIR gets report.html, report.json and records.jsonl, which depend on the options above "
     "alone,\n"
-    "and times.json (docs/accuracy-report.md). A run that was interrupted goes on where it\n"
+    "and times.json (docs/guide/accuracy-runs.md). A run that was interrupted goes on where it\n"
     "stopped. Markers are S-G 0-49, 14 cm; each peer has its own print in the same scenes.";
 
 struct Options {

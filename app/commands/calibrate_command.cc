@@ -41,7 +41,7 @@ constexpr const char* kExamples =
     "Take 10 to 20 pictures of the whole board: near and far, tilted by 20 to 45 degrees in "
     "several\n"
     "directions, in every corner of the picture, with focus and zoom held. Views that do not\n"
-    "determine the lens are refused with the reasons. docs/calibration.md tells more.";
+    "determine the lens are refused with the reasons. docs/guide/calibrate.md tells more.";
 
 /// A file to write and its form.
 struct Output {

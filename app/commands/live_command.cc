@@ -50,8 +50,9 @@ constexpr const char* kExamples =
     "      (poses to compare with those of 'pleinair replay out/take -o out/replayed')\n"
     "'pleinair devices' lists cameras. A camera that is not there is waited for; one that is "
     "pulled\n"
-    "out is taken up again when it comes back. Ctrl-C ends. docs/live.md tells of the window,\n"
-    "docs/cameras.md of cameras.";
+    "out is taken up again when it comes back. Ctrl-C ends. docs/guide/live.md tells of the "
+    "window,\n"
+    "docs/guide/cameras.md of cameras.";
 
 // Of a long run's account, where it is told at all.
 constexpr double kReportEvery_s = 60.0;
@@ -232,7 +233,8 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
 }
 
 /// Gives the memory of pictures back as they go. The C library otherwise keeps it in an arena of
-/// each thread once the first has gone, in pieces: 110 MB more within minutes (docs/live.md).
+/// each thread once the first has gone, in pieces: 110 MB more within minutes
+/// (docs/method/live.md).
 void KeepNoFreedPictures() {
 #ifdef __GLIBC__
   constexpr int kPicture_bytes = 256 * 1024;
@@ -259,7 +261,7 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
                             is_file ? OpenFile(uri, arguments) : OpenCamera(uri, arguments));
   if (!source.scene) {
     return InputError("--scene", "is missing: nobody said where this is and what is to be seen",
-                      "write one (docs/formats.md)");
+                      "write one (docs/guide/reference/recordings.md)");
   }
   KeepNoFreedPictures();
   LiveOptions options;
@@ -320,7 +322,7 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--camera", a.camera, "Which camera, or file:PATH of a recording")
       ->type_name("URI")
       ->required();
-  command->add_option("--scene", a.scene, "Scene file (docs/formats.md)");
+  command->add_option("--scene", a.scene, "Scene file (docs/guide/reference/recordings.md)");
   command->add_option("--calibration", a.calibration, "Calibration of the lens");
   command->add_option("--time", a.time,
                       "Moment of the first frame: RFC 3339, or \"now\" (the default for cameras; "

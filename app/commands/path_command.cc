@@ -25,7 +25,7 @@ constexpr const char* kExamples =
     "Read: TUM (.tum, .txt), EuRoC (.csv), COLMAP (a folder with cameras and images, .txt or "
     ".bin).\n"
     "Written: the same, COLMAP as text or, with --to colmap-binary, as .bin; glTF (.glb, .gltf) "
-    "and MCAP (.mcap). docs/film.md tells what each means.";
+    "and MCAP (.mcap). docs/guide/trajectories.md tells what each means.";
 
 struct Arguments {
   std::string input, output, from, to, calibration, extrinsics, axes = "z-up";

@@ -22,7 +22,7 @@
 namespace pleinair::app {
 namespace {
 
-/// Every method by its name in docs/shadows.md, three by a word too.
+/// Every method by its name in docs/method/shadows.md, three by a word too.
 std::map<std::string, compositor::ShadowMethod> ShadowMethodsByName() {
   std::map<std::string, compositor::ShadowMethod> methods{
       {"disc", compositor::ShadowMethod::kSunDisc},
@@ -43,7 +43,8 @@ constexpr const char* kExamples =
     "  pleinair replay site/ -o out/site --time-lapse 05:00..21:00 --every 10min   (the day)\n"
     "  pleinair replay walk.mp4 --calibration phone.yaml --scene site/scene.toml -o out/walk\n"
     "Writes composite.mp4, poses/MARKER.tum, detections.jsonl, report.json, report.html and, with\n"
-    "--frames, frames/0000.png and so on. docs/formats.md describes recordings and scenes.";
+    "--frames, frames/0000.png and so on. docs/guide/reference/recordings.md describes recordings "
+    "and scenes.";
 
 /// As the parser filled it in.
 struct Arguments {
@@ -220,7 +221,7 @@ void AddReplayCommand(CLI::App& app, CommandResult& result) {
   command
       ->add_option("--shadows", arguments->shadows,
                    "How shadows' edges are made: disc (the sun's own width), gaussian (the paper's "
-                   "Z-GaF), variance, or another method of docs/shadows.md")
+                   "Z-GaF), variance, or another method of docs/method/shadows.md")
       ->check(CLI::IsMember(ShadowMethodsByName()))
       ->type_name("METHOD")
       ->capture_default_str();

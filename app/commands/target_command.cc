@@ -34,7 +34,8 @@ constexpr const char* kExamples =
     "  pleinair target poster.jpg --width-mm 420 -o poster.target --preview features.png --json\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --target poster.target\n"
     "The width is that of the printed picture, without the paper's margin. Crop the picture to\n"
-    "what is printed; it must lie flat. docs/targets.md tells which pictures are good.\n";
+    "what is printed; it must lie flat. docs/guide/picture-targets.md tells which pictures are "
+    "good.\n";
 
 /// Says which argument an error without a place is about.
 tl::unexpected<Error> Located(Error error, const std::string& where) {

@@ -11,8 +11,9 @@
 namespace pleinair::app {
 
 void AddLightOptions(CLI::App& command, session::LightOptions& options) {
-  command.add_option("--response", options.camera_response,
-                     "Response of the camera (docs/formats.md) instead of the scene's or sRGB");
+  command.add_option(
+      "--response", options.camera_response,
+      "Response of the camera (docs/guide/reference/recordings.md) instead of the scene's or sRGB");
   command
       .add_option_function<std::string>(
           "--light",

@@ -58,7 +58,7 @@ class Replayer {
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenRecording());
     if (!recording.scene) {
       return InputError(options_.recording.string(), "has no scene",
-                        "write one (docs/formats.md) and give it with --scene");
+                        "write one (docs/guide/reference/recordings.md) and give it with --scene");
     }
     scene_ = session::WithGiven(*recording.scene, options_.light);
     report_.recording = options_.recording.string();

@@ -71,7 +71,7 @@ inline constexpr const char* kVertexColors = "colours of vertices";
 inline constexpr const char* kPointsAndLines = "points and lines";
 
 /// All that a model's file has and that is not drawn, of materials that are in use, in words and
-/// ordered. For the user to know: docs/formats.md says what is read.
+/// ordered. For the user to know: docs/guide/reference/recordings.md says what is read.
 std::set<std::string> UnsupportedFeatures(const Model& model);
 
 enum class NormalsMode { kFromFile, kFlat, kSmooth };

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kMaxSide = 100'000;
 constexpr const char* kRemedy =
-    "see docs/formats.md for the calibrations that can be read, or calibrate anew";
+    "see docs/guide/reference/recordings.md for the calibrations that can be read, or calibrate "
+    "anew";
 
 // Lower case, letters and digits only: "Radial-Tangential" and "radial_tangential" are one name.
 std::string Canonical(const std::string& word) {

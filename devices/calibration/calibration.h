@@ -9,7 +9,8 @@
 
 namespace pleinair::devices {
 
-/// Reads a lens calibration by its content, whatever the file's ending (docs/formats.md):
+/// Reads a lens calibration by its content, whatever the file's ending
+/// (docs/guide/reference/recordings.md):
 /// - our JSON, alone, as `calibration` of a recording.json or as `intrinsics` of a scene.json;
 /// - OpenCV FileStorage, YAML or JSON (`camera_matrix`, `distortion_coefficients`);
 /// - ROS camera_info YAML (plumb_bob, rational_polynomial, equidistant, fisheye);

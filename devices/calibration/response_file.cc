@@ -104,7 +104,7 @@ Result<CameraResponse> ReadCameraResponse(const std::filesystem::path& file) {
   if (kind == "samples") return SampledResponse(fields);
   if (kind != "gamma") {
     return fields.Fail("response", kind ? "is not known" : "is missing",
-                       "known are srgb, gamma and samples (docs/formats.md)");
+                       "known are srgb, gamma and samples (docs/guide/reference/recordings.md)");
   }
   PLEINAIR_ASSIGN_OR_RETURN(const auto gamma, fields.Number("gamma"));
   if (!gamma || *gamma < kMinGamma || *gamma > kMaxGamma) {

@@ -11,9 +11,9 @@
 
 namespace pleinair::devices {
 
-/// Writes frames as a camera sent them into one file that only grows (docs/formats.md,
-/// "frames.pack"): whatever is cut off its end, the frames before stay readable. Frames without the
-/// camera's bytes (of recordings) are kept as RGB.
+/// Writes frames as a camera sent them into one file that only grows
+/// (docs/guide/reference/recordings.md, "frames.pack"): whatever is cut off its end, the frames
+/// before stay readable. Frames without the camera's bytes (of recordings) are kept as RGB.
 class FramePackWriter {
  public:
   /// Errors: the file is there already, or cannot be made.

@@ -113,7 +113,8 @@ bool IsFramePack(const fs::path& file) {
 
 Result<OpenedFramePack> OpenFramePack(const fs::path& file, ImageSize size) {
   if (!IsFramePack(file)) {
-    return InputError(file.string(), "is no frame pack", "docs/formats.md describes recordings");
+    return InputError(file.string(), "is no frame pack",
+                      "docs/guide/reference/recordings.md describes recordings");
   }
   std::error_code error;
   const auto total = static_cast<std::int64_t>(fs::file_size(file, error));

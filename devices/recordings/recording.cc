@@ -237,11 +237,12 @@ Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folde
 Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& options) {
   if (file.extension() == ".mcap") {
     return InputError(file.string(), "is an MCAP file, a form that is written and not read",
-                      "name a recording's folder or a video (docs/formats.md)");
+                      "name a recording's folder or a video (docs/guide/reference/recordings.md)");
   }
   if (!options.calibration) {
     return InputError(file.string(), "is a plain file, which says nothing of its lens",
-                      "give --calibration FILE (docs/formats.md), or name a recording's folder");
+                      "give --calibration FILE (docs/guide/reference/recordings.md), or name a "
+                      "recording's folder");
   }
   Recording recording;
   recording.path = file;
@@ -280,7 +281,7 @@ Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& op
   return InputError(path.string(),
                     "is no recording: it has neither recording.json nor scene.json nor "
                     "mav0/cam0/data.csv",
-                    "docs/formats.md says what a recording is made of");
+                    "docs/guide/reference/recordings.md says what a recording is made of");
 }
 
 }  // namespace pleinair::devices

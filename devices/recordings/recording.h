@@ -31,9 +31,10 @@ struct Recording {
   std::unique_ptr<FrameSource> frames;
 };
 
-/// Opens a folder in the project's form (recording.json, scene.json or both; docs/formats.md), an
-/// EuRoC-style folder (mav0/cam0/data.csv and sensor.yaml, at any of these levels), or a plain
-/// video file with `options.calibration`. Every frame must have the calibration's size.
+/// Opens a folder in the project's form (recording.json, scene.json or both;
+/// docs/guide/reference/recordings.md), an EuRoC-style folder (mav0/cam0/data.csv and sensor.yaml,
+/// at any of these levels), or a plain video file with `options.calibration`. Every frame must have
+/// the calibration's size.
 ///
 /// A folder's scene is its scene.toml, else its scene.json, else what recording.json says of
 /// place, time and marker with phantom.obj and object.obj where they lie beside it. Ground truth

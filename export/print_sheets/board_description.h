@@ -10,7 +10,7 @@ namespace pleinair::exports {
 /// The narrowest gap between markers of a board: one white margin, which both neighbours share.
 double MinGap_mm(double size_mm);
 
-/// A board as JSON (docs/markers.md): numbers and corners in metres, in the board's own frame
+/// A board as JSON (docs/guide/print.md): numbers and corners in metres, in the board's own frame
 /// (origin at its centre, x right, y up, z out of the print towards the viewer).
 std::string DescribeBoard(const Board& board);
 

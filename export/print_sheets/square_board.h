@@ -26,8 +26,8 @@ Result<double> MaxSquare_mm(const tracker::CalibrationBoard& board, PageSize pag
 /// how to print it. Errors (input): a page that it does not fit, a dictionary that is not known.
 Result<Sheet> SquareBoardSheet(const SquareBoard& board, PageSize page);
 
-/// The board as JSON (docs/calibration.md): sides, and in metres squares, markers and corners in
-/// the order and the frame of tracker::BoardPoints.
+/// The board as JSON (docs/guide/calibrate.md): sides, and in metres squares, markers and corners
+/// in the order and the frame of tracker::BoardPoints.
 std::string DescribeBoard(const SquareBoard& board);
 
 }  // namespace pleinair::exports

@@ -6,7 +6,7 @@
 namespace pleinair::exports {
 
 // The frames of reference that other programs' files are told in, as types, and the only place
-// where they are turned into ours (docs/film.md has the table).
+// where they are turned into ours (docs/guide/trajectories.md has the table).
 
 /// A camera as OpenGL, glTF and Blender have it: x right, y up, z backward.
 struct GlCamera;

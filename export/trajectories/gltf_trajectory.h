@@ -17,7 +17,7 @@ struct GltfTrajectoryOptions {
 /// `camera`, `marker` (a square with its print's size, front up) and `points`. Seconds from the
 /// path's first pose, linear between poses, y up, metres. A perspective camera holds the field of
 /// view alone; where the principal point lies, the distortion and the first pose's time are in the
-/// camera's `extras.pleinair`, in our own units (docs/film.md).
+/// camera's `extras.pleinair`, in our own units (docs/guide/trajectories.md).
 /// Errors: the path has no camera, or a fisheye lens, whose picture no perspective camera has.
 Result<std::string> GltfFromTrajectory(const CameraTrajectory& path,
                                        const GltfTrajectoryOptions& options);

@@ -35,7 +35,8 @@ class ObjText {
   const std::string& text() const { return text_; }
 
  private:
-  std::string text_ = "# Written by tools/tree_and_body for docs/shadows.md.\nmtllib models.mtl\n";
+  std::string text_ =
+      "# Written by tools/tree_and_body for docs/measurements/shadows.md.\nmtllib models.mtl\n";
   std::size_t vertices_ = 0;
 };
 

@@ -15,7 +15,8 @@ namespace pleinair::sky {
 /// they keep their directions. Successive orders of scattering are followed through plane layers
 /// (Liou 2002, "An Introduction to Atmospheric Radiation", §3.2), in Gaussian directions and a
 /// Fourier series of the azimuth, with the sun weakened as in the round atmosphere. Why, and what
-/// it wins: docs/sky.md. It depends on the air alone: made once, good for every place of the sun.
+/// it wins: docs/method/sky.md. It depends on the air alone: made once, good for every place of the
+/// sun.
 class ScatteredLight {
  public:
   static constexpr int kMoleculeModes = 3;  ///< All that the molecules' phase function has.

@@ -125,7 +125,7 @@ TEST(Accuracy, RefusesDamagedRunsByTheirFile) {
 }
 
 // The gate: what this program does now against what it did when the baseline was recorded
-// (docs/accuracy-report.md says how to record it anew). And a gate that would notice.
+// (docs/guide/accuracy-runs.md says how to record it anew). And a gate that would notice.
 TEST(Accuracy, IsNoWorseThanTheBaselineAndASpoiledDetectorIs) {
   const TemporaryFolder folder;
   const std::string baseline = tests::SourceTree() / "tests/accuracy/baseline";

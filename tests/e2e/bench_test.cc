@@ -51,7 +51,7 @@ TEST(BenchShadows, MeasuresAllMethodsAndOursIsTheBest) {
 }
 
 // The paper's order of quality (its Figure 8), as far as it holds in this scene: PCF 5×5 has a
-// whole picture's error above the plain map's (docs/shadows.md).
+// whole picture's error above the plain map's (docs/measurements/shadows.md).
 TEST(BenchShadows, WithAsManyTexelsEachHasZGafBeforeCascadesBeforeThePlainMap) {
   const RunResult run = RunPleinair({"bench", "shadows", "--quick", "--scenes", "pole_and_box",
                                      "--methods", "plain,pcf5,csm-pcf5,csm-gauss,zgaf",

@@ -219,7 +219,7 @@ size_m = 0.5
     std::printf("%-32s median %.5f, 95 %% %.5f, largest %.5f\n", what, Percentile(values, 0.5),
                 Percentile(values, 0.95), Percentile(values, 1.0));
   }
-  // As good as with an AprilTag in the same place, or better (docs/accuracy.md).
+  // As good as with an AprilTag in the same place, or better (docs/measurements/tracker.md).
   EXPECT_LT(Percentile(rotation_deg, 0.5), 0.012);
   EXPECT_LT(Percentile(rotation_deg, 1.0), 0.04);
   EXPECT_LT(Percentile(position_share, 0.5), 0.0002);

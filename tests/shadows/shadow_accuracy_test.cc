@@ -1,4 +1,4 @@
-// The tables of docs/shadows.md, against closed forms and traced rays.
+// The tables of docs/measurements/shadows.md, against closed forms and traced rays.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Runs inside the VM, on the kernel's own drivers: docs/cameras.md lists the behaviours.
+// Runs inside the VM, on the kernel's own drivers: docs/measurements/capture.md lists the
+// behaviours.
 #include <gmock/gmock.h>
 
 #include "tests/vm/camera_helpers.h"

@@ -1,6 +1,6 @@
 # Brings a camera path of pleinair's (camera.glb) into Blender 3.4 or later: an animated camera that
 # sees what the real one saw, pixel by pixel, the marker as a shadow catcher, the points of a
-# reconstruction, and the recorded frames behind it all. docs/film.md tells how to use it.
+# reconstruction, and the recorded frames behind it all. docs/guide/trajectories.md tells how to use it.
 #
 #   blender --python pleinair_path.py -- camera.glb --frames frames/
 #   python3 pleinair_path.py camera.glb        prints what it would set, as JSON, without Blender
@@ -164,7 +164,7 @@ def build(bpy, path, frames=None):
         add_frames(bpy, scene, camera, frames)
     if path["distorted"]:
         print("pleinair: the lens bends straight lines and Blender's camera does not: undistort the "
-              "frames, or add the distortion with a Movie Distortion node (docs/film.md)")
+              "frames, or add the distortion with a Movie Distortion node (docs/guide/trajectories.md)")
     return camera
 
 

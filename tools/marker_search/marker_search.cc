@@ -1,4 +1,4 @@
-// Looks for the border of the S-G marker (docs/markers.md#choice).
+// Looks for the border of the S-G marker (docs/method/sg-marker.md#border).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -10,8 +10,8 @@
 
 namespace pleinair::tracker {
 
-/// A target file as docs/formats.md describes it: version, length and checksum before the content.
-/// Files that a later version wrote are refused.
+/// A target file as docs/guide/reference/recordings.md describes it: version, length and checksum
+/// before the content. Files that a later version wrote are refused.
 inline constexpr int kTargetFileVersion = 1;
 
 /// The bytes of a target file; reading them gives the same target.

@@ -30,7 +30,7 @@ constexpr double kHopeless = 0.08, kGoodEnough = 0.9;
 constexpr double kHidden = 0.4, kSeen = 0.8;
 /// What makes it the target: so much of it looks right, and that times the evidence is so much.
 /// Photographs without the target reach 9, and with it 30 is little, of a target of 40 pixels or
-/// with 60 % covered (docs/targets.md).
+/// with 60 % covered (docs/measurements/picture-targets.md).
 constexpr double kMinVisible = 0.15, kMinEvidence = 15.0;
 /// Independent samples of a block that moving and lighting it fits anyhow, and those beyond that
 /// make it tell all it can.

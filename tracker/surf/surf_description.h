@@ -14,7 +14,7 @@ namespace pleinair::tracker {
 /// Deviations: the paper takes upright wavelets and turns their responses; here a wavelet is made
 /// of four upright boxes of about s at corners that are turned, interpolated between pixels. The
 /// paper gives a sample to one cell; here it is shared between the nearest cells by its distance
-/// from their middles, which gives 2 % more correct matches (docs/surf.md).
+/// from their middles, which gives 2 % more correct matches (docs/measurements/surf.md).
 SurfDescriptor DescribeKeypoint(BoxLevels* levels, const SurfKeypoint& keypoint,
                                 float window_scales);
 

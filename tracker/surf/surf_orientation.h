@@ -15,7 +15,8 @@ namespace pleinair::tracker {
 /// half-turn wide, where the paper has pi/3: of the responses around a blob, which point
 /// everywhere, a narrow window picks one or another part by chance. The Gaussian has 2.5 s as in
 /// the paper's first version (ECCV 2006), not 2 s. Both together: in turned photographs 94 instead
-/// of 91 % of the directions are right within 10 degrees, and 6 % more matches (docs/surf.md).
+/// of 91 % of the directions are right within 10 degrees, and 6 % more matches
+/// (docs/measurements/surf.md).
 float DominantDirection(BoxLevels* levels, float x, float y, float scale);
 
 }  // namespace pleinair::tracker

@@ -41,8 +41,8 @@ using Border = std::array<std::string_view, kEdge>;
 
 /// The border of version 1; frozen, since prints of it hang on walls. Found by `marker_search
 /// --budget 250034 --seed 1 --views 48` (tools/marker_search): score 0.604 on views that the search
-/// did not see, where a border laid out by hand has 0.567 (docs/markers.md, "How the border was
-/// chosen").
+/// did not see, where a border laid out by hand has 0.567 (docs/measurements/sg-marker.md, "Border
+/// layout").
 // clang-format off
 inline constexpr Border kBorder = {
     "########################################",

@@ -8,8 +8,8 @@
 
 namespace pleinair::app {
 
-/// report.json (docs/formats.md has the schema). Two replays by the same command give the same
-/// bytes except inside "timings".
+/// report.json (docs/guide/reference/recordings.md has the schema). Two replays by the same command
+/// give the same bytes except inside "timings".
 std::string ReportJson(const ReplayReport& report);
 
 /// One line for `replay --json`: what was done and where it lies.

@@ -39,7 +39,8 @@ struct Condition {
   int paths;
 };
 
-// The path tracer's own noise is 2 to 6 % at so few paths; docs/sky.md has the errors without it.
+// The path tracer's own noise is 2 to 6 % at so few paths; docs/measurements/sky.md has the errors
+// without it.
 TEST(AtmosphereSky, AgreesWithAPathTracer) {
   const auto dome = reference::DomeSamples(8, 6);
   const Aerosol moderate{0.03, 1.1, 1200.0, 0.93, 0.78};

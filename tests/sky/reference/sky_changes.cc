@@ -1,4 +1,4 @@
-// How fast the sky of `atmosphere` changes in 0.1°, for docs/sky.md:
+// How fast the sky of `atmosphere` changes in 0.1°, for docs/measurements/sky.md:
 //
 //   sky_changes [paths a direction and wavelength, 4000]
 //

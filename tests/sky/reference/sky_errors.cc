@@ -1,4 +1,4 @@
-// How far the models are from path-traced skies, as a table for docs/sky.md:
+// How far the models are from path-traced skies, as a table for docs/measurements/sky.md:
 //
 //   sky_errors [paths a direction and wavelength, 150]
 //

@@ -1,4 +1,4 @@
-// The sky's light on level ground through twilight, as a table for docs/sky.md:
+// The sky's light on level ground through twilight, as a table for docs/measurements/sky.md:
 //
 //   sky_twilight [paths a direction and wavelength, 100]
 //

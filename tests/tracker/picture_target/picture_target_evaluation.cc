@@ -1,7 +1,7 @@
-// The tables of docs/targets.md: `picture_target_evaluation PHOTOGRAPH...` makes a target of each
-// photograph (as pictures of at most 800 px), renders it under known poses, and looks for all of
-// them in parts of all the others; `picture_target_evaluation` alone prints the times, on drawn
-// pictures.
+// The tables of docs/measurements/picture-targets.md: `picture_target_evaluation PHOTOGRAPH...`
+// makes a target of each photograph (as pictures of at most 800 px), renders it under known poses,
+// and looks for all of them in parts of all the others; `picture_target_evaluation` alone prints
+// the times, on drawn pictures.
 #include <ctime>
 
 #include <algorithm>

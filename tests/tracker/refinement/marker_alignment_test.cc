@@ -88,7 +88,7 @@ Errors Measure(const CameraModel& camera, const Sweep& sweep) {
   errors.raw_rms_px = std::sqrt(errors.raw_rms_px / count);
   errors.bias_px = errors.bias_px * (1.0 / count);
   errors.outward_px /= count;
-  // For docs/tracker.md: --gtest_output=xml keeps them.
+  // For docs/measurements/tracker.md: --gtest_output=xml keeps them.
   testing::Test::RecordProperty("found", std::to_string(errors.found));
   testing::Test::RecordProperty("detector_rms_px", std::to_string(errors.raw_rms_px));
   testing::Test::RecordProperty("aligned_rms_px", std::to_string(errors.rms_px));

@@ -1,6 +1,6 @@
 // surf_evaluation PICTURE...: how well keypoints are found again and matched in synthetic warps of
 // photographs, and how long that takes, for our SURF and its peers. Prints the tables of
-// docs/surf.md.
+// docs/measurements/surf.md.
 //
 // Repeatability and matching score after Mikolajczyk et al., "A Comparison of Affine Region
 // Detectors", IJCV 65, 2005: regions correspond when the overlap error (1 - intersection / union of
