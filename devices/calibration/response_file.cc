@@ -62,7 +62,7 @@ Result<CameraResponse> SampledResponse(const files::JsonFields& fields) {
     return fields.Fail("encoded", "and the light do not both rise from 0 to 1",
                        "write codes / 255 and light / the brightest, in rising order");
   }
-  return *std::move(response);
+  return *response;
 }
 
 /// What a response of a kind is made of; of a kind that is not known, all there is.

@@ -224,6 +224,7 @@ Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folde
   }
   recording.frame_rate_hz = rate_hz ? *rate_hz : static_cast<double>(frames.size() - 1) / span_s;
   std::vector<SequenceFrame> sequence;
+  sequence.reserve(frames.size());
   for (const EurocFrame& frame : frames) {
     sequence.push_back(
         {camera_folder / "data" / frame.file, frame.timestamp_ns - start_ns, frame.timestamp_ns});
