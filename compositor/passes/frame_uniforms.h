@@ -23,10 +23,10 @@ struct FrameUniforms {
 
   /// Eye, exposure scale and sun, which all of them are told.
   void Set(const gl::GlProgram& program) const;
-  /// For shaders/seen_surface.glsl.
+  /// For shaders/visible_surface.glsl.
   void SetRays(const gl::GlProgram& program) const;
   void SetFog(const gl::GlProgram& program) const;
-  /// For shaders/seen_sunlight.glsl.
+  /// For shaders/sun_transmittance_map.glsl.
   void SetSunTransmittance(const gl::GlProgram& program) const;
 };
 

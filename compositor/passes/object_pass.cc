@@ -68,7 +68,8 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
   targets.seen().Bind(0);
   environment.Bind(3);
   targets.texels().Bind(4);
-  // Numbered as KindOf() in shaders/triangle_layout.glsl has the kinds of objects' triangles.
+  // Numbered as KindOf() in shaders/visibility_buffer_layout.glsl has the kinds of objects'
+  // triangles.
   for (int kind = 0; kind < 2; ++kind) {
     const gl::GlProgram& program = kind == 0 ? programs.objects : programs.objects_in_own_shade;
     program.Use();

@@ -38,7 +38,7 @@ class ShadowRatioPass {
             const ShadowOptions& options) const;
 
   /// Depth by which the pixels are sorted of which no more than this changes: twin of
-  /// shaders/triangle_layout.glsl.
+  /// shaders/visibility_buffer_layout.glsl.
   static constexpr float DepthOf(AffectedTriangles::Change change) {
     return 0.125F * static_cast<float>(change + 1);
   }

@@ -37,10 +37,10 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
   };
   SurfacePrograms programs;
   PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[AffectedTriangles::kSun],
-                            make("phantom_ratio.frag", {"SUN_MAY_CHANGE"}, options.method));
+                            make("shadow_ratio.frag", {"SUN_MAY_CHANGE"}, options.method));
   PLEINAIR_ASSIGN_OR_RETURN(
       programs.phantoms[AffectedTriangles::kSunlitSky],
-      make("phantom_ratio.frag", {"SKY_CHANGES"}, MethodForSky(options.method)));
+      make("shadow_ratio.frag", {"SKY_CHANGES"}, MethodForSky(options.method)));
   PLEINAIR_ASSIGN_OR_RETURN(programs.objects, make("virtual_object.frag", {}, options.method));
   PLEINAIR_ASSIGN_OR_RETURN(programs.objects_in_own_shade,
                             make("virtual_object.frag", {"NO_SUN"}, options.method));

@@ -1,5 +1,5 @@
 #version 450 core
-// What the virtual objects change of the real surfaces' light in a pixel as phantom_ratio.frag does,
+// What the virtual objects change of the real surfaces' light in a pixel as shadow_ratio.frag does,
 // where the sun's part in it is known of each triangle: AffectedTriangles::kLinearSky of
 // compositor/surfaces/affected_triangles.h.
 // AIRLIGHT: so far away that the air before the surface counts.
@@ -10,13 +10,13 @@
 
 uniform float u_samples;  // A pixel.
 uniform vec3 u_eye_m;     // Centre of projection, marker coordinates.
-uniform vec3 u_ray;       // As in seen_surface.glsl.
+uniform vec3 u_ray;       // As in visible_surface.glsl.
 uniform vec3 u_ray_x;
 uniform vec3 u_ray_y;
 
 layout(location = 0) out vec4 out_ratio;
 
-layout(binding = 0) uniform usampler2D u_visible;   // Of changing_pixels.frag.
+layout(binding = 0) uniform usampler2D u_visible;   // Of affected_pixels.frag.
 layout(binding = 1) uniform sampler2D u_linear_ratios;  // kTexelsPerLinearRatio by triangle.
 
 LinearRatioPoint PlaceOn(uint id) {

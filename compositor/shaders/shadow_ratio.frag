@@ -1,8 +1,8 @@
 #version 450 core
 // What the virtual objects change of the real surfaces' light in a pixel, see differential.glsl: the
 // mean over its samples, 1 where an object is in front, each component of a surface
-// (changing_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE or SKY_CHANGES:
-// compositor/surfaces/affected_triangles.h. Where nothing need be asked of the sun, steady_ratio.frag.
+// (affected_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE or SKY_CHANGES:
+// compositor/surfaces/affected_triangles.h. Where nothing need be asked of the sun, linear_shadow_ratio.frag.
 // AIRLIGHT: so far away that the air before the surface counts.
 
 #include "compositor/shaders/aerial_perspective.glsl"
@@ -19,7 +19,7 @@ uniform vec3 u_sun_normal_lux;  // Linear Rec.709.
 
 layout(location = 0) out vec4 out_ratio;
 
-layout(binding = 0) uniform usampler2D u_visible;  // Of changing_pixels.frag.
+layout(binding = 0) uniform usampler2D u_visible;  // Of affected_pixels.frag.
 
 #ifdef SUN_MAY_CHANGE
 #include "compositor/shaders/sun_transmittance_map.glsl"

@@ -7,8 +7,8 @@ namespace pleinair::compositor {
 
 /// The ratio that virtual objects change a phantom's light by, over one of its triangles on which
 /// the sun is either everywhere or nowhere: linear from corner to corner, so that pixels need not
-/// work it out from the light itself. Twin of shaders/steady_ratio.glsl, which takes it as five
-/// texels in this order. Marker coordinates, metres.
+/// work it out from the light itself. Twin of shaders/linear_shadow_ratio.glsl, which takes it as
+/// five texels in this order. Marker coordinates, metres.
 struct LinearShadowRatio {
   glm::vec4 plane;  ///< Unit normal; its dot product with a place of the triangle.
   /// Red, green and blue: gradient along the triangle, and the ratio at the origin.

@@ -12,11 +12,11 @@
 namespace pleinair::compositor {
 
 /// Materials and places of the virtual objects' surfaces in a texture, for shaders that learn from
-/// a picture of numbers what each pixel shows (shaders/surface_record.glsl). Textures are no part
+/// a picture of numbers what each pixel shows (shaders/material_table.glsl). Textures are no part
 /// of it: they are read where triangles are drawn. Needs a current OpenGL context; move-only.
 class MaterialTable {
  public:
-  /// How it is laid out: twins of shaders/triangle_layout.glsl.
+  /// How it is laid out: twins of shaders/visibility_buffer_layout.glsl.
   static constexpr int kTexelsPerSurface = 5, kSurfacesPerRow = 819;
 
   /// What `surface`, from 0 on, is made of, and where it stands: marker from where it was lit.

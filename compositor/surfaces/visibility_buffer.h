@@ -21,12 +21,12 @@ struct SortedTriangles {
 };
 
 /// Triangles in textures, for shaders that learn from a picture of numbers what each pixel shows
-/// (shaders/triangle_table.glsl). Pixels are then shaded once, where drawing the triangles shades
-/// each pixel along their edges several times: Burns & Hunt 2013, "The Visibility Buffer: A
+/// (shaders/visibility_buffer.glsl). Pixels are then shaded once, where drawing the triangles
+/// shades each pixel along their edges several times: Burns & Hunt 2013, "The Visibility Buffer: A
 /// Cache-Friendly Approach to Deferred Shading". Needs a current OpenGL context; move-only.
 class VisibilityBuffer {
  public:
-  /// How it is laid out: twins of shaders/triangle_layout.glsl.
+  /// How it is laid out: twins of shaders/visibility_buffer_layout.glsl.
   static constexpr int kTrianglesPerRow = 4096, kVerticesPerRow = 1365, kTexelsPerVertex = 3;
   static constexpr int kLinearRatiosPerRow = 819;
   static constexpr std::uint32_t kKindBits =
