@@ -12,6 +12,8 @@
 // each other early. What is accepted must hold what its header promises.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pleinair::devices;  // NOLINT(google-build-using-namespace)
+  using pleinair::scene::CompleteScene;
+  using pleinair::scene::ParseScene;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   if (const auto manifest = ParseRecordingManifest(bytes, "recording.json")) {
     if (manifest->frame_rate_hz && !(*manifest->frame_rate_hz > 0.0)) std::abort();
