@@ -72,7 +72,7 @@ Result<devices::FormatRequest> WishOf(const Options& options) {
   devices::FormatRequest requested;
   if (options.size.empty()) return requested;
   PLEINAIR_ASSIGN_OR_RETURN(const auto sides, ParseSides("--size", options.size));
-  requested.size = devices::ImageSize{sides.first, sides.second};
+  requested.size = ImageSize{sides.first, sides.second};
   return requested;
 }
 

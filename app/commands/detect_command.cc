@@ -52,7 +52,7 @@ tl::unexpected<Error> Located(Error error, const std::string& where) {
 
 Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
                           const std::string& calibration) {
-  PLEINAIR_ASSIGN_OR_RETURN(const devices::ImageSize size, devices::InspectImageFile(picture));
+  PLEINAIR_ASSIGN_OR_RETURN(const ImageSize size, devices::InspectImageFile(picture));
   if (size.width == camera.width && size.height == camera.height) return {};
   const auto text = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);

@@ -159,7 +159,7 @@ Result<Source> OpenCamera(const devices::CameraUri& uri, const Arguments& argume
   }
   devices::LiveCameraOptions options;
   options.uri = uri;
-  options.pictures.size = devices::ImageSize{source.lens.width, source.lens.height};
+  options.pictures.size = ImageSize{source.lens.width, source.lens.height};
   options.pictures.rate_hz = arguments.rate_hz;
   if (!arguments.pixel_format.empty()) {
     options.pictures.format = devices::PixelFormatByName(arguments.pixel_format);

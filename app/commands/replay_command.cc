@@ -15,6 +15,7 @@
 #include "app/options/light_options.h"
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
+#include "app/options/picture_size.h"
 #include "app/replay/replay.h"
 #include "app/replay/report/report_json.h"
 #include "gl/shader_library.h"

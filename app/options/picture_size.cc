@@ -5,20 +5,6 @@
 
 namespace pleinair::app {
 
-CameraModel ScaleCamera(const CameraModel& camera, ImageSize size) {
-  CameraModel scaled = camera;
-  const double sx = static_cast<double>(size.width) / camera.width;
-  const double sy = static_cast<double>(size.height) / camera.height;
-  scaled.width = size.width;
-  scaled.height = size.height;
-  scaled.fx = camera.fx * sx;
-  scaled.fy = camera.fy * sy;
-  // The outer corner of the first pixel, at -0.5, stays where it is.
-  scaled.cx = (camera.cx + 0.5) * sx - 0.5;
-  scaled.cy = (camera.cy + 0.5) * sy - 0.5;
-  return scaled;
-}
-
 Result<ImageSize> ParsePictureSize(const std::string& option, const std::string& text) {
   constexpr int kMin = 16, kMax = 16384;
   ImageSize size;

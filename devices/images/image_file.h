@@ -6,18 +6,13 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "base/image_size.h"
 
 namespace pleinair::devices {
 
 /// The largest side of an image that is decoded, pixels: a hostile header cannot ask for more
 /// memory than 16384² × 3 bytes.
 constexpr int kMaxImageSide = 16384;
-
-struct ImageSize {
-  int width = 0;
-  int height = 0;
-  bool operator==(const ImageSize&) const = default;
-};
 
 /// Size of a PNG or JPEG from its header, without decoding.
 /// Errors: neither of the two, cut short (no IEND, no end-of-image marker), empty, sides above

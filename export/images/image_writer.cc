@@ -52,12 +52,4 @@ std::vector<std::uint8_t> EncodeJpeg(ImageView<const std::uint8_t> rgb, int max_
   return bytes;
 }
 
-RgbImage ResizeRgb(ImageView<const std::uint8_t> rgb, int width, int height) {
-  RgbImage resized(width, height, 3);
-  cv::Mat target(height, width, CV_8UC3, resized.data());
-  const bool shrinks = width <= rgb.width() && height <= rgb.height();
-  cv::resize(Wrap(rgb), target, target.size(), 0, 0, shrinks ? cv::INTER_AREA : cv::INTER_CUBIC);
-  return resized;
-}
-
 }  // namespace pleinair::exports

@@ -16,7 +16,4 @@ Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::ui
 /// A picture as JPEG bytes, quality 0…100, at most `max_width` wide: for the report.
 std::vector<std::uint8_t> EncodeJpeg(ImageView<const std::uint8_t> rgb, int max_width, int quality);
 
-/// A picture at another size: area average where it shrinks, bicubic where it grows.
-RgbImage ResizeRgb(ImageView<const std::uint8_t> rgb, int width, int height);
-
 }  // namespace pleinair::exports

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "export/images/image_writer.h"
+#include "devices/images/resize_image.h"
 #include "files/markup_escape.h"
 
 namespace pleinair::exports {
@@ -164,7 +164,7 @@ RgbImage RasterizeDrawing(const VectorDrawing& drawing, int width_px) {
   for (const DrawingLine& line : drawing.lines) canvas.Draw(line);
   for (const DrawingDisc& disc : drawing.discs) canvas.Draw(disc);
   for (const DrawingText& text : drawing.texts) canvas.Draw(text);
-  return ResizeRgb(large.view(), width_px, height_px);
+  return devices::ResizeRgb(large.view(), width_px, height_px);
 }
 
 }  // namespace pleinair::exports

@@ -16,7 +16,7 @@ LiveCameraOptions Options(const std::string& uri, devices::PixelFormat format, i
                           int height, double rate_hz) {
   LiveCameraOptions options;
   options.uri = *devices::ParseCameraUri(uri);
-  options.pictures = {format, devices::ImageSize{width, height}, rate_hz};
+  options.pictures = {format, ImageSize{width, height}, rate_hz};
   return options;
 }
 

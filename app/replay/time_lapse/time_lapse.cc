@@ -13,6 +13,7 @@
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
+#include "devices/images/resize_image.h"
 #include "export/images/image_writer.h"
 #include "export/images/video_writer.h"
 #include "export/plots/vector_drawing.h"
@@ -63,7 +64,7 @@ class ContactSheet {
     if (taken_ >= tiles_ || index != Wanted(taken_)) return;
     const int left = static_cast<int>(taken_ % kColumns) * kTileWidth_px;
     const int top = static_cast<int>(taken_ / kColumns) * (tile_height_ + kCaption_px);
-    Paste(exports::ResizeRgb(picture.view(), kTileWidth_px, tile_height_), left, top, &sheet_);
+    Paste(devices::ResizeRgb(picture.view(), kTileWidth_px, tile_height_), left, top, &sheet_);
     Paste(Caption(caption), left, top + tile_height_, &sheet_);
     ++taken_;
   }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "base/camera_model.h"
+#include "base/image_size.h"
+
+namespace pleinair {
+
+/// The lens as it looks after its images were resized to `size`.
+inline CameraModel ScaleCamera(const CameraModel& camera, ImageSize size) {
+  CameraModel scaled = camera;
+  const double sx = static_cast<double>(size.width) / camera.width;
+  const double sy = static_cast<double>(size.height) / camera.height;
+  scaled.width = size.width;
+  scaled.height = size.height;
+  scaled.fx = camera.fx * sx;
+  scaled.fy = camera.fy * sy;
+  // The outer corner of the first pixel, at -0.5, stays where it is.
+  scaled.cx = (camera.cx + 0.5) * sx - 0.5;
+  scaled.cy = (camera.cy + 0.5) * sy - 0.5;
+  return scaled;
+}
+
+}  // namespace pleinair
