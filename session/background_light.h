@@ -14,6 +14,7 @@
 #include "compositor/light/daylight/coefficient_worker.h"
 #include "compositor/photometry/light_estimator.h"
 #include "compositor/photometry/light_filter.h"
+#include "compositor/photometry/measured_light.h"
 #include "compositor/photometry/sky_state.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "compositor/photometry/sky_fit.h"
+#include "compositor/photometry/light_overrides.h"
 #include "scene/scene_description.h"
 
 namespace pleinair::session {

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/camera_model.h"
@@ -15,63 +13,18 @@
 #include "base/utc_time.h"
 #include "compositor/composer.h"
 #include "compositor/light/daylight/daylight_coefficients.h"
-#include "compositor/light/light_solver.h"
-#include "compositor/photometry/exposure_filter.h"
-#include "compositor/photometry/light_estimator.h"
-#include "compositor/photometry/marker/marker_light_meter.h"
-#include "compositor/photometry/sky_fit.h"
-#include "compositor/photometry/sky_state.h"
-#include "compositor/photometry/surface_samples.h"
-#include "compositor/picture/camera_look.h"
 #include "compositor/picture/occluder_mask.h"
 #include "scene/scene_description.h"
 #include "session/baked_lighting.h"
+#include "session/camera_look_filter.h"
+#include "session/exposure_meter.h"
 #include "session/light_options.h"
+#include "session/light_summary.h"
+#include "session/render_times.h"
 #include "session/scene_edit.h"
-#include "sky/sky_model.h"
-#include "sky/sun/sun_position.h"
+#include "session/scene_light.h"
 
 namespace pleinair::session {
-
-/// Light at which the report states noise, of the brightest: a sunlit grey.
-inline constexpr double kMediumLight = 0.2;
-
-/// What the report says of the light.
-struct LightSummary {
-  sky::SunPosition sun;
-  double sun_normal_lux = 0.0;
-  double sky_horizontal_lux = 0.0;
-  /// Who says what the camera's exposure scale is; kGuess: no frame could be read and the scene
-  /// gives none.
-  enum class ExposureScaleSource { kMarker, kScene, kGuess };
-  ExposureScaleSource exposure_scale_source = ExposureScaleSource::kMarker;
-  LinearRgb exposure_scale;  ///< Display-linear value per cd/m².
-  /// See ExposureFilter::Error(); of kMarker.
-  LinearRgb exposure_scale_error;
-  /// See ExposureFilter::Change().
-  double exposure_scale_change = 1.0;
-  int exposure_estimates = 0;  ///< Frames in which the marker served as a light meter.
-  int dappled_estimates = 0;   ///< Of these, the ones in which leaves shade it.
-  /// Share of the print that the phantoms leave in the sun, of the last estimate.
-  double marker_sunlit_share = 0.0;
-  /// Blur and grain of the last frames; nothing where they are not matched or cannot be read.
-  std::optional<compositor::CameraLook> look;
-  compositor::MeasuredLight measured;  ///< Sun, sky and heading.
-};
-
-/// Share of the readings in which leaves shade the print; 0 without any.
-inline double DappledShare(const LightSummary& light) {
-  return light.exposure_estimates > 0
-             ? static_cast<double>(light.dappled_estimates) / light.exposure_estimates
-             : 0.0;
-}
-
-/// Milliseconds spent in the last Render(), by stage.
-struct RenderTimes {
-  double light_ms = 0.0;    ///< Sun, sky, light among surfaces; nearly always 0.
-  double meter_ms = 0.0;    ///< Reading the marker.
-  double compose_ms = 0.0;  ///< Drawing and compositing.
-};
 
 /// Everything that happens to a frame once the marker's pose is known: the day's light, the
 /// camera's exposure from the marker, the composite. Keeps what it learns for the next frame.
@@ -90,7 +43,7 @@ class SceneRenderer {
                                                        const LightOptions& light = {});
 
   /// Whether coefficients were computed for the cache which could not be written there.
-  bool FailedToKeepLight() const { return coefficients_ && !coefficients_->kept; }
+  bool FailedToKeepLight() const { return light_ && light_->FailedToKeep(); }
 
   /// Which print the frames show, before the first is rendered: it is the light meter. With light
   /// that is made elsewhere it counts from the next on.
@@ -151,13 +104,19 @@ class SceneRenderer {
                           const compositor::MarkerVisibility& cover = {});
 
   const LightSummary& light() const { return summary_; }
+  /// Of the last Render().
   const RenderTimes& times() const { return times_; }
 
  private:
+  /// What edits change besides the scene.
+  struct Edited {
+    double later_s = 0.0;  // Added to the moment of each frame.
+    bool heading = false;  // Stated by an edit: measured ones no longer count.
+  };
+
   SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene);
 
-  void OverrideLight(const sky::SunPosition& sun);
-  Result<void> TakeLight(std::shared_ptr<const BakedLighting> light);
+  Result<void> TakeLight(std::shared_ptr<const BakedLighting> light, bool made_elsewhere);
   void MoveObjects();
   Result<void> UpdateLight(UtcTime time);
   Result<void> UpdateCameraLook(ImageView<const std::uint8_t> rgb,
@@ -169,23 +128,13 @@ class SceneRenderer {
   CameraResponse response_;
   scene::SceneDescription scene_;
   scene::MarkerReflectance marker_reflectance_;
-  LightOptions options_;  // Without a cache rays are traced for every place of the sun.
-  compositor::SkyState skies_;
-  std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
-  std::unique_ptr<compositor::LightEstimator> estimator_;  // What was seen of the light so far.
   std::vector<compositor::PlacedModel> placed_;
-  std::shared_ptr<const compositor::LightSolver> solver_;
+  // Nothing of these two where there is nothing to draw.
+  std::optional<SceneLight> light_;
   std::unique_ptr<compositor::Composer> composer_;
-  std::optional<compositor::MarkerLightMeter> meter_;
-  std::shared_ptr<const BakedLighting> lit_;  // The light in use.
-  double later_s_ = 0.0;
-  bool heading_is_edited_ = false;
-  bool lock_exposure_ = false;
-  bool light_from_outside_ = false;
-  compositor::ExposureFilter exposure_filter_;
-  LinearRgb guessed_exposure_scale_;
-  int frames_to_camera_look_ = 0;  // Until the blur is measured again.
-  std::deque<compositor::CameraLook> recent_camera_looks_;
+  ExposureMeter exposure_;
+  std::optional<CameraLookFilter> look_;  // Nothing: drawn pixels stay sharp and clean.
+  Edited edited_;
   LightSummary summary_;
   RenderTimes times_;
 };

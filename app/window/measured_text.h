@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "compositor/photometry/sky_fit.h"
+#include "compositor/photometry/measured_light.h"
 
 namespace pleinair::app {
 

@@ -4,6 +4,7 @@
 
 #include "base/utc_time.h"
 #include "base/vector.h"
+#include "compositor/photometry/measured_light.h"
 #include "compositor/photometry/random_walk_filter.h"
 #include "compositor/photometry/sky_fit.h"
 #include "compositor/photometry/sky_state.h"

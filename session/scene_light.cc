@@ -1,0 +1,86 @@
+#include "session/scene_light.h"
+
+#include <utility>
+
+#include "compositor/light/scaled_sky.h"
+#include "compositor/photometry/light_filter.h"
+#include "compositor/photometry/sky_fit.h"
+#include "scene/marker_heading.h"
+
+namespace pleinair::session {
+
+SceneLight::SceneLight(std::shared_ptr<const compositor::LightSolver> solver,
+                       const scene::SceneDescription& scene, const LightOptions& options)
+    : solver_(std::move(solver)), options_(options) {
+  skies_.source = compositor::DescribedSky(scene);
+}
+
+void SceneLight::Observe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+                         const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
+                         const scene::SceneDescription& scene,
+                         const scene::MarkerReflectance& marker_reflectance,
+                         const CameraResponse& response) {
+  if (!estimator_) {
+    estimator_ = std::make_unique<compositor::LightEstimator>(
+        solver_, camera, marker_reflectance, scene, options_.overrides, time, response);
+  }
+  estimator_->Add(rgb, camera_from_marker);
+}
+
+std::optional<compositor::LightEstimate> SceneLight::Conclude() {
+  if (!estimator_) return std::nullopt;
+  compositor::LightFilter of_no_other_look;
+  compositor::LightEstimate found = estimator_->Estimate(&of_no_other_look);
+  estimator_.reset();
+  if (found.skies.source) skies_ = found.skies;
+  return found;
+}
+
+void SceneLight::Override(const scene::SceneDescription& scene, const sky::SunPosition& sun,
+                          compositor::MeasuredLight* measured) {
+  measured->sun_to_sky_stated =
+      compositor::SunToSky(*compositor::DescribedSky(scene)->ForSun(sun.ToSun(), sun.distance_au));
+  if (options_.overrides.heading_deg) {
+    measured->heading_source = compositor::MeasuredLight::Source::kOverride;
+  }
+  const auto given = compositor::OverriddenSky(scene, options_.overrides, sun);
+  if (!given) return;
+  measured->sun_source = compositor::MeasuredLight::Source::kOverride;
+  // What lies in the shade of trees was looked for under this sky.
+  skies_.source = given->skies;
+  skies_.scale = given->sky_radiance_scale;
+}
+
+std::shared_ptr<const compositor::DaylightCoefficients> SceneLight::Coefficients(
+    const scene::MarkerDescription& marker, const compositor::CoefficientProgress& progress) {
+  if (coefficients_) return coefficients_;
+  compositor::CoefficientOptions options;
+  options.cache = options_.cache;
+  options.division = options_.sky_division;
+  options.convergence = options_.convergence;
+  coefficients_ = std::make_shared<const compositor::DaylightCoefficients>(solver_->Coefficients(
+      scene::MarkerFromWorld(marker) * Vec3{0.0, 0.0, 1.0}, options, progress));
+  return coefficients_;
+}
+
+LightingRequest SceneLight::Request(UtcTime time, const scene::SceneDescription& scene,
+                                    const scene::MarkerReflectance& marker_reflectance,
+                                    const CameraResponse& response) const {
+  return {time,    scene.place_time, scene.marker,       skies_,
+          solver_, coefficients_,    marker_reflectance, response};
+}
+
+bool SceneLight::IsStale(const sky::SunPosition& sun) const {
+  return !made_elsewhere_ && !(in_use_ && IsNearSun(in_use_->sun, sun));
+}
+
+void SceneLight::Use(std::shared_ptr<const BakedLighting> light, bool made_elsewhere) {
+  if (made_elsewhere) {
+    made_elsewhere_ = true;
+    skies_ = light->request.skies;
+  }
+  solver_ = light->request.solver;
+  in_use_ = std::move(light);
+}
+
+}  // namespace pleinair::session
