@@ -1,34 +1,32 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <string>
 #include <thread>
 #include <vector>
 
+#include "app/live/frame_clock.h"
 #include "app/live/latency_histogram.h"
-#include "app/live/latency_meter.h"
-#include "app/live/live_detail.h"
+#include "app/live/live_counters.h"
 #include "app/live/live_output.h"
+#include "app/live/live_scene.h"
 #include "app/live/live_statistics.h"
 #include "app/live/recording_switch.h"
+#include "app/live/session_end.h"
+#include "app/live/sighting_files.h"
 #include "base/bounded_queue.h"
 #include "base/camera_model.h"
 #include "compositor/composer_options.h"
 #include "compositor/models/placed_model.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
-#include "session/background_light.h"
 #include "session/light_options.h"
-#include "session/marker_refiner.h"
-#include "session/marker_tracks.h"
+#include "session/light_summary.h"
+#include "session/pipeline.h"
 #include "session/scene_renderer.h"
-#include "tracker/tracker.h"
 
 namespace pleinair::app {
 
@@ -77,10 +75,12 @@ class LiveSession {
   Result<std::optional<DrawnFrame>> Draw(std::chrono::milliseconds limit);
 
   /// Lets another thread draw from now on.
-  void LetGo() { renderer_->LetGo(); }
+  void LetGo() { pipeline_->renderer().LetGo(); }
 
   /// Phantoms, then objects, as they stand now. Not while another thread draws.
-  const std::vector<compositor::PlacedModel>& placed() const { return renderer_->placed(); }
+  const std::vector<compositor::PlacedModel>& placed() const {
+    return pipeline_->renderer().placed();
+  }
 
   /// The source is at its end and every frame has been drawn.
   bool finished() const { return tracked_.finished(); }
@@ -103,68 +103,41 @@ class LiveSession {
 
   LiveStatistics statistics() const;
   /// Of all frames drawn, or shown, since it was last asked.
-  LatencyHistogram TakeLatencies();
+  LatencyHistogram TakeLatencies() { return counters_.TakeLatencies(); }
   /// Why recording ended before its time.
   std::optional<Error> recording_trouble() const { return recording_.trouble(); }
   /// Whether daylight coefficients could not be written to their cache.
   bool FailedToKeepLight() const;
   /// After the end: why detections or the output could not be written.
-  std::optional<Error> output_trouble() const;
+  const std::optional<Error>& output_trouble() const { return sightings_.trouble(); }
 
  private:
   using FramePtr = std::shared_ptr<const devices::Frame>;
   struct Tracked {
     FramePtr frame;
-    std::optional<Transform<Camera, Marker>> camera_from_marker;
     std::optional<session::MarkerName> reference_marker;
-    compositor::MarkerVisibility cover;  ///< Where hands are to be in front.
+    std::optional<session::CameraPose> pose;
   };
 
   LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptions options);
   Result<void> Prepare();
   void Capture();
   void Track();
+  Result<void> CheckSize(const devices::Frame& frame) const;
   Result<Tracked> TrackOne(FramePtr frame);
-  Result<void> WriteSightings(const devices::Frame& frame,
-                              const std::vector<tracker::MarkerObservation>& observations);
-  void FinishOutput();
-  Result<void> TakeEdit(const devices::Frame& frame);
-  scene::SceneDescription SceneNow() const;
-  void Fail(Error error);
-  void GiveUpFrame();
-  UtcTime MomentOf(const devices::Frame& frame) const;
   Result<std::optional<DrawnFrame>> DrawOne(Tracked tracked);
-  void CountDrawn(const devices::Frame& frame, double draw_ms);
-  void CountLatency(const devices::Frame& frame);
 
   LiveOptions options_;
   std::unique_ptr<devices::FrameSource> source_;
-  std::unique_ptr<tracker::Tracker> tracker_;
-  std::unique_ptr<session::SceneRenderer> renderer_;
-  std::optional<session::MarkerRefiner> refiner_;
-  class Detections;
-  std::unique_ptr<Detections> detections_;
-  std::unique_ptr<LiveOutput> output_;
-  session::MarkerTracks marker_tracks_;
+  std::unique_ptr<session::Pipeline> pipeline_;
+  LiveScene scene_;  // Not edited where frames are drawn without loss.
+  SightingFiles sightings_;
   RecordingSwitch recording_;
-
   BoundedQueue<FramePtr> captured_;
   BoundedQueue<Tracked> tracked_;
-  std::unique_ptr<session::BackgroundLight> light_;  // Not where frames are drawn without loss.
-
-  std::atomic<bool> stop_ = false;
-  std::optional<session::MarkerName> shown_reference_marker_;
-  LiveDetail detail_;
-  session::SceneEdit edit_;
-  bool edited_ = false;
-  mutable std::mutex mutex_;
-  std::optional<std::int64_t> first_stamp_ns_, last_stamp_ns_;
-  UtcTime first_moment_;
-  std::optional<Error> error_;
-  std::optional<Error> output_trouble_;
-  LiveStatistics statistics_;
-  LatencyMeter latency_;
-  LatencyHistogram latencies_;  // Since they were taken.
+  FrameClock clock_;
+  LiveCounters counters_;
+  SessionEnd end_;
   std::vector<std::thread> threads_;
 };
 

@@ -5,10 +5,10 @@
 #include <set>
 #include <string>
 
-#include "app/options/picture_size.h"
 #include "app/replay/report/report.h"
 #include "app/replay/time_lapse/moments.h"
 #include "base/error.h"
+#include "base/image_size.h"
 #include "compositor/composer_options.h"
 #include "export/trajectories/trajectory_files.h"
 #include "session/light_options.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,26 +7,10 @@
 #include "app/replay/report/report.h"
 #include "compositor/models/placed_model.h"
 #include "scene/scene_description.h"
+#include "session/light_summary.h"
 #include "session/marker_tracks.h"
 
 namespace pleinair::app {
-
-/// Gathers what a tracker says frame by frame, so that the user reads each thing once.
-class FrameWarnings {
- public:
-  /// What was said of one frame; frames come in order.
-  void Add(std::int64_t frame_index, const std::vector<std::string>& warnings);
-
-  /// "In 12 frames, the first being 3, …": in the order in which they first came up, the first few.
-  std::vector<std::string> Sentences() const;
-
- private:
-  struct Entry {
-    std::string text;
-    std::int64_t first_frame = 0, last_frame = 0, frames = 0;
-  };
-  std::vector<Entry> entries_;
-};
 
 /// What the user should know of how a replay's markers were found, a sentence each.
 std::vector<std::string> MarkerWarnings(const ReplayReport& report,

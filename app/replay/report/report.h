@@ -8,8 +8,8 @@
 
 #include "base/stage_times.h"
 #include "scene/scene_description.h"
+#include "session/light_summary.h"
 #include "session/marker_tracks.h"
-#include "session/scene_renderer.h"
 
 namespace pleinair::app {
 

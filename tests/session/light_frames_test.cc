@@ -1,17 +1,17 @@
-#include "app/replay/frame_choice.h"
+#include "session/light_frames.h"
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <set>
 #include <vector>
 
-namespace pleinair::app {
+namespace pleinair::session {
 namespace {
 
 /// Every third frame has a pose, `seconds` apart from the next.
-std::vector<session::Observation> Path(std::int64_t size, std::int64_t seconds) {
-  std::vector<session::Observation> path(static_cast<std::size_t>(size));
+std::vector<Observation> Path(std::int64_t size, std::int64_t seconds) {
+  std::vector<Observation> path(static_cast<std::size_t>(size));
   for (std::int64_t i = 0; i < size; ++i) {
     path[static_cast<std::size_t>(i)].frame_index = 3 * i;
     path[static_cast<std::size_t>(i)].timestamp_ns = i * seconds * 1'000'000'000;
@@ -30,12 +30,5 @@ TEST(LightFrames, KeepToTheMinuteAboutTheMiddleOfALongPath) {
   EXPECT_EQ(chosen, (std::vector<std::size_t>{497, 498, 499, 500, 501, 502, 503}));
 }
 
-TEST(ReportFrames, AreOfThoseWithAPoseWhereThereAreAny) {
-  EXPECT_EQ(ReportFrames(Path(8, 1), 100), (std::set<std::int64_t>{3, 9, 15, 21}));
-  EXPECT_EQ(ReportFrames({}, 80), (std::set<std::int64_t>{10, 30, 50, 70}));
-  EXPECT_EQ(ReportFrames({}, 2), (std::set<std::int64_t>{0, 1}));
-  EXPECT_TRUE(ReportFrames({}, 0).empty());
-}
-
 }  // namespace
-}  // namespace pleinair::app
+}  // namespace pleinair::session

@@ -1,0 +1,75 @@
+#include "app/live/live_counters.h"
+
+#include <chrono>
+#include <utility>
+
+namespace pleinair::app {
+namespace {
+
+// Weight of the newest period in the running mean.
+constexpr double kPeriodWeight = 0.1;
+
+}  // namespace
+
+void LiveCounters::Captured(const devices::Frame& frame, std::optional<double> period_ms) {
+  const std::lock_guard lock(mutex_);
+  if (period_ms) {
+    double& mean_ms = counted_.period_ms;
+    mean_ms = mean_ms == 0.0 ? *period_ms : mean_ms + kPeriodWeight * (*period_ms - mean_ms);
+  }
+  ++counted_.captured;
+  counted_.loss += frame.loss;
+}
+
+void LiveCounters::Tracked(bool has_pose, double milliseconds) {
+  const std::lock_guard lock(mutex_);
+  ++counted_.tracked;
+  if (has_pose) ++counted_.with_pose;
+  counted_.track_ms = milliseconds;
+}
+
+void LiveCounters::Drawn(const session::RenderTimes& times, double milliseconds) {
+  const std::lock_guard lock(mutex_);
+  ++counted_.drawn;
+  counted_.draw_ms = milliseconds;
+  counted_.render = times;
+}
+
+void LiveCounters::Shown(std::int64_t late_for_screen) {
+  const std::lock_guard lock(mutex_);
+  ++counted_.shown;
+  counted_.late_for_screen = late_for_screen;
+}
+
+void LiveCounters::GivenUp() {
+  const std::lock_guard lock(mutex_);
+  ++counted_.on_the_way_at_end;
+}
+
+void LiveCounters::AddLatency(const devices::Frame& frame) {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  const std::int64_t now_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  const double latency_ms = static_cast<double>(now_ns - frame.timestamp_ns) * 1e-6;
+  const std::lock_guard lock(mutex_);
+  latency_.Add(latency_ms);
+  latencies_.Add(latency_ms);
+}
+
+LiveStatistics LiveCounters::Snapshot() const {
+  const std::lock_guard lock(mutex_);
+  LiveStatistics statistics = counted_;
+  statistics.latency = latency_.Summarize();
+  return statistics;
+}
+
+double LiveCounters::period_ms() const {
+  const std::lock_guard lock(mutex_);
+  return counted_.period_ms;
+}
+
+LatencyHistogram LiveCounters::TakeLatencies() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(latencies_, {});
+}
+
+}  // namespace pleinair::app

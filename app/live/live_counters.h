@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+
+#include "app/live/latency_histogram.h"
+#include "app/live/latency_meter.h"
+#include "app/live/live_statistics.h"
+#include "devices/frame.h"
+#include "session/render_times.h"
+
+namespace pleinair::app {
+
+/// Counts what happens to a live session's frames. Any thread.
+class LiveCounters {
+ public:
+  /// `period_ms`: since the frame before; nothing for the first.
+  void Captured(const devices::Frame& frame, std::optional<double> period_ms);
+  void Tracked(bool has_pose, double milliseconds);
+  void Drawn(const session::RenderTimes& times, double milliseconds);
+  /// On the screen, while so many were replaced before they got there so far.
+  void Shown(std::int64_t late_for_screen);
+  /// Not drawn since the session ended.
+  void GivenUp();
+  /// A frame has reached its viewer now.
+  void AddLatency(const devices::Frame& frame);
+
+  /// What is counted here; the rest of the statistics is left as it is by default.
+  LiveStatistics Snapshot() const;
+  /// Between frames, a running mean.
+  double period_ms() const;
+  /// Of all frames since it was last asked.
+  LatencyHistogram TakeLatencies();
+
+ private:
+  mutable std::mutex mutex_;
+  LiveStatistics counted_;
+  LatencyMeter latency_;
+  LatencyHistogram latencies_;  // Since they were taken.
+};
+
+}  // namespace pleinair::app

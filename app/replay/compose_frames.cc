@@ -1,0 +1,77 @@
+#include "app/replay/compose_frames.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "app/output/composite_writer.h"
+#include "app/replay/report_frames.h"
+#include "app/terminal/pass_bar.h"
+#include "export/images/image_writer.h"
+#include "export/images/video_writer.h"
+#include "session/recording_passes.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kReportPictureWidth_px = 800;
+constexpr int kReportJpegQuality = 85;
+
+/// The video that is asked for; null: none.
+Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(ReplayState& state) {
+  if (!state.options.write_video) return nullptr;
+  ReplayReport& report = state.report;
+  PLEINAIR_ASSIGN_OR_RETURN(auto video, exports::VideoWriter::Create(
+                                            state.folder.staging() / "composite.mp4",
+                                            {report.width, report.height, report.frame_rate_hz}));
+  report.video_encoder = video->encoder_name();
+  report.outputs.emplace_back("composite.mp4");
+  if (report.width % 2 != 0 || report.height % 2 != 0) {
+    report.warnings.emplace_back(
+        "composite.mp4 repeats the last column or row: H.264 needs even sizes.");
+  }
+  return video;
+}
+
+/// The folder of the composed frames; empty where none is asked for.
+Result<fs::path> MakeFrameFolder(ReplayState& state) {
+  if (!state.options.write_frames) return fs::path();
+  PLEINAIR_RETURN_IF_ERROR(state.folder.MakeFolder("frames"));
+  state.report.outputs.emplace_back("frames/%04d.png");
+  return state.folder.staging() / "frames";
+}
+
+void AddPicture(const devices::Frame& frame, const RgbImage& composed, ReplayReport* report) {
+  report->pictures.push_back(
+      {frame.index,
+       exports::EncodeJpeg(frame.rgb.view(), kReportPictureWidth_px, kReportJpegQuality),
+       exports::EncodeJpeg(composed.view(), kReportPictureWidth_px, kReportJpegQuality)});
+}
+
+}  // namespace
+
+Result<void> ComposeFrames(ReplayState& state) {
+  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
+  PLEINAIR_ASSIGN_OR_RETURN(auto video, OpenVideo(state));
+  PLEINAIR_ASSIGN_OR_RETURN(fs::path frames, MakeFrameFolder(state));
+  CompositeWriter writer(std::move(frames), std::move(video));
+  const std::set<std::int64_t> shown = ReportFrames(state.report.path, state.report.frames);
+  const auto take = [&](const devices::Frame& frame,
+                        session::ComposedFrame composed) -> Result<void> {
+    if (composed.light) state.report.light = composed.light;
+    if (shown.contains(frame.index)) AddPicture(frame, composed.image, &state.report);
+    return writer.Add(frame.index, frame.timestamp_ns, std::move(composed.image));
+  };
+  PassBar bar("Composing", state.report.recording);
+  PLEINAIR_RETURN_IF_ERROR(session::ComposeFrames(*state.pipeline, std::move(recording), take,
+                                                  {bar.Progress(), &state.times}));
+  PLEINAIR_RETURN_IF_ERROR(writer.Finish());
+  state.times.Add(writer.times());
+  return {};
+}
+
+}  // namespace pleinair::app

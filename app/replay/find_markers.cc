@@ -1,0 +1,67 @@
+#include "app/replay/find_markers.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/output/detections_writer.h"
+#include "app/output/observed_trajectory.h"
+#include "app/output/trajectory_export.h"
+#include "app/terminal/pass_bar.h"
+#include "session/recording_passes.h"
+
+namespace pleinair::app {
+
+Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
+  PLEINAIR_ASSIGN_OR_RETURN(auto detections,
+                            DetectionsWriter::Create(state.folder.staging() / "detections.jsonl"));
+  const bool keeps_messages = state.options.exports.contains(exports::TrajectoryFormat::kMcap);
+  const auto take = [&](const devices::Frame& frame,
+                        const session::TrackedFrame& tracked) -> Result<void> {
+    state.frame_warnings.Add(frame.index, tracked.warnings);
+    state.lost_frames += frame.lost_before;
+    std::string line =
+        DetectionsWriter::Line(frame.index, frame.timestamp_ns, tracked.observations, tracked.lost);
+    PLEINAIR_RETURN_IF_ERROR(detections.Add(line));
+    if (keeps_messages) state.messages.push_back({frame.timestamp_ns, std::move(line)});
+    return {};
+  };
+  PassBar bar("Finding markers", state.report.recording);
+  PLEINAIR_RETURN_IF_ERROR(session::TrackRecording(*state.pipeline, std::move(recording), take,
+                                                   {bar.Progress(), &state.times}));
+  PLEINAIR_RETURN_IF_ERROR(detections.Finish());
+  state.report.outputs.emplace_back("detections.jsonl");
+  state.report.frames = state.pipeline->tracks().frames();
+  return {};
+}
+
+Result<void> WriteTrajectories(ReplayState& state) {
+  const session::MarkerTracks& tracks = state.pipeline->tracks();
+  ReplayReport& report = state.report;
+  const auto keep = [&](std::vector<std::string> written) {
+    report.outputs.insert(report.outputs.end(), written.begin(), written.end());
+  };
+  report.reference_marker = tracks.ReferenceMarker();
+  if (report.reference_marker) {
+    report.path = tracks.TrackOf(*report.reference_marker);
+    state.pipeline->MeterLightOn(*report.reference_marker);
+  }
+  PLEINAIR_RETURN_IF_ERROR(state.folder.MakeFolder("poses"));
+  for (const auto& [marker, observed] : tracks.tracks()) {
+    report.markers.push_back(marker);
+    PLEINAIR_ASSIGN_OR_RETURN(std::vector<std::string> written,
+                              WriteMarkerTrajectory(marker, ObservedTrajectory(observed),
+                                                    state.options.exports, state.folder.staging()));
+    keep(std::move(written));
+  }
+  exports::CameraTrajectory path = ObservedTrajectory(report.path);
+  path.camera = state.pipeline->output_camera();
+  PLEINAIR_ASSIGN_OR_RETURN(
+      std::vector<std::string> exported,
+      ExportTrajectory({std::move(path), state.scene(), std::exchange(state.messages, {})},
+                       state.options.exports, state.folder.staging()));
+  keep(std::move(exported));
+  return {};
+}
+
+}  // namespace pleinair::app

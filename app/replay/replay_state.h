@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/output/output_folder.h"
+#include "app/replay/frame_warnings.h"
+#include "app/replay/replay.h"
+#include "app/replay/report/report.h"
+#include "app/replay/time_lapse/moments.h"
+#include "base/error.h"
+#include "base/stage_times.h"
+#include "devices/recordings/recording.h"
+#include "export/trajectories/mcap_trajectory.h"
+#include "session/pipeline.h"
+#include "session/scene_renderer.h"
+
+namespace pleinair::app {
+
+/// What the steps of one replay share.
+struct ReplayState {
+  const ReplayOptions& options;
+  OutputFolder folder;
+  std::unique_ptr<session::Pipeline> pipeline{};
+  FrameWarnings frame_warnings{};                   ///< The tracker's.
+  std::vector<exports::MarkersMessage> messages{};  ///< Lines of detections.jsonl, for MCAP.
+  std::int64_t lost_frames = 0;                     ///< Which the recorder had to leave out.
+  TimeLapseMoments day_moments{};
+  StageTimes times{};
+  ReplayReport report{};
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
+
+  Result<devices::Recording> OpenRecording() const {
+    return devices::OpenRecording(options.recording, {options.calibration, options.scene});
+  }
+  const scene::SceneDescription& scene() const { return pipeline->scene(); }
+  session::SceneRenderer& renderer() const { return pipeline->renderer(); }
+  /// Whether a time-lapse is asked for and can be drawn, once the path is known.
+  bool DrawsDay() const {
+    return options.time_lapse && !report.path.empty() && !scene().objects.empty();
+  }
+};
+
+}  // namespace pleinair::app

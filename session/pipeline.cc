@@ -1,0 +1,145 @@
+#include "session/pipeline.h"
+
+#include <utility>
+
+#include "base/parallel_for.h"
+#include "base/scaled_camera.h"
+#include "devices/images/resize_image.h"
+#include "session/marker_refiner.h"
+#include "session/scene_marker.h"
+#include "session/scene_renderer.h"
+
+namespace pleinair::session {
+
+Pipeline::Pipeline(const CameraModel& camera, const scene::SceneDescription& scene,
+                   const PipelineOptions& options)
+    : camera_(camera),
+      output_camera_(
+          ScaleCamera(camera, options.image_size.value_or(ImageSize{camera.width, camera.height}))),
+      scene_(scene),
+      hands_in_front_(options.light.hands_in_front),
+      kept_observations_(options.kept_observations),
+      tracks_(scene.marker) {}
+
+Pipeline::~Pipeline() = default;
+
+Result<std::unique_ptr<Pipeline>> Pipeline::Create(const CameraModel& camera,
+                                                   const scene::SceneDescription& scene,
+                                                   const PipelineOptions& options) {
+  std::unique_ptr<Pipeline> pipeline(
+      new Pipeline(camera, WithGiven(scene, options.light), options));
+  const scene::SceneDescription& given = pipeline->scene_;
+  PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(given));
+  auto tracker = tracker::Tracker::Create(camera, tracking);
+  if (!tracker) {
+    // What it refuses is what the scene says of the marker.
+    Error error = std::move(tracker).error();
+    if (error.where.empty()) error.where = given.file.string();
+    return tl::make_unexpected(std::move(error));
+  }
+  pipeline->tracker_ = *std::move(tracker);
+  if (options.refine_markers) {
+    pipeline->refiner_ = std::make_unique<MarkerRefiner>(camera, given.marker.size_m);
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      pipeline->renderer_,
+      SceneRenderer::Create(pipeline->output_camera_, given, options.composer, options.light));
+  return pipeline;
+}
+
+Result<ComposedFrame> Pipeline::Process(const devices::Frame& frame) {
+  PLEINAIR_ASSIGN_OR_RETURN(const TrackedFrame tracked, Track(frame));
+  const std::optional<CameraPose> pose = PoseIn(frame);
+  const UtcTime time = MomentOf(frame.timestamp_ns);
+  if (frame.rgb.width() == output_camera_.width && frame.rgb.height() == output_camera_.height) {
+    return Compose(frame, pose, time);
+  }
+  devices::Frame resized = frame;
+  Resize(&resized);
+  return Compose(resized, pose, time);
+}
+
+Result<TrackedFrame> Pipeline::Track(const devices::Frame& frame) {
+  const ImageView<const std::uint8_t> grey = frame.grey.view();
+  TrackedFrame tracked;
+  PLEINAIR_ASSIGN_OR_RETURN(tracked.observations, tracker_->Track(grey));
+  tracked.lost = tracker_->Lost();
+  tracked.warnings = tracker_->Warnings();
+  if (refiner_) tracked.observations = refiner_->Measure(grey, std::move(tracked.observations));
+  tracks_.AddFrame(frame.index, frame.timestamp_ns, tracked.observations);
+  if (kept_observations_) tracks_.ForgetAllBut(*kept_observations_);
+  return tracked;
+}
+
+Result<FoundFrame> Pipeline::Find(devices::Frame frame) {
+  PLEINAIR_ASSIGN_OR_RETURN(auto markers, tracker_->Find(frame.grey.view()));
+  return FoundFrame{std::move(frame), std::move(markers), tracker_->Lost(), tracker_->Warnings()};
+}
+
+std::vector<TrackedFrame> Pipeline::Measure(std::span<FoundFrame> found) {
+  ParallelFor(found.size(), 0, [&](std::size_t i) {
+    tracker_->Align(found[i].frame.grey.view(), &found[i].markers);
+  });
+  std::vector<MarkerRefiner::Seen> seen;
+  seen.reserve(found.size());
+  for (FoundFrame& frame : found) {
+    const ImageView<const std::uint8_t> grey = frame.frame.grey.view();
+    seen.push_back({grey, tracker_->Conclude(grey, std::move(frame.markers))});
+  }
+  if (refiner_) refiner_->Measure(seen);
+  std::vector<TrackedFrame> tracked(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    tracks_.AddFrame(found[i].frame.index, found[i].frame.timestamp_ns, seen[i].observations);
+    tracked[i] = {std::move(seen[i].observations), std::move(found[i].lost),
+                  std::move(found[i].warnings)};
+  }
+  return tracked;
+}
+
+std::optional<CameraPose> Pipeline::PoseIn(const devices::Frame& last_tracked) const {
+  const std::optional<MarkerName> marker = tracks_.ReferenceMarker();
+  if (!marker) return std::nullopt;
+  const Observation& last = tracks_.TrackOf(*marker).back();
+  if (last.frame_index != last_tracked.index) return std::nullopt;
+  return CameraPose{*marker, last};
+}
+
+void Pipeline::Resize(devices::Frame* frame) const {
+  const CameraModel& size = output_camera_;
+  if (frame->rgb.width() == size.width && frame->rgb.height() == size.height) return;
+  frame->rgb = devices::ResizeRgb(frame->rgb.view(), size.width, size.height);
+}
+
+bool Pipeline::MeterLightOn(const MarkerName& marker) {
+  if (metered_marker_ == marker) return false;
+  renderer_->SetMarkerReflectance(MarkerReflectanceOf(scene_.marker, marker));
+  metered_marker_ = marker;
+  return true;
+}
+
+Result<ComposedFrame> Pipeline::Compose(const devices::Frame& frame,
+                                        const std::optional<CameraPose>& pose, UtcTime time) {
+  ComposedFrame composed;
+  composed.pose = pose;
+  if (!pose) {
+    composed.image = frame.rgb;
+    return composed;
+  }
+  MeterLightOn(pose->marker);
+  const Observation& seen = pose->observation;
+  compositor::MarkerVisibility visibility;
+  if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
+  PLEINAIR_ASSIGN_OR_RETURN(
+      composed.image,
+      renderer_->Render(frame.rgb.view(), seen.camera_from_marker, time, visibility));
+  if (!renderer_->DrawsObjects()) return composed;
+  composed.light = renderer_->light();
+  composed.times = renderer_->times();
+  return composed;
+}
+
+UtcTime Pipeline::MomentOf(std::int64_t timestamp_ns) const {
+  return UtcTime(scene_.place_time.start.nanoseconds_since_1970() + timestamp_ns);
+}
+
+}  // namespace pleinair::session

@@ -1,0 +1,210 @@
+#include "session/recording_passes.h"
+
+#include <cstddef>
+#include <future>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/frame_prefetch.h"
+#include "session/light_frames.h"
+#include "session/scene_renderer.h"
+
+namespace pleinair::session {
+namespace {
+
+// Frames whose prints are measured at once: enough for all processors, few enough for memory.
+constexpr std::size_t kMeasuredTogether = 8;
+
+/// Times and progress of one pass, heard by a monitor or by nobody.
+class Pass {
+ public:
+  explicit Pass(const PassMonitor& monitor)
+      : monitor_(monitor), times_(monitor.times != nullptr ? *monitor.times : unheard_) {}
+
+  Result<void> Tell(std::int64_t done, std::optional<std::int64_t> of) const {
+    return monitor_.progress ? monitor_.progress(done, of) : Result<void>();
+  }
+  StageTimes& times() { return times_; }
+
+ private:
+  const PassMonitor& monitor_;
+  StageTimes unheard_;
+  StageTimes& times_;
+};
+
+/// A frame's moment must be one that UtcTime reaches; some films' stamps run for centuries.
+Result<void> CheckMoment(const Pipeline& pipeline, const std::string& recording,
+                         const devices::Frame& frame) {
+  std::int64_t moment_ns = 0;
+  if (!__builtin_add_overflow(pipeline.scene().place_time.start.nanoseconds_since_1970(),
+                              frame.timestamp_ns, &moment_ns)) {
+    return {};
+  }
+  return InputError(recording,
+                    "frame " + std::to_string(frame.index) + " lies beyond the years 1678 to 2261",
+                    "mend the scene's time, or the recording's frame rate or time stamps");
+}
+
+/// Measures found frames and hands them on.
+Result<void> MeasureTogether(Pipeline& pipeline, std::vector<FoundFrame> found,
+                             const TrackedFrameCallback& take, StageTimes* times) {
+  StageTimes together;
+  std::vector<TrackedFrame> tracked =
+      together.Measure("measure", [&] { return pipeline.Measure(found); });
+  const double each_ms = together.Summarize()[0].total_ms / static_cast<double>(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    times->Add("measure", each_ms);
+    if (take) PLEINAIR_RETURN_IF_ERROR(take(found[i].frame, std::move(tracked[i])));
+  }
+  return {};
+}
+
+void Resize(const Pipeline& pipeline, devices::Frame* frame, StageTimes* times) {
+  const CameraModel& size = pipeline.output_camera();
+  if (frame->rgb.width() == size.width && frame->rgb.height() == size.height) return;
+  times->Measure("resize", [&] {
+    pipeline.Resize(frame);
+    return 0;
+  });
+}
+
+const std::vector<Observation>& PathOf(const Pipeline& pipeline) {
+  static const std::vector<Observation> kNone;
+  const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
+  return marker ? pipeline.tracks().TrackOf(*marker) : kNone;
+}
+
+void AddTimes(const ComposedFrame& composed, StageTimes* times) {
+  if (!composed.light) return;
+  if (composed.times.light_ms > 1.0) times->Add("light", composed.times.light_ms);
+  times->Add("meter", composed.times.meter_ms);
+  times->Add("compose", composed.times.compose_ms);
+}
+
+}  // namespace
+
+Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
+                            const TrackedFrameCallback& take, const PassMonitor& monitor) {
+  Pass pass(monitor);
+  const std::string name = recording.path.string();
+  FramePrefetcher frames(std::move(recording.frames));
+  const std::optional<std::int64_t> count = frames.FrameCount();
+  std::int64_t done = 0;
+  std::vector<FoundFrame> found;
+  StageTimes measuring_times;  // Of the thread that measures, as long as it does.
+  // Measuring takes all processors, finding one: while some frames are measured the next are
+  // searched. Last: it uses the others.
+  std::future<Result<void>> measuring;
+  const auto finish_measuring = [&]() -> Result<void> {
+    return measuring.valid() ? measuring.get() : Result<void>();
+  };
+  for (bool more = true; more;) {
+    PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+    PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, frames.Next());
+    more = frame.has_value();
+    if (more) {
+      PLEINAIR_RETURN_IF_ERROR(CheckMoment(pipeline, name, *frame));
+      PLEINAIR_ASSIGN_OR_RETURN(auto one, pass.times().Measure("track", [&] {
+        return pipeline.Find(*std::move(frame));
+      }));
+      found.push_back(std::move(one));
+    }
+    if (more && found.size() < kMeasuredTogether) continue;
+    PLEINAIR_RETURN_IF_ERROR(finish_measuring());
+    done += static_cast<std::int64_t>(found.size());
+    measuring = std::async(std::launch::async, [&, together = std::exchange(found, {})]() mutable {
+      return MeasureTogether(pipeline, std::move(together), take, &measuring_times);
+    });
+  }
+  PLEINAIR_RETURN_IF_ERROR(finish_measuring());
+  PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+  pass.times().Add(measuring_times);
+  pass.times().Add(frames.Finish());
+  if (done == 0) return InputError(name, "holds no frames", "record it again");
+  return {};
+}
+
+Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
+                           const PassMonitor& monitor) {
+  const std::vector<Observation>& path = PathOf(pipeline);
+  const std::vector<std::size_t> chosen = LightFrames(path);
+  if (chosen.empty() || !pipeline.renderer().CanMeasureLight()) return {};
+  pipeline.MeterLightOn(*pipeline.tracks().ReferenceMarker());
+  Pass pass(monitor);
+  const auto count = static_cast<std::int64_t>(chosen.size());
+  std::int64_t done = 0;
+  for (auto next = chosen.begin(); next != chosen.end();) {
+    const Observation& at = path[*next];
+    recording.frames->SkipTo(at.frame_index);
+    PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        std::optional<devices::Frame> frame,
+        pass.times().Measure("read", [&] { return recording.frames->Next(); }));
+    if (!frame) break;
+    if (frame->index != at.frame_index) continue;
+    ++next;
+    ++done;
+    Resize(pipeline, &*frame, &pass.times());
+    pass.times().Measure("look at light", [&] {
+      pipeline.renderer().ObserveLight(frame->rgb.view(), at.camera_from_marker,
+                                       pipeline.MomentOf(frame->timestamp_ns));
+      return 0;
+    });
+  }
+  PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+  pass.times().Measure("settle light", [&] {
+    pipeline.renderer().EstimateLight();
+    return 0;
+  });
+  return {};
+}
+
+Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
+                           const ComposedFrameCallback& take, const PassMonitor& monitor) {
+  Pass pass(monitor);
+  const std::string name = recording.path.string();
+  const std::int64_t count = pipeline.tracks().frames();
+  const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
+  const std::vector<Observation>& path = PathOf(pipeline);
+  FramePrefetcher frames(std::move(recording.frames));
+  auto at = path.begin();
+  for (std::int64_t done = 0;; ++done) {
+    PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+    PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, frames.Next());
+    if (!frame && done != count) {
+      return InputError(name, "changed while it was being replayed",
+                        "replay it again when nothing writes to it");
+    }
+    if (!frame) break;
+    Resize(pipeline, &*frame, &pass.times());
+    while (at != path.end() && at->frame_index < frame->index) ++at;
+    std::optional<CameraPose> pose;
+    if (at != path.end() && at->frame_index == frame->index) pose = CameraPose{*marker, *at};
+    PLEINAIR_ASSIGN_OR_RETURN(
+        ComposedFrame composed,
+        pipeline.Compose(*frame, pose, pipeline.MomentOf(frame->timestamp_ns)));
+    AddTimes(composed, &pass.times());
+    PLEINAIR_RETURN_IF_ERROR(take(*frame, std::move(composed)));
+  }
+  pass.times().Add(frames.Finish());
+  return {};
+}
+
+Result<void> ComposeRecording(const std::filesystem::path& recording,
+                              const PipelineOptions& options, const ComposedFrameCallback& take) {
+  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording opened, devices::OpenRecording(recording));
+  if (!opened.scene) {
+    return InputError(recording.string(), "has no scene",
+                      "write one (docs/guide/reference/recordings.md) beside its frames");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::unique_ptr<Pipeline> pipeline,
+                            Pipeline::Create(opened.camera, *opened.scene, options));
+  PLEINAIR_RETURN_IF_ERROR(TrackRecording(*pipeline, std::move(opened)));
+  PLEINAIR_ASSIGN_OR_RETURN(opened, devices::OpenRecording(recording));
+  PLEINAIR_RETURN_IF_ERROR(EstimateLight(*pipeline, std::move(opened)));
+  PLEINAIR_ASSIGN_OR_RETURN(opened, devices::OpenRecording(recording));
+  return ComposeFrames(*pipeline, std::move(opened), take);
+}
+
+}  // namespace pleinair::session
