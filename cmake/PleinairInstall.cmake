@@ -7,18 +7,44 @@ set(PLEINAIR_EXPORTED pleinair_base pleinair_files pleinair_scene pleinair_sky p
 install(TARGETS ${PLEINAIR_EXPORTED} EXPORT pleinair-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
-# Headers that say "Internal:" before their first include stay here (tests/architecture holds the
-# others free of the types of OpenCV, Ceres, Eigen and the like).
-foreach(module IN ITEMS base files sky scene devices tracker gl shadows compositor session export)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${module}/*.h)
-  foreach(header IN LISTS headers)
-    file(STRINGS ${header} internal REGEX "Internal:" LIMIT_COUNT 1)
-    if(NOT internal)
-      file(RELATIVE_PATH relative ${PROJECT_SOURCE_DIR} ${header})
-      cmake_path(GET relative PARENT_PATH folder)
-      install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pleinair/${folder})
-    endif()
-  endforeach()
+# One name for all of them.
+add_library(pleinair_pleinair INTERFACE)
+add_library(pleinair::pleinair ALIAS pleinair_pleinair)
+set_target_properties(pleinair_pleinair PROPERTIES EXPORT_NAME pleinair)
+target_link_libraries(pleinair_pleinair INTERFACE pleinair::export pleinair::session)
+target_include_directories(pleinair_pleinair INTERFACE
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+install(TARGETS pleinair_pleinair EXPORT pleinair-targets)
+
+# Gives the headers of ours that a header includes, itself among them.
+function(pleinair_headers_reached header result)
+  set(reached ${header})
+  set(open ${header})
+  while(open)
+    list(POP_FRONT open file)
+    set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(STRINGS ${PROJECT_SOURCE_DIR}/${file} includes REGEX "^#include \"")
+    foreach(include IN LISTS includes)
+      string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" include ${include})
+      if(NOT include IN_LIST reached)
+        list(APPEND reached ${include})
+        list(APPEND open ${include})
+      endif()
+    endforeach()
+  endwhile()
+  set(${result} ${reached} PARENT_SCOPE)
+endfunction()
+
+# What the public face reaches, and nothing else; tests/architecture holds these headers free of GL,
+# GLM, OpenCV, Eigen and Ceres.
+pleinair_headers_reached(pleinair/pleinair.h headers)
+foreach(header IN LISTS headers)
+  cmake_path(GET header PARENT_PATH folder)
+  if(folder STREQUAL "pleinair")
+    set(folder "")  # #include <pleinair/pleinair.h>
+  endif()
+  install(FILES ${PROJECT_SOURCE_DIR}/${header}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pleinair/${folder})
 endforeach()
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/pleinair)
@@ -30,34 +56,20 @@ install(FILES ${PROJECT_BINARY_DIR}/pleinair-config.cmake
               ${PROJECT_BINARY_DIR}/pleinair-config-version.cmake DESTINATION ${config_folder})
 install(EXPORT pleinair-targets NAMESPACE pleinair:: DESTINATION ${config_folder})
 
-# One pkg-config file a module. Those of OpenCV and others have a file of their own to require;
-# Ceres, Embree, AprilTag and TinyGLTF are named as libraries.
-function(pleinair_pkg_config module description requires libs)
-  set(PC_MODULE ${module})
-  set(PC_DESCRIPTION ${description})
-  set(PC_REQUIRES ${requires})
-  set(PC_LIBS ${libs})
-  configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/pleinair-module.pc.in
-    ${PROJECT_BINARY_DIR}/pleinair-${module}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/pleinair-${module}.pc
-          DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-endfunction()
-pleinair_pkg_config(sky "the sun's place and the day's light" "erfa" "")
-pleinair_pkg_config(gl "OpenGL without a window" "epoxy egl" "-ldl")
-pleinair_pkg_config(shadows "the sun's shadow maps" "pleinair-gl" "")
-pleinair_pkg_config(compositor "virtual objects in camera pictures"
-  "pleinair-shadows pleinair-sky" "-ltinygltf -lembree3 -pthread")
-set(devices_requires "opencv4 yaml-cpp libjpeg zlib")
+# For pkg-config, all libraries under one name, each before those that it uses.
+set(pleinair_libs export session compositor shadows gl tracker devices calibration scene files sky)
+list(TRANSFORM pleinair_libs PREPEND "-lpleinair_")
+list(JOIN pleinair_libs " " PLEINAIR_PC_LIBS)
+set(PLEINAIR_PC_REQUIRES "erfa epoxy egl yaml-cpp zlib libpng libjpeg libhwy fmt OpenEXR")
+string(APPEND PLEINAIR_PC_REQUIRES " libavformat libavcodec libavutil libswscale")
 if(ARAVIS_FOUND)
-  string(APPEND devices_requires " aravis-0.8")
+  string(APPEND PLEINAIR_PC_REQUIRES " aravis-0.8")
 endif()
 if(LIBCAMERA_FOUND)
-  string(APPEND devices_requires " libcamera")
+  string(APPEND PLEINAIR_PC_REQUIRES " libcamera")
 endif()
-pleinair_pkg_config(devices "cameras, recordings, calibrations and scenes" "${devices_requires}"
-  "-pthread")
-pleinair_pkg_config(tracker "markers and their poses" "opencv4 libhwy"
-  "-lapriltag -lapriltag-utils -lceres -lglog -lgflags -lspqr -lcholmod -lcxsparse -llapack -lblas")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/pleinair.pc.in ${PROJECT_BINARY_DIR}/pleinair.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/pleinair.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
         DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -29,6 +29,8 @@ const std::map<std::string, Names, std::less<>>& AllowedModules() {
        {"base", "files", "sky", "scene", "devices", "tracker", "gl", "shadows", "compositor"}},
       // Print sheets show the tracker's markers and calibration boards.
       {"export", {"base", "files", "scene", "devices", "tracker"}},
+      {"pleinair",
+       {"base", "files", "sky", "scene", "devices", "tracker", "compositor", "session", "export"}},
       {"accuracy", {"base", "tracker"}},
       {"app",
        {"base", "files", "sky", "scene", "devices", "tracker", "gl", "shadows", "compositor",
@@ -217,6 +219,21 @@ std::vector<std::string> FindBreachesBelow(const fs::path& root) {
     breaches.insert(breaches.end(), of_file.begin(), of_file.end());
   }
   return breaches;
+}
+
+std::vector<std::string> HeadersReached(const fs::path& root, const std::string& header) {
+  std::vector<std::string> reached = {header};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    std::ifstream in(root / reached[i], std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    for (const Include& include : ParseIncludes(text)) {
+      const bool ours = AllowedModules().contains(ModuleOf(include.path));
+      if (ours && std::find(reached.begin(), reached.end(), include.path) == reached.end()) {
+        reached.push_back(include.path);
+      }
+    }
+  }
+  return reached;
 }
 
 UnitIncludes ReadUnitIncludes(const fs::path& root) {

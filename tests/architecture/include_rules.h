@@ -26,6 +26,11 @@ std::vector<std::string> FindBreaches(const std::filesystem::path& file, std::st
 /// The same for every .h, .cc and shader below the module folders of `root`.
 std::vector<std::string> FindBreachesBelow(const std::filesystem::path& root);
 
+/// A header of ours and the headers of ours that it includes, directly or through others; paths
+/// from the root of the tree, in the order in which they are met.
+std::vector<std::string> HeadersReached(const std::filesystem::path& root,
+                                        const std::string& header);
+
 /// A unit and the units that it includes. A unit is a header with its source, named by their path
 /// without an ending: "tracker/tracker".
 using UnitIncludes = std::map<std::string, std::set<std::string>>;

@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
 namespace pleinair::architecture {
 namespace {
 
@@ -22,7 +27,7 @@ TEST(IncludeRules, CatchAnIncludeAgainstTheOrderOfModules) {
   EXPECT_THAT(FindBreaches("sky/sun.cc", "#include \"devices/frame.h\""),
               ElementsAre(HasSubstr("sky may not know devices")));
   EXPECT_THAT(FindBreaches("base/image.h", "#include \"session/marker_tracks.h\""),
-              ElementsAre(HasSubstr("base may not know app")));
+              ElementsAre(HasSubstr("base may not know session")));
   EXPECT_THAT(FindBreaches("shadows/shaders/a.frag", "#include \"compositor/shaders/b.glsl\""),
               ElementsAre(HasSubstr("shadows may not know compositor")));
 }
@@ -57,6 +62,22 @@ TEST(FindLoops, GivesEachLoopOnceAndNoChain) {
               ::testing::UnorderedElementsAre(ElementsAre("a", "b", "c"), ElementsAre("d", "e")));
 }
 
+TEST(PublicFace, ReachesNoLibraryThatStaysInside) {
+  const std::vector<std::string> headers =
+      HeadersReached(tests::SourceTree(), "pleinair/pleinair.h");
+  EXPECT_THAT(headers, ::testing::Contains("session/pipeline.h"));
+  for (const std::string& header : headers) {
+    std::ifstream in(tests::SourceTree() / header);
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    for (const Include& include : ParseIncludes(text)) {
+      for (const char* library :
+           {"glm/", "epoxy/", "GL/", "EGL/", "opencv2/", "Eigen/", "ceres/"}) {
+        EXPECT_FALSE(include.path.starts_with(library)) << header << " includes " << include.path;
+      }
+    }
+  }
+}
+
 TEST(IncludeRules, CatchOpenCvWhereABareMachineMustBuild) {
   EXPECT_THAT(FindBreaches("compositor/models/model.cc", "#include <opencv2/core.hpp>"),
               ElementsAre(HasSubstr("compositor may not know OpenCV")));
@@ -67,7 +88,7 @@ TEST(IncludeRules, CatchOpenGlInTheTracker) {
               ElementsAre(HasSubstr("tracker may not know OpenGL")));
   // The window draws; the rest of app leaves that to compositor.
   EXPECT_THAT(FindBreaches("session/marker_tracks.cc", "#include <epoxy/gl.h>"),
-              ElementsAre(HasSubstr("app may not know OpenGL")));
+              ElementsAre(HasSubstr("session may not know OpenGL")));
   EXPECT_THAT(FindBreaches("app/window/live_window.cc", "#include <GLFW/glfw3.h>"), IsEmpty());
 }
 
