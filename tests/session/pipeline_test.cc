@@ -1,0 +1,118 @@
+#include "session/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "devices/recordings/recording.h"
+#include "tests/source_tree.h"
+
+namespace pleinair::session {
+namespace {
+
+/// Six frames of an AprilTag, without virtual objects: nothing is drawn.
+devices::Recording OpenTag() {
+  auto recording =
+      devices::OpenRecording(tests::SourceTree() / "recordings" / "courtyard_tag36h11");
+  EXPECT_TRUE(recording) << recording.error().Message();
+  return *std::move(recording);
+}
+
+std::vector<devices::Frame> FramesOf(devices::Recording recording) {
+  std::vector<devices::Frame> frames;
+  for (;;) {
+    auto frame = recording.frames->Next();
+    EXPECT_TRUE(frame) << frame.error().Message();
+    if (!*frame) return frames;
+    frames.push_back(**std::move(frame));
+  }
+}
+
+bool SamePixels(const RgbImage& a, const RgbImage& b) {
+  return a.width() == b.width() && a.height() == b.height() &&
+         std::equal(a.data(), a.data() + a.size(), b.data());
+}
+
+TEST(Pipeline, GivesPoseAndTheFrameItselfWhereThereIsNothingToDraw) {
+  devices::Recording recording = OpenTag();
+  auto pipeline = Pipeline::Create(recording.camera, *recording.scene);
+  ASSERT_TRUE(pipeline) << pipeline.error().Message();
+  for (const devices::Frame& frame : FramesOf(std::move(recording))) {
+    const auto composed = (*pipeline)->Process(frame);
+    ASSERT_TRUE(composed) << composed.error().Message();
+    ASSERT_TRUE(composed->pose) << frame.index;
+    EXPECT_EQ(composed->pose->marker, (MarkerName{"tag36h11", 0}));
+    EXPECT_EQ(composed->pose->observation.frame_index, frame.index);
+    EXPECT_GT(composed->pose->observation.camera_from_marker.translation_m.z, 0.0);
+    EXPECT_TRUE(SamePixels(composed->image, frame.rgb));
+    EXPECT_FALSE(composed->light);
+  }
+}
+
+TEST(Pipeline, HasNoPoseWhereTheMarkerIsNotSeen) {
+  devices::Recording recording = OpenTag();
+  auto pipeline = Pipeline::Create(recording.camera, *recording.scene);
+  ASSERT_TRUE(pipeline);
+  std::vector<devices::Frame> frames = FramesOf(std::move(recording));
+  ASSERT_TRUE((*pipeline)->Process(frames[0]));
+  devices::Frame blank = frames[1];
+  std::fill_n(blank.grey.data(), blank.grey.size(), std::uint8_t{128});
+  std::fill_n(blank.rgb.data(), blank.rgb.size(), std::uint8_t{128});
+  const auto composed = (*pipeline)->Process(blank);
+  ASSERT_TRUE(composed);
+  EXPECT_FALSE(composed->pose);
+  EXPECT_TRUE(SamePixels(composed->image, blank.rgb));
+}
+
+TEST(Pipeline, MeasuresSeveralFramesTogetherAsOneByOne) {
+  devices::Recording recording = OpenTag();
+  auto one_by_one = Pipeline::Create(recording.camera, *recording.scene);
+  auto together = Pipeline::Create(recording.camera, *recording.scene);
+  ASSERT_TRUE(one_by_one && together);
+  std::vector<FoundFrame> found;
+  for (devices::Frame& frame : FramesOf(std::move(recording))) {
+    ASSERT_TRUE((*one_by_one)->Track(frame));
+    auto one = (*together)->Find(std::move(frame));
+    ASSERT_TRUE(one);
+    found.push_back(*std::move(one));
+  }
+  ASSERT_EQ((*together)->Measure(found).size(), found.size());
+  const MarkerName tag{"tag36h11", 0};
+  const std::vector<Observation>& a = (*one_by_one)->tracks().TrackOf(tag);
+  const std::vector<Observation>& b = (*together)->tracks().TrackOf(tag);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].camera_from_marker.translation_m, b[i].camera_from_marker.translation_m);
+    EXPECT_EQ(a[i].camera_from_marker.rotation.m, b[i].camera_from_marker.rotation.m);
+  }
+}
+
+TEST(Pipeline, ComposesAtTheSizeThatIsAskedFor) {
+  devices::Recording recording = OpenTag();
+  PipelineOptions options;
+  options.image_size = ImageSize{320, 240};
+  auto pipeline = Pipeline::Create(recording.camera, *recording.scene, options);
+  ASSERT_TRUE(pipeline);
+  EXPECT_EQ((*pipeline)->output_camera().fx, recording.camera.fx / 2);
+  const auto composed = (*pipeline)->Process(FramesOf(std::move(recording))[0]);
+  ASSERT_TRUE(composed);
+  EXPECT_EQ(composed->image.width(), 320);
+  EXPECT_EQ(composed->image.height(), 240);
+  EXPECT_TRUE(composed->pose) << "markers are found at the frame's own size";
+}
+
+TEST(Pipeline, NamesTheSceneWhereItsMarkerCannotBe) {
+  devices::Recording recording = OpenTag();
+  scene::SceneDescription scene = *recording.scene;
+  scene.marker.size_m = -1.0;
+  const auto pipeline = Pipeline::Create(recording.camera, scene);
+  ASSERT_FALSE(pipeline);
+  EXPECT_EQ(pipeline.error().where, scene.file.string());
+}
+
+}  // namespace
+}  // namespace pleinair::session
