@@ -88,7 +88,6 @@ CloudTransmission TransmissionOfClouds(double cover, Radians apparent_sun_elevat
 }
 
 CloudPatterns PatternsOfClouds(double cover) {
-  // As the shader does it, so that both take the same two at 1/3 and 2/3.
   const double place = 3.0 * std::clamp(cover, 0.0, 1.0);
   const int lower = std::min(static_cast<int>(place), 2);
   return {kCieTypes[lower], kCieTypes[lower + 1], place - lower};

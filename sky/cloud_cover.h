@@ -36,17 +36,13 @@ struct CloudPatterns {
 };
 CloudPatterns PatternsOfClouds(double cover);
 
-/// Clouds before a clear sky, for one place of the sun: the blend described above. Its shader twin:
-/// sky/shaders/sky_clouds.glsl.
+/// Clouds before a clear sky, for one place of the sun: the blend described above.
 class Clouds {
  public:
   /// `to_sun` apparent, a unit vector east, north, up; of the clear sky: its light on level ground
   /// (`clear_sky`) and the sun's on a surface facing it, lux.
   Clouds(double cover, Direction<World> to_sun, const LinearRgb& clear_sky,
          const LinearRgb& clear_sun);
-
-  const CieSky& lower() const { return lower_; }
-  const CieSky& upper() const { return upper_; }
 
   /// The clouds' own luminance in a direction, cd/m².
   double Luminance(Direction<World> from) const {

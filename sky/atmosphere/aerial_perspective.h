@@ -20,6 +20,14 @@ struct AtmosphereTables;
 /// light is within 12 % at 2 and 20 km (tests/sky/atmosphere/aerial_perspective_test.cc).
 class AerialPerspective {
  public:
+  AerialPerspective(const AtmosphereTables& tables, Direction<World> to_sun,
+                    double sun_distance_au);
+
+  /// `towards`: unit vector, east, north, up; from an eye 2 m above the ground.
+  LinearRgb Transmittance(Direction<World> towards, Metres distance) const;
+  LinearRgb Inscattered(Direction<World> towards, Metres distance) const;
+
+ private:
   static constexpr int kRows = 37;     ///< Elevations, −90°…90° in steps of 5°.
   static constexpr int kSectors = 13;  ///< Azimuths from the sun's, 180° t^1.5.
 
@@ -29,7 +37,7 @@ class AerialPerspective {
     std::array<float, 3> aerosol{};  ///< Without the sun's own light.
   };
 
-  /// All that a shader needs beside the nodes; lengths in metres.
+  /// What holds for every node; lengths in metres.
   struct Constants {
     std::array<float, 3> sun_on_aerosol{};  ///< Times the aerosol's phase function.
     std::array<float, 3> molecule_extinction{}, aerosol_extinction{};  ///< At the ground.
@@ -37,17 +45,6 @@ class AerialPerspective {
     std::array<float, 3> to_sun{};
   };
 
-  AerialPerspective(const AtmosphereTables& tables, Direction<World> to_sun,
-                    double sun_distance_au);
-
-  /// `towards`: unit vector, east, north, up; from an eye 2 m above the ground.
-  LinearRgb Transmittance(Direction<World> towards, Metres distance) const;
-  LinearRgb Inscattered(Direction<World> towards, Metres distance) const;
-
-  const Constants& constants() const { return constants_; }
-  const std::vector<Node>& nodes() const { return nodes_; }
-
- private:
   struct Columns {
     double molecules, aerosol;
   };

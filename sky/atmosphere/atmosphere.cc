@@ -193,7 +193,7 @@ Vec3 AtmosphereSky::Xyz(Direction<World> from) const {
   const int r = std::min(static_cast<int>(row), kRings - 2);
   const int c = std::min(static_cast<int>(column), kSectors - 2);
   const double fr = row - r, fc = column - c;
-  const double phase = AerosolPhase(asymmetry(), Dot(s, d));
+  const double phase = AerosolPhase(tables_->medium.aerosol.asymmetry, Dot(s, d));
   const Node* node = &nodes_[static_cast<std::size_t>(r) * kSectors + c];
   const auto value = [&](int i) {
     const auto at = [&](const Node& n) { return n.scattered[i] + phase * n.aerosol[i]; };

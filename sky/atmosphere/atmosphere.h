@@ -61,8 +61,6 @@ class AtmosphereSky {
   /// from 2.9° on nothing changes), and more in twilight, when the earth's shadow steepens it.
   static double SoftenedElevation(double elevation, double sun_elevation);
 
-  double asymmetry() const { return tables_->medium.aerosol.asymmetry; }
-  Direction<World> ToSun() const { return to_sun_; }
   const std::vector<Node>& nodes() const { return nodes_; }
 
  private:
