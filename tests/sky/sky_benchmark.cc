@@ -5,7 +5,6 @@
 
 #include "sky/atmosphere/atmosphere.h"
 #include "sky/sky_model.h"
-#include "sky/spherical_harmonics.h"
 #include "sky/sun/sun_position.h"
 
 namespace pleinair::sky {
@@ -94,12 +93,6 @@ void SeeThroughAir(benchmark::State& state) {
   }
 }
 BENCHMARK(SeeThroughAir);
-
-void ProjectHarmonics(benchmark::State& state) {
-  const auto sky = Sky(kAtmosphere);
-  for (auto _ : state) benchmark::DoNotOptimize(ProjectSky(*sky));
-}
-BENCHMARK(ProjectHarmonics)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace pleinair::sky
