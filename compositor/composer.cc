@@ -173,8 +173,9 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   }
   // Another size of the picture mostly asks for the same maps: what they hold stays.
   const shadows::ShadowMapOptions maps = MapOptions(options);
-  const bool other_shaders =
-      maps.method != shadows_.options().method || maps.partitions != shadows_.options().partitions;
+  const bool other_shaders = maps.method != shadows_.options().method ||
+                             maps.sun_disc_filter != shadows_.options().sun_disc_filter ||
+                             maps.partitions != shadows_.options().partitions;
   if (maps != shadows_.options()) PLEINAIR_RETURN_IF_ERROR(MakeShadows(maps));
   if (other_shaders) {
     surface_programs_ = {};

@@ -16,6 +16,7 @@ struct ComposerOptions {
   /// distortion, 1.5 for one that the picture must be warped to.
   double supersampling = 0.0;
   ShadowMethod shadow_method = ShadowMethod::kSunDisc;
+  shadows::SunDiscFilter sun_disc_filter = shadows::SunDiscFilter::kFull;
   int shadow_partitions = 2;  ///< Partitions of the shadow maps, 1…4.
   /// Texels a side of each partition's map, 16…8192; powers of two where the method has a pyramid
   /// (shadows::MapContent::kDepthBounds). 0: as fine as the picture shows; finer ones cost a look

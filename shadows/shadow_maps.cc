@@ -37,6 +37,12 @@ glm::dmat4 ClipFromMarker(const LightAxes& axes, const LightWindow& window, doub
 
 }  // namespace
 
+MapContent ContentOf(const ShadowMapOptions& options) {
+  const bool is_shortcut =
+      options.method == ShadowMethod::kSunDisc && options.sun_disc_filter != SunDiscFilter::kFull;
+  return is_shortcut ? MapContent::kDepth : TraitsOf(options.method).content;
+}
+
 Result<void> CheckShadowMapOptions(const ShadowMapOptions& options) {
   if (options.partitions < 1 || options.partitions > kMaxPartitions) {
     return InputError("shadows", std::to_string(options.partitions) + " partitions",
@@ -44,7 +50,7 @@ Result<void> CheckShadowMapOptions(const ShadowMapOptions& options) {
   }
   for (int i = 0; i < options.partitions; ++i) {
     const int resolution = options.resolutions[i];
-    const bool pyramid = TraitsOf(options.method).content == MapContent::kDepthBounds;
+    const bool pyramid = ContentOf(options) == MapContent::kDepthBounds;
     if (resolution < 16 || resolution > 8192 ||
         (pyramid && !std::has_single_bit(static_cast<unsigned>(resolution)))) {
       return InputError("shadows", "a map of " + std::to_string(resolution) + " texels a side",
@@ -94,9 +100,12 @@ ShadowMapOptions CommonOptions(ShadowMethod method, int resolution) {
 }
 
 std::vector<std::string> ShadowMaps::ShaderDefines(const ShadowMapOptions& options, int sets) {
-  return {"SHADOW_SETS " + std::to_string(sets),
-          "SHADOW_PARTITIONS " + std::to_string(options.partitions),
-          std::string(TraitsOf(options.method).shader_define)};
+  std::vector<std::string> defines{"SHADOW_SETS " + std::to_string(sets),
+                                   "SHADOW_PARTITIONS " + std::to_string(options.partitions),
+                                   std::string(TraitsOf(options.method).shader_define)};
+  if (options.sun_disc_filter == SunDiscFilter::kBox) defines.emplace_back("SUN_DISC_BOX");
+  if (options.sun_disc_filter == SunDiscFilter::kSample) defines.emplace_back("SUN_DISC_SAMPLE");
+  return defines;
 }
 
 Result<ShadowMaps> ShadowMaps::Create(const ShadowMapOptions& options) {

@@ -28,9 +28,10 @@ constexpr Radians kSunAngularRadius = FromDegrees(0.2665);
 
 struct ShadowMapOptions {
   ShadowMethod method = ShadowMethod::kSunDisc;
+  SunDiscFilter sun_disc_filter = SunDiscFilter::kFull;
   int partitions = 2;         ///< 1 to 4.
   double split_weight = 0.5;  ///< λ of Eq. 11.
-  /// 16…8192 texels a side; powers of two where the method has a pyramid
+  /// 16…8192 texels a side; powers of two where the maps have a pyramid
   /// (MapContent::kDepthBounds).
   std::array<int, kMaxPartitions> resolutions{2048, 2048, 1024, 1024};
   Radians sun_angular_radius = kSunAngularRadius;
@@ -48,6 +49,9 @@ struct ShadowMapOptions {
 
   bool operator==(const ShadowMapOptions&) const = default;
 };
+
+/// What maps made with these options hold.
+MapContent ContentOf(const ShadowMapOptions& options);
 
 /// Errors (input): a number of partitions, a resolution, a λ or an angular radius out of the ranges
 /// above.
@@ -143,7 +147,7 @@ class ShadowMaps {
   };
 
   ShadowMaps() = default;
-  MapContent Content() const { return TraitsOf(options_.method).content; }
+  MapContent Content() const { return ContentOf(options_); }
   bool UsesMoments() const {
     return Content() == MapContent::kMoments || Content() == MapContent::kWarpedMoments;
   }

@@ -11,7 +11,7 @@ using enum MapContent;
 
 // Bleed reduction 0.25: the penumbra's error of the paper's step at a smaller leak (docs).
 // λ: the paper's ½ for the paper's method; 0.9, near the logarithm, serves the wide field best.
-constexpr std::array<ShadowMethodTraits, 17> kMethods{{
+constexpr std::array<ShadowMethodTraits, 13> kMethods{{
     {kPlain, "plain", "plain map", "SHADOW_METHOD_PLAIN", kDepth, 1, false, 0.5},
     {kPcf3, "pcf3", "PCF 3×3", "SHADOW_METHOD_PCF 3", kDepth, 1, false, 0.5},
     {kPcf5, "pcf5", "PCF 5×5", "SHADOW_METHOD_PCF 5", kDepth, 1, false, 0.5},
@@ -28,14 +28,6 @@ constexpr std::array<ShadowMethodTraits, 17> kMethods{{
     {kCascadesGaussian, "csm-gauss", "cascades + Gaussian blur", "SHADOW_METHOD_GAUSSIAN", kMoments,
      4, false, 0.9},
     {kGaussian, "zgaf", "Z-GaF (paper)", "SHADOW_METHOD_GAUSSIAN", kMoments, 4, true, 0.5},
-    {kSunDiscLean, "ours-lean", "sun disc, 2×2 texels (ours)", "SHADOW_METHOD_SUN_DISC_LEAN",
-     kDepth, 1, false, 0.9},
-    {kSunDiscLight, "ours-light", "sun disc, 4×4 texels, one map (ours)",
-     "SHADOW_METHOD_SUN_DISC_FAST", kDepth, 1, false, 0.9},
-    {kSunDiscSpread, "ours-spread", "sun disc, 6×6 texels (ours)", "SHADOW_METHOD_SUN_DISC_SPREAD",
-     kDepth, 4, true, 0.9},
-    {kSunDiscFast, "ours-fast", "sun disc, 4×4 texels (ours)", "SHADOW_METHOD_SUN_DISC_FAST",
-     kDepth, 4, true, 0.9},
     {kSunDisc, "ours", "sun disc (ours)", "SHADOW_METHOD_SUN_DISC", kDepthBounds, 4, true, 0.9},
 }};
 

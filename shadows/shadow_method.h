@@ -23,11 +23,14 @@ enum class ShadowMethod {
   kCascadesGaussian,      ///< Four cascades with Z-GaF's blur and step: the paper's "CSMs with
                           ///< Gaussian blurring" (its Figure 8 C).
   kGaussian,              ///< The paper's Z-GaF: a Gaussian of blurred depth moments.
-  kSunDiscLean,    ///< Ours with one map and one look at four texels: as cheap as a plain map.
-  kSunDiscLight,   ///< kSunDiscFast with one map.
-  kSunDiscSpread,  ///< Ours without pyramid: 6×6 texels, few looks where penumbrae are wider.
-  kSunDiscFast,    ///< Ours with penumbrae of at most 3 texels: no search, no pyramid.
-  kSunDisc,        ///< Ours, the default: the sun's disc seen past the blockers.
+  kSunDisc,               ///< Ours, the default: the sun's disc seen past the blockers.
+};
+
+/// How much of kSunDisc's filter is computed. The other methods have one filter.
+enum class SunDiscFilter {
+  kFull,    ///< A search for blockers, penumbrae of any width.
+  kBox,     ///< A box over 4×4 texels: no search, no pyramid, penumbrae of at most 3 texels.
+  kSample,  ///< One sample of 2×2 texels, as cheap as a plain map.
 };
 
 /// What a method's maps hold beside depth.

@@ -17,7 +17,7 @@ namespace {
 constexpr double kWidth = 760, kHeight = 460, kLeft = 70, kRight = 150, kTop = 40, kBottom = 50;
 constexpr exports::DrawingColor kInk{40, 40, 40}, kGrid{225, 225, 225};
 // By method, in the order of ShadowMethods().
-constexpr std::array<exports::DrawingColor, 17> kColors{{{120, 120, 120},
+constexpr std::array<exports::DrawingColor, 13> kColors{{{120, 120, 120},
                                                          {158, 202, 225},
                                                          {66, 146, 198},
                                                          {8, 81, 156},
@@ -29,10 +29,6 @@ constexpr std::array<exports::DrawingColor, 17> kColors{{{120, 120, 120},
                                                          {90, 60, 140},
                                                          {190, 210, 90},
                                                          {110, 160, 60},
-                                                         {255, 170, 190},
-                                                         {250, 120, 150},
-                                                         {240, 70, 90},
-                                                         {215, 20, 40},
                                                          {140, 0, 0}}};
 constexpr exports::DrawingColor kFront{60, 60, 60};
 
@@ -116,7 +112,7 @@ exports::VectorDrawing Chart(const ShadowBenchResult& result, const std::string&
     const exports::DrawingColor color = kColors[static_cast<std::size_t>(traits.method)];
     exports::DrawingLine line;
     line.color = color;
-    line.width = traits.name.starts_with("ours") ? 3.0 : 1.5;
+    line.width = traits.method == shadows::ShadowMethod::kSunDisc ? 3.0 : 1.5;
     for (const ShadowBenchRow& row : result.rows) {
       if (row.scene != scene || row.method != traits.method) continue;
       line.points.push_back(

@@ -33,9 +33,7 @@ class LiveDetail {
         edit.detail == session::Detail::kAutomatic ? detail_ : edit.detail;
     compositor::ComposerOptions options = edit.drawing;
     if (detail == session::Detail::kFine) return options;
-    if (options.shadow_method == compositor::ShadowMethod::kSunDisc) {
-      options.shadow_method = compositor::ShadowMethod::kSunDiscFast;
-    }
+    options.sun_disc_filter = shadows::SunDiscFilter::kBox;
     if (detail == session::Detail::kCoarse) options.supersampling = kCoarseSupersampling;
     return options;
   }

@@ -21,6 +21,7 @@ constexpr float kReachSlack = 1.25F, kReachTexels = 6.0F;
 shadows::ShadowMapOptions SceneShadows::MapOptions(const ComposerOptions& options, int picture_px) {
   shadows::ShadowMapOptions map_options;
   map_options.method = options.shadow_method;
+  map_options.sun_disc_filter = options.sun_disc_filter;
   map_options.partitions = options.shadow_partitions;
   const int fine = std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(picture_px))),
                               kMinMapWithoutSize_px, kMaxMapWithoutSize_px);
@@ -44,7 +45,7 @@ Result<SceneShadows> SceneShadows::Create(const shadows::ShadowMapOptions& optio
 
 /// Maps of moments do, as the paper's.
 bool SceneShadows::FitsView() const {
-  const shadows::MapContent content = shadows::TraitsOf(options().method).content;
+  const shadows::MapContent content = shadows::ContentOf(options());
   return content == shadows::MapContent::kMoments || content == shadows::MapContent::kWarpedMoments;
 }
 

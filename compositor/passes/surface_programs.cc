@@ -11,10 +11,12 @@ namespace pleinair::compositor {
 
 namespace {
 
+using shadows::SunDiscFilter;
+
 /// Where only the sky's light changes, by some hundredths, a real shadow's edge matters to so much
-/// of it: one look into the map is as good there as many (0.01 of CIEDE2000 over key frames).
-shadows::ShadowMethod MethodForSky(shadows::ShadowMethod method) {
-  return method == shadows::ShadowMethod::kSunDisc ? shadows::ShadowMethod::kSunDiscLean : method;
+/// of it: one sample of the map is as good there as many (0.01 of CIEDE2000 over key frames).
+SunDiscFilter FilterForSky(SunDiscFilter filter) {
+  return filter == SunDiscFilter::kFull ? SunDiscFilter::kSample : filter;
 }
 
 }  // namespace
@@ -22,9 +24,9 @@ shadows::ShadowMethod MethodForSky(shadows::ShadowMethod method) {
 Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions& options,
                                                 const Permutation& permutation) {
   const auto make = [&](const std::string& fragment, const std::vector<std::string>& of_pass,
-                        shadows::ShadowMethod method) {
+                        SunDiscFilter filter) {
     shadows::ShadowMapOptions shading = options;
-    shading.method = method;
+    shading.sun_disc_filter = filter;
     std::vector<std::string> defines =
         shadows::FadingShadowMaps::ShaderDefines(shading, SceneShadows::kSets, permutation.fades);
     defines.insert(defines.end(), of_pass.begin(), of_pass.end());
@@ -35,15 +37,15 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
                                   .fragment = "compositor/shaders/" + fragment,
                                   .defines = std::move(defines)});
   };
+  const SunDiscFilter filter = options.sun_disc_filter;
   SurfacePrograms programs;
   PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[AffectedTriangles::kSun],
-                            make("shadow_ratio.frag", {"SUN_MAY_CHANGE"}, options.method));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      programs.phantoms[AffectedTriangles::kSunlitSky],
-      make("shadow_ratio.frag", {"SKY_CHANGES"}, MethodForSky(options.method)));
-  PLEINAIR_ASSIGN_OR_RETURN(programs.objects, make("virtual_object.frag", {}, options.method));
+                            make("shadow_ratio.frag", {"SUN_MAY_CHANGE"}, filter));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.phantoms[AffectedTriangles::kSunlitSky],
+                            make("shadow_ratio.frag", {"SKY_CHANGES"}, FilterForSky(filter)));
+  PLEINAIR_ASSIGN_OR_RETURN(programs.objects, make("virtual_object.frag", {}, filter));
   PLEINAIR_ASSIGN_OR_RETURN(programs.objects_in_own_shade,
-                            make("virtual_object.frag", {"NO_SUN"}, options.method));
+                            make("virtual_object.frag", {"NO_SUN"}, filter));
   return programs;
 }
 

@@ -4,12 +4,8 @@
 #include "shadows/shaders/shadow_formulae.glsl"
 #include "shadows/shaders/shadow_lookup.glsl"
 
-#ifndef SHADOW_SEARCH_SAMPLES
-#define SHADOW_SEARCH_SAMPLES 24
-#endif
-#ifndef SHADOW_FILTER_SAMPLES
-#define SHADOW_FILTER_SAMPLES 200
-#endif
+// At most.
+const float kSearchSamples = 24.0, kFilterSamples = 200.0;
 
 // Nearest and farthest depth in a block of the pyramid that covers `reach` texels around, and the
 // block's farthest corner from the receiver in texels (z).
@@ -53,27 +49,26 @@ vec2 ShadowBoxWidth(vec4 size, ShadowReceiver r, float height, float tan_radius)
   return sqrt(max(3.0 * (0.25 * disc * disc + pixel), 0.25));
 }
 
-// All texels of `quads` × `quads` quads around a point (at most 3 × 3): their blockers' mean height,
-// and what a box as wide as that asks leaves visible. The widest box that fits is ±(quads − ½).
-float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius, int quads,
-                  out float height) {
-  vec2 corner = floor(r.texel - 0.5) - float(quads - 1);
-  vec4 blocks[9];
+// The 4×4 texels around a point: what a box as wide as their blockers' mean height asks leaves
+// visible. The widest box that fits is ±1½ texels.
+float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
+  vec2 corner = floor(r.texel - 0.5) - 1.0;
+  vec4 blocks[4];
   vec4 heights = vec4(0.0), blockers = vec4(0.0);
-  for (int i = 0; i < quads * quads; ++i) {
+  for (int i = 0; i < 4; ++i) {
     ShadowQuad quad =
-        ShadowFetch(set, slice, size, r, corner + 2.0 * vec2(float(i % quads), float(i / quads)));
+        ShadowFetch(set, slice, size, r, corner + 2.0 * vec2(float(i & 1), float(i >> 1)));
     blocks[i] = vec4(greaterThan(quad.excess, vec4(0.0)));
     heights += blocks[i] * quad.height;
     blockers += blocks[i];
   }
-  height = max(dot(heights, vec4(1.0)), 0.0) / max(dot(blockers, vec4(1.0)), 1.0);
-  vec2 k = clamp(ShadowBoxWidth(size, r, height, tan_radius), vec2(0.5), vec2(float(quads) - 0.5));
+  float height = max(dot(heights, vec4(1.0)), 0.0) / max(dot(blockers, vec4(1.0)), 1.0);
+  vec2 k = clamp(ShadowBoxWidth(size, r, height, tan_radius), vec2(0.5), vec2(1.5));
   vec2 offset = corner + 0.5 - r.texel;
   float blocked = 0.0;
-  for (int i = 0; i < quads * quads; ++i) {
-    vec2 x = ShadowBoxShares(offset.x + 2.0 * float(i % quads), k.x);
-    vec2 y = ShadowBoxShares(offset.y + 2.0 * float(i / quads), k.y);
+  for (int i = 0; i < 4; ++i) {
+    vec2 x = ShadowBoxShares(offset.x + 2.0 * float(i & 1), k.x);
+    vec2 y = ShadowBoxShares(offset.y + 2.0 * float(i >> 1), k.y);
     // A quad's order is (0,1), (1,1), (1,0), (0,0).
     blocked += dot(blocks[i], vec4(x, x.yx) * y.yyxx);
   }
@@ -84,7 +79,7 @@ float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_rad
 // together. Looks of the disc each moved to another place in the pixel tremble twice as much.
 // Where it is not wanted, one look.
 float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius,
-                       float height, float maximum, bool wanted) {
+                       float height, bool wanted) {
   // A look is a tent of variance 1/6 texel² an axis; a disc of radius ρ has ρ²/4.
   float texel_m = max(size.x, size.y);
   float disc_m = min(height * tan_radius, ShadowWidestKernel(size.z) * min(size.x, size.y));
@@ -95,7 +90,7 @@ float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float ta
   vec2 along = vec2(across.x, skew) / sqrt(max(across.x, 1e-12));  // Cholesky's factors.
   mat2 ellipse = 2.0 * mat2(along, vec2(0.0, sqrt(max(across.y - along.y * along.y, 0.0))));
   float visible = 0.0;
-  float count = wanted ? ShadowCount(ellipse[0].x * ellipse[1].y, 2.0, 20.0, maximum) : 0.0;
+  float count = wanted ? ShadowCount(ellipse[0].x * ellipse[1].y, 2.0, 20.0, kFilterSamples) : 0.0;
   vec2 spoke = vec2(1.0, 0.0);
   int i = 0;
   do {
@@ -107,17 +102,6 @@ float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float ta
     visible += weight * ShadowTap(set, slice, size, r, texel, min_m);
   } while (float(++i) < count);
   return visible / max(count, 1e-3);
-}
-
-// The disc past the blockers in 6×6 texels: a box over all of them where it fits, so that no edge
-// passes a look at a time; beyond that a spread of few looks, mixed in over a texel of width.
-float ShadowNear(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius, bool wanted) {
-  float height;
-  float dense = ShadowDense(set, slice, size, r, tan_radius, 3, height);
-  vec2 k = ShadowBoxWidth(size, r, height, tan_radius);
-  float wide = wanted ? clamp(max(k.x, k.y) - 2.5, 0.0, 1.0) : 0.0;
-  float spread = ShadowEvenSpread(set, slice, size, r, tan_radius, height, 32.0, wide > 0.0);
-  return wide > 0.0 ? mix(dense, spread, wide) : dense;
 }
 
 // Visibility of the sun's disc by percentage-closer soft shadows (Fernando 2005) with the sun's own
@@ -152,7 +136,7 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   float pixel_m = footprint * texel_m;
   float search_texels = search_m / texel_m + footprint;
   float search_count =
-      soft ? ShadowCount(search_texels * search_texels, 0.6, 6.0, float(SHADOW_SEARCH_SAMPLES)) : 0.0;
+      soft ? ShadowCount(search_texels * search_texels, 0.6, 6.0, kSearchSamples) : 0.0;
   vec2 spoke = vec2(1.0, 0.0);
   int i = 0;
   do {
@@ -169,9 +153,8 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   } while (float(++i) < search_count);
   soft = blockers > 0.0;
   float spread = ShadowEvenSpread(set, slice, size, r, tan_radius, height_sum / max(blockers, 1e-3),
-                                  float(SHADOW_FILTER_SAMPLES), soft);
-  float height;
-  float dense = ShadowDense(set, slice, size, r, tan_radius, 2, height);
+                                  soft);
+  float dense = ShadowDense(set, slice, size, r, tan_radius);
   return soft ? spread : dense;
 }
 

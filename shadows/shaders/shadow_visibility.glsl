@@ -20,10 +20,6 @@
 #elif defined(SHADOW_METHOD_PLAIN) || defined(SHADOW_METHOD_PCF) || defined(SHADOW_METHOD_PCSS)
 #include "shadows/shaders/shadow_filters.glsl"
 #else
-#if !defined(SHADOW_METHOD_SUN_DISC) && !defined(SHADOW_METHOD_SUN_DISC_FAST) && \
-    !defined(SHADOW_METHOD_SUN_DISC_LEAN) && !defined(SHADOW_METHOD_SUN_DISC_SPREAD)
-#define SHADOW_METHOD_SUN_DISC
-#endif
 #include "shadows/shaders/shadow_sun_disc.glsl"
 #endif
 
@@ -95,23 +91,21 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
   // Half a texel of slope: the next facet of a curved surface lies that far off this one's plane.
   r.rise = ShadowRise(length(r.slope), facing);
   r.bias = shadow_sets[set].settings.y + 0.5 * r.rise;
-#if defined(SHADOW_METHOD_SUN_DISC)
-  return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, wanted);
-#elif defined(SHADOW_METHOD_SUN_DISC_FAST)
-  float height;
-  return ShadowDense(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, 2, height);
-#elif defined(SHADOW_METHOD_SUN_DISC_SPREAD)
-  return ShadowNear(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, wanted);
-#elif defined(SHADOW_METHOD_SUN_DISC_LEAN)
-  return ShadowTap(set, place.slice, place.size, r, r.texel, -1e30);
-#elif defined(SHADOW_METHOD_PLAIN)
+#if defined(SHADOW_METHOD_PLAIN)
   return ShadowNearest(set, place.slice, place.size, r);
 #elif defined(SHADOW_METHOD_PCF)
   return ShadowBox(set, place.slice, place.size, r, SHADOW_METHOD_PCF);
 #elif defined(SHADOW_METHOD_PCSS)
   return ShadowSoftBox(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
-#else
+#elif defined(SHADOW_METHOD_GAUSSIAN) || defined(SHADOW_METHOD_VARIANCE) || \
+    defined(SHADOW_METHOD_EXPONENTIAL)
   return ShadowFromMoments(set, place.slice, place.size, r, shadow_sets[set].settings.z);
+#elif defined(SUN_DISC_SAMPLE)
+  return ShadowTap(set, place.slice, place.size, r, r.texel, -1e30);
+#elif defined(SUN_DISC_BOX)
+  return ShadowDense(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
+#else
+  return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, wanted);
 #endif
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/shadows/shadow_scene.h"
 
@@ -18,19 +20,38 @@ Box Around(const glm::dvec3& low, const glm::dvec3& high) {
 
 class SunShadow : public ShadowScene {};
 
+/// Every method as it is commonly used, and every filter of the sun's disc.
+std::vector<ShadowMapOptions> EveryMethodAndFilter(int resolution) {
+  std::vector<ShadowMapOptions> every;
+  for (const ShadowMethodTraits& traits : ShadowMethods()) {
+    every.push_back(CommonOptions(traits.method, resolution));
+  }
+  for (const SunDiscFilter filter : {SunDiscFilter::kBox, SunDiscFilter::kSample}) {
+    every.push_back(CommonOptions(ShadowMethod::kSunDisc, resolution));
+    every.back().sun_disc_filter = filter;
+  }
+  return every;
+}
+
+std::string NameOf(const ShadowMapOptions& options) {
+  return std::string(TraitsOf(options.method).name) + ", filter " +
+         std::to_string(static_cast<int>(options.sun_disc_filter));
+}
+
 TEST_F(SunShadow, LeavesALitPlaneFullyLitByEveryMethod) {
   AddGround();
   for (const double elevation : {0.5, 8.0, 45.0, 80.0}) {
-    for (const ShadowMethodTraits& traits : ShadowMethods()) {
-      const ShadowMaps maps = Region(SunAt(140, elevation), Around({-1, -1, 0}, {1, 1, 1}),
-                                     CommonOptions(traits.method, 256));
+    for (const ShadowMapOptions& options : EveryMethodAndFilter(256)) {
+      const ShadowMaps maps =
+          Region(SunAt(140, elevation), Around({-1, -1, 0}, {1, 1, 1}), options);
       const ProbePlane plane{{-3, -3, 0}, {0.0601, 0, 0}, {0, 0.0601, 0}, 100, 100};
       const std::vector<float> result = Visibility(maps, plane);
-      const float least = traits.content == MapContent::kMoments         ? 0.98F
-                          : traits.content == MapContent::kWarpedMoments ? 0.95F
-                                                                         : 0.9999F;
-      EXPECT_GT(*std::min_element(result.begin(), result.end()), least)
-          << traits.name << " at " << elevation << " degrees";
+      const MapContent content = ContentOf(options);
+      const float minimum = content == MapContent::kMoments         ? 0.98F
+                            : content == MapContent::kWarpedMoments ? 0.95F
+                                                                    : 0.9999F;
+      EXPECT_GT(*std::min_element(result.begin(), result.end()), minimum)
+          << NameOf(options) << " at " << elevation << " degrees";
     }
   }
 }
@@ -39,12 +60,11 @@ TEST_F(SunShadow, LeavesALitPlaneFullyLitByEveryMethod) {
 TEST_F(SunShadow, IsDarkBeneathABoardByEveryMethod) {
   AddGround();
   AddQuad({-1.5, -1.5, 1.0}, {3, 0, 0}, {0, 3, 0});
-  for (const ShadowMethodTraits& traits : ShadowMethods()) {
-    const ShadowMaps maps = Region({0, 0, 1}, Around({-1.5, -1.5, 0}, {1.5, 1.5, 1}),
-                                   CommonOptions(traits.method, 256));
+  for (const ShadowMapOptions& options : EveryMethodAndFilter(256)) {
+    const ShadowMaps maps = Region({0, 0, 1}, Around({-1.5, -1.5, 0}, {1.5, 1.5, 1}), options);
     const ProbePlane plane{{-0.5, -0.5, 0}, {0.02, 0, 0}, {0, 0.02, 0}, 50, 50};
     const std::vector<float> result = Visibility(maps, plane);
-    EXPECT_LT(*std::max_element(result.begin(), result.end()), 1e-3F) << traits.name;
+    EXPECT_LT(*std::max_element(result.begin(), result.end()), 1e-3F) << NameOf(options);
   }
 }
 
