@@ -11,6 +11,7 @@
 
 #include "app/bench/shadow_bench.h"
 #include "app/bench/shadow_pictures.h"
+#include "app/commands/bench_replay_command.h"
 #include "app/commands/command.h"
 #include "app/options/number_range.h"
 #include "app/terminal/progress_bar.h"
@@ -187,8 +188,9 @@ Result<void> Run(Options& options) {
 
 void AddBenchCommand(CLI::App& app, CommandResult& result) {
   CLI::App* bench =
-      app.add_subcommand("bench", "Measures parts of pleinair against references and rivals");
+      app.add_subcommand("bench", "For research: measure shadow methods, replay with more options");
   bench->require_subcommand(1);
+  AddBenchReplayCommand(*bench, result);
   auto options = std::make_shared<Options>();
   CLI::App* command = bench->add_subcommand(
       "shadows", "Every shadow method against rays to the sun's disc: errors and milliseconds");

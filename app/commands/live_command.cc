@@ -350,6 +350,7 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
       ->check(NumberRange(0.0, 1e9));
   command->add_option("--screenshot", a.screenshot, "At the end, write the last picture as PNG");
   AddLightOptions(*command, a.light);
+  AddSolverOptions(*command, a.light);
   command->add_flag("--shadow-debug", a.shadow_debug,
                     "Tint what each partition of the shadow maps serves and show the maps (in the "
                     "window: M)");

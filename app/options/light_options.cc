@@ -28,24 +28,6 @@ void AddLightOptions(CLI::App& command, session::LightOptions& options) {
                      "Folder for daylight coefficients: traced once for a scene, then any moment's "
                      "light takes milliseconds; for long days and for trying out");
   command
-      .add_option("--sky-division", options.sky_division,
-                  "Daylight coefficients of Tregenza's 145 patches of the sky: 1; or of Reinhart's "
-                  "finer ones, each divided by 2, 3 or 4 a side: sharper reflections of the sun; "
-                  "memory and time grow by the square")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
-  command
-      .add_option("--convergence", options.convergence,
-                  "Daylight coefficients: reflections are followed until the last adds less than "
-                  "this share of all light")
-      ->check(NumberRange(0.0001, 0.2))
-      ->capture_default_str();
-  command
-      .add_option("--light-patches", options.overrides.max_patches,
-                  "Places where light is gathered, at most; models of more vertices share it by "
-                  "patches. More are finer and slower [100000]")
-      ->check(CLI::Range(1'000, 10'000'000));
-  command
       .add_option("--sun-to-sky", options.overrides.sun_to_sky,
                   "The sun's light on level ground over the sky's, instead of measuring it: 4 on "
                   "a clear noon, 0.5 in thick haze, 0 where no sun shines")
@@ -64,6 +46,27 @@ void AddLightOptions(CLI::App& command, session::LightOptions& options) {
   command.add_flag("--hands", options.hands_in_front,
                    "What covers part of the marker (S-G markers and picture targets) is before "
                    "the virtual objects, as far as its colour tells where it ends");
+}
+
+void AddSolverOptions(CLI::App& command, session::LightOptions& options) {
+  command
+      .add_option("--sky-division", options.sky_division,
+                  "Daylight coefficients of Tregenza's 145 patches of the sky: 1; or of Reinhart's "
+                  "finer ones, each divided by 2, 3 or 4 a side: sharper reflections of the sun; "
+                  "memory and time grow by the square")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  command
+      .add_option("--convergence", options.convergence,
+                  "Daylight coefficients: reflections are followed until the last adds less than "
+                  "this share of all light")
+      ->check(NumberRange(0.0001, 0.2))
+      ->capture_default_str();
+  command
+      .add_option("--light-patches", options.overrides.max_patches,
+                  "Places where light is gathered, at most; models of more vertices share it by "
+                  "patches. More are finer and slower [100000]")
+      ->check(CLI::Range(1'000, 10'000'000));
 }
 
 Result<void> CheckLightCache(const std::filesystem::path& cache) {

@@ -12,9 +12,12 @@ class App;
 
 namespace pleinair::app {
 
-/// Adds --response, --light, --light-cache, --sky-division, --convergence, --light-patches,
-/// --sun-to-sky, --heading, --look and --hands; `options` must outlive the command.
+/// Adds --response, --light, --light-cache, --sun-to-sky, --heading, --look and --hands; `options`
+/// must outlive the command.
 void AddLightOptions(CLI::App& command, session::LightOptions& options);
+
+/// The same for how finely light is solved: --sky-division, --convergence and --light-patches.
+void AddSolverOptions(CLI::App& command, session::LightOptions& options);
 
 /// Errors (input): the cache is no folder.
 Result<void> CheckLightCache(const std::filesystem::path& cache);

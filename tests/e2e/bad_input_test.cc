@@ -161,10 +161,26 @@ TEST(BadInput, OptionsOfDaylightCoefficientsAreRefusedWhereNoneAreTraced) {
   MakeShortRecording(folder / "site", 1, false);
   for (const auto& [option, value] :
        {std::pair{"--sky-division", "4"}, {"--convergence", "0.05"}}) {
-    ExpectRefused(RunPleinair({"replay", folder / "site", "-o", folder / "out", option, value}),
-                  std::string(option) + ": has no effect here");
+    ExpectRefused(
+        RunPleinair({"bench", "replay", folder / "site", "-o", folder / "out", option, value}),
+        std::string(option) + ": has no effect here");
     EXPECT_FALSE(fs::exists(folder / "out"));
   }
+}
+
+TEST(BadInput, OptionsForResearchAreRefusedByReplayWhichSaysWhereTheyAre) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, false);
+  const auto refuse = [&](std::vector<std::string> words) {
+    const std::string option = words.front();
+    words.insert(words.begin(), "replay");
+    words.insert(words.end(), {"-o", folder / "out"});
+    ExpectRefused(RunPleinair(words), option + ": is an option of 'pleinair bench replay'");
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  };
+  refuse({"--shadows", "zgaf", folder / "site"});
+  refuse({"--shadow-debug", folder / "site"});
+  refuse({"--light-patches", "1000", folder / "site"});
 }
 
 TEST(BadInput, AFileInPlaceOfTheLightCacheIsRefused) {

@@ -117,14 +117,14 @@ TEST(Replay, RefusesADayFromAFrameThatCannotShowIt) {
   EXPECT_THAT(refusal("1"), HasSubstr("object.obj"));
 }
 
-TEST(Replay, TracesDaylightAsFinelyAndAsFarAsAsked) {
+TEST(BenchReplay, TracesDaylightAsFinelyAndAsFarAsAsked) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
   const auto traced = [&](const std::vector<std::string>& how) {
     std::vector<std::string> arguments = {
-        "replay",         folder / "site",   "-o",     folder / "out", "--no-video",
-        "--light",        "stated",          "--look", "clean",        "--light-cache",
-        folder / "cache", "--light-patches", "1000"};
+        "bench",         "replay",         folder / "site",   "-o",     folder / "out",
+        "--no-video",    "--light",        "stated",          "--look", "clean",
+        "--light-cache", folder / "cache", "--light-patches", "1000"};
     arguments.insert(arguments.end(), how.begin(), how.end());
     std::filesystem::remove_all(folder / "cache");
     const RunResult run = RunPleinair(arguments);
@@ -148,7 +148,7 @@ TEST(Replay, ShowsOnATerminalHowFarItIs) {
   // A terminal of its own (util-linux).
   const std::string command = PleinairProgram() + " replay '" + (folder / "site").string() +
                               "' -o '" + (folder / "out").string() +
-                              "' --no-video --light stated --light-patches 1000 --light-cache '" +
+                              "' --no-video --light stated --light-cache '" +
                               (folder / "cache").string() + "'";
   const RunResult run = RunCommandLine({"script", "-qec", command, "/dev/null"});
   ASSERT_EQ(run.exit_code, 0) << run.out;
@@ -164,9 +164,8 @@ TEST(Replay, ReportsThatTheLightChangedMeanwhile) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", kFrames, true);
   const auto warning = [&] {
-    const RunResult run =
-        RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video", "--light",
-                     "stated", "--light-patches", "1000"});
+    const RunResult run = RunPleinair(
+        {"replay", folder / "site", "-o", folder / "out", "--no-video", "--light", "stated"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return run.err;
   };
@@ -185,9 +184,8 @@ TEST(Replay, ReportsThatTheLightCouldNotBeKept) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
   // /proc refuses new folders to everybody, also to root.
-  const RunResult run =
-      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video", "--light",
-                   "stated", "--light-patches", "1000", "--light-cache", "/proc/pleinair"});
+  const RunResult run = RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video",
+                                     "--light", "stated", "--light-cache", "/proc/pleinair"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("could not be written to /proc/pleinair"));
 }
@@ -312,13 +310,13 @@ TEST(Replay, NamesOddFoldersOnOneLineAndRepeatsItsCommandAsAShellTakesIt) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "my site", 1, false);
   const RunResult run =
-      RunPleinair({"replay", folder / "my site", "-o", folder / "a\nb", "--no-video",
+      RunPleinair({"bench", "replay", folder / "my site", "-o", folder / "a\nb", "--no-video",
                    "--shadow-partitions", "1", "--shader-dir", folder.path()});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("a b: detections.jsonl"));
   const auto report = nlohmann::json::parse(ReadFile(folder / "a\nb/report.json"));
   const std::string at = folder.path().string();
-  EXPECT_EQ(report["command"], "pleinair replay '" + at + "/my site' -o '" + at +
+  EXPECT_EQ(report["command"], "pleinair bench replay '" + at + "/my site' -o '" + at +
                                    "/a\nb' --shadow-partitions 1 --shader-dir " + at +
                                    " --no-video");
 }

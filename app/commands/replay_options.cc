@@ -1,0 +1,58 @@
+#include "app/commands/replay_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/options/light_options.h"
+#include "app/options/number_range.h"
+
+namespace pleinair::app {
+
+void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
+  command
+      .add_option("RECORDING", arguments.recording,
+                  "Folder of a recording (own form or EuRoC), or a video file")
+      ->required();
+  command.add_option("-o,--output", arguments.output, "Folder for the results")->required();
+  command.add_option("--scene", arguments.scene,
+                     "Scene file (TOML or JSON) instead of the recording's own");
+  command.add_option("--calibration", arguments.calibration,
+                     "Calibration of the lens (own JSON, OpenCV, ROS or Kalibr YAML)");
+  command.add_flag("--frames", arguments.options.write_frames,
+                   "Also write every frame as a PNG picture");
+  command
+      .add_option("--export", arguments.exports,
+                  "Also write the camera's path for other programs: gltf (camera.glb), colmap "
+                  "or colmap-binary (colmap/), euroc (poses/MARKER.csv), mcap (camera.mcap)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"gltf", "colmap", "colmap-binary", "euroc", "mcap"}))
+      ->type_name("FORM,...");
+  command.add_option("--size", arguments.size, "Size of the output, WIDTHxHEIGHT in pixels");
+  AddLightOptions(command, arguments.options.light);
+  command
+      .add_option("--fog", arguments.fog,
+                  "Haze before the virtual objects and their shadows, times the day's own air; "
+                  "one number, or one a "
+                  "partition from near to far; 0 none. Default: 1")
+      ->delimiter(',')
+      ->expected(1, 4)
+      ->check(NumberRange(0.0, 1e6))
+      ->type_name("TIMES,...");
+  CLI::Option* time_lapse = command.add_option(
+      "--time-lapse", arguments.time_lapse,
+      "Also draw the whole scene, phantoms in their own colours, over its day: timelapse.mp4 and "
+      "the sheet timelapse.png; with --frames each picture. Hours on a clock, 05:00..21:00 or "
+      "05:00..21:00+02:00, or the word day: while it is light");
+  time_lapse->type_name("HOURS|day");
+  command.add_option("--every", arguments.every, "Step of the time-lapse: 10min, 90s, 1h")
+      ->needs(time_lapse)
+      ->capture_default_str();
+  command
+      .add_option("--time-lapse-frame", arguments.time_lapse_frame,
+                  "Frame from whose camera the time-lapse is seen; default: the middle one")
+      ->needs(time_lapse)
+      ->check(CLI::NonNegativeNumber);
+  command.add_flag("--no-video", arguments.no_video, "Do not write composite.mp4");
+  command.add_flag("--json", arguments.json, "Print a summary as one JSON object");
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,156 @@
+#include "app/commands/replay_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <string_view>
+
+#include "app/options/picture_size.h"
+#include "app/replay/report/report_json.h"
+#include "gl/shader_library.h"
+#include "shadows/shadow_method.h"
+
+namespace pleinair::app {
+namespace {
+
+/// A word as a shell takes it.
+std::string Quoted(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// A line of messages stays one whatever a folder is called, and the terminal is left alone.
+std::string OneLine(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  return text;
+}
+
+std::string CommandText(const ReplayArguments& arguments) {
+  std::string text = "pleinair " + arguments.command + " " + Quoted(arguments.recording) + " -o " +
+                     Quoted(arguments.output);
+  if (!arguments.scene.empty()) text += " --scene " + Quoted(arguments.scene);
+  if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
+  const session::LightOptions& light = arguments.options.light;
+  if (!light.camera_response.empty()) {
+    text += " --response " + Quoted(light.camera_response.string());
+  }
+  if (arguments.options.write_frames) text += " --frames";
+  if (!arguments.size.empty()) text += " --size " + arguments.size;
+  for (std::size_t i = 0; i < arguments.exports.size(); ++i) {
+    text += (i == 0 ? " --export " : ",") + arguments.exports[i];
+  }
+  if (!light.cache.empty()) text += " --light-cache " + Quoted(light.cache.string());
+  if (light.sky_division != 1) text += fmt::format(" --sky-division {}", light.sky_division);
+  if (light.convergence != session::LightOptions{}.convergence) {
+    text += fmt::format(" --convergence {}", light.convergence);
+  }
+  const compositor::LightOverrides& given = light.overrides;
+  if (given.max_patches) text += " --light-patches " + std::to_string(*given.max_patches);
+  if (given.as_described) text += " --light stated";
+  if (!light.match_look) text += " --look clean";
+  if (light.hands_in_front) text += " --hands";
+  if (given.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *given.sun_to_sky);
+  if (given.heading_deg) text += fmt::format(" --heading {}", *given.heading_deg);
+  if (arguments.shadows != "ours") text += " --shadows " + arguments.shadows;
+  const int partitions = arguments.options.composer.shadow_partitions;
+  if (partitions != compositor::ComposerOptions{}.shadow_partitions) {
+    text += " --shadow-partitions " + std::to_string(partitions);
+  }
+  const double weight = arguments.options.composer.shadow_split_weight;
+  if (weight != compositor::ComposerOptions{}.shadow_split_weight) {
+    text += fmt::format(" --shadow-split-weight {}", weight);
+  }
+  const double blur_m = arguments.options.composer.shadow_blur_distance_m;
+  if (blur_m != compositor::ComposerOptions{}.shadow_blur_distance_m) {
+    text += fmt::format(" --shadow-blur {}", blur_m);
+  }
+  if (!arguments.shadow_sizes.empty()) {
+    text += fmt::format(" --shadow-sizes {}", fmt::join(arguments.shadow_sizes, ","));
+  }
+  if (!arguments.fog.empty()) text += fmt::format(" --fog {}", fmt::join(arguments.fog, ","));
+  if (!arguments.time_lapse.empty()) {
+    text += " --time-lapse " + Quoted(arguments.time_lapse) + " --every " + Quoted(arguments.every);
+  }
+  if (arguments.time_lapse_frame) {
+    text += fmt::format(" --time-lapse-frame {}", *arguments.time_lapse_frame);
+  }
+  if (arguments.options.composer.show_shadow_maps) text += " --shadow-debug";
+  if (!arguments.shader_directory.empty()) {
+    text += " --shader-dir " + Quoted(arguments.shader_directory);
+  }
+  if (arguments.no_video) text += " --no-video";
+  return text;
+}
+
+Result<void> Run(ReplayArguments& arguments) {
+  ReplayOptions& options = arguments.options;
+  options.recording = arguments.recording;
+  options.output = arguments.output;
+  if (!arguments.scene.empty()) options.scene = arguments.scene;
+  if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
+  if (!arguments.size.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize("--size", arguments.size));
+  }
+  if (!arguments.time_lapse.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(options.time_lapse,
+                              ParseTimeLapse(arguments.time_lapse, arguments.every));
+    options.time_lapse->frame = arguments.time_lapse_frame;
+  }
+  for (const std::string& name : arguments.exports) {
+    options.exports.insert(exports::TrajectoryFormatNamed(name).value());
+  }
+  options.composer.shadow_method = shadows::FindShadowMethod(arguments.shadows)->method;
+  if (!arguments.shader_directory.empty()) {
+    gl::ShaderLibrary::SetOverrideDirectory(arguments.shader_directory);
+  }
+  if (!arguments.shadow_sizes.empty()) {
+    auto& sizes = options.composer.shadow_sizes;
+    sizes.fill(arguments.shadow_sizes.back());
+    std::copy(arguments.shadow_sizes.begin(), arguments.shadow_sizes.end(), sizes.begin());
+  }
+  if (!arguments.fog.empty()) {
+    // Partitions that are not named are like the last that is.
+    options.composer.fog.fill(arguments.fog.back());
+    std::copy(arguments.fog.begin(), arguments.fog.end(), options.composer.fog.begin());
+  }
+  options.write_video = !arguments.no_video;
+  options.command = CommandText(arguments);
+  PLEINAIR_ASSIGN_OR_RETURN(const ReplayReport report, Replay(options));
+  if (arguments.json) {
+    std::cout << SummaryJson(report, options.output) << '\n';
+    return {};
+  }
+  std::cerr << report.path.size() << " of " << report.frames << " frames have a pose";
+  if (report.reference_marker)
+    std::cerr << " (marker " << report.reference_marker->ToString() << ")";
+  std::cerr << "; ";
+  std::cerr << "results in " << OneLine(arguments.output) << ":";
+  for (const std::string& output : report.outputs) std::cerr << ' ' << output;
+  std::cerr << '\n';
+  for (const std::string& warning : report.warnings) {
+    std::cerr << "warning: " << OneLine(warning) << '\n';
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> RunReplay(ReplayArguments& arguments) {
+  try {
+    return Run(arguments);
+  } catch (const std::exception& error) {
+    return SystemError("", std::string("replay failed: ") + error.what(),
+                       "please report it with the recording");
+  }
+}
+
+}  // namespace pleinair::app
