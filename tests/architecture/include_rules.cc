@@ -136,7 +136,9 @@ std::string WithoutComments(std::string_view text) {
   return code;
 }
 
-std::vector<fs::path> SourcesBelow(const fs::path& root) {
+}  // namespace
+
+std::vector<fs::path> FindSources(const fs::path& root) {
   std::vector<fs::path> files;
   for (const auto& [module, allowed] : AllowedModules()) {
     if (!fs::exists(root / module)) continue;
@@ -150,8 +152,6 @@ std::vector<fs::path> SourcesBelow(const fs::path& root) {
   std::sort(files.begin(), files.end());
   return files;
 }
-
-}  // namespace
 
 std::vector<Include> ParseIncludes(std::string_view text) {
   std::vector<Include> includes;
@@ -212,7 +212,7 @@ std::vector<std::string> FindBreaches(const fs::path& file, std::string_view tex
 
 std::vector<std::string> FindBreachesBelow(const fs::path& root) {
   std::vector<std::string> breaches;
-  for (const fs::path& file : SourcesBelow(root)) {
+  for (const fs::path& file : FindSources(root)) {
     std::ifstream in(root / file, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(in)), {});
     const auto of_file = FindBreaches(file, text);
@@ -242,10 +242,10 @@ UnitIncludes ReadUnitIncludes(const fs::path& root) {
   const auto is_unit = [](const fs::path& file) {
     return file.extension() == ".h" || file.extension() == ".cc";
   };
-  for (const fs::path& file : SourcesBelow(root)) {
+  for (const fs::path& file : FindSources(root)) {
     if (is_unit(file)) units[unit_of(file)];
   }
-  for (const fs::path& file : SourcesBelow(root)) {
+  for (const fs::path& file : FindSources(root)) {
     if (!is_unit(file)) continue;
     std::ifstream in(root / file, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(in)), {});
@@ -296,7 +296,5 @@ std::vector<std::vector<std::string>> FindLoops(const UnitIncludes& includes) {
   }
   return loops;
 }
-
-std::size_t CountSources(const fs::path& root) { return SourcesBelow(root).size(); }
 
 }  // namespace pleinair::architecture

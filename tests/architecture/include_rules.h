@@ -9,6 +9,9 @@
 
 namespace pleinair::architecture {
 
+/// Every .h, .cc and shader below the module folders of `root`, relative to it, in order.
+std::vector<std::filesystem::path> FindSources(const std::filesystem::path& root);
+
 /// One `#include` of a file.
 struct Include {
   int line = 0;
@@ -23,7 +26,7 @@ std::vector<Include> ParseIncludes(std::string_view text);
 /// know gl"). `file` is relative to the root of the source tree, "tracker/x.cc".
 std::vector<std::string> FindBreaches(const std::filesystem::path& file, std::string_view text);
 
-/// The same for every .h, .cc and shader below the module folders of `root`.
+/// The same for every file of FindSources.
 std::vector<std::string> FindBreachesBelow(const std::filesystem::path& root);
 
 /// A header of ours and the headers of ours that it includes, directly or through others; paths
@@ -42,8 +45,5 @@ UnitIncludes ReadUnitIncludes(const std::filesystem::path& root);
 /// Loops of units: the strongly connected components of more than one unit (Tarjan 1972), each in
 /// alphabetical order.
 std::vector<std::vector<std::string>> FindLoops(const UnitIncludes& includes);
-
-/// How many files FindBreachesBelow reads.
-std::size_t CountSources(const std::filesystem::path& root);
 
 }  // namespace pleinair::architecture
