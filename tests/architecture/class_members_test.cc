@@ -59,7 +59,6 @@ const std::set<std::string>& LargeClasses() {
     "tracker/surf_golay/border_search.h BorderSearch",
     "tracker/surf_golay/cell_light.h MarkerLight",
     "tracker/surf_golay/sg_detector.h SgDetector",
-    "tracker/surf_golay/sg_reader.h SgReader",
   };
   // clang-format on
   return kLarge;

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/cell_split.h"
 #include "tracker/surf_golay/decoding_confidence.h"
 #include "tracker/surf_golay/fast_cell_sampling.h"
 #include "tracker/surf_golay/marker_square.h"
 #include "tracker/surf_golay/sg_layout.h"
-#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -42,25 +39,8 @@ constexpr double kFarFollowBlur_px = 0.9, kFollowBlur_px = 0.3;
 constexpr double kExpected = 0.95;
 /// Mean correlation of the content's blocks that makes a followed marker's number sure, and likely.
 constexpr double kContentSure = 0.9, kContentRight = 0.4;
-/// How much likelier than the next the number of a marker must be, in nats.
-constexpr float kMinMargin = 8.0F, kSafeMargin = 25.0F;
-/// … and that of one that is plain to see: eight cells of 6 nats, either way, at least.
+/// Margin of a number that is plain to see, in nats: eight cells of 6 nats, either way, at least.
 constexpr float kPlainMargin = 96.0F;
-/// Wrong cells from which on something may cover them, how much more must tell for a number that is
-/// read beneath it than for the next, and what a bit is as a margin (SoftGolayDecoding::margin).
-constexpr int kMinHidden = 2;
-constexpr double kMinApart_bits = 8.0, kMarginPerBit = 2.0 * std::numbers::ln2;
-/// Share of the border that tells the light over the whole marker; and what it takes off a proof
-/// that the cells themselves had to tell it.
-constexpr double kVisibleForLight = 0.8, kSplitPenalty_bits = 2.0;
-/// The same where so much of the border shows a light without clipping and edges of shadows: cells
-/// that part otherwise contradict it, and what covers half of them has a color of its own.
-constexpr double kShowsLight = 0.5, kSplitAgainstLight_bits = 6.0;
-/// What glare takes off the proof where the border is plainly a marker's: nothing lies on the cells
-/// that it drowns, so that twelve plain ones are enough, and the blocks that it touches look less
-/// like the marker without being covered.
-constexpr double kDrowned_bits = 1.0;
-constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
 /// Share of a marker that must be observed at least where its number is known, and where nothing
 /// tells that it is still that.
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
@@ -102,15 +82,6 @@ void SgReader::SetImage(ImageView<const std::uint8_t> grey) {
   plain_blur_px_ = kFirstBlur_px;
   unread_borders_.clear();
   windows_.SetImage(grey);
-  if (blank_.modules == 0) blank_ = SgMarkerPatternOfWord(0);
-}
-
-const MarkerPattern& SgReader::Pattern(int number) {
-  if (number != marker_number_) {
-    marker_pattern_ = SgMarkerPattern(number);
-    marker_number_ = number;
-  }
-  return marker_pattern_;
 }
 
 double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
@@ -120,11 +91,11 @@ double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
   PixelWindow window;
   if (coarse) {
     const double max_side = detail == Detail::kProbe ? kProbeSide_px : kCoarseSide_px;
-    if (!windows_.TakeCoarse(state->modules_from_undistorted, max_side, &window, &observed_))
+    if (!windows_.TakeCoarse(state->modules_from_undistorted, max_side, &window, &fitted_.observed))
       return -1.0;
     state->blur_px =
         std::clamp(kCoarseBlurShare * side / window.Scale(), 0.7, kCoarseBlur_px) * window.Scale();
-  } else if (!windows_.TakeFine(*state, &window, &observed_)) {
+  } else if (!windows_.TakeFine(*state, &window, &fitted_.observed)) {
     return -1.0;
   }
   const int blocks =
@@ -133,8 +104,10 @@ double SgReader::FitBorder(int steps, Detail detail, BlockFitState* state) {
   options.steps = steps;
   options.fit_blur = !coarse;
   options.done_px = coarse ? 0.05 : 0.02;
-  if (!fit_.Run(blank_, MarkerPart::kBorder, observed_, blocks, options, state)) return -1.0;
-  return fit_.Correlation();
+  if (!fitted_.fit.Run(patterns_.blank(), MarkerPart::kBorder, fitted_.observed, blocks, options,
+                       state))
+    return -1.0;
+  return fitted_.fit.Correlation();
 }
 
 double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
@@ -145,15 +118,13 @@ double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
   while (correlation > 0.0 && correlation < kNoisyCorrelation &&
          windows_.SidePx(guess.modules_from_undistorted) / (2 << windows_.halvings_for_noise()) >
              kMinReducedSide_px) {
-    std::swap(fit_, other_fit_);
-    std::swap(observed_, other_observed_);
+    std::swap(fitted_, other_);
     windows_.SetHalvingsForNoise(windows_.halvings_for_noise() + 1);
     BlockFitState reduced = guess;
     const double better = FitBorder(steps, Detail::kFine, &reduced);
     if (better < correlation + kClearer) {
       windows_.SetHalvingsForNoise(windows_.halvings_for_noise() - 1);
-      std::swap(fit_, other_fit_);
-      std::swap(observed_, other_observed_);
+      std::swap(fitted_, other_);
       break;
     }
     *state = reduced;
@@ -162,10 +133,14 @@ double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
   return correlation;
 }
 
+std::optional<DecodedNumber> SgReader::DecodeNumber(const BlockFitState& state) {
+  return numbers_.Decode(patterns_.blank(), fitted_, state, VisibleBorder());
+}
+
 double SgReader::VisibleBorder() const {
   double visible = 0.0, border = 0.0;
-  for (const MarkerBlock& block : fit_.blocks()) {
-    if (block.contrast < fit_.min_contrast()) continue;
+  for (const MarkerBlock& block : fitted_.fit.blocks()) {
+    if (block.contrast < fitted_.fit.min_contrast()) continue;
     border += block.pixels;
     if (block.correlation > kVisibleCorrelation) visible += block.pixels;
   }
@@ -179,7 +154,7 @@ std::optional<SgReading> SgReader::Track(int number, const BlockFitState& guess)
   if (side < kMinSide_px) return std::nullopt;
   PixelWindow window;
   if (!windows_.TakeCoarseLight(state.modules_from_undistorted, kCoarseSide_px, &window,
-                                &observed_))
+                                &fitted_.observed))
     return std::nullopt;
   const double scale = window.Scale();
   BlockFitOptions options;
@@ -189,11 +164,12 @@ std::optional<SgReading> SgReader::Track(int number, const BlockFitState& guess)
   const int blocks = BlockFit::BlocksAlong(1.2 * side / scale, kCoarseBlock_px);
   const auto fit = [&](double blur_px) {
     state.blur_px = std::max(guess.blur_px, blur_px * scale);
-    return fit_.Run(Pattern(number), MarkerPart::kWhole, observed_, blocks, options, &state);
+    return fitted_.fit.Run(patterns_.OfNumber(number), MarkerPart::kWhole, fitted_.observed, blocks,
+                           options, &state);
   };
   // Much blur finds a marker from farther away, less of it nearer to where it is, which mostly is
   // where it was expected.
-  if (!fit(kFollowBlur_px) || fit_.Correlation() < kExpected) {
+  if (!fit(kFollowBlur_px) || fitted_.fit.Correlation() < kExpected) {
     state = guess;
     if (!fit(kFarFollowBlur_px) || !fit(kFollowBlur_px)) return std::nullopt;
   }
@@ -202,20 +178,21 @@ std::optional<SgReading> SgReader::Track(int number, const BlockFitState& guess)
   if (!reading || reading->visible_fraction < kBarelyVisible) return std::nullopt;
   // By the code: where the content is observed it must be this number's.
   double right = 0.0, observed = 0.0;
-  const int along = fit_.blocks_along();
+  const int along = fitted_.fit.blocks_along();
   for (int row = 0; row < along; ++row) {
     for (int column = 0; column < along; ++column) {
-      const MarkerBlock& block = fit_.blocks()[row * along + column];
+      const MarkerBlock& block = fitted_.fit.blocks()[row * along + column];
       const auto central = [&](int at) {
         const double middle = (at + 0.5) / along * sg::kModules - kMiddle;
         return std::fabs(middle) < 0.5 * sg::kCells * sg::kCell;
       };
-      if (!central(column) || !central(row) || block.contrast < fit_.min_contrast()) continue;
+      if (!central(column) || !central(row) || block.contrast < fitted_.fit.min_contrast())
+        continue;
       observed += block.pixels;
       right += block.pixels * std::clamp(block.correlation, 0.0, 1.0);
     }
   }
-  reading->margin = kSafeMargin;
+  reading->margin = NumberDecoder::kSafeMargin;
   RefineBeneathCovers(&*reading);
   if (observed > 0.0 && right > kContentSure * observed) return reading;
   // Something covers the content, unless it is that of another marker: numbers share up to two
@@ -228,73 +205,13 @@ std::optional<SgReading> SgReader::Track(int number, const BlockFitState& guess)
   return reading;
 }
 
-bool SgReader::DecodeNumber(const BlockFitState& state, SgReading* reading) {
-  const double border_visible = VisibleBorder();
-  bool read = false;
-  const auto decode = [&](const CellLikelihoods& likelihoods, double penalty_bits,
-                          const CellLikelihoods* by_light = nullptr) {
-    const SoftGolayDecoding decoding = decoder_.Decode(likelihoods);
-    const auto take = [&](int number, float margin, double bits) {
-      if (margin < kMinMargin || (read && bits <= reading->confidence_bits)) return;
-      read = true;
-      reading->number = number;
-      reading->margin = margin;
-      reading->confidence_bits = bits;
-    };
-    // A number in use must not be one that many others would beat.
-    take(decoding.number, decoding.margin - decoding.shortfall,
-         ConfidenceBits(likelihoods, decoding.number, decoder_.NumbersInUse()) - penalty_bits -
-             AmbiguityBits(by_light != nullptr ? *by_light : likelihoods, decoding.number,
-                           any_number_));
-    if (border_visible < kVisibleForLight || decoding.disagreements < kMinHidden ||
-        decoder_.NumbersInUse() > kMinNumbersForConfidence) {
-      return;
-    }
-    // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
-    // or paper lies on it.
-    const auto covered = ReadUnderCover(likelihoods, decoder_, any_number_);
-    if (covered && covered->apart_bits >= kMinApart_bits) {
-      take(covered->number, static_cast<float>(kMarginPerBit * covered->apart_bits),
-           covered->confidence_bits - penalty_bits);
-    }
-  };
-  // Several explanations of the light; the one that proves its number best is taken.
-  for (const bool brightest : {false, true}) {
-    MarkerLight light;
-    if (!light_estimator_.Measure(blank_, fit_, observed_, brightest, &light)) break;
-    CellReading cells;
-    cell_reader_.ReadCells(blank_, fit_, observed_, state, light, false, &cells);
-    decode(cells.likelihoods, 0.0);
-    if (read && reading->margin > kSafeMargin) break;
-    // Where the border shows the light well, a cell that is neither black nor white is covered.
-    if (border_visible < kVisibleForLight || light.white_clips || light.has_edge) {
-      const bool against_light =
-          border_visible > kShowsLight && !light.white_clips && !light.has_edge;
-      const CellSplits splits = SplitCells(cells);
-      for (int i = 0; i < splits.count; ++i) {
-        if (against_light) {
-          // What the light says is covered leaves open which of two prints lies there.
-          decode(splits.likelihoods[i], kSplitAgainstLight_bits, &cells.likelihoods);
-        } else {
-          decode(splits.likelihoods[i], kSplitPenalty_bits);
-        }
-      }
-    }
-    if (!cells.glaring || border_visible < kShowsGlare) continue;
-    if (read && reading->margin > kSafeMargin) break;
-    cell_reader_.ReadCells(blank_, fit_, observed_, state, light, true, &cells);
-    decode(cells.likelihoods, border_visible < kVisibleForLight ? 0.0 : -kDrowned_bits);
-  }
-  return read;
-}
-
 std::optional<SgReading> SgReader::DecodeFast(const BlockFitState& guess) {
   const std::optional<CellLikelihoods> cells =
       SampleCellsFast(grey_, lens_, guess.modules_from_undistorted);
   if (!cells) return std::nullopt;
   GolayWord white = 0;
   for (int i = 0; i < kGolayBits; ++i) white |= static_cast<GolayWord>((*cells)[i] > 0.0F) << i;
-  const std::optional<int> number = decoder_.NumberOfCells(white);
+  const std::optional<int> number = numbers_.in_use().NumberOfCells(white);
   if (!number) return std::nullopt;
   windows_.SetHalvingsForNoise(0);
   std::optional<SgReading> reading =
@@ -303,7 +220,7 @@ std::optional<SgReading> SgReader::DecodeFast(const BlockFitState& guess) {
   if (!reading || reading->visible_fraction < kPlainVisible) return std::nullopt;
   plain_blur_px_ = std::min(reading->blur_px, kMaxPlainBlur_px);
   reading->margin = kPlainMargin;
-  reading->confidence_bits = ConfidenceBits(*cells, *number, decoder_.NumbersInUse());
+  reading->confidence_bits = ConfidenceBits(*cells, *number, numbers_.in_use().NumbersInUse());
   return reading;
 }
 
@@ -318,21 +235,21 @@ std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess, int bo
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
   FitBorderThroughNoise(border_steps, &state);
-  SgReading number;
   // Where nearly all of the border is covered no block of it may look right as a whole.
   if (border_steps > 0 && VisibleBorder() < kMinVisibleBorder) return std::nullopt;
-  if (!DecodeNumber(state, &number)) {
+  std::optional<DecodedNumber> number = DecodeNumber(state);
+  if (!number) {
     if (VisibleBorder() > kOpenBorder) unread_borders_.push_back(state.modules_from_undistorted);
     return std::nullopt;
   }
-  std::optional<SgReading> reading = Measure(number.number, state);
+  std::optional<SgReading> reading = Measure(number->number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kNearlyAllVisible) {
     // What covers the border has edges of its own, which can pass for the marker's; the content,
     // known by now, pulls the fit away from them if that explains more.
     BlockFitState by_content = state;
-    if (FitContent(number.number, &by_content)) {
-      std::optional<SgReading> other = Measure(number.number, by_content);
+    if (FitContent(number->number, &by_content)) {
+      std::optional<SgReading> other = Measure(number->number, by_content);
       // From a guess of another size it was cut into other blocks, which compare with none.
       if (other && other->blocks_along != reading->blocks_along) DescribeAnew(&*other);
       if (other && Explains(*other, *reading)) reading = std::move(other);
@@ -343,46 +260,47 @@ std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess, int bo
       kSameCells_modules) {
     // Where the marker turned out to lie its cells must still tell the same.
     BlockFitState measured{reading->modules_from_undistorted, reading->blur_px};
-    const int read_first = number.number;
+    const int read_first = number->number;
     FitBorder(0, Detail::kFine, &measured);
-    if (!DecodeNumber(measured, &number) || number.number != read_first) return std::nullopt;
+    number = DecodeNumber(measured);
+    if (!number || number->number != read_first) return std::nullopt;
   }
-  reading->margin = number.margin;
-  reading->confidence_bits = number.confidence_bits;
+  reading->margin = number->margin;
+  reading->confidence_bits = number->confidence_bits;
   return reading;
 }
 
 void SgReader::DescribeAnew(SgReading* reading) {
   const BlockFitState state{reading->modules_from_undistorted, reading->blur_px};
   PixelWindow window;
-  if (!windows_.TakeFine(state, &window, &observed_)) return;
-  fit_.Evaluate(Pattern(reading->number), MarkerPart::kWhole, observed_, FineBlocks(window, state),
-                state);
-  DescribeAppearance(fit_, reading);
+  if (!windows_.TakeFine(state, &window, &fitted_.observed)) return;
+  fitted_.fit.Evaluate(patterns_.OfNumber(reading->number), MarkerPart::kWhole, fitted_.observed,
+                       FineBlocks(window, state), state);
+  DescribeAppearance(fitted_.fit, reading);
 }
 
 bool SgReader::IsNoisy() {
-  return fit_.noise_share() >= kPlainNoise &&
-         noise_estimator_.Share(fit_, observed_) >= kPlainNoise;
+  return fitted_.fit.noise_share() >= kPlainNoise &&
+         noise_estimator_.Share(fitted_.fit, fitted_.observed) >= kPlainNoise;
 }
 
 void SgReader::MeasureThroughNoise(int number, BlockFitOptions options, BlockFitState state,
                                    SgReading* reading) {
-  fit_.UsePredictedVariance(&observed_);
+  fitted_.fit.UsePredictedVariance(&fitted_.observed);
   options.steps = kNoisySteps;
   // What the first fit found is still to be judged.
-  if (!other_fit_.Run(Pattern(number), MarkerPart::kWhole, observed_, fit_.blocks_along(), options,
-                      &state)) {
+  if (!other_.fit.Run(patterns_.OfNumber(number), MarkerPart::kWhole, fitted_.observed,
+                      fitted_.fit.blocks_along(), options, &state)) {
     return;
   }
-  reading->corners_through_noise = CornersOfFit(lens_, other_fit_, state);
+  reading->corners_through_noise = CornersOfFit(lens_, other_.fit, state);
 }
 
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess, double done_px) {
   const double side = windows_.SidePx(guess.modules_from_undistorted);
   if (side < kMinSide_px) return std::nullopt;
   PixelWindow window;
-  if (!windows_.TakeFine(guess, &window, &observed_)) return std::nullopt;
+  if (!windows_.TakeFine(guess, &window, &fitted_.observed)) return std::nullopt;
   BlockFitState state = guess;
   BlockFitOptions options;
   options.steps = 5;
@@ -390,13 +308,13 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   options.fit_light = true;
   options.label_blocks = false;
   options.done_px = done_px;
-  if (!fit_.Run(Pattern(number), MarkerPart::kWhole, observed_, FineBlocks(window, guess), options,
-                &state)) {
+  if (!fitted_.fit.Run(patterns_.OfNumber(number), MarkerPart::kWhole, fitted_.observed,
+                       FineBlocks(window, guess), options, &state)) {
     return std::nullopt;
   }
   SgReading reading;
   reading.number = number;
-  DescribeFit(lens_, fit_, state, &reading);
+  DescribeFit(lens_, fitted_.fit, state, &reading);
   if (IsNoisy()) MeasureThroughNoise(number, options, state, &reading);
   return reading;
 }

@@ -11,14 +11,14 @@
 #include "base/error.h"
 #include "base/image.h"
 #include "base/vector.h"
-#include "tracker/alignment/block_fit.h"
 #include "tracker/alignment/lens_grid.h"
-#include "tracker/golay/soft_golay_decoder.h"
 #include "tracker/surf_golay/cell_light.h"
-#include "tracker/surf_golay/cell_reader.h"
 #include "tracker/surf_golay/cover_mask.h"
+#include "tracker/surf_golay/fitted_patch.h"
 #include "tracker/surf_golay/marker_windows.h"
+#include "tracker/surf_golay/number_decoder.h"
 #include "tracker/surf_golay/pixel_noise.h"
+#include "tracker/surf_golay/sg_patterns.h"
 #include "tracker/surf_golay/sg_reading.h"
 
 namespace pleinair::tracker {
@@ -31,7 +31,7 @@ class SgReader {
   explicit SgReader(const LensGrid& lens) : lens_(lens), windows_(lens) {}
 
   Result<void> SetNumbersInUse(std::span<const int> numbers) {
-    return decoder_.SetNumbersInUse(numbers);
+    return numbers_.SetNumbersInUse(numbers);
   }
 
   /// The image that the following readings look at; kept by reference.
@@ -83,9 +83,8 @@ class SgReader {
   std::optional<SgReading> DecodeFull(const BlockFitState& guess, int border_steps);
   /// FitBorder, finely, in a reduced image where noise hides the border in the image itself.
   double FitBorderThroughNoise(int steps, BlockFitState* state);
-  /// Reads the cells of a marker whose border was fitted last: number, margin and proof. False
-  /// where they tell no number.
-  bool DecodeNumber(const BlockFitState& state, SgReading* reading);
+  /// Reads the cells of a marker whose border was fitted last.
+  std::optional<DecodedNumber> DecodeNumber(const BlockFitState& state);
   /// Moves a state to where the content alone fits best.
   bool FitContent(int number, BlockFitState* state);
   /// Describes how a marker that was measured looks anew, in blocks that go by where it was found.
@@ -101,26 +100,20 @@ class SgReader {
   /// Measures a marker again of which something is covered, by what surely is not.
   void RefineBeneathCovers(SgReading* reading);
   std::optional<SgReading> MeasureBeneathCovers(int number, const BlockFitState& guess);
-  const MarkerPattern& Pattern(int number);
   /// Blocks along a marker that is measured in that window.
   static int FineBlocks(const PixelWindow& window, const BlockFitState& state);
 
   const LensGrid& lens_;
   ImageView<const std::uint8_t> grey_;
   MarkerWindows windows_;
-  SoftGolayDecoder decoder_;
-  SoftGolayDecoder any_number_;  ///< Of all 4,096, in use or not.
-  ObservedPatch observed_;
-  BlockFit fit_;
-  ObservedPatch other_observed_;  ///< Where a fit at another size waits.
-  BlockFit other_fit_;            ///< … or one is made whose light and looks count for nothing.
-  MarkerLightEstimator light_estimator_;
-  CellReader cell_reader_;
+  NumberDecoder numbers_;
+  SgPatterns patterns_;
+  FittedPatch fitted_;
+  /// Where a fit at another size waits, or one is made whose light and looks count for nothing.
+  FittedPatch other_;
   CoverMask cover_;
+  MarkerLightEstimator cover_light_;  ///< Of a marker that something covers.
   PixelNoiseEstimator noise_estimator_;
-  MarkerPattern blank_;
-  MarkerPattern marker_pattern_;
-  int marker_number_ = -1;
   std::vector<Mat3> unread_borders_;
   /// That of the last plain marker of this image: others are as far away or as much in motion.
   double plain_blur_px_ = 0.0;

@@ -34,8 +34,8 @@ bool SgReader::FitContent(int number, BlockFitState* state) {
     PixelWindow window;
     const bool taken = detail == Detail::kCoarse
                            ? windows_.TakeCoarse(state->modules_from_undistorted, kCoarseSide_px,
-                                                 &window, &observed_)
-                           : windows_.TakeFine(*state, &window, &observed_);
+                                                 &window, &fitted_.observed)
+                           : windows_.TakeFine(*state, &window, &fitted_.observed);
     if (!taken) return false;
     KeepContent(window, state->modules_from_undistorted);
     const double side = windows_.SidePx(state->modules_from_undistorted);
@@ -46,9 +46,9 @@ bool SgReader::FitContent(int number, BlockFitState* state) {
     if (detail == Detail::kCoarse) {
       fitted.blur_px = std::max(fitted.blur_px, kCoarseBlur_px * window.Scale());
     }
-    if (!fit_.Run(Pattern(number), MarkerPart::kWhole, observed_,
-                  BlockFit::BlocksAlong(1.2 * side / window.Scale(), kCoarseBlock_px), options,
-                  &fitted)) {
+    if (!fitted_.fit.Run(patterns_.OfNumber(number), MarkerPart::kWhole, fitted_.observed,
+                         BlockFit::BlocksAlong(1.2 * side / window.Scale(), kCoarseBlock_px),
+                         options, &fitted)) {
       return false;
     }
     state->modules_from_undistorted = fitted.modules_from_undistorted;
@@ -63,10 +63,10 @@ void SgReader::KeepContent(const PixelWindow& window, const Mat3& modules_from_u
     for (int x = 0; x < window.width; ++x) {
       const std::size_t ray =
           static_cast<std::size_t>(y + kWindowBorder) * stride + kWindowBorder + x;
-      const Vec2 modules =
-          Apply(modules_from_undistorted, {observed_.rays.x[ray], observed_.rays.y[ray]});
+      const Vec2 modules = Apply(modules_from_undistorted,
+                                 {fitted_.observed.rays.x[ray], fitted_.observed.rays.y[ray]});
       if (!(std::fabs(modules.x - kMiddle) < kReach && std::fabs(modules.y - kMiddle) < kReach)) {
-        observed_.inverse_variance[static_cast<std::size_t>(y) * window.width + x] = 0.0F;
+        fitted_.observed.inverse_variance[static_cast<std::size_t>(y) * window.width + x] = 0.0F;
       }
     }
   }
@@ -84,20 +84,20 @@ void SgReader::RefineBeneathCovers(SgReading* reading) {
 
 std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockFitState& guess) {
   PixelWindow window;
-  if (!windows_.TakeFine(guess, &window, &observed_)) return std::nullopt;
-  const MarkerPattern& marker = Pattern(number);
+  if (!windows_.TakeFine(guess, &window, &fitted_.observed)) return std::nullopt;
+  const MarkerPattern& marker = patterns_.OfNumber(number);
   const int blocks = FineBlocks(window, guess);
   BlockFitState state = guess;
   const auto fit = [&](const BlockFitOptions& options) {
-    return fit_.Run(marker, MarkerPart::kWhole, observed_, blocks, options, &state);
+    return fitted_.fit.Run(marker, MarkerPart::kWhole, fitted_.observed, blocks, options, &state);
   };
-  fit_.Evaluate(marker, MarkerPart::kWhole, observed_, blocks, state);
+  fitted_.fit.Evaluate(marker, MarkerPart::kWhole, fitted_.observed, blocks, state);
   MarkerLight light;
-  if (!light_estimator_.Measure(marker, fit_, observed_, false, &light) || light.white_clips ||
-      light.black_noise > kMaxUncertainBlack) {
+  if (!cover_light_.Measure(marker, fitted_.fit, fitted_.observed, false, &light) ||
+      light.white_clips || light.black_noise > kMaxUncertainBlack) {
     return std::nullopt;
   }
-  cover_.TakeShares(marker, fit_, light, &observed_);
+  cover_.TakeShares(marker, fitted_.fit, light, &fitted_.observed);
   BlockFitOptions options;
   options.fit_blur = true;
   options.label_blocks = false;
@@ -108,26 +108,26 @@ std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockF
   CoverMask::Edges edges = CoverMask::Edges::kUnreliable;
   for (const double share : kBeneathShares) {
     sharp.robust_share = std::max(share, noise);
-    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &observed_);
+    cover_.Lay(fitted_.fit, state.blur_px / window.Scale(), edges, &fitted_.observed);
     if (!fit(sharp)) return std::nullopt;
     if (light.white_noise < kPlainWhite) edges = CoverMask::Edges::kReliable;
   }
   // Covers throw shadows, too: at last each block has its own light again, and all of them a slope.
   options.fit_light = true;
-  cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &observed_);
-  cover_.RestoreValues(&observed_);
+  cover_.Lay(fitted_.fit, state.blur_px / window.Scale(), edges, &fitted_.observed);
+  cover_.RestoreValues(&fitted_.observed);
   if (!fit(options)) return std::nullopt;
   SgReading reading;
   reading.number = number;
-  DescribeFit(lens_, fit_, state, &reading);
+  DescribeFit(lens_, fitted_.fit, state, &reading);
   if (IsNoisy()) {
-    cover_.Lay(fit_, state.blur_px / window.Scale(), edges, &observed_,
+    cover_.Lay(fitted_.fit, state.blur_px / window.Scale(), edges, &fitted_.observed,
                CoverMask::Dark::kBeyondNoise);
     MeasureThroughNoise(number, options, state, &reading);
   }
-  cover_.RestoreWeights(&observed_);
-  fit_.Evaluate(marker, MarkerPart::kWhole, observed_, blocks, state);
-  DescribeAppearance(fit_, &reading);
+  cover_.RestoreWeights(&fitted_.observed);
+  fitted_.fit.Evaluate(marker, MarkerPart::kWhole, fitted_.observed, blocks, state);
+  DescribeAppearance(fitted_.fit, &reading);
   return reading;
 }
 
