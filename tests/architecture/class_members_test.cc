@@ -58,7 +58,6 @@ const std::set<std::string>& LargeClasses() {
     "tracker/picture_target/target_search.h TargetSearch",
     "tracker/surf_golay/border_search.h BorderSearch",
     "tracker/surf_golay/cell_light.h MarkerLight",
-    "tracker/surf_golay/sg_detector.h SgDetector",
   };
   // clang-format on
   return kLarge;

@@ -1,0 +1,37 @@
+#pragma once
+
+// Internal: between the .cc files of this module; not installed.
+
+#include <vector>
+
+#include "tracker/alignment/block_fit.h"
+#include "tracker/alignment/lens_grid.h"
+#include "tracker/surf_golay/cell_lattice.h"
+#include "tracker/surf_golay/image_search.h"
+
+namespace pleinair::tracker {
+
+/// Finds markers whose border is covered by the corners of their cells (CellLattice). Keeps its
+/// buffers; one thread at a time.
+class CellFinder {
+ public:
+  /// Both are kept by reference.
+  CellFinder(const LensGrid& lens, ImageSearch& image) : image_(image), lattice_(lens) {}
+
+  /// Adds the markers of the search's image, which is so many pixels wide.
+  void Find(int image_width);
+
+ private:
+  /// Where the cells of a marker may lie, and which way round.
+  struct Placement {
+    BlockFitState state;
+    double correlation = 0.0;  ///< Of the border.
+  };
+
+  ImageSearch& image_;
+  CellLattice lattice_;
+  std::vector<LatticeGuess> lattices_;
+  std::vector<Placement> placements_;
+};
+
+}  // namespace pleinair::tracker
