@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "tracker/pose/homography.h"
 #include "tracker/surf_golay/sg_layout.h"
@@ -15,9 +16,6 @@ constexpr double kMiddle = 0.5 * sg::kModules;
 /// Matches farther apart than this (of unit descriptors) say nothing.
 constexpr double kMaxDistance = 0.75;
 constexpr double kMin_px = 14.0, kMaxShare = 1.6;  ///< Of the image's height.
-/// Two matches agree when each is observed where the other expects it, in shares of the marker's
-/// size.
-constexpr float kPlaceTolerance = 0.13F, kScaleTolerance = 1.6F, kTurnTolerance_rad = 0.6F;
 constexpr double kSamePlace = 0.12;  ///< Guesses closer than this, in shares of size, are one.
 
 Vec2 ApplyAffine(const std::array<double, 6>& m, Vec2 p) {
@@ -36,24 +34,25 @@ bool Inside(const std::array<Vec2, 4>& quad, double x, double y) {
   return right_of(2) == first && right_of(1) == first && right_of(3) == first;
 }
 
+std::size_t MaxVotes(const BorderSearchOptions& options) {
+  return static_cast<std::size_t>(options.surf.max_keypoints) * options.neighbours;
+}
+
 }  // namespace
 
 BorderSearch::BorderSearch(const LensGrid& lens, BorderTemplates templates,
                            const BorderSearchOptions& options)
-    : lens_(lens), templates_(std::move(templates)), options_(options), surf_(options.surf) {
+    : lens_(lens),
+      templates_(std::move(templates)),
+      options_(options),
+      frame_(options.surf),
+      bins_(options.rotation_bin_rad, MaxVotes(options)) {
   matcher_.SetTemplates(templates_.descriptors);
-  const std::size_t most =
-      static_cast<std::size_t>(options_.surf.max_keypoints) * options_.neighbours;
+  const std::size_t most = MaxVotes(options);
   votes_.reserve(most);
-  by_centre_.reserve(most);
   ranked_.reserve(2 * most);
-  binned_.resize(2 * most);
-  vote_data_.Resize(2 * most);
-  agreeing_.resize(2 * most + kVoteSlack);
   members_.reserve(most);
   guessed_corners_.reserve(options_.max_guesses);
-  bins_.resize(std::max(
-      4, static_cast<int>(std::ceil(2.0 * std::numbers::pi / (0.5 * options_.rotation_bin_rad)))));
 }
 
 void BorderSearch::Find(ImageView<const std::uint8_t> grey,
@@ -64,16 +63,9 @@ void BorderSearch::Find(ImageView<const std::uint8_t> grey,
     return std::any_of(taken.begin(), taken.end(),
                        [&](const auto& quad) { return Inside(quad, k.x, k.y); });
   };
-  const bool all_sizes = sizes == Sizes::kAll;
-  if (refill) {
-    surf_.Detect(grey, &keypoints_, all_sizes, known);
-  } else {
-    surf_.Detect(grey, &keypoints_, all_sizes);
-    std::erase_if(keypoints_, known);
-  }
-  surf_.Describe(&keypoints_, &descriptors_);
-  Quantise(keypoints_, descriptors_, &quantised_);
-  matcher_.Match(quantised_, options_.neighbours, &templates_of_frame_, nullptr);
+  using Unwanted = DescribedKeypoints::Unwanted;
+  frame_.Find(grey, sizes == Sizes::kAll, known, refill ? Unwanted::kReplace : Unwanted::kDrop);
+  matcher_.Match(frame_.descriptors(), options_.neighbours, &templates_of_frame_, nullptr);
   CastVotes();
   Gather(guesses);
 }
@@ -83,8 +75,8 @@ void BorderSearch::CastVotes() {
   const double largest = kMaxShare * lens_.camera().height;
   constexpr double kUnit2 =
       QuantisedDescriptor::kUnit * static_cast<double>(QuantisedDescriptor::kUnit);
-  for (std::size_t n = 0; n < keypoints_.size(); ++n) {
-    const SurfKeypoint& k = keypoints_[n];
+  for (std::size_t n = 0; n < frame_.keypoints().size(); ++n) {
+    const SurfKeypoint& k = frame_.keypoints()[n];
     const Vec2 here = lens_.Undistort(k.x, k.y);
     for (int i = 0; i < options_.neighbours; ++i) {
       const DescriptorMatch& match = templates_of_frame_[n * options_.neighbours + i];
@@ -93,7 +85,7 @@ void BorderSearch::CastVotes() {
       if (distance > kMaxDistance) break;
       const BorderTemplate& model = templates_.keypoints[match.index];
       const auto& view = templates_.views[model.view_index].from_modules;
-      Vote vote;
+      BorderVote vote;
       vote.keypoint = static_cast<int>(n);
       vote.model = match.index;
       vote.place = here;
@@ -117,104 +109,26 @@ void BorderSearch::CastVotes() {
   }
 }
 
-void BorderSearch::FillBins() {
-  // The angle filter: bins of the turn between template and frame, each overlapping its neighbours
-  // by half, so that every pair of matches of one marker meets in some bin.
-  const int bins = static_cast<int>(bins_.size());
-  const auto bin_of = [&](const Vote& vote) {
-    const double turn = vote.rotation_rad / (2.0 * std::numbers::pi) + 0.5;
-    return std::clamp(static_cast<int>(turn * bins), 0, bins - 1);
-  };
-  by_centre_.clear();
-  for (Bin& bin : bins_) bin = {};
-  for (std::size_t v = 0; v < votes_.size(); ++v) {
-    by_centre_.emplace_back(votes_[v].centre.x, static_cast<int>(v));
-    const int bin = bin_of(votes_[v]);
-    ++bins_[bin].end;
-    ++bins_[(bin + 1) % bins].end;
-  }
-  std::ranges::sort(by_centre_);
-  int begin = 0;
-  for (Bin& bin : bins_) {
-    const int count = bin.end;
-    bin = {begin, begin};
-    begin += count;
-  }
-  VoteData& w = vote_data_;
-  for (const auto& [centre_x, v] : by_centre_) {
-    const Vote& vote = votes_[v];
-    const Vec2 modules = templates_.keypoints[vote.model].modules;
-    const int first = bin_of(vote);
-    for (const int bin : {first, (first + 1) % bins}) {
-      const int i = bins_[bin].end++;
-      binned_[i] = v;
-      w.centre_x[i] = static_cast<float>(vote.centre.x);
-      w.centre_y[i] = static_cast<float>(vote.centre.y);
-      w.size_px[i] = static_cast<float>(vote.size_px);
-      w.rotation_rad[i] = static_cast<float>(vote.rotation_rad);
-      w.keypoint_x[i] = keypoints_[vote.keypoint].x;
-      w.keypoint_y[i] = keypoints_[vote.keypoint].y;
-      w.modules_x[i] = static_cast<float>(modules.x);
-      w.modules_y[i] = static_cast<float>(modules.y);
-    }
-  }
-}
-
-double BorderSearch::Supporters(const Bin& bin, int at, std::vector<int>* members) {
-  const VoteData& w = vote_data_;
-  const float size = w.size_px[at], far = 0.5F * size;
-  VoteSeed seed{.from_modules = {},
-                .centre_y = w.centre_y[at],
-                .rotation_rad = w.rotation_rad[at],
-                .far_px = far,
-                .near_px = kPlaceTolerance * size,
-                .min_px = size / kScaleTolerance,
-                .max_px = kScaleTolerance * size,
-                .turn_rad = kTurnTolerance_rad};
-  std::ranges::copy(votes_[binned_[at]].from_modules, seed.from_modules);
-  const auto x = w.centre_x.begin();
-  const auto first =
-      static_cast<int>(std::lower_bound(x + bin.begin, x + at, w.centre_x[at] - far) - x);
-  const auto last =
-      static_cast<int>(std::upper_bound(x + at, x + bin.end, w.centre_x[at] + far) - x);
-  const int count = AgreeingVotes(w, seed, first, last, agreeing_.data());
-  double sum = 0.0;
-  int last_keypoint = -1;
-  const auto add = [&](int j) {
-    const Vote& vote = votes_[binned_[j]];
-    if (members != nullptr) members->push_back(binned_[j]);
-    // Several templates of one keypoint are one witness.
-    if (vote.keypoint != last_keypoint) sum += vote.weight;
-    last_keypoint = vote.keypoint;
-  };
-  // From the seed to the right, then to the left.
-  const int middle = static_cast<int>(
-      std::lower_bound(agreeing_.begin(), agreeing_.begin() + count, at) - agreeing_.begin());
-  for (int i = middle; i < count; ++i) add(agreeing_[i]);
-  for (int i = middle; i-- > 0;) add(agreeing_[i]);
-  return sum;
-}
-
 void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
-  FillBins();
+  bins_.Fill(votes_, frame_.keypoints(), templates_.keypoints);
   ranked_.clear();
-  for (int bin = 0; bin < static_cast<int>(bins_.size()); ++bin) {
-    for (int i = bins_[bin].begin; i < bins_[bin].end; ++i) {
-      const double votes = Supporters(bins_[bin], i, nullptr);
+  const std::span<const VoteBins::Bin> bins = bins_.bins();
+  for (int bin = 0; bin < static_cast<int>(bins.size()); ++bin) {
+    for (int i = bins[bin].begin; i < bins[bin].end; ++i) {
+      const double votes = bins_.Supporters(bins[bin], i, nullptr);
       if (votes >= options_.min_votes) ranked_.push_back({bin, i, votes});
     }
   }
   std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
     if (a.votes != b.votes) return a.votes > b.votes;
-    return a.bin < b.bin || (a.bin == b.bin && a.at < b.at);
+    return a.bin < b.bin || (a.bin == b.bin && a.place < b.place);
   });
   guessed_corners_.clear();
   for (const Ranked& candidate : ranked_) {
     if (static_cast<int>(guesses->size()) >= options_.max_guesses) break;
-    const Bin& bin = bins_[candidate.bin];
-    const Vote& seed = votes_[binned_[candidate.at]];
+    const BorderVote& seed = bins_.At(candidate.place);
     members_.clear();
-    Supporters(bin, candidate.at, &members_);
+    bins_.Supporters(bins[candidate.bin], candidate.place, &members_);
     BorderGuess guess;
     guess.votes = candidate.votes;
     guess.matches = static_cast<int>(members_.size());
@@ -235,7 +149,8 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
   }
 }
 
-bool BorderSearch::FitGuess(const std::vector<int>& members, const Vote& seed, BorderGuess* guess) {
+bool BorderSearch::FitGuess(const std::vector<int>& members, const BorderVote& seed,
+                            BorderGuess* guess) {
   // Least squares of an affine image on all that agree, held towards the seed's own shape: what a
   // match of one view implies is already near, and few matches tell little more.
   double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
@@ -254,7 +169,7 @@ bool BorderSearch::FitGuess(const std::vector<int>& members, const Vote& seed, B
     by_y = by_y + weighted * v;
   };
   for (const int member : members) {
-    const Vote& vote = votes_[member];
+    const BorderVote& vote = votes_[member];
     add(templates_.keypoints[vote.model].modules, vote.place, vote.weight);
   }
   for (int corner = 0; corner < 4; ++corner) {

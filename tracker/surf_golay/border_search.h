@@ -2,16 +2,16 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "base/image.h"
 #include "base/vector.h"
 #include "tracker/alignment/lens_grid.h"
+#include "tracker/surf/described_keypoints.h"
 #include "tracker/surf/descriptor_matcher.h"
 #include "tracker/surf/surf.h"
 #include "tracker/surf_golay/border_templates.h"
-#include "tracker/surf_golay/vote_agreement.h"
+#include "tracker/surf_golay/vote_bins.h"
 
 namespace pleinair::tracker {
 
@@ -58,53 +58,26 @@ class BorderSearch {
   void Find(ImageView<const std::uint8_t> grey, const std::vector<std::array<Vec2, 4>>& taken,
             Sizes sizes, bool refill, std::vector<BorderGuess>* guesses);
 
-  const std::vector<SurfKeypoint>& keypoints() const { return keypoints_; }
-
  private:
-  /// A match and the affine image of the marker that it alone implies.
-  struct Vote {
-    int keypoint = 0, model = 0;
-    Vec2 place;  ///< Of the keypoint, in undistorted pixels.
-    std::array<double, 6> from_modules{};
-    Vec2 centre;
-    double size_px = 0.0;  ///< Square root of the area of the marker's square.
-    double rotation_rad = 0.0;
-    double weight = 0.0;
-  };
-  void CastVotes();
-  /// A vote as the seed of a guess: its bin and place in binned_, and what agrees with it.
+  /// A vote as the seed of a guess: its bin and place in bins_, and what agrees with it.
   struct Ranked {
-    int bin, at;
+    int bin, place;
     double votes;
   };
-  /// Votes whose turns are alike, sorted by their centres: where they stand in binned_.
-  struct Bin {
-    int begin = 0, end = 0;
-  };
-  /// Sorts the votes into bins.
-  void FillBins();
-  /// The summed likeness of the votes of the bin that agree with the one at a place in binned_.
-  double Supporters(const Bin& bin, int at, std::vector<int>* members);
+  void CastVotes();
   void Gather(std::vector<BorderGuess>* guesses);
-  bool FitGuess(const std::vector<int>& members, const Vote& seed, BorderGuess* guess);
+  bool FitGuess(const std::vector<int>& members, const BorderVote& seed, BorderGuess* guess);
 
   const LensGrid& lens_;
   const BorderTemplates templates_;
   const BorderSearchOptions options_;
-  Surf surf_;
+  DescribedKeypoints frame_;
   DescriptorMatcher matcher_;
-  std::vector<SurfKeypoint> keypoints_;
-  std::vector<SurfDescriptor> descriptors_;
-  std::vector<QuantisedDescriptor> quantised_;
   std::vector<DescriptorMatch> templates_of_frame_;
-  std::vector<Vote> votes_;
+  std::vector<BorderVote> votes_;
+  VoteBins bins_;
   std::vector<Ranked> ranked_;
-  std::vector<std::int32_t> agreeing_;
   std::vector<int> members_;
-  std::vector<std::pair<double, int>> by_centre_;
-  std::vector<Bin> bins_;
-  std::vector<int> binned_;  ///< Each vote twice, bin after bin; and what tells whether they agree.
-  VoteData vote_data_;
   std::vector<std::array<Vec2, 4>> guessed_corners_;
 };
 
