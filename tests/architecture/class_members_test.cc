@@ -55,7 +55,6 @@ const std::set<std::string>& LargeClasses() {
     "tracker/alignment/block_fit.h BlockFit",
     "tracker/alignment/block_sums.h BlockSums",
     "tracker/alignment/raster_rows.h RasterRows",
-    "tracker/picture_target/target_search.h TargetSearch",
     "tracker/surf_golay/cell_light.h MarkerLight",
   };
   // clang-format on

@@ -73,7 +73,7 @@ double Turned(double a, double b) {
 
 TargetSearch::TargetSearch(const LensGrid& lens,
                            std::vector<std::shared_ptr<const PictureTarget>> targets)
-    : lens_(lens), targets_(std::move(targets)), surf_(kSurfOptions), bins_(kBins) {
+    : lens_(lens), targets_(std::move(targets)), frame_(kSurfOptions), bins_(kBins) {
   std::vector<QuantisedDescriptor> all;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     const PictureTarget& target = *targets_[t];
@@ -89,9 +89,7 @@ TargetSearch::TargetSearch(const LensGrid& lens,
 
 void TargetSearch::Find(ImageView<const std::uint8_t> grey, const std::vector<bool>& wanted,
                         std::vector<TargetGuess>* guesses) {
-  surf_.Detect(grey, &keypoints_);
-  surf_.Describe(&keypoints_, &descriptors_);
-  Quantise(keypoints_, descriptors_, &quantised_);
+  frame_.Find(grey);
   MatchAndGather(wanted, false, guesses);
 }
 
@@ -103,26 +101,25 @@ void TargetSearch::FindMirrored(const std::vector<bool>& wanted,
 void TargetSearch::MatchAndGather(const std::vector<bool>& wanted, bool mirrored,
                                   std::vector<TargetGuess>* guesses) {
   guesses->clear();
-  shown_ = keypoints_;
-  undistorted_.clear();
-  for (SurfKeypoint& k : shown_) {
+  shown_.keypoints = frame_.keypoints();
+  shown_.undistorted.clear();
+  for (SurfKeypoint& k : shown_.keypoints) {
     Vec2 undistorted = lens_.Undistort(k.x, k.y);
     if (mirrored) {
       undistorted.x = -undistorted.x;
       k.angle_rad = std::numbers::pi_v<float> - k.angle_rad;
     }
-    undistorted_.push_back(undistorted);
+    shown_.undistorted.push_back(undistorted);
   }
   if (mirrored) {
-    flipped_.clear();
-    for (const QuantisedDescriptor& descriptor : quantised_) {
-      flipped_.push_back(Mirrored(descriptor));
+    shown_.mirrored.clear();
+    for (const QuantisedDescriptor& descriptor : frame_.descriptors()) {
+      shown_.mirrored.push_back(Mirrored(descriptor));
     }
   }
-  matcher_.Match(mirrored ? flipped_ : quantised_, kNeighbours, &templates_of_frame_,
-                 &frame_of_templates_);
-  keypoint_observed_.assign(shown_.size(), 0);
-  stamp_ = 0;
+  matcher_.Match(mirrored ? shown_.mirrored : frame_.descriptors(), kNeighbours,
+                 &templates_of_frame_, nullptr);
+  witnesses_.Start(shown_.keypoints.size());
   CastVotes(wanted);
   Rank();
   Gather(mirrored, guesses);
@@ -133,9 +130,9 @@ void TargetSearch::CastVotes(const std::vector<bool>& wanted) {
   const double largest = kMaxShare * lens_.camera().height;
   constexpr double kUnit2 =
       QuantisedDescriptor::kUnit * static_cast<double>(QuantisedDescriptor::kUnit);
-  for (std::size_t n = 0; n < shown_.size(); ++n) {
-    const SurfKeypoint& k = shown_[n];
-    const Vec2 here = undistorted_[n];
+  for (std::size_t n = 0; n < shown_.keypoints.size(); ++n) {
+    const SurfKeypoint& k = shown_.keypoints[n];
+    const Vec2 here = shown_.undistorted[n];
     if (!std::isfinite(here.x) || !std::isfinite(here.y)) continue;
     for (int i = 0; i < kNeighbours; ++i) {
       const DescriptorMatch& match = templates_of_frame_[n * kNeighbours + i];
@@ -169,7 +166,7 @@ void TargetSearch::CastVotes(const std::vector<bool>& wanted) {
   }
 }
 
-Vec2 TargetSearch::Here(const Vote& vote) const { return undistorted_[vote.keypoint]; }
+Vec2 TargetSearch::Here(const Vote& vote) const { return shown_.undistorted[vote.keypoint]; }
 
 bool TargetSearch::Agrees(const Vote& hypothesis, const Vote& vote) const {
   if (models_[vote.model].target != models_[hypothesis.model].target) return false;
@@ -200,13 +197,13 @@ void TargetSearch::Rank() {
     // The likeliest matches say where; all of the bin say how many agree.
     for (std::size_t i = 0; i < std::min(bin.size(), kSeedsOfBin); ++i) {
       const Vote& seed = votes_[bin[i]];
-      ++stamp_;
+      witnesses_.StartCount();
       Ranked ranked{bin[i], 0, 0.0};
       for (const int other : bin) {
         const Vote& vote = votes_[other];
         // Several candidates of one keypoint are one witness; the likeliest comes first.
-        if (keypoint_observed_[vote.keypoint] == stamp_ || !Agrees(seed, vote)) continue;
-        keypoint_observed_[vote.keypoint] = stamp_;
+        if (witnesses_.IsCounted(vote.keypoint) || !Agrees(seed, vote)) continue;
+        witnesses_.Count(vote.keypoint);
         ranked.votes += vote.weight;
         ++ranked.keypoints;
       }
@@ -289,11 +286,12 @@ bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
     // Not where the seed expects it at all.
     const Vec2 expected = ApplyAffine(m, model.place), here = Here(vote);
     if (Norm(here - expected) > kLooserPlace * size) continue;
-    members_.push_back({vote.keypoint,
-                        {model.place.x / kHalf - 1.0, model.place.y / kHalf - 1.0},
-                        (here - middle) * (1.0 / size),
-                        vote.weight,
-                        std::max(kMinOffset_px, kOffOfScale * shown_[vote.keypoint].scale) / size});
+    members_.push_back(
+        {vote.keypoint,
+         {model.place.x / kHalf - 1.0, model.place.y / kHalf - 1.0},
+         (here - middle) * (1.0 / size),
+         vote.weight,
+         std::max(kMinOffset_px, kOffOfScale * shown_.keypoints[vote.keypoint].scale) / size});
   }
   for (int round = 0; round < kFitRounds; ++round) {
     const double share = static_cast<double>(round) / (kFitRounds - 1);
@@ -316,12 +314,12 @@ bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
       right += weight * (jx * off.x + jy * off.y);
       return square < 4.0 * reach * reach;
     };
-    ++stamp_;
+    witnesses_.StartCount();
     guess->keypoints = 0;
     for (const Member& member : members_) {
-      if (keypoint_observed_[member.keypoint] == stamp_) continue;
+      if (witnesses_.IsCounted(member.keypoint)) continue;
       if (!add(member.unit, member.shares, member.weight, member.sigma, true)) continue;
-      keypoint_observed_[member.keypoint] = stamp_;
+      witnesses_.Count(member.keypoint);
       ++guess->keypoints;
     }
     for (const Vec2 corner : kSquareCorners) {

@@ -8,8 +8,8 @@
 #include "base/vector.h"
 #include "tracker/alignment/lens_grid.h"
 #include "tracker/picture_target/picture_target.h"
+#include "tracker/surf/described_keypoints.h"
 #include "tracker/surf/descriptor_matcher.h"
-#include "tracker/surf/surf.h"
 
 namespace pleinair::tracker {
 
@@ -63,6 +63,28 @@ class TargetSearch {
     int target = 0, index = 0;
     Vec2 place;
   };
+  /// The keypoints of the frame as they are matched: mirrored or not.
+  struct Shown {
+    std::vector<SurfKeypoint> keypoints;
+    std::vector<Vec2> undistorted;              ///< Their undistorted pixels.
+    std::vector<QuantisedDescriptor> mirrored;  ///< Their descriptors where they are mirrored.
+  };
+  /// Counts each keypoint once.
+  class Witnesses {
+   public:
+    /// Before the first count of a frame with so many keypoints.
+    void Start(std::size_t keypoints) {
+      last_count_.assign(keypoints, 0);
+      count_ = 0;
+    }
+    void StartCount() { ++count_; }
+    bool IsCounted(int keypoint) const { return last_count_[keypoint] == count_; }
+    void Count(int keypoint) { last_count_[keypoint] = count_; }
+
+   private:
+    std::vector<int> last_count_;  ///< The last count that a keypoint was in.
+    int count_ = 0;
+  };
 
   void MatchAndGather(const std::vector<bool>& wanted, bool mirrored,
                       std::vector<TargetGuess>* guesses);
@@ -76,20 +98,15 @@ class TargetSearch {
   const LensGrid& lens_;
   const std::vector<std::shared_ptr<const PictureTarget>> targets_;
   std::vector<Model> models_;
-  Surf surf_;
+  DescribedKeypoints frame_;
+  Shown shown_;
   DescriptorMatcher matcher_;
-  std::vector<SurfKeypoint> keypoints_;
-  std::vector<SurfDescriptor> descriptors_;
-  std::vector<QuantisedDescriptor> quantised_, flipped_;
-  std::vector<SurfKeypoint> shown_;  ///< As they are matched: mirrored or not,
-  std::vector<Vec2> undistorted_;    ///< … and their undistorted pixels, mirrored likewise.
-  std::vector<DescriptorMatch> templates_of_frame_, frame_of_templates_;
+  std::vector<DescriptorMatch> templates_of_frame_;
   std::vector<Vote> votes_;
   std::vector<std::vector<int>> bins_;
   std::vector<Ranked> ranked_;
   std::vector<Member> members_;
-  std::vector<int> keypoint_observed_;  ///< The last count that a keypoint was in.
-  int stamp_ = 0;
+  Witnesses witnesses_;
 };
 
 }  // namespace pleinair::tracker
