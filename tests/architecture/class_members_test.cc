@@ -52,9 +52,6 @@ const std::set<std::string>& LargeClasses() {
     "session/scene_renderer.h SceneRenderer",
     "shadows/bench/bench_renderer.h BenchRenderer",
     "shadows/shadow_maps.h ShadowMaps",
-    "tracker/alignment/block_fit.h BlockFit",
-    "tracker/alignment/block_sums.h BlockSums",
-    "tracker/alignment/raster_rows.h RasterRows",
     "tracker/surf_golay/cell_light.h MarkerLight",
   };
   // clang-format on

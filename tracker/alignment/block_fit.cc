@@ -66,13 +66,13 @@ void BlockFit::Predict(const MarkerPattern& pattern, MarkerPart part, const Obse
   known.unknown_half = all ? -known.modules : 0.5F * static_cast<float>(pattern.unknown_modules);
   known.unknown_middle = static_cast<float>(pattern.unknown_first) +
                          0.5F * static_cast<float>(pattern.unknown_modules);
-  sums_->blocks.Lay(pattern, known, observed, map_, sums_->ranges, tile_, blocks_along_,
-                    sums_->slope);
+  sums_->blocks.Lay(pattern, known, observed, map_, sums_->ranges, grid_.tile_px,
+                    grid_.blocks_along, sums_->slope);
 }
 
 void BlockFit::FitLevels(const ObservedPatch& observed, double robust_share, bool known_light) {
   sums_->blocks.Levels(observed, image_, sums_->lights, &sums_->levels);
-  noise_shares_.clear();
+  robustness_.noise_shares.clear();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const LevelSums& sum = sums_->levels[k];
     MarkerBlock& block = blocks_[k];
@@ -104,24 +104,24 @@ void BlockFit::FitLevels(const ObservedPatch& observed, double robust_share, boo
     block.weight = std::clamp(
         (block.correlation - kDoubtfulCorrelation) / (kCredibleCorrelation - kDoubtfulCorrelation),
         kMinWeight, 1.0);
-    noise_shares_.push_back(block.noise / block.gain);
+    robustness_.noise_shares.push_back(block.noise / block.gain);
     light = {static_cast<float>(block.gain), static_cast<float>(block.offset), 0.0F,
              static_cast<float>(block.weight)};
   }
-  robust_share_ = robust_share;
+  robustness_.share = robust_share;
   if (known_light) return;
   // Noise is no outlier; what lies on the marker is, and makes some blocks look noisier than
   // others.
   double share = robust_share;
-  noise_share_ = 0.0;
-  if (!noise_shares_.empty()) {
-    const auto quartile =
-        noise_shares_.begin() + static_cast<std::ptrdiff_t>(noise_shares_.size() / 4);
-    std::nth_element(noise_shares_.begin(), quartile, noise_shares_.end());
-    noise_share_ = *quartile;
-    share = std::max(share, kRobustNoises * noise_share_);
+  robustness_.noise_share = 0.0;
+  if (!robustness_.noise_shares.empty()) {
+    const auto quartile = robustness_.noise_shares.begin() +
+                          static_cast<std::ptrdiff_t>(robustness_.noise_shares.size() / 4);
+    std::nth_element(robustness_.noise_shares.begin(), quartile, robustness_.noise_shares.end());
+    robustness_.noise_share = *quartile;
+    share = std::max(share, kRobustNoises * robustness_.noise_share);
   }
-  robust_share_ = share;
+  robustness_.share = share;
   for (BlockLight& light : sums_->lights) {
     if (light.gain > 0.0F) light.inverse = static_cast<float>(1.0 / (light.gain * share));
   }
@@ -171,10 +171,10 @@ void BlockFit::MoveSlope(const std::array<double, kParameters>& move) {
 
 void BlockFit::Start(const MarkerPattern& pattern, const ObservedPatch& observed, int blocks_along,
                      const BlockFitState& state) {
-  blocks_along_ = std::clamp(blocks_along, 1, kMaxBlocksAlong);
-  modules_ = pattern.modules;
-  edge_modules_ = pattern.edge_modules;
-  const std::size_t blocks = static_cast<std::size_t>(blocks_along_) * blocks_along_;
+  grid_.blocks_along = std::clamp(blocks_along, 1, kMaxBlocksAlong);
+  grid_.modules = pattern.modules;
+  grid_.edge_modules = pattern.edge_modules;
+  const std::size_t blocks = static_cast<std::size_t>(grid_.blocks_along) * grid_.blocks_along;
   blocks_.resize(blocks);
   sums_->lights.assign(blocks, BlockLight{});
   block_of_.resize(observed.value.size());
@@ -191,8 +191,8 @@ void BlockFit::Start(const MarkerPattern& pattern, const ObservedPatch& observed
   const SquareSides sides =
       SidesOf(Adjugate(UnitFromModules(pattern) * state.modules_from_undistorted));
   const double shortest = sides.shortest / observed.rays.window.Scale();
-  const double block_px = shortest * pattern.modules / pattern.edge_modules / blocks_along_;
-  tile_ = shortest >= kMinMarkerOfTiles_px && block_px >= kMinBlockOfTiles_px ? 4 : 2;
+  const double block_px = shortest * pattern.modules / pattern.edge_modules / grid_.blocks_along;
+  grid_.tile_px = shortest >= kMinMarkerOfTiles_px && block_px >= kMinBlockOfTiles_px ? 4 : 2;
 }
 
 void BlockFit::Evaluate(const MarkerPattern& pattern, MarkerPart part,
@@ -239,7 +239,7 @@ bool BlockFit::Run(const MarkerPattern& pattern, MarkerPart part, const Observed
     // The light of the step before, or without weights, tells what fits; and that the light.
     if (options.fit_light && SurroundingsShow(module_px, blur_px_ / scale)) {
       AddSurroundings(pattern, observed, map_, sums_->ranges, blur_px_ / scale, sums_->lights,
-                      blocks_along_, &image_);
+                      grid_.blocks_along, &image_);
     }
     FitLevels(observed, options.robust_share, options.known_light);
     AddUp(observed, options);

@@ -73,7 +73,7 @@ class BlockFit {
   /// After Run, at the state it ended with or, where it stopped because nothing moved any more,
   /// less than `done_px` from there: row by row from the top-left.
   const std::vector<MarkerBlock>& blocks() const { return blocks_; }
-  int blocks_along() const { return blocks_along_; }
+  int blocks_along() const { return grid_.blocks_along; }
   /// Contrast of a block below which it tells nothing.
   double min_contrast() const { return min_contrast_; }
   const PlaneMap& map() const { return map_; }
@@ -88,7 +88,7 @@ class BlockFit {
                : 0.0F;
   }
   /// Noise of the quieter blocks in shares of white, as the last Run with unknown light found it.
-  double noise_share() const { return noise_share_; }
+  double noise_share() const { return robustness_.noise_share; }
   /// After Run: makes each pixel that counts as certain as the light that is predicted of it. A
   /// code's own inverse variance follows its noise, which biases a fit where there is much of it.
   void UsePredictedVariance(ObservedPatch* observed);
@@ -108,6 +108,18 @@ class BlockFit {
   static constexpr int kMotions = kFitMotions;
   static constexpr int kParameters = kFitParameters;
 
+  /// How the marker is cut into blocks, and the window into tiles.
+  struct Grid {
+    int blocks_along = 0;
+    int tile_px = 4;
+    int modules = 0, edge_modules = 0;  ///< As in MarkerPattern.
+  };
+  /// From which residual on a pixel is taken for covered, and the noise that says so.
+  struct Robustness {
+    double share = 0.0;        ///< Residual, in shares of white, at which a pixel loses half.
+    double noise_share = 0.0;  ///< First quartile of the blocks' noise, in shares of white.
+    std::vector<double> noise_shares;  ///< Of the blocks.
+  };
   struct Sums;  // What block_sums.h adds up; in block_fit_sums.h.
   void Start(const MarkerPattern& pattern, const ObservedPatch& observed, int blocks_along,
              const BlockFitState& state);
@@ -124,15 +136,11 @@ class BlockFit {
   MarkerRaster raster_;
   PlaneMap map_;
   PredictedImage image_;
-  int blocks_along_ = 0;
-  int tile_ = 4;
-  int modules_ = 0, edge_modules_ = 0;
+  Grid grid_;
   double min_contrast_ = 0.0;
-  double robust_share_ = 0.0;  ///< Residual, in shares of white, at which a pixel loses half.
-  double noise_share_ = 0.0;   ///< First quartile of the blocks' noise, in shares of white.
-  double blur_px_ = 0.0;       ///< In the image's pixels, of the last prediction.
+  Robustness robustness_;
+  double blur_px_ = 0.0;  ///< In the image's pixels, of the last prediction.
   std::vector<MarkerBlock> blocks_;
-  std::vector<double> noise_shares_;
   std::vector<std::int16_t> block_of_;
   std::vector<float> weight_;
   std::unique_ptr<Sums> sums_;

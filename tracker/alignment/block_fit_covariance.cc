@@ -53,7 +53,7 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
     }
     const double informative = block.weight * block.pixels * block.contrast;
     correlation += informative * block.correlation;
-    known += informative * KnownShare(block.noise / (block.gain * robust_share_));
+    known += informative * KnownShare(block.noise / (block.gain * robustness_.share));
     information_sum += informative;
   }
   Square hessian = Eigen::Map<const Square>(equations_.hessian.data());
@@ -65,7 +65,7 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
   const Motions independent = inverse.topLeftCorner<kMotions, kMotions>() * variance;
 
   CellScores scores;
-  sums_->blocks.Scores(modules_, edge_modules_, eliminations, &scores);
+  sums_->blocks.Scores(grid_.modules, grid_.edge_modules, eliminations, &scores);
   Motions together = Motions::Zero();
   double cells = 0.0;
   for (std::size_t cell = 0; cell < scores.gradient.size(); ++cell) {

@@ -23,13 +23,14 @@ void BlockSums::Lay(const MarkerPattern& pattern, const KnownPart& known,
   tile_ = tile;
   capacity_ = static_cast<std::size_t>((width + tile - 1) / tile) * ((height + tile - 1) / tile) +
               kTileSlack;
-  column_stride_ = width + 2 * kTileSlack;
-  for (auto* values : {&u_, &v_, &u_x_, &u_y_, &v_x_, &v_y_, &gain_, &block_u_, &block_v_, &shade_})
+  columns_.stride = width + 2 * kTileSlack;
+  for (auto* values : {&places_.u, &places_.v, &places_.u_x, &places_.u_y, &places_.v_x,
+                       &places_.v_y, &gain_, &in_block_.u, &in_block_.v, &in_block_.shade})
     values->resize(capacity_);
-  block_.resize(capacity_);
+  in_block_.block.resize(capacity_);
   tile_sums_.resize(capacity_ * kMotionSums);
-  column_sums_.resize(static_cast<std::size_t>(column_stride_) * kMotionSums);
-  column_light_.resize(static_cast<std::size_t>(column_stride_) * 4);
+  columns_.sums.resize(static_cast<std::size_t>(columns_.stride) * kMotionSums);
+  columns_.light.resize(static_cast<std::size_t>(columns_.stride) * 4);
   usable_.resize(observed.value.size());
   rows_.clear();
   tiles_ = 0;
@@ -83,35 +84,35 @@ void BlockSums::LayTile(const MarkerPattern& pattern, const PlaneMap& map, std::
                : 0;
   };
   const int block_column = index(c), block_row = index(r);
-  block_[tile] = static_cast<unsigned char>(block_row * blocks_along + block_column);
-  u_[tile] = (c - 0.5F * modules) * per_half;
-  v_[tile] = (r - 0.5F * modules) * per_half;
-  block_u_[tile] = (c - (static_cast<float>(block_column) + 0.5F) / per_block) * per_half;
-  block_v_[tile] = (r - (static_cast<float>(block_row) + 0.5F) / per_block) * per_half;
+  in_block_.block[tile] = static_cast<unsigned char>(block_row * blocks_along + block_column);
+  places_.u[tile] = (c - 0.5F * modules) * per_half;
+  places_.v[tile] = (r - 0.5F * modules) * per_half;
+  in_block_.u[tile] = (c - (static_cast<float>(block_column) + 0.5F) / per_block) * per_half;
+  in_block_.v[tile] = (r - (static_cast<float>(block_row) + 0.5F) / per_block) * per_half;
   // Padé's exponential (2/2): good to 0.15 % as far as it goes. Where it would have to go farther
   // it stays, and the tile tells nothing of the slope.
-  const float exponent = static_cast<float>(slope.by_u) * block_u_[tile] +
-                         static_cast<float>(slope.by_v) * block_v_[tile];
+  const float exponent = static_cast<float>(slope.by_u) * in_block_.u[tile] +
+                         static_cast<float>(slope.by_v) * in_block_.v[tile];
   const float half = 0.5F * std::clamp(exponent, -1.0F, 1.0F);
   const float even = 3.0F + half * half;
-  shade_[tile] = (even + 3.0F * half) / (even - 3.0F * half);
-  if (!(std::fabs(exponent) <= 1.0F)) block_u_[tile] = block_v_[tile] = 0.0F;
+  in_block_.shade[tile] = (even + 3.0F * half) / (even - 3.0F * half);
+  if (!(std::fabs(exponent) <= 1.0F)) in_block_.u[tile] = in_block_.v[tile] = 0.0F;
   const float inverse = 1.0F / ((column_x * row_y - column_y * row_x) * per_half);
-  u_x_[tile] = row_y * inverse;
-  u_y_[tile] = -row_x * inverse;
-  v_x_[tile] = -column_y * inverse;
-  v_y_[tile] = column_x * inverse;
+  places_.u_x[tile] = row_y * inverse;
+  places_.u_y[tile] = -row_x * inverse;
+  places_.v_x[tile] = -column_y * inverse;
+  places_.v_y[tile] = column_x * inverse;
 }
 
 template <int kTile>
 LightOfColumns BlockSums::LightOfTiles(const TileRow& row, const std::vector<BlockLight>& lights) {
-  float* gain = column_light_.data();
-  float *offset = gain + column_stride_, *inverse = offset + column_stride_;
-  float* robust_weight = inverse + column_stride_;
-  const unsigned char* block = &block_[row.first_tile];
+  float* gain = columns_.light.data();
+  float *offset = gain + columns_.stride, *inverse = offset + columns_.stride;
+  float* robust_weight = inverse + columns_.stride;
+  const unsigned char* block = &in_block_.block[row.first_tile];
   for (int t = 0; t < row.tiles; ++t) {
     BlockLight light = lights[block[t]];
-    const float shade = shade_[row.first_tile + t];
+    const float shade = in_block_.shade[row.first_tile + t];
     light.gain *= shade;
     light.offset *= shade;
     light.inverse /= shade;
@@ -136,10 +137,10 @@ PixelRows BlockSums::Rows(const TileRow& row, const ObservedPatch& observed,
 
 void BlockSums::Reduce(const TileRow& row, int sums, float* to, std::ptrdiff_t to_stride) {
   for (int q = 0; q < sums; ++q) {
-    float* columns = &column_sums_[static_cast<std::size_t>(q * column_stride_)];
+    float* columns = &columns_.sums[static_cast<std::size_t>(q * columns_.stride)];
     for (int x = row.count; x < row.tiles * tile_; ++x) columns[x] = 0.0F;
   }
-  kernels_->reduce(column_sums_.data(), column_stride_, sums, tile_, row.tiles, to, to_stride);
+  kernels_->reduce(columns_.sums.data(), columns_.stride, sums, tile_, row.tiles, to, to_stride);
 }
 
 void BlockSums::Levels(const ObservedPatch& observed, const PredictedImage& image,
@@ -147,14 +148,14 @@ void BlockSums::Levels(const ObservedPatch& observed, const PredictedImage& imag
   sums->assign(lights.size(), LevelSums{});
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(capacity_);
   for (const TileRow& row : rows_) {
-    kernels_->levels(Rows(row, observed, image), Light(row, lights), column_stride_,
-                     column_sums_.data());
+    kernels_->levels(Rows(row, observed, image), Light(row, lights), columns_.stride,
+                     columns_.sums.data());
     Reduce(row, kLevelSums, tile_sums_.data(), stride);
     for (int t = 0; t < row.tiles; ++t) {
       const float* from = &tile_sums_[t];
-      LevelSums& of = (*sums)[block_[row.first_tile + t]];
+      LevelSums& of = (*sums)[in_block_.block[row.first_tile + t]];
       // What is predicted is p times the shade.
-      const float shade = shade_[row.first_tile + t], squared = shade * shade;
+      const float shade = in_block_.shade[row.first_tile + t], squared = shade * shade;
       const std::array<std::pair<double*, float>, kLevelSums> all{{{&of.pixels, 1.0F},
                                                                    {&of.w, squared},
                                                                    {&of.wp, squared},
@@ -187,14 +188,14 @@ void BlockSums::Motions(const ObservedPatch& observed, const PredictedImage& ima
     kernels_->motions(
         Rows(row, observed, image),
         {&image.white_x[at], &image.white_y[at], blur, row.y, height, row.begin, width}, light,
-        light.inverse + column_stride_, &(*weight)[at], column_stride_, column_sums_.data());
+        light.inverse + columns_.stride, &(*weight)[at], columns_.stride, columns_.sums.data());
     Reduce(row, blur ? kMotionSums : kSlopeSums, &tile_sums_[row.first_tile], stride);
     for (int t = 0; t < row.tiles; ++t) {
       const std::size_t tile = static_cast<std::size_t>(row.first_tile) + t;
-      const BlockLight& of = lights[block_[tile]];
+      const BlockLight& of = lights[in_block_.block[tile]];
       // Where the map folds up nothing can be learnt.
-      gain_[tile] = of.robust_weight > 0.0F && std::isfinite(u_x_[tile] + v_y_[tile])
-                        ? of.gain * shade_[tile]
+      gain_[tile] = of.robust_weight > 0.0F && std::isfinite(places_.u_x[tile] + places_.v_y[tile])
+                        ? of.gain * in_block_.shade[tile]
                         : 0.0F;
     }
   }
@@ -203,10 +204,10 @@ void BlockSums::Motions(const ObservedPatch& observed, const PredictedImage& ima
   }
   *products = FitProducts{};
   blocks->assign(lights.size(), BlockMotions{});
-  kernels_->products(
-      {static_cast<int>(tiles_), stride, tile_sums_.data(), u_.data(), v_.data(), u_x_.data(),
-       u_y_.data(), v_x_.data(), v_y_.data(), gain_.data(), block_.data()},
-      products, blocks->data());
+  kernels_->products({static_cast<int>(tiles_), stride, tile_sums_.data(), places_.u.data(),
+                      places_.v.data(), places_.u_x.data(), places_.u_y.data(), places_.v_x.data(),
+                      places_.v_y.data(), gain_.data(), in_block_.block.data()},
+                     products, blocks->data());
 }
 
 void BlockSums::Scores(int modules, int edge_modules,
@@ -219,12 +220,12 @@ void BlockSums::Scores(int modules, int edge_modules,
   };
   for (std::size_t t = 0; t < tiles_; ++t) {
     const double gain = gain_[t];
-    const BlockElimination& eliminate = eliminations[block_[t]];
+    const BlockElimination& eliminate = eliminations[in_block_.block[t]];
     if (!(gain > 0.0) || !eliminate.possible) continue;
     const auto sum = [&](int q) { return static_cast<double>(tile_sums_[q * capacity_ + t]); };
-    const double u = u_[t], v = v_[t], r = sum(3), rp = sum(4);
-    const double p_u = u_x_[t] * sum(10) + u_y_[t] * sum(11);
-    const double p_v = v_x_[t] * sum(10) + v_y_[t] * sum(11);
+    const double u = places_.u[t], v = places_.v[t], r = sum(3), rp = sum(4);
+    const double p_u = places_.u_x[t] * sum(10) + places_.u_y[t] * sum(11);
+    const double p_v = places_.v_x[t] * sum(10) + places_.v_y[t] * sum(11);
     const double along = p_u * u + p_v * v;
     // As in TileKernels' products.
     const std::array<double, kFitParameters> rj{-p_u,     -p_u * u,  -p_u * v,  -p_v,   -p_v * u,
@@ -245,18 +246,19 @@ SlopeEquations BlockSums::Slopes(const std::vector<BlockLight>& lights,
   for (std::size_t t = 0; t < tiles_; ++t) {
     const double gain = gain_[t];
     if (!(gain > 0.0)) continue;
-    const int block = block_[t];
-    const double offset = static_cast<double>(lights[block].offset) * shade_[t];
+    const int block = in_block_.block[t];
+    const double offset = static_cast<double>(lights[block].offset) * in_block_.shade[t];
     const auto sum = [&](int q) { return static_cast<double>(tile_sums_[q * capacity_ + t]); };
-    const std::array<double, 2> along{block_u_[t], block_v_[t]};
+    const std::array<double, 2> along{in_block_.u[t], in_block_.v[t]};
     // φ is along times this.
     const double one = gain * sum(1) + offset * sum(0), white = gain * sum(2) + offset * sum(1);
     const double square = gain * white + offset * one;
     const double left = gain * sum(4) + offset * sum(3);
     const double x = gain * sum(8) + offset * sum(6), y = gain * sum(9) + offset * sum(7);
     const double b = gain * (gain * sum(16) + offset * sum(15));
-    const double u = u_[t], v = v_[t];
-    const double pu = gain * (u_x_[t] * x + u_y_[t] * y), pv = gain * (v_x_[t] * x + v_y_[t] * y);
+    const double u = places_.u[t], v = places_.v[t];
+    const double pu = gain * (places_.u_x[t] * x + places_.u_y[t] * y),
+                 pv = gain * (places_.v_x[t] * x + places_.v_y[t] * y);
     const double inwards = pu * u + pv * v;
     // As in TileKernels' products.
     const std::array<double, kFitParameters> j{-pu,     -pu * u,     -pu * v,     -pv, -pv * u,
@@ -295,7 +297,7 @@ void BlockSums::WriteBlocks(const ObservedPatch& observed,
   const int width = observed.rays.window.width, shift = tile_ == 4 ? 2 : 1;
   std::fill(block_of->begin(), block_of->end(), static_cast<std::int16_t>(-1));
   for (const TileRow& row : rows_) {
-    const unsigned char* block = &block_[row.first_tile];
+    const unsigned char* block = &in_block_.block[row.first_tile];
     for (int j = 0; j < row.rows; ++j) {
       const std::size_t at = static_cast<std::size_t>(row.y + j) * width + row.begin;
       const float* usable = &usable_[at];

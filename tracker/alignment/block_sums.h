@@ -110,17 +110,32 @@ class BlockSums {
   /// Column sums to tile sums, `sums` of them, from `to` on.
   void Reduce(const TileRow& row, int sums, float* to, std::ptrdiff_t to_stride);
 
+  /// By tile: its middle in half edges and the derivatives by it, as in Tiles.
+  struct Places {
+    std::vector<float> u, v, u_x, u_y, v_x, v_y;
+  };
+  /// By tile: how it lies in its block.
+  struct InBlock {
+    std::vector<unsigned char> block;
+    std::vector<float> u, v;   ///< From the block's middle.
+    std::vector<float> shade;  ///< Light on the tile over that on the block's middle.
+  };
+  /// By column of a row of tiles, one array after the other.
+  struct Columns {
+    std::ptrdiff_t stride = 0;
+    std::vector<float> sums, light;
+  };
+
   const TileKernels* kernels_;
   int tile_ = 4;
   std::size_t tiles_ = 0, capacity_ = 0;
-  std::ptrdiff_t column_stride_ = 0;
   std::vector<TileRow> rows_;
-  std::vector<float> usable_;
-  std::vector<unsigned char> block_;
-  std::vector<float> u_, v_, u_x_, u_y_, v_x_, v_y_, gain_;
-  std::vector<float> block_u_, block_v_;  ///< From the middle of the tile's block.
-  std::vector<float> shade_;              ///< Light on the tile over that on its block's middle.
-  std::vector<float> tile_sums_, column_sums_, column_light_;
+  std::vector<float> usable_;  ///< By pixel.
+  Places places_;
+  InBlock in_block_;
+  std::vector<float> gain_;  ///< By tile.
+  std::vector<float> tile_sums_;
+  Columns columns_;
   std::vector<SlopeSums> slopes_;
 };
 

@@ -21,16 +21,16 @@ void RasterRows::Start(const Mat3& marker_from_undistorted, const WindowRays& ra
   width_ = window.width;
   pad_ = pad;
   per_pixel_ = per_pixel;
-  all_taps_ = (2 * pad + 1) * per_pixel;
+  ring_.taps = (2 * pad + 1) * per_pixel;
   // Rows as long as vectors like them; the blurred ones are a ring of as many as there are taps.
   count_ = width_ + 2 * pad;
   stride_ = (count_ + 2 * kRowSlack - 1) / kRowSlack * kRowSlack;
   map_rows_.resize(static_cast<std::size_t>(6) * stride_);
   samples_.resize(static_cast<std::size_t>(per_pixel) * per_pixel * stride_);
-  blurred_.resize(static_cast<std::size_t>(all_taps_) * stride_);
-  blurred_x_.resize(blurred_.size());
-  rows_.resize(all_taps_);
-  rows_x_.resize(all_taps_);
+  ring_.blurred.resize(static_cast<std::size_t>(ring_.taps) * stride_);
+  ring_.blurred_x.resize(ring_.blurred.size());
+  ring_.rows.resize(ring_.taps);
+  ring_.rows_x.resize(ring_.taps);
   float* scratch = map_rows_.data();
   here_ = {scratch,
            scratch + stride_,
@@ -44,12 +44,12 @@ void RasterRows::Start(const Mat3& marker_from_undistorted, const WindowRays& ra
   const std::size_t middle =
       (static_cast<std::size_t>(window.height) / 2 + kWindowBorder) * rays_stride + rays_stride / 2;
   const bool has_origin = std::isfinite(rays.x[middle]) && std::isfinite(rays.y[middle]);
-  origin_x_ = has_origin ? rays.x[middle] : 0.0F;
-  origin_y_ = has_origin ? rays.y[middle] : 0.0F;
-  const Mat3 from_origin =
-      marker_from_undistorted * Mat3{{1, 0, origin_x_, 0, 1, origin_y_, 0, 0, 1}};
+  projection_.origin_x = has_origin ? rays.x[middle] : 0.0F;
+  projection_.origin_y = has_origin ? rays.y[middle] : 0.0F;
+  const Mat3 from_origin = marker_from_undistorted *
+                           Mat3{{1, 0, projection_.origin_x, 0, 1, projection_.origin_y, 0, 0, 1}};
   for (int i = 0; i < 9; ++i) {
-    homography_[i] = static_cast<float>(from_origin.m[i] / from_origin.m[8]);
+    projection_.homography[i] = static_cast<float>(from_origin.m[i] / from_origin.m[8]);
   }
 }
 
@@ -57,8 +57,9 @@ const MapRow& RasterRows::Evaluate(const RasterKernels& kernels, const WindowRay
   const int rays_stride = width_ + 2 * kWindowBorder;
   const std::size_t from =
       static_cast<std::size_t>(y + kWindowBorder) * rays_stride + kWindowBorder - pad_;
-  kernels.map({&rays.x[from], &rays.y[from], rays_stride, origin_x_, origin_y_}, homography_.data(),
-              count_, here_);
+  kernels.map(
+      {&rays.x[from], &rays.y[from], rays_stride, projection_.origin_x, projection_.origin_y},
+      projection_.homography.data(), count_, here_);
   return here_;
 }
 
@@ -74,10 +75,10 @@ void RasterRows::Keep(int y, PlaneMap* map) const {
 }
 
 void RasterRows::Gather(int y, int begin) {
-  for (int k = 0; k < all_taps_; ++k) {
+  for (int k = 0; k < ring_.taps; ++k) {
     const std::size_t at = InRing(y * per_pixel_ + k) + begin;
-    rows_[k] = &blurred_[at];
-    rows_x_[k] = &blurred_x_[at];
+    ring_.rows[k] = &ring_.blurred[at];
+    ring_.rows_x[k] = &ring_.blurred_x[at];
   }
 }
 

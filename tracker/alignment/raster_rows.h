@@ -36,23 +36,34 @@ class RasterRows {
   /// Samples j across and i along, as SampleRow kernels have them: rows i + j per_pixel.
   float* samples(int row) { return &samples_[static_cast<std::size_t>(row) * stride_]; }
   /// Of the ring: sample row `row` counts from the first of row -pad on.
-  float* blurred(int row) { return &blurred_[InRing(row)]; }
-  float* blurred_x(int row) { return &blurred_x_[InRing(row)]; }
+  float* blurred(int row) { return &ring_.blurred[InRing(row)]; }
+  float* blurred_x(int row) { return &ring_.blurred_x[InRing(row)]; }
 
   /// The taps' rows of the ring around row `y` of the window, from its column `begin` on.
   void Gather(int y, int begin);
-  const float* const* rows() const { return rows_.data(); }
-  const float* const* rows_x() const { return rows_x_.data(); }
+  const float* const* rows() const { return ring_.rows.data(); }
+  const float* const* rows_x() const { return ring_.rows_x.data(); }
 
  private:
-  std::size_t InRing(int row) const { return static_cast<std::size_t>(row % all_taps_) * stride_; }
+  /// Where rays meet the marker.
+  struct Projection {
+    float origin_x = 0.0F, origin_y = 0.0F;
+    std::array<float, 9> homography{};  ///< From rays relative to the origin.
+  };
+  /// Blurred rows and their derivatives along x, as many as the columns' blur has taps; and
+  /// pointers to them in the order of the taps.
+  struct Ring {
+    int taps = 1;
+    std::vector<float> blurred, blurred_x;
+    std::vector<const float*> rows, rows_x;
+  };
+  std::size_t InRing(int row) const { return static_cast<std::size_t>(row % ring_.taps) * stride_; }
 
-  int width_ = 0, pad_ = 0, per_pixel_ = 1, all_taps_ = 1, count_ = 0, stride_ = 0;
-  float origin_x_ = 0.0F, origin_y_ = 0.0F;
-  std::array<float, 9> homography_{};  ///< From rays relative to the origin.
+  int width_ = 0, pad_ = 0, per_pixel_ = 1, count_ = 0, stride_ = 0;
+  Projection projection_;
   MapRow here_{};
-  std::vector<float> map_rows_, samples_, blurred_, blurred_x_;
-  std::vector<const float*> rows_, rows_x_;
+  std::vector<float> map_rows_, samples_;
+  Ring ring_;
 };
 
 }  // namespace pleinair::tracker
