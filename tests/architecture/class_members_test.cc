@@ -52,7 +52,6 @@ const std::set<std::string>& LargeClasses() {
     "session/scene_renderer.h SceneRenderer",
     "shadows/bench/bench_renderer.h BenchRenderer",
     "shadows/shadow_maps.h ShadowMaps",
-    "tracker/surf_golay/cell_light.h MarkerLight",
   };
   // clang-format on
   return kLarge;

@@ -39,7 +39,7 @@ double MedianOf(std::vector<float>* values) { return QuantileOf(0.5, values); }
 
 double MarkerLight::LogWhite(double u, double v) const {
   const double log = log_white + slope_u * u + slope_v * v;
-  return has_edge && edge_u * u + edge_v * v > edge_at ? log + edge_log_step : log;
+  return edge && edge->IsBeyond(u, v) ? log + edge->log_step : log;
 }
 
 double MarkerLight::White(double u, double v) const { return std::exp(LogWhite(u, v)); }
@@ -62,9 +62,7 @@ void MarkerLightEstimator::FitPlane(bool brightest, MarkerLight* light) {
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Sample& s : white_) {
       const double side =
-          light->has_edge && light->edge_u * s.u + light->edge_v * s.v > light->edge_at
-              ? light->edge_log_step
-              : 0.0;
+          light->edge && light->edge->IsBeyond(s.u, s.v) ? light->edge->log_step : 0.0;
       const double value = s.log_value - side;
       const double left = value - light->log_white - light->slope_u * s.u - light->slope_v * s.v;
       const double w = s.weight / (1.0 + left * left / (scale * scale));
@@ -89,12 +87,13 @@ void MarkerLightEstimator::FitPlane(bool brightest, MarkerLight* light) {
   }
 }
 
-bool MarkerLightEstimator::FitEdge(MarkerLight* light) {
+std::optional<ShadowEdge> MarkerLightEstimator::FitEdge() const {
   // Two levels on either side of a line: the split that leaves the least sum of squares. Prefix
   // sums over offsets make a direction cost one pass.
   struct Bin {
     double w = 0, s = 0, ss = 0;
   };
+  ShadowEdge edge;
   double best = 0.0, total_w = 0.0, total_s = 0.0, total_ss = 0.0;
   for (const Sample& s : white_) {
     total_w += s.weight;
@@ -124,15 +123,15 @@ bool MarkerLightEstimator::FitEdge(MarkerLight* light) {
       const double left = total_ss - sum * sum / w - other_sum * other_sum / other_w;
       if (left < best) {
         best = left;
-        light->edge_u = cu;
-        light->edge_v = cv;
-        light->edge_at =
-            (static_cast<double>(offset) / (kEdgeOffsets - 1) - 0.5) * 2.0 * kEdgeReach;
-        light->edge_log_step = other_sum / other_w - sum / w;
+        edge.u = cu;
+        edge.v = cv;
+        edge.at = (static_cast<double>(offset) / (kEdgeOffsets - 1) - 0.5) * 2.0 * kEdgeReach;
+        edge.log_step = other_sum / other_w - sum / w;
       }
     }
   }
-  return best < kEdgeGain * without;
+  if (!(best < kEdgeGain * without)) return std::nullopt;
+  return edge;
 }
 
 bool MarkerLightEstimator::FromBlocks(const BlockFit& fit, MarkerLight* light) {
@@ -205,8 +204,8 @@ bool MarkerLightEstimator::Measure(const MarkerPattern& pattern, const BlockFit&
   if (brightest) light->spread = std::min(light->spread, kNarrowScale);
   if (!brightest && light->spread > kEdgeSpread) {
     MarkerLight with_edge;
-    if (FitEdge(&with_edge)) {
-      with_edge.has_edge = true;
+    with_edge.edge = FitEdge();
+    if (with_edge.edge) {
       FitPlane(false, &with_edge);
       with_edge.spread = Spread(with_edge);
       if (with_edge.spread < kEdgeGain * light->spread) *light = with_edge;

@@ -66,9 +66,8 @@ std::optional<DecodedNumber> NumberDecoder::Decode(const MarkerPattern& blank,
     decode(cells.likelihoods, 0.0);
     if (best && best->margin > kSafeMargin) break;
     // Where the border shows the light well, a cell that is neither black nor white is covered.
-    if (visible_border < kVisibleForLight || light.white_clips || light.has_edge) {
-      const bool against_light =
-          visible_border > kShowsLight && !light.white_clips && !light.has_edge;
+    if (visible_border < kVisibleForLight || light.white_clips || light.edge) {
+      const bool against_light = visible_border > kShowsLight && !light.white_clips && !light.edge;
       const CellSplits splits = SplitCells(cells);
       for (int i = 0; i < splits.count; ++i) {
         if (against_light) {
