@@ -85,7 +85,8 @@ class Window : public testing::Test {
  protected:
   void SetUp() override {
     for (const char* program : {"Xvfb", "xdotool", "xprop"}) {
-      if (!Runs(program)) GTEST_SKIP() << program << " is not installed (scripts/setup does)";
+      if (!Runs(program))
+        GTEST_SKIP() << program << " is not installed (scripts/setup --tests does)";
     }
     if (RunPleinair({"live", "--camera", "v4l2:none"}).err.find("without a window") !=
         std::string::npos) {

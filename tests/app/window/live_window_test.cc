@@ -57,7 +57,7 @@ class Screen {
 
 TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
   const Screen screen;
-  if (!screen.is_there()) GTEST_SKIP() << "Xvfb is not installed (scripts/setup does)";
+  if (!screen.is_there()) GTEST_SKIP() << "Xvfb is not installed (scripts/setup --tests does)";
   FakeCamera fake(tests::kSmallWidth, tests::kSmallHeight);
   devices::LiveCameraOptions camera_options;
   camera_options.uri = {devices::CameraUri::Backend::kV4l2, devices::CameraUri::Key::kNode,
