@@ -13,6 +13,7 @@
 
 #include "app/calibrate/board_options.h"
 #include "app/commands/command.h"
+#include "app/options/sheet_format_options.h"
 #include "export/print_sheets/board_description.h"
 #include "export/print_sheets/marker_sheet.h"
 #include "export/print_sheets/sheet.h"
@@ -246,7 +247,7 @@ void AddBoardCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--page", options->page, "A5 to A0, letter, A4-landscape or 300x400 in mm")
       ->type_name("PAGE")
       ->capture_default_str();
-  exports::AddFormatOptions(*command, options->formats);
+  AddFormatOptions(*command, options->formats);
   command->add_option("-o,--output", options->output, "File (.pdf, .svg, .png)")
       ->type_name("F")
       ->required();

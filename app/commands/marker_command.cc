@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/options/sheet_format_options.h"
 #include "base/atomic_file.h"
 #include "export/print_sheets/marker_sheet.h"
 #include "export/print_sheets/sheet.h"
@@ -222,7 +223,7 @@ void AddMarkerCommand(CLI::App& app, CommandResult& result) {
           ->add_option("--page", options->page, "A5 to A0, letter, A4-landscape or 300x400 in mm")
           ->type_name("PAGE")
           ->capture_default_str();
-  exports::AddFormatOptions(*command, options->formats);
+  AddFormatOptions(*command, options->formats);
   command
       ->add_option("--pixels", options->pixels,
                    "The bare print with its white margin as a PNG of N x N pixels; multiples of 48 "

@@ -8,7 +8,7 @@
 
 #include "app/output/output_folder.h"
 #include "app/replay/frame_warnings.h"
-#include "app/replay/replay.h"
+#include "app/replay/replay_options.h"
 #include "app/replay/report/report.h"
 #include "app/replay/time_lapse/moments.h"
 #include "base/error.h"

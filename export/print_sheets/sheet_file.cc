@@ -5,8 +5,6 @@
 #include <optional>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
-
 #include "base/atomic_file.h"
 #include "export/print_sheets/sheet_raster.h"
 #include "export/print_sheets/vector_page.h"
@@ -30,14 +28,6 @@ Result<std::string> RenderPng(const Sheet& sheet) {
 }
 
 }  // namespace
-
-void AddFormatOptions(CLI::App& command, FormatFlags& flags) {
-  CLI::Option* pdf = command.add_flag("--pdf", flags.pdf, "Write PDF (the default)");
-  CLI::Option* svg = command.add_flag("--svg", flags.svg, "Write SVG")->excludes(pdf);
-  command.add_flag("--png", flags.png, "Write PNG, 12 pixels a millimetre")
-      ->excludes(pdf)
-      ->excludes(svg);
-}
 
 std::string_view FormatName(SheetFormat format) {
   switch (format) {

@@ -7,10 +7,6 @@
 #include "base/error.h"
 #include "export/print_sheets/sheet.h"
 
-namespace CLI {
-class App;
-}
-
 namespace pleinair::exports {
 
 enum class SheetFormat { kPdf, kSvg, kPng };
@@ -22,9 +18,6 @@ std::string_view FormatName(SheetFormat format);
 struct FormatFlags {
   bool pdf = false, svg = false, png = false;
 };
-
-/// Adds --pdf, --svg and --png, which exclude each other, to a subcommand; `flags` must outlive it.
-void AddFormatOptions(CLI::App& command, FormatFlags& flags);
 
 /// The flag's format, else that of the ending of `output`, else PDF. Errors (input): an ending that
 /// says otherwise than the flag, or that is none of the three.

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "export/print_sheets/sheet_file.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pleinair::app {
+
+/// Adds --pdf, --svg and --png, which exclude each other, to a subcommand; `flags` must outlive it.
+void AddFormatOptions(CLI::App& command, exports::FormatFlags& flags);
+
+}  // namespace pleinair::app
