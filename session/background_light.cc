@@ -39,9 +39,8 @@ bool BackgroundLight::Wanted::operator==(const Wanted& other) const {
 
 BackgroundLight::BackgroundLight(Setup setup)
     : setup_(std::move(setup)),
-      heading_(setup_.scene.marker.heading),
-      wanted_{setup_.edit, setup_.time, {}},
-      next_estimate_(setup_.time) {
+      known_{.heading = setup_.scene.marker.heading},
+      shared_{.wanted = {setup_.edit, setup_.time, {}}, .next_estimate = setup_.time} {
   UseOverriddenSky(setup_.time, &setup_.skies);
 }
 
@@ -58,7 +57,7 @@ BackgroundLight::~BackgroundLight() { Stop(); }
 void BackgroundLight::Stop() {
   {
     const std::lock_guard lock(mutex_);
-    stop_ = true;
+    shared_.stop = true;
     changed_.notify_all();
   }
   if (thread_.joinable()) thread_.join();
@@ -66,38 +65,38 @@ void BackgroundLight::Stop() {
 
 void BackgroundLight::SetEdit(const SceneEdit& edit) {
   const std::lock_guard lock(mutex_);
-  wanted_.edit = edit;
+  shared_.wanted.edit = edit;
   changed_.notify_all();
 }
 
 void BackgroundLight::SetTime(UtcTime time) {
   const std::lock_guard lock(mutex_);
-  wanted_.time = time;
+  shared_.wanted.time = time;
 }
 
 void BackgroundLight::SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance) {
   const std::lock_guard lock(mutex_);
-  wanted_.marker_reflectance = marker_reflectance;
+  shared_.wanted.marker_reflectance = marker_reflectance;
   changed_.notify_all();
 }
 
 void BackgroundLight::Show(std::shared_ptr<const devices::Frame> frame,
                            const Transform<Camera, Marker>& camera_from_marker, UtcTime time) {
   const std::lock_guard lock(mutex_);
-  if (time < next_estimate_) return;
-  next_estimate_ = time.PlusSeconds(kBetweenEstimates_s);
-  shown_ = Shown{std::move(frame), camera_from_marker, time};
+  if (time < shared_.next_estimate) return;
+  shared_.next_estimate = time.PlusSeconds(kBetweenEstimates_s);
+  shared_.shown = Shown{std::move(frame), camera_from_marker, time};
   changed_.notify_all();
 }
 
 std::shared_ptr<const BakedLighting> BackgroundLight::Take() {
   const std::lock_guard lock(mutex_);
-  return std::move(newest_);
+  return std::move(shared_.newest);
 }
 
 BackgroundLight::Progress BackgroundLight::progress() const {
   const std::lock_guard lock(mutex_);
-  return progress_;
+  return shared_.progress;
 }
 
 void BackgroundLight::Run() {
@@ -108,19 +107,19 @@ void BackgroundLight::Run() {
     std::optional<Shown> shown;
     {
       std::unique_lock lock(mutex_);
-      if (!stop_) changed_.wait_for(lock, kLookAround);
-      if (stop_) break;
-      wanted = wanted_;
-      shown = std::exchange(shown_, std::nullopt);
+      if (!shared_.stop) changed_.wait_for(lock, kLookAround);
+      if (shared_.stop) break;
+      wanted = shared_.wanted;
+      shown = std::exchange(shared_.shown, std::nullopt);
     }
     TakeCoefficients(worker);
-    if (wanted.edit.objects != placed_objects_) {
+    if (wanted.edit.objects != placed_.objects) {
       // What cannot be placed stays where it was, and lit as it was.
-      if (!Place(wanted.edit.objects)) wanted.edit.objects = placed_objects_;
+      if (!Place(wanted.edit.objects)) wanted.edit.objects = placed_.objects;
     }
     if (NeedsLight(wanted)) Make(wanted);
     if (shown) EstimateLight(*shown, wanted);
-    if (wanted_for_ != solver_ || wanted.edit.convergence != coefficients_convergence_) {
+    if (placed_.ordered_for != placed_.solver || wanted.edit.convergence != placed_.convergence) {
       WantCoefficients(wanted, &worker);
     }
   }
@@ -128,7 +127,7 @@ void BackgroundLight::Run() {
 
 /// A solver for the objects at these places.
 Result<void> BackgroundLight::Place(const std::vector<ObjectPlace>& objects) {
-  placed_objects_ = objects;
+  placed_.objects = objects;
   const std::size_t phantoms = setup_.placed.size() - objects.size();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     setup_.placed[phantoms + i].linear = LinearOf(objects[i]);
@@ -137,17 +136,18 @@ Result<void> BackgroundLight::Place(const std::vector<ObjectPlace>& objects) {
   compositor::LightSolverOptions options;
   options.rays_per_vertex = kFewRays;
   options.max_patches = setup_.light.overrides.max_patches.value_or(options.max_patches);
-  PLEINAIR_ASSIGN_OR_RETURN(solver_, compositor::LightSolver::Create(setup_.placed, options));
-  coefficients_.reset();  // They are another scene's.
-  made_for_.reset();
+  PLEINAIR_ASSIGN_OR_RETURN(placed_.solver,
+                            compositor::LightSolver::Create(setup_.placed, options));
+  placed_.coefficients.reset();  // They are another scene's.
+  made_.wanted.reset();
   return {};
 }
 
 bool BackgroundLight::NeedsLight(const Wanted& wanted) const {
-  if (!made_for_ || !(*made_for_ == wanted)) return true;
+  if (!made_.wanted || !(*made_.wanted == wanted)) return true;
   const sky::SunPosition sun = scene::SunOver(WithEdit(setup_.scene, wanted.edit).place_time,
                                               wanted.time.PlusSeconds(wanted.edit.later_s));
-  return !IsNearSun(made_sun_, sun);
+  return !IsNearSun(made_.sun, sun);
 }
 
 /// What the user says of sun and sky, where he does, under the sun of a moment.
@@ -161,42 +161,42 @@ void BackgroundLight::UseOverriddenSky(UtcTime time, compositor::SkyState* skies
 
 LightingRequest BackgroundLight::LightingRequestFor(const Wanted& wanted) {
   scene::SceneDescription scene = setup_.scene;
-  scene.marker.heading = heading_;
+  scene.marker.heading = known_.heading;
   scene = WithEdit(scene, wanted.edit);
   if (!wanted.edit.sky) {
-    skies_ = found_skies_.source ? found_skies_ : setup_.skies;
-    skies_of_.reset();
-  } else if (wanted.edit.sky != skies_of_) {
+    known_.skies = known_.found.source ? known_.found : setup_.skies;
+    known_.skies_of.reset();
+  } else if (wanted.edit.sky != known_.skies_of) {
     sky::SkyConditions conditions;
     conditions.turbidity = wanted.edit.sky->turbidity;
     conditions.cloud_cover = wanted.edit.sky->cloud_cover;
     auto source = sky::SkySource::Create({sky::SkyModelKind::kAtmosphere, 0}, conditions);
     // Outside what the sky model takes, the last one stays.
-    if (source) skies_ = {*std::move(source), {1.0, 1.0, 1.0}};
-    skies_of_ = wanted.edit.sky;
+    if (source) known_.skies = {*std::move(source), {1.0, 1.0, 1.0}};
+    known_.skies_of = wanted.edit.sky;
   }
   // Whether trees shade the ground is no matter of the air. With a heading given as well nothing is
   // looked at anew (MayEstimate), and what shades it under that one is not known.
   if (wanted.edit.sky)
-    skies_.unmodelled_shadows = wanted.edit.heading_deg || found_skies_.unmodelled_shadows;
+    known_.skies.unmodelled_shadows = wanted.edit.heading_deg || known_.found.unmodelled_shadows;
   return {wanted.time.PlusSeconds(wanted.edit.later_s),
           scene.place_time,
           scene.marker,
-          skies_,
-          solver_,
-          coefficients_,
+          known_.skies,
+          placed_.solver,
+          placed_.coefficients,
           wanted.marker_reflectance,
           setup_.response};
 }
 
 void BackgroundLight::Make(const Wanted& wanted) {
   auto light = std::make_shared<BakedLighting>(LightingRequestFor(wanted));
-  light->objects = placed_objects_;
-  made_for_ = wanted;
-  made_sun_ = light->sun;
+  light->objects = placed_.objects;
+  made_.wanted = wanted;
+  made_.sun = light->sun;
   const std::lock_guard lock(mutex_);
-  progress_.heading_deg = ToDegrees(light->request.marker.heading);
-  newest_ = std::move(light);
+  shared_.progress.heading_deg = ToDegrees(light->request.marker.heading);
+  shared_.newest = std::move(light);
 }
 
 /// Whether what frames show is the light that the scene is drawn in: not of another time or place.
@@ -209,47 +209,48 @@ bool BackgroundLight::MayEstimate(const Wanted& wanted) const {
 
 void BackgroundLight::EstimateLight(const Shown& shown, const Wanted& wanted) {
   if (!MayEstimate(wanted)) {
-    estimator_.reset();
+    known_.estimator.reset();
     const std::lock_guard lock(mutex_);
-    progress_.frames_in_estimate = 0;
+    shared_.progress.frames_in_estimate = 0;
     return;
   }
-  if (!estimator_) {
-    estimator_ = std::make_unique<compositor::LightEstimator>(
-        solver_, setup_.camera, wanted.marker_reflectance, setup_.scene, setup_.light.overrides,
-        shown.time, setup_.response);
+  if (!known_.estimator) {
+    known_.estimator = std::make_unique<compositor::LightEstimator>(
+        placed_.solver, setup_.camera, wanted.marker_reflectance, setup_.scene,
+        setup_.light.overrides, shown.time, setup_.response);
   }
-  estimator_->Add(shown.frame->rgb.view(), shown.camera_from_marker);
+  known_.estimator->Add(shown.frame->rgb.view(), shown.camera_from_marker);
   {
     const std::lock_guard lock(mutex_);
-    progress_.frames_in_estimate = estimator_->frames();
+    shared_.progress.frames_in_estimate = known_.estimator->frames();
   }
-  if (estimator_->frames() < kLightFrames) return;
-  const compositor::LightEstimate found = estimator_->Estimate(&light_filter_);
-  estimator_.reset();
-  found_skies_ = found.skies;
-  if (found_skies_.source) UseOverriddenSky(shown.time, &found_skies_);
-  heading_ = found.heading;
-  made_for_.reset();
+  if (known_.estimator->frames() < kLightFrames) return;
+  const compositor::LightEstimate found = known_.estimator->Estimate(&known_.filter);
+  known_.estimator.reset();
+  known_.found = found.skies;
+  if (known_.found.source) UseOverriddenSky(shown.time, &known_.found);
+  known_.heading = found.heading;
+  made_.wanted.reset();
   const std::lock_guard lock(mutex_);
-  progress_.measured = found.measured;
-  progress_.frames_in_estimate = 0;
-  next_estimate_ = shown.time.PlusSeconds(kBetweenMeasurements_s);
-  shown_.reset();  // It came meanwhile, and would begin the next look too early.
+  shared_.progress.measured = found.measured;
+  shared_.progress.frames_in_estimate = 0;
+  shared_.next_estimate = shown.time.PlusSeconds(kBetweenMeasurements_s);
+  shared_.shown.reset();  // It came meanwhile, and would begin the next look too early.
 }
 
 void BackgroundLight::WantCoefficients(const Wanted& wanted,
                                        compositor::CoefficientWorker* worker) {
-  wanted_for_ = solver_;
-  coefficients_convergence_ = wanted.edit.convergence;
+  placed_.ordered_for = placed_.solver;
+  placed_.convergence = wanted.edit.convergence;
   compositor::CoefficientOptions options;
-  options.convergence = coefficients_convergence_;
+  options.convergence = placed_.convergence;
   options.division = setup_.light.sky_division;
   // What is being tried out would fill the disk: each place of an object has a file of its own.
   const bool as_begun = wanted.edit.objects == setup_.edit.objects &&
                         wanted.edit.convergence == setup_.edit.convergence;
   if (as_begun) options.cache = setup_.light.cache;
-  worker->Want(solver_, scene::MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0}, options);
+  worker->Want(placed_.solver, scene::MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0},
+               options);
 }
 
 /// Where new ones are there, of the scene as it stands now.
@@ -257,14 +258,15 @@ void BackgroundLight::TakeCoefficients(const compositor::CoefficientWorker& work
   const auto newest = worker.Newest();
   {
     const std::lock_guard lock(mutex_);
-    progress_.coefficients = wanted_for_ ? worker.progress() : 0.0;
+    shared_.progress.coefficients = placed_.ordered_for ? worker.progress() : 0.0;
   }
-  if (!newest || newest->solver != solver_ || newest->coefficients == coefficients_) return;
-  coefficients_ = newest->coefficients;
-  made_for_.reset();
-  if (coefficients_->kept) return;
+  if (!newest || newest->solver != placed_.solver || newest->coefficients == placed_.coefficients)
+    return;
+  placed_.coefficients = newest->coefficients;
+  made_.wanted.reset();
+  if (placed_.coefficients->kept) return;
   const std::lock_guard lock(mutex_);
-  progress_.failed_to_keep = true;
+  shared_.progress.failed_to_keep = true;
 }
 
 }  // namespace pleinair::session

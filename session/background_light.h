@@ -98,33 +98,50 @@ class BackgroundLight {
   void UseOverriddenSky(UtcTime time, compositor::SkyState* skies) const;
   bool MayEstimate(const Wanted& wanted) const;
 
+  /// The scene as it is solved now.
+  struct PlacedScene {
+    std::shared_ptr<const compositor::LightSolver> solver{};
+    std::vector<ObjectPlace> objects{};
+    std::shared_ptr<const compositor::DaylightCoefficients> coefficients{};
+    double convergence = 0.0;  // Of the coefficients.
+    std::shared_ptr<const compositor::LightSolver>
+        ordered_for{};  // Whose coefficients are ordered.
+  };
+  /// What is known of heading and skies, by words, edits and frames.
+  struct KnownLight {
+    compositor::SkyState skies{};              // In use.
+    std::optional<SceneEdit::Sky> skies_of{};  // The edit's air that they were made for.
+    compositor::LightFilter filter{};          // Of the looks so far.
+    compositor::SkyState found{};              // Its last conclusion, as the heading is.
+    Radians heading{};
+    std::unique_ptr<compositor::LightEstimator> estimator{};  // Of the look under way.
+  };
+  /// What the last light was made for.
+  struct MadeLight {
+    std::optional<Wanted> wanted;
+    sky::SunPosition sun;
+  };
+  /// What the thread and its callers hand each other.
+  struct Shared {
+    bool stop = false;
+    Wanted wanted{};
+    std::optional<Shown> shown{};
+    UtcTime next_estimate{};
+    std::shared_ptr<const BakedLighting> newest{};
+    Progress progress{};
+  };
+
   Setup setup_;  // Its places of models follow the edits.
   std::thread thread_;
 
   // Of the thread alone.
-  std::shared_ptr<const compositor::LightSolver> solver_;
-  std::vector<ObjectPlace> placed_objects_;
-  std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
-  double coefficients_convergence_ = 0.0;
-  std::shared_ptr<const compositor::LightSolver> wanted_for_;  // Their scene, ordered.
-  compositor::SkyState skies_;
-  std::optional<SceneEdit::Sky> skies_of_;  // The edit's air that they were made for.
-  compositor::LightFilter
-      light_filter_;  // Of the looks so far; heading and skies are its last conclusions.
-  compositor::SkyState found_skies_;
-  Radians heading_;
-  std::unique_ptr<compositor::LightEstimator> estimator_;
-  std::optional<Wanted> made_for_;
-  sky::SunPosition made_sun_;
+  PlacedScene placed_;
+  KnownLight known_;
+  MadeLight made_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  bool stop_ = false;
-  Wanted wanted_;
-  std::optional<Shown> shown_;
-  UtcTime next_estimate_;
-  std::shared_ptr<const BakedLighting> newest_;
-  Progress progress_;
+  Shared shared_;  // Under the mutex.
 };
 
 }  // namespace pleinair::session

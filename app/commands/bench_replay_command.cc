@@ -19,7 +19,7 @@ constexpr const char* kExamples =
 
 Result<void> Run(const CLI::App& command, ReplayArguments& arguments) {
   constexpr const char* kCoefficients = "daylight coefficients (--light-cache or --time-lapse)";
-  const bool coefficients = !arguments.options.light.cache.empty() || !arguments.time_lapse.empty();
+  const bool coefficients = !arguments.options.light.cache.empty() || !arguments.day.hours.empty();
   PLEINAIR_RETURN_IF_ERROR(
       RefuseUnusedOptions(command, {{"--sky-division", coefficients, kCoefficients},
                                     {"--convergence", coefficients, kCoefficients}}));

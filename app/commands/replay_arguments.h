@@ -13,18 +13,23 @@ namespace pleinair::app {
 struct ReplayArguments {
   std::string command = "replay";  ///< What stands behind `pleinair`.
   ReplayOptions options;           ///< What the parser writes as it is.
-  std::string recording, output, scene, calibration, size;
+  struct Paths {
+    std::string recording, output, scene, calibration;
+  } paths;
+  std::string size;
   std::vector<std::string> exports;
   std::vector<double> fog;
-  std::string time_lapse, every = "10min";
-  std::optional<std::int64_t> time_lapse_frame;
+  struct Day {
+    std::string hours, every = "10min";
+    std::optional<std::int64_t> frame;
+  } day;  ///< Of the time-lapse.
   bool no_video = false;
   bool json = false;
-
-  // Of `bench replay` alone.
-  std::string shadows = "ours";
-  std::vector<int> shadow_sizes;
-  std::string shader_directory;
+  struct Research {
+    std::string shadows = "ours";
+    std::vector<int> shadow_sizes;
+    std::string shader_directory;
+  } research;  ///< Of `bench replay` alone.
 };
 
 }  // namespace pleinair::app

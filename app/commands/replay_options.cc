@@ -9,13 +9,13 @@ namespace pleinair::app {
 
 void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
   command
-      .add_option("RECORDING", arguments.recording,
+      .add_option("RECORDING", arguments.paths.recording,
                   "Folder of a recording (own form or EuRoC), or a video file")
       ->required();
-  command.add_option("-o,--output", arguments.output, "Folder for the results")->required();
-  command.add_option("--scene", arguments.scene,
+  command.add_option("-o,--output", arguments.paths.output, "Folder for the results")->required();
+  command.add_option("--scene", arguments.paths.scene,
                      "Scene file (TOML or JSON) instead of the recording's own");
-  command.add_option("--calibration", arguments.calibration,
+  command.add_option("--calibration", arguments.paths.calibration,
                      "Calibration of the lens (own JSON, OpenCV, ROS or Kalibr YAML)");
   command.add_flag("--frames", arguments.options.write_frames,
                    "Also write every frame as a PNG picture");
@@ -38,16 +38,16 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
       ->check(NumberRange(0.0, 1e6))
       ->type_name("TIMES,...");
   CLI::Option* time_lapse = command.add_option(
-      "--time-lapse", arguments.time_lapse,
+      "--time-lapse", arguments.day.hours,
       "Also draw the whole scene, phantoms in their own colours, over its day: timelapse.mp4 and "
       "the sheet timelapse.png; with --frames each picture. Hours on a clock, 05:00..21:00 or "
       "05:00..21:00+02:00, or the word day: while it is light");
   time_lapse->type_name("HOURS|day");
-  command.add_option("--every", arguments.every, "Step of the time-lapse: 10min, 90s, 1h")
+  command.add_option("--every", arguments.day.every, "Step of the time-lapse: 10min, 90s, 1h")
       ->needs(time_lapse)
       ->capture_default_str();
   command
-      .add_option("--time-lapse-frame", arguments.time_lapse_frame,
+      .add_option("--time-lapse-frame", arguments.day.frame,
                   "Frame from whose camera the time-lapse is seen; default: the middle one")
       ->needs(time_lapse)
       ->check(CLI::NonNegativeNumber);

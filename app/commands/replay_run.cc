@@ -35,10 +35,11 @@ std::string OneLine(std::string text) {
 }
 
 std::string CommandText(const ReplayArguments& arguments) {
-  std::string text = "pleinair " + arguments.command + " " + Quoted(arguments.recording) + " -o " +
-                     Quoted(arguments.output);
-  if (!arguments.scene.empty()) text += " --scene " + Quoted(arguments.scene);
-  if (!arguments.calibration.empty()) text += " --calibration " + Quoted(arguments.calibration);
+  std::string text = "pleinair " + arguments.command + " " + Quoted(arguments.paths.recording) +
+                     " -o " + Quoted(arguments.paths.output);
+  if (!arguments.paths.scene.empty()) text += " --scene " + Quoted(arguments.paths.scene);
+  if (!arguments.paths.calibration.empty())
+    text += " --calibration " + Quoted(arguments.paths.calibration);
   const session::LightOptions& light = arguments.options.light;
   if (!light.camera_response.empty()) {
     text += " --response " + Quoted(light.camera_response.string());
@@ -60,7 +61,7 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (light.hands_in_front) text += " --hands";
   if (given.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *given.sun_to_sky);
   if (given.heading_deg) text += fmt::format(" --heading {}", *given.heading_deg);
-  if (arguments.shadows != "ours") text += " --shadows " + arguments.shadows;
+  if (arguments.research.shadows != "ours") text += " --shadows " + arguments.research.shadows;
   const int partitions = arguments.options.composer.shadow_partitions;
   if (partitions != compositor::ComposerOptions{}.shadow_partitions) {
     text += " --shadow-partitions " + std::to_string(partitions);
@@ -73,19 +74,20 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (blur_m != compositor::ComposerOptions{}.shadow_blur_distance_m) {
     text += fmt::format(" --shadow-blur {}", blur_m);
   }
-  if (!arguments.shadow_sizes.empty()) {
-    text += fmt::format(" --shadow-sizes {}", fmt::join(arguments.shadow_sizes, ","));
+  if (!arguments.research.shadow_sizes.empty()) {
+    text += fmt::format(" --shadow-sizes {}", fmt::join(arguments.research.shadow_sizes, ","));
   }
   if (!arguments.fog.empty()) text += fmt::format(" --fog {}", fmt::join(arguments.fog, ","));
-  if (!arguments.time_lapse.empty()) {
-    text += " --time-lapse " + Quoted(arguments.time_lapse) + " --every " + Quoted(arguments.every);
+  if (!arguments.day.hours.empty()) {
+    text +=
+        " --time-lapse " + Quoted(arguments.day.hours) + " --every " + Quoted(arguments.day.every);
   }
-  if (arguments.time_lapse_frame) {
-    text += fmt::format(" --time-lapse-frame {}", *arguments.time_lapse_frame);
+  if (arguments.day.frame) {
+    text += fmt::format(" --time-lapse-frame {}", *arguments.day.frame);
   }
   if (arguments.options.composer.show_shadow_maps) text += " --shadow-debug";
-  if (!arguments.shader_directory.empty()) {
-    text += " --shader-dir " + Quoted(arguments.shader_directory);
+  if (!arguments.research.shader_directory.empty()) {
+    text += " --shader-dir " + Quoted(arguments.research.shader_directory);
   }
   if (arguments.no_video) text += " --no-video";
   return text;
@@ -93,29 +95,30 @@ std::string CommandText(const ReplayArguments& arguments) {
 
 Result<void> Run(ReplayArguments& arguments) {
   ReplayOptions& options = arguments.options;
-  options.recording = arguments.recording;
-  options.output = arguments.output;
-  if (!arguments.scene.empty()) options.scene = arguments.scene;
-  if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
+  options.recording = arguments.paths.recording;
+  options.output = arguments.paths.output;
+  if (!arguments.paths.scene.empty()) options.scene = arguments.paths.scene;
+  if (!arguments.paths.calibration.empty()) options.calibration = arguments.paths.calibration;
   if (!arguments.size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize("--size", arguments.size));
   }
-  if (!arguments.time_lapse.empty()) {
+  if (!arguments.day.hours.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(options.time_lapse,
-                              ParseTimeLapse(arguments.time_lapse, arguments.every));
-    options.time_lapse->frame = arguments.time_lapse_frame;
+                              ParseTimeLapse(arguments.day.hours, arguments.day.every));
+    options.time_lapse->frame = arguments.day.frame;
   }
   for (const std::string& name : arguments.exports) {
     options.exports.insert(exports::TrajectoryFormatNamed(name).value());
   }
-  options.composer.shadow_method = shadows::FindShadowMethod(arguments.shadows)->method;
-  if (!arguments.shader_directory.empty()) {
-    gl::ShaderLibrary::SetOverrideDirectory(arguments.shader_directory);
+  options.composer.shadow_method = shadows::FindShadowMethod(arguments.research.shadows)->method;
+  if (!arguments.research.shader_directory.empty()) {
+    gl::ShaderLibrary::SetOverrideDirectory(arguments.research.shader_directory);
   }
-  if (!arguments.shadow_sizes.empty()) {
+  if (!arguments.research.shadow_sizes.empty()) {
     auto& sizes = options.composer.shadow_sizes;
-    sizes.fill(arguments.shadow_sizes.back());
-    std::copy(arguments.shadow_sizes.begin(), arguments.shadow_sizes.end(), sizes.begin());
+    sizes.fill(arguments.research.shadow_sizes.back());
+    std::copy(arguments.research.shadow_sizes.begin(), arguments.research.shadow_sizes.end(),
+              sizes.begin());
   }
   if (!arguments.fog.empty()) {
     // Partitions that are not named are like the last that is.
@@ -129,12 +132,12 @@ Result<void> Run(ReplayArguments& arguments) {
     std::cout << SummaryJson(report, options.output) << '\n';
     return {};
   }
-  std::cerr << report.path.size() << " of " << report.frames << " frames have a pose";
+  std::cerr << report.path.size() << " of " << report.film.frames << " frames have a pose";
   if (report.reference_marker)
     std::cerr << " (marker " << report.reference_marker->ToString() << ")";
   std::cerr << "; ";
-  std::cerr << "results in " << OneLine(arguments.output) << ":";
-  for (const std::string& output : report.outputs) std::cerr << ' ' << output;
+  std::cerr << "results in " << OneLine(arguments.paths.output) << ":";
+  for (const std::string& output : report.files.outputs) std::cerr << ' ' << output;
   std::cerr << '\n';
   for (const std::string& warning : report.warnings) {
     std::cerr << "warning: " << OneLine(warning) << '\n';

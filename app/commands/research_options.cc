@@ -24,7 +24,7 @@ void AddResearchOptions(CLI::App& command, ReplayArguments& arguments) {
   AddSolverOptions(command, arguments.options.light);
   command
       .add_option(
-          "--shadows", arguments.shadows,
+          "--shadows", arguments.research.shadows,
           "Shadow method (docs/method/shadows.md): ours has the sun's own penumbra, zgaf is "
           "the paper's")
       ->check(CLI::IsMember(ShadowMethodNames()))
@@ -41,7 +41,7 @@ void AddResearchOptions(CLI::App& command, ReplayArguments& arguments) {
       ->check(NumberRange(0.0, 1.0))
       ->capture_default_str();
   command
-      .add_option("--shadow-sizes", arguments.shadow_sizes,
+      .add_option("--shadow-sizes", arguments.research.shadow_sizes,
                   "Texels a side of the shadow maps; one number, or one a partition from the "
                   "finest on. Default: as fine as the image shows, 1024,1024,512,512 up to "
                   "1024 pixels a side, twice that beyond and for --time-lapse")
@@ -58,7 +58,7 @@ void AddResearchOptions(CLI::App& command, ReplayArguments& arguments) {
   command.add_flag("--shadow-debug", composer.show_shadow_maps,
                    "Tint what each partition of the shadow maps serves and show the maps");
   command
-      .add_option("--shader-dir", arguments.shader_directory,
+      .add_option("--shader-dir", arguments.research.shader_directory,
                   "Folder with shaders to use instead of the built-in ones, for development")
       ->check(CLI::ExistingDirectory);
 }

@@ -14,31 +14,31 @@ constexpr double kPeriodWeight = 0.1;
 void LiveCounters::Captured(const devices::Frame& frame, std::optional<double> period_ms) {
   const std::lock_guard lock(mutex_);
   if (period_ms) {
-    double& mean_ms = counted_.period_ms;
+    double& mean_ms = counted_.timing.period_ms;
     mean_ms = mean_ms == 0.0 ? *period_ms : mean_ms + kPeriodWeight * (*period_ms - mean_ms);
   }
-  ++counted_.captured;
+  ++counted_.frames.captured;
   counted_.loss += frame.loss;
 }
 
 void LiveCounters::Tracked(bool has_pose, double milliseconds) {
   const std::lock_guard lock(mutex_);
-  ++counted_.tracked;
-  if (has_pose) ++counted_.with_pose;
-  counted_.track_ms = milliseconds;
+  ++counted_.frames.tracked;
+  if (has_pose) ++counted_.frames.with_pose;
+  counted_.timing.track_ms = milliseconds;
 }
 
 void LiveCounters::Drawn(const session::RenderTimes& times, double milliseconds) {
   const std::lock_guard lock(mutex_);
-  ++counted_.drawn;
-  counted_.draw_ms = milliseconds;
-  counted_.render = times;
+  ++counted_.frames.drawn;
+  counted_.timing.draw_ms = milliseconds;
+  counted_.timing.render = times;
 }
 
 void LiveCounters::Shown(std::int64_t late_for_screen) {
   const std::lock_guard lock(mutex_);
-  ++counted_.shown;
-  counted_.late_for_screen = late_for_screen;
+  ++counted_.frames.shown;
+  counted_.late.for_screen = late_for_screen;
 }
 
 void LiveCounters::GivenUp() {
@@ -64,7 +64,7 @@ LiveStatistics LiveCounters::Snapshot() const {
 
 double LiveCounters::period_ms() const {
   const std::lock_guard lock(mutex_);
-  return counted_.period_ms;
+  return counted_.timing.period_ms;
 }
 
 LatencyHistogram LiveCounters::TakeLatencies() {

@@ -32,14 +32,14 @@ nlohmann::json Json(const LatencyMeter::Summary& latency) {
 }
 
 nlohmann::json Json(const LiveStatistics& s) {
-  return {{"captured", s.captured},
-          {"tracked", s.tracked},
-          {"with_pose", s.with_pose},
-          {"drawn", s.drawn},
-          {"shown", s.shown},
-          {"late_for_tracking", s.late_for_tracking},
-          {"late_for_drawing", s.late_for_drawing},
-          {"late_for_screen", s.late_for_screen},
+  return {{"captured", s.frames.captured},
+          {"tracked", s.frames.tracked},
+          {"with_pose", s.frames.with_pose},
+          {"drawn", s.frames.drawn},
+          {"shown", s.frames.shown},
+          {"late_for_tracking", s.late.for_tracking},
+          {"late_for_drawing", s.late.for_drawing},
+          {"late_for_screen", s.late.for_screen},
           {"on_the_way_at_end", s.on_the_way_at_end},
           {"unaccounted", s.Unaccounted()},
           {"lost",
@@ -47,8 +47,8 @@ nlohmann::json Json(const LiveStatistics& s) {
             {"by_time", s.loss.by_time},
             {"damaged", s.loss.damaged},
             {"not_taken", s.loss.not_taken}}},
-          {"recorded", s.recorded},
-          {"left_out_of_recording", s.left_out_of_recording},
+          {"recorded", s.recording.recorded},
+          {"left_out_of_recording", s.recording.left_out},
           {"latency_ms", Json(s.latency)}};
 }
 
@@ -112,16 +112,16 @@ void Report(const LiveStatistics& s, bool json) {
   std::cerr << fmt::format(
       "{} frames captured, {} tracked, {} with a pose, {} drawn; {} late for tracking, {} late for "
       "drawing, {} on their way at the end, {} lost before\n",
-      s.captured, s.tracked, s.with_pose, s.drawn, s.late_for_tracking, s.late_for_drawing,
-      s.on_the_way_at_end, s.loss.Total());
+      s.frames.captured, s.frames.tracked, s.frames.with_pose, s.frames.drawn, s.late.for_tracking,
+      s.late.for_drawing, s.on_the_way_at_end, s.loss.Total());
   if (s.Unaccounted() != 0) std::cerr << s.Unaccounted() << " frames are not accounted for\n";
   if (s.latency.worst_ms > 0.0) {
     std::cerr << fmt::format("exposure to picture: {:.0f} ms (95 %: {:.0f}, worst {:.0f})\n",
                              s.latency.median_ms, s.latency.p95_ms, s.latency.worst_ms);
   }
-  if (s.recorded > 0) {
+  if (s.recording.recorded > 0) {
     std::cerr << fmt::format("{} frames recorded, {} left out because the disk was late\n",
-                             s.recorded, s.left_out_of_recording);
+                             s.recording.recorded, s.recording.left_out);
   }
 }
 

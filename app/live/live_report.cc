@@ -39,11 +39,11 @@ LiveInterval LiveReport::Cut(LiveSession& session, Clock::time_point now) {
   LiveInterval interval;
   interval.from_s = Seconds(from_ - start_);
   interval.to_s = Seconds(now - start_);
-  interval.captured = s.captured - before_.captured;
-  interval.tracked = s.tracked - before_.tracked;
-  interval.drawn = s.drawn - before_.drawn;
-  interval.late_for_tracking = s.late_for_tracking - before_.late_for_tracking;
-  interval.late_for_drawing = s.late_for_drawing - before_.late_for_drawing;
+  interval.captured = s.frames.captured - before_.frames.captured;
+  interval.tracked = s.frames.tracked - before_.frames.tracked;
+  interval.drawn = s.frames.drawn - before_.frames.drawn;
+  interval.late_for_tracking = s.late.for_tracking - before_.late.for_tracking;
+  interval.late_for_drawing = s.late.for_drawing - before_.late.for_drawing;
   interval.lost = s.loss.Total() - before_.loss.Total();
   interval.on_the_way = s.Unaccounted();
   interval.latency = session.TakeLatencies().Summarize();

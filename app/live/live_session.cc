@@ -189,13 +189,11 @@ void LiveSession::Shown(const DrawnFrame& frame, std::int64_t late_for_screen) {
 
 LiveStatistics LiveSession::statistics() const {
   LiveStatistics statistics = counters_.Snapshot();
-  statistics.late_for_tracking = captured_.dropped();
-  statistics.late_for_drawing = tracked_.dropped();
+  statistics.late.for_tracking = captured_.dropped();
+  statistics.late.for_drawing = tracked_.dropped();
   statistics.detail = scene_.detail();
   if (auto progress = scene_.light_progress()) statistics.light = *std::move(progress);
-  const RecordingSwitch::Counts recording = recording_.counts();
-  statistics.recorded = recording.recorded;
-  statistics.left_out_of_recording = recording.left_out;
+  statistics.recording = recording_.counts();
   return statistics;
 }
 

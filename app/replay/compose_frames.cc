@@ -25,12 +25,13 @@ constexpr int kReportJpegQuality = 85;
 Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(ReplayState& state) {
   if (!state.options.write_video) return nullptr;
   ReplayReport& report = state.report;
-  PLEINAIR_ASSIGN_OR_RETURN(auto video, exports::VideoWriter::Create(
-                                            state.folder.staging() / "composite.mp4",
-                                            {report.width, report.height, report.frame_rate_hz}));
-  report.video_encoder = video->encoder_name();
-  report.outputs.emplace_back("composite.mp4");
-  if (report.width % 2 != 0 || report.height % 2 != 0) {
+  PLEINAIR_ASSIGN_OR_RETURN(
+      auto video, exports::VideoWriter::Create(
+                      state.folder.staging() / "composite.mp4",
+                      {report.film.width, report.film.height, report.film.frame_rate_hz}));
+  report.files.video_encoder = video->encoder_name();
+  report.files.outputs.emplace_back("composite.mp4");
+  if (report.film.width % 2 != 0 || report.film.height % 2 != 0) {
     report.warnings.emplace_back(
         "composite.mp4 repeats the last column or row: H.264 needs even sizes.");
   }
@@ -41,12 +42,12 @@ Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(ReplayState& state) {
 Result<fs::path> MakeFrameFolder(ReplayState& state) {
   if (!state.options.write_frames) return fs::path();
   PLEINAIR_RETURN_IF_ERROR(state.folder.MakeFolder("frames"));
-  state.report.outputs.emplace_back("frames/%04d.png");
+  state.report.files.outputs.emplace_back("frames/%04d.png");
   return state.folder.staging() / "frames";
 }
 
 void AddPicture(const devices::Frame& frame, const RgbImage& composed, ReplayReport* report) {
-  report->pictures.push_back(
+  report->files.pictures.push_back(
       {frame.index,
        exports::EncodeJpeg(frame.rgb.view(), kReportPictureWidth_px, kReportJpegQuality),
        exports::EncodeJpeg(composed.view(), kReportPictureWidth_px, kReportJpegQuality)});
@@ -59,14 +60,14 @@ Result<void> ComposeFrames(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(auto video, OpenVideo(state));
   PLEINAIR_ASSIGN_OR_RETURN(fs::path frames, MakeFrameFolder(state));
   CompositeWriter writer(std::move(frames), std::move(video));
-  const std::set<std::int64_t> shown = ReportFrames(state.report.path, state.report.frames);
+  const std::set<std::int64_t> shown = ReportFrames(state.report.path, state.report.film.frames);
   const auto take = [&](const devices::Frame& frame,
                         session::ComposedFrame composed) -> Result<void> {
     if (composed.light) state.report.light = composed.light;
     if (shown.contains(frame.index)) AddPicture(frame, composed.image, &state.report);
     return writer.Add(frame.index, frame.timestamp_ns, std::move(composed.image));
   };
-  PassBar bar("Composing", state.report.recording);
+  PassBar bar("Composing", state.report.call.recording);
   PLEINAIR_RETURN_IF_ERROR(session::ComposeFrames(*state.pipeline, std::move(recording), take,
                                                   {bar.Progress(), &state.times}));
   PLEINAIR_RETURN_IF_ERROR(writer.Finish());

@@ -54,8 +54,8 @@ Result<void> DrawDay(ReplayState& state) {
         return WriteTimeLapse(*day, state.day_moments, view.camera_from_marker,
                               state.folder.staging(), state.options.write_frames);
       }));
-  report.outputs.insert(report.outputs.end(), written.begin(), written.end());
-  PLEINAIR_ASSIGN_OR_RETURN(report.time_lapse, TimeLapseHtml(state.folder.staging()));
+  report.files.outputs.insert(report.files.outputs.end(), written.begin(), written.end());
+  PLEINAIR_ASSIGN_OR_RETURN(report.files.time_lapse, TimeLapseHtml(state.folder.staging()));
   return {};
 }
 

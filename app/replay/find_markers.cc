@@ -26,12 +26,12 @@ Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
     if (keeps_messages) state.messages.push_back({frame.timestamp_ns, std::move(line)});
     return {};
   };
-  PassBar bar("Finding markers", state.report.recording);
+  PassBar bar("Finding markers", state.report.call.recording);
   PLEINAIR_RETURN_IF_ERROR(session::TrackRecording(*state.pipeline, std::move(recording), take,
                                                    {bar.Progress(), &state.times}));
   PLEINAIR_RETURN_IF_ERROR(detections.Finish());
-  state.report.outputs.emplace_back("detections.jsonl");
-  state.report.frames = state.pipeline->tracks().frames();
+  state.report.files.outputs.emplace_back("detections.jsonl");
+  state.report.film.frames = state.pipeline->tracks().frames();
   return {};
 }
 
@@ -39,7 +39,7 @@ Result<void> WriteTrajectories(ReplayState& state) {
   const session::MarkerTracks& tracks = state.pipeline->tracks();
   ReplayReport& report = state.report;
   const auto keep = [&](std::vector<std::string> written) {
-    report.outputs.insert(report.outputs.end(), written.begin(), written.end());
+    report.files.outputs.insert(report.files.outputs.end(), written.begin(), written.end());
   };
   report.reference_marker = tracks.ReferenceMarker();
   if (report.reference_marker) {

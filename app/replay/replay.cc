@@ -27,17 +27,17 @@ namespace fs = std::filesystem;
 
 void Describe(const devices::Recording& recording, const ReplayState& state, ReplayReport* report) {
   const scene::SceneDescription& scene = state.scene();
-  report->recording = state.options.recording.string();
-  report->command = state.options.command;
-  report->version = PLEINAIR_VERSION;
-  report->scene_file = scene.file.string();
-  report->place_time = scene.place_time;
-  report->cloudiness = scene.cloudiness;
-  report->virtual_objects = scene.objects.size();
-  report->phantoms = scene.phantoms.size();
-  report->frame_rate_hz = recording.frame_rate_hz;
-  report->width = state.pipeline->output_camera().width;
-  report->height = state.pipeline->output_camera().height;
+  report->call.recording = state.options.recording.string();
+  report->call.command = state.options.command;
+  report->call.version = PLEINAIR_VERSION;
+  report->call.scene_file = scene.file.string();
+  report->scene.place_time = scene.place_time;
+  report->scene.cloudiness = scene.cloudiness;
+  report->scene.virtual_objects = scene.objects.size();
+  report->scene.phantoms = scene.phantoms.size();
+  report->film.frame_rate_hz = recording.frame_rate_hz;
+  report->film.width = state.pipeline->output_camera().width;
+  report->film.height = state.pipeline->output_camera().height;
 }
 
 /// Opens the recording and loads its scene: errors in what is asked for come at once, before a long
@@ -99,9 +99,9 @@ Result<void> WriteReports(ReplayState& state) {
       report.warnings.push_back(std::move(sentence));
     }
   }
-  report.outputs.emplace_back("report.json");
-  report.outputs.emplace_back("report.html");
-  std::sort(report.outputs.begin(), report.outputs.end());
+  report.files.outputs.emplace_back("report.json");
+  report.files.outputs.emplace_back("report.html");
+  std::sort(report.files.outputs.begin(), report.files.outputs.end());
   const std::chrono::duration<double, std::milli> taken =
       std::chrono::steady_clock::now() - state.begun;
   state.times.Add(kWholeReplay, taken.count());
@@ -114,7 +114,7 @@ Result<void> WriteReports(ReplayState& state) {
 /// From opening the recording to the finished folder.
 Result<void> Run(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, Prepare(state));
-  const std::string& name = state.report.recording;
+  const std::string& name = state.report.call.recording;
   PLEINAIR_RETURN_IF_ERROR(FindMarkers(state, std::move(recording)));
   PLEINAIR_RETURN_IF_ERROR(WriteTrajectories(state));
   if (state.DrawsDay()) PLEINAIR_RETURN_IF_ERROR(ViewOfDay(state));

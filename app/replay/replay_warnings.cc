@@ -53,13 +53,13 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report,
                                         const session::MarkerTracks& marker_tracks,
                                         const scene::SceneDescription& scene) {
   std::vector<std::string> warnings;
-  const auto missing = report.frames - static_cast<std::int64_t>(report.path.size());
+  const auto missing = report.film.frames - static_cast<std::int64_t>(report.path.size());
   if (!report.reference_marker) {
     warnings.push_back(NeverSeen(report, scene.marker));
   } else if (missing > 0) {
     warnings.push_back(
         fmt::format("{} of {} frames show no marker {}: they are left as they were recorded.",
-                    missing, report.frames, report.reference_marker->ToString()));
+                    missing, report.film.frames, report.reference_marker->ToString()));
   }
   if (marker_tracks.frames_with_duplicates() > 0) {
     warnings.push_back(fmt::format(

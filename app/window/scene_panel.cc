@@ -339,17 +339,18 @@ void ScenePanel::Capture(WindowState* state) {
 void ScenePanel::Statistics(const WindowState& state) {
   const LiveStatistics& s = state.statistics;
   ImGui::Text("%.1f pictures a second shown, %.1f sent", state.shown_per_second,
-              s.period_ms > 0.0 ? 1000.0 / s.period_ms : 0.0);
+              s.timing.period_ms > 0.0 ? 1000.0 / s.timing.period_ms : 0.0);
   ImGui::Text("exposure to screen %.0f ms (95 %%: %.0f)", s.latency.median_ms, s.latency.p95_ms);
-  ImGui::Text("tracking %.1f ms, drawing %.1f ms", s.track_ms, s.draw_ms);
+  ImGui::Text("tracking %.1f ms, drawing %.1f ms", s.timing.track_ms, s.timing.draw_ms);
   Quiet(fmt::format(
       "{} captured = {} shown + {} late for tracking + {} for drawing + {} for the "
       "screen + {} on their way; {} lost before",
-      s.captured, s.shown, s.late_for_tracking, s.late_for_drawing, s.late_for_screen,
-      s.captured - s.late_for_tracking - s.late_for_drawing - s.shown - s.late_for_screen,
+      s.frames.captured, s.frames.shown, s.late.for_tracking, s.late.for_drawing, s.late.for_screen,
+      s.frames.captured - s.late.for_tracking - s.late.for_drawing - s.frames.shown -
+          s.late.for_screen,
       s.loss.Total()));
-  if (s.recorded > 0) {
-    Quiet(fmt::format("{} recorded, {} left out", s.recorded, s.left_out_of_recording));
+  if (s.recording.recorded > 0) {
+    Quiet(fmt::format("{} recorded, {} left out", s.recording.recorded, s.recording.left_out));
   }
 }
 

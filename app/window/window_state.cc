@@ -67,7 +67,7 @@ void DoToObject(Action action, bool fine, WindowState* state) {
 
 scene::MarkerDescription WindowState::marker() const {
   scene::MarkerDescription in_use = scene.marker;
-  in_use.heading = FromDegrees(edit.heading_deg.value_or(has_frame && statistics.drawn > 0
+  in_use.heading = FromDegrees(edit.heading_deg.value_or(has_frame && statistics.frames.drawn > 0
                                                              ? statistics.light.heading_deg
                                                              : ToDegrees(scene.marker.heading)));
   return in_use;

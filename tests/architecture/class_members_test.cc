@@ -26,10 +26,7 @@ const std::set<std::string>& LargeClasses() {
     "app/bench/shadow_bench.cc SceneRun",
     "app/bench/shadow_bench.h ShadowBenchRow",
     "app/commands/live_command.cc Arguments",
-    "app/commands/replay_arguments.h ReplayArguments",
     "app/commands/sun_command.cc Options",
-    "app/live/live_statistics.h LiveStatistics",
-    "app/replay/report/report.h ReplayReport",
     "app/sky/sky_options.h SkyOptions",
     "app/window/live_window.cc LiveWindow",
     "app/window/window_state.h WindowState",
@@ -47,7 +44,6 @@ const std::set<std::string>& LargeClasses() {
     "devices/cameras/live_camera.cc LiveCamera::Worker",
     "devices/frame.h Frame",
     "scene/scene_facts.h SceneFacts",
-    "session/background_light.h BackgroundLight",
     "shadows/bench/bench_renderer.h BenchRenderer",
     "shadows/shadow_maps.h ShadowMaps",
   };

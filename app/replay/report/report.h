@@ -20,28 +20,48 @@ struct ReportPicture {
   std::vector<std::uint8_t> after_jpeg;
 };
 
-/// What a replay did, for report.json and report.html.
-struct ReplayReport {
+/// How a replay was called.
+struct ReplayCall {
   std::string version;
   std::string command;    ///< As it was called.
   std::string recording;  ///< Path as given.
   std::string scene_file;
-  int width = 0, height = 0;  ///< Of the output, pixels.
+};
+
+/// The composed frames.
+struct ReplayedFilm {
+  int width = 0, height = 0;  ///< Pixels.
   double frame_rate_hz = 0.0;
   std::int64_t frames = 0;
-  std::optional<session::MarkerName> reference_marker;
-  std::vector<session::MarkerName> markers;  ///< Every marker seen.
-  std::vector<session::Observation>
-      path;  ///< Of the reference marker, a frame it was seen in each.
+};
+
+/// The scene that was composed.
+struct ReplayedScene {
   scene::PlaceTime place_time;
   scene::Cloudiness cloudiness = scene::Cloudiness::kClear;
   std::size_t virtual_objects = 0, phantoms = 0;
-  std::optional<session::LightSummary> light;  ///< Nothing where nothing had to be lit.
-  std::string time_lapse;                      ///< Part of the page that shows it; empty without.
-  std::string video_encoder;                   ///< Empty without video.
-  std::vector<std::string> outputs;            ///< Relative to the output folder.
-  std::vector<std::string> warnings;
+};
+
+/// What a replay wrote.
+struct ReplayFiles {
+  std::string time_lapse;            ///< Part of the page that shows it; empty without.
+  std::string video_encoder;         ///< Empty without video.
+  std::vector<std::string> outputs;  ///< Relative to the output folder.
   std::vector<ReportPicture> pictures;
+};
+
+/// What a replay did, for report.json and report.html.
+struct ReplayReport {
+  ReplayCall call;
+  ReplayedFilm film;
+  ReplayedScene scene;
+  std::optional<session::MarkerName> reference_marker;
+  std::vector<session::MarkerName> markers;  ///< Every marker seen.
+  /// Of the reference marker, a frame it was seen in each.
+  std::vector<session::Observation> path;
+  std::optional<session::LightSummary> light;  ///< Nothing where nothing had to be lit.
+  ReplayFiles files;
+  std::vector<std::string> warnings;
   std::vector<StageTimes::Summary> timings;  ///< The last is the whole.
 };
 
@@ -50,7 +70,8 @@ inline constexpr const char* kWholeReplay = "whole replay";
 
 /// Frames of the recording a second that a stage would do by itself. Stages run beside each other.
 inline double FramesPerSecond(const ReplayReport& report, const StageTimes::Summary& stage) {
-  return stage.total_ms > 0.0 ? 1000.0 * static_cast<double>(report.frames) / stage.total_ms : 0.0;
+  return stage.total_ms > 0.0 ? 1000.0 * static_cast<double>(report.film.frames) / stage.total_ms
+                              : 0.0;
 }
 
 /// Figures of the camera's path as the report states them.

@@ -28,7 +28,7 @@ std::string Card(const std::string& figure, const std::string& caption) {
 
 std::string Pictures(const ReplayReport& report) {
   std::string html;
-  for (const ReportPicture& picture : report.pictures) {
+  for (const ReportPicture& picture : report.files.pictures) {
     html += fmt::format(
         "<figure><span class=\"pair\"><img alt=\"frame {0} as recorded\" "
         "src=\"data:image/jpeg;base64,{1}\"><img class=\"after\" alt=\"frame {0} composed\" "
@@ -165,11 +165,11 @@ std::string MarkerCard(const session::LightSummary& light) {
 }
 
 std::string Light(const ReplayReport& report) {
-  const scene::PlaceTime& place = report.place_time;
+  const scene::PlaceTime& place = report.scene.place_time;
   std::string html = Card(fmt::format("{:.4f}°, {:.4f}°", place.latitude_deg, place.longitude_deg),
                           "latitude, longitude");
   html += Card(place.start.ToString(), "start of the recording");
-  html += Card(CloudinessName(report.cloudiness), "sky, as the scene says");
+  html += Card(CloudinessName(report.scene.cloudiness), "sky, as the scene says");
   if (!report.light) return html;
   const session::LightSummary& light = *report.light;
   html += Card(fmt::format("{:.1f}° / {:.1f}°", ToDegrees(light.sun.azimuth),
@@ -194,15 +194,18 @@ std::string ReportHtml(const ReplayReport& report) {
   const PoseStatistics poses = SummarizeTrajectory(report.path);
   std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   html += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
-  html += "<title>pleinair: " + files::EscapeMarkup(report.recording) + "</title><style>";
+  html += "<title>pleinair: " + files::EscapeMarkup(report.call.recording) + "</title><style>";
   html += std::string(exports::kPageStyle) + "</style></head><body>\n<h1>" +
-          files::EscapeMarkup(report.recording) + "</h1>\n<p class=\"lead\">composed by pleinair " +
-          files::EscapeMarkup(report.version) + ": <code>" + files::EscapeMarkup(report.command) +
-          "</code></p>\n<div class=\"cards\">\n";
-  html += Card(fmt::format("{} of {}", report.path.size(), report.frames), "frames with a pose");
+          files::EscapeMarkup(report.call.recording) +
+          "</h1>\n<p class=\"lead\">composed by pleinair " +
+          files::EscapeMarkup(report.call.version) + ": <code>" +
+          files::EscapeMarkup(report.call.command) + "</code></p>\n<div class=\"cards\">\n";
+  html +=
+      Card(fmt::format("{} of {}", report.path.size(), report.film.frames), "frames with a pose");
   html += Card(report.reference_marker ? report.reference_marker->ToString() : "none",
                "marker that anchors the scene");
-  html += Card(fmt::format("{}×{}, {:.4g} Hz", report.width, report.height, report.frame_rate_hz),
+  html += Card(fmt::format("{}×{}, {:.4g} Hz", report.film.width, report.film.height,
+                           report.film.frame_rate_hz),
                "output");
   if (!report.path.empty()) {
     html += Card(fmt::format("{:.2f}…{:.2f} m", poses.distance_min_m, poses.distance_max_m),
@@ -215,7 +218,7 @@ std::string ReportHtml(const ReplayReport& report) {
         Card(fmt::format("{} / {} / {}", poses.found_by[0], poses.found_by[1], poses.found_by[2]),
              "frames: marker found fast / by S-G / tracked");
     html += Card(fmt::format("{:.0f} %", poses.visible_min * 100), "of the marker seen, at least");
-    const LostFrames lost = CountLostFrames(report.path, report.frames);
+    const LostFrames lost = CountLostFrames(report.path, report.film.frames);
     html += Card(fmt::format("{}", lost.frames),
                  fmt::format("frames in which it was lost (longest: {})", lost.longest));
   }
@@ -227,11 +230,11 @@ std::string ReportHtml(const ReplayReport& report) {
     }
     html += "</ul>\n";
   }
-  if (!report.pictures.empty()) {
+  if (!report.files.pictures.empty()) {
     html += "<h2>Before and after</h2>\n<div class=\"pictures\">\n" + Pictures(report) + "</div>\n";
   }
   html += "<h2>Light</h2>\n<div class=\"cards\">\n" + Light(report) + "</div>\n";
-  html += report.time_lapse;
+  html += report.files.time_lapse;
   if (!report.path.empty()) html += "<h2>Camera path</h2>\n" + Plots(report);
   html +=
       "<h2>Time per stage</h2>\n<table><tr><th>stage</th><th>runs</th><th>median, ms</th>"

@@ -110,7 +110,7 @@ Json LightJson(const session::LightSummary& light) {
 
 Json PosesJson(const ReplayReport& report) {
   const PoseStatistics s = SummarizeTrajectory(report.path);
-  const LostFrames lost = CountLostFrames(report.path, report.frames);
+  const LostFrames lost = CountLostFrames(report.path, report.film.frames);
   Json found_by;
   for (const auto path : {tracker::DetectionPath::kFast, tracker::DetectionPath::kSurfGolay,
                           tracker::DetectionPath::kTracked}) {
@@ -151,29 +151,30 @@ Json TimingsJson(const ReplayReport& report) {
 std::string ReportJson(const ReplayReport& report) {
   Json json;
   json["program"] = "pleinair";
-  json["version"] = report.version;
-  json["command"] = report.command;
-  json["recording"] = report.recording;
-  json["scene"] = report.scene_file;
-  json["frames"] = report.frames;
+  json["version"] = report.call.version;
+  json["command"] = report.call.command;
+  json["recording"] = report.call.recording;
+  json["scene"] = report.call.scene_file;
+  json["frames"] = report.film.frames;
   json["frames_with_pose"] = report.path.size();
-  json["size_px"] = {report.width, report.height};
-  json["frame_rate_hz"] = Rounded(report.frame_rate_hz);
+  json["size_px"] = {report.film.width, report.film.height};
+  json["frame_rate_hz"] = Rounded(report.film.frame_rate_hz);
   json["marker"] = report.reference_marker ? Json(report.reference_marker->ToString()) : Json();
   json["markers_seen"] = Json::array();
   for (const session::MarkerName& marker : report.markers)
     json["markers_seen"].push_back(marker.ToString());
   json["poses"] = report.path.empty() ? Json() : PosesJson(report);
-  json["place_time"] = {{"latitude_deg", Rounded(report.place_time.latitude_deg)},
-                        {"longitude_deg", Rounded(report.place_time.longitude_deg)},
-                        {"height_m", Rounded(report.place_time.height_m)},
-                        {"start", report.place_time.start.ToString()}};
-  json["cloudiness"] = CloudinessName(report.cloudiness);
-  json["virtual_objects"] = report.virtual_objects;
-  json["phantoms"] = report.phantoms;
+  json["place_time"] = {{"latitude_deg", Rounded(report.scene.place_time.latitude_deg)},
+                        {"longitude_deg", Rounded(report.scene.place_time.longitude_deg)},
+                        {"height_m", Rounded(report.scene.place_time.height_m)},
+                        {"start", report.scene.place_time.start.ToString()}};
+  json["cloudiness"] = CloudinessName(report.scene.cloudiness);
+  json["virtual_objects"] = report.scene.virtual_objects;
+  json["phantoms"] = report.scene.phantoms;
   json["light"] = report.light ? LightJson(*report.light) : Json();
-  json["video_encoder"] = report.video_encoder.empty() ? Json() : Json(report.video_encoder);
-  json["outputs"] = report.outputs;
+  json["video_encoder"] =
+      report.files.video_encoder.empty() ? Json() : Json(report.files.video_encoder);
+  json["outputs"] = report.files.outputs;
   json["warnings"] = report.warnings;
   json["timings"] = TimingsJson(report);
   return Dump(json, 1) + "\n";
@@ -182,10 +183,10 @@ std::string ReportJson(const ReplayReport& report) {
 std::string SummaryJson(const ReplayReport& report, const std::filesystem::path& folder) {
   Json json;
   json["folder"] = folder.string();
-  json["frames"] = report.frames;
+  json["frames"] = report.film.frames;
   json["frames_with_pose"] = report.path.size();
   json["marker"] = report.reference_marker ? Json(report.reference_marker->ToString()) : Json();
-  json["outputs"] = report.outputs;
+  json["outputs"] = report.files.outputs;
   json["warnings"] = report.warnings;
   json["timings"] = TimingsJson(report);
   return Dump(json, -1);

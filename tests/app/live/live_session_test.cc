@@ -103,10 +103,10 @@ TEST(LiveSession, AccountsForEveryFrameWhileASlowRendererLagsBehind) {
   }
   (*session)->Stop();
   const LiveStatistics statistics = (*session)->statistics();
-  EXPECT_EQ(statistics.captured, 60);
-  EXPECT_EQ(statistics.tracked + statistics.late_for_tracking, 60);
-  EXPECT_EQ(statistics.drawn + statistics.late_for_drawing, statistics.tracked);
-  EXPECT_GT(statistics.late_for_drawing, 0) << "the renderer was to be slower";
+  EXPECT_EQ(statistics.frames.captured, 60);
+  EXPECT_EQ(statistics.frames.tracked + statistics.late.for_tracking, 60);
+  EXPECT_EQ(statistics.frames.drawn + statistics.late.for_drawing, statistics.frames.tracked);
+  EXPECT_GT(statistics.late.for_drawing, 0) << "the renderer was to be slower";
   EXPECT_EQ(statistics.loss.by_number, 2);
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 59) << "the newest frame is drawn last";
@@ -119,7 +119,7 @@ TEST(LiveSession, CountsFramesThatItsEndCutsOff) {
     auto session =
         LiveSession::Create(std::make_unique<GreyFrames>(1000, milliseconds(1)), Options());
     ASSERT_TRUE(session);
-    while ((*session)->statistics().captured < 20) std::this_thread::yield();
+    while ((*session)->statistics().frames.captured < 20) std::this_thread::yield();
     (*session)->Stop();
     const LiveStatistics statistics = (*session)->statistics();
     EXPECT_GE(statistics.on_the_way_at_end, 1) << "nobody has drawn";
@@ -152,8 +152,8 @@ TEST(LiveSession, RecordsEveryFrameOnItsOwnThreadAndTheRecordingOpens) {
   (*session)->Stop();
   EXPECT_FALSE((*session)->recording_trouble());
   const LiveStatistics statistics = (*session)->statistics();
-  EXPECT_EQ(statistics.recorded + statistics.left_out_of_recording, 30);
-  EXPECT_EQ(statistics.left_out_of_recording, 0);
+  EXPECT_EQ(statistics.recording.recorded + statistics.recording.left_out, 30);
+  EXPECT_EQ(statistics.recording.left_out, 0);
   const auto recording = devices::OpenRecording(folder / "take");
   ASSERT_TRUE(recording) << recording.error().Message();
   EXPECT_EQ(recording->frames->FrameCount(), 30);
@@ -186,7 +186,7 @@ TEST(LiveSession, StopsInTheMiddleWithoutWaitingForTheSource) {
     ASSERT_TRUE(session);
     EXPECT_TRUE((*session)->Draw(milliseconds(200)));
     (*session)->Stop();
-    EXPECT_LT((*session)->statistics().captured, 100000);
+    EXPECT_LT((*session)->statistics().frames.captured, 100000);
   }
 }
 

@@ -17,7 +17,7 @@ std::string WhereNothingWasSeen(std::optional<std::string> family, std::optional
   scene.marker.family = std::move(family);
   scene.marker.id = id;
   ReplayReport report;
-  report.frames = 3;
+  report.film.frames = 3;
   report.markers = {{"tag36h11", 4}};
   const auto warnings = MarkerWarnings(report, session::MarkerTracks(scene.marker), scene);
   EXPECT_THAT(warnings, SizeIs(1));

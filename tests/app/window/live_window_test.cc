@@ -97,21 +97,21 @@ TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
     std::int64_t number = 0;
     // Sends until so many more have been on the screen.
     const auto send_until_shown = [&](std::int64_t more) {
-      const std::int64_t enough = (*session)->statistics().shown + more;
-      while (!over && (*session)->statistics().shown < enough) {
+      const std::int64_t enough = (*session)->statistics().frames.shown + more;
+      while (!over && (*session)->statistics().frames.shown < enough) {
         fake.SendAt(number++, std::chrono::steady_clock::now().time_since_epoch().count(), 90,
                     false);
         std::this_thread::sleep_for(milliseconds(20));
       }
     };
     send_until_shown(3);
-    shown_before = (*session)->statistics().shown;
+    shown_before = (*session)->statistics().frames.shown;
     fake.Unplug();
     std::this_thread::sleep_for(milliseconds(300));  // The window draws without it.
     fake.Plug();
     while (!over && told_connected < 2) std::this_thread::sleep_for(milliseconds(5));
     send_until_shown(3);
-    shown_after = (*session)->statistics().shown;
+    shown_after = (*session)->statistics().frames.shown;
     raise(SIGINT);
   });
   const auto shown = ShowInWindow(**session, window);

@@ -29,14 +29,14 @@ session::Observation At(std::int64_t frame, double x_m) {
 
 ReplayReport Example() {
   ReplayReport report;
-  report.recording = "<b>site & \"garden\"</b>";
-  report.command = "pleinair replay 'x'";
-  report.frames = 3;
+  report.call.recording = "<b>site & \"garden\"</b>";
+  report.call.command = "pleinair replay 'x'";
+  report.film.frames = 3;
   report.reference_marker = session::MarkerName{"tag36h11", 7};
   report.path = {At(0, 0.0), At(1, 0.1), At(2, 0.2)};
   report.warnings = {"<script>alert(1)</script>"};
   report.timings = {{"track", 3, 1.5, 2.5, 6.0}, {kWholeReplay, 1, 1500.0, 1500.0, 1500.0}};
-  report.pictures = {{1, {1, 2, 3}, {4, 5, 6}}};
+  report.files.pictures = {{1, {1, 2, 3}, {4, 5, 6}}};
   return report;
 }
 
@@ -80,7 +80,7 @@ TEST(ReportJson, StatesThePathAndTheTimings) {
 
 TEST(ReportJson, StatesHowTheMarkerWasFoundAndWhenItWasLost) {
   ReplayReport report = Example();
-  report.frames = 9;
+  report.film.frames = 9;
   report.path = {At(1, 0.0), At(2, 0.1), At(4, 0.2)};
   report.path[1].path = tracker::DetectionPath::kTracked;
   report.path[2].path = tracker::DetectionPath::kSurfGolay;
@@ -96,7 +96,7 @@ TEST(ReportJson, StatesHowTheMarkerWasFoundAndWhenItWasLost) {
 
 TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
   ReplayReport report = Example();
-  report.recording = "caf\xe9";
+  report.call.recording = "caf\xe9";
   EXPECT_TRUE(nlohmann::json::accept(ReportJson(report)));
 }
 
