@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 namespace pleinair::tracker {
 
@@ -28,21 +27,5 @@ GolayWord EncodeGolay(int number);
 
 /// The 24 cells as they are printed, 1 = white: EncodeGolay(number) ^ kGolayWhitening.
 GolayWord CodewordOfNumber(int number);
-
-/// What a hard decoder made of a word.
-struct HardGolayDecoding {
-  int number = 0;
-  int corrected_bits = 0;  ///< 0…3.
-};
-
-/// The only codeword within 3 bits of `word`, by arithmetic decoding (Morelos-Zaragoza 2006,
-/// §2.2.3); none where four or more bits are wrong and no codeword is near. Bits above the 24th are
-/// ignored. Four wrong bits never give a number, five or more may give a wrong one: the spheres of
-/// radius 3 hold 2325/4096 = 57 % of all words, so that a number alone proves little. Decide by the
-/// margin of SoftGolayDecoder where the cells' likelihoods are known.
-std::optional<HardGolayDecoding> DecodeGolay(GolayWord word);
-
-/// The same for 24 printed cells.
-std::optional<HardGolayDecoding> DecodeCodeword(GolayWord cells);
 
 }  // namespace pleinair::tracker

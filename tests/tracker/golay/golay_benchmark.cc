@@ -21,15 +21,6 @@ std::vector<CellLikelihoods> RandomCells() {
   return all;
 }
 
-void HardDecode(benchmark::State& state) {
-  std::mt19937 random(1);
-  std::vector<GolayWord> words(256);
-  for (auto& word : words) word = random() & 0xFFFFFFU;
-  std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(DecodeCodeword(words[++i % words.size()]));
-}
-BENCHMARK(HardDecode);
-
 /// With the first N numbers in use; 0: all.
 void SoftDecode(benchmark::State& state) {
   const auto cells = RandomCells();

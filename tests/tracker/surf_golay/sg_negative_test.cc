@@ -166,6 +166,15 @@ TEST(SgDetection, SeesNoMarkerInOtherPrints) {
   }
 }
 
+/// Cells of `word` that differ from the most similar number's.
+int CellsFromNearestNumber(GolayWord word) {
+  int nearest = kGolayBits;
+  for (int number = 0; number < kGolayNumbers; ++number) {
+    nearest = std::min(nearest, std::popcount(word ^ CodewordOfNumber(number)));
+  }
+  return nearest;
+}
+
 TEST(SgDetection, GivesNoNumberToCellsThatAreNoNumbers) {
   const CameraModel camera = SgCamera();
   const auto tracker = MakeSgTracker(camera);
@@ -182,7 +191,7 @@ TEST(SgDetection, GivesNoNumberToCellsThatAreNoNumbers) {
       marker.pattern = std::make_shared<MarkerPattern>(SgMarkerPatternOfWord(word));
       const GreyImage image =
           RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++});
-      if (!DecodeCodeword(word)) ExpectNothing(tracker.get(), image);
+      if (CellsFromNearestNumber(word) > 3) ExpectNothing(tracker.get(), image);
       if (std::popcount(word ^ near) > 4) ExpectNothing(one.get(), image);
     }
   }
