@@ -31,12 +31,6 @@ void GlBuffer::Update(const void* data, std::size_t bytes, std::size_t offset) {
   glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
-void GlBuffer::Download(void* data, std::size_t bytes, std::size_t offset) const {
-  CHECK_LE(offset + bytes, bytes_);
-  glGetNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
-                          data);
-}
-
 void GlBuffer::BindBase(GLenum target, int index) const {
   glBindBufferBase(target, static_cast<GLuint>(index), id());
 }

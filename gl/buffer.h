@@ -12,7 +12,7 @@ namespace pleinair::gl {
 
 inline void DeleteBuffer(GLuint id) { glDeleteBuffers(1, &id); }
 
-/// A buffer of fixed size: vertices, indices, uniform blocks, shader storage.
+/// A buffer of fixed size: vertices, indices, uniform blocks.
 class GlBuffer {
  public:
   /// `flags` as glNamedBufferStorage takes them; with the default, Update may change the content.
@@ -29,8 +29,7 @@ class GlBuffer {
   GlBuffer() = default;
 
   void Update(const void* data, std::size_t bytes, std::size_t offset = 0);
-  void Download(void* data, std::size_t bytes, std::size_t offset = 0) const;
-  /// Binds the whole buffer to an indexed target (GL_UNIFORM_BUFFER, GL_SHADER_STORAGE_BUFFER).
+  /// Binds the whole buffer to an indexed target (GL_UNIFORM_BUFFER).
   void BindBase(GLenum target, int index) const;
 
   GLuint id() const { return handle_.id(); }

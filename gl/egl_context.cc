@@ -180,7 +180,7 @@ Result<EglContext> EglContext::Create(const EglContextOptions& options) {
       tried += (tried.empty() ? "" : ", ") + candidate.error().Message();
       return false;
     }
-    if (options.prefer_hardware && IsSoftware(GlString(GL_RENDERER))) {
+    if (IsSoftware(GlString(GL_RENDERER))) {
       software.push_back(*candidate);
       return false;
     }
@@ -220,11 +220,7 @@ Result<EglContext> EglContext::Create(const EglContextOptions& options) {
   if (!eglMakeCurrent(chosen.display, EGL_NO_SURFACE, EGL_NO_SURFACE, chosen.context)) {
     return SystemError("OpenGL", "eglMakeCurrent: " + EglErrorName(eglGetError()), kRemedy);
   }
-  state->info = {chosen.platform,
-                 GlString(GL_VENDOR),
-                 GlString(GL_RENDERER),
-                 GlString(GL_VERSION),
-                 GlString(GL_SHADING_LANGUAGE_VERSION),
+  state->info = {chosen.platform, GlString(GL_VENDOR), GlString(GL_RENDERER), GlString(GL_VERSION),
                  IsSoftware(GlString(GL_RENDERER))};
   if (options.debug) {
     glEnable(GL_DEBUG_OUTPUT);

@@ -12,8 +12,6 @@ struct EglContextOptions {
   /// Ask for a debug context and collect what the driver reports (TakeErrors). Costs little with
   /// a software renderer; tests switch it on and fail on any error.
   bool debug = false;
-  /// Where the first platform gives a software renderer but the machine lists a GPU, take the GPU.
-  bool prefer_hardware = true;
 };
 
 /// What the machine gave.
@@ -22,14 +20,13 @@ struct EglContextInfo {
   std::string vendor;     ///< GL_VENDOR.
   std::string renderer;   ///< GL_RENDERER.
   std::string version;    ///< GL_VERSION.
-  std::string glsl;       ///< GL_SHADING_LANGUAGE_VERSION.
   bool software = false;  ///< A CPU renders (llvmpipe, softpipe, swrast).
 };
 
 /// An OpenGL 4.5 core context without window, display or surface (EGL 1.5): drawing goes to
 /// framebuffer objects. Tried in order: Mesa's surfaceless platform, EGL devices, the default
-/// display. Move-only; the context is released and destroyed with the object, so GL objects must
-/// go first. One thread at a time may have it current.
+/// display; a GPU goes before a software renderer. Move-only; the context is released and destroyed
+/// with the object, so GL objects must go first. One thread at a time may have it current.
 class EglContext {
  public:
   /// Creates the context and makes it current on the calling thread.

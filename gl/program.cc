@@ -39,9 +39,7 @@ Result<ShaderHandle> Compile(const StageText& stage) {
 Result<GlProgram> GlProgram::Create(const ProgramStages& stages) {
   std::vector<StageText> texts;
   const std::pair<GLenum, const std::string*> all[] = {{GL_VERTEX_SHADER, &stages.vertex},
-                                                       {GL_GEOMETRY_SHADER, &stages.geometry},
-                                                       {GL_FRAGMENT_SHADER, &stages.fragment},
-                                                       {GL_COMPUTE_SHADER, &stages.compute}};
+                                                       {GL_FRAGMENT_SHADER, &stages.fragment}};
   for (const auto& [stage, name] : all) {
     if (name->empty()) continue;
     PLEINAIR_ASSIGN_OR_RETURN(ShaderSource source, ShaderLibrary::Load(*name, stages.defines));
@@ -104,20 +102,12 @@ void GlProgram::Set(std::string_view name, const glm::vec4& value) const {
 void GlProgram::Set(std::string_view name, const glm::ivec2& value) const {
   glProgramUniform2iv(id(), UniformLocation(name), 1, glm::value_ptr(value));
 }
-void GlProgram::Set(std::string_view name, const glm::mat3& value) const {
-  glProgramUniformMatrix3fv(id(), UniformLocation(name), 1, GL_FALSE, glm::value_ptr(value));
-}
 void GlProgram::Set(std::string_view name, const glm::mat4& value) const {
   glProgramUniformMatrix4fv(id(), UniformLocation(name), 1, GL_FALSE, glm::value_ptr(value));
 }
 void GlProgram::SetArray(std::string_view name, const std::vector<glm::vec3>& values) const {
   if (values.empty()) return;
   glProgramUniform3fv(id(), UniformLocation(name), static_cast<GLsizei>(values.size()),
-                      glm::value_ptr(values.front()));
-}
-void GlProgram::SetArray(std::string_view name, const std::vector<glm::vec4>& values) const {
-  if (values.empty()) return;
-  glProgramUniform4fv(id(), UniformLocation(name), static_cast<GLsizei>(values.size()),
                       glm::value_ptr(values.front()));
 }
 void GlProgram::SetArray(std::string_view name, const std::vector<float>& values) const {

@@ -19,8 +19,6 @@ inline void DeleteProgram(GLuint id) { glDeleteProgram(id); }
 struct ProgramStages {
   std::string vertex = {};
   std::string fragment = {};
-  std::string geometry = {};
-  std::string compute = {};
   std::vector<std::string> defines = {};  ///< "NAME" or "NAME value", for all stages.
 };
 
@@ -50,19 +48,17 @@ class GlProgram {
   void Set(std::string_view name, const glm::vec3& value) const;
   void Set(std::string_view name, const glm::vec4& value) const;
   void Set(std::string_view name, const glm::ivec2& value) const;
-  void Set(std::string_view name, const glm::mat3& value) const;
   void Set(std::string_view name, const glm::mat4& value) const;
   void SetArray(std::string_view name, const std::vector<glm::vec3>& values) const;
-  void SetArray(std::string_view name, const std::vector<glm::vec4>& values) const;
   void SetArray(std::string_view name, const std::vector<float>& values) const;
-
-  /// Location of an active uniform, -1 where there is none.
-  int UniformLocation(std::string_view name) const;
 
   GLuint id() const { return handle_.id(); }
   explicit operator bool() const { return static_cast<bool>(handle_); }
 
  private:
+  /// Location of an active uniform, -1 where there is none.
+  int UniformLocation(std::string_view name) const;
+
   GlHandle<&DeleteProgram> handle_;
   mutable std::unordered_map<std::string, int> locations_;
 };

@@ -52,11 +52,9 @@ Result<GlTexture> GlTexture::Allocate(GLenum target, GLenum internal_format, int
             : "a texture of " + size + " was refused (GL error " + std::to_string(error) + ")",
         "choose a smaller size");
   }
-  texture.target_ = target;
   texture.internal_format_ = internal_format;
   texture.width_ = width;
   texture.height_ = height;
-  texture.layers_ = layers;
   texture.samples_ = samples;
   if (samples == 0) {
     texture.SetFilter(GL_LINEAR, GL_LINEAR);
@@ -107,16 +105,6 @@ void GlTexture::SetFilter(GLenum minification, GLenum magnification) {
 void GlTexture::SetWrap(GLenum mode) {
   glTextureParameteri(id(), GL_TEXTURE_WRAP_S, static_cast<GLint>(mode));
   glTextureParameteri(id(), GL_TEXTURE_WRAP_T, static_cast<GLint>(mode));
-}
-
-void GlTexture::SetBorderColor(float r, float g, float b, float a) {
-  const float color[] = {r, g, b, a};
-  glTextureParameterfv(id(), GL_TEXTURE_BORDER_COLOR, color);
-}
-
-void GlTexture::SetCompare(GLenum function) {
-  glTextureParameteri(id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  glTextureParameteri(id(), GL_TEXTURE_COMPARE_FUNC, static_cast<GLint>(function));
 }
 
 }  // namespace pleinair::gl

@@ -36,19 +36,14 @@ class GlTexture {
   void GenerateMipmaps();
   void SetFilter(GLenum minification, GLenum magnification);
   void SetWrap(GLenum mode);
-  void SetBorderColor(float r, float g, float b, float a);
-  /// Depth textures: sampling compares (sampler2DShadow) and filters the outcomes.
-  void SetCompare(GLenum function);
 
   void Bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), handle_.id()); }
 
   GLuint id() const { return handle_.id(); }
   explicit operator bool() const { return static_cast<bool>(handle_); }
-  GLenum target() const { return target_; }
   GLenum internal_format() const { return internal_format_; }
   int width() const { return width_; }
   int height() const { return height_; }
-  int layers() const { return layers_; }
   int samples() const { return samples_; }
 
  private:
@@ -56,11 +51,9 @@ class GlTexture {
                                     int layers, int levels, int samples);
 
   GlHandle<&DeleteTexture> handle_;
-  GLenum target_ = GL_TEXTURE_2D;
   GLenum internal_format_ = 0;
   int width_ = 0;
   int height_ = 0;
-  int layers_ = 1;
   int samples_ = 0;
 };
 

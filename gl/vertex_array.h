@@ -35,10 +35,6 @@ class GlVertexArray {
     glEnableVertexArrayAttrib(id(), index);
   }
   void SetElementBuffer(const GlBuffer& buffer) { glVertexArrayElementBuffer(id(), buffer.id()); }
-  /// Advances the input once every `divisor` instances instead of every vertex.
-  void SetDivisor(int location, int divisor) {
-    glVertexArrayBindingDivisor(id(), static_cast<GLuint>(location), static_cast<GLuint>(divisor));
-  }
 
   void Bind() const { glBindVertexArray(id()); }
   GLuint id() const { return handle_.id(); }

@@ -13,8 +13,6 @@ namespace pleinair::devices {
 
 /// What a person may set and hold on a camera.
 enum class CameraControl { kExposure, kGain, kWhiteBalance, kFocus };
-constexpr CameraControl kCameraControls[] = {CameraControl::kExposure, CameraControl::kGain,
-                                             CameraControl::kWhiteBalance, CameraControl::kFocus};
 
 /// "exposure", "gain", "white balance", "focus".
 std::string_view NameOf(CameraControl control);

@@ -55,14 +55,4 @@ void ScaleTrajectory(double factor, CameraTrajectory* path) {
   for (TrajectoryPoint& point : path->points) point.place.xyz = point.place.xyz * factor;
 }
 
-Trajectory TrajectoryOf(const CameraTrajectory& path) {
-  const Transform<Marker, Reference> marker_from_reference;
-  Trajectory trajectory;
-  trajectory.reserve(path.poses.size());
-  for (const TrajectoryPose& pose : path.poses) {
-    trajectory.push_back({pose.timestamp_ns, marker_from_reference * pose.reference_from_camera});
-  }
-  return trajectory;
-}
-
 }  // namespace pleinair::exports

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/quaternion.h"
-#include "base/trajectory.h"
 
 namespace pleinair::exports {
 
@@ -56,8 +55,5 @@ Result<void> AddPose(const std::string& where, TrajectoryPose pose, CameraTrajec
 
 /// Multiplies all lengths: reconstructions know no scale of their own.
 void ScaleTrajectory(double factor, CameraTrajectory* path);
-
-/// The poses alone, the reference being the marker: for those who measure a path.
-Trajectory TrajectoryOf(const CameraTrajectory& path);
 
 }  // namespace pleinair::exports

@@ -3,15 +3,6 @@
 #ifndef PLEINAIR_SHADOW_FORMULAE
 #define PLEINAIR_SHADOW_FORMULAE
 
-// Share of the sun's uniform disc that a straight edge leaves visible; u = offset of the receiver
-// from the shadow's geometric edge over the disc's radius there (h tan 0.2665°), positive on the
-// lit side. Area of a circular segment.
-float StraightEdgeVisibility(float u) {
-  float pi = 3.14159265f;
-  float x = clamp(u, -1.0f, 1.0f);
-  return 0.5f + (x * sqrt(1.0f - x * x) + asin(x)) / pi;
-}
-
 // Point i of n spread evenly over the unit disc. Vogel 1979, "A better way to construct the
 // sunflower head", Math. Biosci. 44: golden angle 2.39996 rad, radius ∝ √.
 vec2 VogelDisc(int i, int n) {

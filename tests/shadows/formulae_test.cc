@@ -15,15 +15,6 @@ using namespace glm;  // NOLINT(google-build-using-namespace): what the shader l
 
 namespace {
 
-TEST(StraightEdgeVisibility, IsTheSegmentOfADisc) {
-  EXPECT_NEAR(glsl::StraightEdgeVisibility(0.0F), 0.5F, 1e-6F);
-  EXPECT_NEAR(glsl::StraightEdgeVisibility(0.5F), 0.8045F, 5e-5F);
-  EXPECT_NEAR(glsl::StraightEdgeVisibility(0.8F), 0.9480F, 5e-5F);
-  EXPECT_NEAR(glsl::StraightEdgeVisibility(-0.5F), 1.0F - 0.8045F, 5e-5F);
-  EXPECT_EQ(glsl::StraightEdgeVisibility(3.0F), 1.0F);
-  EXPECT_EQ(glsl::StraightEdgeVisibility(-3.0F), 0.0F);
-}
-
 TEST(VogelDisc, SpreadsEvenlyOverTheDisc) {
   constexpr int kPoints = 48;
   glm::dvec2 mean(0.0), second(0.0);

@@ -57,12 +57,6 @@ Result<Known> Find(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> DictionaryNames() {
-  std::vector<std::string> names;
-  for (const Known& known : kKnown) names.emplace_back(known.name);
-  return names;
-}
-
 Result<int> FindDictionary(const std::string& name) {
   PLEINAIR_ASSIGN_OR_RETURN(const Known known, Find(name));
   return known.number;

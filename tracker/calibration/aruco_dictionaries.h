@@ -9,12 +9,9 @@
 
 namespace pleinair::tracker {
 
-/// Names of the dictionaries of OpenCV's aruco module without "DICT_", such as "4x4_50",
-/// "aruco_original" and "apriltag_36h11".
-std::vector<std::string> DictionaryNames();
-
-/// The number that OpenCV has for it; capitals and "DICT_" do not matter. Errors (input): unknown,
-/// with the known ones; fewer than `markers` in it.
+/// The number that OpenCV's aruco module has for a dictionary such as "4x4_50", "aruco_original"
+/// and "apriltag_36h11"; capitals and "DICT_" do not matter. Errors (input): unknown, with the
+/// known ones; fewer than `markers` in it.
 Result<int> FindDictionary(const std::string& name);
 Result<void> CheckDictionary(const std::string& name, int markers);
 

@@ -30,7 +30,6 @@ class DescriptorMatcher {
   static constexpr int kMaxNeighbours = 8;
 
   void SetTemplates(std::span<const QuantisedDescriptor> templates);
-  int template_count() const { return template_count_; }
 
   /// The `k` (1..kMaxNeighbours) nearest templates of each descriptor of the frame, at
   /// (*templates_of_frame)[frame * k ...], and the `k` nearest of the frame of each template, at
