@@ -41,7 +41,7 @@ BakedLighting::BakedLighting(const LightingRequest& lighting_request)
       daylight, marker_from_world,
       sun_transmittance ? *sun_transmittance : compositor::SunTransmittanceMap{});
   if (request.marker_reflectance.size_m <= 0.0) return;
-  meter.emplace(request.marker_reflectance, *request.solver, daylight, marker_from_world,
+  meter.emplace(request.marker_reflectance, request.solver->phantoms(), daylight, marker_from_world,
                 request.response);
 }
 

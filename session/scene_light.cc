@@ -22,7 +22,8 @@ void SceneLight::Observe(ImageView<const std::uint8_t> rgb, const CameraModel& c
                          const CameraResponse& response) {
   if (!estimator_) {
     estimator_ = std::make_unique<compositor::LightEstimator>(
-        solver_, camera, marker_reflectance, scene, options_.overrides, time, response);
+        std::shared_ptr<const compositor::PhantomRays>(solver_, &solver_->phantoms()), camera,
+        marker_reflectance, scene, options_.overrides, time, response);
   }
   estimator_->Add(rgb, camera_from_marker);
 }

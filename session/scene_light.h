@@ -69,7 +69,7 @@ class SceneLight {
   bool made_elsewhere() const { return made_elsewhere_; }
   bool has_cache() const { return !options_.cache.empty(); }
   const compositor::SkyState& skies() const { return skies_; }
-  const compositor::LightSolver& solver() const { return *solver_; }
+  const compositor::PhantomRays& phantoms() const { return solver_->phantoms(); }
 
  private:
   std::shared_ptr<const compositor::LightSolver> solver_;

@@ -92,7 +92,7 @@ void SceneRenderer::SetMarkerReflectance(const scene::MarkerReflectance& marker_
   if (composer_) composer_->SetMarkerMargin(marker_reflectance.board_size_m);
   if (!light_ || !light_->in_use() || light_->made_elsewhere()) return;
   exposure_.SetMeter(compositor::MarkerLightMeter(
-      marker_reflectance_, light_->solver(), light_->in_use()->daylight,
+      marker_reflectance_, light_->phantoms(), light_->in_use()->daylight,
       scene::MarkerFromWorld(scene_.marker), response_));
 }
 

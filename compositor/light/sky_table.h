@@ -8,6 +8,10 @@
 
 namespace pleinair::compositor {
 
+/// Diffuse reflectance of the land beyond the phantoms: 0.2 is the customary value for mixed
+/// ground.
+inline constexpr double kLandAlbedo = 0.2;
+
 /// The radiance that comes to the scene from far away, by direction in marker coordinates: the
 /// sky, tabulated once so that millions of rays can ask for it, and below the horizon the land
 /// that goes on where the phantoms end. Without the sun's disc.

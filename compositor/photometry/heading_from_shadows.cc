@@ -73,8 +73,8 @@ std::vector<Cell> CellsOf(const SurfaceSamples& samples, Vec3 to_sun) {
 
 class Search {
  public:
-  Search(const LightSolver& solver, const SurfaceSamples& samples, Vec3 up, Vec3 to_sun)
-      : solver_(solver), samples_(samples), up_(up), to_sun_(to_sun) {}
+  Search(const PhantomRays& phantoms, const SurfaceSamples& samples, Vec3 up, Vec3 to_sun)
+      : phantoms_(phantoms), samples_(samples), up_(up), to_sun_(to_sun) {}
 
   /// By heading and group of cells.
   using Fits = std::vector<std::array<Fit, kGroups>>;
@@ -118,8 +118,7 @@ class Search {
     double lit = 0.0, bright = 0.0, product = 0.0;
     for (std::size_t i = 0; i < cell.surface_samples.size(); ++i) {
       bright += cell.brightness[i];
-      if (!solver_.IsUnoccludedPhantomsOnly(samples_.samples()[cell.surface_samples[i]].point, sun))
-        continue;
+      if (!phantoms_.IsUnoccluded(samples_.samples()[cell.surface_samples[i]].point, sun)) continue;
       lit += 1.0;
       product += cell.brightness[i];
     }
@@ -131,7 +130,7 @@ class Search {
     return fit;
   }
 
-  const LightSolver& solver_;
+  const PhantomRays& phantoms_;
   const SurfaceSamples& samples_;
   Vec3 up_, to_sun_;
 };
@@ -178,11 +177,11 @@ Vec3 Turned(Vec3 direction, Vec3 unit_axis, Radians angle) {
          unit_axis * (Dot(unit_axis, direction) * (1 - c));
 }
 
-std::optional<HeadingEstimate> EstimateHeading(const LightSolver& solver,
+std::optional<HeadingEstimate> EstimateHeading(const PhantomRays& phantoms,
                                                const SurfaceSamples& samples, Vec3 up,
                                                Vec3 to_sun) {
   if (Dot(up, to_sun) <= 0.0) return std::nullopt;
-  const Search search(solver, samples, up, to_sun);
+  const Search search(phantoms, samples, up, to_sun);
   const std::vector<double> coarse = Steps(-kMaxHeadingError_deg - kFineReach_deg,
                                            kMaxHeadingError_deg + kFineReach_deg, kCoarseStepDeg);
   const std::vector<Cell> cells = search.Crossed(CellsOf(samples, to_sun), coarse);

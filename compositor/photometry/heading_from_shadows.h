@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/photometry/surface_samples.h"
 
 namespace pleinair::compositor {
@@ -21,7 +21,7 @@ struct HeadingEstimate {
 /// Turns the sun about the vertical until the shadows that phantoms cast on phantoms lie where the
 /// pictures are dark: the heading at which sunlit or not explains most of the brightness within
 /// small cells of one material. Nothing where no heading explains it: no sun, or no edge in view.
-std::optional<HeadingEstimate> EstimateHeading(const LightSolver& solver,
+std::optional<HeadingEstimate> EstimateHeading(const PhantomRays& phantoms,
                                                const SurfaceSamples& samples, Vec3 up, Vec3 to_sun);
 
 /// A direction turned about an axis, counter-clockwise seen from the axis' tip.

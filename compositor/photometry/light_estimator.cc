@@ -70,20 +70,22 @@ bool MayShine(scene::Cloudiness stated) {
 
 }  // namespace
 
-LightEstimator::LightEstimator(std::shared_ptr<const LightSolver> solver, const CameraModel& camera,
+LightEstimator::LightEstimator(std::shared_ptr<const PhantomRays> phantoms,
+                               const CameraModel& camera,
                                const scene::MarkerReflectance& marker_reflectance,
                                const scene::SceneDescription& scene,
                                const LightOverrides& overrides, UtcTime time,
                                const CameraResponse& response)
-    : solver_(std::move(solver)),
+    : phantoms_(std::move(phantoms)),
       camera_(camera),
       scene_(scene),
       overrides_(overrides),
       time_(time),
       sun_(scene::SunOver(scene.place_time, time)),
       day_(SunlitSky(scene)->ForSun(sun_.ToSun(), sun_.distance_au)),
-      samples_(*solver_, camera, marker_reflectance, response),
-      meter_(marker_reflectance, *solver_, *day_, scene::MarkerFromWorld(scene.marker), response) {}
+      samples_(*phantoms_, camera, marker_reflectance, response),
+      meter_(marker_reflectance, *phantoms_, *day_, scene::MarkerFromWorld(scene.marker),
+             response) {}
 
 void LightEstimator::Add(ImageView<const std::uint8_t> rgb,
                          const Transform<Camera, Marker>& camera_from_marker) {
@@ -111,9 +113,9 @@ void LightEstimator::UseDescribedLight(LightEstimate* found) const {
   // Without a sun there is no shade to be found.
   if (ratio <= 0.0 || overrides_.sun_to_sky.value_or(ratio) <= 0.0) return;
   const double sky_radiance_scale = ratio / overrides_.sun_to_sky.value_or(ratio);
-  const UnmodelledShadows unmodelled =
-      FindUnmodelledShadows(*solver_, samples_, meter_, *day, scene::MarkerFromWorld(scene_.marker),
-                            LinearRgb{1, 1, 1} * sky_radiance_scale);
+  const UnmodelledShadows unmodelled = FindUnmodelledShadows(
+      *phantoms_, samples_, meter_, *day, scene::MarkerFromWorld(scene_.marker),
+      LinearRgb{1, 1, 1} * sky_radiance_scale);
   if (unmodelled.sunlit == 0) return;
   found->skies = {skies, {1.0, 1.0, 1.0}, unmodelled.Matters()};
   found->measured.shaded = unmodelled.shaded;
@@ -148,14 +150,15 @@ SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
   LightFilter with_reading = *light_filter;
   if (!overrides_.heading_deg) {
     const Vec3 up = stated * Vec3{0.0, 0.0, 1.0};
-    if (const auto heading = EstimateHeading(*solver_, samples_, up, stated * day_->ToSun().xyz)) {
+    if (const auto heading =
+            EstimateHeading(*phantoms_, samples_, up, stated * day_->ToSun().xyz)) {
       with_reading.AddHeading(WeightedHeading(*heading), time_);
     }
   }
   UseHeading(with_reading, found);
   marker.heading = found->heading;
   const SunSkyRatio estimate = EstimateSunSkyRatio(
-      FindShadowEdges(*solver_, samples_, *day_, scene::MarkerFromWorld(marker)));
+      FindShadowEdges(*phantoms_, samples_, *day_, scene::MarkerFromWorld(marker)));
   if (estimate.sun == SunSkyRatio::Sun::kShines) {
     *light_filter = with_reading;
   } else {
@@ -182,8 +185,8 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
   scene::MarkerDescription marker = scene_.marker;
   marker.heading = found.heading;
   const auto shade_under = [&](LinearRgb sky_radiance_scale) {
-    return FindUnmodelledShadows(*solver_, samples_, meter_, *day_, scene::MarkerFromWorld(marker),
-                                 sky_radiance_scale);
+    return FindUnmodelledShadows(*phantoms_, samples_, meter_, *day_,
+                                 scene::MarkerFromWorld(marker), sky_radiance_scale);
   };
   const bool overridden = overrides_.sun_to_sky.has_value();
   if (overridden && *overrides_.sun_to_sky <= 0.0) return found;
@@ -194,7 +197,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
   UnmodelledShadows unmodelled = shade_under(scale);
   const bool may_shine = MayShine(scene_.cloudiness);
   const auto plane_contrast = [&](const sky::SkyModel& day) {
-    return TestForOvercast(*solver_, samples_, day, scene::MarkerFromWorld(marker));
+    return TestForOvercast(*phantoms_, samples_, day, scene::MarkerFromWorld(marker));
   };
   const auto overcast = OvercastSky();
   const auto settle_overcast = [&] {
@@ -243,7 +246,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
       // Half-light on the sunny side makes the sky look too strong, there and between the leaves:
       // the weaker counts.
       const SunSkyRatio depth =
-          EstimateRatioFromShade(*solver_, unmodelled, *day_, scene::MarkerFromWorld(marker));
+          EstimateRatioFromShade(*phantoms_, unmodelled, *day_, scene::MarkerFromWorld(marker));
       if (depth.sun == Sun::kShines && depth.sky_radiance_scale.g < estimate.sky_radiance_scale.g) {
         edges = depth;
         light.sun_source = MeasuredLight::Source::kShade;
@@ -256,7 +259,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
     // One material and a sharp edge: surer than the deepest of the trees' shade.
     SunSkyRatio seen;
     if (IsMarkerDivided(unmodelled)) {
-      seen = EstimateRatioFromMarkerShadow(*solver_, marker_shadow_edges_, *day_,
+      seen = EstimateRatioFromMarkerShadow(*phantoms_, marker_shadow_edges_, *day_,
                                            scene::MarkerFromWorld(marker));
     }
     if (seen.sun == Sun::kShines) {
@@ -266,7 +269,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
       // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
       const UnmodelledShadows probe = shade_under(kHazierSky);
       if (probe.Matters()) {
-        seen = EstimateRatioFromShade(*solver_, probe, *day_, scene::MarkerFromWorld(marker));
+        seen = EstimateRatioFromShade(*phantoms_, probe, *day_, scene::MarkerFromWorld(marker));
       }
       if (seen.sun == Sun::kShines) {
         light.sun_source = MeasuredLight::Source::kShade;

@@ -34,7 +34,7 @@ struct LightEstimate {
 class LightEstimator {
  public:
   /// `scene`: with the stated or overriding heading.
-  LightEstimator(std::shared_ptr<const LightSolver> solver, const CameraModel& camera,
+  LightEstimator(std::shared_ptr<const PhantomRays> phantoms, const CameraModel& camera,
                  const scene::MarkerReflectance& marker_reflectance,
                  const scene::SceneDescription& scene, const LightOverrides& overrides,
                  UtcTime time, const CameraResponse& response);
@@ -57,7 +57,7 @@ class LightEstimator {
   /// Where nothing is to be measured: whether anything but phantoms shades the ground all the same.
   void UseDescribedLight(LightEstimate* found) const;
 
-  std::shared_ptr<const LightSolver> solver_;
+  std::shared_ptr<const PhantomRays> phantoms_;
   CameraModel camera_;
   scene::SceneDescription scene_;
   LightOverrides overrides_;

@@ -37,7 +37,7 @@ double SpreadOf(const std::map<int, std::vector<double>>& values) {
 
 }  // namespace
 
-OvercastTest TestForOvercast(const LightSolver& solver, const SurfaceSamples& samples,
+OvercastTest TestForOvercast(const PhantomRays& phantoms, const SurfaceSamples& samples,
                              const sky::SkyModel& day, const Mat3& marker_from_world) {
   const auto& all = samples.samples();
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
@@ -58,11 +58,10 @@ OvercastTest TestForOvercast(const LightSolver& solver, const SurfaceSamples& sa
           all[surface_samples[(2 * i + 1) * surface_samples.size() / (2 * kProbes)]].point);
     }
     const double sun = day.SunNormalIrradiance().g * std::max(0.0, Dot(first.normal, to_sun));
-    const auto ambient =
-        solver.AmbientPhantomsOnly(probes, first.normal, day, marker_from_world, kPaths);
+    const auto ambient = phantoms.Ambient(probes, first.normal, day, marker_from_world, kPaths);
     std::vector<double> modelled, seen;
     for (std::size_t i = 0; i < probes.size(); ++i) {
-      const double open = sun > 0.0 ? solver.SunVisibilityPhantomsOnly(probes[i], to_sun) : 0.0;
+      const double open = sun > 0.0 ? phantoms.SunVisibility(probes[i], to_sun) : 0.0;
       modelled.push_back(std::log(std::max(ambient[i].g + sun * open, 1e-9)));
     }
     for (const std::uint32_t surface_sample : surface_samples)

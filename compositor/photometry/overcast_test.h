@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/photometry/surface_samples.h"
 #include "sky/sky_model.h"
 
@@ -23,7 +23,7 @@ struct OvercastTest {
 };
 
 /// Compares planes in the light of `day`, its sun as the phantoms leave it.
-OvercastTest TestForOvercast(const LightSolver& solver, const SurfaceSamples& samples,
+OvercastTest TestForOvercast(const PhantomRays& phantoms, const SurfaceSamples& samples,
                              const sky::SkyModel& day, const Mat3& marker_from_world);
 
 }  // namespace pleinair::compositor

@@ -44,19 +44,19 @@ Rgb ToArray(LinearRgb c) { return {c.r, c.g, c.b}; }
 enum class Side : std::uint8_t { kLit, kShaded, kNeither };
 
 /// Clear of every edge by the sun's width and the picture's blur?
-Side SideOf(const LightSolver& solver, const SurfaceSample& sample, const TangentFrame& sun) {
-  const bool lit = solver.IsUnoccludedPhantomsOnly(sample.point, sun.normal);
+Side SideOf(const PhantomRays& phantoms, const SurfaceSample& sample, const TangentFrame& sun) {
+  const bool lit = phantoms.IsUnoccluded(sample.point, sun.normal);
   constexpr double kRim = 0.98;
   for (int i = 0; i < kDiscDirections; ++i) {
     const Vec3 direction =
         SunDiscDirection(sun, {kRim * kRim, static_cast<double>(i) / kDiscDirections});
-    if (solver.IsUnoccludedPhantomsOnly(sample.point, direction) != lit) return Side::kNeither;
+    if (phantoms.IsUnoccluded(sample.point, direction) != lit) return Side::kNeither;
   }
   const TangentFrame around(sample.normal);
   const double step = kBlurPx * sample.footprint_m;
   for (const Vec3 aside : {around.tangent, -around.tangent, around.bitangent, -around.bitangent}) {
     const Point<Marker> beside{sample.point.xyz + aside * step};
-    if (solver.IsUnoccludedPhantomsOnly(beside, sun.normal) != lit) return Side::kNeither;
+    if (phantoms.IsUnoccluded(beside, sun.normal) != lit) return Side::kNeither;
   }
   return lit ? Side::kLit : Side::kShaded;
 }
@@ -98,7 +98,7 @@ struct Candidate {
   std::size_t Size() const { return std::min(lit.size(), shaded.size()); }
 };
 
-std::vector<Candidate> Candidates(const LightSolver& solver, const SurfaceSamples& samples,
+std::vector<Candidate> Candidates(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                   const TangentFrame& sun) {
   const auto& all = samples.samples();
   std::vector<Side> sides(all.size(), Side::kNeither);
@@ -106,14 +106,14 @@ std::vector<Candidate> Candidates(const LightSolver& solver, const SurfaceSample
   std::vector<std::uint8_t> seen(samples.cells());
   std::vector<std::uint8_t> sun_visible(all.size());
   ParallelFor(all.size(), 0, [&](std::size_t i) {
-    sun_visible[i] = solver.IsUnoccludedPhantomsOnly(all[i].point, sun.normal) ? 1 : 2;
+    sun_visible[i] = phantoms.IsUnoccluded(all[i].point, sun.normal) ? 1 : 2;
   });
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].frames > 0) seen[all[i].cell] |= sun_visible[i];
   }
   ParallelFor(all.size(), 0, [&](std::size_t i) {
     if (seen[all[i].cell] == 3 && all[i].frames > 0 && Dot(all[i].normal, sun.normal) >= kGrazing) {
-      sides[i] = SideOf(solver, all[i], sun);
+      sides[i] = SideOf(phantoms, all[i], sun);
     }
   });
   std::vector<Candidate> cells(samples.cells());
@@ -203,12 +203,12 @@ LinearRgb ShadowEdge::Predicted(LinearRgb sky_radiance_scale) const {
   return {std::log(lit.r / shaded.r), std::log(lit.g / shaded.g), std::log(lit.b / shaded.b)};
 }
 
-std::vector<ShadowEdge> FindShadowEdges(const LightSolver& solver, const SurfaceSamples& samples,
+std::vector<ShadowEdge> FindShadowEdges(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                         const sky::SkyModel& day, const Mat3& marker_from_world) {
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
   if (day.ToSun().xyz.z <= 0.0) return {};
   const std::vector<Candidate> candidates =
-      Candidates(solver, samples, TangentFrame(Normalized(to_sun)));
+      Candidates(phantoms, samples, TangentFrame(Normalized(to_sun)));
   std::vector<ShadowEdge> edges(candidates.size());
   // By plane, since that is how ambient light is asked for.
   std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
@@ -234,10 +234,8 @@ std::vector<ShadowEdge> FindShadowEdges(const LightSolver& solver, const Surface
       points.push_back(Middle(samples, candidates[i].lit));
       points.push_back(Middle(samples, candidates[i].shaded));
     }
-    const auto sky =
-        solver.AmbientPhantomsOnly(points, normal, sky_alone, marker_from_world, kPaths);
-    const auto reflected =
-        solver.AmbientPhantomsOnly(points, normal, sun_alone, marker_from_world, kPaths);
+    const auto sky = phantoms.Ambient(points, normal, sky_alone, marker_from_world, kPaths);
+    const auto reflected = phantoms.Ambient(points, normal, sun_alone, marker_from_world, kPaths);
     for (std::size_t k = 0; k < members.size(); ++k) {
       ShadowEdge& edge = edges[members[k]];
       edge.sky_lit = sky[2 * k];

@@ -4,7 +4,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/photometry/surface_samples.h"
 #include "sky/sky_model.h"
 
@@ -25,7 +25,7 @@ struct ShadowEdge {
 
 /// The edges in view, of those that have the most surface samples on either side. `daylight` is the
 /// model, `marker_from_world` with the heading already refined.
-std::vector<ShadowEdge> FindShadowEdges(const LightSolver& solver, const SurfaceSamples& samples,
+std::vector<ShadowEdge> FindShadowEdges(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                         const sky::SkyModel& daylight,
                                         const Mat3& marker_from_world);
 

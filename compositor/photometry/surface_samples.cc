@@ -34,10 +34,10 @@ SurfacePlane PlaneOf(int surface, Vec3 normal) {
           {rounded(normal.x), rounded(normal.y), rounded(normal.z)}};
 }
 
-SurfaceSamples::SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
+SurfaceSamples::SurfaceSamples(const PhantomRays& phantoms, const CameraModel& camera,
                                const scene::MarkerReflectance& marker,
                                const CameraResponse& response)
-    : solver_(solver), camera_(camera), marker_(marker), response_(response) {}
+    : phantoms_(phantoms), camera_(camera), marker_(marker), response_(response) {}
 
 bool SurfaceSamples::IsOnMargin(Point<Marker> point) const {
   const double half = marker_.board_size_m / 2 + kBoardMarginM;
@@ -56,7 +56,7 @@ bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
   *pixel = ProjectToPixel(camera_, in_camera);
   const auto linear = SampleLinear(rgb, *pixel, response_);
   if (!linear) return false;
-  const auto seen = solver_.FirstPhantom({eye}, to_eye * (-1.0 / distance));
+  const auto seen = phantoms_.First({eye}, to_eye * (-1.0 / distance));
   if (seen && Norm(seen->point.xyz - eye) < distance - 3 * sample->footprint_m - 0.01) return false;
   const std::array<double, 3> scale{exposure_scale.r, exposure_scale.g, exposure_scale.b};
   for (int c = 0; c < 3; ++c) {
@@ -141,7 +141,7 @@ void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
       const Vec2 ray =
           UndistortPixel(camera_, {column * step + step / 2.0, row * step + step / 2.0});
       const Vec3 direction = Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1.0});
-      const auto seen = solver_.FirstPhantom(eye, direction);
+      const auto seen = phantoms_.First(eye, direction);
       if (!seen || seen->is_foliage || IsOnMargin(seen->point)) continue;
       AddSurfaceSample(*seen, Norm(seen->point.xyz - eye.xyz));
       Observe(rgb, pose, exposure_scale, &samples_.back(), &pixel);

@@ -11,7 +11,7 @@
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "scene/marker_reflectance.h"
 
 namespace pleinair::compositor {
@@ -40,8 +40,8 @@ SurfacePlane PlaneOf(int surface, Vec3 normal);
 /// in all of them.
 class SurfaceSamples {
  public:
-  /// `solver` must live as long.
-  SurfaceSamples(const LightSolver& solver, const CameraModel& camera,
+  /// `phantoms` must live as long.
+  SurfaceSamples(const PhantomRays& phantoms, const CameraModel& camera,
                  const scene::MarkerReflectance& marker, const CameraResponse& response = {});
 
   /// `gain`: the camera's scale in this frame, of which only the change from frame to frame counts.
@@ -63,7 +63,7 @@ class SurfaceSamples {
   void AddMarker(double distance_m);
   bool IsOnMargin(Point<Marker> point) const;
 
-  const LightSolver& solver_;
+  const PhantomRays& phantoms_;
   CameraModel camera_;
   scene::MarkerReflectance marker_;
   CameraResponse response_;

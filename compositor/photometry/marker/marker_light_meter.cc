@@ -84,7 +84,7 @@ std::optional<double> ShadowThreshold(const std::vector<double>& values) {
 }  // namespace
 
 MarkerLightMeter::MarkerLightMeter(const scene::MarkerReflectance& marker,
-                                   const LightSolver& solver, const sky::SkyModel& day,
+                                   const PhantomRays& phantoms, const sky::SkyModel& day,
                                    const Mat3& marker_from_world, const CameraResponse& response)
     : marker_(marker), response_(response) {
   const Vec3 to_sun = marker_from_world * day.ToSun().xyz;
@@ -110,8 +110,8 @@ MarkerLightMeter::MarkerLightMeter(const scene::MarkerReflectance& marker,
     for (int i = 0; i < kPairsPerSide; ++i) {
       const double along = reach * (2.0 * (i + 0.5) / kPairsPerSide - 1.0);
       Pair pair{on_side(along, white_m), on_side(along, -black_m), {}, 0.0};
-      const double v_white = solver.SunVisibilityPhantomsOnly(pair.white, to_sun);
-      const double v_black = solver.SunVisibilityPhantomsOnly(pair.black, to_sun);
+      const double v_white = phantoms.SunVisibility(pair.white, to_sun);
+      const double v_black = phantoms.SunVisibility(pair.black, to_sun);
       const bool in_sun = v_white > kInSun && v_black > kInSun;
       if (!in_sun && !(v_white < kInShade && v_black < kInShade)) continue;
       pair.sun_visibility = in_sun ? 1.0 : 0.0;
@@ -120,8 +120,7 @@ MarkerLightMeter::MarkerLightMeter(const scene::MarkerReflectance& marker,
       pairs_.push_back(pair);
     }
   }
-  const std::vector<LinearRgb> ambient =
-      solver.AmbientPhantomsOnly(edges, normal, day, marker_from_world);
+  const std::vector<LinearRgb> ambient = phantoms.Ambient(edges, normal, day, marker_from_world);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     pairs_[i].irradiance = ambient[i] + sun * (cosine * pairs_[i].sun_visibility);
   }

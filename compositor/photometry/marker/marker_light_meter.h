@@ -11,7 +11,7 @@
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/photometry/marker/marker_shadow_edge.h"
 #include "scene/marker_reflectance.h"
 #include "sky/sky_model.h"
@@ -47,7 +47,7 @@ class MarkerLightMeter {
  public:
   /// Predicts the light on the marker's sample points; they lie still in marker coordinates, so
   /// this is done once a light.
-  MarkerLightMeter(const scene::MarkerReflectance& marker, const LightSolver& solver,
+  MarkerLightMeter(const scene::MarkerReflectance& marker, const PhantomRays& phantoms,
                    const sky::SkyModel& day, const Mat3& marker_from_world,
                    const CameraResponse& response = {});
 

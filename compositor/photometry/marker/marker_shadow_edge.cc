@@ -107,7 +107,7 @@ std::optional<MarkerShadowEdge> FindMarkerShadowEdge(std::span<const MarkerPair>
   return MarkerShadowEdge{CrossingOf(cell, levels).contrast, Middle(bright), Middle(dark)};
 }
 
-SunSkyRatio EstimateRatioFromMarkerShadow(const LightSolver& solver,
+SunSkyRatio EstimateRatioFromMarkerShadow(const PhantomRays& phantoms,
                                           std::span<const MarkerShadowEdge> shadows,
                                           const sky::SkyModel& daylight,
                                           const Mat3& marker_from_world) {
@@ -122,15 +122,15 @@ SunSkyRatio EstimateRatioFromMarkerShadow(const LightSolver& solver,
     places.push_back(shadow.shaded);
   }
   const auto light = [&](LinearRgb of_sky, LinearRgb of_sun) {
-    return solver.AmbientPhantomsOnly(places, normal, ScaledSky(daylight, of_sky, of_sun),
-                                      marker_from_world, kPaths);
+    return phantoms.Ambient(places, normal, ScaledSky(daylight, of_sky, of_sun), marker_from_world,
+                            kPaths);
   };
   const std::vector<LinearRgb> sky = light({1, 1, 1}, {}), reflected = light({}, {1, 1, 1});
   const LinearRgb sun = daylight.SunNormalIrradiance() * cosine;
   std::array<std::vector<double>, 3> log_scales;
   for (std::size_t i = 0; i < shadows.size(); ++i) {
     // What a phantom casts the model knows; the share of the sky left by others is a guess.
-    const bool by_phantom = !solver.IsUnoccludedPhantomsOnly(shadows[i].shaded, to_sun);
+    const bool by_phantom = !phantoms.IsUnoccluded(shadows[i].shaded, to_sun);
     const double left = by_phantom ? 1.0 : 1.0 - kTakenByCaster;
     // exp(contrast) = (k sky + reflected + sun) / (k left sky' + reflected'), solved for k.
     const auto scale = [&](auto channel) {

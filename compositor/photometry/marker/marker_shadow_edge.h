@@ -5,7 +5,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/photometry/sun_sky_ratio.h"
 #include "sky/sky_model.h"
 
@@ -36,7 +36,7 @@ std::optional<MarkerShadowEdge> FindMarkerShadowEdge(std::span<const MarkerPair>
 /// is less certain than EstimateSunSkyRatio(), and says so. kUnknown where nothing can be read, as
 /// with the sun grazing the marker. `daylight` is the model, `marker_from_world` with the heading
 /// in use.
-SunSkyRatio EstimateRatioFromMarkerShadow(const LightSolver& solver,
+SunSkyRatio EstimateRatioFromMarkerShadow(const PhantomRays& phantoms,
                                           std::span<const MarkerShadowEdge> shadows,
                                           const sky::SkyModel& daylight,
                                           const Mat3& marker_from_world);

@@ -30,7 +30,7 @@ double ScaleOf(double contrast, double sun, double sky, double reflected) {
 }
 
 /// How strong the sky is, from how deep the shade is at these places.
-SunSkyRatio ReadPlaces(const LightSolver& solver, const std::vector<ShadowCrossing>& crossings,
+SunSkyRatio ReadPlaces(const PhantomRays& phantoms, const std::vector<ShadowCrossing>& crossings,
                        double shaded, const sky::SkyModel& daylight,
                        const Mat3& marker_from_world) {
   SunSkyRatio estimate;
@@ -55,10 +55,8 @@ SunSkyRatio ReadPlaces(const LightSolver& solver, const std::vector<ShadowCrossi
     std::vector<Point<Marker>> points;
     points.reserve(members.size());
     for (const std::size_t i : members) points.push_back(crossings[i].middle);
-    const auto sky =
-        solver.AmbientPhantomsOnly(points, normal, sky_alone, marker_from_world, kPaths);
-    const auto reflected =
-        solver.AmbientPhantomsOnly(points, normal, sun_alone, marker_from_world, kPaths);
+    const auto sky = phantoms.Ambient(points, normal, sky_alone, marker_from_world, kPaths);
+    const auto reflected = phantoms.Ambient(points, normal, sun_alone, marker_from_world, kPaths);
     const LinearRgb sun = daylight.SunNormalIrradiance() * std::max(0.0, Dot(normal, to_sun));
     for (std::size_t k = 0; k < members.size(); ++k) {
       const LinearRgb& contrast = crossings[members[k]].contrast;
@@ -95,13 +93,13 @@ SunSkyRatio ReadPlaces(const LightSolver& solver, const std::vector<ShadowCrossi
 
 }  // namespace
 
-SunSkyRatio EstimateRatioFromShade(const LightSolver& solver, const UnmodelledShadows& unmodelled,
+SunSkyRatio EstimateRatioFromShade(const PhantomRays& phantoms, const UnmodelledShadows& unmodelled,
                                    const sky::SkyModel& daylight, const Mat3& marker_from_world) {
   const SunSkyRatio estimate =
-      ReadPlaces(solver, unmodelled.crossings, unmodelled.shaded, daylight, marker_from_world);
+      ReadPlaces(phantoms, unmodelled.crossings, unmodelled.shaded, daylight, marker_from_world);
   if (estimate.sun == SunSkyRatio::Sun::kShines) return estimate;
   if (!unmodelled.IsWide() && !unmodelled.ShadesMarker()) return estimate;
-  return ReadPlaces(solver, unmodelled.deepest, unmodelled.shaded, daylight, marker_from_world);
+  return ReadPlaces(phantoms, unmodelled.deepest, unmodelled.shaded, daylight, marker_from_world);
 }
 
 }  // namespace pleinair::compositor

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/photometry/shade/unmodelled_shadows.h"
 #include "compositor/photometry/sun_sky_ratio.h"
 #include "sky/sky_model.h"
@@ -18,7 +18,7 @@ namespace pleinair::compositor {
 /// `sun` is kShines where enough places tell, kUnknown otherwise; `edges` are the places,
 /// `agreeing` those deep enough to count. Less certain than EstimateSunSkyRatio(), and says so.
 /// `daylight` is the model, `marker_from_world` with the heading in use.
-SunSkyRatio EstimateRatioFromShade(const LightSolver& solver, const UnmodelledShadows& unmodelled,
+SunSkyRatio EstimateRatioFromShade(const PhantomRays& phantoms, const UnmodelledShadows& unmodelled,
                                    const sky::SkyModel& daylight, const Mat3& marker_from_world);
 
 }  // namespace pleinair::compositor

@@ -156,10 +156,10 @@ bool MarkShadeAroundMarker(const SunlitIrradiance& light,
 
 }  // namespace
 
-SunlitIrradiance::SunlitIrradiance(const LightSolver& solver, const MarkerLightMeter& meter,
+SunlitIrradiance::SunlitIrradiance(const PhantomRays& phantoms, const MarkerLightMeter& meter,
                                    const sky::SkyModel& day, const Mat3& marker_from_world,
                                    LinearRgb sky_radiance_scale)
-    : solver_(solver),
+    : phantoms_(phantoms),
       day_(day, sky_radiance_scale, {1, 1, 1}),
       marker_from_world_(marker_from_world),
       to_sun_(Normalized(marker_from_world * day.ToSun().xyz)),
@@ -180,7 +180,7 @@ LinearRgb SunlitIrradiance::Ambient(const std::vector<Point<Marker>>& places, Ve
   }
   LinearRgb sum;
   for (const LinearRgb& light :
-       solver_.AmbientPhantomsOnly(probes, normal, day_, marker_from_world_, kPaths)) {
+       phantoms_.Ambient(probes, normal, day_, marker_from_world_, kPaths)) {
     sum = sum + light;
   }
   return sum * (1.0 / kProbes);

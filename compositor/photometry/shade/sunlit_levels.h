@@ -9,7 +9,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/light/scaled_sky.h"
 #include "compositor/photometry/marker/marker_light_meter.h"
 #include "compositor/photometry/surface_samples.h"
@@ -25,7 +25,7 @@ inline constexpr double kShadowDepthShare = 0.5;
 /// marker coordinates.
 class SunlitIrradiance {
  public:
-  SunlitIrradiance(const LightSolver& solver, const MarkerLightMeter& meter,
+  SunlitIrradiance(const PhantomRays& phantoms, const MarkerLightMeter& meter,
                    const sky::SkyModel& day, const Mat3& marker_from_world,
                    LinearRgb sky_radiance_scale);
 
@@ -41,7 +41,7 @@ class SunlitIrradiance {
   LinearRgb Ambient(const std::vector<Point<Marker>>& places, Vec3 normal) const;
 
  private:
-  const LightSolver& solver_;
+  const PhantomRays& phantoms_;
   ScaledSky day_;
   Mat3 marker_from_world_;
   Vec3 to_sun_;

@@ -140,7 +140,7 @@ std::vector<ShadowCrossing> DeepestPlaces(const std::vector<ShadowCell>& cells,
 
 }  // namespace
 
-UnmodelledShadows FindUnmodelledShadows(const LightSolver& solver, const SurfaceSamples& samples,
+UnmodelledShadows FindUnmodelledShadows(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                         const MarkerLightMeter& meter, const sky::SkyModel& day,
                                         const Mat3& marker_from_world,
                                         LinearRgb sky_radiance_scale) {
@@ -152,8 +152,7 @@ UnmodelledShadows FindUnmodelledShadows(const LightSolver& solver, const Surface
   const auto& all = samples.samples();
   std::vector<std::uint8_t> sun_visible(all.size());
   ParallelFor(all.size(), 0, [&](std::size_t i) {
-    sun_visible[i] =
-        all[i].frames > 0 && solver.IsUnoccludedPhantomsOnly(all[i].point, to_sun) ? 1 : 0;
+    sun_visible[i] = all[i].frames > 0 && phantoms.IsUnoccluded(all[i].point, to_sun) ? 1 : 0;
   });
   std::vector<ShadowCell> cells(samples.cells());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -204,7 +203,7 @@ UnmodelledShadows FindUnmodelledShadows(const LightSolver& solver, const Surface
   CountShadedEdges(cells, sunlit, &unmodelled);
   if ((!unmodelled.Matters() && !unmodelled.HidesEdges()) || meter.places().empty())
     return unmodelled;
-  const SunlitIrradiance light(solver, meter, day, marker_from_world, sky_radiance_scale);
+  const SunlitIrradiance light(phantoms, meter, day, marker_from_world, sky_radiance_scale);
   const SunlitScale exposure_scale = FindSunlitLevels(light, sun_visible, samples, &sunlit);
   unmodelled.sunlit_scale = std::exp(exposure_scale.log);
   unmodelled.sunlit_scale_agreed = exposure_scale.agreed;

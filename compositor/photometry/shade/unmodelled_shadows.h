@@ -4,7 +4,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
-#include "compositor/light/light_solver.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/light/sun_transmittance_map.h"
 #include "compositor/photometry/marker/marker_light_meter.h"
 #include "compositor/photometry/shade/shadow_crossing.h"
@@ -60,7 +60,7 @@ struct UnmodelledShadows {
 /// Looks for shadows of about the depth that `daylight` gives them where the sky is
 /// `sky_radiance_scale` times as strong beside its sun; `marker_from_world` with the heading in
 /// use. `meter`: by which the samples' gains were read.
-UnmodelledShadows FindUnmodelledShadows(const LightSolver& solver, const SurfaceSamples& samples,
+UnmodelledShadows FindUnmodelledShadows(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                         const MarkerLightMeter& meter,
                                         const sky::SkyModel& daylight,
                                         const Mat3& marker_from_world,

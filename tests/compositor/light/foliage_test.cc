@@ -103,11 +103,11 @@ TEST(Foliage, HideWhatStandsBehindFromWhatIsMeasured) {
        {ModelOf(Scattered(4000, 0.2, {0, 0, 2}, {1, 1, 0.6}), {0.1F, 0.2F, 0.05F}), {}, {}, true}},
       {});
   ASSERT_TRUE(solver);
-  const auto through = (*solver)->FirstPhantom({{0, 0, 5}}, {0, 0, -1});
+  const auto through = (*solver)->phantoms().First({{0, 0, 5}}, {0, 0, -1});
   ASSERT_TRUE(through);
   EXPECT_TRUE(through->is_foliage);
   EXPECT_GT(through->point.xyz.z, 1.2);
-  const auto beside = (*solver)->FirstPhantom({{2, 2, 5}}, {0, 0, -1});
+  const auto beside = (*solver)->phantoms().First({{2, 2, 5}}, {0, 0, -1});
   ASSERT_TRUE(beside);
   EXPECT_FALSE(beside->is_foliage);
   EXPECT_NEAR(beside->point.xyz.z, 0.0, 1e-6);
@@ -120,7 +120,7 @@ TEST(Foliage, LetSunAndSkyThroughAndAreDrawnAllTheSame) {
                                            {ModelOf(crown, {0.1F, 0.2F, 0.05F}), {}, {}, true}},
                                           {});
   ASSERT_TRUE(solver);
-  EXPECT_EQ((*solver)->SunVisibilityPhantomsOnly({{0, 0, 0}}, {0, 0, 1}), 1.0);
+  EXPECT_EQ((*solver)->phantoms().SunVisibility({{0, 0, 0}}, {0, 0, 1}), 1.0);
   const auto lit = (*solver)->Solve(UniformDay({1, 1, 1}), {});
   const auto drawn_leaves = std::count_if(lit.begin(), lit.end(), [](const LitMesh& mesh) {
     return mesh.placed_model == 1 && mesh.is_phantom && mesh.role == MeshRole::kRenderOnly;

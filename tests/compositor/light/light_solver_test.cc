@@ -78,8 +78,8 @@ TEST(LightSolver, TurnsTheSkyWithTheMarker) {
   const auto solver = MakeSolver({Phantom(Ground(1.0, {0.0F, 0.0F, 0.0F}))});
   const UniformDay day({1.0, 1.0, 1.0});
   const std::array<Point<Marker>, 1> above{{{{0.0, 0.0, 5.0}}}};
-  const LinearRgb wall = solver->AmbientPhantomsOnly(above, {0, 0, 1}, day, marker_from_world)[0];
-  const LinearRgb level = solver->AmbientPhantomsOnly(above, {0, 1, 0}, day, marker_from_world)[0];
+  const LinearRgb wall = solver->phantoms().Ambient(above, {0, 0, 1}, day, marker_from_world)[0];
+  const LinearRgb level = solver->phantoms().Ambient(above, {0, 1, 0}, day, marker_from_world)[0];
   EXPECT_NEAR(level.g, kPi, 0.01 * kPi);
   // Half the sky, and half the land: albedo 0.2 under the whole sky.
   EXPECT_NEAR(wall.g, 0.5 * kPi + 0.5 * 0.2 * kPi, 0.01 * kPi);
@@ -357,7 +357,7 @@ TEST(LightSolver, AgreesWithPathsFollowedOneByOne) {
     }
   }
   ASSERT_GT(points.size(), 3U);
-  const auto paths = solver->AmbientPhantomsOnly(points, kUp, day, Mat3{});
+  const auto paths = solver->phantoms().Ambient(points, kUp, day, Mat3{});
   ASSERT_EQ(paths.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(at_vertices[i][0], paths[i].r, 0.03 * paths[i].r);
@@ -378,7 +378,7 @@ TEST(LightSolver, SoftensTheSunsEdgeOverItsDisc) {
     const double inside = std::clamp(u, -1.0, 1.0);
     const double expected =
         0.5 + (inside * std::sqrt(1.0 - inside * inside) + std::asin(inside)) / kPi;
-    EXPECT_NEAR(solver->SunVisibilityPhantomsOnly({{u * radius, 0.0, 0.0}}, kUp), expected, 0.015)
+    EXPECT_NEAR(solver->phantoms().SunVisibility({{u * radius, 0.0, 0.0}}, kUp), expected, 0.015)
         << u;
   }
 }
@@ -387,7 +387,7 @@ TEST(LightSolver, AsksThePhantomsAloneForTheSun) {
   const auto solver =
       MakeSolver({Phantom(Ground(2.0, {0.3F, 0.3F, 0.3F})),
                   Object(BoxModel({-0.5, -0.5, 1.0}, {0.5, 0.5, 1.5}, {0.5F, 0.5F, 0.5F}))});
-  EXPECT_EQ(solver->SunVisibilityPhantomsOnly({{0.0, 0.0, 0.0}}, kUp), 1.0);
+  EXPECT_EQ(solver->phantoms().SunVisibility({{0.0, 0.0, 0.0}}, kUp), 1.0);
 }
 
 TEST(LightSolver, RefusesASceneWithoutSurface) {

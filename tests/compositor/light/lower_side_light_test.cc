@@ -37,7 +37,7 @@ LowerSide Below(const std::vector<PlacedModel>& scene) {
       side.light.push_back(mesh.ambient_without[i][1]);
     }
   }
-  for (const LinearRgb& light : solver->AmbientPhantomsOnly(side.points, kDown, day, Mat3{})) {
+  for (const LinearRgb& light : solver->phantoms().Ambient(side.points, kDown, day, Mat3{})) {
     side.paths.push_back(light.g);
   }
   return side;

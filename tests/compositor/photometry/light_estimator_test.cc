@@ -30,8 +30,8 @@ LightEstimate Estimate(double off_deg, const PhotographedYard::Light& light,
   const PhotographedYard& yard = Yard();
   const UtcTime time = *UtcTime::Parse(said_time);
   const scene::SceneDescription scene = tests::YardScene(yard, off_deg, time);
-  const std::shared_ptr<const LightSolver> solver(&yard.solver(), [](const auto*) {});
-  LightEstimator look(solver, yard.camera(), yard.marker(), scene, overrides, time, {});
+  const std::shared_ptr<const PhantomRays> phantoms(&yard.phantoms(), [](const auto*) {});
+  LightEstimator look(phantoms, yard.camera(), yard.marker(), scene, overrides, time, {});
   for (const int i : {0, 1}) look.Add(yard.Photograph(i, light).view(), PhotographedYard::Pose(i));
   LightFilter light_filter;
   return look.Estimate(&light_filter);
@@ -151,7 +151,7 @@ class BareGround {
     }
     scene::SceneDescription scene = scene_;
     scene.cloudiness = said;
-    LightEstimator look(solver_, camera_, print_, scene, {}, time_, {});
+    LightEstimator look({solver_, &solver_->phantoms()}, camera_, print_, scene, {}, time_, {});
     for (int i = 0; i < 2; ++i) look.Add(picture.view(), camera_from_marker_);
     LightFilter light_filter;
     return look.Estimate(&light_filter);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/camera_response.h"
+#include "compositor/light/light_solver.h"
 #include "compositor/light/sampling.h"
 #include "compositor/light/scaled_sky.h"
 #include "scene/marker_reflectance.h"
@@ -49,7 +50,7 @@ class PhotographedYard {
   const sky::SkyModel& model() const { return model_; }
   const Mat3& marker_from_world() const { return marker_from_world_; }
   Vec3 ToSun() const { return marker_from_world_ * model_.ToSun().xyz; }
-  const LightSolver& solver() const { return *solver_; }
+  const PhantomRays& phantoms() const { return solver_->phantoms(); }
   const CameraModel& camera() const { return camera_; }
   const scene::MarkerReflectance& marker() const { return marker_; }
 
@@ -61,7 +62,7 @@ class PhotographedYard {
         const double angle = 2 * std::numbers::pi * i / 12;
         const Vec3 beside =
             p + Vec3{reach * std::cos(angle), reach * std::sin(angle), i % 2 * reach + 1e-3};
-        (solver_->IsUnoccludedPhantomsOnly({beside}, ToSun()) ? lit : shaded) = true;
+        (phantoms().IsUnoccluded({beside}, ToSun()) ? lit : shaded) = true;
       }
     }
     return lit && shaded;
@@ -98,8 +99,8 @@ class PhotographedYard {
       for (int x = 0; x < camera_.width; ++x) {
         const Vec2 ray = UndistortPixel(camera_, {static_cast<double>(x), static_cast<double>(y)});
         const auto seen =
-            solver_->FirstPhantom({marker_from_camera.translation_m},
-                                  Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1}));
+            phantoms().First({marker_from_camera.translation_m},
+                             Normalized(marker_from_camera.rotation * Vec3{ray.x, ray.y, 1}));
         if (!seen) continue;
         const LinearRgb e = Irradiance(*seen, light, sun);
         const LinearRgb albedo = (light.colors_as_described ? StatedAlbedo(*seen) : Albedo(*seen)) *
@@ -173,10 +174,10 @@ class PhotographedYard {
     constexpr int kRays = 12;
     int sun_visible = 0;
     for (std::uint32_t i = 0; i < kRays; ++i) {
-      sun_visible += solver_->IsUnoccludedPhantomsOnly(
-                         at.point, SunDiscDirection(sun, ShiftedHammersley(i, kRays, 1)))
-                         ? 1
-                         : 0;
+      sun_visible +=
+          phantoms().IsUnoccluded(at.point, SunDiscDirection(sun, ShiftedHammersley(i, kRays, 1)))
+              ? 1
+              : 0;
     }
     return ambient +
            model_.SunNormalIrradiance() * (light.sun_scale * cosine * sun_visible / kRays);

@@ -68,7 +68,7 @@ TEST_F(ShadowLight, IsNotMisledByChangingExposure) {
 TEST_F(ShadowLight, ReadsCodesByTheCamerasOwnResponse) {
   const CameraResponse gentle = testing::GentleResponse();
   const auto read_as = [&](const CameraResponse& response) {
-    SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker(), response);
+    SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker(), response);
     for (const int i : {0, 1}) {
       samples.AddFrame(yard_->Photograph(i, {}, gentle).view(), PhotographedYard::Pose(i),
                        {1, 1, 1});
@@ -92,16 +92,15 @@ TEST_F(ShadowLight, EstimatesTheSkyFromAShadowAcrossTheMarker) {
   for (const auto& [shaded, left] : {std::pair{before_wall, 0.9}, {behind_wall, 1.0}}) {
     shadow = {{}, lit, shaded};
     const auto ambient = [&](LinearRgb of_sky, LinearRgb of_sun) {
-      return yard_->solver().AmbientPhantomsOnly(std::vector{shadow.lit, shadow.shaded}, kUp,
-                                                 ScaledSky(yard_->model(), of_sky, of_sun), Mat3{},
-                                                 2048);
+      return yard_->phantoms().Ambient(std::vector{shadow.lit, shadow.shaded}, kUp,
+                                       ScaledSky(yard_->model(), of_sky, of_sun), Mat3{}, 2048);
     };
     for (const double truth : {0.5, 1.0, 3.0}) {
       const auto sky = ambient(LinearRgb{1, 1, 1} * truth, {}), reflected = ambient({}, {1, 1, 1});
       const LinearRgb ratio = (sky[0] + reflected[0] + sun) / (sky[1] * left + reflected[1]);
       shadow.contrast = {std::log(ratio.r), std::log(ratio.g), std::log(ratio.b)};
       const SunSkyRatio estimate = EstimateRatioFromMarkerShadow(
-          yard_->solver(), std::vector{shadow, shadow}, yard_->model(), Mat3{});
+          yard_->phantoms(), std::vector{shadow, shadow}, yard_->model(), Mat3{});
       ASSERT_EQ(estimate.sun, SunSkyRatio::Sun::kShines);
       EXPECT_NEAR(estimate.sky_radiance_scale.r / truth, 1.0, 0.05);
       EXPECT_NEAR(estimate.sky_radiance_scale.g / truth, 1.0, 0.05);
@@ -112,11 +111,12 @@ TEST_F(ShadowLight, EstimatesTheSkyFromAShadowAcrossTheMarker) {
   const auto unknown = [](const SunSkyRatio& estimate) {
     return estimate.sun == SunSkyRatio::Sun::kUnknown;
   };
-  EXPECT_TRUE(unknown(EstimateRatioFromMarkerShadow(yard_->solver(), {}, yard_->model(), Mat3{})));
+  EXPECT_TRUE(
+      unknown(EstimateRatioFromMarkerShadow(yard_->phantoms(), {}, yard_->model(), Mat3{})));
   shadow.contrast = {1.5, 1.5, 1.5};
   const testing::UniformDay low({3000, 4200, 6500}, {62e3, 55e3, 44e3}, {1.0, 0.0, 0.15});
   EXPECT_TRUE(
-      unknown(EstimateRatioFromMarkerShadow(yard_->solver(), std::vector{shadow}, low, Mat3{})));
+      unknown(EstimateRatioFromMarkerShadow(yard_->phantoms(), std::vector{shadow}, low, Mat3{})));
 }
 
 TEST_F(ShadowLight, ReportsNothingWhereNoPhantomCastsAShadowInView) {
@@ -135,7 +135,7 @@ TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
   for (const double error_deg : {-7.0, -3.0, 0.0, 3.0}) {
     // The scene states a heading from which the sun stands so far off its true place.
     const Vec3 stated = Turned(yard_->model().ToSun().xyz, kUp, FromDegrees(error_deg));
-    const auto heading = EstimateHeading(yard_->solver(), samples, kUp, stated);
+    const auto heading = EstimateHeading(yard_->phantoms(), samples, kUp, stated);
     ASSERT_TRUE(heading) << error_deg;
     EXPECT_NEAR(ToDegrees(heading->offset), -error_deg, 0.25);
     EXPECT_LT(ToDegrees(heading->uncertainty), 0.3);
@@ -144,18 +144,18 @@ TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
 
 TEST_F(ShadowLight, BelievesTheStatedHeadingUnderAnOvercastSky) {
   const SurfaceSamples samples = Look({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
-  EXPECT_FALSE(EstimateHeading(yard_->solver(), samples, kUp, yard_->model().ToSun().xyz));
+  EXPECT_FALSE(EstimateHeading(yard_->phantoms(), samples, kUp, yard_->model().ToSun().xyz));
 }
 
 TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
   const auto contrast = [](const PhotographedYard& yard, const PhotographedYard::Light& light) {
-    SurfaceSamples samples(yard.solver(), yard.camera(), yard.marker());
+    SurfaceSamples samples(yard.phantoms(), yard.camera(), yard.marker());
     for (const int i : {0, 1}) {
       samples.AddFrame(yard.Photograph(i, light).view(), PhotographedYard::Pose(i), {1, 1, 1});
     }
     // The overcast sky's model has no sun.
     const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
-    return TestForOvercast(yard.solver(), samples, overcast, Mat3{}).within;
+    return TestForOvercast(yard.phantoms(), samples, overcast, Mat3{}).within;
   };
   const double veiled = contrast(*yard_, {.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled, 0.3);
@@ -171,9 +171,9 @@ TEST_F(ShadowLight, MakesPlanesOfSeveralMaterialsDifferFromTheirStatedColors) {
   const PhotographedYard yard({-0.2, 0.3, 0.9});
   const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
   const auto among = [&](const PhotographedYard::Light& light, const sky::SkyModel& day) {
-    SurfaceSamples samples(yard.solver(), yard.camera(), yard.marker());
+    SurfaceSamples samples(yard.phantoms(), yard.camera(), yard.marker());
     samples.AddFrame(yard.Photograph(0, light).view(), PhotographedYard::Pose(0), {1, 1, 1});
-    const OvercastTest contrast = TestForOvercast(yard.solver(), samples, day, Mat3{});
+    const OvercastTest contrast = TestForOvercast(yard.phantoms(), samples, day, Mat3{});
     // Ground, wall, block and marker; upwards, forwards and sideways.
     EXPECT_GE(contrast.surfaces, 4);
     EXPECT_GE(contrast.directions, 3);

@@ -22,7 +22,7 @@ class ShadowLight : public ::testing::Test {
 
   static SurfaceSamples Look(const PhotographedYard::Light& light, int pictures = 2,
                              double exposure_step = 1.0) {
-    SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker());
+    SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
     for (int i = 0; i < pictures; ++i) {
       const double exposure_scale = i == 0 ? 1.0 : exposure_step;
       RgbImage picture = yard_->Photograph(i, light);
@@ -38,7 +38,7 @@ class ShadowLight : public ::testing::Test {
     return samples;
   }
   static SunSkyRatio Read(const SurfaceSamples& samples) {
-    return EstimateSunSkyRatio(FindShadowEdges(yard_->solver(), samples, yard_->model(), Mat3{}));
+    return EstimateSunSkyRatio(FindShadowEdges(yard_->phantoms(), samples, yard_->model(), Mat3{}));
   }
 
   static inline PhotographedYard* yard_ = nullptr;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "compositor/light/light_solver.h"
 #include "compositor/photometry/sky_fit.h"
 #include "tests/compositor/light/light_scenes.h"
 

@@ -30,34 +30,17 @@ class OverheadSun : public sky::SkyModel {
 };
 
 /// Phantoms that leave half the marker (x below `shadow_to_x_m`) in shadow.
-class HalfShadow : public LightSolver {
+class HalfShadow : public PhantomRays {
  public:
   explicit HalfShadow(double shadow_to_x_m) : shadow_to_x_m_(shadow_to_x_m) {}
-  std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel&, const Mat3&,
-                                       const SunTransmittanceMap&) const override {
-    return {};
-  }
-  DaylightCoefficients Coefficients(Vec3, const CoefficientOptions&,
-                                    const CoefficientProgress&) const override {
-    return {};
-  }
-  std::vector<LitMesh> Relight(const DaylightCoefficients&, const sky::SkyModel&,
-                               const Mat3&) const override {
-    return {};
-  }
-  double SunVisibilityPhantomsOnly(Point<Marker> point, Vec3) const override {
+  double SunVisibility(Point<Marker> point, Vec3) const override {
     return point.xyz.x < shadow_to_x_m_ ? 0.0 : 1.0;
   }
-  bool IsUnoccludedPhantomsOnly(Point<Marker>, Vec3) const override { return true; }
-  std::optional<PhantomSurface> FirstPhantom(Point<Marker>, Vec3) const override { return {}; }
-  std::vector<LinearRgb> AmbientPhantomsOnly(std::span<const Point<Marker>> points, Vec3,
-                                             const sky::SkyModel&, const Mat3&,
-                                             std::uint32_t) const override {
+  bool IsUnoccluded(Point<Marker>, Vec3) const override { return true; }
+  std::optional<PhantomSurface> First(Point<Marker>, Vec3) const override { return {}; }
+  std::vector<LinearRgb> Ambient(std::span<const Point<Marker>> points, Vec3, const sky::SkyModel&,
+                                 const Mat3&, std::uint32_t) const override {
     return std::vector<LinearRgb>(points.size(), {kAmbientLux, kAmbientLux, kAmbientLux});
-  }
-  LinearRgb RadianceFromBelow(const sky::SkyModel&, const Mat3&,
-                              const SunTransmittanceMap&) const override {
-    return {};
   }
 
  private:

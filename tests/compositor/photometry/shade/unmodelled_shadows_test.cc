@@ -22,17 +22,17 @@ constexpr Vec3 kUp{0, 0, 1};
 constexpr scene::MarkerReflectance kMarker{
     .size_m = 0.2, .board_size_m = 0.25, .black_band_m = 0.02};
 UnmodelledShadows Shade(const SurfaceSamples& samples, const sky::SkyModel& model,
-                        const LightSolver& solver) {
-  const MarkerLightMeter meter(kMarker, solver, model, Mat3{});
-  return FindUnmodelledShadows(solver, samples, meter, model, Mat3{}, {1, 1, 1});
+                        const PhantomRays& phantoms) {
+  const MarkerLightMeter meter(kMarker, phantoms, model, Mat3{});
+  return FindUnmodelledShadows(phantoms, samples, meter, model, Mat3{}, {1, 1, 1});
 }
 
 TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereATreeShadesAllThePhantomsEdges) {
-  const LightSolver& solver = yard_->solver();
+  const PhantomRays& phantoms = yard_->phantoms();
   const SurfaceSamples samples =
       Look({.shaded = [](Vec3 p) { return yard_->IsBesideShadowEdge(p); }});
   EXPECT_EQ(Read(samples).sun, SunSkyRatio::Sun::kHidden);
-  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), solver);
+  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), phantoms);
   EXPECT_TRUE(unmodelled.CastBySun()) << unmodelled.boundary_cells << " of " << unmodelled.places;
   EXPECT_TRUE(unmodelled.HidesEdges())
       << unmodelled.shadowed_edges_share << " of " << unmodelled.beside_edges;
@@ -43,9 +43,9 @@ TEST_F(ShadowLight, EstimatesTheSkyBesideTheSunFromHowDeepTheShadeOfTreesIs) {
   for (const double truth : {1.0, 1.7, 2.5}) {
     const SurfaceSamples samples =
         Look({.sky_radiance_scale = LinearRgb{1, 1, 1} * truth, .shaded = tree});
-    const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->solver());
+    const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
     const SunSkyRatio estimate =
-        EstimateRatioFromShade(yard_->solver(), unmodelled, yard_->model(), Mat3{});
+        EstimateRatioFromShade(yard_->phantoms(), unmodelled, yard_->model(), Mat3{});
     ASSERT_EQ(estimate.sun, SunSkyRatio::Sun::kShines);
     for (const double scale : {estimate.sky_radiance_scale.r, estimate.sky_radiance_scale.g,
                                estimate.sky_radiance_scale.b}) {
@@ -56,9 +56,9 @@ TEST_F(ShadowLight, EstimatesTheSkyBesideTheSunFromHowDeepTheShadeOfTreesIs) {
     EXPECT_GT(estimate.log_uncertainty, 0.2) << "it is no phantom's edge";
   }
   // Without trees there is nothing to read.
-  const UnmodelledShadows open = Shade(Look({}), yard_->model(), yard_->solver());
+  const UnmodelledShadows open = Shade(Look({}), yard_->model(), yard_->phantoms());
   EXPECT_FALSE(open.IsWide());
-  EXPECT_EQ(EstimateRatioFromShade(yard_->solver(), open, yard_->model(), Mat3{}).sun,
+  EXPECT_EQ(EstimateRatioFromShade(yard_->phantoms(), open, yard_->model(), Mat3{}).sun,
             SunSkyRatio::Sun::kUnknown);
 }
 
@@ -70,10 +70,10 @@ TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereTheTimeIsHoursOff) {
     const testing::UniformDay wrong({3000, 4200, 6500}, {62e3, 55e3, 44e3},
                                     Turned(to_sun, kUp, FromDegrees(off_deg)));
     const SunSkyRatio estimate =
-        EstimateSunSkyRatio(FindShadowEdges(yard_->solver(), samples, wrong, Mat3{}));
+        EstimateSunSkyRatio(FindShadowEdges(yard_->phantoms(), samples, wrong, Mat3{}));
     EXPECT_NE(estimate.sun, SunSkyRatio::Sun::kShines) << off_deg;
     hidden += estimate.sun == SunSkyRatio::Sun::kHidden ? 1 : 0;
-    const UnmodelledShadows unmodelled = Shade(samples, wrong, yard_->solver());
+    const UnmodelledShadows unmodelled = Shade(samples, wrong, yard_->phantoms());
     EXPECT_TRUE(unmodelled.CastBySun())
         << off_deg << ": " << unmodelled.boundary_cells << " of " << unmodelled.places;
     EXPECT_FALSE(unmodelled.HidesEdges()) << off_deg << ": " << unmodelled.shadowed_edges_share;
@@ -86,7 +86,7 @@ TEST_F(ShadowLight, DoesNotDoubtAnOvercastSkyOverPatternedPaving) {
     const SurfaceSamples samples =
         Look({.sky_radiance_scale = LinearRgb{1, 1, 1} * strength, .sun_scale = 0.0}, 3);
     EXPECT_EQ(Read(samples).sun, SunSkyRatio::Sun::kHidden);
-    const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->solver());
+    const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
     EXPECT_GT(unmodelled.places, 100);
     EXPECT_FALSE(unmodelled.CastBySun())
         << unmodelled.boundary_cells << " of " << unmodelled.places;
@@ -94,13 +94,13 @@ TEST_F(ShadowLight, DoesNotDoubtAnOvercastSkyOverPatternedPaving) {
 }
 
 TEST_F(ShadowLight, EstimatesHowMuchLiesInTheShadeOfTrees) {
-  const UnmodelledShadows open = Shade(Look({}), yard_->model(), yard_->solver());
+  const UnmodelledShadows open = Shade(Look({}), yard_->model(), yard_->phantoms());
   EXPECT_FALSE(open.IsWide());
   EXPECT_GT(open.sunlit, 100);
   EXPECT_FALSE(open.Matters()) << open.shaded;
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
   const SurfaceSamples samples = Look({.shaded = tree});
-  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->solver());
+  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   EXPECT_TRUE(unmodelled.Matters());
   // As much as there is: of the surface samples that the model has in the sun, those under the
   // tree.
@@ -110,7 +110,7 @@ TEST_F(ShadowLight, EstimatesHowMuchLiesInTheShadeOfTrees) {
     if (surface_sample.frames == 0 || surface_sample.surface < 0 ||
         Dot(surface_sample.normal, to_sun) < 0.2)
       continue;
-    if (!yard_->solver().IsUnoccludedPhantomsOnly(surface_sample.point, to_sun)) continue;
+    if (!yard_->phantoms().IsUnoccluded(surface_sample.point, to_sun)) continue;
     ++lit;
     under += tree(surface_sample.point.xyz) ? 1 : 0;
   }
@@ -123,13 +123,13 @@ TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
   const Vec3 across = Normalized(Cross(to_sun, kUp));
   const auto tree = [&](Vec3 p) { return std::sin(7 * Dot(p, across)) > 0.0; };
   const UnmodelledShadows unmodelled =
-      Shade(Look({.shaded = tree}), yard_->model(), yard_->solver());
+      Shade(Look({.shaded = tree}), yard_->model(), yard_->phantoms());
   ASSERT_TRUE(unmodelled.Matters());
   int right = 0, points = 0;
   for (int column = -8; column <= 8; ++column) {
     for (int row = -8; row <= 2; ++row) {
       const Vec3 ground{0.1 * column, 0.1 * row, 0.0};
-      if (!yard_->solver().IsUnoccludedPhantomsOnly({ground}, to_sun)) continue;
+      if (!yard_->phantoms().IsUnoccluded({ground}, to_sun)) continue;
       // On the way to the ground, where something virtual would be.
       for (const double above : {0.0, 0.3, 0.6}) {
         if (std::fabs(std::sin(7 * Dot(ground, across))) < 0.3) continue;
@@ -157,14 +157,14 @@ TEST(SunTransmittanceMap, IsEmptyWhereAFewSamplesLieInOppositeCorners) {
 TEST_F(ShadowLight, EstimatesFromTheGroundHowMuchDarkerThanTheSunTheMarkerIs) {
   // The frames' exposure scale is read from a marker that has 0.7 of the open light.
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
-  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker());
+  SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
   constexpr double kOnMarker = 0.7;
   const double exposure_scale = kOnMarker * PhotographedYard::kExposureScale;
   for (const int i : {0, 1}) {
     samples.AddFrame(yard_->Photograph(i, {.shaded = tree}).view(), PhotographedYard::Pose(i),
                      {exposure_scale, exposure_scale, exposure_scale});
   }
-  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->solver());
+  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   // The stated colors are not the paving's own.
   EXPECT_NEAR(unmodelled.sunlit_scale * kOnMarker, 1.0, 0.12);
   EXPECT_NEAR(unmodelled.sun_on_marker.g, yard_->model().SunNormalIrradiance().g * yard_->ToSun().z,
@@ -176,7 +176,7 @@ TEST_F(ShadowLight, EstimatesFromTheGroundHowMuchDarkerThanTheSunTheMarkerIs) {
 SurfaceSamples FromAShadedMarker(const PhotographedYard& yard, PhotographedYard::Light light,
                                  double* true_exposure_scale) {
   light.colors_as_described = true;
-  SurfaceSamples samples(yard.solver(), yard.camera(), yard.marker());
+  SurfaceSamples samples(yard.phantoms(), yard.camera(), yard.marker());
   const double sun = yard.model().SunNormalIrradiance().g * yard.ToSun().z;
   const double sky = yard.model().SkyHorizontalIrradiance().g;
   *true_exposure_scale = (sun + sky) / sky;
@@ -193,7 +193,7 @@ TEST_F(ShadowLight, EstimatesByOtherSurfacesThatPrintAndGroundLieInShadeAsAWhole
   double true_exposure_scale = 0.0;
   const SurfaceSamples samples = FromAShadedMarker(
       *yard_, {.shaded = [](Vec3 p) { return p.z < 0.02 || p.x < -0.5; }}, &true_exposure_scale);
-  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->solver());
+  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   EXPECT_NEAR(unmodelled.sunlit_scale / true_exposure_scale, 1.0, 0.15);
   EXPECT_TRUE(unmodelled.sunlit_scale_agreed);
   EXPECT_GT(unmodelled.shaded, 0.7);
@@ -204,7 +204,7 @@ TEST_F(ShadowLight, EstimatesByOtherSurfacesThatPrintAndGroundLieInShadeAsAWhole
   UnmodelledShadows edgeless = unmodelled;
   edgeless.crossings.clear();
   const SunSkyRatio estimate =
-      EstimateRatioFromShade(yard_->solver(), edgeless, yard_->model(), Mat3{});
+      EstimateRatioFromShade(yard_->phantoms(), edgeless, yard_->model(), Mat3{});
   ASSERT_EQ(estimate.sun, SunSkyRatio::Sun::kShines);
   EXPECT_NEAR(estimate.sky_radiance_scale.g, 1.0, 0.25);
   EXPECT_NEAR(estimate.sky_radiance_scale.b / estimate.sky_radiance_scale.r, 1.0, 0.15)
@@ -214,12 +214,12 @@ TEST_F(ShadowLight, EstimatesByOtherSurfacesThatPrintAndGroundLieInShadeAsAWhole
 TEST_F(ShadowLight, BelievesTheMarkerWhereTheGroundShowsSunAndShade) {
   // Half the ground lies in a tree's shade, the marker does not; the bricks are brighter than said.
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
-  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker());
+  SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
   for (const int i : {0, 1}) {
     samples.AddFrame(yard_->Photograph(i, {.shaded = tree}).view(), PhotographedYard::Pose(i),
                      LinearRgb{1, 1, 1} * PhotographedYard::kExposureScale);
   }
-  EXPECT_NEAR(Shade(samples, yard_->model(), yard_->solver()).sunlit_scale, 1.0, 0.15);
+  EXPECT_NEAR(Shade(samples, yard_->model(), yard_->phantoms()).sunlit_scale, 1.0, 0.15);
 }
 
 TEST_F(ShadowLight, BelievesSurfacesOfTwoColorsOfWhichOneIsStatedTooDark) {
@@ -227,7 +227,7 @@ TEST_F(ShadowLight, BelievesSurfacesOfTwoColorsOfWhichOneIsStatedTooDark) {
   // so that it asks for more exposure scale than the ground does, whose sun and shade contradict
   // it; that the marker is too dark both say.
   constexpr double kOnMarker = 0.57, kBrighter = 1.4;
-  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker());
+  SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
   for (const int i : {0, 1}) {
     const RgbImage picture = yard_->Photograph(
         i, {.shaded = [](Vec3 p) { return p.z < 0.02 ? p.x + p.y < -0.2 : p.x > 0.3; },
@@ -236,7 +236,7 @@ TEST_F(ShadowLight, BelievesSurfacesOfTwoColorsOfWhichOneIsStatedTooDark) {
     samples.AddFrame(picture.view(), PhotographedYard::Pose(i),
                      LinearRgb{1, 1, 1} * (kOnMarker * PhotographedYard::kExposureScale));
   }
-  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->solver());
+  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   EXPECT_TRUE(unmodelled.ShadesMarker());
   EXPECT_GT(unmodelled.sunlit_scale * kOnMarker, 0.95);
   EXPECT_LT(unmodelled.sunlit_scale * kOnMarker, kBrighter - 0.05);
@@ -250,7 +250,7 @@ TEST_F(ShadowLight, SeesBesideTheMarkerThatItLiesInTheGroundsShade) {
   const SurfaceSamples samples = FromAShadedMarker(
       *yard_, {.shaded = [](Vec3 p) { return p.y < 1.15; }, .brighter = half_light},
       &true_exposure_scale);
-  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->solver());
+  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   EXPECT_TRUE(unmodelled.shown_by_surroundings);
   EXPECT_TRUE(unmodelled.ShadesMarker());
   EXPECT_NEAR(unmodelled.sunlit_scale / true_exposure_scale, 1.0, 0.15);
@@ -262,13 +262,13 @@ TEST_F(ShadowLight, TakesADarkMatBeneathTheMarkerForNoShade) {
     const double beside = std::max(std::fabs(p.x), std::fabs(p.y));
     return beside > 0.125 && beside < 0.4 && p.z < 0.02 ? 0.3 : 1.0;
   };
-  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker());
+  SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
   for (const int i : {0, 1}) {
     samples.AddFrame(
         yard_->Photograph(i, {.shaded = tree, .colors_as_described = true, .brighter = mat}).view(),
         PhotographedYard::Pose(i), LinearRgb{1, 1, 1} * PhotographedYard::kExposureScale);
   }
-  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->solver());
+  const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   ASSERT_TRUE(unmodelled.Matters());
   EXPECT_FALSE(unmodelled.shown_by_surroundings);
   EXPECT_FALSE(unmodelled.ShadesMarker());
@@ -282,16 +282,16 @@ TEST_F(ShadowLight, TakesAPatternBesideTheMarkerForNoShadeUnderAFaintSun) {
     const double beside = std::max(std::fabs(p.x), std::fabs(p.y));
     return beside > 0.125 && beside < 0.4 && p.z < 0.02 ? 0.82 : 1.0;
   };
-  SurfaceSamples samples(yard_->solver(), yard_->camera(), yard_->marker());
+  SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
   for (const int i : {0, 1}) {
     samples.AddFrame(
         yard_->Photograph(i, {.sun_scale = kFaint, .colors_as_described = true, .brighter = darker})
             .view(),
         PhotographedYard::Pose(i), LinearRgb{1, 1, 1} * PhotographedYard::kExposureScale);
   }
-  const MarkerLightMeter meter(kMarker, yard_->solver(), faint, Mat3{});
+  const MarkerLightMeter meter(kMarker, yard_->phantoms(), faint, Mat3{});
   const UnmodelledShadows unmodelled =
-      FindUnmodelledShadows(yard_->solver(), samples, meter, faint, Mat3{}, {1, 1, 1});
+      FindUnmodelledShadows(yard_->phantoms(), samples, meter, faint, Mat3{}, {1, 1, 1});
   ASSERT_TRUE(unmodelled.Matters());
   EXPECT_FALSE(unmodelled.shown_by_surroundings);
   EXPECT_FALSE(unmodelled.ShadesMarker());
@@ -302,9 +302,9 @@ TEST(UnmodelledShadows, EstimatesHowMuchDarkerThanTheSunAMarkerOnAWallIs) {
   // of which a wall sees half.
   const Mat3 on_wall{{1, 0, 0, 0, 0, 1, 0, -1, 0}};
   const PhotographedYard yard({-0.5, 0.6, 0.62}, {10e3, 12e3, 14e3}, on_wall);
-  const MarkerLightMeter meter(yard.marker(), yard.solver(), yard.model(), on_wall);
+  const MarkerLightMeter meter(yard.marker(), yard.phantoms(), yard.model(), on_wall);
   ASSERT_TRUE(meter.in_sun());
-  SurfaceSamples samples(yard.solver(), yard.camera(), yard.marker());
+  SurfaceSamples samples(yard.phantoms(), yard.camera(), yard.marker());
   constexpr double kOnMarker = 0.7;
   const double exposure_scale = kOnMarker * PhotographedYard::kExposureScale;
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
@@ -313,7 +313,7 @@ TEST(UnmodelledShadows, EstimatesHowMuchDarkerThanTheSunAMarkerOnAWallIs) {
                      {exposure_scale, exposure_scale, exposure_scale});
   }
   const UnmodelledShadows unmodelled =
-      FindUnmodelledShadows(yard.solver(), samples, meter, yard.model(), on_wall, {1, 1, 1});
+      FindUnmodelledShadows(yard.phantoms(), samples, meter, yard.model(), on_wall, {1, 1, 1});
   ASSERT_TRUE(unmodelled.Matters());
   EXPECT_NEAR(unmodelled.sunlit_scale * kOnMarker, 1.0, 0.12);
   const LinearRgb level = yard.model().SkyHorizontalIrradiance();
