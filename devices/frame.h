@@ -30,6 +30,15 @@ struct FrameLoss {
   bool operator==(const FrameLoss&) const = default;
 };
 
+/// How a camera was set for an image; nothing where that is not known or an automatism changes it.
+struct CameraSettings {
+  std::optional<double> exposure_s;
+  std::optional<double> gain;             ///< In the camera's unit.
+  std::optional<double> white_balance_k;  ///< Color temperature, in kelvins.
+
+  bool operator==(const CameraSettings&) const = default;
+};
+
 /// One image from a camera or a recording, as every backend delivers it.
 struct Frame {
   std::int64_t index = 0;         ///< Position in the recording or the driver's number, from 0.
@@ -37,9 +46,7 @@ struct Frame {
   StampMeaning stamp_meaning = StampMeaning::kUnknown;
   std::optional<std::int64_t> arrival_ns;  ///< When it came to us, same clock as timestamp_ns.
   std::optional<std::int64_t> device_timestamp_ns;  ///< The device's own stamp, where it has one.
-  std::optional<double> exposure_s;
-  std::optional<double> gain;
-  std::optional<double> white_balance_k;
+  CameraSettings settings;
   int lost_before = 0;  ///< Frames known to be lost between the one before and this one.
   FrameLoss loss;       ///< The same by cause, where the source knows.
   RgbImage rgb;         ///< Three channels, sRGB-encoded.

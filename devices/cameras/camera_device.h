@@ -28,9 +28,7 @@ struct CapturedImage {
   std::int64_t arrival_ns = 0;    ///< Steady clock.
   StampMeaning stamp_meaning = StampMeaning::kUnknown;
   std::optional<std::int64_t> device_timestamp_ns;
-  std::optional<double> exposure_s;
-  std::optional<double> gain;
-  std::optional<double> white_balance_k;
+  CameraSettings settings;
   bool damaged = false;  ///< The driver's word; `raw` may be short.
 };
 

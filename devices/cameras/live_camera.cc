@@ -309,9 +309,7 @@ std::optional<Frame> LiveCamera::NextWithin(milliseconds limit) {
       frame.stamp_meaning = captured.stamp_meaning;
       frame.arrival_ns = captured.arrival_ns;
       frame.device_timestamp_ns = captured.device_timestamp_ns;
-      frame.exposure_s = captured.exposure_s;
-      frame.gain = captured.gain;
-      frame.white_balance_k = captured.white_balance_k;
+      frame.settings = captured.settings;
       frame.loss = loss;
       frame.lost_before = loss.Total();
       frame.rgb = std::move(image.rgb);

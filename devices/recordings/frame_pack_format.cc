@@ -62,9 +62,9 @@ std::string FrameMetadataJson(const Frame& frame, const RawImage& layout) {
             {"full_range", layout.full_range}};
   Set(&json, "arrival_ns", frame.arrival_ns);
   Set(&json, "device_timestamp_ns", frame.device_timestamp_ns);
-  Set(&json, "exposure_s", frame.exposure_s);
-  Set(&json, "gain", frame.gain);
-  Set(&json, "white_balance_k", frame.white_balance_k);
+  Set(&json, "exposure_s", frame.settings.exposure_s);
+  Set(&json, "gain", frame.settings.gain);
+  Set(&json, "white_balance_k", frame.settings.white_balance_k);
   return json.dump();
 }
 
@@ -84,9 +84,9 @@ std::optional<FrameMetadata> ParseFrameMetadata(std::string_view text) {
     frame.lost_before = json.at("lost_before");
     frame.arrival_ns = Optional<std::int64_t>(json, "arrival_ns");
     frame.device_timestamp_ns = Optional<std::int64_t>(json, "device_timestamp_ns");
-    frame.exposure_s = Optional<double>(json, "exposure_s");
-    frame.gain = Optional<double>(json, "gain");
-    frame.white_balance_k = Optional<double>(json, "white_balance_k");
+    frame.settings.exposure_s = Optional<double>(json, "exposure_s");
+    frame.settings.gain = Optional<double>(json, "gain");
+    frame.settings.white_balance_k = Optional<double>(json, "white_balance_k");
     const auto format = PixelFormatByName(json.at("format").get<std::string>());
     if (!format) return std::nullopt;
     facts.layout.format = *format;

@@ -42,7 +42,6 @@ const std::set<std::string>& LargeClasses() {
     "compositor/surfaces/scene_surfaces.h SceneSurfaces",
     "devices/cameras/libcamera/libcamera_device.cc LibcameraDevice",
     "devices/cameras/live_camera.cc LiveCamera::Worker",
-    "devices/frame.h Frame",
     "scene/scene_facts.h SceneFacts",
     "shadows/bench/bench_renderer.h BenchRenderer",
     "shadows/shadow_maps.h ShadowMaps",

@@ -38,9 +38,9 @@ TEST(Behaviour4, ControlsAreHeldOneByOneReadBackAndReachTheCamera) {
   }
   EXPECT_NEAR(*results[0].value, 0.01, 1e-9);
   EXPECT_NEAR(*results[2].value, 5000.0, 1e-9);
-  EXPECT_NEAR(frame->exposure_s.value_or(0.0), 0.01, 1e-9);
-  EXPECT_NEAR(frame->gain.value_or(0.0), 80.0, 1e-9);
-  EXPECT_NEAR(frame->white_balance_k.value_or(0.0), 5000.0, 1e-9);
+  EXPECT_NEAR(frame->settings.exposure_s.value_or(0.0), 0.01, 1e-9);
+  EXPECT_NEAR(frame->settings.gain.value_or(0.0), 80.0, 1e-9);
+  EXPECT_NEAR(frame->settings.white_balance_k.value_or(0.0), 5000.0, 1e-9);
   const std::string sent = simulator.Output();
   for (const char* line : {"ctrl 1 0x02 1", "ctrl 1 0x04 100", "ctrl 2 0x04 80", "ctrl 2 0x0b 0",
                            "ctrl 2 0x0a 5000", "ctrl 1 0x08 0", "ctrl 1 0x06 50"}) {

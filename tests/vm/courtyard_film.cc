@@ -103,7 +103,7 @@ void ExpectRightPosesAndTheSameInReplay(devices::LiveCamera* camera, const Court
     const auto frame = replayed->frames->Next();
     ASSERT_TRUE(frame && *frame);
     EXPECT_EQ((*frame)->timestamp_ns, live[i].timestamp_ns - live[0].timestamp_ns);
-    EXPECT_EQ((*frame)->exposure_s, live[i].exposure_s);
+    EXPECT_EQ((*frame)->settings.exposure_s, live[i].settings.exposure_s);
     const auto observations = (*tracker)->Track((*frame)->grey.view());
     ASSERT_TRUE(observations);
     ASSERT_EQ(observations->size(), 1U);

@@ -69,8 +69,8 @@ TEST(Libcamera, HoldsControlsThroughTheNodeAndReadsThemBack) {
     EXPECT_TRUE(result.locked) << result.details;
     EXPECT_EQ(result.details, "");
   }
-  EXPECT_NEAR(frame->exposure_s.value_or(0.0), 0.01, 1e-9);
-  EXPECT_NEAR(frame->white_balance_k.value_or(0.0), 5000.0, 1e-9);
+  EXPECT_NEAR(frame->settings.exposure_s.value_or(0.0), 0.01, 1e-9);
+  EXPECT_NEAR(frame->settings.white_balance_k.value_or(0.0), 5000.0, 1e-9);
   EXPECT_THAT(simulator.Output(), HasSubstr("ctrl 1 0x04 100"));
   EXPECT_THAT(simulator.Output(), HasSubstr("ctrl 2 0x0a 5000"));
 }

@@ -156,11 +156,11 @@ class AravisDevice : public CameraDevice {
   }
 
   void RememberControls() {
-    exposure_s_.reset();
-    gain_.reset();
+    settings_ = {};
     for (const ControlRange& range : Controls()) {
       if (range.is_auto) continue;
-      (range.control == CameraControl::kExposure ? exposure_s_ : gain_) = range.value;
+      (range.control == CameraControl::kExposure ? settings_.exposure_s : settings_.gain) =
+          range.value;
     }
   }
 
@@ -179,9 +179,7 @@ class AravisDevice : public CameraDevice {
     image->timestamp_ns = stamp_ns - wall_ns + image->arrival_ns;
     image->stamp_meaning = StampMeaning::kArrival;
     image->device_timestamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
-    image->exposure_s = exposure_s_;
-    image->gain = gain_;
-    image->white_balance_k.reset();
+    image->settings = settings_;
     image->damaged = arv_buffer_get_status(buffer) != ARV_BUFFER_STATUS_SUCCESS;
     image->raw.bytes.clear();
     if (image->damaged) return;
@@ -210,8 +208,7 @@ class AravisDevice : public CameraDevice {
   std::atomic<bool> control_lost_ = false;
   std::int64_t last_id_ = -1;
   std::int64_t number_ = 0;
-  std::optional<double> exposure_s_;
-  std::optional<double> gain_;
+  CameraSettings settings_;
 };
 
 std::string Text(const char* text) { return text == nullptr ? "" : text; }

@@ -219,7 +219,8 @@ class LibcameraDevice final : public CameraDevice {
           continue;
         }
       }
-      const auto& now = requested.control == CameraControl::kExposure ? exposure_s_ : gain_;
+      const auto& now =
+          requested.control == CameraControl::kExposure ? settings_.exposure_s : settings_.gain;
       auto result =
           RequestLibcameraControl(camera_->controls(), requested, now, control_requests_.get());
       if (!result) {
@@ -266,15 +267,13 @@ class LibcameraDevice final : public CameraDevice {
 
   /// What the camera says of itself between pictures; nothing where an automatism changes it.
   void RememberControls() {
-    exposure_s_.reset();
-    gain_.reset();
-    white_balance_k_.reset();
+    settings_ = {};
     if (!node_) return;
     for (const ControlRange& range : V4l2Controls(*node_)) {
       if (range.is_auto) continue;
-      if (range.control == CameraControl::kExposure) exposure_s_ = range.value;
-      if (range.control == CameraControl::kGain) gain_ = range.value;
-      if (range.control == CameraControl::kWhiteBalance) white_balance_k_ = range.value;
+      if (range.control == CameraControl::kExposure) settings_.exposure_s = range.value;
+      if (range.control == CameraControl::kGain) settings_.gain = range.value;
+      if (range.control == CameraControl::kWhiteBalance) settings_.white_balance_k = range.value;
     }
   }
 
@@ -297,11 +296,13 @@ class LibcameraDevice final : public CameraDevice {
     image->stamp_meaning = StampMeaning::kExposureStart;
     image->device_timestamp_ns = stamp_ns;
     const auto exposure_us = request.metadata().get(libcamera::controls::ExposureTime);
-    image->exposure_s = exposure_us ? std::optional(*exposure_us * 1e-6) : exposure_s_;
+    image->settings.exposure_s =
+        exposure_us ? std::optional(*exposure_us * 1e-6) : settings_.exposure_s;
     const auto gain = request.metadata().get(libcamera::controls::AnalogueGain);
-    image->gain = gain ? std::optional<double>(*gain) : gain_;
+    image->settings.gain = gain ? std::optional<double>(*gain) : settings_.gain;
     const auto kelvins = request.metadata().get(libcamera::controls::ColourTemperature);
-    image->white_balance_k = kelvins ? std::optional<double>(*kelvins) : white_balance_k_;
+    image->settings.white_balance_k =
+        kelvins ? std::optional<double>(*kelvins) : settings_.white_balance_k;
     image->damaged = facts.status != libcamera::FrameMetadata::FrameSuccess;
     std::vector<std::uint8_t> bytes = std::move(image->raw.bytes);
     image->raw = layout_;
@@ -330,7 +331,7 @@ class LibcameraDevice final : public CameraDevice {
   NegotiatedFormat negotiated_;
   RawImage layout_;
   std::unique_ptr<libcamera::ControlList> control_requests_;  ///< For the next request.
-  std::optional<double> exposure_s_, gain_, white_balance_k_;
+  CameraSettings settings_;  ///< As the camera reports them between images.
 
   std::mutex mutex_;
   std::condition_variable changed_;

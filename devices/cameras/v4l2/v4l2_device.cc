@@ -155,9 +155,7 @@ class V4l2Device : public CameraDevice {
                            : start ? StampMeaning::kExposureStart
                                    : StampMeaning::kExposureEnd;
     image->device_timestamp_ns = stamp_ns;
-    image->exposure_s = locked_.exposure_s;
-    image->gain = locked_.gain;
-    image->white_balance_k = locked_.white_balance_k;
+    image->settings = locked_;
     image->damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
     const Buffer& from = buffers_[buffer.index];
     const std::size_t used = std::min<std::size_t>(buffer.bytesused, from.length);
@@ -174,7 +172,7 @@ class V4l2Device : public CameraDevice {
   std::vector<Buffer> buffers_;
   bool streaming_ = false;
   std::int64_t last_number_ = -1;
-  CapturedImage locked_;
+  CameraSettings locked_;
   std::string status_message_;
 };
 

@@ -37,8 +37,8 @@ Frame MakeFrame(int number) {
   frame.stamp_meaning = StampMeaning::kExposureStart;
   frame.arrival_ns = frame.timestamp_ns + 7'000'000;
   frame.device_timestamp_ns = 99 + number;
-  frame.exposure_s = 0.01 + 0.001 * number;
-  frame.gain = 2.5;
+  frame.settings.exposure_s = 0.01 + 0.001 * number;
+  frame.settings.gain = 2.5;
   frame.loss = {.by_number = number % 3, .not_taken = 1};
   frame.lost_before = frame.loss.Total();
   DecodedImage image;
@@ -70,9 +70,9 @@ void ExpectSame(const Frame& read, int number) {
   EXPECT_EQ(read.arrival_ns, *written.arrival_ns - kStart_ns);
   EXPECT_EQ(read.stamp_meaning, written.stamp_meaning);
   EXPECT_EQ(read.device_timestamp_ns, written.device_timestamp_ns);
-  EXPECT_EQ(read.exposure_s, written.exposure_s);
-  EXPECT_EQ(read.gain, written.gain);
-  EXPECT_EQ(read.white_balance_k, std::nullopt);
+  EXPECT_EQ(read.settings.exposure_s, written.settings.exposure_s);
+  EXPECT_EQ(read.settings.gain, written.settings.gain);
+  EXPECT_EQ(read.settings.white_balance_k, std::nullopt);
   EXPECT_EQ(read.loss, written.loss);
   ASSERT_EQ(read.grey.size(), written.grey.size());
   EXPECT_TRUE(

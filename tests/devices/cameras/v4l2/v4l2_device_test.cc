@@ -212,7 +212,7 @@ TEST(V4l2Controls, AreHeldByTurningTheAutomatismOffFirst) {
   EXPECT_EQ(results[2].details, "the camera has no control of its focus");
   CapturedImage image;
   ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
-  EXPECT_NEAR(*image.exposure_s, 0.01, 1e-9);
+  EXPECT_NEAR(*image.settings.exposure_s, 0.01, 1e-9);
 }
 
 TEST(V4l2Controls, SayNothingOfAnExposureThatChangesByItself) {
@@ -223,8 +223,8 @@ TEST(V4l2Controls, SayNothingOfAnExposureThatChangesByItself) {
   const auto device = Open(io);
   CapturedImage image;
   ASSERT_EQ((*device)->Wait(milliseconds(1), &image), WaitOutcome::kImage);
-  EXPECT_FALSE(image.exposure_s);
-  EXPECT_FALSE(image.gain);
+  EXPECT_FALSE(image.settings.exposure_s);
+  EXPECT_FALSE(image.settings.gain);
 }
 
 }  // namespace
