@@ -7,17 +7,15 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <condition_variable>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <deque>
 #include <map>
-#include <mutex>
 #include <string>
 #include <utility>
 
 #include "devices/cameras/format_choice.h"
+#include "devices/cameras/libcamera/completed_requests.h"
 #include "devices/cameras/libcamera/libcamera_controls.h"
 #include "devices/cameras/libcamera/libcamera_manager.h"
 #include "devices/cameras/libcamera/mapped_planes.h"
@@ -58,6 +56,44 @@ std::int64_t ToSteady_ns(std::int64_t stamp_ns, std::int64_t steady_now_ns) {
   return stamp_ns > steady_now_ns ? stamp_ns - slept_ns : stamp_ns;
 }
 
+/// Whether a camera is plugged in, by its entry in the kernel's list of devices.
+class Presence {
+ public:
+  /// Without an entry it always is: only its silence tells then.
+  explicit Presence(std::string entry = "") : entry_(std::move(entry)) {}
+
+  bool IsThere() const { return entry_.empty() || access(entry_.c_str(), F_OK) == 0; }
+
+  /// It has been so since the last call: what completed on libcamera's thread while it left is
+  /// over.
+  bool IsGoneForATick() { return std::exchange(was_gone_, !IsThere()) && was_gone_; }
+
+ private:
+  std::string entry_;
+  bool was_gone_ = false;
+};
+
+/// What was agreed on, for libcamera and for those who get the images.
+struct Format {
+  std::unique_ptr<libcamera::CameraConfiguration> configuration;
+  NegotiatedFormat negotiated;
+  RawImage layout;
+};
+
+/// The memory that images come in, and the requests that carry it.
+struct Buffers {
+  std::unique_ptr<libcamera::FrameBufferAllocator> allocator;
+  std::vector<std::unique_ptr<libcamera::Request>> requests;
+  std::map<const libcamera::FrameBuffer*, MappedPlanes> planes;
+
+  /// Those that use the others go first.
+  void Free() {
+    requests.clear();
+    planes.clear();
+    allocator.reset();
+  }
+};
+
 class LibcameraDevice final : public CameraDevice {
  public:
   LibcameraDevice(std::shared_ptr<libcamera::CameraManager> manager,
@@ -70,12 +106,10 @@ class LibcameraDevice final : public CameraDevice {
     if (started_) {
       // Nothing completes after this: the slot can go. The streams of a camera that left cannot be
       // stopped, and libcamera ends the program where it tries.
-      if (IsThere()) camera_->stop();
+      if (presence_.IsThere()) camera_->stop();
       camera_->requestCompleted.disconnect(this);
     }
-    requests_.clear();
-    planes_.clear();
-    allocator_.reset();
+    buffers_.Free();
     if (acquired_) camera_->release();
   }
 
@@ -85,11 +119,11 @@ class LibcameraDevice final : public CameraDevice {
       return tl::make_unexpected(LibcameraError(where, "cannot open", -failed));
     }
     acquired_ = true;
-    configuration_ = camera_->generateConfiguration({libcamera::StreamRole::Viewfinder});
-    if (!configuration_ || configuration_->empty()) {
+    format_.configuration = camera_->generateConfiguration({libcamera::StreamRole::Viewfinder});
+    if (!format_.configuration || format_.configuration->empty()) {
       return InputError(where, "has no stream for viewing", "choose another camera");
     }
-    libcamera::StreamConfiguration& stream = configuration_->at(0);
+    libcamera::StreamConfiguration& stream = format_.configuration->at(0);
     PLEINAIR_ASSIGN_OR_RETURN(const FormatChoice choice,
                               ChooseFormat(LibcameraFormats(stream.formats()), requested, where));
     stream.pixelFormat = *LibcameraFormatOf(choice.format);
@@ -98,7 +132,7 @@ class LibcameraDevice final : public CameraDevice {
                      static_cast<unsigned>(choice.size->height)};
     }
     stream.bufferCount = std::max(stream.bufferCount, kBuffers);
-    if (configuration_->validate() == libcamera::CameraConfiguration::Invalid) {
+    if (format_.configuration->validate() == libcamera::CameraConfiguration::Invalid) {
       return InputError(where, "refuses the pictures that were asked for",
                         "ask for another size or format");
     }
@@ -108,25 +142,26 @@ class LibcameraDevice final : public CameraDevice {
                         "sends " + stream.pixelFormat.toString() + ", which is not read here",
                         "ask for another format");
     }
-    if (const int failed = camera_->configure(configuration_.get()); failed != 0) {
+    if (const int failed = camera_->configure(format_.configuration.get()); failed != 0) {
       return tl::make_unexpected(LibcameraError(where, "cannot set size and format", -failed));
     }
-    negotiated_.format = *format;
-    negotiated_.size = {static_cast<int>(stream.size.width), static_cast<int>(stream.size.height)};
+    format_.negotiated.format = *format;
+    format_.negotiated.size = {static_cast<int>(stream.size.width),
+                               static_cast<int>(stream.size.height)};
     Describe(stream);
-    entry_ = KernelEntryOf(*manager_, camera_).value_or("");
+    presence_ = Presence(KernelEntryOf(*manager_, camera_).value_or(""));
     node_ = NodeBehind(*manager_, camera_);
     return {};
   }
 
   Result<void> Start(const FormatRequest& requested) {
     const std::string where = identity_.ToString();
-    libcamera::Stream* stream = configuration_->at(0).stream();
-    allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
-    if (const int count = allocator_->allocate(stream); count <= 0) {
+    libcamera::Stream* stream = format_.configuration->at(0).stream();
+    buffers_.allocator = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
+    if (const int count = buffers_.allocator->allocate(stream); count <= 0) {
       return tl::make_unexpected(LibcameraError(where, "cannot make buffers", -count));
     }
-    for (const auto& buffer : allocator_->buffers(stream)) {
+    for (const auto& buffer : buffers_.allocator->buffers(stream)) {
       auto request = camera_->createRequest();
       MappedPlanes planes;
       for (const auto& plane : buffer->planes()) {
@@ -136,8 +171,8 @@ class LibcameraDevice final : public CameraDevice {
       if (!request || request->addBuffer(stream, buffer.get()) != 0) {
         return tl::make_unexpected(LibcameraError(where, "cannot make a request", ENOMEM));
       }
-      planes_.emplace(buffer.get(), std::move(planes));
-      requests_.push_back(std::move(request));
+      buffers_.planes.emplace(buffer.get(), std::move(planes));
+      buffers_.requests.push_back(std::move(request));
     }
     libcamera::ControlList controls(camera_->controls());
     const auto durations = camera_->controls().find(&libcamera::controls::FrameDurationLimits);
@@ -146,9 +181,9 @@ class LibcameraDevice final : public CameraDevice {
       const std::int64_t limits[2] = {duration_us, duration_us};
       controls.set(libcamera::controls::FrameDurationLimits,
                    libcamera::Span<const std::int64_t, 2>(limits));
-      negotiated_.rate_hz = requested.rate_hz;
+      format_.negotiated.rate_hz = requested.rate_hz;
     }
-    negotiated_.details = Differences(requested, negotiated_);
+    format_.negotiated.details = Differences(requested, format_.negotiated);
     RememberControls();
     camera_->requestCompleted.connect(this, &LibcameraDevice::OnCompleted);
     if (const int failed = camera_->start(&controls); failed != 0) {
@@ -156,26 +191,19 @@ class LibcameraDevice final : public CameraDevice {
       return tl::make_unexpected(LibcameraError(where, "cannot start", -failed));
     }
     started_ = true;
-    for (const auto& request : requests_) camera_->queueRequest(request.get());
+    for (const auto& request : buffers_.requests) camera_->queueRequest(request.get());
     return {};
   }
 
   WaitOutcome Wait(milliseconds limit, CapturedImage* image) override {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (true) {
-      libcamera::Request* request = nullptr;
-      {
-        std::unique_lock lock(mutex_);
-        changed_.wait_until(lock, end, [this] { return !completed_.empty() || wake_; });
-        if (!completed_.empty()) {
-          request = completed_.front();
-          completed_.pop_front();
-        } else if (std::exchange(wake_, false)) {
-          return WaitOutcome::kNothing;
-        }
-      }
+      const std::optional<libcamera::Request*> completed = completed_.TakeUntil(end);
+      if (!completed) return WaitOutcome::kNothing;
+      libcamera::Request* request = *completed;
       // The requests of a camera that left never complete: only the kernel's list of devices tells.
-      if (request == nullptr) return GoneForATick() ? WaitOutcome::kGone : WaitOutcome::kNothing;
+      if (request == nullptr)
+        return presence_.IsGoneForATick() ? WaitOutcome::kGone : WaitOutcome::kNothing;
       const bool taken = Take(*request, image);
       request->reuse(libcamera::Request::ReuseBuffers);
       ApplyControlRequests(request);
@@ -184,14 +212,10 @@ class LibcameraDevice final : public CameraDevice {
     }
   }
 
-  void Wake() override {
-    const std::lock_guard lock(mutex_);
-    wake_ = true;
-    changed_.notify_all();
-  }
+  void Wake() override { completed_.Wake(); }
 
   std::string StatusMessage() const override { return "the camera is gone"; }
-  const NegotiatedFormat& negotiated() const override { return negotiated_; }
+  const NegotiatedFormat& negotiated() const override { return format_.negotiated; }
   CameraUri identity() const override { return identity_; }
 
   std::vector<ControlRange> Controls() override {
@@ -238,31 +262,22 @@ class LibcameraDevice final : public CameraDevice {
  private:
   // On libcamera's own thread.
   void OnCompleted(libcamera::Request* request) {
-    if (request->status() == libcamera::Request::RequestCancelled) return;
-    const std::lock_guard lock(mutex_);
-    completed_.push_back(request);
-    changed_.notify_all();
+    if (request->status() != libcamera::Request::RequestCancelled) completed_.Add(request);
   }
 
-  /// Without a known node it always is: only its silence tells then.
-  bool IsThere() const { return entry_.empty() || access(entry_.c_str(), F_OK) == 0; }
-
-  /// It has been so since the last wait: what completed on libcamera's thread while it left is
-  /// over.
-  bool GoneForATick() { return std::exchange(was_gone_, !IsThere()) && was_gone_; }
-
   void Describe(const libcamera::StreamConfiguration& stream) {
-    layout_.format = negotiated_.format;
-    layout_.width = negotiated_.size.width;
-    layout_.height = negotiated_.size.height;
-    layout_.stride = stream.stride;
-    layout_.full_range = negotiated_.format == PixelFormat::kGrey8;
+    format_.layout.format = format_.negotiated.format;
+    format_.layout.width = format_.negotiated.size.width;
+    format_.layout.height = format_.negotiated.size.height;
+    format_.layout.stride = stream.stride;
+    format_.layout.full_range = format_.negotiated.format == PixelFormat::kGrey8;
     if (!stream.colorSpace) return;
     using Space = libcamera::ColorSpace;
-    layout_.matrix = stream.colorSpace->ycbcrEncoding == Space::YcbcrEncoding::Rec709
-                         ? YuvMatrix::kBt709
-                         : YuvMatrix::kBt601;
-    layout_.full_range = layout_.full_range || stream.colorSpace->range == Space::Range::Full;
+    format_.layout.matrix = stream.colorSpace->ycbcrEncoding == Space::YcbcrEncoding::Rec709
+                                ? YuvMatrix::kBt709
+                                : YuvMatrix::kBt601;
+    format_.layout.full_range =
+        format_.layout.full_range || stream.colorSpace->range == Space::Range::Full;
   }
 
   /// What the camera says of itself between pictures; nothing where an automatism changes it.
@@ -305,9 +320,9 @@ class LibcameraDevice final : public CameraDevice {
         kelvins ? std::optional<double>(*kelvins) : settings_.white_balance_k;
     image->damaged = facts.status != libcamera::FrameMetadata::FrameSuccess;
     std::vector<std::uint8_t> bytes = std::move(image->raw.bytes);
-    image->raw = layout_;
+    image->raw = format_.layout;
     bytes.clear();
-    const MappedPlanes& planes = planes_.at(buffer);
+    const MappedPlanes& planes = buffers_.planes.at(buffer);
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const auto plane = planes.Plane(i);
       const std::size_t used = std::min<std::size_t>(facts.planes()[i].bytesused, plane.size());
@@ -321,22 +336,14 @@ class LibcameraDevice final : public CameraDevice {
   std::shared_ptr<libcamera::CameraManager> manager_;
   std::shared_ptr<libcamera::Camera> camera_;
   CameraUri identity_;
-  bool acquired_ = false, started_ = false, was_gone_ = false;
-  std::string entry_;  ///< Exists while the camera is plugged in.
-  std::unique_ptr<libcamera::CameraConfiguration> configuration_;
-  std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
-  std::vector<std::unique_ptr<libcamera::Request>> requests_;
-  std::map<const libcamera::FrameBuffer*, MappedPlanes> planes_;
+  bool acquired_ = false, started_ = false;
+  Presence presence_;
+  Format format_;
+  Buffers buffers_;
   std::optional<V4l2Node> node_;
-  NegotiatedFormat negotiated_;
-  RawImage layout_;
   std::unique_ptr<libcamera::ControlList> control_requests_;  ///< For the next request.
   CameraSettings settings_;  ///< As the camera reports them between images.
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<libcamera::Request*> completed_;
-  bool wake_ = false;
+  CompletedRequests completed_;
 };
 
 std::shared_ptr<libcamera::Camera> Find(libcamera::CameraManager& manager,
