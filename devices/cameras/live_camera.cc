@@ -19,13 +19,82 @@ using std::chrono::milliseconds;
 constexpr milliseconds kTick{100};           // How long the device is waited for at a time.
 constexpr milliseconds kTryAgainEvery{300};  // A camera that is not there.
 
+/// Opens the camera that is sought: after the first time this very one, wherever it is plugged in.
+class CameraFinder {
+ public:
+  CameraFinder(LiveCamera::Opener opener, const LiveCameraOptions& options)
+      : opener_(std::move(opener)), uri_(options.uri), pictures_(options.pictures) {}
+
+  Result<std::unique_ptr<CameraDevice>> Open() const { return opener_(uri_, pictures_); }
+  /// It is there, with this stable name.
+  void Found(CameraUri identity) {
+    uri_ = std::move(identity);
+    reported_.clear();
+  }
+  /// Whether this reason why it is not there is another than the last.
+  bool IsNews(const std::string& reason) {
+    if (reason == reported_) return false;
+    reported_ = reason;
+    return true;
+  }
+
+ private:
+  LiveCamera::Opener opener_;
+  CameraUri uri_;
+  FormatRequest pictures_;
+  std::string reported_;
+};
+
+/// The stream of the device that is open.
+struct Stream {
+  CapturedImage captured;
+  LossCounter loss_counter{0};
+  Clock::time_point last_picture;
+  bool reported_stall = false;
+
+  /// Of a device that was opened just now.
+  void Restart(milliseconds stall_limit, Clock::time_point picture) {
+    loss_counter =
+        LossCounter(std::chrono::duration_cast<std::chrono::nanoseconds>(stall_limit).count());
+    last_picture = picture;
+  }
+};
+
+/// The newest image that nobody took, and the count of all.
+struct NewestImage {
+  bool there = false;
+  CapturedImage image;
+  std::int64_t index = 0;
+  FrameLoss loss_before;
+  std::int64_t last_index = -1;  ///< Of damaged ones as well.
+};
+
+/// The controls to hold, each time the camera is opened.
+struct HeldControls {
+  std::vector<ControlRequest> requests;
+  bool lock_again = false;
+  std::vector<ControlResult> results;
+};
+
+/// What others ask for.
+struct CameraStatus {
+  std::vector<CameraEvent> events;
+  CameraCounts counts;
+  std::optional<TransportCounts> transport;
+  std::optional<NegotiatedFormat> negotiated;
+};
+
 }  // namespace
 
 /// The capturing thread and what it shares with others.
 class LiveCamera::Worker {
  public:
   Worker(LiveCameraOptions options, Opener opener)
-      : options_(std::move(options)), opener_(std::move(opener)), uri_(options_.uri) {}
+      : finder_(std::move(opener), options),
+        wait_for_camera_(options.wait_for_camera),
+        stall_limit_(options.stall_limit) {
+    controls_.requests = std::move(options.controls);
+  }
 
   ~Worker() {
     Stop();
@@ -33,8 +102,8 @@ class LiveCamera::Worker {
   }
 
   Result<void> Start() {
-    if (!options_.wait_for_camera) {
-      PLEINAIR_ASSIGN_OR_RETURN(auto device, opener_(uri_, options_.pictures));
+    if (!wait_for_camera_) {
+      PLEINAIR_ASSIGN_OR_RETURN(auto device, finder_.Open());
       Connect(std::move(device));
     }
     thread_ = std::thread([this] { Run(); });
@@ -57,59 +126,59 @@ class LiveCamera::Worker {
   bool Take(std::optional<milliseconds> limit, CapturedImage* image, FrameLoss* loss,
             std::int64_t* index) {
     std::unique_lock lock(mutex_);
-    const auto ready = [this] { return has_image_ || stop_; };
+    const auto ready = [this] { return newest_.there || stop_; };
     if (limit) {
       changed_.wait_for(lock, *limit, ready);
     } else {
       changed_.wait(lock, ready);
     }
-    if (!has_image_ || stop_) return false;
-    std::swap(*image, newest_);
-    *loss = loss_before_newest_;
-    *index = newest_index_;
-    has_image_ = false;
-    loss_before_newest_ = {};
+    if (!newest_.there || stop_) return false;
+    std::swap(*image, newest_.image);
+    *loss = newest_.loss_before;
+    *index = newest_.index;
+    newest_.there = false;
+    newest_.loss_before = {};
     return true;
   }
 
   void CountDelivered() {
     const std::lock_guard lock(mutex_);
-    ++counts_.delivered;
+    ++status_.counts.delivered;
   }
 
   /// An image that was taken turned out to be damaged.
   void CountDamaged() {
     const std::lock_guard lock(mutex_);
-    ++counts_.loss.damaged;
+    ++status_.counts.loss.damaged;
   }
 
   void LockControls(std::vector<ControlRequest> controls) {
     const std::lock_guard lock(mutex_);
-    options_.controls = std::move(controls);
-    lock_again_ = true;
+    controls_.requests = std::move(controls);
+    controls_.lock_again = true;
     if (device_) device_->Wake();
   }
 
   std::vector<CameraEvent> TakeEvents() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(events_, {});
+    return std::exchange(status_.events, {});
   }
 
   CameraCounts counts() const {
     const std::lock_guard lock(mutex_);
-    return counts_;
+    return status_.counts;
   }
   std::optional<TransportCounts> transport() const {
     const std::lock_guard lock(mutex_);
-    return transport_;
+    return status_.transport;
   }
   std::optional<NegotiatedFormat> negotiated() const {
     const std::lock_guard lock(mutex_);
-    return negotiated_;
+    return status_.negotiated;
   }
   std::vector<ControlResult> ControlResults() const {
     const std::lock_guard lock(mutex_);
-    return control_results_;
+    return controls_.results;
   }
 
  private:
@@ -120,7 +189,7 @@ class LiveCamera::Worker {
         continue;
       }
       LockIfRequested();
-      const WaitOutcome outcome = device_->Wait(kTick, &captured_);
+      const WaitOutcome outcome = device_->Wait(kTick, &stream_.captured);
       if (outcome == WaitOutcome::kImage) {
         TakeIn();
       } else if (outcome == WaitOutcome::kGone) {
@@ -134,35 +203,28 @@ class LiveCamera::Worker {
   }
 
   void TryToOpen() {
-    auto device = opener_(uri_, options_.pictures);
+    auto device = finder_.Open();
     if (device) return Connect(*std::move(device));
     std::string details = device.error().Message();
-    if (details != reported_waiting_) {
-      Report(CameraEvent::Kind::kWaiting, details);
-      reported_waiting_ = std::move(details);
-    }
+    if (finder_.IsNews(details)) Report(CameraEvent::Kind::kWaiting, std::move(details));
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, kTryAgainEvery, [this] { return stop_; });
   }
 
   void Connect(std::unique_ptr<CameraDevice> device) {
-    // From now on it is this very camera that is sought, wherever it is plugged in again.
-    uri_ = device->identity();
-    loss_counter_ = LossCounter(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(options_.stall_limit).count());
-    last_picture_ = Clock::now();
-    reported_stall_ = false;
-    reported_waiting_.clear();
+    finder_.Found(device->identity());
+    stream_.Restart(stall_limit_, Clock::now());
+    stream_.reported_stall = false;
     std::string details;
     for (const std::string& each : device->negotiated().details)
       details += (details.empty() ? "" : "; ") + each;
     {
       const std::lock_guard lock(mutex_);
-      negotiated_ = device->negotiated();
-      transport_ = device->Transport();
+      status_.negotiated = device->negotiated();
+      status_.transport = device->Transport();
       device_ = std::move(device);
-      lock_again_ = !options_.controls.empty();
-      ++counts_.connections;
+      controls_.lock_again = !controls_.requests.empty();
+      ++status_.counts.connections;
     }
     Report(CameraEvent::Kind::kConnected, details);
   }
@@ -180,92 +242,78 @@ class LiveCamera::Worker {
     std::vector<ControlRequest> control_requests;
     {
       const std::lock_guard lock(mutex_);
-      if (!std::exchange(lock_again_, false)) return;
-      control_requests = options_.controls;
+      if (!std::exchange(controls_.lock_again, false)) return;
+      control_requests = controls_.requests;
     }
     std::vector<ControlResult> results = device_->LockControls(control_requests);
     const std::lock_guard lock(mutex_);
-    control_results_ = std::move(results);
+    controls_.results = std::move(results);
   }
 
   void TakeIn() {
-    const FrameLoss missing = loss_counter_.Add(captured_.number, captured_.timestamp_ns);
-    last_picture_ = Clock::now();
-    if (std::exchange(reported_stall_, false)) Report(CameraEvent::Kind::kRecovered, "");
-    const bool whole = !captured_.damaged;
+    const FrameLoss missing =
+        stream_.loss_counter.Add(stream_.captured.number, stream_.captured.timestamp_ns);
+    stream_.last_picture = Clock::now();
+    if (std::exchange(stream_.reported_stall, false)) Report(CameraEvent::Kind::kRecovered, "");
+    const bool whole = !stream_.captured.damaged;
     const std::lock_guard lock(mutex_);
     FrameLoss loss = missing;
-    index_ += 1 + missing.Total();
+    newest_.last_index += 1 + missing.Total();
     if (!whole) ++loss.damaged;
     // The one that nobody took makes room for a whole one only.
-    if (whole && has_image_) ++loss.not_taken;
-    loss_before_newest_ += loss;
-    counts_.loss += loss;
-    transport_ = device_->Transport();
+    if (whole && newest_.there) ++loss.not_taken;
+    newest_.loss_before += loss;
+    status_.counts.loss += loss;
+    status_.transport = device_->Transport();
     if (!whole) return;
-    std::swap(newest_, captured_);
-    newest_index_ = index_;
-    has_image_ = true;
+    std::swap(newest_.image, stream_.captured);
+    newest_.index = newest_.last_index;
+    newest_.there = true;
     changed_.notify_all();
   }
 
   void CheckForStall() {
-    const auto silent = Clock::now() - last_picture_;
-    if (silent < options_.stall_limit) return;
-    if (!std::exchange(reported_stall_, true)) {
+    const auto silent = Clock::now() - stream_.last_picture;
+    if (silent < stall_limit_) return;
+    if (!std::exchange(stream_.reported_stall, true)) {
       Report(CameraEvent::Kind::kStalled, "the camera is there but sends no pictures");
       const std::lock_guard lock(mutex_);
-      ++counts_.stalls;
+      ++status_.counts.stalls;
     }
-    if (silent < 2 * options_.stall_limit) return;
+    if (silent < 2 * stall_limit_) return;
     // Starting afresh wakes most of them; a stream that goes on by itself is not touched before.
     Disconnect();
-    auto device = opener_(uri_, options_.pictures);
+    auto device = finder_.Open();
     if (!device) return Report(CameraEvent::Kind::kGone, device.error().what);
     const std::lock_guard lock(mutex_);
     device_ = *std::move(device);
-    lock_again_ = !options_.controls.empty();
-    loss_counter_ = LossCounter(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(options_.stall_limit).count());
-    last_picture_ = Clock::now() - options_.stall_limit;
+    controls_.lock_again = !controls_.requests.empty();
+    stream_.Restart(stall_limit_, Clock::now() - stall_limit_);
   }
 
   void Report(CameraEvent::Kind kind, std::string details) {
     // A consumer that never asks must not fill the memory.
     constexpr std::size_t kMax = 1000;
     const std::lock_guard lock(mutex_);
-    if (events_.size() >= kMax) events_.erase(events_.begin());
-    events_.push_back({kind, SteadyNow_ns(), std::move(details)});
+    if (status_.events.size() >= kMax) status_.events.erase(status_.events.begin());
+    status_.events.push_back({kind, SteadyNow_ns(), std::move(details)});
   }
 
-  LiveCameraOptions options_;  // controls: under the mutex.
-  Opener opener_;
+  // The thread's own, but before it starts.
+  CameraFinder finder_;
+  const bool wait_for_camera_;
+  const milliseconds stall_limit_;
+  Stream stream_;
   std::thread thread_;
-
-  // The thread's own.
-  CameraUri uri_;
-  CapturedImage captured_;
-  LossCounter loss_counter_{0};
-  Clock::time_point last_picture_;
-  bool reported_stall_ = false;
-  std::string reported_waiting_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   // Changed by the thread under the mutex, so the thread may read it without.
   std::unique_ptr<CameraDevice> device_;
   bool stop_ = false;
-  bool has_image_ = false;
-  CapturedImage newest_;
-  std::int64_t newest_index_ = 0;
-  std::int64_t index_ = -1;
-  FrameLoss loss_before_newest_;
-  bool lock_again_ = false;
-  std::vector<CameraEvent> events_;
-  CameraCounts counts_;
-  std::optional<TransportCounts> transport_;
-  std::optional<NegotiatedFormat> negotiated_;
-  std::vector<ControlResult> control_results_;
+  NewestImage newest_;
+  HeldControls controls_;
+  CameraStatus status_;
 };
 
 LiveCamera::LiveCamera(std::unique_ptr<Worker> worker) : worker_(std::move(worker)) {}

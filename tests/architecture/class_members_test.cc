@@ -40,7 +40,6 @@ const std::set<std::string>& LargeClasses() {
     "compositor/picture/camera_picture.h CameraPicture",
     "compositor/surfaces/affected_triangles.h AffectedTriangles",
     "compositor/surfaces/scene_surfaces.h SceneSurfaces",
-    "devices/cameras/live_camera.cc LiveCamera::Worker",
     "scene/scene_facts.h SceneFacts",
     "shadows/bench/bench_renderer.h BenchRenderer",
     "shadows/shadow_maps.h ShadowMaps",
