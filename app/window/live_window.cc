@@ -73,7 +73,7 @@ class LiveWindow {
         options_(options),
         screen_(screen),
         state_(WindowState::For(options.scene, options.drawing, options.convergence)) {
-    state_.camera = options.camera;
+    state_.frame.camera = options.camera;
     state_.boxes = BoxesOf(session.placed(), options.scene);
     edit_ = state_.edit;
     frames_.emplace(session);
@@ -81,7 +81,7 @@ class LiveWindow {
 
   Result<void> Run() {
     const auto start = Clock::now();
-    while (glfwWindowShouldClose(screen_.window()) == GLFW_FALSE && !state_.wants_close &&
+    while (glfwWindowShouldClose(screen_.window()) == GLFW_FALSE && !state_.requests.close &&
            !InterruptGuard::Interrupted()) {
       const double ran_s = std::chrono::duration<double>(Clock::now() - start).count();
       if (options_.seconds && ran_s >= *options_.seconds) break;
@@ -120,28 +120,28 @@ class LiveWindow {
 
   void TakeFrame() {
     const auto now = Clock::now();
-    state_.statistics = session_.statistics();
-    state_.recording = session_.recording();
+    state_.status.statistics = session_.statistics();
+    state_.status.recording = session_.recording();
     if (options_.poll_camera) {
       const std::string words = options_.poll_camera();
       if (!words.empty()) {
-        state_.camera_words = words;
+        state_.status.camera = words;
         camera_is_away_ =
             !words.starts_with("camera connected") && !words.starts_with("camera recovered");
       }
     }
     if (!ready_) return;
     screen_.Upload(ready_->picture);
-    state_.camera_from_marker = ready_->camera_from_marker;
-    state_.moment = ready_->moment;
-    state_.light = ready_->light;
-    state_.has_frame = true;
+    state_.frame.camera_from_marker = ready_->camera_from_marker;
+    state_.frame.moment = ready_->moment;
+    state_.frame.light = ready_->light;
+    state_.frame.is_there = true;
     if (last_frame_) {
       const double period_s = std::chrono::duration<double>(now - *last_frame_).count();
       mean_period_s_ = mean_period_s_ == 0.0
                            ? period_s
                            : mean_period_s_ + kRateWeight * (period_s - mean_period_s_);
-      state_.shown_per_second = mean_period_s_ > 0.0 ? 1.0 / mean_period_s_ : 0.0;
+      state_.status.shown_per_second = mean_period_s_ > 0.0 ? 1.0 / mean_period_s_ : 0.0;
     }
     last_frame_ = now;
     last_picture_ = ready_->picture;
@@ -154,16 +154,17 @@ class LiveWindow {
     ImGui::NewFrame();
     const ImGuiIO& io = ImGui::GetIO();
     const WindowLayout layout = WindowLayout::For(
-        {io.DisplaySize.x, io.DisplaySize.y}, ImGui::GetFontSize(), state_.panel,
-        {static_cast<double>(state_.camera.width), static_cast<double>(state_.camera.height)});
+        {io.DisplaySize.x, io.DisplaySize.y}, ImGui::GetFontSize(), state_.overlays.panel,
+        {static_cast<double>(state_.frame.camera.width),
+         static_cast<double>(state_.frame.camera.height)});
     const Vec2 area = layout.picture;
     Keys();
-    if (state_.has_frame) {
+    if (state_.frame.is_there) {
       const PictureView view =
-          PictureView::Fit(state_.camera.width, state_.camera.height, {}, area);
+          PictureView::Fit(state_.frame.camera.width, state_.frame.camera.height, {}, area);
       const Vec2 low = view.ScreenFromPixel({-0.5, -0.5});
       const Vec2 high =
-          view.ScreenFromPixel({state_.camera.width - 0.5, state_.camera.height - 0.5});
+          view.ScreenFromPixel({state_.frame.camera.width - 0.5, state_.frame.camera.height - 0.5});
       ImGui::GetBackgroundDrawList()->AddImage(
           TextureOf(screen_), {static_cast<float>(low.x), static_cast<float>(low.y)},
           {static_cast<float>(high.x), static_cast<float>(high.y)});
@@ -177,8 +178,10 @@ class LiveWindow {
       DrawWaiting(area);
     }
     DrawStatusLine(static_cast<float>(area.x), static_cast<float>(area.y));
-    if (state_.panel) panel_.Draw(layout.panel_corner, layout.panel_size, WallClock(), &state_);
-    if (state_.help) DrawKeyHelp(io.DisplaySize.x, io.DisplaySize.y, &state_.help);
+    if (state_.overlays.panel)
+      panel_.Draw(layout.panel_corner, layout.panel_size, WallClock(), &state_);
+    if (state_.overlays.help)
+      DrawKeyHelp(io.DisplaySize.x, io.DisplaySize.y, &state_.overlays.help);
     ImGui::Render();
     int width = 0, height = 0;
     glfwGetFramebufferSize(screen_.window(), &width, &height);
@@ -205,9 +208,9 @@ class LiveWindow {
   }
 
   void DrawWaiting(Vec2 area) const {
-    const std::string words = state_.camera_words.empty()
+    const std::string words = state_.status.camera.empty()
                                   ? std::string("waiting for the first picture…")
-                                  : state_.camera_words;
+                                  : state_.status.camera;
     const float letter = ImGui::GetFontSize();
     const auto width = static_cast<float>(area.x), height = static_cast<float>(area.y);
     const float wrap = std::max(width - 4.0F * letter, letter);
@@ -224,15 +227,15 @@ class LiveWindow {
     draw->AddRectFilled({0.0F, top}, {width, top + height}, 0xFF15130F);
     const float text_top = top + letter * 0.45F;
     float right = width - letter;
-    if (state_.recording) {
+    if (state_.status.recording) {
       draw->AddCircleFilled({right - letter * 0.35F, top + letter * 0.95F}, letter * 0.35F,
                             0xFF3030E0);
       right -= letter * 1.5F;
     }
     const std::string words = StatusMessage();
-    std::string rate = fmt::format("{:.0f} ms", state_.statistics.latency.median_ms);
-    if (state_.shown_per_second > 0.0) {
-      rate = fmt::format("{:.1f} a second, ", state_.shown_per_second) + rate;
+    std::string rate = fmt::format("{:.0f} ms", state_.status.statistics.latency.median_ms);
+    if (state_.status.shown_per_second > 0.0) {
+      rate = fmt::format("{:.1f} a second, ", state_.status.shown_per_second) + rate;
     }
     const float rate_width = ImGui::CalcTextSize(rate.c_str()).x;
     // What was done last matters more where there is no room for both.
@@ -243,9 +246,9 @@ class LiveWindow {
   }
 
   std::string StatusMessage() const {
-    if (camera_is_away_) return state_.camera_words;
+    if (camera_is_away_) return state_.status.camera;
     if (!state_.message.empty()) return state_.message;
-    if (state_.has_frame && !state_.camera_from_marker) return "no marker in sight";
+    if (state_.frame.is_there && !state_.frame.camera_from_marker) return "no marker in sight";
     if (frames_->ended()) return "the recording is over";
     return "F1: keys and mouse";
   }
@@ -255,11 +258,11 @@ class LiveWindow {
     if (std::exchange(wants_window_picture_, false)) {
       PLEINAIR_RETURN_IF_ERROR(Save("window", screen_.Read()));
     }
-    if (state_.wants_screenshot && !last_picture_.empty()) {
-      state_.wants_screenshot = false;
+    if (state_.requests.screenshot && !last_picture_.empty()) {
+      state_.requests.screenshot = false;
       PLEINAIR_RETURN_IF_ERROR(Save("picture", last_picture_));
     }
-    if (std::exchange(state_.wants_recording_change, false)) {
+    if (std::exchange(state_.requests.recording_change, false)) {
       if (session_.recording()) {
         session_.StopRecording();
         state_.message = "recording ended";
@@ -270,7 +273,7 @@ class LiveWindow {
       }
     }
     if (auto trouble = session_.recording_trouble()) state_.message = trouble->Message();
-    if (std::exchange(state_.wants_exposure_change, false) && options_.live_camera != nullptr) {
+    if (std::exchange(state_.requests.exposure_change, false) && options_.live_camera != nullptr) {
       std::vector<devices::ControlRequest> control_requests;
       if (state_.exposure_locked) {
         for (const auto control : {devices::CameraControl::kExposure, devices::CameraControl::kGain,

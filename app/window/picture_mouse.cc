@@ -17,9 +17,9 @@ constexpr ImU32 kChosen = IM_COL32(255, 208, 106, 230), kChosenFaint = IM_COL32(
 constexpr ImU32 kPole = IM_COL32(120, 220, 255, 240), kShadow = IM_COL32(20, 40, 90, 235);
 
 std::optional<ImVec2> OnScreen(const PictureView& view, const WindowState& state, Vec3 in_marker) {
-  const Point<Camera> in_camera = *state.camera_from_marker * Point<Marker>{in_marker};
+  const Point<Camera> in_camera = *state.frame.camera_from_marker * Point<Marker>{in_marker};
   if (in_camera.xyz.z < 0.01) return std::nullopt;
-  const Vec2 screen = view.ScreenFromPixel(ProjectToPixel(state.camera, in_camera));
+  const Vec2 screen = view.ScreenFromPixel(ProjectToPixel(state.frame.camera, in_camera));
   return ImVec2(static_cast<float>(screen.x), static_cast<float>(screen.y));
 }
 
@@ -61,7 +61,7 @@ Vec3 ToSun(const WindowState& state) {
 }
 
 void DrawPole(const PictureView& view, const WindowState& state) {
-  const NorthPole& pole = state.pole;
+  const NorthPole& pole = state.overlays.pole;
   const float letter = ImGui::GetFontSize();
   const Vec3 top = pole.foot + UpOf(state.scene.marker) * pole.height_m;
   const auto tip = pole.ShadowTip(state.marker(), ToSun(state));
@@ -107,7 +107,7 @@ std::vector<ObjectBox> BoxesOf(const std::vector<compositor::PlacedModel>& place
 void PictureMouse::Update(const PictureView& view, const std::vector<ButtonEvent>& events,
                           WindowState* state) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (!state->camera_from_marker) {
+  if (!state->frame.camera_from_marker) {
     drag_ = Drag::kNone;
     return;
   }
@@ -122,8 +122,8 @@ void PictureMouse::Update(const PictureView& view, const std::vector<ButtonEvent
   }
   Continue(view, mouse, state);
   if (io.MouseWheel != 0.0F && !io.WantCaptureMouse && state->selected >= 0) {
-    const Sight sight =
-        SightThrough(state->camera, *state->camera_from_marker, view.PixelFromScreen(mouse));
+    const Sight sight = SightThrough(state->frame.camera, *state->frame.camera_from_marker,
+                                     view.PixelFromScreen(mouse));
     if (PickObject(state->boxes, state->edit.objects, sight) == state->selected) {
       session::ObjectPlace& place = state->edit.objects[state->selected];
       place = Scaled(state->boxes[state->selected], place,
@@ -134,21 +134,22 @@ void PictureMouse::Update(const PictureView& view, const std::vector<ButtonEvent
   if (state->selected >= 0 && state->selected < static_cast<int>(state->boxes.size())) {
     DrawBox(view, *state, state->selected);
   }
-  if (state->turning_north) DrawPole(view, *state);
+  if (state->overlays.turning_north) DrawPole(view, *state);
 }
 
 void PictureMouse::Begin(const PictureView& view, const ButtonEvent& event, WindowState* state) {
   const bool left = event.button == ButtonEvent::Button::kLeft;
   drag_ = Drag::kNone;
   start_screen_ = event.screen;
-  if (state->turning_north && left) {
-    const auto tip = state->pole.ShadowTip(state->marker(), ToSun(*state));
+  if (state->overlays.turning_north && left) {
+    const auto tip = state->overlays.pole.ShadowTip(state->marker(), ToSun(*state));
     if (tip && Near(OnScreen(view, *state, *tip), event.screen)) drag_ = Drag::kPoleTip;
-    if (Near(OnScreen(view, *state, state->pole.foot), event.screen)) drag_ = Drag::kPoleFoot;
+    if (Near(OnScreen(view, *state, state->overlays.pole.foot), event.screen))
+      drag_ = Drag::kPoleFoot;
     if (drag_ != Drag::kNone) return;
   }
-  start_ =
-      SightThrough(state->camera, *state->camera_from_marker, view.PixelFromScreen(event.screen));
+  start_ = SightThrough(state->frame.camera, *state->frame.camera_from_marker,
+                        view.PixelFromScreen(event.screen));
   const auto picked = PickObject(state->boxes, state->edit.objects, start_);
   state->selected = picked.value_or(-1);
   if (!picked) return;
@@ -163,16 +164,16 @@ void PictureMouse::Continue(const PictureView& view, Vec2 screen, WindowState* s
   if (drag_ == Drag::kNone) return;
   // A click chooses; only a drag moves.
   if (Norm(screen - start_screen_) < 2.0) return;
-  const Sight sight =
-      SightThrough(state->camera, *state->camera_from_marker, view.PixelFromScreen(screen));
+  const Sight sight = SightThrough(state->frame.camera, *state->frame.camera_from_marker,
+                                   view.PixelFromScreen(screen));
   const Vec3 up = UpOf(state->scene.marker);
   if (drag_ == Drag::kPoleFoot || drag_ == Drag::kPoleTip) {
-    const auto on_ground = MeetPlane(sight, state->pole.foot, up);
+    const auto on_ground = MeetPlane(sight, state->overlays.pole.foot, up);
     if (!on_ground) return;
     if (drag_ == Drag::kPoleFoot) {
-      state->pole.foot = *on_ground;
-    } else if (const auto heading =
-                   HeadingForShadow(state->scene.marker, state->pole, *on_ground, ToSun(*state))) {
+      state->overlays.pole.foot = *on_ground;
+    } else if (const auto heading = HeadingForShadow(state->scene.marker, state->overlays.pole,
+                                                     *on_ground, ToSun(*state))) {
       state->edit.heading_deg = heading;
     }
     return;

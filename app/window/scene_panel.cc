@@ -217,10 +217,10 @@ void ScenePanel::Air(WindowState* state) {
     edit.sky = by_hand ? std::optional(sky) : std::nullopt;
   }
   Hint("Otherwise haze and clouds are as the shadows in the pictures tell, or as the scene says.");
-  if (state->statistics.light.frames_in_estimate > 0) {
+  if (state->status.statistics.light.frames_in_estimate > 0) {
     Quiet("looking at shadows…");
   } else if (!edit.sky) {
-    Quiet(MeasuredSunText(state->light.measured, state->statistics.light.measured));
+    Quiet(MeasuredSunText(state->frame.light.measured, state->status.statistics.light.measured));
   }
 }
 
@@ -230,18 +230,18 @@ void ScenePanel::North(WindowState* state) {
   heading -= 360.0 * std::floor(heading / 360.0);
   if (ImGui::InputDouble("heading °", &heading, 0.1, 1.0, "%.2f")) edit.heading_deg = heading;
   Hint("Azimuth of the marker's upper edge, clockwise from true north.");
-  if (!edit.heading_deg) Quiet(MeasuredHeadingText(state->statistics.light.measured));
+  if (!edit.heading_deg) Quiet(MeasuredHeadingText(state->status.statistics.light.measured));
   bool by_hand = edit.heading_deg.has_value();
   if (ImGui::Checkbox("by hand##north", &by_hand)) {
     edit.heading_deg = by_hand ? std::optional(heading) : std::nullopt;
   }
   ImGui::SameLine();
-  ImGui::Checkbox("pole", &state->turning_north);
+  ImGui::Checkbox("pole", &state->overlays.turning_north);
   Hint(
       "Shows a virtual pole. Drag its foot to a real pole's, and its shadow's tip onto the real "
       "shadow: that turns the scene to north.");
-  if (state->turning_north)
-    Slider("pole's height m", &state->pole.height_m, 0.05, 10.0, "%.2f", true);
+  if (state->overlays.turning_north)
+    Slider("pole's height m", &state->overlays.pole.height_m, 0.05, 10.0, "%.2f", true);
 }
 
 void ScenePanel::Objects(WindowState* state) {
@@ -314,7 +314,7 @@ void ScenePanel::Light(WindowState* state) {
   if (ImGui::Combo("detail", &detail, kDetails, 4))
     edit.detail = static_cast<session::Detail>(detail);
   Hint("Automatic: as fine as keeps up with the camera.");
-  const double share = state->statistics.light.coefficients;
+  const double share = state->status.statistics.light.coefficients;
   if (share < 1.0 && !state->boxes.empty()) {
     ImGui::ProgressBar(static_cast<float>(share), {-1.0F, ImGui::GetFontSize() * 0.5F}, "");
     Hint("Where light comes from is being worked out; after that it follows every change at once.");
@@ -322,23 +322,23 @@ void ScenePanel::Light(WindowState* state) {
 }
 
 void ScenePanel::Capture(WindowState* state) {
-  if (!state->camera_words.empty()) Quiet(state->camera_words);
+  if (!state->status.camera.empty()) Quiet(state->status.camera);
   bool locked = state->exposure_locked;
   if (ImGui::Checkbox("lock exposure", &locked)) Do(Action::kLockExposure, false, {}, state);
   Hint(
       "Holds the camera's exposure, gain and white balance where they are, and the brightness that "
       "the marker last gave the objects: they then follow the time of day and the air alone.");
-  if (ImGui::Button("Screenshot")) state->wants_screenshot = true;
+  if (ImGui::Button("Screenshot")) state->requests.screenshot = true;
   ImGui::SameLine();
-  if (state->recording) ImGui::PushStyleColor(ImGuiCol_Button, {0.75F, 0.15F, 0.15F, 1.0F});
-  const bool clicked = ImGui::Button(state->recording ? "End recording" : "Record");
-  if (state->recording) ImGui::PopStyleColor();
-  if (clicked) state->wants_recording_change = true;
+  if (state->status.recording) ImGui::PushStyleColor(ImGuiCol_Button, {0.75F, 0.15F, 0.15F, 1.0F});
+  const bool clicked = ImGui::Button(state->status.recording ? "End recording" : "Record");
+  if (state->status.recording) ImGui::PopStyleColor();
+  if (clicked) state->requests.recording_change = true;
 }
 
 void ScenePanel::Statistics(const WindowState& state) {
-  const LiveStatistics& s = state.statistics;
-  ImGui::Text("%.1f pictures a second shown, %.1f sent", state.shown_per_second,
+  const LiveStatistics& s = state.status.statistics;
+  ImGui::Text("%.1f pictures a second shown, %.1f sent", state.status.shown_per_second,
               s.timing.period_ms > 0.0 ? 1000.0 / s.timing.period_ms : 0.0);
   ImGui::Text("exposure to screen %.0f ms (95 %%: %.0f)", s.latency.median_ms, s.latency.p95_ms);
   ImGui::Text("tracking %.1f ms, drawing %.1f ms", s.timing.track_ms, s.timing.draw_ms);

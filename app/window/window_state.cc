@@ -22,8 +22,9 @@ void DoToObject(Action action, bool fine, WindowState* state) {
   session::ObjectPlace& place = state->edit.objects[index];
   const ObjectBox& box = state->boxes[index];
   const Vec3 up = UpOf(state->scene.marker);
-  const ViewerAxes axes = state->camera_from_marker ? AxesOf(*state->camera_from_marker, up)
-                                                    : ViewerAxes{{1, 0, 0}, Cross(up, {1, 0, 0})};
+  const ViewerAxes axes = state->frame.camera_from_marker
+                              ? AxesOf(*state->frame.camera_from_marker, up)
+                              : ViewerAxes{{1, 0, 0}, Cross(up, {1, 0, 0})};
   const double step = (fine ? kFineStep_m : kStep_m) * std::max(SizeOf(box, place), 1e-3);
   const double turn = fine ? kFineTurn_deg : kTurn_deg;
   const double growth = fine ? kFineGrowth : kGrowth;
@@ -67,9 +68,9 @@ void DoToObject(Action action, bool fine, WindowState* state) {
 
 scene::MarkerDescription WindowState::marker() const {
   scene::MarkerDescription in_use = scene.marker;
-  in_use.heading = FromDegrees(edit.heading_deg.value_or(has_frame && statistics.frames.drawn > 0
-                                                             ? statistics.light.heading_deg
-                                                             : ToDegrees(scene.marker.heading)));
+  in_use.heading = FromDegrees(edit.heading_deg.value_or(
+      frame.is_there && status.statistics.frames.drawn > 0 ? status.statistics.light.heading_deg
+                                                           : ToDegrees(scene.marker.heading)));
   return in_use;
 }
 
@@ -78,16 +79,16 @@ WindowState WindowState::For(const scene::SceneDescription& scene,
   WindowState state;
   state.scene = scene;
   state.edit = state.unedited = session::UneditedScene(scene, drawing, convergence);
-  state.moment = scene.place_time.start;
+  state.frame.moment = scene.place_time.start;
   if (state.edit.objects.size() == 1) state.selected = 0;
-  state.pole.height_m = scene.marker.size_m;
+  state.overlays.pole.height_m = scene.marker.size_m;
   return state;
 }
 
 void SetShownTime(UtcTime time, WindowState* state) {
-  state->edit.later_s =
-      static_cast<double>(time.nanoseconds_since_1970() - state->moment.nanoseconds_since_1970()) *
-      1e-9;
+  state->edit.later_s = static_cast<double>(time.nanoseconds_since_1970() -
+                                            state->frame.moment.nanoseconds_since_1970()) *
+                        1e-9;
 }
 
 double TimeOfDay(UtcTime time, double utc_offset_s) {
@@ -103,19 +104,19 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
   const double time_step = fine ? kFineTimeStep_s : kTimeStep_s;
   switch (action) {
     case Action::kHelp:
-      state->help = !state->help;
+      state->overlays.help = !state->overlays.help;
       return;
     case Action::kPanel:
-      state->panel = !state->panel;
+      state->overlays.panel = !state->overlays.panel;
       return;
     case Action::kClose:
-      state->wants_close = true;
+      state->requests.close = true;
       return;
     case Action::kScreenshot:
-      state->wants_screenshot = true;
+      state->requests.screenshot = true;
       return;
     case Action::kRecord:
-      state->wants_recording_change = true;
+      state->requests.recording_change = true;
       return;
     case Action::kNow:
       SetShownTime(now, state);
@@ -135,16 +136,16 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
       return;
     }
     case Action::kDeselect:
-      if (state->help) {
-        state->help = false;
-      } else if (state->turning_north) {
-        state->turning_north = false;
+      if (state->overlays.help) {
+        state->overlays.help = false;
+      } else if (state->overlays.turning_north) {
+        state->overlays.turning_north = false;
       } else {
         state->selected = -1;
       }
       return;
     case Action::kNorth:
-      state->turning_north = !state->turning_north;
+      state->overlays.turning_north = !state->overlays.turning_north;
       return;
     case Action::kShadowMaps:
       state->edit.drawing.show_shadow_maps = !state->edit.drawing.show_shadow_maps;
@@ -152,7 +153,7 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
     case Action::kLockExposure:
       state->exposure_locked = !state->exposure_locked;
       state->edit.lock_exposure = state->exposure_locked;
-      state->wants_exposure_change = true;
+      state->requests.exposure_change = true;
       return;
     default:
       if (state->selected >= 0) DoToObject(action, fine, state);

@@ -13,6 +13,36 @@
 
 namespace pleinair::app {
 
+/// What is drawn over the frame.
+struct Overlays {
+  bool panel = true, help = false;
+  bool turning_north = false;  ///< The virtual pole is shown.
+  NorthPole pole;
+};
+
+/// The frame on the screen.
+struct ShownFrame {
+  CameraModel camera;
+  std::optional<Transform<Camera, Marker>> camera_from_marker;
+  UtcTime moment;  ///< Without what the edit adds.
+  bool is_there = false;
+  session::LightSummary light;
+};
+
+/// How the session is doing.
+struct LiveStatus {
+  LiveStatistics statistics;
+  double shown_per_second = 0.0;  ///< Frames.
+  bool recording = false;
+  std::string camera;  ///< What the camera last reported.
+};
+
+/// What keys and panel asked for, to be done by the window.
+struct WindowRequests {
+  bool screenshot = false, recording_change = false, exposure_change = false;
+  bool close = false;
+};
+
 /// What the window shows and what its user has done: all that the panel and the keys change,
 /// without a window, so that tests can press keys, too.
 struct WindowState {
@@ -20,28 +50,14 @@ struct WindowState {
   session::SceneEdit edit, unedited;
   std::vector<ObjectBox> boxes;  ///< Of the scene's objects, in their order.
   int selected = -1;             ///< Index of an object; -1: none.
-  bool panel = true, help = false;
-  bool turning_north = false;  ///< The virtual pole is shown.
-  NorthPole pole;
   bool exposure_locked = false;
-
-  // Of the frame on the screen.
-  CameraModel camera;
-  std::optional<Transform<Camera, Marker>> camera_from_marker;
-  UtcTime moment;  ///< Without what the edit adds.
-  bool has_frame = false;
-  session::LightSummary light;
-  LiveStatistics statistics;
-  double shown_per_second = 0.0;
-  bool recording = false;
-  std::string camera_words;  ///< What the camera last said of itself.
-
-  // Asked for, to be done by the window.
-  bool wants_screenshot = false, wants_recording_change = false, wants_exposure_change = false;
-  bool wants_close = false;
+  Overlays overlays;
+  ShownFrame frame;
+  LiveStatus status;
+  WindowRequests requests;
   std::string message;  ///< The last thing done, for the status line.
 
-  UtcTime shown_time() const { return moment.PlusSeconds(edit.later_s); }
+  UtcTime shown_time() const { return frame.moment.PlusSeconds(edit.later_s); }
   /// The marker with the heading in use.
   scene::MarkerDescription marker() const;
   /// The scene's state for a new session.

@@ -29,7 +29,6 @@ const std::set<std::string>& LargeClasses() {
     "app/commands/sun_command.cc Options",
     "app/sky/sky_options.h SkyOptions",
     "app/window/live_window.cc LiveWindow",
-    "app/window/window_state.h WindowState",
     "compositor/composer.cc GlComposer",
     "compositor/light/lit_mesh.h LitMesh",
     "compositor/models/model.h Material",

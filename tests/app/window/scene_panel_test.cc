@@ -143,7 +143,7 @@ TEST_F(PanelInHands, ACityIsFoundByTypingAndTheTimeIsThatOfTheDayThatIsTyped) {
   Push(Of("Now"));
   EXPECT_EQ(state_.shown_time(), now_);
   Push(Of("Time of the pictures"));
-  EXPECT_EQ(state_.shown_time(), state_.moment);
+  EXPECT_EQ(state_.shown_time(), state_.frame.moment);
   if (Point(Of("##time"))) Click();
   EXPECT_LT(TimeOfDay(state_.shown_time(), 0.0), 12.0 * 3600.0) << "left on the bar is early";
   EXPECT_NE(edit.later_s, 0.0);
@@ -172,12 +172,12 @@ TEST_F(PanelInHands, NorthIsTypedAndButtonsAskTheWindow) {
   Push(Of("by hand##north"));
   EXPECT_FALSE(state_.edit.heading_deg);
   Push(Of("Record"));
-  EXPECT_TRUE(state_.wants_recording_change);
+  EXPECT_TRUE(state_.requests.recording_change);
   Push(Of("Screenshot"));
-  EXPECT_TRUE(state_.wants_screenshot);
+  EXPECT_TRUE(state_.requests.screenshot);
   Push(Of("lock exposure"));
   EXPECT_TRUE(state_.exposure_locked);
-  EXPECT_TRUE(state_.wants_exposure_change);
+  EXPECT_TRUE(state_.requests.exposure_change);
 }
 
 }  // namespace

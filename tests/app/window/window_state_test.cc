@@ -28,12 +28,12 @@ WindowState State() {
   WindowState state = WindowState::For(scene, {});
   state.boxes = {{"box", {-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}}};
   // A camera 3 m above the print that looks straight down, its right along the print's x.
-  state.camera.width = 640;
-  state.camera.height = 480;
-  state.camera.fx = state.camera.fy = 600.0;
-  state.camera.cx = 319.5;
-  state.camera.cy = 239.5;
-  state.camera_from_marker = {{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 3}};
+  state.frame.camera.width = 640;
+  state.frame.camera.height = 480;
+  state.frame.camera.fx = state.frame.camera.fy = 600.0;
+  state.frame.camera.cx = 319.5;
+  state.frame.camera.cy = 239.5;
+  state.frame.camera_from_marker = {{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 3}};
   return state;
 }
 
@@ -87,14 +87,18 @@ TEST(WindowState, TheMouseTakesHoldOfWhatItPointsAtAndTheGroundFollowsIt) {
   session::ObjectPlace& place = state.edit.objects[0];
   place = {{0.2, 0.3, 0.0}, {}, 0.1};
   const auto pixel = [&](Vec3 point) {
-    return ProjectToPixel(state.camera, *state.camera_from_marker * Point<Marker>{point});
+    return ProjectToPixel(state.frame.camera,
+                          *state.frame.camera_from_marker * Point<Marker>{point});
   };
-  const Sight at = SightThrough(state.camera, *state.camera_from_marker, pixel({0.2, 0.3, 0.1}));
+  const Sight at =
+      SightThrough(state.frame.camera, *state.frame.camera_from_marker, pixel({0.2, 0.3, 0.1}));
   EXPECT_EQ(PickObject(state.boxes, state.edit.objects, at), 0);
-  const Sight beside = SightThrough(state.camera, *state.camera_from_marker, pixel({0.5, 0.3, 0}));
+  const Sight beside =
+      SightThrough(state.frame.camera, *state.frame.camera_from_marker, pixel({0.5, 0.3, 0}));
   EXPECT_EQ(PickObject(state.boxes, state.edit.objects, beside), std::nullopt);
   const Vec3 hold{0.2, 0.3, 0.1};
-  const Sight to = SightThrough(state.camera, *state.camera_from_marker, pixel({0.4, 0.0, 0.1}));
+  const Sight to =
+      SightThrough(state.frame.camera, *state.frame.camera_from_marker, pixel({0.4, 0.0, 0.1}));
   ExpectNear(DraggedLevel(place, at, to, hold, {0, 0, 1}).translation_m, {0.4, 0.0, 0.0});
 }
 
@@ -107,13 +111,13 @@ TEST(WindowState, TheScrubBarKeepsTheDayAndNowIsNow) {
   Do(Action::kNow, false, *UtcTime::Parse("2026-01-02T03:04:05Z"), &state);
   EXPECT_EQ(state.shown_time().ToString(), "2026-01-02T03:04:05Z");
   Do(Action::kAsRecorded, false, {}, &state);
-  EXPECT_EQ(state.shown_time(), state.moment);
+  EXPECT_EQ(state.shown_time(), state.frame.moment);
 }
 
 TEST(WindowState, TheExposureLockHoldsTheCameraAndTheBrightnessOfObjects) {
   WindowState state = State();
   Do(Action::kLockExposure, false, {}, &state);
-  EXPECT_TRUE(state.exposure_locked && state.edit.lock_exposure && state.wants_exposure_change);
+  EXPECT_TRUE(state.exposure_locked && state.edit.lock_exposure && state.requests.exposure_change);
   Do(Action::kLockExposure, false, {}, &state);
   EXPECT_FALSE(state.exposure_locked || state.edit.lock_exposure);
 }
