@@ -65,6 +65,26 @@ std::string CutTo(float width, std::string words) {
   return words + "…";
 }
 
+/// How many frames a second are shown, on a moving average of their periods.
+class FrameRate {
+ public:
+  /// Of a frame that is shown at this moment; 0 for the first.
+  double Add(Clock::time_point now) {
+    if (last_) {
+      const double period_s = std::chrono::duration<double>(now - *last_).count();
+      mean_period_s_ = mean_period_s_ == 0.0
+                           ? period_s
+                           : mean_period_s_ + kRateWeight * (period_s - mean_period_s_);
+    }
+    last_ = now;
+    return mean_period_s_ > 0.0 ? 1.0 / mean_period_s_ : 0.0;
+  }
+
+ private:
+  std::optional<Clock::time_point> last_;
+  double mean_period_s_ = 0.0;
+};
+
 /// One run of the window.
 class LiveWindow {
  public:
@@ -126,7 +146,7 @@ class LiveWindow {
       const std::string words = options_.poll_camera();
       if (!words.empty()) {
         state_.status.camera = words;
-        camera_is_away_ =
+        state_.status.camera_is_away =
             !words.starts_with("camera connected") && !words.starts_with("camera recovered");
       }
     }
@@ -136,14 +156,7 @@ class LiveWindow {
     state_.frame.moment = ready_->moment;
     state_.frame.light = ready_->light;
     state_.frame.is_there = true;
-    if (last_frame_) {
-      const double period_s = std::chrono::duration<double>(now - *last_frame_).count();
-      mean_period_s_ = mean_period_s_ == 0.0
-                           ? period_s
-                           : mean_period_s_ + kRateWeight * (period_s - mean_period_s_);
-      state_.status.shown_per_second = mean_period_s_ > 0.0 ? 1.0 / mean_period_s_ : 0.0;
-    }
-    last_frame_ = now;
+    state_.status.shown_per_second = rate_.Add(now);
     last_picture_ = ready_->picture;
     fresh_ = std::exchange(ready_, std::nullopt);
   }
@@ -199,7 +212,7 @@ class LiveWindow {
       for (const KeyBinding& binding : KeyBindings()) {
         if (binding.key != pressed.key || binding.control != control) continue;
         if (binding.action == Action::kScreenshot && shift) {
-          wants_window_picture_ = true;
+          state_.requests.window_screenshot = true;
         } else {
           Do(binding.action, shift, WallClock(), &state_);
         }
@@ -246,7 +259,7 @@ class LiveWindow {
   }
 
   std::string StatusMessage() const {
-    if (camera_is_away_) return state_.status.camera;
+    if (state_.status.camera_is_away) return state_.status.camera;
     if (!state_.message.empty()) return state_.message;
     if (state_.frame.is_there && !state_.frame.camera_from_marker) return "no marker in sight";
     if (frames_->ended()) return "the recording is over";
@@ -255,7 +268,7 @@ class LiveWindow {
 
   /// What keys and panel asked the window for.
   Result<void> DoWishes() {
-    if (std::exchange(wants_window_picture_, false)) {
+    if (std::exchange(state_.requests.window_screenshot, false)) {
       PLEINAIR_RETURN_IF_ERROR(Save("window", screen_.Read()));
     }
     if (state_.requests.screenshot && !last_picture_.empty()) {
@@ -309,10 +322,7 @@ class LiveWindow {
   std::optional<FrameThread> frames_;
   std::optional<DrawnFrame> ready_, fresh_;
   RgbImage last_picture_;
-  std::optional<Clock::time_point> last_frame_;
-  double mean_period_s_ = 0.0;
-  bool wants_window_picture_ = false;
-  bool camera_is_away_ = false;
+  FrameRate rate_;
 };
 
 }  // namespace

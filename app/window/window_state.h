@@ -35,11 +35,13 @@ struct LiveStatus {
   double shown_per_second = 0.0;  ///< Frames.
   bool recording = false;
   std::string camera;  ///< What the camera last reported.
+  bool camera_is_away = false;
 };
 
 /// What keys and panel asked for, to be done by the window.
 struct WindowRequests {
-  bool screenshot = false, recording_change = false, exposure_change = false;
+  bool screenshot = false, window_screenshot = false;
+  bool recording_change = false, exposure_change = false;
   bool close = false;
 };
 

@@ -28,7 +28,6 @@ const std::set<std::string>& LargeClasses() {
     "app/commands/live_command.cc Arguments",
     "app/commands/sun_command.cc Options",
     "app/sky/sky_options.h SkyOptions",
-    "app/window/live_window.cc LiveWindow",
     "compositor/composer.cc GlComposer",
     "compositor/light/lit_mesh.h LitMesh",
     "compositor/models/model.h Material",
