@@ -150,9 +150,10 @@ Result<void> ShadowMaps::CreateMoments(int size) {
   const GLenum format = warped ? GL_RGBA32F : GL_RG32F;
   PLEINAIR_ASSIGN_OR_RETURN(moments_,
                             gl::GlTexture::Create2DArray(format, size, size, options_.partitions));
-  PLEINAIR_ASSIGN_OR_RETURN(blur_, gl::GlTexture::Create2DArray(format, size, size, 1));
+  PLEINAIR_ASSIGN_OR_RETURN(blur_.texture, gl::GlTexture::Create2DArray(format, size, size, 1));
   PLEINAIR_ASSIGN_OR_RETURN(
-      blur_target_, gl::GlFramebuffer::Create({.colors = {{.texture = &blur_, .layer = 0}}}));
+      blur_.target,
+      gl::GlFramebuffer::Create({.colors = {{.texture = &blur_.texture, .layer = 0}}}));
   for (int i = 0; i < options_.partitions; ++i) {
     PLEINAIR_ASSIGN_OR_RETURN(
         slices_[i].moments_target,
@@ -375,8 +376,8 @@ void ShadowMaps::DrawMoments(int slice) {
                                               options_.min_blur_texels, options_.max_blur_texels)));
     glDrawArrays(GL_TRIANGLES, 0, 3);
   };
-  pass(first_program_, blur_target_, depth_, slice, true);
-  pass(second_program_, slices_[slice].moments_target, blur_, 0, false);
+  pass(first_program_, blur_.target, depth_, slice, true);
+  pass(second_program_, slices_[slice].moments_target, blur_.texture, 0, false);
   glEnable(GL_DEPTH_TEST);
 }
 

@@ -146,6 +146,12 @@ class ShadowMaps {
     gl::GlFramebuffer moments_target;
   };
 
+  // Moment methods: between the two passes.
+  struct BlurBuffer {
+    gl::GlTexture texture;
+    gl::GlFramebuffer target;
+  };
+
   ShadowMaps() = default;
   MapContent Content() const { return ContentOf(options_); }
   bool UsesMoments() const {
@@ -167,8 +173,7 @@ class ShadowMaps {
   gl::GlTexture depth_;    // Array of partitions, 0…1 over the depth range.
   gl::GlTexture bounds_;   // Pyramid of nearest and farthest depth, from a quarter of the size on.
   gl::GlTexture moments_;  // Moment methods.
-  gl::GlTexture blur_;     // Moment methods: between the two passes.
-  gl::GlFramebuffer blur_target_;
+  BlurBuffer blur_;
   gl::GlVertexArray no_vertices_;
   gl::GlProgram depth_program_;
   gl::GlProgram first_program_;   // Depth to bounds, or to moments blurred along u.

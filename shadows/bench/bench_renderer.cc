@@ -32,9 +32,9 @@ Result<BenchRenderer> BenchRenderer::Create(const BenchScene& scene, int width, 
   BenchRenderer renderer;
   renderer.width_ = width;
   renderer.height_ = height;
-  renderer.to_sun_ = scene.to_sun;
+  renderer.scene_.to_sun = scene.to_sun;
   for (const BenchMesh& mesh : scene.meshes) {
-    Surface& surface = renderer.surfaces_.emplace_back();
+    Surface& surface = renderer.scene_.surfaces.emplace_back();
     PLEINAIR_ASSIGN_OR_RETURN(surface.positions, gl::GlBuffer::FromSpan(std::span(mesh.positions)));
     PLEINAIR_ASSIGN_OR_RETURN(surface.indices, gl::GlBuffer::FromSpan(std::span(mesh.indices)));
     surface.vertices = gl::GlVertexArray::Create();
@@ -45,28 +45,28 @@ Result<BenchRenderer> BenchRenderer::Create(const BenchScene& scene, int width, 
     caster.vertices = &surface.vertices;
     caster.index_count = surface.index_count;
     for (const glm::vec3& p : mesh.positions) caster.bounds.Include(glm::dvec3(p));
-    renderer.casters_.push_back(caster);
+    renderer.scene_.casters.push_back(caster);
   }
   PLEINAIR_ASSIGN_OR_RETURN(
-      renderer.depth_program_,
+      renderer.programs_.depth,
       gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_view.vert",
                              .fragment = "shadows/shaders/shadow_depth.frag"}));
-  PLEINAIR_ASSIGN_OR_RETURN(renderer.picture_, gl::GlTexture::Create2D(GL_RG32F, width, height));
-  PLEINAIR_ASSIGN_OR_RETURN(renderer.depth_,
+  Target& target = renderer.target_;
+  PLEINAIR_ASSIGN_OR_RETURN(target.picture, gl::GlTexture::Create2D(GL_RG32F, width, height));
+  PLEINAIR_ASSIGN_OR_RETURN(target.depth,
                             gl::GlTexture::Create2D(GL_DEPTH_COMPONENT32F, width, height));
-  PLEINAIR_ASSIGN_OR_RETURN(renderer.target_,
-                            gl::GlFramebuffer::Create({.colors = {{.texture = &renderer.picture_}},
-                                                       .depth = {.texture = &renderer.depth_}}));
+  PLEINAIR_ASSIGN_OR_RETURN(target.framebuffer,
+                            gl::GlFramebuffer::Create({.colors = {{.texture = &target.picture}},
+                                                       .depth = {.texture = &target.depth}}));
   if (samples > 1) {
-    PLEINAIR_ASSIGN_OR_RETURN(renderer.picture_samples_,
+    Target& several = renderer.samples_target_.emplace();
+    PLEINAIR_ASSIGN_OR_RETURN(several.picture,
                               gl::GlTexture::Create2DMultisample(GL_RG32F, width, height, samples));
-    PLEINAIR_ASSIGN_OR_RETURN(
-        renderer.depth_samples_,
-        gl::GlTexture::Create2DMultisample(GL_DEPTH_COMPONENT32F, width, height, samples));
-    PLEINAIR_ASSIGN_OR_RETURN(
-        renderer.samples_target_,
-        gl::GlFramebuffer::Create({.colors = {{.texture = &renderer.picture_samples_}},
-                                   .depth = {.texture = &renderer.depth_samples_}}));
+    PLEINAIR_ASSIGN_OR_RETURN(several.depth, gl::GlTexture::Create2DMultisample(
+                                                 GL_DEPTH_COMPONENT32F, width, height, samples));
+    PLEINAIR_ASSIGN_OR_RETURN(several.framebuffer,
+                              gl::GlFramebuffer::Create({.colors = {{.texture = &several.picture}},
+                                                         .depth = {.texture = &several.depth}}));
   }
   renderer.no_vertices_ = gl::GlVertexArray::Create();
   return renderer;
@@ -76,16 +76,16 @@ Result<void> BenchRenderer::SetMethod(const ShadowMapOptions& options) {
   maps_.clear();
   PLEINAIR_ASSIGN_OR_RETURN(ShadowMaps maps, ShadowMaps::Create(options));
   std::vector<std::string> defines = ShadowMaps::ShaderDefines(options, 1);
-  PLEINAIR_ASSIGN_OR_RETURN(view_program_,
+  PLEINAIR_ASSIGN_OR_RETURN(programs_.view,
                             gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_view.vert",
                                                    .fragment = "shadows/shaders/shadow_view.frag",
                                                    .defines = defines}));
   PLEINAIR_ASSIGN_OR_RETURN(
-      probe_program_, gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
-                                             .fragment = "shadows/shaders/shadow_probe.frag",
-                                             .defines = defines}));
+      programs_.probe, gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_fullscreen.vert",
+                                              .fragment = "shadows/shaders/shadow_probe.frag",
+                                              .defines = defines}));
   defines.emplace_back("SHOW_PARTITIONS");
-  PLEINAIR_ASSIGN_OR_RETURN(partitions_program_,
+  PLEINAIR_ASSIGN_OR_RETURN(programs_.partitions,
                             gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_view.vert",
                                                    .fragment = "shadows/shaders/shadow_view.frag",
                                                    .defines = defines}));
@@ -94,7 +94,7 @@ Result<void> BenchRenderer::SetMethod(const ShadowMapOptions& options) {
 }
 
 Result<View> BenchRenderer::Tightened(const View& view) {
-  DrawDepth(target_, view);
+  DrawDepth(target_.framebuffer, view);
   std::vector<float> depths(static_cast<std::size_t>(width_) * height_);
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
   float minimum = 1.0F, maximum = 0.0F;
@@ -116,13 +116,14 @@ Result<View> BenchRenderer::Tightened(const View& view) {
 }
 
 Result<int> BenchRenderer::UpdateMaps(const View& view) {
-  return maps_.front().UpdateForView(casters_, {{to_sun_.x, to_sun_.y, to_sun_.z}}, view);
+  return maps_.front().UpdateForView(scene_.casters,
+                                     {{scene_.to_sun.x, scene_.to_sun.y, scene_.to_sun.z}}, view);
 }
 
 void BenchRenderer::DrawSurfaces(const gl::GlProgram& program, const View& view) {
   program.Use();
   program.Set("clip_from_marker", glm::mat4(view.ClipFromMarker()));
-  for (const Surface& surface : surfaces_) {
+  for (const Surface& surface : scene_.surfaces) {
     surface.vertices.Bind();
     glDrawElements(GL_TRIANGLES, surface.index_count, GL_UNSIGNED_INT, nullptr);
   }
@@ -136,7 +137,7 @@ void BenchRenderer::DrawDepth(const gl::GlFramebuffer& target, const View& view)
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
   glDisable(GL_CULL_FACE);
-  DrawSurfaces(depth_program_, view);
+  DrawSurfaces(programs_.depth, view);
 }
 
 void BenchRenderer::DrawVisible(const gl::GlProgram& program, const View& view) {
@@ -148,12 +149,12 @@ void BenchRenderer::DrawVisible(const gl::GlProgram& program, const View& view) 
   DrawSurfaces(program, view);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  if (samples_target_) samples_target_->BlitTo(target_);
+  if (samples_target_) samples_target_->framebuffer.BlitTo(target_.framebuffer);
 }
 
 VisibilityPicture BenchRenderer::Read() const {
   Image<float> both(width_, height_, 2);
-  target_.ReadPixels(0, GL_RG, GL_FLOAT, both.data());
+  target_.framebuffer.ReadPixels(0, GL_RG, GL_FLOAT, both.data());
   VisibilityPicture picture{Image<float>(width_, height_), Image<float>(width_, height_)};
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
@@ -168,14 +169,14 @@ Result<VisibilityPicture> BenchRenderer::Draw(const View& view, int* redrawn) {
   PLEINAIR_ASSIGN_OR_RETURN(const int count, UpdateMaps(view));
   if (redrawn != nullptr) *redrawn = count;
   DrawDepth(DrawTarget(), view);
-  DrawVisible(view_program_, view);
+  DrawVisible(programs_.view, view);
   return Read();
 }
 
 Result<VisibilityPicture> BenchRenderer::DrawPartitions(const View& view) {
   PLEINAIR_RETURN_IF_ERROR(UpdateMaps(view));
   DrawDepth(DrawTarget(), view);
-  DrawVisible(partitions_program_, view);
+  DrawVisible(programs_.partitions, view);
   return Read();
 }
 
@@ -191,7 +192,7 @@ Result<FrameTime> BenchRenderer::Time(const View& view, int frames) {
     minimum.maps_ms = std::min(minimum.maps_ms, MillisecondsSince(start));
     start = Clock::now();
     DrawDepth(DrawTarget(), view);
-    DrawVisible(view_program_, view);
+    DrawVisible(programs_.view, view);
     glFinish();
     minimum.scene_ms = std::min(minimum.scene_ms, MillisecondsSince(start));
     minimum.cpu_ms = std::min(minimum.cpu_ms,
@@ -207,11 +208,11 @@ Result<std::vector<float>> BenchRenderer::Probe(const ProbeGrid& grid) {
                             gl::GlFramebuffer::Create({.colors = {{.texture = &picture}}}));
   target.Bind();
   glDisable(GL_DEPTH_TEST);
-  probe_program_.Use();
-  probe_program_.Set("origin", glm::vec3(grid.origin));
-  probe_program_.Set("du", glm::vec3(grid.du));
-  probe_program_.Set("dv", glm::vec3(grid.dv));
-  probe_program_.Set("normal", glm::vec3(grid.normal));
+  programs_.probe.Use();
+  programs_.probe.Set("origin", glm::vec3(grid.origin));
+  programs_.probe.Set("du", glm::vec3(grid.du));
+  programs_.probe.Set("dv", glm::vec3(grid.dv));
+  programs_.probe.Set("normal", glm::vec3(grid.normal));
   maps_.front().Bind(0);
   no_vertices_.Bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);

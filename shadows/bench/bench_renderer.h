@@ -78,24 +78,34 @@ class BenchRenderer {
     gl::GlVertexArray vertices;
     int index_count = 0;
   };
+  struct Scene {
+    glm::dvec3 to_sun{0.0};
+    std::list<Surface> surfaces;
+    std::vector<ShadowCaster> casters;
+  };
+  struct Programs {
+    gl::GlProgram depth, view, partitions, probe;
+  };
+  /// Visibility and depth of view, and the depth buffer.
+  struct Target {
+    gl::GlTexture picture, depth;
+    gl::GlFramebuffer framebuffer;
+  };
   Result<int> UpdateMaps(const View& view);
   void DrawSurfaces(const gl::GlProgram& program, const View& view);
   const gl::GlFramebuffer& DrawTarget() const {
-    return samples_target_ ? *samples_target_ : target_;
+    return samples_target_ ? samples_target_->framebuffer : target_.framebuffer;
   }
   void DrawDepth(const gl::GlFramebuffer& target, const View& view);
   void DrawVisible(const gl::GlProgram& program, const View& view);
   VisibilityPicture Read() const;
 
   int width_ = 0, height_ = 0;
-  glm::dvec3 to_sun_{0.0};
-  std::list<Surface> surfaces_;
-  std::vector<ShadowCaster> casters_;
+  Scene scene_;
   std::vector<ShadowMaps> maps_;  // One; none before SetMethod.
-  gl::GlProgram depth_program_, view_program_, partitions_program_, probe_program_;
-  gl::GlTexture picture_, depth_, picture_samples_, depth_samples_;
-  gl::GlFramebuffer target_;
-  std::optional<gl::GlFramebuffer> samples_target_;  // With several samples a pixel.
+  Programs programs_;
+  Target target_;
+  std::optional<Target> samples_target_;  // With several samples a pixel.
   gl::GlVertexArray no_vertices_;
 };
 

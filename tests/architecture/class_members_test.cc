@@ -39,8 +39,6 @@ const std::set<std::string>& LargeClasses() {
     "compositor/surfaces/affected_triangles.h AffectedTriangles",
     "compositor/surfaces/scene_surfaces.h SceneSurfaces",
     "scene/scene_facts.h SceneFacts",
-    "shadows/bench/bench_renderer.h BenchRenderer",
-    "shadows/shadow_maps.h ShadowMaps",
   };
   // clang-format on
   return kLarge;
