@@ -40,6 +40,27 @@ struct VertexKeyHash {
   }
 };
 
+/// What the file lists and its faces refer to.
+struct ListedVertices {
+  std::vector<std::array<float, 3>> positions, normals;
+  std::vector<std::array<float, 2>> uvs;
+};
+
+/// Where faces went: the meshes of a model so far.
+struct BuiltMeshes {
+  std::map<std::pair<std::string, int>, std::uint32_t> by_name_and_material;
+  std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> vertices;
+  std::vector<bool> has_uvs;  ///< By mesh.
+  std::size_t index_count = 0;
+};
+
+/// What the next face belongs to.
+struct CurrentGroup {
+  std::string name;
+  int material = -1;
+  std::optional<std::uint32_t> mesh;  ///< None until a face is there.
+};
+
 class ObjParser {
  public:
   ObjParser(std::string_view text, const std::filesystem::path& file,
@@ -55,7 +76,7 @@ class ObjParser {
     }
     for (Mesh& mesh : model_.meshes) {
       // Texture coordinates that no face of the mesh has are no use to anybody.
-      if (!has_uvs_[static_cast<std::size_t>(&mesh - model_.meshes.data())]) mesh.uvs.clear();
+      if (!built_.has_uvs[static_cast<std::size_t>(&mesh - model_.meshes.data())]) mesh.uvs.clear();
     }
     if (has_colors_) model_.unsupported_features.insert(kVertexColors);
     if (has_lines_) model_.unsupported_features.insert(kPointsAndLines);
@@ -71,18 +92,18 @@ class ObjParser {
 
   Result<void> Statement(std::string_view keyword) {
     if (keyword == "v") {
-      PLEINAIR_RETURN_IF_ERROR(Vector<3>(&positions_, 3));
+      PLEINAIR_RETURN_IF_ERROR(Vector<3>(&listed_.positions, 3));
       // Beyond the place, its weight at most; colors are three more.
       has_colors_ |= !lines_.Word().empty() && !lines_.Word().empty();
       return {};
     }
-    if (keyword == "vn") return Vector<3>(&normals_, 3);
-    if (keyword == "vt") return Vector<2>(&uvs_, 1);
+    if (keyword == "vn") return Vector<3>(&listed_.normals, 3);
+    if (keyword == "vt") return Vector<2>(&listed_.uvs, 1);
     if (keyword == "f") return Face();
     has_lines_ |= keyword == "l" || keyword == "p";
     if (keyword == "o" || keyword == "g") {
-      name_ = std::string(lines_.Rest());
-      current_mesh_.reset();
+      current_.name = std::string(lines_.Rest());
+      current_.mesh.reset();
     } else if (keyword == "usemtl") {
       UseMaterial(std::string(lines_.Rest()));
     } else if (keyword == "mtllib") {
@@ -139,12 +160,13 @@ class ObjParser {
       if (i == 2) return Fail("a face's corner has more than three numbers");
     }
     Corner corner;
-    PLEINAIR_ASSIGN_OR_RETURN(corner.position, Index(parts[0], positions_.size(), "vertex"));
+    PLEINAIR_ASSIGN_OR_RETURN(corner.position, Index(parts[0], listed_.positions.size(), "vertex"));
     if (!parts[1].empty()) {
-      PLEINAIR_ASSIGN_OR_RETURN(corner.uv, Index(parts[1], uvs_.size(), "texture coordinate"));
+      PLEINAIR_ASSIGN_OR_RETURN(corner.uv,
+                                Index(parts[1], listed_.uvs.size(), "texture coordinate"));
     }
     if (!parts[2].empty()) {
-      PLEINAIR_ASSIGN_OR_RETURN(corner.normal, Index(parts[2], normals_.size(), "normal"));
+      PLEINAIR_ASSIGN_OR_RETURN(corner.normal, Index(parts[2], listed_.normals.size(), "normal"));
     }
     return corner;
   }
@@ -155,7 +177,7 @@ class ObjParser {
     while (!lines_.Rest().empty()) {
       PLEINAIR_ASSIGN_OR_RETURN(const Corner corner, ParseCorner(lines_.Word()));
       corners.push_back(corner);
-      const auto& p = positions_[static_cast<std::size_t>(corner.position)];
+      const auto& p = listed_.positions[static_cast<std::size_t>(corner.position)];
       points.push_back({p[0], p[1], p[2]});
     }
     if (corners.size() < 3) return Fail("a face has fewer than three corners");
@@ -164,14 +186,14 @@ class ObjParser {
     const std::uint32_t mesh_index = CurrentMesh();
     std::vector<std::uint32_t> vertices;
     for (const Corner& corner : corners) {
-      if (vertices_.size() >= kMaxVertices) return Fail("has more than 20 million vertices");
+      if (built_.vertices.size() >= kMaxVertices) return Fail("has more than 20 million vertices");
       vertices.push_back(Vertex(mesh_index, corner));
     }
     Mesh& mesh = model_.meshes[mesh_index];
-    if (index_count_ + triangles.size() > 3 * kMaxTriangles) {
+    if (built_.index_count + triangles.size() > 3 * kMaxTriangles) {
       return Fail("has more than 40 million triangles");
     }
-    index_count_ += triangles.size();
+    built_.index_count += triangles.size();
     for (const std::uint32_t corner : triangles) mesh.indices.push_back(vertices[corner]);
     return {};
   }
@@ -180,17 +202,17 @@ class ObjParser {
     Mesh& mesh = model_.meshes[mesh_index];
     const VertexKey key{mesh_index, corner.position, corner.uv, corner.normal};
     const auto [found, is_new] =
-        vertices_.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+        built_.vertices.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
     if (!is_new) return found->second;
-    mesh.positions.push_back(positions_[static_cast<std::size_t>(corner.position)]);
+    mesh.positions.push_back(listed_.positions[static_cast<std::size_t>(corner.position)]);
     mesh.normals.push_back(corner.normal == kNone
                                ? std::array<float, 3>{}
-                               : normals_[static_cast<std::size_t>(corner.normal)]);
+                               : listed_.normals[static_cast<std::size_t>(corner.normal)]);
     std::array<float, 2> uv{};
     if (corner.uv != kNone) {
-      uv = uvs_[static_cast<std::size_t>(corner.uv)];
+      uv = listed_.uvs[static_cast<std::size_t>(corner.uv)];
       uv[1] = 1.0F - uv[1];  // OBJ counts v from the picture's bottom.
-      has_uvs_[mesh_index] = true;
+      built_.has_uvs[mesh_index] = true;
     }
     mesh.uvs.push_back(uv);
     return found->second;
@@ -198,18 +220,18 @@ class ObjParser {
 
   /// The mesh for the current name and material.
   std::uint32_t CurrentMesh() {
-    if (current_mesh_) return *current_mesh_;
-    if (material_ < 0) UseMaterial("");
-    const auto [found, is_new] =
-        meshes_.try_emplace({name_, material_}, static_cast<std::uint32_t>(model_.meshes.size()));
+    if (current_.mesh) return *current_.mesh;
+    if (current_.material < 0) UseMaterial("");
+    const auto [found, is_new] = built_.by_name_and_material.try_emplace(
+        {current_.name, current_.material}, static_cast<std::uint32_t>(model_.meshes.size()));
     if (is_new) {
       Mesh mesh;
-      mesh.name = name_;
-      mesh.material = material_;
+      mesh.name = current_.name;
+      mesh.material = current_.material;
       model_.meshes.push_back(std::move(mesh));
-      has_uvs_.push_back(false);
+      built_.has_uvs.push_back(false);
     }
-    current_mesh_ = found->second;
+    current_.mesh = found->second;
     return found->second;
   }
 
@@ -222,8 +244,8 @@ class ObjParser {
       material.name = name;
       model_.materials.push_back(std::move(material));
     }
-    material_ = found->second;
-    current_mesh_.reset();
+    current_.material = found->second;
+    current_.mesh.reset();
   }
 
   Result<void> ReadLibraries() {
@@ -259,16 +281,10 @@ class ObjParser {
   const ObjCompanions& companions_;
   Model model_;
   bool has_colors_ = false, has_lines_ = false;
-  std::vector<std::array<float, 3>> positions_, normals_;
-  std::vector<std::array<float, 2>> uvs_;
-  std::vector<bool> has_uvs_;  ///< By mesh.
-  std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> vertices_;
-  std::map<std::pair<std::string, int>, std::uint32_t> meshes_;
+  ListedVertices listed_;
+  BuiltMeshes built_;
   std::map<std::string, int> materials_;
-  std::string name_;
-  int material_ = -1;
-  std::optional<std::uint32_t> current_mesh_;
-  std::size_t index_count_ = 0;
+  CurrentGroup current_;
   int libraries_ = 0;
 };
 

@@ -31,7 +31,6 @@ const std::set<std::string>& LargeClasses() {
     "compositor/composer.cc GlComposer",
     "compositor/light/lit_mesh.h LitMesh",
     "compositor/models/model.h Material",
-    "compositor/models/obj_parser.cc ObjParser",
     "compositor/passes/render_targets.h RenderTargets",
     "compositor/photometry/shade/unmodelled_shadows.h UnmodelledShadows",
     "compositor/photometry/measured_light.h MeasuredLight",
