@@ -29,8 +29,8 @@ class MaterialReader {
       PLEINAIR_RETURN_IF_ERROR(ReadMaterial(material));
     }
     model_.materials.push_back({});  // For primitives without one.
-    model_.materials.back().specular_f0 = kDielectricF0;
-    model_.materials.back().base_under_coat = 1.0F - kDielectricF0;
+    model_.materials.back().coat.f0 = kDielectricF0;
+    model_.materials.back().coat.base_share = 1.0F - kDielectricF0;
     return std::move(uv_maps_);
   }
 
@@ -79,8 +79,8 @@ class MaterialReader {
     Material material;
     material.name = source.name;
     material.double_sided = source.doubleSided;
-    material.specular_f0 = kDielectricF0;
-    material.base_under_coat = 1.0F - kDielectricF0;
+    material.coat.f0 = kDielectricF0;
+    material.coat.base_share = 1.0F - kDielectricF0;
     material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutout
                      : source.alphaMode == "BLEND" ? Material::Alpha::kBlended
                                                    : Material::Alpha::kIgnored;

@@ -16,6 +16,14 @@ namespace pleinair::compositor {
 /// Normal reflectance of a clear coat with a refractive index of 1.5 (glTF 2.0, appendix B.2).
 inline constexpr float kDielectricF0 = 0.04F;
 
+/// The layer of a material that reflects like glass.
+struct DielectricCoat {
+  float f0 = 0.0F;  ///< Normal reflectance; 0 is purely diffuse.
+  /// What the coat leaves of the light that the base color reflects. MTL adds `Ks` to `Kd`; glTF
+  /// mixes them (specification 2.0, appendix B.3), here by the coat's normal reflectance.
+  float base_share = 1.0F;
+};
+
 /// A surface material, metallic–roughness; colors linear Rec.709.
 struct Material {
   /// What the alpha of base color and texture means, as in glTF: nothing; where it is below
@@ -29,10 +37,7 @@ struct Material {
   float alpha_cutoff = 0.5F;
   float metallic = 0.0F;
   float roughness = 1.0F;
-  float specular_f0 = 0.0F;  ///< Normal reflectance of the dielectric coat; 0 is purely diffuse.
-  /// What the coat leaves of the light that the base color reflects. MTL adds `Ks` to `Kd`; glTF
-  /// mixes them (specification 2.0, appendix B.3), here by the coat's normal reflectance.
-  float base_under_coat = 1.0F;
+  DielectricCoat coat;
   bool double_sided = false;
   int base_color_texture = -1;  ///< Index into Model::textures, -1 for none.
   /// The same; green times roughness, blue times metallic, both linear.

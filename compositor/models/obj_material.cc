@@ -186,12 +186,12 @@ class MtlParser {
     // that clear coats have.
     if (draft_->specular && draft_->illumination >= 2) {
       const auto& ks = *draft_->specular;
-      material.specular_f0 = std::min((ks[0] + ks[1] + ks[2]) / 3.0F, 0.08F);
+      material.coat.f0 = std::min((ks[0] + ks[1] + ks[2]) / 3.0F, 0.08F);
     }
     // Who states roughness or metal means a surface of that kind, whose coat is glTF's.
     const bool physical = draft_->roughness.has_value() || material.metallic > 0.0F;
     if (!draft_->specular && physical && draft_->illumination >= 2) {
-      material.specular_f0 = kDielectricF0;
+      material.coat.f0 = kDielectricF0;
     }
     if (draft_->exponent) {
       // Blinn–Phong exponent to GGX roughness: alpha² = 2/(n+2), alpha = roughness²

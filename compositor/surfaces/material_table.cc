@@ -12,7 +12,7 @@ void MaterialTable::Set(std::size_t surface, const Material& material,
   texels_.resize(std::max(texels_.size(), first + kTexelsPerSurface));
   const auto& [r, g, b] = material.base_color;
   texels_[first] = {r, g, b, material.metallic};
-  texels_[first + 1] = {material.roughness, material.specular_f0, material.base_under_coat, 0.0F};
+  texels_[first + 1] = {material.roughness, material.coat.f0, material.coat.base_share, 0.0F};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
       texels_[first + 2 + static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =

@@ -40,7 +40,7 @@ Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scen
       surfaces.has_alpha_ = surfaces.has_alpha_ || alpha;
       surfaces.has_textures_ = surfaces.has_textures_ || alpha || IsTextured(material);
       surfaces.has_gloss_ =
-          surfaces.has_gloss_ || material.specular_f0 > 0.0F || material.metallic > 0.0F;
+          surfaces.has_gloss_ || material.coat.f0 > 0.0F || material.metallic > 0.0F;
     }
   }
   return surfaces;

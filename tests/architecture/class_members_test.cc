@@ -30,7 +30,6 @@ const std::set<std::string>& LargeClasses() {
     "app/sky/sky_options.h SkyOptions",
     "compositor/composer.cc GlComposer",
     "compositor/light/lit_mesh.h LitMesh",
-    "compositor/models/model.h Material",
     "compositor/passes/render_targets.h RenderTargets",
     "compositor/photometry/shade/unmodelled_shadows.h UnmodelledShadows",
     "compositor/photometry/measured_light.h MeasuredLight",

@@ -28,7 +28,7 @@ TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
   const auto seen = [](float roughness, float f0, double sun_lux) {
     Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
     plate.materials[0].roughness = roughness;
-    plate.materials[0].specular_f0 = f0;
+    plate.materials[0].coat.f0 = f0;
     return SeenAt(Compose({Place(plate, false)}, EvenPicture(0), kCamera, sun_lux), {0, 0, 0.1});
   };
   EXPECT_NEAR(seen(0.1F, 0.5F, kSunLux), 0.5 * kExposureScale * kSkyLux * std::numbers::inv_pi,
@@ -75,7 +75,7 @@ TEST(Composer, ShowsTheSunsHighlightAsTheMicrofacetModelHasIt) {
   Model plate = SquareFacing({0.0, -std::sin(std::numbers::pi / 8), c}, 0.0F, false);
   constexpr double kF0 = 0.04, kRoughness = 0.5, kAlpha2 = 0.0625;
   plate.materials[0].roughness = kRoughness;
-  plate.materials[0].specular_f0 = kF0;
+  plate.materials[0].coat.f0 = kF0;
   const auto seen = [&](double sun_lux) {
     return SeenAt(Compose({Place(plate, false)}, EvenPicture(0), kCamera, sun_lux), {0, 0, 0});
   };
@@ -91,8 +91,8 @@ TEST(Composer, AddsACoatToWhatItLeavesOfTheColor) {
   const auto seen = [](float f0, float left) {
     Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.4F);
     plate.materials[0].roughness = 0.1F;
-    plate.materials[0].specular_f0 = f0;
-    plate.materials[0].base_under_coat = left;
+    plate.materials[0].coat.f0 = f0;
+    plate.materials[0].coat.base_share = left;
     return SeenAt(Compose({Place(plate, false)}, EvenPicture(0)), {0, 0, 0.1});
   };
   const double bare = seen(0.0F, 1.0F);

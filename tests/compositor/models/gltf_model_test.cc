@@ -112,7 +112,7 @@ TEST(GltfModel, ReadsGeometryMaterialAndTexture) {
   EXPECT_TRUE(material.double_sided);
   EXPECT_EQ(material.base_color, (std::array<float, 3>{0.5F, 0.25F, 1.0F}));
   EXPECT_FLOAT_EQ(material.roughness, 0.3F);
-  EXPECT_FLOAT_EQ(material.specular_f0, 0.04F);
+  EXPECT_FLOAT_EQ(material.coat.f0, 0.04F);
   ASSERT_EQ(material.base_color_texture, 0);
   EXPECT_EQ(model->textures[0](0, 0, 1), 128);
 }

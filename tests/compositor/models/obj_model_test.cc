@@ -107,13 +107,13 @@ TEST(ObjModel, GroupsFacesByNameAndMaterial) {
   const Material& brick = model->materials[model->meshes[0].material];
   EXPECT_EQ(brick.name, "red brick");
   EXPECT_EQ(brick.base_color, (std::array<float, 3>{0.5F, 0.1F, 0.05F})) << "Kd is linear";
-  EXPECT_EQ(brick.specular_f0, 0.0F) << "illum 1 has no highlight";
+  EXPECT_EQ(brick.coat.f0, 0.0F) << "illum 1 has no highlight";
   EXPECT_EQ(brick.alpha, Material::Alpha::kBlended);
   EXPECT_EQ(brick.opacity, 0.5F);
   const Material& coat = model->materials[model->meshes[1].material];
-  EXPECT_NEAR(coat.specular_f0, 0.04F, 1e-6F);
+  EXPECT_NEAR(coat.coat.f0, 0.04F, 1e-6F);
   EXPECT_NEAR(coat.roughness, std::pow(0.02, 0.25), 1e-5);
-  EXPECT_EQ(coat.base_under_coat, 1.0F) << "MTL adds Ks to Kd";
+  EXPECT_EQ(coat.coat.base_share, 1.0F) << "MTL adds Ks to Kd";
   EXPECT_EQ(coat.metallic, 0.25F);
   EXPECT_EQ(coat.opacity, 1.0F) << "d taken for Tr";
   EXPECT_EQ(coat.base_color, (std::array<float, 3>{0.2F, 0.2F, 0.2F}));
@@ -128,9 +128,9 @@ TEST(ObjModel, GivesASurfaceOfStatedRoughnessACoat) {
                                               "usemtl smooth\nf 1 2 3\nusemtl matt\nf 1 3 4\n"));
   ASSERT_TRUE(model) << model.error().Message();
   const Material& smooth = model->materials[model->meshes[0].material];
-  EXPECT_EQ(smooth.specular_f0, kDielectricF0);
+  EXPECT_EQ(smooth.coat.f0, kDielectricF0);
   EXPECT_EQ(smooth.roughness, 0.25F);
-  EXPECT_EQ(model->materials[model->meshes[1].material].specular_f0, 0.0F);
+  EXPECT_EQ(model->materials[model->meshes[1].material].coat.f0, 0.0F);
   EXPECT_EQ(model->unsupported_features, std::set<std::string>{kPointsAndLines});
 }
 
