@@ -28,63 +28,71 @@ Result<RenderTargets> RenderTargets::Create(int width, int height) {
   const auto create_samples = [&](GLenum format) {
     return gl::GlTexture::Create2DMultisample(format, width, height, samples);
   };
-  PLEINAIR_ASSIGN_OR_RETURN(targets.ids_, create_samples(kSampledFormats[0]));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.texels_, create_samples(kSampledFormats[1]));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.depth_samples_, create_samples(kSampledFormats[2]));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.samples_.ids, create_samples(kSampledFormats[0]));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.samples_.texels, create_samples(kSampledFormats[1]));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.samples_.depth, create_samples(kSampledFormats[2]));
   PLEINAIR_ASSIGN_OR_RETURN(targets.seen_, gl::GlTexture::Create2D(GL_RGBA32UI, width, height));
   targets.seen_.SetFilter(GL_NEAREST, GL_NEAREST);
   PLEINAIR_ASSIGN_OR_RETURN(targets.kinds_,
                             gl::GlTexture::Create2D(GL_DEPTH_COMPONENT32F, width, height));
-  for (gl::GlTexture* picture :
-       {&targets.ratio_, &targets.objects_, &targets.passed_ratio_, &targets.passed_objects_}) {
+  for (gl::GlTexture* picture : {&targets.picture_.ratio, &targets.picture_.objects,
+                                 &targets.passed_.ratio, &targets.passed_.objects}) {
     PLEINAIR_ASSIGN_OR_RETURN(*picture, gl::GlTexture::Create2D(GL_RGBA16F, width, height));
   }
   PLEINAIR_ASSIGN_OR_RETURN(
-      targets.draw_ids_, gl::GlFramebuffer::Create({{{&targets.ids_}}, {&targets.depth_samples_}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.draw_ids_and_texels_,
-                            gl::GlFramebuffer::Create({{{&targets.ids_}, {&targets.texels_}},
-                                                       {&targets.depth_samples_}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.sort_,
+      targets.framebuffers_.ids,
+      gl::GlFramebuffer::Create({{{&targets.samples_.ids}}, {&targets.samples_.depth}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.framebuffers_.ids_and_texels,
+      gl::GlFramebuffer::Create(
+          {{{&targets.samples_.ids}, {&targets.samples_.texels}}, {&targets.samples_.depth}}));
+  PLEINAIR_ASSIGN_OR_RETURN(targets.framebuffers_.sort,
                             gl::GlFramebuffer::Create({{{&targets.seen_}}, {&targets.kinds_}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.draw_objects_,
-                            gl::GlFramebuffer::Create({{{&targets.objects_}}, {&targets.kinds_}}));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.draw_ratio_,
-                            gl::GlFramebuffer::Create({{{&targets.ratio_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
-      targets.draw_ratio_and_airlight_,
-      gl::GlFramebuffer::Create({{{&targets.ratio_}, {&targets.objects_}}, {&targets.kinds_}}));
+      targets.framebuffers_.objects,
+      gl::GlFramebuffer::Create({{{&targets.picture_.objects}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
-      targets.pass_,
-      gl::GlFramebuffer::Create({{{&targets.passed_ratio_}, {&targets.passed_objects_}}, {}}));
+      targets.framebuffers_.ratio,
+      gl::GlFramebuffer::Create({{{&targets.picture_.ratio}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(
-      targets.back_, gl::GlFramebuffer::Create({{{&targets.ratio_}, {&targets.objects_}}, {}}));
+      targets.framebuffers_.ratio_and_airlight,
+      gl::GlFramebuffer::Create(
+          {{{&targets.picture_.ratio}, {&targets.picture_.objects}}, {&targets.kinds_}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.framebuffers_.pass,
+      gl::GlFramebuffer::Create({{{&targets.passed_.ratio}, {&targets.passed_.objects}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.framebuffers_.pass_back,
+      gl::GlFramebuffer::Create({{{&targets.picture_.ratio}, {&targets.picture_.objects}}, {}}));
   return targets;
 }
 
 void RenderTargets::BeginSurfaces() const {
-  draw_ids_.Bind();
-  draw_ids_.ClearUnsigned(0, 0);
-  draw_ids_.ClearDepth(1.0F);
+  framebuffers_.ids.Bind();
+  framebuffers_.ids.ClearUnsigned(0, 0);
+  framebuffers_.ids.ClearDepth(1.0F);
 }
 
 void RenderTargets::BeginObjectIds(bool textured) const {
-  (textured ? draw_ids_and_texels_ : draw_ids_).Bind();
+  (textured ? framebuffers_.ids_and_texels : framebuffers_.ids).Bind();
 }
 
-void RenderTargets::BeginSorting() const { sort_.Bind(); }
+void RenderTargets::BeginSorting() const { framebuffers_.sort.Bind(); }
 
 void RenderTargets::BeginObjects() const {
-  draw_objects_.Bind();
-  draw_objects_.ClearColor(0, 0, 0, 0, 0);
+  framebuffers_.objects.Bind();
+  framebuffers_.objects.ClearColor(0, 0, 0, 0, 0);
 }
 
 void RenderTargets::BeginRatio() const {
-  draw_ratio_.Bind();
-  draw_ratio_.ClearColor(0, 1, 1, 1, 1);
+  framebuffers_.ratio.Bind();
+  framebuffers_.ratio.ClearColor(0, 1, 1, 1, 1);
 }
 
-void RenderTargets::BeginAirlight() const { draw_ratio_and_airlight_.Bind(); }
+void RenderTargets::BeginAirlight() const { framebuffers_.ratio_and_airlight.Bind(); }
 
-void RenderTargets::BeginPass(bool back) const { (back ? back_ : pass_).Bind(); }
+void RenderTargets::BeginPass(bool back) const {
+  (back ? framebuffers_.pass_back : framebuffers_.pass).Bind();
+}
 
 }  // namespace pleinair::compositor

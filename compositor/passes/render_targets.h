@@ -28,28 +28,41 @@ class RenderTargets {
   void BeginAirlight() const;
   /// Where one pass over ratio() and objects() may be drawn into; `back`: from there into them.
   void BeginPass(bool back) const;
-  const gl::GlTexture& passed_ratio() const { return passed_ratio_; }
-  const gl::GlTexture& passed_objects() const { return passed_objects_; }
+  const gl::GlTexture& passed_ratio() const { return passed_.ratio; }
+  const gl::GlTexture& passed_objects() const { return passed_.objects; }
 
   /// Samples a pixel that geometry is meant to have; and those that the renderer whose context is
   /// current gives it, which may be fewer.
   static constexpr int kWantedSamples = 4;
   static int SamplesGiven();
 
-  int samples() const { return ids_.samples(); }
-  const gl::GlTexture& ids() const { return ids_; }
-  const gl::GlTexture& texels() const { return texels_; }
+  int samples() const { return samples_.ids.samples(); }
+  const gl::GlTexture& ids() const { return samples_.ids; }
+  const gl::GlTexture& texels() const { return samples_.texels; }
   const gl::GlTexture& seen() const { return seen_; }
-  const gl::GlTexture& ratio() const { return ratio_; }
-  const gl::GlTexture& objects() const { return objects_; }
+  const gl::GlTexture& ratio() const { return picture_.ratio; }
+  const gl::GlTexture& objects() const { return picture_.objects; }
 
  private:
-  gl::GlTexture ids_, texels_, depth_samples_;
-  gl::GlTexture seen_, kinds_, ratio_, objects_;
-  gl::GlTexture passed_ratio_, passed_objects_;
-  gl::GlFramebuffer draw_ids_, draw_ids_and_texels_, sort_, draw_objects_;
-  gl::GlFramebuffer draw_ratio_, draw_ratio_and_airlight_;
-  gl::GlFramebuffer pass_, back_;
+  /// Several a pixel: of what geometry draws.
+  struct Samples {
+    gl::GlTexture ids, texels, depth;
+  };
+  /// One a pixel.
+  struct VirtualPicture {
+    gl::GlTexture ratio, objects;
+  };
+  /// Where draws go, by the function that begins them.
+  struct Framebuffers {
+    gl::GlFramebuffer ids, ids_and_texels, sort, objects;
+    gl::GlFramebuffer ratio, ratio_and_airlight;
+    gl::GlFramebuffer pass, pass_back;
+  };
+
+  Samples samples_;
+  gl::GlTexture seen_, kinds_;
+  VirtualPicture picture_, passed_;
+  Framebuffers framebuffers_;
 };
 
 }  // namespace pleinair::compositor

@@ -29,9 +29,9 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
                                             double supersampling, const CameraResponse& response) {
   CameraPicture picture;
   picture.camera_ = camera;
-  picture.response_ = response;
+  picture.response_.curve = response;
   picture.supersampling_ = supersampling;
-  for (gl::GlTexture* texture : {&picture.background_, &picture.output_}) {
+  for (gl::GlTexture* texture : {&picture.background_, &picture.output_.picture}) {
     PLEINAIR_ASSIGN_OR_RETURN(*texture,
                               gl::GlTexture::Create2D(GL_RGBA8, camera.width, camera.height));
   }
@@ -41,20 +41,20 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
   PLEINAIR_ASSIGN_OR_RETURN(picture.camera_positions_,
                             gl::GlTexture::Create2D(GL_RG32F, render.width, render.height));
   picture.camera_positions_.Upload(GL_RG, GL_FLOAT, CameraPositions(camera, render).data());
-  PLEINAIR_ASSIGN_OR_RETURN(picture.output_framebuffer_,
-                            gl::GlFramebuffer::Create({{{&picture.output_}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(picture.output_.framebuffer,
+                            gl::GlFramebuffer::Create({{{&picture.output_.picture}}, {}}));
   picture.no_attributes_ = gl::GlVertexArray::Create();
   PLEINAIR_ASSIGN_OR_RETURN(
-      picture.blur_program_,
+      picture.programs_.blur,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                              .fragment = "compositor/shaders/blur.frag"}));
   std::vector<std::string> composite_defines;
   PLEINAIR_RETURN_IF_ERROR(picture.CreateResponseTables());
-  if (!picture.response_.IsSrgb()) {
+  if (!picture.response_.curve.IsSrgb()) {
     composite_defines.emplace_back("CAMERA_RESPONSE");
   }
-  for (gl::GlProgram* program : {&picture.composite_program_, &picture.grain_program_}) {
-    if (program == &picture.grain_program_) composite_defines.emplace_back("GRAIN");
+  for (gl::GlProgram* program : {&picture.programs_.composite, &picture.programs_.grain}) {
+    if (program == &picture.programs_.grain) composite_defines.emplace_back("GRAIN");
     PLEINAIR_ASSIGN_OR_RETURN(
         *program, gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                                          .fragment = "compositor/shaders/composite.frag",
@@ -66,25 +66,26 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
 Result<void> CameraPicture::CreateResponseTables() {
   std::array<std::vector<float>, 2> tables;
   for (int code = 0; code < 256; ++code) {
-    for (int c = 0; c < 3; ++c) tables[0].push_back(response_.Linear(c)[code]);
+    for (int c = 0; c < 3; ++c) tables[0].push_back(response_.curve.Linear(c)[code]);
   }
   for (int i = 0; i < kPixelValueTableSize; ++i) {
     const double root = static_cast<double>(i) / (kPixelValueTableSize - 1);
     for (int c = 0; c < 3; ++c) {
-      tables[1].push_back(static_cast<float>(response_.Encoded(root * root, c)));
+      tables[1].push_back(static_cast<float>(response_.curve.Encoded(root * root, c)));
     }
   }
-  PLEINAIR_ASSIGN_OR_RETURN(light_of_pixel_value_, gl::GlTexture::Create2D(GL_RGB32F, 256, 1));
-  PLEINAIR_ASSIGN_OR_RETURN(pixel_value_of_light_,
+  PLEINAIR_ASSIGN_OR_RETURN(response_.light_of_pixel_value,
+                            gl::GlTexture::Create2D(GL_RGB32F, 256, 1));
+  PLEINAIR_ASSIGN_OR_RETURN(response_.pixel_value_of_light,
                             gl::GlTexture::Create2D(GL_RGB32F, kPixelValueTableSize, 1));
-  light_of_pixel_value_.Upload(GL_RGB, GL_FLOAT, tables[0].data());
-  pixel_value_of_light_.Upload(GL_RGB, GL_FLOAT, tables[1].data());
+  response_.light_of_pixel_value.Upload(GL_RGB, GL_FLOAT, tables[0].data());
+  response_.pixel_value_of_light.Upload(GL_RGB, GL_FLOAT, tables[1].data());
   return {};
 }
 
 Result<void> CameraPicture::SetCameraLook(const std::optional<CameraLook>& look) {
   added_blur_px_ = 0.0;
-  grain_look_.reset();
+  grain_.look.reset();
   if (!look) return {};
   const double own = camera_.HasDistortion() ? kWarpedBlurPx : kOwnBlurPx;
   if (look->blur_px > own) {
@@ -93,18 +94,18 @@ Result<void> CameraPicture::SetCameraLook(const std::optional<CameraLook>& look)
   if (added_blur_px_ < kMinBlur_px) added_blur_px_ = 0.0;
   // Of a medium grey, where eyes tell most.
   constexpr int kGreyCode = 118;
-  const auto& table = response_.Linear(1);
+  const auto& table = response_.curve.Linear(1);
   const double step = table[kGreyCode + 1] - table[kGreyCode];
   if (look->NoiseSigma(1, table[kGreyCode]) < kMinNoiseSteps * step) return {};
-  grain_look_ = look;
+  grain_.look = look;
   constexpr double kSameCorrelation = 0.05;
-  if (std::fabs(look->neighbour_correlation - grain_correlation_) > kSameCorrelation) {
-    grain_correlation_ = look->neighbour_correlation;
-    if (!grain_) {
-      PLEINAIR_ASSIGN_OR_RETURN(grain_,
+  if (std::fabs(look->neighbour_correlation - grain_.correlation) > kSameCorrelation) {
+    grain_.correlation = look->neighbour_correlation;
+    if (!grain_.texture) {
+      PLEINAIR_ASSIGN_OR_RETURN(grain_.texture,
                                 gl::GlTexture::Create2D(GL_RGBA16F, kGrainSide, kGrainSide));
     }
-    grain_.Upload(GL_RGBA, GL_FLOAT, MakeGrain(kGrainSide, grain_correlation_).data());
+    grain_.texture.Upload(GL_RGBA, GL_FLOAT, MakeGrain(kGrainSide, grain_.correlation).data());
   }
   return {};
 }
@@ -112,29 +113,29 @@ Result<void> CameraPicture::SetCameraLook(const std::optional<CameraLook>& look)
 /// Both virtual pictures, along the rows and then along the columns.
 void CameraPicture::Blur(const RenderTargets& targets) const {
   const double sigma = added_blur_px_ * supersampling_;
-  blur_program_.Use();
-  blur_program_.Set("u_sigma_px", static_cast<float>(sigma));
-  blur_program_.Set("u_reach_px", static_cast<int>(std::ceil(2.5 * sigma)));
+  programs_.blur.Use();
+  programs_.blur.Set("u_sigma_px", static_cast<float>(sigma));
+  programs_.blur.Set("u_reach_px", static_cast<int>(std::ceil(2.5 * sigma)));
   no_attributes_.Bind();
   for (const bool back : {false, true}) {
     targets.BeginPass(back);
     (back ? targets.passed_ratio() : targets.ratio()).Bind(1);
     (back ? targets.passed_objects() : targets.objects()).Bind(2);
-    blur_program_.Set("u_direction", back ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
+    programs_.blur.Set("u_direction", back ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 }
 
 void CameraPicture::SetGrain() const {
-  const CameraLook& look = *grain_look_;
+  const CameraLook& look = *grain_.look;
   const auto to_glm = [](const std::array<double, 3>& a) { return glm::vec3(a[0], a[1], a[2]); };
-  const std::uint32_t offset = Hash(pictures_, 0x6A);
-  grain_program_.Set("u_grain_offset",
-                     glm::ivec2(offset % kGrainSide, offset / kGrainSide % kGrainSide));
-  grain_program_.Set("u_noise_constant", to_glm(look.noise_constant));
-  grain_program_.Set("u_noise_slope", to_glm(look.noise_slope));
-  grain_program_.Set("u_channel_correlation", static_cast<float>(look.channel_correlation));
-  grain_.Bind(6);
+  const std::uint32_t offset = Hash(grain_.pictures, 0x6A);
+  programs_.grain.Set("u_grain_offset",
+                      glm::ivec2(offset % kGrainSide, offset / kGrainSide % kGrainSide));
+  programs_.grain.Set("u_noise_constant", to_glm(look.noise_constant));
+  programs_.grain.Set("u_noise_slope", to_glm(look.noise_slope));
+  programs_.grain.Set("u_channel_correlation", static_cast<float>(look.channel_correlation));
+  grain_.texture.Bind(6);
 }
 
 void CameraPicture::SetBackground(ImageView<const std::uint8_t> rgb) {
@@ -143,13 +144,13 @@ void CameraPicture::SetBackground(ImageView<const std::uint8_t> rgb) {
 
 void CameraPicture::Draw(const RenderTargets& targets) {
   if (added_blur_px_ > 0.0) Blur(targets);
-  output_framebuffer_.Bind();
-  (grain_look_ ? grain_program_ : composite_program_).Use();
-  if (grain_look_) SetGrain();
-  ++pictures_;
-  if (!response_.IsSrgb()) {
-    light_of_pixel_value_.Bind(4);
-    pixel_value_of_light_.Bind(5);
+  output_.framebuffer.Bind();
+  (grain_.look ? programs_.grain : programs_.composite).Use();
+  if (grain_.look) SetGrain();
+  ++grain_.pictures;
+  if (!response_.curve.IsSrgb()) {
+    response_.light_of_pixel_value.Bind(4);
+    response_.pixel_value_of_light.Bind(5);
   }
   background_.Bind(0);
   targets.ratio().Bind(1);
@@ -161,7 +162,7 @@ void CameraPicture::Draw(const RenderTargets& targets) {
 
 RgbImage CameraPicture::Read() const {
   RgbImage composed(camera_.width, camera_.height, 3);
-  output_framebuffer_.ReadPixels(0, GL_RGB, GL_UNSIGNED_BYTE, composed.data());
+  output_.framebuffer.ReadPixels(0, GL_RGB, GL_UNSIGNED_BYTE, composed.data());
   return composed;
 }
 

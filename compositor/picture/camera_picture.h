@@ -36,31 +36,47 @@ class CameraPicture {
   void BindForShading(int background_unit, int positions_unit, int light_unit) const {
     background_.Bind(background_unit);
     camera_positions_.Bind(positions_unit);
-    light_of_pixel_value_.Bind(light_unit);
+    response_.light_of_pixel_value.Bind(light_unit);
   }
   /// The picture, with whatever else was drawn into framebuffer() since.
   RgbImage Read() const;
 
   const gl::GlTexture& positions() const { return positions_; }
-  const gl::GlFramebuffer& framebuffer() const { return output_framebuffer_; }
+  const gl::GlFramebuffer& framebuffer() const { return output_.framebuffer; }
 
  private:
+  /// The camera's response, and both ways through it as tables.
+  struct Response {
+    CameraResponse curve;
+    gl::GlTexture light_of_pixel_value, pixel_value_of_light;
+  };
+  struct Output {
+    gl::GlTexture picture;
+    gl::GlFramebuffer framebuffer;
+  };
+  struct Programs {
+    gl::GlProgram blur, composite, grain;
+  };
+  /// The sensor's noise.
+  struct Grain {
+    gl::GlTexture texture;
+    std::optional<CameraLook> look;  // None: no grain that shows.
+    double correlation = -1.0;       // Of the texture.
+    std::uint32_t pictures = 0;      // Composed so far: each gets grain of its own.
+  };
   Result<void> CreateResponseTables();
   void Blur(const RenderTargets& targets) const;
   void SetGrain() const;
 
   CameraModel camera_;
-  CameraResponse response_;
   double supersampling_ = 1.0;
-  gl::GlTexture background_, positions_, camera_positions_, output_;
-  gl::GlTexture light_of_pixel_value_, pixel_value_of_light_, grain_;
-  gl::GlFramebuffer output_framebuffer_;
+  Response response_;
+  gl::GlTexture background_, positions_, camera_positions_;
+  Output output_;
   gl::GlVertexArray no_attributes_;
-  gl::GlProgram blur_program_, composite_program_, grain_program_;
+  Programs programs_;
   double added_blur_px_ = 0.0;  // Camera pixels; 0: none.
-  std::optional<CameraLook> grain_look_;
-  double grain_correlation_ = -1.0;  // Of the grain in memory.
-  std::uint32_t pictures_ = 0;       // Composed so far: each gets grain of its own.
+  Grain grain_;
 };
 
 }  // namespace pleinair::compositor

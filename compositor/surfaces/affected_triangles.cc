@@ -26,24 +26,24 @@ AffectedTriangles::AffectedTriangles(const LitMesh& phantom) : triangles_(phanto
 
 void AffectedTriangles::SetLight(const LitMesh& phantom) {
   const std::size_t count = phantom.ambient_with.size();
-  sky_changes_.clear();
-  ambient_with_.clear();
-  ambient_without_.clear();
-  sky_changes_.reserve(count);
-  ambient_with_.reserve(count);
-  ambient_without_.reserve(count);
+  ambient_.changes.clear();
+  ambient_.with.clear();
+  ambient_.without.clear();
+  ambient_.changes.reserve(count);
+  ambient_.with.reserve(count);
+  ambient_.without.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [r, g, b] = phantom.ambient_with[i];
     const auto& [r0, g0, b0] = phantom.ambient_without[i];
     const glm::vec3 with(r, g, b), without(r0, g0, b0);
-    ambient_with_.push_back(with);
-    ambient_without_.push_back(without);
-    sky_changes_.push_back(
+    ambient_.with.push_back(with);
+    ambient_.without.push_back(without);
+    ambient_.changes.push_back(
         glm::any(glm::greaterThan(glm::abs(with - without), kNoticeable * without)));
   }
-  sun_visibility_ = phantom.sun_visibility;
+  sun_visibility_.by_triangle = phantom.sun_visibility;
   const auto& [x, y, z] = phantom.sun_visibility_to_sun;
-  sun_visibility_to_sun_ = {x, y, z};
+  sun_visibility_.to_sun = {x, y, z};
 }
 
 AffectedTriangles::Sorted AffectedTriangles::ChangeOf(const SunWindow& window,
@@ -53,7 +53,7 @@ AffectedTriangles::Sorted AffectedTriangles::ChangeOf(const SunWindow& window,
   glm::vec2 low(1e30F), high(-1e30F);
   for (std::size_t k = first_index; k < first_index + 3; ++k) {
     const std::uint32_t vertex = triangles_[k];
-    sky_changes = sky_changes || sky_changes_[vertex];
+    sky_changes = sky_changes || ambient_.changes[vertex];
     sunlit = sunlit || glm::dot(normals_[vertex], window.to_sun) > 0.0F;
     const glm::vec2 at = window.At(positions_[vertex]);
     low = glm::min(low, at);
@@ -63,9 +63,10 @@ AffectedTriangles::Sorted AffectedTriangles::ChangeOf(const SunWindow& window,
   if (sunlit && inside && objects.Touches(low, high)) return {kSun, false};
   if (!sky_changes) return {kNothing, false};
   // A sun that has moved on casts other shadows than it did for the light.
-  const bool known =
-      !sun_visibility_.empty() && glm::distance(window.to_sun, sun_visibility_to_sun_) < kSameSun;
-  const SunVisibility reach = known ? sun_visibility_[first_index / 3] : SunVisibility::kSome;
+  const bool known = !sun_visibility_.by_triangle.empty() &&
+                     glm::distance(window.to_sun, sun_visibility_.to_sun) < kSameSun;
+  const SunVisibility reach =
+      known ? sun_visibility_.by_triangle[first_index / 3] : SunVisibility::kSome;
   if (!sunlit || reach == SunVisibility::kNone) return {kLinearSky, false};
   return reach == SunVisibility::kAll ? Sorted{kLinearSky, true} : Sorted{kSunlitSky, false};
 }
@@ -77,8 +78,8 @@ std::optional<LinearShadowRatio> AffectedTriangles::LinearRatioOf(
     const std::uint32_t vertex = triangles_[first_index + k];
     corners_m[k] = positions_[vertex];
     const glm::vec3 sun = std::max(glm::dot(normals_[vertex], to_sun), 0.0F) * sun_normal_lux;
-    with[k] = ambient_with_[vertex] + sun;
-    without[k] = ambient_without_[vertex] + sun;
+    with[k] = ambient_.with[vertex] + sun;
+    without[k] = ambient_.without[vertex] + sun;
     ratios[k] = LinearShadowRatio::Between(with[k], without[k], glm::vec3(0.0F));
   }
   for (std::size_t k = 0; k < 3; ++k) {

@@ -51,6 +51,15 @@ class AffectedTriangles {
     Change change;
     bool in_sun;  // Of kLinearSky: all of the sun, not none.
   };
+  /// By vertex: the light besides the sun's own, with the virtual objects and without.
+  struct AmbientLight {
+    std::vector<glm::vec3> with, without;
+    std::vector<bool> changes;  // Whether the two differ.
+  };
+  struct SunVisibilities {
+    std::vector<SunVisibility> by_triangle;  // As the mesh has them, or empty.
+    glm::vec3 to_sun{0.0F};                  // Where the sun stood for that.
+  };
   Sorted ChangeOf(const SunWindow& window, const SunFootprint& objects,
                   std::size_t first_index) const;
   /// Nothing where the ratio is not linear along the triangle. `sun_normal_lux`: as far as it
@@ -59,12 +68,10 @@ class AffectedTriangles {
                                                  const glm::vec3& sun_normal_lux) const;
 
   std::vector<glm::vec3> positions_, normals_;
-  std::vector<glm::vec3> ambient_with_, ambient_without_;
-  std::vector<bool> sky_changes_;              // By vertex.
-  std::vector<SunVisibility> sun_visibility_;  // By triangle as the mesh has them, or empty.
-  glm::vec3 sun_visibility_to_sun_{0.0F};      // Where the sun stood for that.
-  std::vector<std::uint32_t> triangles_;       // The mesh's indices.
-  std::vector<std::uint32_t> indices_;         // Sorted.
+  AmbientLight ambient_;
+  SunVisibilities sun_visibility_;
+  std::vector<std::uint32_t> triangles_;  // The mesh's indices.
+  std::vector<std::uint32_t> indices_;    // Sorted.
   std::array<std::vector<std::uint32_t>, kChanges> kinds_;
   std::vector<LinearShadowRatio> linear_ratios_;
   std::vector<std::array<std::uint32_t, 3>> linear_corners_;  // Their vertices.

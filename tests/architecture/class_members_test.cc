@@ -30,11 +30,7 @@ const std::set<std::string>& LargeClasses() {
     "app/sky/sky_options.h SkyOptions",
     "compositor/composer.cc GlComposer",
     "compositor/light/lit_mesh.h LitMesh",
-    "compositor/passes/render_targets.h RenderTargets",
     "compositor/photometry/shade/unmodelled_shadows.h UnmodelledShadows",
-    "compositor/photometry/measured_light.h MeasuredLight",
-    "compositor/picture/camera_picture.h CameraPicture",
-    "compositor/surfaces/affected_triangles.h AffectedTriangles",
     "compositor/surfaces/scene_surfaces.h SceneSurfaces",
     "scene/scene_facts.h SceneFacts",
   };
