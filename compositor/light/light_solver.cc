@@ -147,8 +147,9 @@ std::vector<LitMesh> LightSolver::SolveUnderTrees(
   for (LitMesh& mesh : meshes) {
     if (mesh.is_phantom && mesh.indices.size() / 3 <= left) {
       left -= mesh.indices.size() / 3;
-      mesh.sun_visibility = ClassifySunVisibility(*scene_->rays, mesh, to_sun, options_.threads);
-      mesh.sun_visibility_to_sun = {static_cast<float>(to_sun.x), static_cast<float>(to_sun.y),
+      mesh.sun_visibility.by_triangle =
+          ClassifySunVisibility(*scene_->rays, mesh, to_sun, options_.threads);
+      mesh.sun_visibility.to_sun = {static_cast<float>(to_sun.x), static_cast<float>(to_sun.y),
                                     static_cast<float>(to_sun.z)};
     }
   }

@@ -15,6 +15,13 @@ enum class SunVisibility : std::uint8_t {
   kNone,
 };
 
+/// The sun on the triangles of a phantom.
+struct SunVisibilities {
+  /// Empty when not computed: very large meshes, a light by coefficients, or no sun.
+  std::vector<SunVisibility> by_triangle;
+  std::array<float, 3> to_sun{};  ///< Where the sun stood for that: unit, marker coordinates.
+};
+
 /// A tessellated surface with the light that falls on its vertices besides the sun's own. Marker
 /// coordinates. The unit of irradiance is the Daylight's (lux, linear Rec.709).
 ///
@@ -39,10 +46,7 @@ struct LitMesh {
   /// The same with the phantoms alone; of phantoms only, empty for virtual objects.
   std::vector<std::array<float, 3>> ambient_without;
   std::vector<std::uint32_t> indices;
-  /// Of phantoms, by triangle; empty: not known, as of very large ones, of a light by coefficients
-  /// and of one without a sun.
-  std::vector<SunVisibility> sun_visibility;
-  std::array<float, 3> sun_visibility_to_sun{};  ///< Of sun_visibility: towards the sun, unit.
+  SunVisibilities sun_visibility;
 };
 
 }  // namespace pleinair::compositor

@@ -56,7 +56,7 @@ class AffectedTriangles {
     std::vector<glm::vec3> with, without;
     std::vector<bool> changes;  // Whether the two differ.
   };
-  struct SunVisibilities {
+  struct SunOnTriangles {
     std::vector<SunVisibility> by_triangle;  // As the mesh has them, or empty.
     glm::vec3 to_sun{0.0F};                  // Where the sun stood for that.
   };
@@ -69,7 +69,7 @@ class AffectedTriangles {
 
   std::vector<glm::vec3> positions_, normals_;
   AmbientLight ambient_;
-  SunVisibilities sun_visibility_;
+  SunOnTriangles sun_visibility_;
   std::vector<std::uint32_t> triangles_;  // The mesh's indices.
   std::vector<std::uint32_t> indices_;    // Sorted.
   std::array<std::vector<std::uint32_t>, kChanges> kinds_;

@@ -29,7 +29,6 @@ const std::set<std::string>& LargeClasses() {
     "app/commands/sun_command.cc Options",
     "app/sky/sky_options.h SkyOptions",
     "compositor/composer.cc GlComposer",
-    "compositor/light/lit_mesh.h LitMesh",
     "compositor/photometry/shade/unmodelled_shadows.h UnmodelledShadows",
     "compositor/surfaces/scene_surfaces.h SceneSurfaces",
     "scene/scene_facts.h SceneFacts",
