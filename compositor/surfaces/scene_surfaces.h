@@ -34,10 +34,10 @@ class SceneSurfaces {
   void Move(int placed_model, const Mat3& linear, Vec3 translation_m);
 
   /// For shadow maps: of everything, and of the phantoms alone.
-  std::span<const shadows::ShadowCaster> casters() const { return casters_; }
-  std::span<const shadows::ShadowCaster> phantom_casters() const { return phantom_casters_; }
-  const shadows::Box& object_bounds() const { return object_bounds_; }
-  const shadows::Box& bounds() const { return bounds_; }
+  std::span<const shadows::ShadowCaster> casters() const { return casters_.all; }
+  std::span<const shadows::ShadowCaster> phantom_casters() const { return casters_.phantoms; }
+  const shadows::Box& object_bounds() const { return casters_.object_bounds; }
+  const shadows::Box& bounds() const { return casters_.bounds; }
 
   /// What of the phantoms' light objects may change depends on.
   struct SunOnPhantoms {
@@ -53,7 +53,7 @@ class SceneSurfaces {
   /// Draws the numbers that the phantoms' triangles have in triangles(), of those that change;
   /// `program` of shaders/triangle_id.frag is in use.
   void DrawPhantoms(const gl::GlProgram& program) const;
-  const VisibilityBuffer& triangles() const { return phantom_buffer_; }
+  const VisibilityBuffer& triangles() const { return phantoms_.buffer; }
   /// AffectedTriangles::MaxLinearChangeFarFrom() of all phantoms.
   float MaxLinearChangeFarFrom(const glm::vec3& eye_m) const;
   /// Tells which of the objects' triangles may face the sun, `to_sun` zero: none, and where the
@@ -62,19 +62,55 @@ class SceneSurfaces {
   /// Draws the numbers that the objects' triangles have in object_triangles(), with their textures;
   /// `program` of shaders/triangle_id.frag is in use.
   void DrawObjects(const gl::GlProgram& program) const;
-  const VisibilityBuffer& object_triangles() const { return object_buffer_; }
+  const VisibilityBuffer& object_triangles() const { return objects_.buffer; }
   /// By the values of object_triangles().
-  const MaterialTable& object_materials() const { return object_materials_; }
+  const MaterialTable& object_materials() const { return objects_.materials; }
   /// Some of the objects have textures or alpha.
-  bool HasTextures() const { return has_textures_; }
+  bool HasTextures() const { return features_.textures; }
   /// Some mirror their surroundings: a metal or a coat does.
-  bool HasGloss() const { return has_gloss_; }
+  bool HasGloss() const { return features_.gloss; }
   /// Some have holes or are glass.
-  bool HasAlpha() const { return has_alpha_; }
+  bool HasAlpha() const { return features_.alpha; }
   /// Draws everything with `program`, which is in use: places alone.
   void Draw(const gl::GlProgram& program) const;
 
  private:
+  /// What some of the objects have.
+  struct ObjectFeatures {
+    bool textures = false, alpha = false, gloss = false;
+  };
+  struct Textures {
+    gl::GlTexture white;
+    std::vector<std::vector<gl::GlTexture>> by_model;  // A list a placed model.
+  };
+  /// The surfaces as they were lit.
+  struct LitSurfaces {
+    std::vector<SurfaceBuffers> surfaces;
+    std::vector<std::uint64_t> geometries;  // LitMesh::geometry.
+    std::vector<shadows::Box> bounds;
+    std::uint64_t revision = 0;  // The shadow maps follow it.
+  };
+  /// The phantoms among them, in order.
+  struct Phantoms {
+    std::vector<AffectedTriangles> triangles;
+    VisibilityBuffer buffer;
+    std::optional<SunOnPhantoms> sorted_for;  // As SortPhantoms() was called.
+  };
+  /// The objects among them, in order.
+  struct Objects {
+    std::vector<SunFacingTriangles> triangles;
+    std::vector<std::vector<glm::vec3>> positions;  // Of their vertices, where they were lit.
+    VisibilityBuffer buffer;
+    MaterialTable materials;
+    // The buffer is as the triangles are, the materials are as moved_ is.
+    bool are_sorted = false, are_placed = false;
+  };
+  /// Where the models stand now.
+  struct Casters {
+    std::vector<shadows::ShadowCaster> all, phantoms;
+    shadows::Box object_bounds, bounds;
+  };
+
   /// Whether the surfaces are those of `lit`, so that there is nothing new but their light.
   bool HasSurfacesOf(const std::vector<LitMesh>& lit) const;
   Result<void> SetSurfaces(const std::vector<LitMesh>& lit);
@@ -86,24 +122,13 @@ class SceneSurfaces {
   }
 
   std::vector<PlacedModel> scene_;
-  bool has_textures_ = false, has_alpha_ = false, has_gloss_ = false;
-  gl::GlTexture white_;
-  std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
-  std::vector<SurfaceBuffers> surfaces_;
-  std::vector<std::uint64_t> geometries_;  // LitMesh::geometry of the surfaces.
-  std::vector<shadows::Box> lit_bounds_;   // Of the surfaces, where they were lit.
-  std::vector<glm::dmat4> moved_;          // By placed model: marker from where it was lit.
-  std::vector<AffectedTriangles> phantom_triangles_;      // Of the phantoms among them, in order.
-  std::vector<SunFacingTriangles> object_triangles_;      // Of the objects, in order.
-  std::vector<std::vector<glm::vec3>> object_positions_;  // Of their vertices, where they were lit.
-  VisibilityBuffer phantom_buffer_, object_buffer_;
-  MaterialTable object_materials_;
-  // object_buffer_ and object_materials_ are as object_triangles_ and moved_ are.
-  bool objects_sorted_ = false, objects_placed_ = false;
-  std::optional<SunOnPhantoms> sorted_for_;  // As SortPhantoms() was called.
-  std::vector<shadows::ShadowCaster> casters_, phantom_casters_;
-  shadows::Box object_bounds_, bounds_;
-  std::uint64_t revision_ = 0;  // Of the surfaces; the shadow maps follow it.
+  ObjectFeatures features_;
+  Textures textures_;
+  LitSurfaces lit_;
+  std::vector<glm::dmat4> moved_;  // By placed model: marker from where it was lit.
+  Phantoms phantoms_;
+  Objects objects_;
+  Casters casters_;
 };
 
 }  // namespace pleinair::compositor

@@ -30,7 +30,6 @@ const std::set<std::string>& LargeClasses() {
     "app/sky/sky_options.h SkyOptions",
     "compositor/composer.cc GlComposer",
     "compositor/photometry/shade/unmodelled_shadows.h UnmodelledShadows",
-    "compositor/surfaces/scene_surfaces.h SceneSurfaces",
     "scene/scene_facts.h SceneFacts",
   };
   // clang-format on
