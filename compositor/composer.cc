@@ -40,6 +40,36 @@ glm::vec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
 
 static_assert(std::tuple_size_v<decltype(ComposerOptions::fog)> == shadows::kMaxPartitions);
 
+/// What a frame is drawn into, for a size of the picture.
+struct Canvas {
+  RenderCamera camera;
+  RenderTargets targets;
+  CameraPicture picture;
+  std::optional<ShadowDebugView> debug_view;  // Made when needed.
+};
+
+/// Light of the day that frames are drawn with.
+struct SunAndSky {
+  gl::GlTexture environment;
+  AerialFog air;
+  Vec3 to_sun;
+  LinearRgb sun_normal_lux;
+};
+
+/// How much of the sun's light reaches what is in view, as the pictures show it.
+struct SunlightInView {
+  std::shared_ptr<const SunTransmittanceMap> transmittance;
+  gl::GlTexture texture;
+};
+
+struct Passes {
+  ShadowRatioPass ratio;
+  ObjectPass objects;
+  // With shadows of one step of the sun, and of two that fade into one another, without and with
+  // haze; made when needed.
+  std::array<std::array<std::optional<SurfacePrograms>, 2>, 2> programs;
+};
+
 class GlComposer : public Composer {
  public:
   static Result<std::unique_ptr<Composer>> Make(const CameraModel& camera,
@@ -51,7 +81,7 @@ class GlComposer : public Composer {
 
   Result<void> SetOptions(const ComposerOptions& options) override;
   void LetGo() override { context_.ReleaseCurrent(); }
-  int samples() const override { return targets_.samples(); }
+  int samples() const override { return canvas_.targets.samples(); }
   void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) override {
     surfaces_.Move(placed_model, linear, translation_m);
   }
@@ -61,23 +91,22 @@ class GlComposer : public Composer {
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
                            LinearRgb exposure_scale) override;
-  void SetMarkerMargin(double board_size_m) override { board_size_m_ = board_size_m; }
-  void AssumeUnmodelledShadows(bool look) override { assumes_unmodelled_shadows_ = look; }
+  void SetMarkerMargin(double board_size_m) override { unmodelled_.margin_size_m = board_size_m; }
+  void AssumeUnmodelledShadows(bool look) override { unmodelled_.assume_unmodelled = look; }
   Result<void> SetSunTransmittance(
       const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) override;
   Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {
     PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
     look_ = look;
-    return picture_.SetCameraLook(look);
+    return canvas_.picture.SetCameraLook(look);
   }
 
  private:
-  GlComposer(const CameraModel& camera, const std::vector<PlacedModel>& scene,
-             gl::EglContext context)
-      : context_(std::move(context)), camera_(camera), scene_(scene) {}
+  GlComposer(const CameraModel& camera, gl::EglContext context)
+      : context_(std::move(context)), camera_(camera) {}
 
   Result<void> UploadSunlight(const SunTransmittanceMap& sun_transmittance);
-  bool HasSun() const { return Luminance(sun_normal_) > 0.0; }
+  bool HasSun() const { return Luminance(sky_.sun_normal_lux) > 0.0; }
   Result<void> SetRenderSize(const ComposerOptions& options);
   shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) const;
   Result<void> MakeShadows(const shadows::ShadowMapOptions& options);
@@ -94,28 +123,15 @@ class GlComposer : public Composer {
 
   gl::EglContext context_;  // First: GL objects go before it.
   CameraModel camera_;
-  std::vector<PlacedModel> scene_;
   ComposerOptions options_;
-  RenderCamera render_camera_;
-  RenderTargets targets_;
-  CameraPicture picture_;
+  Canvas canvas_;
   std::optional<CameraLook> look_;
-  double board_size_m_ = 0.0;
-  bool assumes_unmodelled_shadows_ = true;
-  gl::GlTexture environment_;
-  std::shared_ptr<const SunTransmittanceMap> sun_transmittance_;
-  gl::GlTexture sunlight_map_;
-  ShadowRatioPass ratio_pass_;
-  ObjectPass object_pass_;
-  // With shadows of one step of the sun, and of two that fade into one another, without and with
-  // haze; made when needed.
-  std::array<std::array<std::optional<SurfacePrograms>, 2>, 2> surface_programs_;
+  ShadowRatioPass::ShadowOptions unmodelled_;
+  SunAndSky sky_;
+  SunlightInView sunlight_;
+  Passes passes_;
   SceneSurfaces surfaces_;
   SceneShadows shadows_;
-  std::optional<ShadowDebugView> debug_view_;  // Made when needed.
-  AerialFog air_;
-  Vec3 to_sun_;
-  LinearRgb sun_normal_;
 };
 
 Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
@@ -123,15 +139,16 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
                                                    const ComposerOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(gl::EglContext context, gl::EglContext::Create());
   RegisterShaders();
-  std::unique_ptr<GlComposer> composer(new GlComposer(camera, scene, std::move(context)));
+  std::unique_ptr<GlComposer> composer(new GlComposer(camera, std::move(context)));
   GlComposer& c = *composer;
-  PLEINAIR_ASSIGN_OR_RETURN(c.environment_, gl::GlTexture::Create2DArray(
-                                                GL_RGB32F, EnvironmentMap::kWidth,
-                                                EnvironmentMap::kHeight, EnvironmentMap::kLevels));
-  c.environment_.SetWrap(GL_REPEAT);
+  PLEINAIR_ASSIGN_OR_RETURN(
+      c.sky_.environment,
+      gl::GlTexture::Create2DArray(GL_RGB32F, EnvironmentMap::kWidth, EnvironmentMap::kHeight,
+                                   EnvironmentMap::kLevels));
+  c.sky_.environment.SetWrap(GL_REPEAT);
   PLEINAIR_RETURN_IF_ERROR(c.UploadSunlight({}));
-  PLEINAIR_ASSIGN_OR_RETURN(c.ratio_pass_, ShadowRatioPass::Create());
-  PLEINAIR_ASSIGN_OR_RETURN(c.object_pass_, ObjectPass::Create());
+  PLEINAIR_ASSIGN_OR_RETURN(c.passes_.ratio, ShadowRatioPass::Create());
+  PLEINAIR_ASSIGN_OR_RETURN(c.passes_.objects, ObjectPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
   PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(c.MapOptions(options)));
@@ -146,22 +163,23 @@ Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
                                : camera_.HasDistortion()   ? kWarpedSupersampling
                                                            : 1.0;
   const RenderCamera render_camera = FitRenderCamera(camera_, supersampling);
-  PLEINAIR_ASSIGN_OR_RETURN(targets_,
+  PLEINAIR_ASSIGN_OR_RETURN(canvas_.targets,
                             RenderTargets::Create(render_camera.width, render_camera.height));
   PLEINAIR_ASSIGN_OR_RETURN(
-      picture_, CameraPicture::Create(camera_, render_camera, supersampling, options.response));
-  render_camera_ = render_camera;
-  debug_view_.reset();
-  return picture_.SetCameraLook(look_);
+      canvas_.picture,
+      CameraPicture::Create(camera_, render_camera, supersampling, options.response));
+  canvas_.camera = render_camera;
+  canvas_.debug_view.reset();
+  return canvas_.picture.SetCameraLook(look_);
 }
 
 shadows::ShadowMapOptions GlComposer::MapOptions(const ComposerOptions& options) const {
-  return SceneShadows::MapOptions(options, std::max(render_camera_.width, render_camera_.height));
+  return SceneShadows::MapOptions(options, std::max(canvas_.camera.width, canvas_.camera.height));
 }
 
 Result<void> GlComposer::MakeShadows(const shadows::ShadowMapOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(shadows_, SceneShadows::Create(options));
-  debug_view_.reset();
+  canvas_.debug_view.reset();
   return {};
 }
 
@@ -178,7 +196,7 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
                              maps.partitions != shadows_.options().partitions;
   if (maps != shadows_.options()) PLEINAIR_RETURN_IF_ERROR(MakeShadows(maps));
   if (other_shaders) {
-    surface_programs_ = {};
+    passes_.programs = {};
     PLEINAIR_RETURN_IF_ERROR(ProgramsFor({}));
   }
   options_ = options;
@@ -187,7 +205,7 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
 
 Result<const SurfacePrograms*> GlComposer::ProgramsFor(const FrameUniforms& frame) {
   std::optional<SurfacePrograms>& made =
-      surface_programs_[shadows_.Fades() ? 1 : 0][frame.needs_airlight ? 1 : 0];
+      passes_.programs[shadows_.Fades() ? 1 : 0][frame.needs_airlight ? 1 : 0];
   if (!made) {
     PLEINAIR_ASSIGN_OR_RETURN(
         SurfacePrograms programs,
@@ -204,39 +222,39 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
                                   const Mat3& marker_from_world, LinearRgb from_below) {
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   SetSun(day, marker_from_world);
-  air_ = AerialFog(day, marker_from_world);
+  sky_.air = AerialFog(day, marker_from_world);
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(lit));
   if (!surfaces_.HasGloss()) return {};  // Nothing looks it up.
   const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
-    environment_.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
+    sky_.environment.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
   }
   return {};
 }
 
 void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
-  to_sun_ = marker_from_world * day.ToSun().xyz;
-  sun_normal_ = day.SunNormalIrradiance();
+  sky_.to_sun = marker_from_world * day.ToSun().xyz;
+  sky_.sun_normal_lux = day.SunNormalIrradiance();
 }
 
 Result<void> GlComposer::SetSunTransmittance(
     const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) {
-  if (sun_transmittance == sun_transmittance_) return {};
+  if (sun_transmittance == sunlight_.transmittance) return {};
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   PLEINAIR_RETURN_IF_ERROR(
       UploadSunlight(sun_transmittance ? *sun_transmittance : SunTransmittanceMap{}));
-  sun_transmittance_ = sun_transmittance;
+  sunlight_.transmittance = sun_transmittance;
   return {};
 }
 
 /// Of an empty map: one texel, all of the sun.
 Result<void> GlComposer::UploadSunlight(const SunTransmittanceMap& sun_transmittance) {
   const bool empty = sun_transmittance.share.empty();
-  PLEINAIR_ASSIGN_OR_RETURN(sunlight_map_,
+  PLEINAIR_ASSIGN_OR_RETURN(sunlight_.texture,
                             gl::GlTexture::Create2D(GL_R16F, empty ? 1 : sun_transmittance.width,
                                                     empty ? 1 : sun_transmittance.height));
   constexpr float kAll = 1.0F;
-  sunlight_map_.Upload(GL_RED, GL_FLOAT, empty ? &kAll : sun_transmittance.share.data());
+  sunlight_.texture.Upload(GL_RED, GL_FLOAT, empty ? &kAll : sun_transmittance.share.data());
   return {};
 }
 
@@ -244,24 +262,25 @@ FogSplits GlComposer::FogBeforeObjects(const shadows::View& view, const glm::dve
   const shadows::Box& objects = surfaces_.object_bounds();
   const glm::dvec3 to_objects = 0.5 * (objects.min + objects.max) - eye_m;
   const double far_off = glm::length(to_objects);
-  return air_.Along(far_off > 0.0 ? to_objects / far_off : glm::dvec3(0.0, 1.0, 0.0),
-                    shadows::PracticalSplits(view.near_m, view.far_m, options_.shadow_partitions,
-                                             options_.shadow_split_weight),
-                    options_.fog);
+  return sky_.air.Along(
+      far_off > 0.0 ? to_objects / far_off : glm::dvec3(0.0, 1.0, 0.0),
+      shadows::PracticalSplits(view.near_m, view.far_m, options_.shadow_partitions,
+                               options_.shadow_split_weight),
+      options_.fog);
 }
 
 /// Over the picture just composed.
 Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   const shadows::ShadowMaps& maps = shadows_.maps();
-  if (!debug_view_) {
+  if (!canvas_.debug_view) {
     PLEINAIR_ASSIGN_OR_RETURN(
-        debug_view_,
-        ShadowDebugView::Create(maps.options(), render_camera_.width, render_camera_.height));
+        canvas_.debug_view,
+        ShadowDebugView::Create(maps.options(), canvas_.camera.width, canvas_.camera.height));
   }
-  debug_view_->Draw(
+  canvas_.debug_view->Draw(
       maps, glm::mat4(view.ClipFromMarker()),
-      [&](const gl::GlProgram& program) { surfaces_.Draw(program); }, picture_.positions(),
-      picture_.framebuffer());
+      [&](const gl::GlProgram& program) { surfaces_.Draw(program); }, canvas_.picture.positions(),
+      canvas_.picture.framebuffer());
   return {};
 }
 
@@ -269,14 +288,14 @@ Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
 Result<void> GlComposer::SortSurfaces() {
   SceneSurfaces::SunOnPhantoms sun;
   // Where the picture is asked how much of the sun there is, the sky's light, too, counts by that.
-  sun.whole =
-      assumes_unmodelled_shadows_ || (sun_transmittance_ && !sun_transmittance_->share.empty());
+  sun.whole = unmodelled_.assume_unmodelled ||
+              (sunlight_.transmittance && !sunlight_.transmittance->share.empty());
   if (HasSun()) {
     sun.window = shadows_.Window();
-    sun.normal_lux = ToGlm(sun_normal_);
+    sun.normal_lux = ToGlm(sky_.sun_normal_lux);
   }
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SortPhantoms(sun));
-  return surfaces_.SortObjects(HasSun() ? ToGlm(to_sun_) : glm::vec3(0.0F));
+  return surfaces_.SortObjects(HasSun() ? ToGlm(sky_.to_sun) : glm::vec3(0.0F));
 }
 
 Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadows::View& view,
@@ -286,15 +305,14 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadow
   // Open surfaces come as two, one a side. Clockwise, because the picture's rows go down.
   glEnable(GL_CULL_FACE);
   glFrontFace(GL_CW);
-  ratio_pass_.DrawSurfaces(targets_, surfaces_, frame);
-  object_pass_.DrawSurfaces(targets_, surfaces_, frame);
+  passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame);
+  passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame);
   glDisable(GL_CULL_FACE);
-  sunlight_map_.Bind(5);
-  object_pass_.Draw(targets_, surfaces_, programs, frame, environment_,
-                    PictureOf(render_camera_, view, surfaces_.object_bounds()));
-  picture_.BindForShading(2, 3, 4);
-  ratio_pass_.Draw(targets_, surfaces_, programs, frame,
-                   {assumes_unmodelled_shadows_, board_size_m_});
+  sunlight_.texture.Bind(5);
+  passes_.objects.Draw(canvas_.targets, surfaces_, programs, frame, sky_.environment,
+                       PictureOf(canvas_.camera, view, surfaces_.object_bounds()));
+  canvas_.picture.BindForShading(2, 3, 4);
+  passes_.ratio.Draw(canvas_.targets, surfaces_, programs, frame, unmodelled_);
   glDisable(GL_DEPTH_TEST);
   return {};
 }
@@ -306,12 +324,12 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
   FrameUniforms frame;
   frame.clip_from_marker = glm::mat4(view.ClipFromMarker());
   frame.eye_m = ToGlm(camera_from_marker.Inverse().translation_m);
-  frame.ray = RaysThroughPixels(render_camera_, view);
+  frame.ray = RaysThroughPixels(canvas_.camera, view);
   frame.exposure_scale = ToGlm(exposure_scale);
-  if (HasSun()) frame.to_sun = ToGlm(to_sun_);
-  frame.sun_normal_lux = ToGlm(sun_normal_);
-  if (sun_transmittance_ && !sun_transmittance_->share.empty()) {
-    const auto rows = sun_transmittance_->TextureFromMarker();
+  if (HasSun()) frame.to_sun = ToGlm(sky_.to_sun);
+  frame.sun_normal_lux = ToGlm(sky_.sun_normal_lux);
+  if (sunlight_.transmittance && !sunlight_.transmittance->share.empty()) {
+    const auto rows = sunlight_.transmittance->TextureFromMarker();
     for (int i = 0; i < 2; ++i) {
       frame.texture_from_marker[i] = {rows[i][0], rows[i][1], rows[i][2], rows[i][3]};
     }
@@ -336,21 +354,21 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   CHECK_EQ(rgb.channels(), 3);
   CHECK_EQ(rgb.stride(), static_cast<std::ptrdiff_t>(rgb.width()) * 3);
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  picture_.SetBackground(rgb);
-  const shadows::View view = ViewOf(render_camera_, camera_from_marker, surfaces_.bounds());
+  canvas_.picture.SetBackground(rgb);
+  const shadows::View view = ViewOf(canvas_.camera, camera_from_marker, surfaces_.bounds());
   // A sun below the horizon lights nothing and casts no shadow.
   if (HasSun()) {
-    PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {to_sun_}, view));
+    PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {sky_.to_sun}, view));
   }
   PLEINAIR_RETURN_IF_ERROR(SortSurfaces());
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
   PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, view, frame));
-  picture_.Draw(targets_);
+  canvas_.picture.Draw(canvas_.targets);
   if (options_.show_shadow_maps && HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   }
-  return picture_.Read();
+  return canvas_.picture.Read();
 }
 
 }  // namespace
