@@ -14,14 +14,14 @@ SamplePoint RandomPoint(std::uint32_t seed, std::uint32_t salt) {
 
 }  // namespace
 
-PhantomPaths::PhantomPaths(const PatchScene& scene, int bounces, const sky::SkyModel& daylight,
+PhantomPaths::PhantomPaths(const PatchScene& scene, int bounces, const sky::SkyModel& day,
                            const Mat3& marker_from_world,
                            const SunTransmittanceMap& sun_transmittance)
     : scene_(scene),
       bounces_(bounces),
-      sky_(daylight, marker_from_world, kLandAlbedo),
-      sun_frame_(marker_from_world * daylight.ToSun().xyz),
-      sun_(daylight.SunNormalIrradiance()),
+      sky_(day, marker_from_world, kLandAlbedo),
+      sun_frame_(marker_from_world * day.ToSun().xyz),
+      sun_(day.SunNormalIrradiance()),
       sun_transmittance_(sun_transmittance) {}
 
 LinearRgb PhantomPaths::Irradiance(Vec3 point, const TangentFrame& frame,

@@ -18,7 +18,7 @@ class PhantomPaths {
  public:
   /// Tabulates the sky. `bounces`: reflections followed at most. Of the sun, surfaces reflect what
   /// `sun_transmittance` leaves it. `scene` and `sun_transmittance` must live as long.
-  PhantomPaths(const PatchScene& scene, int bounces, const sky::SkyModel& daylight,
+  PhantomPaths(const PatchScene& scene, int bounces, const sky::SkyModel& day,
                const Mat3& marker_from_world, const SunTransmittanceMap& sun_transmittance);
 
   /// Irradiance at a point whose surface has `frame`, without the sun's direct light: lux, linear
