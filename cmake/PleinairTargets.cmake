@@ -1,4 +1,5 @@
 # Functions that give every target of the project the same settings.
+include(PleinairUnity)
 
 # Warnings, sanitizers and include path of our own code.
 function(pleinair_configure_target target)
@@ -27,6 +28,13 @@ function(pleinair_configure_target target)
         $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${ignorelist}>)
     endif()
   endif()
+  if(PLEINAIR_UNITY)
+    # GCC takes an included source for a header, whose classes others could see.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    # Sub-folders may add sources, until the whole tree is read.
+    cmake_language(EVAL CODE
+      "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL pleinair_unite_sources ${target})")
+  endif()
 endfunction()
 
 # pleinair_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): module library with the alias pleinair::NAME.
@@ -51,6 +59,7 @@ function(pleinair_test name)
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
+  pleinair_list_program(${name} test ${ARG_SOURCES})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
 endfunction()
 
@@ -62,4 +71,19 @@ function(pleinair_fuzzer name)
   pleinair_configure_target(${name})
   target_compile_options(${name} PRIVATE -fsanitize=fuzzer)
   target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  pleinair_list_program(${name} fuzzer ${ARG_SOURCES})
+endfunction()
+
+# Adds a line "KIND TARGET FOLDER SOURCES..." to the list of test programs and fuzz targets, by which
+# scripts/reached_tests chooses among them.
+function(pleinair_list_program name kind)
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}
+             OUTPUT_VARIABLE folder)
+  set(line "${kind} ${name} ${folder}")
+  foreach(source IN LISTS ARGN)
+    cmake_path(ABSOLUTE_PATH source NORMALIZE)
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(APPEND line " ${source}")
+  endforeach()
+  set_property(GLOBAL APPEND_STRING PROPERTY PLEINAIR_PROGRAMS "${line}\n")
 endfunction()
