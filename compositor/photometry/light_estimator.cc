@@ -128,7 +128,7 @@ void LightEstimator::UseUnmodelledShadows(UnmodelledShadows unmodelled,
       std::make_shared<const SunTransmittanceMap>(std::move(unmodelled.sun_transmittance));
   if (2 * dappled_ > samples_.frames() || unmodelled.ShadesMarker()) {
     found->skies.marker_shade = MarkerShadeCorrection(
-        unmodelled.sunlit_scale, unmodelled.sun_on_marker, unmodelled.ambient_on_marker);
+        unmodelled.sunlit_scale.ratio, unmodelled.on_marker.sun, unmodelled.on_marker.ambient);
   }
   found->measured.marker_shade = std::exp(MeanLog(found->skies.marker_shade));
 }

@@ -28,7 +28,6 @@ const std::set<std::string>& LargeClasses() {
     "app/commands/live_command.cc Arguments",
     "app/commands/sun_command.cc Options",
     "app/sky/sky_options.h SkyOptions",
-    "compositor/photometry/shade/unmodelled_shadows.h UnmodelledShadows",
     "scene/scene_facts.h SceneFacts",
   };
   // clang-format on

@@ -39,9 +39,9 @@ constexpr double kNoSun = 0.1, kAllSun = 0.9;
 void MapSunlight(const SunlitIrradiance& light, const std::vector<std::uint8_t>& sun_visible,
                  const SurfaceSamples& samples, const SunlitSurfaces& surfaces,
                  UnmodelledShadows* unmodelled) {
-  unmodelled->sun_on_marker = light.sun_on_marker();
-  unmodelled->ambient_on_marker = light.ambient_on_marker();
-  const double log_exposure_scale = std::log(unmodelled->sunlit_scale);
+  unmodelled->on_marker.sun = light.sun_on_marker();
+  unmodelled->on_marker.ambient = light.ambient_on_marker();
+  const double log_exposure_scale = std::log(unmodelled->sunlit_scale.ratio);
   std::vector<SunlitSample> surface_samples;
   for (std::size_t i = 0; i < samples.samples().size(); ++i) {
     const SurfaceSample& surface_sample = samples.samples()[i];
@@ -69,7 +69,7 @@ void MapSunlight(const SunlitIrradiance& light, const std::vector<std::uint8_t>&
 void CountShadedEdges(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sunlit,
                       UnmodelledShadows* unmodelled) {
   int shaded = 0;
-  unmodelled->beside_edges = 0;
+  unmodelled->sunny_sides.places = 0;
   for (const ShadowCell& cell : cells) {
     const auto surface = sunlit.find(cell.Plane());
     if (!cell.unlit || cell.in_sun.size() < kMinCountBesideEdge || surface == sunlit.end())
@@ -77,11 +77,11 @@ void CountShadedEdges(const std::vector<ShadowCell>& cells, const SunlitSurfaces
     const double open = surface->second.all_in_shadow
                             ? surface->second.level
                             : Quantile(surface->second.medians, kSunlitReferenceQuantile);
-    ++unmodelled->beside_edges;
+    ++unmodelled->sunny_sides.places;
     shaded += Quantile(cell.in_sun, 0.5) < open - kDimDepth * cell.depth ? 1 : 0;
   }
-  if (unmodelled->beside_edges > 0) {
-    unmodelled->shadowed_edges_share = static_cast<double>(shaded) / unmodelled->beside_edges;
+  if (unmodelled->sunny_sides.places > 0) {
+    unmodelled->sunny_sides.shaded = static_cast<double>(shaded) / unmodelled->sunny_sides.places;
   }
 }
 
@@ -205,9 +205,9 @@ UnmodelledShadows FindUnmodelledShadows(const PhantomRays& phantoms, const Surfa
     return unmodelled;
   const SunlitIrradiance light(phantoms, meter, day, marker_from_world, sky_radiance_scale);
   const SunlitScale exposure_scale = FindSunlitLevels(light, sun_visible, samples, &sunlit);
-  unmodelled.sunlit_scale = std::exp(exposure_scale.log);
-  unmodelled.sunlit_scale_agreed = exposure_scale.agreed;
-  unmodelled.shown_by_surroundings = exposure_scale.shown_by_surroundings;
+  unmodelled.sunlit_scale.ratio = std::exp(exposure_scale.log);
+  unmodelled.sunlit_scale.agreed = exposure_scale.agreed;
+  unmodelled.sunlit_scale.shown_by_surroundings = exposure_scale.shown_by_surroundings;
   // Once more, with the levels of surfaces that have no part in the open.
   CountShaded(cells, sunlit, &unmodelled);
   CountShadedEdges(cells, sunlit, &unmodelled);
@@ -229,13 +229,14 @@ bool UnmodelledShadows::IsWide() const {
 
 bool UnmodelledShadows::ShadesMarker() const {
   constexpr double kDarker = 1.5, kDarkerAsShown = 1.2;
-  return sunlit_scale_agreed && sunlit_scale > (shown_by_surroundings ? kDarkerAsShown : kDarker);
+  return sunlit_scale.agreed &&
+         sunlit_scale.ratio > (sunlit_scale.shown_by_surroundings ? kDarkerAsShown : kDarker);
 }
 
 bool UnmodelledShadows::HidesEdges() const {
   constexpr int kMinPlaces = 6;
   constexpr double kMax = 0.6;
-  return beside_edges >= kMinPlaces && shadowed_edges_share >= kMax;
+  return sunny_sides.places >= kMinPlaces && sunny_sides.shaded >= kMax;
 }
 
 bool UnmodelledShadows::Matters() const {

@@ -16,23 +16,33 @@ namespace pleinair::compositor {
 /// Shadows in view that no phantom explains: a tree's, a neighbouring house's, or the phantoms' own
 /// where the sun does not stand where it is thought to.
 struct UnmodelledShadows {
+  /// Places on the sunny side of the phantoms' own shadows.
+  struct SunnySides {
+    int places = 0;
+    double shaded = 0.0;  ///< Share of them that lie in shade all the same.
+  };
+  /// What the phantoms' sunlit places show of the camera (SunlitScale).
+  struct ExposureScale {
+    /// Over that of the frames: above 1 where the marker, or the brightest of it, has less than the
+    /// open sun.
+    double ratio = 1.0;
+    bool agreed = false;
+    bool shown_by_surroundings = false;
+  };
+  /// The sun's light on the marker in the open and all other, as phantoms leave it.
+  struct LightOnMarker {
+    LinearRgb sun, ambient;
+  };
+
   int places = 0;          ///< Small cells of one material that face the sun.
   int boundary_cells = 0;  ///< Of them, those that a shadow's edge crosses.
   double edges = 0.0;      ///< Their share.
   int sunlit = 0;          ///< Cells that the model has wholly in the sun.
   double shaded = 0.0;     ///< Share of them that lie in shade.
   double dim = 0.0;        ///< The same beside their surfaces' open levels, which few may reach.
-  int beside_edges = 0;    ///< Places on the sunny side of the phantoms' own shadows.
-  double shadowed_edges_share = 0.0;  ///< Share of them that lie in shade all the same.
-  /// Gain of the camera that phantoms' places in the open sun tell of, over that of the frames:
-  /// above 1 where the marker, or the brightest of it, has less than the open sun.
-  double sunlit_scale = 1.0;
-  /// Whether that is believed (SunlitScale::agreed).
-  bool sunlit_scale_agreed = false;
-  bool shown_by_surroundings = false;  ///< SunlitScale's.
-  /// Where Matters(): the sun's light on the marker in the open and all other, as phantoms leave
-  /// it.
-  LinearRgb sun_on_marker, ambient_on_marker;
+  SunnySides sunny_sides;
+  ExposureScale sunlit_scale;
+  LightOnMarker on_marker;                ///< Where Matters().
   SunTransmittanceMap sun_transmittance;  ///< Where Matters().
   std::vector<ShadowCrossing> crossings;
   /// The darkest of the cells that the model has wholly in the sun, beside the light in the open:

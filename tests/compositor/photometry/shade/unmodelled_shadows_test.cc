@@ -35,7 +35,7 @@ TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereATreeShadesAllThePhantomsEdges) {
   const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), phantoms);
   EXPECT_TRUE(unmodelled.CastBySun()) << unmodelled.boundary_cells << " of " << unmodelled.places;
   EXPECT_TRUE(unmodelled.HidesEdges())
-      << unmodelled.shadowed_edges_share << " of " << unmodelled.beside_edges;
+      << unmodelled.sunny_sides.shaded << " of " << unmodelled.sunny_sides.places;
 }
 
 TEST_F(ShadowLight, EstimatesTheSkyBesideTheSunFromHowDeepTheShadeOfTreesIs) {
@@ -76,7 +76,7 @@ TEST_F(ShadowLight, DoubtsAnOvercastSkyWhereTheTimeIsHoursOff) {
     const UnmodelledShadows unmodelled = Shade(samples, wrong, yard_->phantoms());
     EXPECT_TRUE(unmodelled.CastBySun())
         << off_deg << ": " << unmodelled.boundary_cells << " of " << unmodelled.places;
-    EXPECT_FALSE(unmodelled.HidesEdges()) << off_deg << ": " << unmodelled.shadowed_edges_share;
+    EXPECT_FALSE(unmodelled.HidesEdges()) << off_deg << ": " << unmodelled.sunny_sides.shaded;
   }
   EXPECT_GT(hidden, 0) << "without a doubt it would be taken for overcast";
 }
@@ -166,8 +166,8 @@ TEST_F(ShadowLight, EstimatesFromTheGroundHowMuchDarkerThanTheSunTheMarkerIs) {
   }
   const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   // The stated colors are not the paving's own.
-  EXPECT_NEAR(unmodelled.sunlit_scale * kOnMarker, 1.0, 0.12);
-  EXPECT_NEAR(unmodelled.sun_on_marker.g, yard_->model().SunNormalIrradiance().g * yard_->ToSun().z,
+  EXPECT_NEAR(unmodelled.sunlit_scale.ratio * kOnMarker, 1.0, 0.12);
+  EXPECT_NEAR(unmodelled.on_marker.sun.g, yard_->model().SunNormalIrradiance().g * yard_->ToSun().z,
               1.0);
 }
 
@@ -194,8 +194,8 @@ TEST_F(ShadowLight, EstimatesByOtherSurfacesThatPrintAndGroundLieInShadeAsAWhole
   const SurfaceSamples samples = FromAShadedMarker(
       *yard_, {.shaded = [](Vec3 p) { return p.z < 0.02 || p.x < -0.5; }}, &true_exposure_scale);
   const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
-  EXPECT_NEAR(unmodelled.sunlit_scale / true_exposure_scale, 1.0, 0.15);
-  EXPECT_TRUE(unmodelled.sunlit_scale_agreed);
+  EXPECT_NEAR(unmodelled.sunlit_scale.ratio / true_exposure_scale, 1.0, 0.15);
+  EXPECT_TRUE(unmodelled.sunlit_scale.agreed);
   EXPECT_GT(unmodelled.shaded, 0.7);
   EXPECT_TRUE(unmodelled.IsWide());
   ASSERT_FALSE(unmodelled.sun_transmittance.share.empty());
@@ -219,7 +219,7 @@ TEST_F(ShadowLight, BelievesTheMarkerWhereTheGroundShowsSunAndShade) {
     samples.AddFrame(yard_->Photograph(i, {.shaded = tree}).view(), PhotographedYard::Pose(i),
                      LinearRgb{1, 1, 1} * PhotographedYard::kExposureScale);
   }
-  EXPECT_NEAR(Shade(samples, yard_->model(), yard_->phantoms()).sunlit_scale, 1.0, 0.15);
+  EXPECT_NEAR(Shade(samples, yard_->model(), yard_->phantoms()).sunlit_scale.ratio, 1.0, 0.15);
 }
 
 TEST_F(ShadowLight, BelievesSurfacesOfTwoColorsOfWhichOneIsStatedTooDark) {
@@ -238,8 +238,8 @@ TEST_F(ShadowLight, BelievesSurfacesOfTwoColorsOfWhichOneIsStatedTooDark) {
   }
   const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   EXPECT_TRUE(unmodelled.ShadesMarker());
-  EXPECT_GT(unmodelled.sunlit_scale * kOnMarker, 0.95);
-  EXPECT_LT(unmodelled.sunlit_scale * kOnMarker, kBrighter - 0.05);
+  EXPECT_GT(unmodelled.sunlit_scale.ratio * kOnMarker, 0.95);
+  EXPECT_LT(unmodelled.sunlit_scale.ratio * kOnMarker, kBrighter - 0.05);
 }
 
 TEST_F(ShadowLight, SeesBesideTheMarkerThatItLiesInTheGroundsShade) {
@@ -251,9 +251,9 @@ TEST_F(ShadowLight, SeesBesideTheMarkerThatItLiesInTheGroundsShade) {
       *yard_, {.shaded = [](Vec3 p) { return p.y < 1.15; }, .brighter = half_light},
       &true_exposure_scale);
   const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
-  EXPECT_TRUE(unmodelled.shown_by_surroundings);
+  EXPECT_TRUE(unmodelled.sunlit_scale.shown_by_surroundings);
   EXPECT_TRUE(unmodelled.ShadesMarker());
-  EXPECT_NEAR(unmodelled.sunlit_scale / true_exposure_scale, 1.0, 0.15);
+  EXPECT_NEAR(unmodelled.sunlit_scale.ratio / true_exposure_scale, 1.0, 0.15);
 }
 
 TEST_F(ShadowLight, TakesADarkMatBeneathTheMarkerForNoShade) {
@@ -270,7 +270,7 @@ TEST_F(ShadowLight, TakesADarkMatBeneathTheMarkerForNoShade) {
   }
   const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   ASSERT_TRUE(unmodelled.Matters());
-  EXPECT_FALSE(unmodelled.shown_by_surroundings);
+  EXPECT_FALSE(unmodelled.sunlit_scale.shown_by_surroundings);
   EXPECT_FALSE(unmodelled.ShadesMarker());
 }
 
@@ -293,7 +293,7 @@ TEST_F(ShadowLight, TakesAPatternBesideTheMarkerForNoShadeUnderAFaintSun) {
   const UnmodelledShadows unmodelled =
       FindUnmodelledShadows(yard_->phantoms(), samples, meter, faint, Mat3{}, {1, 1, 1});
   ASSERT_TRUE(unmodelled.Matters());
-  EXPECT_FALSE(unmodelled.shown_by_surroundings);
+  EXPECT_FALSE(unmodelled.sunlit_scale.shown_by_surroundings);
   EXPECT_FALSE(unmodelled.ShadesMarker());
 }
 
@@ -315,11 +315,11 @@ TEST(UnmodelledShadows, EstimatesHowMuchDarkerThanTheSunAMarkerOnAWallIs) {
   const UnmodelledShadows unmodelled =
       FindUnmodelledShadows(yard.phantoms(), samples, meter, yard.model(), on_wall, {1, 1, 1});
   ASSERT_TRUE(unmodelled.Matters());
-  EXPECT_NEAR(unmodelled.sunlit_scale * kOnMarker, 1.0, 0.12);
+  EXPECT_NEAR(unmodelled.sunlit_scale.ratio * kOnMarker, 1.0, 0.12);
   const LinearRgb level = yard.model().SkyHorizontalIrradiance();
-  EXPECT_LT(unmodelled.ambient_on_marker.g, 0.8 * level.g)
+  EXPECT_LT(unmodelled.on_marker.ambient.g, 0.8 * level.g)
       << "half the sky, and what the land sends back";
-  EXPECT_GT(unmodelled.ambient_on_marker.g, 0.4 * level.g);
+  EXPECT_GT(unmodelled.on_marker.ambient.g, 0.4 * level.g);
 }
 
 }  // namespace
