@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <compare>
 #include <cstdint>
 #include <string>
@@ -44,52 +45,24 @@ class UtcTime {
 
 namespace internal {
 
-/// Days since 1970-01-01 of a Gregorian date (Hinnant, "chrono-compatible low-level date
-/// algorithms", days_from_civil).
-constexpr std::int64_t DaysFromCivil(int year, int month, int day) {
-  year -= month <= 2;
-  const std::int64_t era = (year >= 0 ? year : year - 399) / 400;
-  const int year_of_era = year - static_cast<int>(era) * 400;
-  const int day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  const int day_of_era = year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year;
-  return era * 146097 + day_of_era - 719468;
-}
-
-constexpr int DaysInMonth(int year, int month) {
-  constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
-  return month == 2 && leap ? 29 : kDays[month - 1];
-}
-
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::int64_t kNanosecondsPerDay = 86'400 * kNanosecondsPerSecond;
 
 }  // namespace internal
 
 inline UtcTime::Civil UtcTime::ToCivil() const {
-  std::int64_t days = ns_ / internal::kNanosecondsPerDay;
-  std::int64_t in_day = ns_ % internal::kNanosecondsPerDay;
-  if (in_day < 0) {
-    in_day += internal::kNanosecondsPerDay;
-    --days;
-  }
-  // Hinnant, civil_from_days.
-  days += 719468;
-  const std::int64_t era = (days >= 0 ? days : days - 146096) / 146097;
-  const int day_of_era = static_cast<int>(days - era * 146097);
-  const int year_of_era =
-      (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
-  const int day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-  const int shifted_month = (5 * day_of_year + 2) / 153;
+  const std::chrono::sys_time<std::chrono::nanoseconds> time{std::chrono::nanoseconds(ns_)};
+  const auto midnight = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day date(midnight);
+  const std::chrono::hh_mm_ss clock(time - midnight);
   Civil civil;
-  civil.day = day_of_year - (153 * shifted_month + 2) / 5 + 1;
-  civil.month = shifted_month < 10 ? shifted_month + 3 : shifted_month - 9;
-  civil.year = year_of_era + static_cast<int>(era) * 400 + (civil.month <= 2);
-  const std::int64_t seconds = in_day / internal::kNanosecondsPerSecond;
-  civil.hour = static_cast<int>(seconds / 3600);
-  civil.minute = static_cast<int>(seconds / 60 % 60);
-  civil.second = static_cast<double>(seconds % 60) +
-                 static_cast<double>(in_day % internal::kNanosecondsPerSecond) * 1e-9;
+  civil.year = static_cast<int>(date.year());
+  civil.month = static_cast<int>(static_cast<unsigned>(date.month()));
+  civil.day = static_cast<int>(static_cast<unsigned>(date.day()));
+  civil.hour = static_cast<int>(clock.hours().count());
+  civil.minute = static_cast<int>(clock.minutes().count());
+  civil.second = static_cast<double>(clock.seconds().count()) +
+                 static_cast<double>(clock.subseconds().count()) * 1e-9;
   return civil;
 }
 
@@ -152,9 +125,10 @@ inline Result<UtcTime> UtcTime::Parse(std::string_view text) {
   if (!well_formed) return fail("is not a date and time");
   // What is impossible in any zone comes before the zone.
   if (year < 1678 || year > 2261) return fail("lies outside the years 1678 to 2261");
-  if (month < 1 || month > 12 || day < 1 || day > internal::DaysInMonth(year, month)) {
-    return fail("names a day that does not exist");
-  }
+  const std::chrono::year_month_day date(std::chrono::year(year),
+                                         std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day)));
+  if (!date.ok()) return fail("names a day that does not exist");
   if (hour > 23 || minute > 59 || second > 60) return fail("names an hour that does not exist");
   std::int64_t fraction_ns = 0;
   if (at < text.size() && text[at] == '.') {
@@ -178,8 +152,9 @@ inline Result<UtcTime> UtcTime::Parse(std::string_view text) {
     return fail("has neither Z nor an offset, so its zone is unknown");
   }
   if (at != text.size()) return fail("goes on after its offset");
-  const std::int64_t seconds = internal::DaysFromCivil(year, month, day) * 86'400 + hour * 3600 +
-                               minute * 60 + second - offset_minutes * 60;
+  const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
+  const std::int64_t seconds =
+      days * 86'400 + hour * 3600 + minute * 60 + second - offset_minutes * 60;
   const UtcTime time(seconds * internal::kNanosecondsPerSecond + fraction_ns);
   if (second == 60) {
     const Civil next = UtcTime(seconds * internal::kNanosecondsPerSecond).ToCivil();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -91,8 +92,8 @@ class Diagram {
 
  private:
   UtcTime LocalMidnight(int month, int day) const {
-    const std::int64_t days = pleinair::internal::DaysFromCivil(facts_.year, month, day);
-    return UtcTime(days * pleinair::internal::kNanosecondsPerDay)
+    const std::chrono::sys_days date(std::chrono::year(facts_.year) / month / day);
+    return UtcTime(std::chrono::nanoseconds(date.time_since_epoch()).count())
         .PlusSeconds(-facts_.offset.seconds());
   }
 

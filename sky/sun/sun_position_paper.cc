@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -10,10 +11,14 @@ using std::numbers::pi;
 
 /// J of the equations: the day of the year, 1 on the first of January. The paper says "Julian
 /// date", but a period of 368 days makes sense for the day of the year only.
-int DayOfYear(const UtcTime::Civil& utc) {
-  return static_cast<int>(pleinair::internal::DaysFromCivil(utc.year, utc.month, utc.day) -
-                          pleinair::internal::DaysFromCivil(utc.year, 1, 1)) +
-         1;
+int DayOfYear(UtcTime time) {
+  using std::chrono::days;
+  using std::chrono::nanoseconds;
+  const std::chrono::sys_days today(
+      std::chrono::floor<days>(nanoseconds(time.nanoseconds_since_1970())));
+  const std::chrono::year year = std::chrono::year_month_day(today).year();
+  const std::chrono::sys_days new_year(year / std::chrono::January / 1);
+  return static_cast<int>((today - new_year).count()) + 1;
 }
 
 }  // namespace
@@ -28,7 +33,7 @@ int DayOfYear(const UtcTime::Civil& utc) {
 //   "Julian date" → day of the year.
 AirlessSun PaperSun(const Observer& observer, UtcTime time) {
   const UtcTime::Civil utc = time.ToCivil();
-  const double j = DayOfYear(utc);
+  const double j = DayOfYear(time);
   const double standard_time_h = utc.hour + utc.minute / 60.0 + utc.second / 3600.0;
   const double standard_meridian_rad = 0.0;  // Of UTC.
 

@@ -2,6 +2,7 @@
 // a switch, against the precise sun at random places and times from 1950 to 2100.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <string>
@@ -39,10 +40,13 @@ Angles Paper(const Observer& observer, UtcTime time, const Misprints& m) {
   const double meridian =
       m.zone_time ? std::round(observer.longitude.value() * 12.0 / kPi) * kPi / 12.0 : 0.0;
   const UtcTime::Civil utc = time.PlusSeconds(meridian * 43'200.0 / kPi).ToCivil();
-  const std::int64_t days = internal::DaysFromCivil(utc.year, utc.month, utc.day);
+  const std::chrono::year year(utc.year);
+  const auto days_since_1970 = [](const std::chrono::year_month_day& date) {
+    return std::chrono::sys_days(date).time_since_epoch().count();
+  };
+  const std::int64_t days = days_since_1970(year / utc.month / utc.day);
   const double hours = utc.hour + utc.minute / 60.0 + utc.second / 3600.0;
-  const double day_of_year =
-      static_cast<double>(days - internal::DaysFromCivil(utc.year, 1, 1)) + 1.0;
+  const double day_of_year = static_cast<double>(days - days_since_1970(year / 1 / 1)) + 1.0;
   const double j =
       m.full_julian_date ? 2440587.5 + static_cast<double>(days) + hours / 24.0 : day_of_year;
   const double east = observer.longitude.value() - meridian;
