@@ -23,6 +23,7 @@
 
 #include "scene/cloudiness.h"
 #include "scene/scene_facts.h"
+#include "scene/zoned_time.h"
 
 namespace pleinair::scene {
 namespace {
@@ -158,7 +159,7 @@ class Table {
   std::string file_;
 };
 
-// A quoted RFC 3339 time or TOML's own offset date-time.
+// A quoted time, which may name its zone, or TOML's own offset date-time.
 Result<std::optional<UtcTime>> ReadTime(const Table& table, const char* key) {
   const toml::node* node = table.Find(key);
   if (node == nullptr) return std::nullopt;
@@ -174,9 +175,12 @@ Result<std::optional<UtcTime>> ReadTime(const Table& table, const char* key) {
     return table.Fail(key, "is not a date and time",
                       "write it as RFC 3339, for example 2025-09-14T11:05:00Z");
   }
-  Result<UtcTime> time = UtcTime::Parse(text);
-  if (!time) return table.Fail(key, "is no moment: " + time.error().what, time.error().remedy);
-  return *time;
+  Result<ZonedTime> zoned = ParseZonedTime(text);
+  if (zoned) return zoned->time;
+  if (zoned.error().kind == ErrorKind::kSystem) {
+    return tl::make_unexpected(std::move(zoned).error());
+  }
+  return table.Fail(key, "is no moment: " + zoned.error().what, zoned.error().remedy);
 }
 
 Result<void> ReadPlace(const Table& place, SceneFacts* facts) {

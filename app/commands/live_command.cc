@@ -21,6 +21,7 @@
 #include "app/live/live_session.h"
 #include "app/live/paced_recording.h"
 #include "app/options/light_options.h"
+#include "app/options/local_time.h"
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
 #include "app/options/picture_size.h"
@@ -178,7 +179,7 @@ Result<Source> OpenCamera(const devices::CameraUri& uri, const Arguments& argume
 Result<std::optional<UtcTime>> StartOf(const Arguments& arguments, const Source& source) {
   if (arguments.time == "now") return std::nullopt;
   if (!arguments.time.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(const UtcTime time, UtcTime::Parse(arguments.time));
+    PLEINAIR_ASSIGN_OR_RETURN(const UtcTime time, ParseTimeOption("--time", arguments.time));
     return time;
   }
   // A recording was made in its own day; in front of a camera it is now.
@@ -325,7 +326,8 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--scene", a.scene, "Scene file (docs/guide/reference/recordings.md)");
   command->add_option("--calibration", a.calibration, "Calibration of the lens");
   command->add_option("--time", a.time,
-                      "Moment of the first frame: RFC 3339, or \"now\" (the default for cameras; "
+                      "Moment of the first frame: RFC 3339, local time with its zone, or \"now\" "
+                      "(the default for cameras; "
                       "for recordings the scene's)");
   command->add_option("--record", a.record, "Record into this new folder, too");
   command->add_option("--detections", a.detections, "Write what is seen, one JSON line a frame");

@@ -31,7 +31,8 @@ constexpr const char* kExamples =
     "      the year's sun paths as architects draw them (SVG or PNG)\n"
     "Columns: azimuth_deg clockwise from true north; elevation_deg without air;\n"
     "elevation_refracted_deg as seen; distance_au.\n"
-    "The day of --time is that of its offset, or with Z that of local mean solar time.\n";
+    "A zone of the IANA database stands in brackets: 2025-09-14T13:05:00[Europe/Prague].\n"
+    "The day of --time is that of its offset or zone, or with Z that of local mean solar time.\n";
 
 constexpr int kFirstYear = 1678;
 constexpr int kLastYear = 2261;
@@ -125,9 +126,10 @@ void AddSunCommand(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand("sun", "Where the sun stands, at a place and a time");
   command->footer(kExamples);
   CLI::Option* at = AddObserverOptions(*command, options->observer);
-  CLI::Option* time =
-      command->add_option("--time,--from", options->time, "Moment, RFC 3339 with Z or an offset")
-          ->type_name("T");
+  CLI::Option* time = command
+                          ->add_option("--time,--from", options->time,
+                                       "Moment, RFC 3339 with Z, an offset or its [zone]")
+                          ->type_name("T");
   CLI::Option* until =
       command->add_option("--until,--to", options->until, "Last moment of a table from --time on")
           ->type_name("T")

@@ -2,12 +2,15 @@
 
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
+
+#include "scene/zoned_time.h"
 
 namespace pleinair::app {
 namespace {
@@ -59,10 +62,12 @@ std::string ToString(UtcOffset offset) {
   return text.data();
 }
 
-std::optional<UtcOffset> OffsetOf(std::string_view rfc3339) {
-  constexpr std::size_t kLength = 6;
-  if (rfc3339.size() < kLength) return std::nullopt;
-  return ParseSigned(rfc3339.substr(rfc3339.size() - kLength));
+std::optional<UtcOffset> OffsetOf(std::string_view time) {
+  const Result<scene::ZonedTime> zoned = scene::ParseZonedTime(time);
+  if (!zoned || !zoned->offset) return std::nullopt;
+  const auto minutes = std::chrono::round<std::chrono::minutes>(*zoned->offset);
+  if (std::chrono::abs(minutes) >= std::chrono::hours(kMaxHours + 1)) return std::nullopt;
+  return UtcOffset{static_cast<int>(minutes.count())};
 }
 
 UtcOffset NauticalOffset(double longitude_deg) {
@@ -105,9 +110,13 @@ std::string FormatLocalDate(UtcTime time, UtcOffset offset) {
 }
 
 Result<UtcTime> ParseTimeOption(const std::string& option, std::string_view text) {
-  Result<UtcTime> time = UtcTime::Parse(text);
-  if (!time) return tl::make_unexpected(About(std::move(time).error(), option));
-  return time;
+  Result<scene::ZonedTime> zoned = scene::ParseZonedTime(text);
+  if (zoned) return zoned->time;
+  // What is wrong with the machine has a place of its own.
+  if (zoned.error().kind == ErrorKind::kSystem) {
+    return tl::make_unexpected(std::move(zoned).error());
+  }
+  return tl::make_unexpected(About(std::move(zoned).error(), option));
 }
 
 }  // namespace pleinair::app

@@ -9,8 +9,7 @@
 
 namespace pleinair::app {
 
-/// Local time minus UTC, as a person's clock has it: whole minutes, east positive. A command knows
-/// no time zones: who wants summer time gives its offset.
+/// Local time minus UTC, as a person's clock has it: whole minutes, east positive.
 struct UtcOffset {
   int minutes = 0;
   double seconds() const { return 60.0 * minutes; }
@@ -24,9 +23,9 @@ Result<UtcOffset> ParseUtcOffset(std::string_view text, const std::string& optio
 /// "+02:00"; "Z" where it is nothing.
 std::string ToString(UtcOffset offset);
 
-/// The offset written at the end of an RFC 3339 time; nothing after Z, which says nothing of the
-/// clocks where the observer stands.
-std::optional<UtcOffset> OffsetOf(std::string_view rfc3339);
+/// The offset that a time has at its end or by its zone; nothing after Z, which says nothing of the
+/// clocks where the observer stands, for offsets beyond 15:59, and where ParseTimeOption() fails.
+std::optional<UtcOffset> OffsetOf(std::string_view time);
 
 /// The whole hour nearest to local mean solar time.
 UtcOffset NauticalOffset(double longitude_deg);
@@ -42,7 +41,8 @@ std::string FormatLocal(UtcTime time, UtcOffset offset);
 /// The date alone: "2025-06-21".
 std::string FormatLocalDate(UtcTime time, UtcOffset offset);
 
-/// RFC 3339 with an offset or Z. Errors (input): `option` is named.
+/// RFC 3339 with an offset or Z, or a local time with its zone (scene/zoned_time.h), whose errors
+/// it has. `option` is named.
 Result<UtcTime> ParseTimeOption(const std::string& option, std::string_view text);
 
 }  // namespace pleinair::app

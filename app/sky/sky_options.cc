@@ -157,9 +157,10 @@ Result<void> CheckUseOfSkyOptions(const CLI::App& command, const SkyOptions& opt
 
 void AddSkyOptions(CLI::App& command, SkyOptions& options) {
   CLI::Option* at = AddObserverOptions(command, options.observer);
-  CLI::Option* time =
-      command.add_option("--time,--from", options.time, "Moment, RFC 3339 with Z or an offset")
-          ->type_name("T");
+  CLI::Option* time = command
+                          .add_option("--time,--from", options.time,
+                                      "Moment, RFC 3339 with Z, an offset or its [zone]")
+                          ->type_name("T");
   CLI::Option* until = command
                            .add_option("--until,--to", options.until,
                                        "Last moment of a table or video from --time on")

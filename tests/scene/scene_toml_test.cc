@@ -124,6 +124,15 @@ TEST(SceneToml, LocalTimeIsRefused) {
   }
 }
 
+TEST(SceneToml, TimeMayNameItsZone) {
+  const auto with = [](const char* time) {
+    return Refusal(tests::Replaced(kScene, "2025-09-14T13:05:00+02:00", time));
+  };
+  EXPECT_EQ(with("\"2025-09-14T13:05:00[Europe/Prague]\""), "no error");
+  EXPECT_THAT(with("\"2025-09-14T13:05:00[Europe/Prag]\""),
+              AllOf(HasSubstr("scene.toml:1: \"time\""), HasSubstr("mean Europe/Prague?")));
+}
+
 TEST(SceneToml, ValuesMustBeInRange) {
   const auto with = [](const char* from, const char* to) {
     return Refusal(tests::Replaced(kScene, from, to));

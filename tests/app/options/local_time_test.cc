@@ -46,7 +46,21 @@ TEST(UtcOffset, StandsAtTheEndOfATime) {
   EXPECT_EQ(OffsetOf("2025-06-21T00:05:00+02:00"), UtcOffset{120});
   EXPECT_EQ(OffsetOf("2025-06-21T00:05:00.25-09:30"), UtcOffset{-570});
   EXPECT_EQ(OffsetOf("2025-06-21T00:05:00Z"), std::nullopt);
+  EXPECT_EQ(OffsetOf("2025-06-21T00:05:00+20:00"), std::nullopt);
   EXPECT_EQ(OffsetOf(""), std::nullopt);
+}
+
+TEST(UtcOffset, OfAZoneIsThatOfItsMoment) {
+  EXPECT_EQ(OffsetOf("2025-06-21T00:05:00[Europe/Prague]"), UtcOffset{120});
+  EXPECT_EQ(OffsetOf("2025-12-21T00:05:00[Europe/Prague]"), UtcOffset{60});
+  EXPECT_EQ(OffsetOf("2025-06-21T00:05:00Z[Asia/Kathmandu]"), UtcOffset{345});
+}
+
+TEST(TimeOption, NamesItselfInErrors) {
+  EXPECT_EQ(ParseTimeOption("--time", "2025-09-14T13:05:00[Europe/Prague]").value(),
+            At("2025-09-14T11:05:00Z"));
+  EXPECT_EQ(ParseTimeOption("--time", "2025-09-14T13:05:00").error().where, "--time");
+  EXPECT_EQ(ParseTimeOption("--time", "2025-09-14T13:05:00[Prague]").error().where, "--time");
 }
 
 TEST(UtcOffset, OfASailorIsTheNearestHour) {
