@@ -15,7 +15,8 @@ struct Lab {
 /// Of an 8-bit sRGB pixel in the order red, green, blue; white (255, 255, 255) has L* = 100.
 Lab LabFromSrgb8(const std::array<std::uint8_t, 3>& rgb);
 
-/// Colour difference CIEDE2000 with kL = kC = kH = 1. About 1 is just noticeable side by side.
+/// Color difference CIEDE2000 with kL = kC = kH = 1, by Little CMS. About 1 is just noticeable side
+/// by side.
 /// Sharma, Wu & Dalal, "The CIEDE2000 Color-Difference Formula: Implementation Notes,
 /// Supplementary Test Data, and Mathematical Observations", Color Research and Application 30(1),
 /// 2005.
