@@ -7,10 +7,10 @@
 namespace pleinair::compositor {
 namespace {
 
-const CameraModel kCamera{
+const CameraModel kSmallCamera{
     .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 159.5, .cy = 119.5};
 // A metre above a marker of 0.4 m: 120 pixels.
-const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 1}};
+const Transform<Camera, Marker> kFromAMetreAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 1}};
 constexpr int kSquares = 12;
 
 /// An arm that comes in from the picture's right edge and ends in the middle of the marker.
@@ -43,12 +43,13 @@ Scene Make(std::array<int, 3> arm, bool covered = true) {
 
 TEST(OccluderMask, IsEmptyWhereNothingCoversTheMarker) {
   const Scene scene = Make({0, 0, 0}, false);
-  EXPECT_TRUE(MaskOccluder(scene.picture.view(), kCamera, kFromAbove, scene.cover).empty());
+  EXPECT_TRUE(
+      MaskOccluder(scene.picture.view(), kSmallCamera, kFromAMetreAbove, scene.cover).empty());
 }
 
 TEST(OccluderMask, FollowsAnArmByItsColorToThePicturesEdge) {
   const Scene scene = Make({190, 130, 100});
-  const auto mask = MaskOccluder(scene.picture.view(), kCamera, kFromAbove, scene.cover);
+  const auto mask = MaskOccluder(scene.picture.view(), kSmallCamera, kFromAMetreAbove, scene.cover);
   ASSERT_FALSE(mask.empty());
   int wrong = 0, arm = 0;
   for (int y = 0; y < 240; ++y) {
@@ -65,7 +66,7 @@ TEST(OccluderMask, FollowsAnArmByItsColorToThePicturesEdge) {
 TEST(OccluderMask, StaysOnTheMarkerWhereColorTellsNothing) {
   // A glove as grey as the ground.
   const Scene scene = Make({112, 107, 97});
-  const auto mask = MaskOccluder(scene.picture.view(), kCamera, kFromAbove, scene.cover);
+  const auto mask = MaskOccluder(scene.picture.view(), kSmallCamera, kFromAMetreAbove, scene.cover);
   ASSERT_FALSE(mask.empty());
   EXPECT_GT(mask(200, 120), 250);
   EXPECT_EQ(mask(270, 120), 0);

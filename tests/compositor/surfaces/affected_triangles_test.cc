@@ -12,7 +12,7 @@
 namespace pleinair::compositor {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Four triangles a metre apart along x, all facing up.
 LitMesh Row() {
