@@ -76,26 +76,26 @@ FilmSummary SummarizeFilm(const std::vector<const FrameRecord*>& frames) {
     if (hit && before != nullptr) steps.push_back(StepJitter(*before, marker));
     before = hit ? &marker : nullptr;
     film.found += hit;
-    film.gaps += !hit && gap == 0;
+    film.gaps.count += !hit && gap == 0;
     const bool lost = !hit && track > 0;
-    film.lost += lost;
-    film.told_lost += lost && frame->lost > 0;
-    film.recovered += hit && gap > 0 && !tracks.empty();
+    film.losses.count += lost;
+    film.losses.reported += lost && frame->lost > 0;
+    film.losses.recovered += hit && gap > 0 && !tracks.empty();
     if (lost) tracks.push_back(static_cast<double>(track));
     track = hit ? track + 1 : 0;
     gap = hit ? 0 : gap + 1;
-    film.longest_track = std::max(film.longest_track, track);
-    film.longest_gap = std::max(film.longest_gap, gap);
+    film.tracks.longest = std::max(film.tracks.longest, track);
+    film.gaps.longest = std::max(film.gaps.longest, gap);
   }
   if (track > 0) tracks.push_back(static_cast<double>(track));
-  film.tracks = static_cast<std::int64_t>(tracks.size());
+  film.tracks.count = static_cast<std::int64_t>(tracks.size());
   film.median_track = Percentile(tracks, 0.5);
   film.step_jitter_px = Percentile(steps, 0.5);
   if (const auto error = CompareTrajectories(found, truth)) {
-    film.ate_rmse_m = error->ate_rmse_m;
-    film.ate_unaligned_rmse_m = error->ate_unaligned_rmse_m;
-    film.rpe_translation_rmse_m = error->rpe_translation_rmse_m;
-    film.rpe_rotation_rmse_deg = error->rpe_rotation_rmse_deg;
+    film.trajectory.ate_m = error->ate_rmse_m;
+    film.trajectory.ate_unaligned_m = error->ate_unaligned_rmse_m;
+    film.trajectory.rpe_translation_m = error->rpe_translation_rmse_m;
+    film.trajectory.rpe_rotation_deg = error->rpe_rotation_rmse_deg;
   }
   return film;
 }

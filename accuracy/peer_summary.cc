@@ -84,13 +84,13 @@ std::optional<PeerSummary> CompareWithPeer(const std::vector<FrameRecord>& recor
   std::vector<std::size_t> all(blocks.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   ForMarkers(blocks, all, [&](const MarkerRecord& a, const MarkerRecord& b) {
-    ++summary.markers;
-    summary.both += IsHit(a) && IsHit(b);
-    summary.only_ours += IsHit(a) && !IsHit(b);
-    summary.only_peer += !IsHit(a) && IsHit(b);
+    ++summary.hits.markers;
+    summary.hits.both += IsHit(a) && IsHit(b);
+    summary.hits.only_ours += IsHit(a) && !IsHit(b);
+    summary.hits.only_peer += !IsHit(a) && IsHit(b);
   });
-  if (summary.markers == 0) return summary;
-  summary.p = McNemarExact(summary.only_ours, summary.only_peer);
+  if (summary.hits.markers == 0) return summary;
+  summary.hits.p = McNemarExact(summary.hits.only_ours, summary.hits.only_peer);
   const auto rate_ratio = [&](const std::vector<std::size_t>& indices) {
     double our_hits = 0.0, peer_hits = 0.0;
     ForMarkers(blocks, indices, [&](const MarkerRecord& a, const MarkerRecord& b) {
@@ -114,13 +114,13 @@ std::optional<PeerSummary> CompareWithPeer(const std::vector<FrameRecord>& recor
   const auto corner_ratio = median_ratio([](const MarkerRecord& m) { return m.CornerRms(); });
   const auto rotation_ratio =
       median_ratio([](const MarkerRecord& m) { return m.pose->rotation_error_deg; });
-  summary.rate_ratio = rate_ratio(all);
-  summary.corner_ratio = corner_ratio(all);
-  summary.rotation_ratio = rotation_ratio(all);
+  summary.rate.value = rate_ratio(all);
+  summary.corner.value = corner_ratio(all);
+  summary.rotation.value = rotation_ratio(all);
   const std::string purpose = "bootstrap/" + which.sweep + "/" + peer;
-  summary.rate_interval = BootstrapInterval(all.size(), rate_ratio, purpose);
-  summary.corner_interval = BootstrapInterval(all.size(), corner_ratio, purpose);
-  summary.rotation_interval = BootstrapInterval(all.size(), rotation_ratio, purpose);
+  summary.rate.interval = BootstrapInterval(all.size(), rate_ratio, purpose);
+  summary.corner.interval = BootstrapInterval(all.size(), corner_ratio, purpose);
+  summary.rotation.interval = BootstrapInterval(all.size(), rotation_ratio, purpose);
   return summary;
 }
 

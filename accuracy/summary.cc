@@ -24,17 +24,17 @@ struct Gathered {
   double sum_x = 0.0, sum_y = 0.0, sum_outward = 0.0;
 
   void Add(const FrameRecord& record) {
-    ++cell.frames;
-    cell.false_numbers += record.false_numbers;
+    ++cell.counts.frames;
+    cell.counts.false_numbers += record.false_numbers;
     frames_with_false += record.false_numbers > 0;
     for (const MarkerRecord& marker : record.markers) Add(marker);
   }
 
   void Add(const MarkerRecord& marker) {
-    ++cell.markers;
-    cell.misplaced += marker.outcome == Outcome::kMisplaced;
+    ++cell.counts.markers;
+    cell.counts.misplaced += marker.outcome == Outcome::kMisplaced;
     if (marker.outcome != Outcome::kHit) return;
-    ++cell.hits;
+    ++cell.counts.hits;
     corner_px.push_back(marker.CornerRms());
     Vec2 middle;
     for (const Vec2 corner : marker.true_corners_px) middle = middle + corner * 0.25;
@@ -50,18 +50,18 @@ struct Gathered {
     translation_share.push_back(marker.pose->translation_error_m /
                                 Norm(marker.true_camera_from_marker.translation_m));
     const bool flip = marker.pose->rotation_error_deg > kFlip_deg;
-    cell.flips += flip;
+    cell.counts.flips += flip;
     if (marker.pose->nees && !flip) nees.push_back(*marker.pose->nees);
   }
 
   CellSummary Finish() {
-    cell.rate = WilsonInterval(cell.hits, cell.markers);
-    cell.false_frames = WilsonInterval(frames_with_false, cell.frames);
+    cell.rates.hits = WilsonInterval(cell.counts.hits, cell.counts.markers);
+    cell.rates.false_frames = WilsonInterval(frames_with_false, cell.counts.frames);
     cell.corner_px = SpreadOf(corner_px);
-    const double hits = static_cast<double>(std::max<std::int64_t>(cell.hits, 1));
-    cell.bias_x_px = sum_x / hits;
-    cell.bias_y_px = sum_y / hits;
-    cell.bias_outward_px = sum_outward / hits;
+    const double hits = static_cast<double>(std::max<std::int64_t>(cell.counts.hits, 1));
+    cell.bias_px.x = sum_x / hits;
+    cell.bias_px.y = sum_y / hits;
+    cell.bias_px.outward = sum_outward / hits;
     cell.rotation_deg = SpreadOf(rotation_deg);
     cell.translation_m = SpreadOf(translation_m);
     cell.translation_share = SpreadOf(translation_share);

@@ -24,16 +24,26 @@ struct NeesSummary {
 
 /// What one detector did with some frames: those of a level, a pattern or a sweep.
 struct CellSummary {
+  struct Counts {
+    std::int64_t frames = 0, markers = 0, hits = 0, misplaced = 0, false_numbers = 0;
+    std::int64_t flips = 0;  ///< Hits with a rotation error beyond kFlip_deg.
+  };
+  struct Rates {
+    Interval hits{};          ///< Of markers,
+    Interval false_frames{};  ///< … and of frames with a false number.
+  };
+  /// Mean corner error: to the right and down, and away from the marker's middle.
+  struct CornerBias {
+    double x = 0.0, y = 0.0, outward = 0.0;
+  };
+
   std::string detector, sweep;
   std::string pattern;          ///< Empty: all, or the sweep has none.
   std::optional<double> level;  ///< None: all.
-  std::int64_t frames = 0, markers = 0, hits = 0, misplaced = 0, false_numbers = 0;
-  Interval rate;           ///< Of hits.
-  Interval false_frames;   ///< Of frames with a false number.
-  std::int64_t flips = 0;  ///< Hits with a rotation error beyond kFlip_deg.
-  Spread corner_px;        ///< RMS over a marker's corners, over its hits.
-  /// Mean corner error: to the right and down, and away from the marker's middle.
-  double bias_x_px = 0.0, bias_y_px = 0.0, bias_outward_px = 0.0;
+  Counts counts;
+  Rates rates;
+  Spread corner_px;  ///< RMS over a marker's corners, over its hits.
+  CornerBias bias_px;
   Spread rotation_deg, translation_m;
   Spread translation_share;         ///< Of the distance.
   std::optional<NeesSummary> nees;  ///< Of hits that are no flips.
@@ -49,23 +59,37 @@ struct JitterSummary {
   double translation_std_m = 0.0, rotation_std_deg = 0.0;
 };
 
+/// Runs of frames.
+struct Runs {
+  std::int64_t count = 0, longest = 0;
+};
+
+/// A marker that was there and then was not found.
+struct Losses {
+  std::int64_t count = 0;      ///< How often,
+  std::int64_t reported = 0;   ///< … and the detector reported it in that frame,
+  std::int64_t recovered = 0;  ///< … and it was found again.
+};
+
+/// Errors of a trajectory, absolute and from frame to frame (RMS); no numbers where the marker was
+/// never found.
+struct TrajectoryRmse {
+  double ate_m = kNoNumber, ate_unaligned_m = kNoNumber;
+  double rpe_translation_m = kNoNumber, rpe_rotation_deg = kNoNumber;
+};
+
 /// A film: how well a marker is followed through it.
 struct FilmSummary {
   std::string detector, film;
   std::int64_t frames = 0, found = 0;
-  std::int64_t tracks = 0;  ///< Runs of frames with the marker.
-  std::int64_t longest_track = 0, longest_gap = 0;
-  double median_track = 0.0;   ///< Length of a run, frames.
-  std::int64_t gaps = 0;       ///< Runs of frames without it, before the first observation too.
-  std::int64_t lost = 0;       ///< How often it was there and then not found,
-  std::int64_t told_lost = 0;  ///< … and the detector said so in that frame,
-  std::int64_t recovered = 0;  ///< … and it was found again.
-  // What follows is no number where the marker was never found.
-  double step_jitter_px =
-      kNoNumber;               ///< Median change of the corner errors from frame to frame, RMS.
-  bool truth_aligned = false;  ///< Then there is no unaligned error.
-  double ate_rmse_m = kNoNumber, ate_unaligned_rmse_m = kNoNumber;
-  double rpe_translation_rmse_m = kNoNumber, rpe_rotation_rmse_deg = kNoNumber;
+  Runs tracks;                ///< Runs of frames with the marker.
+  Runs gaps;                  ///< Runs of frames without it, before the first observation too.
+  double median_track = 0.0;  ///< Length of a track, frames.
+  Losses losses;
+  double step_jitter_px = kNoNumber;  ///< Median change of the corner errors from frame to frame,
+                                      ///< RMS; no number where the marker was never found.
+  bool truth_aligned = false;         ///< Then there is no unaligned error.
+  TrajectoryRmse trajectory;
 };
 
 /// One figure of composed pictures.
@@ -92,17 +116,24 @@ struct AmbiguityBin {
   Interval rate;
 };
 
+/// Ours over the peer's; no numbers without markers, infinite where theirs is 0.
+struct PeerRatio {
+  double value = kNoNumber;
+  Interval interval{kNoNumber, kNoNumber};  ///< Its ends are infinite where data do not bound them.
+};
+
+/// Markers by who hit them.
+struct PairedHits {
+  std::int64_t markers = 0, both = 0, only_ours = 0, only_peer = 0;
+  double p = 1.0;  ///< McNemar's exact test.
+};
+
 /// Ours against a peer on the same scenes, each with its own print.
 struct PeerSummary {
   std::string sweep{}, peer{};
   std::string film{};  ///< Of recordings: which one; empty: all of the sweep.
-  std::int64_t markers = 0, both = 0, only_ours = 0, only_peer = 0;
-  double p = 1.0;  ///< McNemar's exact test.
-  /// Ours over the peer's; no numbers without markers, infinite where theirs is 0.
-  double rate_ratio = kNoNumber, corner_ratio = kNoNumber, rotation_ratio = kNoNumber;
-  /// Their ends are infinite where the data bound them not.
-  Interval rate_interval{kNoNumber, kNoNumber}, corner_interval{kNoNumber, kNoNumber},
-      rotation_interval{kNoNumber, kNoNumber};
+  PairedHits hits{};
+  PeerRatio rate{}, corner{}, rotation{};
   std::int64_t our_false = 0, peer_false = 0;
 };
 

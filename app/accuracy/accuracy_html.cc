@@ -29,8 +29,9 @@ std::string Figure(double value, int digits) {
 }
 
 double RateOf(const CellSummary& cell) {
-  return cell.markers > 0 ? static_cast<double>(cell.hits) / static_cast<double>(cell.markers)
-                          : kNone;
+  return cell.counts.markers > 0
+             ? static_cast<double>(cell.counts.hits) / static_cast<double>(cell.counts.markers)
+             : kNone;
 }
 
 std::string Card(const std::string& figure, const std::string& caption) {
@@ -52,11 +53,11 @@ std::string Cards(const AccuracyReport& report) {
   std::int64_t frames = 0, hits = 0, markers = 0, false_numbers = 0, flips = 0;
   for (const CellSummary& cell : summary.cells) {
     if (cell.level || !cell.pattern.empty() || cell.detector != summary.detectors[0]) continue;
-    frames += cell.frames;
-    hits += cell.hits;
-    markers += cell.markers;
-    false_numbers += cell.false_numbers;
-    flips += cell.flips;
+    frames += cell.counts.frames;
+    hits += cell.counts.hits;
+    markers += cell.counts.markers;
+    false_numbers += cell.counts.false_numbers;
+    flips += cell.counts.flips;
   }
   html += Card(fmt::format("{}", frames), "frames");
   html += Card(fmt::format("{} of {}", hits, markers), "markers hit, over all sweeps");
@@ -109,8 +110,8 @@ std::string ChartsOf(const RunSummary& summary, const std::string& sweep,
       }
       own_levels.push_back(fmt::format("{}", *cell.level));
       rate.values.push_back(RateOf(cell));
-      rate.low.push_back(cell.rate.low);
-      rate.high.push_back(cell.rate.high);
+      rate.low.push_back(cell.rates.hits.low);
+      rate.high.push_back(cell.rates.hits.high);
       error.values.push_back(cell.corner_px.median);
     }
     if (own_levels.empty()) continue;
@@ -141,11 +142,14 @@ std::string CellTable(const RunSummary& summary, const std::string& sweep, bool 
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td><td>{}</td></tr>\n",
-        cell.detector, cell.pattern, cell.level ? fmt::format("{}", *cell.level) : "", cell.markers,
-        Figure(RateOf(cell), 3),
-        cell.markers > 0 ? fmt::format("{:.2f}–{:.2f}", cell.rate.low, cell.rate.high) : "–",
-        cell.misplaced, cell.false_numbers, cell.flips, Figure(cell.corner_px.median, 3),
-        Figure(cell.corner_px.p95, 3), cell.hits > 0 ? Figure(cell.bias_outward_px, 3) : "–",
+        cell.detector, cell.pattern, cell.level ? fmt::format("{}", *cell.level) : "",
+        cell.counts.markers, Figure(RateOf(cell), 3),
+        cell.counts.markers > 0
+            ? fmt::format("{:.2f}–{:.2f}", cell.rates.hits.low, cell.rates.hits.high)
+            : "–",
+        cell.counts.misplaced, cell.counts.false_numbers, cell.counts.flips,
+        Figure(cell.corner_px.median, 3), Figure(cell.corner_px.p95, 3),
+        cell.counts.hits > 0 ? Figure(cell.bias_px.outward, 3) : "–",
         Figure(cell.rotation_deg.median, 3), Figure(cell.rotation_deg.p95, 2),
         Figure(100 * cell.translation_share.median, 3), Figure(100 * cell.translation_share.p95, 2),
         cell.nees ? fmt::format("{:.2f}{}", cell.nees->mean,
@@ -243,11 +247,11 @@ std::string PeerTable(const AccuracyReport& report) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2g}</td>"
         "<td>{}</td><td>{}</td><td>{}</td><td>{}/{}</td></tr>\n",
-        files::EscapeMarkup(peer.film.empty() ? peer.sweep : peer.film), peer.peer, peer.markers,
-        peer.both, peer.only_ours, peer.only_peer, peer.p,
-        RatioText(peer.rate_ratio, peer.rate_interval),
-        RatioText(peer.corner_ratio, peer.corner_interval),
-        RatioText(peer.rotation_ratio, peer.rotation_interval), peer.our_false, peer.peer_false);
+        files::EscapeMarkup(peer.film.empty() ? peer.sweep : peer.film), peer.peer,
+        peer.hits.markers, peer.hits.both, peer.hits.only_ours, peer.hits.only_peer, peer.hits.p,
+        RatioText(peer.rate.value, peer.rate.interval),
+        RatioText(peer.corner.value, peer.corner.interval),
+        RatioText(peer.rotation.value, peer.rotation.interval), peer.our_false, peer.peer_false);
   }
   return html + "</table>\n" + unread;
 }
@@ -285,13 +289,14 @@ std::string FilmTable(const RunSummary& summary) {
         "<tr><td>{}</td><td>{}</td><td>{} of {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td></tr>\n",
-        files::EscapeMarkup(film.film), film.detector, film.found, film.frames, film.tracks,
-        Figure(film.median_track, 0), film.longest_track, film.lost,
-        film.detector == summary.detectors[0] ? fmt::format("{}", film.told_lost) : "–",
-        film.recovered, film.longest_gap, Figure(film.step_jitter_px, 3),
-        Figure(film.ate_rmse_m * 1e3, 2),
-        film.truth_aligned ? "–" : Figure(film.ate_unaligned_rmse_m * 1e3, 2),
-        Figure(film.rpe_translation_rmse_m * 1e3, 2), Figure(film.rpe_rotation_rmse_deg, 3));
+        files::EscapeMarkup(film.film), film.detector, film.found, film.frames, film.tracks.count,
+        Figure(film.median_track, 0), film.tracks.longest, film.losses.count,
+        film.detector == summary.detectors[0] ? fmt::format("{}", film.losses.reported) : "–",
+        film.losses.recovered, film.gaps.longest, Figure(film.step_jitter_px, 3),
+        Figure(film.trajectory.ate_m * 1e3, 2),
+        film.truth_aligned ? "–" : Figure(film.trajectory.ate_unaligned_m * 1e3, 2),
+        Figure(film.trajectory.rpe_translation_m * 1e3, 2),
+        Figure(film.trajectory.rpe_rotation_deg, 3));
   }
   return html + "</table>\n";
 }

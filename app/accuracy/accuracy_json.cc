@@ -42,22 +42,22 @@ Json CellJson(const accuracy::CellSummary& cell) {
             {"sweep", cell.sweep},
             {"pattern", cell.pattern.empty() ? Json() : Json(cell.pattern)},
             {"level", cell.level ? Json(*cell.level) : Json()},
-            {"frames", cell.frames},
-            {"markers", cell.markers},
-            {"hits", cell.hits},
-            {"rate", cell.markers > 0 ? Number(static_cast<double>(cell.hits) /
-                                               static_cast<double>(cell.markers))
-                                      : Json()},
-            {"rate_interval", IntervalJson(cell.rate)},
-            {"misplaced", cell.misplaced},
-            {"false_numbers", cell.false_numbers},
-            {"false_frames_interval", IntervalJson(cell.false_frames)}};
-  if (cell.hits == 0) return json;
-  json["flips"] = cell.flips;
+            {"frames", cell.counts.frames},
+            {"markers", cell.counts.markers},
+            {"hits", cell.counts.hits},
+            {"rate", cell.counts.markers > 0 ? Number(static_cast<double>(cell.counts.hits) /
+                                                      static_cast<double>(cell.counts.markers))
+                                             : Json()},
+            {"rate_interval", IntervalJson(cell.rates.hits)},
+            {"misplaced", cell.counts.misplaced},
+            {"false_numbers", cell.counts.false_numbers},
+            {"false_frames_interval", IntervalJson(cell.rates.false_frames)}};
+  if (cell.counts.hits == 0) return json;
+  json["flips"] = cell.counts.flips;
   json["corner_px"] = SpreadJson(cell.corner_px);
-  json["corner_bias_px"] = {{"x", Number(cell.bias_x_px)},
-                            {"y", Number(cell.bias_y_px)},
-                            {"outward", Number(cell.bias_outward_px)}};
+  json["corner_bias_px"] = {{"x", Number(cell.bias_px.x)},
+                            {"y", Number(cell.bias_px.y)},
+                            {"outward", Number(cell.bias_px.outward)}};
   json["rotation_deg"] = SpreadJson(cell.rotation_deg);
   json["translation_mm"] = SpreadJson(cell.translation_m, 1e3);
   json["translation_percent"] = SpreadJson(cell.translation_share, 1e2);
@@ -81,38 +81,38 @@ Json FilmJson(const accuracy::FilmSummary& film) {
           {"film", film.film},
           {"frames", film.frames},
           {"found", film.found},
-          {"tracks", film.tracks},
+          {"tracks", film.tracks.count},
           {"median_track", Number(film.median_track)},
-          {"longest_track", film.longest_track},
-          {"lost", film.lost},
-          {"told_lost", film.told_lost},
-          {"gaps", film.gaps},
-          {"longest_gap", film.longest_gap},
-          {"recovered", film.recovered},
+          {"longest_track", film.tracks.longest},
+          {"lost", film.losses.count},
+          {"told_lost", film.losses.reported},
+          {"gaps", film.gaps.count},
+          {"longest_gap", film.gaps.longest},
+          {"recovered", film.losses.recovered},
           {"step_jitter_px", Number(film.step_jitter_px)},
-          {"ate_rmse_mm", Number(film.ate_rmse_m * 1e3)},
+          {"ate_rmse_mm", Number(film.trajectory.ate_m * 1e3)},
           {"truth_aligned", film.truth_aligned},
           {"ate_unaligned_rmse_mm",
-           film.truth_aligned ? Json() : Number(film.ate_unaligned_rmse_m * 1e3)},
-          {"rpe_translation_rmse_mm", Number(film.rpe_translation_rmse_m * 1e3)},
-          {"rpe_rotation_rmse_deg", Number(film.rpe_rotation_rmse_deg)}};
+           film.truth_aligned ? Json() : Number(film.trajectory.ate_unaligned_m * 1e3)},
+          {"rpe_translation_rmse_mm", Number(film.trajectory.rpe_translation_m * 1e3)},
+          {"rpe_rotation_rmse_deg", Number(film.trajectory.rpe_rotation_deg)}};
 }
 
 Json PeerJson(const accuracy::PeerSummary& peer) {
-  const auto ratio = [](double value, const Interval& interval) {
-    return Json{{"ratio", Number(value)}, {"interval", IntervalJson(interval)}};
+  const auto ratio = [](const accuracy::PeerRatio& of) {
+    return Json{{"ratio", Number(of.value)}, {"interval", IntervalJson(of.interval)}};
   };
   return {{"sweep", peer.sweep},
           {"film", peer.film.empty() ? Json() : Json(peer.film)},
           {"peer", peer.peer},
-          {"markers", peer.markers},
-          {"both", peer.both},
-          {"only_ours", peer.only_ours},
-          {"only_peer", peer.only_peer},
-          {"mcnemar_p", Number(peer.p)},
-          {"rate", ratio(peer.rate_ratio, peer.rate_interval)},
-          {"corner_px", ratio(peer.corner_ratio, peer.corner_interval)},
-          {"rotation_deg", ratio(peer.rotation_ratio, peer.rotation_interval)},
+          {"markers", peer.hits.markers},
+          {"both", peer.hits.both},
+          {"only_ours", peer.hits.only_ours},
+          {"only_peer", peer.hits.only_peer},
+          {"mcnemar_p", Number(peer.hits.p)},
+          {"rate", ratio(peer.rate)},
+          {"corner_px", ratio(peer.corner)},
+          {"rotation_deg", ratio(peer.rotation)},
           {"our_false_numbers", peer.our_false},
           {"peer_false_numbers", peer.peer_false}};
 }

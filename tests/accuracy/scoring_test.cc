@@ -174,14 +174,14 @@ TEST(Films, CountHowOftenAMarkerIsLostToldAndFoundAgain) {
   ASSERT_EQ(summary.films.size(), 1U);
   const FilmSummary& film = summary.films[0];
   EXPECT_EQ(film.found, 6);
-  EXPECT_EQ(film.tracks, 3);
-  EXPECT_EQ(film.longest_track, 3);
+  EXPECT_EQ(film.tracks.count, 3);
+  EXPECT_EQ(film.tracks.longest, 3);
   EXPECT_EQ(film.median_track, 2.0);
-  EXPECT_EQ(film.lost, 2);
-  EXPECT_EQ(film.told_lost, 1);
-  EXPECT_EQ(film.recovered, 2);
-  EXPECT_EQ(film.gaps, 3);
-  EXPECT_EQ(film.longest_gap, 2);
+  EXPECT_EQ(film.losses.count, 2);
+  EXPECT_EQ(film.losses.reported, 1);
+  EXPECT_EQ(film.losses.recovered, 2);
+  EXPECT_EQ(film.gaps.count, 3);
+  EXPECT_EQ(film.gaps.longest, 2);
 }
 
 TEST(Light, HasTheMeansOfRecordingsAndOfAllWithIntervals) {

@@ -20,9 +20,6 @@ const std::set<std::string>& LargeClasses() {
   // clang-format off
   static const std::set<std::string> kLarge = {
     "accuracy/scene.h PhotoSpec",
-    "accuracy/summary.h CellSummary",
-    "accuracy/summary.h FilmSummary",
-    "accuracy/summary.h PeerSummary",
     "app/bench/shadow_bench.cc SceneRun",
     "app/bench/shadow_bench.h ShadowBenchRow",
     "app/commands/live_command.cc Arguments",
