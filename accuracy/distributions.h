@@ -4,29 +4,24 @@
 
 namespace pleinair::accuracy {
 
-/// Inverse of the standard normal distribution function; 0 < p < 1, right to about 1e-16. Wichura
-/// 1988, "Algorithm AS 241: the percentage points of the normal distribution", PPND16.
-double NormalQuantile(double p);
+// By Boost.Math, in double precision; not a number outside a distribution's range.
 
 /// Standard normal distribution function.
 double NormalCdf(double z);
 
-/// P(X <= x) of χ² with `degrees` of freedom: the regularised lower incomplete gamma function
-/// P(degrees/2, x/2) by its series or its continued fraction (Abramowitz & Stegun 1964, 6.5.29 and
-/// 6.5.31).
+/// P(X <= x) of χ² with `degrees` > 0 of freedom.
 double ChiSquareCdf(double x, double degrees);
 
-/// Inverse of ChiSquareCdf: bisection from the approximation of Wilson & Hilferty 1931.
+/// Inverse of ChiSquareCdf, 0 < p < 1.
 double ChiSquareQuantile(double p, double degrees);
 
-/// P(T <= t) of Student's t with `degrees` of freedom, by the incomplete beta function's continued
-/// fraction (Abramowitz & Stegun 1964, 26.7.1 and 26.5.8).
+/// P(T <= t) of Student's t with `degrees` > 0 of freedom.
 double StudentCdf(double t, double degrees);
 
-/// Inverse of StudentCdf, 0 < p < 1, by bisection.
+/// Inverse of StudentCdf, 0 < p < 1.
 double StudentQuantile(double p, double degrees);
 
-/// P(X <= k) of `n` fair coins' heads.
+/// P(X <= k) of `n` fair coins' heads; `n` from 0 up.
 double FairCoinCdf(std::int64_t k, std::int64_t n);
 
 }  // namespace pleinair::accuracy

@@ -1,6 +1,6 @@
 #include "accuracy/random.h"
 
-#include "accuracy/distributions.h"
+#include "accuracy/normal_quantile.h"
 
 namespace pleinair::accuracy {
 namespace {

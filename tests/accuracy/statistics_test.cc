@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "accuracy/distributions.h"
+#include "accuracy/normal_quantile.h"
 #include "accuracy/random.h"
 
 namespace pleinair::accuracy {
