@@ -1,14 +1,13 @@
 #include "app/sky/sky_picture.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <numbers>
-#include <thread>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "sky/sun/solar_disc.h"
 #include "sky/sun/sun_direction.h"
 
@@ -31,14 +30,8 @@ void Put(LightImage* picture, int x, int y, LinearRgb color) {
 
 /// Rows handed to whichever processor is free.
 void ForEachRow(int rows, const std::function<void(int)>& work) {
-  const int workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16);
-  std::atomic<int> next{0};
-  const auto take = [&] {
-    for (int row = next++; row < rows; row = next++) work(row);
-  };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < workers; ++i) others.emplace_back(take);
-  take();
+  ParallelFor(static_cast<std::size_t>(rows), 0,
+              [&](std::size_t row) { work(static_cast<int>(row)); });
 }
 
 /// Solid angle of a square of `side_px` around a place.

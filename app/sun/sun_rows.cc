@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <optional>
 #include <ostream>
-#include <thread>
 #include <vector>
 
 #include "app/sun/sun_table.h"
 #include "app/terminal/progress_bar.h"
+#include "base/parallel_for.h"
 #include "files/result_file.h"
 
 namespace pleinair::app {
@@ -28,22 +28,18 @@ std::string FormatColumns(const sky::SunPosition& sun) {
 void WriteRows(const std::vector<SunTableRow>& rows, const SunRowsOptions& options,
                std::ostream& out) {
   constexpr std::size_t kBlock = 1 << 14;
-  const std::size_t threads = std::clamp(std::thread::hardware_concurrency(), 1U, 16U);
+  constexpr std::size_t kChunk = 64;  // A thread costs as much as a few positions.
   std::vector<sky::SunPosition> block(std::min(kBlock, rows.size()));
   ProgressBar bar("sun", static_cast<std::int64_t>((rows.size() + kBlock - 1) / kBlock), "blocks");
   for (std::size_t begin = 0; begin < rows.size() && out; begin += kBlock) {
     const std::size_t count = std::min(kBlock, rows.size() - begin);
-    const std::size_t workers = std::min(threads, count / 64 + 1);
-    const auto compute = [&](std::size_t worker) {
-      for (std::size_t i = worker; i < count; i += workers) {
+    ParallelFor((count + kChunk - 1) / kChunk, 0, [&](std::size_t chunk) {
+      const std::size_t end = std::min(count, (chunk + 1) * kChunk);
+      for (std::size_t i = chunk * kChunk; i < end; ++i) {
         const SunTableRow& row = rows[begin + i];
         block[i] = sky::ComputeSunPosition(row.observer, row.time, options.model);
       }
-    };
-    std::vector<std::jthread> others;
-    for (std::size_t worker = 1; worker < workers; ++worker) others.emplace_back(compute, worker);
-    compute(0);
-    others.clear();  // Joins.
+    });
     for (std::size_t i = 0; i < count; ++i) {
       const SunTableRow& row = rows[begin + i];
       if (options.json) {
