@@ -14,6 +14,8 @@
 namespace pleinair::exports {
 namespace {
 
+// Not by tinygltf: its writer (2.7) gives a perspective camera without far plane `"zfar": 0`, which
+// glTF forbids (section 5.14), and has no 64-bit integers for the time stamp in `extras`.
 using Json = nlohmann::ordered_json;
 
 // glTF 2.0, sections 3.6.2, 5.1, 5.24: what numbers stand for.
