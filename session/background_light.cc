@@ -47,7 +47,7 @@ BackgroundLight::BackgroundLight(Setup setup)
 Result<std::unique_ptr<BackgroundLight>> BackgroundLight::Create(Setup setup) {
   std::unique_ptr<BackgroundLight> light(new BackgroundLight(std::move(setup)));
   PLEINAIR_RETURN_IF_ERROR(light->Place(light->setup_.edit.objects));
-  light->Make(light->wanted_);
+  light->Make(light->shared_.wanted);
   light->thread_ = std::thread([self = light.get()] { self->Run(); });
   return light;
 }

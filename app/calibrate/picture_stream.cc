@@ -58,9 +58,9 @@ class Film final : public PictureStream {
   std::unique_ptr<devices::FrameSource> frames_;
 };
 
-class Camera final : public PictureStream {
+class CameraStream final : public PictureStream {
  public:
-  explicit Camera(std::unique_ptr<devices::LiveCamera> camera) : camera_(std::move(camera)) {}
+  explicit CameraStream(std::unique_ptr<devices::LiveCamera> camera) : camera_(std::move(camera)) {}
 
   Result<std::optional<NamedPicture>> Next() override {
     while (!InterruptGuard::Interrupted()) {
@@ -136,7 +136,7 @@ Result<std::unique_ptr<PictureStream>> OpenCamera(const devices::CameraUri& uri,
   options.pictures = requested;
   options.wait_for_camera = false;
   PLEINAIR_ASSIGN_OR_RETURN(auto camera, devices::LiveCamera::Open(std::move(options)));
-  return std::make_unique<Camera>(std::move(camera));
+  return std::make_unique<CameraStream>(std::move(camera));
 }
 
 Result<std::unique_ptr<PictureStream>> OpenFilm(const fs::path& file) {

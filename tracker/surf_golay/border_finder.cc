@@ -97,7 +97,7 @@ std::optional<SgReading> BorderFinder::DecodeFitted(BlockFitState* state, bool* 
   const std::array<Vec2, 4> corners = UndistortedSquareCorners(state->modules_from_undistorted);
   const bool again = std::any_of(tried_.begin(), tried_.end(), [&](const Mat3& tried_before) {
     return MaxCornerDistance(UndistortedSquareCorners(tried_before), corners) <
-           kSamePlace * LongestSide(corners);
+           kSameMarkerDistance * LongestSide(corners);
   });
   if (again) return std::nullopt;
   tried_.push_back(state->modules_from_undistorted);

@@ -44,7 +44,7 @@ bool FoundMarkers::IsTaken(const Mat3& modules_from_undistorted, double visible)
     const std::array<Vec2, 4>& other = found.corners_undistorted;
     if (!Inside(other, centre) && !Inside(corners, CentreOf(other))) return false;
     return found.reading.visible_fraction >= visible ||
-           MaxCornerDistance(other, corners) < kSamePlace * LongestSide(corners);
+           MaxCornerDistance(other, corners) < kSameMarkerDistance * LongestSide(corners);
   });
 }
 

@@ -13,7 +13,7 @@
 namespace pleinair::tracker {
 
 /// Of the side: two fits that ended so near to each other are one.
-inline constexpr double kSamePlace = 0.04;
+inline constexpr double kSameMarkerDistance = 0.04;
 /// A marker of which less is observed may be a little beside: other guesses there are read as well.
 inline constexpr double kSurelyVisible = 0.5;
 
