@@ -1,6 +1,6 @@
 # PLEINAIR_UNITY compiles several files of a target as one: headers and templates that they share are
-# compiled once, which takes less than half the processor time (docs/measurements/build.md). Off in
-# the preset dev, where one changed file recompiles alone and each file must include what it uses.
+# compiled once (docs/measurements/build.md). Off in the preset dev, where one changed file recompiles
+# alone and each file must include what it uses.
 option(PLEINAIR_UNITY "Compile several files of a target as one: a quicker whole build" OFF)
 set(PLEINAIR_UNITY_LINES 3000 CACHE STRING "Lines of the files that are compiled as one, at most")
 mark_as_advanced(PLEINAIR_UNITY_LINES)
