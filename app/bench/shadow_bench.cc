@@ -141,6 +141,14 @@ class ShimmerMeter {
   std::vector<TrackedPoint> points_;
 };
 
+// What rays say of a scene's view, and of the window while the camera creeps.
+struct TracedTruth {
+  ShadowTruth tracer;
+  VisibilityPicture picture;
+  SurfacePicture surfaces;
+  Shimmer shimmer;
+};
+
 // One scene with its truth and the renderer that all methods share.
 class SceneRun {
  public:
@@ -179,25 +187,25 @@ class SceneRun {
     row.split_weight = maps.split_weight;
     PLEINAIR_RETURN_IF_ERROR(creeping_.SetMethod(maps));
     PLEINAIR_ASSIGN_OR_RETURN(picture_, renderer.Draw(view_));
-    row.errors = CompareVisibility(picture_, truth_picture_);
-    row.solid_errors = CompareVisibility(picture_, truth_picture_, &surfaces_.leaves);
+    row.errors = CompareVisibility(picture_, truth_.picture);
+    row.solid_errors = CompareVisibility(picture_, truth_.picture, &truth_.surfaces.leaves);
     if (!scene_.edges.empty()) {
       PLEINAIR_ASSIGN_OR_RETURN(row.closed_form, MeasureClosedForms(scene_, renderer));
       const glm::dvec3 at(view_.camera_from_marker *
                           glm::dvec4(scene_.contacts.front().middle, 1.0));
       row.pixel_m = at.z * (view_.tan_left + view_.tan_right) / options_.width;
     }
-    row.truth_shimmer = truth_shimmer_;
-    ShimmerMeter meter(view_, truth_picture_, surfaces_.cosine, window_);
+    row.creep.truth_shimmer = truth_.shimmer;
+    ShimmerMeter meter(view_, truth_.picture, truth_.surfaces.cosine, window_);
     for (int frame = 0; frame < options_.creep_frames; ++frame) {
       int redrawn = 0;
       const View view = CreptView(frame);
       PLEINAIR_ASSIGN_OR_RETURN(const View tight, renderer.Tightened(view));
       PLEINAIR_ASSIGN_OR_RETURN(const VisibilityPicture drawn, creeping_.Draw(tight, &redrawn));
       meter.Add(view, drawn);
-      if (frame > 0) row.creep_redraws += redrawn;
+      if (frame > 0) row.creep.redraws += redrawn;
     }
-    row.shimmer = meter.Mean(options_.creep_frames);
+    row.creep.shimmer = meter.Mean(options_.creep_frames);
     return row;
   }
 
@@ -231,7 +239,7 @@ class SceneRun {
       for (int i = -50; i <= 50; ++i) {
         const double y =
             EdgeShadowY(edge, scene_.to_sun) + i / 25.0 * EdgeHalfWidth(edge, scene_.to_sun);
-        worst = std::max(worst, std::abs(truth_.At({x, y, 0.0}, {0.0, 0.0, 1.0}) -
+        worst = std::max(worst, std::abs(truth_.tracer.At({x, y, 0.0}, {0.0, 0.0, 1.0}) -
                                          StraightEdgeTruth(edge, scene_.to_sun, y)));
       }
     }
@@ -239,7 +247,7 @@ class SceneRun {
   }
 
   ShadowBenchPictures Pictures() const {
-    return {scene_.name, surfaces_, truth_picture_, window_, {}, 0};
+    return {scene_.name, truth_.surfaces, truth_.picture, window_, {}, 0};
   }
 
   /// Of the method measured last.
@@ -259,7 +267,7 @@ class SceneRun {
   SceneRun(BenchScene scene, ShadowTruth truth, BenchRenderer creeping,
            const ShadowBenchOptions& options)
       : scene_(std::move(scene)),
-        truth_(std::move(truth)),
+        truth_{std::move(truth), {}, {}, {}},
         creeping_(std::move(creeping)),
         options_(options) {}
 
@@ -270,21 +278,21 @@ class SceneRun {
   Result<void> TraceTruth() {
     PLEINAIR_ASSIGN_OR_RETURN(view_, creeping_.Tightened(scene_.view));
     const int w = options_.width, h = options_.height;
-    truth_picture_ = truth_.Render(view_, w, h, {0, 0, w, h});
-    surfaces_ = truth_.Surfaces(view_, w, h);
+    truth_.picture = truth_.tracer.Render(view_, w, h, {0, 0, w, h});
+    truth_.surfaces = truth_.tracer.Surfaces(view_, w, h);
     window_ = MostShadedWindow();
     middle_depth_m_ =
-        truth_picture_.depth_m(window_.x + window_.width / 2, window_.y + window_.height / 2);
+        truth_.picture.depth_m(window_.x + window_.width / 2, window_.y + window_.height / 2);
     // A border of two pixels for what creeps out of the window and for the interpolation.
     const PixelWindow traced{std::max(window_.x - 3, 0), std::max(window_.y - 1, 0),
                              std::min(window_.width + 6, w - std::max(window_.x - 3, 0)),
                              std::min(window_.height + 2, h - std::max(window_.y - 1, 0))};
-    ShimmerMeter meter(view_, truth_picture_, surfaces_.cosine, window_);
+    ShimmerMeter meter(view_, truth_.picture, truth_.surfaces.cosine, window_);
     for (int frame = 0; frame < options_.creep_frames; ++frame) {
       const View view = CreptView(frame);
-      meter.Add(view, truth_.Render(view, w, h, traced));
+      meter.Add(view, truth_.tracer.Render(view, w, h, traced));
     }
-    truth_shimmer_ = meter.Mean(options_.creep_frames);
+    truth_.shimmer = meter.Mean(options_.creep_frames);
     return {};
   }
 
@@ -300,8 +308,8 @@ class SceneRun {
         int count = 0;
         for (int y = window.y; y < window.y + window.height; ++y) {
           for (int x = window.x; x < window.x + window.width; ++x) {
-            const float v = truth_picture_.visibility(x, y);
-            if (truth_picture_.depth_m(x, y) > 0.0F && v > 0.01F && v < 0.99F) ++count;
+            const float v = truth_.picture.visibility(x, y);
+            if (truth_.picture.depth_m(x, y) > 0.0F && v > 0.01F && v < 0.99F) ++count;
           }
         }
         if (count > maximum) {
@@ -314,18 +322,16 @@ class SceneRun {
   }
 
   BenchScene scene_;
-  ShadowTruth truth_;
+  TracedTruth truth_;
   BenchRenderer creeping_;
   std::vector<BenchRenderer> renderers_;  // One a method.
   std::vector<shadows::ShadowMethod> methods_;
   int resolution_ = 0;
   ShadowBenchOptions options_;
   View view_;
-  SurfacePicture surfaces_;
-  VisibilityPicture truth_picture_, picture_;
+  VisibilityPicture picture_;
   PixelWindow window_;
   double middle_depth_m_ = 1.0;
-  Shimmer truth_shimmer_;
 };
 
 }  // namespace

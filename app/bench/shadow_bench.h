@@ -38,6 +38,12 @@ struct Shimmer {
   double of_light = 0.0;
 };
 
+/// What frames of a creeping camera show.
+struct Creep {
+  Shimmer shimmer, truth_shimmer;
+  int redraws = 0;  ///< Maps redrawn in its frames after the first.
+};
+
 /// One method at one resolution in one scene.
 struct ShadowBenchRow {
   std::string scene;
@@ -51,8 +57,7 @@ struct ShadowBenchRow {
   double pixel_m = 0.0;                         ///< Of the picture, at the closed forms' distance.
   shadows::FrameTime time;
   double ratio_to_plain = 0.0;  ///< Processor time over the plain map's, same size; 0: unknown.
-  Shimmer shimmer, truth_shimmer;
-  int creep_redraws = 0;  ///< Maps redrawn in the creep's frames after the first.
+  Creep creep;
 };
 
 /// What a scene's run leaves for pictures.

@@ -59,15 +59,15 @@ nlohmann::json RowJson(const ShadowBenchRow& row, const std::string& renderer) {
                            {"solid_leak_mean", row.solid_errors.leak_mean},
                            {"pixels", row.errors.pixels},
                            {"penumbra_pixels", row.errors.penumbra_pixels},
-                           {"shimmer", row.shimmer.of_visibility},
-                           {"truth_shimmer", row.truth_shimmer.of_visibility},
-                           {"light_shimmer", row.shimmer.of_light},
-                           {"truth_light_shimmer", row.truth_shimmer.of_light},
+                           {"shimmer", row.creep.shimmer.of_visibility},
+                           {"truth_shimmer", row.creep.truth_shimmer.of_visibility},
+                           {"light_shimmer", row.creep.shimmer.of_light},
+                           {"truth_light_shimmer", row.creep.truth_shimmer.of_light},
                            {"maps_ms", row.time.maps_ms},
                            {"scene_ms", row.time.scene_ms},
                            {"ms", row.time.total_ms()},
                            {"cpu_ms", row.time.cpu_ms},
-                           {"maps_redrawn_while_creeping", row.creep_redraws}};
+                           {"maps_redrawn_while_creeping", row.creep.redraws}};
   if (!renderer.empty()) object["renderer"] = renderer;
   if (row.ratio_to_plain > 0.0) object["ratio_to_plain"] = row.ratio_to_plain;
   if (row.closed_form) {
@@ -95,7 +95,7 @@ std::string RowText(const ShadowBenchRow& row) {
       "{:>8.1f}{:>7.2f}\n",
       row.scene, traits.name, row.resolution, row.errors.penumbra_rmse, row.errors.rmse,
       row.errors.bias, row.errors.leak_mean, row.errors.leak_p99, row.errors.over_darkening,
-      row.shimmer.of_visibility - row.truth_shimmer.of_visibility, row.time.maps_ms,
+      row.creep.shimmer.of_visibility - row.creep.truth_shimmer.of_visibility, row.time.maps_ms,
       row.time.scene_ms, row.time.cpu_ms, row.ratio_to_plain);
 }
 

@@ -20,8 +20,6 @@ const std::set<std::string>& LargeClasses() {
   // clang-format off
   static const std::set<std::string> kLarge = {
     "accuracy/scene.h PhotoSpec",
-    "app/bench/shadow_bench.cc SceneRun",
-    "app/bench/shadow_bench.h ShadowBenchRow",
     "app/commands/live_command.cc Arguments",
     "app/commands/sun_command.cc Options",
     "app/sky/sky_options.h SkyOptions",
