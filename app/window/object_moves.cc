@@ -11,7 +11,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
+constexpr double kMinObjectScale = 1e-6, kMaxObjectScale = 1e6;
 // Below this slope of the view, sights on level ground run off to the horizon.
 constexpr double kMinSlope = 0.02;
 
@@ -137,7 +137,7 @@ session::ObjectPlace Turned(const ObjectBox& box, const session::ObjectPlace& pl
 session::ObjectPlace Scaled(const ObjectBox& box, const session::ObjectPlace& place, double factor,
                             Vec3 up) {
   session::ObjectPlace scaled = place;
-  scaled.scale = std::clamp(place.scale * factor, kMinScale, kMaxScale);
+  scaled.scale = std::clamp(place.scale * factor, kMinObjectScale, kMaxObjectScale);
   return Keeping(BoxFoot(box, place, up), place, scaled);
 }
 
