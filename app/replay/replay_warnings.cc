@@ -135,7 +135,7 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary) {
   }
   const bool measured = light.sun_source == compositor::MeasuredLight::Source::kMeasured;
   const bool denied = measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun;
-  if (denied && light.edges_agreeing == 0) {
+  if (denied && light.evidence.edges_agreeing == 0) {
     warnings.push_back(
         "Planes are lit as no sun would light them: the sky is taken as overcast. If the sun "
         "shone, check place, time and heading, or give --sun-to-sky.");
@@ -143,13 +143,13 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary) {
     warnings.push_back(fmt::format(
         "No shadow lies where the phantoms would cast one ({} places looked at): the sky is taken "
         "as overcast. If the sun shone, check place, time and heading, or give --sun-to-sky.",
-        light.edges));
+        light.evidence.edges));
   }
   if (measured && light.sun_shines && light.sun_to_sky_stated <= kNoticeableSun) {
     warnings.push_back(
         fmt::format("The phantoms' shadows are seen ({} places): the sun is taken to shine, though "
                     "the scene says otherwise.",
-                    light.edges_agreeing));
+                    light.evidence.edges_agreeing));
   }
   if (light.sun_source == compositor::MeasuredLight::Source::kMarker &&
       light.sun_to_sky_stated <= kNoticeableSun) {
@@ -162,7 +162,7 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary) {
         "No shadow lies where the phantoms would cast one ({} places looked at), but others lie "
         "elsewhere: whether the sun shone is doubtful, and the sky stays as the scene says. Check "
         "place, time and heading, or give --sun-to-sky.",
-        light.edges));
+        light.evidence.edges));
   }
   const double turn_deg = ToDegrees(light.heading_offset);
   if (std::abs(turn_deg) > kNoticeableTurnDeg) {

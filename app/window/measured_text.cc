@@ -10,7 +10,7 @@ std::string MeasuredSunText(const compositor::MeasuredLight& drawn,
   const auto from = [&]() -> std::string {
     switch (measured.sun_source) {
       case Source::kMeasured:
-        return fmt::format("{} edges", measured.edges_agreeing);
+        return fmt::format("{} edges", measured.evidence.edges_agreeing);
       case Source::kShade:
         return "the shade of trees";
       case Source::kMarker:

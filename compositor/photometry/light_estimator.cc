@@ -165,9 +165,9 @@ SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
     // Without a sun it was not shadows that the heading was read from.
     UseHeading(*light_filter, found);
   }
-  found->measured.edges = estimate.edges;
-  found->measured.edges_agreeing = estimate.agreeing;
-  found->measured.edges_with_contrast = estimate.share_with_contrast;
+  found->measured.evidence.edges = estimate.edges;
+  found->measured.evidence.edges_agreeing = estimate.agreeing;
+  found->measured.evidence.edges_with_contrast = estimate.share_with_contrast;
   return estimate;
 }
 
@@ -175,7 +175,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
   LightEstimate found;
   found.heading = scene_.marker.heading;
   MeasuredLight& light = found.measured;
-  light.frames = samples_.frames();
+  light.evidence.frames = samples_.frames();
   if (overrides_.as_described) {
     UseDescribedLight(&found);
     return found;
@@ -230,7 +230,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
   // Too few edges to tell, behind a house, say: planes that are lit as no sun would tell as well.
   if (!overridden && may_shine && estimate.sun == Sun::kUnknown && !unmodelled.CastBySun() &&
       IsLitByCloudsAlone(contrast_under_cloud(), SunlitContrasts(plane_contrast, *day_))) {
-    light.edges_agreeing = 0;
+    light.evidence.edges_agreeing = 0;
     return settle_overcast();
   }
   const auto use_sun = [&](const SunSkyRatio& seen) {
@@ -250,7 +250,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
       if (depth.sun == Sun::kShines && depth.sky_radiance_scale.g < estimate.sky_radiance_scale.g) {
         edges = depth;
         light.sun_source = MeasuredLight::Source::kShade;
-        light.shade_places = depth.agreeing;
+        light.evidence.shade_places = depth.agreeing;
       }
     }
     use_sun(edges);
@@ -273,7 +273,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
       }
       if (seen.sun == Sun::kShines) {
         light.sun_source = MeasuredLight::Source::kShade;
-        light.shade_places = seen.agreeing;
+        light.evidence.shade_places = seen.agreeing;
       }
     }
     if (seen.sun == Sun::kShines) {

@@ -45,10 +45,10 @@ void LightFilter::Keep(const MeasuredLight& light, const SkyState& skies) {
 void LightFilter::RestoreSources(UtcTime time, MeasuredLight* light) const {
   if (!reasons_ || reasons_->sun_source == MeasuredLight::Source::kDescription) return;
   light->sun_source = reasons_->sun_source;
-  light->edges = reasons_->edges;
-  light->edges_agreeing = reasons_->edges_agreeing;
-  light->shade_places = reasons_->shade_places;
-  light->edges_with_contrast = reasons_->edges_with_contrast;
+  light->evidence.edges = reasons_->evidence.edges;
+  light->evidence.edges_agreeing = reasons_->evidence.edges_agreeing;
+  light->evidence.shade_places = reasons_->evidence.shade_places;
+  light->evidence.edges_with_contrast = reasons_->evidence.edges_with_contrast;
   light->sun_to_sky_error =
       seen_ == Observed::kSun ? std::optional(log_sky_.ErrorAt(time)) : std::nullopt;
 }

@@ -6,6 +6,16 @@
 
 namespace pleinair::compositor {
 
+/// What the frames showed of sun and sky.
+struct LightEvidence {
+  int frames = 0;          ///< Used for the estimate.
+  int edges = 0;           ///< Of phantoms' shadows.
+  int edges_agreeing = 0;  ///< With the sun-to-sky ratio.
+  /// SunSkyRatio::share_with_contrast.
+  double edges_with_contrast = 0.0;
+  int shade_places = 0;  ///< That the depth of trees' shade was read from; of Source::kShade.
+};
+
 /// The light of a recording's day: which sky, how strong beside the sun, and why we think so.
 struct MeasuredLight {
   /// kShade: from how deep the shade of trees is, where no phantom's edge could tell.
@@ -20,10 +30,7 @@ struct MeasuredLight {
   std::optional<double> sun_to_sky_error;
   Radians heading_offset;                ///< Added to the stated heading.
   std::optional<Radians> heading_error;  ///< One standard deviation; nothing where not measured.
-  int frames = 0;                        ///< Looked at.
-  int edges = 0, edges_agreeing = 0;
-  double edges_with_contrast = 0.0;  ///< SunSkyRatio::share_with_contrast.
-  int shade_places = 0;              ///< That the depth of trees' shade was read from; of kShade.
+  LightEvidence evidence;
   /// No shadow lies where phantoms would cast one, yet there are shadows: neither sun nor overcast
   /// is concluded, nor what lies in shade.
   bool sun_doubtful = false;

@@ -102,13 +102,14 @@ std::string MeasuredCards(const compositor::MeasuredLight& light) {
                        light.sun_shines
                            ? "sun over sky on level ground" + PlusMinus(light.sun_to_sky_error)
                            : "where phantoms would cast shadows",
-                       light.edges_agreeing, light.edges, light.frames, light.sun_to_sky_stated);
+                       light.evidence.edges_agreeing, light.evidence.edges, light.evidence.frames,
+                       light.sun_to_sky_stated);
   }
   if (light.sun_source == Source::kShade) {
     from = fmt::format(
         "sun over sky on level ground{}, from how deep the shade of trees is at {} places in {} "
         "frames; the scene says {:.2f}",
-        PlusMinus(light.sun_to_sky_error), light.shade_places, light.frames,
+        PlusMinus(light.sun_to_sky_error), light.evidence.shade_places, light.evidence.frames,
         light.sun_to_sky_stated);
   }
   if (light.sun_source == Source::kMarker) {
@@ -122,9 +123,10 @@ std::string MeasuredCards(const compositor::MeasuredLight& light) {
     html += Card("doubtful",
                  "whether the sun shone: shadows lie elsewhere than phantoms would cast them");
   }
-  if (light.edges > 0) {
-    html += Card(fmt::format("{:.0f} %", std::fmax(0.0, light.edges_with_contrast) * 100),
-                 fmt::format("of {} edges of phantoms' shadows, by weight, are seen", light.edges));
+  if (light.evidence.edges > 0) {
+    html += Card(
+        fmt::format("{:.0f} %", std::fmax(0.0, light.evidence.edges_with_contrast) * 100),
+        fmt::format("of {} edges of phantoms' shadows, by weight, are seen", light.evidence.edges));
   }
   if (light.heading_source == Source::kMeasured && light.heading_error) {
     html += Card(fmt::format("{:+.2f}° ± {:.2f}°", ToDegrees(light.heading_offset),

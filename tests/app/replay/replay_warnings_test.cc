@@ -67,7 +67,7 @@ TEST(LightWarnings, ReportWhatTheLightCannotBe) {
   light.measured.sun_shines = false;
   light.measured.sun_to_sky_stated = 4.0;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("Planes are lit as no sun")));
-  light.measured.edges = light.measured.edges_agreeing = 9;
+  light.measured.evidence.edges = light.measured.evidence.edges_agreeing = 9;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("(9 places looked at)")));
   light.measured = {};
   light.measured.sun_source = compositor::MeasuredLight::Source::kMarker;

@@ -14,7 +14,7 @@ TEST(MeasuredText, ReportsHowWellSunAndHeadingAreKnown) {
   EXPECT_EQ(MeasuredHeadingText(measured), "");
   measured.sun_source = Source::kMeasured;
   measured.sun_to_sky_error = 0.15;
-  measured.edges_agreeing = 31;
+  measured.evidence.edges_agreeing = 31;
   EXPECT_EQ(MeasuredSunText(drawn, measured),
             "measured: sun 4.0 ± 0.6 times the sky (from 31 edges)");
   measured.sun_source = Source::kShade;

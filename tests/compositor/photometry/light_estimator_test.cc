@@ -64,7 +64,7 @@ TEST(LightEstimator, SeesByPlanesThatNoSunShinesWhereAllLiesBehindAWall) {
     return Estimate(245.0, light, {}, "2025-09-14T16:45:00Z");
   };
   const LightEstimate veiled = settle({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
-  EXPECT_LT(veiled.measured.edges, 3);
+  EXPECT_LT(veiled.measured.evidence.edges, 3);
   EXPECT_EQ(veiled.measured.sun_source, MeasuredLight::Source::kMeasured);
   ASSERT_NE(veiled.skies.source, nullptr);
   EXPECT_EQ(veiled.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
@@ -92,7 +92,7 @@ TEST(LightEstimator, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
   const LightEstimate hazy = Estimate(0.0, {.sky_radiance_scale = {2.5, 2.5, 2.5}, .shaded = tree});
   EXPECT_FALSE(hazy.measured.sun_doubtful);
   EXPECT_EQ(hazy.measured.sun_source, MeasuredLight::Source::kShade);
-  EXPECT_GE(hazy.measured.shade_places, 4);
+  EXPECT_GE(hazy.measured.evidence.shade_places, 4);
   EXPECT_GT(hazy.measured.sun_to_sky_error, 0.1);
   ASSERT_NE(hazy.skies.source, nullptr);
   EXPECT_NE(hazy.skies.sun_transmittance, nullptr);

@@ -85,7 +85,7 @@ TEST(LightFilter, KeepsALightThatIsNotSeenAgain) {
   light_filter.AddSun({{1.5, 1.4, 1.3}, 0.06}, Minute(0));
   MeasuredLight measured;
   measured.sun_source = Source::kShade;
-  measured.shade_places = 7;
+  measured.evidence.shade_places = 7;
   measured.shaded = 0.3;
   light_filter.Keep(measured, {OvercastSky(), {1.5, 1.4, 1.3}});
   EXPECT_EQ(ToDegrees(light_filter.Heading(Minute(5))->offset), -3.0);
@@ -95,7 +95,7 @@ TEST(LightFilter, KeepsALightThatIsNotSeenAgain) {
   SkyState skies;
   light_filter.Recall(Minute(5), &light, &skies);
   EXPECT_EQ(light.sun_source, Source::kShade);
-  EXPECT_EQ(light.shade_places, 7);
+  EXPECT_EQ(light.evidence.shade_places, 7);
   EXPECT_EQ(light.shaded, 0.3);
   EXPECT_NEAR(light.sun_to_sky_error.value_or(0.0), std::hypot(0.06, 0.1 * std::sqrt(5.0)), 1e-9);
   EXPECT_EQ(skies.scale, (LinearRgb{1.5, 1.4, 1.3}));

@@ -122,10 +122,10 @@ session::LightSummary MeasuredSummary() {
   light.measured.sun_to_sky_error = 0.07;
   light.measured.heading_offset = FromDegrees(-1.5);
   light.measured.heading_error = FromDegrees(0.25);
-  light.measured.frames = 8;
-  light.measured.edges = 45;
-  light.measured.edges_agreeing = 31;
-  light.measured.edges_with_contrast = 0.84;
+  light.measured.evidence.frames = 8;
+  light.measured.evidence.edges = 45;
+  light.measured.evidence.edges_agreeing = 31;
+  light.measured.evidence.edges_with_contrast = 0.84;
   return light;
 }
 
@@ -182,7 +182,7 @@ TEST(ReportLight, StatesWhatWasMeasuredAndHowCertainItIs) {
 TEST(ReportLight, StatesTheRatioThatTreesShadeTells) {
   session::LightSummary light = MeasuredSummary();
   light.measured.sun_source = Source::kShade;
-  light.measured.shade_places = 12;
+  light.measured.evidence.shade_places = 12;
   light.measured.sun_to_sky_error = 0.21;
   const nlohmann::json measured = JsonOf(light)["measured"];
   EXPECT_EQ(measured["sun_from"], "shade");
@@ -260,7 +260,7 @@ TEST(ReportLight, ReportsThatTheSunIsDoubtful) {
   light.measured.sun_source = Source::kDescription;
   light.measured.sun_to_sky_error.reset();
   light.measured.sun_doubtful = true;
-  light.measured.edges_with_contrast = -0.04;
+  light.measured.evidence.edges_with_contrast = -0.04;
   EXPECT_EQ(JsonOf(light)["measured"]["sun_doubtful"], true);
   EXPECT_EQ(JsonOf(light)["measured"]["shadow_edges_with_contrast"], -0.04);
   EXPECT_THAT(PageOf(light), HasSubstr("<b>doubtful</b><span>whether the sun shone"));
