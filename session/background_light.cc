@@ -216,8 +216,7 @@ void BackgroundLight::EstimateLight(const Shown& shown, const Wanted& wanted) {
   }
   if (!known_.estimator) {
     known_.estimator = std::make_unique<compositor::LightEstimator>(
-        std::shared_ptr<const compositor::PhantomRays>(placed_.solver,
-                                                       &placed_.solver->phantoms()),
+        std::shared_ptr<const compositor::PhantomRays>(placed_.solver, &placed_.solver->phantoms()),
         setup_.camera, wanted.marker_reflectance, setup_.scene, setup_.light.overrides, shown.time,
         setup_.response);
   }
