@@ -153,6 +153,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
   PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(c.MapOptions(options)));
   PLEINAIR_RETURN_IF_ERROR(c.ProgramsFor({}));
+  c.surfaces_.Use(options.reductions);
   c.options_ = options;
   return composer;
 }
@@ -199,6 +200,7 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
     passes_.programs = {};
     PLEINAIR_RETURN_IF_ERROR(ProgramsFor({}));
   }
+  surfaces_.Use(options.reductions);
   options_ = options;
   return {};
 }
@@ -209,10 +211,11 @@ Result<const SurfacePrograms*> GlComposer::ProgramsFor(const FrameUniforms& fram
   if (!made) {
     PLEINAIR_ASSIGN_OR_RETURN(
         SurfacePrograms programs,
-        SurfacePrograms::Create(shadows_.options(), {.fades = shadows_.Fades(),
-                                                     .needs_airlight = frame.needs_airlight,
-                                                     .textured = surfaces_.HasTextures(),
-                                                     .glossy = surfaces_.HasGloss()}));
+        SurfacePrograms::Create(shadows_.options(),
+                                {.fades = shadows_.Fades(),
+                                 .needs_airlight = frame.needs_airlight,
+                                 .textured = surfaces_.materials().HasTextures(),
+                                 .glossy = surfaces_.materials().HasGloss()}));
     made.emplace(std::move(programs));
   }
   return &*made;
@@ -224,7 +227,7 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
   SetSun(day, marker_from_world);
   sky_.air = AerialFog(day, marker_from_world);
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(lit));
-  if (!surfaces_.HasGloss()) return {};  // Nothing looks it up.
+  if (!surfaces_.materials().HasGloss()) return {};  // Nothing looks it up.
   const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
     sky_.environment.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
@@ -259,7 +262,7 @@ Result<void> GlComposer::UploadSunlight(const SunTransmittanceMap& sun_transmitt
 }
 
 FogSplits GlComposer::FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const {
-  const shadows::Box& objects = surfaces_.object_bounds();
+  const shadows::Box& objects = surfaces_.placement().object_bounds();
   const glm::dvec3 to_objects = 0.5 * (objects.min + objects.max) - eye_m;
   const double far_off = glm::length(to_objects);
   return sky_.air.Along(
@@ -286,7 +289,7 @@ Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
 
 /// By what the sun may change, its shadow maps being as they are to be drawn.
 Result<void> GlComposer::SortSurfaces() {
-  SceneSurfaces::SunOnPhantoms sun;
+  SunOnPhantoms sun;
   // Where the picture is asked how much of the sun there is, the sky's light, too, counts by that.
   sun.whole = unmodelled_.assume_unmodelled ||
               (sunlight_.transmittance && !sunlight_.transmittance->share.empty());
@@ -310,7 +313,7 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadow
   glDisable(GL_CULL_FACE);
   sunlight_.texture.Bind(5);
   passes_.objects.Draw(canvas_.targets, surfaces_, programs, frame, sky_.environment,
-                       PictureOf(canvas_.camera, view, surfaces_.object_bounds()));
+                       PictureOf(canvas_.camera, view, surfaces_.placement().object_bounds()));
   canvas_.picture.BindForShading(2, 3, 4);
   passes_.ratio.Draw(canvas_.targets, surfaces_, programs, frame, unmodelled_);
   glDisable(GL_DEPTH_TEST);
@@ -355,7 +358,8 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   CHECK_EQ(rgb.stride(), static_cast<std::ptrdiff_t>(rgb.width()) * 3);
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   canvas_.picture.SetBackground(rgb);
-  const shadows::View view = ViewOf(canvas_.camera, camera_from_marker, surfaces_.bounds());
+  const shadows::View view =
+      ViewOf(canvas_.camera, camera_from_marker, surfaces_.placement().bounds());
   // A sun below the horizon lights nothing and casts no shadow.
   if (HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {sky_.to_sun}, view));

@@ -10,6 +10,21 @@ namespace pleinair::compositor {
 /// How the virtual shadows' edges are made; docs/measurements/shadows.md compares the methods.
 using shadows::ShadowMethod;
 
+/// Work that a Composer saves where the picture stays the same but for half a pixel value or so.
+/// Each can be switched off, to measure what it saves or to compare the pictures
+/// (docs/method/compositing.md, "Shortcuts").
+struct DrawReductions {
+  bool affected_triangles = true;    ///< Shades only phantom triangles whose light may change.
+  bool sun_footprint = true;         ///< Bounds the objects' shadows by what they cover.
+  bool sun_visibility = true;        ///< Uses what the solver knows of the sun on a triangle.
+  bool linear_shadow_ratio = true;   ///< Interpolates the ratio where it is linear.
+  bool sun_facing_triangles = true;  ///< No shadow map on an object's triangles in their own shade.
+
+  /// Everything is drawn.
+  static constexpr DrawReductions None() { return {false, false, false, false, false}; }
+  bool operator==(const DrawReductions&) const = default;
+};
+
 /// How a Composer draws.
 struct ComposerOptions {
   /// Render pixels a camera pixel and side, on top of 4× multisampling. 0: 1 for a lens without
@@ -31,6 +46,7 @@ struct ComposerOptions {
   std::array<double, 4> fog{1.0, 1.0, 1.0, 1.0};
   /// Tints the shadow maps' partitions and shows the maps: shadow_debug_view.h.
   bool show_shadow_maps = false;
+  DrawReductions reductions;     ///< All, unless for measuring.
   CameraResponse response = {};  ///< How the camera's codes are read and written.
 
   bool operator==(const ComposerOptions&) const = default;

@@ -32,10 +32,10 @@ Result<ObjectPass> ObjectPass::Create() {
 
 void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                               const FrameUniforms& frame) const {
-  const bool textured = surfaces.HasTextures();
-  const gl::GlProgram& id_program = surfaces.HasAlpha() ? alpha_id_program_
-                                    : textured          ? textured_id_program_
-                                                        : id_program_;
+  const bool textured = surfaces.materials().HasTextures();
+  const gl::GlProgram& id_program = surfaces.materials().HasAlpha() ? alpha_id_program_
+                                    : textured                      ? textured_id_program_
+                                                                    : id_program_;
   targets.BeginObjectIds(textured);
   id_program.Use();
   id_program.Set("u_clip_from_marker", frame.clip_from_marker);

@@ -52,7 +52,7 @@ bool SceneShadows::FitsView() const {
 Result<void> SceneShadows::Update(const SceneSurfaces& surfaces, Direction<Marker> to_sun,
                                   const shadows::View& view) {
   const std::array<std::span<const shadows::ShadowCaster>, kSets> casters{
-      surfaces.phantom_casters(), surfaces.casters()};
+      surfaces.placement().phantom_casters(), surfaces.placement().casters()};
   for (int set = 0; set < kSets; ++set) {
     shadows::FadingShadowMaps& maps = sets_[set];
     if (FitsView()) {
@@ -60,7 +60,7 @@ Result<void> SceneShadows::Update(const SceneSurfaces& surfaces, Direction<Marke
     } else {
       // Around the objects, whatever the camera does: drawn once a light.
       PLEINAIR_RETURN_IF_ERROR(
-          maps.UpdateForRegion(casters[set], to_sun, surfaces.object_bounds()));
+          maps.UpdateForRegion(casters[set], to_sun, surfaces.placement().object_bounds()));
     }
     maps.Bind(set);
   }

@@ -48,6 +48,7 @@ void AffectedTriangles::SetLight(const LitMesh& phantom) {
 
 AffectedTriangles::Sorted AffectedTriangles::ChangeOf(const SunWindow& window,
                                                       const SunFootprint& objects,
+                                                      const DrawReductions& reductions,
                                                       std::size_t first_index) const {
   bool sky_changes = false, sunlit = false;
   glm::vec2 low(1e30F), high(-1e30F);
@@ -61,9 +62,9 @@ AffectedTriangles::Sorted AffectedTriangles::ChangeOf(const SunWindow& window,
   }
   const bool inside = high.x > 0.0F && high.y > 0.0F && low.x < window.side && low.y < window.side;
   if (sunlit && inside && objects.Touches(low, high)) return {kSun, false};
-  if (!sky_changes) return {kNothing, false};
+  if (!sky_changes && reductions.affected_triangles) return {kNothing, false};
   // A sun that has moved on casts other shadows than it did for the light.
-  const bool known = !sun_visibility_.by_triangle.empty() &&
+  const bool known = reductions.sun_visibility && !sun_visibility_.by_triangle.empty() &&
                      glm::distance(window.to_sun, sun_visibility_.to_sun) < kSameSun;
   const SunVisibility reach =
       known ? sun_visibility_.by_triangle[first_index / 3] : SunVisibility::kSome;
@@ -92,15 +93,17 @@ std::optional<LinearShadowRatio> AffectedTriangles::LinearRatioOf(
 }
 
 void AffectedTriangles::Sort(const SunWindow& window, const SunFootprint& objects,
-                             const glm::vec3& sun_normal_lux) {
+                             const glm::vec3& sun_normal_lux, const DrawReductions& reductions) {
   for (auto& kind : kinds_) kind.clear();
   linear_ratios_.clear();
   linear_corners_.clear();
   for (std::size_t i = 0; i < triangles_.size(); i += 3) {
-    auto [change, in_sun] = ChangeOf(window, objects, i);
+    auto [change, in_sun] = ChangeOf(window, objects, reductions, i);
     if (change == kLinearSky) {
-      const std::optional<LinearShadowRatio> linear_ratios =
-          LinearRatioOf(i, window.to_sun, in_sun ? sun_normal_lux : glm::vec3(0.0F));
+      std::optional<LinearShadowRatio> linear_ratios;
+      if (reductions.linear_shadow_ratio) {
+        linear_ratios = LinearRatioOf(i, window.to_sun, in_sun ? sun_normal_lux : glm::vec3(0.0F));
+      }
       if (linear_ratios) {
         linear_ratios_.push_back(*linear_ratios);
         linear_corners_.push_back({triangles_[i], triangles_[i + 1], triangles_[i + 2]});

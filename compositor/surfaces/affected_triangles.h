@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "compositor/composer_options.h"
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_footprint.h"
 #include "compositor/surfaces/linear_shadow_ratio.h"
@@ -33,8 +34,10 @@ class AffectedTriangles {
   void SetLight(const LitMesh& phantom);
 
   /// Sorts; one past the last index of each kind is in ends(). `objects`: of the same window.
-  /// `sun_normal_lux`: linear Rec.709, for steady().
-  void Sort(const SunWindow& window, const SunFootprint& objects, const glm::vec3& sun_normal_lux);
+  /// `sun_normal_lux`: linear Rec.709, for linear_ratios(). Without a reduction, triangles are of
+  /// the kind that needs more shading.
+  void Sort(const SunWindow& window, const SunFootprint& objects, const glm::vec3& sun_normal_lux,
+            const DrawReductions& reductions = {});
   std::span<const std::uint32_t> indices() const { return indices_; }
   const std::array<int, kChanges>& ends() const { return ends_; }
   /// What objects change of the kLinearSky triangles, in their order.
@@ -61,7 +64,7 @@ class AffectedTriangles {
     glm::vec3 to_sun{0.0F};                  // Where the sun stood for that.
   };
   Sorted ChangeOf(const SunWindow& window, const SunFootprint& objects,
-                  std::size_t first_index) const;
+                  const DrawReductions& reductions, std::size_t first_index) const;
   /// Nothing where the ratio is not linear along the triangle. `sun_normal_lux`: as far as it
   /// reaches.
   std::optional<LinearShadowRatio> LinearRatioOf(std::size_t first_index, const glm::vec3& to_sun,

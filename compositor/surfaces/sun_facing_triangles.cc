@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace pleinair::compositor {
 
@@ -37,6 +38,12 @@ bool SunFacingTriangles::Sort(const glm::vec3& to_sun) {
   std::copy(turned_away_.begin(), turned_away_.end(),
             indices_.begin() + static_cast<std::ptrdiff_t>(kept));
   return true;
+}
+
+bool SunFacingTriangles::IncludeAll() {
+  sorted_for_.reset();
+  const int before = std::exchange(facing_end_, static_cast<int>(indices_.size()));
+  return before != facing_end_;
 }
 
 }  // namespace pleinair::compositor

@@ -19,6 +19,8 @@ class SunFacingTriangles {
   /// Sorts anew where the sun has moved by more than kMargin allows; returns whether it did.
   /// `to_sun`: unit, as the object stands in its mesh; zero without a sun, which none faces.
   bool Sort(const glm::vec3& to_sun);
+  /// Counts all triangles as facing the sun until Sort(); returns whether it did not before.
+  bool IncludeAll();
   /// Those that may face the sun first.
   std::span<const std::uint32_t> indices() const { return indices_; }
   int facing_end() const { return facing_end_; }

@@ -45,6 +45,16 @@ TEST(AffectedTriangles, AreThoseInTheSunsWindowAndThoseWhoseSkyChanges) {
   EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 9, 10, 11, 0, 1, 2, 6, 7, 8));
 }
 
+TEST(AffectedTriangles, AreAllWithoutReductions) {
+  LitMesh mesh = Row();
+  mesh.ambient_with[3 * 3][0] = 900.0F;
+  AffectedTriangles triangles(mesh);
+  triangles.Sort(kWindow, {}, kSun, DrawReductions::None());
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12));
+  triangles.Sort({}, {}, {}, DrawReductions::None());
+  EXPECT_THAT(triangles.ends(), ElementsAre(0, 12, 12, 12)) << "without a sun";
+}
+
 TEST(AffectedTriangles, InTheirOwnShadeNeedNoShadowMaps) {
   LitMesh mesh = Row();
   mesh.ambient_with[4][0] = mesh.ambient_with[10][0] = 900.0F;
@@ -148,6 +158,19 @@ TEST(SunFacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {
   EXPECT_THAT(triangles.indices(), ElementsAre(0, 1, 2, 6, 7, 8, 9, 10, 11, 3, 4, 5));
   EXPECT_TRUE(triangles.Sort({0.0F, 0.0F, -1.0F}));
   EXPECT_EQ(triangles.facing_end(), 6) << "the second and the last";
+}
+
+TEST(SunFacingTriangles, AreAllUntilTheyAreSortedAgain) {
+  LitMesh mesh = Row();
+  for (std::size_t i = 0; i < 3; ++i) mesh.normals[i] = {0.0F, 0.0F, -1.0F};
+  SunFacingTriangles triangles(mesh);
+  EXPECT_FALSE(triangles.IncludeAll());
+  EXPECT_TRUE(triangles.Sort({0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(triangles.facing_end(), 9);
+  EXPECT_TRUE(triangles.IncludeAll());
+  EXPECT_EQ(triangles.facing_end(), 12);
+  EXPECT_TRUE(triangles.Sort({0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(triangles.facing_end(), 9);
 }
 
 TEST(SunFacingTriangles, HoldWhileTheSunMovesLessThanTheirMargin) {

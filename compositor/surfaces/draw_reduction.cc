@@ -1,0 +1,84 @@
+#include "compositor/surfaces/draw_reduction.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace pleinair::compositor {
+
+bool SunOnPhantoms::IsAsGoodAs(const SunOnPhantoms& other) const {
+  // What the sky changes beside it hardly depends on it.
+  constexpr float kSameSun = 0.02F;
+  return window == other.window && whole == other.whole &&
+         glm::all(glm::lessThanEqual(glm::abs(normal_lux - other.normal_lux),
+                                     kSameSun * other.normal_lux));
+}
+
+void DrawReduction::Use(const DrawReductions& reductions) {
+  if (reductions == reductions_) return;
+  reductions_ = reductions;
+  Invalidate();
+}
+
+void DrawReduction::Clear() {
+  phantoms_.clear();
+  objects_.clear();
+  object_positions_.clear();
+}
+
+void DrawReduction::AddPhantom(const LitMesh& phantom) { phantoms_.emplace_back(phantom); }
+
+void DrawReduction::AddObject(const LitMesh& object) {
+  objects_.emplace_back(object);
+  auto& positions = object_positions_.emplace_back();
+  positions.reserve(object.positions.size());
+  for (const auto& [x, y, z] : object.positions) positions.emplace_back(x, y, z);
+}
+
+SunFootprint DrawReduction::FootprintOf(const SunWindow& window,
+                                        std::span<const glm::mat4> objects_moved) const {
+  if (window.side == 0.0F) return {};
+  SunFootprint footprint(window);
+  std::vector<glm::vec2> at;
+  for (std::size_t object = 0; object < objects_.size(); ++object) {
+    at.clear();
+    for (const glm::vec3& position : object_positions_[object]) {
+      at.push_back(window.At(glm::vec3(objects_moved[object] * glm::vec4(position, 1.0F))));
+    }
+    const std::span<const std::uint32_t> indices = objects_[object].indices();
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+      const glm::vec2 a = at[indices[i]], b = at[indices[i + 1]], c = at[indices[i + 2]];
+      footprint.Include(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c));
+    }
+  }
+  return footprint;
+}
+
+bool DrawReduction::SortPhantoms(const SunOnPhantoms& sun,
+                                 std::span<const glm::mat4> objects_moved) {
+  if (sorted_for_ && sun.IsAsGoodAs(*sorted_for_)) return false;
+  const bool whole = sun.whole || !reductions_.sun_footprint;
+  const SunFootprint footprint = whole ? SunFootprint() : FootprintOf(sun.window, objects_moved);
+  for (AffectedTriangles& phantom : phantoms_) {
+    phantom.Sort(sun.window, footprint, sun.normal_lux, reductions_);
+  }
+  sorted_for_ = sun;
+  return true;
+}
+
+bool DrawReduction::SortObject(std::size_t object, const glm::vec3& to_sun) {
+  // Without a sun nothing can be asked of it.
+  if (!reductions_.sun_facing_triangles && to_sun != glm::vec3(0.0F)) {
+    return objects_[object].IncludeAll();
+  }
+  return objects_[object].Sort(to_sun);
+}
+
+float DrawReduction::MaxLinearChangeFarFrom(const glm::vec3& eye_m) const {
+  float maximum = 0.0F;
+  for (const AffectedTriangles& phantom : phantoms_) {
+    maximum = std::max(maximum, phantom.MaxLinearChangeFarFrom(eye_m));
+  }
+  return maximum;
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,59 @@
+#include "compositor/surfaces/surface_placement.h"
+
+namespace pleinair::compositor {
+
+void SurfacePlacement::Clear() {
+  casters_.clear();
+  phantom_casters_.clear();
+  lit_bounds_.clear();
+  ++revision_;
+}
+
+void SurfacePlacement::Add(const LitMesh& mesh) {
+  lit_bounds_.emplace_back();
+  for (const auto& p : mesh.positions) lit_bounds_.back().Include({p[0], p[1], p[2]});
+}
+
+void SurfacePlacement::Reset(std::size_t models, std::span<const SurfaceBuffers> surfaces) {
+  moved_.assign(models, glm::dmat4(1.0));
+  Place(surfaces);
+}
+
+void SurfacePlacement::Move(int placed_model, const Mat3& linear, Vec3 translation_m,
+                            std::span<const SurfaceBuffers> surfaces) {
+  glm::dmat4 moved(1.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) moved[column][row] = linear(row, column);
+  }
+  moved[3] = glm::dvec4(translation_m.x, translation_m.y, translation_m.z, 1.0);
+  moved_[static_cast<std::size_t>(placed_model)] = moved;
+  Place(surfaces);
+}
+
+void SurfacePlacement::Place(std::span<const SurfaceBuffers> surfaces) {
+  casters_.clear();
+  phantom_casters_.clear();
+  object_bounds_ = bounds_ = {};
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const SurfaceBuffers& surface = surfaces[i];
+    shadows::ShadowCaster caster;
+    caster.vertices = &surface.vertex_array();
+    caster.index_count = surface.index_count();
+    caster.revision = revision_;
+    caster.marker_from_model = MovedBy(surface.placed_model());
+    const shadows::Box& lit = lit_bounds_[i];
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec4 point((corner & 1) != 0 ? lit.max.x : lit.min.x,
+                             (corner & 2) != 0 ? lit.max.y : lit.min.y,
+                             (corner & 4) != 0 ? lit.max.z : lit.min.z, 1.0);
+      caster.bounds.Include(glm::dvec3(caster.marker_from_model * point));
+    }
+    bounds_.Include(caster.bounds);
+    if (!surface.is_phantom()) object_bounds_.Include(caster.bounds);
+    if (!surface.CastsShadow()) continue;
+    if (surface.is_phantom()) phantom_casters_.push_back(caster);
+    casters_.push_back(caster);
+  }
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,49 @@
+// What is drawn in full against what is drawn with reductions, of a real scene's size.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+
+#include "tests/compositor/courtyard_frame.h"
+
+namespace pleinair::compositor {
+namespace {
+
+int MaxDifference(const RgbImage& a, const RgbImage& b) {
+  int most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    most = std::max(most, std::abs(a.data()[i] - b.data()[i]));
+  }
+  return most;
+}
+
+TEST(DrawReductions, ChangeNoPixelOfTheCourtyardByMoreThanTwoValues) {
+  const testing::Courtyard courtyard;
+  const RgbImage picture = courtyard.Picture();
+  const auto composer = courtyard.MakeComposer({});
+  const auto draw = [&](const DrawReductions& reductions) {
+    EXPECT_TRUE(composer->SetOptions({.reductions = reductions}));
+    return composer
+        ->Compose(picture.view(), courtyard.poses()[testing::Courtyard::kKeyFrame],
+                  courtyard.ExposureScale())
+        .value();
+  };
+  const RgbImage reduced = draw({});
+  const RgbImage in_full = draw(DrawReductions::None());
+  EXPECT_GT(MaxDifference(in_full, picture), 50) << "there are an object and its shadow";
+  EXPECT_LE(MaxDifference(reduced, in_full), 2);
+  for (bool DrawReductions::*const reduction :
+       {&DrawReductions::affected_triangles, &DrawReductions::sun_footprint,
+        &DrawReductions::sun_visibility, &DrawReductions::linear_shadow_ratio,
+        &DrawReductions::sun_facing_triangles}) {
+    DrawReductions others;
+    others.*reduction = false;
+    EXPECT_LE(MaxDifference(draw(others), in_full), 2);
+  }
+  EXPECT_EQ(MaxDifference(draw({}), reduced), 0) << "they can be taken up again";
+}
+
+}  // namespace
+}  // namespace pleinair::compositor
