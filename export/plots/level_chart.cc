@@ -5,48 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "export/plots/inline_plot.h"
 #include "export/plots/line_plot.h"
 #include "files/markup_escape.h"
 
 namespace pleinair::exports {
 namespace {
 
-constexpr double kWidth = 640, kHeight = 220;
-constexpr double kLeft = 52, kRight = 12, kTop = 30, kBottom = 42;
-
-double ToY(double share) { return kHeight - kBottom - share * (kHeight - kTop - kBottom); }
-
-std::string Head(const std::string& title) {
-  return fmt::format(
-      "<svg class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">"
-      "<text class=\"title\" x=\"{:.0f}\" y=\"16\">{}</text>",
-      kWidth, kHeight, files::EscapeMarkup(title), kLeft, files::EscapeMarkup(title));
-}
+constexpr InlinePlot::Margins kMargins{.left = 52.0, .bottom = 42.0};
+constexpr double kTickBelow = 16.0, kNameBelow = 34.0;
 
 /// Horizontal lines with their values.
-std::string Grid(double top) {
+void AddGrid(double top, InlinePlot* plot) {
   const double step = TickStep(0.0, top, 4);
-  std::string svg;
   for (int line = 0; line * step <= top * (1 + 1e-9); ++line) {
-    const double y = line * step, at = ToY(y / top);
-    svg += fmt::format(
-        "<line class=\"grid\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>"
-        "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{:.4g}</text>",
-        kLeft, kWidth - kRight, at, at, kLeft - 6, at + 4, y);
+    const double y = line * step;
+    plot->AddGridLine(y / top, fmt::format("{:.4g}", y));
   }
-  return svg;
-}
-
-std::string Legend(const std::vector<std::string>& names) {
-  std::string svg;
-  double x = kWidth - kRight;
-  for (std::size_t i = names.size(); i-- > 0;) {
-    svg +=
-        fmt::format("<text class=\"legend{}\" text-anchor=\"end\" x=\"{:.0f}\" y=\"16\">{}</text>",
-                    i, x, files::EscapeMarkup(names[i]));
-    x -= 16.0 + 7.0 * static_cast<double>(names[i].size());
-  }
-  return svg;
 }
 
 double LargestOf(const std::vector<LevelSeries>& series) {
@@ -65,23 +40,15 @@ std::string LevelChartSvg(const std::string& title, const std::string& level_nam
                           const std::vector<std::string>& levels,
                           const std::vector<LevelSeries>& series, double top) {
   if (top <= 0.0) top = LargestOf(series);
-  std::string svg = Head(title) + Grid(top);
-  const double step = (kWidth - kLeft - kRight) / static_cast<double>(levels.size());
+  InlinePlot plot(kMargins, title, title);
+  AddGrid(top, &plot);
   const auto to_x = [&](std::size_t level) {
-    return kLeft + step * (static_cast<double>(level) + 0.5);
+    return plot.ToX((static_cast<double>(level) + 0.5) / static_cast<double>(levels.size()));
   };
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    svg += fmt::format(
-        "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", to_x(i),
-        kHeight - kBottom + 16, files::EscapeMarkup(levels[i]));
-  }
-  svg +=
-      fmt::format("<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>",
-                  0.5 * (kLeft + kWidth - kRight), kHeight - 8, files::EscapeMarkup(level_name));
-  std::vector<std::string> names;
+  for (std::size_t i = 0; i < levels.size(); ++i) plot.AddTick(to_x(i), kTickBelow, levels[i]);
+  plot.AddTick(plot.ToX(0.5), kNameBelow, level_name);
   for (std::size_t s = 0; s < series.size(); ++s) {
     const LevelSeries& one = series[s];
-    names.push_back(one.name);
     // Whiskers of several series stand beside each other.
     const double aside = 4.0 * (static_cast<double>(s) - 0.5 * (series.size() - 1.0));
     std::string path, whiskers;
@@ -91,20 +58,19 @@ std::string LevelChartSvg(const std::string& title, const std::string& level_nam
         pen_down = false;
         continue;
       }
-      const double x = to_x(i) + aside, y = ToY(std::min(1.0, one.values[i] / top));
+      const double x = to_x(i) + aside, y = plot.ToY(std::min(1.0, one.values[i] / top));
       path += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", x, y);
       pen_down = true;
       whiskers += fmt::format("M{:.1f} {:.1f}h3", x - 1.5, y);
       if (one.low.empty() || !std::isfinite(one.low[i])) continue;
-      whiskers += fmt::format("M{:.1f} {:.1f}V{:.1f}", x, ToY(std::min(1.0, one.low[i] / top)),
-                              ToY(std::min(1.0, one.high[i] / top)));
+      whiskers += fmt::format("M{:.1f} {:.1f}V{:.1f}", x, plot.ToY(std::min(1.0, one.low[i] / top)),
+                              plot.ToY(std::min(1.0, one.high[i] / top)));
     }
-    svg += fmt::format(
-        "<path class=\"line{}\" d=\"{}\"/><path class=\"line{}\" "
-        "stroke-opacity=\".55\" d=\"{}\"/>",
-        s, path, s, whiskers);
+    plot.AddPath(s, path);
+    plot.AddPath(s, whiskers, " stroke-opacity=\".55\"");
   }
-  return svg + Legend(names) + "</svg>\n";
+  for (std::size_t s = series.size(); s-- > 0;) plot.AddLegend(s, series[s].name);
+  return plot.Svg();
 }
 
 std::string CellMapSvg(const std::string& title, int columns, int rows,
@@ -146,23 +112,23 @@ std::string HistogramSvg(const std::string& title, const std::string& unit,
     shares.push_back(std::move(share));
   }
   if (largest == 0.0) largest = 1.0;
-  std::string svg = Head(title + ", % of hits") + Grid(largest);
-  const double step = (kWidth - kLeft - kRight) / kBins;
+  const std::string heading = title + ", % of hits";
+  InlinePlot plot(kMargins, heading, heading);
+  AddGrid(largest, &plot);
   for (int bin = 0; bin <= kBins; bin += 4) {
-    svg += fmt::format(
-        "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{:.3g}{}</text>",
-        kLeft + bin * step, kHeight - kBottom + 16, top * bin / kBins,
-        bin == kBins ? "+ " + unit : "");
+    plot.AddTick(plot.ToX(static_cast<double>(bin) / kBins), kTickBelow,
+                 fmt::format("{:.3g}{}", top * bin / kBins, bin == kBins ? "+ " + unit : ""));
   }
   for (std::size_t s = 0; s < shares.size(); ++s) {
-    std::string path = fmt::format("M{:.1f} {:.1f}", kLeft, ToY(0));
+    std::string path = fmt::format("M{:.1f} {:.1f}", plot.ToX(0.0), plot.ToY(0.0));
     for (int bin = 0; bin < kBins; ++bin) {
-      path +=
-          fmt::format("V{:.1f}H{:.1f}", ToY(shares[s][bin] / largest), kLeft + (bin + 1) * step);
+      path += fmt::format("V{:.1f}H{:.1f}", plot.ToY(shares[s][bin] / largest),
+                          plot.ToX((bin + 1.0) / kBins));
     }
-    svg += fmt::format("<path class=\"line{}\" d=\"{}V{:.1f}\"/>", s, path, ToY(0));
+    plot.AddPath(s, path + fmt::format("V{:.1f}", plot.ToY(0.0)));
   }
-  return svg + Legend(names) + "</svg>\n";
+  for (std::size_t s = names.size(); s-- > 0;) plot.AddLegend(s, names[s]);
+  return plot.Svg();
 }
 
 }  // namespace pleinair::exports
