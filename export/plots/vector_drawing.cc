@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "devices/images/resize_image.h"
+#include "export/plots/svg_file.h"
 #include "files/markup_escape.h"
 
 namespace pleinair::exports {
@@ -18,12 +19,7 @@ constexpr double kDash = 5.0;  // Length of a dash and of the gap behind it.
 constexpr int kSupersampling = 3;
 constexpr double kHalo = 0.22;  // Width of the white around letters, of the font's size.
 
-std::string Number(double value) {
-  std::string text = fmt::format("{:.2f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
-}
+std::string Number(double value) { return ShortNumber(value, 2); }
 
 std::string Hex(DrawingColor c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
@@ -113,13 +109,12 @@ class Canvas {
 
 std::string DrawingSvg(const VectorDrawing& drawing, int width_px) {
   const double height_px = width_px * drawing.height / drawing.width;
-  std::string svg = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{}\" height=\"{}\" "
-      "viewBox=\"0 0 {} {}\">\n<title>{}</title>\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"#fff\"/>\n<g fill=\"none\" stroke-linejoin=\"round\">\n",
-      width_px, Number(height_px), Number(drawing.width), Number(drawing.height),
-      files::EscapeMarkup(drawing.title));
+  std::string svg = SvgFileHead(
+      {std::to_string(width_px), Number(height_px), Number(drawing.width), Number(drawing.height)},
+      drawing.title);
+  svg +=
+      "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+      "<g fill=\"none\" stroke-linejoin=\"round\">\n";
   auto out = std::back_inserter(svg);
   for (const DrawingLine& line : drawing.lines) {
     if (line.points.size() < 2) continue;

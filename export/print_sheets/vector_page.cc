@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "export/plots/svg_file.h"
 #include "export/print_sheets/print_outline.h"
 #include "files/markup_escape.h"
 
@@ -15,12 +16,7 @@ namespace {
 constexpr double kPointsPerMm = 72.0 / 25.4;
 
 // Micrometres are a hundred times finer than printers.
-std::string Number(double value) {
-  std::string text = fmt::format("{:.4f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
-}
+std::string Number(double value) { return ShortNumber(value, 4); }
 
 /// Of texts and titles, which are our own and ASCII.
 std::string EscapePdf(const std::string& text) {
@@ -103,13 +99,9 @@ std::string WritePdf(std::span<const Sheet> sheets) {
 
 std::string WriteSvg(const Sheet& sheet) {
   const std::string width = Number(sheet.page.width_mm), height = Number(sheet.page.height_mm);
-  std::string svg = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{0}mm\" "
-      "height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n<title>{2}</title>\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-      width, height, files::EscapeMarkup(sheet.title));
+  std::string svg = SvgFileHead({width + "mm", height + "mm", width, height}, sheet.title);
   auto out = std::back_inserter(svg);
+  fmt::format_to(out, "<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n", width, height);
   for (const SheetMarker& print : sheet.prints) {
     fmt::format_to(out,
                    "<path fill-rule=\"evenodd\" transform=\"translate({} {}) scale({:.6f})\" d=\"",

@@ -123,11 +123,12 @@ TEST_F(ShadowLight, ReportsNothingWhereNoPhantomCastsAShadowInView) {
   const auto bare =
       LightSolver::Create({testing::Phantom(testing::Ground(5.0, {0.3F, 0.3F, 0.3F}))}, {});
   ASSERT_TRUE(bare);
-  SurfaceSamples samples(**bare, yard_->camera(), yard_->marker());
+  const PhantomRays& phantoms = (*bare)->phantoms();
+  SurfaceSamples samples(phantoms, yard_->camera(), yard_->marker());
   samples.AddFrame(yard_->Photograph(0, {}).view(), PhotographedYard::Pose(0), {1, 1, 1});
-  EXPECT_EQ(EstimateSunSkyRatio(FindShadowEdges(**bare, samples, yard_->model(), Mat3{})).sun,
+  EXPECT_EQ(EstimateSunSkyRatio(FindShadowEdges(phantoms, samples, yard_->model(), Mat3{})).sun,
             SunSkyRatio::Sun::kUnknown);
-  EXPECT_FALSE(EstimateHeading(**bare, samples, kUp, yard_->model().ToSun().xyz));
+  EXPECT_FALSE(EstimateHeading(phantoms, samples, kUp, yard_->model().ToSun().xyz));
 }
 
 TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
