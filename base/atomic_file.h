@@ -14,8 +14,8 @@
 
 namespace pleinair {
 
-/// The error for a file that could not be written: a full disk is the machine's fault (exit 1), a
-/// folder without permission the user's (exit 2).
+/// The error for a file that could not be written. A full disk is a system error (exit 1); a folder
+/// without write permission is an input error (exit 2).
 inline Error WriteError(const std::filesystem::path& path, int error_number) {
   const bool full = error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
   const bool system = full || error_number == EIO || error_number == ENOMEM;
@@ -26,14 +26,15 @@ inline Error WriteError(const std::filesystem::path& path, int error_number) {
                "cannot write: " + std::string(std::strerror(error_number)), remedy};
 }
 
-/// A name beside `path` to write to before renaming; keeps the extension, which encoders look at.
+/// A temporary name in the folder of `path`, to be renamed to `path` when the file is complete. It
+/// keeps the extension, because encoders choose the format by it.
 inline std::filesystem::path TemporarySibling(const std::filesystem::path& path) {
   std::string name(1, '.');  // Built by +=: GCC 12 warns of "." + std::string (PR 105651).
   name += path.stem().string() + ".part" + std::to_string(getpid()) + path.extension().string();
   return path.parent_path() / name;
 }
 
-/// Moves a finished temporary file to its name; removes it on failure.
+/// Renames a finished temporary file to its final name; removes it on failure.
 inline Result<void> CommitFile(const std::filesystem::path& temporary,
                                const std::filesystem::path& path) {
   std::error_code error;
@@ -46,7 +47,7 @@ inline Result<void> CommitFile(const std::filesystem::path& temporary,
   return {};
 }
 
-/// Writes a whole file under a temporary name, then renames it: readers see all of it or nothing.
+/// Writes a file under a temporary name, then renames it. Readers see the complete file or none.
 inline Result<void> WriteFileAtomically(const std::filesystem::path& path,
                                         std::string_view content) {
   const std::filesystem::path temporary = TemporarySibling(path);

@@ -11,21 +11,22 @@
 
 namespace pleinair {
 
-/// What a giver does when the taker has not kept up.
+/// What Give() does when the queue is full.
 enum class WhenFull {
-  kReplaceOldest,  ///< Live: the newest counts.
-  kWait,           ///< Replay: nothing may be lost.
-  kRefuse,         ///< Recording: what is there already is as good.
+  kReplaceOldest,  ///< Live: drops the oldest item, because the newest frame counts.
+  kWait,           ///< Replay: blocks, because no frame may be lost.
+  kRefuse,         ///< Recording: drops the new item; the queued ones are worth as much.
 };
 
-/// A bounded queue between two threads.
+/// A bounded first-in, first-out queue between two threads.
 template <typename T>
 class BoundedQueue {
  public:
   BoundedQueue(std::size_t capacity, WhenFull when_full)
       : capacity_(capacity), when_full_(when_full) {}
 
-  /// False where it was closed or, with kRefuse, full.
+  /// Appends an item. Returns false if the queue is closed, or full under kRefuse. Blocks under
+  /// kWait.
   bool Give(T item) {
     std::unique_lock lock(mutex_);
     if (when_full_ == WhenFull::kWait) {
@@ -42,34 +43,34 @@ class BoundedQueue {
     return true;
   }
 
-  /// The next item; nothing when it is closed and empty.
+  /// Blocks until there is an item. Returns nullopt once the queue is closed and empty.
   std::optional<T> Take() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !items_.empty() || closed_; });
     return Pop();
   }
 
-  /// The same, or nothing when `limit` is over.
+  /// As Take(), but also returns nullopt after `limit` without an item.
   std::optional<T> TakeWithin(std::chrono::milliseconds limit) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, limit, [this] { return !items_.empty() || closed_; });
     return Pop();
   }
 
-  /// No more is taken in; what is there can still be taken out.
+  /// Refuses further items; queued items can still be taken.
   void Close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
     changed_.notify_all();
   }
 
-  /// Closed and empty.
+  /// True if the queue is closed and empty.
   bool finished() const {
     const std::lock_guard lock(mutex_);
     return closed_ && items_.empty();
   }
 
-  /// Items replaced or refused since the start.
+  /// Number of items dropped since the start.
   std::int64_t dropped() const {
     const std::lock_guard lock(mutex_);
     return dropped_;

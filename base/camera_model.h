@@ -8,13 +8,13 @@
 
 namespace pleinair {
 
-/// How a lens bends rays, after OpenCV 4.6, module calib3d.
+/// Lens distortion models, as defined by OpenCV 4.6, module calib3d.
 enum class DistortionModel {
   kBrownConrady,  ///< "radtan", "plumb_bob", rational: k1 k2 p1 p2 k3 k4 k5 k6.
-  kEquidistant,   ///< OpenCV fisheye, Kalibr "equidistant": k1 k2 k3 k4 in the angle.
+  kEquidistant,   ///< OpenCV fisheye, Kalibr "equidistant": k1 k2 k3 k4, polynomial in the angle.
 };
 
-/// Intrinsics of a camera; pixels with the origin of base/pixel_origin.h (integer = centre).
+/// Intrinsics of a camera. Pixel coordinates as in base/pixel_origin.h (integer = pixel centre).
 struct CameraModel {
   int width = 0;
   int height = 0;
@@ -60,7 +60,8 @@ void DistortNormalized(const CameraModel& camera, const T& x, const T& y, T* x_d
   *y_distorted = y * radial + d[2] * (r2 + T(2) * y * y) + T(2.0 * d[3]) * x * y;
 }
 
-/// Pixel of a point in the camera frame; the point must lie in front (z > 0).
+/// Projects a point given in the camera frame to distorted pixel coordinates. The point must lie in
+/// front of the camera (z > 0).
 template <typename T>
 void ProjectToPixel(const CameraModel& camera, const T& x_m, const T& y_m, const T& z_m, T* u_px,
                     T* v_px) {
@@ -79,13 +80,13 @@ inline Vec2 ProjectToPixel(const CameraModel& camera, Point<Camera> point) {
 }
 
 /// Normalised undistorted coordinates (X/Z, Y/Z) of a pixel, by Newton's method with a numerical
-/// Jacobian; inverse of DistortNormalized to 1e-12 wherever the lens model is one-to-one.
+/// Jacobian. Inverts DistortNormalized() to 1e-12 wherever the lens model is one-to-one.
 inline Vec2 UndistortPixel(const CameraModel& camera, Vec2 pixel) {
   const Vec2 target{(pixel.x - camera.cx) / camera.fx, (pixel.y - camera.cy) / camera.fy};
   if (!camera.HasDistortion()) return target;
   Vec2 guess = target;
   if (camera.distortion_model == DistortionModel::kEquidistant) {
-    // The distorted radius is about the angle itself: start from its tangent.
+    // The distorted radius is close to the angle itself, so start from the tangent of that angle.
     const double theta = std::fmin(Norm(target), 1.5);
     if (theta > 1e-8) guess = target * (std::tan(theta) / Norm(target));
   }

@@ -12,18 +12,19 @@
 
 namespace pleinair {
 
-/// How a camera writes light into 8-bit codes, a channel at a time: what Grossberg & Nayar 2003,
-/// "What is the Space of Camera Response Functions?", call the response. Light is relative to the
-/// brightest that the camera can write, which is 1. The default is sRGB.
+/// Radiometric response of a camera: maps linear light to 8-bit pixel values, per channel
+/// (Grossberg & Nayar 2003, "What is the Space of Camera Response Functions?"). Linear light is
+/// relative to the brightest value that the camera can encode, which is 1. The default is the sRGB
+/// curve.
 class CameraResponse {
  public:
   CameraResponse() {
     for (auto& channel : linear_) channel = LinearFromSrgb8();
   }
 
-  /// `light[c]` is the light at `encoded` (0…1, code / 255) in channel c; between them a monotone
-  /// cubic (Fritsch & Carlson 1980), so that a few samples suffice. Nothing where the samples do
-  /// not run from 0 to 1 in both, rising, at least two of them.
+  /// Interpolates samples with a monotone cubic (Fritsch & Carlson 1980), so that a few samples
+  /// suffice. `light[c]` is the linear light at `encoded` (0…1, pixel value / 255) in channel c.
+  /// Returns nullopt unless both lists rise strictly from 0 to 1 and hold at least two samples.
   static std::optional<CameraResponse> FromSamples(
       const std::vector<double>& encoded, const std::array<std::vector<double>, 3>& light) {
     CameraResponse response;
@@ -40,10 +41,10 @@ class CameraResponse {
 
   bool IsSrgb() const { return is_srgb_; }
 
-  /// Light of the 256 codes of a channel.
+  /// Linear light of the 256 pixel values of a channel.
   const std::array<float, 256>& Linear(int channel) const { return linear_[channel]; }
 
-  /// Encoded value, 0…1, of light; clips to 0…1.
+  /// Encoded value (0…1) of linear light; clamps to 0…1.
   double Encoded(double light, int channel) const {
     if (is_srgb_) return SrgbFromLinear(light);
     const auto& table = linear_[channel];
@@ -55,14 +56,14 @@ class CameraResponse {
     return (code - 1.0 + (light - low) / (high - low)) / 255.0;
   }
 
-  /// Nearest 8-bit code of light.
+  /// Nearest 8-bit pixel value of linear light.
   std::uint8_t Encoded8(double light, int channel) const {
     return static_cast<std::uint8_t>(std::lround(Encoded(light, channel) * 255.0));
   }
 
  private:
   static bool RisesFromZeroToOne(const std::vector<double>& values) {
-    // Steps that a float still tells apart over 256 codes.
+    // Smallest step that a float resolves over 256 pixel values.
     constexpr double kMinStep = 1e-6;
     if (values.size() < 2 || values.front() != 0.0 || values.back() != 1.0) return false;
     for (std::size_t i = 1; i < values.size(); ++i) {
@@ -90,7 +91,7 @@ class CameraResponse {
       const double value = y[i] * (1 + 2 * t) * (1 - t) * (1 - t) +
                            h * slope[i] * t * (1 - t) * (1 - t) + y[i + 1] * t * t * (3 - 2 * t) +
                            h * slope[i + 1] * t * t * (t - 1);
-      // Rising whatever rounding does, so that every light has one code.
+      // Strictly rising in spite of rounding, so that the inverse is unique.
       const float floor = code == 0 ? 0.0F : std::nextafter((*table)[code - 1], 2.0F);
       (*table)[code] = std::max(floor, static_cast<float>(value));
     }

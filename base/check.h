@@ -3,7 +3,8 @@
 #include <cstdlib>
 #include <iostream>
 
-/// Broken invariants of our own: print both operands and abort. Never for input from outside.
+/// Checks an invariant of this library; prints both operands and aborts if it is broken. Never used
+/// to validate input.
 #define PLEINAIR_CHECK_OP(a, op, b)                                                         \
   do {                                                                                      \
     const auto& check_a = (a);                                                              \

@@ -8,13 +8,13 @@
 
 namespace pleinair {
 
-/// What kind of failure an Error reports; decides the exit code of the command.
+/// Kind of failure; decides the exit code of the command.
 enum class ErrorKind {
   kInput,   ///< The user's file, device or command line is wrong or incomplete: exit code 2.
   kSystem,  ///< The machine could not do it (disk full, no EGL): exit code 1.
 };
 
-/// A failure told to a person: what is wrong, where (file, line, device), and what to do next.
+/// A failure, reported to the user: what is wrong, where (file, line, device), and what to do next.
 struct Error {
   ErrorKind kind = ErrorKind::kInput;
   std::string where;   ///< File or device, with line or byte where known; may be empty.
@@ -32,7 +32,7 @@ struct Error {
 template <typename T>
 using Result = tl::expected<T, Error>;
 
-/// Shorthands for returning an error from a function that gives a Result.
+/// Shorthands for returning an error from a function that returns a Result.
 inline tl::unexpected<Error> InputError(std::string where, std::string what,
                                         std::string remedy = {}) {
   return tl::make_unexpected(

@@ -4,26 +4,26 @@
 
 namespace pleinair {
 
-// Frames of reference, as types that never have a value (docs/conventions.md has the figure).
+// Frames of reference, as tag types that have no values (figure: docs/conventions.md).
 struct Camera;  ///< OpenCV: origin at the centre of projection, x right, y down, z forward; metres.
-struct Marker;  ///< Origin at the print's centre, x right, y up, z towards the viewer; metres.
+struct Marker;  ///< Origin at the marker's centre, x right, y up, z towards the viewer; metres.
 struct World;   ///< East, north, up; metres.
 
-/// A point in a named frame of reference, metres.
+/// A point in the frame of reference `Frame`, metres.
 template <typename Frame>
 struct Point {
   Vec3 xyz;
 };
 
-/// A direction in a named frame of reference; unit length unless said otherwise.
+/// A direction in the frame of reference `Frame`; unit length unless documented otherwise.
 template <typename Frame>
 struct Direction {
   Vec3 xyz;
 };
 
-/// Rigid motion that takes coordinates in `From` to coordinates in `To`: x_to = R x_from + t.
-/// Named target-from-source: `Transform<Camera, Marker> camera_from_marker`. Composition compiles
-/// only where the inner frames match.
+/// Rigid transform of coordinates: x_to = R x_from + t. Named target-from-source:
+/// `Transform<Camera, Marker> camera_from_marker`. A composition compiles only if the inner frames
+/// match.
 template <typename To, typename From>
 struct Transform {
   Mat3 rotation;

@@ -7,8 +7,9 @@
 
 namespace pleinair {
 
-/// For large tables that are read from end to end: asks the kernel for pages of 2 MiB, at whose
-/// borders alone the processor stops estimate ahead. Where it has none to give, nothing changes.
+/// Allocator for large tables that are read from end to end. Requests 2 MiB pages from the kernel:
+/// the processor's prefetcher stops at page boundaries, and these are fewer. Falls back to normal
+/// pages.
 template <typename T>
 class HugePageAllocator {
  public:

@@ -9,8 +9,8 @@
 
 namespace pleinair {
 
-/// A picture in somebody else's memory: rows top-down, channels interleaved, `stride` elements
-/// from one row to the next.
+/// Non-owning view of an image: rows from the top, channels interleaved, `stride` elements from one
+/// row to the next.
 template <typename T>
 class ImageView {
  public:
@@ -37,7 +37,7 @@ class ImageView {
   std::ptrdiff_t stride_ = 0;
 };
 
-/// A picture that owns its memory, without padding between rows.
+/// An image that owns its memory, without padding between rows.
 template <typename T>
 class Image {
  public:

@@ -11,7 +11,7 @@ namespace pleinair {
 
 namespace internal {
 
-/// The whole number that has a value's bits.
+/// Unsigned integer with the same bits as `T`.
 template <typename T>
 using BitsOf = std::conditional_t<
     sizeof(T) == 1, std::uint8_t,
@@ -20,7 +20,7 @@ using BitsOf = std::conditional_t<
 
 }  // namespace internal
 
-/// Appends a whole number or an IEEE 754 float, least significant byte first.
+/// Appends an integer or an IEEE 754 float, least significant byte first.
 template <typename T>
 void PutLittleEndian(T value, std::string* bytes) {
   static_assert(std::is_arithmetic_v<T>);
@@ -28,13 +28,13 @@ void PutLittleEndian(T value, std::string* bytes) {
   for (std::size_t i = 0; i < sizeof(T); ++i, bits >>= 8) bytes->push_back(static_cast<char>(bits));
 }
 
-/// Takes values off the front of bytes, which must outlive it; once there are too few, all are 0
-/// and `complete` is false.
+/// Reads values from the front of a byte string, which must outlive the reader. Past the end, all
+/// values are 0 and `complete` is false.
 class LittleEndianReader {
  public:
   explicit LittleEndianReader(std::string_view bytes) : bytes_(bytes) {}
 
-  /// A whole number or an IEEE 754 float.
+  /// Reads an integer or an IEEE 754 float.
   template <typename T>
   T Get() {
     static_assert(std::is_arithmetic_v<T>);
@@ -46,7 +46,7 @@ class LittleEndianReader {
     return std::bit_cast<T>(static_cast<internal::BitsOf<T>>(bits));
   }
 
-  /// So many bytes.
+  /// Reads `count` bytes.
   std::string_view Take(std::size_t count) {
     if (count > bytes_.size()) {
       complete_ = false;
@@ -58,7 +58,7 @@ class LittleEndianReader {
     return taken;
   }
 
-  /// What is not yet taken.
+  /// The bytes that have not been read.
   std::string_view rest() const { return bytes_; }
   bool complete() const { return complete_; }
 

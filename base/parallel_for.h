@@ -8,13 +8,13 @@
 
 namespace pleinair {
 
-/// Calls `body(chunk)` once for every chunk 0…chunks−1 on `threads` threads (0: one a processor).
-/// Which thread runs a chunk is left to chance: bodies must depend on the chunk alone. The threads
-/// are new ones and inherit the caller's priority.
+/// Calls `body(chunk)` once for every chunk 0…chunks−1 on `threads` threads (0: one per processor).
+/// The assignment of chunks to threads is not deterministic, so the result of a body must depend on
+/// its chunk alone. The threads are new ones and inherit the caller's priority.
 //
-// Not by oneTBB: its pool's threads have one priority, and the light of a live session is computed
-// at a lower one than its frames (session/background_light.h). A pool that both share would run
-// light at the priority of frames, or let frames wait for chunks of light.
+// Not by oneTBB: the threads of its pool have one priority, and the light of a live session is
+// computed at a lower one than its frames (session/background_light.h). A pool that both share would
+// run light at the priority of frames, or let frames wait for chunks of light.
 template <typename Body>
 void ParallelFor(std::size_t chunks, int threads, const Body& body) {
   std::size_t count = threads > 0 ? static_cast<std::size_t>(threads)

@@ -6,8 +6,8 @@
 
 namespace pleinair {
 
-/// The value that a share `q`, 0 to 1, of the others lie below, without interpolation; for even
-/// counts the lower of the two in the middle. At least one value, none of them NaN.
+/// Quantile without interpolation: element floor(q (n − 1)) of the n sorted values, 0 ≤ q ≤ 1. For
+/// q = 0.5 and an even n this is the lower median. Needs n ≥ 1 and no NaN.
 inline double Quantile(std::vector<double> values, double q) {
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
@@ -15,7 +15,7 @@ inline double Quantile(std::vector<double> values, double q) {
   return *at;
 }
 
-/// The same for one half, of even counts the upper of the two in the middle.
+/// Median; for an even number of values the upper of the two in the middle. Needs n ≥ 1 and no NaN.
 inline double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

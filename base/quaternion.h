@@ -7,7 +7,8 @@
 
 namespace pleinair {
 
-/// A rotation as a Hamilton quaternion. Members are named, since files differ in their order.
+/// A rotation as a Hamilton quaternion. The members are named, because file formats differ in their
+/// order.
 struct Quaternion {
   double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
   constexpr bool operator==(const Quaternion&) const = default;
@@ -17,8 +18,8 @@ constexpr double Dot(const Quaternion& a, const Quaternion& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
 }
 
-/// The unit quaternion with w >= 0 of a rotation, by its largest component (Shepperd 1978), so that
-/// no small difference is divided by.
+/// Unit quaternion with w >= 0 of a rotation matrix. Divides by the largest component (Shepperd
+/// 1978), which keeps it accurate for all angles.
 inline Quaternion QuaternionOf(const Mat3& r) {
   const double trace = r(0, 0) + r(1, 1) + r(2, 2);
   std::array<double, 4> q{};
@@ -39,7 +40,7 @@ inline Quaternion QuaternionOf(const Mat3& r) {
   return {sign * q[0], sign * q[1], sign * q[2], sign * q[3]};
 }
 
-/// The rotation of a quaternion of any length but zero.
+/// Rotation matrix of a quaternion of any length except zero.
 inline Mat3 RotationOf(const Quaternion& q) {
   const double s = 2.0 / Dot(q, q);
   const double xx = s * q.x * q.x, yy = s * q.y * q.y, zz = s * q.z * q.z;

@@ -5,7 +5,7 @@
 
 namespace pleinair {
 
-/// The lens as it looks after its images were resized to `size`.
+/// Camera model for images resized to `size`.
 inline CameraModel ScaleCamera(const CameraModel& camera, ImageSize size) {
   CameraModel scaled = camera;
   const double sx = static_cast<double>(size.width) / camera.width;
@@ -14,7 +14,7 @@ inline CameraModel ScaleCamera(const CameraModel& camera, ImageSize size) {
   scaled.height = size.height;
   scaled.fx = camera.fx * sx;
   scaled.fy = camera.fy * sy;
-  // The outer corner of the first pixel, at -0.5, stays where it is.
+  // Resizing keeps the outer corner of the first pixel, at (−0.5, −0.5), in place.
   scaled.cx = (camera.cx + 0.5) * sx - 0.5;
   scaled.cy = (camera.cy + 0.5) * sy - 0.5;
   return scaled;

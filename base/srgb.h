@@ -7,26 +7,26 @@
 
 namespace pleinair {
 
-// IEC 61966-2-1:1999, the sRGB transfer function. Light is linear inside; these two stand at the
-// edge where 8-bit pictures are read and written.
+// sRGB transfer function (IEC 61966-2-1:1999). Light is linear inside pleinair; these functions
+// convert where 8-bit images are read and written.
 
-/// Linear light in 0…1 of an encoded value in 0…1.
+/// Linear light (0…1) of an encoded value (0…1).
 inline double LinearFromSrgb(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// Encoded value in 0…1 of linear light; clips to 0…1.
+/// Encoded value (0…1) of linear light; clamps to 0…1.
 inline double SrgbFromLinear(double linear) {
   const double clipped = std::clamp(linear, 0.0, 1.0);
   return clipped <= 0.0031308 ? 12.92 * clipped : 1.055 * std::pow(clipped, 1.0 / 2.4) - 0.055;
 }
 
-/// Nearest 8-bit code of linear light.
+/// Nearest 8-bit pixel value of linear light.
 inline std::uint8_t Srgb8FromLinear(double linear) {
   return static_cast<std::uint8_t>(std::lround(SrgbFromLinear(linear) * 255.0));
 }
 
-/// Linear light of all 256 codes.
+/// Linear light of all 256 pixel values.
 inline const std::array<float, 256>& LinearFromSrgb8() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};

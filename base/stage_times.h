@@ -11,7 +11,7 @@
 
 namespace pleinair {
 
-/// Milliseconds per frame of each stage of a run, in the order the stages first ran.
+/// Milliseconds per run of each processing stage, in the order in which the stages first ran.
 class StageTimes {
  public:
   struct Summary {
@@ -32,7 +32,7 @@ class StageTimes {
     stages_.emplace_back(stage, std::vector<float>{static_cast<float>(milliseconds)});
   }
 
-  /// Runs `work` and adds the time it took.
+  /// Runs `work` and adds its duration to the samples of `stage`.
   template <typename Work>
   auto Measure(const std::string& stage, Work&& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -43,7 +43,7 @@ class StageTimes {
     return result;
   }
 
-  /// Adds what another thread measured.
+  /// Adds the samples that another thread measured.
   void Add(const StageTimes& other) {
     for (const auto& [name, samples] : other.stages_) {
       for (const float sample : samples) Add(name, sample);
@@ -59,7 +59,8 @@ class StageTimes {
     return summaries;
   }
 
-  /// The smallest sample that at least the share `q` (0…1) of them does not exceed.
+  /// Quantile by nearest rank: the smallest sample that is at least as large as the share `q` (0…1)
+  /// of all samples. 0 without samples.
   template <typename T>
   static double Quantile(std::vector<T> samples, double q) {
     if (samples.empty()) return 0.0;

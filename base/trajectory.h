@@ -7,16 +7,16 @@
 
 namespace pleinair {
 
-/// Where the camera was at one moment.
+/// Pose of the camera at one time.
 struct TimedPose {
-  /// Nanoseconds since the recording's start, or since whatever the file that it came from counts
-  /// from (EuRoC: the epoch).
+  /// Nanoseconds since the recording's start, or since the epoch of the source file (EuRoC: Unix
+  /// epoch).
   std::int64_t timestamp_ns = 0;
   Transform<Marker, Camera> marker_from_camera;  ///< Metres.
 };
 
-/// A camera's path in the frame of the marker that anchors the scene, ascending in time. Moments
-/// without a pose are left out.
+/// Trajectory of a camera in the frame of the reference marker, ascending in time. Frames without a
+/// pose are left out.
 using Trajectory = std::vector<TimedPose>;
 
 }  // namespace pleinair

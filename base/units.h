@@ -5,7 +5,7 @@
 
 namespace pleinair {
 
-/// A double with a unit in its type. Only what makes dimensional sense for every unit is defined.
+/// A double with its unit in the type. Defines only operations that are valid for every unit.
 template <typename Tag>
 class Quantity {
  public:
@@ -30,7 +30,7 @@ using CandelaPerM2 = Quantity<struct CandelaPerM2Tag>;  ///< Luminance, cd/m².
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-/// Degrees live only at the edge: command lines and files.
+/// Degrees are used only for input and output: command lines and files.
 constexpr Radians FromDegrees(double degrees) { return Radians(degrees * kRadiansPerDegree); }
 constexpr double ToDegrees(Radians angle) { return angle.value() / kRadiansPerDegree; }
 

@@ -10,8 +10,8 @@
 
 namespace pleinair {
 
-/// A moment in UTC, counted in nanoseconds since 1970-01-01T00:00:00Z on the proleptic Gregorian
-/// calendar, without leap seconds (as POSIX does). Reaches 1678…2261.
+/// A time in UTC: nanoseconds since 1970-01-01T00:00:00Z on the proleptic Gregorian calendar,
+/// without leap seconds (as POSIX). Range: years 1678 to 2261.
 class UtcTime {
  public:
   struct Civil {
@@ -30,13 +30,12 @@ class UtcTime {
 
   Civil ToCivil() const;
 
-  /// RFC 3339 with `Z`; fractional seconds only when there are any.
+  /// RFC 3339 with `Z`; fractional seconds only if they are not zero.
   std::string ToString() const;
 
-  /// Parses RFC 3339 ("2025-09-14T11:05:00Z", "…+02:00", a space for the T). A time without `Z`
-  /// or offset is an error: nobody can know which zone it means. A leap second (":60"), which the
-  /// end of June or December may have, is taken as the first second of the next day; any other
-  /// second 60 is an error.
+  /// Parses RFC 3339 ("2025-09-14T11:05:00Z", "…+02:00", or a space in place of the T). A time
+  /// without `Z` or offset is an error, because its zone is ambiguous. A leap second (":60") is
+  /// valid only at the end of June or December and becomes the first second of the next day.
   static Result<UtcTime> Parse(std::string_view text);
 
  private:
@@ -123,7 +122,7 @@ inline Result<UtcTime> UtcTime::Parse(std::string_view text) {
   expect(":");
   const int second = digits(2);
   if (!well_formed) return fail("is not a date and time");
-  // What is impossible in any zone comes before the zone.
+  // Report an impossible date or time before a missing zone.
   if (year < 1678 || year > 2261) return fail("lies outside the years 1678 to 2261");
   const std::chrono::year_month_day date(std::chrono::year(year),
                                          std::chrono::month(static_cast<unsigned>(month)),

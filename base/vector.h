@@ -5,7 +5,7 @@
 
 namespace pleinair {
 
-/// Plain coordinate tuples for module boundaries; linear algebra proper is Eigen's or GLM's.
+/// Plain coordinate tuples for module boundaries. Linear algebra inside modules uses Eigen or GLM.
 struct Vec2 {
   double x = 0.0, y = 0.0;
   constexpr bool operator==(const Vec2&) const = default;
@@ -55,7 +55,7 @@ struct Mat3 {
   }
 };
 
-/// Colour or light in linear sRGB/Rec.709 primaries; the unit is the variable's to say.
+/// Color or light in linear sRGB/Rec.709 primaries; the variable that holds it defines the unit.
 struct LinearRgb {
   double r = 0.0, g = 0.0, b = 0.0;
   constexpr bool operator==(const LinearRgb&) const = default;
@@ -68,7 +68,8 @@ struct LinearRgb {
 /// Relative luminance of linear Rec.709 primaries (IEC 61966-2-1: Y row of the RGB→XYZ matrix).
 constexpr double Luminance(LinearRgb c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
-/// Mean of the channels' natural logarithms: how bright on a scale of ratios. All above 0.
+/// Mean natural logarithm of the three channels, a measure of brightness ratios. All channels must
+/// be above 0.
 inline double MeanLog(LinearRgb c) { return (std::log(c.r) + std::log(c.g) + std::log(c.b)) / 3; }
 
 }  // namespace pleinair

@@ -6,7 +6,7 @@
 
 namespace pleinair::files {
 
-/// RFC 4648 base 64.
+/// Base64 encoding (RFC 4648) of bytes.
 std::string Base64(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace pleinair::files

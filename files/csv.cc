@@ -14,7 +14,7 @@ std::string_view Trimmed(std::string_view text) {
   return text;
 }
 
-/// A whole decimal number, finite; nothing otherwise.
+/// A decimal number that fills all of `text` and is finite; nullopt otherwise.
 std::optional<double> ParseNumber(std::string_view text) {
   text = Trimmed(text);
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
@@ -67,7 +67,7 @@ Result<void> CsvReader::CheckFieldCount(std::size_t columns) const {
 
 Result<void> CsvReader::ReadRecord() {
   line_ = next_line_;
-  // The strings are used again: a million rows allocate once.
+  // Reuses the field strings, so that a million records do not allocate a million times.
   std::size_t count = 0;
   const auto next_field = [&]() -> std::string& {
     if (count == fields_.size()) fields_.emplace_back();

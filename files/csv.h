@@ -10,35 +10,36 @@
 
 namespace pleinair::files {
 
-/// Without blanks and tabs at both ends.
+/// `text` without spaces and tabs at both ends.
 std::string_view Trimmed(std::string_view text);
 
-/// A whole decimal number, finite; nothing otherwise.
+/// A decimal number that fills all of `text` and is finite; nullopt otherwise.
 std::optional<double> ParseNumber(std::string_view text);
 
-/// Splits CSV records (RFC 4180) one by one: a byte order mark, CRLF and quoted fields are
-/// understood. Blank lines may end the text; before a record they are an error, since something is
-/// missing there. `text` must outlive it.
+/// Reads CSV records (RFC 4180) one by one. Accepts a byte order mark, CRLF and quoted fields.
+/// Blank lines are valid only at the end: before a record they are an error, because data may be
+/// missing there. `text` must outlive the reader.
 class CsvReader {
  public:
-  /// `name` is the file's, for errors, which say the line.
+  /// `name` is the file's name for error messages, which add the line number.
   CsvReader(std::string_view text, std::string name);
 
-  /// Reads the next record; false at the end. Errors: a blank line before it, an open quote.
+  /// Reads the next record; returns false at the end. Errors: a blank line before the record, an
+  /// unclosed quote.
   Result<bool> Next();
 
-  /// The record's own text without its line end, and its fields unquoted.
+  /// The raw text of the record without its line end, and its fields without quotes.
   std::string_view record() const { return record_; }
   const std::vector<std::string>& fields() const { return fields_; }
 
-  /// "FILE:LINE" of the record.
+  /// Location of the record for error messages, "FILE:LINE".
   std::string Where() const { return name_ + ":" + std::to_string(line_); }
 
-  /// Column of a name in the record just read, the header; nothing when it is not there. Errors:
-  /// two columns of that name.
+  /// Column index of a name in the header, which must be the record read last; nullopt if absent.
+  /// Errors: two columns of that name.
   Result<std::optional<std::size_t>> FindColumn(std::string_view name) const;
 
-  /// Errors: the record has not as many fields as the header.
+  /// Errors: the number of fields differs from `columns`, that of the header.
   Result<void> CheckFieldCount(std::size_t columns) const;
 
  private:

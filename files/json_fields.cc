@@ -12,7 +12,7 @@ const Json& NoObject() {
   return none;
 }
 
-// Appends the numbers of a list and of the lists in it, to a depth of two.
+// Appends the numbers of a list and of its nested lists, to a depth of two.
 bool AppendNumbers(const Json& list, int depth, std::vector<double>* numbers) {
   for (const Json& item : list) {
     if (item.is_number()) {
@@ -36,7 +36,7 @@ Result<Json> ParseJson(std::string_view bytes, const std::string& name) {
       what.erase(0, bracket + 2);
     }
     if (what.size() > 200) what = what.substr(0, 200) + "…";
-    // It quotes what it read last, bytes and all: keep the message one printable line.
+    // The exception quotes the last bytes read; keep the message one printable line.
     for (char& c : what) {
       if (static_cast<unsigned char>(c) < 0x20) c = ' ';
     }

@@ -5,7 +5,7 @@
 
 namespace pleinair::files {
 
-/// Text made safe for HTML and XML (SVG), in elements and in quoted attributes.
+/// Escapes text for HTML and XML (SVG), in elements and in quoted attributes.
 std::string EscapeMarkup(std::string_view text);
 
 }  // namespace pleinair::files

@@ -8,7 +8,8 @@
 
 namespace pleinair::files {
 
-// libpng reports failures by longjmp: nothing with a destructor may live between here and there.
+// libpng reports errors by longjmp, so no object with a destructor may exist between setjmp and
+// here.
 bool WritePngRows(ImageView<const std::uint8_t> picture, PngStyle style, std::FILE* file) {
   CHECK_EQ(picture.channels() == 1 || picture.channels() == 3, true);
   const auto silent = [](png_structp, png_const_charp) {};

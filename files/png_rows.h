@@ -7,16 +7,15 @@
 
 namespace pleinair::files {
 
-/// How a PNG is written.
+/// Options of PNG encoding.
 struct PngStyle {
-  /// Level 3 of zlib and two filters: a third of the default's time for a few per cent more bytes.
+  /// zlib level 3 and two filters: a third of the default's time for a few per cent more bytes.
   bool fast = false;
-  std::uint32_t pixels_per_metre = 0;  ///< 0: the file says no size.
+  std::uint32_t pixels_per_metre = 0;  ///< 0: the file gives no physical size.
 };
 
-/// Writes an 8-bit picture, grey (1 channel) or RGB (3), in sRGB as PNG to an open file, with
-/// nothing that varies between runs. False where that fails; errno says why if the file is at
-/// fault.
+/// Writes an 8-bit sRGB image, grey (1 channel) or RGB (3), as PNG to an open file. The output is
+/// deterministic. Returns false on failure; for a file error, errno has the cause.
 bool WritePngRows(ImageView<const std::uint8_t> picture, PngStyle style, std::FILE* file);
 
 }  // namespace pleinair::files

@@ -66,7 +66,7 @@ void ResultFile::RemoveTemporary() const {
 }
 
 Result<void> ResultFile::Finish() {
-  if (!file_) return {};  // Whoever owns standard output flushes and checks it.
+  if (!file_) return {};  // Standard output: its owner flushes and checks it.
   errno = 0;
   file_->close();
   const bool good = static_cast<bool>(*file_);

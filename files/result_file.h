@@ -10,17 +10,17 @@
 
 namespace pleinair::files {
 
-/// A whole text file; "-" is standard input.
+/// Reads a whole text file; "-" is standard input.
 Result<std::string> ReadTextFile(const std::string& path);
 
-/// How an error names that file.
+/// The name of that file in error messages.
 std::string TextFileName(const std::string& path);
 
-/// Standard output, or a file that appears under its name only when it is complete; left
-/// unfinished, it leaves nothing.
+/// Standard output, or a file that appears under its name only when it is complete. An unfinished
+/// file is removed.
 class ResultFile {
  public:
-  /// An empty path is standard output. Errors as WriteError.
+  /// An empty path is standard output. Errors as in WriteError().
   static Result<ResultFile> Open(const std::string& path);
   ~ResultFile();
   ResultFile(ResultFile&&) = default;
@@ -35,7 +35,7 @@ class ResultFile {
   void RemoveTemporary() const;
 
   std::filesystem::path path_;
-  std::filesystem::path temporary_;  ///< Empty for a device or pipe, which is written to as it is.
+  std::filesystem::path temporary_;  ///< Empty for a device or pipe, which is written directly.
   std::unique_ptr<std::ofstream> file_;
 };
 

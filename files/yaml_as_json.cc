@@ -14,7 +14,7 @@ constexpr int kMaxValues = 100'000;
 
 Json ScalarAsJson(const YAML::Node& node) {
   const std::string& text = node.Scalar();
-  // "!" is what yaml-cpp tags a quoted scalar with: always text.
+  // yaml-cpp gives quoted scalars the tag "!"; they are always text.
   if (node.Tag() == "!") return text;
   if (text == ".nan" || text == ".NaN" || text == ".NAN" || text == ".Nan" || text == "nan" ||
       text == "NaN") {
@@ -29,7 +29,7 @@ Json ScalarAsJson(const YAML::Node& node) {
   }
   double number = 0.0;
   const char* end = magnitude.data() + magnitude.size();
-  // from_chars also reads "infinity" and "nan(…)", which are words here.
+  // from_chars also reads "infinity" and "nan(…)", which are text in YAML.
   if (!magnitude.empty() && (magnitude[0] == '.' || (magnitude[0] >= '0' && magnitude[0] <= '9'))) {
     const auto [stop, error] = std::from_chars(magnitude.data(), end, number);
     if (stop == end && error == std::errc()) return negative ? -number : number;
@@ -42,7 +42,7 @@ Json ScalarAsJson(const YAML::Node& node) {
   return text;
 }
 
-// Counts what it converts, because aliases let a page of YAML stand for billions of values.
+// Counts the converted values, because aliases can expand a page of YAML to billions of values.
 bool Convert(const YAML::Node& node, int depth, int* values_left, Json* json) {
   if (depth == 0 || --*values_left < 0) return false;
   switch (node.Type()) {
@@ -73,7 +73,7 @@ bool Convert(const YAML::Node& node, int depth, int* values_left, Json* json) {
 }  // namespace
 
 Result<Json> ParseYaml(std::string_view bytes, const std::string& name) {
-  // OpenCV writes "%YAML:1.0", which is no YAML directive.
+  // OpenCV writes "%YAML:1.0", which is not a valid YAML directive.
   if (bytes.starts_with("%YAML:")) {
     const std::size_t line_end = bytes.find('\n');
     bytes.remove_prefix(line_end == std::string_view::npos ? bytes.size() : line_end + 1);
