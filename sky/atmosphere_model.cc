@@ -34,7 +34,7 @@ class AtmosphereModel : public SkyModel {
   }
 
  private:
-  /// Made when first asked for: who follows the sun alone does without.
+  /// Computed on first use: a caller that needs the sun alone does not pay for it.
   const AtmosphereSky& Sky() const {
     std::call_once(sky_made_, [this] {
       sky_.emplace(tables_, to_sun_, distance_au_);

@@ -10,14 +10,15 @@
 namespace pleinair::sky::internal {
 namespace {
 
-/// Whose illuminances a type has when no scale is given: the standard gives patterns only. Types 1
-/// to 5 are overcast, 6 to 10 partly cloudy, 11 to 15 cloudless (ISO 15469:2004, Table 1).
+/// Cloudiness whose IES illuminance a type gets when no scale is given: the standard defines
+/// patterns only. Types 1 to 5 are overcast, 6 to 10 partly cloudy, 11 to 15 cloudless (ISO
+/// 15469:2004, Table 1).
 SkyCondition ConditionOfType(int type) {
   if (type <= 5) return SkyCondition::kOvercast;
   return type <= 10 ? SkyCondition::kPartlyCloudy : SkyCondition::kClear;
 }
 
-/// Neutral (D65): the standard has no colors.
+/// Neutral (D65): the standard defines no colors.
 LinearRgb Neutral(double luminance) { return {luminance, luminance, luminance}; }
 
 class CieModel : public SkyModel {

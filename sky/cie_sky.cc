@@ -29,7 +29,7 @@ constexpr std::array<CieParameters, CieSky::kTypes> kTable = {{
     {-1.0, -0.15, 24.0, -2.8, 0.15},  // 15 white-blue turbid, broad corona
 }};
 
-// The horizon's cosine; every b is negative, so that e^(b / cos Z) has vanished long before it.
+// Cosine used at the horizon. Every b is negative, so e^(b / cos Z) is already zero there.
 constexpr double kMinCosine = 1e-3;
 
 }  // namespace
@@ -50,8 +50,8 @@ CieSky::CieSky(int type, Direction<World> to_sun)
 }
 
 double CieSky::IntegrateIlluminance(double sun_zenith_distance) const {
-  // Half of the dome, to which the other is symmetric, in two parts that meet at the sun's height;
-  // the nodes (Gauss', two an interval) crowd at the sun, where the aureole has a peak.
+  // Integrates half of the symmetric dome, in two parts that meet at the sun's elevation. The Gauss
+  // nodes (two per interval) are densest near the sun, where the aureole has a peak.
   constexpr int kNodes = 64;
   const auto node = [](int i) {
     const double within = i % 2 == 0 ? 0.5 - std::sqrt(1.0 / 12.0) : 0.5 + std::sqrt(1.0 / 12.0);

@@ -16,12 +16,13 @@ struct CieParameters {
 /// (white-blue turbid sky, wide solar corona).
 CieParameters CieParametersOfType(int type);
 
-/// Luminance pattern of a CIE standard general sky:
+/// Luminance distribution of a CIE standard general sky:
 ///
 ///   L / L_zenith = f(χ) g(Z) / (f(Z_sun) g(0)),
 ///   g(Z) = 1 + a e^(b / cos Z),   f(χ) = 1 + c (e^(d χ) − e^(d π/2)) + e cos² χ,
 ///
-/// Z from the zenith, χ from the sun. A sun below the horizon is put on it.
+/// Z is the angle from the zenith, χ that from the sun. A sun below the horizon is moved to the
+/// horizon.
 class CieSky {
  public:
   static constexpr int kTypes = 15;
@@ -29,11 +30,11 @@ class CieSky {
   /// `type` 1…15; `to_sun` unit vector east, north, up.
   CieSky(int type, Direction<World> to_sun);
 
-  /// Luminance as a share of the zenith's; 0 below the horizon. Never negative: the lowest f of
-  /// the fifteen is 0.81.
+  /// Luminance relative to the zenith's; 0 below the horizon. Never negative: the lowest f of the
+  /// fifteen types is 0.81.
   double RelativeLuminance(Direction<World> from) const;
 
-  /// Horizontal illuminance of a sky whose zenith has 1 cd/m², lux; to 6e-5.
+  /// Horizontal illuminance, lux, of a sky whose zenith has 1 cd/m²; relative error 6e-5.
   double IlluminanceOverZenith() const { return illuminance_over_zenith_; }
 
  private:

@@ -41,7 +41,7 @@ class CloudySky : public SkyModel {
   LinearRgb SkyHorizontalIrradiance() const override { return Made().SkyHorizontalIrradiance(); }
   Direction<World> ToSun() const override { return clear_->ToSun(); }
   AirBetween AirTo(Direction<World> towards, Metres distance) const override {
-    // The same air, lit by what the clouds leave of the light on level ground.
+    // Inscattered light scales with the horizontal illuminance under the clouds.
     AirBetween air = clear_->AirTo(towards, distance);
     air.inscattered = air.inscattered * passed_.global;
     return air;
@@ -49,7 +49,7 @@ class CloudySky : public SkyModel {
   std::vector<std::string> Notes() const override { return clear_->Notes(); }
 
  private:
-  /// Made when first asked for: who follows the sun alone does without.
+  /// Computed on first use: a caller that needs the sun alone does not pay for it.
   const Clouds& Made() const {
     std::call_once(made_, [this] {
       clouds_.emplace(cover_, ToSun(), clear_->SkyHorizontalIrradiance(),
@@ -98,7 +98,8 @@ Clouds::Clouds(double cover, Direction<World> to_sun, const LinearRgb& clear_sky
     : lower_(PatternsOfClouds(cover).lower, to_sun), upper_(PatternsOfClouds(cover).upper, to_sun) {
   const CloudTransmission passed = TransmissionOfClouds(cover, ElevationOf(to_sun));
   clear_share_ = passed.clear_sky;
-  // On level ground: all that comes through, less what the sun and the clear sky bring of it.
+  // Horizontal illuminance of the clouds: the global illuminance less the parts of sun and clear
+  // sky.
   const double sun = pleinair::Luminance(clear_sun) * std::max(0.0, to_sun.xyz.z);
   const double lux =
       std::max(0.0, (passed.global - passed.clear_sky) * pleinair::Luminance(clear_sky) +

@@ -35,7 +35,7 @@ constexpr Vec3 XyzFromXyY(const XyY& c) {
 }
 constexpr XyY XyYFromRgb(LinearRgb color) { return XyYFromXyz(XyzFromRgb(color)); }
 
-/// Brings a color outside Rec.709's gamut into it: no negative channel, and the luminance stays.
+/// Moves a color outside Rec.709's gamut into it: no negative channel, same luminance.
 inline LinearRgb ClipToGamut(LinearRgb color) {
   const double luminance = Luminance(color);
   if (luminance <= 0.0) return {};
@@ -43,7 +43,8 @@ inline LinearRgb ClipToGamut(LinearRgb color) {
   return clipped * (luminance / Luminance(clipped));
 }
 
-/// The same of CIE XYZ: linear Rec.709 without a negative channel whose Luminance() is Y.
+/// As ClipToGamut(), from CIE XYZ: linear Rec.709 without a negative channel whose Luminance() is
+/// Y.
 inline LinearRgb RgbInGamut(Vec3 xyz) {
   if (xyz.y <= 0.0) return {};
   const LinearRgb c = RgbFromXyz(xyz.x, xyz.y, xyz.z);
@@ -52,7 +53,7 @@ inline LinearRgb RgbInGamut(Vec3 xyz) {
   return luminance > 0.0 ? clipped * (xyz.y / luminance) : LinearRgb{};
 }
 
-/// Linear Rec.709 whose Luminance() is exactly `colour.luminance`.
+/// Linear Rec.709 whose Luminance() is exactly `color.luminance`.
 inline LinearRgb RgbFromXyY(const XyY& color) {
   if (color.luminance <= 0.0 || color.y <= 0.0) return {};
   const LinearRgb relative =

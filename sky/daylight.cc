@@ -28,7 +28,7 @@ std::shared_ptr<const SkySource> CreateDaylight(const DaylightOptions& options) 
       break;
   }
   if (options.turbidity != 0.0) {
-    // The comparison sends NaN to the lowest.
+    // Written so that NaN becomes the minimum.
     conditions.turbidity = options.turbidity > kMinTurbidity
                                ? std::min(options.turbidity, kMaxTurbidity)
                                : kMinTurbidity;

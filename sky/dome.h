@@ -8,11 +8,11 @@
 
 namespace pleinair::sky {
 
-/// Integral over the upper hemisphere of f(direction) · cos θ dω, for f a radiance: horizontal
-/// irradiance. Midpoint rule in cos²θ (rings of equal projected solid angle) and azimuth
-/// (sectors). The 8,192 directions that it takes unless told otherwise are right to 3e-4 for smooth
-/// skies (tests/sky/perez_test.cc), and to 1.3e-3 for one with a narrow bright aureole (cie:15).
-/// `Value` needs + and a product with double.
+/// Integral over the upper hemisphere of f(direction) · cos θ dω: horizontal irradiance, for f a
+/// radiance. Midpoint rule in cos²θ (rings of equal projected solid angle) and azimuth (sectors).
+/// With the default 8,192 directions the error is 3e-4 for smooth skies (tests/sky/perez_test.cc)
+/// and 1.3e-3 for a narrow bright aureole (cie:15). `Value` needs operator+ and a product with
+/// double.
 template <int kRings = 64, int kSectors = 128, typename Function>
 auto IntegrateProjectedDome(const Function& f) {
   decltype(f(Direction<World>{})) sum{};

@@ -61,7 +61,7 @@ double ClampedTurbidity(double turbidity) {
   return std::clamp(turbidity, PerezSky::kMinTurbidity, PerezSky::kMaxTurbidity);
 }
 
-// The horizon's cosine; e^(B / cos θ) has vanished long before it, since B < 0.
+// Cosine used at the horizon; e^(B / cos θ) is already zero there, because B < 0.
 constexpr double kMinCosine = 1e-3;
 
 }  // namespace

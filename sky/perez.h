@@ -9,45 +9,46 @@
 
 namespace pleinair::sky {
 
-/// The clear to hazy sky in the form of Perez, Seals & Michalsky 1993, "All-weather model for sky
+/// Clear to hazy sky in the form of Perez, Seals & Michalsky 1993, "All-weather model for sky
 /// luminance distribution", with the coefficients of Preetham, Shirley & Smits 1999, "A practical
 /// analytic model for daylight", appendix A.2:
 ///
 ///   F(θ, γ) = (1 + A e^(B / cos θ)) (1 + C e^(D γ) + E cos² γ),
-///   value(θ, γ) = value_zenith F(θ, γ) / F(0, θ_sun),   each for luminance Y and chromaticity x,
-///   y,
+///   value(θ, γ) = value_zenith F(θ, γ) / F(0, θ_sun),   for luminance Y and chromaticity x, y,
 ///
-/// θ from the zenith, γ from the sun. Y, x and y have their own A…E (Kolivand & Sunar 2014, Eqs.
-/// 8–9 forget that) and zenith values, all functions of turbidity and the sun's height.
+/// θ is the angle from the zenith, γ that from the sun. Y, x and y each have their own A…E and
+/// zenith values, which are functions of turbidity and sun elevation (Kolivand & Sunar 2014, Eqs.
+/// 8–9, use the same A…E for all three by mistake).
 ///
-/// Turbidity is clamped to the range in which the model is finite and positive; NaN gives the
-/// lowest. A sun below the horizon is put on it and the light falls with TwilightShare()
-/// (sky/atmosphere/twilight.h).
+/// Turbidity is clamped to the range in which the model is finite and positive; NaN becomes the
+/// minimum. A sun below the horizon is moved to the horizon, and the light is scaled by
+/// TwilightShare() (sky/atmosphere/twilight.h).
 ///
 /// Luminances are the model's own, 1.1 to 3.9 times those of measured and simulated clear skies;
-/// sky/atmosphere/atmosphere.h has better ones.
+/// sky/atmosphere/atmosphere.h is more accurate.
 class PerezSky {
  public:
-  /// Below 2, zenith normaliser and horizon turn negative; above 10, the zenith at low suns.
+  /// Below 2 the zenith normaliser and the horizon become negative; above 10 the zenith does at low
+  /// suns.
   static constexpr double kMinTurbidity = 2.0;
   static constexpr double kMaxTurbidity = 10.0;
-  /// A clear day (Preetham et al. 1999, Fig. 3: 2 very clear, 3 clear, 6 hazy to the eye).
+  /// A clear day (Preetham et al. 1999, Fig. 3: 2 very clear, 3 clear, 6 hazy).
   static constexpr double kDefaultTurbidity = 2.5;
 
   /// `to_sun`: unit vector, east, north, up.
   PerezSky(double turbidity, Direction<World> to_sun);
 
-  /// What is used, within the valid range.
+  /// The turbidity in use, clamped to the valid range.
   double turbidity() const { return turbidity_; }
   bool TurbidityWasClamped() const { return turbidity_was_clamped_; }
 
   /// Luminance (cd/m²) and chromaticity in a direction; black below the horizon.
   XyY At(Direction<World> from) const;
 
-  /// The same as linear Rec.709: radiance in cd/m², no channel negative.
+  /// The same direction as linear Rec.709: radiance in cd/m², no channel negative.
   LinearRgb Radiance(Direction<World> from) const { return RgbFromXyY(At(from)); }
 
-  /// Illuminance on level ground in lux, by IntegrateProjectedDome.
+  /// Horizontal illuminance of the sky, lux, by IntegrateProjectedDome().
   LinearRgb HorizontalIrradiance() const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <memory>
 
@@ -8,12 +8,12 @@
 
 namespace pleinair::sky::internal {
 
-// What SkySource::Create() chooses from; the conditions are valid, without clouds.
+// Sources for SkySource::Create(). The conditions are valid and without clouds.
 std::shared_ptr<const SkySource> MakePerezSource(const SkyConditions& conditions);
 std::shared_ptr<const SkySource> MakeCieSource(int type, const SkyConditions& conditions);
 std::shared_ptr<const SkySource> MakeAtmosphereSource(const SkyConditions& conditions);
 
-/// `clear` behind clouds, sky/cloud_cover.h; `cover` above 0.
+/// `clear` with clouds in front of it (sky/cloud_cover.h); `cover` is above 0.
 std::shared_ptr<const SkySource> MakeCloudySource(std::shared_ptr<const SkySource> clear,
                                                   double cover);
 

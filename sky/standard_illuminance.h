@@ -7,7 +7,7 @@ namespace pleinair::sky {
 /// How clear the sky is.
 enum class SkyCondition { kClear, kHazy, kPartlyCloudy, kOvercast };
 
-/// What falls on a surface that faces the sun, and from the sky on level ground.
+/// Illuminance on a surface facing the sun, and horizontal illuminance of the sky.
 struct StandardIlluminance {
   Lux sun_normal;
   Lux sky_horizontal;
@@ -20,11 +20,11 @@ struct StandardIlluminance {
 ///   sky         0.8 + 15.5 √(sin a) klx clear, 0.3 + 45 sin a partly cloudy, 0.3 + 21 sin a
 ///   overcast
 ///
-/// m = 1 / sin a above 10°, RelativeAirMass() below 6°, a blend between, where 1 / sin a fails. The
-/// sun's share falls to nothing as its disc sinks below the horizon, the sky's with
-/// TwilightShare().
+/// m = 1 / sin a above 10° and RelativeAirMass() below 6°, with a blend between, because 1 / sin a
+/// diverges at the horizon. The sun's part decreases to zero as its disc sets; the sky's part
+/// follows TwilightShare().
 ///
-/// IES has no figure for haze: kHazy has those of kClear.
+/// IES has no values for haze: kHazy has those of kClear.
 StandardIlluminance ComputeStandardIlluminance(SkyCondition condition, Radians apparent_elevation,
                                                double distance_au);
 

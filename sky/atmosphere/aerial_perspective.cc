@@ -20,7 +20,7 @@ std::array<float, 3> RgbOf(const Spectrum& ratio, double factor) {
   return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
 }
 
-/// Extinction of white light, each channel for itself, over ten kilometres.
+/// Extinction of white light in each color channel, averaged over ten kilometres.
 std::array<float, 3> ChannelExtinction(const Spectrum& extinction) {
   constexpr float kLength = 1e4F;
   const std::array<float, 3> before = RgbOf(Spectrum::Of(1.0F), 1.0);
@@ -86,7 +86,7 @@ AerialPerspective::AerialPerspective(const AtmosphereTables& tables, Direction<W
 
 AerialPerspective::Columns AerialPerspective::ColumnsTo(Direction<World> towards,
                                                         Metres distance) const {
-  // Density e^(−(h + s sin e) / scale) along the way; downwards no more than the ground's.
+  // Density e^(−(h + s sin e) / scale) along the ray; downwards at most the density at the ground.
   const double d = std::max(0.0, distance.value());
   const auto column = [&](double scale) {
     return d * MeanThrough(std::max(0.0, towards.xyz.z * d / scale));

@@ -11,19 +11,18 @@ namespace pleinair::sky {
 
 struct AtmosphereTables;
 
-/// What the air between the eye and a thing does to its light: radiance = radiance · transmittance
-/// + inscattered, linear Rec.709, cd/m².
+/// Aerial perspective: radiance = radiance · transmittance + inscattered, in linear Rec.709, cd/m².
 ///
-/// For distances of a scene, near the ground: the light that arrives from all sides is taken as
-/// that at the eye, the air's density as falling with height along the way, and each color
-/// channel as having one coefficient of extinction a gas. Against a path tracer the inscattered
-/// light is within 12 % at 2 and 20 km (tests/sky/atmosphere/aerial_perspective_test.cc).
+/// Valid near the ground and for distances of a scene. Three simplifications: the incident light
+/// along the ray is that at the eye; the density of the air falls exponentially with height; each
+/// gas has one extinction coefficient per color channel. Inscattered light is within 12 % of a path
+/// tracer's at 2 and 20 km (tests/sky/atmosphere/aerial_perspective_test.cc).
 class AerialPerspective {
  public:
   AerialPerspective(const AtmosphereTables& tables, Direction<World> to_sun,
                     double sun_distance_au);
 
-  /// `towards`: unit vector, east, north, up; from an eye 2 m above the ground.
+  /// `towards`: unit vector, east, north, up. The eye is 2 m above the ground.
   LinearRgb Transmittance(Direction<World> towards, Metres distance) const;
   LinearRgb Inscattered(Direction<World> towards, Metres distance) const;
 
@@ -31,15 +30,15 @@ class AerialPerspective {
   static constexpr int kRows = 37;     ///< Elevations, −90°…90° in steps of 5°.
   static constexpr int kSectors = 13;  ///< Azimuths from the sun's, 180° t^1.5.
 
-  /// Light that a metre of air at the eye's height adds, linear Rec.709, cd/m² a metre.
+  /// Light that one metre of air at the eye's height inscatters, linear Rec.709, cd/m² per metre.
   struct Node {
     std::array<float, 3> molecules{};
-    std::array<float, 3> aerosol{};  ///< Without the sun's own light.
+    std::array<float, 3> aerosol{};  ///< Without direct sunlight.
   };
 
-  /// What holds for every node; lengths in metres.
+  /// Values common to all nodes; lengths in metres.
   struct Constants {
-    std::array<float, 3> sun_on_aerosol{};  ///< Times the aerosol's phase function.
+    std::array<float, 3> sun_on_aerosol{};  ///< To be multiplied by the aerosol's phase function.
     std::array<float, 3> molecule_extinction{}, aerosol_extinction{};  ///< At the ground.
     float aerosol_scale_height = 0.0F, asymmetry = 0.0F;
     std::array<float, 3> to_sun{};

@@ -18,7 +18,7 @@ double AerosolExtinction(const Aerosol& aerosol, double wavelength_nm) {
 }
 
 double OzoneAbsorption(double wavelength_nm) {
-  // 300 Dobson units of 2.687e20 molecules/m², as a triangle from 10 over 25 to 40 km.
+  // 300 Dobson units of 2.687e20 molecules/m², as a triangle over height: 10, 25, 40 km.
   constexpr double kMaxDensity = 300.0 * 2.687e20 / 15'000.0;
   return kMaxDensity * OzoneCrossSection(wavelength_nm);
 }

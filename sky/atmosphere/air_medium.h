@@ -5,9 +5,9 @@
 
 namespace pleinair::sky {
 
-/// The air as a medium for light: a shell of three gases and dusts about a sphere. Lengths in
-/// metres, coefficients in 1/m. Bruneton 2017, "A Qualitative and Quantitative Evaluation of 8
-/// Clear Sky Models", §3, and the constants of his published implementation.
+/// The air as a participating medium: a spherical shell of molecules, aerosol and ozone. Lengths in
+/// metres, coefficients in 1/m. Structure and constants: Bruneton 2017, "A Qualitative and
+/// Quantitative Evaluation of 8 Clear Sky Models", §3, and his published implementation.
 struct AirMedium {
   static constexpr double kGroundRadius = 6'360'000.0;
   static constexpr double kTopRadius = 6'460'000.0;
@@ -16,14 +16,14 @@ struct AirMedium {
   /// The eye's height above the ground.
   static constexpr double kEyeHeight = 2.0;
 
-  /// Amounts at a height as a share of the greatest: molecules, aerosol, ozone.
+  /// Densities at a height, relative to their maxima: molecules, aerosol, ozone.
   struct Densities {
     float molecules = 0.0F, aerosol = 0.0F, ozone = 0.0F;
   };
 
   Aerosol aerosol;
   double ground_albedo = 0.0;
-  Spectrum molecules;           ///< Scattering at the ground; they absorb nothing.
+  Spectrum molecules;           ///< Scattering at the ground; molecules do not absorb.
   Spectrum aerosol_extinction;  ///< At the ground.
   Spectrum aerosol_scattering;  ///< At the ground.
   Spectrum ozone;               ///< Absorption at 25 km.
@@ -44,12 +44,13 @@ struct AirMedium {
 double MoleculeScattering(double wavelength_nm);
 double AerosolExtinction(const Aerosol& aerosol, double wavelength_nm);
 double OzoneAbsorption(double wavelength_nm);
-/// Share of the greatest density of ozone, at 25 km; none below 10 km and above 40 km.
+/// Density of ozone relative to its maximum at 25 km; 0 below 10 km and above 40 km.
 double OzoneDensity(double height_m);
 
-/// Scattered share per steradian at an angle of given cosine; the integral over the sphere is 1.
+/// Phase function (1/sr) of a scattering angle, given by its cosine; integrates to 1 over the
+/// sphere.
 double MoleculePhase(double cosine);
-/// Henyey & Greenstein 1941, Eq. (2).
+/// Phase function (1/sr) of Henyey & Greenstein 1941, Eq. (2).
 double AerosolPhase(double asymmetry, double cosine);
 
 }  // namespace pleinair::sky

@@ -16,8 +16,8 @@ namespace {
 using std::numbers::pi;
 constexpr double kGround = AirMedium::kGroundRadius;
 
-// The darkest night: starlight and airglow, cd/m² in all directions; horizontal illuminance
-// 6.5e-4 lx (Seidelmann 1992, Table 8.2, sun at −18°).
+// Darkest night sky: starlight and airglow, cd/m², the same in all directions. Horizontal
+// illuminance 6.5e-4 lx (Seidelmann 1992, Table 8.2, sun at −18°).
 constexpr float kNightLuminance = 2.06e-4F;
 
 // Shells that a line of sight is cut at, metres: 1 + i^… from the eye to space.
@@ -27,7 +27,8 @@ double ShellHeight(int i) {
   return AirMedium::kEyeHeight + (AirMedium::kTopHeight - AirMedium::kEyeHeight) * t * t * t;
 }
 
-/// Mean of the sun's disc: rows of the part above the horizon, by Gauss' rule with five nodes.
+/// Mean over the sun's disc: rows of the part above the horizon, by Gauss quadrature with five
+/// nodes.
 Spectrum MeanOverDisc(const OpticalDepthTable& depths, double elevation, double radius) {
   static constexpr std::array<double, 5> kNodes = {-0.9061798459, -0.5384693101, 0.0, 0.5384693101,
                                                    0.9061798459};
@@ -48,7 +49,7 @@ Spectrum MeanOverDisc(const OpticalDepthTable& depths, double elevation, double 
   return sum * static_cast<float>(DiscShareAboveHorizon(Radians(elevation)) / whole);
 }
 
-/// The spline through the bands may leave −1e-40 of nothing.
+/// The spline through the bands may give about −1e-40 in place of zero.
 std::array<float, 3> ToFloats(Vec3 v) {
   const auto positive = [](double x) { return static_cast<float>(std::max(x, 0.0)); };
   return {positive(v.x), positive(v.y), positive(v.z)};
@@ -94,14 +95,14 @@ void AtmosphereSky::FillRing(int ring) {
   };
   std::array<Sums, kSectors> sums{};
   std::array<double, kSectors> cosines{};  // Of the angle between view and sun.
-  std::array<double, kSectors> turns{};    // Cosine of the azimuth.
+  std::array<double, kSectors> turns{};    // Cosine of the azimuth from the sun's.
   for (int sector = 0; sector < kSectors; ++sector) {
     const double u = static_cast<double>(sector) / (kSectors - 1);
     turns[sector] = std::cos(pi * std::pow(u, 1.5));
     cosines[sector] = view_up * sun_up + view_level * sun_level * turns[sector];
   }
 
-  Spectrum depth{};  // From the eye.
+  Spectrum depth{};  // Optical depth from the eye.
   Spectrum through = Spectrum::Of(1.0F);
   double from_distance = 0.0;
   const auto distance_to = [&](double height) {
@@ -121,13 +122,13 @@ void AtmosphereSky::FillRing(int ring) {
     const Spectrum extinction = medium.Extinction(d);
     depth += extinction * static_cast<float>(length);
     const Spectrum after = Transmittance(depth);
-    // ∫ e^−τ ds over the piece, for an even medium.
+    // ∫ e^−τ ds over the segment, for a homogeneous medium.
     const Spectrum weight = (through - after) / extinction;
     through = after;
     const Spectrum molecules = medium.molecules * d.molecules * weight;
     const Spectrum aerosol = medium.aerosol_scattering * d.aerosol * weight;
 
-    // The same directions against the vertical of the place that is seen.
+    // The view and sun directions relative to the vertical at the sample point.
     const double local_view_up = std::clamp((eye * view_up + middle) / radius, -1.0, 1.0);
     const double local_view_level = std::sqrt(1.0 - local_view_up * local_view_up);
     const double local_view_deg = std::asin(local_view_up) / kRadiansPerDegree;

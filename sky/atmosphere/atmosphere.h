@@ -14,7 +14,7 @@
 
 namespace pleinair::sky {
 
-/// What is made once for an air: the tables that do not depend on where the sun stands.
+/// Tables of one atmosphere that do not depend on the sun's position; computed once.
 struct AtmosphereTables {
   AirMedium medium;
   OpticalDepthTable depths;
@@ -24,16 +24,19 @@ struct AtmosphereTables {
       : medium(aerosol, ground_albedo), depths(medium), scattered(medium, depths) {}
 };
 
-/// CIE XYZ of the sun on a surface facing it, lux: what the air lets through, mean of its disc, as
-/// much of it as stands above a level horizon. `to_sun` apparent, unit, east, north, up.
+/// CIE XYZ of the sun on a surface facing it, lux, after atmospheric extinction. Mean over the
+/// disc; the part below a level horizon does not count. `to_sun`: apparent, unit vector, east,
+/// north, up.
 Vec3 SunXyz(const AtmosphereTables& tables, Direction<World> to_sun, double sun_distance_au);
 
-/// The sky over an eye at the ground for one place of the sun, physically based: a sky-view table
+/// Physically based sky over an observer on the ground, for one sun position: a sky-view table
 /// after Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique",
-/// §5.3. Deviations: eight wavelengths in place of three; scattered light with its directions
-/// (sky/atmosphere/scattered_light.h); the aerosol's first scattering is kept apart, so that its
-/// peak around the sun is computed and not interpolated; light is summed along the curved shells
-/// exactly.
+/// §5.3.
+///
+/// Deviations: eight wavelengths in place of three. Multiple scattering keeps its directions
+/// (sky/atmosphere/scattered_light.h). The aerosol's single scattering is stored apart, so that its
+/// peak around the sun is computed and not interpolated. Light is integrated along the curved
+/// shells exactly.
 class AtmosphereSky {
  public:
   static constexpr int kRings = 64;    ///< Elevations, 90° t².
@@ -46,19 +49,21 @@ class AtmosphereSky {
     std::array<float, 3> aerosol{};
   };
 
-  /// `to_sun`: apparent, unit, east, north, up; its light as at `sun_distance_au`.
+  /// `to_sun`: apparent, unit vector, east, north, up. The light is that at `sun_distance_au`.
   AtmosphereSky(std::shared_ptr<const AtmosphereTables> tables, Direction<World> to_sun,
                 double sun_distance_au);
 
   /// CIE XYZ, cd/m²; zero below the horizon.
   Vec3 Xyz(Direction<World> from) const;
 
-  /// The elevation that the sky of `elevation` is computed for, radians. Elevations e below b are
-  /// taken as b e^(e/b − 1), which meets e at b with its slope: in clean air and with the sun near
-  /// the horizon the lowest degrees of the sky brighten upwards by up to 12 % in 0.1° (a path
-  /// tracer agrees), about as 12 % / e; so softened, by 12 % / b at most. No real horizon, with its
-  /// 0.6° of refraction and its hills, shows more. b is 2.9° by day (level sights look up by 1.1°,
-  /// from 2.9° on nothing changes), and more in twilight, when the earth's shadow steepens it.
+  /// Elevation (radians) at which the sky of `elevation` is evaluated. Elevations e below a bound b
+  /// become b e^(e/b − 1), which is continuous and smooth at b.
+  ///
+  /// Why: in clean air or with a low sun, the lowest degrees of the sky brighten upwards by up to
+  /// 12 % in 0.1° (a path tracer agrees), in proportion to 1/e. The softened gradient is 12 % / b
+  /// at most. No real horizon shows more, because of its 0.6° of refraction and its hills. b is
+  /// 2.9° by day and larger in twilight, when the earth's shadow steepens the gradient. At level
+  /// sight, e = 0, the sky of 1.1° is used.
   static double SoftenedElevation(double elevation, double sun_elevation);
 
   const std::vector<Node>& nodes() const { return nodes_; }

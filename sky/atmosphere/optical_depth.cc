@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kGround = AirMedium::kGroundRadius, kTop = AirMedium::kTopRadius;
 
-/// From the ground's horizon to space.
+/// Distance from the ground to space along the horizontal.
 const double kHorizonToTop = std::sqrt(kTop * kTop - kGround * kGround);
 
 double DistanceToTop(double radius, double mu) {
@@ -28,13 +28,13 @@ OpticalDepthTable::OpticalDepthTable(const AirMedium& medium)
     const double farthest = DistanceToTop(radius, 0.0);
     for (int column = 0; column < kDirections; ++column) {
       const double length = std::lerp(nearest, farthest, column / (kDirections - 1.0));
-      // The direction whose way to space has this length.
+      // Zenith cosine of the ray that reaches space after this distance.
       const double mu = length > 0.0
                             ? std::clamp((kTop * kTop - radius * radius - length * length) /
                                              (2.0 * radius * length),
                                          0.0, 1.0)
                             : 1.0;
-      // Midpoint rule in t, distance = length · t³: dense where the air is.
+      // Midpoint rule in t, distance = length · t³: denser steps where the air is denser.
       constexpr int kSteps = 32;
       double molecules = 0.0, aerosol = 0.0, ozone = 0.0;
       for (int i = 0; i < kSteps; ++i) {

@@ -6,19 +6,19 @@
 
 namespace pleinair::sky {
 
-/// Optical depth from a point of the air to space, at any height and direction that misses the
-/// ground; a table over height and distance to space (mapping of Bruneton 2017, §4.1, here for
-/// upward directions only: a downward ray is two upward rays that meet where it is lowest).
+/// Table of the optical depth from a point in the air to space, over height and distance to space
+/// (mapping of Bruneton 2017, §4.1). It holds upward directions only: a downward ray is two upward
+/// rays that meet at its lowest point.
 class OpticalDepthTable {
  public:
   explicit OpticalDepthTable(const AirMedium& medium);
 
-  /// Per wavelength, from the height `height_m` towards a direction whose zenith has the cosine
-  /// `mu`. Directions that hit the ground are bent up to graze it.
+  /// Optical depth per wavelength from the height `height_m` in a direction of zenith cosine `mu`.
+  /// A direction that hits the ground is replaced by the grazing one.
   Spectrum ToSpace(double height_m, double mu) const;
 
-  /// Share of the sun's light that arrives at a height, its centre at the zenith cosine `mu`: the
-  /// disc sets behind the ground's edge over its width.
+  /// Transmittance of sunlight to a height, for the disc's centre at the zenith cosine `mu`. The
+  /// disc sets gradually behind the horizon, over its angular width.
   Spectrum SunTransmittance(double height_m, double mu) const;
 
  private:
@@ -26,7 +26,7 @@ class OpticalDepthTable {
 
   Spectrum Upward(double radius, double mu) const;
 
-  /// Columns, in metres of the densest air.
+  /// Column densities, in metres of air at the density maximum.
   struct Columns {
     float molecules = 0.0F, aerosol = 0.0F, ozone = 0.0F;
   };

@@ -19,20 +19,20 @@ constexpr int kMoleculeModes = ScatteredLight::kMoleculeModes;
 constexpr int kAerosolModes = ScatteredLight::kAerosolModes;
 constexpr int kViews = ScatteredLight::kViews;
 
-// Degrees; dense at the horizon, where light changes fast.
+// Degrees; denser near the horizon, where light changes fast.
 constexpr std::array<double, ScatteredLight::kSuns> kSunElevations = {
     -18, -15, -12, -10, -9, -8, -7, -6, -5, -4, -3.5, -3, -2.5, -2, -1.5, -1, -0.5, 0,  0.5, 1,
     1.5, 2,   2.5, 3,   4,  5,  6,  8,  10, 13, 16,   20, 25,   30, 37,   45, 55,   65, 75,  90};
 
-// Orders that are followed one by one; those after are a geometric series.
+// Orders of scattering that are computed; later orders are summed as a geometric series.
 constexpr int kOrders = 10;
 
-// Logarithm of the light's growth for a degree of the sun's elevation, in deep twilight.
+// In deep twilight the light grows by e^1.2 per degree of sun elevation.
 constexpr double kTwilightGrowth = 1.2;
 
 constexpr double kViewStepDeg = 180.0 / (kViews - 1);
 
-/// Phase functions from the Gaussian directions to the views that are kept: like
+/// Phase functions from the Gaussian directions to the view directions of the table. As
 /// internal::PhaseMatrices, but [view][mode][in].
 struct ViewMatrices {
   std::array<std::array<std::array<float, kGauss>, kMoleculeModes>, kViews> molecules_above,
@@ -84,7 +84,7 @@ void Gather(const Rows& above_rows, const Rows& below_rows, const Modes& above, 
   }
 }
 
-/// The sun's light, once scattered, as a source function.
+/// Source function of singly scattered sunlight.
 void FirstSource(const internal::Layers& layers, const std::array<Spectrum, kLevels>& sun,
                  double asymmetry, double mu_sun, Field* source) {
   const internal::GaussNodes& nodes = internal::Gauss();
@@ -128,7 +128,7 @@ void Add(const Field& field, const Spectrum& factor, Field* total) {
   }
 }
 
-/// Light in all directions and at all levels, for the rate at which orders die away.
+/// Total light over all directions and levels; its ratio between orders gives the geometric series.
 Spectrum Amount(const Field& field) {
   Spectrum sum{};
   for (const internal::LevelField& level : field) {
@@ -153,8 +153,8 @@ ScatteredLight::Place ScatteredLight::PlaceOfSun(double elevation_deg) {
   const auto lower = static_cast<int>(above - kSunElevations.begin()) - 1;
   const double low = kSunElevations[lower], step = kSunElevations[lower + 1] - low;
   const double share = (elevation_deg - low) / step;
-  // Below the horizon light falls by e a degree, just above it more slowly: exponential between
-  // the nodes, which leaves no corners at them.
+  // Below the horizon light falls by a factor of e per degree, just above it more slowly.
+  // Exponential interpolation leaves no kinks at the nodes.
   const double growth = low < 0.0 ? step * kTwilightGrowth : 0.0;
   return {lower, static_cast<float>(growth > 0.0 ? std::expm1(growth * share) / std::expm1(growth)
                                                  : share)};

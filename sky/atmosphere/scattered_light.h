@@ -8,18 +8,18 @@
 
 namespace pleinair::sky {
 
-/// Light that has been scattered or reflected at least once, as the air scatters it again: for
-/// every height, place of the sun and direction of view.
+/// Source function of multiple scattering: light that has been scattered or reflected at least once
+/// and is scattered again, for every height, sun position and view direction.
 ///
-/// Deviation from Hillaire 2020, §5.5, who takes all orders from the second on as isotropic: here
-/// they keep their directions. Successive orders of scattering are followed through plane layers
-/// (Liou 2002, "An Introduction to Atmospheric Radiation", §3.2), in Gaussian directions and a
-/// Fourier series of the azimuth, with the sun weakened as in the round atmosphere. Why, and what
-/// it wins: docs/method/sky.md. It depends on the air alone: made once, good for every place of the
-/// sun.
+/// Deviation from Hillaire 2020, §5.5, where all orders from the second on are isotropic: here they
+/// keep their directions. Successive orders of scattering are computed in plane layers (Liou 2002,
+/// "An Introduction to Atmospheric Radiation", §3.2), in Gaussian directions and a Fourier series
+/// of the azimuth; the sun's transmittance is that of the spherical atmosphere. docs/method/sky.md
+/// has the reason and the gain. Depends on the atmosphere alone: computed once for all sun
+/// positions.
 class ScatteredLight {
  public:
-  static constexpr int kMoleculeModes = 3;  ///< All that the molecules' phase function has.
+  static constexpr int kMoleculeModes = 3;  ///< The phase function of molecules has no more.
   static constexpr int kAerosolModes = 7;
   static constexpr int kLevels = 34;
   static constexpr int kViews = 37;  ///< Elevations of view, −90°…90° in steps of 5°.
@@ -27,27 +27,26 @@ class ScatteredLight {
 
   ScatteredLight(const AirMedium& medium, const OpticalDepthTable& depths);
 
-  /// Fourier coefficients (cosines of the azimuth from the sun's) of the light that one
-  /// particle's worth of scattering sends towards the eye: J(φ) = Σ_m cos(m φ) (σ_molecules
-  /// molecules[m] + σ_aerosol aerosol[m]); as shares of the sun's irradiance, per steradian.
+  /// Fourier coefficients (cosines of the azimuth from the sun's) of the light that one unit of
+  /// scattering sends towards the eye: J(φ) = Σ_m cos(m φ) (σ_molecules molecules[m] + σ_aerosol
+  /// aerosol[m]); relative to the sun's irradiance, per steradian.
   struct Source {
     std::array<Spectrum, kMoleculeModes> molecules;
     std::array<Spectrum, kAerosolModes> aerosol;
     void AddScaled(const Source& o, float s);
   };
 
-  /// Elevations of the sun that are kept, ascending, degrees.
+  /// Sun elevations of the table, ascending, degrees.
   static double SunElevationDeg(int sun);
 
-  /// Where an elevation of the sun lies among them: index of the lower neighbour, share of the
-  /// upper one.
+  /// Position of an elevation in that table: index of the lower neighbour, weight of the upper one.
   struct Place {
     int lower = 0;
     float upper_share = 0.0F;
   };
   static Place PlaceOfSun(double elevation_deg);
 
-  /// At a height and for an elevation of view (−90…90°), interpolated; one of the kept suns.
+  /// Interpolated at a height and a view elevation (−90…90°), for the sun elevation of index `sun`.
   Source At(int sun, double height_m, double view_elevation_deg) const;
 
  private:

@@ -11,7 +11,7 @@ constexpr int kLevels = ScatteredLight::kLevels;
 constexpr int kMoleculeModes = ScatteredLight::kMoleculeModes;
 constexpr int kAerosolModes = ScatteredLight::kAerosolModes;
 
-// Metres. Dense where the haze is and the light changes.
+// Metres; denser where the aerosol is and where the light changes fast.
 constexpr std::array<double, kLevels> kHeights = {
     0,      40,     90,     150,    225,    310,    410,    520,    650,    800,    980,   1'180,
     1'400,  1'650,  1'950,  2'300,  2'700,  3'150,  3'700,  4'300,  5'000,  6'000,  7'200, 8'600,
@@ -22,7 +22,7 @@ double Sine(double mu) { return std::sqrt(std::max(0.0, 1.0 - mu * mu)); }
 GaussNodes ComputeGauss() {
   GaussNodes nodes{};
   for (int i = 0; i < kGauss; ++i) {
-    // Newton's method on the Legendre polynomial of [−1, 1].
+    // Newton's method for the roots of the Legendre polynomial on [−1, 1].
     double x = std::cos(pi * (i + 0.75) / (kGauss + 0.5)), slope = 1.0;
     for (int iteration = 0; iteration < 50; ++iteration) {
       double p = 1.0, previous = 0.0;
@@ -40,7 +40,7 @@ GaussNodes ComputeGauss() {
   return nodes;
 }
 
-/// Mean density in a layer over that at the ground.
+/// Mean density in a layer, relative to that at the ground.
 double MeanExponential(double low, double high, double scale) {
   return scale * (std::exp(-low / scale) - std::exp(-high / scale)) / (high - low);
 }
@@ -99,8 +99,8 @@ AerosolFourier FourierOfAerosol(double asymmetry, double mu, double mu_other) {
 
 PhaseMatrices::PhaseMatrices(double asymmetry) {
   const GaussNodes& nodes = Gauss();
-  // The light that leaves each direction must be all that arrived: what the quadrature misses of
-  // the forward peak is put on the diagonal.
+  // Energy conservation: each direction must scatter all the light that it received. The diagonal
+  // takes what the quadrature misses of the forward peak.
   std::array<double, kGauss> total{};
   std::vector<AerosolFourier> same(kGauss * kGauss), other(kGauss * kGauss);
   for (int i = 0; i < kGauss; ++i) {
@@ -117,7 +117,7 @@ PhaseMatrices::PhaseMatrices(double asymmetry) {
       const double weight = pi * nodes.weight[j];  // Half of 2π.
       for (int m = 0; m < kAerosolModes; ++m) {
         const double s = same[i * kGauss + j][m], o = other[i * kGauss + j][m];
-        // Mirrored in the horizontal plane the other hemisphere's coefficients come back.
+        // Reflection in the horizontal plane gives the opposite hemisphere's coefficients.
         aerosol_even_[m][i][j] = static_cast<float>(weight * (s + o));
         aerosol_odd_[m][i][j] = static_cast<float>(weight * (s - o));
       }
@@ -207,7 +207,7 @@ void Layers::Transport(const Field& source, const Spectrum& ground_direct, Field
   const GaussNodes& nodes = Gauss();
   Spectrum ground = ground_direct;
   for (int i = 0; i < kGauss; ++i) {
-    // 2π for the azimuths, albedo/π for Lambert.
+    // 2π for the azimuths, albedo/π for the Lambertian ground.
     ground.AddScaled((*radiance)[0].above[0][i],
                      static_cast<float>(2.0 * ground_albedo_ * nodes.weight[i] * nodes.mu[i]));
   }

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kNodes = Spectrum::kSize;
 
-// At the wavelengths of kCie1931. The sun: ASTM G-173, extraterrestrial column, W m⁻² nm⁻¹, means
-// over the 10 nm from the wavelength on. Ozone: Serdyuchenko et al. (Universität Bremen, 2011),
-// 233 K, likewise, 1e-27 m².
+// At the wavelengths of kCie1931. Sun: ASTM G-173, extraterrestrial column, W m⁻² nm⁻¹, means over
+// the 10 nm from the wavelength on. Ozone: Serdyuchenko et al. (Universität Bremen, 2011), 233 K,
+// means over the same 10 nm, 1e-27 m².
 struct Measured {
   double solar, ozone;
 };
@@ -61,7 +61,7 @@ double SplineBasis(int node, const std::array<double, kNodes>& curvature, double
          ((a * a * a - a) * curvature[i] + (b * b * b - b) * curvature[i + 1]) / 6.0;
 }
 
-/// Lux of each XYZ for a ratio of 1 at one node; beyond the nodes the ratio stays what it is there.
+/// XYZ in lux for a ratio of 1 at one node. Beyond the nodes the ratio is constant.
 std::array<Vec3, kNodes> ComputeWeights() {
   std::array<Vec3, kNodes> weights{};
   for (int node = 0; node < kNodes; ++node) {

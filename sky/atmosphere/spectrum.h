@@ -7,9 +7,9 @@
 
 namespace pleinair::sky {
 
-/// e^x for x ≤ 0 (anything above counts as 0), relative error below 2e-7 (1 + |x|); below −87 it is
-/// 1e-38, never a denormal. Made of operations that compilers turn into vector instructions, and
-/// the same on every machine, which std::exp is not.
+/// e^x for x ≤ 0 (larger x counts as 0), with a relative error below 2e-7 (1 + |x|). Below −87 it
+/// is 1e-38, never a denormal. Unlike std::exp it vectorises and gives the same bits on every
+/// machine.
 inline float ExpOfNegative(float x) {
   constexpr float kLog2E = 1.44269504F;
   const float t = std::clamp(x * kLog2E, -126.0F, 0.0F);

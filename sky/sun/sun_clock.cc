@@ -13,16 +13,16 @@ Radians HourAngle(const Observer& observer, UtcTime time, SunModel model) {
   const double east = horizontal * std::sin(sun.azimuth.value());
   const double north = horizontal * std::cos(sun.azimuth.value());
   const double up = std::sin(sun.elevation.value());
-  // Turned about east into the equator's frame: the component towards the point where meridian and
-  // equator meet.
+  // Rotated about the east axis into the equator's frame: the component towards the intersection of
+  // meridian and equator.
   const double on_meridian =
       up * std::cos(observer.latitude.value()) - north * std::sin(observer.latitude.value());
   return Radians(std::atan2(-east, on_meridian));
 }
 
 double EquationOfTimeSeconds(UtcTime time, double ut1_minus_utc_s, SunModel model) {
-  // Seen from the pole parallax and diurnal aberration do not touch the hour angle: it is the
-  // geocentric one, as the almanacs define it.
+  // At the pole parallax and diurnal aberration do not change the hour angle: it is the geocentric
+  // one, as the almanacs define it.
   const Observer pole{
       .latitude = Radians(0.5 * pi), .longitude = Radians(0.0), .ut1_minus_utc_s = ut1_minus_utc_s};
   std::int64_t in_day = time.nanoseconds_since_1970() % pleinair::internal::kNanosecondsPerDay;

@@ -6,14 +6,14 @@
 
 namespace pleinair::sky {
 
-/// The sun's local hour angle, −π…π: how far it has turned past the observer's meridian, westwards
-/// positive. 0 at noon (upper transit), ±π at midnight (lower transit); it grows by 15° an hour at
-/// every latitude, the poles included, where the longitude says which meridian is meant.
+/// Local hour angle of the sun, −π…π: its rotation past the observer's meridian, westwards
+/// positive. 0 at noon (upper transit), ±π at midnight (lower transit). It grows by 15° per hour at
+/// every latitude; at the poles the longitude defines the meridian.
 Radians HourAngle(const Observer& observer, UtcTime time, SunModel model = SunModel::kPrecise);
 
-/// Equation of time in seconds: apparent minus mean solar time, what a sundial is ahead of a clock
-/// that shows mean time (positive in October and November, as the almanacs have it). The same
-/// everywhere on Earth. `ut1_minus_utc_s` as in Observer; it cancels but for its own sun's motion.
+/// Equation of time in seconds: apparent minus mean solar time (positive in October and November,
+/// as in the almanacs). The same everywhere on Earth. `ut1_minus_utc_s` as in Observer; it cancels
+/// except for the sun's own motion.
 double EquationOfTimeSeconds(UtcTime time, double ut1_minus_utc_s = 0.0,
                              SunModel model = SunModel::kPrecise);
 

@@ -10,18 +10,18 @@ namespace pleinair::sky {
 namespace {
 
 constexpr double kStepSeconds = 900.0;
-constexpr double kTransitStepSeconds = 10'800.0;  // The hour angle grows evenly.
+constexpr double kTransitStepSeconds = 10'800.0;  // The hour angle grows uniformly.
 constexpr double kRootToleranceSeconds = 0.05;
-// So near to an extremum the elevation is within 4e-8° of it: its second derivative is at most the
-// square of the Earth's turn, 3e-7° / s².
+// This close to an extremum the elevation is within 4e-8° of it: its second derivative is at most
+// the square of the Earth's rotation rate, 3e-7° / s².
 constexpr double kExtremumToleranceSeconds = 0.5;
 
 struct Sample {
-  double seconds = 0.0;  ///< After the span's begin.
+  double seconds = 0.0;  ///< After the start of the span.
   double value = 0.0;
 };
 
-/// Where `is_high` changes between `low` and `high`.
+/// Bisects for the time at which `is_high` changes between `low` and `high`.
 template <typename IsHigh>
 double Bisect(const IsHigh& is_high, double low, double high) {
   const bool at_low = is_high(low);
@@ -32,7 +32,7 @@ double Bisect(const IsHigh& is_high, double low, double high) {
   return 0.5 * (low + high);
 }
 
-/// The highest point of `sign` · f between two times, by golden section (Kiefer 1953).
+/// Maximum of `sign` · f between two times, by golden-section search (Kiefer 1953).
 template <typename Function>
 Sample FindExtremum(const Function& f, double sign, double low, double high) {
   constexpr double kGolden = std::numbers::phi - 1.0;
@@ -56,8 +56,8 @@ Sample FindExtremum(const Function& f, double sign, double low, double high) {
   return at_left < at_right ? Sample{right, sign * at_right} : Sample{left, sign * at_left};
 }
 
-/// Samples at regular steps over the span and one step on either side of it, and between them the
-/// extrema of the function.
+/// Samples at regular steps over the span and one step beyond each end, plus the extrema between
+/// them.
 template <typename Function>
 std::vector<Sample> SampleWithExtrema(const Function& f, double span_s) {
   std::vector<Sample> regular;

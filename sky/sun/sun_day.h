@@ -10,7 +10,7 @@
 
 namespace pleinair::sky {
 
-/// Elevations at which the almanacs begin and end something; airless, of the disc's centre.
+/// Elevations of the disc's centre, airless, at which the almanacs define rise, set and twilight.
 enum class SunHorizon {
   kSunrise,  ///< −0.8333°: the upper limb on the sea's horizon (34′ of refraction, 16′ of disc).
   kCivil,         ///< −6°: civil twilight.
@@ -20,17 +20,17 @@ enum class SunHorizon {
 inline constexpr std::size_t kSunHorizons = 4;
 Radians HorizonElevation(SunHorizon horizon);
 
-/// How the sun passes one of these elevations in a span of time.
+/// Passages of the sun through one of these elevations in a time span.
 struct HorizonPassages {
-  std::vector<UtcTime> rises;  ///< In time's order; more than one where the span holds them.
+  std::vector<UtcTime> rises;  ///< In order of time; more than one where the span contains several.
   std::vector<UtcTime> sets;
-  double seconds_above = 0.0;  ///< How much of the span the sun is higher.
+  double seconds_above = 0.0;  ///< Time in the span with the sun above the elevation.
 
   bool Never() const { return rises.empty() && sets.empty() && seconds_above <= 0.0; }
   bool Always() const { return rises.empty() && sets.empty() && seconds_above > 0.0; }
 };
 
-/// All that the sun does from `begin` (included) to `end` (excluded).
+/// Events of the sun from `begin` (included) to `end` (excluded).
 struct SunDay {
   UtcTime begin, end;
   std::array<HorizonPassages, kSunHorizons> passages;  ///< By SunHorizon.
@@ -42,10 +42,10 @@ struct SunDay {
   }
 };
 
-/// Every passage to 0.1 s of the model, also those of a sun that only just touches the horizon: the
-/// highest and lowest points are sought first, and between them the elevation is monotonic. The
-/// span is a calendar day or what the caller likes, up to some weeks (a position every quarter of
-/// an hour); near midnight sun a calendar day may hold two sunsets, or only one of a pair.
+/// Finds every passage to 0.1 s of the model, also when the sun barely touches the elevation: it
+/// locates the extrema first, and between them the elevation is monotonic. The span is any time
+/// span up to some weeks, usually a calendar day (cost: one sun position per quarter of an hour).
+/// Near midnight sun, a calendar day may contain two sunsets, or only one of sunrise and sunset.
 SunDay ComputeSunDay(const Observer& observer, UtcTime begin, UtcTime end,
                      SunModel model = SunModel::kPrecise);
 

@@ -11,13 +11,12 @@ namespace {
 
 constexpr double kDaySeconds = 86'400.0;
 
-/// Where the hour angle, counted from `target`, passes zero nearest to `guess`: it grows by 15° an
-/// hour but for some seconds a day, so that Newton's steps with that slope halve the error over and
-/// over.
+/// The zero of (hour angle − `target`) nearest to `guess`. The hour angle grows by 15° per hour to
+/// within some seconds a day, so Newton's steps with that constant slope converge fast.
 UtcTime FindTransit(const Observer& observer, UtcTime guess, double target_rad, SunModel model) {
   constexpr double kSecondsPerRadian = 0.5 * kDaySeconds / std::numbers::pi;
   constexpr double kToleranceSeconds = 0.001;
-  constexpr int kMaxSteps = 12;  // Each gains three digits; the jumps of `paper` cost some.
+  constexpr int kMaxSteps = 12;  // Each gains three digits; discontinuities of `paper` cost some.
   UtcTime time = guess;
   for (int i = 0; i < kMaxSteps; ++i) {
     const double off_rad = std::remainder(HourAngle(observer, time, model).value() - target_rad,

@@ -10,21 +10,21 @@
 
 namespace pleinair::sky {
 
-/// Whether the sun passes an elevation in its day.
+/// Whether the sun passes an elevation on its day.
 enum class SunPresence {
-  kPasses,     ///< Upwards or downwards, once at least.
-  kStaysUp,    ///< It stays above: of the horizon, polar day.
-  kStaysDown,  ///< It stays below: of the horizon, polar night.
+  kPasses,     ///< At least once, upwards or downwards.
+  kStaysUp,    ///< Always above; for the horizon: polar day.
+  kStaysDown,  ///< Always below; for the horizon: polar night.
 };
 
-/// The sun's day: from one lower transit ("midnight") over the noon between to the next.
+/// A solar day: from one lower transit ("midnight") to the next, with the noon between.
 struct SunEvents {
   /// Upper limb on the sea's horizon (SunHorizon::kSunrise); nothing in polar day and night.
   std::optional<UtcTime> sunrise;
   UtcTime noon;  ///< Upper transit: the sun crosses the meridian from east to west.
   std::optional<UtcTime> sunset;
-  /// By SunHorizon: when the sun climbs through that elevation before noon and sinks through it
-  /// after (for kSunrise the sunrise and sunset). Nothing where it does not.
+  /// By SunHorizon: when the sun rises through that elevation before noon, and sets through it
+  /// after noon (for kSunrise: sunrise and sunset). Unset where it does not.
   std::array<std::optional<UtcTime>, kSunHorizons> dawns, dusks;
   std::array<SunPresence, kSunHorizons> presences{};
 
@@ -33,15 +33,15 @@ struct SunEvents {
   SunPresence Presence(SunHorizon h) const { return presences[static_cast<std::size_t>(h)]; }
 };
 
-/// Of the noon nearest to the middle of the local mean solar day in which `time` lies. To 0.1 s of
-/// the model.
+/// Events around the noon nearest to the middle of the local mean solar day that contains `time`.
+/// To 0.1 s of the model.
 SunEvents ComputeSunEvents(const Observer& observer, UtcTime time,
                            SunModel model = SunModel::kPrecise);
 
-/// The middle of the day in which `time` lies on a clock that shows UTC + `offset_s`.
+/// The middle of the day that contains `time`, on a clock that shows UTC + `offset_s`.
 UtcTime MiddleOfDay(UtcTime time, double offset_s);
 
-/// Of the noon nearest to `middle`: the middle of the day that is meant.
+/// Events around the noon nearest to `middle`, the middle of the requested day.
 SunEvents ComputeSunEventsNear(const Observer& observer, UtcTime middle,
                                SunModel model = SunModel::kPrecise);
 

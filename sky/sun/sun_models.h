@@ -5,7 +5,7 @@
 
 namespace pleinair::sky::internal {
 
-/// What a model of the sun's motion gives: topocentric, without air.
+/// Result of a model of the sun's motion: topocentric, without refraction.
 struct AirlessSun {
   double azimuth_rad = 0.0;  ///< Clockwise from true north, 0…2π.
   double elevation_rad = 0.0;

@@ -14,7 +14,7 @@ Direction<World> SunPosition::ToSun() const {
 }
 
 Radians SunPosition::AngularRadius() const {
-  // Auwers 1891, the value of the almanacs.
+  // Auwers 1891, the value used by the almanacs.
   return FromDegrees(959.63 / 3600.0 / distance_au);
 }
 

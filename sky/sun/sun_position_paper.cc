@@ -9,8 +9,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// J of the equations: the day of the year, 1 on the first of January. The paper says "Julian
-/// date", but a period of 368 days makes sense for the day of the year only.
+/// J of the equations: the day of the year, 1 on the first of January. The paper calls it "Julian
+/// date", but a period of 368 days fits the day of the year only.
 int DayOfYear(UtcTime time) {
   using std::chrono::days;
   using std::chrono::nanoseconds;
@@ -24,9 +24,9 @@ int DayOfYear(UtcTime time) {
 }  // namespace
 
 // Kolivand & Sunar 2014, Eqs. (1)–(4), which restate Preetham et al. 1999, appendix. Five misprints
-// are corrected (tests/sky/sun/sun_position_paper_test.cc shows what each of them does):
+// are corrected (tests/sky/sun/sun_position_paper_test.cc shows the effect of each):
 //   Eq. (1): J − 180 → J − 80.
-//   Eq. (1): (12/π)(SM − L)/π → (12/π)(L − SM): one π too many, and the sign is for longitudes
+//   Eq. (1): (12/π)(SM − L)/π → (12/π)(L − SM): one π too many, and their sign is for longitudes
 //            counted westwards, ours grow eastwards.
 //   Eq. (2): J − 8 → J − 81.
 //   Eq. (4): the denominator's minus → plus, and the quadrant needs atan2.
@@ -49,14 +49,14 @@ AirlessSun PaperSun(const Observer& observer, UtcTime time) {
   const double cos_l = std::cos(observer.latitude.value());
   const double sin_d = std::sin(declination);
   const double cos_d = std::cos(declination);
-  // Eq. (3), as elevation. Its argument may leave [−1, 1] by a rounding error.
+  // Eq. (3), as elevation. Rounding may move its argument out of [−1, 1].
   const double up = sin_l * sin_d - cos_l * cos_d * std::cos(hour_rad);
   // Eq. (4): the components towards east and north.
   const double east = cos_d * std::sin(hour_rad);
   const double north = cos_l * sin_d + sin_l * cos_d * std::cos(hour_rad);
   const double azimuth = std::atan2(east, north);
 
-  // The paper gives no distance: IES RP-21's yearly swing of the sun's light, 1/d².
+  // The paper gives no distance; this is IES RP-21's annual variation of sunlight, 1/d².
   const double distance_au = 1.0 / std::sqrt(1.0 + 0.034 * std::cos(2.0 * pi * (j - 2.0) / 365.0));
   return {azimuth < 0.0 ? azimuth + 2.0 * pi : azimuth, std::atan2(up, std::hypot(east, north)),
           distance_au};

@@ -20,7 +20,7 @@ constexpr double kSecondsPerDay = 86'400.0;
 
 /// TAI − UTC of the leap-second table; UTC must not be before 1972.
 double LeapSeconds(const UtcTime::Civil& utc, double day_fraction) {
-  // ERFA fills in its table at the first call without a lock.
+  // ERFA fills its table at the first call, without a lock.
   static std::once_flag table_ready;
   std::call_once(table_ready, [] {
     double ignored = 0.0;
@@ -32,9 +32,9 @@ double LeapSeconds(const UtcTime::Civil& utc, double day_fraction) {
   return tai_minus_utc;
 }
 
-/// TT − UTC in seconds. Before 1972 (no leap seconds) and in the far future (nobody knows them) UTC
-/// is taken to be UT1 and the difference is that of Espenak & Meeus; from 2025 to 2050 the one runs
-/// into the other. One second moves the sun by 0.041″.
+/// TT − UTC in seconds. Before 1972 (no leap seconds) and in the far future (leap seconds unknown)
+/// UTC is taken as UT1, and the difference is that of Espenak & Meeus. From 2025 to 2050 the two
+/// are blended. One second moves the sun by 0.041″.
 double TerrestrialMinusUtc(const UtcTime::Civil& utc, double day_fraction) {
   constexpr double kLeapSecondsBegin = 1972.0;
   constexpr double kTableEnds = 2025.0;
@@ -61,7 +61,8 @@ void BiasPrecessionNutation(double tt1, double tt2, double matrix[3][3]) {
 }  // namespace
 
 AirlessSun PreciseSun(const Observer& observer, UtcTime time) {
-  // Julian date of 1970-01-01, then whole days, apart from the fraction: no digit is lost.
+  // Julian date of 1970-01-01, then whole days, separate from the fraction, so that no digit is
+  // lost.
   constexpr std::int64_t kDay = pleinair::internal::kNanosecondsPerDay;
   const std::int64_t ns = time.nanoseconds_since_1970();
   const std::int64_t days = ns / kDay - (ns % kDay < 0 ? 1 : 0);
@@ -82,14 +83,14 @@ AirlessSun PreciseSun(const Observer& observer, UtcTime time) {
   const double cio_locator = eraS06(date1, tt2, pole_x, pole_y);
   const double earth_rotation = eraEra00(date1, ut12);
   constexpr double kNoPolarMotion = 0.0;  // ≤ 0.5″.
-  constexpr double kNoAir = 0.0;          // Refraction is sky/sun/refraction.h's.
+  constexpr double kNoAir = 0.0;          // Refraction is applied by sky/sun/refraction.h.
   eraASTROM context;
   eraApco(date1, tt2, earth_barycentric, earth_heliocentric[0], pole_x, pole_y, cio_locator,
           earth_rotation, observer.longitude.value(), observer.latitude.value(),
           observer.height.value(), kNoPolarMotion, kNoPolarMotion, eraSp00(date1, tt2), kNoAir,
           kNoAir, &context);
 
-  // The sun as it was when its light left: barycentric = Earth's barycentric − heliocentric.
+  // The sun at the time when its light left: barycentric = Earth's barycentric − heliocentric.
   double from_observer[3];
   double light_days = 0.0;
   double distance = 1.0;

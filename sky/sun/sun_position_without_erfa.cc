@@ -1,6 +1,6 @@
 #include "sky/sun/sun_models.h"
 
-// Stands in for sun_position_precise.cc where ERFA is missing.
+// Replaces sun_position_precise.cc in builds without ERFA.
 
 namespace pleinair::sky {
 
