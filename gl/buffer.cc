@@ -14,7 +14,7 @@ Result<GlBuffer> GlBuffer::Create(std::size_t bytes, const void* data, GLbitfiel
   GlBuffer buffer;
   buffer.handle_ = GlHandle<&DeleteBuffer>(id);
   buffer.bytes_ = bytes;
-  // GL refuses storage of size 0; an empty mesh is legal for us.
+  // GL rejects storage of size 0, but an empty mesh is valid here.
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes == 0 ? 1 : bytes),
                        bytes == 0 ? nullptr : data, flags);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR) {

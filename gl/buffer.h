@@ -15,12 +15,12 @@ inline void DeleteBuffer(GLuint id) { glDeleteBuffers(1, &id); }
 /// A buffer of fixed size: vertices, indices, uniform blocks.
 class GlBuffer {
  public:
-  /// `flags` as glNamedBufferStorage takes them; with the default, Update may change the content.
-  /// Errors (kSystem): no memory.
+  /// `flags`: as for glNamedBufferStorage; with the default, Update() may change the content.
+  /// Errors (kSystem): out of memory.
   static Result<GlBuffer> Create(std::size_t bytes, const void* data = nullptr,
                                  GLbitfield flags = GL_DYNAMIC_STORAGE_BIT);
 
-  /// From an array, vector or span of plain structs.
+  /// Creates a buffer from an array, vector or span of plain structs.
   template <typename T>
   static Result<GlBuffer> FromSpan(std::span<const T> elements) {
     return Create(elements.size_bytes(), elements.data());

@@ -48,8 +48,8 @@ struct Candidate {
   EGLContext context = EGL_NO_CONTEXT;
 };
 
-// Ends the context. The display stays initialised until the process ends: displays are one per
-// platform in a process, eglTerminate would end them for everybody, and drivers leak when they are
+// Ends the context. The display stays initialised until the process ends: a process has one display
+// per platform, so eglTerminate would end it for other users too, and drivers leak when they are
 // unloaded and loaded again.
 void Destroy(const Candidate& candidate) {
   if (candidate.context != EGL_NO_CONTEXT) {
@@ -60,7 +60,7 @@ void Destroy(const Candidate& candidate) {
   }
 }
 
-// Makes a 4.5 core context on the display current, or says why it cannot.
+// Creates a 4.5 core context on the display and makes it current, or returns the reason why not.
 Result<Candidate> TryDisplay(const std::string& platform, EGLDisplay display, bool debug) {
   if (display == EGL_NO_DISPLAY) return SystemError(platform, "no display");
   if (!eglInitialize(display, nullptr, nullptr)) {
@@ -162,7 +162,7 @@ EglContext& EglContext::operator=(EglContext&&) noexcept = default;
 EglContext::~EglContext() = default;
 
 Result<EglContext> EglContext::Create(const EglContextOptions& options) {
-  // libepoxy aborts the process where a library is missing, so look before it does.
+  // libepoxy aborts the process if a library is missing, so check first.
   if (!LibraryPresent("libEGL.so.1")) {
     return SystemError("OpenGL", "the library libEGL.so.1 is not installed", kRemedy);
   }
@@ -173,7 +173,7 @@ Result<EglContext> EglContext::Create(const EglContextOptions& options) {
   std::vector<Candidate> software;
   Candidate chosen;
   std::string tried;
-  // True when the search is over.
+  // Returns true when the search is over.
   const auto attempt = [&](const std::string& platform, EGLDisplay display) {
     Result<Candidate> candidate = TryDisplay(platform, display, options.debug);
     if (!candidate) {

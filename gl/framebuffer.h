@@ -12,36 +12,36 @@ namespace pleinair::gl {
 
 inline void DeleteFramebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
 
-/// A texture, or one layer of it, to draw into.
+/// A texture, or one layer of it, as a render target.
 struct Attachment {
   const GlTexture* texture = nullptr;
   int level = 0;
-  int layer = -1;  ///< -1: the whole texture; of an array all layers, chosen by gl_Layer.
+  int layer = -1;  ///< -1: the whole texture; for an array all layers, selected by gl_Layer.
 };
 
 struct FramebufferAttachments {
-  std::vector<Attachment> colors = {};  ///< Drawn by fragment outputs 0, 1, … in this order.
-  Attachment depth = {};                ///< Depth or depth-stencil; none when the texture is null.
+  std::vector<Attachment> colors = {};  ///< Targets of fragment outputs 0, 1, … in this order.
+  Attachment depth = {};                ///< Depth or depth-stencil; none if the texture is null.
 };
 
-/// A set of textures to draw into. Does not own them.
+/// A set of render targets. Does not own the textures.
 class GlFramebuffer {
  public:
-  /// Errors (kSystem): the renderer cannot draw into this combination of formats.
+  /// Errors (kSystem): the renderer does not support this combination of formats.
   static Result<GlFramebuffer> Create(const FramebufferAttachments& attachments);
 
   GlFramebuffer() = default;
 
-  /// Draws go here from now on; the viewport becomes the whole picture.
+  /// Makes this the current framebuffer; sets the viewport to its full size.
   void Bind() const;
   /// Clears one color attachment.
   void ClearColor(int index, float r, float g, float b, float a) const;
-  /// The same of unsigned integers, all channels.
+  /// Clears one unsigned integer color attachment, all channels to `value`.
   void ClearUnsigned(int index, unsigned value) const;
   void ClearDepth(float depth) const;
-  /// Copies color 0 (resolving samples) and, where asked for, depth to `target` of the same size.
+  /// Copies color 0 (resolving samples) and, if `mask` has it, depth to `target` of the same size.
   void BlitTo(const GlFramebuffer& target, GLbitfield mask = GL_COLOR_BUFFER_BIT) const;
-  /// Reads a color attachment; rows bottom-up as GL has them, without padding.
+  /// Reads a color attachment; rows from the bottom, as in GL, without padding.
   void ReadPixels(int color_index, GLenum format, GLenum type, void* pixels) const;
 
   int width() const { return width_; }

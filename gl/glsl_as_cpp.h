@@ -1,7 +1,7 @@
 #pragma once
 
-// Lets a pure .glsl file (functions of numbers, no samplers, no uniforms) be compiled as C++ too,
-// so that tests can compare it with a reference:
+// Compiles a pure .glsl file (numeric functions, no samplers, no uniforms) as C++, so that tests
+// can compare it with a reference implementation:
 //
 //     #include "gl/glsl_as_cpp.h"
 //     namespace glsl {
@@ -9,9 +9,9 @@
 //     #include "shadows/shaders/shadow_sun_disc.glsl"
 //     }
 //
-// The .glsl guards itself with #ifndef, gives every function's parameters by value, and writes
-// float literals as GLSL does ("0.5", which C++ reads as double and rounds on assignment): call
-// glm's functions with float variables, not with bare literals.
+// Requirements on the .glsl: its own #ifndef guard; all parameters by value; float literals as in
+// GLSL ("0.5", which C++ reads as double and rounds on assignment), so glm's functions must be
+// called with float variables, not with bare literals.
 
 #include <cmath>
 #include <glm/glm.hpp>

@@ -6,7 +6,8 @@
 
 namespace pleinair::gl {
 
-/// Owns the name of a GL object; deleted with the context current that made it. Move-only.
+/// Owns the name of a GL object. The context that created it must be current when it is destroyed.
+/// Move-only.
 template <void (*Delete)(GLuint)>
 class GlHandle {
  public:

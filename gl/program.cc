@@ -12,7 +12,7 @@ namespace {
 inline void DeleteShader(GLuint id) { glDeleteShader(id); }
 using ShaderHandle = GlHandle<&DeleteShader>;
 
-// The driver's log on one line, as an Error's `what` must be.
+// The driver's log on one line, as required for Error::what.
 std::string OneLine(std::string log) {
   while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
   std::replace(log.begin(), log.end(), '\n', ' ');

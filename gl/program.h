@@ -15,26 +15,26 @@ namespace pleinair::gl {
 
 inline void DeleteProgram(GLuint id) { glDeleteProgram(id); }
 
-/// The stages of a program by their names in the ShaderLibrary; empty stages are left out.
+/// The stages of a program, by name in the ShaderLibrary. Empty stages are omitted.
 struct ProgramStages {
   std::string vertex = {};
   std::string fragment = {};
   std::vector<std::string> defines = {};  ///< "NAME" or "NAME value", for all stages.
 };
 
-/// One stage given as text.
+/// Source text of one stage.
 struct StageText {
   GLenum stage = 0;  ///< GL_VERTEX_SHADER, …
   std::string text;
-  std::string name;  ///< For messages.
+  std::string name;  ///< Used in error messages.
 };
 
-/// A linked program and its uniforms. Set… needs no binding (direct state access); names that the
-/// compiler has optimised away are ignored, as GL does.
+/// A linked program and its uniforms. The Set… functions need no binding (direct state access).
+/// Names of uniforms that the compiler has removed are ignored, as in GL.
 class GlProgram {
  public:
   /// Loads, compiles and links. Errors (kSystem): the driver's log, with the names of the files
-  /// its numbers stand for; (kInput): what ShaderLibrary::Load reports.
+  /// that its numbers refer to; (kInput): as ShaderLibrary::Load.
   static Result<GlProgram> Create(const ProgramStages& stages);
   static Result<GlProgram> FromText(const std::vector<StageText>& stages);
 
@@ -56,7 +56,7 @@ class GlProgram {
   explicit operator bool() const { return static_cast<bool>(handle_); }
 
  private:
-  /// Location of an active uniform, -1 where there is none.
+  /// Location of an active uniform, -1 if there is none.
   int UniformLocation(std::string_view name) const;
 
   GlHandle<&DeleteProgram> handle_;

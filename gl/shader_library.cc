@@ -36,7 +36,7 @@ struct Registry {
   }
 };
 
-// The file name of an #include line, nothing for other lines.
+// The file name of an #include line; nullopt for other lines.
 std::optional<std::string> IncludedFile(std::string_view line) {
   const std::size_t start = line.find_first_not_of(" \t");
   if (start == std::string_view::npos || !line.substr(start).starts_with("#include")) return {};

@@ -16,7 +16,7 @@ inline void DeleteTexture(GLuint id) { glDeleteTextures(1, &id); }
 /// mip maps (multisample textures have no filter).
 class GlTexture {
  public:
-  /// Errors (all factories, kSystem): a size beyond the renderer's limit, no memory.
+  /// Errors (all factories, kSystem): a size beyond the renderer's limit, out of memory.
   static Result<GlTexture> Create2D(GLenum internal_format, int width, int height, int levels = 1);
   static Result<GlTexture> Create2DArray(GLenum internal_format, int width, int height, int layers,
                                          int levels = 1);
@@ -25,12 +25,12 @@ class GlTexture {
 
   GlTexture() = default;
 
-  /// Copies a whole level from memory; rows follow one another without padding. 2D textures.
+  /// Uploads a whole level of a 2D texture; rows from memory without padding.
   void Upload(GLenum format, GLenum type, const void* pixels, int level = 0);
-  /// The same for one layer of an array.
+  /// Uploads a whole level of one layer of an array.
   void UploadLayer(int layer, GLenum format, GLenum type, const void* pixels, int level = 0);
-  /// Copies a level (of an array: all layers) to memory; `bytes` must be large enough. Waits for
-  /// the renderer.
+  /// Copies a level (for an array, all layers) to memory; `bytes` must be large enough. Blocks
+  /// until the renderer has finished.
   void Download(GLenum format, GLenum type, std::span<std::byte> bytes, int level = 0) const;
 
   void GenerateMipmaps();

@@ -9,9 +9,9 @@ namespace pleinair::gl {
 
 inline void DeleteVertexArray(GLuint id) { glDeleteVertexArrays(1, &id); }
 
-/// How vertex buffers feed a shader's inputs. Does not own the buffers. Create() needs a current
-/// context; a default-constructed object is empty. An array without attributes serves full-screen
-/// triangles made from gl_VertexID.
+/// Assigns vertex buffers to the inputs of a shader. Does not own the buffers. Create() needs a
+/// current context; a default-constructed object is empty. An array without attributes is used for
+/// full-screen triangles made from gl_VertexID.
 class GlVertexArray {
  public:
   static GlVertexArray Create() {
@@ -24,7 +24,7 @@ class GlVertexArray {
 
   GlVertexArray() = default;
 
-  /// Feeds the input at `location` with `components` floats from `buffer`, one every `stride_bytes`
+  /// Reads the input at `location` as `components` floats from `buffer`, one every `stride_bytes`
   /// from `offset_bytes` on. Uses the binding point of the same number.
   void SetFloatAttribute(int location, int components, const GlBuffer& buffer, int stride_bytes,
                          int offset_bytes = 0) {

@@ -7,7 +7,7 @@
 namespace pleinair::scene {
 
 std::optional<Cloudiness> ParseCloudiness(std::string_view text) {
-  // Words between single spaces, so that "clear" is not found in "unclear".
+  // Padded with single spaces, so that "clear" does not match in "unclear".
   std::string words = " ";
   for (const char c : text) {
     const auto letter = static_cast<unsigned char>(c);

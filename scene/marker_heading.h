@@ -5,8 +5,8 @@
 
 namespace pleinair::scene {
 
-/// Marker coordinates from east-north-up, from the marker's stated heading (devices/
-/// scene_description.h).
+/// Rotation from east-north-up (World) to marker coordinates, from the heading in the scene
+/// description.
 Mat3 MarkerFromWorld(const MarkerDescription& marker);
 
 }  // namespace pleinair::scene

@@ -4,12 +4,12 @@
 
 namespace pleinair::scene {
 
-/// What is known of the printed marker as a surface: where it is white and black and how much it
+/// Layout and reflectance of the marker surface: where it is white and black, and how much it
 /// reflects. Metres.
 struct MarkerReflectance {
   double size_m = 0.0;         ///< Edge of the outer black square.
-  double board_size_m = 0.0;   ///< Edge of the white board around it; not below size_m.
-  double black_band_m = 0.0;   ///< Width of the band along the outer edge that is surely black.
+  double board_size_m = 0.0;   ///< Edge of the white margin around it; at least size_m.
+  double black_band_m = 0.0;   ///< Width of the uniformly black band along the outer edge.
   double albedo_black = 0.04;  ///< Diffuse reflectances, 0…1.
   double albedo_white = 0.80;
   bool operator==(const MarkerReflectance&) const = default;

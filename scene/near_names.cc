@@ -18,7 +18,8 @@ bool SameLetter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-/// Letters to insert, delete or replace (Levenshtein 1966; Wagner & Fischer 1974, by rows).
+/// Edit distance: letters to insert, delete or replace (Levenshtein 1966; Wagner & Fischer 1974, by
+/// rows).
 std::size_t Edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -33,7 +34,8 @@ std::size_t Edits(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Nothing where more than a third of the letters is wrong: that is another word.
+/// Edit distance, or nullopt if it exceeds kMaxEdits or a third of the letters: that is another
+/// word.
 std::optional<std::size_t> EditsOfNear(std::string_view misspelt, std::string_view name) {
   const std::size_t edits = Edits(misspelt, name);
   if (edits > kMaxEdits || 3 * edits > misspelt.size()) return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: for messages about unknown names.
+// Internal: used for messages about unknown names.
 
 #include <string>
 #include <string_view>
@@ -8,9 +8,10 @@
 
 namespace pleinair::scene {
 
-/// The names that a misspelt one may mean: the nearest, at most three. Near is within three edits
-/// (Levenshtein), and a third of the letters, of the whole name or of its part after the last "/",
-/// whatever the case. Costs O(length of `misspelt` x all letters of `names`): keep it short.
+/// Suggestions for a misspelt name: the nearest `names`, at most three. A name is near if the edit
+/// distance (Levenshtein) is at most three and at most a third of the letters, for the whole name
+/// or its part after the last "/", case-insensitive. Cost: O(length of `misspelt` × all letters of
+/// `names`), so keep it short.
 std::vector<std::string> NearNames(std::string_view misspelt,
                                    const std::vector<std::string>& names);
 

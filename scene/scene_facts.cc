@@ -6,7 +6,7 @@
 namespace pleinair::scene {
 namespace {
 
-// Where `facts` is silent, `fallback` speaks.
+// Uses `fallback` if `fact` is unset.
 template <typename T>
 void Fill(std::optional<T>& fact, const std::optional<T>& fallback) {
   if (!fact) fact = fallback;
@@ -16,7 +16,7 @@ bool Within(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
 
-/// What a target's own file says is not said again.
+/// A target file defines number, kind and size, so the scene must not repeat them.
 Result<void> CheckTarget(const SceneFacts& facts, const std::string& name) {
   constexpr const char* kFamily = "picture";
   const bool is_picture = facts.marker_family.value_or(kFamily) == kFamily;
@@ -74,8 +74,8 @@ Result<MarkerDescription> CompleteMarker(const SceneFacts& facts, const std::str
     return InputError(name, "has marker reflectances that are not 0 <= black < white <= 1",
                       "leave marker.albedo_black and marker.albedo_white out when unsure");
   }
-  // One white module on each side of the ten that tag36h11's black square is wide makes 1.2 to
-  // 1.25 on common sheets.
+  // tag36h11's black square is ten modules wide; with one white module on each side the sheet is
+  // 1.2 times as wide, and common sheets have 1.2 to 1.25.
   marker.board_size_m = facts.marker_board_size_m.value_or(1.25 * marker.size_m);
   if (!Within(marker.board_size_m, marker.size_m, 1e4)) {
     return InputError(name, "has a marker board that is smaller than its black square",
@@ -154,8 +154,8 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
   Fill(facts.longitude_deg, fallback.longitude_deg);
   Fill(facts.height_m, fallback.height_m);
   Fill(facts.start, fallback.start);
-  // What a board measures and which marker it is belongs to one sheet of paper: it is taken over
-  // only along with the size.
+  // The margin's size and the marker's identity describe one sheet of paper, so they are taken over
+  // only together with the marker's size.
   if (!facts.marker_size_m && !facts.marker_target) {
     Fill(facts.marker_target, fallback.marker_target);
     Fill(facts.marker_size_m, fallback.marker_size_m);

@@ -11,49 +11,52 @@
 
 namespace pleinair::scene {
 
-/// What one file says of the scene; absent is what it does not say, so that a hand-written
-/// scene.toml can leave to the recording what the recording knows.
+/// Content of one scene file. Absent values are unset, so that a hand-written scene.toml can leave
+/// to the recording what the recording already has.
 struct SceneFacts {
   std::optional<double> latitude_deg, longitude_deg, height_m;
   std::optional<UtcTime> start;
   std::optional<std::string> marker_family;
-  std::optional<std::string> marker_target;  ///< File as written, relative to the scene's.
+  std::optional<std::string> marker_target;  ///< Path as in the file, relative to the scene's
+                                             ///< folder.
   std::optional<int> marker_id, marker_version;
   std::optional<double> marker_size_m, marker_heading_deg, marker_board_size_m;
   std::optional<double> albedo_black, albedo_white;
   std::optional<bool> marker_upright;
-  std::vector<ModelReference> phantoms, objects;  ///< Files as written, relative to the scene's.
+  std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
+                                                  ///< folder.
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;
   std::optional<LinearRgb> exposure_scale;
-  std::filesystem::path camera_response;  ///< Beside the file that names it; empty: not said.
+  std::filesystem::path camera_response;  ///< Resolved against the folder of the file that names
+                                          ///< it; empty if absent.
 
-  /// Says nothing of place, time and marker, which a scene cannot do without.
+  /// True if place, time and marker, which every scene needs, are all missing.
   bool LacksPlaceTimeAndMarker() const {
     return !latitude_deg && !longitude_deg && !start && !marker_size_m && !marker_target &&
            !marker_heading_deg;
   }
 };
 
-/// The facts in a scene.json or recording.json. Foreign files: unknown fields and unknown sky
-/// words are passed over; ground truth (poses, sun, light, exposure, directions, key frames, the
-/// amounts in `sky`) is never looked at.
+/// Parses a scene.json or recording.json. These are foreign files: unknown fields and unknown words
+/// for the sky are ignored. Ground truth (poses, sun, light, exposure, directions, key frames, the
+/// amounts in `sky`) is never read.
 Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& name);
 
-/// The facts in a scene.toml. Our own form: unknown keys and words are errors with their line.
+/// Parses a scene.toml, pleinair's own format: unknown keys and words are errors with their line.
 Result<SceneFacts> ParseSceneToml(std::string_view bytes, const std::string& name);
 
-/// Either of the two, by content.
+/// Parses either format, chosen by content.
 Result<SceneFacts> ParseScene(std::string_view bytes, const std::string& name);
 
-/// Takes place, time, marker and sky from `fallback` where `facts` lacks them; never models.
+/// Takes missing place, time, marker and sky from `fallback`; never models.
 SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback);
 
-/// Checks that all that is needed is there and in range; `file` stands in messages and is what
-/// model files are relative to. Does not look at the disk.
+/// Checks that all required values are present and in range. `file` is the name in messages, and
+/// model paths are relative to it. Does not access the disk.
 Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::filesystem::path& file);
 
-/// Checks that every model file and the target are there.
+/// Checks that every model file and the target file exist.
 Result<void> CheckModelsExist(const SceneDescription& scene);
 
 }  // namespace pleinair::scene

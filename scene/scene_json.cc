@@ -10,7 +10,7 @@
 namespace pleinair::scene {
 namespace {
 
-// How descriptions name a family, and what we call it: AprilTag 3's and the S-G markers.
+// Names of marker families in descriptions, and ours: AprilTag 3's families and S-G markers.
 constexpr std::array<std::pair<const char*, const char*>, 9> kFamilies = {{
     {"tag36h11", "tag36h11"},
     {"tag25h9", "tag25h9"},
@@ -23,7 +23,7 @@ constexpr std::array<std::pair<const char*, const char*>, 9> kFamilies = {{
     {"S-G", "sg"},
 }};
 
-// Family and id from words such as "AprilTag tag36h11 id 0, 10x10 modules".
+// Family and id from a text such as "AprilTag tag36h11 id 0, 10x10 modules".
 void ParseMarkerDescription(const std::string& words, SceneFacts* facts) {
   for (const auto& [said, family] : kFamilies) {
     if (words.find(said) == std::string::npos) continue;
@@ -38,7 +38,7 @@ void ParseMarkerDescription(const std::string& words, SceneFacts* facts) {
   }
 }
 
-// The first of several spellings that is there.
+// The value of the first of several alternative keys that is present.
 Result<std::optional<double>> NumberOf(const files::JsonFields& fields,
                                        std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
@@ -92,7 +92,7 @@ Result<void> ReadModel(const files::JsonFields& model, std::vector<ModelReferenc
   return {};
 }
 
-// What words are there of the weather. Amounts and the model in `sky` are ground truth and are not
+// The verbal weather description. The amounts and the model in `sky` are ground truth and are not
 // read.
 std::optional<Cloudiness> ReadCloudiness(const files::JsonFields& fields) {
   std::string words = fields.TextOr("name");
@@ -111,7 +111,7 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseJson(bytes, name));
   const files::JsonFields fields(document, name);
   SceneFacts facts;
-  // scene.json has a block for it, recording.json says it at the top.
+  // scene.json nests these fields in a block, recording.json has them at the top level.
   PLEINAIR_RETURN_IF_ERROR(
       ReadPlaceTime(fields.Has("place_time") ? fields.Object("place_time") : fields, &facts));
   PLEINAIR_RETURN_IF_ERROR(ReadMarker(fields.Object("marker"), &facts));

@@ -6,7 +6,7 @@
 
 namespace pleinair::scene {
 
-/// The sun over a place at a moment.
+/// Position of the sun over a place at a time.
 sky::SunPosition SunOver(const PlaceTime& place, UtcTime time);
 
 }  // namespace pleinair::scene

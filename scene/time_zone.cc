@@ -33,31 +33,31 @@ std::vector<std::string> ZoneNames() {
   try {
     for (const date::time_zone& zone : date::get_tzdb().zones) names.push_back(zone.name());
   } catch (const std::exception&) {
-    names.clear();  // The folder is not there.
+    names.clear();  // The folder does not exist.
   }
   return names;
 }
 
-/// The bytes of a zone's file (RFC 8536); empty where it cannot be read.
+/// Content of a zone's file (RFC 8536); empty if it cannot be read.
 std::string ZoneFile(const std::string& name) {
   std::ifstream file(kFolder + ("/" + name), std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Whether the rule that ends a zone's file (RFC 8536, section 3.3) has daylight-saving time, as in
-/// "CET-1CEST,M3.5.0,M10.5.0/3". The date library passes that rule over.
+/// Whether the rule at the end of a zone's file (RFC 8536, section 3.3) has daylight-saving time,
+/// as in "CET-1CEST,M3.5.0,M10.5.0/3". The date library ignores that rule.
 bool EndsWithYearlyChange(std::string_view zone_file) {
   if (zone_file.size() < 2 || zone_file.back() != '\n') return false;
   const std::size_t line = zone_file.rfind('\n', zone_file.size() - 2);
   return line != std::string_view::npos && zone_file.find(',', line) != std::string_view::npos;
 }
 
-/// Whether the last entry of a zone's file gives `info`.
+/// Whether `info` belongs to the last entry of a zone's file.
 bool IsLast(const date::sys_info& info) {
   return info.end - date::sys_seconds{} > std::chrono::hours(24 * 366 * 1000);
 }
 
-/// What the date library, which throws, finds in a zone; nothing where its file cannot be read.
+/// Queries the date library and catches its exceptions; nullopt if the zone's file cannot be read.
 template <typename Time>
 auto InfoOf(const std::string& name, Time time)
     -> std::optional<decltype(date::locate_zone(name)->get_info(time))> {
@@ -81,7 +81,7 @@ Result<TimeZone> TimeZone::Find(std::string_view name) {
   for (const std::string& known : names) {
     if (known != name) continue;
     const std::string file = ZoneFile(known);
-    // The date library stops the program at a file without these letters.
+    // The date library aborts on a file without this magic number.
     if (!file.starts_with("TZif")) return Unreadable(known);
     return TimeZone(known, EndsWithYearlyChange(file));
   }

@@ -14,14 +14,14 @@ namespace {
 using std::chrono::seconds;
 
 constexpr std::size_t kMaxZoneName = 64;
-constexpr std::size_t kSecondsDigits = 17;  // Where they stand in "2025-09-14T11:05:00".
+constexpr std::size_t kSecondsDigits = 17;  // Position of the seconds in "2025-09-14T11:05:00".
 constexpr const char* kForm = "write it as 2025-09-14T13:05:00[Europe/Prague]";
 
 std::string TwoDigits(std::int64_t number) {
   return (number < 10 ? "0" : "") + std::to_string(number);
 }
 
-/// "+02:00"; with seconds where a zone kept local mean time.
+/// "+02:00"; with seconds for zones that used local mean time.
 std::string OffsetText(seconds offset) {
   const std::int64_t total = std::abs(offset.count());
   std::string text = offset.count() < 0 ? "-" : "+";
@@ -29,7 +29,7 @@ std::string OffsetText(seconds offset) {
   return total % 60 == 0 ? text : text + ":" + TwoDigits(total % 60);
 }
 
-/// The offset that ends an RFC 3339 time which UtcTime::Parse() took; nothing after Z.
+/// The offset at the end of an RFC 3339 time that UtcTime::Parse() has accepted; nullopt after Z.
 std::optional<seconds> WrittenOffset(std::string_view rfc3339) {
   if (rfc3339.back() == 'Z' || rfc3339.back() == 'z') return std::nullopt;
   const std::string_view text = rfc3339.substr(rfc3339.size() - 6);
@@ -37,17 +37,17 @@ std::optional<seconds> WrittenOffset(std::string_view rfc3339) {
   return seconds((text[0] == '-' ? -60 : 60) * (60 * number(1) + number(4)));
 }
 
-/// As RFC 3339 writes an offset; some zones kept local mean time to the second before 1900.
+/// RFC 3339 offsets have minutes only; before 1900 some zones had offsets with seconds.
 seconds InMinutes(seconds offset) { return std::chrono::round<std::chrono::minutes>(offset); }
 
-/// One text "local time[zone]", for its parts and its messages.
+/// A text of the form "local time[zone]", with its parts and messages.
 class BracketedTime {
  public:
   BracketedTime(std::string_view clock, TimeZone zone) : clock_(clock), zone_(std::move(zone)) {}
 
   Result<ZonedTime> Read() const {
     if (const Result<UtcTime> time = UtcTime::Parse(clock_)) return ReadWithOffset(*time);
-    // The clock's reading, as if it were UTC.
+    // The local clock reading, as if it were UTC.
     const Result<UtcTime> reading = UtcTime::Parse(clock_ + "Z");
     if (!reading) return tl::make_unexpected(UtcTime::Parse(clock_).error());
     if (clock_.compare(kSecondsDigits, 2, "60") == 0) {
@@ -97,7 +97,7 @@ class BracketedTime {
 
   std::string Shifted(UtcTime reading, seconds later) const {
     std::string text = At(reading, later).ToString();
-    text.pop_back();  // Its Z.
+    text.pop_back();  // Drops the Z.
     return Bracketed(text);
   }
 
@@ -112,7 +112,7 @@ class BracketedTime {
                       std::move(remedy));
   }
 
-  /// An error of the zone; only those of the user's input are about the time.
+  /// Adapts an error of the zone lookup; only input errors concern the time.
   tl::unexpected<Error> Explain(Error error) const {
     if (error.kind != ErrorKind::kInput) return tl::make_unexpected(std::move(error));
     return Fail(error.what, std::move(error.remedy));
@@ -122,7 +122,7 @@ class BracketedTime {
   TimeZone zone_;
 };
 
-/// Plain RFC 3339. Where only the offset is missing, the message offers a zone, too.
+/// Plain RFC 3339. If only the offset is missing, the message suggests a zone as well.
 Result<ZonedTime> ParseWithoutZone(std::string_view text) {
   Result<UtcTime> time = UtcTime::Parse(text);
   if (time) return ZonedTime{*time, WrittenOffset(text)};
