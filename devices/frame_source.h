@@ -8,7 +8,7 @@
 
 namespace pleinair::devices {
 
-/// Where frames come from. One thread calls Next() at a time.
+/// Source of frames: a camera or a recording. Next() must not be called by two threads at once.
 class FrameSource {
  public:
   FrameSource() = default;
@@ -16,18 +16,18 @@ class FrameSource {
   FrameSource& operator=(const FrameSource&) = delete;
   virtual ~FrameSource() = default;
 
-  /// The next frame, nothing at the end, or an error that names the file or device. After an
-  /// error the source is at its end.
+  /// Returns the next frame, nullopt at the end, or an error that names the file or device. After
+  /// an error the source is at its end.
   virtual Result<std::optional<Frame>> Next() = 0;
 
-  /// A hint: frames before that of `index` are not wanted, and a source that can does not decode
-  /// them. They may come all the same.
+  /// Hint that frames before `index` are not needed. A source may skip decoding them; it may also
+  /// deliver them.
   virtual void SkipTo(std::int64_t /*index*/) {}
 
-  /// How many frames there will be, where that is known (recordings).
+  /// Total number of frames, if known (recordings).
   virtual std::optional<std::int64_t> FrameCount() const = 0;
 
-  /// Whether that is what will come, rather than a container's estimate.
+  /// True if that number is exact; false if it is a container's estimate.
   virtual bool CountsExactly() const { return true; }
 };
 

@@ -18,7 +18,7 @@ constexpr const char* kRemedy =
     "see docs/guide/reference/recordings.md for the calibrations that can be read, or calibrate "
     "anew";
 
-// Lower case, letters and digits only: "Radial-Tangential" and "radial_tangential" are one name.
+// Lower case, letters and digits only: "Radial-Tangential" and "radial_tangential" become equal.
 std::string Canonical(const std::string& word) {
   std::string canonical;
   for (const char c : word) {
@@ -28,12 +28,12 @@ std::string Canonical(const std::string& word) {
   return canonical;
 }
 
-// What a file says, before it is judged.
+// Content of a file, before validation.
 struct Readings {
   std::optional<int> width, height;
   std::vector<double> focal_and_centre;  // fx fy cx cy
-  std::string model;                     // As the file names it; empty: not named.
-  bool fisheye = false;                  // Said apart from the model's name.
+  std::string model;                     // As the file names it; empty if absent.
+  bool fisheye = false;                  // From a field other than the model's name.
   std::optional<std::vector<double>> distortion;
 };
 
@@ -55,7 +55,7 @@ Result<DistortionModel> ModelOf(const Readings& readings, const std::string& nam
       "(fisheye)");
 }
 
-// OpenCV's thin prism and tilt terms (entries 9 to 14) are taken only where they are zero.
+// OpenCV's thin prism and tilt terms (entries 9 to 14) must be zero.
 Result<std::array<double, 8>> CoefficientsOf(const Readings& readings, DistortionModel model,
                                              const std::string& name) {
   std::array<double, 8> coefficients{};
@@ -122,8 +122,8 @@ Result<CameraModel> Judge(const Readings& readings, const std::string& name) {
   return camera;
 }
 
-// The numbers under the first of `keys` that is there: a plain list, or OpenCV's and ROS's
-// {rows, cols, data}.
+// The numbers under the first of `keys` that is present: a plain list, or OpenCV's and ROS's {rows,
+// cols, data}.
 Result<std::optional<std::vector<double>>> Matrix(const files::JsonFields& fields,
                                                   std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
@@ -146,7 +146,7 @@ Result<std::optional<std::vector<double>>> Matrix(const files::JsonFields& field
   return std::nullopt;
 }
 
-// The first of `keys` that is there, as a whole number.
+// The first of `keys` that is present, as an integer.
 Result<std::optional<int>> IntegerOf(const files::JsonFields& fields,
                                      std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
@@ -171,8 +171,8 @@ Result<void> SizeFromList(const files::JsonFields& fields, std::initializer_list
   return {};
 }
 
-// Our form: {"image_width", "image_height", "model", "fx", "fy", "cx", "cy",
-// "distortion_k1_k2_p1_p2_k3": […]}; a scene.json says "dist" and has its size in "image".
+// pleinair's format: {"image_width", "image_height", "model", "fx", "fy", "cx", "cy",
+// "distortion_k1_k2_p1_p2_k3": […]}. A scene.json uses "dist" and has the size in "image".
 Result<CameraModel> ReadOwn(const files::JsonFields& fields, Readings readings) {
   if (!readings.width) {
     PLEINAIR_ASSIGN_OR_RETURN(readings.width, IntegerOf(fields, {"image_width", "width"}));
@@ -226,7 +226,7 @@ constexpr std::initializer_list<const char*> kMatrixKeys = {"camera_matrix",
                                                             "M",
                                                             "M1"};
 
-// OpenCV's and ROS's: a 3x3 camera matrix and a row or column of distortion coefficients.
+// OpenCV and ROS: a 3x3 camera matrix and a row or column of distortion coefficients.
 Result<CameraModel> ReadMatrixForm(const files::JsonFields& fields) {
   Readings readings;
   PLEINAIR_ASSIGN_OR_RETURN(
@@ -268,7 +268,7 @@ Result<CameraModel> ReadMatrixForm(const files::JsonFields& fields) {
   return Judge(readings, fields.name());
 }
 
-// The lens in a document of any of the forms.
+// The camera in a document of any of the formats.
 Result<CameraModel> CameraFromDocument(const files::Json& document, const std::string& name) {
   const files::JsonFields fields(document, name);
   if (fields.Has("cam0")) return ReadKalibr(fields.Object("cam0"));

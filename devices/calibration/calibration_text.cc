@@ -13,7 +13,7 @@ bool IsEquidistant(const CameraModel& camera) {
   return camera.distortion_model == DistortionModel::kEquidistant;
 }
 
-/// As many coefficients as the model has with those: 4, 5 or 8; 4 when equidistant.
+/// All coefficients up to the last non-zero one: 4, 5 or 8; 4 when equidistant.
 std::vector<double> Coefficients(const CameraModel& camera) {
   std::size_t count = 4;
   if (!IsEquidistant(camera)) {
@@ -26,14 +26,15 @@ std::vector<double> Coefficients(const CameraModel& camera) {
           camera.distortion.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 
-/// OpenCV and ROS speak of five at least.
+/// OpenCV and ROS expect at least five.
 std::vector<double> FiveOrMore(const CameraModel& camera) {
   std::vector<double> coefficients = Coefficients(camera);
   if (!IsEquidistant(camera) && coefficients.size() < 5) coefficients.push_back(0.0);
   return coefficients;
 }
 
-/// The shortest number that reads back the same, with a point: YAML 1.1 takes "1e-05" for a word.
+/// The shortest decimal that reads back the same, with a decimal point: YAML 1.1 reads "1e-05" as
+/// text.
 std::string Number(double value) {
   std::string text = files::Json(value).dump();
   if (const std::size_t e = text.find('e'); e != std::string::npos && text.find('.') > e) {
@@ -120,7 +121,7 @@ std::string Ros(const CameraModel& camera) {
                 {camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0});
 }
 
-/// What Kalibr's cam0 and EuRoC's sensor.yaml have in common, and where they differ.
+/// Kalibr's cam0 and EuRoC's sensor.yaml share most fields.
 Result<std::string> KalibrOrEuroc(const CameraModel& camera, bool kalibr) {
   const std::vector<double> coefficients = Coefficients(camera);
   if (coefficients.size() != 4) {

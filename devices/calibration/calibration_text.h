@@ -8,12 +8,12 @@
 
 namespace pleinair::devices {
 
-/// The forms that ReadCalibration (calibration.h) reads.
+/// The formats that ReadCalibration() (calibration.h) reads.
 enum class CalibrationForm { kOwn, kOpenCvYaml, kOpenCvJson, kRos, kKalibr, kEuroc };
 
-/// A lens in one of these forms, read back as the same numbers to the last bit. `notes` go into our
-/// own form, as "quality". Errors (input): Kalibr and EuRoC have four coefficients, so that a lens
-/// with more cannot be written for them.
+/// Writes a calibration in one of these formats. Reading it back gives the same numbers to the last
+/// bit. `notes` are written as "quality", in pleinair's own format only. Errors (input): Kalibr and
+/// EuRoC have four distortion coefficients, so a lens with more cannot be written.
 Result<std::string> CalibrationText(const CameraModel& camera, CalibrationForm form,
                                     const std::map<std::string, double>& notes = {});
 

@@ -18,14 +18,15 @@ namespace {
 constexpr double kMinGamma = 0.2, kMaxGamma = 5.0;
 constexpr std::size_t kMaxSamples = 65'536;
 
-/// A power, densely enough that the curve between samples is the power's own.
+/// A power law, sampled densely enough that the interpolation error is negligible.
 CameraResponse PowerResponse(double gamma) {
   constexpr int kSteps = 255;
   std::vector<double> encoded, light;
   for (int i = 0; i <= kSteps; ++i) {
     const double at = static_cast<double>(i) / kSteps;
     const double value = std::pow(at, gamma);
-    // Steep powers hardly leave the ground: what no float tells from 0 is left to the curve.
+    // Samples that a float cannot distinguish from 0 or 1 are left out; the curve interpolates
+    // there.
     if (i != 0 && i != kSteps && (value < 1e-5 || value > 1.0 - 1e-5)) continue;
     encoded.push_back(at);
     light.push_back(value);
@@ -65,7 +66,7 @@ Result<CameraResponse> SampledResponse(const files::JsonFields& fields) {
   return *response;
 }
 
-/// What a response of a kind is made of; of a kind that is not known, all there is.
+/// Keys of a kind of response; for an unknown kind, all keys.
 std::span<const std::string_view> KeysOf(std::string_view kind) {
   static constexpr std::array<std::string_view, 7> kAll{"response", "encoded", "light", "red",
                                                         "green",    "blue",    "gamma"};
@@ -77,7 +78,7 @@ std::span<const std::string_view> KeysOf(std::string_view kind) {
   return all;
 }
 
-/// A key that nobody reads is a slip of the pen.
+/// An unused key is probably a typing error.
 Result<void> CheckKeys(const files::Json& document, const files::JsonFields& fields,
                        std::span<const std::string_view> known) {
   if (!document.is_object()) return {};

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <memory>
 
@@ -8,10 +8,10 @@
 
 namespace pleinair::devices {
 
-/// Error: this build has not got the backend, or the URI names a file, which is no camera.
+/// Errors: this build lacks the backend, or the URI names a file, which is not a camera.
 Result<void> CheckBackend(const CameraUri& uri);
 
-/// Opens a device and starts its stream; errors are the backend's.
+/// Opens a device and starts its stream; errors as in the backend.
 Result<std::unique_ptr<CameraDevice>> OpenCameraDevice(const CameraUri& uri,
                                                        const FormatRequest& requested);
 

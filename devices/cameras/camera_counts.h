@@ -6,7 +6,7 @@
 
 namespace pleinair::devices {
 
-/// Counts since the start.
+/// Frame counts since the start.
 struct CameraCounts {
   std::int64_t delivered = 0;
   FrameLoss loss;
@@ -14,11 +14,11 @@ struct CameraCounts {
   int stalls = 0;
 };
 
-/// What a GigE camera's network did; nothing for others.
+/// Network statistics of a GigE camera; zero for others.
 struct TransportCounts {
   std::int64_t completed = 0;
-  std::int64_t damaged = 0;    ///< Frames with packets that never came.
-  std::int64_t underruns = 0;  ///< Frames that found no free buffer.
+  std::int64_t damaged = 0;    ///< Frames with packets that never arrived.
+  std::int64_t underruns = 0;  ///< Frames for which no buffer was free.
   std::int64_t resent_packets = 0;
   std::int64_t missing_packets = 0;
   int packet_size = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <chrono>
 #include <memory>
@@ -12,45 +12,44 @@
 
 namespace pleinair::devices {
 
-/// Now, on the clock of frames' stamps.
+/// Present time on the clock of the frames' time stamps.
 inline std::int64_t SteadyNow_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
-/// What a backend hands on: the bytes and what the driver says of them. Reused from image to
-/// image.
+/// An image from a backend: its bytes and the driver's metadata. Reused from image to image.
 struct CapturedImage {
   RawImage raw;
-  std::int64_t number = 0;        ///< The driver's; gaps are losses.
+  std::int64_t number = 0;        ///< The driver's number; gaps are lost frames.
   std::int64_t timestamp_ns = 0;  ///< Steady clock.
   std::int64_t arrival_ns = 0;    ///< Steady clock.
   StampMeaning stamp_meaning = StampMeaning::kUnknown;
   std::optional<std::int64_t> device_timestamp_ns;
   CameraSettings settings;
-  bool damaged = false;  ///< The driver's word; `raw` may be short.
+  bool damaged = false;  ///< As reported by the driver; `raw` may then be short.
 };
 
 enum class WaitOutcome {
   kImage,
-  kNothing,  ///< Time is over or Wake() was called.
-  kGone,     ///< The device left or answers no more; only closing it helps.
+  kNothing,  ///< Timeout, or Wake() was called.
+  kGone,     ///< The device is gone or no longer answers; close it.
 };
 
-/// One opened, streaming device of a backend. Wake() may be called from any thread, the rest from
-/// one. Destruction stops the stream and gives everything back in bounded time.
+/// An open, streaming device of a backend. Wake() may be called from any thread, the rest from one.
+/// The destructor stops the stream and releases everything in bounded time.
 class CameraDevice {
  public:
   virtual ~CameraDevice() = default;
 
   virtual WaitOutcome Wait(std::chrono::milliseconds limit, CapturedImage* image) = 0;
   virtual void Wake() = 0;
-  /// Why Wait() gave kGone.
+  /// Reason why Wait() returned kGone.
   virtual std::string StatusMessage() const = 0;
 
   virtual const NegotiatedFormat& negotiated() const = 0;
-  /// Stable name, to find it by after a replug.
+  /// Stable name, used to find the device after a replug.
   virtual CameraUri identity() const = 0;
 
   virtual std::optional<TransportCounts> Transport() { return std::nullopt; }

@@ -7,11 +7,11 @@
 
 namespace pleinair::devices {
 
-/// A way to cameras, and whether this build has it.
+/// A camera backend, and whether this build has it.
 struct CameraBackendState {
   std::string name;
   bool built_in = false;
-  std::string trouble;  ///< Why it cannot look for cameras now; empty where it can.
+  std::string trouble;  ///< Why it cannot list cameras now; empty if it can.
 };
 
 struct CameraList {
@@ -19,9 +19,9 @@ struct CameraList {
   std::vector<CameraBackendState> backends;
 };
 
-/// Everything that is plugged in, by every backend of this build. A camera that two backends see
-/// is listed by both. Aravis looks for GigE cameras by a broadcast on every network interface, so
-/// it is asked only where `search_network`.
+/// Lists the connected cameras of every backend in this build. A camera that two backends support
+/// is listed twice. Aravis searches for GigE cameras by a broadcast on every network interface, so
+/// it is used only if `search_network` is true.
 CameraList ListCameras(bool search_network);
 
 }  // namespace pleinair::devices

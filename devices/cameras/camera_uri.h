@@ -7,7 +7,7 @@
 
 namespace pleinair::devices {
 
-/// Names a camera: "v4l2:/dev/video0", "v4l2:serial=…", "v4l2:bus=…", "libcamera:ID",
+/// Identifies a camera: "v4l2:/dev/video0", "v4l2:serial=…", "v4l2:bus=…", "libcamera:ID",
 /// "aravis:ID", "file:PATH".
 struct CameraUri {
   enum class Backend { kV4l2, kLibcamera, kAravis, kFile };
@@ -21,8 +21,8 @@ struct CameraUri {
   bool operator==(const CameraUri&) const = default;
 };
 
-/// Errors: no such backend (those there are are named), nothing after the colon, a V4L2 name that
-/// is neither a node below /dev nor serial= nor bus=.
+/// Errors: an unknown backend (the message lists the known ones); nothing after the colon; a V4L2
+/// name that is none of a node below /dev, serial= and bus=.
 Result<CameraUri> ParseCameraUri(std::string_view text);
 
 }  // namespace pleinair::devices

@@ -36,7 +36,7 @@ double NearestRate(const std::vector<double>& rates, double requested) {
 
 Result<FormatChoice> ChooseFormat(const std::vector<FormatDescription>& formats,
                                   const FormatRequest& requested, const std::string& where) {
-  // Greater is better: smooth, then the size, then the rate, then the format we like best.
+  // Greater is better: first a smooth rate, then size, then rate, then our preferred format.
   using Merit = std::tuple<bool, double, double, int>;
   std::optional<Merit> best;
   FormatChoice choice;
@@ -59,7 +59,7 @@ Result<FormatChoice> ChooseFormat(const std::vector<FormatDescription>& formats,
                                                   at.size.height - requested.size->height)
                                 : fits ? area
                                        : -area;
-      // Faster than 60 Hz gains nothing.
+      // More than 60 Hz has no benefit.
       const double rate_merit =
           requested.rate_hz ? -std::fabs(rate - *requested.rate_hz) : std::min(rate, 60.0);
       const Merit merit = requested.size

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <string>
 #include <vector>
@@ -15,12 +15,13 @@ struct FormatChoice {
   std::optional<double> rate_hz;
 };
 
-/// What to ask a device for: the wish where it is one, else as FormatRequest says. `where` names
-/// the device in messages. Error: no format that we read, or not the one that is wished.
+/// Chooses the format to request from a device: the user's request, or the defaults of
+/// FormatRequest. `where` names the device in messages. Errors: no supported format, or the device
+/// lacks the requested one.
 Result<FormatChoice> ChooseFormat(const std::vector<FormatDescription>& formats,
                                   const FormatRequest& requested, const std::string& where);
 
-/// Says where the agreement differs from the wish.
+/// Describes each difference between requested and negotiated format.
 std::vector<std::string> Differences(const FormatRequest& requested,
                                      const NegotiatedFormat& negotiated);
 

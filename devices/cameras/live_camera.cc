@@ -16,22 +16,22 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kTick{100};           // How long the device is waited for at a time.
-constexpr milliseconds kTryAgainEvery{300};  // A camera that is not there.
+constexpr milliseconds kTick{100};           // Longest single wait for the device.
+constexpr milliseconds kTryAgainEvery{300};  // Interval of attempts to open a missing camera.
 
-/// Opens the camera that is sought: after the first time this very one, wherever it is plugged in.
+/// Opens the requested camera; after the first time the same physical one, on whichever port.
 class CameraFinder {
  public:
   CameraFinder(LiveCamera::Opener opener, const LiveCameraOptions& options)
       : opener_(std::move(opener)), uri_(options.uri), pictures_(options.pictures) {}
 
   Result<std::unique_ptr<CameraDevice>> Open() const { return opener_(uri_, pictures_); }
-  /// It is there, with this stable name.
+  /// Records the stable name of the camera that was found.
   void Found(CameraUri identity) {
     uri_ = std::move(identity);
     reported_.clear();
   }
-  /// Whether this reason why it is not there is another than the last.
+  /// True if this reason for its absence differs from the last.
   bool IsNews(const std::string& reason) {
     if (reason == reported_) return false;
     reported_ = reason;
@@ -45,14 +45,14 @@ class CameraFinder {
   std::string reported_;
 };
 
-/// The stream of the device that is open.
+/// The stream of the open device.
 struct Stream {
   CapturedImage captured;
   LossCounter loss_counter{0};
   Clock::time_point last_picture;
   bool reported_stall = false;
 
-  /// Of a device that was opened just now.
+  /// Resets for a newly opened device.
   void Restart(milliseconds stall_limit, Clock::time_point picture) {
     loss_counter =
         LossCounter(std::chrono::duration_cast<std::chrono::nanoseconds>(stall_limit).count());
@@ -60,23 +60,23 @@ struct Stream {
   }
 };
 
-/// The newest image that nobody took, and the count of all.
+/// The newest image that has not been read, and the counts of all images.
 struct NewestImage {
   bool there = false;
   CapturedImage image;
   std::int64_t index = 0;
   FrameLoss loss_before;
-  std::int64_t last_index = -1;  ///< Of damaged ones as well.
+  std::int64_t last_index = -1;  ///< Including damaged ones.
 };
 
-/// The controls to hold, each time the camera is opened.
+/// The controls to lock each time the camera is opened.
 struct HeldControls {
   std::vector<ControlRequest> requests;
   bool lock_again = false;
   std::vector<ControlResult> results;
 };
 
-/// What others ask for.
+/// State that callers can query.
 struct CameraStatus {
   std::vector<CameraEvent> events;
   CameraCounts counts;
@@ -86,7 +86,7 @@ struct CameraStatus {
 
 }  // namespace
 
-/// The capturing thread and what it shares with others.
+/// The capture thread and the state that it shares with callers.
 class LiveCamera::Worker {
  public:
   Worker(LiveCameraOptions options, Opener opener)
@@ -122,7 +122,7 @@ class LiveCamera::Worker {
     return stop_;
   }
 
-  /// The newest image, once there is one that nobody took.
+  /// Returns the newest image as soon as there is an unread one.
   bool Take(std::optional<milliseconds> limit, CapturedImage* image, FrameLoss* loss,
             std::int64_t* index) {
     std::unique_lock lock(mutex_);
@@ -146,7 +146,7 @@ class LiveCamera::Worker {
     ++status_.counts.delivered;
   }
 
-  /// An image that was taken turned out to be damaged.
+  /// Counts an image that turned out to be damaged after it was taken.
   void CountDamaged() {
     const std::lock_guard lock(mutex_);
     ++status_.counts.loss.damaged;
@@ -229,7 +229,7 @@ class LiveCamera::Worker {
     Report(CameraEvent::Kind::kConnected, details);
   }
 
-  // Closing may take seconds with some backends: nobody waits for it with the mutex.
+  // Closing may take seconds with some backends, so the mutex is not held.
   void Disconnect() {
     std::unique_ptr<CameraDevice> device;
     {
@@ -260,7 +260,7 @@ class LiveCamera::Worker {
     FrameLoss loss = missing;
     newest_.last_index += 1 + missing.Total();
     if (!whole) ++loss.damaged;
-    // The one that nobody took makes room for a whole one only.
+    // Only a complete image replaces an unread one.
     if (whole && newest_.there) ++loss.not_taken;
     newest_.loss_before += loss;
     status_.counts.loss += loss;
@@ -281,7 +281,7 @@ class LiveCamera::Worker {
       ++status_.counts.stalls;
     }
     if (silent < 2 * stall_limit_) return;
-    // Starting afresh wakes most of them; a stream that goes on by itself is not touched before.
+    // Restarting ends most stalls; a stream that resumes by itself is left alone until then.
     Disconnect();
     auto device = finder_.Open();
     if (!device) return Report(CameraEvent::Kind::kGone, device.error().what);
@@ -292,14 +292,14 @@ class LiveCamera::Worker {
   }
 
   void Report(CameraEvent::Kind kind, std::string details) {
-    // A consumer that never asks must not fill the memory.
+    // Bounds the memory if a caller never reads the events.
     constexpr std::size_t kMax = 1000;
     const std::lock_guard lock(mutex_);
     if (status_.events.size() >= kMax) status_.events.erase(status_.events.begin());
     status_.events.push_back({kind, SteadyNow_ns(), std::move(details)});
   }
 
-  // The thread's own, but before it starts.
+  // Accessed only by the thread, once it runs.
   CameraFinder finder_;
   const bool wait_for_camera_;
   const milliseconds stall_limit_;
@@ -308,7 +308,7 @@ class LiveCamera::Worker {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  // Changed by the thread under the mutex, so the thread may read it without.
+  // Written by the thread under the mutex, so the thread may read it without.
   std::unique_ptr<CameraDevice> device_;
   bool stop_ = false;
   NewestImage newest_;
@@ -332,7 +332,7 @@ Result<std::unique_ptr<LiveCamera>> LiveCamera::OpenWith(LiveCameraOptions optio
 
 Result<std::optional<Frame>> LiveCamera::Next() {
   while (!worker_->stopped()) {
-    // The limit only bounds how long damaged pictures are passed over before the flag is seen.
+    // The limit bounds the time to notice the stop flag while damaged images are skipped.
     if (auto frame = NextWithin(milliseconds(1000))) return frame;
   }
   return std::nullopt;

@@ -17,14 +17,14 @@ namespace pleinair::devices {
 
 class CameraDevice;
 
-/// Something that happened to a camera, told once.
+/// A change in a camera's state, reported once.
 struct CameraEvent {
   enum class Kind {
-    kConnected,  ///< Opened, first or again; `words`: each difference between asked and got.
+    kConnected,  ///< Opened, first or again; `details`: each difference between request and result.
     kGone,       ///< Unplugged, switched off, or its stream broke.
-    kWaiting,    ///< Not there or not usable; `words` say why. It is tried again and again.
-    kStalled,    ///< It is there but sends nothing.
-    kRecovered,  ///< It sends again after a stall.
+    kWaiting,    ///< Not found or not usable; `details` gives the reason. Opening is retried.
+    kStalled,    ///< Connected, but delivers no frames.
+    kRecovered,  ///< Delivers frames again after a stall.
   };
   Kind kind = Kind::kConnected;
   std::int64_t time_ns = 0;  ///< Steady clock.
@@ -34,48 +34,49 @@ struct CameraEvent {
 struct LiveCameraOptions {
   CameraUri uri;
   FormatRequest pictures;
-  std::vector<ControlRequest> controls;  ///< Held each time the camera is opened.
-  bool wait_for_camera = true;           ///< Else Open() fails where it is not there.
-  /// A camera that sends nothing for so long has stalled; after as long again it is opened anew.
+  std::vector<ControlRequest> controls;  ///< Applied each time the camera is opened.
+  bool wait_for_camera = true;  ///< If false, Open() fails when the camera is not connected.
+  /// A camera without frames for this long is stalled; after the same time again it is reopened.
   std::chrono::milliseconds stall_limit{1500};
 };
 
-/// A camera that is plugged in, pulled out and plugged in again. A thread of its own empties the
-/// driver and keeps the newest image only, so a slow consumer neither starves the driver nor
-/// gets old pictures; what it missed is counted. Damaged pictures are counted and never delivered.
+/// A camera that survives unplugging and replugging. A background thread empties the driver's queue
+/// and keeps the newest image only: a slow consumer neither blocks the driver nor gets old images.
+/// Skipped frames are counted. Damaged images are counted and never delivered.
 class LiveCamera : public FrameSource {
  public:
-  /// Errors: the backend is not in this build; and, unless it is to be waited for, whatever keeps
-  /// the camera from streaming.
+  /// Errors: the backend is not in this build; if `wait_for_camera` is false, also any reason why
+  /// the camera cannot stream.
   static Result<std::unique_ptr<LiveCamera>> Open(LiveCameraOptions options);
 
-  /// The same with another way to open a device: tests.
+  /// As Open(), with another function to open a device; for tests.
   using Opener =
       std::function<Result<std::unique_ptr<CameraDevice>>(const CameraUri&, const FormatRequest&)>;
   static Result<std::unique_ptr<LiveCamera>> OpenWith(LiveCameraOptions options, Opener opener);
 
   ~LiveCamera() override;
 
-  /// Waits for a frame newer than the last one, through stalls and replugs. Nothing after Stop().
+  /// Waits for a frame newer than the last one, through stalls and replugs. Returns nullopt after
+  /// Stop().
   Result<std::optional<Frame>> Next() override;
 
-  /// The same, but nothing also when `limit` is over.
+  /// As Next(), but also returns nullopt after `limit`.
   std::optional<Frame> NextWithin(std::chrono::milliseconds limit);
 
   std::optional<std::int64_t> FrameCount() const override { return std::nullopt; }
 
-  /// Ends waiting and capturing, from any thread; returns at once. The destructor waits for the
-  /// device to close.
+  /// Ends waiting and capturing, from any thread; returns at once. The destructor waits until the
+  /// device is closed.
   void Stop();
   bool stopped() const;
 
-  /// Changes what is held, now and after each replug; the answers come with Answers().
+  /// Changes the locked controls, now and after each replug; Answers() has the results.
   void LockControls(std::vector<ControlRequest> controls);
 
   std::vector<CameraEvent> TakeEvents();
   CameraCounts counts() const;
   std::optional<TransportCounts> transport() const;
-  /// Of the device that is open now, or was last.
+  /// Format of the open device, or of the last one.
   std::optional<NegotiatedFormat> negotiated() const;
   std::vector<ControlResult> ControlResults() const;
 

@@ -7,7 +7,7 @@ namespace pleinair::devices {
 namespace {
 
 constexpr int kEnough = 5;
-// Halfway between one and two periods, a little late: exposures vary.
+// Slightly more than halfway between one and two periods, because exposures vary.
 constexpr double kJump = 1.6;
 
 }  // namespace

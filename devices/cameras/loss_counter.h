@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace pleinair::devices {
 
-/// Tells from drivers' numbers and stamps how many frames are missing before each. A jump of the
-/// numbers counts by number; where the numbers go on but the stamps jump by two or more of the
-/// usual periods (the running median, because cameras slow down in the dark), the rest counts by
-/// time. A pause longer than `pause_ns` is a stall, no loss.
+/// Counts the frames that were lost before each frame, from the driver's frame numbers and time
+/// stamps. A gap in the numbers counts by number. If the numbers are consecutive but the time
+/// stamps jump by two or more usual periods (running median, because cameras slow down in the
+/// dark), the loss counts by time. A pause longer than `pause_ns` is a stall, not a loss.
 class LossCounter {
  public:
   explicit LossCounter(std::int64_t pause_ns) : pause_ns_(pause_ns) {}
 
   FrameLoss Add(std::int64_t number, std::int64_t timestamp_ns);
 
-  /// The usual time between frames; 0 before there are enough of them.
+  /// The usual time between frames; 0 until enough frames have been measured.
   std::int64_t period_ns() const { return period_ns_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <opencv2/core.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace pleinair::devices {
 
-/// Our two pictures of an 8-bit BGR one.
+/// Converts an 8-bit BGR image to our RGB and grey images.
 DecodedImage ImageFromBgr(const cv::Mat& bgr);
 
 }  // namespace pleinair::devices

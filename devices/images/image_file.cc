@@ -65,7 +65,7 @@ Result<ImageSize> InspectPng(std::string_view bytes, const std::string& name) {
     if (bytes.size() - at < 12) return CutShort(name);
     const std::size_t length = FourBytesAt(bytes, at);
     if (bytes.size() - at - 12 < length) return CutShort(name);
-    // The decoder would print its own line about damage; the checksum tells it before.
+    // The decoder would print its own message about damage; check the CRC first.
     const auto* checked = reinterpret_cast<const unsigned char*>(bytes.data()) + at + 4;
     if (crc32(0, checked, static_cast<uInt>(length + 4)) != FourBytesAt(bytes, at + 8 + length)) {
       return InputError(name, "is damaged: a checksum does not match", kWholeCopy);
@@ -76,8 +76,9 @@ Result<ImageSize> InspectPng(std::string_view bytes, const std::string& name) {
   return size;
 }
 
-// Walks the marker segments (ITU-T T.81, B.1.1) to the scan; the frame header before it has the
-// size, and an end marker must follow it (inside a scan 0xFF is stuffed, so it cannot be data).
+// Walks the marker segments (ITU-T T.81, B.1.1) to the scan. The frame header before it has the
+// size, and an end marker must follow it (0xFF is stuffed inside a scan, so the marker cannot be
+// data).
 Result<ImageSize> InspectJpeg(std::string_view bytes, const std::string& name) {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

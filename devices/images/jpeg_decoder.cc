@@ -4,15 +4,15 @@
 #include <cstdio>
 #include <string>
 
-// After <cstdio>: it uses FILE without declaring it.
+// After <cstdio>: jpeglib.h uses FILE without declaring it.
 #include <jpeglib.h>
-// After <jpeglib.h>: the codes of its messages.
+// After <jpeglib.h>: its message codes.
 #include <jerror.h>
 
 namespace pleinair::devices {
 namespace {
 
-/// libjpeg reports by calling back and never returns from an error: it jumps.
+/// libjpeg reports errors by a callback that must not return: it jumps.
 struct Reporter {
   jpeg_error_mgr manager;
   std::jmp_buf back;
@@ -29,8 +29,8 @@ void Keep(j_common_ptr common) {
   std::longjmp(reinterpret_cast<Reporter*>(common->err)->back, 1);
 }
 
-// The first warning is where the damage is; what follows it is noise. Only bytes between the last
-// block and the end marker are no damage: many cameras pad there.
+// The first warning is the cause; later ones are consequences. Extra bytes between the last block
+// and the end marker are not damage: many cameras pad there.
 void OnMessage(j_common_ptr common, int level) {
   constexpr int kEndOfImage = 0xD9;  // ITU-T T.81, Table B.1.
   if (level >= 0) return;
@@ -39,8 +39,8 @@ void OnMessage(j_common_ptr common, int level) {
   if (!padded) LeaveOnError(common);
 }
 
-/// Gives false where the decoder gave up, and the reason in `reporter`. No object with a destructor
-/// lives in here, because of the jump.
+/// Returns false on failure, with the reason in `reporter`. No object with a destructor may exist
+/// here, because of the jump.
 bool Decode(const std::uint8_t* bytes, std::size_t size, std::uint8_t* rgb, int width, int height,
             Reporter* reporter) {
   jpeg_decompress_struct decoder;

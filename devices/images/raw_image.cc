@@ -56,7 +56,7 @@ int Scaled(double value) {
   return static_cast<int>(scaled + (scaled < 0.0 ? -0.5 : 0.5));
 }
 
-/// R, G, B from Y, Cb, Cr of 8 bits in whole numbers; at most 1 beside the exact value.
+/// R, G, B from 8-bit Y, Cb, Cr in integer arithmetic; within 1 of the exact value.
 class YuvToRgb {
  public:
   // Rec. ITU-R BT.601-7, 2.5.1 and 2.5.2, and BT.709-6, 3.2 to 3.4, solved for R, G, B:
@@ -87,7 +87,7 @@ class YuvToRgb {
   int luma_, black_, red_cr_, blue_cb_, green_cr_, green_cb_;
 };
 
-/// Where in four bytes of two pixels Y0, Y1, Cb and Cr lie.
+/// Positions of Y0, Y1, Cb and Cr in the four bytes of two pixels.
 struct PackedOrder {
   int y0, y1, cb, cr;
 };
@@ -143,8 +143,8 @@ cv::Mat Wrap(const RawImage& raw, int type) {
   return {raw.height, raw.width, type, const_cast<std::uint8_t*>(raw.bytes.data()), raw.stride};
 }
 
-/// OpenCV names a Bayer pattern after its second row's second and third pixels, we and V4L2 after
-/// the first row's first two.
+/// OpenCV names a Bayer pattern after the second and third pixels of its second row; V4L2 and we
+/// use the first two of the first row.
 int BayerCode(PixelFormat format) {
   switch (format) {
     case PixelFormat::kBayerRggb8:
@@ -241,7 +241,8 @@ Result<void> ConvertRawImage(const RawImage& raw, DecodedImage* image) {
     } else {
       ConvertByOpenCv(raw, rgb);
     }
-    // The same formula as for files, so that a recording shows the tracker the same image.
+    // The same formula as for files, so that the tracker gets the same image live and from a
+    // recording.
     cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
   } catch (const std::exception& error) {
     return damaged(error.what());

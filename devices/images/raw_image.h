@@ -11,7 +11,7 @@
 
 namespace pleinair::devices {
 
-/// The layouts of pixels that cameras send and we read; names as in Linux' V4L2 documentation.
+/// Supported pixel layouts of cameras; names as in the Linux V4L2 documentation.
 enum class PixelFormat {
   kGrey8,
   kYuyv,
@@ -30,7 +30,7 @@ enum class PixelFormat {
   kBayerGrbg8,
 };
 
-/// Every format, in the order of our preference at equal size and rate: no compression first.
+/// All formats, in order of preference at equal size and rate: uncompressed first.
 constexpr PixelFormat kPixelFormats[] = {
     PixelFormat::kYuyv,       PixelFormat::kUyvy,       PixelFormat::kYvyu,
     PixelFormat::kVyuy,       PixelFormat::kNv12,       PixelFormat::kNv21,
@@ -38,33 +38,33 @@ constexpr PixelFormat kPixelFormats[] = {
     PixelFormat::kMjpeg,      PixelFormat::kBayerRggb8, PixelFormat::kBayerBggr8,
     PixelFormat::kBayerGbrg8, PixelFormat::kBayerGrbg8, PixelFormat::kGrey8};
 
-/// "YUYV", "MJPG", "RGGB"…: the four letters that V4L2 has for it, without trailing spaces.
+/// "YUYV", "MJPG", "RGGB"…: the four-letter V4L2 code, without trailing spaces.
 std::string_view NameOf(PixelFormat format);
 std::optional<PixelFormat> PixelFormatByName(std::string_view name);
 
-/// Which R, G, B a YUV image means (Rec. ITU-R BT.601-7 and BT.709-6).
+/// Conversion matrix of a YUV image (Rec. ITU-R BT.601-7 and BT.709-6).
 enum class YuvMatrix { kBt601, kBt709 };
 
-/// An image as the camera sent it.
+/// An image in the form that the camera sent.
 struct RawImage {
   PixelFormat format = PixelFormat::kGrey8;
   int width = 0;
   int height = 0;
-  std::size_t stride = 0;  ///< Bytes of a row of the first plane; unused by kMjpeg.
+  std::size_t stride = 0;  ///< Bytes per row of the first plane; unused by kMjpeg.
   YuvMatrix matrix = YuvMatrix::kBt601;
   bool full_range = false;  ///< YUV and grey: black is 0 and white 255, not 16 and 235.
   std::vector<std::uint8_t> bytes;
 };
 
-/// Bytes that an image of this layout must have at least; 1 for kMjpeg.
+/// Minimum number of bytes of an image of this layout; 1 for kMjpeg.
 std::size_t SmallestSize(const RawImage& layout);
 
-/// Bytes of a row of the first plane without padding.
+/// Bytes per row of the first plane without padding.
 std::size_t TightStride(PixelFormat format, int width);
 
-/// Our two pictures of a camera's one. Errors, which say "damaged": too few bytes; a JPEG that is
-/// cut short, of another size, or that the decoder had to mend. `picture` is used again where it
-/// has the size already.
+/// Converts a camera image to our RGB and grey images. `image` is reused if it already has the
+/// right size. Errors (the message contains "damaged"): too few bytes; a JPEG that is truncated, of
+/// another size, or that the decoder had to repair.
 Result<void> ConvertRawImage(const RawImage& raw, DecodedImage* image);
 
 }  // namespace pleinair::devices

@@ -8,7 +8,7 @@ namespace pleinair::devices {
 RgbImage ResizeRgb(ImageView<const std::uint8_t> rgb, int width, int height) {
   RgbImage resized(width, height, 3);
   cv::Mat target(height, width, CV_8UC3, resized.data());
-  // OpenCV has no const view; nobody writes through this one.
+  // OpenCV has no const view; this one is only read.
   const cv::Mat source(rgb.height(), rgb.width(), CV_8UC3, const_cast<std::uint8_t*>(rgb.data()),
                        static_cast<std::size_t>(rgb.stride()));
   const bool shrinks = width <= rgb.width() && height <= rgb.height();

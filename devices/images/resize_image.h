@@ -6,8 +6,8 @@
 
 namespace pleinair::devices {
 
-/// An 8-bit RGB image at another size, pixels: area average where it shrinks, bicubic where it
-/// grows.
+/// Resizes an 8-bit RGB image to width × height pixels: area average when shrinking, bicubic when
+/// enlarging.
 RgbImage ResizeRgb(ImageView<const std::uint8_t> rgb, int width, int height);
 
 }  // namespace pleinair::devices

@@ -74,7 +74,7 @@ Result<Transform<EurocBody, Camera>> ParseEurocExtrinsics(std::string_view bytes
       {{m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]}}, {m[3], m[7], m[11]}};
   const Mat3& r = body_from_camera.rotation;
   const Mat3 square = r * r.Transposed();
-  // Files state it to six digits or more.
+  // Files have six digits or more.
   constexpr double kTolerance = 1e-3;
   bool rigid = m[12] == 0.0 && m[13] == 0.0 && m[14] == 0.0 && m[15] == 1.0;
   for (int i = 0; i < 9; ++i) rigid = rigid && std::abs(square.m[i] - Mat3().m[i]) < kTolerance;

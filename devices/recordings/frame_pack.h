@@ -11,22 +11,22 @@
 
 namespace pleinair::devices {
 
-/// Writes frames as a camera sent them into one file that only grows
-/// (docs/guide/reference/recordings.md, "frames.pack"): whatever is cut off its end, the frames
-/// before stay readable. Frames without the camera's bytes (of recordings) are kept as RGB.
+/// Writes frames in the camera's own format to one append-only file
+/// (docs/guide/reference/recordings.md, "frames.pack"). After a truncation all complete frames stay
+/// readable. Frames without camera bytes (from recordings) are stored as RGB.
 class FramePackWriter {
  public:
-  /// Errors: the file is there already, or cannot be made.
+  /// Errors: the file exists already, or cannot be created.
   static Result<std::unique_ptr<FramePackWriter>> Create(const std::filesystem::path& file);
   ~FramePackWriter();
   FramePackWriter(const FramePackWriter&) = delete;
   FramePackWriter& operator=(const FramePackWriter&) = delete;
 
-  /// Adds a frame, whole or not at all. Error: the disk is full or fails; the file then ends with
-  /// the frame before, and nothing more is taken.
+  /// Appends one complete frame. Error: the disk is full or fails; the file then ends with the
+  /// previous frame and accepts no more.
   Result<void> Add(const Frame& frame);
 
-  /// Hands everything to the disk: what was added before survives a power cut.
+  /// Flushes to disk: frames added before survive a power cut.
   Result<void> Sync();
 
   std::int64_t frames() const { return frames_; }
@@ -44,19 +44,20 @@ class FramePackWriter {
   std::string header_;
 };
 
-/// Whether a file begins as a frame pack does.
+/// True if a file has the header of a frame pack.
 bool IsFramePack(const std::filesystem::path& file);
 
 struct OpenedFramePack {
   std::unique_ptr<FrameSource> frames;
-  double frame_rate_hz = 0.0;      ///< By the frames' stamps; 0 with fewer than two.
-  std::int64_t dropped_bytes = 0;  ///< After the last whole frame: the recording was cut there.
+  double frame_rate_hz = 0.0;      ///< Computed from the time stamps; 0 with fewer than two frames.
+  std::int64_t dropped_bytes = 0;  ///< Bytes after the last complete frame: the recording was
+                                   ///< truncated there.
 };
 
-/// Opens the frames up to the last whole one, each with the stamps, exposure and losses that were
-/// recorded; stamps count from the first frame. `size`: what each must have; 0x0: what the first
-/// has. Errors: not such a file, no whole frame, another size; and from Next() a frame in the
-/// middle that is damaged.
+/// Opens the complete frames of a pack, with the recorded time stamps, exposure and losses. Time
+/// stamps count from the first frame. `size`: required size of every frame; 0x0: the size of the
+/// first. Errors: not a frame pack, no complete frame, another size; from Next(): a damaged frame
+/// before the end.
 Result<OpenedFramePack> OpenFramePack(const std::filesystem::path& file, ImageSize size);
 
 }  // namespace pleinair::devices

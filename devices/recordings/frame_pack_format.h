@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace pleinair::devices {
 
-/// First bytes of the file.
+/// Magic number at the start of the file.
 inline constexpr std::string_view kFramePackStart = "pleinair frames\n";
 
-/// What stands before each frame: all numbers little-endian. The checksum (CRC-32 of zlib) is over
-/// the facts and the image.
+/// Header before each frame; all numbers little-endian. The checksum (CRC-32 of zlib) covers
+/// metadata and image.
 struct FrameRecordHead {
   static constexpr std::size_t kBytes = 24;
   static constexpr std::string_view kMagic = "FRAM";
@@ -27,19 +27,20 @@ struct FrameRecordHead {
   std::uint64_t image_bytes = 0;
   std::uint32_t checksum = 0;
 
-  /// Adds kBytes.
+  /// Appends kBytes bytes.
   void Append(std::string* bytes) const;
-  /// Takes kBytes. Nothing: these bytes begin no frame.
+  /// Reads kBytes bytes. Nullopt: not a frame header.
   static std::optional<FrameRecordHead> Decode(std::string_view bytes);
 };
 
-/// Everything of a frame but its pixels, as one line of JSON, and back. `layout` has no bytes.
+/// Metadata of a frame (everything except pixels) as one line of JSON, and back. `layout` has no
+/// bytes.
 std::string FrameMetadataJson(const Frame& frame, const RawImage& layout);
 struct FrameMetadata {
   Frame frame;
   RawImage layout;
 };
-/// Nothing: damaged.
+/// Nullopt: damaged.
 std::optional<FrameMetadata> ParseFrameMetadata(std::string_view json);
 
 }  // namespace pleinair::devices

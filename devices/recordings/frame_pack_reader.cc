@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a frame's record lies.
+/// Position of a frame's record in the file.
 struct Place {
   std::int64_t at = 0;
   FrameRecordHead head;
@@ -27,7 +27,7 @@ struct Place {
   }
 };
 
-/// Reads `count` bytes; false where there are not so many.
+/// Reads `count` bytes; false if the file is too short.
 bool ReadAt(std::ifstream& file, std::int64_t at, void* to, std::size_t count) {
   file.clear();
   file.seekg(at);
@@ -132,7 +132,7 @@ Result<OpenedFramePack> OpenFramePack(const fs::path& file, ImageSize size) {
     places.push_back(place);
     at += place.bytes();
   }
-  // After a power cut the file may have its length but not yet its bytes.
+  // After a power cut the file may have its full length but not yet its bytes.
   std::optional<FrameMetadata> last;
   while (!places.empty() && !(last = ReadFrame(stream, places.back()))) {
     at = places.back().at;

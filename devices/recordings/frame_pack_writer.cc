@@ -14,7 +14,7 @@
 namespace pleinair::devices {
 namespace {
 
-/// zlib counts in 32 bits.
+/// zlib's lengths have 32 bits.
 std::uint32_t Checksum(std::string_view facts, const std::uint8_t* image, std::size_t bytes) {
   uLong sum =
       crc32(0, reinterpret_cast<const Bytef*>(facts.data()), static_cast<uInt>(facts.size()));
@@ -22,7 +22,7 @@ std::uint32_t Checksum(std::string_view facts, const std::uint8_t* image, std::s
   return static_cast<std::uint32_t>(sum);
 }
 
-/// Gives 0 or the error's number.
+/// Returns 0 or errno.
 int WriteAll(int fd, const void* bytes, std::size_t count) {
   const auto* at = static_cast<const std::uint8_t*>(bytes);
   while (count > 0) {
@@ -59,7 +59,7 @@ Result<std::unique_ptr<FramePackWriter>> FramePackWriter::Create(
 
 Result<void> FramePackWriter::Fail(int error_number) {
   failed_ = true;
-  // The part of a frame that came through goes; should even that fail, readers pass it over.
+  // Removes the partial frame. Should even that fail, readers skip it.
   if (ftruncate(fd_, size_) != 0) return tl::make_unexpected(WriteError(file_, error_number));
   return tl::make_unexpected(WriteError(file_, error_number));
 }

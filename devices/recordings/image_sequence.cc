@@ -17,7 +17,7 @@ bool IsImageName(const std::filesystem::path& file) {
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 
-// The number that ends a file's name, before the extension.
+// The number at the end of a file's name, before the extension.
 std::optional<std::int64_t> NumberOf(const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
   const std::size_t last_other = stem.find_last_not_of("0123456789");

@@ -32,7 +32,7 @@ bool IsFolder(const fs::path& path) {
 
 std::int64_t Nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
-/// A description file that is there, and its bytes.
+/// A description file that exists, and its bytes.
 struct Description {
   fs::path file;
   std::string bytes;
@@ -46,7 +46,7 @@ Result<std::optional<Description>> ReadIfThere(const fs::path& file) {
   return Description{file, std::move(bytes)};
 }
 
-// A recording.json names no models: the stand-ins and the object lie beside it by custom.
+// A recording.json names no models; by convention the phantoms and the object are in its folder.
 void AddModelsByCustom(const fs::path& folder, scene::SceneFacts* facts) {
   const auto add = [&](const char* name, std::vector<scene::ModelReference>* models) {
     if (IsFile(folder / name)) models->emplace_back().file = name;
@@ -62,7 +62,7 @@ Result<scene::SceneDescription> CompleteAndCheck(const scene::SceneFacts& facts,
   return scene;
 }
 
-// The scene of `file`, leaning on what the recording itself knows.
+// The scene in `file`, completed from the recording's own data.
 Result<scene::SceneDescription> SceneFromFile(const fs::path& file,
                                               const scene::SceneFacts& recorded) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
@@ -71,7 +71,7 @@ Result<scene::SceneDescription> SceneFromFile(const fs::path& file,
   return CompleteAndCheck(scene::WithFallback(std::move(facts), recorded), file);
 }
 
-/// recording.json and scene.json of a folder, as far as they are there.
+/// recording.json and scene.json of a folder, each if present.
 struct OwnFolder {
   fs::path folder;
   std::optional<Description> recording_json, scene_json;
@@ -98,7 +98,7 @@ Result<std::optional<scene::SceneDescription>> SceneOf(const OwnFolder& own,
   return CompleteAndCheck(recorded, own.recording_json->file);
 }
 
-// A recorder without a calibrated lens leaves it to the scene.
+// A recorder without a calibrated lens has the calibration in the scene file.
 Result<CameraModel> CameraOf(const OwnFolder& own, const RecordingManifest& manifest,
                              const RecordingOptions& options) {
   if (options.calibration) return ReadCalibration(*options.calibration);
@@ -125,10 +125,10 @@ Result<RecordingManifest> ManifestOf(const OwnFolder& own) {
   return manifest;
 }
 
-// Where the frames are: what the manifest names, else the folder or the video of custom.
+// Location of the frames: as in the manifest, else the conventional folder or video.
 fs::path FramesOf(const RecordingManifest& manifest, const fs::path& folder) {
   fs::path named = folder / manifest.frames.value_or("frames");
-  // "frames/%04d.jpg": the pictures are found by number, whatever the padding.
+  // "frames/%04d.jpg": images are found by number, with any zero padding.
   if (named.filename().string().find('%') != std::string::npos) named = named.parent_path();
   if (!IsFolder(named) && !IsFile(named) && IsFile(folder / "background.mp4")) {
     return folder / "background.mp4";
@@ -150,7 +150,8 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
   const fs::path frames = FramesOf(manifest, folder);
   if (IsFile(frames) && IsFramePack(frames)) {
     PLEINAIR_ASSIGN_OR_RETURN(OpenedFramePack pack, OpenFramePack(frames, size));
-    constexpr double kUsualRate_hz = 30.0;  // Of a single frame: only a video's header shows it.
+    constexpr double kUsualRate_hz = 30.0;  // For a single frame; it only appears in the header of
+                                            // an output video.
     const double stated_hz = manifest.frame_rate_hz.value_or(kUsualRate_hz);
     recording.frame_rate_hz = pack.frame_rate_hz > 0.0 ? pack.frame_rate_hz : stated_hz;
     recording.dropped_bytes = pack.dropped_bytes;
@@ -188,7 +189,7 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
   return recording;
 }
 
-// The scene of a recording that knows nothing of it: options', else one in the folder.
+// Scene of a recording without a description of its own: from the options, else in the folder.
 Result<std::optional<scene::SceneDescription>> FindSceneNextTo(const fs::path& folder,
                                                                const RecordingOptions& options) {
   if (options.scene) return SceneFromFile(*options.scene, {});
@@ -264,7 +265,7 @@ Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& o
 Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& options) {
   if (IsFile(path)) {
     const fs::path name = path.filename();
-    // Whoever names a recording's description means the recording.
+    // The path of a description file stands for its recording's folder.
     if (name == "recording.json" || name == "scene.json") {
       return OpenOwnFolder(path.parent_path(), options);
     }

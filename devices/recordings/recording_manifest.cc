@@ -16,7 +16,7 @@ constexpr double kMaxStamp_s = 1e9;  // 30 years: still exact to nanoseconds in 
 Result<RecordingManifest> ParseRecordingManifest(std::string_view bytes, const std::string& name) {
   PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseJson(bytes, name));
   const files::JsonFields top(document, name);
-  // scene.json keeps these in "image" and calls the rate fps.
+  // scene.json keeps these fields in "image" and calls the rate fps.
   const bool in_image = !top.Has("frames") && top.Object("image").Has("frames");
   const files::JsonFields fields = in_image ? top.Object("image") : top;
   const char* rate_key = fields.Has("frame_rate_hz") ? "frame_rate_hz" : "fps";

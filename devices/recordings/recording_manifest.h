@@ -9,17 +9,17 @@
 
 namespace pleinair::devices {
 
-/// What a recording.json or scene.json says of its frames.
+/// Description of the frames in a recording.json or scene.json.
 struct RecordingManifest {
   std::optional<std::string> frames;  ///< Folder, printf pattern or video, relative to the file.
   std::optional<int> frame_count;
   std::optional<double> frame_rate_hz;
   bool has_calibration = false;      ///< The file has a "calibration" block.
-  std::vector<double> timestamps_s;  ///< Ascending; empty where none are given.
+  std::vector<double> timestamps_s;  ///< Ascending; empty if absent.
 };
 
-/// Errors: not whole JSON, count or rate not positive, time stamps that do not ascend or are not
-/// as many as the frames.
+/// Errors: truncated or invalid JSON; count or rate not positive; time stamps that do not ascend or
+/// whose number differs from the frames'.
 Result<RecordingManifest> ParseRecordingManifest(std::string_view bytes, const std::string& name);
 
 }  // namespace pleinair::devices

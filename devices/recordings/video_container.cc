@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMaxBoxes = 100'000;
 
-// A number of `count` bytes, the most significant first.
+// Big-endian number of `count` bytes.
 std::uint64_t BigEndian(std::string_view bytes) {
   std::uint64_t number = 0;
   for (const char c : bytes) number = number << 8 | static_cast<std::uint8_t>(c);
@@ -43,7 +43,7 @@ Result<void> CheckContainerIsWhole(const std::filesystem::path& file) {
     const std::string_view head(buffer.data(), buffer.size());
     const std::string_view type = head.substr(4, 4);
     if (box == 0 && head.starts_with("RIFF")) {
-      // A recorder that was stopped leaves the length at zero.
+      // A recorder that was interrupted leaves the length at zero.
       const std::uint64_t end = std::uint64_t{LittleEndianReader(type).Get<std::uint32_t>()} + 8;
       if (end > 8 && end > bytes) return CutShort(file, bytes, end);
       return {};
@@ -51,7 +51,7 @@ Result<void> CheckContainerIsWhole(const std::filesystem::path& file) {
     if (box == 0 && type != "ftyp" && type != "moov" && type != "mdat" && type != "wide") return {};
     std::uint64_t length = BigEndian(head.substr(0, 4));
     if (length == 1) length = BigEndian(head.substr(8, 8));
-    if (length < 8) return {};  // Zero: the box goes on to the file's end.
+    if (length < 8) return {};  // Zero: the box extends to the end of the file.
     if (length > bytes - at) {
       return CutShort(file, bytes, length < UINT64_MAX - at ? at + length : length);
     }

@@ -6,9 +6,9 @@
 
 namespace pleinair::devices {
 
-/// Tells from a container's own lengths whether the file ends too early, without decoding: the
-/// boxes of MP4 and MOV (ISO/IEC 14496-12, 4.2) and the RIFF chunk of AVI. Other containers pass.
-/// Error: the file is cut short.
+/// Checks whether a video file is truncated, without decoding, from the lengths in its container:
+/// the boxes of MP4 and MOV (ISO/IEC 14496-12, 4.2) or the RIFF chunk of AVI. Other containers
+/// pass. Error: the file is truncated.
 Result<void> CheckContainerIsWhole(const std::filesystem::path& file);
 
 }  // namespace pleinair::devices

@@ -28,9 +28,9 @@ class VideoFile : public FrameSource {
 
   Result<std::optional<Frame>> Next() override {
     if (at_end_) return std::nullopt;
-    // Until this frame is delivered: after an error there is nothing more.
+    // Until this frame is delivered: an error ends the stream.
     at_end_ = true;
-    // What a file holds beyond the promised frames is no part of the recording.
+    // Frames in the file beyond the specified number are not part of the recording.
     if (promised_exactly_ && next_ == facts_.frame_count) return std::nullopt;
     cv::Mat bgr;
     try {
@@ -63,10 +63,10 @@ class VideoFile : public FrameSource {
   bool CountsExactly() const override { return promised_exactly_; }
 
  private:
-  // Whether the end came where it should.
+  // Checks that the end came at the expected frame.
   Result<std::optional<Frame>> End() const {
-    // A container's own count is an estimate where it has no index, and edit lists hide frames of
-    // some that have one: two frames or 2 % may be missing before the file counts as cut short.
+    // A container's own count is an estimate if it has no index, and edit lists hide frames of some
+    // that have one. Up to two frames or 2 % may be missing before the file counts as truncated.
     const double tolerated =
         promised_exactly_ ? 0.0 : std::max(2.0, 0.02 * facts_.frame_count.value_or(0));
     if (next_ == 0 || next_ + tolerated < facts_.frame_count.value_or(0)) {
@@ -88,7 +88,7 @@ class VideoFile : public FrameSource {
   bool at_end_ = false;
 };
 
-// FFmpeg writes its own complaints to stderr; ours say what the user needs.
+// FFmpeg writes its own messages to stderr; our errors contain what the user needs.
 void QuietFfmpeg() {
   static std::once_flag once;
   std::call_once(once, [] { setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0); });
@@ -97,7 +97,7 @@ void QuietFfmpeg() {
 Result<OpenedVideo> Open(const std::filesystem::path& file, VideoMetadata facts) {
   const std::string name = file.string();
   QuietFfmpeg();
-  // An absolute path cannot be taken for a protocol such as "concat:".
+  // An absolute path cannot be mistaken for a protocol such as "concat:".
   cv::VideoCapture capture(std::filesystem::absolute(file).string(), cv::CAP_FFMPEG);
   if (!capture.isOpened()) {
     return InputError(name, "cannot be opened as a video: no known format, or cut short",

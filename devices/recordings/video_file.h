@@ -11,13 +11,13 @@
 
 namespace pleinair::devices {
 
-/// What is known of a video apart from its file.
+/// Properties of a video that are known from outside its file.
 struct VideoMetadata {
-  /// What every frame must have: the calibration's. 0x0: whatever size the film has.
+  /// Required frame size: the calibration's. 0x0: any size.
   ImageSize size;
-  std::optional<int> frame_count;       ///< Overrides what the file itself says.
-  std::optional<double> frame_rate_hz;  ///< Overrides what the file itself says.
-  std::vector<double> timestamps_s;     ///< One a frame; empty: index / rate.
+  std::optional<int> frame_count;       ///< Overrides the file's own count.
+  std::optional<double> frame_rate_hz;  ///< Overrides the file's own rate.
+  std::vector<double> timestamps_s;     ///< One per frame; empty: index / rate.
 };
 
 struct OpenedVideo {
@@ -26,10 +26,9 @@ struct OpenedVideo {
   ImageSize size;
 };
 
-/// Frames of a video file, decoded by FFmpeg through OpenCV; a turn said in the file (phones) is
-/// applied.
-/// Errors: no file, empty, no video FFmpeg knows, cut short (MP4, MOV, AVI), another size, no
-/// frame rate; and from Next() fewer frames than the file or `frame_count` promises.
+/// Opens a video file, decoded by FFmpeg through OpenCV. A rotation in the metadata (phones) is
+/// applied. Errors: no file, empty, format unknown to FFmpeg, truncated (MP4, MOV, AVI), another
+/// size, no frame rate; from Next(): fewer frames than the file or `frame_count` specifies.
 Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoMetadata& facts);
 
 }  // namespace pleinair::devices

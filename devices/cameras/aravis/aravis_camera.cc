@@ -16,7 +16,7 @@ constexpr AravisFormat kFormats[] = {{ARV_PIXEL_FORMAT_MONO_8, PixelFormat::kGre
                                      {ARV_PIXEL_FORMAT_YUV_422_PACKED, PixelFormat::kUyvy},
                                      {ARV_PIXEL_FORMAT_YUV_422_YUYV_PACKED, PixelFormat::kYuyv}};
 
-/// GenICam's exposure counts in microseconds.
+/// GenICam's exposure is in microseconds.
 constexpr double kMicrosecond = 1e-6;
 
 ControlResult Fulfil(ArvCamera* camera, const ControlRequest& requested) {

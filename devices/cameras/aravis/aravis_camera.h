@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace pleinair::devices {
 
-/// GenICam's name of a pixel format and ours.
+/// GenICam's name of a pixel format, and ours.
 struct AravisFormat {
   ArvPixelFormat theirs;
   PixelFormat ours;

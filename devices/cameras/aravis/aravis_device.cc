@@ -37,7 +37,7 @@ class AravisDevice : public CameraDevice {
   AravisDevice(GObjectPtr<ArvCamera> camera, CameraUri identity)
       : camera_(std::move(camera)), identity_(std::move(identity)) {}
 
-  // Where the camera has left, stopping waits for answers that never come: 2.5 to 3 s.
+  // If the camera is gone, stopping waits for answers that never arrive: 2.5 to 3 s.
   ~AravisDevice() override {
     g_signal_handlers_disconnect_by_data(arv_camera_get_device(camera_.get()), this);
     GErrorSlot error;
@@ -74,7 +74,7 @@ class AravisDevice : public CameraDevice {
     const std::string where = identity_.ToString();
     GErrorSlot error;
     if (arv_camera_is_gv_device(camera_.get()) != FALSE) {
-      // Too large a packet is dropped by the network without a word.
+      // The network silently drops packets that are too large.
       arv_camera_gv_auto_packet_size(camera_.get(), error.Fresh());
       transport_.packet_size =
           static_cast<int>(arv_camera_gv_get_packet_size(camera_.get(), error.Fresh()));
@@ -111,7 +111,7 @@ class AravisDevice : public CameraDevice {
     return WaitOutcome::kImage;
   }
 
-  // Waits are short, and Aravis has no way to cut one shorter.
+  // Waits are short, and Aravis cannot interrupt one.
   void Wake() override {}
 
   std::string StatusMessage() const override { return "the camera answers no more"; }
@@ -166,14 +166,14 @@ class AravisDevice : public CameraDevice {
 
   void Take(ArvBuffer* buffer, CapturedImage* image) {
     image->arrival_ns = SteadyNow_ns();
-    // GigE Vision numbers frames from 1 to 65535 and leaves 0 out.
+    // GigE Vision numbers frames from 1 to 65535, without 0.
     const auto id = static_cast<std::int64_t>(arv_buffer_get_frame_id(buffer));
     constexpr std::int64_t kNumbers = 65535;
     const bool wrapped = id < last_id_ && last_id_ <= kNumbers && last_id_ - id > kNumbers / 2;
     number_ += last_id_ < 0 ? 0 : wrapped ? id - last_id_ + kNumbers : id - last_id_;
     last_id_ = id;
     image->number = number_;
-    // Aravis' own stamp is on the wall clock: brought over by the clocks' difference now.
+    // Aravis' time stamp is on the wall clock: convert it by the present difference of the clocks.
     const std::int64_t wall_ns = g_get_real_time() * 1000;
     const auto stamp_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
     image->timestamp_ns = stamp_ns - wall_ns + image->arrival_ns;
@@ -218,7 +218,7 @@ std::string Text(const char* text) { return text == nullptr ? "" : text; }
 Result<std::unique_ptr<CameraDevice>> OpenAravisDevice(const CameraUri& uri,
                                                        const FormatRequest& requested) {
   GErrorSlot error;
-  // Where it was last is asked first: looking on all networks takes a second.
+  // Try the last address first: discovery on all networks takes a second.
   GObjectPtr<ArvCamera> camera(arv_camera_new(uri.value.c_str(), error.Fresh()));
   if (!camera) {
     arv_update_device_list();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <memory>
 #include <vector>
@@ -10,12 +10,12 @@
 namespace pleinair::devices {
 
 /// Opens a GigE Vision or USB3 Vision camera by its name or serial number and starts its stream.
-/// Looking for it sends a broadcast on every network interface.
-/// Errors, in words: not there, another program controls it, no format that we read.
+/// The discovery sends a broadcast on every network interface. Errors: not found, controlled by
+/// another program, no supported pixel format.
 Result<std::unique_ptr<CameraDevice>> OpenAravisDevice(const CameraUri& uri,
                                                        const FormatRequest& requested);
 
-/// Every camera that answers a broadcast on the networks, or is on USB.
+/// Lists the cameras that answer a broadcast on the networks or are connected by USB.
 Result<std::vector<CameraDescription>> ListAravisCameras();
 
 }  // namespace pleinair::devices

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <arv.h>
 
@@ -9,14 +9,14 @@
 
 namespace pleinair::devices {
 
-/// A reference to a GObject, given back at its end.
+/// Deleter that releases a reference to a GObject.
 struct GObjectUnref {
   void operator()(gpointer object) const { g_object_unref(object); }
 };
 template <typename T>
 using GObjectPtr = std::unique_ptr<T, GObjectUnref>;
 
-/// Where Aravis' calls put their errors.
+/// Receives the GError of an Aravis call.
 class GErrorSlot {
  public:
   GErrorSlot() = default;
@@ -24,7 +24,7 @@ class GErrorSlot {
   GErrorSlot& operator=(const GErrorSlot&) = delete;
   ~GErrorSlot() { g_clear_error(&error_); }
 
-  /// For the next call.
+  /// Clears the slot for the next call.
   GError** Fresh() {
     g_clear_error(&error_);
     return &error_;

@@ -22,7 +22,7 @@ GigeProbe::GigeProbe(const sockaddr_in& camera)
     : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
   sockaddr_in control = camera;
   control.sin_port = htons(kControlPort);
-  // Connected: only then does the system hand on that a port is closed.
+  // Only a connected socket receives the report that a port is closed.
   if (socket_ >= 0 &&
       connect(socket_, reinterpret_cast<const sockaddr*>(&control), sizeof control) != 0) {
     close(socket_);
@@ -44,8 +44,8 @@ bool GigeProbe::IsRefused() {
     if (SaysNobody(errno)) return true;
     break;
   }
-  if (++number_ == 0) number_ = 1;  // Zero is no request's number.
-  // Key, "answer, please", READREG, length, number; the register's address.
+  if (++number_ == 0) number_ = 1;  // Zero is not a valid request number.
+  // Key, acknowledge flag, READREG, length, request number; the register's address.
   const std::array<std::uint8_t, 12> question{0x42,
                                               0x01,
                                               0x00,

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <netinet/in.h>
 
@@ -8,9 +8,9 @@
 
 namespace pleinair::devices {
 
-/// Asks a GigE Vision camera for one register (GigE Vision 2.0, §16.2.1, READREG of the control
-/// channel privilege, which anybody may read), to know whether anybody is there. Aravis' own
-/// heartbeat takes 15 s to say that nobody is.
+/// Checks whether a GigE Vision camera is still reachable, by reading one register (GigE Vision
+/// 2.0, §16.2.1, READREG, which needs no control privilege). Aravis' own heartbeat takes 15 s to
+/// detect that the camera is gone.
 class GigeProbe {
  public:
   explicit GigeProbe(const sockaddr_in& camera);
@@ -18,8 +18,9 @@ class GigeProbe {
   GigeProbe(const GigeProbe&) = delete;
   GigeProbe& operator=(const GigeProbe&) = delete;
 
-  /// Whether its machine or the network says that there is no camera. Silence says nothing: a
-  /// camera may be busy. Does not wait: what came since the last question counts.
+  /// True if the camera's host or the network has reported that there is no camera. No answer is
+  /// inconclusive: a camera may be busy. Does not block: it evaluates the reports received since
+  /// the last call.
   bool IsRefused();
 
  private:

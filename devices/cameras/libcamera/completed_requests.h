@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <libcamera/request.h>
 
@@ -13,24 +13,24 @@
 
 namespace pleinair::devices {
 
-/// Requests that libcamera completed on its own thread, in their order, for the thread that waits.
+/// Queue of the requests that libcamera completed on its own thread, for the waiting thread.
 class CompletedRequests {
  public:
-  /// From any thread.
+  /// Thread-safe.
   void Add(libcamera::Request* request) {
     const std::lock_guard lock(mutex_);
     completed_.push_back(request);
     changed_.notify_all();
   }
 
-  /// Ends a wait, from any thread.
+  /// Ends a wait; thread-safe.
   void Wake() {
     const std::lock_guard lock(mutex_);
     wake_ = true;
     changed_.notify_all();
   }
 
-  /// Waits for the next one; nothing if it was woken, null when the time is over.
+  /// Waits for the next request. Returns nullopt if woken, a null pointer on timeout.
   std::optional<libcamera::Request*> TakeUntil(std::chrono::steady_clock::time_point end) {
     std::unique_lock lock(mutex_);
     changed_.wait_until(lock, end, [this] { return !completed_.empty() || wake_; });

@@ -8,8 +8,8 @@
 namespace pleinair::devices {
 namespace {
 
-/// How libcamera names one of our controls. White balance it sets by gains of red and blue, not by
-/// a temperature.
+/// libcamera's name of one of our controls. It sets white balance by gains of red and blue, not by
+/// a color temperature.
 struct Mapping {
   CameraControl control;
   const libcamera::ControlId* value;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <libcamera/controls.h>
 
@@ -11,12 +11,12 @@
 
 namespace pleinair::devices {
 
-/// The four controls as far as libcamera itself has them. Their present values are not known before
-/// the first image: the default stands in for them.
+/// Those of the four controls that libcamera itself has. Their present values are unknown before
+/// the first image, so the defaults are reported.
 std::vector<ControlRange> LibcameraControls(const libcamera::ControlInfoMap& infos);
 
-/// Puts one wish into `request`, for the next image. Nothing where libcamera has no such control.
-/// A present value that is to be held is `now`.
+/// Adds one control request to `request`, for the next image. Returns nullopt if libcamera lacks
+/// the control. `now` is the present value, used when it is to be locked.
 std::optional<ControlResult> RequestLibcameraControl(const libcamera::ControlInfoMap& infos,
                                                      const ControlRequest& requested,
                                                      std::optional<double> now,

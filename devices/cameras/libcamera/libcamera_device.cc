@@ -47,8 +47,8 @@ Error LibcameraError(const std::string& where, const std::string& doing, int err
           "unplug it and plug it in again"};
 }
 
-/// A stamp brought to the steady clock. libcamera documents CLOCK_BOOTTIME and hands on what the
-/// driver said, mostly CLOCK_MONOTONIC: they differ by the time that the machine slept.
+/// Converts a time stamp to the steady clock. libcamera documents CLOCK_BOOTTIME but passes on the
+/// driver's stamp, mostly CLOCK_MONOTONIC; they differ by the time that the machine was suspended.
 std::int64_t ToSteady_ns(std::int64_t stamp_ns, std::int64_t steady_now_ns) {
   timespec boot{};
   clock_gettime(CLOCK_BOOTTIME, &boot);
@@ -56,16 +56,16 @@ std::int64_t ToSteady_ns(std::int64_t stamp_ns, std::int64_t steady_now_ns) {
   return stamp_ns > steady_now_ns ? stamp_ns - slept_ns : stamp_ns;
 }
 
-/// Whether a camera is plugged in, by its entry in the kernel's list of devices.
+/// Detects whether a camera is plugged in, by its entry in the kernel's list of devices.
 class Presence {
  public:
-  /// Without an entry it always is: only its silence tells then.
+  /// Without an entry it is assumed present; only a stall shows its absence.
   explicit Presence(std::string entry = "") : entry_(std::move(entry)) {}
 
   bool IsThere() const { return entry_.empty() || access(entry_.c_str(), F_OK) == 0; }
 
-  /// It has been so since the last call: what completed on libcamera's thread while it left is
-  /// over.
+  /// True if the camera was gone at the last call too: by then all requests that completed on
+  /// libcamera's thread have been handled.
   bool IsGoneForATick() { return std::exchange(was_gone_, !IsThere()) && was_gone_; }
 
  private:
@@ -73,20 +73,20 @@ class Presence {
   bool was_gone_ = false;
 };
 
-/// What was agreed on, for libcamera and for those who get the images.
+/// The negotiated format, in libcamera's form and for our callers.
 struct Format {
   std::unique_ptr<libcamera::CameraConfiguration> configuration;
   NegotiatedFormat negotiated;
   RawImage layout;
 };
 
-/// The memory that images come in, and the requests that carry it.
+/// The image memory, and the requests that carry it.
 struct Buffers {
   std::unique_ptr<libcamera::FrameBufferAllocator> allocator;
   std::vector<std::unique_ptr<libcamera::Request>> requests;
   std::map<const libcamera::FrameBuffer*, MappedPlanes> planes;
 
-  /// Those that use the others go first.
+  /// Frees in the order of dependencies.
   void Free() {
     requests.clear();
     planes.clear();
@@ -104,8 +104,8 @@ class LibcameraDevice final : public CameraDevice {
 
   ~LibcameraDevice() override {
     if (started_) {
-      // Nothing completes after this: the slot can go. The streams of a camera that left cannot be
-      // stopped, and libcamera ends the program where it tries.
+      // No request completes after this, so the slot can be disconnected. The streams of a removed
+      // camera cannot be stopped: libcamera aborts when it tries.
       if (presence_.IsThere()) camera_->stop();
       camera_->requestCompleted.disconnect(this);
     }
@@ -201,13 +201,14 @@ class LibcameraDevice final : public CameraDevice {
       const std::optional<libcamera::Request*> completed = completed_.TakeUntil(end);
       if (!completed) return WaitOutcome::kNothing;
       libcamera::Request* request = *completed;
-      // The requests of a camera that left never complete: only the kernel's list of devices tells.
+      // The requests of a removed camera never complete; only the kernel's list of devices shows
+      // it.
       if (request == nullptr)
         return presence_.IsGoneForATick() ? WaitOutcome::kGone : WaitOutcome::kNothing;
       const bool taken = Take(*request, image);
       request->reuse(libcamera::Request::ReuseBuffers);
       ApplyControlRequests(request);
-      camera_->queueRequest(request);  // What fails here is a camera that left: see above.
+      camera_->queueRequest(request);  // Fails only if the camera was removed: see above.
       if (taken) return WaitOutcome::kImage;
     }
   }
@@ -221,7 +222,7 @@ class LibcameraDevice final : public CameraDevice {
   std::vector<ControlRange> Controls() override {
     std::vector<ControlRange> controls = LibcameraControls(camera_->controls());
     if (!node_) return controls;
-    // What the node says is read back from the camera; libcamera's are ranges only.
+    // The node's values are read back from the camera; libcamera has ranges only.
     std::vector<ControlRange> better = V4l2Controls(*node_);
     for (const ControlRange& range : controls) {
       const auto same = [&](const ControlRange& each) { return each.control == range.control; };
@@ -235,7 +236,7 @@ class LibcameraDevice final : public CameraDevice {
     std::vector<ControlResult> results;
     control_requests_ = std::make_unique<libcamera::ControlList>(camera_->controls());
     for (const ControlRequest& requested : control_requests) {
-      // The node first: it reads back, and has white balance and focus, too.
+      // The node first: it supports reading back, white balance and focus.
       if (node_) {
         ControlResult result = LockV4l2Controls(*node_, {requested}).front();
         if (result.value) {
@@ -260,7 +261,7 @@ class LibcameraDevice final : public CameraDevice {
   }
 
  private:
-  // On libcamera's own thread.
+  // Runs on libcamera's own thread.
   void OnCompleted(libcamera::Request* request) {
     if (request->status() != libcamera::Request::RequestCancelled) completed_.Add(request);
   }
@@ -280,7 +281,7 @@ class LibcameraDevice final : public CameraDevice {
         format_.layout.full_range || stream.colorSpace->range == Space::Range::Full;
   }
 
-  /// What the camera says of itself between pictures; nothing where an automatism changes it.
+  /// Reads the camera's settings between images; unset under automatic control.
   void RememberControls() {
     settings_ = {};
     if (!node_) return;
@@ -332,7 +333,7 @@ class LibcameraDevice final : public CameraDevice {
     return true;
   }
 
-  // The manager goes last.
+  // Last member destroyed.
   std::shared_ptr<libcamera::CameraManager> manager_;
   std::shared_ptr<libcamera::Camera> camera_;
   CameraUri identity_;
@@ -342,7 +343,7 @@ class LibcameraDevice final : public CameraDevice {
   Buffers buffers_;
   std::optional<V4l2Node> node_;
   std::unique_ptr<libcamera::ControlList> control_requests_;  ///< For the next request.
-  CameraSettings settings_;  ///< As the camera reports them between images.
+  CameraSettings settings_;  ///< As read from the camera between images.
   CompletedRequests completed_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <memory>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace pleinair::devices {
 
-/// Opens a camera by libcamera's name for it, or by its place in libcamera's list ("0"), and starts
-/// its stream. Errors, in words: not there, another program uses it, no format that we read.
+/// Opens a camera by libcamera's name, or by its index in libcamera's list ("0"), and starts its
+/// stream. Errors: not found, used by another program, no supported pixel format.
 Result<std::unique_ptr<CameraDevice>> OpenLibcameraDevice(const CameraUri& uri,
                                                           const FormatRequest& requested);
 
-/// Every camera that libcamera knows. Error: it cannot be started.
+/// Lists the cameras that libcamera supports. Error: libcamera cannot be started.
 Result<std::vector<CameraDescription>> ListLibcameraCameras();
 
 }  // namespace pleinair::devices

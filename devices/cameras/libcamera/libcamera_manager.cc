@@ -37,7 +37,7 @@ const Known kKnown[] = {{libcamera::formats::YUYV, PixelFormat::kYuyv},
                         {libcamera::formats::SGRBG8, PixelFormat::kBayerGrbg8},
                         {libcamera::formats::R8, PixelFormat::kGrey8}};
 
-/// The one manager, and how to wait until the last one is gone.
+/// The only manager, and a way to wait until the previous one is destroyed.
 struct OnlyManager {
   std::mutex mutex;
   std::condition_variable gone;
@@ -60,13 +60,14 @@ void StopManager(libcamera::CameraManager* manager) {
 }  // namespace
 
 Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager() {
-  // Not kept beyond its users: it knows only what was plugged in when it started.
+  // Not kept longer than its users, because it has only the cameras that were connected when it
+  // started.
   OnlyManager& only = TheOnlyOne();
   std::unique_lock lock(only.mutex);
   std::shared_ptr<libcamera::CameraManager> manager;
   only.gone.wait(lock, [&] { return (manager = only.running.lock()) || !only.exists; });
   if (manager) return manager;
-  // What the user needs to know is in our errors; who wants more asks for it as libcamera says.
+  // Our errors contain what the user needs; libcamera's log can be enabled by its own variable.
   if (std::getenv("LIBCAMERA_LOG_LEVELS") == nullptr) {
     libcamera::logSetTarget(libcamera::LoggingTargetNone);
   }
@@ -76,9 +77,9 @@ Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager() {
     return SystemError("libcamera", "cannot start: " + std::string(std::strerror(-failed)),
                        "see whether udev runs and you may read the devices");
   }
-  // 0.0.3 does not survive every order of what it hears: DeviceEnumeratorUdev::addV4L2Device leaves
-  // the devices it was waiting for in devMap_ when it frees them, and reads them when a camera gets
-  // the same number again and its video node is told of before its media node.
+  // libcamera 0.0.3 crashes on some orders of device events: DeviceEnumeratorUdev::addV4L2Device
+  // leaves freed devices in devMap_. It reads them when a camera gets the same number again and its
+  // video node is announced before its media node.
   for (const int socket : UeventSockets()) {
     const bool is_new = std::find(of_others.begin(), of_others.end(), socket) == of_others.end();
     if (is_new && !MuteSocket(socket)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <libcamera/camera.h>
 #include <libcamera/camera_manager.h>
@@ -16,25 +16,27 @@
 
 namespace pleinair::devices {
 
-/// The process's one manager (libcamera allows no second), started when needed and stopped with
-/// the last reference, after everything that came from it. It knows the cameras that were plugged
-/// in when it started and does not notice what comes and goes: KernelEntryOf() tells of a camera
-/// that left, a new manager of one that came. Error (system): it cannot be started.
+/// The process's only manager (libcamera allows one). It is started when needed and stopped with
+/// its last reference, which must be released after everything obtained from it. It has the cameras
+/// that were connected when it started and does not follow changes: use KernelEntryOf() to detect a
+/// camera that was removed, and a new manager to find one that was added. Error (system): it cannot
+/// be started.
 Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager();
 
-/// Formats of a camera's first stream for viewing, largest size first; libcamera states no rates.
+/// Formats of a camera's first viewfinder stream, largest size first. libcamera reports no frame
+/// rates.
 std::vector<FormatDescription> LibcameraFormats(const libcamera::StreamFormats& formats);
 
 std::optional<PixelFormat> PixelFormatOf(const libcamera::PixelFormat& theirs);
 std::optional<libcamera::PixelFormat> LibcameraFormatOf(PixelFormat ours);
 
-/// The video node behind a camera whose pictures come straight from one (USB cameras), for the
-/// controls that libcamera has not; nothing for cameras with a pipeline of several.
+/// The video node of a camera whose images come from a single node (USB cameras), for the controls
+/// that libcamera lacks. Nullopt for cameras with a pipeline of several nodes.
 std::optional<V4l2Node> NodeBehind(libcamera::CameraManager& manager,
                                    const std::shared_ptr<libcamera::Camera>& camera);
 
-/// A path that exists as long as the camera is plugged in, though its nodes be held open; nothing
-/// where no video node of it is known.
+/// A path that exists as long as the camera is connected, even while its nodes are held open.
+/// Nullopt if no video node of the camera is known.
 std::optional<std::string> KernelEntryOf(libcamera::CameraManager& manager,
                                          const std::shared_ptr<libcamera::Camera>& camera);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <libcamera/framebuffer.h>
 #include <sys/mman.h>
@@ -13,7 +13,7 @@
 
 namespace pleinair::devices {
 
-/// Memory of the planes of one buffer, for reading.
+/// Read-only memory mapping of the planes of one buffer.
 class MappedPlanes {
  public:
   MappedPlanes() = default;
@@ -23,7 +23,7 @@ class MappedPlanes {
     for (const Map& map : maps_) munmap(map.start, map.length);
   }
 
-  /// False, with errno, where it cannot be mapped.
+  /// Returns false and sets errno if the plane cannot be mapped.
   bool Add(const libcamera::FrameBuffer::Plane& plane) {
     const std::size_t length = plane.offset + static_cast<std::size_t>(plane.length);
     void* start = mmap(nullptr, length, PROT_READ, MAP_SHARED, plane.fd.get(), 0);

@@ -1,16 +1,16 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
 namespace pleinair::devices {
 
-/// This process's descriptors through which the kernel or udev tells of devices that come and go.
-/// Empty where /proc is not there.
+/// This process's sockets on which the kernel or udev announces added and removed devices. Empty
+/// without /proc.
 std::vector<int> UeventSockets();
 
-/// Lets nothing through to a socket from now on; what it received before stays.
+/// Blocks further messages to a socket; those received before remain readable.
 bool MuteSocket(int socket);
 
 }  // namespace pleinair::devices

@@ -11,7 +11,7 @@
 namespace pleinair::devices {
 namespace {
 
-/// How V4L2 names one of our controls.
+/// V4L2's name of one of our controls.
 struct Mapping {
   CameraControl control;
   __u32 value_id;
@@ -19,7 +19,7 @@ struct Mapping {
   double unit;  ///< Ours per step of the device's.
 };
 
-// V4L2_CID_EXPOSURE_ABSOLUTE counts in 100 microseconds, WHITE_BALANCE_TEMPERATURE in kelvins.
+// V4L2_CID_EXPOSURE_ABSOLUTE is in units of 100 microseconds, WHITE_BALANCE_TEMPERATURE in kelvins.
 constexpr Mapping kMappings[] = {
     {CameraControl::kExposure, V4L2_CID_EXPOSURE_ABSOLUTE, V4L2_CID_EXPOSURE_AUTO, 1e-4},
     {CameraControl::kGain, V4L2_CID_GAIN, V4L2_CID_AUTOGAIN, 1.0},
@@ -53,7 +53,7 @@ int Set(const V4l2Node& node, __u32 id, int value) {
   return node.Control(VIDIOC_S_CTRL, &control);
 }
 
-/// Exposure is a menu with two ways to leave the time alone; the others are switches.
+/// Exposure is a menu with two non-automatic modes; the others are switches.
 bool MeansAuto(const Mapping& mapping, int value) {
   if (mapping.control != CameraControl::kExposure) return value != 0;
   return value == V4L2_EXPOSURE_AUTO || value == V4L2_EXPOSURE_APERTURE_PRIORITY;
@@ -73,7 +73,7 @@ ControlResult Fulfil(const V4l2Node& node, const ControlRequest& requested) {
     result.details = "the camera has no control of its " + name;
     return result;
   }
-  // Read before the automatism goes off: what it had found is what is to be held.
+  // Read before automatic control is turned off: this is the value to lock.
   const std::optional<int> found = Get(node, mapping.value_id);
   bool is_auto = false;
   if (Query(node, mapping.auto_id, &automatic)) {

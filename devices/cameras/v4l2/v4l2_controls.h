@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
@@ -9,11 +9,11 @@
 
 namespace pleinair::devices {
 
-/// The four controls as far as the node has them.
+/// Those of the four controls that the node has.
 std::vector<ControlRange> V4l2Controls(const V4l2Node& node);
 
-/// Fulfils wishes one by one: the automatism off first (drivers refuse the value before), then the
-/// value, then reads back.
+/// Applies control requests in order. For each it turns automatic control off (drivers reject a
+/// value before), sets the value, then reads it back.
 std::vector<ControlResult> LockV4l2Controls(const V4l2Node& node,
                                             const std::vector<ControlRequest>& control_requests);
 

@@ -17,7 +17,8 @@
 namespace pleinair::devices {
 namespace {
 
-// Enough for a thread that is held up for a hundred milliseconds at 30 Hz; drivers may give more.
+// Enough for a thread that is delayed by a hundred milliseconds at 30 Hz; drivers may allocate
+// more.
 constexpr __u32 kBuffers = 4;
 
 class V4l2Device : public CameraDevice {
@@ -69,7 +70,7 @@ class V4l2Device : public CameraDevice {
     if (events < 0) return Gone(-events);
     v4l2_buffer buffer = BufferNumber(0);
     const int result = node_.Control(VIDIOC_DQBUF, &buffer);
-    // POLLERR alone may be a spurious wake; POLLHUP is final, whatever the call gives.
+    // POLLERR alone may be spurious; POLLHUP is final, whatever the call returns.
     if (result == -EAGAIN && (events & (POLLHUP | POLLNVAL | POLLERR)) == 0) {
       return WaitOutcome::kNothing;
     }
@@ -83,7 +84,7 @@ class V4l2Device : public CameraDevice {
 
   void Wake() override {
     const std::uint64_t one = 1;
-    // A full counter wakes as well.
+    // A full counter also wakes.
     if (write(wake_fd_, &one, sizeof one) < 0) return;
   }
 
@@ -118,8 +119,8 @@ class V4l2Device : public CameraDevice {
     return WaitOutcome::kGone;
   }
 
-  // Only what is held is known for every frame; asking for what changes by itself costs a USB
-  // transfer each time.
+  // Only locked values are known for every frame; reading values under automatic control costs a
+  // USB transfer each time.
   void RememberLockedControls() {
     locked_ = {};
     bool exposure_is_auto = false;
@@ -127,7 +128,7 @@ class V4l2Device : public CameraDevice {
       if (range.control == CameraControl::kExposure) exposure_is_auto = range.is_auto;
       if (range.is_auto) continue;
       if (range.control == CameraControl::kExposure) locked_.exposure_s = range.value;
-      // USB cameras have no switch for it of its own: it may follow the exposure.
+      // USB cameras have no separate automatic gain: it may follow the exposure.
       if (range.control == CameraControl::kGain && !exposure_is_auto) locked_.gain = range.value;
       if (range.control == CameraControl::kWhiteBalance) locked_.white_balance_k = range.value;
     }
@@ -145,7 +146,7 @@ class V4l2Device : public CameraDevice {
     image->number = last_number_;
     const std::int64_t stamp_ns =
         buffer.timestamp.tv_sec * std::int64_t{1'000'000'000} + buffer.timestamp.tv_usec * 1000L;
-    // CLOCK_MONOTONIC is what std::chrono::steady_clock reads on Linux; any other clock is not.
+    // On Linux std::chrono::steady_clock is CLOCK_MONOTONIC and no other clock.
     const bool steady =
         (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     const bool start =

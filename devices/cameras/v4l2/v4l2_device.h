@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <memory>
 
@@ -9,9 +9,9 @@
 
 namespace pleinair::devices {
 
-/// Opens the camera that `uri` means now, agrees on pictures and starts the stream.
-/// Errors, in words: not there, no permission, busy, too little bandwidth, no format that we read,
-/// a format that the camera does not have.
+/// Opens the camera that `uri` identifies now, negotiates the format and starts the stream. Errors:
+/// not found, no permission, busy, too little bandwidth, no supported pixel format, a format that
+/// the camera does not have.
 Result<std::unique_ptr<CameraDevice>> OpenV4l2Device(const std::shared_ptr<V4l2Io>& io,
                                                      const CameraUri& uri,
                                                      const FormatRequest& requested);

@@ -26,7 +26,7 @@ std::string FirstLine(const fs::path& file) {
   return line;
 }
 
-// A USB video node's "device" is an interface; the serial number is its parent's.
+// The "device" of a USB video node is an interface; its parent has the serial number.
 std::string SerialOf(const fs::path& video_class_folder) {
   std::error_code error;
   fs::path at = fs::canonical(video_class_folder / "device", error);
@@ -68,7 +68,7 @@ class SystemIo : public V4l2Io {
     if (ready < 0) return errno == EINTR ? 0 : -errno;
     if ((both[1].revents & POLLIN) != 0) {
       std::uint64_t count = 0;
-      // Only emptied: how often it was woken does not matter.
+      // Drains the counter; the number of wakes does not matter.
       if (read(wake_fd, &count, sizeof count) < 0) return 0;
     }
     return both[0].revents;

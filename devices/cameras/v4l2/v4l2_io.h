@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstddef>
 #include <memory>
@@ -10,29 +10,29 @@
 
 namespace pleinair::devices {
 
-/// The few system calls that a V4L2 device needs, so that tests can play a driver. Each gives what
-/// the system call gives, and the negative errno where that fails.
+/// The system calls that a V4L2 device needs, as an interface, so that tests can simulate a driver.
+/// Each returns the system call's result, or the negative errno on failure.
 class V4l2Io {
  public:
   virtual ~V4l2Io() = default;
   virtual int Open(const std::string& node) = 0;
   virtual void Close(int fd) = 0;
   virtual int Ioctl(int fd, unsigned long request, void* argument) = 0;
-  /// Null on failure.
+  /// Returns null on failure.
   virtual void* Map(int fd, std::size_t length, std::size_t offset) = 0;
   virtual void Unmap(void* address, std::size_t length) = 0;
-  /// Waits for `fd` or `wake_fd` (drained here); gives poll()'s revents of `fd`, 0 where the time
-  /// is over or the other one woke.
+  /// Waits for `fd` or `wake_fd` (which is drained). Returns poll()'s revents of `fd`; 0 on timeout
+  /// or when woken.
   virtual int Poll(int fd, int wake_fd, int limit_ms) = 0;
-  /// Every video node there is and what sysfs knows of it.
+  /// A video node, with its properties from sysfs.
   struct Node {
     std::string path;
-    std::string serial;  ///< Of the USB device it belongs to; empty where there is none.
+    std::string serial;  ///< Of the USB device it belongs to; empty if there is none.
   };
   virtual std::vector<Node> Nodes() = 0;
 };
 
-/// The real thing.
+/// The implementation by real system calls.
 std::shared_ptr<V4l2Io> SystemV4l2Io();
 
 }  // namespace pleinair::devices

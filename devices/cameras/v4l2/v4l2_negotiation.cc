@@ -19,7 +19,7 @@ std::optional<double> SetRate(const V4l2Node& node, std::optional<double> rate_h
   if (rate_hz) {
     interval.numerator = static_cast<__u32>(kThousandths);
     interval.denominator = static_cast<__u32>(std::lround(*rate_hz * kThousandths));
-    // What a driver without rates answers does not matter: it is asked right after.
+    // The answer of a driver without rates does not matter: the rate is read back next.
     node.Control(VIDIOC_S_PARM, &parameters);
   }
   parameters = {};
@@ -39,7 +39,7 @@ void ReadColorEncoding(const v4l2_pix_format& format, RawImage* layout) {
   layout->matrix = is_709 ? YuvMatrix::kBt709 : YuvMatrix::kBt601;
   __u32 range = format.quantization;
   if (range == V4L2_QUANTIZATION_DEFAULT) {
-    // Deviation for grey: sensors without color use all 256 values unless they say otherwise.
+    // Deviation for grey: sensors without color use all 256 values unless they report otherwise.
     range = V4L2_MAP_QUANTIZATION_DEFAULT(false, format.colorspace, encoding);
     if (layout->format == PixelFormat::kGrey8) range = V4L2_QUANTIZATION_FULL_RANGE;
   }
@@ -62,7 +62,7 @@ Result<V4l2NegotiatedFormat> AgreeOnPictures(const V4l2Node& node, const FormatR
     pixels.width = static_cast<__u32>(choice.size->width);
     pixels.height = static_cast<__u32>(choice.size->height);
   }
-  // JPEG and MJPG are one to us, but not to the driver.
+  // We treat JPEG and MJPG as one format, the driver does not.
   const auto named = [&](std::uint32_t four_cc) {
     return std::any_of(formats.begin(), formats.end(), [&](const FormatDescription& each) {
       return each.name == FourCcName(four_cc);
@@ -73,7 +73,7 @@ Result<V4l2NegotiatedFormat> AgreeOnPictures(const V4l2Node& node, const FormatR
   pixels.field = V4L2_FIELD_NONE;
   pixels.bytesperline = 0;
   pixels.sizeimage = 0;
-  // Drivers are to choose the colors by themselves: what we would write is what was set before.
+  // Let the driver choose the color space; otherwise the previous setting would be written back.
   pixels.colorspace = V4L2_COLORSPACE_DEFAULT;
   pixels.priv = 0;
   result = node.Control(VIDIOC_S_FMT, &format);

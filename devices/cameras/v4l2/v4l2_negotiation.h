@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include "devices/cameras/camera.h"
 #include "devices/cameras/v4l2/v4l2_node.h"
@@ -9,11 +9,12 @@
 namespace pleinair::devices {
 
 struct V4l2NegotiatedFormat {
-  NegotiatedFormat reported;  ///< What was agreed, and each difference from the wish.
+  NegotiatedFormat reported;  ///< The negotiated format, and each difference from the request.
   RawImage layout;            ///< The same as an image without bytes.
 };
 
-/// Sets format, size and rate as near to the wish as the device goes and reads back what it took.
+/// Sets format, size and rate as close to the request as the device allows, and reads back the
+/// result.
 Result<V4l2NegotiatedFormat> AgreeOnPictures(const V4l2Node& node, const FormatRequest& requested);
 
 }  // namespace pleinair::devices

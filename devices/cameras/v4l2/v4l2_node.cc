@@ -19,7 +19,7 @@ std::string Text(const __u8 (&bytes)[N]) {
   return {text, strnlen(text, N)};
 }
 
-// Against drivers that never end an enumeration.
+// Guards against drivers whose enumeration never ends.
 constexpr __u32 kMaxEntries = 256;
 
 std::vector<double> RatesOf(const V4l2Node& node, __u32 four_cc, ImageSize size) {
@@ -60,7 +60,7 @@ std::vector<FormatDescription::Size> SizesOf(const V4l2Node& node, __u32 four_cc
       add(entry.discrete.width, entry.discrete.height);
       continue;
     }
-    // Any size between two: those are what can be told.
+    // Any size between two limits: list the limits.
     add(entry.stepwise.max_width, entry.stepwise.max_height);
     add(entry.stepwise.min_width, entry.stepwise.min_height);
     break;
@@ -169,7 +169,8 @@ std::vector<CameraDescription> ListV4l2Cameras(const std::shared_ptr<V4l2Io>& io
     camera.serial = candidate.serial;
     const auto node = V4l2Node::Open(io, candidate.path);
     if (!node) {
-      // What is no camera is left out; what one may not open or what is busy is told.
+      // Nodes that are not cameras are skipped; cameras without permission or busy ones are listed
+      // with the reason.
       const int fd = io->Open(candidate.path);
       if (fd >= 0) {
         io->Close(fd);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstdint>
 #include <memory>
@@ -14,11 +14,11 @@
 
 namespace pleinair::devices {
 
-/// An opened node that can capture; closes itself.
+/// An open node that can capture. Move-only; closes itself.
 class V4l2Node {
  public:
-  /// Errors in words: not there, no permission, no camera (an output, a metadata node, one that
-  /// only speaks the multi-planar interface).
+  /// Errors: not found, no permission, not a camera (an output, a metadata node, or multi-planar
+  /// only).
   static Result<V4l2Node> Open(std::shared_ptr<V4l2Io> io, const std::string& path);
   V4l2Node(V4l2Node&& other) noexcept;
   V4l2Node& operator=(V4l2Node&& other) noexcept;
@@ -45,12 +45,12 @@ class V4l2Node {
   std::string path_, name_, driver_, bus_;
 };
 
-/// Gives the node that a URI means now: the first that can capture, which leaves out the metadata
-/// nodes that USB cameras have too. Error: none is there.
+/// The node that a URI identifies now: the first that can capture, because USB cameras also have
+/// metadata nodes. Error: not found.
 Result<V4l2Io::Node> FindV4l2Node(const std::shared_ptr<V4l2Io>& io, const CameraUri& uri);
 
-/// By serial number where it has one, else by where it is plugged in. Two cameras with one serial
-/// number (cheap ones all say "0001") go by where they are.
+/// Stable identity: the serial number if there is one, else the bus position. Two cameras with the
+/// same serial number (cheap ones all have "0001") are identified by bus position.
 CameraUri V4l2Identity(const std::shared_ptr<V4l2Io>& io, const V4l2Node& node);
 
 std::vector<CameraDescription> ListV4l2Cameras(const std::shared_ptr<V4l2Io>& io);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstdint>
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace pleinair::devices {
 
-/// The error for a system call on a node that gave `error_number` (positive), in words.
+/// The error of a system call on a node that failed with `error_number` (positive).
 Error V4l2Error(const std::string& node, const std::string& doing, int error_number);
 
-/// V4L2's number for our format and back; JPEG counts as MJPG. Nothing: we cannot read it.
+/// V4L2's code of one of our formats, and back; JPEG maps to MJPG. Nullopt: not supported.
 std::uint32_t FourCcOf(PixelFormat format);
 std::optional<PixelFormat> PixelFormatOf(std::uint32_t four_cc);
 
-/// "YUYV", "Y16 " without the space; odd bytes as dots.
+/// Printable name of a code: "YUYV", "Y16 " without the space; unprintable bytes as dots.
 std::string FourCcName(std::uint32_t four_cc);
 
 }  // namespace pleinair::devices
