@@ -1,13 +1,13 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include "tracker/alignment/block_sums.h"
 
 namespace pleinair::tracker {
 
-/// What a change of a block's gain and offset could do as well as the parameters: what is predicted
-/// of it, a marker's white or an image, is p.
+/// Projects onto the changes that a block's gain and offset can make. p is the prediction: the
+/// marker's share of white, or a target's image.
 struct LightElimination {
   bool with_gain = false, possible = false;
   double w = 0.0, p = 0.0, pp = 0.0, determinant = 0.0;
@@ -17,11 +17,11 @@ struct LightElimination {
     possible = w > 0.0;
     with_gain = determinant > 1e-9 * w * w;
   }
-  /// How much of something, its sums with 1 and p, is like p …
+  /// Component along the prediction of a quantity given by its sums with 1 and p.
   double OnPattern(double sum, double sum_p) const {
     return with_gain ? (w * sum_p - p * sum) / determinant : 0.0;
   }
-  /// … and how much like a constant.
+  /// Component along a constant.
   double OnOne(double sum, double sum_p) const {
     return with_gain ? (pp * sum - p * sum_p) / determinant : sum / w;
   }

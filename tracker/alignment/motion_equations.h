@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <optional>
@@ -10,53 +10,55 @@
 
 namespace pleinair::tracker {
 
-/// The motions of a square with corners (±1, ±1), y down, moved by x' = (I + M) x with
-/// M = (m1 m2 m0; m4 m5 m3; m6 m7 0).
+/// Motion of a square with corners (±1, ±1), y down: x' = (I + M) x, M = (m1 m2 m0; m4 m5 m3; m6 m7
+/// 0).
 inline constexpr int kFitMotions = kFitParameters - 1;
 
-/// Lengths of such a square's sides, in undistorted pixels.
+/// Side lengths of such a square, in undistorted pixels.
 struct SquareSides {
   double mean = 0.0, shortest = 0.0;
 };
 SquareSides SidesOf(const Mat3& undistorted_from_unit);
 
-/// The normal equations of a fit by Gauss–Newton: of eight motions and of the blur's variance.
+/// The normal equations of a Gauss–Newton fit, for eight motion parameters and the blur's variance.
 struct MotionEquations {
   std::array<double, kFitParameters * kFitParameters> hessian{};
   std::array<double, kFitParameters> gradient{};
 
-  /// Begins with what pixels add up to. Of the matrix only the lower triangle is filled in …
+  /// Starts with the sums over pixels; fills the lower triangle of the matrix only.
   explicit MotionEquations(const FitProducts& products);
   MotionEquations() = default;
-  /// … from which a block's gain and offset are eliminated (Schur's complement): J loses what a
-  /// change of them could do as well …
+  /// Eliminates a block's gain and offset (Schur complement): J loses the part that a change of
+  /// them can reproduce.
   void EliminateLight(const BlockMotions& sums, double gain);
-  /// … and in the end it is mirrored.
+  /// Copies the lower triangle to the upper one, as the last step.
   void Mirror();
 };
 
 struct MotionStepOptions {
-  double damping;  ///< Of the motions' mean diagonal.
+  double damping;  ///< Relative to the mean diagonal element of the motions.
   bool fit_projection = true;
   bool fit_blur = false;
 };
 
-/// A step of the fit.
+/// One step of the fit.
 struct MotionStep {
   std::array<double, kFitParameters> move{};
-  double moved_px = 0.0;  ///< How far the farthest corner would go, before the step was limited.
+  double moved_px = 0.0;  ///< Distance that the farthest corner would move, before the step was
+                          ///< limited.
 
-  /// unit(before)_from_unit(after), to a factor.
+  /// unit(before)_from_unit(after), up to scale.
   Mat3 BeforeFromAfter() const;
-  /// The blur after the step, a standard deviation in the window's pixels.
+  /// Blur after the step: a standard deviation in pixels of the window.
   double Blur(double blur_px) const;
 };
 
-/// Changes of the blur by less are none, in the window's pixels.
+/// Smaller changes of the blur count as converged; in pixels of the window.
 inline constexpr double kStillBlur_px = 0.02;
 
-/// Solves the equations. The step goes no farther than the prediction is good for, a fraction of
-/// the side; nothing where there is no solution. `side_px`: the square's mean side in the window.
+/// Solves the equations. The step is limited to the range in which the prediction is linear, a
+/// fraction of the side. Returns nullopt if the equations are singular. `side_px`: mean side of the
+/// square in the window.
 std::optional<MotionStep> SolveMotion(const MotionEquations& equations,
                                       const MotionStepOptions& options, double side_px);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace pleinair::tracker {
 
-/// Rows of floats that kernels work on may be read and written so far beyond their ends.
+/// Rows of floats must be readable and writable this far beyond their ends.
 inline constexpr int kRowSlack = 16;
 
-/// Where a row of pixels looks on the marker; see PlaneMap.
+/// Positions on the marker of a row of pixels; see PlaneMap.
 struct MapRow {
   float *column, *row, *column_x, *column_y, *row_x, *row_y;
 };
 
-/// Rays of a row of pixels, relative to an origin near them: single precision is enough then.
+/// Rays of a row of pixels, relative to an origin near them, so that single precision suffices.
 struct RayRow {
   const float *x, *y;
   std::ptrdiff_t stride;  ///< To the rays of the rows above and below.
@@ -31,28 +31,29 @@ struct NodeTable {
   int nodes;  ///< Along each side.
 };
 
-/// Taps for `per_pixel` samples a pixel over `pixels` pixels, and those of the slope.
+/// Filter taps for `per_pixel` samples per pixel over `pixels` pixels, and those of the derivative.
 struct BlurTaps {
   const float *weight, *slope;
   int per_pixel, pixels;
 };
 
-/// Pixels of a row near a marker, and those that have a say in how it looks there.
+/// Pixels of a row near a marker, and the wider range that contributes to them.
 struct RowRanges {
   RowRange near, far;
 };
 
-/// What MarkerRaster does to a row of pixels; the SIMD version and its scalar reference agree to
-/// single precision.
+/// Row operations of MarkerRaster. The SIMD version and its scalar reference agree to single
+/// precision.
 struct RasterKernels {
   void (*map)(const RayRow& rays, const float homography[9], int count, const MapRow& out);
-  /// The pixels less than each reach from a marker of `modules`: the shortest ranges that hold
-  /// them.
+  /// The shortest ranges that contain the pixels closer than `near_px` and `far_px` to a marker of
+  /// `modules`.
   RowRanges (*ranges)(const MapRow& map, float modules, float near_px, float far_px, int count);
-  /// Samples `per_pixel`² times in each pixel: out[j][i][x], j from the top, rows `stride` apart.
+  /// Samples each pixel `per_pixel`² times: out[j][i][x], j from the top, rows `stride` apart.
   void (*sample)(const MapRow& map, const NodeTable& table, int per_pixel, int count,
                  std::ptrdiff_t stride, float* out);
-  /// Blurs one row of samples in[i][x]; `blurred[x]` is that of the pixel in the taps' middle.
+  /// Blurs one row of samples in[i][x]; `blurred[x]` is the result at the pixel in the centre of
+  /// the taps.
   void (*along_row)(const float* in, std::ptrdiff_t stride, const BlurTaps& taps, int count,
                     float* blurred, float* blurred_x);
   /// Blurs along columns: rows[k] belongs to tap k. The results have no slack.
@@ -62,8 +63,8 @@ struct RasterKernels {
 const RasterKernels& ScalarRasterKernels();
 const RasterKernels& SimdRasterKernels();
 
-/// Up to so many samples along a pixel they lie beside the node nearest to its centre, if a pixel
-/// is no more modules than this along either axis.
+/// With at most this many samples along a pixel, and a pixel of at most this many modules along
+/// either axis, all samples lie next to the node nearest to the pixel's centre.
 inline constexpr int kMaxSamplesNearCentre = 2;
 inline constexpr float kMaxSlopeNearCentre = 1.98F;
 inline constexpr float kMinBox2_modules2 = 1e-6F;

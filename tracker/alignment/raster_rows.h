@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <vector>
@@ -11,46 +11,47 @@
 
 namespace pleinair::tracker {
 
-/// What rasters of prints and of images have in common: where each row of a window looks on the
-/// marker, the samples along it, and the ring of blurred rows that the columns' blur works on.
-/// Buffers are kept, so that nothing is allocated after the largest window was observed.
+/// Shared by the rasters of markers and of targets: the position on the marker of each row of a
+/// window, its samples, and the ring buffer of blurred rows for the blur along columns. Buffers are
+/// reused, so that nothing is allocated after the largest window.
 class RasterRows {
  public:
-  /// Gives a raster's results the window's size.
+  /// Resizes a raster's results to the window.
   static void Resize(const PixelWindow& window, PlaneMap* map, PredictedImage* image,
                      std::vector<RowRange>* ranges);
 
-  /// `marker_from_undistorted`: homography from undistorted pixels to the marker. `pad`: how far
-  /// the blur reaches, in pixels; `per_pixel`: samples along each side of a pixel.
+  /// `marker_from_undistorted`: homography from undistorted pixels to the marker. `pad`: radius of
+  /// the blur in pixels; `per_pixel`: samples along each side of a pixel.
   void Start(const Mat3& marker_from_undistorted, const WindowRays& rays, int pad, int per_pixel);
 
-  /// Pixels of a row with the blur's reach on either side, and how far apart rows lie.
+  /// Pixels of a row including the blur's radius on either side, and the distance between rows.
   int count() const { return count_; }
   int stride() const { return stride_; }
 
-  /// Where the row y of the window looks, from -pad on. Valid until the next row is asked for.
+  /// Positions on the marker of row y of the window, y from -pad on. Valid until the next call.
   const MapRow& Evaluate(const RasterKernels& kernels, const WindowRays& rays, int y);
-  /// Puts what Look said down where the window has the row.
+  /// Copies the result of Evaluate() to `map` if the window contains the row.
   void Keep(int y, PlaneMap* map) const;
 
-  /// Samples j across and i along, as SampleRow kernels have them: rows i + j per_pixel.
+  /// Sample rows in the order of the sampling kernels: row i + j per_pixel for sample i across, j
+  /// down.
   float* samples(int row) { return &samples_[static_cast<std::size_t>(row) * stride_]; }
-  /// Of the ring: sample row `row` counts from the first of row -pad on.
+  /// Row of the ring buffer; sample rows count from the first of row -pad on.
   float* blurred(int row) { return &ring_.blurred[InRing(row)]; }
   float* blurred_x(int row) { return &ring_.blurred_x[InRing(row)]; }
 
-  /// The taps' rows of the ring around row `y` of the window, from its column `begin` on.
+  /// Collects the rows of the ring around row `y` of the window, from its column `begin` on.
   void Gather(int y, int begin);
   const float* const* rows() const { return ring_.rows.data(); }
   const float* const* rows_x() const { return ring_.rows_x.data(); }
 
  private:
-  /// Where rays meet the marker.
+  /// Homography from rays to the marker.
   struct Projection {
     float origin_x = 0.0F, origin_y = 0.0F;
     std::array<float, 9> homography{};  ///< From rays relative to the origin.
   };
-  /// Blurred rows and their derivatives along x, as many as the columns' blur has taps; and
+  /// Blurred rows and their derivatives along x, one per tap of the blur along columns, and
   /// pointers to them in the order of the taps.
   struct Ring {
     int taps = 1;

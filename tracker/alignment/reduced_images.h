@@ -7,21 +7,21 @@
 
 namespace pleinair::tracker {
 
-/// An image and its halves: each level's pixel is the mean of four of the level before (of their
-/// codes: good for finding, not for measuring). Levels are made when first asked for.
+/// An image pyramid: each level's pixel is the mean of four of the level before. It averages 8-bit
+/// values: suited to finding markers, not to measuring them. Levels are computed on first use.
 class ReducedImages {
  public:
   static constexpr int kLevels = 6;
 
-  /// Forgets the levels of the image before; `grey` is kept by reference.
+  /// Discards the levels of the previous image; `grey` is kept by reference.
   void SetImage(ImageView<const std::uint8_t> grey);
-  /// Level 0 is the image itself; a level may be empty where the image is small.
+  /// Level 0 is the image itself; levels of small images may be empty.
   ImageView<const std::uint8_t> Level(int level);
 
  private:
   ImageView<const std::uint8_t> grey_;
   std::array<Image<std::uint8_t>, kLevels> images_;
-  int made_ = 0;  ///< The last level that is there.
+  int made_ = 0;  ///< Highest level computed so far.
 };
 
 }  // namespace pleinair::tracker

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
@@ -11,13 +11,13 @@
 
 namespace pleinair::tracker {
 
-/// Whether what lies beyond a marker is blurred into pixels that a fit looks at: the quiet zone of
-/// small prints is narrower than the blur. `module_px`: of the window's pixels.
+/// Whether light from beyond a marker is blurred into pixels that a fit uses: the quiet zone of a
+/// small marker is narrower than the blur. `module_px`: module size in pixels of the window.
 bool SurroundingsShow(double module_px, double blur_px);
 
-/// Adds to a prediction, in which the quiet zone goes on for ever, what the image shows beyond
-/// the marker: each pixel's share of light from there is of the brightness that is observed a pixel
-/// or two farther out. `lights` are those of the blocks; where they are unknown nothing is added.
+/// Adds the marker's surroundings to a prediction whose quiet zone extends without limit: each
+/// pixel's share of light from beyond the marker gets the brightness observed a pixel or two
+/// farther out. `lights`: light of the blocks; where it is unknown nothing is added.
 void AddSurroundings(const MarkerPattern& pattern, const ObservedPatch& observed,
                      const PlaneMap& map, const std::vector<RowRange>& ranges, double blur_px,
                      const std::vector<BlockLight>& lights, int blocks_along,

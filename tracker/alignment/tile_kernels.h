@@ -1,60 +1,62 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <cstddef>
 
 namespace pleinair::tracker {
 
-/// Rows that kernels make may be written, and those of tiles read, so far beyond their ends.
+/// Rows that kernels write must be writable, and rows of tiles readable, this far beyond their
+/// ends.
 inline constexpr int kTileSlack = 64;
 
-/// Which pixels belong to what is known of a marker.
+/// Defines which pixels belong to the known part of a marker.
 struct KnownPart {
   float modules;            ///< Along the marker.
-  float reach_px;           ///< What lies beyond must not be blurred into the pixel.
-  float max_reach_modules;  ///< Of small prints too little would be left otherwise.
-  float unknown_middle;     ///< A square in the marker that is not known, its middle
-  float unknown_half;       ///< … and half its side; negative: all is known.
+  float reach_px;           ///< What lies farther out must not be blurred into the pixel.
+  float max_reach_modules;  ///< Upper limit of that reach: too little of small markers would be
+                            ///< left otherwise.
+  float unknown_middle;     ///< Centre of a square of unknown modules in the marker
+  float unknown_half;       ///< … and half its side; negative: all modules are known.
 };
 
-/// Map of a row of pixels onto the marker; see PlaneMap.
+/// Map of a row of pixels to the marker; see PlaneMap.
 struct MapOfRow {
   const float *column, *row, *column_x, *column_y, *row_x, *row_y;
 };
 
-/// Some rows of pixels, `stride` apart, that one row of tiles covers.
+/// The rows of pixels, `stride` apart, that one row of tiles covers.
 struct PixelRows {
   std::ptrdiff_t stride;
   int rows, count;
   const float *white, *value;
-  const float* usable;  ///< Certainty; negative: not of what is known of the marker.
+  const float* usable;  ///< Inverse variance; negative: not on the known part of the marker.
 };
 
-/// The light on each column of a row of tiles.
+/// Light on each column of a row of tiles.
 struct LightOfColumns {
   const float *gain, *offset;
   const float* inverse;  ///< 1 / (gain × robust share); 0 where the light is unknown.
 };
 
-/// Sums of pixels: how many, then with the inverse variance w: w, w p, w i, w p², w p i, w i² (p:
-/// share of white, i: what is observed), then with the robust weight r: r, r p, r i, r p², r p i.
+/// Sums over pixels: their number, then with the inverse variance w: w, w p, w i, w p², w p i, w i²
+/// (p: share of white, i: observed value), then with the robust weight r: r, r p, r i, r p², r p i.
 inline constexpr int kLevelSums = 12;
 
-/// Sums of pixels with the final weight w, r = what is left over, x and y the slopes of p, b its
-/// derivative by the blur's variance: w, wp, wp², wr, wrp, wr², wx, wy, wpx, wpy, wrx, wry, wx²,
-/// wxy, wy², and, if the blur is fitted, wb, wpb, wrb, wxb, wyb, wb².
+/// Sums over pixels with the final weight w, residual r, slopes x and y of p, and its derivative b
+/// by the blur's variance: w, wp, wp², wr, wrp, wr², wx, wy, wpx, wpy, wrx, wry, wx², wxy, wy²; if
+/// the blur is fitted, also wb, wpb, wrb, wxb, wyb, wb².
 inline constexpr int kSlopeSums = 15, kBlurSums = 6, kMotionSums = kSlopeSums + kBlurSums;
 
 struct SlopeRows {
   const float *white_x, *white_y;
   bool blur;
-  int first_row, image_rows;  ///< At the image's edges the blur's derivative is 0.
+  int first_row, image_rows;  ///< At the image's edges the derivative by the blur is 0.
   int first_column, image_columns;
 };
 
-/// Eight motions of the marker and the variance of the blur.
+/// Eight motion parameters and the variance of the blur.
 inline constexpr int kFitParameters = 9;
 inline constexpr int kFitProducts = kFitParameters * (kFitParameters + 1) / 2;
 
@@ -63,13 +65,13 @@ struct Tiles {
   int count;
   std::ptrdiff_t stride;
   const float* sums;                   ///< kMotionSums.
-  const float *u, *v;                  ///< Its middle in half edges.
-  const float *u_x, *u_y, *v_x, *v_y;  ///< Derivative of p by u is u_x p_x + u_y p_y, by v alike.
-  const float* gain;                   ///< 0: of no use.
+  const float *u, *v;                  ///< Centre in half edges.
+  const float *u_x, *u_y, *v_x, *v_y;  ///< ∂p/∂u = u_x p_x + u_y p_y; v likewise.
+  const float* gain;                   ///< 0: not used.
   const unsigned char* block;
 };
 
-/// With J the derivatives of p by the parameters.
+/// Sums of one block; J: derivatives of p by the parameters.
 struct BlockMotions {
   /// As the first of kMotionSums.
   double w, p, pp, r, rp, rr;
@@ -81,18 +83,18 @@ struct FitProducts {
   std::array<double, kFitParameters> jr{};  ///< … and Σ gain w r J.
 };
 
-/// What BlockSums does to rows of pixels and tiles; the SIMD version and its scalar reference agree
-/// to single precision. Sums of pixels are by column: sums[q * sums_stride + x].
+/// Operations of BlockSums on rows of pixels and tiles. The SIMD version and its scalar reference
+/// agree to single precision. Sums over pixels are per column: sums[q * sums_stride + x].
 struct TileKernels {
   void (*mark)(const MapOfRow& map, const KnownPart& known, const float* inverse_variance,
                int count, float* usable);
   void (*levels)(const PixelRows& rows, const LightOfColumns& light, std::ptrdiff_t sums_stride,
                  float* sums);
-  /// `belief` is each column's block's weight; `weight` becomes that of each pixel.
+  /// `belief` is the block weight of each column; `weight` receives each pixel's final weight.
   void (*motions)(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumns& light,
                   const float* robust_weight, float* weight, std::ptrdiff_t sums_stride,
                   float* sums);
-  /// Adds up `tile` (2 or 4) columns each of `count` sums.
+  /// Adds `tile` (2 or 4) columns of each of `count` sums.
   void (*reduce)(const float* sums, std::ptrdiff_t sums_stride, int count, int tile, int tiles,
                  float* tile_sums, std::ptrdiff_t tile_stride);
   void (*products)(const Tiles& tiles, FitProducts* products, BlockMotions* blocks);
