@@ -10,14 +10,14 @@
 
 namespace pleinair::tracker {
 
-/// Names of the AprilTag families that can be looked for.
+/// Names of the supported AprilTag families.
 std::vector<std::string> AprilTagFamilyNames();
 
-/// The marker of one number of a family; null where there is no such family or number.
+/// Bit pattern of one marker of a family; null if there is no such family or id.
 std::shared_ptr<const MarkerPattern> AprilTagPattern(std::string_view family, int id);
 
-/// The fast path: AprilTag 3 (Krogius, Haggenmiller, Olson 2019) on the full image. `families`
-/// are names out of AprilTagFamilyNames(); others are an error.
+/// Detector of AprilTag 3 (Krogius, Haggenmiller, Olson 2019) on the full image. `families`: names
+/// from AprilTagFamilyNames(); others are an error.
 Result<std::unique_ptr<MarkerDetector>> CreateAprilTagDetector(
     const std::vector<std::string>& families);
 

@@ -10,57 +10,57 @@
 
 namespace pleinair::tracker {
 
-/// Which way a marker was found.
+/// The method by which a marker was found.
 enum class DetectionPath { kFast, kSurfGolay, kTracked };
 
-/// "fast", "surf-golay", "tracked": as `detections.jsonl` spells it.
+/// "fast", "surf-golay", "tracked": as in `detections.jsonl`.
 const char* TrajectoryName(DetectionPath path);
 
-/// A marker found in a picture, before its pose is known.
+/// A marker detected in an image, before its pose is estimated.
 struct MarkerDetection {
   std::string family;  ///< "tag36h11", "sg", "picture", …
   int id = 0;
-  std::string name;  ///< Of a target; empty where a number says it all.
-  /// Corners of the outer black square, or of a target's picture, in pixels (integer = pixel
-  /// centre), top-left, then clockwise, of the marker as its marker is read.
+  std::string name;  ///< Name of an image target; empty for markers with an id.
+  /// Corners of the outer black square, or of an image target, in pixels (integer = pixel centre):
+  /// clockwise from top-left on the upright marker.
   std::array<Vec2, 4> corners_px;
-  double visible_fraction = 1.0;  ///< Share of the marker that is observed, 0…1.
+  double visible_fraction = 1.0;  ///< Visible share of the marker, 0…1.
   DetectionPath path = DetectionPath::kFast;
-  /// Which part of the marker is observed: `visibility_side`² squares of the marker, quiet zone
-  /// included, row by row from the top-left as it is read, 0 covered … 1 as predicted. Empty where
-  /// unknown.
+  /// Visibility map: `visibility_side`² squares of the marker, quiet zone included, row by row from
+  /// the top-left of the upright marker; 0 covered … 1 as predicted. Empty if unknown.
   int visibility_side = 0;
   std::vector<float> visibility;
 };
 
-/// A marker that was followed and is not observed now.
+/// A tracked marker that is not observed in the present frame.
 struct LostMarker {
   std::string family;
   int id = 0;
-  int frames = 0;      ///< Since how many frames.
-  std::string name{};  ///< Of a target.
+  int frames = 0;      ///< Number of frames since it was lost.
+  std::string name{};  ///< Name of an image target.
 };
 
-/// Order of the 6×6 covariance: rotation vector (rad), then translation (m), both in the camera
-/// frame: camera_from_marker' = (Exp(w) R, t + d). Row-major.
+/// 6×6 covariance, row-major. Order: rotation vector (rad), then translation (m), both in the
+/// camera frame: camera_from_marker' = (Exp(w) R, t + d).
 using PoseCovariance = std::array<double, 36>;
 
-/// One solution of the planar pose problem.
+/// One of the two solutions of the planar pose problem.
 struct PoseSolution {
   Transform<Camera, Marker> camera_from_marker;
   double reprojection_rms_px = 0.0;
-  double chi2 = 0.0;  ///< Squared length of that error in the corners' standard deviations.
+  double chi2 = 0.0;  ///< Squared reprojection error in units of the corners' standard deviations.
 };
 
-/// Ambiguity ratio below which a pose is certain not to be the other planar solution: of such fewer
-/// than one in 1,000 are (docs/measurements/sg-marker.md).
+/// Ambiguity ratio below which a pose counts as certain: fewer than one in 1,000 such poses is the
+/// wrong planar solution (docs/measurements/sg-marker.md).
 inline constexpr double kCertainRatio = 1e-3;
 
 struct PoseEstimate {
   PoseSolution best;
-  std::optional<PoseSolution> alternative;  ///< The other planar solution, where there is one.
-  /// How likely the corners make the alternative, over the best one, with their covariance: near 1
-  /// means that nobody can tell, below kCertainRatio that the picture has decided; 0 without one.
+  std::optional<PoseSolution> alternative;  ///< The other planar solution, if there is one.
+  /// Likelihood of the alternative relative to the best solution, from the corners and their
+  /// covariance. Near 1: ambiguous; below kCertainRatio: decided by the image; 0 without an
+  /// alternative.
   double ambiguity_ratio = 0.0;
   PoseCovariance covariance{};
 };

@@ -8,11 +8,11 @@
 
 namespace pleinair::tracker {
 
-/// What the detectors found in one picture, between the parts of Tracker::Track().
+/// Detections of one image, passed between the parts of Tracker::Track().
 struct UnmeasuredMarkers {
   std::vector<Candidate> candidates;
-  /// By candidate; nothing where the detector measured the corners itself, or where the picture
-  /// does not bear the alignment out.
+  /// One per candidate; unset if the detector measured the corners itself, or if the alignment
+  /// failed.
   std::vector<std::optional<MarkerAlignment>> alignments;
 };
 

@@ -10,37 +10,37 @@
 
 namespace pleinair::tracker {
 
-/// Finds a board's points in pictures of a camera whose lens is not known yet. One thread at a
+/// Detects the points of a calibration board in images of an uncalibrated camera. One thread at a
 /// time.
 class BoardFinder {
  public:
-  /// Errors as CheckBoard.
+  /// Errors as CheckBoard().
   static Result<std::unique_ptr<BoardFinder>> Create(const CalibrationBoard& board);
   virtual ~BoardFinder() = default;
 
-  /// The points observed in an sRGB-encoded grey image; nothing where fewer than six are.
+  /// The points detected in an sRGB-encoded grey image; nullopt if fewer than six.
   virtual std::optional<BoardView> Find(ImageView<const std::uint8_t> grey) = 0;
 
-  /// Measures the points once more when the lens is known about, where that helps: prints whose
-  /// edges the lens bends. The view stays as it is elsewhere.
+  /// Measures the points again with an approximate calibration, for boards whose straight edges the
+  /// lens bends. Leaves the view unchanged for other boards.
   virtual void Refine(const CameraModel& camera, ImageView<const std::uint8_t> grey,
                       BoardView* view) {
     static_cast<void>(camera), static_cast<void>(grey), static_cast<void>(view);
   }
   virtual bool refines() const { return false; }
 
-  /// The board as it turned out to be: its dictionary, where that was found by looking.
+  /// The board, with the dictionary filled in if it was detected.
   virtual const CalibrationBoard& board() const = 0;
 
-  /// What a person should know when no image shows the board, such as that it is counted in
-  /// another way; empty where nothing is known. Looks at one such image.
+  /// Advice for the user when no image shows the board, for example that its size is counted
+  /// differently; empty if there is none. Examines one such image.
   virtual std::string Hint(ImageView<const std::uint8_t> grey) {
     static_cast<void>(grey);
     return "";
   }
 };
 
-/// Fewer points than this in an image tell nothing.
+/// Minimum number of points in an image that is used.
 constexpr int kMinPoints = 6;
 
 }  // namespace pleinair::tracker

@@ -6,16 +6,16 @@
 
 namespace pleinair::tracker {
 
-/// What a lens that was fitted to some views says of others.
+/// Prediction error of a calibration on views that were not used to fit it.
 struct CrossValidation {
   int folds = 0;
-  double rms_px = 0.0;           ///< Of views that were left out, with poses of their own.
-  std::vector<double> focal_px;  ///< Mean of fx and fy, fold by fold.
+  double rms_px = 0.0;           ///< RMS error over held-out views, with poses fitted to them.
+  std::vector<double> focal_px;  ///< Mean of fx and fy, per fold.
 };
 
-/// Fits the lens `folds` times, each time without every folds-th view, and measures those that were
-/// left out: poses are fitted to them, the lens is not. At most as many folds as there are views.
-/// Errors as FitLensFrom.
+/// K-fold cross-validation: fits the lens `folds` times, each time without every folds-th view, and
+/// measures the held-out views. Their poses are fitted, the lens is not. There are at most as many
+/// folds as views. Errors as FitLensFrom().
 Result<CrossValidation> CrossValidate(const std::vector<PlaneView>& views, const LensFit& fit,
                                       int folds);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 
@@ -9,9 +9,9 @@
 
 namespace pleinair::tracker {
 
-/// fx fy cx cy, then the distortion.
+/// Lens parameters: fx fy cx cy, then the distortion.
 constexpr int kLensNumbers = 12;
-/// Rotation vector and translation of the board in the camera's frame.
+/// Pose parameters: rotation vector and translation of the board in the camera frame.
 constexpr int kPoseNumbers = 6;
 
 using LensNumbers = std::array<double, kLensNumbers>;
@@ -22,14 +22,15 @@ void SetLensNumbers(const double* numbers, CameraModel* camera);
 PoseNumbers NumbersOf(const Transform<Camera, Marker>& pose);
 Transform<Camera, Marker> PoseOf(const PoseNumbers& numbers);
 
-/// A pixel's derivatives, x before y, row-major.
+/// Derivatives of a pixel, x before y, row-major.
 struct PixelDerivatives {
   std::array<double, 2 * kLensNumbers> by_lens{};
   std::array<double, 2 * kPoseNumbers> by_pose{};
 };
 
-/// Pixel of a point of a board, and its derivatives where they are asked for. A point that comes to
-/// lie behind the camera on a search's way is taken as lying close before it: far off, and finite.
+/// Projects a point of a board to a pixel; also computes derivatives if requested. A point that
+/// moves behind the camera during the search is treated as if close in front of it: far off, but
+/// finite.
 Vec2 ProjectBoardPoint(const CameraModel& camera, const double* pose, Vec2 on_board_m,
                        PixelDerivatives* derivatives);
 

@@ -7,18 +7,20 @@
 
 namespace pleinair::tracker {
 
-/// How well views determine a lens.
+/// Uncertainty of a calibrated lens.
 struct LensUncertainty {
   double noise_px = 0.0;    ///< Standard deviation of one coordinate, from the residuals.
-  double assumed_px = 0.0;  ///< What the deviations below are for: that, or what was assumed.
+  double assumed_px = 0.0;  ///< Noise used for the deviations below: noise_px or the assumed
+                            ///< minimum.
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
   std::array<double, 8> distortion{};
-  bool determined = true;  ///< False: the equations are singular, and the numbers mean nothing.
+  bool determined = true;  ///< False: the normal equations are singular, and the deviations are
+                           ///< meaningless.
 };
 
-/// Standard deviations of the numbers of a lens when all poses are unknown, too: from the inverse
-/// of the normal equations, poses eliminated view by view (Triggs et al. 2000, "Bundle adjustment",
-/// §6.1 and §9), times the residuals' variance, of which at least `min_noise_px`² is assumed.
+/// Standard deviations of the lens parameters with unknown poses: from the inverse of the normal
+/// equations, with the poses eliminated view by view (Triggs et al. 2000, "Bundle adjustment", §6.1
+/// and §9), times the variance of the residuals, which is taken as at least `min_noise_px`².
 LensUncertainty Uncertainty(const LensFit& fit, const std::vector<PlaneView>& views,
                             double min_noise_px);
 

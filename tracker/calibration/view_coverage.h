@@ -9,14 +9,14 @@
 
 namespace pleinair::tracker {
 
-/// Which parts of the image views of a board have covered: the image cut into cells, each
-/// counted where its middle lies inside the outline of a view's points.
+/// Coverage of the image by the views of a board. The image is divided into cells; a cell is
+/// covered by a view if its centre lies inside the outline of the view's points.
 struct ViewCoverage {
   static constexpr int kColumns = 16, kRows = 12;
   std::array<int, kColumns * kRows> views{};  ///< Row by row from the top-left.
 
   double Share() const;
-  /// Share of the cells of the left, right, upper and lower half.
+  /// Share of covered cells in the left, right, upper and lower half.
   std::array<double, 4> Halves() const;
   void Add(const std::vector<Vec2>& observed_px, int width, int height);
 };

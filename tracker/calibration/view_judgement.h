@@ -9,29 +9,29 @@
 
 namespace pleinair::tracker {
 
-/// Fewer views than this are refused.
+/// Fewer views than this are rejected.
 constexpr int kMinViews = 4;
 
-/// What the views are like, and what is wrong with them.
+/// Geometry of the views, and their deficiencies.
 struct ViewJudgement {
-  double max_tilt_deg = 0.0;      ///< Of a board against the image's plane.
-  double widest_apart_deg = 0.0;  ///< Between the planes of two views.
-  /// Deviations of the focal length, relative, and of the centre, of the image's longer side, if
-  /// each view as a whole were a little wrong; infinite where nothing determines them.
+  double max_tilt_deg = 0.0;      ///< Between board and image plane.
+  double widest_apart_deg = 0.0;  ///< Largest angle between the planes of two views.
+  /// Standard deviations for errors of whole views: of the focal length relative to itself, of the
+  /// principal point relative to the image's longer side; infinite if undetermined.
   double focal_deviation = 0.0, centre_deviation = 0.0;
-  double depth_ratio = 1.0;          ///< The farthest point's depth over the nearest one's.
-  double distance_ratio = 1.0;       ///< The same of the boards' middles.
-  std::vector<std::string> reasons;  ///< Why they do not determine the lens; empty: they do.
-  std::vector<std::string> advice;   ///< What would make them better.
+  double depth_ratio = 1.0;          ///< Depth of the farthest point over that of the nearest.
+  double distance_ratio = 1.0;       ///< The same ratio for the boards' centres.
+  std::vector<std::string> reasons;  ///< Why the views do not determine the lens; empty: they do.
+  std::vector<std::string> advice;   ///< Suggestions for better views.
 };
 
-/// Judges the views by the fit. Whether they determine focal length and centre is read from the
-/// covariance of the solution, but not for independent noise of every corner, which many corners
-/// would average out: for views that are wrong as a whole, by a board that is not quite flat or a
-/// lens that is not quite the model's. A view of a plane tells eight numbers (Zhang 2000, §2.3),
-/// four corners' worth, so that the deviations count for so many corners a view. What the views
-/// lack is named from their geometry. A part of the image without points leaves the distortion
-/// there free.
+/// Assesses the views from the fit. The covariance of the solution shows whether they determine
+/// focal length and principal point. It does not assume independent noise per corner, which many
+/// corners would average out, but errors of whole views: a board that is not quite flat, or a lens
+/// model that does not quite match. A view of a plane gives eight constraints (Zhang 2000, §2.3),
+/// those of four corners, so the deviations assume four independent corners per view. The geometry
+/// of the views determines the advice. Where the image has no points, the distortion is not
+/// constrained.
 ViewJudgement JudgeViews(const LensFit& fit, const std::vector<PlaneView>& views,
                          const ViewCoverage& coverage, const LensUncertainty& uncertainty);
 

@@ -8,21 +8,20 @@
 
 namespace pleinair::tracker {
 
-/// Picks views out of a film: those that show the board where no view before showed it, while it is
-/// held still.
+/// Selects views from a video: those that show the board, held still, where no earlier view has it.
 class ViewPicker {
  public:
   ViewPicker(std::vector<Vec2> board_points, int width)
       : board_points_(std::move(board_points)), width_(width) {}
 
-  /// Whether this view is worth keeping; it then counts as kept.
+  /// True if this view is worth keeping; it then counts as kept.
   bool Take(const BoardView& view);
-  /// A frame without a board.
+  /// Reports a frame without a board.
   void Miss() { last_.reset(); }
 
  private:
   using Outline = std::array<Vec2, 4>;
-  /// Where the board's four ends are or would be.
+  /// Positions of the board's four outer corners, extrapolated if not visible.
   std::optional<Outline> OutlineOf(const BoardView& view) const;
 
   const std::vector<Vec2> board_points_;
