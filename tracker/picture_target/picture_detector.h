@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <cstdint>
@@ -19,10 +19,9 @@
 
 namespace pleinair::tracker {
 
-/// Finds pictures used as targets, each of which hangs in one place: in consecutive frames a target
-/// is looked for where it should be by now; targets that are missing are searched by their
-/// keypoints, at once when they have just gone and then every few frames. A candidate's id is the
-/// target's place in the list.
+/// Detects image targets, each of which exists once in the scene. In consecutive frames it predicts
+/// and tracks known targets. Missing targets are searched by their keypoints: at once when they
+/// were just lost, then every few frames. A candidate's id is the target's index in the list.
 class PictureDetector final : public MarkerDetector {
  public:
   PictureDetector(const CameraModel& camera,
@@ -34,13 +33,13 @@ class PictureDetector final : public MarkerDetector {
   std::vector<std::string> Warnings() const override { return warnings_; }
 
  private:
-  /// What is known of a target.
+  /// State of one target.
   struct Known {
-    bool found = false;  ///< In this frame.
+    bool found = false;  ///< In the present frame.
     bool ever_found = false;
     int frames_unseen = 0;
-    std::array<Vec2, 4> corners_undistorted;  ///< In the last frame that saw it,
-    std::array<Vec2, 4> velocity;             ///< … and their motion, per frame.
+    std::array<Vec2, 4> corners_undistorted;  ///< In the last frame with the target,
+    std::array<Vec2, 4> velocity;             ///< … and their velocity, per frame.
     bool has_velocity = false;
     double blur_px = 0.7;
   };
@@ -48,7 +47,7 @@ class PictureDetector final : public MarkerDetector {
   void Track(std::size_t target, std::vector<Candidate>* candidates);
   void Search(std::vector<Candidate>* candidates);
   void SearchMirrored();
-  /// What the tracker wants to know of a reading; nothing where no camera sees the target so.
+  /// Converts a reading to a candidate; nullopt if no pose fits it.
   std::optional<Candidate> CandidateOf(std::size_t target, const TargetReading& reading) const;
   void Remember(std::size_t target, const TargetReading& reading);
   bool SearchIsDue() const;

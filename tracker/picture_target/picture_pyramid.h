@@ -6,8 +6,8 @@
 
 namespace pleinair::tracker {
 
-/// A target's picture in linear light and its halves, each the mean of 2×2 of the one before: pixel
-/// X of level l covers pixels [X 2^l, (X + 1) 2^l) of the picture.
+/// Image pyramid of a target in linear light. Each level is the mean of 2×2 pixels of the one
+/// before: pixel X of level l covers pixels [X 2^l, (X + 1) 2^l) of the target's image.
 class PicturePyramid {
  public:
   explicit PicturePyramid(ImageView<const std::uint8_t> picture);
@@ -18,7 +18,7 @@ class PicturePyramid {
   int height() const { return levels_[0].height(); }
 
  private:
-  std::vector<Image<float>> levels_;  ///< 1 is what all but the brightest 2 % do not exceed.
+  std::vector<Image<float>> levels_;  ///< Scaled so that 98 % of the pixels are at most 1.
 };
 
 }  // namespace pleinair::tracker

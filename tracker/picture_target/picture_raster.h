@@ -12,10 +12,10 @@ namespace pleinair::tracker {
 class RasterRows;
 struct RasterKernels;
 
-/// Predicts what a camera sees of a target's picture, as MarkerRaster does of a marker of modules:
-/// each pixel is sampled S×S times from the level of the pyramid that has about its resolution, and
-/// the samples are convolved with the pixel's square and the blur's Gaussian. What the
-/// interpolation blurs in addition is even to all sides, so that it moves nothing.
+/// Predicts the camera image of a target, as MarkerRaster does for markers. Each pixel is sampled
+/// S×S times from the pyramid level of about its resolution; the samples are convolved with the
+/// pixel's square and the blur's Gaussian. The additional blur of the interpolation is symmetric,
+/// so it does not bias positions.
 class PictureRaster {
  public:
   PictureRaster();
@@ -25,14 +25,14 @@ class PictureRaster {
 
   /// `target_from_undistorted`: homography from undistorted pixels to target units. `blur_px`:
   /// standard deviation of the blur beyond the pixel's own square, in pixels of the window. `map`
-  /// has target units for modules. The picture's `white` is linear light and is right where the
-  /// target is and to a pixel around it; `ranges` says where, for each of the window's rows.
+  /// has target units in place of modules. `white` of the result is linear light; it is valid on
+  /// the target and one pixel around it, in the columns `ranges` of each row.
   void Render(const PicturePyramid& pyramid, const Mat3& target_from_undistorted,
               const WindowRays& rays, double blur_px, PlaneMap* map, PredictedImage* picture,
               std::vector<RowRange>* ranges);
 
  private:
-  /// From which level, and how many samples along each side of a pixel.
+  /// Pyramid level, and samples along each side of a pixel.
   struct Sampling {
     int level = 0, per_pixel = 1;
   };

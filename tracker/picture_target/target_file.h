@@ -10,16 +10,16 @@
 
 namespace pleinair::tracker {
 
-/// A target file as docs/guide/reference/recordings.md describes it: version, length and checksum
-/// before the content. Files that a later version wrote are refused.
+/// Version of the target file format (docs/guide/reference/recordings.md): version, length and
+/// checksum before the content. Files of later versions are rejected.
 inline constexpr int kTargetFileVersion = 1;
 
-/// The bytes of a target file; reading them gives the same target.
+/// Content of a target file; parsing it gives an equal target.
 std::string SerializeTarget(const PictureTarget& target);
 
-/// Reads what SerializeTarget wrote. `name` is what errors call it.
-/// Errors (input): no target file, of another version, cut short or damaged, values that no target
-/// has. Whatever the bytes are, no more memory is taken than some times their number.
+/// Parses the content of a target file. `name` is the file's name in messages. Errors (input): not
+/// a target file, another version, truncated or damaged, invalid values. Memory use is proportional
+/// to the number of bytes, whatever they contain.
 Result<PictureTarget> ParseTarget(std::string_view bytes, const std::string& name);
 
 /// Writes a target file under a temporary name, then renames it.

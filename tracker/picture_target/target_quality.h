@@ -7,25 +7,25 @@
 
 namespace pleinair::tracker {
 
-/// How well a picture can be found and measured.
+/// Suitability of an image as a target.
 struct TargetQuality {
-  int features = 0;  ///< Keypoints that come back whenever the picture is observed from the front.
-  double coverage = 0.0;  ///< Share of a 6×6 grid over the picture that has any.
-  double contrast = 0.0;  ///< Share of an 8×8 grid that has light and dark to be aligned with.
-  /// Share of the keypoints that look like another one elsewhere in the picture.
+  int features = 0;       ///< Keypoints that are repeatable in all frontal views.
+  double coverage = 0.0;  ///< Share of a 6×6 grid over the image with features.
+  double contrast = 0.0;  ///< Share of an 8×8 grid with enough contrast for alignment.
+  /// Share of the keypoints that resemble another one elsewhere in the image.
   double repetition = 0.0;
-  /// Correlation with itself upside down, or lying on a side where it is about square: 1 is a
-  /// picture of which nobody can say which way up it hangs.
+  /// Correlation with itself turned by 180°, or by 90° if it is nearly square; 1: the orientation
+  /// is ambiguous.
   double turned_likeness = 0.0;
-  int score = 0;                    ///< 0…100; from 60 on good.
-  std::vector<std::string> advice;  ///< What would make it better, in words; worst first.
+  int score = 0;                    ///< 0…100; good from 60 on.
+  std::vector<std::string> advice;  ///< Suggestions for improvement; most important first.
 };
 
 TargetQuality RateTarget(const PictureTarget& target);
 
-/// Fewer features than this make no target.
+/// Minimum number of features of a target.
 inline constexpr int kMinTargetFeatures = 30;
-/// … nor do features in less of the picture.
+/// Minimum coverage of a target.
 inline constexpr double kMinTargetCoverage = 0.2;
 
 }  // namespace pleinair::tracker

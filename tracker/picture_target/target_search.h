@@ -13,36 +13,36 @@
 
 namespace pleinair::tracker {
 
-/// A place where a target may be, by its keypoints.
+/// Hypothesis of a target's position, from its keypoints.
 struct TargetGuess {
   int target = 0;
   Mat3 target_from_undistorted;
-  double votes = 0.0;  ///< How many matches agree, by their likeness.
-  int keypoints = 0;   ///< How many keypoints of the frame do.
+  double votes = 0.0;  ///< Number of agreeing matches, weighted by similarity.
+  int keypoints = 0;   ///< Number of keypoints of the frame among them.
 };
 
-/// Finds targets in a picture by SURF: matches of keypoints with all the targets' views, several
-/// candidates each, the angle filter (Prochazka et al. 2012, §3.2) with bins that overlap, then
-/// agreement of the matches in where and how large the target would be observed, then a homography
-/// of those that agree, robustly. What is described costs the same for any number of targets; what
-/// is matched grows with it.
+/// Finds targets in an image by SURF. Matches the frame's keypoints with all views of all targets,
+/// with several candidates each. Applies the angle filter (Prochazka et al. 2012, §3.2) with
+/// overlapping bins, then groups matches that agree in the target's position and size, then fits a
+/// robust homography to each group. The cost of description does not depend on the number of
+/// targets; that of matching grows with it.
 class TargetSearch {
  public:
   TargetSearch(const LensGrid& lens, std::vector<std::shared_ptr<const PictureTarget>> targets);
 
-  /// Guesses, the most votes first, for targets with `wanted` set. `mirrored` looks for their
-  /// mirror images instead, in the same picture as the last call: nothing is detected anew.
+  /// Hypotheses for the targets with `wanted` set, most votes first. `mirrored`: searches for their
+  /// mirror images in the image of the last call, without detecting keypoints again.
   void Find(ImageView<const std::uint8_t> grey, const std::vector<bool>& wanted,
             std::vector<TargetGuess>* guesses);
   void FindMirrored(const std::vector<bool>& wanted, std::vector<TargetGuess>* guesses);
 
  private:
-  /// A match and the affine picture of the target that it alone implies.
+  /// A match, with the affine map of the target that it implies.
   struct Vote {
     int keypoint = 0, model = 0;
     std::array<double, 6> from_target{};
     Vec2 centre;
-    double size_px = 0.0;  ///< Square root of the area that the target would be observed with.
+    double size_px = 0.0;  ///< Square root of the target's area in the image under this map.
     double rotation_rad = 0.0;
     double weight = 0.0;
   };
@@ -50,29 +50,29 @@ class TargetSearch {
     int seed = 0, keypoints = 0;
     double votes = 0.0;
   };
-  /// A match that a homography is fitted to.
+  /// A match to which a homography is fitted.
   struct Member {
     int keypoint;
     Vec2 unit;    ///< On the target's square (±1),
-    Vec2 shares;  ///< … and in the frame, in shares of the guess's size from its middle.
+    Vec2 shares;  ///< … and in the frame, relative to the hypothesis's centre and size.
     double weight;
-    double sigma;  ///< How far it may be off, in shares of size.
+    double sigma;  ///< Standard deviation relative to that size.
   };
-  /// A keypoint of a target's view: where it lies on which target.
+  /// A keypoint of a target's view: its target and its position there.
   struct Model {
     int target = 0, index = 0;
     Vec2 place;
   };
-  /// The keypoints of the frame as they are matched: mirrored or not.
+  /// The keypoints of the frame in the form used for matching, mirrored or not.
   struct Shown {
     std::vector<SurfKeypoint> keypoints;
     std::vector<Vec2> undistorted;              ///< Their undistorted pixels.
-    std::vector<QuantisedDescriptor> mirrored;  ///< Their descriptors where they are mirrored.
+    std::vector<QuantisedDescriptor> mirrored;  ///< Descriptors of the mirrored image.
   };
-  /// Counts each keypoint once.
+  /// Ensures that each keypoint is counted once.
   class Witnesses {
    public:
-    /// Before the first count of a frame with so many keypoints.
+    /// Resets for a frame with this number of keypoints.
     void Start(std::size_t keypoints) {
       last_count_.assign(keypoints, 0);
       count_ = 0;
@@ -82,7 +82,7 @@ class TargetSearch {
     void Count(int keypoint) { last_count_[keypoint] = count_; }
 
    private:
-    std::vector<int> last_count_;  ///< The last count that a keypoint was in.
+    std::vector<int> last_count_;  ///< Index of the last count that included a keypoint.
     int count_ = 0;
   };
 

@@ -5,18 +5,18 @@
 
 namespace pleinair::tracker {
 
-/// Edge of the window that is described, in SURF scales, of targets and of the frames in which they
-/// are looked for. The paper has 20; what covers a part of a target spoils fewer of the smaller.
+/// Edge of the descriptor window in SURF scales, for targets and for the frames in which they are
+/// searched. The paper has 20; an occluder affects fewer of the smaller windows.
 inline constexpr float kTargetDescriptorWindow_scales = 15.0F;
 
-/// The view that shows the picture as it is, near.
+/// The frontal, near view.
 inline constexpr int kFrontalView = 0;
 
-/// Fills `views`, `keypoints` and `descriptors` of a target from its picture and its shape: the
-/// keypoints of the picture as it looks under tilts up to about 75° in all directions, near and
-/// far, that come back whatever the blur, the noise, the exact distance and what lies around. SURF
-/// bears turns in the picture's plane and about 30° of tilt itself; the rest is covered by views,
-/// after Yu & Morel, "ASIFT" (2011). Takes some seconds.
+/// Fills `views`, `keypoints` and `descriptors` of a target from its image and shape. It simulates
+/// tilts up to about 75° in all directions, at several distances, and keeps the keypoints that are
+/// repeatable under blur, noise, small changes of distance and different surroundings. SURF itself
+/// tolerates in-plane rotation and about 30° of tilt; the views cover the rest, after Yu & Morel,
+/// "ASIFT" (2011). Takes some seconds.
 void FillTargetViews(PictureTarget* target);
 
 }  // namespace pleinair::tracker

@@ -13,7 +13,7 @@ inline Vec2 Apply(const Mat3& homography, Vec2 point) {
   return {image.x / image.z, image.y / image.z};
 }
 
-/// Inverse by cofactors, up to scale: enough for homographies.
+/// Adjugate: the inverse up to scale, which suffices for homographies.
 constexpr Mat3 Adjugate(const Mat3& a) {
   return {{a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1), a(0, 2) * a(2, 1) - a(0, 1) * a(2, 2),
            a(0, 1) * a(1, 2) - a(0, 2) * a(1, 1), a(1, 2) * a(2, 0) - a(1, 0) * a(2, 2),
@@ -22,11 +22,11 @@ constexpr Mat3 Adjugate(const Mat3& a) {
            a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0)}};
 }
 
-/// Corners of the marker's square in its own coordinates (x right, y up, half edges): top-left,
-/// then clockwise as the marker is read.
+/// Corners of the marker's square in its own coordinates (x right, y up, half edges): clockwise
+/// from top-left on the upright marker.
 inline constexpr std::array<Vec2, 4> kSquareCorners{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
 
-/// Homography that takes kSquareCorners to four points. Heckbert, "Fundamentals of texture mapping
+/// Homography that maps kSquareCorners to four points. Heckbert, "Fundamentals of texture mapping
 /// and image warping" (1989), section 2.2.3: unit square to quadrilateral.
 inline Mat3 HomographyToQuad(const std::array<Vec2, 4>& quad) {
   const Vec2 p0 = quad[0], p1 = quad[1], p2 = quad[2], p3 = quad[3];

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstddef>
 #include <span>
@@ -14,12 +14,12 @@ namespace pleinair::tracker {
 struct DarkRun {
   int y, begin, end;
   int next;
-  int component;  ///< When it was found; may have melted into another since.
+  int component;  ///< Component at the time of the scan; it may have been merged since.
 };
 
-/// Dark pixels that hang together over edges and corners.
+/// A connected component of dark pixels (8-connected).
 struct DarkComponent {
-  int parent;  ///< Its own number where it is one; of those melted into others, another's.
+  int parent;  ///< Own index for a root; otherwise the component it was merged into.
   int min_x, max_x, min_y, max_y;
   int area;  ///< Pixels.
   int first_run, last_run;
@@ -27,14 +27,14 @@ struct DarkComponent {
 
 /// Connected components of a mask by union-find over the runs of its rows (He, Chao, Suzuki, "A
 /// run-based two-scan labeling algorithm", IEEE TIP 17(5), 2008, section III), in one scan: the
-/// runs of a component are a linked list, so that joining two is of constant cost and a component's
+/// runs of a component form a linked list, so that a merge has constant cost and a component's
 /// outline needs no second scan.
 class DarkComponents {
  public:
-  /// Components of at least one pixel. Buffers keep their capacity.
+  /// Finds the components of at least one pixel. Buffers keep their capacity.
   void Find(const BitMask& mask);
 
-  /// In order of their first pixels; those with parent != own number are none any more.
+  /// In the order of their first pixels; entries with parent != own index have been merged.
   const std::vector<DarkComponent>& components() const { return components_; }
   std::span<const DarkRun> runs() const { return {runs_.data(), static_cast<std::size_t>(count_)}; }
 
@@ -43,7 +43,7 @@ class DarkComponents {
   void Join(int run, int component);
   int Melt(int a, int b);
 
-  std::vector<DarkRun> runs_;  // The first count_ of them.
+  std::vector<DarkRun> runs_;  // The first count_ are valid.
   int count_ = 0;
   std::vector<DarkComponent> components_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace pleinair::tracker {
 
-/// One bit a pixel, 64 pixels a word, the lowest bit leftmost; a set bit is a dark pixel.
+/// One bit per pixel, 64 pixels per word, the lowest bit leftmost; a set bit is a dark pixel.
 struct BitMask {
   int width = 0, height = 0, words_per_row = 0;
   std::vector<std::uint64_t> words;
@@ -21,8 +21,8 @@ struct BitMask {
   bool operator()(int x, int y) const { return (row(y)[x >> 6] >> (x & 63) & 1) != 0; }
 };
 
-/// Buffers of ComputeDarkMask, kept between images so that it does not allocate.
-/// Rows of tiles hold each tile's value once for each of its columns.
+/// Buffers of ComputeDarkMask(), reused between images. Rows of tiles hold each tile's value once
+/// for each of its columns.
 struct DarkMaskBuffers {
   std::vector<std::uint8_t> tile_min, tile_max;
   std::vector<std::uint8_t> threshold;
@@ -31,24 +31,22 @@ struct DarkMaskBuffers {
 
 inline constexpr int kTile = 4;  ///< Edge of a tile in pixels.
 
-/// How far apart least and greatest value of a neighbourhood must be, and what is dark between
-/// them.
+/// Minimum contrast of a neighbourhood, and the threshold between its minimum and maximum.
 struct DarkContrast {
-  int codes = 0;     ///< At least so many.
-  int halvings = 2;  ///< And at least the greatest value halved so often.
-  int eighths = 4;   ///< Dark is what lies less than so many eighths of the way above the least.
+  int codes = 0;     ///< Minimum difference of maximum and minimum, in 8-bit values.
+  int halvings = 2;  ///< The difference must also be at least the maximum shifted right by this.
+  int eighths = 4;   ///< The threshold is this many eighths of the way from minimum to maximum.
 };
 
-/// What one row of tiles does; the SIMD version and its scalar reference agree bit for bit.
+/// Operations on one row of tiles; the SIMD version and its scalar reference agree bit for bit.
 struct DarkMaskKernels {
-  /// Least and greatest value of each tile over four rows of `width` pixels (a multiple of kTile),
+  /// Minimum and maximum of each tile over four rows of `width` pixels (a multiple of kTile),
   /// written once for each column of the tile.
   void (*tile_extremes)(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
                         std::uint8_t* tile_min, std::uint8_t* tile_max);
-  /// Thresholds of one row of tiles from the extremes of 3×3 tiles where they differ by
-  /// `contrast`, else 0.
-  /// The three rows hold a tile's width of padding before and behind. `column_*` is scratch of the
-  /// same length as they.
+  /// Thresholds of one row of tiles from the extremes of 3×3 tiles if these differ by `contrast`,
+  /// else 0. The three rows have a tile's width of padding on both sides. `column_*` is scratch
+  /// memory of the same length.
   void (*thresholds)(const std::uint8_t* const min_rows[3], const std::uint8_t* const max_rows[3],
                      int width, DarkContrast contrast, std::uint8_t* column_min,
                      std::uint8_t* column_max, std::uint8_t* thresholds);
@@ -61,20 +59,20 @@ struct DarkMaskKernels {
 };
 
 const DarkMaskKernels& ScalarDarkMaskKernels();
-/// The best that this machine has (Highway).
+/// The fastest implementation for this machine (Highway).
 const DarkMaskKernels& SimdDarkMaskKernels();
 
-/// Marks pixels that are dark beside what lies around them, as AprilTag 3 does (Wang & Olson,
-/// "AprilTag 2: Efficient and robust fiducial detection", IROS 2016, section III-A: extremes of 4×4
-/// tiles, spread to the neighbours, threshold half way). Tiles whose neighbourhood has little
-/// contrast hold no dark pixel. Deviations: the threshold need not be half way, and little is not a
-/// fixed number of codes but little beside the noise of this image (up to `most.codes`) and
-/// beside the neighbourhood's own brightness, so that dark exposures work and noise makes no
-/// speckle. The up to three last columns and rows that fill no tile are never dark.
+/// Adaptive threshold as in AprilTag 3 (Wang & Olson, "AprilTag 2: Efficient and robust fiducial
+/// detection", IROS 2016, section III-A): marks pixels darker than a threshold between the extremes
+/// of 4×4 tiles, taken over 3×3 tiles. Tiles in neighbourhoods of low contrast have no dark pixels.
+/// Deviations: the threshold need not be half way. The minimum contrast is not a fixed number of
+/// 8-bit values but depends on the noise of this image (up to `most.codes`) and on the
+/// neighbourhood's brightness, so that dark exposures work and noise makes no speckle. The last
+/// columns and rows that do not fill a tile (up to three) are never dark.
 void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
                      const DarkMaskKernels& kernels, DarkMaskBuffers* buffers, BitMask* mask);
 
-/// Half the size in both directions, means of 2×2 pixels; an odd last column or row is left out.
+/// Halves the size in both directions by means of 2×2 pixels; an odd last column or row is dropped.
 void HalveImage(ImageView<const std::uint8_t> grey, const DarkMaskKernels& kernels,
                 Image<std::uint8_t>* half);
 

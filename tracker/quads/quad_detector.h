@@ -10,29 +10,30 @@
 
 namespace pleinair::tracker {
 
-/// A dark quadrilateral on lighter surroundings: where the outer square of a marker may be.
+/// A dark quadrilateral on lighter surroundings: a candidate for the outer square of a marker.
 struct Quad {
-  /// Clockwise in the image, beginning anywhere; pixels, integers are centres; good to about one
-  /// pixel, meant for refinement by who reads the marker.
+  /// Clockwise in the image, starting at any corner; pixels, integers are centres. Accurate to
+  /// about one pixel; the decoder refines them.
   std::array<Vec2, 4> corners_px;
-  float contrast;  ///< Codes outside the sides less codes inside, along the rim.
+  float contrast;  ///< 8-bit values outside minus inside the sides, along the border.
 };
 
 struct QuadDetectorOptions {
-  double min_side_px = 8.0;  ///< Of any side in the image, foreshortened ones too.
+  double min_side_px = 8.0;  ///< Minimum length of each side in the image, foreshortened ones
+                             ///< included.
 };
 
-/// Finds the outer squares of markers: a closed black rim, white around it, each a tenth of the
-/// edge wide. First stage of the fast path; what it finds still has to be read.
+/// Detects the outer squares of markers: a closed black border with white around it, each a tenth
+/// of the edge wide. First stage of the fast path; the content is decoded afterwards.
 ///
-/// Dark pixels beside their neighbourhood (dark_mask.h), three times: at full size for the thinnest
-/// rims, at half size because means of four pixels carry less noise and blur, and at half size with
-/// a lower threshold for prints crossed by the edge of a shadow. Components of them; the
-/// quadrilateral in each convex hull; its sides moved to the steepest rise of light; kept when all
-/// four sides are darker inside than outside by much the same factor.
+/// Steps: adaptive thresholds (dark_mask.h) at full size for the thinnest borders, at half size
+/// because means of four pixels have less noise, and at half size with a lower threshold for
+/// markers with a shadow edge; connected components; the best quadrilateral in each convex hull;
+/// refinement of its sides to the steepest gradient. A quadrilateral is kept if all four sides are
+/// darker inside than outside by a similar factor.
 ///
-/// Not thread-safe: buffers are kept, so that images after the first do not allocate. The same
-/// image gives the same quads in the same order.
+/// Not thread-safe: buffers are reused, so that only the first image allocates. Deterministic, in
+/// the order of the results too.
 class QuadDetector {
  public:
   explicit QuadDetector(QuadDetectorOptions options = {});
@@ -40,7 +41,7 @@ class QuadDetector {
   QuadDetector(QuadDetector&&) noexcept;
   QuadDetector& operator=(QuadDetector&&) noexcept;
 
-  /// One channel, any size; images too small to hold a quad give none.
+  /// One channel, any size; images too small for a quadrilateral give none.
   void Detect(ImageView<const std::uint8_t> grey, std::vector<Quad>* quads);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <optional>
@@ -12,11 +12,12 @@
 
 namespace pleinair::tracker {
 
-/// The quadrilateral that a component of dark pixels fills best.
+/// Fits a quadrilateral to a component of dark pixels.
 class QuadOutline {
  public:
-  /// Corners clockwise in the image, half a pixel outside the outermost pixel centres; nothing
-  /// where the convex hull of the component is no quadrilateral of at least `min_side_px`.
+  /// Corners clockwise in the image, half a pixel outside the outermost pixel centres. Returns
+  /// nullopt if the convex hull of the component is not a quadrilateral with sides of at least
+  /// `min_side_px`.
   std::optional<std::array<Vec2, 4>> Fit(std::span<const DarkRun> runs,
                                          const DarkComponent& component, double min_side_px);
 
@@ -26,9 +27,9 @@ class QuadOutline {
   struct Vertex {
     int x, y;
   };
-  std::vector<int> left_, right_;  // Outermost dark pixels of the rows of the component.
+  std::vector<int> left_, right_;  // Outermost dark pixels of each row of the component.
   std::vector<Vertex> hull_;       // Clockwise in the image.
-  std::vector<int> cuts_;          // What dropping each vertex of the hull would cut off.
+  std::vector<int> cuts_;          // Area lost by dropping each vertex of the hull.
 };
 
 }  // namespace pleinair::tracker

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <Eigen/Dense>
 #include <array>
@@ -14,25 +14,26 @@
 
 namespace pleinair::tracker {
 
-/// Fits a marker's place, blur and light to pixels, robustly, by Levenberg–Marquardt.
+/// Robust Levenberg–Marquardt fit of a marker's homography, blur and light levels to pixels.
 class MarkerFit {
  public:
-  /// All are kept by reference. `contrast` is white less black in linear light, roughly.
+  /// All arguments are kept by reference. `contrast`: approximate white minus black in linear
+  /// light.
   MarkerFit(const MarkerPattern& pattern, const std::vector<MarkerPixel>& pixels, double contrast,
             double side_px)
       : pattern_(pattern), all_pixels_(pixels), contrast_(contrast), side_px_(side_px) {}
 
-  /// From `start` to the best state; false where the equations have no solution. What follows is
-  /// meant after it returned true.
+  /// Iterates from `start`; returns false if the equations are singular. The other functions are
+  /// valid only after it has returned true.
   bool Run(const MarkerFitState& start);
 
   const MarkerFitState& state() const { return state_; }
-  /// Robust standard deviation of the residuals, codes.
+  /// Robust standard deviation of the residuals, 8-bit values.
   double ResidualCodes() const;
-  /// Share of the pixels that look as predicted.
+  /// Share of the pixels that match the prediction.
   double AgreeingShare() const;
-  /// Covariance of the homography's motion: rays_from_marker (I + Δ), Δ's first eight entries by
-  /// row, but for translation before the linear part: (Δ02 Δ00 Δ01 Δ12 Δ10 Δ11 Δ20 Δ21). Row-major.
+  /// Covariance of the homography's motion: rays_from_marker (I + Δ). Order of Δ's eight entries:
+  /// (Δ02 Δ00 Δ01 Δ12 Δ10 Δ11 Δ20 Δ21), row-major 8×8.
   std::array<double, 64> MotionCovariance() const;
 
  private:
@@ -42,14 +43,14 @@ class MarkerFit {
     double cost = 0.0;  ///< Robust, in standard deviations, priors included.
     std::vector<MarkerResidual> residuals;
   };
-  /// Sums of the gradient over blocks of pixels, with the block's place.
+  /// Gradient sums per block of pixels, keyed by the block's position.
   using BlockGradients = std::map<std::pair<int, int>, Eigen::VectorXd>;
 
   bool Optimize(std::vector<MarkerPixel> pixels);
   void SetNoise(const MarkerNoise& noise, const NormalEquations& equations);
-  /// Of all pixels_; most of the work.
+  /// Predicts all of pixels_; the main cost.
   void Predict(const MarkerFitState& state, std::vector<Predicted>* predicted) const;
-  /// Of `predictions` from `state`, under variance_.
+  /// Normal equations of `predictions` from `state`, with variance_.
   NormalEquations EquationsOf(const std::vector<Predicted>& predictions,
                               const MarkerFitState& state, BlockGradients* blocks) const;
   void AddPriors(const MarkerFitState& state, NormalEquations* equations) const;
@@ -59,14 +60,14 @@ class MarkerFit {
   const MarkerPattern& pattern_;
   const std::vector<MarkerPixel>& all_pixels_;
   const double contrast_, side_px_;
-  std::vector<MarkerPixel> pixels_;  ///< Those that are fitted now.
-  std::vector<double> variance_;     ///< … and the variance that each of them has.
+  std::vector<MarkerPixel> pixels_;  ///< The pixels used by the present fit,
+  std::vector<double> variance_;     ///< … and their variances.
   MarkerFitState state_;
-  std::vector<Predicted> predicted_;       ///< Of pixels_ from state_,
-  std::vector<Predicted> next_predicted_;  ///< … and from the state that is tried.
+  std::vector<Predicted> predicted_;       ///< For pixels_ at state_,
+  std::vector<Predicted> next_predicted_;  ///< … and at the trial state.
   MarkerNoise noise_;
   NormalEquations fitted_;  ///< At the best state, with all pixels,
-  BlockGradients blocks_;   ///< … and what blocks of pixels add to them.
+  BlockGradients blocks_;   ///< … and their contributions by block of pixels.
 };
 
 }  // namespace pleinair::tracker

@@ -4,19 +4,20 @@
 
 namespace pleinair::tracker {
 
-/// What a pixel of a marker does not agree with.
+/// Residual of a pixel of a marker.
 struct MarkerResidual {
-  double codes = 0.0;      ///< Predicted less observed.
-  double edge_gain = 0.0;  ///< Codes that an edge pixel's share of white is worth, 0 off edges.
+  double codes = 0.0;      ///< Predicted minus observed, 8-bit values.
+  double edge_gain = 0.0;  ///< 8-bit values per unit of white coverage of an edge pixel; 0 away
+                           ///< from edges.
 };
 
-/// How far pixels are from what is predicted. Pixels that an edge crosses carry more noise than
-/// others: a lens and a renderer's few samples spread light otherwise than a Gaussian, sharpening
-/// overshoots, edges of prints are rough. Their variance is taken as that of a share of white drawn
-/// from so many samples, 4 c (1 - c), scaled to what the edges show.
+/// Noise model of the residuals. Edge pixels have more noise than others: lenses and the few
+/// samples of renderers blur differently from a Gaussian, sharpening overshoots, printed edges are
+/// rough. Their extra variance is that of a share of white estimated from a few samples, 4 c (1 -
+/// c), scaled to the observed residuals at edges.
 struct MarkerNoise {
-  double flat_codes = 0.0;  ///< Robust standard deviation off the edges.
-  double edge_share = 0.0;  ///< Additional standard deviation of the share of white, where it is ½.
+  double flat_codes = 0.0;  ///< Robust standard deviation away from edges.
+  double edge_share = 0.0;  ///< Additional standard deviation of the coverage where it is ½.
 
   double Variance(double edge_gain) const {
     const double edge_codes = edge_share * edge_gain;
@@ -27,7 +28,7 @@ struct MarkerNoise {
 /// Robust standard deviation of all residuals.
 double RobustScale(const std::vector<MarkerResidual>& residuals);
 
-/// Both from medians: up to half of either kind of pixel may be covered.
+/// Both values are estimated by medians: up to half of the pixels of either kind may be covered.
 MarkerNoise EstimateMarkerNoise(const std::vector<MarkerResidual>& residuals);
 
 }  // namespace pleinair::tracker
