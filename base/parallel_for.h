@@ -13,8 +13,8 @@ namespace pleinair {
 /// its chunk alone. The threads are new ones and inherit the caller's priority.
 //
 // Not by oneTBB: the threads of its pool have one priority, and the light of a live session is
-// computed at a lower one than its frames (session/background_light.h). A pool that both share would
-// run light at the priority of frames, or let frames wait for chunks of light.
+// computed at a lower one than its frames (session/background_light.h). A pool that both share
+// would run light at the priority of frames, or let frames wait for chunks of light.
 template <typename Body>
 void ParallelFor(std::size_t chunks, int threads, const Body& body) {
   std::size_t count = threads > 0 ? static_cast<std::size_t>(threads)
