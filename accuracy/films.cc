@@ -92,8 +92,8 @@ FrameRun MakeFilm(const std::string& name, const CameraModel& camera, const Swee
     const Vec2 middle = MiddleOf(camera, frame.markers[0]);
     const Vec2 streak = (middle - last) * (kExposure_s * kFilmRate_hz);
     if (i > 0 && Norm(streak) > 0.15) {
-      frame.photo.motion_px = Norm(streak);
-      frame.photo.motion_angle = std::atan2(streak.y, streak.x);
+      frame.photo.motion.length_px = Norm(streak);
+      frame.photo.motion.angle = std::atan2(streak.y, streak.x);
     }
     last = middle;
     film.frames.push_back(std::move(frame));

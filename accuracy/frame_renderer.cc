@@ -110,7 +110,7 @@ void FrameRenderer::Paint(const MarkerSpec& marker, const Occluder* occluder,
   const MarkerTexture& texture = TextureOf(marker.number);
   const double reach = std::max(texture.extent(), occluder != nullptr ? occluder->extent : 0.0);
   const PixelBox box = BoxOf(camera_, marker.camera_from_marker, kMarkerEdge, reach);
-  const int rim = static_cast<int>(std::ceil(4.0 * photo.psf_px));
+  const int rim = static_cast<int>(std::ceil(4.0 * photo.lens.psf_px));
   const auto clamped = [](double at, int most) {
     return static_cast<int>(std::clamp(at, 0.0, 1.0 * most));
   };
@@ -125,7 +125,7 @@ void FrameRenderer::Paint(const MarkerSpec& marker, const Occluder* occluder,
                  {(x - left) * kFine, (y - top) * kFine}, &fine);
     }
   }
-  fine = GaussianBlurred(fine, photo.psf_px * kFine);
+  fine = GaussianBlurred(fine, photo.lens.psf_px * kFine);
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
       float sum = 0.0F;
@@ -220,9 +220,9 @@ Image<float> FrameRenderer::Expose(const PhotoSpec& photo, Image<float> light) c
       light.data()[i] *= static_cast<float>(photo.exposure);
     }
   }
-  if (photo.defocus_px > kMinDefocus_px) light = DiscBlurred(light, photo.defocus_px);
-  if (photo.motion_px > kMinMotion_px) {
-    light = StreakBlurred(light, photo.motion_px, photo.motion_angle);
+  if (photo.lens.defocus_px > kMinDefocus_px) light = DiscBlurred(light, photo.lens.defocus_px);
+  if (photo.motion.length_px > kMinMotion_px) {
+    light = StreakBlurred(light, photo.motion.length_px, photo.motion.angle);
   }
   const double corner2 =
       0.25 * (1.0 * camera_.width * camera_.width + 1.0 * camera_.height * camera_.height);
@@ -230,7 +230,7 @@ Image<float> FrameRenderer::Expose(const PhotoSpec& photo, Image<float> light) c
     const double dy = y - 0.5 * camera_.height;
     for (int x = 0; x < camera_.width; ++x) {
       const double dx = x - 0.5 * camera_.width;
-      light(x, y) *= static_cast<float>(1.0 - photo.vignette * (dx * dx + dy * dy) / corner2);
+      light(x, y) *= static_cast<float>(1.0 - photo.lens.vignette * (dx * dx + dy * dy) / corner2);
     }
   }
   return light;
@@ -239,8 +239,8 @@ Image<float> FrameRenderer::Expose(const PhotoSpec& photo, Image<float> light) c
 GreyImage FrameRenderer::Develop(const FrameSpec& frame, const Image<float>& light) const {
   static const SrgbTable codes;
   RandomStream random(noise_seed_, "noise/" + frame.name);
-  const auto shot = static_cast<float>(frame.photo.shot);
-  const auto read2 = static_cast<float>(frame.photo.read * frame.photo.read);
+  const auto shot = static_cast<float>(frame.photo.noise.shot);
+  const auto read2 = static_cast<float>(frame.photo.noise.read * frame.photo.noise.read);
   GreyImage grey(light.width(), light.height());
   for (std::size_t i = 0; i < light.size(); ++i) {
     const float value = light.data()[i];
@@ -256,7 +256,7 @@ RenderedFrame FrameRenderer::Render(const FrameSpec& frame) {
     background_key_ = frame.background;
   }
   RenderedFrame rendered;
-  Image<float> light = GaussianBlurred(background_, frame.photo.psf_px);
+  Image<float> light = GaussianBlurred(background_, frame.photo.lens.psf_px);
   for (const MarkerSpec& marker : frame.markers) {
     MarkerTruth truth{.number = marker.number,
                       .camera_from_marker = marker.camera_from_marker,

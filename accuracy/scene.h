@@ -40,17 +40,30 @@ struct LightPattern {
   double value = 1.0;  ///< Ratio of gradient or shadow; per cent of the marker for a glare.
 };
 
+struct LensSpec {
+  double psf_px = 0.55;     ///< Standard deviation of the lens's Gaussian beside the pixel's box.
+  double vignette = 0.25;   ///< Loss of light in the corners, 0…1.
+  double defocus_px = 0.0;  ///< Radius of the disc.
+};
+
+/// The streak that a moving camera draws of a point.
+struct MotionBlur {
+  double length_px = 0.0;
+  double angle = 0.0;  ///< Direction across the picture, rad.
+};
+
+struct SensorNoise {
+  double shot = 2e-4;   ///< Variance per unit of light.
+  double read = 0.002;  ///< Standard deviation in the dark.
+};
+
 /// Light, lens and sensor. Light is linear, 1 saturates.
 struct PhotoSpec {
   double light = 1.0;     ///< On the prints.
   double exposure = 1.0;  ///< Of the whole picture.
-  double psf_px = 0.55;   ///< Standard deviation of the lens's Gaussian beside the pixel's box.
-  double vignette = 0.25;
-  double shot = 2e-4;       ///< Variance of the noise per unit of light,
-  double read = 0.002;      ///< … and its standard deviation in the dark.
-  double defocus_px = 0.0;  ///< Radius of the disc.
-  double motion_px = 0.0;   ///< Length of the streak, in direction
-  double motion_angle = 0.0;
+  LensSpec lens{};
+  MotionBlur motion{};
+  SensorNoise noise{};
   std::optional<LightPattern> gradient{}, shadow{}, glare{};
   int jpeg_quality = 0;  ///< What the picture was kept as, 1…100; 0: lossless.
 };

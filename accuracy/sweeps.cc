@@ -115,13 +115,13 @@ void MakeBlur(SweepMaker* maker) {
   maker->AddLevels("defocus", {.5, 1, 1.5, 2, 3, 4, 5, 6, 8}, 6,
                    [](RandomStream* random, PlaceWanted* place, FrameSpec* frame) {
                      place->tilt_deg = random->Uniform(0, 30);
-                     frame->photo.defocus_px = frame->level;
+                     frame->photo.lens.defocus_px = frame->level;
                    });
   maker->AddLevels("motion", {2, 4, 6, 8, 10, 12, 16, 20, 24, 30}, 6,
                    [](RandomStream* random, PlaceWanted* place, FrameSpec* frame) {
                      place->tilt_deg = random->Uniform(0, 30);
-                     frame->photo.motion_px = frame->level;
-                     frame->photo.motion_angle = random->Uniform(0, M_PI);
+                     frame->photo.motion.length_px = frame->level;
+                     frame->photo.motion.angle = random->Uniform(0, M_PI);
                    });
 }
 
@@ -130,8 +130,8 @@ void MakeNoise(SweepMaker* maker) {
                    [](RandomStream* random, PlaceWanted* place, FrameSpec* frame) {
                      place->side_px = 80;
                      place->tilt_deg = random->Uniform(0, 30);
-                     frame->photo.shot = 2e-4 * frame->level;
-                     frame->photo.read = 0.004 * std::sqrt(frame->level);
+                     frame->photo.noise.shot = 2e-4 * frame->level;
+                     frame->photo.noise.read = 0.004 * std::sqrt(frame->level);
                    });
   maker->AddLevels("dark", {.3, .1, .05, .025, .0125}, 6,
                    [](RandomStream* random, PlaceWanted* place, FrameSpec* frame) {
@@ -238,14 +238,14 @@ void MakeAmbiguity(SweepMaker* maker) {
         PhotoSpec& photo = frame.photo;
         if (pattern == "noise" || mixed) {
           const double gain = std::exp(random.Uniform(0, std::log(mixed ? 16 : 64)));
-          photo.shot = 2e-4 * gain;
-          photo.read = 0.004 * std::sqrt(gain);
+          photo.noise.shot = 2e-4 * gain;
+          photo.noise.read = 0.004 * std::sqrt(gain);
         }
         // A tenth of the print at most.
         if (pattern == "blur" || mixed) {
-          photo.defocus_px = level * random.Uniform(0, .08);
-          photo.motion_px = level * random.Uniform(0, .08);
-          photo.motion_angle = random.Uniform(0, M_PI);
+          photo.lens.defocus_px = level * random.Uniform(0, .08);
+          photo.motion.length_px = level * random.Uniform(0, .08);
+          photo.motion.angle = random.Uniform(0, M_PI);
         }
         if (pattern == "jpeg" || mixed) photo.jpeg_quality = 60 + random.Below(36);
         maker->Add(std::move(frame));
@@ -289,13 +289,13 @@ void MakeWild(SweepMaker* maker) {
     if (pattern.starts_with('c') && !pattern.starts_with("corner")) share = std::min(share, .12);
     Occlude(frame, pattern, share);
     PhotoSpec& photo = frame->photo;
-    photo.shot = 2e-4 * random->Uniform(1, 30);
-    photo.read = .004 * random->Uniform(1, 3);
+    photo.noise.shot = 2e-4 * random->Uniform(1, 30);
+    photo.noise.read = .004 * random->Uniform(1, 3);
     photo.exposure = random->Uniform(.4, 1.8);
-    photo.defocus_px = random->Uniform(0, 1.6);
+    photo.lens.defocus_px = random->Uniform(0, 1.6);
     if (random->Uniform() < .4) {
-      photo.motion_px = random->Uniform(1, 7);
-      photo.motion_angle = random->Uniform(0, M_PI);
+      photo.motion.length_px = random->Uniform(1, 7);
+      photo.motion.angle = random->Uniform(0, M_PI);
     }
     if (random->Uniform() < .4) {
       photo.shadow = LightPattern{.angle = random->Uniform(0, 2 * M_PI)};

@@ -30,7 +30,7 @@ FrameSpec FrontFrame(double side_px) {
 TEST(FrameRenderer, SeesWhatASlowRendererOfPointSamplesSees) {
   const CameraModel camera = SweepCamera("640x480");
   FrameSpec frame = FrontFrame(42);
-  frame.photo = {.psf_px = 0.05, .vignette = 0.0, .shot = 0.0, .read = 0.0};
+  frame.photo = {.lens = {.psf_px = 0.05, .vignette = 0.0}, .noise = {.shot = 0.0, .read = 0.0}};
   const RenderedFrame ours = FrameRenderer(camera, SgPattern, 1, 1).Render(frame);
   tracker::RenderedMarker marker;
   marker.pattern = SgPattern(frame.markers[0].number);

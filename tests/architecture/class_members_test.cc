@@ -19,7 +19,6 @@ constexpr std::size_t kMaxMembers = 12;
 const std::set<std::string>& LargeClasses() {
   // clang-format off
   static const std::set<std::string> kLarge = {
-    "accuracy/scene.h PhotoSpec",
     "app/commands/live_command.cc Arguments",
     "app/commands/sun_command.cc Options",
     "app/sky/sky_options.h SkyOptions",
