@@ -17,56 +17,55 @@ bool Within(double value, double low, double high) {
 }
 
 /// A target file defines number, kind and size, so the scene must not repeat them.
-Result<void> CheckTarget(const SceneFacts& facts, const std::string& name) {
+Result<void> CheckTarget(const MarkerFacts& facts, const std::string& name) {
   constexpr const char* kFamily = "picture";
-  const bool is_picture = facts.marker_family.value_or(kFamily) == kFamily;
-  if (!facts.marker_target) {
-    if (!facts.marker_family || !is_picture) return {};
+  const bool is_picture = facts.family.value_or(kFamily) == kFamily;
+  if (!facts.target) {
+    if (!facts.family || !is_picture) return {};
     return InputError(name, "has a picture for a marker and does not say which",
                       "add marker.target, a file that `pleinair target` made");
   }
-  if (facts.marker_target->empty()) {
+  if (facts.target->empty()) {
     return InputError(name, "has a marker.target without a name", "name the target's file");
   }
-  if (!is_picture || facts.marker_id || facts.marker_version || facts.marker_size_m ||
-      facts.marker_board_size_m) {
+  if (!is_picture || facts.id || facts.version || facts.size_m || facts.board_size_m) {
     return InputError(name, "has both a target and the number, kind or size of a marker",
                       "keep marker.target alone: its file knows how large the picture is");
   }
   return {};
 }
 
-Result<MarkerDescription> CompleteMarker(const SceneFacts& facts, const std::string& name) {
+Result<MarkerDescription> CompleteMarker(const MarkerFacts& facts, const std::string& name) {
   MarkerDescription marker;
   PLEINAIR_RETURN_IF_ERROR(CheckTarget(facts, name));
-  if (!facts.marker_size_m && !facts.marker_target) {
+  if (!facts.size_m && !facts.target) {
     return InputError(name, "does not say how large the marker is",
                       "add marker.size_mm: the edge of the outer black square");
   }
   // From a pinhead to a sports field.
-  if (facts.marker_size_m && !Within(*facts.marker_size_m, 1e-4, 1e3)) {
+  if (facts.size_m && !Within(*facts.size_m, 1e-4, 1e3)) {
     return InputError(name, "has a marker whose size is not greater than zero or not finite",
                       "marker.size_mm is the edge of the outer black square, 0.1 to 1000000");
   }
-  if (!facts.marker_heading_deg) {
+  if (!facts.heading_deg) {
     return InputError(name, "does not say which way the marker points",
                       "add marker.heading_deg: azimuth of its upper edge, clockwise from true "
                       "north");
   }
-  if (!Within(*facts.marker_heading_deg, -360.0, 360.0)) {
+  if (!Within(*facts.heading_deg, -360.0, 360.0)) {
     return InputError(name, "has a marker heading outside -360 to 360 degrees",
                       "marker.heading_deg is clockwise from true north");
   }
-  marker.family = facts.marker_family;
-  marker.id = facts.marker_id;
-  marker.version = facts.marker_version;
+  marker.family = facts.family;
+  marker.id = facts.id;
+  marker.version = facts.version;
   if (marker.id && *marker.id < 0) {
     return InputError(name, "has a marker id below zero", "ids count from 0");
   }
-  marker.size_m = facts.marker_size_m.value_or(0.0);
-  if (facts.marker_target) marker.target = *facts.marker_target;
-  marker.heading = FromDegrees(*facts.marker_heading_deg);
-  marker.upright = facts.marker_upright.value_or(false);
+  marker.size_m = facts.size_m.value_or(0.0);
+  if (facts.target) marker.target = *facts.target;
+  marker.heading = FromDegrees(*facts.heading_deg);
+  marker.upright = facts.upright.value_or(false);
   marker.albedo_black = facts.albedo_black.value_or(marker.albedo_black);
   marker.albedo_white = facts.albedo_white.value_or(marker.albedo_white);
   if (!Within(marker.albedo_black, 0.0, 1.0) || !Within(marker.albedo_white, 0.0, 1.0) ||
@@ -76,7 +75,7 @@ Result<MarkerDescription> CompleteMarker(const SceneFacts& facts, const std::str
   }
   // tag36h11's black square is ten modules wide; with one white module on each side the sheet is
   // 1.2 times as wide, and common sheets have 1.2 to 1.25.
-  marker.board_size_m = facts.marker_board_size_m.value_or(1.25 * marker.size_m);
+  marker.board_size_m = facts.board_size_m.value_or(1.25 * marker.size_m);
   if (!Within(marker.board_size_m, marker.size_m, 1e4)) {
     return InputError(name, "has a marker board that is smaller than its black square",
                       "marker.board_size_mm is the edge of the white board around it");
@@ -84,7 +83,7 @@ Result<MarkerDescription> CompleteMarker(const SceneFacts& facts, const std::str
   return marker;
 }
 
-Result<PlaceTime> CompletePlaceTime(const SceneFacts& facts, const std::string& name) {
+Result<PlaceTime> CompletePlaceTime(const PlaceTimeFacts& facts, const std::string& name) {
   if (!facts.latitude_deg || !facts.longitude_deg) {
     return InputError(name, "does not say where the recording was made",
                       "add latitude_deg (north positive) and longitude_deg (east positive)");
@@ -150,24 +149,24 @@ Result<SceneFacts> ParseScene(std::string_view bytes, const std::string& name) {
 }
 
 SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
-  Fill(facts.latitude_deg, fallback.latitude_deg);
-  Fill(facts.longitude_deg, fallback.longitude_deg);
-  Fill(facts.height_m, fallback.height_m);
-  Fill(facts.start, fallback.start);
-  // The margin's size and the marker's identity describe one sheet of paper, so they are taken over
-  // only together with the marker's size.
-  if (!facts.marker_size_m && !facts.marker_target) {
-    Fill(facts.marker_target, fallback.marker_target);
-    Fill(facts.marker_size_m, fallback.marker_size_m);
-    Fill(facts.marker_board_size_m, fallback.marker_board_size_m);
-    Fill(facts.marker_family, fallback.marker_family);
-    Fill(facts.marker_id, fallback.marker_id);
-    Fill(facts.marker_version, fallback.marker_version);
-    Fill(facts.albedo_black, fallback.albedo_black);
-    Fill(facts.albedo_white, fallback.albedo_white);
+  Fill(facts.place_time.latitude_deg, fallback.place_time.latitude_deg);
+  Fill(facts.place_time.longitude_deg, fallback.place_time.longitude_deg);
+  Fill(facts.place_time.height_m, fallback.place_time.height_m);
+  Fill(facts.place_time.start, fallback.place_time.start);
+  // What a board measures and which marker it is belongs to one sheet of paper: it is taken over
+  // only along with the size.
+  if (!facts.marker.size_m && !facts.marker.target) {
+    Fill(facts.marker.target, fallback.marker.target);
+    Fill(facts.marker.size_m, fallback.marker.size_m);
+    Fill(facts.marker.board_size_m, fallback.marker.board_size_m);
+    Fill(facts.marker.family, fallback.marker.family);
+    Fill(facts.marker.id, fallback.marker.id);
+    Fill(facts.marker.version, fallback.marker.version);
+    Fill(facts.marker.albedo_black, fallback.marker.albedo_black);
+    Fill(facts.marker.albedo_white, fallback.marker.albedo_white);
   }
-  Fill(facts.marker_heading_deg, fallback.marker_heading_deg);
-  Fill(facts.marker_upright, fallback.marker_upright);
+  Fill(facts.marker.heading_deg, fallback.marker.heading_deg);
+  Fill(facts.marker.upright, fallback.marker.upright);
   Fill(facts.cloudiness, fallback.cloudiness);
   if (facts.camera_response.empty()) facts.camera_response = fallback.camera_response;
   return facts;
@@ -177,8 +176,8 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   const std::string name = file.string();
   SceneDescription scene;
   scene.file = file;
-  PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts, name));
-  PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts, name));
+  PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts.place_time, name));
+  PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts.marker, name));
   if (scene.marker.target) {
     scene.marker.target = (file.parent_path() / *scene.marker.target).lexically_normal();
   }

@@ -11,20 +11,28 @@
 
 namespace pleinair::scene {
 
-/// Content of one scene file. Absent values are unset, so that a hand-written scene.toml can leave
-/// to the recording what the recording already has.
-struct SceneFacts {
+/// What one file says of where and when the recording was made (PlaceTime).
+struct PlaceTimeFacts {
   std::optional<double> latitude_deg, longitude_deg, height_m;
   std::optional<UtcTime> start;
-  std::optional<std::string> marker_family;
-  std::optional<std::string> marker_target;  ///< Path as in the file, relative to the scene's
-                                             ///< folder.
-  std::optional<int> marker_id, marker_version;
-  std::optional<double> marker_size_m, marker_heading_deg, marker_board_size_m;
+};
+
+/// What one file says of the marker (MarkerDescription).
+struct MarkerFacts {
+  std::optional<std::string> family;
+  std::optional<std::string> target;  ///< File as written, relative to the scene's.
+  std::optional<int> id, version;
+  std::optional<double> size_m, heading_deg, board_size_m;
   std::optional<double> albedo_black, albedo_white;
-  std::optional<bool> marker_upright;
-  std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
-                                                  ///< folder.
+  std::optional<bool> upright;
+};
+
+/// What one file says of the scene; absent is what it does not say, so that a hand-written
+/// scene.toml can leave to the recording what the recording knows.
+struct SceneFacts {
+  PlaceTimeFacts place_time;
+  MarkerFacts marker;
+  std::vector<ModelReference> phantoms, objects;  ///< Files as written, relative to the scene's.
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;
   std::optional<LinearRgb> exposure_scale;
@@ -33,8 +41,8 @@ struct SceneFacts {
 
   /// True if place, time and marker, which every scene needs, are all missing.
   bool LacksPlaceTimeAndMarker() const {
-    return !latitude_deg && !longitude_deg && !start && !marker_size_m && !marker_target &&
-           !marker_heading_deg;
+    return !place_time.latitude_deg && !place_time.longitude_deg && !place_time.start &&
+           !marker.size_m && !marker.target && !marker.heading_deg;
   }
 };
 

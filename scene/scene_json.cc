@@ -23,16 +23,16 @@ constexpr std::array<std::pair<const char*, const char*>, 9> kFamilies = {{
     {"S-G", "sg"},
 }};
 
-// Family and id from a text such as "AprilTag tag36h11 id 0, 10x10 modules".
-void ParseMarkerDescription(const std::string& words, SceneFacts* facts) {
+// Family and id from words such as "AprilTag tag36h11 id 0, 10x10 modules".
+void ParseMarkerDescription(const std::string& words, MarkerFacts* facts) {
   for (const auto& [said, family] : kFamilies) {
     if (words.find(said) == std::string::npos) continue;
-    facts->marker_family = family;
+    facts->family = family;
     const std::size_t id = words.find(" id ");
     if (id == std::string::npos) return;
     const std::string digits = words.substr(id + 4, 6);
     if (!digits.empty() && std::isdigit(static_cast<unsigned char>(digits[0])) != 0) {
-      facts->marker_id = std::atoi(digits.c_str());
+      facts->id = std::atoi(digits.c_str());
     }
     return;
   }
@@ -47,27 +47,26 @@ Result<std::optional<double>> NumberOf(const files::JsonFields& fields,
   return std::nullopt;
 }
 
-Result<void> ReadMarker(const files::JsonFields& marker, SceneFacts* facts) {
+Result<void> ReadMarker(const files::JsonFields& marker, MarkerFacts* facts) {
   ParseMarkerDescription(marker.TextOr("what"), facts);
   if (marker.Has("family")) {
-    PLEINAIR_ASSIGN_OR_RETURN(facts->marker_family, marker.Text("family"));
+    PLEINAIR_ASSIGN_OR_RETURN(facts->family, marker.Text("family"));
   }
   if (marker.Has("id")) {
-    PLEINAIR_ASSIGN_OR_RETURN(facts->marker_id, marker.Integer("id"));
+    PLEINAIR_ASSIGN_OR_RETURN(facts->id, marker.Integer("id"));
   }
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_target, marker.Text("target"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_version, marker.Integer("version"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_size_m,
-                            NumberOf(marker, {"size_m", "black_square_side_m"}));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_board_size_m, marker.Number("board_size_m"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_heading_deg, marker.Number("heading_deg"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_upright, marker.Flag("upright"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->target, marker.Text("target"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->version, marker.Integer("version"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->size_m, NumberOf(marker, {"size_m", "black_square_side_m"}));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->board_size_m, marker.Number("board_size_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->heading_deg, marker.Number("heading_deg"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->upright, marker.Flag("upright"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_black, marker.Number("albedo_black"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_white, marker.Number("albedo_white"));
   return {};
 }
 
-Result<void> ReadPlaceTime(const files::JsonFields& fields, SceneFacts* facts) {
+Result<void> ReadPlaceTime(const files::JsonFields& fields, PlaceTimeFacts* facts) {
   PLEINAIR_ASSIGN_OR_RETURN(facts->latitude_deg, fields.Number("latitude_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->longitude_deg, fields.Number("longitude_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->height_m, fields.Number("height_m"));
@@ -111,10 +110,10 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseJson(bytes, name));
   const files::JsonFields fields(document, name);
   SceneFacts facts;
-  // scene.json nests these fields in a block, recording.json has them at the top level.
-  PLEINAIR_RETURN_IF_ERROR(
-      ReadPlaceTime(fields.Has("place_time") ? fields.Object("place_time") : fields, &facts));
-  PLEINAIR_RETURN_IF_ERROR(ReadMarker(fields.Object("marker"), &facts));
+  // scene.json has a block for it, recording.json says it at the top.
+  PLEINAIR_RETURN_IF_ERROR(ReadPlaceTime(
+      fields.Has("place_time") ? fields.Object("place_time") : fields, &facts.place_time));
+  PLEINAIR_RETURN_IF_ERROR(ReadMarker(fields.Object("marker"), &facts.marker));
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("real_geometry"), &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("virtual_object"), &facts.objects));
   facts.cloudiness = ReadCloudiness(fields);

@@ -184,7 +184,7 @@ Result<std::optional<UtcTime>> ReadTime(const Table& table, const char* key) {
   return table.Fail(key, "is no moment: " + zoned.error().what, zoned.error().remedy);
 }
 
-Result<void> ReadPlace(const Table& place, SceneFacts* facts) {
+Result<void> ReadPlace(const Table& place, PlaceTimeFacts* facts) {
   PLEINAIR_RETURN_IF_ERROR(
       place.AllowOnly({"name", "latitude_deg", "longitude_deg", "height_m", "time"}));
   PLEINAIR_RETURN_IF_ERROR(place.Text("name"));
@@ -199,19 +199,18 @@ Result<void> ReadPlace(const Table& place, SceneFacts* facts) {
   return {};
 }
 
-Result<void> ReadMarker(const Table& marker, SceneFacts* facts) {
+Result<void> ReadMarker(const Table& marker, MarkerFacts* facts) {
   PLEINAIR_RETURN_IF_ERROR(marker.AllowOnly(
       {"family", "target", "id", "version", "size_m", "size_mm", "board_size_m", "board_size_mm",
        "heading_deg", "upright", "albedo_black", "albedo_white"}));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_family, marker.Text("family"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_target, marker.Text("target"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_id, marker.Integer("id"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_version, marker.Integer("version"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_size_m, marker.Length("size_m", "size_mm"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_board_size_m,
-                            marker.Length("board_size_m", "board_size_mm"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_heading_deg, marker.Number("heading_deg"));
-  PLEINAIR_ASSIGN_OR_RETURN(facts->marker_upright, marker.Flag("upright"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->family, marker.Text("family"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->target, marker.Text("target"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->id, marker.Integer("id"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->version, marker.Integer("version"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->size_m, marker.Length("size_m", "size_mm"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->board_size_m, marker.Length("board_size_m", "board_size_mm"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->heading_deg, marker.Number("heading_deg"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->upright, marker.Flag("upright"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_black, marker.Number("albedo_black"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_white, marker.Number("albedo_white"));
   return {};
@@ -258,16 +257,16 @@ Result<SceneFacts> ReadScene(const Table& scene) {
       scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain", "camera_response",
                        "place", "marker", "phantom", "object"}));
   SceneFacts facts;
-  PLEINAIR_ASSIGN_OR_RETURN(facts.start, ReadTime(scene, "time"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.place_time.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<Table> places, scene.Tables("place"));
   if (places.size() > 1) return scene.Fail("place", "is given more than once", "keep one place");
-  if (!places.empty()) PLEINAIR_RETURN_IF_ERROR(ReadPlace(places[0], &facts));
+  if (!places.empty()) PLEINAIR_RETURN_IF_ERROR(ReadPlace(places[0], &facts.place_time));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<Table> markers, scene.Tables("marker"));
   if (markers.size() > 1) {
     return scene.Fail("marker", "is given more than once",
                       "keep the marker that the models are placed on: one anchors a scene");
   }
-  if (!markers.empty()) PLEINAIR_RETURN_IF_ERROR(ReadMarker(markers[0], &facts));
+  if (!markers.empty()) PLEINAIR_RETURN_IF_ERROR(ReadMarker(markers[0], &facts.marker));
   PLEINAIR_ASSIGN_OR_RETURN(facts.phantoms, ReadModels(scene, "phantom"));
   PLEINAIR_ASSIGN_OR_RETURN(facts.objects, ReadModels(scene, "object"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> sky, scene.Text("cloudiness"));

@@ -22,7 +22,6 @@ const std::set<std::string>& LargeClasses() {
     "app/commands/live_command.cc Arguments",
     "app/commands/sun_command.cc Options",
     "app/sky/sky_options.h SkyOptions",
-    "scene/scene_facts.h SceneFacts",
   };
   // clang-format on
   return kLarge;

@@ -47,9 +47,9 @@ TEST(SceneJson, BundledSceneIsRead) {
 TEST(SceneJson, MarkerIsWhatItsWordsSayElseUnknown) {
   const Result<SceneFacts> named = ParseSceneJson(kScene, "scene.json");
   ASSERT_TRUE(named) << named.error().Message();
-  EXPECT_EQ(named->marker_family, "tag25h9");
-  EXPECT_EQ(named->marker_id, 12);
-  EXPECT_EQ(named->albedo_white, 0.75);
+  EXPECT_EQ(named->marker.family, "tag25h9");
+  EXPECT_EQ(named->marker.id, 12);
+  EXPECT_EQ(named->marker.albedo_white, 0.75);
   const Result<SceneFacts> unnamed =
       ParseSceneJson(tests::Replaced(kScene, "AprilTag tag25h9 id 12", "a picture"), "scene.json");
   ASSERT_TRUE(unnamed);
@@ -66,9 +66,9 @@ TEST(SceneJson, MarkerMayBeNamedWithItsVersion) {
                       R"("family": "sg", "id": 17, "version": 1, "what": "S-G id 3")"),
       "scene.json");
   ASSERT_TRUE(facts) << facts.error().Message();
-  EXPECT_EQ(facts->marker_family, "sg");
-  EXPECT_EQ(facts->marker_id, 17);
-  EXPECT_EQ(facts->marker_version, 1);
+  EXPECT_EQ(facts->marker.family, "sg");
+  EXPECT_EQ(facts->marker.id, 17);
+  EXPECT_EQ(facts->marker.version, 1);
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "\"what\"", "\"version\": \"one\", \"what\"")),
               HasSubstr("\"marker.version\" is not a number"));
 }
@@ -133,22 +133,22 @@ TEST(SceneJson, FileCutShortSaysSo) {
 
 TEST(SceneFacts, FallbackFillsGapsButNeverBringsModels) {
   SceneFacts recorded;
-  recorded.latitude_deg = 50;
-  recorded.marker_size_m = 0.48;
-  recorded.marker_id = 3;
-  recorded.marker_board_size_m = 0.6;
+  recorded.place_time.latitude_deg = 50;
+  recorded.marker.size_m = 0.48;
+  recorded.marker.id = 3;
+  recorded.marker.board_size_m = 0.6;
   recorded.objects.emplace_back().file = "object.obj";
   SceneFacts by_hand;
-  by_hand.latitude_deg = 10;
+  by_hand.place_time.latitude_deg = 10;
   const SceneFacts both = WithFallback(by_hand, recorded);
-  EXPECT_EQ(both.latitude_deg, 10);
-  EXPECT_EQ(both.marker_size_m, 0.48);
-  EXPECT_EQ(both.marker_id, 3);
+  EXPECT_EQ(both.place_time.latitude_deg, 10);
+  EXPECT_EQ(both.marker.size_m, 0.48);
+  EXPECT_EQ(both.marker.id, 3);
   EXPECT_TRUE(both.objects.empty());
   // Another sheet: its board and id are not those of the recorded one.
-  by_hand.marker_size_m = 0.1;
-  EXPECT_FALSE(WithFallback(by_hand, recorded).marker_board_size_m);
-  EXPECT_FALSE(WithFallback(by_hand, recorded).marker_id);
+  by_hand.marker.size_m = 0.1;
+  EXPECT_FALSE(WithFallback(by_hand, recorded).marker.board_size_m);
+  EXPECT_FALSE(WithFallback(by_hand, recorded).marker.id);
 }
 
 }  // namespace
