@@ -88,8 +88,8 @@ Result<void> RunMoment(const SkyOptions& options, const sky::SkySource& source,
   const auto sky = source.ForSun(moment.ToSun(), moment.sun_distance_au);
   for (const std::string& note : sky->Notes()) std::cerr << "pleinair: " << note << '\n';
   if (!options.csv.empty()) {
-    return WriteSkyDirections(*sky, options.conditions.ground_albedo, options.csv, options.output,
-                              options.json);
+    return WriteSkyDirections(*sky, options.model.conditions.ground_albedo, options.csv,
+                              options.output, options.json);
   }
   const SkyLight light = MeasureSky(*sky, moment);
   if (file) PLEINAIR_RETURN_IF_ERROR(WriteSkyPicture(*sky, light, *file));
@@ -117,11 +117,12 @@ Result<void> RunMoment(const SkyOptions& options, const sky::SkySource& source,
 }
 
 Result<void> Run(const CLI::App& command, const SkyOptions& options) {
-  PLEINAIR_ASSIGN_OR_RETURN(const sky::SkyModelName name, sky::ParseSkyModelName(options.model));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<SkyMoment> moments, ChosenMoments(options));
+  PLEINAIR_ASSIGN_OR_RETURN(const sky::SkyModelName name,
+                            sky::ParseSkyModelName(options.model.name));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<SkyMoment> moments, ChosenMoments(options.span));
   PLEINAIR_RETURN_IF_ERROR(CheckUseOfSkyOptions(command, options, name));
   PLEINAIR_ASSIGN_OR_RETURN(const auto source,
-                            sky::SkySource::Create(name, ChosenConditions(options)));
+                            sky::SkySource::Create(name, ChosenConditions(options.model)));
   if (!options.Many()) return RunMoment(options, *source, name, moments.front());
   if (!options.IsPicture()) return RunSeries(options, *source, moments);
   if (moments.size() < 2) {

@@ -21,7 +21,6 @@ const std::set<std::string>& LargeClasses() {
   static const std::set<std::string> kLarge = {
     "app/commands/live_command.cc Arguments",
     "app/commands/sun_command.cc Options",
-    "app/sky/sky_options.h SkyOptions",
   };
   // clang-format on
   return kLarge;
