@@ -20,7 +20,6 @@ const std::set<std::string>& LargeClasses() {
   // clang-format off
   static const std::set<std::string> kLarge = {
     "app/commands/live_command.cc Arguments",
-    "app/commands/sun_command.cc Options",
   };
   // clang-format on
   return kLarge;
