@@ -38,7 +38,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kLiveExamples =
     "Examples:\n"
     "  pleinair live --camera v4l2:/dev/video0 --calibration camera.json --scene site/scene.toml "
     "--headless --seconds 60\n"
@@ -58,41 +58,63 @@ constexpr const char* kExamples =
 // Of a long run's account, where it is told at all.
 constexpr double kReportEvery_s = 60.0;
 
-struct Arguments {
-  std::string camera, scene, calibration, time, record, detections, screenshot, pixel_format;
-  std::string output;
+/// The camera's controls that are held still.
+struct LiveHolds {
+  bool all = false;  ///< Those without a value are held as they are.
+  std::optional<double> exposure_s, gain, white_balance_k, focus;
+};
+
+/// The camera or recording, and what is said of it.
+struct LiveInputs {
+  std::string camera, scene, calibration, time, pixel_format;
+  std::optional<double> rate_hz;
+  bool loop = false;
+  LiveHolds holds;
+};
+
+struct LiveOutputs {
+  std::string recording, detections, screenshot;
+  std::string folder;
   std::vector<std::string> exports;
-  std::optional<double> report_every_s;
-  session::LightOptions light;
-  std::optional<double> seconds, rate_hz, exposure_s, gain, white_balance_k, focus;
-  bool headless = false, lossless = false, loop = false, json = false, lock = false;
-  bool shadow_debug = false;
-  std::string window_size, screenshots = ".";
+};
+
+struct LiveWindowArguments {
+  std::string size, screenshots = ".";
   double ui_scale = 0.0;
 };
 
+struct LiveArguments {
+  LiveInputs input;
+  LiveOutputs output;
+  LiveWindowArguments window;
+  session::LightOptions light;
+  std::optional<double> seconds, report_every_s;
+  bool headless = false, lossless = false, json = false, shadow_debug = false;
+};
+
 /// Where frames come from, and what else is known with them.
-struct Source {
+struct LiveSource {
   std::unique_ptr<devices::FrameSource> frames;
   devices::LiveCamera* camera = nullptr;  ///< Null for a recording.
   CameraModel lens;
   std::optional<scene::SceneDescription> scene;
 };
 
-std::vector<devices::ControlRequest> ControlsOf(const Arguments& arguments) {
+std::vector<devices::ControlRequest> ControlsOf(const LiveHolds& holds) {
   std::vector<devices::ControlRequest> control_requests;
   const auto add = [&](devices::CameraControl control, const std::optional<double>& value) {
-    if (value || arguments.lock) control_requests.push_back({control, value});
+    if (value || holds.all) control_requests.push_back({control, value});
   };
-  add(devices::CameraControl::kExposure, arguments.exposure_s);
-  add(devices::CameraControl::kGain, arguments.gain);
-  add(devices::CameraControl::kWhiteBalance, arguments.white_balance_k);
-  add(devices::CameraControl::kFocus, arguments.focus);
+  add(devices::CameraControl::kExposure, holds.exposure_s);
+  add(devices::CameraControl::kGain, holds.gain);
+  add(devices::CameraControl::kWhiteBalance, holds.white_balance_k);
+  add(devices::CameraControl::kFocus, holds.focus);
   return control_requests;
 }
 
 /// Nothing that was asked for is passed over in silence.
-Result<void> CheckOptions(const CLI::App& command, const Arguments& arguments, bool is_file) {
+Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& arguments,
+                              bool is_file) {
   constexpr const char* kCameras = "cameras, not to recordings";
   constexpr const char* kWindow = "the window";
   constexpr const char* kCoefficients =
@@ -114,8 +136,9 @@ Result<void> CheckOptions(const CLI::App& command, const Arguments& arguments, b
                 {"--pictures", !arguments.headless, kWindow},
                 {"--screenshot", arguments.headless, "--headless; in the window press Ctrl+S"}}));
   PLEINAIR_RETURN_IF_ERROR(CheckLightCache(arguments.light.cache));
-  if (arguments.screenshot.empty()) return {};
-  const std::filesystem::path folder = std::filesystem::path(arguments.screenshot).parent_path();
+  if (arguments.output.screenshot.empty()) return {};
+  const std::filesystem::path folder =
+      std::filesystem::path(arguments.output.screenshot).parent_path();
   std::error_code error;
   if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
     return InputError("--screenshot", "there is no folder " + folder.string(), "make it first");
@@ -123,63 +146,63 @@ Result<void> CheckOptions(const CLI::App& command, const Arguments& arguments, b
   return {};
 }
 
-Result<Source> OpenFile(const devices::CameraUri& uri, const Arguments& arguments) {
+Result<LiveSource> OpenFile(const devices::CameraUri& uri, const LiveArguments& arguments) {
   devices::RecordingOptions options;
-  if (!arguments.calibration.empty()) options.calibration = arguments.calibration;
-  if (!arguments.scene.empty()) options.scene = arguments.scene;
+  if (!arguments.input.calibration.empty()) options.calibration = arguments.input.calibration;
+  if (!arguments.input.scene.empty()) options.scene = arguments.input.scene;
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording,
                             devices::OpenRecording(uri.value, options));
-  if (arguments.lossless && (arguments.loop || !arguments.headless)) {
+  if (arguments.lossless && (arguments.input.loop || !arguments.headless)) {
     return InputError("--lossless", "takes the time it takes, once, and shows nothing meanwhile",
                       "give --headless and no --loop with it");
   }
-  Source source{std::move(recording.frames), nullptr, recording.camera, recording.scene};
+  LiveSource source{std::move(recording.frames), nullptr, recording.camera, recording.scene};
   if (arguments.lossless) return source;
   const auto reopen = [path = uri.value,
                        options]() -> Result<std::unique_ptr<devices::FrameSource>> {
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording again, devices::OpenRecording(path, options));
     return std::move(again.frames);
   };
-  PLEINAIR_ASSIGN_OR_RETURN(source.frames,
-                            PacedRecording::Open(reopen, {arguments.rate_hz, arguments.loop}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      source.frames, PacedRecording::Open(reopen, {arguments.input.rate_hz, arguments.input.loop}));
   return source;
 }
 
-Result<Source> OpenCamera(const devices::CameraUri& uri, const Arguments& arguments) {
+Result<LiveSource> OpenCamera(const devices::CameraUri& uri, const LiveArguments& arguments) {
   if (arguments.lossless) {
     return InputError("--lossless", "is for recordings: a camera does not wait", "leave it out");
   }
-  if (arguments.calibration.empty()) {
+  if (arguments.input.calibration.empty()) {
     return InputError("--calibration", "is missing: a camera says nothing of its lens",
                       "calibrate it once ('pleinair calibrate') and name the file");
   }
-  Source source;
-  PLEINAIR_ASSIGN_OR_RETURN(source.lens, devices::ReadCalibration(arguments.calibration));
-  if (!arguments.scene.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(source.scene, scene::ReadSceneDescription(arguments.scene));
+  LiveSource source;
+  PLEINAIR_ASSIGN_OR_RETURN(source.lens, devices::ReadCalibration(arguments.input.calibration));
+  if (!arguments.input.scene.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(source.scene, scene::ReadSceneDescription(arguments.input.scene));
   }
   devices::LiveCameraOptions options;
   options.uri = uri;
   options.pictures.size = ImageSize{source.lens.width, source.lens.height};
-  options.pictures.rate_hz = arguments.rate_hz;
-  if (!arguments.pixel_format.empty()) {
-    options.pictures.format = devices::PixelFormatByName(arguments.pixel_format);
+  options.pictures.rate_hz = arguments.input.rate_hz;
+  if (!arguments.input.pixel_format.empty()) {
+    options.pictures.format = devices::PixelFormatByName(arguments.input.pixel_format);
     if (!options.pictures.format) {
-      return InputError("--format", "\"" + arguments.pixel_format + "\" is not read here",
+      return InputError("--format", "\"" + arguments.input.pixel_format + "\" is not read here",
                         "'pleinair devices' lists what the camera sends");
     }
   }
-  options.controls = ControlsOf(arguments);
+  options.controls = ControlsOf(arguments.input.holds);
   PLEINAIR_ASSIGN_OR_RETURN(auto camera, devices::LiveCamera::Open(std::move(options)));
   source.camera = camera.get();
   source.frames = std::move(camera);
   return source;
 }
 
-Result<std::optional<UtcTime>> StartOf(const Arguments& arguments, const Source& source) {
-  if (arguments.time == "now") return std::nullopt;
-  if (!arguments.time.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(const UtcTime time, ParseTimeOption("--time", arguments.time));
+Result<std::optional<UtcTime>> StartOf(const LiveArguments& arguments, const LiveSource& source) {
+  if (arguments.input.time == "now") return std::nullopt;
+  if (!arguments.input.time.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(const UtcTime time, ParseTimeOption("--time", arguments.input.time));
     return time;
   }
   // A recording was made in its own day; in front of a camera it is now.
@@ -188,8 +211,8 @@ Result<std::optional<UtcTime>> StartOf(const Arguments& arguments, const Source&
 }
 
 /// Draws until the end, the time or Ctrl-C; gives the last picture.
-Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Arguments& arguments,
-                         LiveReport* report) {
+Result<RgbImage> DrawAll(LiveSession& session, const LiveSource& source,
+                         const LiveArguments& arguments, LiveReport* report) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   RgbImage last;
@@ -208,8 +231,8 @@ Result<RgbImage> DrawAll(LiveSession& session, const Source& source, const Argum
 
 /// Shows a window until it is closed; there is no last picture.
 Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]] ImageSize window,
-                         [[maybe_unused]] const Source& source,
-                         [[maybe_unused]] const Arguments& arguments,
+                         [[maybe_unused]] const LiveSource& source,
+                         [[maybe_unused]] const LiveArguments& arguments,
                          [[maybe_unused]] const scene::SceneDescription& scene,
                          [[maybe_unused]] LiveReport* report) {
 #ifdef PLEINAIR_WINDOW
@@ -220,8 +243,8 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   options.convergence = arguments.light.convergence;
   options.live_camera = source.camera;
   options.seconds = arguments.seconds;
-  options.ui_scale = arguments.ui_scale;
-  options.screenshots = arguments.screenshots;
+  options.ui_scale = arguments.window.ui_scale;
+  options.screenshots = arguments.window.screenshots;
   options.poll_camera = [&] {
     if (const auto interval = report->Poll(session)) Report(*interval, arguments.json);
     return ReportEvents(source.camera, arguments.json);
@@ -243,7 +266,7 @@ void KeepNoFreedPictures() {
 #endif
 }
 
-Result<void> Run(const CLI::App& command, const Arguments& arguments) {
+Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
 #ifndef PLEINAIR_WINDOW
   if (!arguments.headless) {
     return InputError("live", "was built without a window",
@@ -251,14 +274,14 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   }
 #endif
   PLEINAIR_ASSIGN_OR_RETURN(const devices::CameraUri uri,
-                            devices::ParseCameraUri(arguments.camera));
+                            devices::ParseCameraUri(arguments.input.camera));
   const bool is_file = uri.backend == devices::CameraUri::Backend::kFile;
-  PLEINAIR_RETURN_IF_ERROR(CheckOptions(command, arguments, is_file));
+  PLEINAIR_RETURN_IF_ERROR(CheckLiveOptions(command, arguments, is_file));
   ImageSize window;
-  if (!arguments.window_size.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(window, ParsePictureSize("--window", arguments.window_size));
+  if (!arguments.window.size.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(window, ParsePictureSize("--window", arguments.window.size));
   }
-  PLEINAIR_ASSIGN_OR_RETURN(Source source,
+  PLEINAIR_ASSIGN_OR_RETURN(LiveSource source,
                             is_file ? OpenFile(uri, arguments) : OpenCamera(uri, arguments));
   if (!source.scene) {
     return InputError("--scene", "is missing: nobody said where this is and what is to be seen",
@@ -274,11 +297,11 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
   options.shown_elsewhere = !arguments.headless;
   options.lossless = arguments.lossless;
   PLEINAIR_ASSIGN_OR_RETURN(options.start, StartOf(arguments, source));
-  if (!arguments.record.empty()) options.record = arguments.record;
-  if (!arguments.detections.empty()) options.detections = arguments.detections;
-  if (!arguments.output.empty()) {
-    options.output.emplace().folder = arguments.output;
-    for (const std::string& name : arguments.exports) {
+  if (!arguments.output.recording.empty()) options.record = arguments.output.recording;
+  if (!arguments.output.detections.empty()) options.detections = arguments.output.detections;
+  if (!arguments.output.folder.empty()) {
+    options.output.emplace().folder = arguments.output.folder;
+    for (const std::string& name : arguments.output.exports) {
       options.output->exports.insert(exports::TrajectoryFormatNamed(name).value());
     }
   }
@@ -300,12 +323,12 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
     std::cerr << "warning: " << CouldNotKeepLight(arguments.light.cache) << '\n';
   }
   if (!last) return tl::make_unexpected(last.error());
-  if (!arguments.screenshot.empty()) {
+  if (!arguments.output.screenshot.empty()) {
     if (last->empty()) {
       return SystemError("--screenshot", "no picture was drawn until the end",
                          "give it more --seconds");
     }
-    PLEINAIR_RETURN_IF_ERROR(exports::WritePng(arguments.screenshot, last->view()));
+    PLEINAIR_RETURN_IF_ERROR(exports::WritePng(arguments.output.screenshot, last->view()));
   }
   if (auto trouble = session->output_trouble()) return tl::make_unexpected(*trouble);
   if (auto trouble = session->recording_trouble()) return tl::make_unexpected(*trouble);
@@ -317,28 +340,29 @@ Result<void> Run(const CLI::App& command, const Arguments& arguments) {
 void AddLiveCommand(CLI::App& app, CommandResult& result) {
   CLI::App* command =
       app.add_subcommand("live", "Show a scene's objects in a camera's pictures as they come");
-  command->footer(kExamples);
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
-  command->add_option("--camera", a.camera, "Which camera, or file:PATH of a recording")
+  command->footer(kLiveExamples);
+  auto arguments = std::make_shared<LiveArguments>();
+  LiveArguments& a = *arguments;
+  command->add_option("--camera", a.input.camera, "Which camera, or file:PATH of a recording")
       ->type_name("URI")
       ->required();
-  command->add_option("--scene", a.scene, "Scene file (docs/guide/reference/recordings.md)");
-  command->add_option("--calibration", a.calibration, "Calibration of the lens");
-  command->add_option("--time", a.time,
+  command->add_option("--scene", a.input.scene, "Scene file (docs/guide/reference/recordings.md)");
+  command->add_option("--calibration", a.input.calibration, "Calibration of the lens");
+  command->add_option("--time", a.input.time,
                       "Moment of the first frame: RFC 3339, local time with its zone, or \"now\" "
                       "(the default for cameras; "
                       "for recordings the scene's)");
-  command->add_option("--record", a.record, "Record into this new folder, too");
-  command->add_option("--detections", a.detections, "Write what is seen, one JSON line a frame");
+  command->add_option("--record", a.output.recording, "Record into this new folder, too");
+  command->add_option("--detections", a.output.detections,
+                      "Write what is seen, one JSON line a frame");
   CLI::Option* output =
       command
-          ->add_option("-o,--output", a.output,
+          ->add_option("-o,--output", a.output.folder,
                        "Folder for what replay writes of a recording: poses/MARKER.tum and "
                        "detections.jsonl; prints are measured as replay does, some 20 ms a marker")
           ->type_name("FOLDER");
   command
-      ->add_option("--export", a.exports,
+      ->add_option("--export", a.output.exports,
                    "With -o, also write the camera's path for other programs: gltf, colmap or "
                    "colmap-binary, euroc, mcap")
       ->delimiter(',')
@@ -350,7 +374,8 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                    "Account for frames, latency and memory every so many seconds; 0: never. "
                    "Default: 60 with --json, else 0")
       ->check(NumberRange(0.0, 1e9));
-  command->add_option("--screenshot", a.screenshot, "At the end, write the last picture as PNG");
+  command->add_option("--screenshot", a.output.screenshot,
+                      "At the end, write the last picture as PNG");
   AddLightOptions(*command, a.light);
   AddSolverOptions(*command, a.light);
   command->add_flag("--shadow-debug", a.shadow_debug,
@@ -358,33 +383,40 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                     "window: M)");
   command->add_flag("--headless", a.headless, "Without a window");
   command->add_option("--seconds", a.seconds, "End after so long")->check(NumberRange(0.0, 1e9));
-  command->add_option("--window", a.window_size, "Size of the window, WIDTHxHEIGHT");
-  command->add_option("--ui-scale", a.ui_scale, "Size of the window's letters; 1 is usual")
+  command->add_option("--window", a.window.size, "Size of the window, WIDTHxHEIGHT");
+  command->add_option("--ui-scale", a.window.ui_scale, "Size of the window's letters; 1 is usual")
       ->check(NumberRange(0.5, 8.0));
   command
-      ->add_option("--pictures", a.screenshots,
+      ->add_option("--pictures", a.window.screenshots,
                    "Folder for the window's screenshots and recordings")
       ->check(CLI::ExistingDirectory)
       ->capture_default_str();
-  command->add_flag("--loop", a.loop, "Play a recording again and again");
+  command->add_flag("--loop", a.input.loop, "Play a recording again and again");
   command->add_flag("--lossless", a.lossless,
                     "Of a recording, track and draw every frame, however long that takes");
   command
-      ->add_option("--rate", a.rate_hz,
+      ->add_option("--rate", a.input.rate_hz,
                    "Frames a second to ask the camera for, or to play a recording at")
       ->check(NumberRange(0.1, 1000.0));
-  command->add_option("--format", a.pixel_format, "Pixels to ask for: YUYV, MJPG, NV12, GREY…");
-  command->add_flag("--lock", a.lock, "Hold exposure, gain, white balance and focus as they are");
-  command->add_option("--hold-exposure", a.exposure_s, "Hold this exposure, in seconds")
+  command->add_option("--format", a.input.pixel_format,
+                      "Pixels to ask for: YUYV, MJPG, NV12, GREY…");
+  command->add_flag("--lock", a.input.holds.all,
+                    "Hold exposure, gain, white balance and focus as they are");
+  command->add_option("--hold-exposure", a.input.holds.exposure_s, "Hold this exposure, in seconds")
       ->check(NumberRange(1e-6, 100.0));
-  command->add_option("--hold-gain", a.gain, "Hold this gain, in the camera's own steps")
+  command
+      ->add_option("--hold-gain", a.input.holds.gain, "Hold this gain, in the camera's own steps")
       ->check(NumberRange(0.0, 1e6));
-  command->add_option("--hold-white-balance", a.white_balance_k, "Hold this, in kelvins")
+  command
+      ->add_option("--hold-white-balance", a.input.holds.white_balance_k, "Hold this, in kelvins")
       ->check(NumberRange(1000.0, 40000.0));
-  command->add_option("--hold-focus", a.focus, "Hold this focus, in the camera's own steps")
+  command
+      ->add_option("--hold-focus", a.input.holds.focus,
+                   "Hold this focus, in the camera's own steps")
       ->check(NumberRange(0.0, 1e6));
   command->add_flag("--json", a.json, "Events and statistics as JSON lines");
-  command->callback([command, arguments, &result] { result.status = Run(*command, *arguments); });
+  command->callback(
+      [command, arguments, &result] { result.status = RunLive(*command, *arguments); });
 }
 
 }  // namespace pleinair::app
