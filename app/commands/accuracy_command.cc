@@ -25,7 +25,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kAccuracyExamples =
     "Examples:\n"
     "  pleinair accuracy --quick -o out/quick\n"
     "  pleinair accuracy --sweep distance,angle --against apriltag,aruco -o out/far\n"
@@ -37,7 +37,7 @@ constexpr const char* kExamples =
     "and times.json (docs/guide/accuracy-runs.md). A run that was interrupted goes on where it\n"
     "stopped. Markers are S-G 0-49, 14 cm; each peer has its own print in the same scenes.";
 
-struct Options {
+struct AccuracyOptions {
   AccuracyConfig config;
   std::vector<std::string> sweeps;
   std::string shard, output;
@@ -62,7 +62,7 @@ Result<Shard> ShardOf(const std::string& text) {
                     "write I/N with I from 1 to N, for example 2/7");
 }
 
-Result<void> Complete(Options* options) {
+Result<void> Complete(AccuracyOptions* options) {
   constexpr double kQuickScale = 0.125;
   AccuracyConfig& config = options->config;
   if (options->quick) config.scale = kQuickScale;
@@ -78,7 +78,7 @@ Result<void> Complete(Options* options) {
   return {};
 }
 
-Result<void> Run(Options& options) {
+Result<void> RunAccuracy(AccuracyOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(Complete(&options));
   PLEINAIR_ASSIGN_OR_RETURN(const Shard shard, ShardOf(options.shard));
   const auto chunks = static_cast<std::int64_t>(PlanChunks(options.config).size());
@@ -119,10 +119,10 @@ Result<void> Run(Options& options) {
 }  // namespace
 
 void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AccuracyOptions>();
   CLI::App* command = app.add_subcommand(
       "accuracy", "Measure detection, pose and covariance against exact truth, with uncertainty");
-  command->footer(kExamples);
+  command->footer(kAccuracyExamples);
   command->add_option("RECORDING", options->config.recordings,
                       "Recordings with ground truth (truth.tum, groundtruth.txt, or EuRoC's)");
   command->add_flag("!--no-light", options->config.light,
@@ -174,7 +174,7 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--threads", options->threads, "Default: as many as the machine has")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--json", options->json, "One JSON object on standard output");
-  command->callback([options, &result] { result.status = Run(*options); });
+  command->callback([options, &result] { result.status = RunAccuracy(*options); });
 }
 
 }  // namespace pleinair::app

@@ -21,7 +21,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kBenchExamples =
     "Examples:\n"
     "  pleinair bench shadows\n"
     "  pleinair bench shadows --json > shadows.jsonl\n"
@@ -30,7 +30,7 @@ constexpr const char* kExamples =
     "plain,pcf5,csm-pcf5,zgaf\n"
     "  pleinair bench shadows --quick";
 
-struct Options {
+struct BenchOptions {
   ShadowBenchOptions bench;
   std::vector<std::string> methods;
   std::string recording;
@@ -113,7 +113,7 @@ void DropRepeated(std::vector<T>& list) {
   list.erase(end, list.end());
 }
 
-Result<void> CheckOptions(Options& options) {
+Result<void> CheckBenchOptions(BenchOptions& options) {
   ShadowBenchOptions& bench = options.bench;
   if (options.quick) {
     bench.width = 192;
@@ -150,8 +150,8 @@ Result<void> WriteResults(const ShadowBenchResult& result, const std::filesystem
   return WriteShadowCharts(result, folder);
 }
 
-Result<void> Run(Options& options) {
-  PLEINAIR_RETURN_IF_ERROR(CheckOptions(options));
+Result<void> RunBench(BenchOptions& options) {
+  PLEINAIR_RETURN_IF_ERROR(CheckBenchOptions(options));
   if (!options.output.empty()) {
     // Before the minutes of measuring.
     std::error_code error;
@@ -191,10 +191,10 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
       app.add_subcommand("bench", "For research: measure shadow methods, replay with more options");
   bench->require_subcommand(1);
   AddBenchReplayCommand(*bench, result);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   CLI::App* command = bench->add_subcommand(
       "shadows", "Every shadow method against rays to the sun's disc: errors and milliseconds");
-  command->footer(kExamples);
+  command->footer(kBenchExamples);
   command->add_option("--scenes", options->bench.scenes, "Which scenes")
       ->delimiter(',')
       ->check(CLI::IsMember({"pole_and_box", "courtyard", "trees", "wide_field"}))
@@ -240,7 +240,7 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
       ->excludes(sizes)
       ->excludes(rays);
   command->add_flag("--json", options->json, "One JSON object a row");
-  command->callback([options, &result] { result.status = Run(*options); });
+  command->callback([options, &result] { result.status = RunBench(*options); });
 }
 
 }  // namespace pleinair::app

@@ -11,13 +11,13 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kBenchReplayExamples =
     "Examples:\n"
     "  pleinair bench replay site/ -o out/paper --shadows zgaf --shadow-partitions 4\n"
     "  pleinair bench replay site/ -o out/maps --shadow-debug\n"
     "  pleinair bench replay site/ -o out/fine --light-cache cache --sky-division 4";
 
-Result<void> Run(const CLI::App& command, ReplayArguments& arguments) {
+Result<void> RunBenchReplay(const CLI::App& command, ReplayArguments& arguments) {
   constexpr const char* kCoefficients = "daylight coefficients (--light-cache or --time-lapse)";
   const bool coefficients = !arguments.options.light.cache.empty() || !arguments.day.hours.empty();
   PLEINAIR_RETURN_IF_ERROR(
@@ -31,12 +31,13 @@ Result<void> Run(const CLI::App& command, ReplayArguments& arguments) {
 void AddBenchReplayCommand(CLI::App& bench, CommandResult& result) {
   CLI::App* command =
       bench.add_subcommand("replay", "As 'pleinair replay', with options for research");
-  command->footer(kExamples);
+  command->footer(kBenchReplayExamples);
   auto arguments = std::make_shared<ReplayArguments>();
   arguments->command = "bench replay";
   AddReplayOptions(*command, *arguments);
   AddResearchOptions(*command, *arguments);
-  command->callback([arguments, command, &result] { result.status = Run(*command, *arguments); });
+  command->callback(
+      [arguments, command, &result] { result.status = RunBenchReplay(*command, *arguments); });
 }
 
 }  // namespace pleinair::app

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kBoardExamples =
     "Examples:\n"
     "  pleinair board -o board.pdf\n"
     "      4 x 5 markers of 36 mm on A4, and board.json, which says where each corner lies\n"
@@ -41,7 +41,7 @@ constexpr const char* kExamples =
     "such edges.\n"
     "'pleinair calibrate --board board.json' takes what is written beside the sheet.\n";
 
-struct Options {
+struct BoardSheetOptions {
   exports::Board board{.columns = 4, .rows = 5, .first = 0, .size_mm = 36.0};
   std::optional<double> gap_mm;
   std::string chessboard, charuco, dictionary;
@@ -53,7 +53,7 @@ struct Options {
   bool json = false;
 };
 
-Result<exports::Board> CheckBoard(const Options& options) {
+Result<exports::Board> CheckBoard(const BoardSheetOptions& options) {
   exports::Board board = options.board;
   if (board.first + board.Count() > tracker::kGolayNumbers) {
     return InputError("--first",
@@ -74,7 +74,7 @@ Result<exports::Board> CheckBoard(const Options& options) {
 }
 
 /// Where the description goes. Beside the sheet only where nothing else has that name.
-Result<fs::path> NameDescription(const Options& options) {
+Result<fs::path> NameDescription(const BoardSheetOptions& options) {
   if (!options.description.empty()) return fs::path(options.description);
   fs::path beside = fs::path(options.output).replace_extension(".json");
   std::error_code ignored;
@@ -92,7 +92,7 @@ struct Printed {
   nlohmann::ordered_json json;  ///< What --json tells besides the files.
 };
 
-Result<Printed> PrintMarkers(const Options& options, exports::PageSize page) {
+Result<Printed> PrintMarkers(const BoardSheetOptions& options, exports::PageSize page) {
   if (options.square_mm || options.marker_mm || !options.dictionary.empty()) {
     return InputError("--square-mm, --marker-mm and --dictionary",
                       "are for chessboards and ChArUco boards",
@@ -106,7 +106,7 @@ Result<Printed> PrintMarkers(const Options& options, exports::PageSize page) {
 }
 
 /// Side of a ChArUco board's markers: enough white around for its codes to be read.
-Result<double> MarkerSide_mm(const Options& options, double square_mm) {
+Result<double> MarkerSide_mm(const BoardSheetOptions& options, double square_mm) {
   constexpr double kUsual = 0.75, kMin = 0.4, kMax = 0.9;
   const double side = options.marker_mm.value_or(kUsual * square_mm);
   if (side >= kMin * square_mm && side <= kMax * square_mm) return side;
@@ -116,7 +116,7 @@ Result<double> MarkerSide_mm(const Options& options, double square_mm) {
       fmt::format("give {:g} to {:g} mm", kMin * square_mm, kMax * square_mm));
 }
 
-Result<Printed> PrintSquares(const Options& options, exports::PageSize page) {
+Result<Printed> PrintSquares(const BoardSheetOptions& options, exports::PageSize page) {
   const bool charuco = !options.charuco.empty();
   exports::SquareBoard print;
   tracker::CalibrationBoard& board = print.board;
@@ -156,7 +156,7 @@ Result<Printed> PrintSquares(const Options& options, exports::PageSize page) {
   return Printed{std::move(sheet), exports::DescribeBoard(print), std::move(json)};
 }
 
-Result<void> Run(const Options& options) {
+Result<void> RunBoard(const BoardSheetOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--size-mm", options.board.size_mm));
   PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--gap-mm", options.gap_mm.value_or(0.0)));
   PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--square-mm", options.square_mm.value_or(0.0)));
@@ -190,10 +190,10 @@ Result<void> Run(const Options& options) {
 }  // namespace
 
 void AddBoardCommand(CLI::App& app, CommandResult& result) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BoardSheetOptions>();
   CLI::App* command = app.add_subcommand(
       "board", "Make a board to print: of markers, or a chessboard or ChArUco board");
-  command->footer(kExamples);
+  command->footer(kBoardExamples);
   const auto side = CLI::Range(1, tracker::kGolayNumbers);
   std::vector<CLI::Option*> of_markers;
   of_markers.push_back(
@@ -256,7 +256,7 @@ void AddBoardCommand(CLI::App& app, CommandResult& result) {
                    "Where the corners lie, as JSON; default: the output with the ending .json")
       ->type_name("F");
   command->add_flag("--json", options->json, "One JSON object on standard output");
-  command->callback([options, &result] { result.status = Run(*options); });
+  command->callback([options, &result] { result.status = RunBoard(*options); });
 }
 
 }  // namespace pleinair::app

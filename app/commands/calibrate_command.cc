@@ -30,7 +30,7 @@ using devices::CalibrationForm;
 using tracker::LensCalibration;
 using tracker::LensKind;
 
-constexpr const char* kExamples =
+constexpr const char* kCalibrateExamples =
     "Examples:\n"
     "  pleinair board -o board.pdf\n"
     "  pleinair calibrate --board board.json photos/ -o camera.json --report lens.html\n"
@@ -51,7 +51,7 @@ struct Output {
   std::string file;
 };
 
-struct Options {
+struct CalibrateOptions {
   std::vector<std::string> sources;
   BoardOptions board;
   std::string model = "auto";
@@ -68,7 +68,7 @@ struct Options {
   bool json = false;
 };
 
-Result<devices::FormatRequest> WishOf(const Options& options) {
+Result<devices::FormatRequest> WishOf(const CalibrateOptions& options) {
   devices::FormatRequest requested;
   if (options.size.empty()) return requested;
   PLEINAIR_ASSIGN_OR_RETURN(const auto sides, ParseSides("--size", options.size));
@@ -77,7 +77,7 @@ Result<devices::FormatRequest> WishOf(const Options& options) {
 }
 
 /// What may be wrong with the outputs is said before minutes of work.
-Result<void> CheckOutputs(const Options& options) {
+Result<void> CheckOutputs(const CalibrateOptions& options) {
   const bool any = !options.report.empty() || !options.coverage.empty() || options.json ||
                    std::any_of(options.outputs.begin(), options.outputs.end(),
                                [](const Output& output) { return !output.file.empty(); });
@@ -112,7 +112,7 @@ void RefineViews(tracker::BoardFinder& finder, Collection* collection) {
   }
 }
 
-Result<LensCalibration> Calibrate(const Options& options, const Collection& collection,
+Result<LensCalibration> Calibrate(const CalibrateOptions& options, const Collection& collection,
                                   const tracker::CalibrationBoard& board) {
   tracker::LensCalibrationOptions lens_options;
   for (const LensKind kind : tracker::kLensKinds) {
@@ -151,7 +151,7 @@ Result<void> WriteCoverage(const std::string& file, const LensCalibration& calib
   return exports::WritePng(file, exports::RasterizeDrawing(drawing, kWidth_px).view());
 }
 
-Result<void> Write(const Options& options, const LensCalibration& calibration,
+Result<void> Write(const CalibrateOptions& options, const LensCalibration& calibration,
                    const Collection& collection, const tracker::CalibrationBoard& board) {
   // All texts first: a form that cannot hold the lens leaves nothing behind.
   std::vector<std::pair<std::string, std::string>> texts;
@@ -183,8 +183,9 @@ Result<void> Write(const Options& options, const LensCalibration& calibration,
   return options.coverage.empty() ? Result<void>() : WriteCoverage(options.coverage, calibration);
 }
 
-nlohmann::ordered_json Json(const LensCalibration& calibration, const Collection& collection,
-                            const tracker::CalibrationBoard& board) {
+nlohmann::ordered_json CalibrationJson(const LensCalibration& calibration,
+                                       const Collection& collection,
+                                       const tracker::CalibrationBoard& board) {
   const CameraModel& camera = calibration.fit.camera;
   const tracker::LensUncertainty& doubt = calibration.uncertainty;
   nlohmann::ordered_json json = {{"image_width", camera.width},
@@ -232,8 +233,8 @@ nlohmann::ordered_json Json(const LensCalibration& calibration, const Collection
   return json;
 }
 
-void Print(const LensCalibration& calibration, const Collection& collection,
-           const tracker::CalibrationBoard& board) {
+void PrintCalibration(const LensCalibration& calibration, const Collection& collection,
+                      const tracker::CalibrationBoard& board) {
   const CameraModel& camera = calibration.fit.camera;
   const tracker::LensUncertainty& doubt = calibration.uncertainty;
   std::cout << fmt::format(
@@ -260,7 +261,7 @@ void Print(const LensCalibration& calibration, const Collection& collection,
   }
 }
 
-Result<void> Run(const Options& options) {
+Result<void> RunCalibrate(const CalibrateOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckOutputs(options));
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::CalibrationBoard board, BoardOf(options.board));
   PLEINAIR_ASSIGN_OR_RETURN(const devices::FormatRequest requested, WishOf(options));
@@ -277,11 +278,11 @@ Result<void> Run(const Options& options) {
                             Calibrate(options, collection, finder->board()));
   PLEINAIR_RETURN_IF_ERROR(Write(options, calibration, collection, finder->board()));
   if (options.json) {
-    std::cout << Json(calibration, collection, finder->board())
+    std::cout << CalibrationJson(calibration, collection, finder->board())
                      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
               << '\n';
   } else {
-    Print(calibration, collection, finder->board());
+    PrintCalibration(calibration, collection, finder->board());
   }
   return {};
 }
@@ -289,9 +290,9 @@ Result<void> Run(const Options& options) {
 }  // namespace
 
 void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand("calibrate", "Calibrate a camera from views of a board");
-  command->footer(kExamples);
+  command->footer(kCalibrateExamples);
   command
       ->add_option("SOURCE", options->sources,
                    "Pictures, a folder of them, a film, or a camera (v4l2:..., libcamera:..., "
@@ -322,7 +323,7 @@ void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
   command->add_flag("--json", options->json, "One JSON object on standard output");
   command->callback([options, &result] {
     try {
-      result.status = Run(*options);
+      result.status = RunCalibrate(*options);
     } catch (const std::exception& error) {
       result.status = SystemError("", std::string("calibrate failed: ") + error.what(),
                                   "please report it with the pictures");

@@ -23,7 +23,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCompareExamples =
     "Examples:\n"
     "  pleinair replay recordings/courtyard_midday -o out/demo --frames\n"
     "  pleinair compare out/demo recordings/courtyard_midday --report out/compare.html\n"
@@ -37,7 +37,7 @@ constexpr const char* kExamples =
 
 constexpr int kReportWidth_px = 640;
 
-struct Options {
+struct CompareOptions {
   std::string pictures, truth, report;
   bool glossy = false, json = false;
 };
@@ -60,7 +60,7 @@ void PrintRow(const std::string& name, const PictureScores& scores) {
   std::cout << '\n';
 }
 
-void Print(const Options& options, const Comparison& comparison) {
+void PrintComparison(const CompareOptions& options, const Comparison& comparison) {
   if (options.json) {
     nlohmann::ordered_json json;
     for (const ComparedPicture& picture : comparison.compared) {
@@ -79,7 +79,7 @@ void Print(const Options& options, const Comparison& comparison) {
   PrintRow("mean", comparison.mean);
 }
 
-Result<void> Run(const Options& options) {
+Result<void> RunCompare(const CompareOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto truths,
                             FindGroundTruthImages(options.truth, options.glossy));
   Comparison comparison;
@@ -104,16 +104,16 @@ Result<void> Run(const Options& options) {
     PLEINAIR_ASSIGN_OR_RETURN(comparison.time_lapse, TimeLapseHtml(options.pictures));
     PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(options.report, CompareHtml(comparison)));
   }
-  Print(options, comparison);
+  PrintComparison(options, comparison);
   return {};
 }
 
 }  // namespace
 
 void AddCompareCommand(CLI::App& app, CommandResult& result) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand("compare", "Score composed pictures against true ones");
-  command->footer(kExamples);
+  command->footer(kCompareExamples);
   command->add_option("DIR", options->pictures, "Folder with the composed pictures")->required();
   command->add_option("TRUTH", options->truth, "Recording with true pictures, or a folder of them")
       ->required();
@@ -124,7 +124,7 @@ void AddCompareCommand(CLI::App& app, CommandResult& result) {
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback([options, &result] {
     try {
-      result.status = Run(*options);
+      result.status = RunCompare(*options);
     } catch (const std::exception& error) {
       result.status = SystemError("", std::string("compare failed: ") + error.what(),
                                   "please report it with the pictures");

@@ -22,7 +22,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kDetectExamples =
     "Examples:\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
     "  pleinair detect frames/*.png --calibration camera.json --size-mm 480 --track\n"
@@ -126,7 +126,7 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
 void AddDetectCommand(CLI::App& app, CommandResult& result) {
   auto arguments = std::make_shared<DetectArguments>();
   CLI::App* command = app.add_subcommand("detect", "Find markers and their poses in pictures");
-  command->footer(kExamples);
+  command->footer(kDetectExamples);
   command->add_option("PICTURES", arguments->pictures, "PNG or JPEG pictures")->required();
   command
       ->add_option("--calibration", arguments->calibration,

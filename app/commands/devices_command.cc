@@ -16,7 +16,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kDevicesExamples =
     "Examples:\n"
     "  pleinair devices\n"
     "      the cameras that are plugged in, with their sizes, rates and controls\n"
@@ -27,7 +27,7 @@ constexpr const char* kExamples =
     "The first name of a camera is its identity: it stays when the camera is plugged in elsewhere\n"
     "(serial=) or when the machine is restarted (bus=).\n";
 
-struct Options {
+struct DevicesOptions {
   bool json = false;
   bool network = false;
 };
@@ -88,7 +88,7 @@ void PrintFormats(const std::vector<devices::FormatDescription>& formats) {
   if (!not_read.empty()) fmt::print("  not read  {}\n", not_read);
 }
 
-void Print(const devices::CameraDescription& camera) {
+void PrintCamera(const devices::CameraDescription& camera) {
   fmt::print("{}\n", camera.uri);
   if (camera.node != camera.uri) fmt::print("  now at    {}\n", camera.node);
   if (!camera.name.empty()) {
@@ -105,7 +105,7 @@ void Print(const devices::CameraDescription& camera) {
   }
 }
 
-nlohmann::json Json(const devices::CameraDescription& camera) {
+nlohmann::json CameraJson(const devices::CameraDescription& camera) {
   nlohmann::json formats = nlohmann::json::array();
   for (const auto& format : camera.formats) {
     nlohmann::json sizes = nlohmann::json::array();
@@ -136,15 +136,15 @@ nlohmann::json Json(const devices::CameraDescription& camera) {
           {"trouble", camera.trouble.empty() ? nlohmann::json() : nlohmann::json(camera.trouble)}};
 }
 
-void Run(const Options& options) {
+void RunDevices(const DevicesOptions& options) {
   const devices::CameraList list = devices::ListCameras(options.network);
   for (const devices::CameraDescription& camera : list.cameras) {
     if (options.json) {
       // A driver's names may hold any bytes.
-      std::cout << Json(camera).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+      std::cout << CameraJson(camera).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                 << '\n';
     } else {
-      Print(camera);
+      PrintCamera(camera);
     }
   }
   if (list.cameras.empty()) {
@@ -161,14 +161,14 @@ void Run(const Options& options) {
 }  // namespace
 
 void AddDevicesCommand(CLI::App& app, CommandResult&) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DevicesOptions>();
   CLI::App* command = app.add_subcommand(
       "devices", "List the cameras that are plugged in: identity, formats, rates, controls");
-  command->footer(kExamples);
+  command->footer(kDevicesExamples);
   command->add_flag("--json", options->json, "One JSON object a camera");
   command->add_flag("--network", options->network,
                     "Look for GigE Vision cameras on every network, too");
-  command->callback([options] { Run(*options); });
+  command->callback([options] { RunDevices(*options); });
 }
 
 }  // namespace pleinair::app

@@ -27,7 +27,7 @@ namespace {
 
 using Verdict = Finding::Verdict;
 
-constexpr const char* kExamples =
+constexpr const char* kDoctorExamples =
     "Examples:\n"
     "  pleinair doctor\n"
     "      whether this machine can draw, and with what\n"
@@ -35,7 +35,7 @@ constexpr const char* kExamples =
     "      whether the numbers of a calibration make sense, too\n"
     "Exit code 1 when something that replay needs is missing.\n";
 
-struct Options {
+struct DoctorOptions {
   std::string calibration;
   bool json = false;
 };
@@ -47,7 +47,7 @@ std::string Format(const char* format, Values... values) {
   return text;
 }
 
-const char* Word(Verdict verdict) {
+const char* VerdictWord(Verdict verdict) {
   switch (verdict) {
     case Verdict::kGood:
       return "good";
@@ -152,7 +152,7 @@ Finding ExamineDistortion(const CameraModel& camera) {
           Format("grows steadily over the whole picture, %.1f px at most", largest_px)};
 }
 
-Result<void> Run(const Options& options) {
+Result<void> RunDoctor(const DoctorOptions& options) {
   std::vector<Finding> findings = ExamineOpenGl();
   findings.push_back(ExamineVideoEncoder());
   if (!options.calibration.empty()) {
@@ -165,12 +165,13 @@ Result<void> Run(const Options& options) {
     if (finding.verdict == Verdict::kBad && !first_bad) first_bad = finding;
     if (options.json) {
       std::cout << nlohmann::json{{"subject", finding.subject},
-                                  {"verdict", Word(finding.verdict)},
+                                  {"verdict", VerdictWord(finding.verdict)},
                                   {"text", finding.text}}
                        .dump()
                 << '\n';
     } else {
-      std::cout << finding.subject << ": " << Word(finding.verdict) << ": " << finding.text << '\n';
+      std::cout << finding.subject << ": " << VerdictWord(finding.verdict) << ": " << finding.text
+                << '\n';
     }
   }
   if (!first_bad) return {};
@@ -200,14 +201,14 @@ std::vector<Finding> ExamineCalibration(const CameraModel& camera) {
 }
 
 void AddDoctorCommand(CLI::App& app, CommandResult& result) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DoctorOptions>();
   CLI::App* command =
       app.add_subcommand("doctor", "Tell whether this machine can draw, and check a calibration");
-  command->footer(kExamples);
+  command->footer(kDoctorExamples);
   command->add_option("--calibration", options->calibration,
                       "Camera calibration to examine (own JSON, OpenCV YAML, ROS, Kalibr)");
   command->add_flag("--json", options->json, "One JSON object a line");
-  command->callback([options, &result] { result.status = Run(*options); });
+  command->callback([options, &result] { result.status = RunDoctor(*options); });
 }
 
 }  // namespace pleinair::app

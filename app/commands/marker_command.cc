@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace sg = tracker::sg;
 
-constexpr const char* kExamples =
+constexpr const char* kMarkerExamples =
     "Examples:\n"
     "  pleinair marker 17 -o marker.pdf\n"
     "      a sheet to print at 100 %, with the number, the size and a ruler\n"
@@ -45,7 +45,7 @@ constexpr const char* kIdPattern = "{id}";
 constexpr int kMinPixels = sg::kModules;
 constexpr int kMaxPixels = 20'000;
 
-struct Options {
+struct MarkerOptions {
   std::vector<std::string> ids;
   double size_mm = 140.0;
   std::string page = "A4";
@@ -90,7 +90,7 @@ Result<std::vector<fs::path>> NameFiles(const std::string& output, const std::ve
   return files;
 }
 
-nlohmann::json Describe(const fs::path& file, int number, double size_mm) {
+nlohmann::json DescribeMarker(const fs::path& file, int number, double size_mm) {
   return {{"file", file.string()},
           {"family", "sg"},
           {"version", sg::kVersion},
@@ -98,11 +98,11 @@ nlohmann::json Describe(const fs::path& file, int number, double size_mm) {
           {"size_mm", size_mm}};
 }
 
-void Print(const nlohmann::json& object) {
+void PrintMarker(const nlohmann::json& object) {
   std::cout << object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
-Result<void> WriteBarePrint(const fs::path& file, int number, const Options& options) {
+Result<void> WriteBarePrint(const fs::path& file, int number, const MarkerOptions& options) {
   const int pixels = *options.pixels;
   const double side_m = options.size_mm * 1e-3 * sg::kModules / sg::kEdge;
   Image<std::uint8_t> picture = exports::RasterizeMarker(tracker::SgMarkerPattern(number), pixels);
@@ -110,17 +110,17 @@ Result<void> WriteBarePrint(const fs::path& file, int number, const Options& opt
                             exports::EncodeGrayPng(picture.view(), pixels / side_m));
   PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(file, png));
   if (options.json) {
-    nlohmann::json object = Describe(file, number, options.size_mm);
+    nlohmann::json object = DescribeMarker(file, number, options.size_mm);
     object["pixels"] = pixels;
     object["edge_fraction"] = static_cast<double>(sg::kEdge) / sg::kModules;
-    Print(object);
+    PrintMarker(object);
   }
   return {};
 }
 
 nlohmann::json DescribeSheet(const fs::path& file, int number, double size_mm,
                              const exports::Sheet& sheet) {
-  nlohmann::json object = Describe(file, number, size_mm);
+  nlohmann::json object = DescribeMarker(file, number, size_mm);
   object["page_mm"] = {sheet.page.width_mm, sheet.page.height_mm};
   for (const Vec2 corner : exports::FindCorners(sheet.prints.front())) {
     object["corners_on_page_mm"].push_back({corner.x, corner.y});
@@ -129,7 +129,7 @@ nlohmann::json DescribeSheet(const fs::path& file, int number, double size_mm,
 }
 
 Result<void> WriteSheets(const std::vector<int>& numbers, exports::SheetFormat format,
-                         exports::PageSize page, const Options& options) {
+                         exports::PageSize page, const MarkerOptions& options) {
   std::vector<exports::Sheet> sheets;
   for (const int number : numbers) {
     PLEINAIR_ASSIGN_OR_RETURN(exports::Sheet sheet,
@@ -150,7 +150,7 @@ Result<void> WriteSheets(const std::vector<int>& numbers, exports::SheetFormat f
     if (!options.json) continue;
     nlohmann::json object = DescribeSheet(files[i], numbers[i], options.size_mm, sheets[i]);
     object["page"] = one_file ? i + 1 : 1;
-    Print(object);
+    PrintMarker(object);
   }
   return {};
 }
@@ -161,7 +161,7 @@ bool GivesOneName(const std::string& output) {
          !fs::is_directory(output, ignored);
 }
 
-Result<void> Run(const Options& options) {
+Result<void> RunMarker(const MarkerOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<int> numbers, ParseMarkerNumbers(options.ids));
   PLEINAIR_RETURN_IF_ERROR(exports::CheckLength("--size-mm", options.size_mm));
   if (options.output.empty()) {
@@ -208,9 +208,9 @@ Result<std::vector<int>> ParseMarkerNumbers(const std::vector<std::string>& word
 }
 
 void AddMarkerCommand(CLI::App& app, CommandResult& result) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MarkerOptions>();
   CLI::App* command = app.add_subcommand("marker", "Make markers to print");
-  command->footer(kExamples);
+  command->footer(kMarkerExamples);
   command->add_option("ids", options->ids, "Numbers from 0 to 4095; 3 5 8 or 0-9")
       ->type_name("ID")
       ->required();
@@ -237,7 +237,7 @@ void AddMarkerCommand(CLI::App& app, CommandResult& result) {
       ->type_name("F")
       ->required();
   command->add_flag("--json", options->json, "One JSON object a marker on standard output");
-  command->callback([options, &result] { result.status = Run(*options); });
+  command->callback([options, &result] { result.status = RunMarker(*options); });
 }
 
 }  // namespace pleinair::app

@@ -14,7 +14,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kPathExamples =
     "Examples:\n"
     "  pleinair path convert out/demo/poses/sg_17.tum path.glb --calibration camera.json\n"
     "  pleinair path convert out/demo/poses/sg_17.tum model/ --calibration camera.json\n"
@@ -27,7 +27,7 @@ constexpr const char* kExamples =
     "Written: the same, COLMAP as text or, with --to colmap-binary, as .bin; glTF (.glb, .gltf) "
     "and MCAP (.mcap). docs/guide/trajectories.md tells what each means.";
 
-struct Arguments {
+struct PathArguments {
   std::string input, output, from, to, calibration, extrinsics, axes = "z-up";
   double frame_rate_hz = 0.0, scale = 1.0, marker_size_mm = 0.0;
   bool json = false;
@@ -38,7 +38,7 @@ Result<exports::TrajectoryFormat> FormatOf(const std::string& stated, const std:
   return exports::TrajectoryFormatOf(file);
 }
 
-Result<void> Run(const Arguments& arguments) {
+Result<void> RunPath(const PathArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(const exports::TrajectoryFormat from,
                             FormatOf(arguments.from, arguments.input));
   PLEINAIR_ASSIGN_OR_RETURN(const exports::TrajectoryFormat to,
@@ -96,8 +96,8 @@ void AddPathCommand(CLI::App& app, CommandResult& result) {
   path->require_subcommand(1);
   CLI::App* command = path->add_subcommand(
       "convert", "Turn a camera's path from one form into another, frames of reference included");
-  command->footer(kExamples);
-  auto arguments = std::make_shared<Arguments>();
+  command->footer(kPathExamples);
+  auto arguments = std::make_shared<PathArguments>();
   command->add_option("IN", arguments->input, "The path to read")->required();
   command->add_option("OUT", arguments->output, "The file or folder to write")->required();
   command->add_option("--from", arguments->from, "Form of IN where its name does not tell")
@@ -129,7 +129,7 @@ void AddPathCommand(CLI::App& app, CommandResult& result) {
                    "Show the marker, this large, at the reference's origin (glTF, MCAP)")
       ->check(NumberRange(0.1, 1e6));
   command->add_flag("--json", arguments->json, "Print a summary as one JSON object");
-  command->callback([arguments, &result] { result.status = Run(*arguments); });
+  command->callback([arguments, &result] { result.status = RunPath(*arguments); });
 }
 
 }  // namespace pleinair::app

@@ -9,7 +9,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kReplayExamples =
     "Examples:\n"
     "  pleinair replay recordings/courtyard_midday -o out/demo\n"
     "  pleinair replay site/ -o out/site --frames --size 1280x720\n"
@@ -26,7 +26,7 @@ constexpr const char* kExamples =
 void AddReplayCommand(CLI::App& app, CommandResult& result) {
   CLI::App* command =
       app.add_subcommand("replay", "Compose the virtual objects of a scene into a recording");
-  command->footer(kExamples);
+  command->footer(kReplayExamples);
   auto arguments = std::make_shared<ReplayArguments>();
   AddReplayOptions(*command, *arguments);
   RefuseResearchOptions(*command);

@@ -21,7 +21,7 @@
 namespace pleinair::app {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kSkyExamples =
     "Examples:\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z\n"
     "      illuminances of sun and sky\n"
@@ -37,7 +37,7 @@ constexpr const char* kExamples =
     "Azimuth is clockwise from true north; the elevation of --sun is as seen, with refraction.\n"
     "Light: linear Rec.709, cd/m2 and lux.\n";
 
-nlohmann::json Describe(const SkyFileOptions& file, sky::SkyModelName name, std::size_t frames) {
+nlohmann::json DescribeSky(const SkyFileOptions& file, sky::SkyModelName name, std::size_t frames) {
   nlohmann::json object = {
       {"file", file.file},
       {"model", ToString(name)},
@@ -48,7 +48,7 @@ nlohmann::json Describe(const SkyFileOptions& file, sky::SkyModelName name, std:
   return object;
 }
 
-void Print(const nlohmann::json& object) {
+void PrintSky(const nlohmann::json& object) {
   std::cout << object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
@@ -56,7 +56,7 @@ Result<void> RunVideo(const SkyOptions& options, const sky::SkySource& source,
                       sky::SkyModelName name, const std::vector<SkyMoment>& moments) {
   PLEINAIR_ASSIGN_OR_RETURN(const SkyFileOptions file, ChosenFile(options));
   PLEINAIR_RETURN_IF_ERROR(WriteSkyVideo(source, moments, file));
-  if (options.json) Print(Describe(file, name, moments.size()));
+  if (options.json) PrintSky(DescribeSky(file, name, moments.size()));
   return {};
 }
 
@@ -100,7 +100,7 @@ Result<void> RunMoment(const SkyOptions& options, const sky::SkySource& source,
   std::string json = fmt::format(R"({{"model":"{}",{})", ToString(name), SkyLightJson(light));
   if (!sky->Notes().empty()) json += ",\"notes\":" + nlohmann::json(sky->Notes()).dump();
   if (file) {
-    nlohmann::json picture = Describe(*file, name, 1);
+    nlohmann::json picture = DescribeSky(*file, name, 1);
     picture.erase("model");
     if (file->kind == SkyFileKind::kPng) {
       const SkyExposure exposure = ExposureFor(*file, light);
@@ -116,7 +116,7 @@ Result<void> RunMoment(const SkyOptions& options, const sky::SkySource& source,
   return {};
 }
 
-Result<void> Run(const CLI::App& command, const SkyOptions& options) {
+Result<void> RunSky(const CLI::App& command, const SkyOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(const sky::SkyModelName name,
                             sky::ParseSkyModelName(options.model.name));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<SkyMoment> moments, ChosenMoments(options.span));
@@ -138,10 +138,10 @@ void AddSkyCommand(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<SkyOptions>();
   CLI::App* command =
       app.add_subcommand("sky", "The sky's light: illuminances, pictures, directions, a video");
-  command->footer(kExamples);
+  command->footer(kSkyExamples);
   AddSkyOptions(*command, *options);
   RefuseEmptyValues(*command);
-  command->callback([command, options, &result] { result.status = Run(*command, *options); });
+  command->callback([command, options, &result] { result.status = RunSky(*command, *options); });
 }
 
 }  // namespace pleinair::app

@@ -71,15 +71,15 @@ Result<std::optional<UtcOffset>> ChosenOffset(const SunArguments& arguments) {
   return offset;
 }
 
-Result<void> RunDay(const SunArguments& arguments, const sky::Observer& observer,
-                    std::optional<UtcOffset> offset, const SunDayOptions& writing) {
+Result<void> RunSunDay(const SunArguments& arguments, const sky::Observer& observer,
+                       std::optional<UtcOffset> offset, const SunDayOptions& writing) {
   PLEINAIR_ASSIGN_OR_RETURN(const UtcTime midnight, ParseDay(arguments.span.day, offset, "--day"));
   if (arguments.span.days == 0) return WriteSunDay(observer, midnight, *offset, writing);
   return WriteSunAlmanac(observer, midnight, *offset, arguments.span.days, writing);
 }
 
-Result<void> RunPath(const SunArguments& arguments, const sky::Observer& observer,
-                     std::optional<UtcOffset> offset, sky::SunModel model) {
+Result<void> RunSunPath(const SunArguments& arguments, const sky::Observer& observer,
+                        std::optional<UtcOffset> offset, sky::SunModel model) {
   SunPathOptions path;
   path.file = arguments.path.file;
   path.size_px = arguments.path.size_px;
@@ -117,8 +117,8 @@ Result<void> RunSun(const CLI::App& command, const SunArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(const sky::Observer observer, MakeObserver(arguments.observer));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<UtcOffset> offset, ChosenOffset(arguments));
   const SunDayOptions writing{model, arguments.json, arguments.output};
-  if (!arguments.path.file.empty()) return RunPath(arguments, observer, offset, model);
-  if (!arguments.span.day.empty()) return RunDay(arguments, observer, offset, writing);
+  if (!arguments.path.file.empty()) return RunSunPath(arguments, observer, offset, model);
+  if (!arguments.span.day.empty()) return RunSunDay(arguments, observer, offset, writing);
   PLEINAIR_ASSIGN_OR_RETURN(const UtcTime time, ParseTimeOption("--time", arguments.span.time));
   if (arguments.span.until.empty()) {
     const std::optional<UtcOffset> calendar = offset ? offset : OffsetOf(arguments.span.time);

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kTargetExamples =
     "Examples:\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target --preview features.png --json\n"
@@ -43,17 +43,18 @@ tl::unexpected<Error> Located(Error error, const std::string& where) {
   return tl::make_unexpected(std::move(error));
 }
 
-const char* Word(int score) { return score >= 60 ? "good" : score >= 30 ? "fair" : "poor"; }
+const char* RatingWord(int score) { return score >= 60 ? "good" : score >= 30 ? "fair" : "poor"; }
 
-std::string Describe(const tracker::PictureTarget& target, const tracker::TargetQuality& quality,
-                     const TargetArguments& arguments) {
+std::string DescribeTarget(const tracker::PictureTarget& target,
+                           const tracker::TargetQuality& quality,
+                           const TargetArguments& arguments) {
   if (arguments.json) {
     nlohmann::ordered_json object{{"file", arguments.output},
                                   {"name", target.name},
                                   {"width_mm", target.width_m * 1e3},
                                   {"height_mm", target.height_m * 1e3},
                                   {"score", quality.score},
-                                  {"rating", Word(quality.score)},
+                                  {"rating", RatingWord(quality.score)},
                                   {"features", quality.features},
                                   {"coverage", quality.coverage},
                                   {"contrast", quality.contrast},
@@ -66,8 +67,8 @@ std::string Describe(const tracker::PictureTarget& target, const tracker::Target
       "{}: \"{}\", {:.1f} x {:.1f} mm, {} of 100 ({})\n"
       "  {} features over {:.0f} % of the picture, {:.0f} % of them repeat; contrast in {:.0f} %\n",
       arguments.output, target.name, target.width_m * 1e3, target.height_m * 1e3, quality.score,
-      Word(quality.score), quality.features, 100.0 * quality.coverage, 100.0 * quality.repetition,
-      100.0 * quality.contrast);
+      RatingWord(quality.score), quality.features, 100.0 * quality.coverage,
+      100.0 * quality.repetition, 100.0 * quality.contrast);
   for (const std::string& advice : quality.advice) text += "  " + advice + "\n";
   return text;
 }
@@ -155,7 +156,7 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
     if (arguments.preview) fs::remove(temporary, ignored);
     return written;
   }
-  out << Describe(*target, quality, arguments);
+  out << DescribeTarget(*target, quality, arguments);
   return {};
 }
 
@@ -163,7 +164,7 @@ void AddTargetCommand(CLI::App& app, CommandResult& result) {
   auto arguments = std::make_shared<TargetArguments>();
   CLI::App* command =
       app.add_subcommand("target", "Make a target of a picture, to be found by its texture");
-  command->footer(kExamples);
+  command->footer(kTargetExamples);
   command->add_option("PICTURE", arguments->picture, "PNG or JPEG, cropped to what is printed")
       ->required();
   command->add_option("--width-mm", arguments->width_mm, "Width of the printed picture")
