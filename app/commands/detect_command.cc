@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/commands/located_error.h"
 #include "app/options/marker_numbers.h"
 #include "app/options/option_use.h"
 #include "app/output/pose_json.h"
@@ -42,12 +43,6 @@ Result<tracker::SgStrategy> StrategyOf(const std::string& name) {
   if (name == "surf-golay") return tracker::SgStrategy::kSurfGolay;
   return InputError("--strategy", "\"" + name + "\" is no strategy",
                     "use hybrid, fast or surf-golay");
-}
-
-/// Says which argument an error without a place is about.
-tl::unexpected<Error> Located(Error error, const std::string& where) {
-  if (error.where.empty()) error.where = where;
-  return tl::make_unexpected(std::move(error));
 }
 
 Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
@@ -98,7 +93,7 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
     options.targets.push_back(std::make_shared<const tracker::PictureTarget>(std::move(target)));
   }
   auto tracker = tracker::Tracker::Create(camera, options);
-  if (!tracker) return Located(std::move(tracker).error(), "--family");
+  if (!tracker) return LocatedError(std::move(tracker).error(), "--family");
   for (const std::string& picture : arguments.pictures) {
     PLEINAIR_RETURN_IF_ERROR(CheckPicture(picture, camera, arguments.calibration));
   }
@@ -109,7 +104,7 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
     auto observations = (*tracker)->Track(decoded.grey.view());
     const std::chrono::duration<double, std::milli> elapsed =
         std::chrono::steady_clock::now() - start;
-    if (!observations) return Located(std::move(observations).error(), picture);
+    if (!observations) return LocatedError(std::move(observations).error(), picture);
     out << "{\"file\":"
         << nlohmann::json(picture).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
         << ",\"milliseconds\":" << nlohmann::json(std::round(elapsed.count() * 1e3) / 1e3).dump()

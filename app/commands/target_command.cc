@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -14,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/commands/located_error.h"
 #include "base/atomic_file.h"
 #include "base/units.h"
 #include "devices/images/image_file.h"
@@ -26,8 +28,6 @@
 namespace pleinair::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kTargetExamples =
     "Examples:\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
@@ -36,12 +36,6 @@ constexpr const char* kTargetExamples =
     "The width is that of the printed picture, without the paper's margin. Crop the picture to\n"
     "what is printed; it must lie flat. docs/guide/picture-targets.md tells which pictures are "
     "good.\n";
-
-/// Says which argument an error without a place is about.
-tl::unexpected<Error> Located(Error error, const std::string& where) {
-  if (error.where.empty()) error.where = where;
-  return tl::make_unexpected(std::move(error));
-}
 
 const char* RatingWord(int score) { return score >= 60 ? "good" : score >= 30 ? "fair" : "poor"; }
 
@@ -119,16 +113,17 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
     return InputError("--output", "the name is empty", "name a file, for example poster.target");
   }
   const std::string name =
-      arguments.name ? *arguments.name : fs::path(arguments.picture).stem().string();
+      arguments.name ? *arguments.name : std::filesystem::path(arguments.picture).stem().string();
   if (!tracker::IsTargetName(name)) {
     return InputError("--name", "the name is empty, too long or no plain UTF-8",
                       fmt::format("give one of 1 to {} bytes", tracker::kMaxTargetName));
   }
   // A slip in a name should not cost the seconds that making a target takes.
-  for (const fs::path& file :
-       {fs::path(arguments.output), fs::path(arguments.preview.value_or(""))}) {
+  for (const std::filesystem::path& file :
+       {std::filesystem::path(arguments.output),
+        std::filesystem::path(arguments.preview.value_or(""))}) {
     std::error_code ignored;
-    if (file.has_parent_path() && !fs::is_directory(file.parent_path(), ignored)) {
+    if (file.has_parent_path() && !std::filesystem::is_directory(file.parent_path(), ignored)) {
       return tl::make_unexpected(WriteError(file, ENOENT));
     }
   }
@@ -136,11 +131,11 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
                             devices::DecodeImageFile(arguments.picture));
   auto target =
       tracker::MakePictureTarget(decoded.grey.view(), Metres(arguments.width_mm * 1e-3), name);
-  if (!target) return Located(std::move(target).error(), arguments.picture);
+  if (!target) return LocatedError(std::move(target).error(), arguments.picture);
   const tracker::TargetQuality quality = tracker::RateTarget(*target);
   // What can fail comes first: either both files are there in the end, or neither is new.
-  const fs::path preview(arguments.preview.value_or(""));
-  const fs::path temporary = TemporarySibling(preview);
+  const std::filesystem::path preview(arguments.preview.value_or(""));
+  const std::filesystem::path temporary = TemporarySibling(preview);
   if (arguments.preview) {
     auto drawn = exports::WritePng(temporary, DrawTargetFeatures(*target).view());
     if (!drawn) {
@@ -153,7 +148,7 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
   if (arguments.preview && written) written = CommitFile(temporary, preview);
   if (!written) {
     std::error_code ignored;
-    if (arguments.preview) fs::remove(temporary, ignored);
+    if (arguments.preview) std::filesystem::remove(temporary, ignored);
     return written;
   }
   out << DescribeTarget(*target, quality, arguments);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+
+namespace pleinair::app {
+
+/// `error`, located at `where`, an argument or file, unless it already has a place.
+inline tl::unexpected<Error> LocatedError(Error error, const std::string& where) {
+  if (error.where.empty()) error.where = where;
+  return tl::make_unexpected(std::move(error));
+}
+
+}  // namespace pleinair::app
