@@ -153,8 +153,8 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
   Fill(facts.place_time.longitude_deg, fallback.place_time.longitude_deg);
   Fill(facts.place_time.height_m, fallback.place_time.height_m);
   Fill(facts.place_time.start, fallback.place_time.start);
-  // What a board measures and which marker it is belongs to one sheet of paper: it is taken over
-  // only along with the size.
+  // The margin's size and the marker's identity describe one sheet of paper, so they are taken over
+  // only together with the marker's size.
   if (!facts.marker.size_m && !facts.marker.target) {
     Fill(facts.marker.target, fallback.marker.target);
     Fill(facts.marker.size_m, fallback.marker.size_m);

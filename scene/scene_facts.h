@@ -11,28 +11,29 @@
 
 namespace pleinair::scene {
 
-/// What one file says of where and when the recording was made (PlaceTime).
+/// Place and time in one scene file, for PlaceTime.
 struct PlaceTimeFacts {
   std::optional<double> latitude_deg, longitude_deg, height_m;
   std::optional<UtcTime> start;
 };
 
-/// What one file says of the marker (MarkerDescription).
+/// Marker in one scene file, for MarkerDescription.
 struct MarkerFacts {
   std::optional<std::string> family;
-  std::optional<std::string> target;  ///< File as written, relative to the scene's.
+  std::optional<std::string> target;  ///< Path as in the file, relative to the scene's folder.
   std::optional<int> id, version;
   std::optional<double> size_m, heading_deg, board_size_m;
   std::optional<double> albedo_black, albedo_white;
   std::optional<bool> upright;
 };
 
-/// What one file says of the scene; absent is what it does not say, so that a hand-written
-/// scene.toml can leave to the recording what the recording knows.
+/// Content of one scene file. Absent values are unset, so that a hand-written scene.toml can leave
+/// to the recording what the recording already has.
 struct SceneFacts {
   PlaceTimeFacts place_time;
   MarkerFacts marker;
-  std::vector<ModelReference> phantoms, objects;  ///< Files as written, relative to the scene's.
+  std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
+                                                  ///< folder.
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;
   std::optional<LinearRgb> exposure_scale;

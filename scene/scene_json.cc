@@ -23,7 +23,7 @@ constexpr std::array<std::pair<const char*, const char*>, 9> kFamilies = {{
     {"S-G", "sg"},
 }};
 
-// Family and id from words such as "AprilTag tag36h11 id 0, 10x10 modules".
+// Family and id from a text such as "AprilTag tag36h11 id 0, 10x10 modules".
 void ParseMarkerDescription(const std::string& words, MarkerFacts* facts) {
   for (const auto& [said, family] : kFamilies) {
     if (words.find(said) == std::string::npos) continue;
@@ -110,7 +110,7 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseJson(bytes, name));
   const files::JsonFields fields(document, name);
   SceneFacts facts;
-  // scene.json has a block for it, recording.json says it at the top.
+  // scene.json nests these fields in a block, recording.json has them at the top level.
   PLEINAIR_RETURN_IF_ERROR(ReadPlaceTime(
       fields.Has("place_time") ? fields.Object("place_time") : fields, &facts.place_time));
   PLEINAIR_RETURN_IF_ERROR(ReadMarker(fields.Object("marker"), &facts.marker));
