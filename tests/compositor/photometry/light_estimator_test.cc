@@ -79,7 +79,7 @@ TEST(LightEstimator, SeesByStatedColorsThatNoSunShinesWherePlanesOfOneMaterialDo
     return Estimate(230.0, light, {}, "2025-09-14T16:45:00Z").measured;
   };
   const MeasuredLight veiled = settle({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
-  EXPECT_LT(veiled.edges, 3);
+  EXPECT_LT(veiled.evidence.edges, 3);
   EXPECT_EQ(veiled.sun_source, MeasuredLight::Source::kMeasured);
   EXPECT_EQ(settle({}).sun_source, MeasuredLight::Source::kDescription);
 }
