@@ -14,11 +14,12 @@
 namespace pleinair::session {
 namespace {
 
-/// Six frames of an AprilTag, without virtual objects: nothing is drawn.
+/// Six frames of an AprilTag, with no virtual object in the scene: nothing is drawn.
 devices::Recording OpenTag() {
   auto recording =
       devices::OpenRecording(tests::SourceTree() / "recordings" / "courtyard_tag36h11");
   EXPECT_TRUE(recording) << recording.error().Message();
+  recording->scene->objects.clear();
   return *std::move(recording);
 }
 

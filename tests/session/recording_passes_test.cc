@@ -15,7 +15,7 @@
 namespace pleinair::session {
 namespace {
 
-/// Six frames of an AprilTag, without virtual objects.
+/// Six frames of an AprilTag and a virtual object.
 std::filesystem::path Tag() { return tests::SourceTree() / "recordings" / "courtyard_tag36h11"; }
 
 TEST(RecordingPasses, ComposeEveryFrameInOrder) {
