@@ -10,21 +10,22 @@
 
 namespace pleinair::tracker {
 
-/// The SURF keypoints of one image after another, with their descriptors as DescriptorMatcher takes
-/// them. Keeps its memory between calls. One thread.
+/// SURF keypoints of a sequence of images, with their descriptors in the form that
+/// DescriptorMatcher takes. Memory is reused between calls. One thread.
 class DescribedKeypoints {
  public:
   using Filter = std::function<bool(const SurfKeypoint&)>;
-  /// What becomes of the places of keypoints that are not wanted: nothing, or weaker ones.
+  /// Handling of unwanted keypoints: drop them, or replace them by weaker ones.
   enum class Unwanted { kDrop, kReplace };
 
   explicit DescribedKeypoints(const SurfOptions& options) : surf_(options) {}
 
-  /// Detects and describes; `double_size` false leaves out the doubled image of the options.
+  /// Detects and describes keypoints; `double_size` false disables the doubled image of the
+  /// options.
   void Find(ImageView<const std::uint8_t> grey, bool double_size = true,
             const Filter& unwanted = nullptr, Unwanted places = Unwanted::kDrop);
 
-  /// Strongest first, but for those that were dropped.
+  /// Strongest first, without the dropped ones.
   const std::vector<SurfKeypoint>& keypoints() const { return keypoints_; }
   /// One for each keypoint.
   const std::vector<QuantisedDescriptor>& descriptors() const { return quantised_; }

@@ -10,21 +10,22 @@
 
 namespace pleinair::tracker {
 
-/// One of the nearest descriptors of the other side.
+/// One of the nearest descriptors in the other set.
 struct DescriptorMatch {
   static constexpr std::int32_t kNone = -1;
 
-  std::int32_t index = kNone;         ///< On the other side; kNone: there are not so many.
-  std::int32_t squared_distance = 0;  ///< Between quantised descriptors: 0..4 * 127^2 * 64.
+  std::int32_t index = kNone;         ///< In the other set; kNone: it has fewer than k.
+  std::int32_t squared_distance = 0;  ///< Squared distance of quantised descriptors: 0..4 * 127^2 *
+                                      ///< 64.
 
   bool operator==(const DescriptorMatch&) const = default;
 };
 
-/// Nearest neighbours in both directions between descriptors of templates, set once, and those of a
-/// frame: exhaustive and exact. Keeps its memory between calls.
+/// Exact k-nearest-neighbour search by exhaustive comparison, in both directions, between a fixed
+/// set of template descriptors and those of a frame. Memory is reused between calls.
 ///
 /// Only descriptors with the same sign of the Laplacian are compared (Bay et al. 2008, section
-/// 4.3), which halves the work.
+/// 4.3), which halves the cost.
 class DescriptorMatcher {
  public:
   static constexpr int kMaxNeighbours = 8;
@@ -32,9 +33,9 @@ class DescriptorMatcher {
   void SetTemplates(std::span<const QuantisedDescriptor> templates);
 
   /// The `k` (1..kMaxNeighbours) nearest templates of each descriptor of the frame, at
-  /// (*templates_of_frame)[frame * k ...], and the `k` nearest of the frame of each template, at
-  /// (*frame_of_templates)[template * k ...], unless that is nullptr; nearest first, of equals the
-  /// lower index first.
+  /// (*templates_of_frame)[frame * k ...], and the `k` nearest frame descriptors of each template,
+  /// at (*frame_of_templates)[template * k ...] (unless nullptr). Nearest first; on equal distance
+  /// the lower index first.
   void Match(std::span<const QuantisedDescriptor> frame, int k,
              std::vector<DescriptorMatch>* templates_of_frame,
              std::vector<DescriptorMatch>* frame_of_templates);
@@ -42,15 +43,15 @@ class DescriptorMatcher {
  private:
   /// Descriptors of one sign.
   struct Templates {
-    std::vector<std::int32_t> indices;   ///< As given to SetTemplates.
+    std::vector<std::int32_t> indices;   ///< Index in the list given to SetTemplates().
     std::vector<float> values;           ///< [block][dimension][template in the block]
-    std::vector<float> squared_lengths;  ///< Infinite for what fills the last block.
+    std::vector<float> squared_lengths;  ///< Infinite for the padding of the last block.
   };
   struct Frame {
     std::vector<std::int32_t> indices;
     std::vector<float> values;  ///< [descriptor][dimension]
     std::vector<float> squared_lengths;
-    std::vector<float> worst;  ///< Of the k nearest so far.
+    std::vector<float> worst;  ///< Largest distance among the k nearest so far.
   };
 
   int template_count_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstdint>
 
@@ -7,8 +7,8 @@
 
 namespace pleinair::tracker {
 
-/// The image twice as large, interpolated linearly: pixel (2x, 2y) is pixel (x, y) of `grey`, so
-/// that the size is 2w - 1 by 2h - 1. Keeps the memory of `doubled` where the size is the same.
+/// Doubles the size of an image by linear interpolation: pixel (2x, 2y) is pixel (x, y) of `grey`,
+/// so the size is 2w - 1 by 2h - 1. Reuses the memory of `doubled` if the size is the same.
 void DoubleSize(ImageView<const std::uint8_t> grey, Image<std::uint8_t>* doubled);
 
 }  // namespace pleinair::tracker

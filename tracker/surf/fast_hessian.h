@@ -1,5 +1,5 @@
 #pragma once
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <cstddef>
@@ -17,16 +17,17 @@ namespace pleinair::tracker {
 constexpr int FilterSize(int octave, int layer) { return 3 * ((2 << octave) * (layer + 1) + 1); }
 
 /// The Fast-Hessian detector (Bay et al. 2008, section 3): maxima of the determinant of the Hessian
-/// in place and scale, interpolated.
+/// in position and scale, interpolated.
 ///
-/// Strip by strip of the image's columns, so narrow that the rows of the integral image that a
-/// filter spans stay in the first-level cache. Rows of responses live in a ring only as long as the
-/// 3 x 3 x 3 neighbourhood needs them; only what the next octave shares is kept whole.
+/// The image is processed in vertical strips, so narrow that the rows of the integral image under a
+/// filter stay in the first-level cache. Rows of responses are kept in a ring buffer that is as
+/// long as the 3 x 3 x 3 neighbourhood requires. Only the layers shared with the next octave are
+/// stored completely.
 class FastHessian {
  public:
-  /// Appends the maxima above `threshold` to `maxima`, in no order that means anything; their angle
-  /// is 0. Octave o is sampled every min(first_step * 2^o, 4) px; first_step is 1, 2 or 4.
-  /// Deviation: the paper's step goes on doubling; beyond 4 px that saves nothing that matters.
+  /// Appends the maxima above `threshold` to `maxima`, in no defined order, with angle 0. Octave o
+  /// is sampled every min(first_step * 2^o, 4) px; first_step is 1, 2 or 4. Deviation: in the paper
+  /// the step keeps doubling; beyond 4 px that saves little time.
   void Detect(const IntegralImage& integral, int octaves, int first_step, float threshold,
               std::vector<SurfKeypoint>* maxima);
 
@@ -48,7 +49,7 @@ class FastHessian {
 
   HessianScratch scratch_;
   std::array<std::vector<float>, 3 * kLayers> ring_;
-  std::array<Plane, 2> shared_;       ///< Layers 0 and 1 of this octave, from the last one.
+  std::array<Plane, 2> shared_;       ///< Layers 0 and 1 of this octave, from the previous one.
   std::array<Plane, 2> shared_next_;  ///< Layers 1 and 3 of this octave, for the next one.
   std::vector<std::int32_t> candidates_;
 };

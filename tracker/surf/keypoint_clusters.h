@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ struct DescribedKeypoint {
   SurfDescriptor descriptor;
 };
 
-/// One keypoint as it came in several simulated views.
+/// Detections of one keypoint in several simulated views.
 using KeypointCluster = std::vector<DescribedKeypoint>;
 
 inline bool SameKeypoint(const SurfKeypoint& a, const SurfKeypoint& b) {
@@ -29,7 +29,7 @@ inline bool SameKeypoint(const SurfKeypoint& a, const SurfKeypoint& b) {
          0.35F;
 }
 
-/// Puts a keypoint with those that are the same or, if it `may_begin`, into a cluster of its own.
+/// Adds a detection to the cluster of the same keypoint or, if `may_begin`, starts a new cluster.
 inline void AddToClusters(const DescribedKeypoint& observed, bool may_begin,
                           std::vector<KeypointCluster>* clusters) {
   const auto same = std::ranges::find_if(*clusters, [&](const KeypointCluster& cluster) {

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include "tracker/surf/box_levels.h"
 
@@ -12,9 +12,9 @@ struct PatchGrid {
   float down_x = 0, down_y = 1;
 };
 
-/// values[i] = the level's mean (grey x 256) around the point (columns[i], rows[i]) of the grid,
-/// interpolated bilinearly; outside the image that of its nearest border. `count` is a multiple
-/// of 16.
+/// values[i] = the level's mean (grey x 256) at the point (columns[i], rows[i]) of the grid,
+/// interpolated bilinearly; outside the image that of the nearest border. `count` must be a
+/// multiple of 16.
 void SamplePatch(const BoxLevel& level, const PatchGrid& grid, const float* columns,
                  const float* rows, int count, float* values);
 

@@ -12,30 +12,30 @@
 namespace pleinair::tracker {
 
 struct SurfOptions {
-  /// Each octave has two scales in its middle: 15 and 21, 27 and 39, 51 and 75 px filters, ...
+  /// Each octave has two inner scales: 15 and 21, 27 and 39, 51 and 75 px filters, ...
   int octaves = 3;
-  /// Least response of a keypoint. 0.0002 finds a Gaussian blob of 21 grey levels of 255; the
-  /// response goes with the square of the contrast.
+  /// Minimum response of a keypoint. 0.0002 detects a Gaussian blob of 21 grey levels of 255; the
+  /// response is proportional to the square of the contrast.
   float threshold = 0.0002f;
   int max_keypoints = 500;
-  /// Angles are 0: for images whose roll is known.
+  /// Angles are 0: for images without roll.
   bool upright = false;
-  /// One octave more, in front of the others, on an image of twice the size: for blobs from a
-  /// sigma of 1.2 px on, where without it they begin at 2.5 px.
+  /// Adds an octave before the others, on an image of twice the size: for blobs with a sigma of 1.2
+  /// px or more, in place of 2.5 px.
   bool double_size = false;
-  /// Samples of the first octave (and of the doubled one), every 1, 2 or 4 px of the image. The
+  /// Sampling step of the first octave (and of the doubled one): 1, 2 or 4 px of the image. The
   /// paper has 2.
   int first_step = 1;
-  /// Strongest of each bucket kept in fair shares, so that a busy background does not use up the
-  /// keypoints; 0: the strongest of all.
+  /// Bucket size for an even distribution of keypoints, so that a detailed background does not use
+  /// up all of them; 0: the strongest of the whole image.
   int bucket_px = 80;
-  /// Edge of the window that is described, in scales. The paper has 20.
+  /// Edge of the descriptor window, in scales. The paper has 20.
   float descriptor_window_scales = 20;
 };
 
 /// Speeded-Up Robust Features (Bay, Ess, Tuytelaars, Van Gool, "Speeded-Up Robust Features (SURF)",
-/// Computer Vision and Image Understanding 110(3), 2008). Keeps its memory between calls: images
-/// of one size cost no allocation after the first few. One thread.
+/// Computer Vision and Image Understanding 110(3), 2008). Memory is reused: after the first few
+/// images of one size nothing is allocated. One thread.
 class Surf {
  public:
   explicit Surf(SurfOptions options);
@@ -43,15 +43,15 @@ class Surf {
   Surf(Surf&&) noexcept;
   Surf& operator=(Surf&&) noexcept;
 
-  /// Keypoints of an image of one channel, strongest first; none in an empty one. `double_size`
-  /// false leaves out the doubled image that the options ask for. Keypoints that are `unwanted`
-  /// leave their places among max_keypoints to others.
+  /// Keypoints of a one-channel image, strongest first; none in an empty image. `double_size` false
+  /// disables the doubled image of the options. Keypoints for which `unwanted` is true do not count
+  /// towards max_keypoints.
   void Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>* keypoints,
               bool double_size = true,
               const std::function<bool(const SurfKeypoint&)>& unwanted = nullptr);
 
-  /// Fills the angles of keypoints in the image of the last Detect (its own, or others), and
-  /// describes them; descriptors[i] belongs to keypoints[i].
+  /// Computes the angles and descriptors of keypoints in the image of the last Detect(); the
+  /// keypoints may come from elsewhere. descriptors[i] belongs to keypoints[i].
   void Describe(std::vector<SurfKeypoint>* keypoints, std::vector<SurfDescriptor>* descriptors);
 
  private:

@@ -2,9 +2,9 @@
 
 namespace pleinair::tracker {
 
-/// A blob-like point that looks the same after turning, scaling and moderate tilting.
-/// Source: Bay, Ess, Tuytelaars, Van Gool, "Speeded-Up Robust Features (SURF)", Computer Vision and
-/// Image Understanding 110(3), 2008; "Bay et al." in this folder.
+/// A blob-like keypoint, repeatable under rotation, scaling and moderate tilt. Source: Bay, Ess,
+/// Tuytelaars, Van Gool, "Speeded-Up Robust Features (SURF)", Computer Vision and Image
+/// Understanding 110(3), 2008; "Bay et al." in this folder.
 struct SurfKeypoint {
   float x = 0;  ///< px, integer = centre of a pixel.
   float y = 0;

@@ -1,14 +1,14 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cmath>
 #include <cstdint>
 
 namespace pleinair::tracker {
 
-/// A small random generator of its own for simulated views (Knuth's multiplier, "MMIX"): what is
-/// made of them must not depend on the standard library.
+/// Random generator for simulated views (Knuth's multiplier, "MMIX"). The results must not depend
+/// on the standard library.
 class ViewDraws {
  public:
   /// 31 bits.
@@ -17,7 +17,7 @@ class ViewDraws {
     return static_cast<std::uint32_t>(state_ >> 33);
   }
   double Uniform() { return Next() / 2147483648.0; }
-  /// Of deviation 1, nearly normal.
+  /// Approximately normal, standard deviation 1.
   double Normal() { return (Uniform() + Uniform() + Uniform() + Uniform() - 2.0) * std::sqrt(3.0); }
 
  private:

@@ -15,51 +15,51 @@
 
 namespace pleinair::tracker {
 
-/// A place where a border may be, by its keypoints.
+/// Hypothesis of a border's position, from its keypoints.
 struct BorderGuess {
   Mat3 modules_from_undistorted;
-  double votes = 0.0;  ///< How many matches agree, by their likeness.
+  double votes = 0.0;  ///< Number of agreeing matches, weighted by similarity.
   int matches = 0;
 };
 
 struct BorderSearchOptions {
-  /// The window that is described is smaller than the paper's 20 scales: what covers a part of the
-  /// border spoils fewer of its descriptors.
-  /// The doubled first octave sees borders of less than 70 px: in mixtures of tilt, blur, noise and
-  /// covers it takes the rate from .67 to .83. Every second pixel is sampled, as in the paper:
-  /// every one costs up to three quarters more time and finds no more.
+  /// The descriptor window is smaller than the paper's 20 scales: an occluder affects fewer
+  /// descriptors of the border. The doubled first octave detects borders of less than 70 px: over
+  /// mixtures of tilt, blur, noise and occlusion it raises the detection rate from .67 to .83.
+  /// Every second pixel is sampled, as in the paper: sampling every pixel takes up to 1.75 times as
+  /// long and detects no more.
   SurfOptions surf{.octaves = 3,
                    .threshold = 0.0002F,
                    .max_keypoints = 500,
                    .double_size = true,
                    .first_step = 2,
                    .descriptor_window_scales = 15};
-  int neighbours = 4;             ///< Candidates of each keypoint of the frame.
+  int neighbours = 4;             ///< Candidate matches of each keypoint of the frame.
   double rotation_bin_rad = 0.6;  ///< Width of the angle filter's bins, which overlap by half.
-  double min_votes = 3.0;         ///< Of a guess that is worth a look.
+  double min_votes = 3.0;         ///< Minimum votes of a hypothesis that is fitted.
   int max_guesses = 40;
 };
 
-/// Finds borders in an image by SURF: matches of keypoints with templates observed from everywhere,
-/// the angle filter (Prochazka et al. 2012, §3.2), then agreement of the matches in where the
-/// marker's centre would be and how large it would be observed, then a homography of those that
-/// agree. The cost does not depend on how many numbers are in use.
+/// Finds borders in an image by SURF. Matches keypoints with the templates of all views, applies
+/// the angle filter (Prochazka et al. 2012, §3.2), then groups matches that agree in the marker's
+/// centre and size, then fits a homography to each group. The cost does not depend on how many
+/// numbers are in use.
 class BorderSearch {
  public:
   BorderSearch(const LensGrid& lens, BorderTemplates templates,
                const BorderSearchOptions& options = {});
 
-  /// Borders of 70 px and more are observed in the image itself, at two thirds of the cost; smaller
-  /// ones when it is doubled as well.
+  /// Borders of 70 px and more are detected in the image itself, at two thirds of the cost; smaller
+  /// ones need the doubled image.
   enum class Sizes { kLarge, kAll };
 
-  /// Keypoints inside `taken` quadrilaterals (markers that are known) are left out. With `refill`
-  /// others, weaker ones, take their places: many markers have more keypoints than are described.
+  /// Excludes keypoints inside the `taken` quadrilaterals (known markers). With `refill`, weaker
+  /// keypoints replace them: many markers have more keypoints than are described.
   void Find(ImageView<const std::uint8_t> grey, const std::vector<std::array<Vec2, 4>>& taken,
             Sizes sizes, bool refill, std::vector<BorderGuess>* guesses);
 
  private:
-  /// A vote as the seed of a guess: its bin and place in bins_, and what agrees with it.
+  /// A vote as the seed of a hypothesis: its bin and position in bins_, and its supporters.
   struct Ranked {
     int bin, place;
     double votes;

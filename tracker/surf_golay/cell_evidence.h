@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <cstdint>
@@ -10,27 +10,28 @@
 
 namespace pleinair::tracker {
 
-/// How many bits the cells tell for a number over cells that are drawn at random: one each where
-/// all are plain and right, much less than none where one is plainly wrong.
+/// Log-likelihood ratio, in bits, of a number against random cells: about one bit per clear and
+/// correct cell, much less than none if a clear cell contradicts the number.
 double EvidenceBits(const CellLikelihoods& likelihoods, int number);
 
-/// The same where all that is wrong may lie under one thing that looks like ink, or like paper: the
-/// wrong cells look alike and hang together by cells that look like them. One of them is as
-/// unlikely as it looks; of the others under the same cover each second one is bound to be wrong.
-/// A cell between them that plainly looks otherwise speaks against the cover.
+/// The same under the assumption that all contradicting cells lie under one occluder, black or
+/// white: they have the same color and are connected through cells of that color. One of them
+/// counts with its full improbability; each other cell under the same occluder contradicts with
+/// probability ½. A cell between them with clearly the other color refutes the occluder.
 class EvidenceUnderCover {
  public:
   explicit EvidenceUnderCover(const CellLikelihoods& likelihoods);
 
-  /// Bits for a number; nothing where less than two cells are wrong, or not in this way.
+  /// Bits for a number; nullopt if fewer than two cells contradict it, or not in this way.
   std::optional<double> Bits(int number) const;
 
  private:
-  using CellSet = std::uint32_t;  ///< A bit a cell.
+  using CellSet = std::uint32_t;  ///< One bit per cell.
 
-  std::array<double, kGolayBits> white_bits_, black_bits_;  ///< Of cells that are printed so.
+  std::array<double, kGolayBits> white_bits_, black_bits_;  ///< Of cells that are printed white or
+                                                            ///< black.
   CellSet appears_white_ = 0, appears_black_ = 0;
-  /// The cells that look like each and hang together with it, itself as well.
+  /// For each cell, the cells of its color that are connected to it, itself included.
   std::array<CellSet, kGolayBits> together_{};
 };
 

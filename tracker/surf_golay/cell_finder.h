@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
@@ -11,21 +11,21 @@
 
 namespace pleinair::tracker {
 
-/// Finds markers whose border is covered by the corners of their cells (CellLattice). Keeps its
+/// Detects markers with an occluded border by the corners of their cells (CellLattice). Reuses its
 /// buffers; one thread at a time.
 class CellFinder {
  public:
   /// Both are kept by reference.
   CellFinder(const LensGrid& lens, ImageSearch& image) : image_(image), lattice_(lens) {}
 
-  /// Adds the markers of the search's image, which is so many pixels wide.
+  /// Adds the markers of the search's image; `image_width` in pixels.
   void Find(int image_width);
 
  private:
-  /// Where the cells of a marker may lie, and which way round.
+  /// Possible position and orientation of a marker's cells.
   struct Placement {
     BlockFitState state;
-    double correlation = 0.0;  ///< Of the border.
+    double correlation = 0.0;  ///< Correlation of the border.
   };
 
   ImageSearch& image_;

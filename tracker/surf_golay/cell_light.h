@@ -8,37 +8,37 @@
 
 namespace pleinair::tracker {
 
-/// The straight edge of a shadow on a marker, in units of the marker.
+/// A straight shadow edge on the marker, in units of the marker.
 struct ShadowEdge {
-  double u = 1.0, v = 0.0, at = 0.0;  ///< Beyond u' u + v' v = at, for a place (u', v') …
-  double log_step = 0.0;              ///< … white's logarithm is this much higher.
+  double u = 1.0, v = 0.0, at = 0.0;  ///< On the side u' u + v' v > at of a point (u', v') …
+  double log_step = 0.0;              ///< … the logarithm of white is higher by this.
 
   bool IsBeyond(double place_u, double place_v) const { return u * place_u + v * place_v > at; }
 };
 
-/// How bright white and black are across a marker, learned where the marker is known. White's
-/// logarithm is a plane, or two planes of one slope on either side of a straight edge of shadow;
-/// black is a constant share of white.
+/// Light model of a marker, fitted where its pattern is known. The logarithm of white is a plane,
+/// or two planes of equal slope on either side of a straight shadow edge. Black is a constant share
+/// of white.
 struct MarkerLight {
   // In units of the marker: half edges from the centre, u right, v down.
   double log_white = 0.0, slope_u = 0.0, slope_v = 0.0;
   std::optional<ShadowEdge> edge;
   double black_share = 0.05;
-  double spread = 0.0;  ///< Robust standard deviation of what is left over, in log white.
-  /// Standard deviation of a pixel's share of white, from noise and texture, on white and on black.
+  double spread = 0.0;  ///< Robust standard deviation of the residuals, in log white.
+  /// Standard deviation of a pixel's share of white on white and on black, from noise and texture.
   double white_noise = 0.02, black_noise = 0.01;
-  bool white_clips = false;  ///< White is brighter than the image can hold.
+  bool white_clips = false;  ///< White is clipped in the image.
 
   double White(double u, double v) const;
   double LogWhite(double u, double v) const;
 };
 
-/// Learns the light of a marker from the pixels that a fit of its border believes in. `seen` is
-/// what was fitted, but clipped pixels count as white at its brightest.
+/// Estimates the light of a marker from the pixels with high robust weight in a fit of its border.
+/// `observed` is the patch that was fitted; clipped pixels count as white at its brightest.
 class MarkerLightEstimator {
  public:
-  /// False where too little of the border is observed. `brightest`: what most pixels agree on may
-  /// be a cover; the brightest of them is taken for paper.
+  /// Returns false if too little of the border is visible. `brightest`: most pixels may belong to
+  /// an occluder, so the brightest ones are taken for paper.
   bool Measure(const MarkerPattern& pattern, const BlockFit& fit, const ObservedPatch& observed,
                bool brightest, MarkerLight* light);
 
@@ -46,7 +46,8 @@ class MarkerLightEstimator {
   struct Sample {
     float u, v, log_value, share, weight;
   };
-  /// Of prints too small for a pixel to be all white or all black: even light, from the blocks.
+  /// For markers too small for a pixel to be all white or all black: uniform light, from the
+  /// blocks.
   static bool FromBlocks(const BlockFit& fit, MarkerLight* light);
   void FitPlane(bool brightest, MarkerLight* light);
   std::optional<ShadowEdge> FitEdge() const;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <Eigen/Core>
 
@@ -15,27 +15,27 @@
 
 namespace pleinair::tracker {
 
-/// What the code cells of a marker look like.
+/// Estimates for the code cells of a marker.
 struct CellReading {
   std::array<float, sg::kCodeCells> white{};      ///< Share of white: 0 black, 1 white.
   std::array<float, sg::kCodeCells> deviation{};  ///< … and its standard deviation.
-  std::array<float, sg::kCodeCells> misfit{};     ///< Left-over inside a cell beyond noise.
+  std::array<float, sg::kCodeCells> misfit{};     ///< Residual inside a cell beyond noise.
   std::array<float, sg::kCodeCells> witness{};    ///< Log-likelihood ratio by single pixels.
-  std::array<bool, sg::kCodeCells> observed{};    ///< Any pixel tells of it.
+  std::array<bool, sg::kCodeCells> observed{};    ///< At least one pixel covers the cell.
   CellLikelihoods likelihoods{};
-  bool glaring = false;  ///< Some cells are whiter than white or drowned: light that a shiny marker
-                         ///< throws back.
+  bool glaring = false;  ///< Some cells are brighter than white, or saturated: specular reflection
+                         ///< on a glossy marker.
 };
 
-/// Reads the cells of a marker whose border has been fitted. The image is linear in the cells'
-/// shares of white, each blurred as the image is, so that all 24 are solved for together: cells
-/// that are barely larger than a pixel, or than the blur, are read without taking their
-/// neighbours' light for their own. Cells that are covered, or drowned in glare, come out as
-/// neither black nor white, or uneven, or unseen: their likelihoods are near 0.
+/// Estimates the cells of a marker whose border has been fitted. The image is linear in the cells'
+/// shares of white, each blurred as the image is, so all 24 are solved for together. Cells that are
+/// barely larger than a pixel or than the blur are thus read without mixing in their neighbours.
+/// Cells that are occluded or saturated by glare come out as neither black nor white, as uneven, or
+/// as not observed: their likelihoods are near 0.
 class CellReader {
  public:
-  /// `blank` is the marker with all code cells black; `fit` has evaluated it on `seen` (in linear
-  /// light) at `state`. With glare, smooth light on top of what is printed is solved for as well.
+  /// `blank`: the marker with all code cells black; `fit` has evaluated it on `observed` (linear
+  /// light) at `state`. With glare, smooth additional light is solved for as well.
   void ReadCells(const MarkerPattern& blank, const BlockFit& fit, const ObservedPatch& observed,
                  const BlockFitState& state, const MarkerLight& light, bool with_glare,
                  CellReading* reading);
@@ -46,20 +46,21 @@ class CellReader {
     std::array<float, 9> share;
     int cells = 0;
     float value = 0.0F;
-    std::int16_t node = 0;  ///< First of the four nodes of glare around it.
+    std::int16_t node = 0;  ///< First of the four glare nodes around it.
     std::array<float, 4> node_share{};
-    float least = -1.0F;  ///< Of a clipped pixel on clipping white: its share is at least this.
+    float least = -1.0F;  ///< For a clipped pixel on clipped white: lower bound of its share of
+                          ///< white.
   };
   void Gather(const MarkerPattern& blank, const BlockFit& fit, const ObservedPatch& observed,
               const BlockFitState& state, const MarkerLight& light, bool with_glare);
   using CellFlags = std::array<bool, sg::kCodeCells>;
-  /// Least squares of the cells' shares, and of smooth glare on top where asked.
+  /// Least squares for the cells' shares and, if requested, smooth glare.
   bool Solve(bool with_glare, const CellFlags& known_white, Eigen::VectorXd* found,
              Eigen::MatrixXd* inverse);
   bool SolveWithGlare(Eigen::VectorXd* found, Eigen::MatrixXd* inverse);
   static double GlareAt(const Pixel& pixel, const Eigen::VectorXd& found);
-  /// How likely each cell is black, white or covered, given what the cells around it look like.
-  /// Deviation of a cell's share of white that no noise tells.
+  /// Likelihoods of each cell for black, white and occluded, from the cells around it; and the
+  /// standard deviation of a cell's share of white that noise does not explain.
   struct Unevenness {
     double black, white;
   };
@@ -67,7 +68,7 @@ class CellReader {
                     CellReading* reading);
 
   std::vector<Pixel> pixels_;
-  bool drowned_ = false;  ///< Some pixels are brighter than white and than the image can hold.
+  bool drowned_ = false;  ///< Some pixels are brighter than white and clipped.
 };
 
 }  // namespace pleinair::tracker

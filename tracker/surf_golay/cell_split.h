@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 
@@ -9,18 +9,18 @@
 
 namespace pleinair::tracker {
 
-/// Where the cells of a marker may part into black and white ones by themselves, whatever the
-/// border says about the light: the likelihoods of at most so many ways, the clearest first.
+/// Ways to divide the cells into black and white ones without the light estimated from the border:
+/// the likelihoods of a few ways, the clearest first.
 struct CellSplits {
   static constexpr int kMax = 2;
   std::array<CellLikelihoods, kMax> likelihoods{};
   int count = 0;
 };
 
-/// Looks for gaps between the cells' shares of white, on a scale of ratios: light that differs over
-/// the marker, or that the covered border tells wrongly, changes what a white cell looks like by
-/// any factor, but leaves the black ones near black. Every marker has at least four cells of each
-/// color (kGolayWhitening), so no gap nearer to either end is one between the colors.
+/// Searches for gaps between the cells' shares of white, on a logarithmic scale. Light that varies
+/// over the marker, or that is estimated wrongly from an occluded border, scales white cells by any
+/// factor but leaves black ones near black. Every marker has at least four cells of each color
+/// (kGolayWhitening), so gaps nearer to either end are excluded.
 CellSplits SplitCells(const CellReading& cells);
 
 }  // namespace pleinair::tracker

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
@@ -11,42 +11,43 @@
 
 namespace pleinair::tracker {
 
-/// Where something lies on a marker that is known: pixels well inside a white shape that are
-/// observed dark, or well inside the black that are observed light, and all that is so near to them
-/// that an edge of the marker there may be the cover's. What looks like ink agrees with the
-/// marker's black, but not with its white: without the mask the feet of the edges between, which
-/// are nearly black, still draw a robust fit.
+/// Mask of occluders on a marker with known pattern. It contains pixels well inside white shapes
+/// that are observed dark, pixels well inside black that are observed light, and their
+/// surroundings, where an edge may belong to the occluder. A black occluder agrees with the
+/// marker's black but not with its white: without the mask, nearly black pixels at the edges would
+/// still bias a robust fit.
 class CoverMask {
  public:
-  /// Turns the window's values into shares of white by `light`, and remembers what they were.
-  /// `fit` has evaluated the marker on it.
+  /// Converts the window's values to shares of white by `light`, and stores the originals. `fit`
+  /// has evaluated the marker on it.
   void TakeShares(const MarkerPattern& pattern, const BlockFit& fit, const MarkerLight& light,
                   ObservedPatch* observed);
 
-  /// What pixels at edges of the marker tell of covers: something where the marker lies to a
-  /// fraction of a pixel where it is predicted, in plain light.
+  /// Whether pixels at edges of the marker indicate occluders: only if the marker's position is
+  /// accurate to a fraction of a pixel and the light is uniform.
   enum class Edges { kUnreliable, kReliable };
 
-  /// How dark a pixel on white is covered: darker than white plainly is, or than noise makes it,
-  /// too. The latter keeps dark noise, without which white would be taken for too bright.
+  /// Threshold for an occluded pixel on white: darker than white by a clear amount, or also beyond
+  /// noise. The latter keeps dark noise, without which white would be overestimated.
   enum class Dark { kPlain, kBeyondNoise };
 
-  /// Makes covered pixels of the window count for nothing, by what `fit` predicted last of a
-  /// image of this blur (standard deviation, the window's pixels).
+  /// Sets the weight of occluded pixels of the window to zero, from the last prediction of `fit`.
+  /// `blur_px`: blur of the image (standard deviation, pixels of the window).
   void Lay(const BlockFit& fit, double blur_px, Edges edges, ObservedPatch* observed,
            Dark darkness = Dark::kPlain);
 
-  /// Gives the window its values back.
+  /// Restores the window's original values.
   void RestoreValues(ObservedPatch* observed) const { observed->value = value_; }
-  /// … and its inverse variance: as if nothing were covered.
+  /// Restores the original inverse variances, as if nothing were occluded.
   void RestoreWeights(ObservedPatch* observed) const {
     observed->inverse_variance = inverse_variance_;
   }
 
  private:
   std::vector<float> value_, share_, inverse_variance_;
-  float min_light_ = 0.0F;   ///< Share of white that is no ink.
-  float noisy_dark_ = 0.0F;  ///< Share of white below which white is no noise (kBeyondNoise).
+  float min_light_ = 0.0F;   ///< Share of white above which a pixel is not black.
+  float noisy_dark_ = 0.0F;  ///< Share of white below which a white pixel is not explained by noise
+                             ///< (kBeyondNoise).
   std::vector<unsigned char> covered_, beside_;
 };
 

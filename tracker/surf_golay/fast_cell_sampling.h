@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstdint>
 #include <optional>
@@ -12,10 +12,10 @@
 
 namespace pleinair::tracker {
 
-/// The cells of a marker that lies open in even light, by a few pixels each: for about a
-/// microsecond, where the fit of the border and CellReader take hundreds. Nothing where the quiet
-/// zone and the rim do not show one plane of light, where a cell is neither black nor white, or
-/// where the marker is cut by the image's edge: then only the longer way can tell.
+/// Fast cell sampling: reads the cells of an unoccluded, uniformly lit marker from a few pixels
+/// each. Takes about a microsecond, where the fit of the border and CellReader take hundreds.
+/// Returns nullopt if quiet zone and border do not fit one plane of light, if a cell is neither
+/// black nor white, or if the image cuts the marker: these need the full decoder.
 std::optional<CellLikelihoods> SampleCellsFast(ImageView<const std::uint8_t> grey,
                                                const LensGrid& lens,
                                                const Mat3& modules_from_undistorted);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <span>
@@ -12,30 +12,31 @@
 
 namespace pleinair::tracker {
 
-/// Of the side: two fits that ended so near to each other are one.
+/// Share of the side: two fits that end closer than this are the same marker.
 inline constexpr double kSameMarkerDistance = 0.04;
-/// A marker of which less is observed may be a little beside: other guesses there are read as well.
+/// A marker with a smaller visible share may be misplaced: other hypotheses there are decoded too.
 inline constexpr double kSurelyVisible = 0.5;
 
-/// A marker that was read in an image.
+/// A marker that was decoded in an image.
 struct FoundMarker {
   SgReading reading;
   DetectionPath path = DetectionPath::kFast;
   std::array<Vec2, 4> corners_undistorted;
 };
 
-/// The markers found in one image, each place once.
+/// The markers found in one image, one per place.
 class FoundMarkers {
  public:
   void Clear() { markers_.clear(); }
   const std::vector<FoundMarker>& markers() const { return markers_; }
 
-  /// Keeps a reading; of two in one place only the one of which more is observed. False where the
-  /// other stays, or where the border of another marker lies open there: `unread_borders`,
-  /// modules from undistorted pixels.
+  /// Adds a reading; of two at one place the one with the larger visible share is kept. Returns
+  /// false if the other one is kept, or if an unoccluded border of another marker lies there:
+  /// `unread_borders`, modules from undistorted pixels.
   bool Add(const SgReading& reading, DetectionPath path, std::span<const Mat3> unread_borders);
 
-  /// Whether a marker was found there already, of which so much is observed or that lies just so.
+  /// Whether a marker was already found there with at least this visible share, or in exactly this
+  /// position.
   bool IsTaken(const Mat3& modules_from_undistorted, double visible = 0.0) const;
 
  private:

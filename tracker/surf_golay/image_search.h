@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <optional>
 
@@ -10,19 +10,18 @@
 
 namespace pleinair::tracker {
 
-/// What all ways to find markers in one image share: they read guesses, test which way round the
-/// markers lie, and keep what they found.
+/// State shared by all search methods on one image: decoder, orientation test and results.
 struct ImageSearch {
   explicit ImageSearch(const LensGrid& lens) : reader(lens), upright(lens) {}
 
-  /// Starts with no marker found; `grey` is kept by reference.
+  /// Starts without markers; `grey` is kept by reference.
   void SetImage(ImageView<const std::uint8_t> grey);
 
   bool Add(const SgReading& reading, DetectionPath path) {
     return found.Add(reading, path, reader.UnreadBorders());
   }
-  /// A reading from a guess that is good already, proved by what is observed of the border at its
-  /// place.
+  /// Decodes a hypothesis that is accurate already, with the confidence from the border observed
+  /// there.
   std::optional<SgReading> DecodeAsGuessed(const BlockFitState& guess);
 
   SgReader reader;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <vector>
@@ -12,30 +12,30 @@
 
 namespace pleinair::tracker {
 
-/// A marker of the frames before.
+/// A marker of the previous frames.
 struct KnownMarker {
   int number = 0;
-  std::array<Vec2, 4> corners_undistorted;  ///< In the last frame that saw it,
-  std::array<Vec2, 4> velocity;             ///< … and their motion, per frame.
+  std::array<Vec2, 4> corners_undistorted;  ///< In the last frame in which it was found,
+  std::array<Vec2, 4> velocity;             ///< … and their velocity, per frame.
   bool has_velocity = false;
   double blur_px = 0.7;
   int frames_unseen = 0;
   double visible_fraction = 0.0;
 
-  /// Where it should be in the next frame.
+  /// Predicted position in the next frame.
   BlockFitState Predict() const;
 };
 
-/// The markers of the frames before, of which some may hang in two places.
+/// The markers of the previous frames; the same number may occur at two places.
 class KnownMarkers {
  public:
   const std::vector<KnownMarker>& markers() const { return markers_; }
-  /// Those not seen in the last frame.
+  /// The markers not found in the last frame.
   std::vector<LostMarker> Lost() const;
-  /// Whether a number is not among what was found; with `at_once` only of those seen in one of the
-  /// last few frames.
+  /// Whether a known number is missing from `found`; with `at_once` only those found in one of the
+  /// last few frames count.
   bool AreMissing(const std::vector<FoundMarker>& found, bool at_once) const;
-  /// Takes over what was found in a frame, and forgets what was not seen for long.
+  /// Updates from the markers found in a frame, and drops those not found for long.
   void Remember(const std::vector<FoundMarker>& found);
 
  private:

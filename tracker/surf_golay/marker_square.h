@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <algorithm>
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace pleinair::tracker {
 
-/// From the black square in half edges (x right, y up, origin in its middle) to modules of the
-/// marker, from its top-left corner, y down.
+/// Converts from the black square in half edges (x right, y up, origin at its centre) to modules of
+/// the marker, from its top-left corner, y down.
 inline Vec2 ModulesOfUnit(Vec2 unit) {
   constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kModules;
   return {kMiddle + kHalf * unit.x, kMiddle - kHalf * unit.y};
 }
 
-/// The square's corners in undistorted pixels: top-left, then clockwise as the marker is read.
+/// The square's corners in undistorted pixels: clockwise from top-left on the upright marker.
 inline std::array<Vec2, 4> UndistortedSquareCorners(const Mat3& modules_from_undistorted) {
   const Mat3 undistorted_from_modules = Adjugate(modules_from_undistorted);
   std::array<Vec2, 4> corners;
@@ -28,7 +28,7 @@ inline std::array<Vec2, 4> UndistortedSquareCorners(const Mat3& modules_from_und
   return corners;
 }
 
-/// The inverse of UndistortedSquareCorners.
+/// The inverse of UndistortedSquareCorners().
 inline Mat3 ModulesFromSquareCorners(const std::array<Vec2, 4>& corners_undistorted) {
   constexpr double kHalf = 0.5 * sg::kEdge, kMiddle = 0.5 * sg::kModules;
   constexpr Mat3 kModulesFromUnit{{kHalf, 0, kMiddle, 0, -kHalf, kMiddle, 0, 0, 1}};
@@ -41,7 +41,7 @@ inline double LongestSide(const std::array<Vec2, 4>& corners) {
   return longest;
 }
 
-/// The greatest distance of corresponding corners.
+/// Largest distance of corresponding corners.
 inline double MaxCornerDistance(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b) {
   double farthest = 0.0;
   for (int i = 0; i < 4; ++i) farthest = std::max(farthest, Norm(a[i] - b[i]));

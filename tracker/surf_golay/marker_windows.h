@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstdint>
 
@@ -13,8 +13,8 @@
 
 namespace pleinair::tracker {
 
-/// Cuts out of an image, or of its halves, what a guessed marker covers, at the size that a fit
-/// needs: small and in codes for finding it, as large as pays and in linear light for measuring.
+/// Copies the window of a hypothesised marker from an image or a reduced image, at the size that a
+/// fit needs: small and in 8-bit values for finding it, larger and in linear light for measuring.
 class MarkerWindows {
  public:
   explicit MarkerWindows(const LensGrid& lens) : lens_(lens) {}
@@ -22,28 +22,29 @@ class MarkerWindows {
   /// Kept by reference.
   void SetImage(ImageView<const std::uint8_t> grey);
 
-  /// The longest side of the marker's square in undistorted pixels; 0 where the guess is none.
+  /// Longest side of the marker's square in undistorted pixels; 0 if the hypothesis is invalid.
   static double SidePx(const Mat3& modules_from_undistorted);
 
-  /// Where the marker's sides are `max_side_px` at most. False where there is no such window.
+  /// Reduced until the marker's sides are at most `max_side_px`. Returns false if there is no such
+  /// window.
   bool TakeCoarse(const Mat3& modules_from_undistorted, double max_side_px, PixelWindow* window,
                   ObservedPatch* observed);
 
-  /// The same in linear light, where edges are where TakeFine will see them.
+  /// The same in linear light, so that edges are where TakeFine() has them.
   bool TakeCoarseLight(const Mat3& modules_from_undistorted, double max_side_px,
                        PixelWindow* window, ObservedPatch* observed);
 
-  /// At the size that tells the edges' places best for the blur of `state`. False where there is no
-  /// window.
+  /// At the size that determines the edges' positions best for the blur of `state`. Returns false
+  /// if there is no window.
   bool TakeFine(const BlockFitState& state, PixelWindow* window, ObservedPatch* observed);
 
-  /// How often images for measuring are halved at least, since noise hides the marker in them.
+  /// Minimum number of halvings of images for measuring, when noise hides the marker in them.
   void SetHalvingsForNoise(int halvings) { halvings_for_noise_ = halvings; }
   int halvings_for_noise() const { return halvings_for_noise_; }
 
  private:
   bool Window(const Mat3& modules_from_undistorted, int level, PixelWindow* window) const;
-  /// Where the marker's sides are `max_side_px` at most.
+  /// Reduced until the marker's sides are at most `max_side_px`.
   bool CoarseWindow(const Mat3& modules_from_undistorted, double max_side_px,
                     PixelWindow* window) const;
 

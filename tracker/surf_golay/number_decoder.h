@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <optional>
 #include <span>
@@ -13,35 +13,36 @@
 
 namespace pleinair::tracker {
 
-/// A number that the cells of a marker show.
+/// A number decoded from the cells of a marker.
 struct DecodedNumber {
   int number = 0;
-  float margin = 0.0F;           ///< Over the next likely one, in nats (SoftGolayDecoding::margin).
-  double confidence_bits = 0.0;  ///< Beyond picking one of the numbers in use.
+  float margin = 0.0F;           ///< Decision margin over the second number, in nats
+                                 ///< (SoftGolayDecoding::margin).
+  double confidence_bits = 0.0;  ///< Beyond the bits to select one of the numbers in use.
 };
 
-/// Decodes the number of a marker whose border was fitted: estimates its light, reads the cells,
-/// and decodes them as they are, as two groups, and under a cover. Keeps its buffers; one thread at
-/// a time.
+/// Decodes the number of a marker whose border was fitted: estimates the light, estimates the
+/// cells, and decodes them directly, as two groups (CellSplits), and under an occluder. Reuses its
+/// buffers; one thread at a time.
 class NumberDecoder {
  public:
-  /// Margin above which a number needs no other explanation of the light, in nats.
+  /// Margin, in nats, above which no alternative light is tried.
   static constexpr float kSafeMargin = 25.0F;
 
-  /// Errors (input): a number outside 0…4095; none given means all.
+  /// Errors (input): a number outside 0…4095. An empty list means all.
   Result<void> SetNumbersInUse(std::span<const int> numbers) {
     return in_use_.SetNumbersInUse(numbers);
   }
   const SoftGolayDecoder& in_use() const { return in_use_; }
 
-  /// `border`: the fit of the marker `blank` (SgPatterns) at `state`; `visible_border`: share of
-  /// the border that looks as predicted. Nothing where the cells show no number.
+  /// `border`: fit of the pattern `blank` (SgPatterns) at `state`; `visible_border`: share of the
+  /// border that matches the prediction. Returns nullopt if the cells show no number.
   std::optional<DecodedNumber> Decode(const MarkerPattern& blank, const FittedPatch& border,
                                       const BlockFitState& state, double visible_border);
 
  private:
   SoftGolayDecoder in_use_;
-  SoftGolayDecoder any_number_;  ///< Of all 4,096, in use or not.
+  SoftGolayDecoder any_number_;  ///< Decoder of all 4,096 numbers.
   MarkerLightEstimator light_estimator_;
   CellReader cell_reader_;
 };

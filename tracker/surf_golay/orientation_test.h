@@ -9,29 +9,31 @@
 
 namespace pleinair::tracker {
 
-/// Which way round a marker lies in a quadrilateral.
+/// Internal: shared by the .cc files of this module; not installed.
 struct BorderOrientation {
-  int first_corner = 0;      ///< Index of the quadrilateral's corner that is the marker's top-left,
-  bool mirrored = false;     ///< … going on clockwise, or anticlockwise where mirrored.
-  double correlation = 0.0;  ///< Of the border's modules with what is observed there: -1…1.
+  int first_corner = 0;      ///< Orientation of a marker in a quadrilateral.
+  bool mirrored = false;     ///< Index of the quadrilateral's corner that is the marker's top-left;
+                             ///< the others follow
+  double correlation = 0.0;  ///< clockwise, or anticlockwise if mirrored.
 };
 
-/// Looks at the centres of the border's modules inside a quadrilateral and tells which of its eight
-/// orientations fits best. Costs microseconds, so that quadrilaterals that hold no marker are
-/// dropped before anything is fitted.
+/// Samples the centres of the border's modules inside a quadrilateral and finds the best of its
+/// eight orientations. Takes microseconds, so that quadrilaterals without a marker are rejected
+/// before any fit.
 class OrientationTest {
  public:
   OrientationTest();
 
-  /// `corners_px` clockwise in an image that sees a module as about a pixel or less. Best first.
+  /// `corners_px`: clockwise, in an image with modules of about a pixel or less. Best first.
   std::array<BorderOrientation, 2> Evaluate(ImageView<const std::uint8_t> grey,
                                             const std::array<Vec2, 4>& corners_px);
 
  private:
-  static constexpr int kOrientations = 8;  ///< Four turns, then those of the mirrored marker.
+  static constexpr int kOrientations = 8;  ///< Four rotations, then those of the mirrored marker.
 
-  std::vector<float> u_, v_;  ///< Modules' centres, in half edges from the square's, y up.
-  /// What should be observed at each of them in each orientation: less its mean, of unit length.
+  std::vector<float> u_, v_;  ///< Centres of the modules, in half edges from the square's centre, y
+                              ///< up.
+  /// Expected values there in each orientation: zero mean, unit length.
   std::vector<std::array<float, kOrientations>> expected_;
   std::vector<std::int32_t> x_, y_;
 };

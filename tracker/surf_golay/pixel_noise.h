@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
@@ -9,12 +9,12 @@
 
 namespace pleinair::tracker {
 
-/// Measures the noise of single pixels on a marker. Keeps its buffers.
+/// Estimates the noise of single pixels on a marker. Reuses its buffers.
 class PixelNoiseEstimator {
  public:
-  /// Standard deviation in shares of white, from the median difference of neighbours where the
-  /// marker is even; 0 where there are none. What covers a marker, shadows' edges and blur, which
-  /// are smooth, are not in it. After a Run of `fit` on `seen`.
+  /// Standard deviation in shares of white, from the median difference of adjacent pixels where the
+  /// marker is uniform; 0 if there are none. Occluders, shadow edges and blur are smooth and do not
+  /// contribute. Call after Run() of `fit` on `observed`.
   double Share(const BlockFit& fit, const ObservedPatch& observed);
 
  private:

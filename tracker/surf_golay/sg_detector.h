@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <cstdint>
 #include <memory>
@@ -20,12 +20,11 @@
 
 namespace pleinair::tracker {
 
-/// Finds S-G markers, by the strategy of Prochazka et al. 2012, §5, with tracking between: in
-/// consecutive frames a marker is looked for where it should be by now; what that does not find is
-/// looked for as a quadrilateral (fast), and by the keypoints of its border (S-G) when a marker of
-/// the frame before is missing, and every few frames for markers that are new and partly covered.
-/// Where the border's keypoints find nothing the corners of the cells may. A single image is
-/// searched in all ways.
+/// Detects S-G markers by the strategy of Prochazka et al. 2012, §5, with tracking. In consecutive
+/// frames a known marker is first searched at its predicted position. Then quadrilaterals are
+/// decoded (fast path). When a marker of the previous frame is missing, and every few frames for
+/// new, partly occluded markers, the keypoints of the border are searched (S-G). If these find
+/// nothing, the corners of the cells are searched. A single image is searched by all methods.
 class SgDetector final : public MarkerDetector {
  public:
   static Result<std::unique_ptr<SgDetector>> Create(const CameraModel& camera,
@@ -39,13 +38,13 @@ class SgDetector final : public MarkerDetector {
  private:
   SgDetector(const CameraModel& camera, const SgOptions& options, bool consecutive_frames);
 
-  /// Follows the markers of the frames before. Returns those that may lie elsewhere: what is found
-  /// anew counts as well.
+  /// Tracks the markers of the previous frames. Returns those whose position is doubtful: a new
+  /// detection elsewhere replaces them.
   std::vector<SgReading> Track();
   void FindFast(ImageView<const std::uint8_t> grey);
   void TryQuad(const Quad& quad);
-  /// By the border and the cells: all that is there beside what was found; where nothing was, the
-  /// dearer ways only as long as the cheaper ones find nothing.
+  /// Searches by border and cells for markers that have not been found; if none was found, the more
+  /// expensive methods run only as long as the cheaper ones find nothing.
   void SearchImage(ImageView<const std::uint8_t> grey);
 
   const LensGrid lens_;

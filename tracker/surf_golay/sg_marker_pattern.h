@@ -7,11 +7,11 @@
 
 namespace pleinair::tracker {
 
-/// What the marker of an S-G marker looks like, quiet zone included. `number` is 0…4095.
+/// Bit pattern of an S-G marker, quiet zone included. `number` is 0…4095.
 MarkerPattern SgMarkerPattern(int number);
 
-/// The same for a printed word: bit i (from the least significant) is code cell i, 1 white. Another
-/// `border` than that of this version is for tools that look for one.
+/// Bit pattern of a printed word: bit i (from the least significant) is code cell i, 1 white. A
+/// `border` other than this version's is for tools that optimise it.
 MarkerPattern SgMarkerPatternOfWord(std::uint32_t word, const sg::Border& border = sg::kBorder);
 
 }  // namespace pleinair::tracker

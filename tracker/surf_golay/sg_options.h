@@ -4,18 +4,18 @@
 
 namespace pleinair::tracker {
 
-/// How S-G markers are looked for.
+/// Search strategy for S-G markers.
 enum class SgStrategy {
-  kHybrid,     ///< Quadrilaterals first; keypoints and cells for what they miss.
-  kFast,       ///< Quadrilaterals alone: the whole outer edge must be observed.
-  kSurfGolay,  ///< Keypoints of the border, and corners of cells where these find nothing.
+  kHybrid,     ///< Quadrilaterals first; keypoints and cells for the rest.
+  kFast,       ///< Quadrilaterals only: the whole outer edge must be visible.
+  kSurfGolay,  ///< Keypoints of the border, then corners of cells if these find nothing.
 };
 
-/// How S-G markers are detected.
+/// Options of the S-G detector.
 struct SgOptions {
   SgStrategy strategy = SgStrategy::kHybrid;
-  /// Numbers that are in use, if they are known: others are not reported, and more cells of these
-  /// may be covered. None given: all 4,096.
+  /// Numbers in use, if known: others are not reported, and more cells of these may be occluded.
+  /// Empty: all 4,096.
   std::vector<int> numbers_in_use;
 };
 

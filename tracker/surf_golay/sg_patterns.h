@@ -1,20 +1,20 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include "tracker/marker_pattern.h"
 
 namespace pleinair::tracker {
 
-/// The marker bit patterns that a reader compares with an image. Keeps the last one of a number:
-/// consecutive fits are mostly of the same marker.
+/// Bit patterns that a decoder compares with an image. Caches the last one, because consecutive
+/// fits are mostly of the same marker.
 class SgPatterns {
  public:
   SgPatterns();
 
-  /// The border, with cells that are not known.
+  /// The border, with unknown cells.
   const MarkerPattern& blank() const { return blank_; }
-  /// Valid until the pattern of another number is asked for.
+  /// Valid until the next call with another number.
   const MarkerPattern& OfNumber(int number);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <cstdint>
@@ -23,9 +23,9 @@
 
 namespace pleinair::tracker {
 
-/// Reads the marker that may be observed at a guessed place: aligns the border, reads the cells,
-/// decodes the number, predicts the whole marker and verifies it, then measures it to hundredths of
-/// a pixel. Keeps its buffers; one thread at a time.
+/// Decodes and measures the marker at a hypothesised position: aligns the border, estimates the
+/// cells, decodes the number, predicts the whole marker and verifies it, then measures it to
+/// hundredths of a pixel. Reuses its buffers; one thread at a time.
 class SgReader {
  public:
   explicit SgReader(const LensGrid& lens) : lens_(lens), windows_(lens) {}
@@ -34,73 +34,76 @@ class SgReader {
     return numbers_.SetNumbersInUse(numbers);
   }
 
-  /// The image that the following readings look at; kept by reference.
+  /// Image for the following readings; kept by reference.
   void SetImage(ImageView<const std::uint8_t> grey);
 
-  /// Of what resolution the image is that a marker is fitted to: its longest side in pixels.
+  /// Resolution of a fit: the marker's longest side in pixels.
   enum class Detail { kProbe, kCoarse, kFine };
 
-  /// How well a border fits at a guess, after some steps towards a better one: the correlation.
-  /// `steps` 0 only looks.
+  /// Correlation of a border with the image at a hypothesis, after some steps of fitting. `steps` 0
+  /// evaluates only.
   double FitBorder(int steps, Detail detail, BlockFitState* state);
 
-  /// Share of the border that looked as predicted in the last fit.
+  /// Share of the border that matched the prediction in the last fit.
   double VisibleBorder() const;
 
-  /// Finds and measures a marker of the frame before near a guess that may be some pixels off.
+  /// Finds and measures a marker of the previous frame near a prediction that may be some pixels
+  /// off.
   std::optional<SgReading> Track(int number, const BlockFitState& guess);
 
-  /// Everything, from a guess that FitBorder has improved.
+  /// Full decode, from a hypothesis that FitBorder() has improved.
   std::optional<SgReading> DecodeFull(const BlockFitState& guess);
 
-  /// A marker that lies open in even light, whole and plain to see, from a guess that is good to a
-  /// pixel; nothing where anything is doubtful, and Read must tell.
+  /// Fast decode of a completely visible, uniformly lit marker, from a hypothesis accurate to a
+  /// pixel. Returns nullopt in any doubt; DecodeFull() must then decide.
   std::optional<SgReading> DecodeFast(const BlockFitState& guess);
 
-  /// As Read, from a guess of another origin that is good already, where a fit of a border that is
-  /// covered nearly everywhere could only go wrong. Whether the number is proved (IsConfident) is
-  /// left to those who can look at the border's pixels.
+  /// As DecodeFull(), from a hypothesis of another origin that is accurate already, where a fit of
+  /// a mostly occluded border could only make it worse. The caller checks the confidence
+  /// (IsConfident) from the border's pixels.
   std::optional<SgReading> DecodeAsGuessed(const BlockFitState& guess) {
     return DecodeFull(guess, 0);
   }
 
-  /// Where borders of this image lie open (modules from undistorted pixels) of which the cells told
-  /// no number.
+  /// Unoccluded borders of this image (modules from undistorted pixels) whose cells gave no number.
   std::span<const Mat3> UnreadBorders() const { return unread_borders_; }
 
-  /// Measures a marker whose number is known from a guess that is right to about a pixel, until a
+  /// Measures a marker with a known number from a hypothesis accurate to about a pixel, until a
   /// step moves no corner farther than `done_px`.
   std::optional<SgReading> Measure(int number, const BlockFitState& guess, double done_px = 0.01);
 
  private:
-  /// Longest side of a marker that is fitted coarsely, the blur it is taken to have at most, and
-  /// the sides of the blocks that it and one that is measured are cut into.
+  /// Longest side and maximum blur of a marker in coarse fits, and the block sizes of coarse fits
+  /// and of measurements.
   static constexpr double kCoarseSide_px = 52.0, kCoarseBlur_px = 1.2;
   static constexpr double kCoarseBlock_px = 8.0, kFineBlock_px = 14.0;
-  /// A marker of which less is observed is also measured from its content, and beneath its covers.
+  /// A marker with a smaller visible share is also measured from its content, and with a mask of
+  /// its occluders.
   static constexpr double kNearlyAllVisible = 0.93;
 
   std::optional<SgReading> DecodeFull(const BlockFitState& guess, int border_steps);
-  /// FitBorder, finely, in a reduced image where noise hides the border in the image itself.
+  /// FitBorder(), fine, in a reduced image if noise hides the border in the full one.
   double FitBorderThroughNoise(int steps, BlockFitState* state);
-  /// Reads the cells of a marker whose border was fitted last.
+  /// Estimates and decodes the cells of the marker whose border was fitted last.
   std::optional<DecodedNumber> DecodeNumber(const BlockFitState& state);
-  /// Moves a state to where the content alone fits best.
+  /// Refines a state by a fit of the content alone.
   bool FitContent(int number, BlockFitState* state);
-  /// Describes how a marker that was measured looks anew, in blocks that go by where it was found.
+  /// Recomputes the appearance of a measured marker, in blocks that depend on the first reading
+  /// only.
   void DescribeAnew(SgReading* reading);
-  /// Whether the marker that was fitted last is so noisy that its pixels' own certainties mislead.
+  /// Whether the marker that was fitted last is so noisy that its pixels' own inverse variances are
+  /// misleading.
   bool IsNoisy();
-  /// Fits a marker that was fitted last once more, its pixels as certain as what is predicted of
-  /// them, and adds its corners to the reading. The first fit and the rest of the reading stay.
+  /// Repeats the last fit with inverse variances from the predicted light, and adds its corners to
+  /// the reading. The first fit and the rest of the reading stay.
   void MeasureThroughNoise(int number, BlockFitOptions options, BlockFitState state,
                            SgReading* reading);
-  /// Makes the pixels of the window that do not show the content count for nothing.
+  /// Sets the weight of all pixels of the window outside the content to zero.
   void KeepContent(const PixelWindow& window, const Mat3& modules_from_undistorted);
-  /// Measures a marker again of which something is covered, by what surely is not.
+  /// Measures a partly occluded marker again, without the occluded pixels.
   void RefineBeneathCovers(SgReading* reading);
   std::optional<SgReading> MeasureBeneathCovers(int number, const BlockFitState& guess);
-  /// Blocks along a marker that is measured in that window.
+  /// Number of blocks along a marker that is measured in that window.
   static int FineBlocks(const PixelWindow& window, const BlockFitState& state);
 
   const LensGrid& lens_;
@@ -109,13 +112,14 @@ class SgReader {
   NumberDecoder numbers_;
   SgPatterns patterns_;
   FittedPatch fitted_;
-  /// Where a fit at another size waits, or one is made whose light and looks count for nothing.
+  /// Stores a fit at another size, or one that is used for its position only.
   FittedPatch other_;
   CoverMask cover_;
-  MarkerLightEstimator cover_light_;  ///< Of a marker that something covers.
+  MarkerLightEstimator cover_light_;  ///< For partly occluded markers.
   PixelNoiseEstimator noise_estimator_;
   std::vector<Mat3> unread_borders_;
-  /// That of the last plain marker of this image: others are as far away or as much in motion.
+  /// Blur of the last clearly visible marker of this image; others have a similar distance or
+  /// motion.
   double plain_blur_px_ = 0.0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <array>
 #include <cstdint>
@@ -15,24 +15,24 @@
 
 namespace pleinair::tracker {
 
-/// Tests which way round markers lie in an image, each in the reduction of the image that sees its
-/// modules as about a pixel.
+/// Tests the orientation of markers in an image, each at the pyramid level where its modules are
+/// about one pixel.
 class UprightTest {
  public:
   explicit UprightTest(const LensGrid& lens) : lens_(lens) {}
 
-  /// The image that the following tests look at; kept by reference.
+  /// Image for the following tests; kept by reference.
   void SetImage(ImageView<const std::uint8_t> grey) { reduced_.SetImage(grey); }
   ReducedImages& reduced() { return reduced_; }
 
-  /// The best two orientations of a marker whose square has these corners, clockwise; by pixels
-  /// alone.
+  /// The best two orientations of a marker whose square has these corners, clockwise; from single
+  /// pixels.
   std::array<BorderOrientation, 2> Orientations(std::array<Vec2, 4> corners_px);
-  /// The same of a homography's square.
+  /// As above, for the square of a homography.
   std::array<BorderOrientation, 2> Orientations(const Mat3& modules_from_undistorted);
-  /// Correlation of the border's pixels this way round; 0 where another is better.
+  /// Correlation of the border's pixels in this orientation; 0 if another orientation is better.
   double UprightCorrelation(const BlockFitState& state);
-  /// Whether a marker that was read lies upright rather than turned or mirrored.
+  /// Whether a decoded marker is upright, not rotated or mirrored.
   bool IsUpright(const SgReading& reading);
 
  private:
