@@ -59,11 +59,11 @@ class CellReader {
              Eigen::MatrixXd* inverse);
   bool SolveWithGlare(Eigen::VectorXd* found, Eigen::MatrixXd* inverse);
   static double GlareAt(const Pixel& pixel, const Eigen::VectorXd& found);
-  /// Likelihoods of each cell for black, white and occluded, from the cells around it; and the
-  /// standard deviation of a cell's share of white that noise does not explain.
+  /// Standard deviation of the share of white of black and white cells that noise does not explain.
   struct Unevenness {
     double black, white;
   };
+  /// Sets the likelihoods of each cell for black, white and occluded, given the cells around it.
   static void Judge(const Unevenness& systematic, const std::array<double, sg::kCodeCells>& glare,
                     CellReading* reading);
 

@@ -9,12 +9,12 @@
 
 namespace pleinair::tracker {
 
-/// Internal: shared by the .cc files of this module; not installed.
+/// Orientation of a marker in a quadrilateral.
 struct BorderOrientation {
-  int first_corner = 0;      ///< Orientation of a marker in a quadrilateral.
-  bool mirrored = false;     ///< Index of the quadrilateral's corner that is the marker's top-left;
-                             ///< the others follow
-  double correlation = 0.0;  ///< clockwise, or anticlockwise if mirrored.
+  int first_corner = 0;  ///< Index of the quadrilateral's corner that is the marker's top-left; the
+                         ///< others follow
+  bool mirrored = false;     ///< clockwise, or anticlockwise if mirrored.
+  double correlation = 0.0;  ///< Correlation of the border's modules with the observation: -1…1.
 };
 
 /// Samples the centres of the border's modules inside a quadrilateral and finds the best of its
