@@ -15,7 +15,7 @@ LightWindow Widened(LightWindow window, double margin) {
   return window;
 }
 
-// What the view shows between two depths, seen along the rays: the box of its eight corners.
+// Light-space extent of the view frustum between two depths: the box of its eight corners.
 LightExtent SliceExtent(const LightAxes& axes, const View& view, double near_m, double far_m) {
   const glm::dmat4 marker_from_camera = glm::inverse(view.camera_from_marker);
   LightExtent extent{{glm::dvec2(1e300), glm::dvec2(-1e300)}, 1e300, -1e300};
@@ -30,13 +30,13 @@ LightExtent SliceExtent(const LightAxes& axes, const View& view, double near_m, 
   return extent;
 }
 
-// The least power of 2^¼ that holds a length.
+// The smallest power of 2^¼ that is at least `length`.
 double SteppedSide(double length) {
   return std::exp2(std::ceil(4.0 * std::log2(std::max(length, 1e-6))) / 4.0);
 }
 
-// Margin, metres, as wide as the widest kernel around `shown` metres in a map of that size. A slice
-// beside the scene shows a point of it.
+// Margin, metres, as wide as the maximum kernel around `shown` metres in a map of that size. A
+// slice outside the scene contains one point of it.
 double UsefulMargin(double shown, int resolution) {
   constexpr double kMinShown_m = 0.05;
   const double texels = WidestKernel(resolution);
@@ -49,7 +49,7 @@ double WidestKernel(int resolution) { return std::min(128.0, resolution / 8.0); 
 
 LightAxes LightAxes::FromSun(const glm::dvec3& to_sun) {
   const glm::dvec3 w = glm::normalize(to_sun);
-  // The marker's z as "up" keeps u level on a marker that lies on the ground.
+  // With the marker's z as "up", u stays level for a marker that lies on the ground.
   const glm::dvec3 up = std::abs(w.z) < 0.999 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
   const glm::dvec3 u = glm::normalize(glm::cross(up, w));
   return {u, glm::cross(w, u), w};
@@ -95,7 +95,8 @@ std::vector<LightWindow> FitWindowsToView(const LightAxes& axes, const View& vie
   std::vector<LightWindow> windows;
   for (int i = 0; i < partitions; ++i) {
     const LightExtent seen = SliceExtent(axes, view, splits[i], splits[i + 1]);
-    // Of the view, what the scene can fill; a slice beside the scene keeps a point of it.
+    // The part of the view that the scene can fill; a slice outside the scene keeps one point of
+    // it.
     const glm::dvec2 low = glm::clamp(seen.window.min, scene.window.min, scene.window.max);
     const glm::dvec2 high = glm::clamp(seen.window.max, scene.window.min, scene.window.max);
     LightWindow window;
@@ -109,7 +110,7 @@ std::vector<LightWindow> FitWindowsToView(const LightAxes& axes, const View& vie
       window.min[axis] = std::floor(corner / texel) * texel;
       window.max[axis] = window.min[axis] + texel * resolutions[i];
     }
-    // Depths move in steps too: a map whose window stays need not be drawn again.
+    // Depths move in steps too: a map whose window is unchanged need not be redrawn.
     const double step = SteppedSide(seen.depth_max - seen.depth_min) / 16.0;
     window.receivers_min = std::floor(seen.depth_min / step) * step;
     window.receivers_max = std::ceil(seen.depth_max / step) * step;
@@ -127,7 +128,7 @@ std::vector<LightWindow> FitWindowsToRegion(const LightAxes& axes, const Box& fo
   whole = Widened(whole, margin_m);
   std::vector<LightWindow> windows{finest};
   for (int i = 1; i < partitions; ++i) {
-    // Each side moves from the finest towards the whole so that areas grow evenly.
+    // Each side is interpolated from the finest to the whole so that areas grow evenly.
     const double share = static_cast<double>(i) / (partitions - 1);
     const glm::dvec2 fine_size = finest.max - finest.min;
     const glm::dvec2 whole_size = whole.max - whole.min;

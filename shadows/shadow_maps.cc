@@ -11,13 +11,13 @@
 namespace pleinair::shadows {
 namespace {
 
-// Texels along a border that nothing is looked up in: kShadowBorder in shadow_visibility.glsl.
+// Unused texels along a border: kShadowBorder in shadow_visibility.glsl.
 constexpr double kShadowBorder = 4.0;
 
-// Depth beyond the casters' own bounds, so that none is cut at the ends of the range.
+// Margin of depth beyond the casters' bounds, so that none is clipped at the ends of the range.
 constexpr double kDepthSlack_m = 0.01;
 
-// Highest a caster can stand above a receiver decides how far a kernel reaches.
+// Kernel radius, which depends on the maximum height of a caster above a receiver.
 double KernelReach(const ShadowMapOptions& options, double depth_range_m) {
   return depth_range_m * std::tan(options.sun_angular_radius.value());
 }
@@ -70,8 +70,8 @@ Result<void> CheckShadowMapOptions(const ShadowMapOptions& options) {
 
 namespace {
 
-// Levels of the pyramid of a map: from a quarter of its size down to 2 texels, or to blocks of 256
-// texels, beyond which no penumbra reaches.
+// Levels of a map's pyramid: from a quarter of its size down to 2 texels, or to blocks of 256
+// texels, the maximum extent of a penumbra.
 int PyramidLevels(int resolution) {
   return std::min(std::countr_zero(static_cast<unsigned>(resolution)) - 2, 7);
 }
@@ -214,13 +214,13 @@ Result<int> ShadowMaps::UpdateForRegion(std::span<const ShadowCaster> casters,
   for (const ShadowCaster& caster : casters) scene.Include(caster.bounds);
   if (scene.Empty()) scene.Include(glm::dvec3(0.0));
   const LightExtent extent = Project(axes, scene);
-  // Wide enough that Redraw finds the focus covered, and leaves it out of the coarser maps.
+  // Wide enough that Redraw() finds the focus covered and omits it from the coarser maps.
   const glm::dvec2 scene_size = extent.window.max - extent.window.min;
   const double coarsest_texel =
       std::max(scene_size.x, scene_size.y) / options_.resolutions[options_.partitions - 1];
   const double margin = KernelReach(options_, extent.depth_max - extent.depth_min) +
                         2.0 * kDepthSlack_m + (kShadowBorder + 2.0) * coarsest_texel;
-  // No band: whatever the objects shade lies far from the finest map's border.
+  // No blend band: everything that the objects shade lies far from the finest map's border.
   return Redraw(casters, axes, FitWindowsToRegion(axes, focus, scene, options_.partitions, margin),
                 0.0);
 }
@@ -229,9 +229,9 @@ std::pair<double, double> ShadowMaps::DepthRange(const LightWindow& window,
                                                  const LightExtent& scene) const {
   double low = scene.depth_min, high = scene.depth_max;
   if (UsesMoments()) {
-    // Moments need a short range. What lies nearer to the sun is flattened onto its near end (depth
-    // clamp), which methods that measure the distance of blockers cannot have; what lies deeper
-    // than any receiver shades nothing.
+    // Moments need a short range. Casters nearer to the sun are flattened onto its near end (depth
+    // clamp), which is not possible for methods that measure the distance of blockers. Casters
+    // deeper than any receiver cast no shadow on it.
     high = std::min(high, window.receivers_max);
     low = std::min(std::max(low, window.receivers_min), high);
   }
@@ -259,9 +259,9 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
     for (const ShadowCaster& caster : casters) {
       const LightWindow footprint = Project(axes, caster.bounds).window;
       if (!footprint.Overlaps(window)) continue;
-      // Eq. 14: what a finer window holds whole, with all that its kernels touch and at every depth
-      // that this one looks up, need not be drawn again. Points are looked up in the finest window
-      // that holds them, so this loses nothing.
+      // Eq. 14: a caster that a finer window contains completely, with the reach of its kernels and
+      // all depths that this window uses, need not be drawn again. Points are looked up in the
+      // finest window that contains them, so nothing is lost.
       bool covered = false;
       for (int finer = 0; finer < i && !covered; ++finer) {
         LightWindow inner = windows[finer];
@@ -297,7 +297,8 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
   uniforms_.light_u = glm::vec4(axes.u, uniforms_.light_u.w);
   uniforms_.light_v = glm::vec4(axes.v, 0.0);
   uniforms_.to_sun = glm::vec4(axes.to_sun, std::tan(options_.sun_angular_radius.value()));
-  // Least deviation of the moment methods, a share of the range: the noise of 32-bit moments.
+  // Minimum standard deviation of the moment methods, relative to the range: the noise of 32-bit
+  // moments.
   uniforms_.settings = glm::vec4(options_.partitions, options_.bias.value(), 2e-4, blend_band);
   uniform_buffer_.Update(&uniforms_, sizeof uniforms_);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -342,7 +343,8 @@ void ShadowMaps::DrawBounds(int slice) {
       second_program_.Use();
     }
     if (level > 0) {
-      // Reading and drawing the same texture is defined only for levels shut out of the sampling.
+      // Reading and rendering to the same texture is defined only for levels excluded from
+      // sampling.
       glTextureParameteri(bounds_.id(), GL_TEXTURE_BASE_LEVEL, level - 1);
       glTextureParameteri(bounds_.id(), GL_TEXTURE_MAX_LEVEL, level - 1);
     }

@@ -9,8 +9,8 @@ namespace {
 using enum ShadowMethod;
 using enum MapContent;
 
-// Bleed reduction 0.25: the penumbra's error of the paper's step at a smaller leak (docs).
-// λ: the paper's ½ for the paper's method; 0.9, near the logarithm, serves the wide field best.
+// Bleed reduction 0.25: the penumbra error of the paper's visibility step at a smaller leak (docs).
+// λ: the paper's ½ for the paper's method; 0.9, almost logarithmic, is best for the wide field.
 constexpr std::array<ShadowMethodTraits, 13> kMethods{{
     {kPlain, "plain", "plain map", "SHADOW_METHOD_PLAIN", kDepth, 1, false, 0.5},
     {kPcf3, "pcf3", "PCF 3×3", "SHADOW_METHOD_PCF 3", kDepth, 1, false, 0.5},

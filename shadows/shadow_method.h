@@ -7,10 +7,10 @@
 
 namespace pleinair::shadows {
 
-/// How visibility is taken from the maps: one renderer, one family of shaders, a permutation each.
-/// docs/measurements/shadows.md has the measured errors and times.
+/// Methods that compute visibility from the maps: one renderer, one family of shaders, one
+/// permutation each. docs/measurements/shadows.md has the measured errors and times.
 enum class ShadowMethod {
-  kPlain,                 ///< One comparison a point (Williams 1978).
+  kPlain,                 ///< One comparison per point (Williams 1978).
   kPcf3,                  ///< Percentage-closer filtering, 3×3 bilinear comparisons (Reeves 1987).
   kPcf5,                  ///< 5×5.
   kPcf7,                  ///< 7×7.
@@ -23,20 +23,20 @@ enum class ShadowMethod {
   kCascadesGaussian,      ///< Four cascades with Z-GaF's blur and step: the paper's "CSMs with
                           ///< Gaussian blurring" (its Figure 8 C).
   kGaussian,              ///< The paper's Z-GaF: a Gaussian of blurred depth moments.
-  kSunDisc,               ///< Ours, the default: the sun's disc seen past the blockers.
+  kSunDisc,               ///< Ours, the default: unoccluded share of the sun's disc.
 };
 
-/// How much of kSunDisc's filter is computed. The other methods have one filter.
+/// Quality levels of kSunDisc's filter. The other methods have one filter.
 enum class SunDiscFilter {
-  kFull,    ///< A search for blockers, penumbrae of any width.
-  kBox,     ///< A box over 4×4 texels: no search, no pyramid, penumbrae of at most 3 texels.
+  kFull,    ///< Blocker search, penumbrae of any width.
+  kBox,     ///< A box over 4×4 texels: no search, no pyramid, penumbrae up to 3 texels.
   kSample,  ///< One sample of 2×2 texels, as cheap as a plain map.
 };
 
-/// What a method's maps hold beside depth.
+/// Data in a method's maps in addition to depth.
 enum class MapContent {
-  kDepth,          ///< Nothing more.
-  kDepthBounds,    ///< A pyramid of nearest and farthest depths.
+  kDepth,          ///< None.
+  kDepthBounds,    ///< A pyramid of minimum and maximum depths.
   kMoments,        ///< Blurred z, z².
   kWarpedMoments,  ///< Blurred moments of e^cz and −e^−cz.
 };
@@ -44,10 +44,10 @@ enum class MapContent {
 struct ShadowMethodTraits {
   ShadowMethod method;
   std::string_view name;   ///< On the command line and in files: "pcf5".
-  std::string_view title;  ///< For people: "PCF 5×5".
+  std::string_view title;  ///< In reports: "PCF 5×5".
   std::string_view shader_define;
   MapContent content;
-  int partitions;           ///< As the method is commonly used.
+  int partitions;           ///< Usual number for this method.
   bool falling_resolution;  ///< Maps of N, N/2, N/2, N/4 in place of N each.
   double split_weight;      ///< λ of Eq. 11.
 };
@@ -55,7 +55,7 @@ struct ShadowMethodTraits {
 /// All methods, in the order of the enumeration.
 std::span<const ShadowMethodTraits> ShadowMethods();
 const ShadowMethodTraits& TraitsOf(ShadowMethod method);
-/// The method of that name; nullptr where there is none.
+/// The method of that name; nullptr if there is none.
 const ShadowMethodTraits* FindShadowMethod(std::string_view name);
 
 }  // namespace pleinair::shadows

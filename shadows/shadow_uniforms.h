@@ -6,7 +6,7 @@
 namespace pleinair::shadows {
 
 constexpr int kMaxPartitions = 4;
-/// First binding points used by shadow_visibility.glsl; a set takes one block and two textures.
+/// First binding points used by shadow_visibility.glsl; each set uses one block and two textures.
 constexpr int kUniformBlockBinding = 8;
 constexpr int kTextureUnit = 8;
 
@@ -18,7 +18,7 @@ struct ShadowSliceUniforms {
   glm::vec4 size;
 };
 
-/// Mirrors ShadowBlock there.
+/// Mirrors ShadowBlock in the same file.
 struct ShadowUniforms {
   ShadowSliceUniforms slices[kMaxPartitions];
   glm::vec4 light_u;

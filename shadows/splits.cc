@@ -17,7 +17,7 @@ std::vector<double> PracticalSplits(double near_m, double far_m, int partitions,
     const double uniform = near_m + (far_m - near_m) * share;
     splits[i] = weight * logarithmic + (1.0 - weight) * uniform;
   }
-  splits.front() = near_m;  // Rounding must not open a gap at the ends.
+  splits.front() = near_m;  // Avoids gaps at the ends from rounding.
   splits.back() = far_m;
   return splits;
 }

@@ -5,7 +5,7 @@
 namespace pleinair::shadows {
 namespace {
 
-// Share of the way from a to b at which p lies, seen square to it.
+// Position of p between a and b, 0…1, projected onto the line through them.
 double ShareOf(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 way = b - a;
   return glm::dot(p - a, way) / glm::dot(way, way);
@@ -20,7 +20,7 @@ void SunSteps::Restart(const glm::dvec3& to_sun) {
 
 void SunSteps::Aim(const glm::dvec3& from_here, const glm::dvec3& towards) {
   step_.from = from_here;
-  // The chord of a small angle is the angle.
+  // For a small angle the chord equals the angle.
   step_.to = glm::normalize(from_here + step_rad_ * glm::normalize(towards - from_here));
 }
 

@@ -18,7 +18,7 @@ double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// 2^(k/8) at or below (−1) or at or above (+1) a depth.
+// Rounds a depth to the grid 2^(k/8), down (−1) or up (+1).
 double Stepped(double depth_m, int direction) {
   const double steps = 8.0 * std::log2(depth_m);
   return std::exp2((direction < 0 ? std::floor(steps) : std::ceil(steps)) / 8.0);

@@ -15,24 +15,24 @@
 
 namespace pleinair::shadows {
 
-/// What a method made of a view: visibility and depth of view, row 0 at the top; depth 0 where
+/// Result of a method for one view: visibility and view depth, row 0 at the top; depth 0 where
 /// there is no surface.
 struct VisibilityPicture {
   Image<float> visibility;
   Image<float> depth_m;
 };
 
-/// Milliseconds of one frame, the renderer's work finished: the least of several frames, because
-/// what else the machine does only ever adds.
+/// Milliseconds of one frame until the renderer has finished. The minimum of several frames,
+/// because other load on the machine only adds time.
 struct FrameTime {
-  double maps_ms = 0.0;   ///< All maps drawn anew.
-  double scene_ms = 0.0;  ///< Depth first, then the visibility of what is seen.
-  double cpu_ms = 0.0;    ///< Processor time of both, all threads: what a software renderer costs
-                          ///< whatever else the machine does.
+  double maps_ms = 0.0;   ///< All maps redrawn.
+  double scene_ms = 0.0;  ///< Depth pass, then visibility of the visible surfaces.
+  double cpu_ms = 0.0;    ///< Processor time of both, all threads: the cost of a software renderer,
+                          ///< independent of other load.
   double total_ms() const { return maps_ms + scene_ms; }
 };
 
-/// Points origin + (column + ½) du + (row + ½) dv on a plane.
+/// Sample points origin + (column + ½) du + (row + ½) dv on a plane.
 struct ProbeGrid {
   glm::dvec3 origin{0.0}, du{0.0}, dv{0.0}, normal{0.0, 0.0, 1.0};
   int width = 0, height = 0;
@@ -40,32 +40,32 @@ struct ProbeGrid {
   glm::dvec3 At(int x, int y) const { return origin + du * (x + 0.5) + dv * (y + 0.5); }
 };
 
-/// Draws one scene with any shadow method, one sample a pixel in its middle or several as the
-/// compositor does, so that edges of surfaces do not tremble where its camera creeps. Needs a
-/// current GL context for its whole life.
+/// Renders one scene with any shadow method. Takes one sample per pixel at its centre, or several
+/// as the compositor does, which keeps edges stable under slow camera motion. A GL context must be
+/// current during its whole lifetime.
 class BenchRenderer {
  public:
   static Result<BenchRenderer> Create(const BenchScene& scene, int width, int height,
                                       int samples = 1);
 
-  /// The method from now on. Errors as ShadowMaps::Create.
+  /// Sets the method. Errors as ShadowMaps::Create().
   Result<void> SetMethod(const ShadowMapOptions& options);
 
-  /// The view with its near and far moved to what is seen (the paper's first step), in steps of 2^⅛
-  /// so that a creeping camera does not change them in every frame.
+  /// The view with near and far tightened to the visible surfaces (the paper's first step). They
+  /// change in steps of 2^⅛, so that a slow camera does not change them in every frame.
   Result<View> Tightened(const View& view);
 
-  /// Draws a view; maps are redrawn where they must be. `redrawn`, where given, counts them.
+  /// Renders a view, redrawing maps where needed. `redrawn`, if given, receives their number.
   Result<VisibilityPicture> Draw(const View& view, int* redrawn = nullptr);
 
-  /// In place of visibility, the number of the partition that a point is looked up in (between two
-  /// where they fade into one another), −1 for none.
+  /// As Draw(), with the partition index of each point in place of visibility (fractional where two
+  /// partitions blend), −1 for none.
   Result<VisibilityPicture> DrawPartitions(const View& view);
 
-  /// Times `frames` frames of a view.
+  /// Measures the time over `frames` frames of a view.
   Result<FrameTime> Time(const View& view, int frames);
 
-  /// Visibility at the points of a grid, from the maps as last drawn.
+  /// Visibility at the points of a grid, from the last maps.
   Result<std::vector<float>> Probe(const ProbeGrid& grid);
 
   const ShadowMaps& maps() const { return maps_.front(); }
@@ -86,7 +86,7 @@ class BenchRenderer {
   struct Programs {
     gl::GlProgram depth, view, partitions, probe;
   };
-  /// Visibility and depth of view, and the depth buffer.
+  /// Visibility and view depth, and the depth buffer.
   struct Target {
     gl::GlTexture picture, depth;
     gl::GlFramebuffer framebuffer;
@@ -102,10 +102,10 @@ class BenchRenderer {
 
   int width_ = 0, height_ = 0;
   Scene scene_;
-  std::vector<ShadowMaps> maps_;  // One; none before SetMethod.
+  std::vector<ShadowMaps> maps_;  // One; empty before SetMethod().
   Programs programs_;
   Target target_;
-  std::optional<Target> samples_target_;  // With several samples a pixel.
+  std::optional<Target> samples_target_;  // With several samples per pixel.
   gl::GlVertexArray no_vertices_;
 };
 

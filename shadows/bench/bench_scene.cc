@@ -13,13 +13,13 @@ const glm::vec3 kGround{0.35F, 0.33F, 0.27F};
 const glm::vec3 kStone{0.55F, 0.53F, 0.5F};
 const glm::vec3 kWood{0.3F, 0.2F, 0.12F};
 
-// From azimuth (from +y towards +x) and elevation, degrees.
+// Unit vector from azimuth (from +y towards +x) and elevation, degrees.
 glm::dvec3 ToSun(double azimuth_deg, double elevation_deg) {
   const double a = azimuth_deg * kRadiansPerDegree, e = elevation_deg * kRadiansPerDegree;
   return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
 }
 
-// The ground in tiles, so that what a finer map holds whole can be left out of the coarser ones.
+// The ground in tiles, so that coarser maps can omit tiles that a finer map contains completely.
 void AddGround(BenchScene& scene, double half_side, int tiles) {
   const double side = 2.0 * half_side / tiles;
   for (int y = 0; y < tiles; ++y) {
@@ -57,7 +57,7 @@ BenchScene PoleAndBoxScene(double aspect) {
   AddGround(scene, 8.0, 2);
   scene.meshes.push_back(Cuboid({-0.5, -0.3, 0}, {0.3, 0.3, 0.8}, kStone));
   scene.meshes.push_back(Cuboid({0.98, 0.18, 0}, {1.02, 0.22, 2.5}, kWood));
-  // Boards 1.2 m deep whose southern edges' shadows lie apart. The sun stands in the south.
+  // Boards 1.2 m deep whose southern edges have separate shadows. The sun is in the south.
   double y = -1.5;
   for (const double height : {0.25, 0.5, 1.0, 2.0}) {
     scene.meshes.push_back(Quad({1.8, y, height}, {1.0, 0, 0}, {0, 0.8, 0}, kStone));

@@ -9,7 +9,7 @@
 namespace pleinair::shadows {
 namespace {
 
-// Uniform 0…1, the same on every machine (std::uniform_real_distribution is not).
+// Uniform random numbers in 0…1, the same on every machine (unlike std::uniform_real_distribution).
 class Numbers {
  public:
   explicit Numbers(int seed) : engine_(static_cast<unsigned>(seed)) {}
@@ -33,7 +33,7 @@ void AppendQuad(BenchMesh& mesh, const glm::dvec3& corner, const glm::dvec3& a,
   for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + i);
 }
 
-// A straight limb with a square section that narrows to the end.
+// A straight limb with a square cross-section that tapers towards its end.
 void AppendLimb(BenchMesh& mesh, const glm::dvec3& from, const glm::dvec3& to, double radius,
                 double end_radius) {
   const glm::dvec3 along = glm::normalize(to - from);
@@ -115,7 +115,7 @@ BenchMesh Leaves(const TreeShape& tree, const glm::vec3& albedo) {
   Numbers numbers(1000 + tree.seed);
   const glm::dvec3 centre = tree.foot + glm::dvec3(0, 0, tree.height - tree.crown);
   for (int i = 0; i < tree.leaves; ++i) {
-    // Denser towards the crown's skin.
+    // Denser towards the surface of the crown.
     const double r = tree.crown * std::pow(numbers.Next(), 0.25);
     const glm::dvec3 place = centre + r * numbers.Direction() * glm::dvec3(1.0, 1.0, 0.8);
     const glm::dvec3 along = numbers.Direction();

@@ -1,6 +1,6 @@
 #version 450 core
-// One level of the pyramid of nearest and farthest depth. FROM_DEPTH: each texel bounds 4×4 of the
-// map (finer levels would cost more than they spare); otherwise 2×2 of the level below.
+// One level of the pyramid of minimum and maximum depth. FROM_DEPTH: each texel bounds 4×4 texels
+// of the map (finer levels would cost more than they save); otherwise 2×2 of the level below.
 layout(binding = 0) uniform sampler2DArray finer;  // Its base level is the level to read.
 uniform int slice;
 layout(location = 0) out vec2 bounds;
@@ -19,7 +19,7 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     vec4 depth =
         textureGather(finer, vec3((corner + 2.0 * vec2(i & 1, i >> 1)) / texels, float(slice)), 0);
-    // Where nothing was drawn the ground is for ever away.
+    // Where nothing was drawn the surface is at infinity.
     depth += 1e6 * vec4(greaterThanEqual(depth, vec4(1.0)));
     Include(depth, depth);
   }

@@ -1,12 +1,12 @@
-// The methods ours is measured against that compare depths: one comparison, a box of them, or a
-// search and a filter. All compare with the receiver's plane, texel by texel (Isidoro 2006), so
-// that what tells them apart is the kernel and not the bias.
+// Reference methods that compare depths: one comparison, a box of them, or a search and a filter.
+// All compare with the receiver's plane, texel by texel (Isidoro 2006), so that they differ in the
+// kernel and not in the bias.
 #ifndef PLEINAIR_SHADOW_FILTERS
 #define PLEINAIR_SHADOW_FILTERS
 #include "shadows/shaders/shadow_formulae.glsl"
 #include "shadows/shaders/shadow_lookup.glsl"
 
-// Williams 1978: the nearest texel alone.
+// Williams 1978: the nearest texel.
 float ShadowNearest(int set, int slice, vec4 size, ShadowReceiver r) {
   ivec2 texel = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(int(size.z) - 1));
   float depth = texelFetch(shadow_maps[2 * set], ivec3(texel, slice), 0).r;
@@ -33,8 +33,8 @@ float ShadowBox(int set, int slice, vec4 size, ShadowReceiver r, int side) {
   return max(1.0 - blocked / float(side * side), 0.0);
 }
 
-// Percentage-closer soft shadows as published (Fernando 2005): a search over all that the near
-// plane's distance allows, then a filter as wide as the mean blocker asks.
+// Percentage-closer soft shadows as published (Fernando 2005): a search over the radius that the
+// near plane's distance implies, then a filter whose width follows from the mean blocker depth.
 float ShadowSoftBox(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
   const int kSearch = 16, kFilter = 32;
   float search_m = max(r.depth, 0.0) * tan_radius;

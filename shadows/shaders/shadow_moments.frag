@@ -13,7 +13,8 @@ vec4 Fetch(ivec2 texel) {
   texel = clamp(texel, ivec2(0), ivec2(resolution - 1));
   vec4 value = texelFetch(source, ivec3(texel, slice), 0);
 #ifdef FROM_DEPTH
-  // Centred at half the range: both moments keep their digits (32-bit floats; half is not enough).
+  // Centred at half the range, which preserves the precision of both moments (32-bit floats; 16
+  // bits are not enough).
   float z = value.r - 0.5;
 #ifdef WARPED
   vec2 warped = ShadowWarp(z);

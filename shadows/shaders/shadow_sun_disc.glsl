@@ -1,14 +1,14 @@
-// Ours: percentage-closer soft shadows with the sun's own geometry.
+// Ours: percentage-closer soft shadows with the geometry of the sun.
 #ifndef PLEINAIR_SHADOW_SUN_DISC
 #define PLEINAIR_SHADOW_SUN_DISC
 #include "shadows/shaders/shadow_formulae.glsl"
 #include "shadows/shaders/shadow_lookup.glsl"
 
-// At most.
+// Maximum numbers of samples.
 const float kSearchSamples = 24.0, kFilterSamples = 200.0;
 
-// Nearest and farthest depth in a block of the pyramid that covers `reach` texels around, and the
-// block's farthest corner from the receiver in texels (z).
+// Minimum and maximum depth in a block of the pyramid that covers a radius of `reach` texels, and
+// the distance of the block's farthest corner from the receiver in texels (z).
 vec3 ShadowBounds(int set, int slice, vec4 size, vec2 texel, float reach) {
   // Level 0 of the pyramid bounds 4×4 texels; a block is 2×2 of the level's texels.
   int top = max(min(findMSB(int(size.z)) - 3, 6), 0);
@@ -27,30 +27,31 @@ vec3 ShadowBounds(int set, int slice, vec4 size, vec2 texel, float reach) {
   return vec3(bounds * size.w, length(far));
 }
 
-// Points for an area of `square_texels` over π, a tap seeing four texels: `a_texel` each on top of
-// `least`. Not a whole number: the last point weighs less, so that nothing jumps where one is added.
+// Number of sample points for an area of `square_texels` over π (a tap covers four texels):
+// `a_texel` each, plus the minimum. Not an integer: the last point has a fractional weight, so that
+// nothing jumps when one is added.
 float ShadowCount(float square_texels, float a_texel, float minimum, float maximum) {
   return clamp(minimum + a_texel * square_texels, minimum, maximum);
 }
 
-// VogelDisc's turn from point to point, 2.39996 rad: spares a sine and a cosine a point.
+// Rotation of VogelDisc from point to point, 2.39996 rad: saves a sine and a cosine per point.
 const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-// A pixel's variance over its side's square: a box has 1/12. Edges stand as still as the truth's
-// while a camera creeps with this.
+// Variance of a pixel relative to the square of its side: a box has 1/12. With this value edges are
+// as stable as the ground truth's while a camera moves slowly.
 const float kPixelVariance = 1.0 / 11.0;
 
-// Half-widths of the box over texels that is as wide, in standard deviations, as disc and pixel
-// together: a disc of radius ρ has the variance ρ²/4 along an axis, a box of ±k has k²/3. The texels'
-// own 1/12 comes on top: without it edges of large texels tremble.
+// Half-widths of the box over texels with the same standard deviation as disc and pixel together: a
+// disc of radius ρ has the variance ρ²/4 along an axis, a box of ±k has k²/3. The texels' own 1/12
+// is added: without it edges of large texels flicker.
 vec2 ShadowBoxWidth(vec4 size, ShadowReceiver r, float height, float tan_radius) {
   vec2 disc = height * tan_radius / size.xy;
   vec2 pixel = kPixelVariance * (r.step_x * r.step_x + r.step_y * r.step_y);
   return sqrt(max(3.0 * (0.25 * disc * disc + pixel), 0.25));
 }
 
-// The 4×4 texels around a point: what a box as wide as their blockers' mean height asks leaves
-// visible. The widest box that fits is ±1½ texels.
+// Visibility from the 4×4 texels around a point: a box whose width follows from the mean height of
+// their blockers. The widest box that fits is ±1½ texels.
 float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
   vec2 corner = floor(r.texel - 0.5) - 1.0;
   vec4 blocks[4];
@@ -75,12 +76,12 @@ float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_rad
   return max(1.0 - blocked / (4.0 * k.x * k.y), 0.0);
 }
 
-// One even spread of looks over an ellipse as wide, in standard deviations, as disc and pixel
-// together. Looks of the disc each moved to another place in the pixel tremble twice as much.
-// Where it is not wanted, one look.
+// Sample points evenly distributed over an ellipse with the same standard deviations as disc and
+// pixel together. (Points of the disc with an individual offset in the pixel flicker twice as
+// much.) One sample where the result is not needed.
 float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius,
                        float height, bool wanted) {
-  // A look is a tent of variance 1/6 texel² an axis; a disc of radius ρ has ρ²/4.
+  // A tap is a tent of variance 1/6 texel² per axis; a disc of radius ρ has ρ²/4.
   float texel_m = max(size.x, size.y);
   float disc_m = min(height * tan_radius, ShadowWidestKernel(size.z) * min(size.x, size.y));
   float filter_m = sqrt(max(disc_m * disc_m - 2.0 / 3.0 * texel_m * texel_m, 0.0));
@@ -104,18 +105,18 @@ float ShadowEvenSpread(int set, int slice, vec4 size, ShadowReceiver r, float ta
   return visible / max(count, 1e-3);
 }
 
-// Visibility of the sun's disc by percentage-closer soft shadows (Fernando 2005) with the sun's own
-// geometry: a blocker h metres away shades a disc of h tan 0.2665° around it.
-// Deviations: (1) the search looks only as far as the highest blocker nearby can matter, found
-// in a pyramid of depth bounds, so that most pixels need no search at all; (2) depths are compared
-// with the receiver's plane, texel by texel, so a lit plane needs no bias to speak of; (3) what is far
-// too low for any ray of the disc at its distance is left out (the foot of a sunlit wall).
+// Visibility of the sun's disc by percentage-closer soft shadows (Fernando 2005) with the geometry
+// of the sun: a blocker h metres away shades a disc of radius h tan 0.2665° around it. Deviations:
+// (1) the search radius is limited by the highest blocker nearby, found in a pyramid of depth
+// bounds, so that most pixels need no search; (2) depths are compared with the receiver's plane,
+// texel by texel, so that a lit plane needs almost no bias; (3) surfaces too low for any ray of the
+// disc at their distance are ignored (the foot of a sunlit wall).
 float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius,
                            bool wanted) {
   float texel_m = max(size.x, size.y);
   float slope_texel = length(r.slope);
   float footprint = 0.5 * (length(r.step_x) + length(r.step_y));
-  // Bounds: start with what anything up to the near plane could do, then tighten.
+  // Bounds: start from the near plane, then tighten.
   float reach = r.depth * tan_radius / min(size.x, size.y) + footprint + 1.0;
   vec3 bounds = ShadowBounds(set, slice, size, r.texel, reach);
   reach = max(r.depth - bounds.x, 0.0) * tan_radius / min(size.x, size.y) + footprint + 1.0;
@@ -129,8 +130,9 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
   vec2 widest = 0.75 * search_m * search_m / (size.xy * size.xy) + pixel * pixel;
   bool soft = max(widest.x, widest.y) > 2.25 && !umbra && wanted;
 
-  // Mean height of the blockers that the rays from the pixel to the disc can meet. Loops with a count
-  // of 0 instead of branches: Mesa's software renderer runs both sides of an `if`, but leaves a loop.
+  // Mean height of the blockers that rays from the pixel to the disc can hit. Loops with a count of
+  // 0 in place of branches: Mesa's software renderer executes both sides of an `if`, but skips a
+  // loop.
   float height_sum = 0.0;
   float blockers = 0.0;
   float pixel_m = footprint * texel_m;

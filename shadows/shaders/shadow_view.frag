@@ -1,6 +1,6 @@
 #version 450 core
-// Visibility of the sun and depth of view at a surface; SHOW_PARTITIONS: the number of the partition
-// that it is looked up in, between two of them where they fade into one another.
+// Visibility of the sun and view depth at a surface. SHOW_PARTITIONS: the partition's index,
+// fractional where two partitions blend.
 #include "shadows/shaders/shadow_visibility.glsl"
 in vec3 v_position;
 uniform vec3 eye;

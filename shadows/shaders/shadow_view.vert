@@ -1,5 +1,5 @@
 #version 450 core
-// Surfaces of a scene, for measuring and looking at its shadows.
+// Surfaces of a scene, for measuring and inspecting its shadows.
 layout(location = 0) in vec3 position;
 uniform mat4 clip_from_marker;
 out vec3 v_position;

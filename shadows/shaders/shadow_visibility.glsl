@@ -1,4 +1,4 @@
-// Share of the sun's disc that a point sees. For fragment shaders:
+// Visible share of the sun's disc at a point. For fragment shaders:
 //
 //   #define SHADOW_SETS 2              // how many ShadowMaps are bound; 1 by default
 //   #define SHADOW_METHOD_GAUSSIAN     // ShadowMaps::ShaderDefines; the sun's disc by default
@@ -6,11 +6,12 @@
 //   float lit = ShadowVisibility(0, position_marker, normal_marker);
 //
 // Bind the maps with ShadowMaps::Bind(set). `set` must be a constant. Marker coordinates, metres.
-// SHADOW_CROSS_FADE: each set is two, of the steps of the sun before and behind it, numbered 2 set
-// and 2 set + 1 and mixed (FadingShadowMaps); SHADOW_SETS counts both.
+// SHADOW_CROSS_FADE: each set consists of two, for the sun's steps before and after its position,
+// numbered 2 set and 2 set + 1 and cross-faded (FadingShadowMaps); SHADOW_SETS counts both.
 #ifndef PLEINAIR_SHADOW_VISIBILITY
 #define PLEINAIR_SHADOW_VISIBILITY
-// A file is included where it is first named: these must not first be named in a method left out.
+// A file is included where it is first named, so these must not be first named in a method that is
+// left out.
 #include "shadows/shaders/shadow_formulae.glsl"
 #include "shadows/shaders/shadow_lookup.glsl"
 
@@ -23,8 +24,8 @@
 #include "shadows/shaders/shadow_sun_disc.glsl"
 #endif
 
-// Normal of the flat triangle that the fragment lies on, turned to the side of `normal`. The bias
-// of the visibility follows the surface: interpolated normals would make it leak or scar.
+// Normal of the flat triangle of the fragment, on the side of `normal`. The visibility's bias
+// follows the surface: interpolated normals would cause leaks or acne.
 vec3 ShadowGeometricNormal(vec3 position, vec3 normal) {
   vec3 flat_normal = cross(dFdx(position), dFdy(position));
   float size = length(flat_normal);
@@ -37,21 +38,21 @@ vec2 ShadowTexel(ShadowSlice s, vec3 position) {
               dot(s.v_from_marker.xyz, position) + s.v_from_marker.w);
 }
 
-// Texels along a map's border that nothing is looked up in: half the widest box of comparisons.
+// Unused texels along a map's border: half the widest box of comparisons.
 const float kShadowBorder = 4.0;
 
-// Where a point lies in a slice.
+// Position of a point in a slice.
 struct ShadowPlace {
-  int slice;     // -1: in none.
+  int slice;  // -1: in none.
   vec2 texel;
   float depth;   // Metres.
   vec4 size;     // As ShadowSlice.
-  float inside;  // Texels to the border beyond which nothing is looked up.
+  float inside;  // Distance in texels from the usable area's border.
 };
 
-// The finest slice whose window and depths hold the point, and the next one that does. The number of
-// slices is a constant and they are picked by selection: Mesa's software renderer would fetch a
-// slice chosen by index float by float.
+// The finest slice whose window and depths contain the point, and the next one that does. The
+// number of slices is a constant, and they are selected by comparisons: Mesa's software renderer
+// would fetch a slice chosen by index float by float.
 void ShadowPlaces(int set, vec3 position, out ShadowPlace finest, out ShadowPlace next) {
   finest = next = ShadowPlace(-1, vec2(0.0), 0.0, vec4(1.0), 0.0);
   for (int i = SHADOW_PARTITIONS - 1; i >= 0; --i) {
@@ -75,7 +76,7 @@ void ShadowPlaces(int set, vec3 position, out ShadowPlace finest, out ShadowPlac
   }
 }
 
-// What one slice says of a point; anything where it is not wanted, at the least cost.
+// Visibility by one slice. Undefined, at minimum cost, if the slice is not needed.
 float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 step_y,
                     bool wanted) {
   vec3 light_u = shadow_sets[set].light_u.xyz, light_v = shadow_sets[set].light_v.xyz;
@@ -88,7 +89,8 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
   r.slope = slope * place.size.xy;
   r.step_x = vec2(dot(light_u, step_x), dot(light_v, step_x)) / place.size.xy;
   r.step_y = vec2(dot(light_u, step_y), dot(light_v, step_y)) / place.size.xy;
-  // Half a texel of slope: the next facet of a curved surface lies that far off this one's plane.
+  // Half a texel of slope: the distance of the next facet of a curved surface from this one's
+  // plane.
   r.rise = ShadowRise(length(r.slope), facing);
   r.bias = shadow_sets[set].settings.y + 0.5 * r.rise;
 #if defined(SHADOW_METHOD_PLAIN)
@@ -109,26 +111,26 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
 #endif
 }
 
-// Share of the way through the finest slice's blend band, 1 at its border.
+// Position in the finest slice's blend band: 1 at its border.
 float ShadowCoarser(int set, ShadowPlace finest, ShadowPlace next) {
   float band = max(shadow_sets[set].settings.w * finest.size.z, 1e-6);
   return next.slice >= 0 ? clamp(1.0 - finest.inside / band, 0.0, 1.0) : 0.0;
 }
 
-// Number of the partition that a point is looked up in, −1 for none (debug views).
+// Index of the partition of a point, −1 for none (debug views).
 float ShadowPartition(int set, vec3 position) {
   ShadowPlace finest, next;
   ShadowPlaces(set, position, finest, next);
   return mix(float(finest.slice), float(next.slice), ShadowCoarser(set, finest, next));
 }
 
-// What the maps of one step of the sun say.
+// Visibility by the maps of one step of the sun.
 float ShadowAtStep(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
   ShadowPlace finest, next;
   ShadowPlaces(set, position, finest, next);
   int finest_slice = finest.slice;
   float coarser = ShadowCoarser(set, finest, next);
-  // Outside every window nothing casts; a surface turned away is in its own shade.
+  // Outside all windows nothing casts shadows; a surface facing away is in its own shadow.
   bool facing = ShadowFaces(dot(normal, shadow_sets[set].to_sun.xyz));
   bool look = facing && finest_slice >= 0;
   bool again = coarser > 0.0 && look;
@@ -147,8 +149,8 @@ float ShadowAtStep(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y
   return !facing ? 0.0 : (finest_slice < 0 ? 1.0 : visible);
 }
 
-// Mean over the pixel: `step_x`, `step_y` are how far `position` moves to the next pixel (dFdx,
-// dFdy, taken where all pixels run).
+// Mean visibility over the pixel. `step_x`, `step_y`: change of `position` to the next pixel (dFdx,
+// dFdy, to be computed in uniform control flow).
 float ShadowVisibility(int set, vec3 position, vec3 normal, vec3 step_x, vec3 step_y) {
 #ifdef SHADOW_CROSS_FADE
   return mix(ShadowAtStep(2 * set, position, normal, step_x, step_y),
@@ -159,7 +161,7 @@ float ShadowVisibility(int set, vec3 position, vec3 normal, vec3 step_x, vec3 st
 #endif
 }
 
-// At the point alone.
+// Visibility at the point itself.
 float ShadowVisibility(int set, vec3 position, vec3 normal) {
   return ShadowVisibility(set, position, normal, vec3(0.0), vec3(0.0));
 }
