@@ -15,19 +15,18 @@
 
 namespace pleinair::accuracy {
 
-/// A detector that is measured. One thread at a time.
+/// Interface of a detector under test. One thread at a time.
 class Detector {
  public:
   virtual ~Detector() = default;
 
-  /// The print that it reads; the scenes are rendered with it.
+  /// Bit patterns of the markers that it detects; the scenes are rendered with them.
   virtual PatternByNumber Patterns() const = 0;
 
-  /// A single picture comes next, or the first frame of a film. What was seen before must not
-  /// matter.
+  /// Starts a single image or a video. Results must not depend on images before.
   virtual Result<void> Start(bool film) = 0;
 
-  /// What it sees, with the time of each of its stages.
+  /// Detections of an image, with the time of each processing stage.
   struct Detections {
     std::vector<Detected> markers;
     int lost = 0;
@@ -36,15 +35,14 @@ class Detector {
   virtual Result<Detections> Detect(ImageView<const std::uint8_t> grey) = 0;
 };
 
-/// AprilTag 3 as its library comes (quad_decimate 2, one thread), for one of its families; null for
-/// prints of other kinds. `edge`: of the square whose corners it reports.
+/// AprilTag 3 with its library's defaults (quad_decimate 2, one thread), for one of its families;
+/// null for other markers. `edge`: side of the square whose corners it reports.
 std::unique_ptr<Detector> MakeAprilTagPeer(const CameraModel& camera,
                                            std::string_view family = "tag36h11",
                                            Metres edge = kMarkerEdge);
 
-/// OpenCV's ArUco module (corners refined by cornerSubPix, as its users are told to), for its
-/// dictionary "4X4_50", or for the AprilTag families that it has dictionaries of; null for prints
-/// of other kinds.
+/// OpenCV's ArUco module (corners refined by cornerSubPix, as its documentation recommends), for
+/// its dictionary "4X4_50" and the AprilTag families that it supports; null for other markers.
 std::unique_ptr<Detector> MakeArucoPeer(const CameraModel& camera,
                                         std::string_view family = "4X4_50",
                                         Metres edge = kMarkerEdge);

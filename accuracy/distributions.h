@@ -21,7 +21,7 @@ double StudentCdf(double t, double degrees);
 /// Inverse of StudentCdf, 0 < p < 1.
 double StudentQuantile(double p, double degrees);
 
-/// P(X <= k) of `n` fair coins' heads; `n` from 0 up.
+/// P(X <= k) for the number X of heads of `n` fair coins.
 double FairCoinCdf(std::int64_t k, std::int64_t n);
 
 }  // namespace pleinair::accuracy

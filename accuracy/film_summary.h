@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace pleinair::accuracy {
 
-/// Of every level and pattern of the sweep "jitter" with at least five hits.
+/// Summaries of every level and pattern of the sweep "jitter" with at least five hits.
 std::vector<JitterSummary> SummarizeJitter(const std::vector<FrameRecord>& records);
 
-/// Of the sweeps whose names begin with "sequence" and of every recording.
+/// Summaries of the sweeps whose names begin with "sequence", and of every recording.
 std::vector<FilmSummary> SummarizeFilms(const std::vector<FrameRecord>& records);
 
 }  // namespace pleinair::accuracy

@@ -15,14 +15,14 @@
 
 namespace pleinair::accuracy {
 
-/// Prints of one kind by number; null where it has no such number.
+/// Bit patterns of markers of one kind by number; null if there is no such number.
 using PatternByNumber = std::function<std::shared_ptr<const tracker::MarkerPattern>(int number)>;
 
-/// What is known for certain of a marker in a frame.
+/// Ground truth of a marker in a frame.
 struct MarkerTruth {
   int number = 0;
   Transform<Camera, Marker> camera_from_marker{};
-  /// Top-left, then clockwise as the print is read; pixels (integer = pixel centre).
+  /// Clockwise from top-left on the upright marker; pixels (integer = pixel centre).
   std::array<Vec2, 4> corners_px{};
   CoveredShares covered{};
 };
@@ -32,13 +32,13 @@ struct RenderedFrame {
   std::vector<MarkerTruth> truth;  ///< In the order of the scene.
 };
 
-/// Turns scenes into pictures as a real camera would take them: light adds up linearly over each
-/// pixel's area through the lens and its point spread; then defocus, motion and the vignette; then
-/// photon and read-out noise; then the sRGB curve and eight bits. One thread at a time; the
-/// lens's rays are shared.
+/// Renders scenes as images of a real camera: light integrated linearly over each pixel's area
+/// through lens and point spread function; then defocus, motion blur and vignetting; then photon
+/// and read-out noise; then the sRGB curve and quantisation to 8 bits. One thread at a time; the
+/// rays of the lens are shared.
 class FrameRenderer {
  public:
-  /// Every `seed` gives other backgrounds and occluders, every `noise_seed` another noise.
+  /// `seed` determines backgrounds and occluders, `noise_seed` the noise.
   FrameRenderer(const CameraModel& camera, PatternByNumber patterns, std::uint64_t seed,
                 std::uint64_t noise_seed);
   ~FrameRenderer();
@@ -52,10 +52,10 @@ class FrameRenderer {
   struct Place {
     int x, y;
   };
-  /// Draws a marker over the background through the lens.
+  /// Renders a marker over the background through the lens.
   void Paint(const MarkerSpec& marker, const Occluder* occluder, const PhotoSpec& photo,
              Image<float>* picture);
-  /// What the finer pixels of one pixel see, before the lens blurs it.
+  /// Renders the sub-pixels of one pixel, before the lens blurs it.
   void PaintPixel(const MarkerSpec& marker, const MarkerTexture& texture, const Occluder* occluder,
                   double light, Place pixel, Place first, Image<float>* fine) const;
   void AddLightPatterns(const FrameSpec& frame, const MarkerTruth& first, Image<float>* picture);
@@ -67,7 +67,7 @@ class FrameRenderer {
   const std::uint64_t seed_, noise_seed_;
   std::unique_ptr<LensRays> rays_;
   std::vector<std::unique_ptr<MarkerTexture>> textures_;
-  std::string background_key_;  ///< Of the background kept from the frame before.
+  std::string background_key_;  ///< Key of the background kept from the previous frame.
   Image<float> background_;
 };
 

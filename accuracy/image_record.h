@@ -7,16 +7,16 @@
 
 namespace pleinair::accuracy {
 
-/// A figure of a composed picture against the true one.
+/// A measure of a composed image against the true one.
 struct ImageMeasure {
-  const char* name;  ///< As `pleinair compare` calls it.
+  const char* name;  ///< Name in `pleinair compare`.
   bool more_is_worse;
-  /// Changes of the mean up to this are not called worse or better: nobody sees them.
+  /// Smaller changes of the mean are not reported: they are not visible.
   double min_change;
 };
 
-/// What `pleinair compare` gives: mean CIEDE2000 over object, shadow, both with 25 px around them,
-/// everything; PSNR in dB and SSIM.
+/// Results of `pleinair compare`: mean CIEDE2000 over object, shadow, both with 25 px around them,
+/// and the whole image; PSNR in dB; SSIM.
 inline constexpr std::array<ImageMeasure, 8> kImageMeasures{{{"PSNR", false, 0.05},
                                                              {"SSIM", false, 0.0005},
                                                              {"dE_obj", true, 0.02},
@@ -26,11 +26,11 @@ inline constexpr std::array<ImageMeasure, 8> kImageMeasures{{{"PSNR", false, 0.0
                                                              {"PSNR_near", false, 0.05},
                                                              {"SSIM_near", false, 0.0005}}};
 
-/// How far a composed picture of a recording is from the true one.
+/// Difference of a composed image of a recording from the true one.
 struct ImageRecord {
   std::string recording{};
-  std::string picture{};  ///< The key frame's name: "0036".
-  /// In the order of kImageMeasures; nothing where a region has no pixel.
+  std::string picture{};  ///< Name of the key frame: "0036".
+  /// In the order of kImageMeasures; unset if a region has no pixel.
   std::array<std::optional<double>, kImageMeasures.size()> scores{};
 };
 

@@ -6,7 +6,7 @@
 
 namespace pleinair::accuracy {
 
-/// What a picture looks like after it was kept as a baseline JPEG of this quality, 1…100.
+/// The image after encoding as a baseline JPEG of this quality, 1…100, and decoding.
 GreyImage AfterJpeg(const GreyImage& grey, int quality);
 
 }  // namespace pleinair::accuracy

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: between the .cc files of this module; not installed.
+// Internal: shared by the .cc files of this module; not installed.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace pleinair::accuracy {
 
-/// Of each recording with composed pictures, in the order of these, and of all recordings where
-/// there are several.
+/// Summaries of each recording with composed images, in the order of these, and of all recordings
+/// if there are several.
 std::vector<LightSummary> SummarizeLight(const std::vector<ImageRecord>& pictures);
 
 }  // namespace pleinair::accuracy

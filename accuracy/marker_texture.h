@@ -7,8 +7,8 @@
 
 namespace pleinair::accuracy {
 
-/// A print as an integral over its modules, so that the mean over any upright box of it is exact:
-/// what the frames are sampled from. (Crow 1984, "Summed-area tables for texture mapping".)
+/// A marker as a summed-area table over its modules, so that the mean over any axis-aligned box is
+/// exact; the frames are sampled from it. (Crow 1984, "Summed-area tables for texture mapping".)
 class MarkerTexture {
  public:
   explicit MarkerTexture(const tracker::MarkerPattern& pattern);
@@ -16,8 +16,8 @@ class MarkerTexture {
   double extent() const { return extent_; }  ///< Half edges.
   int modules() const { return modules_; }
 
-  /// Share of white in the box about `at` (modules from the top-left, x right, y down) with these
-  /// half sides; what lies outside the print counts as the print's rim.
+  /// Share of white in the box around `at` (modules from the top-left, x right, y down) with these
+  /// half sides; the marker's outermost modules are extended beyond it.
   double White(Vec2 at, double half_width, double half_height) const;
 
  private:

@@ -7,14 +7,14 @@
 
 namespace pleinair::accuracy {
 
-/// Signed distances (edges, negative inside) to an occluder's outline where it is a hand or
-/// fingers; 0 and 1 (inside, outside) elsewhere.
+/// Signed distances (edges, negative inside) to the outline of an occluder that is a hand or
+/// fingers; for others 0 inside and 1 outside.
 struct OccluderMask {
   Image<float> cover;     ///< 0 or 1.
-  Image<float> distance;  ///< Empty where the occluder is flat.
+  Image<float> distance;  ///< Empty for flat occluders.
 };
 
-/// The mask of a pattern that covers `share` of the border or content.
+/// The mask of a pattern that covers `share` of border or content.
 OccluderMask MakeOccluderMask(const std::string& pattern, double share, RandomStream* random);
 
 CoveredShares SharesOf(const Image<float>& cover);

@@ -4,17 +4,16 @@
 
 namespace pleinair::accuracy {
 
-// What lens and motion do to light that is known in every pixel. The picture goes on mirrored
-// beyond its rim.
+// Blur by lens and motion of an image with known light in every pixel. The image is mirrored beyond
+// its edges.
 
-/// By a Gaussian of standard deviation `sigma_px`, cut at four of them.
+/// Gaussian of standard deviation `sigma_px`, cut off at four of them.
 Image<float> GaussianBlurred(const Image<float>& light, double sigma_px);
 
-/// By a disc, each pixel weighted by the share of it that lies within: a lens out of focus.
+/// Disc, with each pixel weighted by its share inside the disc: defocus.
 Image<float> DiscBlurred(const Image<float>& light, double radius_px);
 
-/// Along a streak of a length and direction (rad): motion at constant speed while the shutter is
-/// open.
+/// Streak of a length and direction (rad): motion at constant speed during the exposure.
 Image<float> StreakBlurred(const Image<float>& light, double length_px, double angle);
 
 }  // namespace pleinair::accuracy

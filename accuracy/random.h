@@ -6,14 +6,14 @@
 
 namespace pleinair::accuracy {
 
-/// Philox4x32-10: four 32-bit words that are a function of a counter and a key alone, so that any
-/// frame of a sweep can be made by itself on any machine. Salmon, Moraes, Dror & Shaw 2011,
-/// "Parallel random numbers: as easy as 1, 2, 3", section 3.3.
+/// Philox4x32-10: four 32-bit words as a function of a counter and a key, so that any frame of a
+/// sweep can be generated alone and on any machine. Salmon, Moraes, Dror & Shaw 2011, "Parallel
+/// random numbers: as easy as 1, 2, 3", section 3.3.
 std::array<std::uint32_t, 4> Philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 
-/// Random numbers of one purpose. What is drawn depends on the seed and the purpose's name alone,
-/// not on other streams, nor on the compiler: the standard library's distributions are not used.
+/// Random numbers for one purpose. They depend on the seed and the purpose's name alone, not on
+/// other streams or on the compiler: the standard library's distributions are not used.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view purpose);
@@ -24,7 +24,7 @@ class RandomStream {
   int Below(int count);                     ///< 0…count-1; count > 0.
   /// Standard normal, by the inverse distribution function.
   double Normal();
-  /// The same from a single word, thus never beyond ±6.3: for noise of millions of pixels.
+  /// As Normal(), from a single word, thus never beyond ±6.3: for the noise of millions of pixels.
   float NormalFromWord();
 
  private:

@@ -12,32 +12,31 @@ namespace pleinair::accuracy {
 
 /// Edge of the marker's square in every built-in scene.
 inline constexpr Metres kMarkerEdge{0.14};
-/// Markers carry the numbers 0…49, which every compared system has.
+/// Markers have the numbers 0…49, which every compared system supports.
 inline constexpr int kNumbers = 50;
-/// What counts as the content of a print, whatever its kind: the middle square of half the edge.
-/// The rest is its border.
+/// Content of a marker of any kind: the central square of half the edge. The rest is the border.
 inline constexpr double kContentShare = 0.5;
 
-/// Something that lies on a marker.
+/// An occluder on a marker.
 struct OccluderSpec {
-  std::string pattern{};  ///< OccluderPatterns() has the names.
-  double share = 0.0;     ///< Of the border, or of the content for patterns of the content.
-  std::string key{};      ///< Two occluders with one key have one shape.
+  std::string pattern{};  ///< A name from BorderPatterns() or ContentPatterns().
+  double share = 0.0;     ///< Of the border, or of the content for content patterns.
+  std::string key{};      ///< Occluders with the same key have the same shape.
 };
 
 struct MarkerSpec {
   int number = 0;
   Transform<Camera, Marker> camera_from_marker{};
-  double side_px = 0.0;   ///< Of the edge, were it seen frontally from its distance.
+  double side_px = 0.0;   ///< Length of the edge if it were frontal at its distance.
   double tilt_deg = 0.0;  ///< From the line of sight.
   std::optional<OccluderSpec> occluder{};
 };
 
-/// A change of the light across the first marker.
+/// A variation of the light across the first marker.
 struct LightPattern {
-  double angle = 0.0;  ///< Direction across the picture, rad.
-  Vec2 offset{};       ///< Of its middle, in edges.
-  double value = 1.0;  ///< Ratio of gradient or shadow; per cent of the marker for a glare.
+  double angle = 0.0;  ///< Direction in the image, rad.
+  Vec2 offset{};       ///< Of its centre, in edges.
+  double value = 1.0;  ///< Ratio for a gradient or shadow; per cent of the marker for a glare.
 };
 
 struct LensSpec {
@@ -65,10 +64,10 @@ struct PhotoSpec {
   MotionBlur motion{};
   SensorNoise noise{};
   std::optional<LightPattern> gradient{}, shadow{}, glare{};
-  int jpeg_quality = 0;  ///< What the picture was kept as, 1…100; 0: lossless.
+  int jpeg_quality = 0;  ///< JPEG quality, 1…100; 0: lossless.
 };
 
-/// All that a frame shows, whatever the prints look like.
+/// Content of a frame, independent of the kind of marker.
 struct FrameSpec {
   std::string name{};  ///< Unique in a run: "distance_200_003".
   std::string sweep{}, pattern{};
@@ -76,10 +75,10 @@ struct FrameSpec {
   int repeat = 0;
   std::vector<MarkerSpec> markers{};
   PhotoSpec photo{};
-  std::string background{};  ///< Frames with the same word have the same background.
+  std::string background{};  ///< Frames with the same key have the same background.
 };
 
-/// What a detector sees without a break: a single picture, or the frames of a film.
+/// Input of a detector without interruption: a single image, or the frames of a video.
 struct FrameRun {
   bool film = false;
   std::vector<FrameSpec> frames;

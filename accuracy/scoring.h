@@ -11,7 +11,7 @@
 
 namespace pleinair::accuracy {
 
-/// What a detector says of one marker.
+/// A reported detection.
 struct Detected {
   int number = 0;
   std::array<Vec2, 4> corners_px{};
@@ -19,22 +19,22 @@ struct Detected {
   bool pose_has_covariance = false;
   double visible_fraction = 1.0;
   std::string path{};
-  std::string family{};  ///< Where the detector looks for several.
+  std::string family{};  ///< If the detector handles several families.
 };
 
-/// Matches what was detected with what is there. A detection hits a marker when its number is
-/// right and its corners' RMS error is below the larger of 2 px and 3 % of the marker's mean edge;
-/// of several the nearest counts. What matches no marker, or one that is hit already, is a false
+/// Matches detections to the ground truth. A detection hits a marker if its number is right and its
+/// corners' RMS error is below the larger of 2 px and 3 % of the marker's mean edge; of several the
+/// nearest counts. A detection that matches no marker, or one that is hit already, is a false
 /// number.
 void Score(const std::vector<MarkerTruth>& truth, const std::vector<Detected>& detected,
            FrameRecord* record);
 
-/// Angle between two rotations, rad, 0…π, precise near 0 too.
+/// Angle between two rotations, rad, 0…π; accurate near 0 too.
 double AngleBetween(const Mat3& a, const Mat3& b);
 
-/// eᵀ C⁻¹ e of an estimate against the truth, e = (w, d) with R_true = Exp(w) R_estimate and
-/// t_true = t_estimate + d; nothing where C is not positive definite. Bar-Shalom, Li & Kirubarajan
-/// 2001, "Estimation with Applications to Tracking and Navigation", Eq. (5.4.2-6).
+/// NEES: eᵀ C⁻¹ e of an estimate against the ground truth, e = (w, d) with R_true = Exp(w)
+/// R_estimate and t_true = t_estimate + d; nullopt if C is not positive definite. Bar-Shalom, Li &
+/// Kirubarajan 2001, "Estimation with Applications to Tracking and Navigation", Eq. (5.4.2-6).
 std::optional<double> Nees(const tracker::PoseEstimate& estimate,
                            const Transform<Camera, Marker>& truth);
 

@@ -15,14 +15,14 @@ namespace pleinair::accuracy {
 
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// Whether a detector's covariances are as large as its errors.
+/// Consistency of a detector's covariances with its errors.
 struct NeesSummary {
   std::int64_t count = 0;
   double mean = 0.0;  ///< 6 if consistent,
-  Interval band{};    ///< … within this with 95 %.
+  Interval band{};    ///< … within this interval with 95 %.
 };
 
-/// What one detector did with some frames: those of a level, a pattern or a sweep.
+/// Results of one detector for some frames: those of a level, a pattern or a sweep.
 struct CellSummary {
   struct Counts {
     std::int64_t frames = 0, markers = 0, hits = 0, misplaced = 0, false_numbers = 0;
@@ -45,17 +45,17 @@ struct CellSummary {
   Spread corner_px;  ///< RMS over a marker's corners, over its hits.
   CornerBias bias_px;
   Spread rotation_deg, translation_m;
-  Spread translation_share;         ///< Of the distance.
-  std::optional<NeesSummary> nees;  ///< Of hits that are no flips.
+  Spread translation_share;         ///< Relative to the distance.
+  std::optional<NeesSummary> nees;  ///< Of hits without flips.
 };
 
-/// One scene under many draws of the noise: "jitter".
+/// One scene with many draws of the noise: "jitter".
 struct JitterSummary {
   std::string detector, pattern;
   double level = 0.0;
   std::int64_t frames = 0;
-  double corner_std_px = 0.0;   ///< Of a coordinate of a corner, mean over the eight.
-  double corner_bias_px = 0.0;  ///< Its mean error, mean of the eight amounts.
+  double corner_std_px = 0.0;   ///< Of one corner coordinate, mean over the eight.
+  double corner_bias_px = 0.0;  ///< Mean error of a coordinate, mean of the eight absolute values.
   double translation_std_m = 0.0, rotation_std_deg = 0.0;
 };
 
@@ -92,26 +92,26 @@ struct FilmSummary {
   TrajectoryRmse trajectory;
 };
 
-/// One figure of composed pictures.
+/// One measure of composed images.
 struct LightFigure {
-  std::int64_t count = 0;  ///< Pictures, or recordings, that have it.
+  std::int64_t count = 0;  ///< Images, or recordings, that have it.
   double mean = kNoNumber;
-  std::optional<Interval> interval{};  ///< Student's; none of a single value.
+  std::optional<Interval> interval{};  ///< Student's; unset for a single value.
 };
 
-/// How far a recording's composed pictures are from the true ones.
+/// Difference of a recording's composed images from the true ones.
 struct LightSummary {
-  std::string recording{};  ///< Empty: all, each recording's mean being a value.
+  std::string recording{};  ///< Empty: all, with each recording's mean as one value.
   std::int64_t pictures = 0;
   std::array<LightFigure, kImageMeasures.size()> figures{};
 };
 
-/// Hits whose ambiguity ratio lies in one power of ten.
+/// Hits whose ambiguity ratio lies in one decade.
 struct AmbiguityBin {
   std::string detector;
   double low = 0.0, high = 0.0;
   std::int64_t count = 0;
-  std::int64_t wrong = 0;  ///< The other solution was nearer to the truth.
+  std::int64_t wrong = 0;  ///< The other solution was closer to the ground truth.
   std::int64_t flips = 0;  ///< Rotated by more than kFlip_deg.
   Interval rate;
 };
@@ -137,7 +137,7 @@ struct PeerSummary {
   std::int64_t our_false = 0, peer_false = 0;
 };
 
-/// Where in the picture corners are missed by how much: `columns` × `rows` cells.
+/// Corner errors by image region: `columns` × `rows` cells.
 struct ErrorMap {
   std::string detector;
   int columns = 0, rows = 0;
@@ -154,18 +154,18 @@ struct RunSummary {
   std::vector<PeerSummary> peers;
   std::vector<LightSummary> light;
   std::vector<ErrorMap> maps;
-  std::vector<NeesSummary> nominal_nees;  ///< By detector: the sweep "distance".
+  std::vector<NeesSummary> nominal_nees;  ///< Per detector: the sweep "distance".
 };
 
-/// Frames in their order, detectors of a frame in the run's order, the first being ours; composed
-/// pictures in the order of recordings.
+/// Frames in their order; detectors of a frame in the run's order, ours first; composed images in
+/// the order of recordings.
 struct RunRecords {
   std::vector<FrameRecord> frames;
   std::vector<ImageRecord> pictures;
 };
 
-/// All figures are computed from the records alone, in their order, so that they are the same
-/// however the run was divided.
+/// Computes all measures from the records alone, in their order, so that they do not depend on how
+/// the run was divided.
 RunSummary Summarize(const RunRecords& records, int image_width, int image_height);
 
 }  // namespace pleinair::accuracy

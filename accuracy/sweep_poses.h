@@ -8,11 +8,11 @@
 
 namespace pleinair::accuracy {
 
-/// Where a marker stands; what is not given is drawn.
+/// Requested position of a marker; unset values are drawn at random.
 struct PlaceWanted {
   double side_px = 100.0;
   double tilt_deg = 0.0;
-  std::optional<Vec2> centre_px{};  ///< Drawn such that the whole print is in the picture.
+  std::optional<Vec2> centre_px{};  ///< Drawn so that the whole marker is in the image.
   std::optional<double> roll{}, tilt_axis{};
   std::optional<int> number{};
 };
