@@ -24,8 +24,8 @@ struct Family {
   const char* name;
   apriltag_family_t* (*create)();
   void (*destroy)(apriltag_family_t*);
-  /// Bits that may be wrong. The sparser the family's code words, the more can be allowed: a random
-  /// square passes as tag16h5 with two corrected bits in one of 17 cases, as tag36h11 in one of
+  /// Correctable bit errors. The sparser the family's codewords, the more can be allowed: with two
+  /// corrected bits a random square passes as tag16h5 in one of 17 cases, as tag36h11 in one of
   /// 45,000 (words × patterns × rotations / 2^bits).
   int corrected_bits;
 };
@@ -37,12 +37,12 @@ constexpr std::array<Family, 4> kFamilies{{
     {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy, 2},
 }};
 
-/// Least mean distance of a bit from its threshold, in grey levels. The faintest tag among the
-/// photographs in tests/tracker/data has 45; dim pictures have less.
+/// Minimum mean distance of a bit from its threshold, in grey levels. The faintest tag in the
+/// photographs of tests/tracker/data has 45; underexposed images have less.
 constexpr float kMinDecisionMargin = 8.0F;
 
-/// AprilTag thresholds by tiles of 4×4 pixels and reads past the end of pictures with less than one
-/// ring of them; smaller pictures are padded to this.
+/// AprilTag thresholds by tiles of 4×4 pixels and reads out of bounds in images with less than one
+/// ring of them; smaller images are padded to this size.
 constexpr int kMinSide_px = 16;
 
 struct FamilyDeleter {
@@ -79,9 +79,9 @@ class AprilTagDetector final : public MarkerDetector {
  public:
   explicit AprilTagDetector(const std::vector<const Family*>& families)
       : detector_(apriltag_detector_create()) {
-    // Version 3.3 mixes pixel origins when it decimates or refines edges; without both, all its
-    // corners have pixel centres at .5 (tests/tracker/april_tag_detector_test.cc). One thread: its
-    // list would otherwise depend on their timing.
+    // Version 3.3 mixes pixel origins when it decimates or refines edges. Without both, all its
+    // corners have pixel centres at .5 (tests/tracker/april_tag_detector_test.cc). One thread:
+    // otherwise the order of its list depends on timing.
     detector_->quad_decimate = 1.0F;
     detector_->refine_edges = false;
     detector_->nthreads = 1;
@@ -106,7 +106,7 @@ class AprilTagDetector final : public MarkerDetector {
       candidate.detection.family = tag->family->name;
       candidate.detection.id = tag->id;
       candidate.detection.path = DetectionPath::kFast;
-      // AprilTag's first corner is the marker's bottom-left, the others follow anticlockwise.
+      // AprilTag's first corner is the marker's bottom-left; the others follow anticlockwise.
       for (int corner = 0; corner < 4; ++corner) {
         const double* p = tag->p[3 - corner];
         candidate.detection.corners_px[corner] = PixelFromCornerOrigin({p[0], p[1]});
@@ -119,8 +119,8 @@ class AprilTagDetector final : public MarkerDetector {
   }
 
  private:
-  /// Copies, because the library's interface promises no constness, and repeats the last row and
-  /// column where the image is too small for it.
+  /// Copies, because the library's interface is not const-correct; repeats the last row and column
+  /// if the image is too small.
   static GreyImage PaddedCopy(ImageView<const std::uint8_t> grey) {
     GreyImage padded(std::max(grey.width(), kMinSide_px), std::max(grey.height(), kMinSide_px));
     for (int y = 0; y < padded.height(); ++y) {
@@ -166,7 +166,7 @@ Result<std::unique_ptr<MarkerDetector>> CreateAprilTagDetector(
   for (const std::string& name : families) {
     const Family* family = FindFamily(name);
     if (family == nullptr) {
-      std::string known = "sg";  // Which the tracker knows beside these.
+      std::string known = "sg";  // Known to the tracker besides these.
       for (const Family& each : kFamilies) known += ", " + std::string(each.name);
       return InputError("", "unknown marker family \"" + name + "\"", "known are " + known);
     }

@@ -11,26 +11,26 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Standard deviation of the share of white. Where much of the window clips only the foot of each
-/// edge is left, steep as it is.
+/// Minimum standard deviation of the share of white. Where much of the window is clipped only the
+/// foot of each edge is left, although it is steep.
 constexpr double kMinBlockContrast = 0.04, kMinClippedContrast = 0.012, kMuchClipped = 0.25;
-constexpr float kClippedLight = 0.9F;  ///< Pixels that are left out for other reasons are darker.
+constexpr float kClippedLight = 0.9F;  ///< Pixels excluded for other reasons are darker.
 constexpr int kMinBlockPixels = 6;
 constexpr double kMinWeight = 0.02;
-constexpr double kRobustNoises = 1.0;  ///< Standard deviations at which a pixel loses half.
+constexpr double kRobustNoises = 1.0;  ///< Standard deviations at which a pixel's weight is ½.
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
 constexpr float kMaxReach_modules = 2.4F;
-/// How much brighter than predicted, in whites, noise makes no pixel.
+/// Noise does not make a pixel brighter than predicted by this many whites.
 constexpr float kFarBrighter = 2.0F;
 constexpr double kDamping = 1e-5;
-/// Logarithm of light by half an edge; and how independent both slopes must be.
+/// Logarithm of light per half edge; and minimum independence of the two slopes.
 constexpr double kMaxSlope = 3.0, kMinSlopeDeterminant = 1e-3;
-/// Correlation of a marker that lies open: what covers others passes for a slope.
+/// Correlation of an unoccluded marker: on others an occluder would be mistaken for a gradient.
 constexpr double kPlainCorrelation = 0.9;
-/// Tiles of 4×4 pixels where blocks and the marker itself are so many pixels wide at least.
+/// Tiles of 4×4 pixels if blocks and marker have at least these widths in pixels.
 constexpr double kMinBlockOfTiles_px = 7.0, kMinMarkerOfTiles_px = 24.0;
 
-/// From the marker's middle in half edges, y down, to modules from its top-left corner.
+/// From half edges around the marker's centre, y down, to modules from its top-left corner.
 Mat3 ModulesFromUnit(const MarkerPattern& pattern) {
   const double half = 0.5 * pattern.edge_modules, middle = 0.5 * pattern.modules;
   return {{half, 0, middle, 0, half, middle, 0, 0, 1}};
@@ -110,8 +110,7 @@ void BlockFit::FitLevels(const ObservedPatch& observed, double robust_share, boo
   }
   robustness_.share = robust_share;
   if (known_light) return;
-  // Noise is no outlier; what lies on the marker is, and makes some blocks look noisier than
-  // others.
+  // Noise is not an outlier; an occluder is, and increases the apparent noise of some blocks.
   double share = robust_share;
   robustness_.noise_share = 0.0;
   if (!robustness_.noise_shares.empty()) {
@@ -236,7 +235,8 @@ bool BlockFit::Run(const MarkerPattern& pattern, MarkerPart part, const Observed
   for (int step = 0;; ++step) {
     Predict(pattern, part, observed, *state);
     if (step == 0) FitLevels(observed, options.robust_share, options.known_light);
-    // The light of the step before, or without weights, tells what fits; and that the light.
+    // The light of the step before (or none at first) determines the robust weights, and these the
+    // light.
     if (options.fit_light && SurroundingsShow(module_px, blur_px_ / scale)) {
       AddSurroundings(pattern, observed, map_, sums_->ranges, blur_px_ / scale, sums_->lights,
                       grid_.blocks_along, &image_);
@@ -247,8 +247,8 @@ bool BlockFit::Run(const MarkerPattern& pattern, MarkerPart part, const Observed
     if (step >= options.steps) break;
     bool done = false, still = false;
     solved = Move(pattern, options, scale, state, &done, &still);
-    // What was predicted holds for where the marker is if it has hardly moved; if only the blur has
-    // changed, one more round predicts, weighs and, with the right blur, takes off what is left.
+    // After a small move the prediction is still valid. If only the blur has changed, one more
+    // round predicts, weights and removes the remaining error with the right blur.
     if (!solved || still || last) break;
     last = done;
   }
@@ -263,7 +263,7 @@ void BlockFit::UsePredictedVariance(ObservedPatch* observed) {
     const BlockLight& light = sums_->lights[block_of_[n]];
     if (!(light.gain > 0.0F)) continue;
     const float expected = light.offset + light.gain * image_.white[n];
-    // What lies beyond a shadow's edge is not as certain as the shade.
+    // Pixels beyond a shadow edge are not as certain as those in the shadow.
     if (observed->value[n] > expected + kFarBrighter * light.gain) continue;
     observed->inverse_variance[n] = InverseVarianceOfLight(expected);
   }

@@ -9,28 +9,29 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Of the widening by what goes together, at least: of few cells it is told roughly.
+/// Lower limit of the widening by correlated residuals: it is estimated roughly from few cells.
 constexpr double kMinWidening = 0.8;
-/// A shift of edges that a blur of another shape than the model's may hide, at which the variance
-/// doubles. Chosen on rendered defocus and motion, where it was missing most.
+/// Shift of edges that a blur of another shape than the model's may hide; the variance doubles at
+/// this value. Chosen on rendered defocus and motion blur, where it was underestimated most.
 constexpr double kHiddenShift_px = 0.25;
 
 /// E[ψ'] / E[w] of the robust weight w(z) = (1 + z²)⁻², ψ = w z, for Gaussian residuals of standard
-/// deviation z: by how much the equations, in which w stands for ψ', overstate what they know (an
-/// M-estimate's variance is E[ψ²] / E[ψ']², Huber & Ronchetti 2009, section 3.2). 1 without noise,
-/// 0.31 where z = 1; this is right to 5 % below z = 2.
+/// deviation z: the factor by which the equations, with w in place of ψ', overestimate the
+/// information (an M-estimate's variance is E[ψ²] / E[ψ']², Huber & Ronchetti 2009, section 3.2). 1
+/// without noise, 0.31 at z = 1; accurate to 5 % below z = 2.
 double KnownShare(double z) { return 1.0 / (1.0 + 3.7 * z * z / (1.0 + 0.55 * z)); }
 
 }  // namespace
 
-// The motions m move what is observed at (u, v), in half edges from the middle, by
+// The motions m move the observation at (u, v), in half edges from the centre, by
 // (m0 + m1 u + m2 v - (m6 u + m7 v) u, m3 + m4 u + m5 v - (m6 u + m7 v) v).
 //
-// Were all pixels' noise alike and independent, the covariance would be σ² H⁻¹. It is not: what is
-// left over of a texture, of an edge of light, or of a blur that is no Gaussian, goes together in
-// neighbouring pixels, and lies at the edges that tell the place. A clustered sandwich (Liang &
-// Zeger 1986), H⁻¹ (Σ_cells g gᵀ) H⁻¹ with g what each cell of the marker says, knows all of that.
-// Of few cells it is a ragged matrix; its mean ratio to σ² H⁻¹ is not, and widens that.
+// If the noise of all pixels were equal and independent, the covariance would be σ² H⁻¹. It is not:
+// residuals from texture, shadow edges, or a blur that is not Gaussian are correlated between
+// neighbouring pixels, and occur at the edges that determine the position. A clustered sandwich
+// estimate (Liang & Zeger 1986), H⁻¹ (Σ_cells g gᵀ) H⁻¹ with g the gradient of each cell of the
+// marker, includes all that. With few cells that matrix is inaccurate; its mean ratio to σ² H⁻¹ is
+// accurate enough, and scales σ² H⁻¹.
 std::array<double, 64> BlockFit::MotionCovariance() const {
   using Parameters = Eigen::Matrix<double, kParameters, 1>;
   using Square = Eigen::Matrix<double, kParameters, kParameters>;
@@ -57,7 +58,7 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
     information_sum += informative;
   }
   Square hessian = Eigen::Map<const Square>(equations_.hessian.data());
-  // What was not fitted is known.
+  // A parameter that was not fitted is known.
   const bool blur = hessian(kMotions, kMotions) > 0.0;
   if (!blur) hessian(kMotions, kMotions) = 1.0;
   const Square inverse = hessian.ldlt().solve(Square::Identity());
@@ -76,14 +77,14 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
     const Eigen::Matrix<double, kMotions, 1> moved = inverse.topRows<kMotions>() * gradient;
     together.noalias() += moved * moved.transpose();
   }
-  // The fit has made what is left over smaller than the noise, by its eight motions.
+  // The fit of eight motions has made the residuals smaller than the noise.
   together *= cells / std::max(cells / 6.0, cells - kMotions);
   const double telling = std::max(1e-9, information_sum);
   known = std::max(0.05, known / telling);
   const double widening = independent.ldlt().solve(together).trace() / (kMotions * known * known);
 
-  // An edge of blur b of whose contrast a share u is left over may be up to u b from where it
-  // seems, and the same for all edges of a kind: no sample tells.
+  // An edge of blur b, with a share u of its contrast in the residuals, may be displaced by up to u
+  // b, and all edges of a kind by the same amount: no sample shows it.
   const double trusted = correlation / telling;
   const double hidden_px = blur_px_ * std::sqrt(std::max(0.0, 1.0 - trusted * trusted));
   const double hidden = hidden_px / kHiddenShift_px;

@@ -9,7 +9,7 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kWholeVector = 16;  ///< The widest vectors' lanes.
+constexpr int kWholeVector = 16;  ///< Lanes of the widest vectors.
 
 }  // namespace
 
@@ -72,7 +72,7 @@ void BlockSums::LayTile(const MarkerPattern& pattern, const PlaneMap& map, std::
                         int blocks_along, const LightSlope& slope, std::size_t tile) {
   const float modules = static_cast<float>(pattern.modules);
   const float per_half = 2.0F / static_cast<float>(pattern.edge_modules);
-  // The tile's middle is half a pixel right of and below this pixel's centre.
+  // The tile's centre is half a pixel right of and below this pixel's centre.
   const float column_x = map.column_x[pixel], column_y = map.column_y[pixel];
   const float row_x = map.row_x[pixel], row_y = map.row_y[pixel];
   const float c = map.column[pixel] + 0.5F * (column_x + column_y);
@@ -89,8 +89,8 @@ void BlockSums::LayTile(const MarkerPattern& pattern, const PlaneMap& map, std::
   places_.v[tile] = (r - 0.5F * modules) * per_half;
   in_block_.u[tile] = (c - (static_cast<float>(block_column) + 0.5F) / per_block) * per_half;
   in_block_.v[tile] = (r - (static_cast<float>(block_row) + 0.5F) / per_block) * per_half;
-  // Padé's exponential (2/2): good to 0.15 % as far as it goes. Where it would have to go farther
-  // it stays, and the tile tells nothing of the slope.
+  // Padé approximant (2/2) of the exponential: accurate to 0.15 % within its range. Beyond, it is
+  // clamped, and the tile does not contribute to the slope.
   const float exponent = static_cast<float>(slope.by_u) * in_block_.u[tile] +
                          static_cast<float>(slope.by_v) * in_block_.v[tile];
   const float half = 0.5F * std::clamp(exponent, -1.0F, 1.0F);
@@ -154,7 +154,7 @@ void BlockSums::Levels(const ObservedPatch& observed, const PredictedImage& imag
     for (int t = 0; t < row.tiles; ++t) {
       const float* from = &tile_sums_[t];
       LevelSums& of = (*sums)[in_block_.block[row.first_tile + t]];
-      // What is predicted is p times the shade.
+      // The prediction is p times the shading.
       const float shade = in_block_.shade[row.first_tile + t], squared = shade * shade;
       const std::array<std::pair<double*, float>, kLevelSums> all{{{&of.pixels, 1.0F},
                                                                    {&of.w, squared},
@@ -193,7 +193,7 @@ void BlockSums::Motions(const ObservedPatch& observed, const PredictedImage& ima
     for (int t = 0; t < row.tiles; ++t) {
       const std::size_t tile = static_cast<std::size_t>(row.first_tile) + t;
       const BlockLight& of = lights[in_block_.block[tile]];
-      // Where the map folds up nothing can be learnt.
+      // Where the map folds over, the pixels have no information.
       gain_[tile] = of.robust_weight > 0.0F && std::isfinite(places_.u_x[tile] + places_.v_y[tile])
                         ? of.gain * in_block_.shade[tile]
                         : 0.0F;

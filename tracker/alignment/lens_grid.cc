@@ -8,9 +8,9 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kMaxNodes = 80'000;
-/// Nodes outside the image on each side: prints that an image cuts are predicted beyond it.
+/// Nodes outside the image on each side: markers cut by the image's edge are predicted beyond it.
 constexpr int kMarginNodes = 2;
-/// Rays flatter than this are none that a marker could be observed along.
+/// Rays beyond this tangent are not used for markers.
 constexpr double kMaxTangent = 30.0;
 
 }  // namespace
@@ -28,7 +28,8 @@ LensGrid::LensGrid(const CameraModel& camera) : camera_(camera), bends_(camera.H
       const Vec2 pixel{static_cast<double>((i - kMarginNodes) * spacing_),
                        static_cast<double>((j - kMarginNodes) * spacing_)};
       const Vec2 ray = UndistortPixel(camera, pixel);
-      // Beyond where a lens model folds back there is no ray; Newton's method ends anywhere.
+      // Beyond the fold of a lens model there is no ray; Newton's method ends at an arbitrary
+      // point.
       Vec2 back;
       DistortNormalized(camera, ray.x, ray.y, &back.x, &back.y);
       const bool observed = Norm(ray) < kMaxTangent &&

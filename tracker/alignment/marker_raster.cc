@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kKernelSigmas = 3.0;
 constexpr double kSharpestBlur_px = 0.12;
-/// From this blur on one sample a pixel is enough where modules are no smaller than pixels.
+/// From this blur on one sample per pixel suffices if modules are no smaller than pixels.
 constexpr double kSmoothBlur_px = 1.15;
-/// Pixels around the marker that are predicted as well, for the differences of neighbours.
+/// Pixels around the marker that are predicted too, for differences of neighbours.
 constexpr float kAroundMarker_px = 2.0F;
 constexpr int kProbes = 6;  ///< Along each side of the window.
 
@@ -40,7 +40,7 @@ MarkerRaster::MarkerRaster(MarkerRaster&&) noexcept = default;
 MarkerRaster& MarkerRaster::operator=(MarkerRaster&&) noexcept = default;
 
 void MarkerRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
-  // The box of each sample and the bins of the kernel blur as well: their variances are taken off.
+  // The box of each sample and the bins of the kernel blur as well: subtract their variances.
   const double bin = 1.0 / per_pixel;
   const double variance =
       std::max(blur_px * blur_px - 2.0 * bin * bin / 12.0, kSharpestBlur_px * kSharpestBlur_px);
@@ -49,8 +49,8 @@ void MarkerRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   const int taps = (2 * *pad + 1) * per_pixel;
   kernel_.resize(taps);
   kernel_slope_.resize(taps);
-  // A pixel's box blurred, and averaged over each bin, is a second difference of ∫Φ(x/σ): one pixel
-  // apart, since bins divide pixels, and one bin.
+  // The blurred box of a pixel, averaged over each bin, is a second difference of ∫Φ(x/σ): one
+  // pixel apart (bins divide pixels) and one bin apart.
   const int edges = taps + per_pixel + 1;
   below_.resize(edges);
   primitive_.resize(edges);
@@ -66,7 +66,7 @@ void MarkerRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
     const double weight = primitive_[k + 1 + per_pixel] - primitive_[k + 1] -
                           primitive_[k + per_pixel] + primitive_[k];
     kernel_[k] = static_cast<float>(weight);
-    // The image is ∫ marker(p + t) K(t) dt, so that its slope is -∫ marker(p + t) K'(t) dt.
+    // The image is ∫ marker(p + t) K(t) dt, so its slope is -∫ marker(p + t) K'(t) dt.
     kernel_slope_[k] = static_cast<float>(below_[k + per_pixel] - below_[k] -
                                           below_[k + 1 + per_pixel] + below_[k + 1]);
     sum += weight;
@@ -81,8 +81,8 @@ void MarkerRaster::SetNodes(const MarkerPattern& pattern) {
   nodes_.resize(static_cast<std::size_t>(nodes) * nodes);
   row_nodes_.resize(static_cast<std::size_t>(pattern.modules) * nodes);
   row_modules_.resize(static_cast<std::size_t>(nodes) + 3);
-  // Four modules of each row at a time, then four rows; of another marker of the same kind only
-  // what differs.
+  // Four modules of each row at a time, then four rows; for another marker of the same kind only
+  // the differences.
   int first_changed = pattern.modules, last_changed = -1;
   for (int y = 0; y < pattern.modules; ++y) {
     const std::size_t from = static_cast<std::size_t>(y) * pattern.modules;
@@ -119,7 +119,7 @@ int MarkerRaster::SamplesPerPixel(const MarkerPattern& pattern,
   const PixelWindow& window = rays.window;
   const int stride = window.width + 2 * kWindowBorder;
   const Mat3& m = modules_from_undistorted;
-  double finest = 0.0;  // Modules per pixel, the most there are.
+  double finest = 0.0;  // Maximum number of modules per pixel.
   for (int j = 0; j <= kProbes; ++j) {
     for (int i = 0; i <= kProbes; ++i) {
       const int x = (window.width - 1) * i / kProbes, y = (window.height - 1) * j / kProbes;
@@ -133,7 +133,7 @@ int MarkerRaster::SamplesPerPixel(const MarkerPattern& pattern,
       finest = std::max(finest, std::max(cx * cx + cy * cy, rx * rx + ry * ry));
     }
   }
-  // The lens's local scale is left out: what is near enough to 1 for choosing a number of samples.
+  // The lens's local scale is ignored: it is close enough to 1 for choosing the number of samples.
   finest = std::sqrt(finest) * window.Scale();
   if (finest <= 1.0 && blur_px >= kSmoothBlur_px) return 1;
   return static_cast<int>(std::ceil(std::clamp(finest, 2.0, 6.0)));

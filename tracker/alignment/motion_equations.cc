@@ -14,7 +14,7 @@ using Parameters = Eigen::Matrix<double, kFitParameters, 1>;
 using Square = Eigen::Matrix<double, kFitParameters, kFitParameters>;
 
 constexpr double kMinBlur_px = 0.25, kMaxBlur_px = 6.0;
-/// The prediction is good for a fraction of the side, in one step; and for a pixel.
+/// The prediction is linear for a fraction of the side in one step, and for a pixel.
 constexpr double kMaxStep = 0.06, kMaxStep_px = 1.0;
 
 }  // namespace

@@ -12,10 +12,9 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr std::uint8_t kBrightest = 252;  ///< The brightest code that does not count as clipped.
+constexpr std::uint8_t kBrightest = 252;  ///< The brightest value that does not count as clipped.
 
-/// d code / d linear light of the sRGB curve, squared: the inverse variance of a code's linear
-/// light.
+/// Square of d value / d linear light of the sRGB curve: the inverse variance of the linear light.
 const std::array<float, 256>& InverseVarianceOfCode() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
@@ -30,7 +29,7 @@ const std::array<float, 256>& InverseVarianceOfCode() {
   return table;
 }
 
-/// How certain the mean of some codes is, told by the noise of codes.
+/// Inverse variance of the mean of several values, from the noise of 8-bit values.
 class InverseVarianceByNoise {
  public:
   explicit InverseVarianceByNoise(Clipping clipping) : clipping_(clipping) {}
@@ -50,7 +49,7 @@ class InverseVarianceByNoise {
   float min_ = std::numeric_limits<float>::max(), max_ = 0.0F, sum_ = 0.0F;
 };
 
-/// All alike, but for what clips.
+/// All equal, except for clipped values.
 class UniformInverseVariance {
  public:
   void Add(std::uint8_t code) { brightest_ = std::max(brightest_, code); }
@@ -60,7 +59,7 @@ class UniformInverseVariance {
   std::uint8_t brightest_ = 0;
 };
 
-/// Means of the linear light of squares, and their inverse variance by what begins as `nothing`.
+/// Means of the linear light of squares, and their inverse variance, accumulated from `nothing`.
 template <typename InverseVariance>
 void TakeMeans(ImageView<const std::uint8_t> grey, const PixelWindow& window,
                const InverseVariance& nothing, ObservedPatch* observed) {
@@ -87,7 +86,7 @@ void TakeMeans(ImageView<const std::uint8_t> grey, const PixelWindow& window,
     }
   };
   if (window.level == 0) {
-    take(std::integral_constant<int, 1>{});  // The loops over a square fall away.
+    take(std::integral_constant<int, 1>{});  // Compile-time size: the loops over a square vanish.
   } else {
     take(1 << window.level);
   }
@@ -135,7 +134,7 @@ std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plan
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
   double sign = 0.0;
   for (int i = 0; i < 4 * places; ++i) {
-    // Round the square: along its top, right, bottom and left.
+    // Around the square: along its top, right, bottom and left.
     const double along = side * (i % places) / places;
     const Vec2 at = std::array<Vec2, 4>{
         Vec2{along, 0.0}, {side, along}, {side - along, side}, {0.0, side - along}}[i / places];

@@ -14,7 +14,7 @@ void Map(const RayRow& rays, const float m[9], int count, const MapRow& out) {
     const float w = 1.0F / (m[6] * ix + m[7] * iy + m[8]);
     const float column = (m[0] * ix + m[1] * iy + m[2]) * w;
     const float row = (m[3] * ix + m[4] * iy + m[5]) * w;
-    // Derivatives by the undistorted pixel, then by the window's.
+    // Derivatives by the undistorted pixel, then by the window's pixel.
     const float cx = (m[0] - m[6] * column) * w, cy = (m[1] - m[7] * column) * w;
     const float rx = (m[3] - m[6] * row) * w, ry = (m[4] - m[7] * row) * w;
     const float x_x = 0.5F * (qx[x + 1] - qx[x - 1]), y_x = 0.5F * (qy[x + 1] - qy[x - 1]);
@@ -49,7 +49,7 @@ RowRanges Ranges(const MapRow& map, float modules, float near_px, float far_px, 
   return {range_of(near_px), range_of(far_px)};
 }
 
-/// Pixels that see nothing look at the marker's first corner.
+/// Pixels without a ray are mapped to the marker's first corner.
 float Finite(float value) { return value == value ? value : 0.0F; }
 
 void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
@@ -60,12 +60,13 @@ void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
   const float steepest = near_centre ? kMaxSlopeNearCentre : kMaxModule;
   const auto slope = [&](float value) { return std::clamp(Finite(value), -steepest, steepest); };
   for (int x = 0; x < count; ++x) {
-    // Beyond the marker its outermost modules go on.
+    // The outermost modules are extended beyond the marker.
     const float column = std::clamp(Finite(map.column[x]), 0.0F, last);
     const float row = std::clamp(Finite(map.row[x]), 0.0F, last);
     const float column_x = slope(map.column_x[x]), column_y = slope(map.column_y[x]);
     const float row_x = slope(map.row_x[x]), row_y = slope(map.row_y[x]);
-    // The sample's footprint is a parallelogram; a box of the same variance along each axis.
+    // The sample's footprint is a parallelogram; it is replaced by a box of the same variance along
+    // each axis.
     const float inverse_c =
         1.0F / std::sqrt(std::max((column_x * column_x + column_y * column_y) * bin * bin,
                                   kMinBox2_modules2));
@@ -76,7 +77,8 @@ void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
       const float dy = (static_cast<float>(j) + 0.5F) * bin - 0.5F;
       for (int i = 0; i < per_pixel; ++i) {
         const float dx = (static_cast<float>(i) + 0.5F) * bin - 0.5F;
-        // From the node nearest to the pixel's centre; its modules hold those of the nodes beside.
+        // From the node nearest to the pixel's centre; its modules contain those of the adjacent
+        // nodes.
         float c = column - centre_c + column_x * dx + column_y * dy;
         float r = row - centre_r + row_x * dx + row_y * dy;
         float node_c = centre_c, node_r = centre_r;

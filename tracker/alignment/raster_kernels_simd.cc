@@ -6,7 +6,7 @@
 //
 #include <hwy/highway.h>
 
-// The same arithmetic as the scalar reference in raster_kernels.cc, whole vectors at a time.
+// The same arithmetic as the scalar reference in raster_kernels.cc, in whole vectors.
 HWY_BEFORE_NAMESPACE();
 namespace pleinair::tracker {
 namespace HWY_NAMESPACE {
@@ -81,14 +81,14 @@ RowRanges Ranges(const MapRow& map, float modules, float near_px, float far_px, 
       range->end = x + 32 - __builtin_clz(set);
       return true;
     };
-    // Where nothing is within the greater reach nothing is within the smaller.
+    // If nothing is within the greater radius, nothing is within the smaller.
     if (add(far_reach, &far)) add(near_reach, &near);
   }
   return {near.end > 0 ? near : RowRange{}, far.end > 0 ? far : RowRange{}};
 }
 
-/// Modules around a node → the share of white in a box, `s` and `t` of which lie right of and
-/// below the node. The four modules are bits 0, 1, 4, 5.
+/// From the modules around a node to the share of white in a box whose parts right of and below the
+/// node are `s` and `t`. The four modules are bits 0, 1, 4, 5.
 HWY_INLINE Floats Blend(Ints around, Floats s, Floats t) {
   const Floats rest = hn::Sub(hn::Set(kFloats, 1.0F), s);
   const auto if_bit = [&](std::int32_t bit, Floats value) {
@@ -104,17 +104,17 @@ HWY_INLINE Floats Clamp(Floats value, Floats least, Floats most) {
   return hn::Min(hn::Max(value, least), most);
 }
 
-/// 1 over the length of (a, b) times `bin2`'s root.
+/// Square root of `bin2` over the length of (a, b).
 HWY_INLINE Floats InverseLength(Floats a, Floats b, Floats bin2) {
   const Floats square =
       hn::Max(hn::Mul(hn::MulAdd(a, a, hn::Mul(b, b)), bin2), hn::Set(kFloats, kMinBox2_modules2));
-  // One step of Newton's method makes the estimate good to single precision.
+  // One Newton step makes the estimate accurate to single precision.
   const Floats root = hn::ApproximateReciprocalSqrt(square);
   const Floats half_square = hn::Mul(hn::Set(kFloats, 0.5F), square);
   return hn::Mul(root, hn::NegMulAdd(hn::Mul(half_square, root), root, hn::Set(kFloats, 1.5F)));
 }
 
-/// `kPerPixel`: 0 if not known when compiling.
+/// `kPerPixel`: 0 if not known at compile time.
 template <int kPerPixel>
 HWY_INLINE void SampleTimes(const MapRow& map, const NodeTable& table, int any_per_pixel, int count,
                             std::ptrdiff_t stride, float* out) {
@@ -123,7 +123,7 @@ HWY_INLINE void SampleTimes(const MapRow& map, const NodeTable& table, int any_p
   const float bin = 1.0F / static_cast<float>(per_pixel);
   const Floats zero = hn::Zero(kFloats), one = hn::Set(kFloats, 1.0F);
   const Floats half = hn::Set(kFloats, 0.5F), four = hn::Set(kFloats, 4.0F);
-  // Adding this leaves a whole number in the lowest bits: quicker than converting it.
+  // This addition leaves the integer in the lowest bits: faster than a conversion.
   const Floats five = hn::Set(kFloats, 5.0F + 0x1.8p23F);
   const Ints low_bits = hn::Set(kInts, 31);
   const Floats last = hn::Set(kFloats, static_cast<float>(table.nodes - 1));
@@ -149,7 +149,7 @@ HWY_INLINE void SampleTimes(const MapRow& map, const NodeTable& table, int any_p
     const Floats row_y = Clamp(finite(map.row_y + x), downhill, steepest);
     const Floats inverse_c = InverseLength(column_x, column_y, bin2);
     const Floats inverse_r = InverseLength(row_x, row_y, bin2);
-    // From the node nearest to the pixel's centre; its modules hold those of the nodes beside it.
+    // From the node nearest to the pixel's centre; its modules contain those of the adjacent nodes.
     const Floats centre_c = hn::Round(column), centre_r = hn::Round(row);
     const Floats from_c = hn::Sub(column, centre_c), from_r = hn::Sub(row, centre_r);
     const Ints centre = lookup(centre_r, centre_c);
@@ -196,7 +196,7 @@ void Sample(const MapRow& map, const NodeTable& table, int per_pixel, int count,
   }
 }
 
-/// `kVectors` side by side, for which each weight is fetched once.
+/// `kVectors` in parallel, so that each weight is loaded once.
 template <int kVectors>
 HWY_INLINE void RowVectors(const float* in, std::ptrdiff_t stride, const BlurTaps& taps,
                            float* blurred, float* blurred_x) {
@@ -239,7 +239,7 @@ void AlongColumn(const float* const* rows, const float* const* rows_x, const Blu
     return;
   }
   const int all = taps.pixels * taps.per_pixel;
-  // Two vectors at a time, which share the weights; the last ones overlap those before.
+  // Two vectors at a time, which share the weights; the last ones overlap the previous.
   for (int from = 0; from < count; from += 2 * lanes) {
     const int at[2] = {HWY_MIN(from, count - lanes), HWY_MIN(from + lanes, count - lanes)};
     Floats sum[2], sum_x[2], sum_y[2];

@@ -22,7 +22,7 @@ void RasterRows::Start(const Mat3& marker_from_undistorted, const WindowRays& ra
   pad_ = pad;
   per_pixel_ = per_pixel;
   ring_.taps = (2 * pad + 1) * per_pixel;
-  // Rows as long as vectors like them; the blurred ones are a ring of as many as there are taps.
+  // Rows are padded for vectors; the blurred ones form a ring of as many as there are taps.
   count_ = width_ + 2 * pad;
   stride_ = (count_ + 2 * kRowSlack - 1) / kRowSlack * kRowSlack;
   map_rows_.resize(static_cast<std::size_t>(6) * stride_);
@@ -39,7 +39,7 @@ void RasterRows::Start(const Mat3& marker_from_undistorted, const WindowRays& ra
            scratch + 4 * stride_,
            scratch + 5 * stride_};
 
-  // Single precision is enough with the window's middle as the origin.
+  // With the window's centre as the origin, single precision suffices.
   const int rays_stride = width_ + 2 * kWindowBorder;
   const std::size_t middle =
       (static_cast<std::size_t>(window.height) / 2 + kWindowBorder) * rays_stride + rays_stride / 2;

@@ -10,13 +10,13 @@
 namespace pleinair::tracker {
 namespace {
 
-/// As far as a pixel sees, beyond its own half, in standard deviations of the blur; and how much of
-/// the quiet zone is never given up (block_fit.cc).
+/// Radius of a pixel's footprint beyond its own half, in standard deviations of the blur; and the
+/// width of the quiet zone that is always used (block_fit.cc).
 constexpr double kSeen_sigmas = 2.5, kKeptQuiet_modules = 2.4;
-/// Farther out than the marker's edge, in pixels, where hardly any light of the marker is left.
+/// Distance beyond the marker's edge, in pixels, where hardly any light of the marker is left.
 constexpr float kBeyond_px = 1.2F;
 
-/// Share of a pixel's light that comes from beyond a straight edge `d` pixels from its middle, from
+/// Share of a pixel's light that comes from beyond a straight edge `d` pixels from its centre, for
 /// 0 to kReach_px: the pixel's box and the blur's Gaussian, ∫Φ over the box.
 class LightFromBeyond {
  public:
@@ -46,11 +46,11 @@ class LightFromBeyond {
   float reach_px_ = 0.0F;
 };
 
-/// Linear light of the image's pixels, bilinear; the image's edge goes on beyond it.
+/// Linear light of the image's pixels, bilinear; the image is extended by its edge pixels.
 float LightAt(const ImageView<const std::uint8_t>& grey, float x, float y) {
   const std::array<float, 256>& linear = LinearFromSrgb8();
-  // In this order what is not a number becomes 0; and the last column is bounded as an integer: a
-  // fraction less than it is no number of its own in wide images.
+  // In this order NaN becomes 0. The last column is bounded as an integer, because in wide images a
+  // float cannot represent a fraction less than it.
   x = std::min(std::max(0.0F, x), static_cast<float>(grey.width() - 1));
   y = std::min(std::max(0.0F, y), static_cast<float>(grey.height() - 1));
   const int column = std::min(static_cast<int>(x), grey.width() - 2);

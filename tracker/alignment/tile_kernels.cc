@@ -22,7 +22,7 @@ void Mark(const MapOfRow& map, const KnownPart& known, const float* inverse_vari
   }
 }
 
-/// Geman & McClure's weight of a residual `z`, over the robust share.
+/// Geman–McClure weight of a residual `z`, relative to the robust share.
 float RobustWeight(float z) {
   const float kept = 1.0F / (1.0F + z * z);
   return kept * kept;
@@ -64,7 +64,7 @@ void Motions(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumn
       const int row = slopes.first_row + j;
       if (slopes.blur && row > 0 && row + 1 < slopes.image_rows && column > 0 &&
           column + 1 < slopes.image_columns) {
-        // The heat equation: a Gaussian's variance spreads like time.
+        // The heat equation: a Gaussian's variance grows linearly with time.
         b = 0.25F * (slopes.white_x[at + 1] - slopes.white_x[at - 1] +
                      slopes.white_y[at + rows.stride] - slopes.white_y[at - rows.stride]);
       }
@@ -91,8 +91,8 @@ void Reduce(const float* sums, std::ptrdiff_t sums_stride, int count, int tile, 
   }
 }
 
-/// A sum with p_u and p_v in place of p_x and p_y, times each of the parameters' factors: the
-/// motion moves what is observed at (u, v) by (m0 + m1 u + m2 v - (m6 u + m7 v) u, m3 + … v).
+/// A sum with p_u and p_v in place of p_x and p_y, times the factors of each parameter: the motion
+/// moves the observation at (u, v) by (m0 + m1 u + m2 v - (m6 u + m7 v) u, m3 + … v).
 std::array<double, kFitParameters> AlongMotions(double pu, double pv, double b, double u,
                                                 double v) {
   const double along = pu * u + pv * v;

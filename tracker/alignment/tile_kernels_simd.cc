@@ -6,8 +6,8 @@
 //
 #include <hwy/highway.h>
 
-// The same arithmetic as the scalar reference in tile_kernels.cc, whole vectors at a time; the last
-// vector of a row overlaps the one before.
+// The same arithmetic as the scalar reference in tile_kernels.cc, in whole vectors; the last vector
+// of a row overlaps the previous one.
 HWY_BEFORE_NAMESPACE();
 namespace pleinair::tracker {
 namespace HWY_NAMESPACE {
@@ -211,7 +211,7 @@ void Products(const Tiles& tiles, FitProducts* products, BlockMotions* blocks) {
         hn::And(hn::Gt(Load(tiles.gain + t), zero),
                 hn::FirstN(kFloats, static_cast<std::size_t>(HWY_MIN(lanes, tiles.count - t))));
     if (hn::AllFalse(kFloats, useful)) continue;
-    // What is of no use may be anything, not a number too.
+    // Unused elements may have any value, also NaN.
     const auto load = [&](const float* from) { return hn::IfThenElseZero(useful, Load(from + t)); };
     const auto sum = [&](int q) { return load(tiles.sums + q * tiles.stride); };
     const Floats u = load(tiles.u), v = load(tiles.v), gain = load(tiles.gain);

@@ -13,7 +13,7 @@ struct Known {
   int markers;
 };
 
-/// Kind by kind, the smallest of each first.
+/// Grouped by code size, the smallest of each first.
 constexpr Known kKnown[] = {{"4x4_50", cv::aruco::DICT_4X4_50, 50},
                             {"4x4_100", cv::aruco::DICT_4X4_100, 100},
                             {"4x4_250", cv::aruco::DICT_4X4_250, 250},

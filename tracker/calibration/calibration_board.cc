@@ -9,7 +9,7 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kMaxSide = 200;  // Finer boards are not observed by cameras.
+constexpr int kMaxSide = 200;  // Cameras do not resolve finer boards.
 
 std::string Sides(const CalibrationBoard& board) {
   return std::to_string(board.columns) + "x" + std::to_string(board.rows);

@@ -18,8 +18,8 @@ struct Square {
   int column = 0, row = 0;
 };
 
-/// Squares that hold markers, in the order of the markers' numbers. Boards with an even number of
-/// rows begin with a black square since OpenCV 4.6 and began with a white one before ("legacy").
+/// Squares with markers, in the order of the markers' numbers. Since OpenCV 4.6 boards with an even
+/// number of rows begin with a black square; before they began with a white one ("legacy").
 std::vector<Square> MarkerSquares(const CalibrationBoard& board, bool legacy) {
   const int black = legacy && board.rows % 2 == 0 ? 1 : 0;
   std::vector<Square> squares;
@@ -47,7 +47,7 @@ class CharucoFinder final : public BoardFinder {
                         static_cast<std::size_t>(grey.stride()));
     const SeenMarkers markers = DetectMarkers(image);
     if (markers.size() < 2) return std::nullopt;
-    // Neighbours stand where the layout says in one of the two only.
+    // In only one of the two layouts the neighbours are where they should be.
     Layout layout = Judge(markers, false);
     if (board_.rows % 2 == 0) {
       const Layout legacy = Judge(markers, true);
@@ -60,16 +60,16 @@ class CharucoFinder final : public BoardFinder {
   const CalibrationBoard& board() const override { return board_; }
 
  private:
-  /// How the markers lie on the board.
+  /// Arrangement of the markers on the board.
   struct Layout {
     std::vector<Square> squares;
-    int agreeing = 0;                ///< Pairs of neighbours that lie as they should.
-    double square_per_marker = 0.0;  ///< Side of a square in sides of its marker.
+    int agreeing = 0;                ///< Pairs of neighbours in the expected position.
+    double square_per_marker = 0.0;  ///< Side of a square over the side of its marker.
   };
 
   SeenMarkers DetectMarkers(const cv::Mat& image) {
     if (!board_.dictionary.empty()) return Detect(image, board_.dictionary);
-    // The kind of code that shows most of the board's numbers; kept once it is beyond doubt.
+    // The dictionary with the most detected numbers of the board; kept once it is certain.
     SeenMarkers best;
     std::string name;
     const int count = board_.columns * board_.rows / 2;
@@ -90,7 +90,7 @@ class CharucoFinder final : public BoardFinder {
     std::vector<std::vector<cv::Point2f>> corners;
     std::vector<int> ids;
     const auto parameters = cv::aruco::DetectorParameters::create();
-    // Markers of boards are small, and photographs large.
+    // Markers on boards are small, and photographs large.
     parameters->minMarkerPerimeterRate = 0.01;
     parameters->adaptiveThreshWinSizeMax = 53;
     cv::aruco::detectMarkers(image, cv::aruco::getPredefinedDictionary(*number), corners, ids,
@@ -112,8 +112,8 @@ class CharucoFinder final : public BoardFinder {
     return markers;
   }
 
-  /// Each marker looks for its diagonal neighbours: observed from it, their middles are as far off
-  /// in x as in y, and by the same number of its own sides.
+  /// Each marker searches for its diagonal neighbours: in its own coordinates their centres are
+  /// equally far in x and y, by the same number of its sides for all.
   Layout Judge(const SeenMarkers& markers, bool legacy) const {
     Layout layout;
     layout.squares = MarkerSquares(board_, legacy);
@@ -128,7 +128,7 @@ class CharucoFinder final : public BoardFinder {
         const Vec2 middle = Apply(marker_from_px, Apply(other.px_from_marker, {0.0, 0.0}));
         // Corners are ±1: one side is 2.
         const double x = 0.5 * middle.x * right, y = -0.5 * middle.y * down;
-        constexpr double kMin = 1.0, kMax = 2.5;  // Sides of squares that boards have.
+        constexpr double kMin = 1.0, kMax = 2.5;  // Range of that ratio.
         if (x < kMin || x > kMax || y < kMin || y > kMax || std::fabs(x - y) > 0.3) continue;
         ratios.push_back(0.5 * (x + y));
       }
@@ -141,7 +141,7 @@ class CharucoFinder final : public BoardFinder {
     return layout;
   }
 
-  /// Inner corners beside the markers observed, where two markers touch each or one does.
+  /// Inner corners next to the detected markers; each touches two markers, or one at the edge.
   std::optional<BoardView> Corners(const cv::Mat& image, const SeenMarkers& markers,
                                    const Layout& layout) const {
     struct Guess {
@@ -162,7 +162,7 @@ class CharucoFinder final : public BoardFinder {
         Guess& guess = guesses[row * (board_.columns - 1) + column];
         guess.sum = guess.sum + Apply(marker.px_from_marker, towards * layout.square_per_marker);
         ++guess.count;
-        // Up to the marker's own corner, or a third of a square where it is far.
+        // Up to the marker's own corner, or a third of a square if that is far.
         const double side = marker.min_side_length_px;
         const double margin = 0.5 * (layout.square_per_marker - 1.0) * side;
         guess.window_px = std::min({guess.window_px, 0.9 * margin, side / 3.0});

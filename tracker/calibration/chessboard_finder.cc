@@ -9,7 +9,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Looking needs no more pixels than this along a side; measuring takes them all.
+/// The search needs no more pixels than this along a side; the measurement uses all.
 constexpr int kSearchSide_px = 1600;
 
 class ChessboardFinder final : public BoardFinder {
@@ -35,7 +35,7 @@ class ChessboardFinder final : public BoardFinder {
 
   const CalibrationBoard& board() const override { return board_; }
 
-  // Makers count squares, OpenCV the corners between them.
+  // Manufacturers count squares, OpenCV inner corners.
   std::string Hint(ImageView<const std::uint8_t> grey) override {
     const cv::Mat image(grey.height(), grey.width(), CV_8UC1,
                         const_cast<std::uint8_t*>(grey.data()),
@@ -50,7 +50,7 @@ class ChessboardFinder final : public BoardFinder {
   }
 
  private:
-  /// Corners row by row, to a pixel or so; none where the whole board is not observed.
+  /// Corners row by row, accurate to about a pixel; empty if the board is not completely visible.
   static std::vector<cv::Point2f> Search(const cv::Mat& image, cv::Size sides) {
     const double scale =
         std::min(1.0, kSearchSide_px / static_cast<double>(std::max(image.cols, image.rows)));
@@ -63,7 +63,7 @@ class ChessboardFinder final : public BoardFinder {
             small, sides, corners,
             cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK);
     if (!found) return {};
-    // Pixels' centres are integers at both sizes.
+    // Pixel centres are integers at both sizes.
     const auto back = static_cast<float>(1.0 / scale);
     for (cv::Point2f& corner : corners) {
       corner.x = (corner.x + 0.5F) * back - 0.5F;
@@ -72,7 +72,7 @@ class ChessboardFinder final : public BoardFinder {
     return corners;
   }
 
-  /// A third of the way to the nearest neighbour: windows then hold no other corner.
+  /// A third of the distance to the nearest neighbour, so that windows contain no other corner.
   std::vector<float> HalfWindows(const std::vector<cv::Point2f>& corners) const {
     std::vector<float> halves;
     for (int i = 0; i < static_cast<int>(corners.size()); ++i) {

@@ -14,7 +14,7 @@ void RefineCorners(const cv::Mat& grey, const std::vector<float>& half_windows_p
                    std::vector<cv::Point2f>* corners) {
   constexpr float kMin = 2.0F, kMax = 16.0F;
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-3);
-  // Light is linear: encoded, an edge's steepest place lies on its dark side.
+  // In linear light: in sRGB values the steepest point of an edge is shifted to its dark side.
   const cv::Mat table(1, 256, CV_32F, const_cast<float*>(LinearFromSrgb8().data()));
   cv::Mat linear;
   cv::LUT(grey, table, linear);

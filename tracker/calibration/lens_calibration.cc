@@ -7,11 +7,12 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Where Huber's loss turns linear in the first fits, of the image's longer side.
+/// Threshold of Huber's loss in the first fits, relative to the image's longer side.
 constexpr double kHuberShare = 0.0015;
-/// Corners are never better than this in photographs: uncertainty is not claimed below it.
+/// Corners in photographs are never more accurate than this, so no lower uncertainty is reported.
 constexpr double kMinNoise_px = 0.03;
-/// A stiffer lens is kept unless another foretells views left out so much better.
+/// A model with fewer parameters is kept unless the cross-validation error of another is lower by
+/// this factor.
 constexpr double kWorthwhile = 1.01;
 constexpr const char* kRemedy =
     "take 10 to 20 pictures of the whole board: near and far, tilted in several directions, in "
@@ -19,12 +20,12 @@ constexpr const char* kRemedy =
 
 std::vector<LensKind> KindsToTry(const LensCalibrationOptions& options) {
   if (options.kind) return {*options.kind};
-  // From the stiffest on; the last bends most.
+  // From the fewest parameters to the most.
   return {LensKind::kRadtan4, LensKind::kRadtan5, LensKind::kEquidistant, LensKind::kRational};
 }
 
 /// Standard deviation of a coordinate from the lengths of two-dimensional residuals, half of which
-/// lie below 1.1774 deviations when they are normal (Rayleigh's distribution).
+/// are below 1.1774 standard deviations for normal residuals (Rayleigh distribution).
 double RobustNoise(const LensFit& fit, const std::vector<PlaneView>& views) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -38,7 +39,7 @@ double RobustNoise(const LensFit& fit, const std::vector<PlaneView>& views) {
   return *middle / 1.1774;
 }
 
-/// Leaves out what contradicts the rest, from the views and from the fit.
+/// Removes outliers from the views and from the fit.
 void LeaveOut(LensFit* fit, LensCalibration* calibration) {
   const double most = std::max(5.0 * RobustNoise(*fit, calibration->views), 0.25);
   std::vector<PlaneView> kept;
@@ -113,14 +114,14 @@ class Calibrator {
     return SystemError("", "interrupted", "");
   }
 
-  /// The kind whose residuals are smallest where most points lie.
+  /// The lens model with the smallest residuals for most points.
   Result<LensFit> FitRobustly() {
     const double huber_px = kHuberShare * std::max(width_, height_);
     Result<LensFit> best = InputError("", "no lens explains these views", kRemedy);
     double least = std::numeric_limits<double>::infinity();
     for (const LensKind kind : kinds_) {
       PLEINAIR_RETURN_IF_ERROR(Step());
-      // Kinds of one model go on from each other.
+      // Related models start from each other's result.
       const bool related =
           best && (best->kind == LensKind::kEquidistant) == (kind == LensKind::kEquidistant);
       auto fit = related ? FitLensFrom(calibration_.views, *best, kind, huber_px)

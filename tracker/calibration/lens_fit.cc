@@ -15,7 +15,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// How far a point is from where it should be.
+/// Reprojection error of a point.
 class PointResidual final : public ceres::SizedCostFunction<2, kLensNumbers, kPoseNumbers> {
  public:
   PointResidual(const CameraModel& camera, Vec2 on_board_m, Vec2 observed_px)
@@ -81,7 +81,7 @@ Solution Solve(const std::vector<PlaneView>& views, LensFit start, double huber_
   for (PoseNumbers& pose : poses) order->AddElementToGroup(pose.data(), 0);
   order->AddElementToGroup(lens.data(), 1);
   options.linear_solver_ordering = order;
-  // Starts that lead nowhere are no news to whoever reads standard error.
+  // Failing starts are expected, so Ceres' log on standard error is silenced.
   FLAGS_minloglevel = google::GLOG_FATAL;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -91,7 +91,7 @@ Solution Solve(const std::vector<PlaneView>& views, LensFit start, double huber_
   for (std::size_t i = 0; i < poses.size(); ++i) {
     solution.fit.camera_from_board[i] = PoseOf(poses[i]);
   }
-  // A negative focal length is a board behind a mirrored camera.
+  // A negative focal length corresponds to a board behind a mirrored camera.
   if (lens[0] > 0.0 && lens[1] > 0.0) solution.cost = summary.final_cost;
   return solution;
 }
@@ -124,7 +124,7 @@ std::optional<Transform<Camera, Marker>> StartPose(const PlaneView& view,
     if (!std::isfinite(Norm(pose.translation_m)) || pose.translation_m.z <= 0.0)
       return std::nullopt;
     return pose;
-  } catch (const cv::Exception&) {  // Points on one line.
+  } catch (const cv::Exception&) {  // Collinear points.
     return std::nullopt;
   }
 }
@@ -145,7 +145,7 @@ void SetModel(LensKind kind, CameraModel* camera) {
   const bool is_equidistant = kind == LensKind::kEquidistant;
   camera->distortion_model =
       is_equidistant ? DistortionModel::kEquidistant : DistortionModel::kBrownConrady;
-  // Coefficients of one model mean nothing in the other.
+  // Coefficients of one model have no meaning in the other.
   if (was_equidistant != is_equidistant) camera->distortion.fill(0.0);
   for (std::size_t i = static_cast<std::size_t>(CoefficientsOf(kind)); i < 8; ++i) {
     camera->distortion[i] = 0.0;
@@ -216,7 +216,7 @@ double Rms(const std::vector<Vec2>& residuals_px) {
 
 Result<LensFit> FitLens(const std::vector<PlaneView>& views, int width, int height, LensKind kind,
                         double huber_px) {
-  // A few views find the way; wide lenses need another start than long ones.
+  // A few views suffice to find the right start; wide lenses need another start than long ones.
   constexpr std::size_t kScouts = 10;
   std::vector<PlaneView> scouts;
   const std::size_t stride = std::max<std::size_t>(1, views.size() / kScouts);
@@ -268,7 +268,7 @@ Result<LensFit> FitLensFrom(const std::vector<PlaneView>& views, const LensFit& 
   from.kind = kind;
   SetModel(kind, &from.camera);
   if (other_model) {
-    // The poses change with the model: they come first.
+    // The poses change with the model, so they are fitted first.
     from = Solve(views, std::move(from), std::max(huber_px, 1.0), 30, true).fit;
   }
   Solution solution = Solve(views, std::move(from), huber_px, kSteps, false);

@@ -84,7 +84,7 @@ Vec2 ProjectBoardPoint(const CameraModel& camera, const double* pose, Vec2 on_bo
   ByPose in_camera[3];
   ceres::AngleAxisRotatePoint(numbers, point, in_camera);
   for (int i = 0; i < 3; ++i) in_camera[i] += numbers[3 + i];
-  constexpr double kMinDistance = 1e-3;  // Of its distance.
+  constexpr double kMinDistance = 1e-3;  // Relative to its distance.
   const double nearest =
       kMinDistance * (std::fabs(pose[3]) + std::fabs(pose[4]) + std::fabs(pose[5]));
   if (!(in_camera[2].a > nearest)) in_camera[2] = ByPose(nearest);

@@ -46,7 +46,7 @@ LensUncertainty Uncertainty(const LensFit& fit, const std::vector<PlaneView>& vi
       free + static_cast<double>(kPoseNumbers) * static_cast<double>(views.size());
   const double left = std::max(1.0, 2.0 * static_cast<double>(points) - unknowns);
   uncertainty.noise_px = std::sqrt(squares / left);
-  // Scaled to a diagonal of ones: coefficients and focal lengths differ by many powers of ten.
+  // Scaled to a unit diagonal: coefficients and focal lengths differ by many powers of ten.
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
   const Lens scaled =
       scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();

@@ -19,7 +19,7 @@ class MarkerBoardFinder final : public BoardFinder {
     BoardView view;
     for (const MarkerObservation& observation : *observations) {
       const int which = observation.detection.id - board_.first;
-      if (!view.points.empty() && view.points.back() / 4 == which) continue;  // Seen twice.
+      if (!view.points.empty() && view.points.back() / 4 == which) continue;  // Detected twice.
       for (int i = 0; i < 4; ++i) {
         view.points.push_back(4 * which + i);
         view.observed_px.push_back(observation.detection.corners_px[static_cast<std::size_t>(i)]);
@@ -29,7 +29,7 @@ class MarkerBoardFinder final : public BoardFinder {
     return view;
   }
 
-  // A corner is where two sides meet, and the lens bends sides.
+  // A corner is the intersection of two sides, and the lens bends the sides.
   void Refine(const CameraModel& camera, ImageView<const std::uint8_t> grey,
               BoardView* view) override {
     BoardView refined;
@@ -54,7 +54,7 @@ class MarkerBoardFinder final : public BoardFinder {
   const CalibrationBoard& board() const override { return board_; }
 
  private:
-  /// The tracker wants a lens: any ordinary one finds the markers.
+  /// The tracker needs a lens; any ordinary one suffices to find the markers.
   void LookThrough(ImageView<const std::uint8_t> grey) {
     camera_.width = grey.width();
     camera_.height = grey.height();
@@ -66,7 +66,8 @@ class MarkerBoardFinder final : public BoardFinder {
     options.marker_size_m = board_.square_m;
     options.sg.numbers_in_use.resize(static_cast<std::size_t>(board_.columns * board_.rows));
     std::iota(options.sg.numbers_in_use.begin(), options.sg.numbers_in_use.end(), board_.first);
-    options.sg.strategy = SgStrategy::kFast;  // A board has many markers: the whole ones do.
+    options.sg.strategy = SgStrategy::kFast;  // A board has many markers: the completely visible
+                                              // ones suffice.
     tracker_ = *Tracker::Create(camera_, options);
   }
 

@@ -17,7 +17,7 @@ struct Sample {
   double x, y, light;
 };
 
-/// The model's light at a pixel less what is observed there, and its derivatives.
+/// Predicted minus observed light of a pixel, and its derivatives.
 double Differ(const Vector& at, const Sample& sample, Vector* by) {
   const double dx = sample.x - at(0), dy = sample.y - at(1);
   const double blur = at(4);
@@ -39,7 +39,7 @@ double Differ(const Vector& at, const Sample& sample, Vector* by) {
   return at(5) + contrast * edge[0] * edge[1] - sample.light;
 }
 
-/// Normal equations; gives the sum of squares.
+/// Normal equations; returns the sum of squares.
 double Equations(const Vector& at, const std::vector<Sample>& samples, Matrix* matrix,
                  Vector* gradient) {
   matrix->setZero();
@@ -56,7 +56,8 @@ double Equations(const Vector& at, const std::vector<Sample>& samples, Matrix* m
 }
 
 /// On a circle the sign of sin(φ − a) sin(φ − b) = ½ (cos(a − b) − cos(2φ − a − b)) changes four
-/// times: the second harmonic's phase is a + b, and a right angle is taken to begin with.
+/// times: the phase of the second harmonic is a + b. The initial angle between the edges is a right
+/// angle.
 Vector Start(const std::vector<Sample>& samples, cv::Point2d start) {
   double mean = 0.0, cosine = 0.0, sine = 0.0;
   for (const Sample& sample : samples) mean += sample.light / static_cast<double>(samples.size());

@@ -10,20 +10,20 @@
 namespace pleinair::tracker {
 namespace {
 
-// Refused beyond these. Photographs taken with some care lie far on the other side.
+// Views beyond these limits are rejected. Carefully taken photographs are far within them.
 constexpr double kMinShare = 0.25;
 constexpr double kMinHalf = 0.12;
 constexpr double kMaxFocalDeviation = 0.01;   // Relative.
 constexpr double kMaxCentreDeviation = 0.02;  // Of the image's longer side.
 constexpr double kMaxRmsShare = 0.005;        // Of the image's longer side: 3 px of 640.
-// What corners of one view may be off by together, or this share of their own noise.
+// Common error of the corners of one view: this, or this share of their own noise.
 constexpr double kCommonError_px = 0.05;
 constexpr double kCommonShare = 0.5;
 constexpr double kCornersOfAView = 4.0;
-// What is lacking in views that do not determine the focal length is named by these.
+// Thresholds for the explanation when views do not determine the focal length.
 constexpr double kLittleTilt_deg = 12.0;
 constexpr double kLittleDepthRatio = 1.12;
-// Said below these.
+// Thresholds for the advice.
 constexpr double kGoodTilt_deg = 20.0;
 constexpr double kGoodShare = 0.7;
 constexpr double kGoodHalf = 0.5;
@@ -65,7 +65,7 @@ void Measure(const LensFit& fit, const std::vector<PlaneView>& views, ViewJudgem
   judgement->distance_ratio = max_middle_distance / nearest_middle;
 }
 
-/// How far the solution moves if each view as a whole is a little wrong.
+/// Change of the solution for errors of whole views.
 void Deviate(const LensFit& fit, const std::vector<PlaneView>& views,
              const LensUncertainty& uncertainty, ViewJudgement* judgement) {
   const CameraModel& camera = fit.camera;

@@ -9,8 +9,8 @@
 namespace pleinair::tracker {
 namespace {
 
-// Of the image's width. A board that moves more from frame to frame is blurred, and bent where
-// rows are exposed one after another.
+// Relative to the image's width. A board that moves more between frames is blurred, and distorted
+// by rolling shutters.
 constexpr double kStill = 0.01;
 constexpr double kNew = 0.06;
 

@@ -10,7 +10,7 @@
 //
 #include <hwy/highway.h>
 
-// What all targets share.
+// Shared by all SIMD targets.
 #ifndef PLEINAIR_TRACKER_GOLAY_SCORES_SHARED
 #define PLEINAIR_TRACKER_GOLAY_SCORES_SHARED
 namespace pleinair::tracker {
@@ -18,12 +18,13 @@ namespace {
 
 // A number is n = 64 l + h. Bit i of its word is <h, low_i> + <l, high_i> over GF(2), where low_i
 // and high_i are the halves of column i of the generator. For a fixed h the sum over i is therefore
-// a Hadamard transform over l of 24 signed weights; vectors run over h, where all do the same.
+// a Hadamard transform over l of 24 signed weights. Vectors run over h, where all operations are
+// the same.
 constexpr int kSide = 64;
 
 struct GeneratorColumns {
   std::array<int, kGolayBits> high{};
-  /// For each h: -1 where the transform takes the weight of a bit negated, 0 where as it is.
+  /// For each h: -1 if the transform negates the weight of a bit, else 0.
   std::array<std::array<std::int32_t, kSide>, kGolayBits> sign{};
 };
 

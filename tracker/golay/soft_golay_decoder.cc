@@ -37,7 +37,7 @@ Candidates FindAmongAll(const GolayScores& scores, const TopTwoScores& top) {
 }
 
 Candidates FindAmong(const std::vector<std::uint16_t>& numbers, const GolayScores& scores) {
-  // Values first, without branches that random scores would mislead; then where they stand.
+  // Values first, in a branch-free loop because scores are random; then their positions.
   TopTwoScores top{scores[numbers.front()], std::numeric_limits<std::int32_t>::min()};
   for (std::size_t i = 1; i < numbers.size(); ++i) {
     const std::int32_t score = scores[numbers[i]];

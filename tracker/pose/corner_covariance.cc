@@ -19,7 +19,7 @@ CornerCovariance CovarianceOfCorners(const std::array<FittedCorner, 4>& corners,
       corners_by_motion(2 * i + 1, k) = corner.by_u.y * flow_u[k] + corner.by_v.y * flow_v[k];
     }
   }
-  // Lazy products ask for no memory.
+  // Lazy products allocate no memory.
   const Square by_motion = corners_by_motion.lazyProduct(Eigen::Map<const RowMajor>(motion.data()));
   CornerCovariance covariance;
   Eigen::Map<RowMajor>(covariance.data()) = by_motion.lazyProduct(corners_by_motion.transpose()) +

@@ -12,22 +12,22 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Two refined solutions closer than this are one.
+/// Two refined solutions closer than this are the same.
 constexpr double kSameRotation_rad = 1e-3;
-/// Degrees of freedom of Student's t that the corners' errors are taken to have: their covariance
-/// is an estimate itself, and Gaussian odds would be too sure of what it says.
+/// Degrees of freedom of the Student's t distribution assumed for the corners' errors: their
+/// covariance is itself an estimate, and Gaussian odds would be overconfident.
 constexpr double kTailFreedom = 8.0;
-/// Eight coordinates of corners less six of the pose.
+/// Eight coordinates of corners less six parameters of the pose.
 constexpr double kMisfitFreedom = 2.0;
 /// Difference of χ² below which the corners do not decide between two poses.
 constexpr double kUndecided = 9.0;
 
-/// Levenberg–Marquardt: steps at most, the first damping, and a step (radians, and shares of the
-/// distance) and a gain of cost that are none: 1e-8 of χ² are a ten-thousandth of the corners'
-/// standard deviation, and the step that gained them leaves a small part of that.
+/// Levenberg–Marquardt: maximum steps, initial damping, and the step (radians, relative distance)
+/// and cost reduction that count as converged. 1e-8 of χ² corresponds to 1e-4 of the corners'
+/// standard deviation, and the remaining error is a small part of that.
 constexpr int kMaxSteps = 60;
 constexpr double kFirstDamping = 1e-6, kMaxDamping = 1e12, kStill = 1e-9, kNoGain = 1e-8;
-/// … of which a step is as good as without any.
+/// Damping at which a step is practically undamped.
 constexpr double kLittleDamping = 1e-3;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -74,20 +74,20 @@ class PlanarPoseProblem {
         size_(size),
         corners_in_marker_(CornersInMarker(size)) {}
 
-  /// Both solutions of IPPE: the plane's homography to first order at the square's middle gives the
+  /// Both solutions of IPPE: the first-order plane homography at the square's centre gives the
   /// rotation up to a reflection (Collins & Bartoli 2014, §4; the steps as in OpenCV's ippe.cpp).
-  /// Returns how many there are.
+  /// Returns their number.
   int Starts(std::array<Transform<Camera, Marker>, 2>* starts) const {
     std::array<Vec2, 4> rays;
     for (int i = 0; i < 4; ++i) rays[i] = UndistortPixel(camera_, corners_px_[i]);
     const Mat3 h = HomographyToQuad(rays);
     const double scale = 1.0 / h(2, 2), p = h(0, 2) * scale, q = h(1, 2) * scale;
     const double g = h(2, 0) * scale, k = h(2, 1) * scale;
-    Eigen::Matrix2d by_plane;  // Derivative of the ray by the place on the plane.
+    Eigen::Matrix2d by_plane;  // Derivative of the ray by the position on the plane.
     by_plane << h(0, 0) * scale - g * p, h(0, 1) * scale - k * p,  //
         h(1, 0) * scale - g * q, h(1, 1) * scale - k * q;
     if (!by_plane.allFinite()) return 0;
-    // Turns the optical axis to the middle's ray.
+    // Rotates the optical axis to the ray of the centre.
     const Eigen::Matrix3d to_ray =
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(p, q, 1.0))
             .toRotationMatrix();
@@ -138,7 +138,7 @@ class PlanarPoseProblem {
         damping = std::max(10.0 * damping, 1e-3);
         continue;
       }
-      // A step that damping holds back gains little anywhere.
+      // A heavily damped step reduces the cost little anywhere, so it does not show convergence.
       const bool same =
           damping <= kLittleDamping && here.cost - there.cost <= kNoGain * (1.0 + here.cost);
       pose = moved;
@@ -163,11 +163,12 @@ class PlanarPoseProblem {
   /// camera_from_marker' = (Exp(w) R, t + d).
   struct Linear {
     double cost = 0.0;  ///< Squared length.
-    Vector6 size;       ///< Lengths of the derivatives: metres and radians differ in size, …
-    Eigen::Matrix<double, 6, 6> information;  ///< … and here all count alike.
+    Vector6 size;  ///< Norms of the derivatives, because metres and radians have different scales,
+                   ///< …
+    Eigen::Matrix<double, 6, 6> information;  ///< … here normalised to 1.
     Vector6 gradient;
   };
-  /// False where a corner lies behind the camera, or nothing can be told.
+  /// Returns false if a corner lies behind the camera, or the equations are singular.
   bool Linearize(const Transform<Camera, Marker>& pose, Linear* linear) const {
     using Jet = ceres::Jet<double, 2>;
     Vector8 errors;
@@ -182,7 +183,7 @@ class PlanarPoseProblem {
       const Vec2 error{camera_.fx * u.a + camera_.cx - corners_px_[i].x,
                        camera_.fy * v.a + camera_.cy - corners_px_[i].y};
       const auto row = [&](int index, double focal, const Jet& bent, double value) {
-        // By the point in space: its ray is (x/z, y/z).
+        // Derivatives by the point in space: its ray is (x/z, y/z).
         const double x = focal * bent.v[0] * per_z, y = focal * bent.v[1] * per_z;
         const double z = -(x * at.x + y * at.y) * per_z;
         errors[index] = value;
@@ -192,7 +193,7 @@ class PlanarPoseProblem {
       row(2 * i, camera_.fx, u, error.x);
       row(2 * i + 1, camera_.fy, v, error.y);
     }
-    // As small as these are, term by term is quicker than what Eigen does to large products.
+    // For these small matrices lazy products are faster than Eigen's products for large ones.
     errors = whitening_.lazyProduct(errors).eval();
     jacobian = whitening_.lazyProduct(jacobian).eval();
     linear->cost = errors.squaredNorm();
@@ -221,15 +222,15 @@ class PlanarPoseProblem {
   const std::array<Vec3, 4> corners_in_marker_;
 };
 
-/// Of two poses with these squared misfits, under the multivariate t distribution (Lange, Little &
-/// Taylor 1989, "Robust statistical modeling using the t distribution", Eq. (1)).
+/// Likelihood ratio of two poses with these squared errors, under the multivariate t distribution
+/// (Lange, Little & Taylor 1989, "Robust statistical modeling using the t distribution", Eq. (1)).
 double LikelihoodRatio(double chi2, double other_chi2) {
   return std::pow((kTailFreedom + other_chi2) / (kTailFreedom + chi2),
                   0.5 * (kTailFreedom + kMisfitFreedom));
 }
 
-/// Where nothing but the corners chose the pose, the other may be the true one: with the odds that
-/// the reprojection errors give it, its distance squared is part of the best one's variance (second
+/// If only the corners selected the pose, the other may be the true one. With the probability given
+/// by the reprojection errors, its squared distance is part of the best one's variance (second
 /// moment of a mixture of two).
 void WidenByAlternative(const Refined& best, const Refined& other, PoseEstimate* estimate) {
   const auto rotation = [](const Refined& refined) {

@@ -8,7 +8,7 @@ namespace pleinair::tracker {
 int DarkComponents::Root(int component) {
   while (components_[component].parent != component) {
     const int parent = components_[component].parent;
-    components_[component].parent = components_[parent].parent;  // Halves the path.
+    components_[component].parent = components_[parent].parent;  // Path halving.
     component = parent;
   }
   return component;
@@ -19,7 +19,7 @@ void DarkComponents::Join(int run, int component) {
   const DarkRun& r = runs_[run];
   c.min_x = std::min(c.min_x, r.begin);
   c.max_x = std::max(c.max_x, r.end - 1);
-  c.max_y = r.y;  // Runs come row by row.
+  c.max_y = r.y;  // Runs are in the order of rows.
   c.area += r.end - r.begin;
   runs_[c.last_run].next = run;
   c.last_run = run;
@@ -46,7 +46,7 @@ void DarkComponents::Find(const BitMask& mask) {
   int above = 0, above_end = 0;  // Runs of the row above.
   for (int y = 0; y < mask.height; ++y) {
     const int row_begin = count_;
-    // A row has at most one run for two pixels: room for them once, not run by run.
+    // A row has at most one run per two pixels: reserve the memory once.
     const std::size_t room = static_cast<std::size_t>(count_) + mask.width / 2 + 1;
     if (runs_.size() < room) runs_.resize(room + room / 2);
     DarkRun* const runs = runs_.data();
@@ -55,7 +55,7 @@ void DarkComponents::Find(const BitMask& mask) {
     int begin = -1;
     const auto add_run = [&](int end) {
       const int run = count_++;
-      // Touching over a corner counts: one pixel of reach on either side.
+      // 8-connectivity: one pixel of reach on either side.
       while (above < above_end && runs[above].end < begin) ++above;
       int component = -1;
       for (int i = above; i < above_end && runs[i].begin <= end; ++i) {

@@ -6,8 +6,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Codes between the extremes of two tiles' neighbourhoods below which nothing is observed in the
-/// darkest exposures: quantisation alone makes two.
+/// Minimum contrast in 8-bit values, for the darkest exposures: quantisation alone gives two.
 constexpr int kMinContrast = 8;
 
 void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
@@ -26,7 +25,7 @@ void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
   }
 }
 
-/// As the processor's instruction does it: rounded up.
+/// Rounded up, as the processor's instruction.
 std::uint8_t Mean(int a, int b) { return static_cast<std::uint8_t>((a + b + 1) / 2); }
 
 void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const max_rows[3],
@@ -44,7 +43,7 @@ void Thresholds(const std::uint8_t* const min_rows[3], const std::uint8_t* const
     int share = greatest;
     for (int i = 0; i < contrast.halvings; ++i) share = Mean(share, 0);
     const bool observed = range >= contrast.codes && range >= share;
-    std::uint8_t threshold = least;  // A binary fraction of the way, its lowest digit first.
+    std::uint8_t threshold = least;  // A binary fraction of the way, lowest digit first.
     for (int digit = 1; digit < 8; digit *= 2) {
       threshold = Mean(threshold, (contrast.eighths & digit) != 0 ? greatest : least);
     }
@@ -70,8 +69,8 @@ void Halve(const std::uint8_t* upper, const std::uint8_t* lower, int width, std:
   }
 }
 
-/// Range of values within tiles where the image itself is flat: the lowest fifth of the tiles.
-/// Sixteen draws of Gaussian noise span 3.5 standard deviations on average.
+/// Range of values within tiles where the image is uniform: the lowest fifth of the tiles. Sixteen
+/// samples of Gaussian noise span 3.5 standard deviations on average.
 int TileNoise(const DarkMaskBuffers& buffers, int width, int tile_rows, int stride) {
   std::array<int, 256> count{};
   int tiles = 0;
@@ -79,7 +78,8 @@ int TileNoise(const DarkMaskBuffers& buffers, int width, int tile_rows, int stri
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row + 1) * stride + kTile;
     const std::uint8_t* least = buffers.tile_min.data() + at;
     const std::uint8_t* greatest = buffers.tile_max.data() + at;
-    for (int x = (row % 4) * kTile; x < width; x += 4 * kTile) {  // A quarter of them is plenty.
+    for (int x = (row % 4) * kTile; x < width; x += 4 * kTile) {  // A quarter of the tiles
+                                                                  // suffices.
       ++count[greatest[x] - least[x]];
       ++tiles;
     }
@@ -131,8 +131,8 @@ void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
                           buffers->tile_min.data() + at, buffers->tile_max.data() + at);
   }
   const int noise = TileNoise(*buffers, width, tile_rows, stride);
-  // 3×3 tiles of noise alone span 5.3 standard deviations on average, one tile 3.5; the rest keeps
-  // speckle off.
+  // 3×3 tiles of noise alone span 5.3 standard deviations on average, one tile 3.5; the additional
+  // margin suppresses speckle.
   const DarkContrast contrast{
       std::clamp(noise * 5 / 2, kMinContrast, std::max(most.codes, kMinContrast)), most.halvings,
       most.eighths};

@@ -6,12 +6,12 @@
 //
 #include <hwy/highway.h>
 
-// The same arithmetic as the scalar reference in dark_mask.cc, whole vectors at a time; what is
-// left of a row is the reference's.
+// The same arithmetic as the scalar reference in dark_mask.cc, in whole vectors; the reference
+// processes the rest of a row.
 HWY_BEFORE_NAMESPACE();
 namespace pleinair::tracker {
 namespace HWY_NAMESPACE {
-#if HWY_TARGET == HWY_SCALAR  // No vectors to work on: the reference as it stands.
+#if HWY_TARGET == HWY_SCALAR  // No vectors: use the reference.
 
 void TileExtremes(const std::uint8_t* pixels, std::ptrdiff_t stride, int width,
                   std::uint8_t* tile_min, std::uint8_t* tile_max) {

@@ -6,10 +6,10 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Boxes around squares that differ by so little on each side, as a share, are of one, …
+/// Bounding boxes that differ by less than this share on each side belong to one square, …
 constexpr double kSameBox = 0.04;
-/// … up to so many pixels of the reduced image: what thresholds take off the corners of a turned
-/// square does not grow with it.
+/// … and up to this many pixels of the reduced image: what thresholds remove at the corners of a
+/// rotated square does not grow with its size.
 constexpr double kLostCorner_px = 2.5;
 
 }  // namespace

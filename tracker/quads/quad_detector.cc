@@ -13,21 +13,20 @@
 namespace pleinair::tracker {
 namespace {
 
-/// At full size, where only the thinnest rims are looked for and speckle costs most, a
-/// neighbourhood has to have half its brightness as contrast, and more than noise wherever there is
-/// any.
+/// At full size only the thinnest borders are searched, and speckle costs most: the contrast of a
+/// neighbourhood must be at least half its brightness, and above the noise.
 constexpr DarkContrast kFullSize{.codes = 150, .halvings = 1, .eighths = 5};
-/// Half size takes the dull prints and those in noise and blur.
+/// Half size covers markers with low contrast, noise and blur.
 constexpr DarkContrast kHalfSize{.codes = 64, .halvings = 2, .eighths = 4};
-/// Where the edge of a shadow crosses a marker, the quiet zone in the shade is below half way to
-/// the quiet zone in the light, and melts with the rim. A quarter of the way, edges to 16:1 are
-/// passed.
+/// Where a shadow edge crosses a marker, the quiet zone in shadow is darker than half way to the
+/// sunlit quiet zone, and merges with the border. With a quarter of the way, shadow edges up to
+/// 16:1 are handled.
 constexpr DarkContrast kShadowEdges{.codes = 150, .halvings = 1, .eighths = 2};
 
-constexpr float kMinContrast = 6.0F;  // Codes; quantisation and noise leave 4 within black.
+constexpr float kMinContrast = 6.0F;  // 8-bit values; quantisation and noise leave 4 within black.
 constexpr float kMinSide = 0.12F;
-/// Prints reach it below 13 px, where rim and quiet zone blur into each other, or where noise is a
-/// third of their difference.
+/// Markers reach it below 13 px, where border and quiet zone blur into each other, or where noise
+/// is a third of their difference.
 constexpr float kMaxDoubt = 0.8F;
 
 Vec2 Centre(const Quad& quad) {
@@ -45,7 +44,7 @@ bool Plausible(const RimEvidence& evidence, float max_doubt) {
          evidence.Doubt() <= max_doubt;
 }
 
-/// The same square found twice.
+/// Whether two detections are the same square.
 bool Same(const Quad& a, const Quad& b) {
   const double area = std::min(Area(a), Area(b));
   if (std::max(Area(a), Area(b)) > 1.3 * area) return false;
@@ -85,8 +84,8 @@ void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale
   for (std::size_t i = 0; i < found.size(); ++i) {
     const DarkComponent& c = found[i];
     const int width = c.max_x - c.min_x + 1, height = c.max_y - c.min_y + 1;
-    // A closed rim has at least about as many pixels as its box is wide and high; and around a
-    // whole marker there is a quiet zone.
+    // A closed border has at least about as many pixels as its box is wide and high; and a whole
+    // marker has a quiet zone around it.
     if (width < min_extent || height < min_extent || c.area < width + height ||
         c.parent != static_cast<int>(i) || c.min_x == 0 || c.min_y == 0 ||
         c.max_x == level.width() - 1 || c.max_y == level.height() - 1) {
@@ -106,7 +105,7 @@ void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale
         !Plausible(SampleRim(grey, quad.corners_px), 1.2F * kMaxDoubt)) {
       continue;
     }
-    // Few are left: now from nearby, at leisure.
+    // Few are left: refine again with a small search range and many samples.
     if (!RefineQuad(grey, 6.0, 48, &quad.corners_px)) continue;
     const RimEvidence evidence = SampleRim(grey, quad.corners_px);
     if (!Plausible(evidence, kMaxDoubt)) continue;

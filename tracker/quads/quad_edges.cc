@@ -10,7 +10,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Code at a position, bilinear; positions outside are moved to the border.
+/// Pixel value at a position, bilinear; positions outside are clamped to the image.
 float Sample(ImageView<const std::uint8_t> grey, float x, float y) {
   x = std::clamp(x, 0.0F, static_cast<float>(grey.width()) - 1.001F);
   y = std::clamp(y, 0.0F, static_cast<float>(grey.height()) - 1.001F);
@@ -23,10 +23,10 @@ float Sample(ImageView<const std::uint8_t> grey, float x, float y) {
   return above + fy * (below - above);
 }
 
-constexpr int kMaxSteps = 12;     ///< Pixels to either side of a side, where edges are looked for.
-constexpr int kMaxStretches = 8;  ///< Of a side, each with an edge of its own.
+constexpr int kMaxSteps = 12;     ///< Search range for edges on either side of a side, pixels.
+constexpr int kMaxStretches = 8;  ///< Segments of a side, each with its own edge.
 
-/// Nearest pixel; std::lround is a call for each. Beside the image it need only stay beside it.
+/// Nearest pixel; faster than std::lround. Positions outside the image need only stay outside.
 int Nearest(double position) {
   const double above = position + 0.5;
   return static_cast<int>(above);
@@ -71,13 +71,14 @@ bool ConvexInside(const std::array<Vec2, 4>& quad, int width, int height) {
   return true;
 }
 
-/// The line near from + t·along where light rises most to the left of `along`. Rows are walked
-/// where the side is upright, else columns: whole pixels, nothing to interpolate.
+/// The line near from + t·along where the intensity rises most to the left of `along`. Steps along
+/// rows or columns, whichever is closer to the side's direction, so that no interpolation is
+/// needed.
 std::optional<Line> SteepestLine(ImageView<const std::uint8_t> grey, Vec2 from, Vec2 along,
                                  double reach_px, int max_samples) {
   const std::array<float, 256>& light = LinearFromSrgb8();
   const bool upright = std::fabs(along.y) > std::fabs(along.x);
-  // u runs along the side's greater coordinate, v across it.
+  // u runs along the side's longer coordinate, v across it.
   const double from_u = upright ? from.y : from.x, from_v = upright ? from.x : from.y;
   const double along_u = upright ? along.y : along.x, along_v = upright ? along.x : along.y;
   const int size_u = upright ? grey.height() : grey.width();
@@ -89,8 +90,9 @@ std::optional<Line> SteepestLine(ImageView<const std::uint8_t> grey, Vec2 from, 
   const int steps =
       std::clamp(static_cast<int>(std::lround(reach_px * std::hypot(1.0, slope))), 2, kMaxSteps);
 
-  // Light is summed along stretches of the side before it is looked at across it, so that noise is
-  // small beside the edge: what is clipped below zero would draw the edge to the first guess.
+  // Intensity is summed along segments of the side before the search across it, so that noise is
+  // small relative to the edge. (Clipping at zero of noisy gradients would bias the edge towards
+  // the initial position.)
   const int samples = std::max(4, static_cast<int>(std::fabs(along_u)));
   const int per_stretch = std::clamp((samples + 3) / 4, 1, max_samples / 4);
   const int stretches = std::min(samples / per_stretch, kMaxStretches);
@@ -102,7 +104,7 @@ std::optional<Line> SteepestLine(ImageView<const std::uint8_t> grey, Vec2 from, 
       const double at = 0.08 + 0.84 * (i * per_stretch + j + 0.5) / (stretches * per_stretch);
       const int u = std::clamp(Nearest(from_u + at * along_u), 0, size_u - 1);
       const int v = Nearest(from_v + (u - from_u) * slope);
-      // Rows or columns beyond the image repeat its last.
+      // The image is extended by its last row or column.
       const std::uint8_t* pixels = grey.data() + u * step_u;
       if (v >= steps && v + steps < size_v) {
         const std::uint8_t* pixel = pixels + (v - steps) * step_v;
@@ -140,7 +142,7 @@ bool RefineQuad(ImageView<const std::uint8_t> grey, double reach_px, int samples
   std::array<Line, 4> lines;
   for (int side = 0; side < 4; ++side) {
     const Vec2 from = quad[side], along = quad[(side + 1) % 4] - from;
-    // The quiet zone and the rim are each a tenth of what lies across.
+    // The quiet zone and the border are each a tenth of the width across.
     const double across = 0.5 * twice_area / Norm(along);
     const double reach = std::clamp(0.08 * across, 1.5, reach_px);
     const auto line = SteepestLine(grey, from, along, reach, samples);
@@ -162,7 +164,7 @@ bool RefineQuad(ImageView<const std::uint8_t> grey, double reach_px, int samples
 
 RimEvidence SampleRim(ImageView<const std::uint8_t> grey, const std::array<Vec2, 4>& corners) {
   constexpr int kSamples = 12;
-  constexpr double kMiddle = 0.1;  // Half of the rim's and the quiet zone's width, in half edges.
+  constexpr double kMiddle = 0.1;  // Half the width of border and quiet zone, in half edges.
   const Mat3 image_from_marker = HomographyToQuad(corners);
   const auto sample = [&](Vec2 at) {
     const Vec2 p = Apply(image_from_marker, at);

@@ -7,20 +7,19 @@
 namespace pleinair::tracker {
 namespace {
 
-/// A quadrilateral inscribed in the hull of one observed with rounded corners loses this much at
-/// most.
+/// Minimum area of the quadrilateral relative to the hull, for squares with rounded corners.
 constexpr double kMinShareOfHull = 0.78;
-/// Dark pixels in the hull. The rim alone is 0.36 of the square; at its smallest, when the bright
-/// surroundings have bled into the rim, half of that.
+/// Minimum share of dark pixels in the hull. The border alone is 0.36 of the square; at the
+/// smallest size, with bright surroundings blurred into it, half of that.
 constexpr double kMinFill = 0.16;
 
-/// Twice the area of a triangle, positive where it runs clockwise in the image.
+/// Twice the area of a triangle, positive if clockwise in the image.
 template <class P>
 auto Twice(const P& a, const P& b, const P& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Intersection of the lines a + s·u and b + t·v; nothing where they are parallel.
+/// Intersection of the lines a + s·u and b + t·v; nullopt if they are parallel.
 std::optional<Vec2> Intersection(Vec2 a, Vec2 u, Vec2 b, Vec2 v) {
   const double cross = u.x * v.y - u.y * v.x;
   if (std::fabs(cross) < 1e-3 * Norm(u) * Norm(v)) return std::nullopt;
@@ -28,7 +27,7 @@ std::optional<Vec2> Intersection(Vec2 a, Vec2 u, Vec2 b, Vec2 v) {
   return a + u * s;
 }
 
-/// Moves the sides outwards by half a pixel: hull vertices are centres of pixels.
+/// Moves the sides outwards by half a pixel, because hull vertices are pixel centres.
 std::optional<std::array<Vec2, 4>> Grown(const std::array<Vec2, 4>& quad) {
   std::array<Vec2, 4> from, along;
   for (int i = 0; i < 4; ++i) {
@@ -82,7 +81,7 @@ std::optional<std::array<Vec2, 4>> QuadOutline::Fit(std::span<const DarkRun> run
   const double hull_area = 0.5 * static_cast<double>(twice_area);
   if (component.area < kMinFill * hull_area) return std::nullopt;
 
-  // The vertex that cuts off least goes, until four are left or too much is gone.
+  // Drops the vertex with the smallest loss of area until four are left or too much is lost.
   const auto cut_at = [&](std::size_t i) {
     const std::size_t n = hull_.size();
     return Twice(hull_[i == 0 ? n - 1 : i - 1], hull_[i], hull_[i + 1 == n ? 0 : i + 1]);
@@ -108,7 +107,7 @@ std::optional<std::array<Vec2, 4>> QuadOutline::Fit(std::span<const DarkRun> run
   }
   for (int i = 0; i < 4; ++i) {
     if (Norm(quad[(i + 1) % 4] - quad[i]) + 1.0 < min_side_px) return std::nullopt;
-    // A corner of a hull turns; nearly straight ones are no corners of a marker in view.
+    // Nearly straight vertices are not corners of a marker.
     if (Twice(quad[(i + 3) % 4], quad[i], quad[(i + 1) % 4]) <
         0.05 * Norm(quad[i] - quad[(i + 3) % 4]) * Norm(quad[(i + 1) % 4] - quad[i])) {
       return std::nullopt;
