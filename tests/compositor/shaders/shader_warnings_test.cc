@@ -1,0 +1,100 @@
+// Every program is compiled from its source, and the driver has nothing to say about it. A program
+// of its own: Mesa reports warnings only where its cache on disk does not have the shader yet, and
+// reads once per process whether to use that cache.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "compositor/embedded_shaders.h"
+#include "compositor/passes/object_pass.h"
+#include "compositor/passes/shadow_debug_view.h"
+#include "compositor/passes/shadow_ratio_pass.h"
+#include "compositor/passes/surface_programs.h"
+#include "compositor/picture/camera_picture.h"
+#include "shadows/embedded_shaders.h"
+#include "shadows/fading_shadow_maps.h"
+#include "shadows/shadow_method.h"
+#include "tests/gl/gl_fixture.h"
+
+namespace pleinair::compositor {
+namespace {
+
+using shadows::ShadowMapOptions;
+using shadows::SunDiscFilter;
+
+class ShaderWarnings : public gl::GlTest {
+ protected:
+  static void SetUpTestSuite() {
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    RegisterShaders();
+    shadows::RegisterShaders();
+  }
+};
+
+// As small as maps may be: only their programs count.
+ShadowMapOptions SmallMaps(shadows::ShadowMethod method) {
+  return shadows::CommonOptions(method, 64);
+}
+
+template <typename T>
+void ExpectCreated(const Result<T>& result) {
+  EXPECT_TRUE(result.has_value()) << result.error().Message();
+}
+
+TEST_F(ShaderWarnings, AreNoneOfShadowMethods) {
+  for (const shadows::ShadowMethodTraits& traits : shadows::ShadowMethods()) {
+    SCOPED_TRACE(traits.name);
+    const ShadowMapOptions options = SmallMaps(traits.method);
+    ExpectCreated(shadows::FadingShadowMaps::Create(options));
+    for (const bool fades : {false, true}) {
+      ExpectCreated(SurfacePrograms::Create(options, {.fades = fades, .needs_airlight = true}));
+    }
+  }
+}
+
+TEST_F(ShaderWarnings, AreNoneOfSurfaces) {
+  ShadowMapOptions options = SmallMaps(shadows::ShadowMethod::kSunDisc);
+  for (const SunDiscFilter filter :
+       {SunDiscFilter::kFull, SunDiscFilter::kBox, SunDiscFilter::kSample}) {
+    options.sun_disc_filter = filter;
+    ExpectCreated(shadows::ShadowMaps::Create(options));
+    for (const bool needs_airlight : {false, true}) {
+      for (const bool textured : {false, true}) {
+        for (const bool glossy : {false, true}) {
+          ExpectCreated(SurfacePrograms::Create(
+              options, {.needs_airlight = needs_airlight, .textured = textured, .glossy = glossy}));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(ShaderWarnings, AreNoneOfPassesAndPicture) {
+  ExpectCreated(ObjectPass::Create());
+  ExpectCreated(ShadowRatioPass::Create());
+  ExpectCreated(ShadowDebugView::Create(SmallMaps(shadows::ShadowMethod::kSunDisc), 32, 24));
+  const CameraModel camera{.width = 32, .height = 24, .fx = 30, .fy = 30, .cx = 15.5, .cy = 11.5};
+  const RenderCamera render = FitRenderCamera(camera, 1.0);
+  for (const bool stated : {false, true}) {
+    const std::vector<double> ends{0.0, 1.0};
+    const CameraResponse response =
+        stated ? CameraResponse::FromSamples(ends, {ends, ends, ends}).value() : CameraResponse();
+    ExpectCreated(CameraPicture::Create(camera, render, 1.0, response));
+  }
+}
+
+// Without this, the tests above could pass because nothing is reported.
+TEST_F(ShaderWarnings, AreReported) {
+  ExpectCreated(
+      gl::GlProgram::FromText({{GL_FRAGMENT_SHADER,
+                                "#version 450 core\n"
+                                "layout(location = 0) out vec2 bounds;\n"
+                                "void Include(vec2 v) { bounds = min(bounds, v); }\n"
+                                "void main() { bounds = vec2(1); Include(gl_FragCoord.xy); }\n",
+                                "warned"}}));
+  EXPECT_FALSE(context_->TakeErrors().empty());
+}
+
+}  // namespace
+}  // namespace pleinair::compositor
