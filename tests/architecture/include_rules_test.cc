@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -53,6 +56,15 @@ TEST(IncludeRules, LeaveNoLoopOfMoreThanFourUnits) {
   for (const auto& loop : FindLoops(ReadUnitIncludes(tests::SourceTree()))) {
     EXPECT_LE(loop.size(), 4U) << ::testing::PrintToString(loop);
   }
+}
+
+TEST(IncludeRules, LeaveNoFolderOfMoreThanThirtyUnits) {
+  std::map<std::filesystem::path, std::size_t> units;
+  for (const auto& [unit, includes] : ReadUnitIncludes(tests::SourceTree())) {
+    ++units[std::filesystem::path(unit).parent_path()];
+  }
+  EXPECT_GT(units.size(), 30U);
+  for (const auto& [folder, count] : units) EXPECT_LE(count, 30U) << folder;
 }
 
 TEST(FindLoops, GivesEachLoopOnceAndNoChain) {

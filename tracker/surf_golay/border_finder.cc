@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "tracker/surf_golay/border_templates.h"
-#include "tracker/surf_golay/decoding_confidence.h"
+#include "tracker/surf_golay/cells/decoding_confidence.h"
 #include "tracker/surf_golay/marker_square.h"
 
 namespace pleinair::tracker {

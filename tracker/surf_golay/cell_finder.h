@@ -6,7 +6,7 @@
 
 #include "tracker/alignment/block_fit.h"
 #include "tracker/alignment/lens_grid.h"
-#include "tracker/surf_golay/cell_lattice.h"
+#include "tracker/surf_golay/cells/cell_lattice.h"
 #include "tracker/surf_golay/image_search.h"
 
 namespace pleinair::tracker {

@@ -7,7 +7,7 @@
 #include "tracker/alignment/block_fit.h"
 #include "tracker/alignment/observed_patch.h"
 #include "tracker/marker_pattern.h"
-#include "tracker/surf_golay/cell_light.h"
+#include "tracker/surf_golay/cells/cell_light.h"
 
 namespace pleinair::tracker {
 

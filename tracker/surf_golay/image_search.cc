@@ -1,6 +1,6 @@
 #include "tracker/surf_golay/image_search.h"
 
-#include "tracker/surf_golay/decoding_confidence.h"
+#include "tracker/surf_golay/cells/decoding_confidence.h"
 
 namespace pleinair::tracker {
 

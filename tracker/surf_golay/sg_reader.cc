@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "tracker/pose/homography.h"
-#include "tracker/surf_golay/decoding_confidence.h"
-#include "tracker/surf_golay/fast_cell_sampling.h"
+#include "tracker/surf_golay/cells/decoding_confidence.h"
+#include "tracker/surf_golay/cells/fast_cell_sampling.h"
 #include "tracker/surf_golay/marker_square.h"
 #include "tracker/surf_golay/sg_layout.h"
 

@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/cell_lattice.h"
+#include "tracker/surf_golay/cells/cell_lattice.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/corner_points.h"
+#include "tracker/surf_golay/cells/corner_points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "tracker/surf_golay/number_decoder.h"
+#include "tracker/surf_golay/cells/number_decoder.h"
 
 #include <numbers>
 
-#include "tracker/surf_golay/cell_split.h"
-#include "tracker/surf_golay/decoding_confidence.h"
+#include "tracker/surf_golay/cells/cell_split.h"
+#include "tracker/surf_golay/cells/decoding_confidence.h"
 
 namespace pleinair::tracker {
 namespace {

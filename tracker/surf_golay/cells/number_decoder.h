@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "tracker/golay/soft_golay_decoder.h"
-#include "tracker/surf_golay/cell_light.h"
-#include "tracker/surf_golay/cell_reader.h"
+#include "tracker/surf_golay/cells/cell_light.h"
+#include "tracker/surf_golay/cells/cell_reader.h"
 #include "tracker/surf_golay/fitted_patch.h"
 
 namespace pleinair::tracker {

@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/cell_evidence.h"
+#include "tracker/surf_golay/cells/cell_evidence.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/decoding_confidence.h"
+#include "tracker/surf_golay/cells/decoding_confidence.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "tracker/golay/golay_code.h"
-#include "tracker/surf_golay/cell_evidence.h"
+#include "tracker/surf_golay/cells/cell_evidence.h"
 #include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {

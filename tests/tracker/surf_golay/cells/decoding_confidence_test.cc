@@ -8,8 +8,8 @@
 
 #include "tests/tracker/surf_golay/sg_test_scenes.h"
 #include "tracker/golay/golay_code.h"
-#include "tracker/surf_golay/cell_evidence.h"
-#include "tracker/surf_golay/decoding_confidence.h"
+#include "tracker/surf_golay/cells/cell_evidence.h"
+#include "tracker/surf_golay/cells/decoding_confidence.h"
 #include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::tracker {

@@ -10,7 +10,7 @@
 #include "tracker/alignment/block_fit.h"
 #include "tracker/golay/soft_golay_decoder.h"
 #include "tracker/marker_pattern.h"
-#include "tracker/surf_golay/cell_light.h"
+#include "tracker/surf_golay/cells/cell_light.h"
 #include "tracker/surf_golay/sg_layout.h"
 
 namespace pleinair::tracker {

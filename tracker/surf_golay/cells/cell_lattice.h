@@ -9,7 +9,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "tracker/alignment/lens_grid.h"
-#include "tracker/surf_golay/corner_points.h"
+#include "tracker/surf_golay/cells/corner_points.h"
 
 namespace pleinair::tracker {
 

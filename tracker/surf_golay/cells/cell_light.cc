@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/cell_light.h"
+#include "tracker/surf_golay/cells/cell_light.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/fast_cell_sampling.h"
+#include "tracker/surf_golay/cells/fast_cell_sampling.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/cell_reader.h"
+#include "tracker/surf_golay/cells/cell_reader.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/cell_split.h"
+#include "tracker/surf_golay/cells/cell_split.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "tracker/golay/soft_golay_decoder.h"
-#include "tracker/surf_golay/cell_reader.h"
+#include "tracker/surf_golay/cells/cell_reader.h"
 
 namespace pleinair::tracker {
 

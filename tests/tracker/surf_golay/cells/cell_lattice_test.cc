@@ -1,5 +1,5 @@
 // Cells found by the corners between them, and the corners.
-#include "tracker/surf_golay/cell_lattice.h"
+#include "tracker/surf_golay/cells/cell_lattice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tracker/surf_golay/pixel_noise.h"
+#include "tracker/surf_golay/cells/pixel_noise.h"
 
 #include <algorithm>
 #include <cmath>
