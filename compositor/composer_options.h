@@ -10,8 +10,8 @@ namespace pleinair::compositor {
 /// How the virtual shadows' edges are made; docs/measurements/shadows.md compares the methods.
 using shadows::ShadowMethod;
 
-/// Work that a Composer saves where the picture stays the same but for half a pixel value or so.
-/// Each can be switched off, to measure what it saves or to compare the pictures
+/// Work that a Composer saves, with images that are equal but for a step of eight bits or, in very
+/// few values, three. Each can be switched off to measure what it saves or to compare images
 /// (docs/method/compositing.md, "Shortcuts").
 struct DrawReductions {
   bool affected_triangles = true;    ///< Shades only phantom triangles whose light may change.

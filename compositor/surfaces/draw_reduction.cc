@@ -53,16 +53,14 @@ SunFootprint DrawReduction::FootprintOf(const SunWindow& window,
   return footprint;
 }
 
-bool DrawReduction::SortPhantoms(const SunOnPhantoms& sun,
+void DrawReduction::SortPhantoms(const SunOnPhantoms& sun,
                                  std::span<const glm::mat4> objects_moved) {
-  if (sorted_for_ && sun.IsAsGoodAs(*sorted_for_)) return false;
   const bool whole = sun.whole || !reductions_.sun_footprint;
   const SunFootprint footprint = whole ? SunFootprint() : FootprintOf(sun.window, objects_moved);
   for (AffectedTriangles& phantom : phantoms_) {
     phantom.Sort(sun.window, footprint, sun.normal_lux, reductions_);
   }
   sorted_for_ = sun;
-  return true;
 }
 
 bool DrawReduction::SortObject(std::size_t object, const glm::vec3& to_sun) {

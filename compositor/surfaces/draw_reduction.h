@@ -42,9 +42,13 @@ class DrawReduction {
   /// The next SortPhantoms() sorts, whatever the sun: light changed or objects moved.
   void Invalidate() { sorted_for_.reset(); }
 
-  /// Sorts the phantoms' triangles by what the objects may change under `sun`; returns false where
-  /// they are sorted for it already. `objects_moved`: by object, marker from where it was lit.
-  bool SortPhantoms(const SunOnPhantoms& sun, std::span<const glm::mat4> objects_moved);
+  /// Whether the phantoms' triangles are sorted for this sun.
+  bool AreSortedFor(const SunOnPhantoms& sun) const {
+    return sorted_for_ && sun.IsAsGoodAs(*sorted_for_);
+  }
+  /// Sorts the phantoms' triangles by what the objects may change under `sun`. `objects_moved`: by
+  /// object, marker from where it was lit.
+  void SortPhantoms(const SunOnPhantoms& sun, std::span<const glm::mat4> objects_moved);
   /// Sorts an object's triangles by whether they may face the sun; returns whether their order
   /// changed. `to_sun`: as SunFacingTriangles::Sort().
   bool SortObject(std::size_t object, const glm::vec3& to_sun);

@@ -78,12 +78,13 @@ void SceneSurfaces::Move(int placed_model, const Mat3& linear, Vec3 translation_
 }
 
 Result<void> SceneSurfaces::SortPhantoms(const SunOnPhantoms& sun) {
+  if (reduction_.AreSortedFor(sun)) return {};
   std::vector<glm::mat4> objects_moved;
   for (const SurfaceBuffers& surface : surfaces_) {
     if (!surface.IsDrawnObject()) continue;
     objects_moved.emplace_back(placement_.MovedBy(surface.placed_model()));
   }
-  if (!reduction_.SortPhantoms(sun, objects_moved)) return {};
+  reduction_.SortPhantoms(sun, objects_moved);
   auto triangles = reduction_.phantoms().begin();
   std::vector<SortedTriangles> sorted;
   sorted.reserve(reduction_.phantoms().size());
