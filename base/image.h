@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -77,6 +78,15 @@ class Image {
   int channels_ = 1;
   std::vector<T> data_;
 };
+
+/// An image with the pixels of a view.
+template <typename T>
+Image<T> CopyImage(ImageView<const T> view) {
+  Image<T> copy(view.width(), view.height(), view.channels());
+  const std::size_t row = static_cast<std::size_t>(view.width()) * view.channels();
+  for (int y = 0; y < view.height(); ++y) std::copy_n(view.row(y), row, copy.view().row(y));
+  return copy;
+}
 
 using GreyImage = Image<std::uint8_t>;  ///< One channel, sRGB-encoded.
 using RgbImage = Image<std::uint8_t>;   ///< Three channels R, G, B, sRGB-encoded.

@@ -7,11 +7,11 @@
 
 namespace pleinair::session {
 
-/// Numbers below `size`, at most `most`: the middles of as many equal parts.
+/// Chooses at most `most` numbers below `size`: the middles of as many equal parts.
 std::vector<std::size_t> EvenlySpread(std::size_t size, std::size_t most);
 
-/// Indices into a camera's path of the frames that the light is read from: at most eight, spread
-/// evenly over as much of its middle as one place of the sun serves.
+/// Indices into a camera trajectory: the frames that the light is estimated from. At most eight,
+/// evenly spread over 30 s before and after its middle, in which the sun hardly moves.
 std::vector<std::size_t> LightFrames(const std::vector<Observation>& path);
 
 }  // namespace pleinair::session

@@ -13,8 +13,7 @@ namespace pleinair::session {
 
 Pipeline::Pipeline(const CameraModel& camera, const scene::SceneDescription& scene,
                    const PipelineOptions& options)
-    : camera_(camera),
-      output_camera_(
+    : output_camera_(
           ScaleCamera(camera, options.image_size.value_or(ImageSize{camera.width, camera.height}))),
       scene_(scene),
       hands_in_front_(options.light.hands_in_front),
@@ -51,12 +50,8 @@ Result<ComposedFrame> Pipeline::Process(const devices::Frame& frame) {
   PLEINAIR_ASSIGN_OR_RETURN(const TrackedFrame tracked, Track(frame));
   const std::optional<CameraPose> pose = PoseIn(frame);
   const UtcTime time = MomentOf(frame.timestamp_ns);
-  if (frame.rgb.width() == output_camera_.width && frame.rgb.height() == output_camera_.height) {
-    return Compose(frame, pose, time);
-  }
-  devices::Frame resized = frame;
-  Resize(&resized);
-  return Compose(resized, pose, time);
+  if (HasOutputSize(frame)) return Compose(frame.rgb.view(), pose, time);
+  return Compose(Resized(frame).view(), pose, time);
 }
 
 Result<TrackedFrame> Pipeline::Track(const devices::Frame& frame) {
@@ -66,8 +61,7 @@ Result<TrackedFrame> Pipeline::Track(const devices::Frame& frame) {
   tracked.lost = tracker_->Lost();
   tracked.warnings = tracker_->Warnings();
   if (refiner_) tracked.observations = refiner_->Measure(grey, std::move(tracked.observations));
-  tracks_.AddFrame(frame.index, frame.timestamp_ns, tracked.observations);
-  if (kept_observations_) tracks_.ForgetAllBut(*kept_observations_);
+  AddToTracks(frame, tracked.observations);
   return tracked;
 }
 
@@ -89,11 +83,17 @@ std::vector<TrackedFrame> Pipeline::Measure(std::span<FoundFrame> found) {
   if (refiner_) refiner_->Measure(seen);
   std::vector<TrackedFrame> tracked(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    tracks_.AddFrame(found[i].frame.index, found[i].frame.timestamp_ns, seen[i].observations);
+    AddToTracks(found[i].frame, seen[i].observations);
     tracked[i] = {std::move(seen[i].observations), std::move(found[i].lost),
                   std::move(found[i].warnings)};
   }
   return tracked;
+}
+
+void Pipeline::AddToTracks(const devices::Frame& frame,
+                           const std::vector<tracker::MarkerObservation>& observations) {
+  tracks_.AddFrame(frame.index, frame.timestamp_ns, observations);
+  if (kept_observations_) tracks_.ForgetAllBut(*kept_observations_);
 }
 
 std::optional<CameraPose> Pipeline::PoseIn(const devices::Frame& last_tracked) const {
@@ -104,10 +104,16 @@ std::optional<CameraPose> Pipeline::PoseIn(const devices::Frame& last_tracked) c
   return CameraPose{*marker, last};
 }
 
+bool Pipeline::HasOutputSize(const devices::Frame& frame) const {
+  return frame.rgb.width() == output_camera_.width && frame.rgb.height() == output_camera_.height;
+}
+
 void Pipeline::Resize(devices::Frame* frame) const {
-  const CameraModel& size = output_camera_;
-  if (frame->rgb.width() == size.width && frame->rgb.height() == size.height) return;
-  frame->rgb = devices::ResizeRgb(frame->rgb.view(), size.width, size.height);
+  if (!HasOutputSize(*frame)) frame->rgb = Resized(*frame);
+}
+
+RgbImage Pipeline::Resized(const devices::Frame& frame) const {
+  return devices::ResizeRgb(frame.rgb.view(), output_camera_.width, output_camera_.height);
 }
 
 bool Pipeline::MeterLightOn(const MarkerName& marker) {
@@ -117,21 +123,20 @@ bool Pipeline::MeterLightOn(const MarkerName& marker) {
   return true;
 }
 
-Result<ComposedFrame> Pipeline::Compose(const devices::Frame& frame,
+Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
                                         const std::optional<CameraPose>& pose, UtcTime time) {
   ComposedFrame composed;
   composed.pose = pose;
   if (!pose) {
-    composed.image = frame.rgb;
+    composed.image = CopyImage(rgb);
     return composed;
   }
   MeterLightOn(pose->marker);
   const Observation& seen = pose->observation;
   compositor::MarkerVisibility visibility;
   if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
-  PLEINAIR_ASSIGN_OR_RETURN(
-      composed.image,
-      renderer_->Render(frame.rgb.view(), seen.camera_from_marker, time, visibility));
+  PLEINAIR_ASSIGN_OR_RETURN(composed.image,
+                            renderer_->Render(rgb, seen.camera_from_marker, time, visibility));
   if (!renderer_->DrawsObjects()) return composed;
   composed.light = renderer_->light();
   composed.times = renderer_->times();

@@ -29,19 +29,21 @@ namespace pleinair::session {
 class MarkerRefiner;
 class SceneRenderer;
 
+/// How a Pipeline tracks and composes.
 struct PipelineOptions {
   compositor::ComposerOptions composer{};
   LightOptions light{};
-  /// Of composed images; nothing: the frames' own. Markers are found at the frames' own size.
+  /// Size of composed images, pixels; nothing: the frames' own. Markers are detected at the
+  /// frames' own size in any case.
   std::optional<ImageSize> image_size{};
-  /// Whether S-G markers are measured once more from all of their print's pixels (MarkerRefiner),
-  /// which takes some 20 ms a marker.
+  /// Whether MarkerRefiner refines S-G markers from all of their pixels. This takes some 20 ms per
+  /// marker.
   bool refine_markers = true;
-  /// Observations of each marker that are kept, for sessions without an end; nothing: all.
+  /// How many observations of each marker are kept, for sessions without an end; nothing: all.
   std::optional<std::size_t> kept_observations{};
 };
 
-/// A frame whose markers are found but not yet measured.
+/// A frame whose markers are detected, but whose poses are not estimated yet.
 struct FoundFrame {
   devices::Frame frame;
   tracker::UnmeasuredMarkers markers;
@@ -49,100 +51,107 @@ struct FoundFrame {
   std::vector<std::string> warnings;
 };
 
-/// What the tracker found in a frame.
+/// The markers of a frame.
 struct TrackedFrame {
   std::vector<tracker::MarkerObservation> observations;
-  std::vector<tracker::LostMarker> lost;  ///< Of the frames before, not in this one.
-  std::vector<std::string> warnings;      ///< What the user should know, such as mirrored prints.
+  std::vector<tracker::LostMarker> lost;  ///< Tracked in earlier frames, not detected in this one.
+  std::vector<std::string> warnings;      ///< For the user, about mirrored markers for example.
 };
 
-/// Where the camera stands in a frame: the marker that the scene stands on, and how it was seen.
+/// The pose of the camera in a frame, as an observation of the reference marker.
 struct CameraPose {
   MarkerName marker;
   Observation observation;
 };
 
-/// A frame with the virtual objects in it.
+/// A frame with the virtual objects drawn into it.
 struct ComposedFrame {
-  std::optional<CameraPose> pose;     ///< Nothing: the marker was not seen.
-  RgbImage image;                     ///< Without a pose the frame itself.
-  std::optional<LightSummary> light;  ///< Nothing where nothing was drawn.
+  std::optional<CameraPose> pose;     ///< Nothing if the marker was not detected.
+  RgbImage image;                     ///< The unchanged frame if there is no pose.
+  std::optional<LightSummary> light;  ///< Nothing if nothing was drawn.
   RenderTimes times;
 };
 
-/// A frame goes in; the camera's pose, the light and the composed image come out. Replay, live
-/// sessions and users' programs share it. Keeps what it learns for the next frame; frames come in
-/// order.
+/// Tracks the camera in a frame and composes the virtual objects into it: a frame goes in; the
+/// pose, the light and the composed image come out. Replay, live sessions and users' programs share
+/// this class. Frames must come in order, since each stage keeps what it learns for the next frame.
 ///
-/// Tracking (Find, Measure, Track, PoseIn, tracks) and composing (Compose, renderer) may run on two
-/// threads beside each other; each by itself is for one thread at a time.
+/// Tracking (Find, Measure, Track, PoseIn, tracks) may run on one thread while composing (Compose,
+/// renderer) runs on another. Within each of the two, calls must not overlap, except as Find() and
+/// Measure() allow.
 class Pipeline {
  public:
-  /// Loads the scene's models. `camera`: of the frames. Errors: what the scene says of the marker,
-  /// models that cannot be read, no OpenGL 4.5 where there is something to draw (system).
+  /// Loads the models of the scene. `camera`: the lens of the frames. Errors: an invalid marker in
+  /// the scene, an unreadable model; no OpenGL 4.5 if the scene has objects (system).
   static Result<std::unique_ptr<Pipeline>> Create(const CameraModel& camera,
                                                   const scene::SceneDescription& scene,
                                                   const PipelineOptions& options = {});
   ~Pipeline();
 
-  /// Track(), PoseIn() and Compose() in one, at the scene's time plus the frame's time stamp. The
-  /// light is as the scene describes it; session/recording_passes.h measures it in a recording's
-  /// frames first. Errors as theirs.
+  /// Calls Track(), PoseIn() and Compose() at MomentOf() the frame. The light is the one
+  /// that the scene describes; the functions of session/recording_passes.h estimate it from the
+  /// frames of a recording first. Errors: those of Track() and Compose().
   Result<ComposedFrame> Process(const devices::Frame& frame);
 
-  /// Finds the markers of a frame, measures them and adds them to tracks(). Errors: a frame of
-  /// another size than the camera's.
+  /// Detects the markers of a frame, estimates their poses and adds them to tracks(). Errors: the
+  /// frame and the camera have different sizes.
   Result<TrackedFrame> Track(const devices::Frame& frame);
 
-  /// Track() in two parts, for who has several frames at hand: Find() leans on the frames before
-  /// and takes one processor, Measure() takes several frames on all of them, with the same results.
-  /// The two may run beside each other.
+  /// The two parts of Track(), for several frames at once and with the same results. Find() uses
+  /// earlier frames and one processor; Measure() takes several frames and uses all processors. The
+  /// two may run at the same time.
   Result<FoundFrame> Find(devices::Frame frame);
   std::vector<TrackedFrame> Measure(std::span<FoundFrame> found);
 
-  /// The camera's pose in the frame that was tracked last; nothing where it does not show the
-  /// marker that the scene stands on.
+  /// The pose of the camera in the last tracked frame; nothing if the reference marker was not
+  /// detected in it.
   std::optional<CameraPose> PoseIn(const devices::Frame& last_tracked) const;
 
-  /// All that was seen of each marker so far.
+  /// All observations of each marker so far.
   const MarkerTracks& tracks() const { return tracks_; }
 
-  /// Takes the print of this marker for the light meter from now on; true where it was another
+  /// Makes this marker the light meter for the next frames. Returns true if another one was it
   /// before. Compose() does so for the marker of its pose.
   bool MeterLightOn(const MarkerName& marker);
 
-  /// Brings a frame's colours to the size of composed images.
+  /// Whether the colour image of a frame has the size of composed images.
+  bool HasOutputSize(const devices::Frame& frame) const;
+  /// Resizes the colour image of a frame to the size of composed images.
   void Resize(devices::Frame* frame) const;
 
-  /// Draws the objects, as they are lit at `time`, into a frame of the size of composed images.
+  /// Draws the objects with the light of `time` into an image of the size of composed images.
   /// Errors: no memory on the graphics card.
-  Result<ComposedFrame> Compose(const devices::Frame& frame, const std::optional<CameraPose>& pose,
-                                UtcTime time);
+  Result<ComposedFrame> Compose(ImageView<const std::uint8_t> rgb,
+                                const std::optional<CameraPose>& pose, UtcTime time);
 
-  /// The moment of a frame of a recording: the scene's time plus the frame's time stamp.
+  /// Time at which a frame of a recording was taken: the start time of the scene plus the time
+  /// stamp, nanoseconds since the start of the recording.
   UtcTime MomentOf(std::int64_t timestamp_ns) const;
 
   const scene::SceneDescription& scene() const { return scene_; }
-  /// Of composed images.
+  /// The lens of composed images.
   const CameraModel& output_camera() const { return output_camera_; }
 
-  /// The stage that lights and draws.
+  /// The stage that estimates the light and draws, for the programs of this project: its header is
+  /// not installed.
   SceneRenderer& renderer() { return *renderer_; }
 
  private:
   Pipeline(const CameraModel& camera, const scene::SceneDescription& scene,
            const PipelineOptions& options);
+  void AddToTracks(const devices::Frame& frame,
+                   const std::vector<tracker::MarkerObservation>& observations);
+  RgbImage Resized(const devices::Frame& frame) const;
 
-  CameraModel camera_;
   CameraModel output_camera_;
   scene::SceneDescription scene_;
   bool hands_in_front_;
   std::optional<std::size_t> kept_observations_;
   std::unique_ptr<tracker::Tracker> tracker_;
-  std::unique_ptr<MarkerRefiner> refiner_;  // Null where markers are not measured once more.
+  std::unique_ptr<MarkerRefiner> refiner_;  // Null if markers are not refined.
   MarkerTracks tracks_;
   std::unique_ptr<SceneRenderer> renderer_;
-  std::optional<MarkerName> metered_marker_;  // Whose print the renderer takes for its light meter.
+  std::optional<MarkerName> metered_marker_;  // The renderer's light meter.
 };
 
 }  // namespace pleinair::session

@@ -16,20 +16,20 @@ namespace {
 // Frames whose prints are measured at once: enough for all processors, few enough for memory.
 constexpr std::size_t kMeasuredTogether = 8;
 
-/// Times and progress of one pass, heard by a monitor or by nobody.
+/// Progress and stage times of one pass, with or without a monitor.
 class Pass {
  public:
   explicit Pass(const PassMonitor& monitor)
-      : monitor_(monitor), times_(monitor.times != nullptr ? *monitor.times : unheard_) {}
+      : monitor_(monitor), times_(monitor.times != nullptr ? *monitor.times : unused_) {}
 
-  Result<void> Tell(std::int64_t done, std::optional<std::int64_t> of) const {
+  Result<void> Report(std::int64_t done, std::optional<std::int64_t> of) const {
     return monitor_.progress ? monitor_.progress(done, of) : Result<void>();
   }
   StageTimes& times() { return times_; }
 
  private:
   const PassMonitor& monitor_;
-  StageTimes unheard_;
+  StageTimes unused_;
   StageTimes& times_;
 };
 
@@ -61,8 +61,7 @@ Result<void> MeasureTogether(Pipeline& pipeline, std::vector<FoundFrame> found,
 }
 
 void Resize(const Pipeline& pipeline, devices::Frame* frame, StageTimes* times) {
-  const CameraModel& size = pipeline.output_camera();
-  if (frame->rgb.width() == size.width && frame->rgb.height() == size.height) return;
+  if (pipeline.HasOutputSize(*frame)) return;
   times->Measure("resize", [&] {
     pipeline.Resize(frame);
     return 0;
@@ -100,7 +99,7 @@ Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
     return measuring.valid() ? measuring.get() : Result<void>();
   };
   for (bool more = true; more;) {
-    PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+    PLEINAIR_RETURN_IF_ERROR(pass.Report(done, count));
     PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, frames.Next());
     more = frame.has_value();
     if (more) {
@@ -118,7 +117,7 @@ Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
     });
   }
   PLEINAIR_RETURN_IF_ERROR(finish_measuring());
-  PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+  PLEINAIR_RETURN_IF_ERROR(pass.Report(done, count));
   pass.times().Add(measuring_times);
   pass.times().Add(frames.Finish());
   if (done == 0) return InputError(name, "holds no frames", "record it again");
@@ -137,7 +136,7 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
   for (auto next = chosen.begin(); next != chosen.end();) {
     const Observation& at = path[*next];
     recording.frames->SkipTo(at.frame_index);
-    PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+    PLEINAIR_RETURN_IF_ERROR(pass.Report(done, count));
     PLEINAIR_ASSIGN_OR_RETURN(
         std::optional<devices::Frame> frame,
         pass.times().Measure("read", [&] { return recording.frames->Next(); }));
@@ -152,7 +151,7 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
       return 0;
     });
   }
-  PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+  PLEINAIR_RETURN_IF_ERROR(pass.Report(done, count));
   pass.times().Measure("settle light", [&] {
     pipeline.renderer().EstimateLight();
     return 0;
@@ -170,7 +169,7 @@ Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
   FramePrefetcher frames(std::move(recording.frames));
   auto at = path.begin();
   for (std::int64_t done = 0;; ++done) {
-    PLEINAIR_RETURN_IF_ERROR(pass.Tell(done, count));
+    PLEINAIR_RETURN_IF_ERROR(pass.Report(done, count));
     PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, frames.Next());
     if (!frame && done != count) {
       return InputError(name, "changed while it was being replayed",
@@ -183,7 +182,7 @@ Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
     if (at != path.end() && at->frame_index == frame->index) pose = CameraPose{*marker, *at};
     PLEINAIR_ASSIGN_OR_RETURN(
         ComposedFrame composed,
-        pipeline.Compose(*frame, pose, pipeline.MomentOf(frame->timestamp_ns)));
+        pipeline.Compose(frame->rgb.view(), pose, pipeline.MomentOf(frame->timestamp_ns)));
     AddTimes(composed, &pass.times());
     PLEINAIR_RETURN_IF_ERROR(take(*frame, std::move(composed)));
   }

@@ -22,26 +22,27 @@
 
 namespace pleinair::session {
 
-/// The daylight on one scene: its skies, as described or as frames show them, and the light among
-/// surfaces that was last made or taken over.
+/// Holds the daylight of one scene: its skies, described or estimated from frames, and the indirect
+/// illumination in use.
 class SceneLight {
  public:
-  /// `options`: without a cache rays are traced for every place of the sun.
+  /// `options`: without a cache, rays are traced for every position of the sun.
   SceneLight(std::shared_ptr<const compositor::LightSolver> solver,
              const scene::SceneDescription& scene, const LightOptions& options);
 
-  /// Looks at a frame for the phantoms' own shadows. All frames looked at share one sun: that of
-  /// `time` of the first. `scene` with the stated or overriding heading.
+  /// Adds a frame to the estimate of the light. All frames of an estimate share one position of the
+  /// sun: that at `time` of the first. `scene` has the stated or overriding heading.
   void Observe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                const scene::SceneDescription& scene,
                const scene::MarkerReflectance& marker_reflectance, const CameraResponse& response);
 
-  /// Draws conclusions from the frames looked at, and goes on under the skies found; nothing where
-  /// none was looked at.
+  /// Estimates the light from the frames added, and uses its skies from now on. Nothing if no frame
+  /// was added.
   std::optional<compositor::LightEstimate> Conclude();
 
-  /// Before the first light is made: the sky that the user states counts, and `measured` says so.
+  /// Replaces the skies by those that the user states, and notes it in `measured`. Call before the
+  /// first illumination is computed.
   void Override(const scene::SceneDescription& scene, const sky::SunPosition& sun,
                 compositor::MeasuredLight* measured);
 
@@ -53,18 +54,20 @@ class SceneLight {
   /// Whether coefficients were computed for the cache which could not be written there.
   bool FailedToKeep() const { return coefficients_ && !coefficients_->kept; }
 
-  /// The order for the light of a moment.
+  /// The input for computing the illumination at `time`.
   LightingRequest Request(UtcTime time, const scene::SceneDescription& scene,
                           const scene::MarkerReflectance& marker_reflectance,
                           const CameraResponse& response) const;
 
-  /// Whether the light in use is none, or was made here for another place of the sun.
+  /// Whether no illumination is in use, or one that was computed here for another position of the
+  /// sun.
   bool IsStale(const sky::SunPosition& sun) const;
 
-  /// Goes on with a light, made here (`made_elsewhere` false) or, from then on always, elsewhere.
+  /// Uses this illumination from now on. Once one was `made_elsewhere`, none is computed here
+  /// again.
   void Use(std::shared_ptr<const BakedLighting> light, bool made_elsewhere);
 
-  /// Null before the first.
+  /// The illumination in use; null before the first.
   const BakedLighting* in_use() const { return in_use_.get(); }
   bool made_elsewhere() const { return made_elsewhere_; }
   bool has_cache() const { return !options_.cache.empty(); }
@@ -76,7 +79,7 @@ class SceneLight {
   LightOptions options_;
   compositor::SkyState skies_;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
-  std::unique_ptr<compositor::LightEstimator> estimator_;  // What was seen of the light so far.
+  std::unique_ptr<compositor::LightEstimator> estimator_;  // Of the frames so far.
   std::shared_ptr<const BakedLighting> in_use_;
   bool made_elsewhere_ = false;
 };

@@ -229,14 +229,7 @@ Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
                                        const Transform<Camera, Marker>& camera_from_marker,
                                        UtcTime time, const compositor::MarkerVisibility& cover) {
   times_ = {};
-  if (!composer_) {
-    RgbImage copy(rgb.width(), rgb.height(), rgb.channels());
-    for (int y = 0; y < rgb.height(); ++y) {
-      std::copy_n(rgb.row(y), static_cast<std::size_t>(rgb.width()) * rgb.channels(),
-                  copy.view().row(y));
-    }
-    return copy;
-  }
+  if (!composer_) return CopyImage(rgb);
   auto start = Clock::now();
   PLEINAIR_RETURN_IF_ERROR(UpdateLight(time.PlusSeconds(edited_.later_s)));
   times_.light_ms = MillisecondsSince(start);

@@ -9,10 +9,11 @@
 
 namespace pleinair::app {
 
-/// When a live session's frames were taken, in UTC and since the first of them. Any thread.
+/// Converts time stamps of a live session's frames into UTC and into time since the first frame.
+/// Any thread.
 class FrameClock {
  public:
-  /// `start`: of the first frame; nothing: the clock's when it comes.
+  /// `start`: UTC of the first frame; nothing: what the clock shows when it comes.
   explicit FrameClock(std::optional<UtcTime> start) : start_(start) {}
 
   /// Notes the stamp of the next frame. Gives the milliseconds since the one before; nothing for
@@ -38,13 +39,13 @@ class FrameClock {
     return timestamp_ns - first_stamp_ns_.value_or(0);
   }
 
-  /// Of the first frame; 1970 before it.
+  /// UTC of the first frame; 1970 before it comes.
   UtcTime first_moment() const {
     const std::lock_guard lock(mutex_);
     return first_moment_;
   }
 
-  /// What the machine's clock says.
+  /// UTC by the clock of the machine.
   static UtcTime Now() {
     return UtcTime(std::chrono::duration_cast<std::chrono::nanoseconds>(
                        std::chrono::system_clock::now().time_since_epoch())

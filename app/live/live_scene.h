@@ -40,7 +40,7 @@ class LiveScene {
   /// The description with the last edit. Any thread.
   scene::SceneDescription Edited() const;
 
-  /// Of the light meter.
+  /// Reflectances of the marker that serves as the light meter.
   void SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance);
 
   /// Gives the renderer the edits since the last frame, and the light made since, for a frame of
@@ -55,9 +55,9 @@ class LiveScene {
   /// up with the camera.
   void NoteDrawn(double compose_ms, double period_ms);
 
-  /// In use where it is chosen automatically. Any thread.
+  /// The detail in use if it is chosen automatically. Any thread.
   session::Detail detail() const;
-  /// Of the light; nothing where none is made here. Any thread.
+  /// Progress of the light; nothing if none is computed here. Any thread.
   std::optional<session::BackgroundLight::Progress> light_progress() const;
 
   void Stop();

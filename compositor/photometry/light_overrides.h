@@ -5,7 +5,7 @@
 
 namespace pleinair::compositor {
 
-/// Of a sun in the blackest sky that there is: high mountains have 10.
+/// Largest plausible sun-to-sky ratio of a clear sky; high mountains have 10.
 inline constexpr double kMaxSunToSky = 20.0;
 
 /// What the user says of the light, in place of what the frames show.

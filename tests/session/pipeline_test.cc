@@ -14,23 +14,26 @@
 namespace pleinair::session {
 namespace {
 
-/// Six frames of an AprilTag, with no virtual object in the scene: nothing is drawn.
-devices::Recording OpenTag() {
-  auto recording =
-      devices::OpenRecording(tests::SourceTree() / "recordings" / "courtyard_tag36h11");
+/// A bundled recording, with no virtual object in the scene: nothing is drawn.
+devices::Recording Open(const char* name) {
+  auto recording = devices::OpenRecording(tests::SourceTree() / "recordings" / name);
   EXPECT_TRUE(recording) << recording.error().Message();
   recording->scene->objects.clear();
   return *std::move(recording);
 }
 
+devices::Recording OpenTag() { return Open("courtyard_tag36h11"); }
+
+/// The first six frames at most.
 std::vector<devices::Frame> FramesOf(devices::Recording recording) {
   std::vector<devices::Frame> frames;
-  for (;;) {
+  while (frames.size() < 6) {
     auto frame = recording.frames->Next();
     EXPECT_TRUE(frame) << frame.error().Message();
-    if (!*frame) return frames;
+    if (!*frame) break;
     frames.push_back(**std::move(frame));
   }
+  return frames;
 }
 
 bool SamePixels(const RgbImage& a, const RgbImage& b) {
@@ -70,25 +73,48 @@ TEST(Pipeline, HasNoPoseWhereTheMarkerIsNotSeen) {
 }
 
 TEST(Pipeline, MeasuresSeveralFramesTogetherAsOneByOne) {
+  for (const auto& [name, marker] : {std::pair{"courtyard_tag36h11", MarkerName{"tag36h11", 0}},
+                                     std::pair{"courtyard_midday", MarkerName{"sg", 17}}}) {
+    devices::Recording recording = Open(name);
+    auto one_by_one = Pipeline::Create(recording.camera, *recording.scene);
+    auto together = Pipeline::Create(recording.camera, *recording.scene);
+    ASSERT_TRUE(one_by_one && together);
+    std::vector<FoundFrame> found;
+    for (devices::Frame& frame : FramesOf(std::move(recording))) {
+      ASSERT_TRUE((*one_by_one)->Track(frame));
+      auto one = (*together)->Find(std::move(frame));
+      ASSERT_TRUE(one);
+      found.push_back(*std::move(one));
+    }
+    ASSERT_EQ((*together)->Measure(found).size(), 6U);
+    const std::vector<Observation>& a = (*one_by_one)->tracks().TrackOf(marker);
+    const std::vector<Observation>& b = (*together)->tracks().TrackOf(marker);
+    ASSERT_EQ(a.size(), 6U) << name;
+    ASSERT_EQ(b.size(), 6U) << name;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(a[i].camera_from_marker.translation_m, b[i].camera_from_marker.translation_m);
+      EXPECT_EQ(a[i].camera_from_marker.rotation.m, b[i].camera_from_marker.rotation.m);
+    }
+  }
+}
+
+TEST(Pipeline, KeepsAsManyObservationsAsItIsToldTo) {
   devices::Recording recording = OpenTag();
-  auto one_by_one = Pipeline::Create(recording.camera, *recording.scene);
-  auto together = Pipeline::Create(recording.camera, *recording.scene);
+  PipelineOptions options;
+  options.kept_observations = 2;
+  auto one_by_one = Pipeline::Create(recording.camera, *recording.scene, options);
+  auto together = Pipeline::Create(recording.camera, *recording.scene, options);
   ASSERT_TRUE(one_by_one && together);
   std::vector<FoundFrame> found;
   for (devices::Frame& frame : FramesOf(std::move(recording))) {
     ASSERT_TRUE((*one_by_one)->Track(frame));
-    auto one = (*together)->Find(std::move(frame));
-    ASSERT_TRUE(one);
-    found.push_back(*std::move(one));
+    found.push_back((*together)->Find(std::move(frame)).value());
   }
-  ASSERT_EQ((*together)->Measure(found).size(), found.size());
-  const MarkerName tag{"tag36h11", 0};
-  const std::vector<Observation>& a = (*one_by_one)->tracks().TrackOf(tag);
-  const std::vector<Observation>& b = (*together)->tracks().TrackOf(tag);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].camera_from_marker.translation_m, b[i].camera_from_marker.translation_m);
-    EXPECT_EQ(a[i].camera_from_marker.rotation.m, b[i].camera_from_marker.rotation.m);
+  (*together)->Measure(found);
+  for (const auto& pipeline : {one_by_one->get(), together->get()}) {
+    const std::vector<Observation>& kept = pipeline->tracks().TrackOf({"tag36h11", 0});
+    ASSERT_EQ(kept.size(), 2U);
+    EXPECT_EQ(kept.back().frame_index, 5);
   }
 }
 
