@@ -55,9 +55,12 @@ void LiveCounters::AddLatency(const devices::Frame& frame) {
   latencies_.Add(latency_ms);
 }
 
-LiveStatistics LiveCounters::Snapshot() const {
+LiveStatistics LiveCounters::Snapshot(const std::function<LateFrames()>& late) const {
   const std::lock_guard lock(mutex_);
   LiveStatistics statistics = counted_;
+  const LateFrames before_screen = late();
+  statistics.late.for_tracking = before_screen.for_tracking;
+  statistics.late.for_drawing = before_screen.for_drawing;
   statistics.latency = latency_.Summarize();
   return statistics;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 
@@ -26,11 +27,12 @@ class LiveCounters {
   /// A frame has reached its viewer now.
   void AddLatency(const devices::Frame& frame);
 
-  /// What is counted here; the rest of the statistics is left as it is by default.
-  LiveStatistics Snapshot() const;
+  /// All that is counted here. `late`: reads how many frames were replaced before tracking and
+  /// before drawing; it is called while no count changes, so that the numbers fit together.
+  LiveStatistics Snapshot(const std::function<LateFrames()>& late) const;
   /// Between frames, a running mean.
   double period_ms() const;
-  /// Of all frames since it was last asked.
+  /// The latencies of all frames since the last call.
   LatencyHistogram TakeLatencies();
 
  private:

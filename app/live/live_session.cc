@@ -170,7 +170,7 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
     scene_.Show(tracked.frame, *drawn.camera_from_marker, moment);
   }
   PLEINAIR_ASSIGN_OR_RETURN(session::ComposedFrame composed,
-                            pipeline_->Compose(frame, tracked.pose, moment));
+                            pipeline_->Compose(frame.rgb.view(), tracked.pose, moment));
   drawn.picture = std::move(composed.image);
   drawn.light = renderer.light();
   counters_.Drawn(renderer.times(), MillisecondsSince(start));
@@ -188,9 +188,9 @@ void LiveSession::Shown(const DrawnFrame& frame, std::int64_t late_for_screen) {
 }
 
 LiveStatistics LiveSession::statistics() const {
-  LiveStatistics statistics = counters_.Snapshot();
-  statistics.late.for_tracking = captured_.dropped();
-  statistics.late.for_drawing = tracked_.dropped();
+  LiveStatistics statistics = counters_.Snapshot([this] {
+    return LateFrames{captured_.dropped(), tracked_.dropped(), 0};
+  });
   statistics.detail = scene_.detail();
   if (auto progress = scene_.light_progress()) statistics.light = *std::move(progress);
   statistics.recording = recording_.counts();

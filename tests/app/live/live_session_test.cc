@@ -99,6 +99,9 @@ TEST(LiveSession, AccountsForEveryFrameWhileASlowRendererLagsBehind) {
     const auto drawn = (*session)->Draw(milliseconds(20));
     ASSERT_TRUE(drawn);
     if (*drawn) seen.push_back((*drawn)->picture(0, 0));
+    const LiveStatistics meanwhile = (*session)->statistics();
+    EXPECT_GE(meanwhile.Unaccounted(), 0);
+    EXPECT_LE(meanwhile.Unaccounted(), 5);
     std::this_thread::sleep_for(milliseconds(15));
   }
   (*session)->Stop();
