@@ -23,6 +23,12 @@ function define(name) {
 
 # The names that a line at the left margin of an anonymous namespace may define.
 function define_names(line,   words, n, name) {
+  if (match(line, /^using [A-Za-z_0-9:]+::[A-Za-z_0-9]+;/)) {
+    # Another namespace's name.
+    n = split(substr(line, RSTART, RLENGTH - 1), words, "::")
+    define(words[n])
+    return
+  }
   if (match(line, /^(struct|class|union|enum( class)?|using) [A-Za-z_0-9]+/)) {
     n = split(substr(line, RSTART, RLENGTH), words, " ")
     define(words[n])

@@ -241,6 +241,12 @@ class Parser {
   static bool OpensBody(const Tokens& declaration) {
     for (std::size_t i = 0; i < declaration.size();) {
       const std::string& text = declaration[i].text;
+      if ((text == "alignas" || text == "decltype") && i + 1 < declaration.size()) {
+        i = AfterClosing(declaration, i + 1, declaration.size());
+        continue;
+      }
+      // A pointer to a function, not the parameters of one.
+      if (text == "(" && i + 1 < declaration.size() && declaration[i + 1].text == "*") return false;
       if (text == "enum" || text == "union" || text == "(" || text == "operator") return true;
       if (text == "=") return false;
       i = text == "<" ? AfterTemplateArguments(declaration, i, declaration.size()) : i + 1;

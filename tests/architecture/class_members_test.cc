@@ -42,11 +42,13 @@ TEST(ParseClasses, CountsEachDeclarator) {
   EXPECT_EQ(MembersOf("struct A { Box box{1, 2}; int x = F(1, 2), y; };"), 3U);
   EXPECT_EQ(MembersOf("struct A { std::map<int, int> m; std::array<Vec<int, 2>, 3> a, b; };"), 3U);
   EXPECT_EQ(MembersOf("struct A { int shifted = 1 << 2; bool less = 1 < 2; };"), 2U);
+  EXPECT_EQ(MembersOf("struct A { alignas(64) float a[4]{}; decltype(x) b{1}; int c; };"), 3U);
 }
 
 TEST(ParseClasses, CountsMembersThatHoldFunctions) {
   EXPECT_EQ(MembersOf("struct A { std::function<void(int, int)> f, g; };"), 2U);
   EXPECT_EQ(MembersOf("struct A { void (*f)(int, int) = nullptr; int b; };"), 2U);
+  EXPECT_EQ(MembersOf("struct A { void (*f)(int){nullptr}; int b; };"), 2U);
   EXPECT_EQ(MembersOf("struct A { std::function<int()> f = [] { int a; return a; }; };"), 1U);
 }
 
