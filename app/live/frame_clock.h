@@ -9,15 +9,16 @@
 
 namespace pleinair::app {
 
-/// Converts time stamps of a live session's frames into UTC and into time since the first frame.
-/// Any thread.
+/// Converts the frame time stamps of a live session into UTC and into time since the first frame.
+/// Thread-safe.
 class FrameClock {
  public:
-  /// `start`: UTC of the first frame; nothing: what the clock shows when it comes.
+  /// `start` is the UTC of the first frame. Without it, the clock time at the first frame's arrival
+  /// is used.
   explicit FrameClock(std::optional<UtcTime> start) : start_(start) {}
 
-  /// Notes the stamp of the next frame. Gives the milliseconds since the one before; nothing for
-  /// the first.
+  /// Adds the stamp of the next frame. Returns the milliseconds since the previous frame; nothing
+  /// for the first.
   std::optional<double> Add(std::int64_t timestamp_ns) {
     const std::lock_guard lock(mutex_);
     const std::optional<std::int64_t> before_ns = last_stamp_ns_;
@@ -39,13 +40,13 @@ class FrameClock {
     return timestamp_ns - first_stamp_ns_.value_or(0);
   }
 
-  /// UTC of the first frame; 1970 before it comes.
+  /// UTC of the first frame; 1970 until it arrives.
   UtcTime first_moment() const {
     const std::lock_guard lock(mutex_);
     return first_moment_;
   }
 
-  /// UTC by the clock of the machine.
+  /// UTC of the machine's clock.
   static UtcTime Now() {
     return UtcTime(std::chrono::duration_cast<std::chrono::nanoseconds>(
                        std::chrono::system_clock::now().time_since_epoch())

@@ -10,8 +10,8 @@
 
 namespace pleinair::app {
 
-/// Latencies of a whole interval, however long: counts by steps of 2 %, from 0.1 ms to beyond a
-/// minute. Never grows.
+/// Latency histogram of an interval of any length, in constant memory. Bins grow by 2 %, from 0.1
+/// ms to more than a minute.
 class LatencyHistogram {
  public:
   void Add(double milliseconds) {
@@ -21,7 +21,7 @@ class LatencyHistogram {
     worst_ms_ = std::max(worst_ms_, milliseconds);
   }
 
-  /// The worst is exact, the others lie within 2 % above.
+  /// The maximum is exact. The quantiles are at most 2 % too high.
   LatencyMeter::Summary Summarize() const { return {Quantile(0.5), Quantile(0.95), worst_ms_}; }
 
  private:

@@ -7,8 +7,8 @@
 
 namespace pleinair::app {
 
-/// Milliseconds from exposure to display: of the last frames, and the worst since the start. Never
-/// grows.
+/// Latency from exposure to display, in milliseconds and in constant memory: quantiles of the last
+/// frames, and the maximum since the start.
 class LatencyMeter {
  public:
   struct Summary {

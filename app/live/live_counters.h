@@ -13,33 +13,33 @@
 
 namespace pleinair::app {
 
-/// Counts what happens to a live session's frames. Any thread.
+/// Counts the frames of a live session by what happened to them. Thread-safe.
 class LiveCounters {
  public:
-  /// `period_ms`: since the frame before; nothing for the first.
+  /// `period_ms`: since the previous frame; nothing for the first.
   void Captured(const devices::Frame& frame, std::optional<double> period_ms);
   void Tracked(bool has_pose, double milliseconds);
   void Drawn(const session::RenderTimes& times, double milliseconds);
-  /// On the screen, while so many were replaced before they got there so far.
+  /// Counts a frame on the screen. `late_for_screen`: drawn frames replaced before display so far.
   void Shown(std::int64_t late_for_screen);
-  /// Not drawn since the session ended.
+  /// Counts a frame that is not drawn because the session ended.
   void GivenUp();
-  /// A frame has reached its viewer now.
+  /// Adds the latency of a frame that is displayed now.
   void AddLatency(const devices::Frame& frame);
 
-  /// All that is counted here. `late`: reads how many frames were replaced before tracking and
-  /// before drawing; it is called while no count changes, so that the numbers fit together.
+  /// Returns all counts. `late` reads the number of frames replaced before tracking and before
+  /// drawing. It is called while the counts are locked, so that all numbers are consistent.
   LiveStatistics Snapshot(const std::function<LateFrames()>& late) const;
-  /// Between frames, a running mean.
+  /// Running mean of the frame period.
   double period_ms() const;
-  /// The latencies of all frames since the last call.
+  /// Latencies of all frames since the last call.
   LatencyHistogram TakeLatencies();
 
  private:
   mutable std::mutex mutex_;
   LiveStatistics counted_;
   LatencyMeter latency_;
-  LatencyHistogram latencies_;  // Since they were taken.
+  LatencyHistogram latencies_;  // Since the last TakeLatencies().
 };
 
 }  // namespace pleinair::app

@@ -8,12 +8,13 @@
 
 namespace pleinair::app {
 
-/// Chooses how finely a live session draws: as asked while that keeps up with the camera, otherwise
-/// with simpler shadows' edges, otherwise with half the pixels a side, too. It never goes back by
-/// itself, lest the picture flicker between the two.
+/// Chooses the level of detail of a live session. It starts with the requested detail. When drawing
+/// cannot keep up with the camera, it simplifies the shadow edges, then halves the resolution per
+/// side. The detail never rises again by itself, so that the image does not flicker between two
+/// levels.
 class LiveDetail {
  public:
-  /// Notes how long a frame took to draw and how soon the next one comes, milliseconds. True where
+  /// Adds the drawing time of a frame and the frame period, both in milliseconds. Returns true if
   /// the detail was lowered.
   bool Add(double draw_ms, double period_ms) {
     if (detail_ == session::Detail::kCoarse || period_ms <= 0.0) return false;
@@ -27,7 +28,7 @@ class LiveDetail {
     return true;
   }
 
-  /// What to draw by, for what was asked.
+  /// Returns the options to draw with for the requested ones.
   compositor::ComposerOptions Apply(const session::SceneEdit& edit) const {
     const session::Detail detail =
         edit.detail == session::Detail::kAutomatic ? detail_ : edit.detail;
@@ -38,11 +39,11 @@ class LiveDetail {
     return options;
   }
 
-  /// In use where it is chosen automatically.
+  /// The level in use when the detail is chosen automatically.
   session::Detail detail() const { return detail_; }
 
  private:
-  // Share of the time between frames that drawing may take.
+  // Max. share of the frame period for drawing.
   static constexpr double kBusy = 0.85;
   static constexpr double kCoarseSupersampling = 0.5;
 

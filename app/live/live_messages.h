@@ -11,18 +11,18 @@ class LiveCamera;
 
 namespace pleinair::app {
 
-// What `pleinair live` says: JSON lines on standard output, or words on standard error.
+// Messages of `pleinair live`: JSON lines on standard output, or text on standard error.
 
-/// Tells what the camera has reported since the last call; gives the last of it in words. Nothing
-/// where it is null.
+/// Reports the camera events since the last call and returns the last one as text. Does nothing if
+/// `camera` is null.
 std::string ReportEvents(devices::LiveCamera* camera, bool json);
 
-/// What became of the controls that were asked of the camera.
+/// Reports the result of each requested camera control.
 void ReportControls(const devices::LiveCamera* camera);
 
 void Report(const LiveInterval& interval, bool json);
 
-/// At the end of a session.
+/// Reports the totals at the end of a session.
 void Report(const LiveStatistics& statistics, bool json);
 
 }  // namespace pleinair::app

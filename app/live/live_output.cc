@@ -32,7 +32,7 @@ Result<void> LiveOutput::Add(const session::MarkerTracks& marker_tracks, std::in
                              std::int64_t timestamp_ns, const std::string& line) {
   for (const auto& [marker, observations] : marker_tracks.tracks()) {
     if (observations.empty() || observations.back().frame_index != frame_index) continue;
-    // Poses of recordings count from their start, as the line's time does.
+    // Poses count from the start of the recording, as the time of the line does.
     exports::TrajectoryPose pose = ObservedPose(observations.back());
     pose.timestamp_ns = timestamp_ns;
     paths_[marker].poses.push_back(std::move(pose));

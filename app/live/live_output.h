@@ -20,27 +20,27 @@
 
 namespace pleinair::app {
 
-/// What a live session saw, in the files that replay writes of a recording: detections.jsonl,
-/// poses/MARKER.tum and other forms of the path. All of them appear when the session ends. Paths
-/// are kept in memory until then: some 140 bytes a frame and marker, 15 MB an hour at 30 Hz; for
-/// MCAP each frame's line of detections.jsonl, too.
+/// Writes the observations of a live session in the file formats of replay: detections.jsonl,
+/// poses/MARKER.tum and other trajectory formats. All files appear when the session ends.
+/// Trajectories stay in memory until then: about 140 bytes per frame and marker, 15 MB per hour at
+/// 30 Hz. For MCAP, each frame's line of detections.jsonl stays in memory, too.
 class LiveOutput {
  public:
   struct Options {
     std::filesystem::path folder;
-    std::set<exports::TrajectoryFormat> exports;  ///< Besides TUM.
+    std::set<exports::TrajectoryFormat> exports;  ///< In addition to TUM.
   };
 
-  /// Errors: of OutputFolder; a lens that a form cannot hold.
+  /// Errors: as OutputFolder; a lens model that a format cannot store.
   static Result<std::unique_ptr<LiveOutput>> Create(const Options& options,
                                                     const CameraModel& camera,
                                                     const scene::SceneDescription& scene);
 
-  /// Adds a frame that the session has just taken in, and its line of detections.jsonl.
+  /// Adds a newly tracked frame and its line of detections.jsonl.
   Result<void> Add(const session::MarkerTracks& marker_tracks, std::int64_t frame_index,
                    std::int64_t timestamp_ns, const std::string& line);
 
-  /// Writes the paths and moves everything to its place. `start`: of the first frame.
+  /// Writes the trajectories and commits all files. `start`: UTC of the first frame.
   Result<void> Finish(UtcTime start);
 
  private:
@@ -54,7 +54,7 @@ class LiveOutput {
   OutputFolder folder_;
   DetectionsWriter detections_;
   std::map<session::MarkerName, exports::CameraTrajectory> paths_;
-  std::vector<exports::MarkersMessage> markers_seen_;  // For MCAP alone.
+  std::vector<exports::MarkersMessage> markers_seen_;  // Only for MCAP.
 };
 
 }  // namespace pleinair::app

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A power cut costs at most this much.
+// A power failure loses at most this much.
 constexpr std::chrono::seconds kSyncEvery{1};
 
 std::string RecordingJson(const CameraModel& camera, UtcTime start) {
@@ -77,7 +77,7 @@ void LiveRecorder::Run() {
   auto synced = std::chrono::steady_clock::now();
   bool ended = false;
   while (auto frame = queue_.Take()) {
-    if (ended) continue;  // Emptied, so that nothing piles up.
+    if (ended) continue;  // Empties the queue.
     Result<void> added = writer_->Add(**frame);
     const auto now = std::chrono::steady_clock::now();
     if (added && now - synced >= kSyncEvery) {

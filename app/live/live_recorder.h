@@ -16,28 +16,27 @@
 
 namespace pleinair::app {
 
-/// Records frames into a folder of the project's own form while they are shown, on a thread of its
-/// own. What the disk cannot take in time is left out and counted; a full disk ends the recording
-/// and nothing else.
+/// Records frames into a folder of the project's own format, on a background thread. Frames that
+/// the disk cannot take in time are dropped and counted. A full disk ends only the recording.
 class LiveRecorder {
  public:
-  /// Makes the folder with recording.json (lens and moment) and scene.toml (the scene with `start`
-  /// as its time). Errors: there is a recording already, no permission, disk full.
+  /// Creates the folder with recording.json (lens and start time) and scene.toml (the scene with
+  /// `start` as its time). Errors: an existing recording, no permission, disk full.
   static Result<std::unique_ptr<LiveRecorder>> Create(const std::filesystem::path& folder,
                                                       const CameraModel& camera,
                                                       const scene::SceneDescription& scene,
                                                       UtcTime start);
   ~LiveRecorder();
 
-  /// Queues a frame; never waits.
+  /// Queues a frame without blocking.
   void Add(std::shared_ptr<const devices::Frame> frame);
 
-  /// Writes what is queued and ends.
+  /// Writes the queued frames and ends.
   void Finish();
 
   std::int64_t recorded() const;
   std::int64_t left_out() const;
-  /// Why the recording ended before its time.
+  /// The error that ended the recording early.
   std::optional<Error> trouble() const;
 
  private:
@@ -45,7 +44,7 @@ class LiveRecorder {
   void Run();
 
   std::unique_ptr<devices::FramePackWriter> writer_;
-  // Two seconds at 30 Hz: what a disk may pause for.
+  // Two seconds at 30 Hz: bridges pauses of the disk.
   BoundedQueue<std::shared_ptr<const devices::Frame>> queue_{60, WhenFull::kRefuse};
   mutable std::mutex mutex_;
   std::int64_t recorded_ = 0;
@@ -53,7 +52,7 @@ class LiveRecorder {
   std::thread thread_;
 };
 
-/// A scene as scene.toml with another time; models by their way from `folder`.
+/// Returns a scene as scene.toml with another time. Model paths are relative to `folder`.
 std::string SceneToml(const scene::SceneDescription& scene, UtcTime start,
                       const std::filesystem::path& folder);
 

@@ -11,7 +11,7 @@ double Seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
-/// Second number of /proc/self/statm (proc(5)): resident pages. 0 where it cannot be read.
+/// Resident pages: the second number of /proc/self/statm (proc(5)). 0 if it cannot be read.
 double ResidentMemory_mb() {
   std::ifstream statm("/proc/self/statm");
   double pages = 0.0, resident = 0.0;

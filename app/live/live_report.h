@@ -8,26 +8,26 @@
 
 namespace pleinair::app {
 
-/// What a live session did in a while, and how much memory it holds: what a long run is judged by.
+/// Work and memory use of a live session in one interval, for judging long runs.
 struct LiveInterval {
-  double from_s = 0.0, to_s = 0.0;  ///< Since the session's start.
+  double from_s = 0.0, to_s = 0.0;  ///< Since the start of the session.
   std::int64_t captured = 0, tracked = 0, drawn = 0, late_for_tracking = 0, late_for_drawing = 0;
-  std::int64_t lost = 0;          ///< Before we got them.
-  std::int64_t on_the_way = 0;    ///< At its end: captured since the start and nothing told yet.
-  LatencyMeter::Summary latency;  ///< Of its own frames.
-  double memory_mb = 0.0;         ///< Resident, at its end; 1 MB is 10^6 bytes.
+  std::int64_t lost = 0;          ///< Before they reached the session.
+  std::int64_t on_the_way = 0;    ///< At its end: captured, and neither drawn nor dropped yet.
+  LatencyMeter::Summary latency;  ///< Frames of this interval.
+  double memory_mb = 0.0;         ///< Resident memory at its end; 1 MB is 10^6 bytes.
 };
 
-/// Cuts a session into intervals.
+/// Divides a session into intervals.
 class LiveReport {
  public:
-  /// `every_s` 0: never.
+  /// `every_s`: length of an interval; 0 disables the reports.
   explicit LiveReport(double every_s);
 
-  /// The interval that ended since, if one did.
+  /// Returns the interval that ended since the last call, if any.
   std::optional<LiveInterval> Poll(LiveSession& session);
 
-  /// The interval that the end of the session cuts short; nothing where none are told.
+  /// Returns the last, shorter interval; nothing when reports are disabled.
   std::optional<LiveInterval> Finish(LiveSession& session);
 
  private:

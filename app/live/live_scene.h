@@ -20,8 +20,7 @@
 
 namespace pleinair::app {
 
-/// The scene of a live session as it is edited meanwhile, and the light that is made for it beside
-/// the frames.
+/// The scene of a live session with its edits, and the light computed for it in the background.
 class LiveScene {
  public:
   LiveScene(const scene::SceneDescription& described, const compositor::ComposerOptions& drawing,
@@ -29,35 +28,34 @@ class LiveScene {
       : described_(described),
         edit_(session::UneditedScene(described, drawing, light.convergence)) {}
 
-  /// Makes the first light, at `start`, gives it to the renderer, and goes on with the next.
-  /// Errors: the geometry.
+  /// Computes the first light at `start`, passes it to the renderer, and continues in the
+  /// background. Errors: the geometry.
   Result<void> StartLight(const CameraModel& camera, const session::LightOptions& light,
                           UtcTime start, session::SceneRenderer* renderer);
 
-  /// Changes the scene from the next frame on; its light follows when it is made. Any thread.
+  /// Changes the scene from the next frame on. Its light follows when it is computed. Thread-safe.
   void Edit(const session::SceneEdit& edit);
 
-  /// The description with the last edit. Any thread.
+  /// The description with the last edit. Thread-safe.
   scene::SceneDescription Edited() const;
 
-  /// Reflectances of the marker that serves as the light meter.
+  /// Sets the reflectances of the marker that the exposure is estimated from.
   void SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance);
 
-  /// Gives the renderer the edits since the last frame, and the light made since, for a frame of
-  /// `moment`.
+  /// Passes the edits and the light since the last frame to the renderer, for a frame at `moment`.
   Result<void> Update(UtcTime moment, session::SceneRenderer* renderer);
 
-  /// Offers a frame to measure the light in.
+  /// Offers a frame to the light estimator.
   void Show(const std::shared_ptr<const devices::Frame>& frame,
             const Transform<Camera, Marker>& camera_from_marker, UtcTime moment);
 
-  /// Notes how long composing a frame took and how soon the next one comes, so that drawing keeps
-  /// up with the camera.
+  /// Reports the composition time of a frame and the frame period, so that the detail can follow
+  /// the camera's rate.
   void NoteDrawn(double compose_ms, double period_ms);
 
-  /// The detail in use if it is chosen automatically. Any thread.
+  /// The level in use if the detail is chosen automatically. Thread-safe.
   session::Detail detail() const;
-  /// Progress of the light; nothing if none is computed here. Any thread.
+  /// Progress of the light computation; nothing if there is none here. Thread-safe.
   std::optional<session::BackgroundLight::Progress> light_progress() const;
 
   void Stop();

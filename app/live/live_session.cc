@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What is kept of each marker's path: enough to choose between two poses by the last one.
+// Observations kept per marker: enough to choose between two poses by the last one.
 constexpr std::size_t kObservationsKept = 1000;
 
 double MillisecondsSince(Clock::time_point start) {

@@ -32,83 +32,84 @@ namespace pleinair::app {
 
 struct LiveOptions {
   CameraModel camera;
-  scene::SceneDescription scene;  ///< With what `light` gives of it (WithGiven()).
+  scene::SceneDescription scene;  ///< With the values that `light` provides (WithGiven()).
   compositor::ComposerOptions composer;
   session::LightOptions light;
-  /// UTC of the first frame; nothing: the clock's when it comes.
+  /// UTC of the first frame. Without it, the clock time at the first frame's arrival is used.
   std::optional<UtcTime> start;
-  /// Every frame is tracked and drawn, in order, however long it takes, and measured as replay
-  /// does; else the newest counts and late ones are left out.
+  /// If true, every frame is tracked and drawn in order, however long it takes, and measured as in
+  /// replay. If false, the newest frame is used and late ones are dropped.
   bool lossless = false;
   std::optional<std::filesystem::path> record;      ///< Folder of a new recording.
-  std::optional<std::filesystem::path> detections;  ///< File for what was seen, a line a frame.
-  /// Poses and more, as replay writes them. Prints are measured as in replay then.
+  std::optional<std::filesystem::path> detections;  ///< Observations, one line per frame.
+  /// Poses and other trajectories, as in replay. Markers are then measured as in replay.
   std::optional<LiveOutput::Options> output;
-  /// Frames are shown elsewhere, which tells by Shown() when: latency counts until then.
+  /// If true, another component shows the frames and calls Shown(). Latency then ends at that call.
   bool shown_elsewhere = false;
-  /// Ends the source's waiting; called from another thread.
+  /// Ends the source's wait. Called from another thread.
   std::function<void()> stop_source;
 };
 
-/// A frame as it is shown.
+/// A composited frame.
 struct DrawnFrame {
   std::shared_ptr<const devices::Frame> frame;
   std::optional<Transform<Camera, Marker>> camera_from_marker;
-  RgbImage picture;  ///< With the virtual objects; the camera's own where no marker is seen.
-  UtcTime moment;    ///< Of the frame, with what an edit adds.
+  RgbImage picture;  ///< With the virtual objects; the camera image where no marker is observed.
+  UtcTime moment;    ///< Time of the frame, without SceneEdit::later_s.
   session::LightSummary light;
 };
 
-/// Capturing, tracking, light and recording on threads of their own, handing frames on through
-/// bounded queues; drawing happens on the thread that made the session, or another that it lets go
-/// to. No frame ever waits for a slower stage (unless `lossless`).
+/// Captures, tracks, estimates light and records on separate threads, connected by bounded queues.
+/// Drawing happens on the thread that created the session, or on another after LetGo(). No frame
+/// waits for a slower stage, unless `lossless`.
 class LiveSession {
  public:
-  /// Loads the scene and prepares its first light. Errors: models, OpenGL, the marker, and a
-  /// recording or detections that cannot be written.
+  /// Loads the scene and prepares its first light. Errors: models, OpenGL, the marker, a recording
+  /// or detections file that cannot be written.
   static Result<std::unique_ptr<LiveSession>> Create(std::unique_ptr<devices::FrameSource> source,
                                                      LiveOptions options);
   ~LiveSession();
 
-  /// Draws the newest frame that was tracked; nothing when there is none within `limit`.
-  /// Errors: the source's, the tracker's, drawing.
+  /// Draws the newest tracked frame; nothing when there is none within `limit`. Errors: as the
+  /// source, the tracker and drawing.
   Result<std::optional<DrawnFrame>> Draw(std::chrono::milliseconds limit);
 
-  /// Lets another thread draw from now on.
+  /// Releases the OpenGL context, so that another thread can draw.
   void LetGo() { pipeline_->renderer().LetGo(); }
 
-  /// Phantoms, then objects, as they stand now. Not while another thread draws.
+  /// Phantoms, then objects, at their current poses. Not while another thread draws.
   const std::vector<compositor::PlacedModel>& placed() const {
     return pipeline_->renderer().placed();
   }
 
-  /// The source is at its end and every frame has been drawn.
+  /// True when the source has ended and every frame is drawn.
   bool finished() const { return tracked_.finished(); }
 
-  /// Changes the scene from the next frame on; its light follows when it is made. Any thread.
+  /// Changes the scene from the next frame on. Its light follows when it is computed. Thread-safe.
   void Edit(const session::SceneEdit& edit);
 
-  /// Notes that a drawn frame is on the screen now, and how many were replaced before so far.
+  /// Reports that a drawn frame is on the screen now. `late_for_screen`: drawn frames replaced
+  /// before display so far.
   void Shown(const DrawnFrame& frame, std::int64_t late_for_screen);
 
-  /// Starts recording into a new folder, or ends it. Any thread. Errors: it holds a recording.
+  /// Starts recording into a new folder. Thread-safe. Errors: the folder holds a recording.
   Result<void> StartRecording(const std::filesystem::path& folder) {
     return recording_.Start(folder);
   }
   void StopRecording() { recording_.Stop(); }
   bool recording() const { return recording_.on(); }
 
-  /// Ends all threads; frames on their way are drawn no more.
+  /// Ends all threads. Queued frames are not drawn.
   void Stop();
 
   LiveStatistics statistics() const;
-  /// Of all frames drawn, or shown, since it was last asked.
+  /// Latencies of all frames drawn, or shown, since the last call.
   LatencyHistogram TakeLatencies() { return counters_.TakeLatencies(); }
-  /// Why recording ended before its time.
+  /// The error that ended recording early.
   std::optional<Error> recording_trouble() const { return recording_.trouble(); }
-  /// Whether daylight coefficients could not be written to their cache.
+  /// True if the daylight coefficients could not be written to the cache.
   bool FailedToKeepLight() const;
-  /// After the end: why detections or the output could not be written.
+  /// The error in writing detections or output, after the end of the session.
   const std::optional<Error>& output_trouble() const { return sightings_.trouble(); }
 
  private:
@@ -130,7 +131,7 @@ class LiveSession {
   LiveOptions options_;
   std::unique_ptr<devices::FrameSource> source_;
   std::unique_ptr<session::Pipeline> pipeline_;
-  LiveScene scene_;  // Not edited where frames are drawn without loss.
+  LiveScene scene_;  // Not edited in a lossless session.
   SightingFiles sightings_;
   RecordingSwitch recording_;
   BoundedQueue<FramePtr> captured_;

@@ -11,45 +11,45 @@
 
 namespace pleinair::app {
 
-/// Frames of a live session by how far they came.
+/// Frames of a live session, by the last stage that they passed.
 struct FrameCounts {
   std::int64_t captured = 0;
   std::int64_t tracked = 0;
   std::int64_t with_pose = 0;
   std::int64_t drawn = 0;
-  std::int64_t shown = 0;  ///< Where they are shown elsewhere.
+  std::int64_t shown = 0;  ///< Where another component shows the frames.
 };
 
-/// Frames that were replaced by newer ones.
+/// Frames replaced by newer ones.
 struct LateFrames {
-  std::int64_t for_tracking = 0;  ///< Before they were tracked.
-  std::int64_t for_drawing = 0;   ///< Tracked, not yet drawn.
-  std::int64_t for_screen = 0;    ///< Drawn, not yet shown elsewhere.
+  std::int64_t for_tracking = 0;  ///< Before tracking.
+  std::int64_t for_drawing = 0;   ///< Tracked, not drawn.
+  std::int64_t for_screen = 0;    ///< Drawn, not shown.
 };
 
-/// Milliseconds of the last frame, but for the first.
+/// Durations of the last frame, in milliseconds, except the period.
 struct FrameTiming {
-  double period_ms = 0.0;  ///< Between frames' stamps, a running mean.
+  double period_ms = 0.0;  ///< Running mean of the difference between frame stamps.
   double track_ms = 0.0;
   double draw_ms = 0.0;
   session::RenderTimes render;
 };
 
-/// What a live session has done since its start.
+/// Totals of a live session since its start.
 struct LiveStatistics {
   FrameCounts frames;
   LateFrames late;
-  /// Counted as they were given up when the session ended; 0 before.
+  /// Frames in the queues when the session ended; 0 before.
   std::int64_t on_the_way_at_end = 0;
-  devices::FrameLoss loss;  ///< Before we got them.
+  devices::FrameLoss loss;  ///< Before they reached the session.
   RecordingSwitch::Counts recording;
   LatencyMeter::Summary latency;  ///< From a frame's stamp until it was drawn, or shown.
   FrameTiming timing;
   session::Detail detail = session::Detail::kFine;
   session::BackgroundLight::Progress light;
 
-  /// Frames captured of which nothing else here tells: those on their way while the session runs,
-  /// at most five; none when it has ended.
+  /// Captured frames in no other count. While the session runs, these are the frames in the queues,
+  /// at most five. After the end there are none.
   std::int64_t Unaccounted() const {
     return frames.captured - frames.drawn - late.for_tracking - late.for_drawing -
            on_the_way_at_end;

@@ -23,7 +23,7 @@ Result<std::optional<devices::Frame>> PacedRecording::Next() {
   if (frame && !*frame && options_.loop && next_index_ > 0) {
     PLEINAIR_ASSIGN_OR_RETURN(recording_, opener_());
     frame = recording_->Next();
-    // The first frame follows the last as the last its own last.
+    // The gap between two loops equals the last gap within the recording.
     if (frame && *frame) round_ns_ = last_ns_ + last_step_ns_ - (*frame)->timestamp_ns;
   }
   if (!frame || !*frame) return frame;
@@ -32,12 +32,12 @@ Result<std::optional<devices::Frame>> PacedRecording::Next() {
       options_.rate_hz ? static_cast<std::int64_t>(static_cast<double>((*frame)->index) * 1e9 /
                                                    *options_.rate_hz)
                        : round_ns_ + (*frame)->timestamp_ns;
-  // Of a single frame, too, each round takes some time.
+  // A recording of one frame keeps the initial step, so that each loop takes some time.
   if (stamp_ns > last_ns_) last_step_ns_ = stamp_ns - last_ns_;
   last_ns_ = stamp_ns;
   const std::chrono::nanoseconds since_start(stamp_ns);
   if (!start_) start_ = Clock::now() - since_start;
-  // Read too slowly it plays later from here on: its pictures are not to come older and older.
+  // After slow reading, shift the schedule: the delay of frames must not accumulate.
   const auto late = Clock::now() - (*start_ + since_start);
   if (late > kMaxLag) *start_ += late;
   const Clock::time_point due = *start_ + since_start;

@@ -10,15 +10,15 @@
 
 namespace pleinair::app {
 
-/// Plays a recording as a camera would send it: each frame when its time has come, stamped on the
-/// steady clock. Where it cannot be read so fast it plays more slowly.
+/// Plays a recording like a camera: it delivers each frame when it is due, stamped by the steady
+/// clock. If reading is too slow, it plays at a lower rate.
 class PacedRecording : public devices::FrameSource {
  public:
   struct Options {
-    std::optional<double> rate_hz;  ///< Instead of the recording's own.
-    bool loop = false;              ///< From the start again, without an end.
+    std::optional<double> rate_hz;  ///< Instead of the recording's own rate.
+    bool loop = false;              ///< Restarts at the end, forever.
   };
-  /// Opens the recording from its start; called again for each round.
+  /// Opens the recording at its start. Called again for each loop.
   using Opener = std::function<Result<std::unique_ptr<devices::FrameSource>>()>;
 
   static Result<std::unique_ptr<PacedRecording>> Open(Opener opener, const Options& options);
@@ -36,7 +36,7 @@ class PacedRecording : public devices::FrameSource {
   std::unique_ptr<devices::FrameSource> recording_;
   std::optional<std::chrono::steady_clock::time_point> start_;
   std::int64_t next_index_ = 0;
-  std::int64_t round_ns_ = 0;  // Stamp of the round's first frame.
+  std::int64_t round_ns_ = 0;  // Stamp of the loop's first frame.
   std::int64_t last_ns_ = 0, last_step_ns_ = 1'000'000'000 / 30;
 };
 

@@ -35,12 +35,12 @@ void RecordingSwitch::Stop() {
     ended = std::exchange(recorder_, nullptr);
   }
   if (!ended) {
-    // Takes only what is empty.
+    // fs::remove() deletes only an empty folder.
     std::error_code ignored;
     if (folder && made_folder) fs::remove(*folder, ignored);
     return;
   }
-  // What is queued is written without holding anybody up.
+  // Write the queued frames without holding the lock.
   ended->Finish();
   const std::lock_guard lock(mutex_);
   of_ended_.recorded += ended->recorded();
@@ -67,12 +67,12 @@ void RecordingSwitch::Add(const std::shared_ptr<const devices::Frame>& frame, Ut
     auto made = LiveRecorder::Create(*folder, camera_, scene(), moment);
     const std::lock_guard lock(mutex_);
     if (!made) {
-      // Ended meanwhile, its folder may have gone from under it.
+      // If the recording was stopped meanwhile, its folder may not exist any more.
       if (folder_ == folder) trouble_ = made.error();
       return;
     }
     recorder = *std::move(made);
-    // Ended meanwhile: the frame is its last one.
+    // If the recording was stopped meanwhile, this frame is the last one.
     if (folder_ == folder) recorder_ = recorder;
   }
   recorder->Add(frame);

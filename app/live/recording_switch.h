@@ -16,8 +16,8 @@
 
 namespace pleinair::app {
 
-/// Starts and ends recordings while a session runs, on any thread. A recorder is made with the
-/// first frame after one was asked for, whose moment is the recording's.
+/// Starts and ends recordings while a session runs. Thread-safe. Each recorder is created with the
+/// first frame after Start(), and the recording starts at that frame's time.
 class RecordingSwitch {
  public:
   struct Counts {
@@ -26,22 +26,22 @@ class RecordingSwitch {
 
   explicit RecordingSwitch(const CameraModel& camera) : camera_(camera) {}
 
-  /// Makes the folder and records into it from the next frame on; one that is under way is ended.
-  /// Errors: it holds a recording, it cannot be made.
+  /// Creates the folder and records into it from the next frame on. Ends the current recording
+  /// first. Errors: the folder holds a recording; it cannot be created.
   Result<void> Start(const std::filesystem::path& folder);
-  /// Writes what is queued and ends the recording; without a frame a folder that
-  /// Start() made goes again.
+  /// Writes the queued frames and ends the recording. Without a frame, removes a folder that
+  /// Start() created.
   void Stop();
-  /// One was asked for and goes on.
+  /// True while a recording was requested and has not failed.
   bool on() const;
 
-  /// Records a frame where that is asked for; `scene` is asked when a recording begins.
+  /// Records a frame if a recording was requested. `scene` is called when a recording begins.
   void Add(const std::shared_ptr<const devices::Frame>& frame, UtcTime moment,
            const std::function<scene::SceneDescription()>& scene);
 
-  /// Of all recordings so far.
+  /// Totals of all recordings so far.
   Counts counts() const;
-  /// Why the last one ended before its time.
+  /// The error that ended the last recording early.
   std::optional<Error> trouble() const;
 
  private:

@@ -11,7 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// TOML's basic string: quotes, backslashes and control characters escaped (TOML 1.0, "String").
+/// Returns a TOML basic string: quotes, backslashes and control characters escaped (TOML 1.0,
+/// "String").
 std::string Quoted(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -39,7 +40,7 @@ const char* Word(scene::Shading shading) {
   return "file";
 }
 
-/// A file as the scene's folder sees it.
+/// Path of a file relative to the scene's folder.
 std::string Beside(const fs::path& folder, const fs::path& file) {
   std::error_code error;
   const fs::path near = fs::proximate(file, folder, error);

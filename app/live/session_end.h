@@ -9,7 +9,7 @@
 
 namespace pleinair::app {
 
-/// Whether a live session is to end, and the first of the errors that its threads met.
+/// Whether a live session must end, and the first error of its threads.
 class SessionEnd {
  public:
   void Stop() { stop_ = true; }

@@ -16,24 +16,24 @@
 
 namespace pleinair::app {
 
-/// The files that a live session writes of what its tracker sees, as far as they are asked for.
+/// The requested files with the tracker's observations in a live session.
 class SightingFiles {
  public:
-  /// `detections`: a line a frame. Errors: what cannot be written, a lens that a form of the path
-  /// cannot hold.
+  /// `detections`: one line per frame. Errors: files that cannot be written, a lens model that a
+  /// trajectory format cannot store.
   static Result<SightingFiles> Create(const std::optional<std::filesystem::path>& detections,
                                       const std::optional<LiveOutput::Options>& output,
                                       const CameraModel& camera,
                                       const scene::SceneDescription& scene);
 
-  /// Adds a frame that was just tracked, so long after the first.
+  /// Adds a newly tracked frame. `since_first_ns`: time since the first frame.
   Result<void> Add(const session::TrackedFrame& tracked, const session::MarkerTracks& tracks,
                    std::int64_t frame_index, std::int64_t since_first_ns);
 
-  /// Ends the files; a second call does nothing. `start`: of the first frame.
+  /// Ends the files. A second call has no effect. `start`: UTC of the first frame.
   void Finish(UtcTime start);
 
-  /// Why Finish() could not write them.
+  /// The error of Finish().
   const std::optional<Error>& trouble() const { return trouble_; }
 
  private:
