@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr int kReportPictureWidth_px = 800;
 constexpr int kReportJpegQuality = 85;
 
-/// The video that is asked for; null: none.
+/// Opens the requested video; null: none.
 Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(ReplayState& state) {
   if (!state.options.write_video) return nullptr;
   ReplayReport& report = state.report;
@@ -38,7 +38,7 @@ Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(ReplayState& state) {
   return video;
 }
 
-/// The folder of the composed frames; empty where none is asked for.
+/// Creates the folder of the composited frames; empty if none is requested.
 Result<fs::path> MakeFrameFolder(ReplayState& state) {
   if (!state.options.write_frames) return fs::path();
   PLEINAIR_RETURN_IF_ERROR(state.folder.MakeFolder("frames"));

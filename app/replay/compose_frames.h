@@ -4,7 +4,7 @@
 
 namespace pleinair::app {
 
-/// Composes all frames: composite.mp4, frames/ and the pictures of the report.
+/// Composites all frames: composite.mp4, frames/ and the images of the report.
 Result<void> ComposeFrames(ReplayState& state);
 
 }  // namespace pleinair::app

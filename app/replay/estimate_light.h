@@ -7,14 +7,13 @@
 
 namespace pleinair::app {
 
-/// Reads heading, sun and sky from some frames.
+/// Estimates heading, sun and sky from some frames.
 Result<void> EstimateLight(ReplayState& state);
 
-/// Traces the light of the first frame, before frames are composed, so that it has a bar of its
-/// own.
+/// Computes the light of the first frame before compositing, with its own progress bar.
 Result<void> TraceLight(ReplayState& state);
 
-/// The scene's daylight coefficients, with a bar where they are traced.
+/// Returns the scene's daylight coefficients. Shows a progress bar if they must be computed.
 std::shared_ptr<const compositor::DaylightCoefficients> TraceCoefficients(ReplayState& state);
 
 }  // namespace pleinair::app

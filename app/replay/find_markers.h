@@ -4,11 +4,11 @@
 
 namespace pleinair::app {
 
-/// Finds the markers of all frames: detections.jsonl, and what the tracker has to say.
+/// Detects the markers of all frames: writes detections.jsonl and collects the tracker's warnings.
 Result<void> FindMarkers(ReplayState& state, devices::Recording recording);
 
-/// Takes the path of the marker that the scene stands on, and writes poses/ and the forms of the
-/// path that are asked for.
+/// Selects the trajectory of the scene's reference marker. Writes poses/ and the requested
+/// trajectory formats.
 Result<void> WriteTrajectories(ReplayState& state);
 
 }  // namespace pleinair::app

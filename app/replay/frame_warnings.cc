@@ -8,7 +8,7 @@
 namespace pleinair::app {
 namespace {
 
-// A reading that comes out differently in every frame should not fill the report.
+// A value that differs in every frame must not fill the report.
 constexpr std::size_t kMaxKinds = 8;
 
 }  // namespace

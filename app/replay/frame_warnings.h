@@ -6,13 +6,13 @@
 
 namespace pleinair::app {
 
-/// Gathers what a tracker says frame by frame, so that the user reads each thing once.
+/// Collects a tracker's warnings frame by frame, so that the user reads each one once.
 class FrameWarnings {
  public:
-  /// What was said of one frame; frames come in order.
+  /// Adds the warnings of one frame. Frames must come in order.
   void Add(std::int64_t frame_index, const std::vector<std::string>& warnings);
 
-  /// "In 12 frames, the first being 3, …": in the order in which they first came up, the first few.
+  /// "In 12 frames, the first being 3, …": in order of first occurrence, the first few only.
   std::vector<std::string> Sentences() const;
 
  private:

@@ -40,8 +40,8 @@ void Describe(const devices::Recording& recording, const ReplayState& state, Rep
   report->film.height = state.pipeline->output_camera().height;
 }
 
-/// Opens the recording and loads its scene: errors in what is asked for come at once, before a long
-/// search for markers begins.
+/// Opens the recording and loads its scene. Errors in the request appear before the long detection
+/// pass.
 Result<devices::Recording> Prepare(ReplayState& state) {
   const ReplayOptions& options = state.options;
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
@@ -68,7 +68,7 @@ Result<devices::Recording> Prepare(ReplayState& state) {
   return recording;
 }
 
-/// What is known before frames are composed.
+/// Collects the warnings known before compositing.
 void Warn(ReplayState& state) {
   std::vector<std::string>& warnings = state.report.warnings;
   const auto add = [&](std::vector<std::string> sentences) {
@@ -111,7 +111,7 @@ Result<void> WriteReports(ReplayState& state) {
   return WriteFileAtomically(state.folder.staging() / "report.html", ReportHtml(report));
 }
 
-/// From opening the recording to the finished folder.
+/// Runs all steps, from opening the recording to the finished folder.
 Result<void> Run(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, Prepare(state));
   const std::string& name = state.report.call.recording;
@@ -129,7 +129,7 @@ Result<void> Run(ReplayState& state) {
   return state.folder.Commit();
 }
 
-/// Outputs must not replace what is being read.
+/// The output must not replace the recording.
 Result<void> CheckOutputIsApart(const ReplayOptions& options) {
   std::error_code error;
   const bool same = fs::equivalent(options.output, options.recording, error) ||
@@ -143,7 +143,7 @@ Result<void> CheckOutputIsApart(const ReplayOptions& options) {
 
 Result<ReplayReport> Replay(const ReplayOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckOutputIsApart(options));
-  // Looked at before anything is made: a wrong name should not touch the disk.
+  // Checked before any file is created: a wrong name must not touch the disk.
   std::error_code error;
   if (!fs::exists(options.recording, error)) {
     return InputError(options.recording.string(), "does not exist", "check the name");

@@ -6,11 +6,11 @@
 
 namespace pleinair::app {
 
-/// Composes a recording into a folder: composite.mp4, frames/, poses/, detections.jsonl,
-/// report.json and report.html, and the forms of the path that are asked for. Reads the recording
-/// thrice (markers, light, pictures), a dozen frames in memory at a time; reading,
-/// drawing and writing run beside each other, with the same results on any number of processors.
-/// All outputs appear at the end; on an error nothing is left.
+/// Composites a recording into a folder: composite.mp4, frames/, poses/, detections.jsonl,
+/// report.json, report.html, and the requested trajectory formats.
+/// Makes three passes: markers, light, compositing. Reading, drawing and writing run in parallel,
+/// with about twelve frames in memory. The result does not depend on the number of processors. All
+/// outputs appear at the end; after an error there are none.
 Result<ReplayReport> Replay(const ReplayOptions& options);
 
 }  // namespace pleinair::app

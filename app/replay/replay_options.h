@@ -13,19 +13,19 @@
 
 namespace pleinair::app {
 
-/// What to replay, and how.
+/// Input and options of a replay.
 struct ReplayOptions {
   std::filesystem::path recording;
-  std::filesystem::path output;                      ///< Folder; made where missing.
-  std::optional<std::filesystem::path> scene;        ///< Overrides the recording's own.
-  std::optional<std::filesystem::path> calibration;  ///< Needed for a plain video.
+  std::filesystem::path output;                      ///< Folder; created if missing.
+  std::optional<std::filesystem::path> scene;        ///< Replaces the recording's scene.
+  std::optional<std::filesystem::path> calibration;  ///< Required for a plain video.
   bool write_frames = false;
   bool write_video = true;
-  std::set<exports::TrajectoryFormat> exports;  ///< Forms of the path besides TUM.
+  std::set<exports::TrajectoryFormat> exports;  ///< Trajectory formats in addition to TUM.
   compositor::ComposerOptions composer;
   session::LightOptions light;
-  std::optional<ImageSize> size;  ///< Of the output; markers are sought at the recording's size.
-  std::optional<TimeLapseOptions> time_lapse;  ///< A day of the scene besides.
+  std::optional<ImageSize> size;  ///< Of the output; detection uses the recording's size.
+  std::optional<TimeLapseOptions> time_lapse;  ///< Also draw a day of the scene.
   std::string command;                         ///< For the report.
 };
 

@@ -20,14 +20,14 @@
 
 namespace pleinair::app {
 
-/// What the steps of one replay share.
+/// Data shared by the steps of one replay.
 struct ReplayState {
   const ReplayOptions& options;
   OutputFolder folder;
   std::unique_ptr<session::Pipeline> pipeline{};
-  FrameWarnings frame_warnings{};                   ///< The tracker's.
+  FrameWarnings frame_warnings{};                   ///< From the tracker.
   std::vector<exports::MarkersMessage> messages{};  ///< Lines of detections.jsonl, for MCAP.
-  std::int64_t lost_frames = 0;                     ///< Which the recorder had to leave out.
+  std::int64_t lost_frames = 0;                     ///< Dropped by the recorder.
   TimeLapseMoments day_moments{};
   StageTimes times{};
   ReplayReport report{};
@@ -38,7 +38,7 @@ struct ReplayState {
   }
   const scene::SceneDescription& scene() const { return pipeline->scene(); }
   session::SceneRenderer& renderer() const { return pipeline->renderer(); }
-  /// Whether a time-lapse is asked for and can be drawn, once the path is known.
+  /// True if a time-lapse is requested and can be drawn. Valid once the trajectory is known.
   bool DrawsDay() const {
     return options.time_lapse && !report.path.empty() && !scene().objects.empty();
   }

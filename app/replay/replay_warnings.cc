@@ -14,17 +14,17 @@
 namespace pleinair::app {
 namespace {
 
-// A model with everything that is not drawn should not fill the report.
+// A model with many unsupported features must not fill the report.
 constexpr std::size_t kMaxKinds = 8;
-// Sun over sky on level ground below which nobody speaks of a sun.
+// Sun-to-sky ratio on level ground below which the sun is not noticeable.
 constexpr double kNoticeableSun = 0.1;
 constexpr double kNoticeableTurnDeg = 1.0;
-// Where exposure is locked the exposure scale stays within some hundredths.
+// With locked exposure, the exposure scale varies by a few hundredths.
 constexpr double kNoticeableExposureChange = 1.3;
-// Civil dusk has ended: nobody films by this light.
+// End of civil dusk: nobody films in this light.
 constexpr double kNightDeg = -6.0;
 
-/// The scene's marker in words: "sg_17", "tag36h11", "number 5", "no family or number named".
+/// The scene's marker as text: "sg_17", "tag36h11", "number 5 of sg or tag36h11", "sg or tag36h11".
 std::string Described(const scene::MarkerDescription& marker) {
   if (marker.target) return "the picture of " + marker.target->filename().string();
   if (marker.family) {
@@ -77,11 +77,11 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report,
 }
 
 std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel>& models) {
-  // By file: one may stand for both a phantom and an object.
+  // By file: a file may be both a phantom and an object.
   std::map<std::filesystem::path, std::set<std::string>> by_file;
   for (const compositor::PlacedModel& placed : models) {
     std::set<std::string> unsupported_features = compositor::UnsupportedFeatures(*placed.model);
-    // Of a phantom nothing counts but the light that it reflects.
+    // A phantom only reflects light: other features do not matter.
     if (placed.is_phantom) {
       std::erase_if(unsupported_features,
                     [](const std::string& what) { return what != compositor::kVertexColors; });

@@ -12,20 +12,20 @@
 
 namespace pleinair::app {
 
-/// What the user should know of how a replay's markers were found, a sentence each.
+/// Warnings about the detection of the markers, one sentence each.
 std::vector<std::string> MarkerWarnings(const ReplayReport& report,
                                         const session::MarkerTracks& marker_tracks,
                                         const scene::SceneDescription& scene);
 
-/// What models' files have that does not show, a sentence a file.
+/// Warnings about unsupported features of the model files, one sentence per file.
 std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel>& models);
 
-/// What the renderer cannot do as well as it should: `samples` a pixel at objects' edges, nothing
-/// where none are drawn.
+/// Warnings about the limits of the renderer. `samples`: samples per pixel at the edges of objects;
+/// nothing if no object is drawn.
 std::vector<std::string> DrawingWarnings(std::optional<int> samples);
 
-/// Where the light that was measured is far from what the scene says, cannot be what the frames
-/// show, or was not measured.
+/// Warnings about the light estimate: far from the scene description, implausible for the frames,
+/// or missing.
 std::vector<std::string> LightWarnings(const session::LightSummary& summary);
 
 }  // namespace pleinair::app

@@ -8,8 +8,8 @@
 
 namespace pleinair::app {
 
-/// The frames that a report shows, at most four: spread evenly over those of the path or, where
-/// none has a pose, over all `frames` of the recording.
+/// Selects at most four frames for a report. They are spread evenly over the frames of the
+/// trajectory. If no frame has a pose, they are spread over all `frames` of the recording.
 std::set<std::int64_t> ReportFrames(const std::vector<session::Observation>& path,
                                     std::int64_t frames);
 

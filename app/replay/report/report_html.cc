@@ -41,7 +41,8 @@ std::string Pictures(const ReplayReport& report) {
   return html;
 }
 
-/// Camera position, orientation and fit over time; a gap where the marker was not seen.
+/// Camera position, orientation and reprojection error over time; gaps where the marker was not
+/// observed.
 std::string Plots(const ReplayReport& report) {
   exports::PlotLine x{"x", {}, {}}, y{"y", {}, {}}, z{"z", {}, {}};
   exports::PlotLine heading{"heading", {}, {}}, tilt{"tilt", {}, {}}, roll{"roll", {}, {}};
@@ -65,7 +66,7 @@ std::string Plots(const ReplayReport& report) {
     add(x, t_s, marker_from_camera.translation_m.x);
     add(y, t_s, marker_from_camera.translation_m.y);
     add(z, t_s, marker_from_camera.translation_m.z);
-    // The columns of r are the camera's right, down and forward in the marker frame.
+    // Columns of r: the camera's right, down and forward axes in the marker frame.
     const double degree = 1.0 / kRadiansPerDegree;
     double heading_deg = std::atan2(r(0, 2), r(1, 2)) * degree;
     if (last_index >= 0) {
@@ -86,7 +87,7 @@ std::string Plots(const ReplayReport& report) {
          exports::LinePlotSvg("Part of the marker that was seen", "%", {visible});
 }
 
-/// ", ± 7 %", or nothing where it is not known.
+/// ", ± 7 %", or an empty string if unknown.
 std::string PlusMinus(const std::optional<double>& relative_error) {
   return relative_error ? fmt::format(", ± {:.0f} %", *relative_error * 100) : "";
 }
@@ -136,7 +137,7 @@ std::string MeasuredCards(const compositor::MeasuredLight& light) {
   return html;
 }
 
-/// What the camera's exposure scale is and who says so.
+/// The camera's exposure scale and its source.
 std::string ExposureScaleCard(const session::LightSummary& light) {
   using ExposureScaleSource = session::LightSummary::ExposureScaleSource;
   const std::string exposure_scale = fmt::format("{:.3g} {:.3g} {:.3g}", light.exposure_scale.r,
@@ -154,7 +155,7 @@ std::string ExposureScaleCard(const session::LightSummary& light) {
                                  light.exposure_estimates, light.exposure_scale_change));
 }
 
-/// Whether the sun reaches the marker; nothing where it served as no light meter.
+/// Whether the sun reaches the marker; empty if the marker gave no exposure estimate.
 std::string MarkerCard(const session::LightSummary& light) {
   if (light.exposure_estimates == 0) return "";
   std::string figure = fmt::format("{:.0f} % in the sun", light.marker_sunlit_share * 100);

@@ -6,8 +6,9 @@
 
 namespace pleinair::app {
 
-/// report.html: one page without any external resource: frames before and after, the camera's path
-/// as plots, the light, times per stage, warnings. Follows the reader's light or dark mode.
+/// Returns report.html: one page without external resources. It shows frames before and after,
+/// plots of the camera trajectory, the light, times per stage, and warnings. It follows the
+/// reader's light or dark mode.
 std::string ReportHtml(const ReplayReport& report);
 
 }  // namespace pleinair::app

@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A figure as a person would state it: nine significant digits.
+/// Rounds to nine significant digits.
 double Rounded(double value) {
   if (value == 0.0 || !std::isfinite(value)) return 0.0;
   const double scale = std::pow(10.0, 8 - std::floor(std::log10(std::abs(value))));
@@ -52,7 +52,7 @@ Json ColorJson(const LinearRgb& color) {
   return {Rounded(color.r), Rounded(color.g), Rounded(color.b)};
 }
 
-/// Null: not known, which 0 would deny.
+/// Null means unknown; 0 would be a value.
 Json IfKnown(bool known, double value) { return known ? Json(Rounded(value)) : Json(); }
 
 Json MeasuredJson(const compositor::MeasuredLight& light) {
@@ -77,7 +77,7 @@ Json MeasuredJson(const compositor::MeasuredLight& light) {
           {"open_sun_over_brightest_of_print", Rounded(light.marker_shade)}};
 }
 
-/// Noise as its standard deviation at a medium light, in thousandths of the brightest.
+/// Noise as its standard deviation at medium brightness, in thousandths of the maximum value.
 Json LookJson(const compositor::CameraLook& look) {
   Json noise;
   for (int c = 0; c < 3; ++c)
@@ -91,7 +91,7 @@ Json LookJson(const compositor::CameraLook& look) {
 Json LightJson(const session::LightSummary& light) {
   const bool is_metered =
       light.exposure_scale_source == session::LightSummary::ExposureScaleSource::kMarker;
-  // Without a sun a print lies neither in it nor in shade.
+  // Without a sun, a marker is neither sunlit nor in shadow.
   const bool may_be_lit = light.exposure_estimates > 0 && light.measured.sun_shines;
   return {{"sun_azimuth_deg", Rounded(ToDegrees(light.sun.azimuth))},
           {"sun_elevation_deg", Rounded(ToDegrees(light.sun.elevation))},

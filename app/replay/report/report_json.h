@@ -8,11 +8,11 @@
 
 namespace pleinair::app {
 
-/// report.json (docs/guide/reference/recordings.md has the schema). Two replays by the same command
-/// give the same bytes except inside "timings".
+/// Returns report.json (schema: docs/guide/reference/recordings.md). Two replays with the same
+/// command give the same bytes, except in "timings".
 std::string ReportJson(const ReplayReport& report);
 
-/// One line for `replay --json`: what was done and where it lies.
+/// One line for `replay --json`: a summary and the paths of the outputs.
 std::string SummaryJson(const ReplayReport& report, const std::filesystem::path& folder);
 
 }  // namespace pleinair::app

@@ -15,13 +15,13 @@
 namespace pleinair::app {
 namespace {
 
-// Of the land beyond the phantoms, as the light solver takes it.
+// Albedo of the land beyond the phantoms, as in the light solver.
 constexpr double kLandAlbedo = 0.2;
-// White paper on the ground shows as this display-linear value in the brightest moment.
+// White paper on the ground has this display-linear value in the brightest moment.
 constexpr double kWhite = 0.8, kPaper = 0.8;
-// How much of a fall of the light shows: its fifth root.
+// Exponent of the visible dimming: the fifth root of the light's decrease.
 constexpr double kDimming = 0.2;
-// Less than this, starlight apart, no camera of daylight shows, lux.
+// Below this illuminance, lux, a daylight camera shows black.
 constexpr double kDark_lux = 0.05;
 
 }  // namespace
@@ -41,12 +41,12 @@ Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
     const CameraModel& camera, std::vector<compositor::PlacedModel> placed,
     session::LightingRequest request, const compositor::ComposerOptions& options) {
   std::unique_ptr<DayRenderer> renderer(new DayRenderer(camera, std::move(request)));
-  renderer->request_.marker_reflectance = {};  // Nothing is metered.
+  renderer->request_.marker_reflectance = {};  // No exposure estimation.
   for (compositor::PlacedModel& model : placed) model.is_phantom = false;
   compositor::ComposerOptions drawing = options;
   drawing.response = {};
-  drawing.shadow_partitions = shadows::kMaxPartitions;  // Everything casts, not only the objects.
-  // Maps for a whole scene, not for an object: finer than the picture alone would ask.
+  drawing.shadow_partitions = shadows::kMaxPartitions;  // All geometry casts shadows.
+  // Map sizes for a whole scene: finer than the image size alone requires.
   constexpr std::array<int, shadows::kMaxPartitions> kSceneMaps{2048, 2048, 1024, 1024};
   for (std::size_t i = 0; i < kSceneMaps.size(); ++i) {
     if (drawing.shadow_sizes[i] == 0) drawing.shadow_sizes[i] = kSceneMaps[i];
@@ -78,7 +78,7 @@ Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_fro
                             camera_from_marker, exposure_scale);
 }
 
-/// What lies behind the scene: sky and land.
+/// The background of the scene: sky and land.
 RgbImage DayRenderer::Far(const session::BakedLighting& light,
                           const Transform<Camera, Marker>& camera_from_marker,
                           LinearRgb exposure_scale) const {

@@ -14,21 +14,21 @@
 namespace pleinair::app {
 
 /// Draws a whole scene, phantoms in their own colors and virtual objects, under the sky of any
-/// moment: each picture's light is one product with the daylight coefficients.
+/// time. Each image needs one matrix-vector product with the daylight coefficients.
 class DayRenderer {
  public:
-  /// `order`: the scene's light as it was found, with coefficients; its time does not count.
-  /// `placed`: the models that its solver was made of. Errors as Composer::Create().
+  /// `request`: the scene's estimated light, with coefficients; its time is ignored. `placed`: the
+  /// models that its solver was built from. Errors: as Composer::Create().
   static Result<std::unique_ptr<DayRenderer>> Create(const CameraModel& camera,
                                                      std::vector<compositor::PlacedModel> placed,
                                                      session::LightingRequest request,
                                                      const compositor::ComposerOptions& options);
 
-  /// Sun and sky on level ground, lux.
+  /// Illuminance of sun and sky on level ground, lux.
   LinearRgb LevelLight(UtcTime time) const;
 
-  /// What a camera with this exposure scale (display-linear value per cd/m²) sees. Nothing of the
-  /// marker.
+  /// Renders the image of a camera with this exposure scale (display-linear value per cd/m²). The
+  /// marker is not drawn.
   Result<RgbImage> Render(const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                           LinearRgb exposure_scale);
 
@@ -39,12 +39,12 @@ class DayRenderer {
 
   session::LightingRequest request_;
   int width_, height_;
-  std::vector<Vec3> rays_;  // Of the pixels, camera coordinates, unit.
+  std::vector<Vec3> rays_;  // Per pixel; camera coordinates, unit.
   std::unique_ptr<compositor::Composer> composer_;
 };
 
-/// The exposure scale of a camera that sets itself to the light, though not wholly: dusk shows
-/// darker than noon. White balance is the brightest moment's and stays, so that a low sun is warm.
+/// Exposure scale of a camera that adapts partly to the light: dusk appears darker than noon. White
+/// balance is fixed at the brightest moment, so that a low sun appears warm.
 LinearRgb ExposureScaleOfDay(LinearRgb level_light, LinearRgb brightest);
 
 }  // namespace pleinair::app

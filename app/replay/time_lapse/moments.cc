@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kMinutesOfDay = 1440;
 constexpr std::size_t kMaxPictures = 1440;
-// Light comes before the sun and stays after it.
+// Twilight before sunrise and after sunset.
 constexpr double kTwilight_s = 1800.0;
 constexpr double kMinPeriod_s = 1.0;
 
 constexpr const char* kHoursRemedy = "write 05:00..21:00, 05:00..21:00+02:00 or day";
 constexpr const char* kEveryRemedy = "write 10min, 90s or 1h";
 
-/// "05:00" as minutes after midnight.
+/// Returns "05:00" as minutes after midnight.
 std::optional<int> ParseClock(std::string_view text) {
   if (text.size() != 5 || text[2] != ':') return std::nullopt;
   int hours = 0, minutes = 0;

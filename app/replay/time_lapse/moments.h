@@ -12,22 +12,23 @@
 
 namespace pleinair::app {
 
-/// Which part of a day a time-lapse shows, and how often.
+/// The part of a day that a time-lapse shows, and its time step.
 struct TimeLapseOptions {
-  /// Minutes after midnight on a clock; without an offset, the hour nearest to local solar time.
+  /// Minutes after midnight on a clock. Without an offset, the clock is the whole hour nearest to
+  /// local solar time.
   struct Hours {
     int from_min = 0, until_min = 0;
     std::optional<UtcOffset> clock;
   };
   /// Nothing: from half an hour before sunrise to half an hour after sunset.
   std::optional<Hours> hours;
-  double every_s = 600.0;             ///< Between pictures.
-  std::optional<std::int64_t> frame;  ///< Whose camera looks on; nothing: the middle one's.
+  double every_s = 600.0;             ///< Between images.
+  std::optional<std::int64_t> frame;  ///< Frame of the camera pose; nothing: the middle one.
 };
 
-/// "day", or "05:00..21:00", with the clock's offset after it ("05:00..21:00+02:00") where it is
-/// not the hour nearest to local solar time. `every`: "10min", "90s", "1h". Errors (input):
-/// anything else, an end before its beginning.
+/// Parses `hours`: "day" or "05:00..21:00", optionally with the clock's offset
+/// ("05:00..21:00+02:00"). The default clock is the whole hour nearest to local solar time.
+/// `every`: "10min", "90s", "1h". Errors (input): other text, an end before its start.
 Result<TimeLapseOptions> ParseTimeLapse(const std::string& hours, const std::string& every);
 
 struct TimeLapseMoments {
@@ -35,8 +36,8 @@ struct TimeLapseMoments {
   UtcOffset clock;
 };
 
-/// The moments of the day, on the clock, in which the recording begins. Errors (input): no sunrise
-/// on a day that is asked for by it, more than a day's minutes of pictures.
+/// Returns the times on the day, by the clock, in which the recording begins. Errors (input): "day"
+/// without a sunrise, more than 1440 images (one per minute of a day).
 Result<TimeLapseMoments> MomentsOf(const TimeLapseOptions& options, const scene::PlaceTime& place);
 
 }  // namespace pleinair::app

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPicturesPerSecond = 12.0;
-// Of the sheet.
+// Layout of the sheet.
 constexpr std::size_t kColumns = 4, kMaxTiles = 16;
 constexpr int kTileWidth_px = 320, kCaption_px = 22;
 
@@ -59,7 +59,7 @@ class ContactSheet {
     std::fill_n(sheet_.data(), sheet_.size(), std::uint8_t{255});
   }
 
-  /// Takes a picture where it is one of those that are shown: first, last, and evenly between.
+  /// Adds an image if it belongs to the sheet: the first, the last, and evenly between.
   void Offer(std::size_t index, const RgbImage& picture, const std::string& caption) {
     if (taken_ >= tiles_ || index != Wanted(taken_)) return;
     const int left = static_cast<int>(taken_ % kColumns) * kTileWidth_px;
@@ -83,7 +83,7 @@ class ContactSheet {
   RgbImage sheet_;
 };
 
-/// "06:10" of a clock.
+/// "06:10" by a clock.
 std::string ClockTime(UtcTime time, UtcOffset clock) {
   constexpr std::size_t kAfterDate = 11, kLength = 5;
   return FormatLocal(time, clock).substr(kAfterDate, kLength);
