@@ -7,8 +7,8 @@
 namespace pleinair::app {
 namespace {
 
-// City halls and main squares, to a hundredth of a degree: a kilometre, which the sun does not
-// notice.
+// City halls and main squares, to a hundredth of a degree: 1 km, which does not visibly change the
+// sun.
 constexpr std::array kCities = {
     City{"Accra", 5.56, -0.20},         City{"Addis Ababa", 9.03, 38.74},
     City{"Amsterdam", 52.37, 4.90},     City{"Anchorage", 61.22, -149.90},
@@ -51,7 +51,7 @@ constexpr std::array kCities = {
     City{"Zürich", 47.37, 8.54},
 };
 
-/// Lower case, with the accented letters of the list's names as plain ones.
+/// Converts to lower case and replaces the accented letters of the list's names.
 std::string Plain(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, char>, 10> kLetters{{{"á", 'a'},
                                                                         {"ã", 'a'},

@@ -11,17 +11,17 @@
 
 namespace pleinair::app {
 
-/// Draws a session's frames on a thread of its own and keeps the newest for a window.
+/// Draws a session's frames on a background thread and keeps the newest for a window.
 class FrameThread {
  public:
   explicit FrameThread(LiveSession& session);
   ~FrameThread();
 
-  /// The newest frame that was not taken yet.
+  /// Returns the newest frame that was not taken yet.
   std::optional<DrawnFrame> Take();
-  /// Frames that a newer one replaced before they were taken.
+  /// Number of frames replaced by a newer one before they were taken.
   std::int64_t late() const { return frames_.dropped(); }
-  /// The session's end, or its error.
+  /// True after the session's end or error.
   bool ended() const { return ended_; }
   std::optional<Error> error() const;
 

@@ -31,7 +31,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The window is drawn anew at least so often, for what blinks and counts.
+// Max. time between redraws, for blinking and counting elements.
 constexpr double kIdle_s = 0.1;
 constexpr double kRateWeight = 0.05;
 
@@ -48,27 +48,27 @@ std::string Compact(UtcTime time) {
   return text;
 }
 
-/// ImGui carries a texture's name in a pointer.
+/// ImGui stores a texture name in a pointer.
 ImTextureID TextureOf(const Screen& screen) {
   return reinterpret_cast<ImTextureID>(  // NOLINT(performance-no-int-to-ptr)
       static_cast<std::uintptr_t>(screen.texture()));
 }
 
-/// A line that is too long ends with an ellipsis.
+/// Shortens a line that is too long, with an ellipsis.
 std::string CutTo(float width, std::string words) {
   if (ImGui::CalcTextSize(words.c_str()).x <= width) return words;
   do {
-    // Whole letters of UTF-8.
+    // Removes whole UTF-8 characters.
     while (!words.empty() && (words.back() & 0xC0) == 0x80) words.pop_back();
     if (!words.empty()) words.pop_back();
   } while (!words.empty() && ImGui::CalcTextSize((words + "…").c_str()).x > width);
   return words + "…";
 }
 
-/// How many frames a second are shown, on a moving average of their periods.
+/// Displayed frame rate, from a moving average of the periods.
 class FrameRate {
  public:
-  /// Of a frame that is shown at this moment; 0 for the first.
+  /// Adds a frame displayed at this time; 0 for the first.
   double Add(Clock::time_point now) {
     if (last_) {
       const double period_s = std::chrono::duration<double>(now - *last_).count();
@@ -122,7 +122,7 @@ class LiveWindow {
   }
 
  private:
-  /// Until a frame is there, the user did something, or it is time to draw anyway.
+  /// Waits for a frame, a user input, or the maximum redraw time.
   void WaitForSomething() {
     const auto until = Clock::now() + std::chrono::duration<double>(kIdle_s);
     constexpr double kLook_s = 0.004;
@@ -130,7 +130,7 @@ class LiveWindow {
     while (!ready_ && Clock::now() < until) {
       const auto before = Clock::now();
       glfwWaitEventsTimeout(kLook_s);
-      // It came back before its time: something happened.
+      // An early return means that an event arrived.
       const bool early = Clock::now() - before < std::chrono::duration<double>(kLook_s * 0.9);
       ready_ = frames_->Take();
       if (early) break;
@@ -182,7 +182,7 @@ class LiveWindow {
           TextureOf(screen_), {static_cast<float>(low.x), static_cast<float>(low.y)},
           {static_cast<float>(high.x), static_cast<float>(high.y)});
       std::vector<ButtonEvent> buttons = screen_.TakeButtons();
-      // What is pressed on the panel or the help is theirs; letting go counts anywhere.
+      // The panel and the help handle their own presses. Releases count anywhere.
       std::erase_if(buttons, [&](const ButtonEvent& event) {
         return event.down && (io.WantCaptureMouse || layout.OnPanel(event.screen));
       });
@@ -251,7 +251,7 @@ class LiveWindow {
       rate = fmt::format("{:.1f} a second, ", state_.status.shown_per_second) + rate;
     }
     const float rate_width = ImGui::CalcTextSize(rate.c_str()).x;
-    // What was done last matters more where there is no room for both.
+    // If there is no room for both, show the last action.
     if (ImGui::CalcTextSize(words.c_str()).x + rate_width + letter * 2.0F < right) {
       draw->AddText({right - rate_width, text_top}, 0xFF909090, rate.c_str());
     }
@@ -266,7 +266,7 @@ class LiveWindow {
     return "F1: keys and mouse";
   }
 
-  /// What keys and panel asked the window for.
+  /// Executes the requests of keys and panel.
   Result<void> DoWishes() {
     if (std::exchange(state_.requests.window_screenshot, false)) {
       PLEINAIR_RETURN_IF_ERROR(Save("window", screen_.Read()));
@@ -299,10 +299,10 @@ class LiveWindow {
     return {};
   }
 
-  /// A picture that cannot be written is told, not an end.
+  /// A failed write is reported and does not end the window.
   Result<void> Save(const std::string& what, const RgbImage& picture) {
     const auto file = options_.screenshots / fmt::format("{}-{}.png", what, Compact(WallClock()));
-    // Whoever waits for the file shall find it whole.
+    // Renamed when complete, so that nobody reads a partial file.
     const std::filesystem::path part = file.string() + ".part";
     auto written = exports::WritePng(part, picture.view());
     std::error_code renamed;
@@ -316,7 +316,7 @@ class LiveWindow {
   const LiveWindowOptions& options_;
   Screen& screen_;
   WindowState state_;
-  session::SceneEdit edit_;  // What the session has.
+  session::SceneEdit edit_;  // Last edit sent to the session.
   ScenePanel panel_;
   PictureMouse mouse_;
   std::optional<FrameThread> frames_;
@@ -328,7 +328,7 @@ class LiveWindow {
 }  // namespace
 
 Result<void> ShowInWindow(LiveSession& session, const LiveWindowOptions& options) {
-  // A thread has one context at a time: this one is for the window's from now on.
+  // A thread has one current context: release the session's for the window's.
   session.LetGo();
   PLEINAIR_ASSIGN_OR_RETURN(auto screen,
                             Screen::Open({options.width, options.height, options.ui_scale}));

@@ -22,19 +22,20 @@ struct LiveWindowOptions {
   CameraModel camera;
   scene::SceneDescription scene;
   compositor::ComposerOptions drawing;
-  double convergence = session::SceneEdit{}.convergence;  ///< The session's at first.
+  double convergence = session::SceneEdit{}.convergence;  ///< Initial value of the session.
   devices::LiveCamera* live_camera = nullptr;             ///< Null for a recording.
-  std::optional<double> seconds;                          ///< Ends after so long.
-  int width = 0, height = 0;                ///< Of the window; 0: what suits the screen.
-  double ui_scale = 0.0;                    ///< Of the letters; 0: what the screen asks for.
-  std::filesystem::path screenshots = ".";  ///< Where screenshots and recordings go.
-  /// Tells what the camera has reported since; gives the last thing in words for people.
+  std::optional<double> seconds;                          ///< Maximum duration.
+  int width = 0, height = 0;                ///< Size of the window; 0: fits the screen.
+  double ui_scale = 0.0;                    ///< Font scale; 0: the screen's scale.
+  std::filesystem::path screenshots = ".";  ///< Folder of screenshots and recordings.
+  /// Reports the camera events since the last call; returns the last one as text.
   std::function<std::string()> poll_camera;
 };
 
 /// Shows a session in a window (GLFW, Dear ImGui) until it is closed or the recording ends. Frames
-/// are drawn on a thread of their own with a context of their own: the window stays quick however
-/// slow they are, and they do not wait for it. Errors: no display, no OpenGL 3.3, the session's.
+/// are drawn on another thread with its own context. The window responds quickly even if frames are
+/// slow, and frames do not wait for the window. Errors: no display, no OpenGL 3.3, those of the
+/// session.
 Result<void> ShowInWindow(LiveSession& session, const LiveWindowOptions& options);
 
 }  // namespace pleinair::app

@@ -6,10 +6,11 @@
 
 namespace pleinair::app {
 
-// What the panel says of what frames have told, each with its uncertainty (one standard deviation);
-// empty where they have not told.
+// Text of the panel for the light estimates, each with its uncertainty (one standard deviation).
+// Empty if there is no estimate.
 
-/// `drawn`: sun and sky that the picture is lit by; `measured`: from what, and how well.
+/// `drawn`: sun and sky that light the image. `measured`: the estimate, with its source and
+/// uncertainty.
 std::string MeasuredSunText(const compositor::MeasuredLight& drawn,
                             const compositor::MeasuredLight& measured);
 

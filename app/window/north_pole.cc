@@ -7,12 +7,12 @@
 namespace pleinair::app {
 namespace {
 
-// Sine of the lowest sun whose shadows can be followed to their tips.
+// Sine of the min. sun elevation whose shadow tip is usable.
 constexpr double kMinSunSine = 0.02;
 
-/// Angle of a level direction from the marker's heading direction, clockwise from above.
+/// Angle of a horizontal direction from the marker's heading, clockwise seen from above.
 double ClockwiseFromHeading(const scene::MarkerDescription& marker, Vec3 direction) {
-  // +y of a marker that lies, −z of an upright one.
+  // +y of a lying marker, −z of an upright one.
   return std::atan2(direction.x, marker.upright ? -direction.z : direction.y);
 }
 

@@ -12,10 +12,10 @@ namespace pleinair::app {
 namespace {
 
 constexpr double kMinObjectScale = 1e-6, kMaxObjectScale = 1e6;
-// Below this slope of the view, sights on level ground run off to the horizon.
+// Min. slope of the view: below it, rays meet level ground near the horizon.
 constexpr double kMinSlope = 0.02;
 
-/// The inverse of a rotation times a scale.
+/// Inverse of a rotation times a scale.
 Mat3 Inverse(const Mat3& linear, double scale) {
   Mat3 inverse = linear.Transposed();
   for (double& element : inverse.m) element /= scale * scale;
@@ -30,7 +30,7 @@ Mat3 RotationAbout(Vec3 axis, double angle) {
            k * y * z - s * x, k * x * z - s * y, k * y * z + s * x, c + k * z * z}};
 }
 
-/// Angles about x, then y, then z that make a rotation, degrees.
+/// Rotation angles about x, then y, then z, degrees.
 Vec3 AnglesOf(const Mat3& r) {
   const double y = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
   const bool straight_up = std::abs(r(2, 0)) > 1.0 - 1e-12;
@@ -39,7 +39,7 @@ Vec3 AnglesOf(const Mat3& r) {
   return Vec3{x, y, z} * (1.0 / kRadiansPerDegree);
 }
 
-/// Places a changed rotation or scale so that a point of the model stays where it is.
+/// Adjusts the translation after a change of rotation or scale, so that a model point stays fixed.
 session::ObjectPlace Keeping(Vec3 point, const session::ObjectPlace& before,
                              session::ObjectPlace after) {
   const Vec3 in_model =
@@ -80,7 +80,7 @@ std::optional<int> PickObject(std::span<const ObjectBox> boxes,
     const auto slab = [&](double from, double step, double low, double high) {
       double a = (low - from) / step, b = (high - from) / step;
       if (a > b) std::swap(a, b);
-      // A sight along the slab: inside it or never.
+      // A ray parallel to the slab is inside it always or never.
       if (step == 0.0) a = from < low || from > high ? leave + 1.0 : enter;
       if (step == 0.0) b = leave;
       enter = std::max(enter, a);

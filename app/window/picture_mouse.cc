@@ -162,7 +162,7 @@ void PictureMouse::Begin(const PictureView& view, const ButtonEvent& event, Wind
 
 void PictureMouse::Continue(const PictureView& view, Vec2 screen, WindowState* state) {
   if (drag_ == Drag::kNone) return;
-  // A click chooses; only a drag moves.
+  // A click selects; only a drag moves.
   if (Norm(screen - start_screen_) < 2.0) return;
   const Sight sight = SightThrough(state->frame.camera, *state->frame.camera_from_marker,
                                    view.PixelFromScreen(screen));

@@ -7,12 +7,12 @@
 
 namespace pleinair::app {
 
-/// The boxes around a scene's objects; `placed` holds phantoms, then objects.
+/// Bounding boxes of a scene's objects; `placed` holds phantoms, then objects.
 std::vector<ObjectBox> BoxesOf(const std::vector<compositor::PlacedModel>& placed,
                                const scene::SceneDescription& scene);
 
-/// A mouse button going down or up, where the mouse was then: on a slow frame it has moved on
-/// since.
+/// A mouse button pressed or released, with the mouse position at that time. During a slow frame
+/// the mouse moves on.
 struct ButtonEvent {
   enum class Button { kLeft, kRight };
   Button button = Button::kLeft;
@@ -21,11 +21,11 @@ struct ButtonEvent {
   Vec2 screen;
 };
 
-/// What the mouse does over the picture, and what is drawn there for it: the chosen object's box,
-/// the pole of north. Within an ImGui frame.
+/// Mouse interaction over the image, and its overlays: the selected object's box and the north
+/// pole. Within an ImGui frame.
 class PictureMouse {
  public:
-  /// `events` since the last call, in their order.
+  /// `events`: since the last call, in order.
   void Update(const PictureView& view, const std::vector<ButtonEvent>& events, WindowState* state);
 
  private:

@@ -14,7 +14,7 @@ PictureView PictureView::Fit(int width, int height, Vec2 area_corner, Vec2 area_
 }
 
 Vec2 PictureView::ScreenFromPixel(Vec2 pixel) const {
-  // The picture's corner is at pixel -0.5 (base/pixel_origin.h).
+  // The image corner is at pixel -0.5 (base/pixel_origin.h).
   return {corner.x + (pixel.x + 0.5) * scale, corner.y + (pixel.y + 0.5) * scale};
 }
 

@@ -8,11 +8,10 @@
 
 namespace pleinair::app {
 
-/// Where a camera's picture lies on the screen: as large as fits, in the middle, its proportions
-/// kept.
+/// Placement of a camera image on the screen: centred, as large as possible, with its aspect ratio.
 struct PictureView {
   Vec2 corner;         ///< Upper left, screen coordinates.
-  double scale = 1.0;  ///< Screen units a pixel of the picture.
+  double scale = 1.0;  ///< Screen units per image pixel.
 
   static PictureView Fit(int width, int height, Vec2 area_corner, Vec2 area_size);
 
@@ -20,7 +19,7 @@ struct PictureView {
   Vec2 PixelFromScreen(Vec2 screen) const;
 };
 
-/// A line of sight in marker coordinates.
+/// A viewing ray in marker coordinates.
 struct Sight {
   Vec3 eye;
   Vec3 direction;  ///< Unit.
@@ -28,8 +27,8 @@ struct Sight {
 Sight SightThrough(const CameraModel& camera, const Transform<Camera, Marker>& camera_from_marker,
                    Vec2 pixel);
 
-/// Where a line of sight meets the plane through `point` with that normal; nothing where it leads
-/// away from it.
+/// Intersects a viewing ray with the plane through `point` with that normal; nothing if the ray
+/// leads away from it.
 std::optional<Vec3> MeetPlane(const Sight& sight, Vec3 point, Vec3 normal);
 
 }  // namespace pleinair::app

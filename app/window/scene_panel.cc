@@ -32,7 +32,7 @@ void Quiet(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-/// Explains the control before it to whoever waits over it.
+/// Adds a tooltip to the previous control.
 void Hint(const char* text) {
   if (!ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();
@@ -68,7 +68,7 @@ std::string HoursMinutes(double seconds) {
   return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
 }
 
-// Texels a side, and double at each step of its bar.
+// Texels per side, doubled at each step of the slider.
 constexpr int kMinMap = 128;
 
 void Fog(compositor::ComposerOptions* drawing) {
@@ -177,7 +177,7 @@ void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
       elevations_deg_[i] = static_cast<float>(std::asin(to_sun.z) / kRadiansPerDegree);
     }
   }
-  // The sun's height over the day, with the horizon and where it stands now.
+  // Elevation of the sun over the day, with the horizon and the current value.
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size{ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 3.2F};
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -281,7 +281,7 @@ void ScenePanel::Shadows(WindowState* state) {
   for (int i = 0; i < drawing.shadow_partitions; ++i) {
     ImGui::PushID(i);
     int& size = drawing.shadow_sizes[i];
-    constexpr int kMapSizes = 6;  // Steps of the bar from 1 on; 0: left open.
+    constexpr int kMapSizes = 6;  // Slider steps from 1 on; 0: automatic.
     int step = size > 0 ? 1 + std::countr_zero(static_cast<unsigned>(size) / kMinMap) : 0;
     const std::string shown = size > 0 ? std::to_string(size) : "auto";
     if (ImGui::SliderInt("##texels", &step, 0, kMapSizes, shown.c_str())) {

@@ -8,10 +8,10 @@
 
 namespace pleinair::app {
 
-/// Draws the panel with everything of the scene that can be changed, into the current ImGui frame.
+/// Draws the panel for editing the scene, into the current ImGui frame.
 class ScenePanel {
  public:
-  /// From its upper left corner, in screen coordinates.
+  /// `corner`: upper left, screen coordinates.
   void Draw(Vec2 corner, Vec2 size, UtcTime now, WindowState* state);
 
  private:
@@ -26,22 +26,22 @@ class ScenePanel {
   static void Statistics(const WindowState& state);
 
   char city_[64] = "";
-  // Elevations of the sun over a day, kept while day and place stay.
+  // Elevations of the sun over a day, cached while day and place stay the same.
   std::array<float, 97> elevations_deg_{};
   double elevations_of_latitude_ = 1e9, elevations_of_longitude_ = 1e9;
   std::int64_t elevations_of_day_ = -1;
 };
 
-/// The keys, for people: drawn over the picture.
+/// Draws the help for the keys over the image.
 void DrawKeyHelp(float screen_width, float screen_height, bool* open);
 
-/// A key of GLFW's with what it does.
+/// A GLFW key and its action.
 struct KeyBinding {
   int key;
   bool control;
   Action action;
-  const char* keys;   ///< As people read it.
-  const char* words;  ///< What it does; null: described by the binding before.
+  const char* keys;   ///< As text for the user.
+  const char* words;  ///< Description; null: described by the previous binding.
 };
 std::span<const KeyBinding> KeyBindings();
 

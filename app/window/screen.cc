@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kUsualWidth = 1280, kUsualHeight = 800;
 
-/// What GLFW, which has one state a process, last complained of.
+/// Last error of GLFW, whose state is global in a process.
 std::string& LastError() {
   static std::string words;
   return words;
@@ -60,8 +60,8 @@ Result<std::unique_ptr<Screen>> Screen::Open(const Options& options) {
   return screen;
 }
 
-// Before ImGui's, which pass on to these. ImGui sees only what is down when it looks: a key pressed
-// and let go within one slow frame would be lost.
+// Installed before ImGui's callbacks, which forward to these. ImGui samples the state only: it
+// would miss a key pressed and released within one slow frame.
 void Screen::HearKeysAndMouse() {
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {

@@ -14,13 +14,13 @@ struct GLFWwindow;
 
 namespace pleinair::app {
 
-/// GLFW, a window, its OpenGL context and ImGui's, all of them ended in order; with one picture as
-/// a texture. For the thread that opened it.
+/// GLFW, a window, its OpenGL context and ImGui's, with one image as a texture. Destroyed in order,
+/// on the thread that opened it.
 class Screen {
  public:
   struct Options {
-    int width = 0, height = 0;  ///< 0: what suits most screens.
-    double ui_scale = 0.0;      ///< Of the letters; 0: what the screen asks for.
+    int width = 0, height = 0;  ///< 0: fits most screens.
+    double ui_scale = 0.0;      ///< Font scale; 0: the screen's scale.
   };
   /// Error (system): no display, or no OpenGL 3.3.
   static Result<std::unique_ptr<Screen>> Open(const Options& options);
@@ -31,17 +31,17 @@ class Screen {
   GLFWwindow* window() const { return window_; }
 
   struct Key {
-    int key, mods;  ///< GLFW's.
+    int key, mods;  ///< GLFW codes.
   };
-  /// Pressed since the last call, repeats included.
+  /// Keys pressed since the last call, including repeats.
   std::vector<Key> TakeKeys() { return std::exchange(keys_, {}); }
   std::vector<ButtonEvent> TakeButtons() { return std::exchange(buttons_, {}); }
 
-  /// Makes a picture the one that texture() names.
+  /// Uploads an image to the texture of texture().
   void Upload(const RgbImage& picture);
   unsigned texture() const { return texture_; }
 
-  /// What the window shows, its first row at the top.
+  /// Reads the window's content, first row at the top.
   RgbImage Read() const;
 
  private:

@@ -5,15 +5,14 @@
 namespace pleinair::app {
 namespace {
 
-// Of the letters' height: the panel beside the picture, and at least what of it is seen below.
+// In font heights: width of the panel beside the image, and its min. visible height below.
 constexpr double kPanelWidth = 21.0, kPanelHeight = 14.0;
-// Of the largest size that the picture could have: less beside or below the panel is next to
-// nothing.
+// Min. image size beside or below the panel, as a fraction of the maximum size.
 constexpr double kMin = 0.4;
-// What a panel that lies over the picture takes at most.
+// Max. share of the window's width for a panel over the image.
 constexpr double kOver = 0.8;
 
-/// How large the picture gets in an area; nothing in an area of no size.
+/// Image scale in an area; 0 for an empty area.
 double Scale(Vec2 area, Vec2 picture) {
   return std::max(0.0, std::min(area.x / picture.x, area.y / picture.y));
 }
@@ -31,7 +30,7 @@ WindowLayout WindowLayout::For(Vec2 window, double letter, bool panel, Vec2 pict
     return {all, {window.x - over, 0.0}, {over, window.y}};
   }
   if (scale_beside >= scale_above) return {beside, {beside.x, 0.0}, {width, window.y}};
-  // No higher than the picture needs.
+  // At most the height of the image.
   const double height = std::min(above.y, picture.y * scale_above);
   const double top = height + letter * kStatusHeight;
   return {{all.x, height}, {0.0, top}, {all.x, window.y - top}};

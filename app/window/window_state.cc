@@ -11,7 +11,7 @@ constexpr double kGrowth = 1.05, kFineGrowth = 1.005;
 constexpr double kTimeStep_s = 600.0, kFineTimeStep_s = 60.0;
 constexpr double kDay_s = 86400.0;
 
-/// Steps are for objects of about a metre; larger and smaller ones move in proportion.
+/// Steps suit objects of about one metre; others move in proportion to their size.
 double SizeOf(const ObjectBox& box, const session::ObjectPlace& place) {
   return Norm(box.max - box.min) * place.scale;
 }

@@ -13,7 +13,7 @@
 
 namespace pleinair::app {
 
-/// What is drawn over the frame.
+/// Overlays on the frame.
 struct Overlays {
   bool panel = true, help = false;
   bool turning_north = false;  ///< The virtual pole is shown.
@@ -24,57 +24,57 @@ struct Overlays {
 struct ShownFrame {
   CameraModel camera;
   std::optional<Transform<Camera, Marker>> camera_from_marker;
-  UtcTime moment;  ///< Without what the edit adds.
+  UtcTime moment;  ///< Without SceneEdit::later_s.
   bool is_there = false;
   session::LightSummary light;
 };
 
-/// How the session is doing.
+/// Status of the session.
 struct LiveStatus {
   LiveStatistics statistics;
-  double shown_per_second = 0.0;  ///< Frames.
+  double shown_per_second = 0.0;  ///< Frame rate.
   bool recording = false;
-  std::string camera;  ///< What the camera last reported.
+  std::string camera;  ///< Last report of the camera.
   bool camera_is_away = false;
 };
 
-/// What keys and panel asked for, to be done by the window.
+/// Requests of keys and panel, which the window carries out.
 struct WindowRequests {
   bool screenshot = false, window_screenshot = false;
   bool recording_change = false, exposure_change = false;
   bool close = false;
 };
 
-/// What the window shows and what its user has done: all that the panel and the keys change,
-/// without a window, so that tests can press keys, too.
+/// State of the window and all that the panel and the keys change. It needs no window, so that
+/// tests can press keys.
 struct WindowState {
-  scene::SceneDescription scene;  ///< As it was described.
+  scene::SceneDescription scene;  ///< As described in its file.
   session::SceneEdit edit, unedited;
-  std::vector<ObjectBox> boxes;  ///< Of the scene's objects, in their order.
+  std::vector<ObjectBox> boxes;  ///< Boxes of the scene's objects, in order.
   int selected = -1;             ///< Index of an object; -1: none.
   bool exposure_locked = false;
   Overlays overlays;
   ShownFrame frame;
   LiveStatus status;
   WindowRequests requests;
-  std::string message;  ///< The last thing done, for the status line.
+  std::string message;  ///< Last action, for the status line.
 
   UtcTime shown_time() const { return frame.moment.PlusSeconds(edit.later_s); }
   /// The marker with the heading in use.
   scene::MarkerDescription marker() const;
-  /// The scene's state for a new session.
+  /// Initial state for a new session.
   static WindowState For(const scene::SceneDescription& scene,
                          const compositor::ComposerOptions& drawing,
                          double convergence = session::SceneEdit{}.convergence);
 };
 
-/// Makes the scene that of another time.
+/// Moves the scene to another time.
 void SetShownTime(UtcTime time, WindowState* state);
-/// The time on a local clock's day, seconds since its midnight, to another of the same day.
+/// Changes the time within the same local day. `seconds`: since local midnight.
 void SetTimeOfDay(double seconds, double utc_offset_s, WindowState* state);
 double TimeOfDay(UtcTime time, double utc_offset_s);
 
-/// What keys do.
+/// Actions of keys.
 enum class Action {
   kHelp,
   kPanel,
@@ -103,7 +103,7 @@ enum class Action {
   kLockExposure,
 };
 
-/// Carries an action out. `fine`: small steps.
+/// Executes an action. `fine`: small steps.
 void Do(Action action, bool fine, UtcTime now, WindowState* state);
 
 }  // namespace pleinair::app

@@ -16,7 +16,7 @@ constexpr float kLetters_px = 15.0F;
 
 void SetWindowStyle(float scale) {
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // Nothing is left behind.
+  io.IniFilename = nullptr;  // Do not write a settings file.
   std::error_code error;
   // Latin with accents, Greek, and the ellipsis.
   static constexpr ImWchar kLetters[] = {0x20, 0x17F, 0x370, 0x3FF, 0x2010, 0x203A, 0};

@@ -2,8 +2,8 @@
 
 namespace pleinair::app {
 
-/// Colours, spacing and letters of the window, for a screen whose things are `scale` times as large
-/// as usual (HiDPI). Letters are DejaVu Sans where it is installed.
+/// Sets colors, spacing and font of the window. `scale`: the screen's scale (HiDPI). The font is
+/// DejaVu Sans where it is installed.
 void SetWindowStyle(float scale);
 
 }  // namespace pleinair::app
