@@ -11,7 +11,7 @@ namespace pleinair::app {
 
 namespace {
 
-/// The configuration is const where it is written.
+/// The configuration is const when it is written.
 template <typename Visitor, typename Config>
 void TellConfig(Visitor& visit, Config& config) {
   visit.Field("sweeps", config.sweeps);

@@ -72,7 +72,7 @@ std::string Cards(const AccuracyReport& report) {
   return html + "</div>\n";
 }
 
-/// What the levels of a sweep are.
+/// Meaning of the levels of a sweep.
 std::string LevelName(const std::string& sweep, const std::string& pattern) {
   static const std::map<std::string, std::string> kNames{
       {"distance", "size, px (edge, seen frontally)"},
@@ -95,7 +95,7 @@ std::string LevelName(const std::string& sweep, const std::string& pattern) {
   return plain != kNames.end() ? plain->second : "level";
 }
 
-/// Detection and error by level of one pattern of a sweep, all detectors.
+/// Detection and error by level of one pattern of a sweep, for all detectors.
 std::string ChartsOf(const RunSummary& summary, const std::string& sweep,
                      const std::string& pattern) {
   std::vector<std::string> levels;
@@ -180,7 +180,7 @@ std::string SweepSections(const RunSummary& summary,
   return html;
 }
 
-/// An axis that holds 90 % of every detector's values, ending at 1, 2 or 5 times a power of ten.
+/// Axis maximum that includes 90 % of every detector's values: 1, 2 or 5 times a power of ten.
 double TopOf(const std::vector<std::vector<double>>& values) {
   double top = 0.0;
   for (const std::vector<double>& sample : values) {

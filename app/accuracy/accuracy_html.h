@@ -8,10 +8,11 @@
 
 namespace pleinair::app {
 
-/// report.html: one page without any external resource. Detection and corner error by level with
-/// 95 % intervals, tables of every sweep, jitter, films with their paths, the covariances'
-/// consistency, the ambiguity ratio's calibration, ratios to the peers, error maps, and the worst
-/// frames as pictures. Follows the reader's light or dark mode.
+/// Returns report.html: one page without external resources. It shows detection and corner error by
+/// level with 95 % intervals, and tables of every sweep. It shows jitter, videos with their
+/// trajectories, consistency of the covariances, and calibration of the ambiguity ratio. It also
+/// shows ratios to the peers, error maps, and images of the worst frames. It follows the reader's
+/// light or dark mode.
 std::string AccuracyHtml(const AccuracyReport& report,
                          const std::vector<accuracy::FrameRecord>& records);
 

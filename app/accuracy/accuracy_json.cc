@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 using accuracy::Interval;
 using accuracy::Spread;
 
-/// Nine significant digits; null for what is no number.
+/// Nine significant digits; null if not finite.
 Json Number(double value) {
   if (!std::isfinite(value)) return {};
   if (value == 0.0) return 0.0;

@@ -10,24 +10,24 @@
 
 namespace pleinair::app {
 
-/// All that a run's report says; times are kept apart, since no two runs have the same.
+/// The content of a run's report. Times are separate, since they differ between runs.
 struct AccuracyReport {
   AccuracyConfig config;
   std::string version;
-  std::set<std::string> machines;  ///< That did it; on the page alone.
+  std::set<std::string> machines;  ///< That measured it; only on the page.
   accuracy::RunSummary summary;
   std::vector<LightPicture> pictures;
-  std::vector<std::string> skipped;  ///< Recordings that could not be measured, and why.
+  std::vector<std::string> skipped;  ///< Recordings that could not be measured, with the reason.
 };
 
-/// A recording whose marker a peer cannot read.
+/// A recording whose marker a peer cannot decode.
 struct UnreadFilm {
   std::string film, peer;
 };
 std::vector<UnreadFilm> UnreadFilms(const AccuracyReport& report);
 
-/// report.json (docs/guide/accuracy-runs.md). Numbers have nine significant digits; what is not a
-/// number is null.
+/// Returns report.json (docs/guide/accuracy-runs.md). Numbers have nine significant digits. Values
+/// that are not finite are null.
 std::string AccuracyJson(const AccuracyReport& report);
 
 }  // namespace pleinair::app

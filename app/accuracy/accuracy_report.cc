@@ -41,7 +41,7 @@ Result<Gathered> Gather(const std::vector<RecordParts>& folders) {
     std::optional<RecordPart> best;
     for (const RecordParts& folder : folders) {
       PLEINAIR_ASSIGN_OR_RETURN(std::optional<RecordPart> part, folder.Load(chunk));
-      // One that was measured counts before one that had to be skipped.
+      // A measured part takes precedence over a skipped one.
       if (part && (!best || (!best->skipped.empty() && part->skipped.empty()))) {
         best = std::move(part);
       }
@@ -50,7 +50,7 @@ Result<Gathered> Gather(const std::vector<RecordParts>& folders) {
       missing.push_back(chunk);
       continue;
     }
-    // Both parts of a recording may fail for one cause.
+    // Both parts of a recording may fail for the same reason.
     const bool is_new = std::find(gathered.skipped.begin(), gathered.skipped.end(),
                                   best->skipped) == gathered.skipped.end();
     if (!best->skipped.empty() && is_new) gathered.skipped.push_back(best->skipped);

@@ -12,14 +12,14 @@ namespace pleinair::app {
 
 struct WrittenReport {
   std::int64_t frames = 0;
-  std::vector<std::string> skipped;  ///< Recordings that could not be measured, and why.
+  std::vector<std::string> skipped;  ///< Recordings that could not be measured, with the reason.
 };
 
-/// Puts the parts of one run, from any number of folders, together: report.json, report.html,
-/// records.jsonl and times.json in `output`. All but times.json are functions of the configuration
-/// alone: the same bytes however the run was divided. A chunk that several folders have counts
-/// once. Errors: folders of different runs (input); chunks that none has (system: they are still
-/// to be measured).
+/// Merges the parts of one run from any number of folders into report.json, report.html,
+/// records.jsonl and times.json in `output`. All except times.json depend only on the
+/// configuration: the bytes are the same for any sharding. A chunk in several folders counts once.
+/// Errors: folders of different runs (input); chunks in no folder, which must still be measured
+/// (system).
 Result<WrittenReport> WriteAccuracyReport(const std::vector<RecordParts>& folders,
                                           const std::filesystem::path& output);
 

@@ -25,7 +25,7 @@
 namespace pleinair::app {
 namespace {
 
-/// A detector with the renderer of frames with its print.
+/// A detector and the renderer of frames with its marker.
 struct Station {
   std::string name;
   std::unique_ptr<accuracy::Detector> detector;
@@ -98,8 +98,7 @@ Result<void> MeasureRun(const accuracy::FrameRun& run, std::int64_t first_frame,
   return {};
 }
 
-/// Frames of one detector after those of another, as they were made; in the run's order they lie
-/// frame by frame.
+/// Sorts the records by frame. They were measured detector by detector.
 void SortByFrame(std::vector<accuracy::FrameRecord>* records) {
   std::stable_sort(records->begin(), records->end(),
                    [](const accuracy::FrameRecord& a, const accuracy::FrameRecord& b) {
@@ -107,12 +106,12 @@ void SortByFrame(std::vector<accuracy::FrameRecord>* records) {
                    });
 }
 
-/// A recording's frames or its composed pictures; what cannot be measured is skipped.
+/// Measures a recording's frames or its composited images. Skips what cannot be measured.
 Result<RecordPart> MeasureRecordingChunk(const AccuracyChunk& chunk, RecordPart part,
                                          const AccuracyConfig& config) {
   if (chunk.light) {
     auto pictures = MeasureLight(*chunk.recording);
-    // Interrupted while it composed: then nothing is to be written.
+    // If interrupted while compositing, nothing must be written.
     if (!pictures && InterruptGuard::Interrupted()) return tl::make_unexpected(pictures.error());
     if (pictures) {
       part.pictures = *std::move(pictures);
@@ -150,7 +149,7 @@ Result<RecordPart> MeasureChunk(const AccuracyChunk& chunk, std::int64_t number,
 }  // namespace
 
 std::vector<AccuracyChunk> PlanChunks(const AccuracyConfig& config) {
-  constexpr std::size_t kFramesAChunk = 24;  // Some seconds of work.
+  constexpr std::size_t kFramesAChunk = 24;  // Takes a few seconds.
   std::vector<AccuracyChunk> chunks;
   const CameraModel camera = accuracy::SweepCamera(config.camera);
   for (const std::string& sweep : config.sweeps) {
@@ -182,7 +181,7 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
   }
   if (to_do.empty()) return outcome;
   ProgressBar bar("accuracy", static_cast<std::int64_t>(to_do.size()), "parts");
-  std::mutex mutex;  // Guards what follows.
+  std::mutex mutex;  // Guards the following variables.
   std::map<std::int64_t, std::string> skipped;
   std::optional<Error> failure;
   std::size_t next = 0;
@@ -219,7 +218,7 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
   if (failure) return tl::make_unexpected(*failure);
   for (auto& [number, message] : skipped) {
     outcome.skipped_recordings.insert(*chunks[number].recording);
-    // A picture that cannot be read is said once, though both parts of its recording fail.
+    // Report an unreadable image once, although both parts of its recording fail.
     const bool is_new =
         std::find(outcome.skipped.begin(), outcome.skipped.end(), message) == outcome.skipped.end();
     if (is_new) outcome.skipped.push_back(std::move(message));

@@ -15,35 +15,36 @@
 
 namespace pleinair::app {
 
-/// Frames that are measured together and kept together.
+/// Frames that are measured and stored together.
 struct AccuracyChunk {
   std::vector<accuracy::FrameRun> runs;
-  std::optional<std::string> recording{};  ///< Then without runs.
-  bool light = false;  ///< Of a recording: its composed pictures in place of its frames.
+  std::optional<std::string> recording{};  ///< If set, `runs` is empty.
+  bool light = false;  ///< Recordings only: measure the composited images, not the frames.
 };
 
-/// The frames of a run in chunks: the same for everybody who works on it.
+/// Divides the frames of a run into chunks, equally for all workers.
 std::vector<AccuracyChunk> PlanChunks(const AccuracyConfig& config);
 
-/// Place of the first frame of a chunk in the order of frames.
+/// Index of the first frame of a chunk in the order of frames.
 constexpr std::int64_t FirstFrameOf(std::int64_t chunk) { return chunk << 20; }
 
-/// A part of a run: the chunks whose place, divided by `count`, leaves `index` - 1.
+/// A part of a run: the chunks whose position modulo `count` is `index` - 1.
 struct Shard {
   int index = 1, count = 1;
 };
 
 struct RunOutcome {
-  std::int64_t chunks = 0;                   ///< Of this shard,
-  std::int64_t measured = 0;                 ///< … measured now, the others having been there.
-  std::vector<std::string> skipped;          ///< Messages about what could not be measured.
-  std::set<std::string> skipped_recordings;  ///< Those that the messages are of.
+  std::int64_t chunks = 0;                   ///< In this shard.
+  std::int64_t measured = 0;                 ///< Measured now; the others existed.
+  std::vector<std::string> skipped;          ///< Messages about chunks that could not be measured.
+  std::set<std::string> skipped_recordings;  ///< Recordings of these messages.
 };
 
-/// Measures what is not there yet of a shard, with `threads` threads.
+/// Measures the missing chunks of a shard, with `threads` threads.
 Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, int threads);
 
-/// One frame of the run again, with our print: for the page. Nothing where it cannot be had.
+/// Renders one frame of the run again, with our marker, for the page. Nothing if it cannot be
+/// rendered.
 std::optional<GreyImage> PictureOf(const AccuracyConfig& config, std::int64_t frame);
 
 }  // namespace pleinair::app

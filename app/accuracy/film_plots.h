@@ -7,8 +7,8 @@
 
 namespace pleinair::app {
 
-/// Of a sweep that is a film (or of recordings): the first detector's path of the camera beside
-/// the true one, and its errors over time; nothing for other sweeps.
+/// Plots for sweeps that are videos, and for recordings: the first detector's trajectory with the
+/// ground truth, and its errors over time. Empty for other sweeps.
 std::string FilmPlots(const std::string& sweep, const std::vector<std::string>& detectors,
                       const std::vector<accuracy::FrameRecord>& records);
 

@@ -28,7 +28,7 @@ static_assert(kPictureScoreNames.size() == accuracy::kImageMeasures.size() &&
                            return name == measure.name;
                          }));
 
-/// A folder that goes when this does.
+/// A folder that is removed on destruction.
 class ScratchFolder {
  public:
   static Result<ScratchFolder> Create() {

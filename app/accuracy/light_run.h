@@ -8,15 +8,16 @@
 
 namespace pleinair::app {
 
-/// A composed picture's record with what the page shows of it: JPEG in base 64.
+/// A composited image's record and its images for the page: JPEG in base 64.
 struct LightPicture {
   accuracy::ImageRecord record;
   std::string truth, composed, difference;
 };
 
-/// Composes a recording, as `pleinair replay --frames` does, and compares its key frames with the
-/// true pictures, as `pleinair compare` does; nothing for recordings without true pictures. One at
-/// a time: a replay uses all cores. Errors: as of these commands; interruption.
+/// Composites a recording, as `pleinair replay --frames` does. Compares its key frames with the
+/// ground-truth images, as `pleinair compare` does. Returns nothing for recordings without
+/// ground-truth images. Runs one recording at a time, because a replay uses all cores. Errors: as
+/// these commands; interruption.
 Result<std::vector<LightPicture>> MeasureLight(const std::string& recording);
 
 }  // namespace pleinair::app

@@ -28,7 +28,7 @@ std::string Row(const accuracy::LightSummary& light) {
   return row + "</tr>\n";
 }
 
-/// What the difference is largest over: the region that matters most to the eye.
+/// Color difference around the object, which is visually the most important region.
 double Badness(const LightPicture& picture) {
   constexpr std::size_t kNear = 4;
   static_assert(std::string_view(accuracy::kImageMeasures[kNear].name) == "dE_near");

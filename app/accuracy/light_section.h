@@ -6,8 +6,9 @@
 
 namespace pleinair::app {
 
-/// What the composed pictures of recordings are worth: a table with intervals, and of the worst key
-/// frames the truth, ours and the difference; nothing without recordings that have true pictures.
+/// Scores of the composited images: a table with intervals. For the worst key frames it shows
+/// ground truth, our image and the difference. Empty without recordings that have ground-truth
+/// images.
 std::string LightSection(const AccuracyReport& report);
 
 }  // namespace pleinair::app

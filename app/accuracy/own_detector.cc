@@ -76,7 +76,7 @@ class OwnDetector final : public accuracy::Detector {
 
   void Spoil(tracker::MarkerObservation* observation) const {
     auto& corners = observation->detection.corners_px;
-    // The picture alone says which way, so that the order of frames does not matter.
+    // The direction depends only on the image, so that the order of frames does not matter.
     accuracy::RandomStream random(
         0, fmt::format("spoil/{}/{}/{}", observation->detection.id, corners[0].x, corners[0].y));
     for (Vec2& corner : corners) {

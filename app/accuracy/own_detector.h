@@ -11,14 +11,14 @@ namespace pleinair::app {
 
 struct OwnDetectorOptions {
   tracker::TrackerOptions tracker{};  ///< One family and its size.
-  /// Measure S-G prints once more from all their pixels, as `replay` does; else as `detect` does.
+  /// Refine S-G markers with all their pixels, as `replay` does. Otherwise as `detect` does.
   bool measure_prints = false;
-  /// Moves every corner by this much in a direction of its own, before the pose is estimated: a
-  /// planted regression, to see that it is noticed.
+  /// Shifts every corner by this distance, each in its own direction, before pose estimation. An
+  /// artificial regression, to test that it is detected.
   double spoil_corners_px = 0.0;
 };
 
-/// Our tracker as a detector that is measured; S-G prints.
+/// Wraps our tracker as a detector under test, for S-G markers.
 std::unique_ptr<accuracy::Detector> MakeOwnDetector(const CameraModel& camera,
                                                     const OwnDetectorOptions& options);
 

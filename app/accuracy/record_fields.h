@@ -14,8 +14,8 @@
 
 namespace pleinair::app {
 
-// What is kept of a run is told once, field by field, to a visitor: a FieldWriter makes JSON of it,
-// a FieldReader reads it back. Numbers are the shortest that read back the same.
+// Each record describes its fields once to a visitor. FieldWriter converts it to JSON and
+// FieldReader parses it back. Numbers have the fewest digits that parse back to the same value.
 
 using RecordJsonValue = nlohmann::ordered_json;
 
@@ -71,18 +71,18 @@ inline void FromJson(const RecordJsonValue& json, accuracy::Outcome* outcome) {
   throw RecordJsonValue::type_error::create(302, "no outcome: " + name, &json);
 }
 
-/// Adds fields to a JSON object, in the order in which they are told.
+/// Adds fields to a JSON object, in the order of the calls.
 class FieldWriter {
  public:
   template <typename T>
   void Field(const char* name, const T& value) {
     json[name] = ToJson(value);
   }
-  /// Told where it is true.
+  /// Written only if true.
   void Flag(const char* name, bool value) {
     if (value) json[name] = true;
   }
-  /// Whether the fields of `part` follow; `first` is the name of the first of them.
+  /// Returns whether the fields of `part` follow. `first`: name of its first field.
   template <typename T>
   bool Part(const char* /*first*/, const std::optional<T>& part) {
     return part.has_value();
@@ -91,8 +91,8 @@ class FieldWriter {
   RecordJsonValue json = RecordJsonValue::object();
 };
 
-/// Takes fields out of a JSON object. Throws nlohmann's exceptions where they are not there, or are
-/// something else.
+/// Reads fields from a JSON object. Throws nlohmann's exceptions for missing fields and wrong
+/// types.
 class FieldReader {
  public:
   explicit FieldReader(const RecordJsonValue& json) : json_(json) {}
@@ -113,16 +113,16 @@ class FieldReader {
   const RecordJsonValue& json_;
 };
 
-/// JSON as one line without its end; bytes that are no UTF-8 become U+FFFD.
+/// JSON as one line without its end. Invalid UTF-8 becomes U+FFFD.
 inline std::string LineOf(const RecordJsonValue& json) {
   return json.dump(-1, ' ', false, RecordJsonValue::error_handler_t::replace);
 }
 
-/// Discarded where a text is no JSON, or nested deeper than anything that is kept of a run.
+/// Returns a discarded value if the text is not JSON or is nested deeper than any stored record.
 RecordJsonValue ParseRecordJson(std::string_view text);
 
-/// What `tell(json, &record)` takes out of a text. Where that is no JSON, or lacks a field or has
-/// another kind of value in it, the error that `refusal` is.
+/// Parses a text with `tell(json, &record)`. Returns `refusal` if the text is not JSON, lacks a
+/// field or has a wrong type.
 template <typename Record, typename Tell>
 Result<Record> ReadJson(std::string_view text, const tl::unexpected<Error>& refusal, Tell tell) {
   const RecordJsonValue json = ParseRecordJson(text);

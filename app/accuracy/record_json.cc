@@ -12,7 +12,7 @@ using accuracy::FrameRecord;
 using accuracy::MarkerRecord;
 using accuracy::Outcome;
 
-// Records are const where they are written.
+// Records are const when they are written.
 
 template <typename Visitor, typename Pose>
 void TellPose(Visitor& visit, Pose& pose) {
@@ -70,7 +70,7 @@ tl::unexpected<Error> NoRecord(const std::string& where) {
 }  // namespace
 
 RecordJsonValue ParseRecordJson(std::string_view text) {
-  // nlohmann's copies and dump() call themselves for each level: a file must not choose how often.
+  // nlohmann's copies and dump() recurse once per level: a file must not control the depth.
   constexpr int kMostLevels = 32;
   bool too_deep = false;
   RecordJsonValue json = RecordJsonValue::parse(

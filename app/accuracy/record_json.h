@@ -10,16 +10,17 @@
 namespace pleinair::app {
 
 /// A frame's record as one line of JSON (docs/guide/reference/accuracy-files.md, records.jsonl).
-/// Numbers are the shortest that read back the same. `with_times`: what its stages took.
+/// Numbers have the fewest digits that parse back to the same value. `with_times`: include the
+/// durations of its stages.
 std::string RecordJson(const accuracy::FrameRecord& record, bool with_times);
 
-/// Errors (input): not what RecordJson writes; `where` names file and line.
+/// Errors (input): not a line of RecordJson. `where` gives file and line.
 Result<accuracy::FrameRecord> ParseRecord(std::string_view line, const std::string& where);
 
-/// A composed picture's record as one line (pictures.jsonl).
+/// A composited image's record as one line (pictures.jsonl).
 std::string PictureJson(const accuracy::ImageRecord& record);
 
-/// Errors (input): not what PictureJson writes.
+/// Errors (input): not a line of PictureJson.
 Result<accuracy::ImageRecord> ParsePicture(std::string_view line, const std::string& where);
 
 }  // namespace pleinair::app

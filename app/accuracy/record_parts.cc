@@ -18,17 +18,17 @@ namespace fs = std::filesystem;
 using Json = RecordJsonValue;
 
 constexpr int kFormat = 1;
-// Ten times what the largest --scale makes of all sweeps.
+// Ten times the number of chunks of all sweeps at the largest --scale.
 constexpr std::int64_t kMostChunks = 1'000'000;
 
-/// What stands before a part's records.
+/// Header before a part's records.
 struct PartHead {
   std::int64_t chunk = 0;
   std::size_t records = 0, pictures = 0;
   std::string skipped, machine;
 };
 
-/// The configuration follows. The head is const where it is written.
+/// The configuration follows. The head is const when it is written.
 template <typename Visitor, typename Head>
 void TellHead(Visitor& visit, Head& head) {
   visit.Field("chunk", head.chunk);
@@ -38,7 +38,7 @@ void TellHead(Visitor& visit, Head& head) {
   visit.Field("machine", head.machine);
 }
 
-/// The file's bytes; nothing where it cannot be read.
+/// Reads the file's bytes; nothing if it cannot be read.
 std::optional<std::string> ReadAll(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;

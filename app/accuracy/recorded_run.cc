@@ -40,7 +40,7 @@ Result<RecordedRun> ReadRecordedRun(const std::string& folder) {
                       "finish the run, or put its shards together with 'pleinair report merge'");
   }
   PLEINAIR_RETURN_IF_ERROR(ReadLines(in, file, ParseRecord, &run.records.frames));
-  // Runs without recordings that have true pictures have none.
+  // Runs without ground-truth images do not have this file.
   const std::filesystem::path pictures = path / "pictures.jsonl";
   std::ifstream in_pictures(pictures, std::ios::binary);
   PLEINAIR_RETURN_IF_ERROR(ReadLines(in_pictures, pictures, ParsePicture, &run.records.pictures));

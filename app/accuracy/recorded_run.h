@@ -9,15 +9,14 @@
 
 namespace pleinair::app {
 
-/// A finished run as its folder has it.
+/// A finished run, as read from its folder.
 struct RecordedRun {
   AccuracyConfig config;
   accuracy::RunRecords records;
 };
 
-/// Reads run.json, records.jsonl and, where it is there, pictures.jsonl of a folder (or of the
-/// folder of a file in it, such as its report.json). Errors (input): what is missing or no such
-/// file, with its line.
+/// Reads run.json, records.jsonl and, if present, pictures.jsonl of a folder. `folder` may also
+/// name a file in it, such as report.json. Errors (input): missing or invalid files, with the line.
 Result<RecordedRun> ReadRecordedRun(const std::string& folder);
 
 }  // namespace pleinair::app

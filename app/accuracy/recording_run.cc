@@ -22,18 +22,18 @@ using accuracy::Detector;
 using accuracy::FrameRecord;
 using accuracy::MarkerTruth;
 
-/// What our detector saw in a frame.
+/// Our detector's observations in a frame.
 struct SeenFrame {
   std::int64_t index = 0, timestamp_ns = 0;
   Detector::Detections seen;
 };
 
-/// The marker whose truth is known.
+/// The marker with ground truth.
 struct ReferenceMarker {
   std::string family;
   int number = 0;
   Metres size;
-  bool is_named = false;  ///< The scene says which it is.
+  bool is_named = false;  ///< The scene names it.
 
   bool Is(const accuracy::Detected& detected) const {
     return detected.family == family && detected.number == number;
@@ -47,7 +47,7 @@ std::unique_ptr<Detector> MakePeer(const std::string& name, const CameraModel& c
              : accuracy::MakeArucoPeer(camera, reference_marker.family, reference_marker.size);
 }
 
-/// One recording from opening to records.
+/// Processes one recording, from opening it to the records.
 class RecordingRun {
  public:
   RecordingRun(const std::string& path, std::int64_t first_frame, const AccuracyConfig& config)
@@ -65,7 +65,7 @@ class RecordingRun {
   }
 
  private:
-  /// Our own detector over all frames: it follows through those whose truth is not known, too.
+  /// Runs our detector on all frames: it also tracks through those without ground truth.
   Result<void> LookThrough() {
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, devices::OpenRecording(path_));
     if (!recording.scene || recording.scene->marker.size_m <= 0.0) {
@@ -118,7 +118,7 @@ class RecordingRun {
     return {};
   }
 
-  /// Stamps from 2001 on count from 1970, others from the recording's start.
+  /// Stamps from 2001 on count from 1970, others from the start of the recording.
   std::int64_t SinceStart(std::int64_t timestamp_ns) const {
     constexpr std::int64_t kLate_ns = 1'000'000'000'000'000'000;
     if (timestamp_ns < kLate_ns) return timestamp_ns;
@@ -197,7 +197,7 @@ class RecordingRun {
 
   Result<void> MeasurePeer(const std::string& name) {
     const auto detector = MakePeer(name, camera_, anchor_);
-    if (detector == nullptr) return {};  // The report says that it had no print to read.
+    if (detector == nullptr) return {};  // The report lists that it had no marker to decode.
     PLEINAIR_RETURN_IF_ERROR(detector->Start(true));
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, devices::OpenRecording(path_));
     for (std::int64_t index = 0;; ++index) {
@@ -215,7 +215,8 @@ class RecordingRun {
   scene::SceneDescription scene_;
   CameraModel camera_;
   std::int64_t period_ns_ = 0;
-  std::optional<std::int64_t> start_ns_;  ///< Of the recording, by its own clock's stamps.
+  std::optional<std::int64_t>
+      start_ns_;  ///< Start of the recording, by the stamps of its own clock.
   std::vector<SeenFrame> frames_;
   ReferenceMarker anchor_;
   bool is_aligned_ = false;

@@ -12,20 +12,21 @@
 
 namespace pleinair::app {
 
-/// Measures our tracker on a recording with ground truth (recording_truth.h), and the peers of the
-/// configuration that can read its marker's print. The marker is the scene's; where that does not
-/// say which, the one that is found most often. Truth in a frame of its author's own is told in the
-/// marker's by aligning it with the path that we find: what is measured then is what is left.
-/// Frames without a true pose, or in which the marker is behind the camera, are left out. A
-/// observation of another number than the scene's marker is false; where the scene does not say
-/// which, others are not looked at. Errors (input): what OpenRecording refuses or Next() fails at,
-/// a scene that does not say how large the marker is, a truth that is missing or has no pose at any
-/// frame, no marker found.
+/// Measures our tracker on a recording with ground truth (recording_truth.h), and the configured
+/// peers that can decode its marker.
+/// The reference marker is the scene's; if the scene does not name one, the marker detected most
+/// often. Ground truth in another frame of reference is aligned with our trajectory; the errors are
+/// then the residuals of the alignment.
+/// Frames without a true pose, or with the marker behind the camera, are ignored. If the scene
+/// names the marker, observations of other numbers count as false. Otherwise other markers are
+/// ignored.
+/// Errors (input): those of OpenRecording and Next(), a scene without the marker's size, no marker
+/// detected. Also a ground truth that is missing or has no pose at any frame.
 Result<std::vector<accuracy::FrameRecord>> MeasureRecording(const std::string& path,
                                                             std::int64_t first_frame,
                                                             const AccuracyConfig& config);
 
-/// One frame of a recording; nothing where it cannot be read.
+/// Reads one frame of a recording; nothing if it cannot be read.
 std::optional<GreyImage> RecordedPicture(const std::string& path, std::int64_t index);
 
 }  // namespace pleinair::app

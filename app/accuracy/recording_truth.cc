@@ -42,7 +42,7 @@ Result<RecordingTruth> ReadEuroc(const fs::path& file, const fs::path& sensor) {
 }
 
 Quaternion Weighted(const Quaternion& a, double weight_a, const Quaternion& b, double weight_b) {
-  // q and -q are one rotation: the nearer of both.
+  // q and -q are the same rotation: take the nearer one.
   const double w = Dot(a, b) < 0.0 ? -weight_b : weight_b;
   return {weight_a * a.x + w * b.x, weight_a * a.y + w * b.y, weight_a * a.z + w * b.z,
           weight_a * a.w + w * b.w};
@@ -101,7 +101,7 @@ std::optional<Transform<Marker, exports::Reference>> AlignReference(
   for (const PosePair& pair : pairs) {
     turns.push_back(pair.found.rotation * pair.truth.rotation.Transposed());
   }
-  // All pairs of a long recording would take hours; a few hundred stand for the others.
+  // All pairs of a long recording would take hours: a few hundred represent them.
   constexpr std::size_t kMax = 300;
   const std::size_t step = turns.size() / kMax + 1;
   const auto median_angle = [&](const Mat3& from) {
@@ -121,7 +121,8 @@ std::optional<Transform<Marker, exports::Reference>> AlignReference(
   }
   constexpr double kOutlier = 3.0;
   constexpr double kRounding = 1e-9;
-  Quaternion sum = QuaternionOf(turns[central]);  // Says which of q and -q the others are.
+  Quaternion sum =
+      QuaternionOf(turns[central]);  // Reference for choosing between q and -q of the others.
   std::vector<const PosePair*> kept;
   for (std::size_t i = 0; i < turns.size(); ++i) {
     if (accuracy::AngleBetween(turns[central], turns[i]) > kOutlier * least + kRounding) continue;

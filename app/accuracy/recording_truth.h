@@ -11,31 +11,32 @@
 
 namespace pleinair::app {
 
-/// Where a recording's camera was, by somebody who knows.
+/// Ground-truth trajectory of a recording's camera.
 struct RecordingTruth {
-  std::vector<exports::TrajectoryPose> poses;  ///< Times as the file has them.
-  /// The reference is the marker (truth.tum); else it is a frame of the author's own, such as a
-  /// motion capture system's.
+  std::vector<exports::TrajectoryPose> poses;  ///< Times as in the file.
+  /// True if the frame of reference is the marker (truth.tum). Otherwise it is the author's own,
+  /// such as that of a motion capture system.
   bool in_marker_frame = true;
 };
 
-/// Reads what a recording's folder has, in this order: truth.tum (the camera in the marker's
-/// frame); groundtruth.txt, the TUM RGB-D benchmark's name for the camera in a frame of its own;
-/// the EuRoC data sets' state_groundtruth_estimate0/data.csv beside cam0 (the body in a frame of
-/// its own; T_BS of cam0/sensor.yaml makes it the camera's). Errors (input): there is none, or it
-/// cannot be read.
+/// Reads the ground truth in a recording's folder. The first file found counts:
+/// - truth.tum: the camera in the marker's frame;
+/// - groundtruth.txt: the camera in another frame, as in the TUM RGB-D benchmark;
+/// - state_groundtruth_estimate0/data.csv beside cam0, as in the EuRoC data sets: the body in
+/// another frame. T_BS of cam0/sensor.yaml converts it to the camera.
+/// Errors (input): there is none, or it cannot be read.
 Result<RecordingTruth> ReadRecordingTruth(const std::filesystem::path& recording);
 
-/// The pose of a moment: between its neighbours (shift and quaternion linearly) where both lie
-/// within a frame period, else that of a neighbour within a quarter of a period; nothing without
-/// such.
+/// Interpolates the pose at a time. If both neighbours are within a frame period, it interpolates
+/// translation and quaternion linearly. Otherwise it takes a neighbour within a quarter of a
+/// period. Nothing if there is none.
 std::optional<Transform<exports::Reference, Camera>> PoseAt(
     const std::vector<exports::TrajectoryPose>& poses, std::int64_t timestamp_ns,
     std::int64_t period_ns);
 
-/// How a frame of reference lies in the marker's, by what a detector found: the mean over the
-/// moments, without those whose rotation is off by more than three times the median (poses that
-/// flipped). Nothing without any.
+/// Aligns a frame of reference with the marker's frame from detected poses: the mean over all
+/// times. Poses whose rotation error exceeds three times the median (flipped poses) are excluded.
+/// Nothing without pairs.
 struct PosePair {
   Transform<Marker, Camera> found;
   Transform<exports::Reference, Camera> truth;

@@ -9,16 +9,16 @@
 
 namespace pleinair::app {
 
-/// What the stages of one detector took.
+/// Durations of the stages of one detector.
 struct DetectorTimes {
   std::string detector;
   std::vector<StageTimes::Summary> stages;
 };
 
-/// By detector, in the order of names.
+/// One entry per detector, sorted by name.
 std::vector<DetectorTimes> TimesOf(const std::vector<accuracy::FrameRecord>& records);
 
-/// times.json and times.html: kept apart from the report, since no two runs have the same.
+/// times.json and times.html. They are separate from the report, since they differ between runs.
 std::string TimesJson(const std::set<std::string>& machines,
                       const std::vector<DetectorTimes>& times);
 std::string TimesHtml(const std::set<std::string>& machines,

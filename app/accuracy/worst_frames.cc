@@ -23,7 +23,7 @@ struct Bad {
   const FrameRecord* record = nullptr;
 };
 
-/// How bad a frame is; 0: nothing to see.
+/// Severity of a frame's error; 0: no error.
 Bad BadnessOf(const FrameRecord& record) {
   Bad bad{.record = &record};
   const auto consider = [&](double badness, std::string why) {

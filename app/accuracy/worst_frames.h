@@ -8,9 +8,8 @@
 
 namespace pleinair::app {
 
-/// The frames in which our detector did worst, as pictures with the true outlines (green) and the
-/// found ones (red): false numbers first, then misplaced markers, flips, and the largest corner
-/// errors.
+/// Images of our detector's worst frames with the true outlines (green) and the detected ones
+/// (red). The order is false numbers, misplaced markers, flips, and the largest corner errors.
 std::string WorstFrames(const AccuracyReport& report,
                         const std::vector<accuracy::FrameRecord>& records);
 
