@@ -7,8 +7,8 @@
 
 namespace pleinair::app {
 
-/// The phantoms and virtual objects of a recording, under the sun of its first frame, seen from
-/// three metres in the south-west of the objects at a standing person's height.
+/// Phantoms and virtual objects of a recording, with the sun of its first frame. The view is from 3
+/// m south-west of the objects, at a standing person's eye height.
 Result<shadows::BenchScene> RecordingScene(const std::filesystem::path& recording, double aspect);
 
 }  // namespace pleinair::app

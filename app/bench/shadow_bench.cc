@@ -22,7 +22,7 @@ using shadows::View;
 using shadows::VisibilityPicture;
 
 constexpr double kCreepPxAFrame = 0.1;
-// A pixel, as the compositor has it.
+// Samples per pixel, as in the compositor.
 constexpr int kCreepSamples = 4;
 constexpr int kFramesARound = 2;
 
@@ -47,7 +47,7 @@ shadows::ShadowMapOptions MapOptions(shadows::ShadowMethod method, int resolutio
   return options;
 }
 
-// Before the minutes of measuring: whether each method can have maps of each size.
+// Checks the map sizes of each method before the minutes of measurement.
 Result<void> CheckSizes(const std::vector<shadows::ShadowMethod>& methods,
                         const ShadowBenchOptions& bench) {
   for (const shadows::ShadowMethod method : methods) {
@@ -63,7 +63,7 @@ Result<void> CheckSizes(const std::vector<shadows::ShadowMethod>& methods,
   return {};
 }
 
-// The camera moved sideways so that what lies `depth_m` away moves by `pixels` in the picture.
+// Moves the camera sideways, so that points at `depth_m` move by `pixels` in the image.
 View Crept(const View& view, double pixels, double depth_m, int width) {
   View moved = view;
   const double shift = pixels * depth_m * (view.tan_left + view.tan_right) / width;
@@ -73,12 +73,12 @@ View Crept(const View& view, double pixels, double depth_m, int width) {
 
 struct TrackedPoint {
   glm::dvec3 point{0.0};
-  double cosine = 0.0;  // Of the sun's incidence.
+  double cosine = 0.0;  // Cosine of the sun's incidence angle.
   double sum = 0.0, squares = 0.0;
   int count = 0;
 };
 
-// A creeping camera looks at points that stand still: how much the sun's light on them trembles.
+// Measures the variation of sunlight on static points while the camera moves slowly.
 class ShimmerMeter {
  public:
   ShimmerMeter(const View& view, const VisibilityPicture& truth, const Image<float>& cosine,
@@ -121,7 +121,7 @@ class ShimmerMeter {
     }
   }
 
-  /// Mean over the points seen in all frames.
+  /// Mean over the points visible in all frames.
   Shimmer Mean(int frames) const {
     Shimmer sum;
     double count = 0.0, weight = 0.0;
@@ -141,7 +141,7 @@ class ShimmerMeter {
   std::vector<TrackedPoint> points_;
 };
 
-// What rays say of a scene's view, and of the window while the camera creeps.
+// Ray-traced visibility of a scene's view, and of the window during the camera motion.
 struct TracedTruth {
   ShadowTruth tracer;
   VisibilityPicture picture;
@@ -149,7 +149,7 @@ struct TracedTruth {
   Shimmer shimmer;
 };
 
-// One scene with its truth and the renderer that all methods share.
+// One scene with its ground truth and the renderer shared by all methods.
 class SceneRun {
  public:
   static Result<SceneRun> Create(BenchScene scene, const ShadowBenchOptions& options) {
@@ -162,7 +162,7 @@ class SceneRun {
     return run;
   }
 
-  /// Makes ready for methods at one resolution; the functions below mean them by their index.
+  /// Prepares the methods at one resolution. The functions below refer to them by index.
   Result<void> Prepare(std::span<const shadows::ShadowMethod> methods, int resolution) {
     resolution_ = resolution;
     methods_.assign(methods.begin(), methods.end());
@@ -209,8 +209,8 @@ class SceneRun {
     return row;
   }
 
-  /// Times the methods in turn, round after round, so that whatever else the machine does meanwhile
-  /// falls on all of them. After Measure(), which compiles and warms up.
+  /// Times the methods in turn over several rounds, so that other load on the machine affects all
+  /// equally. Call it after Measure(), which compiles and warms up.
   Result<std::vector<shadows::FrameTime>> Time() {
     std::vector<std::array<std::vector<double>, 3>> times(renderers_.size());
     for (int round = 0; round < options_.timed_rounds; ++round) {
@@ -230,7 +230,7 @@ class SceneRun {
     return medians;
   }
 
-  /// Largest difference of the rays from the closed form over twice the penumbrae.
+  /// Max. difference between the rays and the closed form over twice the penumbrae.
   std::optional<double> TruthError() const {
     if (scene_.edges.empty()) return {};
     double worst = 0.0;
@@ -250,7 +250,7 @@ class SceneRun {
     return {scene_.name, truth_.surfaces, truth_.picture, window_, {}, 0};
   }
 
-  /// Of the method measured last.
+  /// Requires that the method was measured last.
   Result<ShadowBenchPictures::OfMethod> PicturesOf(std::size_t index) {
     BenchRenderer& renderer = renderers_[index];
     ShadowBenchPictures::OfMethod pictures;
@@ -283,7 +283,7 @@ class SceneRun {
     window_ = MostShadedWindow();
     middle_depth_m_ =
         truth_.picture.depth_m(window_.x + window_.width / 2, window_.y + window_.height / 2);
-    // A border of two pixels for what creeps out of the window and for the interpolation.
+    // A border of two pixels for the camera motion and the interpolation.
     const PixelWindow traced{std::max(window_.x - 3, 0), std::max(window_.y - 1, 0),
                              std::min(window_.width + 6, w - std::max(window_.x - 3, 0)),
                              std::min(window_.height + 2, h - std::max(window_.y - 1, 0))};
@@ -296,7 +296,7 @@ class SceneRun {
     return {};
   }
 
-  // A fifth of the picture a side, there where most pixels are penumbra.
+  // A window of a fifth of the image a side, where most pixels are penumbra.
   PixelWindow MostShadedWindow() const {
     PixelWindow best{0, 0, options_.width / 5, options_.height / 5};
     int maximum = -1;
@@ -324,7 +324,7 @@ class SceneRun {
   BenchScene scene_;
   TracedTruth truth_;
   BenchRenderer creeping_;
-  std::vector<BenchRenderer> renderers_;  // One a method.
+  std::vector<BenchRenderer> renderers_;  // One per method.
   std::vector<shadows::ShadowMethod> methods_;
   int resolution_ = 0;
   ShadowBenchOptions options_;

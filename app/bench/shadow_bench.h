@@ -18,49 +18,49 @@ struct ShadowBenchOptions {
   std::vector<std::string> scenes{"pole_and_box", "courtyard", "trees", "wide_field"};
   std::vector<shadows::ShadowMethod> methods;  ///< Empty: all.
   std::vector<int> resolutions{512, 1024, 2048};
-  /// Every method gets as many texels in all as one with maps of N, N/2, N/2, N/4: one map of 5/4 N
-  /// a side, or four of 5/8 N.
+  /// If true, every method gets as many texels in total as one with maps of N, N/2, N/2, N/4. This
+  /// is one map of 5/4 N a side, or four of 5/8 N.
   bool equal_texels = false;
-  std::optional<double> split_weight;  ///< λ of Eq. 11 for all methods in place of each one's own.
+  std::optional<double> split_weight;  ///< λ of Eq. 11 for all methods; else each uses its own.
   std::filesystem::path recording = "recordings/courtyard_midday";
   int width = 480, height = 270;
-  int rays = 256;         ///< A pixel of the truth.
-  int timed_rounds = 5;   ///< Of all methods in turn; the median counts.
-  int creep_frames = 11;  ///< Of the creeping camera, 0.1 px a frame.
-  bool pictures = false;  ///< Keep them.
+  int rays = 256;         ///< Per pixel of the ground truth.
+  int timed_rounds = 5;   ///< All methods in turn; the median counts.
+  int creep_frames = 11;  ///< Camera moves by 0.1 px a frame.
+  bool pictures = false;  ///< Keep the images.
 };
 
-/// Mean standard deviation of V at a point while the camera creeps, four samples a pixel as the
-/// compositor takes.
+/// Mean standard deviation of V at a point during slow camera motion, with four samples a pixel as
+/// in the compositor.
 struct Shimmer {
-  double of_visibility = 0.0;  ///< All points alike.
-  /// Weighed by how squarely the sun falls on a point, as its light is.
+  double of_visibility = 0.0;  ///< All points with equal weight.
+  /// Weighted by the cosine of the sun's incidence, like the light.
   double of_light = 0.0;
 };
 
-/// What frames of a creeping camera show.
+/// Results of the frames with slow camera motion.
 struct Creep {
   Shimmer shimmer, truth_shimmer;
-  int redraws = 0;  ///< Maps redrawn in its frames after the first.
+  int redraws = 0;  ///< Maps redrawn after the first frame.
 };
 
-/// One method at one resolution in one scene.
+/// Results of one method at one resolution in one scene.
 struct ShadowBenchRow {
   std::string scene;
   shadows::ShadowMethod method = shadows::ShadowMethod::kSunDisc;
   int resolution = 0;
-  std::vector<int> map_sizes;  ///< Texels a side, one a partition.
+  std::vector<int> map_sizes;  ///< Texels a side, one per partition.
   double split_weight = 0.0;   ///< λ of Eq. 11.
   ShadowErrors errors;
-  ShadowErrors solid_errors;                    ///< Without what is seen of trees' crowns.
-  std::optional<ClosedFormErrors> closed_form;  ///< Where the scene has closed forms.
-  double pixel_m = 0.0;                         ///< Of the picture, at the closed forms' distance.
+  ShadowErrors solid_errors;                    ///< Without the visible tree crowns.
+  std::optional<ClosedFormErrors> closed_form;  ///< If the scene has closed forms.
+  double pixel_m = 0.0;                         ///< Size of a pixel at the closed forms' distance.
   shadows::FrameTime time;
-  double ratio_to_plain = 0.0;  ///< Processor time over the plain map's, same size; 0: unknown.
+  double ratio_to_plain = 0.0;  ///< Processor time over that of a plain map, same size; 0: unknown.
   Creep creep;
 };
 
-/// What a scene's run leaves for pictures.
+/// Images of one scene's run.
 struct ShadowBenchPictures {
   std::string scene;
   SurfacePicture surfaces;
@@ -69,7 +69,7 @@ struct ShadowBenchPictures {
   struct OfMethod {
     shadows::ShadowMethod method = shadows::ShadowMethod::kSunDisc;
     shadows::VisibilityPicture visibility, partitions;
-    std::vector<Image<float>> maps;  ///< Depths of each partition.
+    std::vector<Image<float>> maps;  ///< Depth maps, one per partition.
   };
   std::vector<OfMethod> methods;  ///< At the middle resolution.
   int resolution = 0;
@@ -78,13 +78,13 @@ struct ShadowBenchPictures {
 struct ShadowBenchResult {
   std::string renderer;  ///< GL_RENDERER.
   std::vector<ShadowBenchRow> rows;
-  std::vector<ShadowBenchPictures> pictures;  ///< One a scene.
-  /// Largest difference of the traced truth from the closed form (pole_and_box).
+  std::vector<ShadowBenchPictures> pictures;  ///< One per scene.
+  /// Max. difference between the ray-traced ground truth and the closed form (pole_and_box).
   std::optional<double> truth_error;
 };
 
-/// Runs the bench; `advance` is called after every truth and every row, `on_row` with each row.
-/// Errors: no OpenGL 4.5 (system), a recording that cannot be read (input).
+/// Runs the benchmark. Calls `advance` after every ground truth and every row, and `on_row` with
+/// each row. Errors: no OpenGL 4.5 (system), a recording that cannot be read (input).
 Result<ShadowBenchResult> RunShadowBench(const ShadowBenchOptions& options,
                                          const std::function<void()>& advance,
                                          const std::function<void(const ShadowBenchRow&)>& on_row);

@@ -61,7 +61,7 @@ void AddGrid(const Axis& axis, bool along_x, exports::VectorDrawing* drawing) {
   }
 }
 
-/// The Pareto front: what nothing else is both quicker and better than, as a dashed stair.
+/// Draws the Pareto front of time and error as dashed steps.
 void AddFront(const ShadowBenchResult& result, const std::string& scene, const Axis& x,
               const Axis& y, exports::VectorDrawing* drawing) {
   std::vector<std::pair<double, double>> rows;

@@ -12,7 +12,7 @@ double Segment(double u) {
   return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// u at which the segment's share is 0.9, by bisection.
+// Inverse of Segment(), by bisection.
 double SegmentInverse(double share) {
   double low = -1.0, high = 1.0;
   for (int i = 0; i < 50; ++i) {
@@ -22,7 +22,7 @@ double SegmentInverse(double share) {
   return 0.5 * (low + high);
 }
 
-// Where a rising profile first reaches a value, in steps of the profile.
+// First position where a rising profile reaches a value, in steps of the profile.
 double Crossing(const std::vector<double>& profile, double value) {
   for (std::size_t i = 1; i < profile.size(); ++i) {
     if (profile[i] < value) continue;
@@ -102,7 +102,7 @@ Result<ClosedFormErrors> MeasureClosedForms(const shadows::BenchScene& scene,
     const double half = EdgeHalfWidth(edge, scene.to_sun);
     const double middle_y = EdgeShadowY(edge, scene.to_sun);
     const double middle_x = edge.middle.x - edge.middle.z * scene.to_sun.x / scene.to_sun.z;
-    // Wide enough for what the coarsest maps make of it.
+    // Includes the penumbra of the coarsest maps.
     const double reach = std::max(4.0 * half, 0.15);
     const double step = 2.0 * reach / kSteps;
     const shadows::ProbeGrid grid{
@@ -157,7 +157,7 @@ Result<ClosedFormErrors> MeasureClosedForms(const shadows::BenchScene& scene,
     errors.width_slope = (count * sum_xy - sum_x * sum_y) / (count * sum_xx - sum_x * sum_x);
   }
   for (const shadows::ContactEdge& contact : scene.contacts) {
-    // Half a millimetre a step, from the foot outwards; the first dark point ends the gap.
+    // Steps of half a millimetre from the base outwards; the first dark point ends the gap.
     constexpr double kStepM = 0.0005;
     const shadows::ProbeGrid grid{contact.middle - glm::dvec3(0.5 * contact.length, 0.0, 0.0),
                                   {contact.length / kRows, 0.0, 0.0},

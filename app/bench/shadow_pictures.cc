@@ -16,7 +16,7 @@ namespace pleinair::app {
 namespace {
 
 constexpr int kZoom = 3, kColumns = 4, kErrorColumns = 2, kLabelHeight_px = 18, kJpegQuality = 88;
-constexpr float kSky = 0.22F;  // Of the sun's light on a surface that faces it.
+constexpr float kSky = 0.22F;  // Share of the sunlight on a surface that faces the sun.
 constexpr std::array<std::array<float, 3>, 4> kTints{
     {{1.0F, 0.45F, 0.4F}, {0.5F, 1.0F, 0.45F}, {0.45F, 0.6F, 1.0F}, {1.0F, 0.95F, 0.4F}}};
 
@@ -93,8 +93,7 @@ RgbImage MethodSheet(const ShadowBenchPictures& scene) {
   return sheet;
 }
 
-// White where a method is right, red where it lets light through that the rays do not, blue where
-// it is too dark; grey where their surfaces differ.
+// White: correct. Red: too light. Blue: too dark. Grey: different surfaces.
 RgbImage ErrorPicture(const shadows::VisibilityPicture& result,
                       const shadows::VisibilityPicture& truth) {
   RgbImage picture(truth.visibility.width(), truth.visibility.height(), 3);
@@ -114,7 +113,7 @@ RgbImage ErrorPicture(const shadows::VisibilityPicture& result,
   return picture;
 }
 
-// The whole pictures' errors side by side.
+// Error images of the whole view, side by side.
 RgbImage ErrorSheet(const ShadowBenchPictures& scene) {
   const int width = scene.truth.visibility.width(), height = scene.truth.visibility.height();
   const int tiles = static_cast<int>(scene.methods.size());
@@ -146,7 +145,7 @@ RgbImage PartitionsPicture(const ShadowBenchPictures& scene,
       }
     }
   }
-  // Each map as large as its texels are many, in its partition's tint, dark nearest to the sun.
+  // Each map in proportion to its texels, with its partition's tint, dark near the sun.
   int left = 4;
   for (std::size_t i = 0; i < method.maps.size(); ++i) {
     const Image<float>& map = method.maps[i];

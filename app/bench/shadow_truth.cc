@@ -12,7 +12,7 @@ namespace {
 
 Vec3 ToVec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// How far a ray starts above its surface: the positions are floats.
+// Ray offset above its surface, because positions are floats.
 double Lift(const glm::dvec3& point) { return 2e-6 * (1.0 + glm::length(point)) + 2e-5; }
 
 }  // namespace
@@ -42,7 +42,7 @@ Result<ShadowTruth> ShadowTruth::Create(const shadows::BenchScene& scene, int ra
   const shadows::LightAxes axes = shadows::LightAxes::FromSun(scene.to_sun);
   const double tangent = std::tan(shadows::kSunAngularRadius.value());
   for (int i = 0; i < rays; ++i) {
-    // Vogel's spiral: even over the disc.
+    // Vogel's spiral: uniform over the disc.
     const double radius = tangent * std::sqrt((i + 0.5) / rays);
     const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
     truth.directions_.push_back(ToVec3(glm::normalize(
@@ -118,7 +118,7 @@ shadows::VisibilityPicture ShadowTruth::Render(const shadows::View& view, int wi
       double sum = 0.0;
       int count = 0;
       for (int place = 0; place < places; ++place) {
-        // R2 of Roberts 2018: even over the pixel.
+        // R2 sequence (Roberts 2018): uniform over the pixel.
         const double dx = std::fmod(0.5 + (place + 1) * 0.7548776662466927, 1.0) - 0.5;
         const double dy = std::fmod(0.5 + (place + 1) * 0.5698402909980532, 1.0) - 0.5;
         const Hit hit = Trace(view, eye, x + 0.5 + dx, y + 0.5 + dy, width, height);
