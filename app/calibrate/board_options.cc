@@ -17,7 +17,7 @@ namespace {
 using tracker::BoardKind;
 using tracker::CalibrationBoard;
 
-/// A whole number of a description, within what boards have; -1 where there is none.
+/// Reads an integer of a description, within the range of boards; -1 if there is none.
 int Whole(const nlohmann::json& json, const char* key) {
   const auto value = json.value(key, nlohmann::json());
   if (!value.is_number_integer()) return -1;

@@ -11,9 +11,9 @@ class App;
 
 namespace pleinair::app {
 
-/// Which board a person has, as the command line says it.
+/// The user's calibration board, as on the command line.
 struct BoardOptions {
-  std::string description;          ///< A file that `pleinair board` wrote.
+  std::string description;          ///< A file written by `pleinair board`.
   std::string chessboard, charuco;  ///< "9x6".
   std::string dictionary;
   std::optional<double> square_mm;
@@ -22,13 +22,13 @@ struct BoardOptions {
 /// Adds --board, --chessboard, --charuco, --dictionary and --square-mm; `options` must outlive it.
 void AddBoardOptions(CLI::App& command, BoardOptions& options);
 
-/// Errors (input): none or several boards, sides that cannot be read, a file that describes none.
+/// Errors (input): no board or several, invalid sides, a file without a board description.
 Result<tracker::CalibrationBoard> BoardOf(const BoardOptions& options);
 
-/// A board from a file that `pleinair board` wrote. Errors (input): not one, or of another version.
+/// Reads a board from a file written by `pleinair board`. Errors (input): another file or version.
 Result<tracker::CalibrationBoard> ReadBoardDescription(const std::string& file);
 
-/// "9x6". Errors (input), about `option`: anything else.
+/// Parses "9x6". Errors (input), about `option`: other text.
 Result<std::pair<int, int>> ParseSides(const std::string& option, const std::string& text);
 
 }  // namespace pleinair::app

@@ -31,7 +31,7 @@ exports::DrawingColor Heat(double share) {
   return Between(kSteps[step], kSteps[step + 1], at - step);
 }
 
-/// A drawing of the picture, with its frame; pixels are `scale` units large.
+/// An empty drawing of the image with its frame. `scale`: drawing units per pixel.
 exports::VectorDrawing PictureFrame(const CameraModel& camera, const std::string& title,
                                     double* scale) {
   *scale = kWidth / camera.width;
@@ -45,10 +45,10 @@ exports::VectorDrawing PictureFrame(const CameraModel& camera, const std::string
   return drawing;
 }
 
-/// Of a pixel's position (integer = centre) in the drawing.
+/// Position of a pixel (integer = centre) in the drawing.
 Vec2 Place(Vec2 pixel, double scale) { return (pixel + Vec2{0.5, 0.5}) * scale; }
 
-/// Ends of the board as the view saw them: the outline of its points, by the gift wrapping method.
+/// Outline of the board in a view: the convex hull of its points, by gift wrapping.
 std::vector<Vec2> Outline(const std::vector<Vec2>& points) {
   std::size_t start = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -143,7 +143,7 @@ exports::VectorDrawing ResidualDrawing(const LensCalibration& calibration) {
     drawing.lines.push_back({{{0, i * cell_height}, {kWidth, i * cell_height}}, kSoft, 0.7, true});
   }
   const auto regions = ResidualRegions(calibration);
-  // The longest of the arrows is a third of a cell, unless all are nothing beside the noise.
+  // The longest arrow is a third of a cell, unless all are small compared with the noise.
   double longest = 0.5 * calibration.rms_px;
   for (const ResidualRegion& region : regions) longest = std::max(longest, Norm(region.mean_px));
   const double arrow_scale = 0.33 * cell_height / std::max(longest, 1e-12);
@@ -223,7 +223,7 @@ exports::VectorDrawing PlacesDrawing(const LensCalibration& calibration) {
       return (calibration.fit.camera_from_board[i] * Point<Marker>{{x, y, 0.0}}).xyz;
     };
     const Vec2 middle = (minimum + maximum) * 0.5;
-    // Both middle lines of the board: from above one of them is seen at its full length.
+    // Both centre lines of the board: from above, one of them appears at full length.
     for (const auto& [a, b] :
          {std::pair{in_camera(minimum.x, middle.y), in_camera(maximum.x, middle.y)},
           std::pair{in_camera(middle.x, minimum.y), in_camera(middle.x, maximum.y)}}) {

@@ -5,22 +5,21 @@
 
 namespace pleinair::app {
 
-/// Where in the picture the board was seen: each view's outline, each corner coloured by how far
-/// off it is (blue none, red three times the RMS), and crosses where nothing was seen.
+/// Image coverage by the board: each view's outline, each corner colored by its residual (blue
+/// none, red three times the RMS). Crosses mark areas without observations.
 exports::VectorDrawing CoverageDrawing(const tracker::LensCalibration& calibration);
 
-/// Residuals by regions of the picture: the mean as an arrow, drawn `kArrowScale` times as long,
-/// and the RMS in px. Arrows that point the same way beside each other are what the lens model
-/// misses.
+/// Residuals by image region: the mean as an arrow, drawn `kArrowScale` times as long, and the RMS
+/// in px. Neighbouring arrows in the same direction show an error of the lens model.
 exports::VectorDrawing ResidualDrawing(const tracker::LensCalibration& calibration);
 
-/// What the lens does to a grid: without distortion (grey, dashed) and with it.
+/// A grid without distortion (grey, dashed) and with the lens distortion.
 exports::VectorDrawing DistortionDrawing(const tracker::LensCalibration& calibration);
 
-/// Where the board stood, from above and from the side, with the camera's field of view.
+/// Poses of the board from above and from the side, with the camera's field of view.
 exports::VectorDrawing PlacesDrawing(const tracker::LensCalibration& calibration);
 
-/// A part of the picture and its residuals.
+/// A region of the image and its residuals.
 struct ResidualRegion {
   int points = 0;
   Vec2 mean_px;

@@ -101,7 +101,7 @@ bool IsPicture(const fs::path& file) {
   return std::string_view(start, 4) == "\x89PNG" || std::string_view(start, 2) == "\xff\xd8";
 }
 
-/// Pictures of a folder by their names, numbers as numbers.
+/// Images of a folder, sorted by name with numbers in numeric order.
 Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -148,7 +148,7 @@ Result<std::unique_ptr<PictureStream>> OpenFilm(const fs::path& file) {
   return std::make_unique<Film>(file.string(), std::move(video.frames));
 }
 
-/// One name: pictures, which are added to `files`, or a film.
+/// Opens one source: images, which are added to `files`, or a video.
 Result<std::unique_ptr<PictureStream>> OpenOne(const fs::path& path, std::vector<fs::path>* files) {
   std::error_code error;
   if (!fs::exists(path, error)) return InputError(path.string(), "is not there", "check the name");
@@ -158,7 +158,7 @@ Result<std::unique_ptr<PictureStream>> OpenOne(const fs::path& path, std::vector
     files->insert(files->end(), found.begin(), found.end());
     return nullptr;
   }
-  // What is named like a picture and is none is refused as one.
+  // A file with an image's name and other content is reported as an invalid image.
   if (!IsImageName(path) && !IsPicture(path)) return OpenFilm(path);
   files->push_back(path);
   return nullptr;

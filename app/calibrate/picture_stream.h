@@ -18,22 +18,22 @@ struct NamedPicture {
   GreyImage grey;
 };
 
-/// Pictures of a board, one after another.
+/// A sequence of images of a board.
 class PictureStream {
  public:
   virtual ~PictureStream() = default;
-  /// The next one; nothing at the end.
+  /// Returns the next image; nothing at the end.
   virtual Result<std::optional<NamedPicture>> Next() = 0;
   virtual std::optional<std::int64_t> Count() const = 0;
-  /// They come from a film or a camera: one shows much the same as the next.
+  /// True for a video or a camera: consecutive images are similar.
   virtual bool is_film() const = 0;
-  /// They come from a camera, which never ends by itself.
+  /// True for a camera, which never ends by itself.
   virtual bool is_live() const { return false; }
 };
 
-/// Opens what a person named: pictures; a folder with pictures, of which a recording's `frames` is
-/// one; a film; a recording's frames.pack; or a camera's URI. Only pictures may be several.
-/// Errors (input): nothing there, no picture in the folder, something that cannot be read.
+/// Opens the user's sources: images; a folder with images, such as `frames` of a recording; a
+/// video; frames.pack of a recording; or a camera's URI. Several sources must all be images. Errors
+/// (input): a missing source, a folder without images, an unreadable source.
 Result<std::unique_ptr<PictureStream>> OpenPictures(const std::vector<std::string>& sources,
                                                     const devices::FormatRequest& requested);
 

@@ -31,7 +31,7 @@ Result<void> CheckSize(const NamedPicture& picture, const std::string& first_nam
                     "a calibration is for one size: give pictures of one camera at one size");
 }
 
-/// After each view of a camera, what is still missing.
+/// Reports the missing coverage after each view of a camera.
 void ReportProgress(const Collection& collection, const tracker::ViewCoverage& coverage) {
   std::string bare;
   constexpr const char* kHalves[] = {"left", "right", "top", "bottom"};

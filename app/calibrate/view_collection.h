@@ -11,7 +11,7 @@
 
 namespace pleinair::app {
 
-/// A board in a picture.
+/// A board in an image.
 struct CollectedView {
   tracker::BoardView view;
   GreyImage grey;
@@ -19,18 +19,18 @@ struct CollectedView {
 
 struct Collection {
   int width = 0, height = 0;
-  int looked_at = 0;  ///< Pictures.
+  int looked_at = 0;  ///< Images.
   std::vector<CollectedView> views;
 };
 
 struct CollectionOptions {
   int max_views = 60;
   std::optional<double> seconds;  ///< For cameras.
-  bool quiet = false;             ///< Says nothing of single views.
+  bool quiet = false;             ///< No messages about single views.
 };
 
-/// Looks for the board in all pictures, and picks views that differ out of films. Errors (input):
-/// pictures that cannot be read, of different sizes, none with the board; (system): interrupted.
+/// Detects the board in all images, and selects different views from videos. Errors (input): images
+/// that cannot be read, have different sizes, or none with the board; (system): interrupted.
 Result<Collection> CollectViews(PictureStream& pictures, tracker::BoardFinder& finder,
                                 const CollectionOptions& options);
 
