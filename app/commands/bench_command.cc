@@ -103,7 +103,7 @@ constexpr const char* kHead =
     "scene        method      size  penumbra     rmse     bias     leak leak p99   darker  shimmer"
     " maps ms scene ms cpu ms / plain\n";
 
-// What is named twice is measured once.
+// Measure repeated entries once.
 template <typename T>
 void DropRepeated(std::vector<T>& list) {
   auto end = list.begin();
@@ -153,7 +153,7 @@ Result<void> WriteResults(const ShadowBenchResult& result, const std::filesystem
 Result<void> RunBench(BenchOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckBenchOptions(options));
   if (!options.output.empty()) {
-    // Before the minutes of measuring.
+    // Checked before the minutes of measurement.
     std::error_code error;
     std::filesystem::create_directories(options.output, error);
     if (error) return tl::make_unexpected(WriteError(options.output, error.value()));
@@ -166,7 +166,8 @@ Result<void> RunBench(BenchOptions& options) {
       "bench",
       static_cast<std::int64_t>(bench.scenes.size() * (1 + methods * bench.resolutions.size())),
       "rows");
-  bool headed = options.json;  // With the first row: an error before it is all that is said.
+  bool headed = options.json;  // The header is printed with the first row: an earlier error is then
+                               // the only output.
   const auto print = [&](const ShadowBenchRow& row) {
     if (!headed) std::cout << kHead;
     headed = true;

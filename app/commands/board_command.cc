@@ -73,7 +73,7 @@ Result<exports::Board> CheckBoard(const BoardSheetOptions& options) {
   return board;
 }
 
-/// Where the description goes. Beside the sheet only where nothing else has that name.
+/// File of the description. Beside the sheet only if that name is free.
 Result<fs::path> NameDescription(const BoardSheetOptions& options) {
   if (!options.description.empty()) return fs::path(options.description);
   fs::path beside = fs::path(options.output).replace_extension(".json");
@@ -85,11 +85,11 @@ Result<fs::path> NameDescription(const BoardSheetOptions& options) {
   return beside;
 }
 
-/// What is printed, and its description.
+/// The printed sheet and its description.
 struct Printed {
   exports::Sheet sheet;
   std::string description;
-  nlohmann::ordered_json json;  ///< What --json tells besides the files.
+  nlohmann::ordered_json json;  ///< Content of --json in addition to the files.
 };
 
 Result<Printed> PrintMarkers(const BoardSheetOptions& options, exports::PageSize page) {
@@ -105,7 +105,7 @@ Result<Printed> PrintMarkers(const BoardSheetOptions& options, exports::PageSize
                  {{"first", board.first}, {"count", board.Count()}}};
 }
 
-/// Side of a ChArUco board's markers: enough white around for its codes to be read.
+/// Side of a ChArUco board's markers: with enough white margin to decode them.
 Result<double> MarkerSide_mm(const BoardSheetOptions& options, double square_mm) {
   constexpr double kUsual = 0.75, kMin = 0.4, kMax = 0.9;
   const double side = options.marker_mm.value_or(kUsual * square_mm);

@@ -43,7 +43,7 @@ constexpr const char* kCalibrateExamples =
     "directions, in every corner of the picture, with focus and zoom held. Views that do not\n"
     "determine the lens are refused with the reasons. docs/guide/calibrate.md tells more.";
 
-/// A file to write and its form.
+/// A file to write and its format.
 struct Output {
   const char* option;
   const char* help;
@@ -76,7 +76,7 @@ Result<devices::FormatRequest> WishOf(const CalibrateOptions& options) {
   return requested;
 }
 
-/// What may be wrong with the outputs is said before minutes of work.
+/// Reports problems with the outputs before minutes of work.
 Result<void> CheckOutputs(const CalibrateOptions& options) {
   const bool any = !options.report.empty() || !options.coverage.empty() || options.json ||
                    std::any_of(options.outputs.begin(), options.outputs.end(),
@@ -98,8 +98,7 @@ std::vector<tracker::PlaneView> Planes(const Collection& collection,
   return planes;
 }
 
-/// Prints are measured once more when the lens is known about; where it cannot be found out, what
-/// comes next says why.
+/// Refines the markers when the lens is known. If calibration fails, the next step reports why.
 void RefineViews(tracker::BoardFinder& finder, Collection* collection) {
   if (!finder.refines() || collection->views.size() < tracker::kMinViews) return;
   const auto rough = tracker::FitLens(Planes(*collection, finder.board()), collection->width,
@@ -153,7 +152,7 @@ Result<void> WriteCoverage(const std::string& file, const LensCalibration& calib
 
 Result<void> Write(const CalibrateOptions& options, const LensCalibration& calibration,
                    const Collection& collection, const tracker::CalibrationBoard& board) {
-  // All texts first: a form that cannot hold the lens leaves nothing behind.
+  // All texts first: if a format cannot store the lens, no file is written.
   std::vector<std::pair<std::string, std::string>> texts;
   for (const Output& output : options.outputs) {
     if (output.file.empty()) continue;

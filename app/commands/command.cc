@@ -31,7 +31,7 @@ constexpr const char* kExamples =
     "'pleinair SUBCOMMAND --help' tells more. Exit codes: 0 done, 1 could not, 2 the input or\n"
     "the usage is wrong.";
 
-/// Messages are one line, whatever a file's name or a library's text holds.
+/// Messages are one line, whatever a file's name or a library's text contains.
 std::string OneLine(std::string text) {
   for (char& c : text) {
     if (c == '\n' || c == '\r') c = ' ';
@@ -45,7 +45,7 @@ int Fail(const std::string& message, ExitCode code) {
   return code;
 }
 
-/// Standard output may be a file on a full disk: what was printed counts only once it is out.
+/// Standard output may be a file on a full disk: printed text counts only when it is flushed.
 int FlushOutput(int code) {
   errno = 0;
   std::cout.flush();

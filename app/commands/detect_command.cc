@@ -58,7 +58,7 @@ Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
                     "use the calibration of this camera at this resolution");
 }
 
-/// Options that say how S-G markers are found, where none are looked for.
+/// Checks for options of S-G detection when no S-G markers are detected.
 Result<void> CheckUseOfOptions(const CLI::App& command, const DetectArguments& arguments) {
   const bool sg = arguments.size_mm != 0.0 && std::ranges::count(arguments.families, "sg") > 0;
   return RefuseUnusedOptions(command,
@@ -68,7 +68,7 @@ Result<void> CheckUseOfOptions(const CLI::App& command, const DetectArguments& a
 }  // namespace
 
 Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
-  // Targets know their size; markers are looked for beside them when theirs is given.
+  // Targets know their size. Markers are also detected if their size is given.
   const bool only_targets = !arguments.targets.empty() && arguments.size_mm == 0.0;
   if (!only_targets && (!(arguments.size_mm > 0.0) || !std::isfinite(arguments.size_mm))) {
     return InputError("--size-mm", "the marker's size must be positive",
@@ -150,7 +150,7 @@ void AddDetectCommand(CLI::App& app, CommandResult& result) {
                    "others are not reported, and more of these may be covered")
       ->delimiter(',')
       ->needs(size);
-  // What `detect` prints is JSON in any case; the flag is there for scripts that pass it always.
+  // `detect` always prints JSON. The flag exists for scripts that always pass it.
   command->add_flag("--json")->description("One JSON object a line (the only form)");
   command->callback([command, arguments, &result] {
     result.status = CheckUseOfOptions(*command, *arguments);

@@ -61,7 +61,7 @@ std::string Sizes(const devices::FormatDescription& format) {
   return text;
 }
 
-/// Formats with the same sizes together, those that are not read here by name alone.
+/// Groups formats of equal sizes. Formats that cannot be read here appear by name only.
 void PrintFormats(const std::vector<devices::FormatDescription>& formats) {
   std::vector<std::pair<std::string, std::string>> names_of_sizes;
   std::string not_read;
@@ -140,7 +140,7 @@ void RunDevices(const DevicesOptions& options) {
   const devices::CameraList list = devices::ListCameras(options.network);
   for (const devices::CameraDescription& camera : list.cameras) {
     if (options.json) {
-      // A driver's names may hold any bytes.
+      // A driver's names may contain any bytes.
       std::cout << CameraJson(camera).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                 << '\n';
     } else {

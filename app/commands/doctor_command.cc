@@ -88,7 +88,7 @@ Finding ExamineFocalLengths(const CameraModel& camera) {
   const double view_deg = 2.0 * std::atan(0.5 / widths) / kRadiansPerDegree;
   const std::string measured =
       Format("fx %.1f, fy %.1f px: %.1f° across before distortion", camera.fx, camera.fy, view_deg);
-  // 0.2 picture widths is a 136° lens, 10 widths a 5.7° one.
+  // 0.2 image widths is a 136° lens, 10 widths a 5.7° one.
   if (widths < 0.2 || widths > 10.0) {
     return {Verdict::kDoubtful, "focal length",
             measured + "; unusual: is the picture size the calibration's own?"};
@@ -116,8 +116,8 @@ Finding ExaminePrincipalPoint(const CameraModel& camera) {
   return {Verdict::kGood, "principal point", measured};
 }
 
-// Follows rays from the centre towards the middles of the edges and the corners until they leave
-// the picture; on the way the distorted point must keep moving outwards.
+// Follows rays from the centre towards the edge midpoints and corners until they leave the image.
+// On the way the distorted point must move outwards.
 Finding ExamineDistortion(const CameraModel& camera) {
   if (!camera.HasDistortion()) return {Verdict::kGood, "distortion", "none"};
   constexpr int kDirections = 16;
@@ -175,7 +175,7 @@ Result<void> RunDoctor(const DoctorOptions& options) {
     }
   }
   if (!first_bad) return {};
-  // A machine that cannot draw is the machine's fault; a bad calibration is the user's.
+  // A machine that cannot draw is a system error; a bad calibration is an input error.
   if (first_bad->subject == "OpenGL") return SystemError("doctor", first_bad->text);
   return InputError(options.calibration, first_bad->subject + ": " + first_bad->text);
 }

@@ -7,20 +7,22 @@
 
 namespace pleinair::app {
 
-/// What `pleinair doctor` found out about one thing.
+/// A result of `pleinair doctor`.
 struct Finding {
   enum class Verdict { kGood, kDoubtful, kBad };
   Verdict verdict = Verdict::kGood;
   std::string subject;  ///< "OpenGL", "video encoder", "focal length", …
-  std::string text;     ///< What was found and, where it is not good, what to do.
+  std::string text;     ///< The result and, if it is not good, the remedy.
 };
 
-/// Whether edges of virtual objects get as many samples a pixel as they should.
+/// Checks whether edges of virtual objects get enough samples per pixel.
 Finding ExamineSamples(int samples);
 
-/// Whether a calibration is plausible: focal lengths against the picture's width and each other,
-/// the principal point inside the picture, a distortion that keeps growing with the angle from the
-/// centre to beyond the picture's corners (otherwise two directions share one pixel).
+/// Checks the plausibility of a calibration:
+/// - focal lengths relative to the image width and to each other;
+/// - the principal point inside the image;
+/// - a distortion that grows monotonically with the angle from the centre to beyond the image
+/// corners. Otherwise two directions share one pixel.
 std::vector<Finding> ExamineCalibration(const CameraModel& camera);
 
 }  // namespace pleinair::app

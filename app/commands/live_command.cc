@@ -55,16 +55,16 @@ constexpr const char* kLiveExamples =
     "window,\n"
     "docs/guide/cameras.md of cameras.";
 
-// Of a long run's account, where it is told at all.
+// Interval of the reports in a long run, if they are enabled.
 constexpr double kReportEvery_s = 60.0;
 
-/// The camera's controls that are held still.
+/// Camera controls to lock.
 struct LiveHolds {
-  bool all = false;  ///< Those without a value are held as they are.
+  bool all = false;  ///< Controls without a value are locked at their current value.
   std::optional<double> exposure_s, gain, white_balance_k, focus;
 };
 
-/// The camera or recording, and what is said of it.
+/// The camera or recording, and its descriptions.
 struct LiveInputs {
   std::string camera, scene, calibration, time, pixel_format;
   std::optional<double> rate_hz;
@@ -92,7 +92,7 @@ struct LiveArguments {
   bool headless = false, lossless = false, json = false, shadow_debug = false;
 };
 
-/// Where frames come from, and what else is known with them.
+/// The source of frames with its metadata.
 struct LiveSource {
   std::unique_ptr<devices::FrameSource> frames;
   devices::LiveCamera* camera = nullptr;  ///< Null for a recording.
@@ -112,7 +112,7 @@ std::vector<devices::ControlRequest> ControlsOf(const LiveHolds& holds) {
   return control_requests;
 }
 
-/// Nothing that was asked for is passed over in silence.
+/// Reports every requested option that has no effect.
 Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& arguments,
                               bool is_file) {
   constexpr const char* kCameras = "cameras, not to recordings";
@@ -205,12 +205,12 @@ Result<std::optional<UtcTime>> StartOf(const LiveArguments& arguments, const Liv
     PLEINAIR_ASSIGN_OR_RETURN(const UtcTime time, ParseTimeOption("--time", arguments.input.time));
     return time;
   }
-  // A recording was made in its own day; in front of a camera it is now.
+  // A recording has its own start time; a camera uses the current time.
   if (source.camera != nullptr) return std::nullopt;
   return source.scene->place_time.start;
 }
 
-/// Draws until the end, the time or Ctrl-C; gives the last picture.
+/// Draws until the end, the time limit or Ctrl-C; returns the last image.
 Result<RgbImage> DrawAll(LiveSession& session, const LiveSource& source,
                          const LiveArguments& arguments, LiveReport* report) {
   using Clock = std::chrono::steady_clock;
@@ -229,7 +229,7 @@ Result<RgbImage> DrawAll(LiveSession& session, const LiveSource& source,
   return last;
 }
 
-/// Shows a window until it is closed; there is no last picture.
+/// Shows a window until it is closed; there is no last image.
 Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]] ImageSize window,
                          [[maybe_unused]] const LiveSource& source,
                          [[maybe_unused]] const LiveArguments& arguments,
@@ -256,9 +256,8 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   return RgbImage();
 }
 
-/// Gives the memory of pictures back as they go. The C library otherwise keeps it in an arena of
-/// each thread once the first has gone, in pieces: 110 MB more within minutes
-/// (docs/method/live.md).
+/// Returns the memory of freed images to the system. Otherwise the C library keeps it in an arena
+/// per thread and fragments it: 110 MB more within minutes (docs/method/live.md).
 void KeepNoFreedPictures() {
 #ifdef __GLIBC__
   constexpr int kPicture_bytes = 256 * 1024;

@@ -41,7 +41,7 @@ constexpr const char* kMarkerExamples =
     "The size is the outer edge of the black square, not of the paper.\n";
 
 constexpr const char* kIdPattern = "{id}";
-// Fewer pixels than modules cannot show them; the upper end is 400 megapixels.
+// Fewer pixels than modules cannot show them; the upper limit is 400 megapixels.
 constexpr int kMinPixels = sg::kModules;
 constexpr int kMaxPixels = 20'000;
 
@@ -68,7 +68,7 @@ tl::unexpected<Error> NotANumber(const std::string& word) {
                         "; several as 3 5 8 or 0-9");
 }
 
-/// Which file each number goes to.
+/// Returns the file of each number.
 Result<std::vector<fs::path>> NameFiles(const std::string& output, const std::vector<int>& numbers,
                                         exports::SheetFormat format) {
   std::error_code error;

@@ -7,8 +7,8 @@
 
 namespace pleinair::app {
 
-/// Marker numbers as the command line gives them, "17" or "0-49", in their order. Errors (input):
-/// anything else, or a number outside 0…4095.
+/// Parses marker numbers of the command line, "17" or "0-49", in order. Errors (input): other text,
+/// or a number outside 0…4095.
 Result<std::vector<int>> ParseMarkerNumbers(const std::vector<std::string>& words);
 
 }  // namespace pleinair::app

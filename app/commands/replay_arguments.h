@@ -9,10 +9,10 @@
 
 namespace pleinair::app {
 
-/// A command line of `replay` or `bench replay`, as the parser fills it in.
+/// Parsed command line of `replay` or `bench replay`.
 struct ReplayArguments {
-  std::string command = "replay";  ///< What stands behind `pleinair`.
-  ReplayOptions options;           ///< What the parser writes as it is.
+  std::string command = "replay";  ///< Words after `pleinair`.
+  ReplayOptions options;           ///< Options that need no conversion.
   struct Paths {
     std::string recording, output, scene, calibration;
   } paths;
@@ -22,14 +22,14 @@ struct ReplayArguments {
   struct Day {
     std::string hours, every = "10min";
     std::optional<std::int64_t> frame;
-  } day;  ///< Of the time-lapse.
+  } day;  ///< Options of the time-lapse.
   bool no_video = false;
   bool json = false;
   struct Research {
     std::string shadows = "ours";
     std::vector<int> shadow_sizes;
     std::string shader_directory;
-  } research;  ///< Of `bench replay` alone.
+  } research;  ///< Only for `bench replay`.
 };
 
 }  // namespace pleinair::app

@@ -16,7 +16,7 @@
 namespace pleinair::app {
 namespace {
 
-/// A word as a shell takes it.
+/// Quotes a word for a shell.
 std::string Quoted(const std::string& word) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%";
@@ -26,7 +26,7 @@ std::string Quoted(const std::string& word) {
   return quoted + "'";
 }
 
-/// A line of messages stays one whatever a folder is called, and the terminal is left alone.
+/// Keeps a message on one line and free of terminal codes, whatever a folder is called.
 std::string OneLine(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
@@ -121,7 +121,7 @@ Result<void> Run(ReplayArguments& arguments) {
               sizes.begin());
   }
   if (!arguments.fog.empty()) {
-    // Partitions that are not named are like the last that is.
+    // Partitions without a value use the last value.
     options.composer.fog.fill(arguments.fog.back());
     std::copy(arguments.fog.begin(), arguments.fog.end(), options.composer.fog.begin());
   }

@@ -5,7 +5,7 @@
 
 namespace pleinair::app {
 
-/// Replays as the command line asks for and prints what came of it.
+/// Runs the requested replay and prints its result.
 Result<void> RunReplay(ReplayArguments& arguments);
 
 }  // namespace pleinair::app

@@ -78,7 +78,7 @@ void RefuseResearchOptions(CLI::App& command) {
                   name, "is an option of 'pleinair bench replay', which takes all of replay's too");
             })
         ->expected(0, 4)
-        ->group("");  // Not in the help.
+        ->group("");  // Hidden from the help.
   }
 }
 

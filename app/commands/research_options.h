@@ -8,11 +8,11 @@ class App;
 
 namespace pleinair::app {
 
-/// Adds the options that `bench replay` has beside those of `replay`: shadow maps, the light
-/// solver's fineness, shaders. `arguments` must outlive the command.
+/// Adds the options of `bench replay` that `replay` lacks: shadow maps, accuracy of the light
+/// solver, shaders. `arguments` must outlive the command.
 void AddResearchOptions(CLI::App& command, ReplayArguments& arguments);
 
-/// Makes the parser of `command` refuse each of them and name `bench replay`.
+/// Makes the parser of `command` reject each of them and suggest `bench replay`.
 void RefuseResearchOptions(CLI::App& command);
 
 }  // namespace pleinair::app

@@ -38,7 +38,7 @@ constexpr int kFirstYear = 1678;
 constexpr int kLastYear = 2261;
 constexpr int kMaxDays = 3660;
 
-/// One moment, a table from `time` to `until`, or calendar days.
+/// One time, a table from `time` to `until`, or calendar days.
 struct SunSpan {
   std::string time, until;
   double step_s = 600.0;
@@ -47,7 +47,7 @@ struct SunSpan {
   std::string utc_offset;
 };
 
-/// The picture of a year's sun paths.
+/// The diagram of a year's sun paths.
 struct SunPathPicture {
   std::string file;
   int year = 0;

@@ -86,13 +86,13 @@ RgbImage DrawTargetFeatures(const tracker::PictureTarget& target) {
     }
   }
   const double view_px = tracker::kTargetSide * target.views[tracker::kFrontalView].from_target[0];
-  const double per_view = width / view_px;  // Pixels of the picture to one of the view.
+  const double per_view = width / view_px;  // Image pixels per pixel of the view.
   for (const tracker::TargetKeypoint& keypoint : target.keypoints) {
     if (keypoint.view != tracker::kFrontalView) continue;
     const Vec2 place = tracker::PlaceOnTarget(target, keypoint);
     const double x = place.x / tracker::kTargetSide * width - 0.5;
     const double y = place.y / tracker::kTargetSide * height - 0.5;
-    // The blob that a keypoint is has about twice its scale for a radius.
+    // A keypoint's blob has a radius of about twice its scale.
     const double radius = std::max(2.0, 2.0 * keypoint.scale * per_view);
     const int steps = static_cast<int>(8.0 * radius) + 8;
     for (int step = 0; step < steps; ++step) {
@@ -118,7 +118,7 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
     return InputError("--name", "the name is empty, too long or no plain UTF-8",
                       fmt::format("give one of 1 to {} bytes", tracker::kMaxTargetName));
   }
-  // A slip in a name should not cost the seconds that making a target takes.
+  // Checked first: a typing error must not cost the seconds of creating a target.
   for (const std::filesystem::path& file :
        {std::filesystem::path(arguments.output),
         std::filesystem::path(arguments.preview.value_or(""))}) {
@@ -133,7 +133,7 @@ Result<void> RunTarget(const TargetArguments& arguments, std::ostream& out) {
       tracker::MakePictureTarget(decoded.grey.view(), Metres(arguments.width_mm * 1e-3), name);
   if (!target) return LocatedError(std::move(target).error(), arguments.picture);
   const tracker::TargetQuality quality = tracker::RateTarget(*target);
-  // What can fail comes first: either both files are there in the end, or neither is new.
+  // Steps that can fail come first: either both files are new in the end, or neither is.
   const std::filesystem::path preview(arguments.preview.value_or(""));
   const std::filesystem::path temporary = TemporarySibling(preview);
   if (arguments.preview) {
