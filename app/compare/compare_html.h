@@ -8,7 +8,7 @@
 
 namespace pleinair::app {
 
-/// One picture beside its truth; JPEG bytes.
+/// An image with its ground truth; JPEG bytes.
 struct ComparedPicture {
   std::string name;
   PictureScores scores;
@@ -19,11 +19,11 @@ struct Comparison {
   std::string command, pictures, truth;  ///< As called; the two folders.
   std::vector<ComparedPicture> compared;
   PictureScores mean;
-  std::string time_lapse;  ///< Part of the page that shows the day; empty without.
+  std::string time_lapse;  ///< HTML fragment that shows the day; empty without.
 };
 
-/// A page without any external resource: scores as a table, and of every picture the truth, ours
-/// and the difference.
+/// Returns a page without external resources: a table of scores, and for every image the ground
+/// truth, our image and the difference.
 std::string CompareHtml(const Comparison& comparison);
 
 }  // namespace pleinair::app

@@ -8,26 +8,26 @@
 
 namespace pleinair::app {
 
-/// One picture that there is a truth for.
+/// One image that has a ground truth.
 struct GroundTruthImage {
   std::string name;                      ///< "0036".
-  std::filesystem::path truth;           ///< The picture with the object really there.
-  std::filesystem::path object, shadow;  ///< Regions (PictureRegions); empty: nobody knows.
+  std::filesystem::path truth;           ///< The image with the real object.
+  std::filesystem::path object, shadow;  ///< Regions (PictureRegions); empty: unknown.
 };
 
-/// Of a recording: what the `key_frames` of its scene.json name; empty where there are none. Errors
-/// (input): a scene.json that cannot be read, a file that it names is missing.
+/// Finds the `key_frames` of a recording's scene.json; empty if there are none. Errors (input): a
+/// scene.json that cannot be read, or that names a missing file.
 Result<std::vector<GroundTruthImage>> FindKeyFrames(const std::filesystem::path& folder,
                                                     bool glossy);
 
-/// What a recording with ground truth (a folder whose scene.json lists `key_frames`), or a folder
-/// of pictures NNNN.png, has true pictures of. `glossy`: of the glossy variant of the object.
-/// Errors (input): no such folder, nothing true in it, a file that it names is missing.
+/// Finds the ground-truth images of a folder: a recording whose scene.json lists `key_frames`, or
+/// images NNNN.png. `glossy`: use the glossy variant of the object. Errors (input): no such folder,
+/// no ground truth in it, a missing file.
 Result<std::vector<GroundTruthImage>> FindGroundTruthImages(const std::filesystem::path& folder,
                                                             bool glossy);
 
-/// Where a replay's output, or a folder of pictures, has the picture of that name. Errors (input):
-/// nowhere.
+/// Finds the image of that name in a replay's output or a folder of images. Errors (input): there
+/// is none.
 Result<std::filesystem::path> FindPicture(const std::filesystem::path& folder,
                                           const std::string& name);
 

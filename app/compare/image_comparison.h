@@ -8,9 +8,9 @@
 
 namespace pleinair::app {
 
-/// Scores the picture that a replay's output (or a folder of pictures) has against the true one.
-/// `jpeg_width_px`: with truth, picture and difference as JPEG, at most so wide; 0: without.
-/// Errors (input): a picture or a region that is missing, cannot be read or is of another size.
+/// Scores the image of a replay's output (or a folder of images) against the ground truth.
+/// `jpeg_width_px`: max. width of the JPEG images of ground truth, result and difference; 0: no
+/// JPEG. Errors (input): an image or region that is missing, unreadable or of another size.
 Result<ComparedPicture> ComparePicture(const std::filesystem::path& pictures,
                                        const GroundTruthImage& of, int jpeg_width_px);
 

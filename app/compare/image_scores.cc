@@ -62,7 +62,7 @@ cv::Mat SquaredDifference(const cv::Mat& a, const cv::Mat& b) {
   b.convertTo(y, CV_64F);
   const cv::Mat difference = x - y;
   cv::Mat mean;
-  // Of three channels, each a third.
+  // Mean of three channels.
   cv::transform(difference.mul(difference), mean, cv::Matx13d(1 / 3.0, 1 / 3.0, 1 / 3.0));
   return mean;
 }
