@@ -16,13 +16,14 @@ namespace pleinair::app {
 /// must outlive the command.
 void AddLightOptions(CLI::App& command, session::LightOptions& options);
 
-/// The same for how finely light is solved: --sky-division, --convergence and --light-patches.
+/// Adds the options for the accuracy of the light solver: --sky-division, --convergence and
+/// --light-patches.
 void AddSolverOptions(CLI::App& command, session::LightOptions& options);
 
-/// Errors (input): the cache is no folder.
+/// Errors (input): the cache is not a folder.
 Result<void> CheckLightCache(const std::filesystem::path& cache);
 
-/// To say where it could not be written.
+/// Returns the warning that the cache could not be written.
 std::string CouldNotKeepLight(const std::filesystem::path& cache);
 
 }  // namespace pleinair::app

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMaxHours = 15;
 
-/// One or two digits, the whole text; nothing otherwise.
+/// Parses a text of one or two digits; nothing otherwise.
 std::optional<int> ParseDigits(std::string_view text) {
   if (text.empty() || text.size() > 2 || text.find_first_not_of("0123456789") != text.npos) {
     return std::nullopt;
@@ -101,7 +101,7 @@ std::string FormatLocal(UtcTime time, UtcOffset offset) {
   const std::int64_t ns = time.PlusSeconds(offset.seconds()).nanoseconds_since_1970();
   const std::int64_t rounded = (ns + (ns < 0 ? -kSecond : kSecond) / 2) / kSecond * kSecond;
   std::string text = UtcTime(rounded).ToString();
-  text.pop_back();  // Its Z.
+  text.pop_back();  // The Z.
   return text + ToString(offset);
 }
 
@@ -112,7 +112,7 @@ std::string FormatLocalDate(UtcTime time, UtcOffset offset) {
 Result<UtcTime> ParseTimeOption(const std::string& option, std::string_view text) {
   Result<scene::ZonedTime> zoned = scene::ParseZonedTime(text);
   if (zoned) return zoned->time;
-  // What is wrong with the machine has a place of its own.
+  // System errors keep their own location.
   if (zoned.error().kind == ErrorKind::kSystem) {
     return tl::make_unexpected(std::move(zoned).error());
   }

@@ -10,7 +10,7 @@
 
 namespace pleinair::app {
 
-/// A check of an option: a finite number within [low, high]. CLI11's own Range lets NaN pass.
+/// Validates an option as a finite number within [low, high]. CLI11's own Range accepts NaN.
 inline CLI::Validator NumberRange(double low, double high) {
   const std::string range =
       "[" + CLI::detail::to_string(low) + " - " + CLI::detail::to_string(high) + "]";

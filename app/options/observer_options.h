@@ -12,7 +12,7 @@ class Option;
 
 namespace pleinair::app {
 
-/// The observer as a command line describes him.
+/// The observer, as on the command line.
 struct ObserverOptions {
   std::string at;
   double height_m = 0.0;
@@ -21,11 +21,11 @@ struct ObserverOptions {
   double ut1_minus_utc_s = 0.0;
 };
 
-/// Adds --at, --height, --pressure, --temperature and --dut1; gives --at. `options` must outlive
+/// Adds --at, --height, --pressure, --temperature and --dut1; returns --at. `options` must outlive
 /// the command.
 CLI::Option* AddObserverOptions(CLI::App& command, ObserverOptions& options);
 
-/// All but the place: what rows of a table start from.
+/// All except the place: the defaults for the rows of a table.
 sky::Observer ObserverWithoutPlace(const ObserverOptions& options);
 
 /// Errors (input): --at is not "LAT,LON" in degrees, or not on Earth.

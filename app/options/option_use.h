@@ -11,19 +11,19 @@ class App;
 
 namespace pleinair::app {
 
-/// An option, whether what is asked for makes any use of it, and what does.
+/// An option, whether the request uses it, and which requests do.
 struct OptionUse {
   std::string option;  ///< "--exposure".
   bool used = false;
   std::string of;  ///< "a PNG or a video".
 };
 
-/// Nothing that a person wrote is passed over in silence. Errors (input): an option was given that
-/// is not used.
+/// Rejects unused options, so that no input is ignored silently. Errors (input): a given option is
+/// not used.
 Result<void> RefuseUnusedOptions(const CLI::App& command, std::initializer_list<OptionUse> uses);
 
-/// No option of `command` takes an empty text, as an unset variable of a shell gives it: the parser
-/// then refuses it. Call it when all options are there.
+/// Makes the parser reject an empty text for any option of `command`, as from an unset shell
+/// variable. Call it after all options are added.
 void RefuseEmptyValues(CLI::App& command);
 
 }  // namespace pleinair::app

@@ -7,7 +7,7 @@
 
 namespace pleinair::app {
 
-/// "1280x720", which was given for `option`; errors: not two whole numbers of 16…16384.
+/// Parses "1280x720", the value of `option`. Errors: not two whole numbers of 16…16384.
 Result<ImageSize> ParsePictureSize(const std::string& option, const std::string& text);
 
 }  // namespace pleinair::app

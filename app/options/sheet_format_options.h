@@ -8,7 +8,7 @@ class App;
 
 namespace pleinair::app {
 
-/// Adds --pdf, --svg and --png, which exclude each other, to a subcommand; `flags` must outlive it.
+/// Adds the exclusive options --pdf, --svg and --png to a subcommand; `flags` must outlive it.
 void AddFormatOptions(CLI::App& command, exports::FormatFlags& flags);
 
 }  // namespace pleinair::app
