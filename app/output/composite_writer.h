@@ -15,7 +15,7 @@
 
 namespace pleinair::app {
 
-/// Writes composed frames as pictures and into a video, on a thread of its own while the next ones
+/// Writes composited frames as images and to a video, on a background thread while the next frames
 /// are drawn.
 class CompositeWriter {
  public:
@@ -25,10 +25,10 @@ class CompositeWriter {
   CompositeWriter(const CompositeWriter&) = delete;
   CompositeWriter& operator=(const CompositeWriter&) = delete;
 
-  /// Takes the frames in order. Errors are those of a frame before.
+  /// Takes the frames in order. Errors may belong to an earlier frame.
   Result<void> Add(std::int64_t index, std::int64_t timestamp_ns, RgbImage composed);
 
-  /// Waits until all is written and ends the video.
+  /// Waits until everything is written and ends the video.
   Result<void> Finish();
 
   /// After Finish().
@@ -41,7 +41,7 @@ class CompositeWriter {
     RgbImage picture;
   };
 
-  // So many pictures may wait.
+  // Max. number of queued images.
   static constexpr std::size_t kWaiting = 3;
 
   void Run();
@@ -50,11 +50,11 @@ class CompositeWriter {
 
   std::filesystem::path pictures_;
   std::unique_ptr<exports::VideoWriter> video_;
-  // Of the thread, until it has ended.
+  // Used by the thread until it has ended.
   StageTimes times_;
   Result<void> result_;
   BoundedQueue<Item> items_{kWaiting, WhenFull::kWait};
-  std::thread thread_;  // Last: it uses the others.
+  std::thread thread_;  // Last: it uses the other members.
 };
 
 }  // namespace pleinair::app

@@ -12,9 +12,10 @@
 
 namespace pleinair::app {
 
-/// detections.jsonl: a line a frame, also where nothing was seen:
-/// {"frame":0,"timestamp_s":0.0,"markers":[…],"lost":[…]}, as `pleinair detect` prints them.
-/// Holds no milliseconds, so that two replays give the same bytes.
+/// Writes detections.jsonl: one line per frame, also without observations, in the form of `pleinair
+/// detect`:
+/// {"frame":0,"timestamp_s":0.0,"markers":[…],"lost":[…]}
+/// It contains no durations, so that two replays give the same bytes.
 class DetectionsWriter {
  public:
   static Result<DetectionsWriter> Create(const std::filesystem::path& file);

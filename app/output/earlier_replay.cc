@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kFramesPattern = "frames/%04d.png";
 
-/// The number of "0012.png" as replay writes it.
+/// Returns the number of "0012.png", as replay writes it.
 std::optional<std::int64_t> FrameNumber(const fs::path& name) {
   const std::string stem = name.stem().string();
   std::int64_t number = -1;
@@ -29,7 +29,7 @@ std::optional<std::int64_t> FrameNumber(const fs::path& name) {
   return number;
 }
 
-/// Names that a replay writes.
+/// True for the names of a replay's outputs.
 bool IsNamedLikeOutput(const fs::path& relative) {
   const std::string folder = relative.parent_path().string();
   const std::string name = relative.filename().string();
@@ -119,12 +119,12 @@ void EarlierReplay::Remove() const {
     if (Wrote(file) && file != "report.json") fs::remove(folder_ / file, ignored);
   }
   for (const char* part : {"poses", "frames", "timelapse", "colmap"}) {
-    // Only if nothing else is in it.
+    // Only if it is empty.
     if (!outputs_.empty() && fs::is_directory(folder_ / part, ignored)) {
       fs::remove(folder_ / part, ignored);
     }
   }
-  // Last: whoever is stopped on the way can still tell what is a replay's.
+  // Last: after an interruption, the files are still known as a replay's.
   if (Wrote("report.json")) fs::remove(folder_ / "report.json", ignored);
 }
 
@@ -143,7 +143,7 @@ Result<void> CheckIsNoRecording(const fs::path& folder) {
       return InputError(folder.string(), std::string("is a recording: it has a ") + mark, remedy);
     }
   }
-  // A replay's own folder may lie in a recording's and hold pictures that somebody put there.
+  // A replay's output folder may be inside a recording's and contain images of the user.
   if (EarlierReplay::In(real).Wrote("report.json")) return {};
   for (const char* mark : {"recording.json", "scene.json", "data.csv"}) {
     if (fs::exists(real.parent_path() / mark, error) && HoldsPictures(real)) {

@@ -10,38 +10,36 @@
 
 namespace pleinair::app {
 
-/// What an earlier replay says, in the report.json that it left in a folder, that it wrote there.
-/// Only such files may be replaced or removed; whatever else lies there is somebody's own.
+/// The files that an earlier replay wrote to a folder, from its report.json. Only these files may
+/// be replaced or removed; all others belong to the user.
 class EarlierReplay {
  public:
-  /// Reads `folder`/report.json. Without one, or with one that no replay wrote, nothing counts as
-  /// written.
+  /// Reads `folder`/report.json. Without a report of a replay, no file counts as written.
   static EarlierReplay In(const std::filesystem::path& folder);
 
-  /// Whether it wrote this file (relative to the folder).
+  /// True if it wrote this file (relative to the folder).
   bool Wrote(const std::filesystem::path& relative) const;
 
-  /// Error (input): a file that has the name of a replay's output, but was not written by one.
+  /// Error (input): a file has the name of a replay's output, but no replay wrote it.
   Result<void> CheckNothingForeign() const;
 
-  /// Removes the files that it wrote, its report last, and their folders where they are left
-  /// empty.
+  /// Removes the files that it wrote, its report last, and the folders that become empty.
   void Remove() const;
 
  private:
-  /// Files there with names that a replay writes, relative, sorted.
+  /// Existing files with the names of a replay's outputs, relative, sorted.
   std::vector<std::filesystem::path> FilesNamedLikeOutputs() const;
 
   std::filesystem::path folder_;
   std::set<std::string> outputs_;
-  std::int64_t frames_ = 0;  // Pictures 0000.png and on; 0 where it wrote none.
+  std::int64_t frames_ = 0;  // Images 0000.png and on; 0 if there are none.
 };
 
 /// The error for a file that must not be replaced.
 tl::unexpected<Error> NotFromAReplay(const std::filesystem::path& file);
 
-/// Error (input): the folder is a recording, or holds a recording's frames. No error where it is
-/// not there.
+/// Error (input): the folder is a recording, or holds a recording's frames. No error if it does not
+/// exist.
 Result<void> CheckIsNoRecording(const std::filesystem::path& folder);
 
 }  // namespace pleinair::app

@@ -5,7 +5,7 @@
 namespace pleinair::app {
 
 exports::TrajectoryPose ObservedPose(const session::Observation& at) {
-  // The marker is what the path is told in.
+  // The marker is the frame of reference of the trajectory.
   const Transform<exports::Reference, Marker> reference_from_marker;
   return {at.timestamp_ns, reference_from_marker * at.camera_from_marker.Inverse(),
           fmt::format("frames/{:04}.png", at.frame_index)};

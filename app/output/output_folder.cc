@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kStagingPrefix = ".pleinair.part";  // The process's number follows.
+constexpr std::string_view kStagingPrefix = ".pleinair.part";  // Followed by the process id.
 
-/// Staging folders of processes that were killed, or that had this one's number before it.
+/// Removes staging folders of killed processes, also one with this process's id.
 void RemoveAbandonedStaging(const fs::path& folder) {
   std::vector<fs::path> abandoned;
   std::error_code error;
@@ -107,7 +107,7 @@ Result<void> OutputFolder::Commit() {
   }
   if (error) return tl::make_unexpected(WriteError(path_, error.value()));
   std::sort(files.begin(), files.end());
-  // Once more: the replay took its time, and somebody may have put a file there meanwhile.
+  // Checked again: the user may have added a file during the replay.
   const EarlierReplay earlier = EarlierReplay::In(path_);
   for (const fs::path& file : files) {
     if (fs::exists(path_ / file, error) && !earlier.Wrote(file)) {

@@ -8,15 +8,15 @@
 
 namespace pleinair::app {
 
-/// The folder that a replay writes to, all of it or nothing. Sinks write into staging(), a hidden
-/// folder inside the target; Commit() moves everything to its place. Without Commit() the
-/// destructor removes the staging folder and every folder that Create() made. Of a process that was
-/// killed the next Create() in the same folder removes what it left.
+/// A replay's output folder, written as a whole or not at all. Writers write into staging(), a
+/// hidden folder inside the target. Commit() moves everything to its place. Without Commit() the
+/// destructor removes the staging folder and every folder that Create() made. After a killed
+/// process, the next Create() in the same folder removes its staging folder.
 class OutputFolder {
  public:
-  /// Makes `path` and its parents where missing. Errors (input): no permission, not a folder, a
-  /// recording or its frames, or a file there that has the name of a replay's output but is none
-  /// that an earlier replay's report.json lists; (system): disk full.
+  /// Creates `path` and its missing parents. Errors (input): no permission, not a folder, a
+  /// recording or its frames. Also an existing file with the name of a replay's output that no
+  /// earlier report.json lists. Errors (system): disk full.
   static Result<OutputFolder> Create(const std::filesystem::path& path);
 
   OutputFolder(OutputFolder&& other) noexcept;
@@ -28,14 +28,14 @@ class OutputFolder {
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& staging() const { return staging_; }
 
-  /// Makes a folder in the staging area.
+  /// Creates a folder in the staging area.
   Result<void> MakeFolder(const std::string& name) const;
 
-  /// An error about a staged file told of the file that it was to become.
+  /// Replaces the path of a staged file in an error by its target path.
   Error InTermsOfTarget(Error error) const;
 
-  /// Replaces what an earlier replay's report.json lists and moves the staged files in; other files
-  /// stay, and one in the way is an error (input). On an error the files already moved are removed
+  /// Replaces the files in an earlier replay's report.json by the staged files. Other files stay;
+  /// one with an output's name is an error (input). After an error the moved files are removed
   /// again.
   Result<void> Commit();
 

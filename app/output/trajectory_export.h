@@ -13,28 +13,27 @@
 
 namespace pleinair::app {
 
-/// What frames were taken with and show, for the forms of other programs.
+/// Data for the trajectory formats of other programs.
 struct TrajectoryExport {
-  exports::CameraTrajectory
-      path;  ///< Of the reference marker, with the camera of the frames that are written.
+  exports::CameraTrajectory path;  ///< Reference marker's trajectory, with the output camera.
   const scene::SceneDescription& scene;
-  std::vector<exports::MarkersMessage> markers;  ///< For MCAP alone: what was seen, frame by frame.
+  std::vector<exports::MarkersMessage> markers;  ///< Only for MCAP: observations, frame by frame.
 };
 
-/// Errors: a lens that a form cannot hold, a form twice; found before a long search for markers.
+/// Checks the formats before the long detection pass. Errors: a lens model that a format cannot
+/// store, a repeated format.
 Result<void> CheckExports(const std::set<exports::TrajectoryFormat>& formats,
                           const CameraModel& camera);
 
-/// Writes a marker's path into the folder `poses` in `folder`, as MARKER.tum and, where `euroc` is
-/// asked for, as MARKER.csv; gives their names.
+/// Writes a marker's trajectory into the folder `poses` in `folder`: MARKER.tum and, if `euroc` is
+/// requested, MARKER.csv. Returns the names.
 Result<std::vector<std::string>> WriteMarkerTrajectory(
     const session::MarkerName& marker, const exports::CameraTrajectory& path,
     const std::set<exports::TrajectoryFormat>& formats, const std::filesystem::path& folder);
 
-/// Writes the reference marker's path into a folder, `camera.glb`, `colmap/` or `camera.mcap`;
-/// gives their names. MCAP holds what was seen even where the reference marker never was, the
-/// others are left out then.
-/// (`euroc` is WriteMarkerTrajectory's affair.)
+/// Writes the reference marker's trajectory into a folder as `camera.glb`, `colmap/` or
+/// `camera.mcap`, and returns the names. Without observations of the reference marker only MCAP is
+/// written, with the observations of other markers. WriteMarkerTrajectory writes `euroc`.
 Result<std::vector<std::string>> ExportTrajectory(
     TrajectoryExport what, const std::set<exports::TrajectoryFormat>& formats,
     const std::filesystem::path& folder);
