@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kHeaderHelp = "start it with the line azimuth_deg,elevation_deg";
 
-/// A quantity of a row with what is possible.
+/// A column of a row with its valid range.
 struct AngleColumn {
   const char* name;
   double lowest, highest;

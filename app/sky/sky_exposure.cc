@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kSaturation = 1.2;  // Luminance · t / (N² ) constant of ISO 12232 at EV 0.
 constexpr double kWhite = 8.0;
-// The key is meant for the whole of a scene, land and shadows included; the sky is its bright part.
+// The key is meant for a whole scene with land and shadows; the sky is its bright part.
 constexpr double kSkyInScene = 0.7;
-constexpr double kDarkest_cd_m2 = 0.005;  // Where cones stop seeing (CIE 191:2010).
+constexpr double kDarkest_cd_m2 = 0.005;  // Limit of cone vision (CIE 191:2010).
 
-/// Codes of linear values in steps fine enough for eight bits.
+/// Maps linear values to 8-bit sRGB values, in steps fine enough for eight bits.
 class SrgbTable {
  public:
   SrgbTable() {
@@ -32,7 +32,7 @@ class SrgbTable {
   }
 
  private:
-  // The curve's steepest code is 1 / (255 · 12.92) wide.
+  // At the curve's steepest part, one 8-bit value is 1 / (255 · 12.92) wide.
   std::array<std::uint8_t, 1 << 14> codes_{};
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Errors name the file that was asked for, not the temporary one.
+/// Errors name the requested file, not the temporary one.
 Error Renamed(Error error, const std::string& file) {
   error.where = file;
   return error;

@@ -14,27 +14,27 @@ namespace pleinair::app {
 
 enum class SkyFileKind { kPng, kExr, kHdr, kMp4 };
 
-/// By the name's ending. Errors (input): another one.
+/// Selects the kind by the file's extension. Errors (input): another extension.
 Result<SkyFileKind> SkyFileKindOf(const std::string& name);
 
 struct SkyFileOptions {
   std::string file;
   SkyFileKind kind = SkyFileKind::kPng;
   SkyPictureOptions picture;
-  std::optional<SkyExposure> exposure;  ///< Of PNG and video; without it AutomaticExposure().
-  double scale = 1.0;                   ///< Of EXR and HDR: value per cd/m².
-  double frames_per_second = 24.0;      ///< Of a video.
+  std::optional<SkyExposure> exposure;  ///< For PNG and video; default: AutomaticExposure().
+  double scale = 1.0;                   ///< For EXR and HDR: value per cd/m².
+  double frames_per_second = 24.0;      ///< For a video.
 };
 
-/// The exposure that a picture of this sky gets.
+/// The exposure of an image of this sky.
 SkyExposure ExposureFor(const SkyFileOptions& options, const SkyLight& light);
 
-/// Writes one picture under a temporary name and renames it. Errors as WriteError.
+/// Writes one image under a temporary name and renames it. Errors: as WriteError.
 Result<void> WriteSkyPicture(const sky::SkyModel& sky, const SkyLight& light,
                              const SkyFileOptions& options);
 
-/// Writes a time-lapse, a frame a moment. Interrupted, it leaves nothing. Errors: as WriteError and
-/// VideoWriter.
+/// Writes a time-lapse with one frame per time. An interruption leaves no file. Errors: as
+/// WriteError and VideoWriter.
 Result<void> WriteSkyVideo(const sky::SkySource& source, const std::vector<SkyMoment>& moments,
                            const SkyFileOptions& options);
 

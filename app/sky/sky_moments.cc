@@ -24,7 +24,7 @@ SkyMoment MomentAt(const sky::Observer& observer, UtcTime time, sky::SunModel mo
 Result<SkyMoment> ParseSunOption(const std::string& text) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const std::string_view view = text;
-  // What is not there is not a number either.
+  // A missing number is as invalid as a text that is no number.
   constexpr double kNone = 1e9;
   const double azimuth = files::ParseNumber(view.substr(0, comma)).value_or(kNone);
   const double elevation =

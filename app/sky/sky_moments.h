@@ -13,27 +13,28 @@
 
 namespace pleinair::app {
 
-/// Where the sun stands at a moment that was asked for, or where it was put.
+/// The sun's position at a requested time, or a given position.
 struct SkyMoment {
-  std::optional<UtcTime> time;  ///< Nothing where the sun was given directly.
+  std::optional<UtcTime> time;  ///< Nothing if the sun was given directly.
   Radians sun_azimuth;
-  Radians sun_elevation;  ///< As seen, refraction included.
+  Radians sun_elevation;  ///< Apparent: includes refraction.
   double sun_distance_au = 1.0;
 
   Direction<World> ToSun() const;
 };
 
-/// The sun of a place and a time.
+/// The sun at a place and time.
 SkyMoment MomentAt(const sky::Observer& observer, UtcTime time, sky::SunModel model);
 
-/// "AZIMUTH,ELEVATION" in degrees, the elevation as seen. Errors (input): --sun is something else.
+/// Parses "AZIMUTH,ELEVATION" in degrees, with apparent elevation. Errors (input): another value of
+/// --sun.
 Result<SkyMoment> ParseSunOption(const std::string& text);
 
-/// `from`, and every `step_s` seconds after it up to `until`. Errors (input): the end lies before
-/// the begin, no positive step, more than 100,000 moments.
+/// Returns `from`, and every `step_s` seconds after it up to `until`. Errors (input): the end is
+/// before the start, no positive step, more than 100,000 times.
 Result<std::vector<UtcTime>> Moments(UtcTime from, UtcTime until, double step_s);
 
-/// What the light of a moment amounts to.
+/// The light of the sky at one time.
 struct SkyLight {
   SkyMoment moment;
   double sky_horizontal_lx = 0.0;
@@ -43,13 +44,13 @@ struct SkyLight {
   LinearRgb sky_horizontal, sun_normal;
 
   double GlobalHorizontal() const { return sky_horizontal_lx + sun_horizontal_lx; }
-  /// The sky's part of that; 1 in the dark.
+  /// The sky's share of that; 1 in darkness.
   double DiffuseShare() const;
 };
 
 SkyLight MeasureSky(const sky::SkyModel& sky, const SkyMoment& moment);
 
-/// Members of a JSON object, a row of CSV under kSkyLightColumns, lines for people.
+/// Formats as members of a JSON object, a CSV row under kSkyLightColumns, or lines for the user.
 std::string SkyLightJson(const SkyLight& light);
 std::string SkyLightCsv(const SkyLight& light);
 std::string SkyLightText(const SkyLight& light);

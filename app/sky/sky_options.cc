@@ -13,7 +13,7 @@ constexpr int kMin_px = 16;
 constexpr int kMax_px = 8192;
 constexpr double kDaySeconds = 86'400.0;
 
-/// The aerosol of the turbidity, with what was given instead; nothing where nothing was.
+/// The turbidity's aerosol with the given replacements; nothing if none were given.
 std::optional<sky::Aerosol> ChosenAerosol(const SkyOptions::Aerosol& given,
                                           std::optional<double> turbidity) {
   if (!given.beta && !given.alpha && !given.scale_height_m && !given.single_scattering_albedo &&
@@ -111,7 +111,7 @@ Result<SkyFileOptions> ChosenFile(const SkyOptions& options) {
   }
   file.picture.centre_azimuth_deg = options.picture.centre_azimuth_deg;
   file.picture.ground_albedo = options.model.conditions.ground_albedo;
-  // On a screen the sun is a white spot; in light for a scene it is a choice.
+  // On a screen the sun is a white spot. In a radiance map it is optional.
   file.picture.disc = options.picture.disc || (!light && !options.picture.no_disc);
   if (options.picture.ev100) file.exposure = ExposureOf(*options.picture.ev100);
   file.scale = options.picture.scale;
@@ -130,7 +130,7 @@ Result<void> CheckUseOfSkyOptions(const CLI::App& command, const SkyOptions& opt
   const bool map = file && file->picture.projection == SkyProjection::kLatLong;
   const bool place = options.span.sun.empty();
   const bool cie = name.kind == sky::SkyModelKind::kCie;
-  // The ground lights the sky of the atmosphere alone, but every map and table shows it.
+  // The ground affects only the sky of the atmosphere model, but every map and table shows it.
   const bool ground = name.kind == sky::SkyModelKind::kAtmosphere || map || !options.csv.empty();
   const std::string picture = "a picture or video, with -o";
   return RefuseUnusedOptions(

@@ -17,9 +17,9 @@ class App;
 
 namespace pleinair::app {
 
-/// What `pleinair sky` was asked for, as written.
+/// Options of `pleinair sky`, as written.
 struct SkyOptions {
-  /// Where and when, or the sun itself.
+  /// Place and time, or the sun itself.
   struct Span {
     ObserverOptions observer;
     std::string time, until, day, utc_offset, sun;
@@ -37,7 +37,7 @@ struct SkyOptions {
     Aerosol aerosol;
   };
 
-  /// Of a picture or video.
+  /// Options of an image or video.
   struct Picture {
     std::string projection;
     std::optional<int> size_px;
@@ -55,26 +55,26 @@ struct SkyOptions {
   bool json = false;
   std::string output;
 
-  /// A span or a day, not one moment.
+  /// True for a span or a day, false for one time.
   bool Many() const { return !span.until.empty() || !span.day.empty(); }
-  /// The result is a picture or a video, not a table or text.
+  /// True if the result is an image or a video, not a table or text.
   bool IsPicture() const;
 };
 
 /// Adds the options to `command`; `options` must outlive it.
 void AddSkyOptions(CLI::App& command, SkyOptions& options);
 
-/// Errors (input): an option was given that the chosen model or kind of result makes no use of.
+/// Errors (input): a given option is not used by the selected model or result.
 Result<void> CheckUseOfSkyOptions(const CLI::App& command, const SkyOptions& options,
                                   sky::SkyModelName name);
 
-/// The air and the clouds.
+/// The selected atmosphere and clouds.
 sky::SkyConditions ChosenConditions(const SkyOptions::Model& given);
 
-/// One moment, or the many of a span. Errors (input): no such moment.
+/// One time, or all times of a span. Errors (input): invalid time.
 Result<std::vector<SkyMoment>> ChosenMoments(const SkyOptions::Span& span);
 
-/// The picture or, of many moments, the video. Errors (input): a name that is none.
+/// The image or, for several times, the video. Errors (input): an invalid name.
 Result<SkyFileOptions> ChosenFile(const SkyOptions& options);
 
 }  // namespace pleinair::app

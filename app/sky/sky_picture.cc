@@ -28,13 +28,13 @@ void Put(LightImage* picture, int x, int y, LinearRgb color) {
   (*picture)(x, y, 2) = static_cast<float>(color.b);
 }
 
-/// Rows handed to whichever processor is free.
+/// Processes the rows in parallel.
 void ForEachRow(int rows, const std::function<void(int)>& work) {
   ParallelFor(static_cast<std::size_t>(rows), 0,
               [&](std::size_t row) { work(static_cast<int>(row)); });
 }
 
-/// Solid angle of a square of `side_px` around a place.
+/// Solid angle of a square of `side_px` around a position.
 double SolidAngle(const SkyPictureOptions& options, Vec2 place_px, double side_px) {
   if (options.projection == SkyProjection::kLatLong) {
     const double step = 2.0 * pi / options.width_px * side_px;
@@ -47,17 +47,17 @@ double SolidAngle(const SkyPictureOptions& options, Vec2 place_px, double side_p
   return per_px * per_px * (z > 1e-9 ? std::sin(z) / z : 1.0) * side_px * side_px;
 }
 
-/// Adds the disc: each pixel gets the mean of a fine grid of directions in it, then all of them one
-/// factor, so that the light is the disc's whatever the grid missed.
+/// Adds the disc. Each pixel gets the mean over a fine grid of directions. A common factor then
+/// makes the sum equal to the disc's light, whatever the grid missed.
 void AddDisc(const sky::SkyModel& sky, const SkyPictureOptions& options, LightImage* picture) {
   constexpr int kGrid = 16;
   const LinearRgb light = sky.SunNormalIrradiance();
   if (Luminance(light) <= 0.0) return;
-  // Which of the sun's distances it is shows in its light alone: 1.7 % of the radius.
+  // The sun's distance affects only its light here: the radius varies by 1.7 %.
   const double radius = sky::kSolarRadiusAt1Au;
   const Vec3 to_sun = sky.ToSun().xyz;
   const int height = HeightOf(options);
-  // The sun may stand up to its own radius below the horizon.
+  // The sun's centre may be up to one radius below the horizon.
   const Vec3 seen = to_sun.z >= 0.0 ? to_sun : sky::LiftedToHorizon(to_sun);
   const Vec2 centre = PlaceInPicture(options, {seen});
   const double px_per_radian =
@@ -98,7 +98,7 @@ void AddDisc(const sky::SkyModel& sky, const SkyPictureOptions& options, LightIm
       total += mean * SolidAngle(options, {x + 0.5, y + 0.5}, 1.0);
     }
   }
-  if (total <= 0.0) {  // So few pixels that the grid missed it.
+  if (total <= 0.0) {  // The pixels are so large that the grid missed the disc.
     const int x = std::clamp(cx, 0, options.width_px - 1), y = std::clamp(cy, 0, height - 1);
     shares.push_back({x, y, 1.0});
     total = SolidAngle(options, {x + 0.5, y + 0.5}, 1.0);
