@@ -24,7 +24,7 @@ constexpr double kDaySeconds = 86'400.0;
 struct HorizonNames {
   const char* rise;
   const char* set;
-  const char* above;  ///< Why there is no passage.
+  const char* above;  ///< Reason if there is no passage.
   const char* below;
 };
 constexpr std::array<HorizonNames, sky::kSunHorizons> kNames = {{
@@ -46,7 +46,7 @@ std::string Clock(double seconds) {
                      whole / 60 % 60, whole % 60);
 }
 
-/// Degrees that are not rounded up to 360.
+/// Degrees that do not round up to 360.
 double RoundedAzimuth(const sky::SunPosition& sun) {
   constexpr double kLastDigit = 1e-4;
   const double degrees = std::round(ToDegrees(sun.azimuth) / kLastDigit) * kLastDigit;
@@ -65,7 +65,7 @@ sky::SunPresence PresenceIn(const sky::HorizonPassages& passages) {
                             : sky::SunPresence::kPasses;
 }
 
-/// Why there is no passage of an elevation; empty where there may be others.
+/// Reason for a missing passage of an elevation; " on this day" if the sun crosses it otherwise.
 std::string WhyNone(sky::SunPresence presence, std::size_t horizon) {
   switch (presence) {
     case sky::SunPresence::kStaysUp:
@@ -78,7 +78,7 @@ std::string WhyNone(sky::SunPresence presence, std::size_t horizon) {
   return " on this day";
 }
 
-/// One thing that the sun does, for the list of a day.
+/// An event of the sun, for the list of a day.
 struct Happening {
   UtcTime time;
   const char* name;
@@ -97,15 +97,15 @@ std::vector<Happening> InOrder(const sky::SunDay& day) {
   return list;
 }
 
-/// A day with what is written of it beside the passages.
+/// A day with the values that the output adds to the passages.
 struct DayFacts {
   sky::SunDay day;
-  std::optional<UtcTime> noon;  ///< The day's first.
-  UtcTime reference;            ///< That, or the day's middle.
-  sky::SunPosition at_noon;     ///< Of the reference time.
+  std::optional<UtcTime> noon;  ///< The first one.
+  UtcTime reference;            ///< The noon, or the day's middle.
+  sky::SunPosition at_noon;     ///< At the reference time.
   double equation_of_time_s = 0.0;
 
-  /// Of several the one next to noon, on its side.
+  /// If there are several, the one next to noon, on its side.
   std::optional<UtcTime> Rise(std::size_t h) const {
     std::optional<UtcTime> found;
     for (const UtcTime time : day.passages[h].rises) {

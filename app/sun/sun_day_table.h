@@ -10,26 +10,26 @@
 
 namespace pleinair::app {
 
-/// How the tables are written.
+/// Options for writing the tables.
 struct SunDayOptions {
   sky::SunModel model = sky::SunModel::kPrecise;
   bool json = false;
   std::string output;  ///< Empty: standard output.
 };
 
-/// The sun of a moment and its rise, noon, set and twilights: of the noon nearest to the middle of
-/// the calendar day at `calendar`, or without it of the local mean solar day. `clock` is the offset
-/// of the times written.
+/// Writes the sun's position at a time with its rise, noon, set and twilights. They belong to the
+/// noon nearest to the middle of a day. With `calendar` it is the calendar day at this offset,
+/// otherwise the local mean solar day. `clock` is the offset of the written times.
 Result<void> WriteSunMoment(const sky::Observer& observer, UtcTime time,
                             std::optional<UtcOffset> calendar, UtcOffset clock,
                             const SunDayOptions& options);
 
-/// All that the sun does between two midnights of a clock: each passage in time's order, also where
-/// the day holds two sunsets or none.
+/// Writes all events of the sun between two midnights of a clock: each passage in order of time,
+/// also on days with two sunsets or none.
 Result<void> WriteSunDay(const sky::Observer& observer, UtcTime midnight, UtcOffset offset,
                          const SunDayOptions& options);
 
-/// A row a day as CSV (or an object a day), `days` of them.
+/// Writes `days` rows of CSV (or objects), one per day.
 Result<void> WriteSunAlmanac(const sky::Observer& observer, UtcTime midnight, UtcOffset offset,
                              int days, const SunDayOptions& options);
 

@@ -30,7 +30,7 @@ constexpr exports::DrawingColor kHours{214, 150, 40};
 constexpr exports::DrawingColor kHourText{150, 95, 10};
 constexpr exports::DrawingColor kSun{250, 190, 0};
 
-constexpr int kDayOfArcs = 21;  // Solstices and equinoxes fall on it or beside it.
+constexpr int kDayOfArcs = 21;  // Close to the solstices and equinoxes.
 constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                  "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
 
@@ -50,8 +50,8 @@ struct Sighting {
   Radians azimuth, elevation;
 };
 
-/// The parts of a sequence of suns that lie above the horizon, projected; cut on the horizon
-/// itself.
+/// The projected parts of a sequence of sun positions above the horizon, cut exactly at the
+/// horizon.
 std::vector<std::vector<Vec2>> VisibleParts(const std::vector<Sighting>& suns) {
   std::vector<std::vector<Vec2>> parts;
   std::vector<Vec2> part;
@@ -135,7 +135,7 @@ class Diagram {
     for (int degrees = 10; degrees < 90; degrees += 10) {
       const Vec2 ring = ProjectOnSunPath(Radians(0.0), FromDegrees(degrees));
       AddCircle(kCentre.y - ring.y, kGrid, 0.8);
-      // On the side where no sun comes in the way, as far as there is one.
+      // On the side without sun paths, if there is one.
       const bool south = facts_.observer.latitude.value() < 0.0;
       const Vec2 label = ProjectOnSunPath(FromDegrees(south ? 180.0 : 0.0), FromDegrees(degrees));
       AddText(label, 11.0, std::to_string(degrees), kQuiet);
@@ -146,7 +146,7 @@ class Diagram {
   void DrawDays() {
     constexpr double kStepSeconds = 300.0;
     for (int month = 1; month <= 12; ++month) {
-      // From one of the sun's midnights to the next, so that no path is cut by the clock's.
+      // From one solar midnight to the next, so that the clock's midnight cuts no path.
       const sky::SunEvents events = sky::ComputeSunEventsNear(
           facts_.observer, LocalMidnight(month, kDayOfArcs).PlusSeconds(43'200.0), facts_.model);
       std::vector<Sighting> suns;
@@ -164,8 +164,8 @@ class Diagram {
     }
   }
 
-  /// At the rim where the sun rises in the first half of the year and sets in the second; where it
-  /// does neither, on the path itself.
+  /// At the rim: at sunrise in the first half of the year, at sunset in the second. On the path
+  /// itself if the sun does neither.
   void NameDay(int month, const std::vector<std::vector<Vec2>>& parts,
                exports::DrawingColor color) {
     constexpr double kFromRim = 64.0;
@@ -177,7 +177,7 @@ class Diagram {
       AddText(kCentre + (end - kCentre) * ((kHorizonRadius + kFromRim) / radius), 13.0, name,
               color);
     } else {
-      // Neighbouring months apart from each other, outside of the hours' names.
+      // Separates neighbouring months; outside the names of the hours.
       constexpr double kOutwards = 12.0;
       const std::vector<Vec2>& path = parts.front();
       const int from_winter = second_half ? 13 - month : month;
@@ -214,8 +214,8 @@ class Diagram {
     }
   }
 
-  /// Beyond that end of the figure of eight that is further from the equator's side, where more
-  /// hours are up.
+  /// Beyond the end of the figure of eight that is farther from the equator's side, where more
+  /// hours are visible.
   void NameHour(int hour, Sighting june, Sighting december) {
     const bool south = facts_.observer.latitude.value() < 0.0;
     const Sighting end = south ? december : june, other = south ? june : december;

@@ -11,24 +11,24 @@
 
 namespace pleinair::app {
 
-/// What a sun-path picture shows.
+/// Content of a sun-path diagram.
 struct SunPathFacts {
   sky::Observer observer;
   int year = 2025;
-  UtcOffset offset;  ///< Of the clock whose hours are drawn.
+  UtcOffset offset;  ///< Clock of the hours drawn.
   sky::SunModel model = sky::SunModel::kPrecise;
-  std::optional<UtcTime> moment;  ///< Marks the sun of that moment too.
+  std::optional<UtcTime> moment;  ///< Also marks the sun at that time.
 };
 
-/// Where in the picture a direction lies: stereographic projection of the upper hemisphere on its
-/// horizon, seen from above as a map is: the zenith in the centre, north up, east right,
-/// r = R tan((90° − elevation) / 2). Circles of the sky are circles in it.
+/// Position of a direction in the diagram: stereographic projection of the upper hemisphere onto
+/// its horizon, seen from above like a map. The zenith is in the centre, north up, east right, r =
+/// R tan((90° − elevation) / 2). Circles of the sky are circles in it.
 Vec2 ProjectOnSunPath(Radians azimuth, Radians elevation);
 
-/// The sun-path diagram of a place, as architects draw it: the sun's way on the 21st of each month,
-/// the hours of a clock (a figure of eight each, by the equation of time), rings of elevation every
-/// 10° and the compass. The sun is where it is seen, refraction included. First half of the year
-/// solid, second half (from June to December) dashed.
+/// Draws the sun-path diagram of a place, as architects use it. It shows the sun's path on the 21st
+/// of each month, and the hours of a clock. Each hour is an analemma, a figure of eight due to the
+/// equation of time. It also shows rings of elevation every 10° and the compass. Positions include
+/// refraction. The first half of the year is solid, the second half (from June to December) dashed.
 exports::VectorDrawing DrawSunPath(const SunPathFacts& facts);
 
 }  // namespace pleinair::app

@@ -24,7 +24,7 @@ std::string FormatColumns(const sky::SunPosition& sun) {
   return text.data();
 }
 
-/// Positions of many rows on all processors, a block at a time, written in order.
+/// Computes the positions of many rows on all processors, block by block, and writes them in order.
 void WriteRows(const std::vector<SunTableRow>& rows, const SunRowsOptions& options,
                std::ostream& out) {
   constexpr std::size_t kBlock = 1 << 14;

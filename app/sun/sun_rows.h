@@ -8,28 +8,28 @@
 
 namespace pleinair::app {
 
-/// The columns that every row gets, in this order.
+/// Columns of every row, in this order.
 inline constexpr const char* kSunColumns =
     "azimuth_deg,elevation_deg,elevation_refracted_deg,distance_au";
 
-/// The members of a JSON object that say where the sun stood, without the braces.
+/// Members of a JSON object with the sun's position, without the braces.
 std::string SunPositionJson(UtcTime time, const sky::Observer& observer,
                             const sky::SunPosition& sun);
 
-/// Where and how rows are written.
+/// Format and output of the rows.
 struct SunRowsOptions {
   sky::SunModel model = sky::SunModel::kPrecise;
-  bool json = false;   ///< An object a line instead of CSV.
+  bool json = false;   ///< One object per line instead of CSV.
   std::string output;  ///< Empty: standard output.
 };
 
-/// Each row of a CSV file (app/sun/sun_table.h; "-" is standard input) with the sun's columns
-/// behind it. Errors: the file's, with the line; nothing is written then.
+/// Appends the sun's columns to each row of a CSV file (app/sun/sun_table.h; "-" is standard
+/// input). Errors: those of the file, with the line, before anything is written.
 Result<void> WriteSunTable(const std::string& csv, const sky::Observer& defaults,
                            const SunRowsOptions& options);
 
-/// A row every `step_s` seconds from `from` to `until`, both included. Errors (input): `until`
-/// lies before `from`, a step that is no positive number, more than ten million rows.
+/// Writes a row every `step_s` seconds from `from` to `until`, both included. Errors (input):
+/// `until` is before `from`, a step that is not positive, more than ten million rows.
 Result<void> WriteSunSeries(const sky::Observer& observer, UtcTime from, UtcTime until,
                             double step_s, const SunRowsOptions& options);
 

@@ -11,7 +11,7 @@
 
 namespace pleinair::app {
 
-/// A quantity of an observer that a table or an option may give, with what is sensible.
+/// A quantity of an observer in a table or an option, with its valid range.
 struct ObserverField {
   const char* name;
   double lowest, highest;
@@ -31,27 +31,27 @@ inline constexpr std::array<ObserverField, 5> kObserverFields = {{
      [](sky::Observer& o, double v) { o.temperature_c = v; }},
 }};
 
-/// Reads a number into the observer; an error names `where` and the range.
+/// Parses a number into the observer. An error contains `where` and the range.
 Result<void> SetObserverField(const ObserverField& field, std::string_view text,
                               const std::string& where, sky::Observer* observer);
 
-/// A row of a table of places and times: what to compute, and the row's own text to repeat.
+/// A row of a table of places and times: the input, and the row's text for the output.
 struct SunTableRow {
   UtcTime time;
   sky::Observer observer;
-  std::string_view text;  ///< Into the table's text, without its line end.
+  std::string_view text;  ///< Points into the table's text, without its line end.
 };
 
-/// A parsed CSV table of places and times. Its rows point into the text it was read from.
+/// A parsed CSV table of places and times. Its rows point into the text.
 struct SunTable {
   std::string_view header;
   std::vector<SunTableRow> rows;
 };
 
-/// Parses `utc,lat,lon[,height_m,pressure_mbar,temperature_c]`: columns by name in any order,
-/// others are left alone; a byte order mark, CRLF, quoted fields and blank lines are understood.
-/// What a row leaves empty, or has no column for, comes from `defaults`. `name` is the file's, for
-/// errors, which say the line. `text` must outlive the table.
+/// Parses `utc,lat,lon[,height_m,pressure_mbar,temperature_c]`: columns by name in any order;
+/// others are ignored. It accepts a byte order mark, CRLF, quoted fields and blank lines. Empty
+/// fields and missing columns take their values from `defaults`. `name` is the file's; errors
+/// contain it and the line. `text` must outlive the table.
 Result<SunTable> ParseSunTable(std::string_view text, const std::string& name,
                                const sky::Observer& defaults);
 
