@@ -9,15 +9,15 @@
 namespace pleinair::app {
 namespace {
 
-// Signals that come this soon after the first are the same wish: a terminal and `timeout` send to
-// a whole group of processes, and people press Ctrl-C twice.
+// Signals so soon after the first are the same request: a terminal and `timeout` signal a whole
+// process group, and users press Ctrl-C twice.
 constexpr std::int64_t kSameWish_ns = 2'000'000'000;
 constexpr int kSignalsThatEnd = 3;
 
 std::atomic<int> signals{0};
 std::atomic<std::int64_t> first_ns{0};
 static_assert(std::atomic<int>::is_always_lock_free &&
-              std::atomic<std::int64_t>::is_always_lock_free);  // Else unfit for handlers.
+              std::atomic<std::int64_t>::is_always_lock_free);  // Required in signal handlers.
 
 void Install(void (*handler)(int)) {
   struct sigaction action = {};
@@ -36,7 +36,7 @@ void Remember(int signal) {
   if (count == 1) first_ns = now_ns;
   if (count >= kSignalsThatEnd && now_ns - first_ns > kSameWish_ns) {
     Install(SIG_DFL);
-    raise(signal);  // Blocked until this handler returns, deadly then.
+    raise(signal);  // Blocked until this handler returns, then fatal.
   }
   errno = saved_errno;
 }

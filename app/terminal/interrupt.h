@@ -6,9 +6,9 @@
 
 namespace pleinair::app {
 
-/// While one of these lives, Ctrl-C (SIGINT, SIGTERM) only sets a flag, so that the work can stop
-/// between two frames and clean up. The third one, or a later one, ends the program as usual once
-/// two seconds have passed since the first.
+/// While an object exists, Ctrl-C (SIGINT, SIGTERM) only sets a flag, so that the work can stop
+/// between two frames and clean up. The third or a later signal ends the program, if two seconds
+/// have passed since the first.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -19,7 +19,8 @@ class InterruptGuard {
   static bool Interrupted();
 };
 
-/// Error where somebody asked to stop; `work` is what is worked on, of which nothing was written.
+/// Error if a stop was requested. `work`: name of the unfinished work, of which nothing was
+/// written.
 Result<void> CheckInterrupt(const std::string& work);
 
 }  // namespace pleinair::app

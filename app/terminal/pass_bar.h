@@ -12,14 +12,14 @@
 
 namespace pleinair::app {
 
-/// Shows how a pass over a recording goes on (session::PassMonitor) as a progress bar, and stops
-/// the pass on Ctrl-C.
+/// Shows the progress of a pass over a recording (session::PassMonitor), and stops the pass on
+/// Ctrl-C.
 class PassBar {
  public:
-  /// `work`: what is worked on, for the error of a pass that was stopped.
+  /// `work`: name of the work, for the error of a stopped pass.
   PassBar(std::string label, std::string work) : label_(std::move(label)), work_(std::move(work)) {}
 
-  /// Refers to this bar.
+  /// The result refers to this bar.
   std::function<Result<void>(std::int64_t, std::optional<std::int64_t>)> Progress() {
     return [this](std::int64_t done, std::optional<std::int64_t> of) {
       if (!bar_) bar_.emplace(label_, of);

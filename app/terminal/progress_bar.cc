@@ -35,7 +35,7 @@ void ProgressBar::Advance() {
   ++done_;
   if (!is_drawn_) return;
   const auto now = Clock::now();
-  // What is done sooner than it would be drawn again is shown at its end.
+  // Items completed faster than the redraw interval appear at its end.
   if (done_ != total_ && now - last_drawn_ < kRedraw) return;
   last_drawn_ = now;
   Draw(std::chrono::duration<double>(now - start_).count());

@@ -7,12 +7,12 @@
 
 namespace pleinair::app {
 
-/// A bar on standard error, drawn only on a terminal: empty at first, then at most ten times a
-/// second, and when all is done; its line is wiped when it goes. Of several that live at once only
+/// A progress bar on standard error, only on a terminal. It is drawn at the start, then at most ten
+/// times a second, and at the end. The destructor clears its line. If several exist at once, only
 /// the first is drawn.
 class ProgressBar {
  public:
-  /// `unit`: what is counted, in the plural.
+  /// `unit`: the counted items, in the plural.
   ProgressBar(std::string label, std::optional<std::int64_t> total, std::string unit = "frames");
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -20,7 +20,7 @@ class ProgressBar {
 
   void Advance();
 
-  /// The line as it is drawn: for a total, a bar with the share done and the seconds still to go.
+  /// The line as drawn. With a total: a bar with the share done and the remaining seconds.
   static std::string Line(const std::string& label, std::int64_t done,
                           std::optional<std::int64_t> total, double elapsed_s,
                           const std::string& unit = "frames");
