@@ -14,7 +14,7 @@ namespace pleinair::exports {
 namespace {
 
 cv::Mat Wrap(ImageView<const std::uint8_t> rgb) {
-  // OpenCV has no const view; nobody writes through this one.
+  // OpenCV has no const view; nothing writes through this one.
   return {rgb.height(), rgb.width(), CV_8UC3, const_cast<std::uint8_t*>(rgb.data()),
           static_cast<std::size_t>(rgb.stride())};
 }
@@ -34,7 +34,7 @@ Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::ui
   }
   if (good) return {};
   std::error_code ignored;
-  // Never a device or a pipe that stands where a file was expected.
+  // Never remove a device or pipe at the path of the file.
   if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
   return tl::make_unexpected(WriteError(file, error_number != 0 ? error_number : EIO));
 }

@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-// Its functions stay in this file: other libraries bring their own copies.
+// Static functions: other libraries contain their own copies.
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
@@ -39,7 +39,7 @@ Result<void> WriteExr(const std::filesystem::path& file, ImageView<const float> 
     for (int channel = 0; channel < 3; ++channel) {
       const std::string name(1, "RGB"[channel]);
       header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-      // OpenEXR has no const view; nobody writes through this one.
+      // OpenEXR has no const view; nothing writes through this one.
       char* base = const_cast<char*>(reinterpret_cast<const char*>(rgb.data() + channel));
       buffer.insert(name, Imf::Slice(Imf::FLOAT, base, kPixel,
                                      static_cast<std::size_t>(rgb.stride()) * sizeof(float)));

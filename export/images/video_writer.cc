@@ -41,7 +41,7 @@ constexpr int kEncoderThreads = 4;   // Fixed: x264's decisions depend on it.
 
 constexpr double kFastestNtsc_hz = 1000.0;
 
-/// The rate as the fraction that is meant: 29.97 is 30000/1001, a frame in five minutes 1/300.
+/// Converts the rate to the intended fraction: 29.97 is 30000/1001, a frame in five minutes 1/300.
 AVRational RateFraction(double rate_hz) {
   const double whole = std::round(rate_hz);
   if (whole >= 1.0 && std::abs(rate_hz - whole) < 1e-3) return {static_cast<int>(whole), 1};
@@ -55,8 +55,8 @@ AVRational RateFraction(double rate_hz) {
   return {1, static_cast<int>(std::min(std::round(1.0 / rate_hz), kMaxPeriod_s))};
 }
 
-/// libav's error number as an Error about `file`. What the system says of files is told as such;
-/// EINVAL is libav's own word for a setting that it cannot work with.
+/// Converts libav's error number to an Error about `file`. System errors about files keep their
+/// text. EINVAL is libav's own code for an unsupported setting.
 Error LibavError(const std::filesystem::path& file, int code) {
   const int error_number = AVUNERROR(code);
   if (error_number > 0 && error_number < 4096 && error_number != EINVAL) {
@@ -74,7 +74,7 @@ class LibavVideoWriter final : public VideoWriter {
       : file_(std::move(file)), options_(options) {}
 
   Result<void> Open() {
-    av_log_set_level(AV_LOG_QUIET);  // Every failure comes back as a code and is told in our words.
+    av_log_set_level(AV_LOG_QUIET);  // Every failure returns a code and is reported by us.
     const AVCodec* codec = nullptr;
     for (const char* name : {"libx264", "libopenh264"}) {
       codec = avcodec_find_encoder_by_name(name);
@@ -88,7 +88,7 @@ class LibavVideoWriter final : public VideoWriter {
     int code = avformat_alloc_output_context2(&format, nullptr, "mp4", file_.c_str());
     if (code < 0) return tl::make_unexpected(LibavError(file_, code));
     format_.reset(format);
-    // No creation time, no library versions: the bytes depend on the frames alone.
+    // No creation time, no library versions: the bytes depend only on the frames.
     format_->flags |= AVFMT_FLAG_BITEXACT;
     codec_.reset(avcodec_alloc_context3(codec));
     frame_.reset(av_frame_alloc());
@@ -128,7 +128,7 @@ class LibavVideoWriter final : public VideoWriter {
     if (const int code = av_write_trailer(format_.get()); code < 0) {
       return tl::make_unexpected(LibavError(file_, code));
     }
-    // The file's own buffer may hold the last bytes, and an earlier failure stays in `error`.
+    // The file's own buffer may hold the last bytes. An earlier failure stays in `error`.
     avio_flush(format_->pb);
     const int write_code = format_->pb->error;
     const int close_code = avio_closep(&format_->pb);
@@ -236,7 +236,7 @@ class LibavVideoWriter final : public VideoWriter {
   AvPointer<SwsContext> scaler_;
   AvPointer<AVFrame> frame_;
   AvPointer<AVPacket> packet_;
-  AVStream* stream_ = nullptr;  // The format's.
+  AVStream* stream_ = nullptr;  // Owned by the format.
   std::vector<std::uint8_t> padded_;
   std::optional<std::int64_t> first_stamp_ns_;
   std::int64_t last_tick_ = -1;  // One before the first.

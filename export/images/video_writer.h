@@ -10,31 +10,31 @@
 
 namespace pleinair::exports {
 
-/// H.264 in MP4 (libx264, constant rate factor 18, yuv420p, BT.709 limited range). The same frames
-/// give the same bytes on any number of processors: nothing of the clock goes into the file, and
-/// the encoder always gets the same number of threads. A picture of odd size is padded by its
-/// last column or row, because 4:2:0 needs even sizes.
+/// Writes H.264 in MP4 (libx264, constant rate factor 18, yuv420p, BT.709 limited range). The same
+/// frames give the same bytes on any number of processors. The file contains no time of creation,
+/// and the number of encoder threads is fixed. An image of odd size is padded with its last column
+/// or row, because 4:2:0 requires even sizes.
 class VideoWriter {
  public:
   struct Options {
     int width = 0;
     int height = 0;
-    double frame_rate_hz = 0.0;  ///< NTSC rates (29.97…) are taken as the fractions they are.
+    double frame_rate_hz = 0.0;  ///< NTSC rates (29.97…) are stored as exact fractions.
   };
 
-  /// Errors: no H.264 encoder in this machine's libavcodec (system), WriteError.
+  /// Errors: no H.264 encoder in the installed libavcodec (system), WriteError.
   static Result<std::unique_ptr<VideoWriter>> Create(const std::filesystem::path& file,
                                                      const Options& options);
   virtual ~VideoWriter() = default;
 
-  /// Adds a picture shown from `timestamp_ns` on; stamps must grow, and those within a fiftieth of
-  /// a frame of the regular raster are put on it.
+  /// Adds an image displayed from `timestamp_ns` on. Time stamps must increase. Stamps within a
+  /// fiftieth of a frame of the regular raster are moved to it.
   virtual Result<void> Add(ImageView<const std::uint8_t> rgb, std::int64_t timestamp_ns) = 0;
 
-  /// Writes what the encoder still holds and the index. Without it the file is useless.
+  /// Writes the encoder's remaining frames and the index. Without it the file is unusable.
   virtual Result<void> Finish() = 0;
 
-  /// "libx264", or the encoder that stands in where it is missing.
+  /// "libx264", or its substitute if it is missing.
   virtual std::string encoder_name() const = 0;
 };
 
