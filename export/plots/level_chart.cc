@@ -49,7 +49,7 @@ std::string LevelChartSvg(const std::string& title, const std::string& level_nam
   plot.AddTick(plot.ToX(0.5), kNameBelow, level_name);
   for (std::size_t s = 0; s < series.size(); ++s) {
     const LevelSeries& one = series[s];
-    // Whiskers of several series stand beside each other.
+    // Places the whiskers of several series side by side.
     const double aside = 4.0 * (static_cast<double>(s) - 0.5 * (series.size() - 1.0));
     std::string path, whiskers;
     bool pen_down = false;

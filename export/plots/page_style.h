@@ -2,7 +2,7 @@
 
 namespace pleinair::exports {
 
-/// Style of the pages that pleinair writes; follows the reader's light or dark mode.
+/// Style of all pages by pleinair; follows the reader's light or dark mode.
 inline constexpr const char* kPageStyle = R"(
 :root{color-scheme:light dark;--paper:#fbfaf7;--ink:#22262b;--soft:#6a7079;--rule:#dcdad3;
 --card:#fff;--warn:#9a5b00;--c0:#c2452d;--c1:#2f7d4f;--c2:#2c62b5}

@@ -15,15 +15,16 @@
 namespace pleinair::exports {
 namespace {
 
-constexpr double kDash = 5.0;  // Length of a dash and of the gap behind it.
+constexpr double kDash = 5.0;  // Length of a dash and of a gap.
 constexpr int kSupersampling = 3;
-constexpr double kHalo = 0.22;  // Width of the white around letters, of the font's size.
+constexpr double kHalo =
+    0.22;  // Width of the white halo around letters, relative to the font size.
 
 std::string Number(double value) { return ShortNumber(value, 2); }
 
 std::string Hex(DrawingColor c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
-/// The parts of a line that dashes cover.
+/// Divides a line into dashes.
 std::vector<std::vector<Vec2>> CutDashes(const std::vector<Vec2>& points) {
   std::vector<std::vector<Vec2>> dashes;
   std::vector<Vec2> dash{points.front()};
@@ -48,7 +49,7 @@ std::vector<std::vector<Vec2>> CutDashes(const std::vector<Vec2>& points) {
   return dashes;
 }
 
-/// Draws into a picture `scale` times as large as the drawing.
+/// Draws into an image `scale` times as large as the drawing.
 class Canvas {
  public:
   Canvas(cv::Mat* picture, double scale) : picture_(picture), scale_(scale) {}
@@ -73,7 +74,7 @@ class Canvas {
   }
 
   void Draw(const DrawingText& text) {
-    // Hershey's simplex capitals are 21 px high at scale 1 and 0.72 of Helvetica's size.
+    // Hershey's simplex capitals are 21 px high at scale 1, and 0.72 of Helvetica's size.
     constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
     const double size_px = text.size * scale_;
     const double scale = 0.72 * size_px / 21.0;
@@ -91,7 +92,7 @@ class Canvas {
   static constexpr int kShift = 4;
 
   cv::Point ToFixed(Vec2 p) const {
-    // OpenCV's integer is a pixel's centre; a pixel's left edge is ours.
+    // OpenCV's integers are pixel centres; ours are a pixel's left edge.
     const auto fixed = [&](double v) {
       return static_cast<int>(std::lround((v * scale_ - 0.5) * (1 << kShift)));
     };
@@ -137,7 +138,7 @@ std::string DrawingSvg(const VectorDrawing& drawing, int width_px) {
   }
   svg += "<g font-family=\"Helvetica, Arial, sans-serif\" text-anchor=\"middle\">\n";
   for (const DrawingText& text : drawing.texts) {
-    // The halo is a second text beneath: not every reader knows paint-order.
+    // The halo is a second text beneath, because not every viewer supports paint-order.
     const std::string place =
         fmt::format("x=\"{}\" y=\"{}\" font-size=\"{}\"", Number(text.centre.x),
                     Number(text.centre.y + 0.36 * text.size), Number(text.size));

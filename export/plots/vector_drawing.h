@@ -9,12 +9,12 @@
 
 namespace pleinair::exports {
 
-/// sRGB, 8 bits a channel.
+/// sRGB, 8 bits per channel.
 struct DrawingColor {
   std::uint8_t r = 0, g = 0, b = 0;
 };
 
-/// An open line through points; a closed one repeats its first.
+/// An open polyline; a closed one repeats its first point.
 struct DrawingLine {
   std::vector<Vec2> points;
   DrawingColor color;
@@ -28,16 +28,16 @@ struct DrawingDisc {
   DrawingColor fill;
 };
 
-/// One line of ASCII text, centred on `centre`; with a white halo, so that it can stand on lines.
+/// One line of ASCII text, centred on `centre`, with a white halo for readability over lines.
 struct DrawingText {
   Vec2 centre;
-  double size = 12.0;  ///< Of the font.
+  double size = 12.0;  ///< Font size.
   std::string text;
   DrawingColor color;
 };
 
-/// A drawing of coloured lines on white: in units of its own, x right, y down, from the top-left
-/// corner. Lines are drawn first, then discs, then texts, each in their order.
+/// A drawing of colored lines on white, in its own units: x right, y down, from the top-left
+/// corner. Lines are drawn first, then discs, then texts, each in order.
 struct VectorDrawing {
   double width = 0.0, height = 0.0;
   std::string title;
@@ -46,10 +46,10 @@ struct VectorDrawing {
   std::vector<DrawingText> texts;
 };
 
-/// SVG 1.1, `width_px` wide. Coordinates are rounded, so equal drawings give equal bytes.
+/// SVG 1.1, `width_px` wide. Coordinates are rounded, so that equal drawings give equal bytes.
 std::string DrawingSvg(const VectorDrawing& drawing, int width_px);
 
-/// The same as an 8-bit sRGB picture.
+/// The same as an 8-bit sRGB image.
 RgbImage RasterizeDrawing(const VectorDrawing& drawing, int width_px);
 
 }  // namespace pleinair::exports
