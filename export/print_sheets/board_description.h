@@ -7,17 +7,17 @@
 
 namespace pleinair::exports {
 
-/// The narrowest gap between markers of a board: one white margin, which both neighbours share.
+/// Min. gap between markers of a board: one white margin, shared by both neighbours.
 double MinGap_mm(double size_mm);
 
-/// A board as JSON (docs/guide/print.md): numbers and corners in metres, in the board's own frame
-/// (origin at its centre, x right, y up, z out of the print towards the viewer).
+/// Describes a board as JSON (docs/guide/print.md): numbers and corners in metres, in the board's
+/// frame. The origin is at its centre, x right, y up, z out of the board towards the viewer.
 std::string DescribeBoard(const Board& board);
 
 /// Metres without the rounding of binary fractions: to the picometre.
 double RoundedMetres(double mm);
 
-/// Whether a file describes a board, of whatever kind.
+/// True if a file describes a board of any kind.
 bool IsBoardDescription(const std::filesystem::path& file);
 
 }  // namespace pleinair::exports

@@ -10,19 +10,19 @@
 
 namespace pleinair::exports {
 
-/// Edges that can be printed: modules of 0.1 mm at least, and a page that a PDF can hold.
+/// Printable edge lengths: modules of at least 0.1 mm, and a page that fits a PDF.
 constexpr double kMinMarker_mm = 4.0;
 constexpr double kMaxMarker_mm = 4000.0;
 
-/// Errors (input): a length from the command line that is no number; ranges let "nan" pass.
+/// Errors (input): a length of the command line that is not a number, because ranges accept "nan".
 Result<void> CheckLength(const std::string& option, double length_mm);
 
 /// Corners of a marker's outer black square on its page: from top-left, clockwise.
 using CornersOnPage = std::array<Vec2, 4>;
 
-/// A page with one marker true to scale, its number, a dimension arrow over the outer black edge, a
-/// 100 mm ruler and how to print it. Errors (input): a marker that does not fit, with a page that
-/// would.
+/// Returns a page with one marker true to scale and its number. It includes a dimension arrow over
+/// the outer black edge, a 100 mm ruler and printing instructions. Errors (input): the marker does
+/// not fit; the error names a page that does.
 Result<Sheet> MarkerSheet(int number, double size_mm, PageSize page);
 
 /// Markers with consecutive numbers on one plane, row by row from the top-left.
@@ -39,10 +39,10 @@ struct Board {
   Vec2 Centre_mm(int i) const;
 };
 
-/// A page with the board, like MarkerSheet. Errors as there.
+/// A page with the board, like MarkerSheet. Errors: as there.
 Result<Sheet> BoardSheet(const Board& board, PageSize page);
 
-/// Where the corners of a print stand on its page.
+/// Positions of a marker's corners on its page.
 CornersOnPage FindCorners(const SheetMarker& print);
 
 }  // namespace pleinair::exports

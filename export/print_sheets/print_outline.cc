@@ -18,7 +18,7 @@ class BlackModules {
     if (x < 0 || y < 0 || x >= print_.modules || y >= print_.modules) return false;
     return print_.white[static_cast<std::size_t>(y) * print_.modules + x] == 0;
   }
-  /// The module to the right or left of the edge that leaves `corner` in `direction`.
+  /// The module to the right or left of the edge from `corner` in `direction`.
   bool RightOf(ModuleCorner corner, int direction) const {
     constexpr std::array<ModuleCorner, 4> kModule = {{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
     return (*this)(corner.x + kModule[direction].x, corner.y + kModule[direction].y);
@@ -35,8 +35,8 @@ class BlackModules {
 
 std::vector<std::vector<ModuleCorner>> TraceBlackOutlines(const tracker::MarkerPattern& print) {
   const BlackModules black(print);
-  // A loop walks with black on its right. Each has an edge going east with black below; those are
-  // ticked off, so that each loop is walked once.
+  // A loop has black on its right. Each loop contains an edge going east with black below. These
+  // edges are marked, so that each loop is traced once.
   std::vector<std::uint8_t> walked(static_cast<std::size_t>(print.modules) * print.modules, 0);
   std::vector<std::vector<ModuleCorner>> loops;
   for (int y = 0; y < print.modules; ++y) {
@@ -49,8 +49,8 @@ std::vector<std::vector<ModuleCorner>> TraceBlackOutlines(const tracker::MarkerP
       do {
         if (direction == kEast) walked[static_cast<std::size_t>(at.y) * print.modules + at.x] = 1;
         at = {at.x + kStep[direction].x, at.y + kStep[direction].y};
-        // Keeps to the module on its right: turns right where that one ends, so that modules
-        // touching at a corner stay apart; left where black lies ahead on the left.
+        // Follow the module on the right: turn right where it ends, so that modules touching at a
+        // corner stay separate. Turn left where black lies ahead on the left.
         int next = direction;
         if (!black.RightOf(at, direction)) {
           next = (direction + 1) % 4;

@@ -14,7 +14,7 @@ struct NamedPage {
   PageSize size;
 };
 
-// ISO 216, and the North American letter (8.5 × 11 inches); rising within each.
+// ISO 216, and the North American letter (8.5 × 11 inches); ascending within each.
 constexpr NamedPage kPages[] = {
     {"A5", {148, 210}}, {"A4", {210, 297}}, {"letter", {215.9, 279.4}}, {"A3", {297, 420}},
     {"A2", {420, 594}}, {"A1", {594, 841}}, {"A0", {841, 1189}},
@@ -25,7 +25,7 @@ constexpr double kMaxSide_mm = 5000.0;  // PDF readers stop at 14,400 points, 5,
 
 constexpr PageSize Turned(PageSize page) { return {page.height_mm, page.width_mm}; }
 
-/// "210x297" → both sides; nothing where the text is not that.
+/// Parses both sides of "210x297"; false for other text.
 bool ParseSides(const std::string& text, PageSize* page) {
   char* end = nullptr;
   page->width_mm = std::strtod(text.c_str(), &end);

@@ -10,8 +10,8 @@
 
 namespace pleinair::exports {
 
-// What is printed on one page, in millimetres from the page's top-left corner, x right, y down. All
-// of it is black on white; renderers (pdf.h, svg.h, sheet_raster.h) draw it true to scale.
+// Content of one printed page, in millimetres from the page's top-left corner, x right, y down. It
+// is black on white; renderers (pdf.h, svg.h, sheet_raster.h) draw it true to scale.
 
 struct PageSize {
   double width_mm = 210.0;
@@ -19,14 +19,14 @@ struct PageSize {
   bool operator==(const PageSize&) const = default;
 };
 
-/// "A4" (also A0…A5, letter), upright; "A4-landscape"; or "WIDTHxHEIGHT" in mm, 30 to 5000 a side.
-/// Errors (input): anything else.
+/// Parses "A4" (also A0…A5, letter), upright; "A4-landscape"; or "WIDTHxHEIGHT" in mm, 30 to 5000 a
+/// side. Errors (input): other text.
 Result<PageSize> ParsePageSize(const std::string& text);
 
 /// "A4-landscape", or "300x400" for a size without a name.
 std::string PageName(PageSize page);
 
-/// The smallest page with a name on which `needed` fits; where none does, `needed` itself rounded
+/// Returns the smallest named page that `needed` fits. If there is none, returns `needed` rounded
 /// up to whole millimetres.
 PageSize FindPageFor(PageSize needed);
 
@@ -45,9 +45,9 @@ struct SheetTriangle {
   std::array<Vec2, 3> corners_mm;
 };
 
-/// One line of ASCII text in Helvetica or what looks like it.
+/// One line of ASCII text in Helvetica or a similar font.
 struct SheetText {
-  Vec2 baseline_mm;  ///< Its left end.
+  Vec2 baseline_mm;  ///< Left end.
   double size_mm = 3.5;
   std::string text;
 };

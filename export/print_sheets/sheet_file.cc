@@ -12,7 +12,7 @@
 namespace pleinair::exports {
 namespace {
 
-// The largest page with a name, A0, has 144 megapixels.
+// The largest named page, A0, has 144 megapixels.
 constexpr double kMaxMegapixels = 200.0;
 
 Result<std::string> RenderPng(const Sheet& sheet) {

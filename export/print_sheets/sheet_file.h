@@ -14,20 +14,21 @@ enum class SheetFormat { kPdf, kSvg, kPng };
 /// "pdf", "svg", "png".
 std::string_view FormatName(SheetFormat format);
 
-/// What the command line said about the format: at most one of these is set.
+/// Format options of the command line: at most one is set.
 struct FormatFlags {
   bool pdf = false, svg = false, png = false;
 };
 
-/// The flag's format, else that of the ending of `output`, else PDF. Errors (input): an ending that
-/// says otherwise than the flag, or that is none of the three.
+/// Selects the flag's format, else that of the extension of `output`, else PDF. Errors (input): an
+/// extension that contradicts the flag, or is none of the three.
 Result<SheetFormat> ChooseFormat(const FormatFlags& flags, const std::filesystem::path& output);
 
-/// The bytes of a file with one sheet. Errors: a page too large for a picture (input), no memory.
+/// Returns the bytes of a file with one sheet. Errors: a page too large for an image (input), no
+/// memory.
 Result<std::string> RenderSheet(const Sheet& sheet, SheetFormat format);
 
-/// Writes a file under a temporary name and renames it; a device or pipe that stands there is
-/// written to as it is. Errors as WriteError.
+/// Writes a file under a temporary name and renames it. Writes directly to an existing device or
+/// pipe. Errors: as WriteError.
 Result<void> WriteSheetFile(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace pleinair::exports

@@ -9,25 +9,25 @@
 namespace pleinair::exports {
 namespace {
 
-// Common printers leave up to 5 mm of the paper white; the crop marks need 4 mm more.
+// Common printers cannot print the outer 5 mm of the paper; crop marks need 4 mm more.
 constexpr double kMargin_mm = 10.0;
 constexpr double kLine_mm = 0.2;
 constexpr double kTextSize_mm = 3.5;
 constexpr double kTextLine_mm = 5.0;
 constexpr double kRuler_mm = 100.0;
-// Below the prints: dimension arrow 6, its label 5, ruler 9, then text.
+// Below the markers: dimension arrow 6, its label 5, ruler 9, then text.
 constexpr double kDimensionHeight_mm = 11.0;
 constexpr double kRulerHeight_mm = 11.0;
 
 void AddLine(Sheet* sheet, Vec2 from, Vec2 to) {
   const double left = std::min(from.x, to.x), top = std::min(from.y, to.y);
   const double width = std::abs(to.x - from.x), height = std::abs(to.y - from.y);
-  // One of the two is 0: lines stand upright or lie, and their middle is the place named.
+  // One of the two is 0: the line is vertical or horizontal, and the given place is its middle.
   const Vec2 thickness{width == 0.0 ? kLine_mm : 0.0, height == 0.0 ? kLine_mm : 0.0};
   sheet->rectangles.push_back({Vec2{left, top} - thickness * 0.5, Vec2{width, height} + thickness});
 }
 
-/// Arrow between two upright lines that stand at the ends of what it measures.
+/// Arrow between two vertical lines at the ends of the measured edge.
 void AddDimension(Sheet* sheet, double left, double right, double top) {
   constexpr double kHeadLength_mm = 3.0, kHeadHalfWidth_mm = 0.7;
   const double y = top + 3.0;
@@ -53,7 +53,7 @@ void AddRuler(Sheet* sheet, Vec2 top_left) {
   sheet->texts.push_back({{top_left.x + 88.0, bottom + 4.0}, 3.0, "100 mm"});
 }
 
-/// Where to cut: outside the white margin, which belongs to the marker.
+/// Crop marks: outside the white margin, which belongs to the marker.
 void AddCropMarks(Sheet* sheet, Vec2 top_left, Vec2 bottom_right) {
   constexpr double kAway_mm = 1.0, kLength_mm = 3.0;
   for (const double x : {top_left.x, bottom_right.x}) {
@@ -73,7 +73,7 @@ double LegendHeight(const SheetLegend& legend) {
          kTextLine_mm * static_cast<double>(legend.lines.size());
 }
 
-/// Helvetica's letters are half as wide as its size on average, and few lines exceed 0.55.
+/// The mean letter width of Helvetica is half its size; few lines exceed 0.55.
 double WidestLine(const SheetLegend& legend) {
   std::size_t longest = 0;
   for (const std::string& line : legend.lines) longest = std::max(longest, line.size());
@@ -112,7 +112,7 @@ void AddLegend(Sheet* sheet, const SheetLegend& legend, Vec2 area_top_left, Vec2
   sheet->texts.push_back(
       {{edge_left, y + 9.0}, kTextSize_mm, fmt::format("{:g} mm", legend.dimension_mm)});
   y += kDimensionHeight_mm;
-  // Text and ruler start at the prints' left end where they fit there.
+  // Text and ruler start at the left end of the markers, if they fit.
   const double widest = std::max(kRuler_mm, WidestLine(legend));
   const double left =
       std::min(area_top_left.x, std::max(kMargin_mm, 0.5 * (sheet->page.width_mm - widest)));

@@ -9,26 +9,26 @@
 
 namespace pleinair::exports {
 
-/// What is the same on every page: prints in the middle, and everything about them below: a
-/// dimension arrow, a 100 mm ruler, and how to print it. Crop marks outside the white margin.
+/// Common layout of all pages: markers in the middle, and below them a dimension arrow, a 100 mm
+/// ruler and printing instructions. Crop marks lie outside the white margin.
 struct SheetLegend {
-  std::string what;                ///< "a marker of 140 mm".
-  std::string option;              ///< That makes it smaller.
-  double dimension_mm = 0.0;       ///< Edge that the arrow measures, from the prints' left end on.
+  std::string what;           ///< "a marker of 140 mm".
+  std::string option;         ///< Option that makes it smaller.
+  double dimension_mm = 0.0;  ///< Edge of the dimension arrow, from the left end of the markers.
   std::vector<std::string> lines;  ///< Below the ruler.
 };
 
-// Hardly wider than the ruler, so that small pages do.
+// Short enough for small pages: hardly wider than the ruler.
 inline constexpr const char* kHowToPrint = "Print at 100 % (actual size); check the ruler.";
 inline constexpr const char* kHowToMount = "Leave the white margin on it; mount it flat.";
 
-/// The page that holds an area (prints with their white margin) and its legend.
+/// The page size for an area (markers with their white margin) and its legend.
 PageSize PageNeeded(const SheetLegend& legend, Vec2 area_mm);
 
-/// Error (input): it does not fit, with a page that would do.
+/// Error (input): it does not fit; the error names a page that does.
 Result<void> CheckFit(const SheetLegend& legend, Vec2 area_mm, PageSize page);
 
-/// Top-left corner of the prints' area, on whole millimetres.
+/// Top-left corner of the markers' area, on whole millimetres.
 Vec2 PlaceArea(Vec2 area_mm, PageSize page);
 
 /// `quiet_mm`: width of the white margin within the area.

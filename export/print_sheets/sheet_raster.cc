@@ -13,17 +13,17 @@
 namespace pleinair::exports {
 namespace {
 
-/// Part of a pixel's width (or height) that one module covers.
+/// Fraction of a pixel's width (or height) covered by one module.
 struct Share {
   int module = 0;
   double part = 0.0;
 };
 
-/// Modules of equal size side by side along an axis, as pixels see them.
+/// Coverage of pixels by adjacent modules of equal size along an axis.
 class AxisCoverage {
  public:
   AxisCoverage(double start_px, double module_px, int modules, int pixels) {
-    // Ends that ought to be whole pixels may miss them by rounding, not by more than this.
+    // Tolerance for rounding errors at ends on whole pixels.
     constexpr double kNothing = 1e-9;
     const double end_px = start_px + module_px * modules;
     first_ = std::clamp(static_cast<int>(std::floor(start_px + kNothing)), 0, pixels);
@@ -47,7 +47,7 @@ class AxisCoverage {
   std::vector<std::vector<Share>> shares_;
 };
 
-/// Darkens what black modules cover; `is_black(column, row)`.
+/// Darkens pixels by their coverage with black modules; `is_black(column, row)`.
 template <typename IsBlack>
 void DrawModules(const AxisCoverage& across, const AxisCoverage& down, IsBlack is_black,
                  Image<std::uint8_t>* picture) {
@@ -80,7 +80,7 @@ void DrawTriangle(const SheetTriangle& triangle, cv::Mat* picture) {
   constexpr int kShift = 8;
   std::vector<cv::Point> corners;
   for (const Vec2 corner : triangle.corners_mm) {
-    // OpenCV's integer is a pixel's centre; a pixel's left edge is ours.
+    // OpenCV's integers are pixel centres; ours are a pixel's left edge.
     const Vec2 px = corner * kSheetPixelsPerMm - Vec2{0.5, 0.5};
     corners.emplace_back(static_cast<int>(std::lround(px.x * (1 << kShift))),
                          static_cast<int>(std::lround(px.y * (1 << kShift))));
@@ -89,7 +89,7 @@ void DrawTriangle(const SheetTriangle& triangle, cv::Mat* picture) {
 }
 
 void DrawText(const SheetText& text, cv::Mat* picture) {
-  // Hershey's simplex capitals are 21 px high at scale 1 and 0.72 of Helvetica's size.
+  // Hershey's simplex capitals are 21 px high at scale 1, and 0.72 of Helvetica's size.
   const double scale = 0.72 * text.size_mm * kSheetPixelsPerMm / 21.0 * 0.95;
   const cv::Point baseline(static_cast<int>(std::lround(text.baseline_mm.x * kSheetPixelsPerMm)),
                            static_cast<int>(std::lround(text.baseline_mm.y * kSheetPixelsPerMm)));

@@ -10,19 +10,20 @@
 
 namespace pleinair::exports {
 
-/// Resolution of pages as pictures: 12 px/mm (304.8 dpi) puts whole millimetres on pixel edges.
+/// Resolution of pages as images: 12 px/mm (304.8 dpi) puts whole millimetres on pixel edges.
 constexpr int kSheetPixelsPerMm = 12;
 
-/// The page as an 8-bit sRGB grey picture. A pixel cut by an edge gets the mean of its area in
+/// The page as an 8-bit sRGB grey image. A pixel crossed by an edge gets the mean of its area in
 /// linear light.
 Image<std::uint8_t> RasterizeSheet(const Sheet& sheet);
 
-/// The bare print, quiet zone included, as `pixels` × `pixels`. Modules end on whole pixels where
-/// `pixels` is a multiple of the print's modules, and are smoothed as above elsewhere.
+/// The marker without legend, quiet zone included, as `pixels` × `pixels`. If `pixels` is a
+/// multiple of the number of modules, modules end at whole pixels. Otherwise they are antialiased
+/// as above.
 Image<std::uint8_t> RasterizeMarker(const tracker::MarkerPattern& print, int pixels);
 
-/// A grey picture as PNG with its resolution (pHYs) and nothing that varies between runs. Errors
-/// (system): no memory.
+/// Encodes a grey image as PNG with its resolution (pHYs) and no data that varies between runs.
+/// Errors (system): no memory.
 Result<std::string> EncodeGrayPng(ImageView<const std::uint8_t> gray, double pixels_per_metre);
 
 }  // namespace pleinair::exports

@@ -18,7 +18,7 @@ namespace {
 using tracker::BoardKind;
 using tracker::CalibrationBoard;
 
-// White around the board, of a square: what OpenCV's search for chessboards needs.
+// White margin around the board, in squares: required by OpenCV's chessboard detector.
 constexpr double kMargin = 0.5;
 constexpr double kMinSquare_mm = 4.0;
 
@@ -26,7 +26,7 @@ struct Sides {
   int columns = 0, rows = 0;
 };
 
-/// Squares, where chessboards count their inner corners.
+/// Number of squares; chessboards count their inner corners.
 Sides SquaresOf(const CalibrationBoard& board) {
   const int more = board.kind == BoardKind::kChessboard ? 1 : 0;
   return {board.columns + more, board.rows + more};
@@ -56,7 +56,7 @@ SheetLegend LegendOf(const SquareBoard& board, double square_mm) {
           {Title(b), sizes, kHowToPrint, kHowToMount}};
 }
 
-/// The black squares; prints are square, and what is left of this one is white.
+/// The black squares. Marker patterns are square; the rest of the pattern is white.
 tracker::MarkerPattern Squares(Sides squares) {
   tracker::MarkerPattern print;
   print.modules = print.edge_modules = std::max(squares.columns, squares.rows);
@@ -72,7 +72,7 @@ tracker::MarkerPattern Squares(Sides squares) {
 }  // namespace
 
 Result<double> MaxSquare_mm(const CalibrationBoard& board, PageSize page) {
-  // The legend's lines hardly depend on the size.
+  // The legend's size hardly depends on the squares.
   const auto fits = [&](double square_mm) {
     return CheckFit(LegendOf({board, square_mm}, square_mm), AreaOf(board, square_mm), page);
   };

@@ -10,24 +10,25 @@
 
 namespace pleinair::exports {
 
-/// A chessboard or ChArUco board as it is printed: squares of `board.square_m`, the top-left one
-/// black, a white margin of half a square around; a ChArUco board's markers stand in the middle of
-/// its white squares, as OpenCV has laid them out since 4.6.
+/// A printed chessboard or ChArUco board: squares of `board.square_m`, the top-left one black, with
+/// a white margin of half a square. A ChArUco board's markers are in the middle of its white
+/// squares, as in OpenCV since 4.6.
 struct SquareBoard {
   tracker::CalibrationBoard board;
   double marker_mm = 0.0;  ///< Side of a marker's black square; ChArUco boards only.
 };
 
-/// The largest whole millimetres for the board's squares with which it fits the page. Errors
-/// (input): not even the smallest does.
+/// Returns the max. square size in whole millimetres with which the board fits the page. Errors
+/// (input): not even the minimum fits.
 Result<double> MaxSquare_mm(const tracker::CalibrationBoard& board, PageSize page);
 
-/// A page with the board, true to scale, with a dimension arrow over its first square, a ruler and
-/// how to print it. Errors (input): a page that it does not fit, a dictionary that is not known.
+/// Returns a page with the board, true to scale. It includes a dimension arrow over the first
+/// square, a ruler and printing instructions. Errors (input): the board does not fit; unknown
+/// dictionary.
 Result<Sheet> SquareBoardSheet(const SquareBoard& board, PageSize page);
 
-/// The board as JSON (docs/guide/calibrate.md): sides, and in metres squares, markers and corners
-/// in the order and the frame of tracker::BoardPoints.
+/// Describes the board as JSON (docs/guide/calibrate.md): sides; squares, markers and corners in
+/// metres. Corners have the order and frame of tracker::BoardPoints.
 std::string DescribeBoard(const SquareBoard& board);
 
 }  // namespace pleinair::exports

@@ -18,7 +18,7 @@ constexpr double kPointsPerMm = 72.0 / 25.4;
 // Micrometres are a hundred times finer than printers.
 std::string Number(double value) { return ShortNumber(value, 4); }
 
-/// Of texts and titles, which are our own and ASCII.
+/// Escapes our own ASCII texts and titles.
 std::string EscapePdf(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -31,7 +31,7 @@ std::string EscapePdf(const std::string& text) {
 std::string PdfContent(const Sheet& sheet) {
   std::string content;
   auto out = std::back_inserter(content);
-  // From here on millimetres from the top-left corner, y down.
+  // From here on: millimetres from the top-left corner, y down.
   fmt::format_to(out, "0 g\n{0} 0 0 -{0} 0 {1} cm\n", fmt::format("{:.8f}", kPointsPerMm),
                  fmt::format("{:.6f}", sheet.page.height_mm * kPointsPerMm));
   for (const SheetMarker& print : sheet.prints) {

@@ -7,13 +7,13 @@
 
 namespace pleinair::exports {
 
-/// PDF 1.4 with one page a sheet, at least one. Paths and text are plain operators in millimetres;
-/// Helvetica is one of the fonts that every reader has. The file asks viewers not to scale when
-/// printing, and holds nothing that varies between runs or machines. Not by Cairo (1.16), which has
-/// no such viewer preference and puts the machine's font in place of Helvetica, in SVG too.
+/// Writes PDF 1.4 with one page per sheet, at least one. Paths and text are plain operators in
+/// millimetres. Helvetica is a standard font of every reader. The file requests printing without
+/// scaling, and contains no data that varies between runs or machines. Cairo (1.16) lacks this
+/// viewer preference and replaces Helvetica by the machine's font, in SVG too.
 std::string WritePdf(std::span<const Sheet> sheets);
 
-/// SVG 1.1 with the page's size in millimetres as its unit.
+/// Writes SVG 1.1 with the page's size in millimetres as its unit.
 std::string WriteSvg(const Sheet& sheet);
 
 }  // namespace pleinair::exports
