@@ -8,12 +8,12 @@
 namespace pleinair::exports {
 namespace {
 
-// Files state a quaternion to three digits or more; what is farther off is no rotation.
+// Files contain quaternions with three digits or more; a larger deviation is not a rotation.
 constexpr double kLengthTolerance = 0.01;
-// Farther than any camera goes, and far inside what 32-bit floats hold.
+// Beyond any camera's trajectory, and well within the range of 32-bit floats.
 constexpr double kMaxDistance = 1e9;
 
-// 285 years; leaves room to count on.
+// 285 years; leaves room for arithmetic.
 constexpr std::int64_t kMaxTime_ns = 9'000'000'000'000'000'000;
 
 bool IsNear(Vec3 place) {

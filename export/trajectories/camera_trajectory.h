@@ -13,35 +13,36 @@
 
 namespace pleinair::exports {
 
-/// What a path's poses are told in: the marker's frame for paths of pleinair's, whatever its author
-/// chose for others. Right-handed; metres where the author knows the scale.
+/// Frame of reference of a trajectory: the marker's frame for our trajectories, the author's choice
+/// for others. Right-handed; metres if the author knows the scale.
 struct Reference;
 
 struct TrajectoryPose {
   std::int64_t timestamp_ns = 0;
   Transform<Reference, Camera> reference_from_camera;
-  std::string picture;  ///< File name of the frame; empty where nobody said.
+  std::string picture;  ///< File name of the frame; empty if unknown.
 };
 
-/// A place that a reconstruction knows.
+/// A reconstructed point.
 struct TrajectoryPoint {
   Point<Reference> place;
-  std::array<std::uint8_t, 3> rgb{};  ///< sRGB codes.
-  double error_px = 0.0;              ///< Mean reprojection error; negative where unknown.
+  std::array<std::uint8_t, 3> rgb{};  ///< 8-bit sRGB values.
+  double error_px = 0.0;              ///< Mean reprojection error; negative if unknown.
 };
 
-/// Where a camera was, moment by moment.
+/// A camera's poses over time.
 struct CameraTrajectory {
   std::vector<TrajectoryPose> poses;  ///< Times ascend.
-  std::optional<CameraModel> camera;  ///< Where the file says, or the user.
+  std::optional<CameraModel> camera;  ///< From the file or the user.
   std::vector<TrajectoryPoint> points;
 };
 
-/// Checks a pose that a line of a file tells; `where` is the line's. Errors: a quaternion whose
-/// length is not 1 to 1 % (zero, or a number cut short), a shift of more than 1e9.
+/// Checks a pose of a line in a file; `where` is the line's location. Errors: a quaternion whose
+/// length differs from 1 by more than 1 % (zero, or truncated numbers), a translation of more than
+/// 1e9.
 Result<void> CheckPose(const std::string& where, Vec3 shift, const Quaternion& turn);
 
-/// The checked pose.
+/// Returns the checked pose.
 template <typename To, typename From>
 Result<Transform<To, From>> PoseFromFile(const std::string& where, Vec3 shift,
                                          const Quaternion& turn) {
@@ -53,7 +54,7 @@ Result<Transform<To, From>> PoseFromFile(const std::string& where, Vec3 shift,
 /// centuries away.
 Result<void> AddPose(const std::string& where, TrajectoryPose pose, CameraTrajectory* path);
 
-/// Multiplies all lengths: reconstructions know no scale of their own.
+/// Multiplies all lengths: reconstructions have no absolute scale.
 void ScaleTrajectory(double factor, CameraTrajectory* path);
 
 }  // namespace pleinair::exports

@@ -17,19 +17,19 @@ namespace pleinair::exports {
 namespace {
 
 constexpr const char* kWhole = "get a whole copy of it";
-/// What a picture saw: x, y and the point's number.
+/// A 2D point of an image: x, y and the 3D point's id.
 constexpr std::size_t kSeenBytes = 2 * sizeof(double) + sizeof(std::uint64_t);
-/// Who saw a point: the picture's number and the place in it.
+/// An element of a point's track: the image's id and the index in it.
 constexpr std::size_t kTrackBytes = 2 * sizeof(std::uint32_t);
 
-/// A file of entries that follow their count.
+/// A file with a count followed by its entries.
 class EntryFile {
  public:
   EntryFile(std::string_view bytes, std::string name) : reader(bytes), name_(std::move(name)) {
     count_ = reader.Get<std::uint64_t>();
   }
 
-  /// Goes on to the next entry; false behind the last.
+  /// Advances to the next entry; false after the last.
   bool Next() {
     if (!reader.complete() || entry_ == count_) return false;
     ++entry_;
@@ -39,14 +39,14 @@ class EntryFile {
   /// "FILE, entry 3 of 20".
   std::string Where() const { return fmt::format("{}, entry {} of {}", name_, entry_, count_); }
 
-  /// Errors: the bytes ended before all was read that was asked for.
+  /// Errors: the file ended before all requested bytes were read.
   Result<void> CheckComplete() const {
     if (reader.complete()) return {};
     return entry_ == 0 ? InputError(name_, "ends within its count of entries", kWhole)
                        : InputError(Where(), "ends before the entry does", kWhole);
   }
 
-  /// Errors: the same, and bytes behind the last entry.
+  /// Errors: the same, and bytes after the last entry.
   Result<void> CheckEnd() const {
     PLEINAIR_RETURN_IF_ERROR(CheckComplete());
     if (reader.rest().empty()) return {};
@@ -56,7 +56,7 @@ class EntryFile {
         kWhole);
   }
 
-  /// A list that a count precedes and that is not used.
+  /// Skips an unused list with its count.
   void SkipList(std::size_t item_bytes) {
     const auto count = reader.Get<std::uint64_t>();
     const bool fits = count <= reader.rest().size() / item_bytes;
@@ -99,7 +99,7 @@ Result<std::map<std::int64_t, CameraModel>> ParseCameras(std::string_view bytes,
   return cameras;
 }
 
-/// A name that ends with a zero byte; without that byte what is read is not complete.
+/// Reads a name that ends with a zero byte. Without that byte the file is incomplete.
 std::string_view GetName(LittleEndianReader* reader) {
   const std::size_t length = reader->rest().find('\0');
   const std::string_view name = reader->Take(length);
@@ -118,7 +118,7 @@ Result<std::vector<ColmapPicture>> ParseImages(std::string_view bytes, const std
   while (file.Next()) {
     ColmapPicture picture;
     picture.where = file.Where();
-    file.reader.Get<std::uint32_t>();  // Its number.
+    file.reader.Get<std::uint32_t>();  // Its id.
     Quaternion turn;
     for (double* component : {&turn.w, &turn.x, &turn.y, &turn.z}) {
       *component = file.reader.Get<double>();
@@ -144,7 +144,7 @@ Result<std::vector<TrajectoryPoint>> ParsePoints(std::string_view bytes, const s
   std::vector<TrajectoryPoint> points;
   EntryFile file(bytes, name);
   while (file.Next()) {
-    file.reader.Get<std::uint64_t>();  // Its number.
+    file.reader.Get<std::uint64_t>();  // Its id.
     TrajectoryPoint point;
     point.place.xyz = GetVector(&file.reader);
     for (std::uint8_t& code : point.rgb) code = file.reader.Get<std::uint8_t>();
@@ -192,7 +192,7 @@ ColmapFiles ColmapBinary(const ColmapModel& model) {
     PutLittleEndian(camera.height, &files.cameras);
     for (const double parameter : camera.parameters) PutLittleEndian(parameter, &files.cameras);
   }
-  constexpr std::uint64_t kNone = 0;  // Nothing seen in a picture, no track of a point.
+  constexpr std::uint64_t kNone = 0;  // No 2D points of an image, no track of a point.
   PutLittleEndian(std::uint64_t{model.pictures.size()}, &files.images);
   std::uint32_t number = 0;
   for (const ColmapPicture& picture : model.pictures) {

@@ -6,13 +6,13 @@
 
 namespace pleinair::exports {
 
-/// A sparse model in COLMAP's binary form, as its mapper and model_converter write it (its docs,
-/// "Output Format", and scene/reconstruction_io.cc). `folder` is the model's, for errors, which say
-/// file and entry.
-/// Errors: as ParseColmapText, and bytes behind the last entry.
+/// Parses a sparse model in COLMAP's binary format (its docs, "Output Format", and
+/// scene/reconstruction_io.cc), as written by its mapper and model_converter. `folder` is the
+/// model's; errors name it with file and entry. Errors: as ParseColmapText, and bytes after the
+/// last entry.
 Result<ColmapModel> ParseColmapBinary(const ColmapFiles& files, const std::string& folder);
 
-/// The model in binary, numbers as they are.
+/// Formats the model in binary, with exact numbers.
 ColmapFiles ColmapBinary(const ColmapModel& model);
 
 }  // namespace pleinair::exports

@@ -15,11 +15,11 @@ namespace {
 
 constexpr int kMaxSide = 100000;
 
-/// Where a model's parameters go: one or two focal lengths, cx, cy, then distortion coefficients,
-/// each to its place in CameraModel::distortion.
+/// Destination of a model's parameters: one or two focal lengths, cx, cy, then distortion
+/// coefficients with their indices in CameraModel::distortion.
 struct Formula {
   const char* name;
-  int id;  ///< What binary files have for the name.
+  int id;  ///< Id of the name in binary files.
   int focal_lengths;
   DistortionModel distortion_model;
   std::vector<std::size_t> places;
@@ -52,7 +52,7 @@ std::size_t ParameterCount(const Formula& formula) {
   return formula.focal_lengths + 2 + formula.places.size();
 }
 
-/// Models that binary files may name and whose formulae are their own.
+/// Unsupported models that binary files may contain.
 constexpr std::array<std::pair<int, const char*>, 3> kOthers{
     {{7, "FOV"}, {10, "THIN_PRISM_FISHEYE"}, {11, "RAD_TAN_THIN_PRISM_FISHEYE"}}};
 

@@ -10,29 +10,31 @@
 
 namespace pleinair::exports {
 
-/// A camera as COLMAP's cameras.txt has it: the model's name and its parameters in COLMAP's order
-/// (its sensor/models.h). Pixel centres lie at .5.
+/// A camera as in COLMAP's cameras.txt: the model's name and its parameters in COLMAP's order (its
+/// sensor/models.h). Pixel centres are at .5.
 struct ColmapCamera {
   std::string model;
   std::int64_t width = 0, height = 0;
   std::vector<double> parameters;
 };
 
-/// The name of the model that binary files tell by a number (COLMAP's sensor/models.h); "number 99"
-/// where there is none.
+/// Name of the model with this id in binary files (COLMAP's sensor/models.h); "number 99" if
+/// unknown.
 std::string ColmapModelName(int id);
-/// The number of a model that ColmapFromCamera gives.
+/// Id of a model that ColmapFromCamera returns.
 int ColmapModelId(const std::string& name);
-/// How many parameters a model has; 0 of models whose formulae we do not know.
+/// Number of parameters of a model; 0 for unsupported models.
 std::size_t ColmapParameterCount(const std::string& name);
 
-/// Our model of it. SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV,
-/// OPENCV_FISHEYE, SIMPLE_RADIAL_FISHEYE and RADIAL_FISHEYE are the same formulae with fewer or
-/// more terms. Errors: other models (FOV, THIN_PRISM_FISHEYE …), another number of parameters, one
-/// that is not finite, a focal length that is not greater than zero, a size outside 1…100000.
+/// Converts it to our camera model. SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV,
+/// FULL_OPENCV, OPENCV_FISHEYE, SIMPLE_RADIAL_FISHEYE and RADIAL_FISHEYE use the same formulae with
+/// fewer or more terms. Errors: other models (FOV, THIN_PRISM_FISHEYE …), a wrong number of
+/// parameters, a parameter that is not finite. Also a focal length that is not positive, a size
+/// outside 1…100000.
 Result<CameraModel> CameraFromColmap(const ColmapCamera& camera, const std::string& where);
 
-/// The smallest of COLMAP's models that holds ours: PINHOLE, OPENCV, FULL_OPENCV, OPENCV_FISHEYE.
+/// Returns the smallest COLMAP model that contains ours: PINHOLE, OPENCV, FULL_OPENCV,
+/// OPENCV_FISHEYE.
 ColmapCamera ColmapFromCamera(const CameraModel& camera);
 
 }  // namespace pleinair::exports

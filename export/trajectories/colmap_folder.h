@@ -8,19 +8,18 @@
 
 namespace pleinair::exports {
 
-/// In which of COLMAP's forms a model's files are: `.txt` or `.bin`.
+/// COLMAP's file formats of a model: `.txt` or `.bin`.
 enum class ColmapForm { kText, kBinary };
 
-/// What a model's files are called, in the order they are written: images last, which makes it one.
+/// File names of a model, in writing order: images last, which completes the model.
 std::array<const char*, 3> ColmapFileNames(ColmapForm form);
 
-/// Reads a model in either form; where a folder holds both, the one that COLMAP itself takes, which
-/// is the binary one if all its files are there.
-/// Errors: what the parsers refuse, files that are not there or larger than 1 GiB.
+/// Reads a model in either format. If a folder contains both, the choice is COLMAP's: binary if all
+/// binary files exist. Errors: as the parsers; files that are missing or larger than 1 GiB.
 Result<ColmapModel> ReadColmapFolder(const std::filesystem::path& folder);
 
-/// Writes a model, each file under a temporary name first. The folder is made.
-/// Errors: it holds a model in the other form, which would contradict this one.
+/// Writes a model, each file under a temporary name first. Creates the folder. Errors: it contains
+/// a model in the other format, which would contradict this one.
 Result<void> WriteColmapFolder(const ColmapModel& model, ColmapForm form,
                                const std::filesystem::path& folder);
 

@@ -13,7 +13,7 @@
 namespace pleinair::exports {
 namespace {
 
-/// The number that ends a picture's name before its extension.
+/// The number that ends an image's name before its extension.
 std::optional<std::int64_t> NumberIn(const std::string& picture) {
   const std::string stem = std::filesystem::path(picture).stem().string();
   const std::size_t last_other = stem.find_last_not_of("0123456789");
@@ -25,7 +25,7 @@ std::optional<std::int64_t> NumberIn(const std::string& picture) {
   return number;
 }
 
-/// Errors: the pictures' camera is not one, or not there.
+/// Errors: the images have several cameras, or a missing one.
 Result<CameraModel> CameraOf(const ColmapModel& model) {
   const std::int64_t id = model.pictures.front().camera_id;
   for (const ColmapPicture& picture : model.pictures) {
@@ -69,7 +69,7 @@ Result<CameraTrajectory> TrajectoryFromColmap(ColmapModel model, double frame_ra
   });
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     ColmapPicture& picture = *pictures[i].picture;
-    // Names stay where they are until all are compared.
+    // Names are moved only after all comparisons.
     if (i > 0 && (numbered ? pictures[i].number == pictures[i - 1].number
                            : picture.name == pictures[i - 1].picture->name)) {
       return InputError(picture.where,

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kWhole = "mend it, or get a whole copy of the file";
 
-/// The number that COLMAP states in a comment ("# Number of images: 2, mean …").
+/// Parses the count in a COLMAP comment ("# Number of images: 2, mean …").
 void ReadStatedCount(std::string_view comment, std::optional<std::int64_t>* count) {
   constexpr std::string_view kStart = "# Number of ";
   const std::size_t colon = comment.find(": ");
@@ -76,7 +76,7 @@ Result<std::vector<ColmapPicture>> ParseImages(std::string_view text, const std:
     picture.name = lines.Rest(9);
     if (picture.name.empty()) return InputError(picture.where, "names no picture", kWhole);
     pictures.push_back(std::move(picture));
-    // What was seen in it, which may be nothing; a comment is no such line.
+    // The 2D points of the image, possibly none; a comment is not such a line.
     if (lines.NextOfAnyKind() && (lines.IsComment() || lines.fields().size() % 3 != 0)) {
       return InputError(lines.Where(), "is not a picture's points: X Y POINT3D_ID …",
                         "a picture takes two lines, the second empty where nothing was seen");

@@ -6,13 +6,12 @@
 
 namespace pleinair::exports {
 
-/// A sparse model in COLMAP's text form: camera-from-world, quaternion w first. `folder` is the
-/// model's, for errors, which say file and line.
-/// Errors: files cut short, numbers that are not finite, quaternions that are no rotation, camera
-/// models of other formulae.
+/// Parses a sparse model in COLMAP's text format: camera-from-world, quaternion w first. `folder`
+/// is the model's; errors name it with file and line. Errors: truncated files, numbers that are not
+/// finite, quaternions that are not rotations, unsupported camera models.
 Result<ColmapModel> ParseColmapText(const ColmapFiles& files, const std::string& folder);
 
-/// The model as text, numbers to twelve digits.
+/// Formats the model as text, with twelve digits per number.
 ColmapFiles ColmapText(const ColmapModel& model);
 
 }  // namespace pleinair::exports

@@ -5,10 +5,10 @@
 
 namespace pleinair::exports {
 
-// The frames of reference that other programs' files are told in, as types, and the only place
-// where they are turned into ours (docs/guide/trajectories.md has the table).
+// Frames of reference of other programs' files, as types. Only this file converts them to ours
+// (table: docs/guide/trajectories.md).
 
-/// A camera as OpenGL, glTF and Blender have it: x right, y up, z backward.
+/// The camera frame of OpenGL, glTF and Blender: x right, y up, z backward.
 struct GlCamera;
 /// glTF's scene: y up, right-handed, metres.
 struct YUpScene;
@@ -16,14 +16,14 @@ struct YUpScene;
 /// Half a turn about x.
 inline const Transform<Camera, GlCamera> kCameraFromGlCamera{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {}};
 
-/// Which axis of a path's reference points up.
+/// The upward axis of a trajectory's frame of reference.
 enum class UpAxis {
-  kZ,       ///< A marker that lies on the ground.
+  kZ,       ///< A marker lying on the ground.
   kY,       ///< A marker on a wall.
   kMinusY,  ///< Many reconstructions: the first camera's axes.
 };
 
-/// Turns a reference so that its up is y: about x, so that its x stays.
+/// Rotates a frame of reference about x, so that y points up.
 inline Transform<YUpScene, Reference> SceneFromReference(UpAxis up) {
   switch (up) {
     case UpAxis::kZ:

@@ -14,20 +14,21 @@
 namespace pleinair::exports {
 namespace {
 
-// Not by tinygltf: its writer (2.7) gives a perspective camera without far plane `"zfar": 0`, which
-// glTF forbids (section 5.14), and has no 64-bit integers for the time stamp in `extras`.
+// tinygltf's writer (2.7) is unsuitable. It writes `"zfar": 0` for a perspective camera without far
+// plane, which glTF forbids (section 5.14). It has no 64-bit integers for the time stamp in
+// `extras`.
 using Json = nlohmann::ordered_json;
 
-// glTF 2.0, sections 3.6.2, 5.1, 5.24: what numbers stand for.
+// glTF 2.0, sections 3.6.2, 5.1, 5.24: enumeration values.
 constexpr int kFloat = 5126, kUnsignedByte = 5121;
 constexpr int kPoints = 0, kTriangleStrip = 5;
 constexpr int kArrayBuffer = 34962;
 constexpr double kMinDistance_m = 0.01;
 
-/// The scene's binary data and what the JSON says of it.
+/// The scene's binary data with its JSON description.
 class Buffer {
  public:
-  /// Adds vectors of floats; gives the accessor's number.
+  /// Adds vectors of floats; returns the accessor's index.
   int AddFloats(const std::vector<float>& values, int components, bool vertices) {
     const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const std::size_t count = values.size() / components;
@@ -51,7 +52,7 @@ class Buffer {
                         {"max", maximum}});
   }
 
-  /// Colours of four bytes, as vertices.
+  /// Adds colors of four bytes, as vertex attributes.
   int AddColors(const std::string& rgba) {
     BeginView(rgba.size(), true);
     bytes_ += rgba;
@@ -67,7 +68,7 @@ class Buffer {
   const Json& accessors() const { return accessors_; }
 
  private:
-  // All that is added is a multiple of four bytes long, so that every view begins at one.
+  // All data are a multiple of four bytes long, so that every view is aligned.
   void BeginView(std::size_t length, bool vertices) {
     Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", length}};
     if (vertices) view["target"] = kArrayBuffer;
@@ -90,7 +91,7 @@ std::vector<float> Floats(std::initializer_list<Vec3> points) {
   return values;
 }
 
-/// The keyframes of the camera's node.
+/// Keyframes of the camera's node.
 struct Keyframes {
   std::vector<float> times_s, places, turns;
 };
@@ -104,7 +105,7 @@ Keyframes KeyframesOf(const CameraTrajectory& path, const Transform<YUpScene, Re
     keys.times_s.push_back(static_cast<float>(
         1e-9 * static_cast<double>(pose.timestamp_ns - path.poses.front().timestamp_ns)));
     Quaternion q = QuaternionOf(node.rotation);
-    // Both signs are the same turn; the nearer one keeps the way between keyframes short.
+    // Both signs are the same rotation; the nearer one gives the shorter interpolation.
     const float sign = Dot(q, last) < 0.0 ? -1.0F : 1.0F;
     if (sign < 0.0F) q = {-q.x, -q.y, -q.z, -q.w};
     last = q;
@@ -139,7 +140,7 @@ Json CameraJson(const CameraModel& lens, std::int64_t first_ns) {
           {"extras", {{"pleinair", LensJson(lens, first_ns)}}}};
 }
 
-/// The marker's square, front up as the print lies, and the points of a reconstruction.
+/// Adds the marker's square, front up, and the points of a reconstruction.
 void AddThings(const CameraTrajectory& path, const GltfTrajectoryOptions& options, Buffer* buffer,
                Json* gltf) {
   const Transform<YUpScene, Reference> scene = SceneFromReference(options.up);

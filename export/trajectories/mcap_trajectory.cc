@@ -14,11 +14,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr const char* kCamera = "camera";
-// A print is thin; viewers want some height.
+// A marker is thin, but viewers need a positive height.
 constexpr double kMarkerThickness_m = 0.001;
 
-// JSON Schemas of what is written. The names are those of Foxglove's published message types, which
-// viewers know by name.
+// JSON Schemas of the messages. Their names are those of Foxglove's published message types, which
+// viewers recognize.
 Json Number() { return {{"type", "number"}}; }
 Json Integer() { return {{"type", "integer"}}; }
 Json Text() { return {{"type", "string"}}; }
@@ -94,7 +94,7 @@ Json TimeJson(std::uint64_t ns) { return {{"sec", ns / kSecond}, {"nsec", ns % k
 Json VectorJson(Vec3 v) { return {{"x", v.x}, {"y", v.y}, {"z", v.z}}; }
 Json TurnJson(const Quaternion& q) { return {{"x", q.x}, {"y", q.y}, {"z", q.z}, {"w", q.w}}; }
 
-/// K as ROS has it, whose pixel origin is ours; names of the distortion after its plug-ins.
+/// K as in ROS, which has the same pixel origin; distortion models named after its plug-ins.
 Json CalibrationJson(const CameraModel& lens, std::uint64_t time_ns) {
   const bool fisheye = lens.distortion_model == DistortionModel::kEquidistant;
   const auto& k = lens.distortion;
@@ -115,7 +115,7 @@ Json CalibrationJson(const CameraModel& lens, std::uint64_t time_ns) {
 Json SceneJson(const McapTrajectoryOptions& options, std::uint64_t time_ns) {
   const Json nothing = Json::array();
   const double size = options.marker_size_m;
-  // What lies below the print's face.
+  // The cube lies below the marker's surface.
   const Json pose{{"position", VectorJson({0, 0, -0.5 * kMarkerThickness_m})},
                   {"orientation", TurnJson({})}};
   const Json cube{{"pose", pose},

@@ -34,7 +34,7 @@ class Record {
     PutLittleEndian(value, &bytes_);
     return *this;
   }
-  /// With its length before it.
+  /// Preceded by its length.
   Record& AddText(std::string_view text) {
     Add(static_cast<std::uint32_t>(text.size()));
     bytes_ += text;
@@ -46,7 +46,7 @@ class Record {
   }
   const std::string& bytes() const { return bytes_; }
 
-  /// With opcode and length before it.
+  /// Preceded by opcode and length.
   std::string Finished(Opcode opcode) const {
     Record record;
     record.Add(static_cast<std::uint8_t>(opcode)).Add(static_cast<std::uint64_t>(bytes_.size()));
@@ -81,7 +81,7 @@ McapWriter::McapWriter() {
 
 std::uint16_t McapWriter::AddChannel(std::string_view topic, std::string_view schema_name,
                                      std::string_view schema) {
-  // Schemas count from 1: 0 is none.
+  // Ids of schemas start at 1; 0 means none.
   const auto schema_id = static_cast<std::uint16_t>(schemas_.size() + 1);
   schemas_.push_back(Record()
                          .Add(schema_id)

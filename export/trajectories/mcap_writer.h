@@ -9,20 +9,21 @@
 
 namespace pleinair::exports {
 
-/// Writes an MCAP file (mcap.dev, "MCAP Format Specification", version 0): messages in chunks
-/// without compression, each with its checksum and index, a summary at the end.
+/// Writes an MCAP file (mcap.dev, "MCAP Format Specification", version 0). Messages are in
+/// uncompressed chunks, each with its checksum and index. A summary is at the end.
 class McapWriter {
  public:
   McapWriter();
 
-  /// A channel of JSON messages; gives its number. `schema` is a JSON Schema by its name.
+  /// Adds a channel of JSON messages and returns its id. `schema`: a JSON Schema, named
+  /// `schema_name`.
   std::uint16_t AddChannel(std::string_view topic, std::string_view schema_name,
                            std::string_view schema);
 
-  /// A message; those of all channels come in order of time.
+  /// Adds a message. Messages of all channels must be in order of time.
   void AddMessage(std::uint16_t channel, std::uint64_t time_ns, std::string_view json);
 
-  /// The whole file; nothing can be added after.
+  /// Returns the whole file. Nothing can be added afterwards.
   std::string Finish();
 
  private:
@@ -36,7 +37,7 @@ class McapWriter {
   std::string file_;
   std::string chunk_;
   std::uint64_t chunk_first_ns_ = 0, last_ns_ = 0, first_ns_ = 0;
-  /// Of the chunk: each channel's messages as pairs of time and place.
+  /// Messages of the current chunk by channel, as pairs of time and offset.
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> chunk_messages_;
   std::vector<std::string> schemas_, channels_;
   std::vector<ChunkIndex> chunks_;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kSeparators = " \t,";
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
-constexpr double kMaxTime_s = 9e9;  // What 64 bits of nanoseconds hold.
+constexpr double kMaxTime_s = 9e9;  // Max. of 64-bit nanoseconds.
 constexpr std::size_t kShown = 40;
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -114,7 +114,7 @@ Result<std::int64_t> NanosecondsFromSeconds(std::string_view seconds, const std:
   const std::string_view decimals = digits.substr(std::min(point + 1, digits.size()));
   const bool plain = !whole.empty() && std::all_of(whole.begin(), whole.end(), IsDigit) &&
                      std::all_of(decimals.begin(), decimals.end(), IsDigit);
-  // With an exponent: what a double tells.
+  // With an exponent: use the precision of a double.
   if (!plain) return std::llround(*about * 1e9);
   std::int64_t nanoseconds = 0;
   for (const char digit : whole) nanoseconds = nanoseconds * 10 + (digit - '0');

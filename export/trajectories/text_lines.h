@@ -10,19 +10,19 @@
 
 namespace pleinair::exports {
 
-/// Walks the lines of a text of numbers, as TUM, EuRoC and COLMAP write them: fields between
-/// blanks, tabs or commas, comments from '#'. The text must outlive it.
+/// Iterates over the lines of a text of numbers, in the style of TUM, EuRoC and COLMAP. Fields are
+/// separated by blanks, tabs or commas; comments start with '#'. The text must outlive it.
 class TextLines {
  public:
-  /// `name` is the file's, for errors, which say the line.
+  /// `name` is the file's; errors contain it and the line.
   TextLines(std::string_view text, std::string name);
 
-  /// The next line that holds anything but a comment; false at the end.
+  /// Advances to the next line that is not empty or a comment; false at the end.
   bool Next();
-  /// The next line whatever it holds; false at the end.
+  /// Advances to the next line of any kind; false at the end.
   bool NextOfAnyKind();
 
-  /// The line without its end; its fields.
+  /// The line without its end, and its fields.
   std::string_view line() const { return line_; }
   const std::vector<std::string_view>& fields() const { return fields_; }
   bool IsComment() const { return !line_.empty() && line_.front() == '#'; }
@@ -30,13 +30,13 @@ class TextLines {
   /// "FILE:LINE".
   std::string Where() const { return name_ + ":" + std::to_string(number_); }
 
-  /// A field as a number. Errors: it is not there, no number, or not finite.
+  /// Parses a field as a number. Errors: it is missing, not a number, or not finite.
   Result<double> Number(std::size_t field) const;
-  /// As many numbers as asked for, from a field on.
+  /// Parses `count` numbers, starting at field `first`.
   Result<std::vector<double>> Numbers(std::size_t first, std::size_t count) const;
   Result<std::int64_t> Integer(std::size_t field) const;
 
-  /// What follows a number of fields, blanks at both ends taken off.
+  /// The text after a number of fields, trimmed.
   std::string_view Rest(std::size_t fields) const;
 
  private:
@@ -49,11 +49,11 @@ class TextLines {
   std::vector<std::string_view> fields_;
 };
 
-/// Seconds in decimals to nanoseconds, exactly: a double would be off by a tenth of a microsecond
-/// in stamps of this century. Errors as TextLines::Number, and more than 9e9 seconds.
+/// Converts decimal seconds to nanoseconds, exactly. A double has an error of a tenth of a
+/// microsecond for current Unix times. Errors: as TextLines::Number, and more than 9e9 seconds.
 Result<std::int64_t> NanosecondsFromSeconds(std::string_view seconds, const std::string& where);
 
-/// "1305031098.665900": seconds with as many decimals as it takes, six at least.
+/// "1305031098.665900": seconds with as many decimals as necessary, at least six.
 std::string SecondsText(std::int64_t nanoseconds);
 
 }  // namespace pleinair::exports

@@ -11,35 +11,35 @@
 
 namespace pleinair::exports {
 
-/// Forms that a camera's path has in files.
+/// File formats of a camera trajectory.
 enum class TrajectoryFormat { kTum, kEuroc, kColmap, kColmapBinary, kGltf, kMcap };
 
 /// By name: "tum", "euroc", "colmap", "colmap-binary", "gltf", "mcap"; nothing for others.
 std::optional<TrajectoryFormat> TrajectoryFormatNamed(const std::string& name);
 
-/// By a file's name: .tum and .txt TUM, .csv EuRoC, .glb and .gltf glTF, .mcap MCAP; a folder or a
-/// name without extension is a COLMAP model. Errors: other names.
+/// By file name: .tum and .txt TUM, .csv EuRoC, .glb and .gltf glTF, .mcap MCAP. A folder or a name
+/// without extension is a COLMAP model. Errors: other names.
 Result<TrajectoryFormat> TrajectoryFormatOf(const std::filesystem::path& file);
 
 struct TrajectoryReading {
-  double frame_rate_hz = 0.0;  ///< For COLMAP, which knows no times; 0: nobody said.
+  double frame_rate_hz = 0.0;  ///< For COLMAP, which has no times; 0: unknown.
   Transform<devices::EurocBody, Camera> body_from_camera{};
 };
 
-/// Reads TUM, EuRoC or COLMAP, this in the form that the folder has. Errors: what their parsers
-/// refuse, forms that are only written.
+/// Reads TUM, EuRoC or COLMAP, in the format of the folder's files. Errors: those of the parsers,
+/// formats that can only be written.
 Result<CameraTrajectory> ReadTrajectory(const std::filesystem::path& file, TrajectoryFormat format,
                                         const TrajectoryReading& options);
 
 struct TrajectoryWriting {
-  std::string comment = "camera in its reference";  ///< What TUM lines are headed with.
+  std::string comment = "camera in its reference";  ///< Header comment of TUM files.
   UpAxis up = UpAxis::kZ;
   double marker_size_m = 0.0;
   Transform<devices::EurocBody, Camera> body_from_camera{};
 };
 
-/// Writes any of the forms, under a temporary name first; of a COLMAP model the folder is made.
-/// Errors: what the writers refuse.
+/// Writes any format, under a temporary name first. Creates the folder of a COLMAP model. Errors:
+/// those of the writers.
 Result<void> WriteTrajectory(const CameraTrajectory& path, const std::filesystem::path& file,
                              TrajectoryFormat format, const TrajectoryWriting& options);
 
