@@ -14,8 +14,8 @@ struct GLFWwindow;
 
 namespace pleinair::app {
 
-/// GLFW, a window, its OpenGL context and ImGui's, with one image as a texture. Destroyed in order,
-/// on the thread that opened it.
+/// GLFW, a window, its OpenGL context and ImGui's, with one image as a texture. It destroys them
+/// in order. Use it only on the thread that opened it.
 class Screen {
  public:
   struct Options {

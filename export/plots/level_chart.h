@@ -22,7 +22,7 @@ std::string LevelChartSvg(const std::string& title, const std::string& level_nam
 std::string CellMapSvg(const std::string& title, int columns, int rows,
                        const std::vector<double>& values, double top);
 
-/// A histogram with equal bins from 0 to `top`; the last bin is open.
+/// A histogram of shares with equal bins from 0 to `top`; the last bin is open.
 std::string HistogramSvg(const std::string& title, const std::string& unit,
                          const std::vector<std::string>& names,
                          const std::vector<std::vector<double>>& values, double top);

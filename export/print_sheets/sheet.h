@@ -11,7 +11,7 @@
 namespace pleinair::exports {
 
 // Content of one printed page, in millimetres from the page's top-left corner, x right, y down. It
-// is black on white; renderers (pdf.h, svg.h, sheet_raster.h) draw it true to scale.
+// is black on white; renderers (vector_page.h, sheet_raster.h) draw it true to scale.
 
 struct PageSize {
   double width_mm = 210.0;
