@@ -5,11 +5,11 @@
 namespace pleinair::compositor {
 namespace {
 
-/// Above this share of rays that meet the inside of bodies a patch is itself inside: from outside
-/// the share is 0 but for rays that slip through an edge, from inside a half or more.
+/// A patch is buried if more than this fraction of its rays hit the inside of bodies. Outside, the
+/// fraction is 0, except for rays that slip through an edge; inside, it is a half or more.
 constexpr double kBuriedShare = 0.25;
 
-/// Sides of phantoms that look into the earth: they see neither sky nor, mostly, anything else.
+/// Flags sides of phantoms that face the earth: they see neither the sky nor much else.
 std::vector<std::uint8_t> EarthwardPatches(const PatchScene& scene, const FinalGather& gathered) {
   std::vector<std::uint8_t> earthward(scene.patch_count);
   const double rays = gathered.rays;

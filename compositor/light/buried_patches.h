@@ -23,7 +23,7 @@ void ForEachPatch(const FinalGather& gathered, std::size_t block_index, const Vi
   }
 }
 
-/// The patches at the corners of the face that a ray hit, on the side that it hit.
+/// The patches at the corners of the face that a ray hit, on the hit side.
 inline std::array<std::uint32_t, 3> CornersOf(const PatchScene::Face& face,
                                               const FinalGather::Hit& hit) {
   std::array<std::uint32_t, 3> corners = face.patches;
@@ -33,13 +33,13 @@ inline std::array<std::uint32_t, 3> CornersOf(const PatchScene::Face& face,
   return corners;
 }
 
-/// Patches that lie inside a body or in the earth; [0]: with the virtual objects, [1]: phantoms
-/// alone.
+/// Flags patches that lie inside a body or face the earth. Index 0: with the virtual objects, 1:
+/// phantoms alone.
 std::array<std::vector<std::uint8_t>, 2> FindBuriedPatches(const PatchScene& scene,
                                                            const FinalGather& gathered,
                                                            int threads);
 
-/// Calls visit(from, to) for the neighbours among a mesh side's patches, either way.
+/// Calls visit(from, to) for each pair of neighbouring patches of a mesh side, in both directions.
 template <typename Visit>
 void ForEachNeighbour(const PatchScene::MeshSide& mesh_side, const Visit& visit) {
   if (mesh_side.groups) {
@@ -57,7 +57,7 @@ void ForEachNeighbour(const PatchScene::MeshSide& mesh_side, const Visit& visit)
   }
 }
 
-/// Gives patches inside bodies the mean of their neighbours outside, ring after ring.
+/// Gives buried patches the mean of their neighbours outside, ring after ring.
 template <std::size_t N>
 void FillFromNeighbours(const PatchScene& scene, const std::vector<std::uint8_t>& buried_patches,
                         std::vector<std::array<float, N>>* values) {

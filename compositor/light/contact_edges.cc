@@ -9,23 +9,23 @@
 namespace pleinair::compositor {
 namespace {
 
-// Surfaces that end so near to another one touch it: models are not exact.
+// Surfaces whose gap is at most this touch each other, because models are not exact.
 constexpr double kTouchingM = 0.02;
-// Sine of the least angle between surfaces that change each other's light within a short way.
+// Sine of the min. angle between surfaces that change each other's light within a short distance.
 constexpr double kMinSine = 0.3;
 constexpr double kMinEdge_m = 0.02;
 constexpr std::uint32_t kFewSegments = 4;
-// What finding them may take: boxes compared, and of those that overlap, triangles. Each of the two
-// takes some tenths of a second; bundled scenes need a thousandth of it.
+// Limits of the search: compared boxes, and compared triangles among those whose boxes overlap.
+// Each limit takes some tenths of a second; bundled scenes need a thousandth of it.
 constexpr std::size_t kMaxTriangles = 200'000, kMaxBoxes = 50'000'000, kMaxPairs = 200'000;
-// Ends of lines that are thought equal lie no farther apart than this.
+// Ends of edges that are no farther apart than this count as equal.
 constexpr double kSamePlaceM = 1e-3;
 
 struct Triangle {
   std::array<Vec3, 3> corners;
   Vec3 normal;
   bool two_sided = false;
-  Vec3 low, high;  ///< Of the box that lies `kTouchingM` around it.
+  Vec3 low, high;  ///< The bounding box, extended by `kTouchingM`.
 
   double Height(Vec3 point) const { return Dot(point - corners[0], normal); }
   bool SeesPartOf(const Triangle& other) const {
@@ -44,7 +44,7 @@ Vec3 LongestAxis(Vec3 size) {
   return size.y >= size.z ? Vec3{0.0, 1.0, 0.0} : Vec3{0.0, 0.0, 1.0};
 }
 
-/// Those with an edge that a contact would shorten, and those without.
+/// Triangles with an edge that a contact would shorten, and triangles without.
 struct Triangles {
   std::vector<Triangle> coarse, fine;
 };
@@ -60,7 +60,7 @@ bool IsCoarse(const std::array<std::array<float, 3>, 3>& corners,
   return false;
 }
 
-/// The phantoms'; none where they are too many.
+/// Collects the phantoms' triangles; none if there are too many.
 Triangles PhantomTriangles(const std::vector<SurfaceMesh>& surfaces,
                            const ContactEdges::EdgeLimit& edge_limit) {
   Triangles triangles;
@@ -92,11 +92,11 @@ Triangles PhantomTriangles(const std::vector<SurfaceMesh>& surfaces,
   return triangles;
 }
 
-/// What of a triangle lies within touching distance of another one's plane.
+/// Clips a triangle to within touching distance of another one's plane.
 std::vector<Vec3> StripOf(const Triangle& triangle, const Triangle& plane) {
   std::vector<Vec3> strip(triangle.corners.begin(), triangle.corners.end());
   for (const double side : {1.0, -1.0}) {
-    // Sutherland & Hodgman 1974: what is below the limit stays.
+    // Sutherland & Hodgman 1974: points below the limit are kept.
     std::vector<Vec3> kept;
     for (std::size_t i = 0; i < strip.size(); ++i) {
       const Vec3 here = strip[i], next = strip[(i + 1) % strip.size()];
@@ -117,7 +117,7 @@ std::optional<ContactEdges::Segment> ContactOf(const Triangle& a, const Triangle
   const Vec3 across = Cross(a.normal, b.normal);
   const double sine = Norm(across);
   if (sine < kMinSine) return std::nullopt;
-  // The planes' common line.
+  // The planes' intersection line.
   const Vec3 along = across * (1.0 / sine);
   const double at_a = Dot(a.normal, a.corners[0]), at_b = Dot(b.normal, b.corners[0]);
   const Vec3 origin =
@@ -146,10 +146,10 @@ double DistanceToSegment(const ContactEdges::Segment& segment, Vec3 point) {
   return Norm(segment.from + along * share - point);
 }
 
-/// Finds the contacts of pairs by sweeping over boxes sorted along an axis.
+/// Finds contacting pairs by a sweep over boxes sorted along an axis.
 class ContactSweep {
  public:
-  /// False where there is too much to do.
+  /// Returns false if the search exceeds its limits.
   bool Run(Triangles* triangles) {
     Vec3 low = triangles->coarse[0].low, high = triangles->coarse[0].high;
     for (const Triangle& triangle : triangles->coarse) {
@@ -184,7 +184,7 @@ class ContactSweep {
 
   double Start(const Triangle& triangle) const { return Dot(triangle.low, axis_); }
 
-  /// With those that start later, as far as `a` reaches.
+  /// Tests triangles that start later, within the extent of `a`.
   bool Meet(const Triangle& a, Iterator b, Iterator end) {
     const double last = Dot(a.high, axis_);
     for (; b != end && Start(*b) <= last; ++b) {
@@ -204,7 +204,7 @@ class ContactSweep {
   std::vector<ContactEdges::Segment> segments_;
 };
 
-/// Leaves one of those with the same ends, whichever way they run.
+/// Keeps one of the segments with the same ends, in either direction.
 void DropDuplicates(std::vector<ContactEdges::Segment>* segments) {
   using Place = std::array<double, 3>;
   struct Keyed {

@@ -11,23 +11,23 @@
 
 namespace pleinair::compositor {
 
-/// The lines along which real surfaces meet so that they see each other: the foot of a wall, the
-/// inner edge of a step. What one reflects onto the other, and hides from it, changes there within
-/// a small part of the surfaces' size.
+/// The contact edges of real surfaces: curves along which two surfaces meet and see each other.
+/// Examples are the foot of a wall and the inner edge of a step. Near these edges, interreflection
+/// and occlusion change within a small part of the surfaces' size.
 class ContactEdges {
  public:
-  /// Longest edge that is fine enough about a point though surfaces meet there, metres.
+  /// Longest edge, in metres, that is fine enough at a point even if surfaces meet there.
   using EdgeLimit = std::function<double(const std::array<float, 3>& point)>;
 
-  /// Without lines: nothing meets.
+  /// Makes an empty set: no surfaces meet.
   ContactEdges() = default;
-  /// Of the phantoms among `surfaces`. Of two triangles that meet, one at least has an edge longer
-  /// than `edge_limit` at its middle: where both are finer nothing needs more vertices, as among a
-  /// tree's leaves. Marker coordinates, metres.
+  /// Finds the contact edges of the phantoms among `surfaces`, in marker coordinates, metres. At
+  /// least one of two meeting triangles must have an edge longer than `edge_limit` at its midpoint.
+  /// Finer pairs, as among a tree's leaves, need no more vertices.
   ///
-  /// None at all where finding them would take long or they would be more than `kMaxSegments`:
-  /// time and memory are bounded whatever the phantoms are. Which scenes those are depends on the
-  /// surfaces alone, not on the machine.
+  /// The set is empty if the search would take long or find more than `kMaxSegments` edges. Time
+  /// and memory are therefore bounded for all phantoms. This limit depends on the surfaces alone,
+  /// not on the machine.
   ContactEdges(const std::vector<SurfaceMesh>& surfaces, const EdgeLimit& edge_limit);
 
   static constexpr std::size_t kMaxSegments = 4'000;
@@ -35,18 +35,18 @@ class ContactEdges {
   struct Segment {
     Vec3 from, to;
   };
-  /// Each once, however many triangles lie on it.
+  /// Each segment appears once, however many triangles share it.
   const std::vector<Segment>& segments() const { return segments_; }
 
-  /// Whether a line lies within `reach_m` of a point.
+  /// Returns whether a contact edge lies within `reach_m` of a point.
   bool IsWithin(const std::array<float, 3>& point, double reach_m) const;
 
  private:
-  /// Half of the segments below it each, or a few segments.
+  /// An inner node has two children with half of its segments each; a leaf has a few segments.
   struct Node {
     Vec3 low, high;
     std::uint32_t first = 0, last = 0;
-    std::uint32_t children = 0;  ///< Index of the first of two; 0: none.
+    std::uint32_t children = 0;  ///< Index of the first of two children; 0: none.
   };
   void Divide(std::uint32_t node);
   bool IsWithin(std::uint32_t node, Vec3 point, double reach_m) const;

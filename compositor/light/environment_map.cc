@@ -34,7 +34,8 @@ double RadicalInverse(std::uint32_t bits) {
 
 EnvironmentMap BuildEnvironmentMap(const sky::SkyModel& day, const Mat3& marker_from_world,
                                    LinearRgb ground_radiance) {
-  // Asked for hundreds of thousands of directions; its land is not.
+  // Tabulated because hundreds of thousands of directions are sampled. The table's land is not
+  // used.
   const SkyTable sky(day, marker_from_world, 0.0);
   const auto radiance = [&](Vec3 direction_in_marker) {
     if (sky.SineElevation(direction_in_marker) <= 0.0) return ground_radiance;

@@ -8,12 +8,13 @@
 
 namespace pleinair::compositor {
 
-/// What glossy objects mirror: the sky without the sun's disc, and one even radiance below the
-/// horizon, blurred for `kLevels` roughnesses (level i: roughness i / (kLevels − 1)).
+/// Prefiltered environment for glossy reflections: the sky without the sun's disc, and one uniform
+/// radiance below the horizon. It is blurred for `kLevels` roughnesses (level i: roughness i /
+/// (kLevels − 1)).
 ///
-/// Longitude–latitude pictures in marker coordinates: column centre u ↔ azimuth angle
-/// atan2(y, x) = 2π u − π, row centre v ↔ polar angle π v from +z. Three channels, the daylight's
-/// unit.
+/// Images are longitude–latitude maps in marker coordinates. Column centre u ↔ azimuth angle
+/// atan2(y, x) = 2π u − π, row centre v ↔ polar angle π v from +z. The three channels have the
+/// daylight's unit.
 struct EnvironmentMap {
   static constexpr int kWidth = 64, kHeight = 32, kLevels = 6;
   std::array<Image<float>, kLevels> levels;

@@ -14,16 +14,17 @@ namespace {
 
 using Hit = FinalGather::Hit;
 
-// Real ground comes in layers (a lawn's mesh side over paving); what lies between them is not seen.
+// Real ground comes in layers (a lawn's mesh side over paving); the gaps between them are
+// invisible.
 constexpr double kLayerGapM = 0.02;
 constexpr std::uint32_t kSampleSalt = 0x5B, kTreesSalt = 0x7E;
-// So many rays tell whether a lower side sees the land alone, as the ground's does.
+// Number of rays that test whether a lower side, such as the ground's, sees the land alone.
 constexpr std::uint32_t kLandRays = 32;
 
 class Gatherer {
  public:
-  /// Without `sky` rays are told by `patches`, without `to_sun` no sun is asked for. `sunlight`:
-  /// null where no trees shade it.
+  /// Without `sky`, rays record sky patches; without `to_sun`, the sun is not sampled.
+  /// `sun_transmittance`: null without trees.
   Gatherer(const PatchScene& scene, const SkyTable* sky, const SkyPatches* patches,
            std::optional<Vec3> to_sun, const SunTransmittanceMap* sun_transmittance, int rays)
       : scene_(scene), sky_(sky), patches_(patches), sunlight_(sun_transmittance), rays_(rays) {
@@ -43,7 +44,7 @@ class Gatherer {
                             SeesLandAlone(scene_.surface_samples[first], patch);
     for (int i = 0; i < rays_; ++i) {
       const auto ray = static_cast<std::uint32_t>(i);
-      // A patch of many surface samples gathers the mean over them.
+      // A patch with many surface samples gathers their mean.
       const PatchScene::PatchSample& surface_sample =
           scene_.AnyPatchSample(patch, Hash(Hash(patch, ray), kSampleSalt));
       const Vec3 origin = surface_sample.origin;
@@ -52,7 +53,7 @@ class Gatherer {
       const Vec3 direction =
           CosineDirection(frame, ShiftedHammersley(ray, static_cast<std::uint32_t>(rays_), patch));
       const std::uint32_t seed = Hash(patch, ray);
-      // Evenly spread over a patch's rays, in whichever order (multiples of the golden ratio).
+      // Evenly distributed over a patch's rays in any order (multiples of the golden ratio).
       const double turn = UnitFromHash(Hash(patch, kTreesSalt)) + ray * (std::numbers::phi - 1.0);
       const double trees = turn - std::floor(turn);
       RayHit hit;
@@ -116,7 +117,7 @@ class Gatherer {
     }
   }
 
-  /// `trees`: the ray meets the sun where they leave more than this share of it.
+  /// The ray sees the sun where the sun transmittance exceeds `trees`.
   void AddHit(const RayHit& hit, Vec3 origin, Vec3 direction, std::uint32_t seed, double trees,
               bool with, bool without, FinalGather::Patch* light, std::vector<Hit>* hits) const {
     const PatchScene::Face& face = scene_.FaceOf(hit);
@@ -126,7 +127,7 @@ class Gatherer {
       ++light->hit_rays[k];
       if (inside) ++light->buried_rays[k];
     }
-    if (inside) return;  // Black.
+    if (inside) return;  // It gathers no light.
     Hit record{};
     record.face = static_cast<std::uint32_t>(&face - scene_.faces.data()) & ((1U << 26) - 1);
     record.with = with;
@@ -140,7 +141,7 @@ class Gatherer {
       const Vec3 to_sun =
           SunDiscDirection(*sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
       const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffset_m;
-      // Of half a sun every second ray meets all.
+      // At a transmittance of one half, every second ray sees the full sun.
       const bool past_trees = sunlight_ == nullptr || trees < sunlight_->At(point);
       const bool lit = past_trees && !scene_.rays->Occluded(RayTargets::kEverything, point, to_sun);
       record.sun_with = lit;
@@ -160,7 +161,7 @@ class Gatherer {
   const SunTransmittanceMap* sunlight_;
   std::optional<TangentFrame> sun_frame_;
   int rays_;
-  std::vector<std::uint8_t> is_phantom_, has_twin_;  ///< By patch.
+  std::vector<std::uint8_t> is_phantom_, has_twin_;  ///< One entry per patch.
 };
 
 std::size_t BlockCount(std::uint32_t patches) {

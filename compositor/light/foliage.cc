@@ -17,15 +17,15 @@ namespace {
 
 constexpr double kMaxLeaf_m = 0.5;
 constexpr std::size_t kMinLeafCount = 50;
-// Of the leaves' size: how far they lie about at least in the direction in which they do least.
+// Min. spread of the leaves in their narrowest direction, as a multiple of the median leaf size.
 constexpr double kMinSpread = 0.5;
-// Tiles of a roof and bricks round a corner face as their neighbours do: of some pieces, each
-// beside the nearest other, so many must be turned by more than 37°. Leaves of any direction are so
-// by 0.8.
+// Roof tiles and bricks around a corner face as their neighbours do. Pieces are tested against
+// their nearest neighbour; foliage needs this share that is turned by more than 37°. For randomly
+// oriented leaves the share is 0.8.
 constexpr double kSameWay = 0.8, kMinTurnedShare = 0.4;
 constexpr std::size_t kPiecesAsked = 200;
 
-/// Which vertices hang together by triangles or lie in one place, as a forest.
+/// Disjoint-set forest of vertices that are connected by triangles or coincide.
 class Pieces {
  public:
   explicit Pieces(const SurfaceMesh& surface) : parent_(surface.positions.size()) {
@@ -40,7 +40,7 @@ class Pieces {
     }
   }
 
-  /// One vertex that stands for the whole piece.
+  /// The representative vertex of a piece.
   std::uint32_t Of(std::uint32_t vertex) {
     while (parent_[vertex] != vertex) {
       parent_[vertex] = parent_[parent_[vertex]];
@@ -55,7 +55,7 @@ class Pieces {
   std::vector<std::uint32_t> parent_;
 };
 
-/// A piece's box, and the way its largest triangle faces.
+/// A piece's bounding box, and the area vector of its largest triangle.
 struct Extent {
   std::array<double, 3> minimum, maximum;
   Vec3 twice_area;
@@ -82,8 +82,8 @@ struct Extent {
   }
 };
 
-/// How far points lie about in the direction in which they do least: its standard deviation, or
-/// less, down to 1/√3 of it where all directions are alike. 0 in a plane.
+/// Spread of points in their narrowest direction. It is the standard deviation there, or less, down
+/// to 1/√3 of it if all directions are alike. 0 in a plane.
 double MinSpread(const std::vector<Vec3>& points) {
   const double share = 1.0 / static_cast<double>(points.size());
   Vec3 mean;
@@ -98,15 +98,15 @@ double MinSpread(const std::vector<Vec3>& points) {
     yz += share * d.y * d.z;
     zx += share * d.z * d.x;
   }
-  // One over the sum of the variances' inverses along the principal axes: determinant over the sum
-  // of the principal minors.
+  // 1 / sum of the inverse variances along the principal axes = determinant / sum of the principal
+  // minors.
   const double minors = xx * yy - xy * xy + yy * zz - yz * yz + zz * xx - zx * zx;
   const double determinant =
       xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
   return minors > 0.0 ? std::sqrt(std::max(0.0, determinant / minors)) : 0.0;
 }
 
-/// Share of the pieces that are turned away from the one next to them.
+/// Share of the pieces that are turned away from their nearest neighbour.
 double ShareTurned(const std::vector<Vec3>& middles, const std::vector<Vec3>& areas) {
   const std::size_t asked = std::min(kPiecesAsked, middles.size());
   std::size_t turned = 0;
@@ -126,7 +126,7 @@ double ShareTurned(const std::vector<Vec3>& middles, const std::vector<Vec3>& ar
   return static_cast<double>(turned) / static_cast<double>(asked);
 }
 
-/// The triangles that `keep` names, with the vertices that they use.
+/// Copies the triangles that `keep` selects, with their vertices.
 template <typename Keep>
 SurfaceMesh PartOf(const SurfaceMesh& surface, const Keep& keep) {
   constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();

@@ -6,18 +6,17 @@
 
 namespace pleinair::compositor {
 
-/// Takes the loose leaves out of an open surface of a phantom, as a surface of their own; nothing
-/// where it has none, or is closed. Positions are metres, marker coordinates.
+/// Extracts the foliage of a phantom's open surface as a surface of its own. Returns nothing if the
+/// surface has no foliage or is closed. Positions are in metres, marker coordinates.
 ///
-/// A tree that was reconstructed has about the right outline, but its leaves are not where the real
-/// ones are, nor as many: the pattern of sun and shade below it is in the picture alone. Such
-/// leaves hide what stands behind them, but what shade they cast would be a guess.
+/// A reconstructed tree has about the right outline, but its leaves match the real ones neither in
+/// place nor in number. Only the image shows the pattern of sun and shadow below it. Foliage
+/// therefore occludes what is behind it but casts no shadow, which would be a guess.
 ///
-/// Leaves are pieces of up to 0.5 m (the longest side of its box) that touch nothing else of their
-/// surface, where there are 50 of them or more, these lie about in all three directions, farther
-/// than half their size, and face other ways than those next to them. So a hedge, a crown of leaves
-/// or of cards is taken; blades that stand on one lawn, a fence's links, tiles, slabs and bricks
-/// are not.
+/// A leaf is a connected piece whose bounding box has no side longer than 0.5 m. Leaves count as
+/// foliage if there are at least 50. They must spread in all three directions by more than half
+/// their size, and face other ways than their neighbours. Hedges and crowns of leaves or alpha
+/// cards are foliage. Grass blades on one lawn, links of a fence, tiles, slabs and bricks are not.
 std::optional<SurfaceMesh> ExtractFoliage(SurfaceMesh* surface);
 
 }  // namespace pleinair::compositor

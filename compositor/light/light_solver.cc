@@ -17,12 +17,12 @@
 namespace pleinair::compositor {
 namespace {
 
-// About five seconds on two processors.
+// Takes about five seconds on two processors.
 constexpr std::uint32_t kRayBudget = 25'000'000;
 constexpr std::uint32_t kMinRays = 32;
 
 constexpr std::size_t kSkySeenPatches = 64;
-// Triangles of phantoms that are asked how much of the sun reaches them: up to a second's rays.
+// Max. number of phantom triangles whose sun visibility is computed: up to a second of ray tracing.
 constexpr std::size_t kMaxVisited = 200'000;
 
 int RaysPerPatch(const PatchScene& scene, const LightSolverOptions& options) {
@@ -31,7 +31,7 @@ int RaysPerPatch(const PatchScene& scene, const LightSolverOptions& options) {
   return static_cast<int>(std::min(wanted, std::max(kMinRays, affordable)));
 }
 
-/// The middles of the boxes around the virtual objects.
+/// The centres of the virtual objects' bounding boxes.
 std::vector<Vec3> ObjectMiddles(const PatchScene& scene) {
   struct Box {
     Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
@@ -56,7 +56,7 @@ std::vector<Vec3> ObjectMiddles(const PatchScene& scene) {
 struct Run {
   std::size_t first = 0, count = 0;
 };
-/// The phantoms' patches, as few runs of them as can be.
+/// The phantoms' patches as the smallest number of contiguous runs.
 std::vector<Run> PhantomPatches(const PatchScene& scene) {
   std::vector<Run> runs;
   for (const PatchScene::MeshSide& mesh_side : scene.mesh_sides) {
@@ -86,7 +86,7 @@ LitMesh MakeLitMesh(const PatchScene& scene, const PatchScene::MeshSide& mesh_si
   return mesh;
 }
 
-/// Of an open surface's two sides, that of which `sky_seen` says more comes first.
+/// The side of an open surface with the larger `sky_seen` comes first.
 template <typename SkySeen>
 std::vector<LitMesh> MakeLitMeshes(const PatchScene& scene, std::uint64_t first_geometry,
                                    const PatchLight& light, const SkySeen& sky_seen) {
@@ -142,7 +142,7 @@ std::vector<LitMesh> LightSolver::SolveUnderTrees(
         }
         return rays;
       });
-  // Without a sun there is nothing to be asked.
+  // Without a sun, sun visibility is not needed.
   std::size_t left = Luminance(sun) > 0.0 ? kMaxVisited : 0;
   for (LitMesh& mesh : meshes) {
     if (mesh.is_phantom && mesh.indices.size() / 3 <= left) {
@@ -180,13 +180,13 @@ std::vector<LitMesh> LightSolver::Relight(const DaylightCoefficients& coefficien
   PatchLight light;
   for (auto& irradiance : light.irradiance) irradiance.resize(scene_->patch_count);
   coefficients.with.Multiply(sky, sun, light.irradiance[0]);
-  // Of the virtual objects there is no light without them.
+  // Virtual objects have no light in the case without them.
   for (const auto& [first, count] : PhantomPatches(*scene_)) {
     coefficients.without.Multiply(sky, sun, std::span(light.irradiance[1]).subspan(first, count),
                                   first);
   }
   return MakeLitMeshes(*scene_, first_geometry_, light, [&](const PatchScene::MeshSide& mesh_side) {
-    // Some patches of a mesh side tell which side of it looks to the sky.
+    // A subset of the patches suffices to find the side that faces the sky.
     const std::size_t size = mesh_side.patch_count;
     const std::size_t step = std::max<std::size_t>(1, size / kSkySeenPatches);
     double straight = 0.0;

@@ -18,8 +18,8 @@ namespace pleinair::compositor {
 
 struct PatchScene;
 
-/// Computes where the day's light goes among phantoms and virtual objects. Keeps the ray scene (in
-/// Embree), so that phantoms() answers queries later.
+/// Computes the direct and indirect daylight on phantoms and virtual objects. It keeps the ray
+/// scene (in Embree) so that phantoms() can answer queries later.
 class LightSolver {
  public:
   /// Tessellates and builds the ray scene. Errors: an empty or degenerate geometry.
@@ -27,36 +27,37 @@ class LightSolver {
                                                      const LightSolverOptions& options);
   ~LightSolver();
 
-  /// Light on every vertex for this daylight. Deterministic whatever the number of threads. Rays
-  /// with and without the virtual objects are the same, so that their ratio has no noise where
-  /// the objects change nothing.
+  /// Computes the light on every vertex for this daylight. The result does not depend on the number
+  /// of threads. The same rays serve the cases with and without the virtual objects. Their ratio
+  /// therefore has no noise where the objects change nothing.
   std::vector<LitMesh> Solve(const sky::SkyModel& daylight, const Mat3& marker_from_world) const {
     return SolveUnderTrees(daylight, marker_from_world, {});
   }
-  /// As Solve(); of the sun, surfaces reflect what `sun_transmittance` leaves it. A map without
-  /// cells, as made by default, stands for no trees.
+  /// As Solve(), but surfaces reflect the sunlight that `sun_transmittance` transmits. A
+  /// default-constructed map has no cells and means that there are no trees.
   std::vector<LitMesh> SolveUnderTrees(const sky::SkyModel& daylight, const Mat3& marker_from_world,
                                        const SunTransmittanceMap& sun_transmittance) const;
 
-  /// The scene's daylight coefficients, with which Relight() gives the light of any day: from the
-  /// cache where it has them, otherwise computed and put there. Several seconds; may run beside
-  /// everything else. `up`: unit, marker coordinates.
+  /// Returns the scene's daylight coefficients, from which Relight() computes the light of any day.
+  /// They come from the cache if it has them; otherwise they are computed and cached. The
+  /// computation takes several seconds and may run in parallel with everything else. `up`: unit,
+  /// marker coordinates.
   DaylightCoefficients Coefficients(Vec3 up, const CoefficientOptions& options,
                                     const CoefficientProgress& progress) const;
 
-  /// As Solve(), by one product with the coefficients. The sun's reflected light comes from the
-  /// patches around it, so that the shadows it draws on what reflects are some degrees soft.
+  /// As Solve(), by one product with the coefficients. The sun's reflected light comes from the sky
+  /// patches around the sun. Shadows in reflected sunlight are therefore soft by some degrees.
   std::vector<LitMesh> Relight(const DaylightCoefficients& coefficients,
                                const sky::SkyModel& daylight, const Mat3& marker_from_world) const;
 
-  /// Mean radiance that comes from below the horizon to where the virtual objects stand: of the
-  /// phantoms in sun and shade, textures as their mean, and of the land where they end, seen from
-  /// the middle of each object and averaged. For glossy reflections. `sun_transmittance` as above.
+  /// Mean radiance from below the horizon at the virtual objects, for glossy reflections. It
+  /// includes sunlit and shadowed phantoms, with textures as their mean, and the land beyond them.
+  /// It is estimated at the middle of each object and averaged. `sun_transmittance` as above. Unit:
   /// cd/m², linear Rec.709; black without an object.
   LinearRgb RadianceFromBelow(const sky::SkyModel& daylight, const Mat3& marker_from_world,
                               const SunTransmittanceMap& sun_transmittance = {}) const;
 
-  /// Ray queries against the scene's phantoms; valid while this lives.
+  /// Ray queries against the scene's phantoms; valid as long as this object.
   const PhantomRays& phantoms() const { return *phantoms_; }
 
  private:

@@ -8,42 +8,43 @@
 
 namespace pleinair::compositor {
 
-/// What the phantoms leave a triangle of the sun.
+/// How much of the sun reaches a triangle past the phantoms.
 enum class SunVisibility : std::uint8_t {
-  kSome,  ///< A part of it, or not known.
+  kSome,  ///< A part of it, or not computed.
   kAll,
   kNone,
 };
 
-/// The sun on the triangles of a phantom.
+/// Sun visibility of a phantom's triangles.
 struct SunVisibilities {
-  /// Empty when not computed: very large meshes, a light by coefficients, or no sun.
+  /// One entry per triangle. Empty when not computed: very large meshes, light from daylight
+  /// coefficients, or no sun.
   std::vector<SunVisibility> by_triangle;
-  std::array<float, 3> to_sun{};  ///< Where the sun stood for that: unit, marker coordinates.
+  std::array<float, 3> to_sun{};  ///< Sun direction of these entries: unit, marker coordinates.
 };
 
-/// A tessellated surface with the light that falls on its vertices besides the sun's own. Marker
-/// coordinates. The unit of irradiance is the Daylight's (lux, linear Rec.709).
+/// A tessellated surface with the irradiance at its vertices, without direct sunlight. Marker
+/// coordinates. Irradiance has the Daylight's unit (lux, linear Rec.709).
 ///
-/// Triangles run counter-clockwise seen from the side that the normals point to and that the light
-/// is for: draw them with back faces culled. Closed bodies (walls, boxes) come once, their outside.
-/// Open surfaces (ground, awnings, leaves) come twice in a row, once for each side, first the side
-/// that sees more of the sky; how the file winds them does not matter.
+/// Triangles run counter-clockwise seen from the side that the normals point to and that is lit.
+/// Draw them with back-face culling. A closed body (wall, box) has one mesh, its outside. An open
+/// surface (ground, awning, leaf) has two consecutive meshes, one per side. The side that sees more
+/// of the sky is first, whatever the winding in the file.
 struct LitMesh {
   bool is_phantom = false;
   int placed_model = 0;  ///< Index into the scene's list of placed models.
   int material = 0;      ///< Index into that model's materials.
-  /// Equal for meshes that nothing but their light tells apart; 0: not known.
+  /// Equal for meshes that differ in nothing but their light; 0: unknown.
   std::uint64_t geometry = 0;
-  /// kRenderOnly casts no shadow, kShadowOnly is not drawn. Phantoms are kAll, their loose leaves
+  /// kRenderOnly casts no shadow; kShadowOnly is not drawn. Phantoms are kAll, their foliage is
   /// kRenderOnly (compositor/light/foliage.h).
   MeshRole role = MeshRole::kAll;
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;
-  std::vector<std::array<float, 2>> uvs;  ///< Empty, or one a position.
-  /// Sky and bounced light with the virtual objects there.
+  std::vector<std::array<float, 2>> uvs;  ///< Empty, or one per position.
+  /// Sky and bounced light with the virtual objects present.
   std::vector<std::array<float, 3>> ambient_with;
-  /// The same with the phantoms alone; of phantoms only, empty for virtual objects.
+  /// The same with the phantoms alone. Empty for virtual objects.
   std::vector<std::array<float, 3>> ambient_without;
   std::vector<std::uint32_t> indices;
   SunVisibilities sun_visibility;

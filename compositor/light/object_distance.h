@@ -7,8 +7,9 @@
 
 namespace pleinair::compositor {
 
-/// How far points are from the nearest virtual object: from the box around each of its surfaces, or
-/// from the one around them all where there are very many. From the marker where there is none.
+/// Distance of points to the nearest virtual object, measured to the bounding box of each of its
+/// surfaces. If there are more than 32 boxes, one box around them all replaces them. Without
+/// virtual objects, the distance is to the marker.
 class ObjectDistance {
  public:
   explicit ObjectDistance(const std::vector<SurfaceMesh>& surfaces);

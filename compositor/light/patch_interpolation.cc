@@ -46,10 +46,10 @@ std::array<double, N> FirstRowOfInverse(std::array<std::array<double, N>, N> a) 
   return x;
 }
 
-/// Whose light each vertex gets, and how much of it.
+/// Computes the interpolation weights of each vertex.
 class Sharer {
  public:
-  /// `widths_m`: of patches as they are meant to be, by vertex.
+  /// `widths_m`: nominal patch width at each vertex.
   Sharer(const SurfaceMesh& mesh, const SurfacePatches& patches,
          const std::vector<double>& widths_m)
       : mesh_(mesh), patches_(patches) {
@@ -72,7 +72,7 @@ class Sharer {
       const double reach = reaches_[patch];
       const double far = Dot(aside, aside) / (reach * reach) + Dot(turn, turn) / kReachOfNormals;
       if (far >= 1.0 || size == kMax) return;
-      // Falls to nothing, and smoothly, before a patch is out of reach.
+      // Decreases smoothly to zero at the patch's reach.
       weights[size] = (1.0 - far) * (1.0 - far);
       sum += weights[size];
       rows[size] = {1.0,
@@ -108,12 +108,12 @@ class Sharer {
 
  private:
   static constexpr std::size_t kUnknowns = 6, kMax = 48;
-  // Patches whose mean normals are further than 60° from a vertex' do not count (1² of a chord).
+  // Patches whose mean normals differ by more than 60° from a vertex' get no weight (chord² = 1).
   static constexpr double kReachOfNormals = 1.0;
-  // In widths of a patch: less leaves a fit to chance, more blurs.
+  // In patch widths: a smaller reach makes the fit unstable, a larger one blurs.
   static constexpr double kReach = 1.7;
-  // Against a slope that only noise asks for: rays leave 3 % of it, light changes by about a third
-  // from patch to patch and by about all of it with the normal.
+  // Regularisation against slopes caused by noise. The gathered light has 3 % noise. It changes by
+  // about a third from patch to patch, and by about all of it with the normal.
   static constexpr double kDoubtInPlace = 0.005, kDoubtInNormal = 0.002;
 
   struct Mean {
@@ -136,7 +136,7 @@ class Sharer {
     }
   }
 
-  /// As far as a patch reaches, by how wide it is meant to be: some are slivers.
+  /// Computes each patch's reach from its nominal width, because some patches are slivers.
   void FindReaches(const std::vector<double>& widths_m) {
     spans_.assign(patches_.count, 0.0);
     reaches_.assign(patches_.count, 0.0);
@@ -148,7 +148,7 @@ class Sharer {
     }
   }
 
-  /// The patches that reach to a vertex of a patch, itself first, along what hangs together.
+  /// Finds the connected patches that reach a vertex of each patch, itself first.
   void FindNear() {
     std::vector<std::vector<std::uint32_t>> beside(patches_.count);
     for (const auto& [a, b] : patches_.links) {

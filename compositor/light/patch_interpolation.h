@@ -7,8 +7,9 @@
 
 namespace pleinair::compositor {
 
-/// Says whose light each vertex of a divided surface gets, and how much of it: fills in `shares`
-/// and `interpolation_ends`. `widths_m`: of patches as they are meant to be, by vertex.
+/// Computes the interpolation weights of each vertex of a divided surface. It fills in
+/// `interpolation_weights` and `interpolation_ends`. `widths_m`: nominal patch width at each
+/// vertex.
 void ComputeInterpolationWeights(const SurfaceMesh& mesh, const std::vector<double>& widths_m,
                                  int threads, SurfacePatches* patches);
 

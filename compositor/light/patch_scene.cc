@@ -21,7 +21,7 @@ constexpr std::size_t kMaxFaces = std::size_t{1} << 26;
 
 Vec3 ToVec3(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
-/// How much of a surface is where its texture has so much alpha.
+/// Coverage of a surface where its texture has this alpha.
 double ShareThere(std::uint8_t alpha, const Material& material) {
   if (material.alpha == Material::Alpha::kCutout) {
     return material.opacity * static_cast<float>(alpha) >= 255.0F * material.alpha_cutoff ? 1.0
@@ -30,8 +30,8 @@ double ShareThere(std::uint8_t alpha, const Material& material) {
   return material.alpha == Material::Alpha::kBlended ? alpha / 255.0 : 1.0;
 }
 
-/// Linear mean of a texture, pixels sampled on a grid of at most 256 × 256. What a material cuts
-/// out does not count, and of what is glass the share that is there.
+/// Linear mean of a texture, sampled on a grid of at most 256 × 256 pixels. Alpha cut-outs have no
+/// weight; glass is weighted by its alpha.
 std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture, const Material& material) {
   const auto& linear = LinearFromSrgb8();
   const int step_x = std::max(1, texture.width() / 256);
@@ -52,8 +52,8 @@ std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture, const Materia
   return mean;
 }
 
-/// A metal sends as much light back as a matt surface of its color, if to other places: without it
-/// a polished thing would blacken what it stands on.
+/// A metal reflects as much light as a matt surface of its color, though in other directions.
+/// Without this light, a polished object would blacken the ground below it.
 std::array<float, 3> ReflectanceOf(const Model& model, int material_index) {
   if (material_index < 0 || static_cast<std::size_t>(material_index) >= model.materials.size()) {
     return {Material{}.base_color};
@@ -66,7 +66,7 @@ std::array<float, 3> ReflectanceOf(const Model& model, int material_index) {
     const std::array<float, 3> mean = MeanColor(model.textures[texture], material);
     for (int c = 0; c < 3; ++c) albedo[c] *= mean[c];
   }
-  // An albedo of 1 or more would never let the light die away.
+  // With an albedo of 1 or more, the light would never decay.
   for (float& value : albedo) value = std::clamp(value, 0.0F, 0.98F);
   return albedo;
 }
@@ -89,7 +89,7 @@ Result<void> CheckModel(const PlacedModel& placed) {
   return {};
 }
 
-/// The file of the model with the most triangles, to be named when there are too many or none.
+/// The file of the model with the most triangles, for errors about too many or none.
 std::string LargestModel(const std::vector<PlacedModel>& models) {
   std::string file = "scene";
   std::size_t maximum = 0;
@@ -113,8 +113,8 @@ SurfaceMesh OtherSide(const SurfaceMesh& mesh) {
   return other;
 }
 
-/// Corners of bodies standing on the ground lie in the ground's plane, where a ray may start on
-/// either side of it: origins are pulled towards the middle of the neighbouring triangles.
+/// Corners of bodies on the ground lie in the ground's plane, where a ray may start on either side.
+/// Origins are therefore pulled towards the centres of the adjacent triangles.
 std::vector<Vec3> GatherOrigins(const SurfaceMesh& mesh) {
   constexpr double kPull = 0.1;
   constexpr double kMaxPull_m = 4e-3;
@@ -141,7 +141,7 @@ std::vector<Vec3> GatherOrigins(const SurfaceMesh& mesh) {
   return origins;
 }
 
-/// A patch's surface samples: of its many vertices some, evenly chosen, are enough.
+/// Max. surface samples of a patch: an even selection of its many vertices suffices.
 constexpr std::uint32_t kMaxSurfaceSamples = 64;
 
 void AddSurfaceSamples(const PatchScene::MeshSide& mesh_side, PatchScene* scene) {
@@ -221,7 +221,7 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
   for (std::size_t i = 0; i < models.size(); ++i) {
     PLEINAIR_RETURN_IF_ERROR(CheckModel(models[i]));
     for (SurfaceMesh& surface : OrientedSurfaces(models[i], static_cast<int>(i))) {
-      // Of phantoms nothing but their light is drawn.
+      // The render-only geometry of phantoms is never drawn.
       if (surface.is_phantom && surface.role == MeshRole::kRenderOnly) continue;
       if (surface.is_phantom) {
         surface.role = MeshRole::kAll;
@@ -242,7 +242,7 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
   tessellation.growth_per_m = options.growth_per_m;
   std::size_t vertices = 0;
   for (const SurfaceMesh& surface : surfaces) vertices += surface.positions.size();
-  // Surfaces that are fine from the start must not keep others from being subdivided.
+  // Surfaces that are already fine must not keep others from being subdivided.
   if (vertices > options.max_patches) tessellation.max_vertices += vertices;
   Tessellate(tessellation, &surfaces);
   std::vector<SurfacePatches> divided =

@@ -17,20 +17,20 @@ namespace pleinair::compositor {
 struct PlacedModel;
 struct LightSolverOptions;
 
-/// The scene as the light solver sees it: mesh sides of patches that gather and store light, and
-/// the faces that rays hit. An open surface is two mesh sides, one for each side; a closed body
-/// one. Each vertex of a tessellated surface is a patch; where there are too many of them for that,
-/// a patch is a group of vertices (surface_patches.h).
+/// The light solver's scene: mesh sides with patches that gather and store light, and the faces
+/// that rays hit. An open surface has two mesh sides, one per side; a closed body has one. Each
+/// vertex of a tessellated surface is a patch. If there are too many vertices, a patch is a group
+/// of them (surface_patches.h).
 struct PatchScene {
   struct MeshSide {
     SurfaceMesh mesh;
-    std::array<float, 3> albedo{};  ///< Linear; texture averaged; a metal's color.
+    std::array<float, 3> albedo{};  ///< Linear; mean of the texture; a metal's color.
     std::uint32_t first_patch = 0, patch_count = 0;
-    int twin = -1;                                 ///< The other side's mesh side.
+    int twin = -1;                                 ///< Index of the other side's mesh side.
     std::shared_ptr<const SurfacePatches> groups;  ///< Null: each vertex is a patch.
   };
 
-  /// Where a patch gathers light: a little above its surface and away from its edges.
+  /// Where a patch gathers light: slightly above its surface and away from its edges.
   struct PatchSample {
     Vec3 origin;
     std::array<float, 3> normal{};
@@ -38,30 +38,30 @@ struct PatchScene {
 
   struct Face {
     std::array<std::uint32_t, 3>
-        patches{};                  ///< At the corners; scene-wide, of the front's mesh side.
-    std::uint32_t back_offset = 0;  ///< To add for the back's patches; 0: the back is inside.
-    std::uint32_t mesh_side = 0;    ///< Of the front.
-    Vec3 normal;                    ///< Of the front, unit.
+        patches{};  ///< At the corners; scene-wide indices of the front's mesh side.
+    std::uint32_t back_offset = 0;  ///< Offset to the back's patches; 0: the back is inside a body.
+    std::uint32_t mesh_side = 0;    ///< Mesh side of the front.
+    Vec3 normal;                    ///< Front normal, unit.
   };
 
   std::vector<MeshSide> mesh_sides;
-  std::vector<Face> faces;                ///< None of what is drawn alone.
-  std::vector<std::uint32_t> first_face;  ///< By mesh of the ray scene.
+  std::vector<Face> faces;                ///< Without render-only geometry.
+  std::vector<std::uint32_t> first_face;  ///< One entry per mesh of the ray scene.
   std::uint32_t patch_count = 0;
-  std::vector<PatchSample> surface_samples;        ///< By patch.
+  std::vector<PatchSample> surface_samples;        ///< Grouped by patch.
   std::vector<std::uint32_t> surface_sample_ends;  ///< One past each patch's last surface sample.
   std::unique_ptr<RayScene> rays;
-  std::unique_ptr<RayScene> foliage;  ///< Of phantoms, which hide what is seen; may be null.
+  std::unique_ptr<RayScene> foliage;  ///< Phantoms' foliage; occludes views; may be null.
 
   const Face& FaceOf(const RayHit& hit) const { return faces[first_face[hit.mesh] + hit.triangle]; }
 
-  /// One of a patch's surface samples, as a hash says.
+  /// Selects one of a patch's surface samples by a hash.
   const PatchSample& AnyPatchSample(std::uint32_t patch, std::uint32_t hash) const {
     const std::uint32_t first = patch == 0 ? 0 : surface_sample_ends[patch - 1];
     return surface_samples[first + hash % (surface_sample_ends[patch] - first)];
   }
 
-  /// By patch.
+  /// One flag per patch.
   std::vector<std::uint8_t> ArePhantoms() const {
     std::vector<std::uint8_t> are;
     are.reserve(patch_count);
@@ -71,7 +71,7 @@ struct PatchScene {
     return are;
   }
 
-  /// The light of a mesh side's vertices from that of all patches.
+  /// Computes the light at a mesh side's vertices from that of all patches.
   std::vector<std::array<float, 3>> VertexLight(
       const MeshSide& mesh_side, std::span<const std::array<float, 3>> patch_light) const;
 

@@ -12,17 +12,17 @@ namespace pleinair::compositor {
 
 struct PatchScene;
 
-/// Traces paths among a scene's phantoms in the light of one day: diffuse reflection at every hit,
-/// the sun sampled there, the sky where a path leaves the scene (Kajiya 1986).
+/// Traces paths among a scene's phantoms in the light of one day. Every hit reflects diffusely and
+/// samples the sun; a path that leaves the scene samples the sky (Kajiya 1986).
 class PhantomPaths {
  public:
-  /// Tabulates the sky. `bounces`: reflections followed at most. Of the sun, surfaces reflect what
-  /// `sun_transmittance` leaves it. `scene` and `sun_transmittance` must live as long.
+  /// Tabulates the sky. `bounces`: max. number of reflections. Surfaces reflect the sunlight that
+  /// `sun_transmittance` transmits. `scene` and `sun_transmittance` must outlive this object.
   PhantomPaths(const PatchScene& scene, int bounces, const sky::SkyModel& day,
                const Mat3& marker_from_world, const SunTransmittanceMap& sun_transmittance);
 
-  /// Irradiance at a point whose surface has `frame`, without the sun's direct light: lux, linear
-  /// Rec.709. Equal `paths` give equal bits.
+  /// Irradiance without direct sunlight at a point of a surface with tangent frame `frame`: lux,
+  /// linear Rec.709. The result is bit-identical for equal `paths`.
   LinearRgb Irradiance(Vec3 point, const TangentFrame& frame, std::uint32_t paths) const;
 
  private:

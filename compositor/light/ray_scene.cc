@@ -98,8 +98,8 @@ class EmbreeScene : public RayScene {
 
 Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& meshes,
                                                    const std::string& where) {
-  // One build thread: the hierarchy, and with it the choice among surfaces at equal distance,
-  // must not depend on the machine. 200,000 triangles take a quarter of a second.
+  // One build thread: the hierarchy must not depend on the machine, because it decides among
+  // surfaces at equal distance. 200,000 triangles take a quarter of a second.
   Device device(rtcNewDevice("threads=1,set_affinity=0"));
   if (device.get() == nullptr) {
     return SystemError("Embree", "cannot start on this processor",

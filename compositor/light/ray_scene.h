@@ -11,27 +11,27 @@
 
 namespace pleinair::compositor {
 
-/// Triangles to be hit by rays; marker coordinates, metres.
+/// Triangles for ray queries; marker coordinates, metres.
 struct RayMesh {
   std::vector<std::array<float, 3>> positions;
-  std::vector<std::uint32_t> indices;  ///< Three a triangle.
+  std::vector<std::uint32_t> indices;  ///< Three per triangle.
   bool is_phantom = false;
 };
 
 /// The nearest surface along a ray.
 struct RayHit {
-  std::uint32_t mesh = 0;      ///< Index into the list that the scene was made of.
+  std::uint32_t mesh = 0;      ///< Index into the list passed to RayScene::Create().
   std::uint32_t triangle = 0;  ///< Index within the mesh.
   float u = 0.0F, v = 0.0F;    ///< Barycentric weights of the second and third corner.
   double distance_m = 0.0;
-  bool back = false;  ///< Hit from the side on which the corners run clockwise.
+  bool back = false;  ///< Hit on the side from which the corners run clockwise.
 };
 
 /// Which surfaces a ray may hit.
 enum class RayTargets { kEverything, kPhantoms };
 
-/// Ray queries against the scene's triangles (Embree 3.13), thread-safe once created. A ray finds
-/// the same hit whatever the number of threads.
+/// Ray queries against the scene's triangles (Embree 3.13), thread-safe after creation. A ray finds
+/// the same hit for any number of threads.
 class RayScene {
  public:
   /// `where` is the file that errors name. Errors: Embree cannot start or is out of memory.
@@ -39,10 +39,11 @@ class RayScene {
                                                   const std::string& where);
   virtual ~RayScene() = default;
 
-  /// Nearest hit from `origin` along the unit vector `direction`; false: none.
+  /// Finds the nearest hit from `origin` along the unit vector `direction`. Returns false if there
+  /// is none.
   virtual bool Intersect(RayTargets targets, Vec3 origin, Vec3 direction, RayHit* hit) const = 0;
 
-  /// Whether anything at all lies along the ray.
+  /// Returns whether any surface lies along the ray.
   virtual bool Occluded(RayTargets targets, Vec3 origin, Vec3 direction) const = 0;
 };
 

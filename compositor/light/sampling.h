@@ -24,11 +24,11 @@ inline std::uint32_t Hash(std::uint32_t a, std::uint32_t b) {
   return h;
 }
 
-/// Number in [0, 1) of a hash.
+/// Maps a hash to [0, 1).
 inline double UnitFromHash(std::uint32_t hash) { return hash * 0x1p-32; }
 
-/// Point `i` of `count` of Hammersley's set (base 2), shifted round the unit square by an amount
-/// that depends on `seed` (Cranley & Patterson 1976): equal seeds give equal points.
+/// Point `i` of `count` of Hammersley's set (base 2), shifted around the unit square by an amount
+/// that depends on `seed` (Cranley & Patterson 1976). Equal seeds give equal points.
 inline SamplePoint ShiftedHammersley(std::uint32_t i, std::uint32_t count, std::uint32_t seed) {
   std::uint32_t reversed = (i << 16) | (i >> 16);
   reversed = ((reversed & 0x00FF00FFU) << 8) | ((reversed & 0xFF00FF00U) >> 8);
@@ -42,8 +42,8 @@ inline SamplePoint ShiftedHammersley(std::uint32_t i, std::uint32_t count, std::
   return point;
 }
 
-/// Two unit vectors at right angles to the unit vector `n` and to each other.
-/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3.
+/// Two unit vectors, orthogonal to the unit vector `n` and to each other. Duff et al. 2017,
+/// "Building an Orthonormal Basis, Revisited", listing 3.
 struct TangentFrame {
   Vec3 tangent, bitangent, normal;
   explicit TangentFrame(Vec3 n) : normal(n) {
@@ -68,7 +68,7 @@ inline Vec3 CosineDirection(const TangentFrame& frame, SamplePoint point) {
 /// Angular radius of the sun at 1 astronomical unit: 959.63″.
 inline constexpr double kSunAngularRadius = 959.63 / 3600.0 * std::numbers::pi / 180.0;
 
-/// Direction to a point of the sun's disc, evenly distributed.
+/// Direction to a point of the sun's disc, uniformly distributed.
 inline Vec3 SunDiscDirection(const TangentFrame& to_sun, SamplePoint point) {
   const double radius = std::tan(kSunAngularRadius) * std::sqrt(point.u);
   const double phi = 2.0 * std::numbers::pi * point.v;

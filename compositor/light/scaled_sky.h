@@ -8,9 +8,8 @@
 
 namespace pleinair::compositor {
 
-/// A sky and its sun, each made brighter or darker a channel: what light is left when one of them
-/// is taken away, and the light that was measured where a model's shape is believed and its
-/// strength is not. `model` must live as long.
+/// A sky model whose sky and sun are scaled per channel. It removes one of the two light sources,
+/// or applies a measured intensity to a model's distribution. `model` must outlive this object.
 class ScaledSky : public sky::SkyModel {
  public:
   ScaledSky(const sky::SkyModel& model, LinearRgb sky_radiance_scale, LinearRgb sun_scale)

@@ -7,8 +7,8 @@
 namespace pleinair::compositor {
 namespace {
 
-// Nodes a side of the hemi-octahedral map: about 0.7° between neighbours, so that the bright
-// region around the sun is followed; the error of level irradiance stays below 0.1 %.
+// Nodes per side of the hemi-octahedral map. Neighbours are about 0.7° apart, which resolves the
+// bright region around the sun. The error of the horizontal irradiance stays below 0.1 %.
 constexpr int kSide = 193;
 
 std::array<float, 3> ToFloats(LinearRgb c) {
@@ -25,7 +25,7 @@ SkyTable::SkyTable(const sky::SkyModel& day, const Mat3& marker_from_world, doub
   const LinearRgb level = day.SunNormalIrradiance() * sine_sun + day.SkyHorizontalIrradiance();
   land_ = ToFloats(level * (land_albedo / std::numbers::pi));
   // Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors",
-  // hemi-oct: the upper hemisphere's octahedron, turned by 45° to fill the square.
+  // hemi-oct: the upper hemisphere's octahedron, rotated by 45° to fill the square.
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
       const double s = 2.0 * column / (kSide - 1) - 1.0;

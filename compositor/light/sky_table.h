@@ -12,16 +12,16 @@ namespace pleinair::compositor {
 /// ground.
 inline constexpr double kLandAlbedo = 0.2;
 
-/// The radiance that comes to the scene from far away, by direction in marker coordinates: the
-/// sky, tabulated once so that millions of rays can ask for it, and below the horizon the land
-/// that goes on where the phantoms end. Without the sun's disc.
+/// Radiance of the distant surroundings by direction in marker coordinates, without the sun's disc.
+/// The sky is tabulated once, because millions of rays query it. Below the horizon lies the land
+/// that continues beyond the phantoms.
 class SkyTable {
  public:
-  /// `land_albedo`: diffuse reflectance of the land beyond the phantoms, which lies in full sun
+  /// `land_albedo`: diffuse reflectance of the land beyond the phantoms. That land is in full sun
   /// and under the whole sky.
   SkyTable(const sky::SkyModel& day, const Mat3& marker_from_world, double land_albedo);
 
-  /// cd/m², linear Rec.709, from a unit direction in marker coordinates.
+  /// Radiance from a unit direction in marker coordinates: cd/m², linear Rec.709.
   std::array<float, 3> Radiance(Vec3 direction_in_marker) const;
 
   /// Sine of the elevation of a direction in marker coordinates.

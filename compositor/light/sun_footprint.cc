@@ -13,7 +13,7 @@ SunFootprint::Cells SunFootprint::CellsOf(const glm::vec2& low, const glm::vec2&
   const glm::vec2 last(kCells - 1);
   const glm::vec2 low_cell = glm::clamp(glm::floor(low * cells_per_unit_), glm::vec2(0.0F), last);
   const glm::vec2 high_cell = glm::clamp(glm::floor(high * cells_per_unit_), glm::vec2(0.0F), last);
-  // Of what is no number, or upside down, it is not known where it lies.
+  // If a corner is not a number or the corners are swapped, the place is unknown.
   if (!(low_cell.x <= high_cell.x && low_cell.y <= high_cell.y)) {
     return {0, kCells - 1, ~std::uint64_t{0}};
   }

@@ -12,18 +12,19 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr double kCellPx = 2.0;  // About the distance of surface samples.
+constexpr double kCellPx = 2.0;  // About the distance between surface samples.
 constexpr int kWidest = 512;
-// Of the surface samples along either direction, left out at either end: far ground spreads them
-// thin.
+// Share of the surface samples that is excluded at either end of each axis, because distant ground
+// spreads them thinly.
 constexpr double kOutside = 0.01;
-// What the cells around one count in it, of a surface sample's weight; alone where it has none.
+// Weight of the neighbourhood's mean, relative to one surface sample. It is the only weight in a
+// cell without samples.
 constexpr double kNeighbours = 0.25;
-// The shadow of a tree's crown moves half a metre meanwhile, its gaps' own size, of leaves that are
-// ten metres off.
+// Within this angle, the shadow of leaves ten metres away moves half a metre. That is the size of
+// the gaps in a tree's crown.
 constexpr double kMaxSunAngle_rad = 3.0 * kRadiansPerDegree;
 
-/// Sums and weights of cells.
+/// Sums and weights per cell.
 struct Level {
   int width = 0, height = 0;
   std::vector<double> sum, weight;
@@ -32,8 +33,8 @@ struct Level {
   std::size_t At(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-/// Each cell's mean, of cells without a surface sample the mean about them: pull and push (Gortler
-/// et al., The Lumigraph, 1996, section 3.3.2).
+/// Mean of each cell; a cell without surface samples takes its neighbourhood's mean. Pull-push
+/// (Gortler et al., The Lumigraph, 1996, section 3.3.2).
 std::vector<double> FillGaps(const Level& level) {
   if (level.Size() == 1) return {level.sum[0] / level.weight[0]};
   Level coarse((level.width + 1) / 2, (level.height + 1) / 2);
@@ -44,7 +45,7 @@ std::vector<double> FillGaps(const Level& level) {
     }
   }
   const std::vector<double> about = FillGaps(coarse);
-  // Between the middles of the coarser cells linear, so that their edges do not show.
+  // Bilinear between the middles of the coarser cells, so that their edges are invisible.
   const auto about_at = [&](int x, int y) {
     const auto halves = [](int fine, int cells) {
       const double at = std::clamp((fine + 0.5) / 2 - 0.5, 0.0, cells - 1.0);
@@ -129,8 +130,7 @@ SunTransmittanceMap BuildSunTransmittanceMap(Vec3 to_sun,
     level.sum[cell] += surface_samples[i].share;
     level.weight[cell] += 1.0;
   }
-  // A few surface samples may lie in opposite corners, outside the box of both directions'
-  // quantiles.
+  // A few surface samples may lie in opposite corners, outside the box of the quantiles.
   if (std::none_of(level.weight.begin(), level.weight.end(), [](double w) { return w > 0.0; })) {
     return SunTransmittanceMap{};
   }

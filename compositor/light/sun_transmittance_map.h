@@ -8,35 +8,35 @@
 
 namespace pleinair::compositor {
 
-/// How much of the sun comes through what no phantom stands for (trees), as a map across the sun's
-/// rays: what a ray shows on the real surface at its end holds for whatever virtual thing it meets
-/// before. Marker coordinates, metres.
+/// Sun transmittance of unmodelled geometry (trees), as a projective map along the sun's rays. A
+/// ray is measured on the real surface at its end. The value also holds for virtual objects that
+/// the ray meets before. Marker coordinates, metres.
 struct SunTransmittanceMap {
-  Vec3 to_sun;                      ///< Unit, of the sun whose rays these are.
-  Vec3 across_x, across_y;          ///< Unit; with the sun's rays a right-handed frame.
-  double first_x = 0, first_y = 0;  ///< Along these, of the first cell's middle.
+  Vec3 to_sun;                      ///< Unit vector to the sun of this map.
+  Vec3 across_x, across_y;          ///< Unit; a right-handed frame with the direction to the sun.
+  double first_x = 0, first_y = 0;  ///< Middle of the first cell along these axes.
   double cell_m = 0.0;
   int width = 0, height = 0;
-  std::vector<float> share;  ///< 0…1, row by row.
+  std::vector<float> share;  ///< Transmittance 0…1, row-major.
 
-  /// Between the cells' middles linear, beyond the border the border's; 1 of an empty map.
+  /// Bilinear between the cells' middles; the nearest border value outside; 1 for an empty map.
   double At(Vec3 point) const;
-  /// Whether a sun stands so near to the map's that its shadows still lie about where the map has
-  /// them. `direction` unit.
+  /// Returns whether the sun is still close enough to the map's sun for its shadows to lie about
+  /// where the map has them. `direction` is a unit vector.
   bool HoldsFor(Vec3 direction) const;
-  /// The rows that give texture coordinates of (x, y, z, 1); not of an empty map.
+  /// Rows that map (x, y, z, 1) to texture coordinates. The map must not be empty.
   std::array<std::array<float, 4>, 2> TextureFromMarker() const;
 };
 
-/// A place on a real surface that the phantoms leave in the sun.
+/// A point on a real surface that no phantom shades.
 struct SunlitSample {
   Vec3 point;
-  double share = 1.0;        ///< Of the sun that is there.
-  double footprint_m = 0.0;  ///< Edge of a pixel there.
+  double share = 1.0;        ///< Fraction of the sun that arrives there.
+  double footprint_m = 0.0;  ///< Edge length of a pixel's footprint there.
 };
 
-/// The map that surface samples tell of; between them it is smooth. Empty without surface samples,
-/// and where the few that there are all lie beyond its border.
+/// Builds a smooth map from surface samples. The map is empty without samples, or if all of a few
+/// samples lie outside its border.
 SunTransmittanceMap BuildSunTransmittanceMap(Vec3 to_sun,
                                              std::span<const SunlitSample> surface_samples);
 

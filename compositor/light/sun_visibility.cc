@@ -11,8 +11,8 @@
 namespace pleinair::compositor {
 namespace {
 
-// Barycentric: corners and edges drawn in a little, where surfaces meet rays from them are in
-// doubt.
+// Barycentric. Corners and edges are moved inwards, because rays from where surfaces meet are
+// unreliable.
 constexpr std::array<std::array<double, 3>, 10> kPlaces{{
     {0.90, 0.05, 0.05},
     {0.05, 0.90, 0.05},

@@ -8,11 +8,13 @@
 
 namespace pleinair::compositor {
 
-/// By triangle of a phantom, whether its own or other phantoms' shadows touch it: from ten places
-/// of it, near corners, at the middles of edges, its middle and between that and the corners, rays
-/// run to three points of the sun's rim. A shadow that falls between them is missed, as a strip
-/// along an edge may that is little more than a fifth of the triangle's height wide: what is drawn
-/// from this must differ little by it. kNone where it is turned away from the sun.
+/// Classifies each triangle of a phantom by whether shadows of this or other phantoms touch it.
+/// From ten points, rays run to three points of the sun's rim. The points lie near the corners, at
+/// edge midpoints, at the centre, and between the centre and the corners. Triangles that face away
+/// from the sun are kNone.
+///
+/// A shadow between the points is missed, such as a strip along an edge a little wider than a fifth
+/// of the triangle's height. Results that depend on this must tolerate such errors.
 ///
 /// `to_sun`: unit, marker coordinates; zero: without a sun.
 std::vector<SunVisibility> ClassifySunVisibility(const RayScene& rays, const LitMesh& phantom,

@@ -15,22 +15,22 @@
 namespace pleinair::compositor {
 namespace {
 
-// Surfaces that patches would not at least halve stay as they are.
+// A surface is divided only if patches at least halve its number of samples.
 constexpr double kWorthwhile = 0.5;
-// How much wider patches are made at a time until there are few enough of them, and how far that
-// may go: beyond, a surface is one.
+// Patches widen by this factor per step until few enough remain. After `kMaxWidenings` steps, each
+// surface is one patch.
 constexpr double kWidening = 1.15;
 constexpr int kMaxWidenings = 100;
-// Loose pieces are joined where they leave so small a share of the patches to be had unused.
+// Separate pieces are joined if all cells use less than this share of the max. number of patches.
 constexpr double kTooLoose = 0.25;
-// Normals within about 25° of an axis, or of a face's edge or corner, are alike.
+// Normals within about 25° of an axis, or of a cube's edge or corner, are similar.
 constexpr double kAlikeNormals = 0.4;
 
 using Float3 = std::array<float, 3>;
 
 Vec3 ToVec3(const Float3& a) { return {a[0], a[1], a[2]}; }
 
-/// Sets of vertices; the smallest is the name of its set.
+/// Disjoint sets of vertices; the smallest vertex represents its set.
 class Sets {
  public:
   explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -50,7 +50,7 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Which of 54 groups a normal belongs to: nine to each face of a cube.
+/// Index of one of 54 groups of normals: nine for each face of a cube.
 std::uint32_t NormalGroup(const Float3& n) {
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
@@ -65,7 +65,7 @@ std::uint32_t NormalGroup(const Float3& n) {
   return group;
 }
 
-/// One surface on its way to patches.
+/// Divides one surface into patches.
 class Divider {
  public:
   Divider(const SurfaceMesh& mesh, const TessellationOptions& spacing,
@@ -78,7 +78,7 @@ class Divider {
     FindTwins();
   }
 
-  /// Area in units of the patches' there.
+  /// Area in units of the local patch area.
   double Area() const {
     double area = 0.0;
     for (std::size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
@@ -94,7 +94,7 @@ class Divider {
 
   std::size_t sides() const { return mesh_.closed ? 1 : 2; }
 
-  /// Divides into patches `scale` times as wide as triangles are to be.
+  /// Divides into patches `scale` times as wide as the tessellation's longest edge.
   void Divide(double scale, bool hang_together) {
     scale_ = scale;
     const std::size_t size = mesh_.positions.size();
@@ -123,7 +123,7 @@ class Divider {
     patch_of_.resize(size);
     std::uint32_t count = 0;
     for (std::uint32_t v = 0; v < size; ++v) {
-      const std::uint32_t first = sets.Find(v);  // At most v: numbered before.
+      const std::uint32_t first = sets.Find(v);  // At most v, so it already has a number.
       patch_of_[v] = first == v ? count++ : patch_of_[first];
     }
     count_ = count;
@@ -135,9 +135,9 @@ class Divider {
     cells_ = 1;
   }
 
-  /// What it costs, both sides; as many as there are vertices where patches are not worthwhile.
+  /// Number of patches on all sides; the number of vertices where patches do not pay off.
   std::size_t Cost() const { return (Worthwhile() ? count_ : patch_of_.size()) * sides(); }
-  /// The same if all in one cell were one patch.
+  /// The same if each cell were one patch.
   std::size_t LooseCost() const { return cells_ * sides(); }
 
   SurfacePatches Patches(int threads) const;
@@ -156,23 +156,23 @@ class Divider {
     std::uint64_t key = NormalGroup(mesh_.normals[v]) * 64ULL + levels_[v];
     for (int c = 0; c < 3; ++c) {
       const auto cell = static_cast<std::int64_t>(std::floor(mesh_.positions[v][c] / width_m));
-      // Multiplicative hashing, Knuth 6.4; what has the same number by chance need not hang
-      // together and is then no patch.
+      // Multiplicative hashing, Knuth 6.4. Cells with equal keys by chance are usually not
+      // connected and then do not share a patch.
       key = (key ^ static_cast<std::uint64_t>(cell)) * 0x9E3779B97F4A7C15ULL;
       key ^= key >> 29;
     }
     return key;
   }
 
-  /// Pairs of vertices at one place: a surface hangs together there for all that its corners differ
-  /// in normal or texture.
+  /// Pairs of vertices at one place. They connect the surface even if the corners differ in normal
+  /// or texture coordinates.
   void FindTwins() {
     std::vector<std::uint32_t> order(mesh_.positions.size());
     std::iota(order.begin(), order.end(), 0U);
     const auto& p = mesh_.positions;
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t a, std::uint32_t b) { return p[a] != p[b] ? p[a] < p[b] : a < b; });
-    // Each with all others of its place that lie near in the list; corners have few.
+    // Each vertex is paired with the next few at its place; corners have few.
     constexpr std::size_t kReach = 8;
     for (std::size_t i = 0; i < order.size(); ++i) {
       for (std::size_t k = i + 1; k < std::min(order.size(), i + kReach); ++k) {
@@ -187,7 +187,7 @@ class Divider {
 
   const SurfaceMesh& mesh_;
   double near_edge_m_;
-  std::vector<std::uint8_t> levels_;  // How often a patch's width has doubled with the distance.
+  std::vector<std::uint8_t> levels_;  // Doublings of a patch's width with distance.
   std::vector<std::array<std::uint32_t, 2>> twins_;
   std::vector<std::uint32_t> patch_of_;
   double scale_ = 1.0;
@@ -265,7 +265,7 @@ std::vector<SurfacePatches> DividedIntoPatches(const std::vector<SurfaceMesh>& s
     return std::transform_reduce(dividers.begin(), dividers.end(), std::size_t{0}, std::plus<>(),
                                  [](const Divider& divider) { return divider.LooseCost(); });
   };
-  // Somewhat narrower than if patches were squares of one size.
+  // Slightly narrower than if patches were squares of one size.
   const double narrowest = 0.9 * std::sqrt(area / static_cast<double>(max_patches));
   bool fits = false;
   for (const bool hang_together : {true, false}) {

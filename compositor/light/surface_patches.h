@@ -10,38 +10,39 @@
 
 namespace pleinair::compositor {
 
-/// Pieces of one surface that gather light as one, for surfaces of far more vertices than light
-/// needs: neighbouring vertices whose normals point about the same way. What they gather is the
-/// mean over the piece; each vertex takes its light from the pieces around it.
+/// Groups of neighbouring vertices with similar normals that gather light together. They serve
+/// surfaces with far more vertices than the light needs. A patch gathers the mean over its area;
+/// each vertex interpolates the patches around it.
 ///
-/// The light at a vertex is a moving least squares fit of the means, linear in place and normal
-/// (Levin 1998, "The approximation power of moving least-squares", Mathematics of Computation 67):
-/// light that changes linearly with either comes out exact, and no edge of a piece shows.
+/// The light at a vertex is a moving-least-squares fit of the means, linear in position and normal.
+/// Light that is linear in either is reproduced exactly, and no patch edges are visible. Method:
+/// Levin 1998, "The approximation power of moving least-squares", Mathematics of Computation 67.
 struct SurfacePatches {
-  /// A share of a patch's light in a vertex'. Shares of a vertex add up to 1; single ones may be
-  /// slightly negative.
+  /// Weight of a patch's light at a vertex. The weights of a vertex add up to 1; single weights may
+  /// be slightly negative.
   struct InterpolationWeight {
     std::uint32_t patch = 0;
     float weight = 0.0F;
   };
 
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> patch_of;  ///< Of each vertex.
-  /// Vertices by patch, those of patch p from member_ends[p − 1] (0 for the first) on.
+  std::vector<std::uint32_t> patch_of;  ///< One entry per vertex.
+  /// Vertices grouped by patch; those of patch p start at member_ends[p − 1], or at 0 for the
+  /// first.
   std::vector<std::uint32_t> members, member_ends;
   std::vector<std::array<std::uint32_t, 2>> links;         ///< Neighbours, each pair once.
-  std::vector<InterpolationWeight> interpolation_weights;  ///< By vertex, as members are by patch.
+  std::vector<InterpolationWeight> interpolation_weights;  ///< By vertex, as members by patch.
   std::vector<std::uint32_t> interpolation_ends;
 
-  /// Light of all vertices from that of the patches; never negative.
+  /// Computes the light of all vertices from that of the patches; never negative.
   std::vector<std::array<float, 3>> Interpolate(std::span<const std::array<float, 3>> light) const;
 };
 
-/// Divides surfaces into at most `max_patches` altogether, an open surface counted twice for its
-/// two sides; but each has one at least. Patches are as wide everywhere as budgeted, except that
-/// they grow with the distance from virtual objects as tessellation's edges do. Those of one patch
-/// hang together, unless there are too many loose pieces for that (leaves). One result a surface;
-/// an empty one (count 0): each vertex is its own patch.
+/// Divides surfaces into at most `max_patches` in total, but at least one each. An open surface
+/// counts twice, for its two sides. Patches are equally wide, except that they grow with the
+/// distance from virtual objects as the tessellation's edges do. A patch is connected unless the
+/// surfaces have too many separate pieces, such as leaves. The result has one entry per surface; in
+/// an empty one (count 0), each vertex is its own patch.
 std::vector<SurfacePatches> DividedIntoPatches(const std::vector<SurfaceMesh>& surfaces,
                                                const TessellationOptions& spacing,
                                                std::size_t max_patches, int threads);

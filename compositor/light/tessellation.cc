@@ -13,11 +13,11 @@
 namespace pleinair::compositor {
 namespace {
 
-// Edges where surfaces meet beside those in the open, and how much longer they may be per metre
-// from there.
+// Length of edges at contacts relative to edges elsewhere, and its increase per metre of distance
+// from the contact.
 constexpr double kContactShare = 0.35, kContactGrowth = 0.8;
 
-/// How long edges may be about a point, metres.
+/// Max. edge length at a point, metres.
 struct EdgeLengths {
   const ObjectDistance& distance;
   double near_m;
@@ -36,9 +36,10 @@ class Refiner {
   Refiner(const EdgeLengths& lengths, const ContactEdges& contacts)
       : lengths_(lengths), contacts_(contacts) {}
 
-  /// Splits until every edge fits; false when more than `max_vertices` would be needed.
+  /// Splits until every edge fits. Returns false if that needs more than `max_vertices`.
   bool Refine(SurfaceMesh* surface, std::size_t max_vertices) const {
-    // Each pass halves the edges that are too long: 40 take any length below any precision.
+    // Each pass halves the edges that are too long; 40 passes reduce any length below any
+    // precision.
     for (int pass = 0; pass < 40; ++pass) {
       if (!RefineOnce(surface)) return true;
       if (surface->positions.size() > max_vertices) return false;
@@ -58,7 +59,7 @@ class Refiner {
     const std::array<float, 3> middle = Midpoint(a, b);
     const double open = lengths_.InSunlight(middle);
     if (length > open) return true;
-    // At a contact a share of that, and more the farther from it.
+    // At a contact the limit is a fraction of that; it grows with the distance.
     const double finest = lengths_.AtContact(open);
     return length > finest && contacts_.IsWithin(middle, (length - finest) / kContactGrowth);
   }
@@ -107,7 +108,8 @@ class Refiner {
                                      middle_of(v[2], v[0])};
       const int splits = (m[0] != kKeep) + (m[1] != kKeep) + (m[2] != kKeep);
       changed = changed || splits > 0;
-      // Turn the corners so that a lone split lies on edge 0, a lone unsplit edge is edge 2.
+      // Rotates the corners so that a single split is on edge 0, or a single unsplit edge is edge
+      // 2.
       while ((splits == 1 && m[0] == kKeep) || (splits == 2 && m[2] != kKeep)) {
         std::rotate(v.begin(), v.begin() + 1, v.end());
         std::rotate(m.begin(), m.begin() + 1, m.end());
@@ -146,7 +148,7 @@ std::size_t CountVertices(const std::vector<SurfaceMesh>& surfaces) {
   return count;
 }
 
-/// False, and `surfaces` as they were, when more than `max_vertices` would be needed.
+/// Returns false and keeps `surfaces` if that needs more than `max_vertices`.
 bool RefineAll(const Refiner& refiner, std::size_t max_vertices,
                std::vector<SurfaceMesh>* surfaces) {
   std::vector<SurfaceMesh> refined = *surfaces;
@@ -169,9 +171,9 @@ void Tessellate(const TessellationOptions& options, std::vector<SurfaceMesh>* su
     return lengths.AtContact(lengths.InSunlight(point));
   });
   if (RefineAll({lengths, contacts}, options.max_vertices, surfaces)) return;
-  // Contacts are not worth coarser triangles everywhere else.
+  // Contacts do not justify coarser triangles everywhere else.
   const ContactEdges none;
-  for (int coarser = 0; coarser < 34; ++coarser) {  // Up to a million times.
+  for (int coarser = 0; coarser < 34; ++coarser) {  // Up to a factor of a million.
     if (RefineAll({lengths, none}, options.max_vertices, surfaces)) return;
     lengths.near_m *= 1.5;
     lengths.growth_per_m *= 1.5;

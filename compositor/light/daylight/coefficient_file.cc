@@ -14,18 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// At the head of the file; numbers as this machine has them, since no other one reads it.
+/// File header in native byte order, because no other machine reads the file.
 struct Header {
   std::array<char, 8> magic{'P', 'L', 'D', 'L', 'C', '0', '0', '1'};
   std::uint64_t hash = 0;
   std::uint64_t vertices = 0;
   std::int32_t patches = 0, division = 0, reflections = 0, reserved = 0;
   double up[3] = {};
-  std::uint64_t checksum = 0;  ///< Of all that follows.
+  std::uint64_t checksum = 0;  ///< Covers all that follows.
 };
 
 std::uint64_t Checksum(const char* data, std::size_t size, std::uint64_t hash) {
-  // FNV-1a by words: a hundred megabytes in some hundredths of a second.
+  // FNV-1a by words: a hundred megabytes take some hundredths of a second.
   for (; size >= 8; data += 8, size -= 8) {
     std::uint64_t word = 0;
     std::memcpy(&word, data, 8);
@@ -95,7 +95,7 @@ std::optional<DaylightCoefficients> ReadCoefficients(const fs::path& folder, std
   coefficients.reflections = header.reflections;
   coefficients.from_cache = true;
   if (header.patches != coefficients.Patches().total()) return std::nullopt;
-  // The sizes must be those of the file before memory is asked for.
+  // The header's sizes must match the file's before memory is allocated.
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error || header.vertices > size) return std::nullopt;

@@ -11,16 +11,18 @@
 
 namespace pleinair::compositor {
 
-/// Irradiance per radiance from every patch of the sky to every vertex, in four planes: what comes
-/// straight (the same in all channels) and what comes after reflections in red, green and blue.
+/// Irradiance per radiance from every sky patch to every vertex, in four planes. The first plane is
+/// the direct light, equal in all channels. The others are the reflected light in red, green and
+/// blue.
 ///
-/// Eight bits each against the largest of 16 patches in a plane: a hundred thousand vertices take
-/// 80 MB, and estimate them is what a product costs. An entry is right to 1/510 of the largest of
-/// its 16, their sum to 0.1 % (tests/compositor/light/daylight/daylight_coefficients_test.cc).
+/// Each entry has eight bits, relative to the largest of 16 patches in a plane. A hundred thousand
+/// vertices take 80 MB; reading them dominates the cost of a product. An entry is accurate to 1/510
+/// of the largest of its 16, their sum to 0.1 %
+/// (tests/compositor/light/daylight/daylight_coefficients_test.cc).
 class CoefficientMatrix {
  public:
-  static constexpr int kPatches = 16;  ///< A chunk of columns, with scales of its own.
-  static constexpr int kLanes = 16;    ///< Vertices that lie interleaved.
+  static constexpr int kPatches = 16;  ///< A chunk of columns with its own scales.
+  static constexpr int kLanes = 16;    ///< Vertices that are interleaved.
   static constexpr int kPlanes = 4;
 
   template <typename T>
@@ -37,16 +39,16 @@ class CoefficientMatrix {
   void Set(std::size_t vertex, int chunk, int plane, std::span<const float, kPatches> values);
   float At(std::size_t vertex, int patch, int plane) const;
 
-  /// The light of a sky on the vertices from `first` on, as many as `irradiance` has: straight and
-  /// reflected of `sky`, reflected of `sun`, whose straight light is the shadow maps' to give.
-  /// Length of these: patches().
+  /// Computes the irradiance on the vertices from `first` on, as many as `irradiance` has. It adds
+  /// the direct and reflected light of `sky` and the reflected light of `sun`. The shadow maps
+  /// provide the sun's direct light. `sky` and `sun` have patches() entries.
   void Multiply(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
                 std::span<std::array<float, 3>> irradiance, std::size_t first = 0) const;
-  /// The same on all vertices, one number after the other.
+  /// The same for all vertices, without SIMD.
   void MultiplyScalar(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
                       std::span<std::array<float, 3>> irradiance) const;
 
-  // As they lie in memory and on disk.
+  // In the layout of memory and file.
   Table<std::uint8_t>& codes() { return codes_; }
   const Table<std::uint8_t>& codes() const { return codes_; }
   Table<float>& scales() { return scales_; }
@@ -54,7 +56,7 @@ class CoefficientMatrix {
 
  private:
   std::size_t blocks() const { return (vertices_ + kLanes - 1) / kLanes; }
-  /// Of the chunk of 16 × 16 codes, and of its 16 scales.
+  /// Index of the tile of 16 × 16 codes, and of its 16 scales.
   std::size_t Tile(std::size_t block, int chunk, int plane) const {
     return (block * static_cast<std::size_t>(chunks()) + static_cast<std::size_t>(chunk)) *
                kPlanes +

@@ -10,7 +10,7 @@
 namespace pleinair::compositor {
 namespace {
 
-// Computations in a row that newer wishes may end.
+// Max. consecutive computations that newer requests may abort.
 constexpr int kMaxGivenUp = 2;
 
 }  // namespace
@@ -75,7 +75,7 @@ class CoefficientWorker::Work {
             if (!wish_) share_ = share;
           }));
       const std::lock_guard lock(mutex_);
-      // Once it was to stop, nobody knows whether it is whole.
+      // After a stop, the result may be incomplete.
       given_up_ = stop_ ? given_up_ + 1 : 0;
       if (stop_) continue;
       newest_ = std::make_shared<const SolvedCoefficients>(
@@ -87,12 +87,12 @@ class CoefficientWorker::Work {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool ending_ = false;
-  std::optional<Wish> wish_;  // Not begun yet.
-  int given_up_ = 0;          // In a row.
+  std::optional<Wish> wish_;  // Not started yet.
+  int given_up_ = 0;          // Consecutive aborted computations.
   double share_ = 1.0;
   std::shared_ptr<const SolvedCoefficients> newest_;
   std::atomic<bool> stop_ = false;
-  std::thread thread_;  // Last: it uses the others.
+  std::thread thread_;  // Last, because it uses the other members.
 };
 
 CoefficientWorker::CoefficientWorker() : work_(std::make_unique<Work>()) {}

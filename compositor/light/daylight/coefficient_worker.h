@@ -7,35 +7,35 @@
 
 namespace pleinair::compositor {
 
-/// Daylight coefficients that belong to a scene as a solver knows it.
+/// Daylight coefficients with the solver of their scene.
 struct SolvedCoefficients {
   std::shared_ptr<const LightSolver> solver;
   std::shared_ptr<const DaylightCoefficients> coefficients;
 };
 
-/// Recomputes daylight coefficients on a thread of its own when something of a scene has moved.
-/// Nobody waits for it: what was there last stays in use until the next is whole.
+/// Recomputes daylight coefficients on a background thread after a scene has changed. Nobody waits
+/// for it: the last result is used until the next one is complete.
 ///
-/// A newer wish ends the computation in hand, but not more than twice in a row: in a motion without
-/// a rest the light then follows some way behind instead of never. All functions from any thread.
+/// A newer request aborts the current computation, but at most twice in a row. During continuous
+/// motion, the light then lags instead of never updating. All functions are thread-safe.
 class CoefficientWorker {
  public:
   CoefficientWorker();
-  /// Ends what is being computed.
+  /// Aborts the current computation.
   ~CoefficientWorker();
   CoefficientWorker(const CoefficientWorker&) = delete;
   CoefficientWorker& operator=(const CoefficientWorker&) = delete;
 
-  /// Wants the coefficients of a scene; of several that were not begun yet the last counts. `up`:
-  /// unit, marker coordinates. `options.stop` is not looked at. `progress` is called on the
+  /// Requests the coefficients of a scene. It replaces a request whose computation has not started.
+  /// `up`: unit, marker coordinates. `options.stop` is ignored. `progress` is called on the
   /// worker's thread.
   void Want(std::shared_ptr<const LightSolver> solver, Vec3 up, const CoefficientOptions& options,
             CoefficientProgress progress = {});
 
-  /// The last ones that were completed; null before the first. Never waits for any.
+  /// The last complete result; null before the first. Never waits.
   std::shared_ptr<const SolvedCoefficients> Newest() const;
 
-  /// Share of the present computation, 0…1; 1 where all that was wanted is there.
+  /// Progress of the current computation, 0…1; 1 if no request is open.
   double progress() const;
 
  private:

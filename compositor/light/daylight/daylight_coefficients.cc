@@ -21,14 +21,14 @@ namespace {
 
 constexpr int kP = CoefficientMatrix::kPatches;
 constexpr int kMaxReflections = 24;
-// About ten seconds of two processors.
+// Takes about ten seconds on two processors.
 constexpr std::uint32_t kRayBudget = 25'000'000;
 constexpr std::uint32_t kMinRays = 32;
-constexpr double kShareOfRays = 0.35;  // Of the time, for the progress.
+constexpr double kShareOfRays = 0.35;  // Share of the time, for the progress.
 
-/// Raise it whenever something else is computed for the same geometry and options: rays, sampling,
-/// sky patches, reflections, codes. Otherwise what an older version kept is taken for the present
-/// one's. The form of the file is its own header's matter.
+/// Increase it whenever the result for the same geometry and options changes: rays, sampling, sky
+/// patches, reflections, codes. Otherwise cached results of an older version are used. The file's
+/// header has its own version of the format.
 constexpr std::uint64_t kMethodVersion = 2;
 
 constexpr std::uint32_t kFineSalt = 0xF1;
@@ -47,11 +47,12 @@ class Transfer {
         inside_(FindBuriedPatches(scene, gathered, threads)),
         weight_(std::numbers::pi_v<float> / static_cast<float>(gathered.rays)) {}
 
-  /// One chunk of patches in one case (0: with the objects, 1: without); how many reflections.
+  /// Computes one chunk of patches in one case (0: with the objects, 1: without). Returns the
+  /// number of reflections.
   int Follow(int chunk, int k, double convergence, CoefficientMatrix* matrix) {
     std::vector<Straight> straight = StraightLight(chunk, k);
     FillFromNeighbours(scene_, inside_[k], &straight);
-    // First what the straight light gives after one reflection, then what that gives.
+    // The first iteration reflects the direct light; each later one reflects the previous result.
     std::vector<ChunkLight> arriving(straight.size()), sum(straight.size());
     for (std::size_t v = 0; v < straight.size(); ++v) {
       for (int c = 0; c < 3; ++c) {
@@ -89,9 +90,9 @@ class Transfer {
     return total;
   }
 
-  /// Of Tregenza's patches each is met by a few of the rays that were gathered. Of finer ones most
-  /// are met by none, and one that the sun stands in would count for all of its light or for
-  /// nothing: each has a ray of its own.
+  /// A few of the gathered rays hit each of Tregenza's patches. Most finer patches are hit by none;
+  /// a patch with the sun would then count fully or not at all. Each finer patch therefore has a
+  /// ray of its own.
   std::vector<Straight> StraightLight(int chunk, int k) const {
     const bool fine = patches_.division() > 1;
     std::vector<Straight> straight(scene_.patch_count);

@@ -7,23 +7,23 @@
 
 namespace pleinair::compositor {
 
-/// Light of one chunk of the sky's patches: red of all, green of all, blue of all. Irradiance per
-/// radiance of a patch (steradians, cosine counted), as in CoefficientMatrix.
+/// Light of one chunk of sky patches: all red values, then green, then blue. Irradiance per
+/// radiance of a patch (steradians, cosine included), as in CoefficientMatrix.
 using ChunkLight = std::array<float, 3 * CoefficientMatrix::kPatches>;
 
-/// A place on a triangle that reflects to one patch of a surface.
+/// A point on a triangle that reflects light to one patch of a surface.
 struct ReflectingPlace {
-  /// What arrives at the triangle's corners; must outlive the call.
+  /// Light that arrives at the triangle's corners; must outlive the call.
   std::array<const ChunkLight*, 3> corners;
   std::array<float, 3> weights;  ///< Barycentric.
-  /// Of what arrives there, how much comes back: albedo / pi times the weight (steradians, cosine
-  /// counted) of the rays that met it; a channel each.
+  /// Reflected fraction of the arriving light, one per channel: albedo / π times the weight of the
+  /// rays that hit the point (steradians, cosine included).
   std::array<float, 3> shares;
 };
 
-/// Adds to `sum` what comes from all places.
+/// Adds the light from all points to `sum`.
 void AddInterreflections(std::span<const ReflectingPlace> places, ChunkLight* sum);
-/// The same, one number after the other.
+/// The same, without SIMD.
 void AddInterreflectionsScalar(std::span<const ReflectingPlace> places, ChunkLight* sum);
 
 }  // namespace pleinair::compositor

@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kP = CoefficientMatrix::kPatches, kL = CoefficientMatrix::kLanes;
 
-/// One block of vertices. `weights`: a chunk after the other, a plane after the other, the patches'
-/// radiances; the straight plane has three, one a channel.
+/// Multiplies one block of vertices. `weights`: radiances of the patches, ordered by chunk, then by
+/// plane. The direct plane has three weights, one per channel.
 void MultiplyBlock(const std::uint8_t* codes, const float* scales, const float* weights, int chunks,
                    float* out) {
   const hn::CappedTag<float, CoefficientMatrix::kLanes> floats;
@@ -78,8 +78,8 @@ namespace {
 
 constexpr int kWeightPlanes = 6;
 
-/// The radiances in the order in which the product wants them: straight red, green, blue of the
-/// sky, then reflected red, green, blue of sky and sun.
+/// Radiances in the order of the product: direct red, green, blue of the sky, then reflected red,
+/// green, blue of sky and sun.
 std::vector<float> Weights(std::span<const LinearRgb> sky, std::span<const LinearRgb> sun,
                            int chunks) {
   constexpr int kP = CoefficientMatrix::kPatches;
