@@ -13,16 +13,17 @@
 namespace pleinair::compositor {
 namespace {
 
-// Glass is there for light and shadows where it hides so much at least of what lies behind.
+// Glass affects light and shadows if it hides at least this fraction of the background.
 constexpr float kDenseGlass = 0.5F;
 constexpr int kMaxHalvings = 6;
 constexpr double kMinFilterWidth_texels = 2.0;
-// Coordinates beyond this many repetitions of a texture have lost their texels to rounding.
+// Beyond this many repetitions of a texture, rounding loses the texels.
 constexpr double kMaxRepetitions = 4096.0;
-// What a triangle's box is asked for: so many cells of a level at most, along each axis.
+// Max. cells per axis that a query of a triangle's bounding box reads; it selects the level.
 constexpr int kMaxCells = 4;
 
-/// The least and the most alpha in the cells of a texture, each level's twice as wide.
+/// Min. and max. alpha in the cells of a texture. Each level's cells are twice as wide as the
+/// last's.
 class AlphaLevels {
  public:
   explicit AlphaLevels(const Image<std::uint8_t>& texture)
@@ -54,10 +55,10 @@ class AlphaLevels {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// All of it.
+  /// Range of the whole texture.
   Range Whole() const { return levels_.back().At(0, 0); }
 
-  /// Of a box of texels, both ends included, the texture repeated.
+  /// Range of a box of texels, both ends included, on the repeated texture.
   Range Of(std::array<std::int64_t, 2> low, std::array<std::int64_t, 2> high) const {
     Range range;
     for (const auto& [x0, x1] : Wrapped(low[0], high[0], width_)) {
@@ -83,7 +84,7 @@ class AlphaLevels {
     std::vector<Range> ranges;
   };
 
-  /// An interval of texels on a texture that repeats, as intervals of its own texels.
+  /// Maps an interval on the repeated texture to intervals of the texture's own texels.
   static std::vector<std::pair<int, int>> Wrapped(std::int64_t low, std::int64_t high, int size) {
     if (high - low >= size) return {{0, size - 1}};
     const auto first = static_cast<int>((low % size + size) % size);
@@ -96,7 +97,7 @@ class AlphaLevels {
   std::vector<Level> levels_;
 };
 
-/// The alpha below which there is nothing of a surface, for light and shadows.
+/// Alpha below which a surface is absent for light and shadows.
 float CutoffOf(const Material& material) {
   return material.alpha == Material::Alpha::kBlended ? kDenseGlass : material.alpha_cutoff;
 }
@@ -139,13 +140,13 @@ class Cutter {
     whole_.insert(whole_.end(), piece.corners.begin(), piece.corners.end());
   }
 
-  /// Keeps what has no hole, drops what is one, and leaves the rest to be divided.
+  /// Keeps a piece without holes, drops one that is a hole, and queues others for division.
   void Sort(Piece piece) {
     std::array<double, 2> low{1e300, 1e300}, high{-1e300, -1e300};
     const std::array<int, 2> size{alpha_.width(), alpha_.height()};
     for (const std::uint32_t corner : piece.corners) {
       for (int k = 0; k < 2; ++k) {
-        // Texels' middles lie at halves.
+        // Texel centres lie at halves.
         const double at = static_cast<double>(mesh_.uvs[corner][k]) * size[k] - 0.5;
         low[k] = std::min(low[k], at);
         high[k] = std::max(high[k], at);
@@ -161,7 +162,7 @@ class Cutter {
         return Keep(piece);
       }
     }
-    // Between texels alpha is interpolated.
+    // Alpha is interpolated between texels.
     const auto floor_of = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
     const AlphaLevels::Range range = alpha_.Of({floor_of(low[0]), floor_of(low[1])},
                                                {floor_of(high[0]) + 1, floor_of(high[1]) + 1});
@@ -174,7 +175,7 @@ class Cutter {
     pieces_.push(piece);
   }
 
-  /// The vertex halfway between two; the same for the triangles on either side of an edge.
+  /// The midpoint vertex of an edge, shared by the triangles on either side.
   std::uint32_t Middle(std::uint32_t a, std::uint32_t b) {
     const auto [found, is_new] =
         middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh_.positions.size()));
@@ -207,7 +208,7 @@ class Cutter {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
 
-/// Drops vertices that no triangle has.
+/// Removes vertices that no triangle uses.
 void DropUnused(Mesh* mesh) {
   constexpr std::uint32_t kUnused = ~0U;
   std::vector<std::uint32_t> moved(mesh->positions.size(), kUnused);
@@ -226,7 +227,7 @@ void DropUnused(Mesh* mesh) {
   for (std::uint32_t& index : mesh->indices) index = moved[index];
 }
 
-/// No alpha of a texture makes more of a surface than its material's own.
+/// Returns whether the material's own alpha is below the cutoff. A texture's alpha cannot raise it.
 bool IsWhollyCutout(const Material& material) {
   return material.alpha != Material::Alpha::kIgnored && material.opacity < CutoffOf(material);
 }

@@ -6,14 +6,17 @@
 
 namespace pleinair::compositor {
 
-/// Takes out of a model's surfaces what their textures' alpha cuts out (Material::Alpha::kCutout),
-/// so that shadows and the light among surfaces have the holes that are drawn, and of glass
-/// (kBlended) what hides less than half of what lies behind. Triangles on a
-/// hole's edge are divided, the largest on the texture first, down to a 64th of their side or two
-/// texels; what is left of them covers all that is drawn near by. What is drawn stays whole
-/// (MeshRole::kRenderOnly): from so far that pixels are coarser than texels it is the mean of the
-/// texture's alpha, which has the holes already. Cut meshes grow by no more than `max_added`
-/// triangles altogether. Meshes that are nothing but holes go; glass stays to be drawn.
+/// Cuts the holes of alpha cut-outs (Material::Alpha::kCutout) out of a model's surfaces. Shadows
+/// and indirect illumination then have the holes that are drawn. From glass (kBlended) it removes
+/// the parts that hide less than half of the background.
+///
+/// Triangles on a hole's edge are divided, the largest on the texture first, down to a 64th of
+/// their side or two texels. The remaining triangles cover everything that is drawn nearby. Cut
+/// meshes grow by at most `max_added` triangles in total.
+///
+/// The rendered mesh stays whole (MeshRole::kRenderOnly), because the texture's alpha draws the
+/// holes. Where pixels are coarser than texels, the mean of the texture's alpha applies. Meshes
+/// that are nothing but holes are removed; glass remains and is drawn.
 void ApplyAlphaCutout(Model* model, std::size_t max_added = 100'000);
 
 }  // namespace pleinair::compositor

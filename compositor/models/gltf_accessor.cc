@@ -20,7 +20,7 @@ T Load(const std::byte* from) {
   return value;
 }
 
-/// One component as a number; integers scaled to 0…1 or −1…1 when normalised (glTF 2.0, 3.6.2.2).
+/// Reads one component. Normalised integers are scaled to 0…1 or −1…1 (glTF 2.0, 3.6.2.2).
 double Component(const std::byte* from, int type, bool normalized) {
   const auto scaled = [normalized](double value, double maximum) {
     return normalized ? std::max(value / maximum, -1.0) : value;
@@ -72,7 +72,7 @@ std::size_t ComponentCount(int type) {
   }
 }
 
-/// `count` elements of `element_size` bytes, `stride` apart, that are known to lie in `bytes`.
+/// `count` elements of `element_size` bytes at intervals of `stride`, all within `bytes`.
 struct Elements {
   std::span<const std::byte> bytes;
   std::size_t stride = 0;
@@ -85,7 +85,7 @@ Result<Elements> ElementsOf(const tinygltf::Model& gltf, int view, std::size_t o
                             GltfViewBytes(gltf, view, where));
   std::size_t stride = gltf.bufferViews[static_cast<std::size_t>(view)].byteStride;
   if (stride == 0) stride = element_size;
-  // glTF 2.0, 5.11.4: strides are at most 252, so that no product below can overflow.
+  // glTF 2.0, 5.11.4: strides are at most 252, so no product below can overflow.
   const bool fits = stride >= element_size && stride <= 252 && count <= kMaxVertices * 6 &&
                     offset <= bytes.size() && count > 0 &&
                     (count - 1) * stride + element_size <= bytes.size() - offset;
@@ -127,7 +127,7 @@ Result<std::vector<double>> Components(const tinygltf::Model& gltf, int index,
     values.resize(accessor.count * components);
     for (std::size_t i = 0; i < accessor.count; ++i) copy(elements.At(i), &values[i * components]);
   } else if (accessor.sparse.isSparse) {
-    // No bytes in the file stand behind these zeros: do not let a number allocate gigabytes.
+    // No bytes of the file back these zeros: a count alone must not allocate gigabytes.
     if (accessor.count > kMaxVertices) return GltfError(where, "an accessor is too large");
     values.resize(accessor.count * components);
   } else {

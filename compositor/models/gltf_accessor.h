@@ -16,17 +16,18 @@ class Model;
 namespace pleinair::compositor {
 
 /// The bytes of a buffer view. Errors: the view or its buffer does not exist or is too short.
-/// `where` names the file in errors, here and below.
+/// `where` names the file in all errors of this header.
 Result<std::span<const std::byte>> GltfViewBytes(const tinygltf::Model& gltf, int view,
                                                  const std::string& where);
 
-/// The elements of an accessor as N floats each (normalised integers scaled), sparse values put
-/// in. Errors: out of range, another number of components, values not finite.
+/// Reads the elements of an accessor as N floats each. Normalised integers are scaled, and sparse
+/// values replace their elements. Errors: out of range, another number of components, values not
+/// finite.
 template <std::size_t N>
 Result<std::vector<std::array<float, N>>> ReadGltfFloats(const tinygltf::Model& gltf, int accessor,
                                                          const std::string& where);
 
-/// The elements of an accessor of unsigned integers. Errors as above.
+/// Reads the elements of an accessor of unsigned integers. Errors as above.
 Result<std::vector<std::uint32_t>> ReadGltfIndices(const tinygltf::Model& gltf, int accessor,
                                                    const std::string& where);
 

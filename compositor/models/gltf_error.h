@@ -8,12 +8,13 @@
 
 namespace pleinair::compositor {
 
-/// That a glTF file (`where`: it, or a part of it) is not as the specification has it.
+/// An error for a glTF file that violates the specification. `where`: the file or a part of it.
 inline tl::unexpected<Error> GltfError(const std::string& where, std::string what) {
   return InputError(where, std::move(what), "repair the model or export it again");
 }
 
-/// Whether an index of a glTF file is one of `count` things; those that are missing are below 0.
+/// Returns whether an index of a glTF file refers to one of `count` items. Missing indices are
+/// negative.
 inline bool IsGltfIndex(int index, std::size_t count) {
   return index >= 0 && static_cast<std::size_t>(index) < count;
 }

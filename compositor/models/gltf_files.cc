@@ -12,10 +12,10 @@ namespace pleinair::compositor {
 namespace {
 
 bool IsNamedFromModel(const std::string& file, void* model_folder) {
-  // tinygltf puts the model's folder before the name first, then the working folder.
+  // tinygltf first prefixes the name with the model's folder, then with the working folder.
   const std::string& folder = *static_cast<const std::string*>(model_folder);
   if (!file.starts_with(folder)) return false;
-  const bool absolute = file[folder.size()] == '/';  // What the model says, behind the folder.
+  const bool absolute = file[folder.size()] == '/';  // The name in the model, after the folder.
   if (absolute) return false;
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored);

@@ -10,11 +10,14 @@ struct FsCallbacks;
 
 namespace pleinair::compositor {
 
-/// How tinygltf may reach a model's buffers and pictures: regular files below 4 GiB, named from the
-/// model's folder (also above it by "..", as glTF allows; not by absolute paths, which it forbids),
-/// never one that merely lies in the working folder. tinygltf's own calls would open folders and
-/// devices as well and believe whatever size those claim. `folder` (its parent's path with a slash
-/// at its end, "./" for the working folder) must outlive the callbacks; nothing is ever written.
+/// Restricts tinygltf's access to a model's buffers and images. It may read regular files below 4
+/// GiB whose path is relative to the model's folder. Paths with ".." are valid, as glTF allows;
+/// absolute paths are not, because glTF forbids them. Files in the working folder are not found.
+/// Nothing is ever written.
+///
+/// tinygltf's own callbacks would also open folders and devices, and would trust any size that
+/// those report. `folder` must outlive the callbacks. It is the parent path with a trailing slash,
+/// or "./" for the working folder.
 tinygltf::FsCallbacks FilesBesideModel(std::string* folder);
 
 }  // namespace pleinair::compositor

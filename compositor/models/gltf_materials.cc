@@ -15,7 +15,7 @@
 namespace pleinair::compositor {
 namespace {
 
-// Of an extension, in messages.
+// Max. length of an extension's name in messages.
 constexpr std::size_t kMaxNameLength = 64;
 
 class MaterialReader {
@@ -35,7 +35,7 @@ class MaterialReader {
   }
 
  private:
-  /// Index of a glTF texture's picture.
+  /// Index of a glTF texture's image.
   Result<int> PictureOf(int texture) const {
     if (!IsGltfIndex(texture, gltf_.textures.size())) {
       return GltfError(where_, "refers to a texture out of range");
@@ -45,7 +45,7 @@ class MaterialReader {
     return GltfError(where_, "texture " + std::to_string(texture) + " has no PNG or JPEG picture");
   }
 
-  /// A picture, decoded.
+  /// Decodes an image.
   Result<Image<std::uint8_t>> Picture(int image) const {
     const tinygltf::Image& source = gltf_.images[static_cast<std::size_t>(image)];
     const std::string name = where_ + ", image " + std::to_string(image);
@@ -61,8 +61,8 @@ class MaterialReader {
     return DecodeTexture(bytes, name);
   }
 
-  /// Index into the model's textures of a glTF texture's picture. Colours are decoded from sRGB and
-  /// other numbers are not, so that a picture of both stands there twice.
+  /// Index into the model's textures for a glTF texture's image. Colors are decoded from sRGB,
+  /// other values are not. An image with both uses is therefore stored twice.
   Result<int> Texture(int texture, bool color = true) {
     PLEINAIR_ASSIGN_OR_RETURN(const int image, PictureOf(texture));
     if (const auto known = textures_.find({image, color}); known != textures_.end()) {
@@ -84,7 +84,7 @@ class MaterialReader {
     material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutout
                      : source.alphaMode == "BLEND" ? Material::Alpha::kBlended
                                                    : Material::Alpha::kIgnored;
-    // Beyond 1 all of it is cut out (glTF 2.0, 3.9.4): how far beyond does not matter.
+    // Above 1 everything is cut out (glTF 2.0, 3.9.4), however far above.
     material.alpha_cutoff = 2.0F * Clamped(source.alphaCutoff / 2.0);
     const auto& pbr = source.pbrMetallicRoughness;
     if (pbr.baseColorFactor.size() == 4) material.opacity = Clamped(pbr.baseColorFactor[3]);
@@ -104,7 +104,7 @@ class MaterialReader {
         PLEINAIR_ASSIGN_OR_RETURN(material.metallic_roughness_texture,
                                   Texture(texture.index, false));
       } else {
-        // A surface has one set of texture coordinates here.
+        // Surfaces have only one set of texture coordinates.
         PLEINAIR_RETURN_IF_ERROR(TakeMean(texture.index, &material));
       }
     }
@@ -121,13 +121,13 @@ class MaterialReader {
       material->unsupported_features.insert("emission");
     }
     for (const auto& [extension, value] : source.extensions) {
-      // How strong an emission is of which that was said already.
+      // It only scales the emission, which is already reported.
       if (extension == "KHR_materials_emissive_strength") continue;
       material->unsupported_features.insert(Shortened(extension));
     }
   }
 
-  /// Whole letters of UTF-8.
+  /// Shortens a name without splitting a UTF-8 character.
   static std::string Shortened(const std::string& name) {
     if (name.size() <= kMaxNameLength) return name;
     std::size_t end = kMaxNameLength;
@@ -169,7 +169,7 @@ class MaterialReader {
   std::string where_;
   Model& model_;
   std::map<std::pair<int, bool>, int> textures_;  ///< Model's texture by glTF image and use.
-  std::map<int, std::array<float, 2>> means_;     ///< Roughness and metallic by glTF image.
+  std::map<int, std::array<float, 2>> means_;     ///< Mean roughness and metallic by glTF image.
   std::vector<UvMap> uv_maps_;
 };
 

@@ -16,13 +16,13 @@ class Model;
 
 namespace pleinair::compositor {
 
-/// Pictures that come as files or data URIs, still encoded, by index. Those in buffer views are
-/// read later: tinygltf does not check where they end.
+/// Still encoded images from files or data URIs, by index. Images in buffer views are read later,
+/// because tinygltf does not check their bounds.
 using EncodedGltfImages = std::map<int, std::vector<unsigned char>>;
 
-/// Adds the materials of a glTF file and the textures that they are drawn with to the model, and
-/// after them one for primitives that have none. Returns the texture coordinates of each material
-/// of the file. Errors: textures out of range, missing, too large or unreadable.
+/// Adds a glTF file's materials with their textures to the model, followed by one material for
+/// primitives without any. Returns the texture coordinates of each material of the file. Errors:
+/// textures out of range, missing, too large or unreadable.
 Result<std::vector<UvMap>> ReadGltfMaterials(const tinygltf::Model& gltf,
                                              const EncodedGltfImages& encoded,
                                              const std::filesystem::path& file, Model* model);

@@ -10,7 +10,7 @@ class Node;
 
 namespace pleinair::compositor {
 
-/// Affine map of a node: metres, its parent from its own coordinates.
+/// Affine map of a node: parent from node coordinates, metres.
 struct GltfPlacement {
   Mat3 linear;
   Vec3 translation_m;
@@ -22,7 +22,8 @@ struct GltfPlacement {
 /// glTF's y-up, −z-forward axes to ours: z up.
 inline constexpr GltfPlacement kUpright{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {}};
 
-/// What a node's matrix, or its rotation, scale and translation, say (glTF 2.0, section 3.5.2).
+/// Computes a node's transform from its matrix, or from its rotation, scale and translation (glTF
+/// 2.0, section 3.5.2).
 GltfPlacement PlacementOf(const tinygltf::Node& node);
 
 bool IsFinite(const GltfPlacement& placement);

@@ -20,7 +20,7 @@
 namespace pleinair::compositor {
 namespace {
 
-/// Extensions that a file may require and that change nothing we read.
+/// Extensions that a file may require and that change nothing the reader supports.
 const std::set<std::string>& KnownExtensions() {
   static const std::set<std::string> known = {
       "KHR_materials_specular",  "KHR_materials_ior",

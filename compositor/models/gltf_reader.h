@@ -9,19 +9,23 @@
 
 namespace pleinair::compositor {
 
-/// Whether a file's content is glTF, text (JSON) or binary.
+/// Returns whether a file's content is glTF, either text (JSON) or binary.
 bool LooksLikeGltf(std::string_view content);
 
-/// Parses glTF 2.0 (.gltf or .glb) with the buffers and pictures beside `file`. The nodes of the
-/// default scene are placed into one model. glTF is y-up; ours is the marker's frame, z-up:
-/// (x, y, z) becomes (x, −z, y). Metres stay metres. Base color, metallic and
-/// roughness (factors and textures, of one set of texture coordinates; where there are two, the
-/// mean of the second texture), alphaMode, alphaCutoff, doubleSided and KHR_texture_transform are
-/// read. Colours of vertices, normal maps, emission, other extensions of materials, skins, morph
-/// targets, animations, points and lines are left out, which Model::unsupported_features and
-/// Material::unsupported_features say; cameras and lamps are passed over.
+/// Parses glTF 2.0 (.gltf or .glb) with the buffers and images beside `file`. The nodes of the
+/// default scene become one model. glTF is y-up; the marker's frame is z-up.
+/// (x, y, z) becomes (x, −z, y). Lengths remain in metres.
+///
+/// Supported are base color, metallic and roughness (factors and textures), alphaMode, alphaCutoff,
+/// doubleSided and KHR_texture_transform. Textures share one set of texture coordinates. A second
+/// texture with another set is replaced by its mean.
+///
+/// Model::unsupported_features and Material::unsupported_features report unsupported content. It
+/// comprises vertex colors, normal maps, emission, other material extensions, skins, morph targets,
+/// animations, points and lines. Cameras and lights are ignored without a report.
+///
 /// Errors: cut short, references out of range, nodes that contain themselves, values that are not
-/// finite, textures missing or too large, a required extension that is not known.
+/// finite, textures missing or too large, an unknown required extension.
 Result<Model> ParseGltf(const std::string& content, const std::filesystem::path& file);
 
 }  // namespace pleinair::compositor

@@ -16,7 +16,7 @@ constexpr float kMaxUv = 1e8F;
 std::array<float, 2> UvMap::operator()(const std::array<float, 2>& uv) const {
   const double c = std::cos(rotation_rad), s = std::sin(rotation_rad);
   const double u = scale[0] * uv[0], v = scale[1] * uv[1];
-  // What no float holds is out of reach like what is too far, and no number at all.
+  // Values that are too large and NaN become infinite, hence out of reach.
   const auto narrowed = [](double value) {
     return std::fabs(value) <= kMaxUv ? static_cast<float>(value)
                                       : std::numeric_limits<float>::infinity();

@@ -20,8 +20,8 @@ Float3 UnitFloats(Vec3 v) {
   return {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)};
 }
 
-/// The triangle's normal, equal in every bit for triangles of one flat polygon: they differ in the
-/// last digits only, which are rounded away.
+/// The triangle's normal, bit-identical for all triangles of one flat polygon. Their normals differ
+/// in the last digits only, which are rounded away.
 Float3 FlatNormal(Vec3 area_normal) {
   const Vec3 unit = Normalized(area_normal);
   constexpr double kSteps = 1 << 18;
@@ -46,7 +46,7 @@ void RemoveDegenerate(Mesh* mesh) {
   mesh->indices.resize(kept);
 }
 
-/// Triangles for which `is_flat` holds get corners of their own with the triangle's normal.
+/// Gives triangles that satisfy `is_flat` corners of their own with the triangle's normal.
 template <typename Predicate>
 void Flatten(Mesh* mesh, const Predicate& is_flat) {
   Mesh out;

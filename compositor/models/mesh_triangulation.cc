@@ -6,12 +6,12 @@
 namespace pleinair::compositor {
 namespace {
 
-/// Twice the area vector of a polygon, also of one that is not quite flat.
-/// Newell's method; Sutherland et al. 1974.
+/// Twice the area vector of a polygon, which may be slightly non-planar. Newell's method;
+/// Sutherland et al. 1974.
 Vec3 NewellNormal(const std::vector<Vec3>& p) {
   Vec3 normal;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    // Relative to the first corner, lest far-away polygons lose their digits.
+    // Relative to the first corner, so that distant polygons lose no precision.
     normal = normal + Cross(p[i] - p[0], p[(i + 1) % p.size()] - p[0]);
   }
   return normal;
@@ -22,7 +22,7 @@ double Area(Vec2 a, Vec2 b, Vec2 c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The polygon seen from its front, along the axis that its normal is closest to.
+/// Projects the polygon along the axis closest to its normal, as seen from its front.
 std::vector<Vec2> Project(const std::vector<Vec3>& corners, Vec3 normal) {
   const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
   std::vector<Vec2> flat;
@@ -48,7 +48,7 @@ bool IsConvex(const std::vector<Vec2>& p) {
     const Vec2 in = b - a, out = c - b;
     turned += std::atan2(area, in.x * out.x + in.y * out.y);
   }
-  return turned < 6.5;  // Once round is 2π; a pentagram goes round twice.
+  return turned < 6.5;  // One turn is 2π; a pentagram makes two.
 }
 
 bool IsEar(const std::vector<Vec2>& p, const std::vector<std::uint32_t>& left, std::size_t at) {
@@ -77,7 +77,7 @@ std::vector<std::uint32_t> TriangulatePolygon(const std::vector<Vec3>& corners) 
     while (left.size() > 3) {
       std::size_t ear = 0;
       while (ear < left.size() && !IsEar(flat, left, ear)) ++ear;
-      if (ear == left.size()) break;  // Crosses itself: the rest becomes a fan.
+      if (ear == left.size()) break;  // The polygon crosses itself: the rest becomes a fan.
       const std::size_t n = left.size();
       triangles.insert(triangles.end(), {left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));

@@ -7,12 +7,13 @@
 
 namespace pleinair::compositor {
 
-/// Most corners of a polygon that is not convex; ear clipping takes time by their square.
+/// Max. corners of a concave polygon, because ear clipping takes quadratic time.
 inline constexpr std::size_t kMaxConcaveCorners = 2000;
 
-/// Splits a simple polygon, roughly flat, into triangles that keep its winding: a fan where it is
-/// convex, ears (Meisters 1975) elsewhere. Returns three corner numbers a triangle; empty for
-/// fewer than three corners, and for concave ones with more than kMaxConcaveCorners.
+/// Splits a simple, roughly flat polygon into triangles that keep its winding. A convex polygon
+/// becomes a fan; others are split by ear clipping (Meisters 1975). Returns three corner numbers
+/// per triangle. The result is empty for fewer than three corners, and for concave polygons with
+/// more than kMaxConcaveCorners.
 std::vector<std::uint32_t> TriangulatePolygon(const std::vector<Vec3>& corners);
 
 }  // namespace pleinair::compositor

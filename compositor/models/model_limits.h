@@ -5,7 +5,7 @@
 
 namespace pleinair::compositor {
 
-// What a hostile or broken file may at most make us allocate.
+// Max. allocations that a hostile or broken file can cause.
 inline constexpr std::size_t kMaxVertices = 20'000'000;
 inline constexpr std::size_t kMaxTriangles = 40'000'000;
 inline constexpr int kMaxTextureSide_px = 16'384;

@@ -8,13 +8,13 @@
 
 namespace pleinair::compositor {
 
-/// Goes through the statements of OBJ and MTL text: comments cut off, lines that end in a
-/// backslash joined with the next, any line ends.
+/// Iterates over the statements of OBJ and MTL text. It removes comments, joins lines that end in a
+/// backslash with the next, and accepts any line ends.
 class ObjLines {
  public:
   explicit ObjLines(std::string_view text) : text_(text) {}
 
-  /// The next statement that is not empty; false at the end.
+  /// Advances to the next non-empty statement. Returns false at the end.
   bool Next() {
     while (!text_.empty()) {
       line_number_ = next_line_number_;
@@ -37,7 +37,7 @@ class ObjLines {
     return false;
   }
 
-  /// The next word of the statement; empty at its end.
+  /// Takes the next word of the statement; empty at its end.
   std::string_view Word() {
     const std::size_t end = rest_.find_first_of(kBlanks);
     const std::string_view word = rest_.substr(0, end);
@@ -45,10 +45,10 @@ class ObjLines {
     return word;
   }
 
-  /// All that is left of the statement.
+  /// The remaining text of the statement.
   std::string_view Rest() const { return rest_; }
 
-  /// Counted from 1; of the statement's first line.
+  /// Number of the statement's first line, from 1.
   int line_number() const { return line_number_; }
 
  private:
@@ -76,7 +76,7 @@ class ObjLines {
   int next_line_number_ = 1;
 };
 
-/// A word for an error message, at most 32 characters of it.
+/// Quotes at most 32 characters of a word for an error message.
 inline std::string Quoted(std::string_view word) {
   std::string quoted(1, '"');
   quoted.append(word.substr(0, 32));
@@ -84,7 +84,8 @@ inline std::string Quoted(std::string_view word) {
   return quoted;
 }
 
-/// A number that is finite and, at most 1e8 in size, fit for a float; none otherwise.
+/// Parses a finite number of magnitude at most 1e8, which a float can hold. Returns nothing
+/// otherwise.
 inline std::optional<float> ParseObjNumber(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0.0;

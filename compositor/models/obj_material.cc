@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxMaterials = 100'000;
 
-/// What the classic statements say, turned into a Material when its statements have ended.
+/// The statements of one material; Finish() turns them into a Material.
 struct Draft {
   Material material;
   std::optional<std::array<float, 3>> specular;
@@ -69,7 +69,7 @@ class MtlParser {
 
   Result<void> Statement(std::string_view keyword) {
     Material& material = draft_->material;
-    // "Kd spectral file" and "Kd xyz …" exist on paper; nobody writes them.
+    // "Kd spectral file" and "Kd xyz …" are specified, but no program writes them.
     const bool is_color = keyword == "Kd" || keyword == "Ks";
     if (is_color && (lines_.Rest().starts_with("spectral") || lines_.Rest().starts_with("xyz"))) {
       return Fail("colours other than RGB are not supported");
@@ -94,7 +94,8 @@ class MtlParser {
       if (lines_.Rest().starts_with("-halo")) lines_.Word();
       PLEINAIR_ASSIGN_OR_RETURN(const float value, Number());
       const float opacity = keyword == "d" ? value : 1.0F - value;
-      // Programs that take Tr for d write 0 for what is opaque; nobody writes what cannot be seen.
+      // Programs that confuse Tr with d write 0 for opaque materials. Invisible materials do not
+      // occur.
       if (opacity > 0.0F && opacity < 1.0F) {
         material.opacity = opacity;
         material.alpha = Material::Alpha::kBlended;
@@ -132,14 +133,14 @@ class MtlParser {
     const auto found = kNames.find(keyword);
     if (found == kNames.end()) return;
     if (keyword == "Ke" || keyword == "Pc" || keyword == "Ps") {
-      // Most programs write them of zero.
+      // Most programs write a zero here.
       const auto color = Color();
       if (!color || *color == std::array<float, 3>{}) return;
     }
     draft_->material.unsupported_features.insert(found->second);
   }
 
-  /// The file's name stands last, after options such as "-s 1 1 1"; it may contain blanks.
+  /// The file name is last, after options such as "-s 1 1 1"; it may contain blanks.
   Result<int> Texture() {
     const std::map<std::string_view, int> arguments = {
         {"-blendu", 1}, {"-blendv", 1}, {"-boost", 1},   {"-mm", 2},   {"-texres", 1},
@@ -181,14 +182,13 @@ class MtlParser {
     if (textured && (!draft_->has_color || material.base_color == std::array<float, 3>{})) {
       material.base_color = {1.0F, 1.0F, 1.0F};
     }
-    // illum 0 and 1 have no highlight. Ks is the coat's reflectance at normal incidence; files
-    // that leave the old default of (nearly) white mean "shiny", not a mirror: 8 % is the most
-    // that clear coats have.
+    // illum 0 and 1 have no highlight. Ks is the coat's reflectance at normal incidence. Files with
+    // the old (nearly) white default mean "shiny", not a mirror; clear coats reflect at most 8 %.
     if (draft_->specular && draft_->illumination >= 2) {
       const auto& ks = *draft_->specular;
       material.coat.f0 = std::min((ks[0] + ks[1] + ks[2]) / 3.0F, 0.08F);
     }
-    // Who states roughness or metal means a surface of that kind, whose coat is glTF's.
+    // A roughness or metallic statement implies a physically based surface with glTF's coat.
     const bool physical = draft_->roughness.has_value() || material.metallic > 0.0F;
     if (!draft_->specular && physical && draft_->illumination >= 2) {
       material.coat.f0 = kDielectricF0;

@@ -40,25 +40,25 @@ struct VertexKeyHash {
   }
 };
 
-/// What the file lists and its faces refer to.
+/// The file's vertex lists, to which its faces refer.
 struct ListedVertices {
   std::vector<std::array<float, 3>> positions, normals;
   std::vector<std::array<float, 2>> uvs;
 };
 
-/// Where faces went: the meshes of a model so far.
+/// The model's meshes so far, built from faces.
 struct BuiltMeshes {
   std::map<std::pair<std::string, int>, std::uint32_t> by_name_and_material;
   std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> vertices;
-  std::vector<bool> has_uvs;  ///< By mesh.
+  std::vector<bool> has_uvs;  ///< One flag per mesh.
   std::size_t index_count = 0;
 };
 
-/// What the next face belongs to.
+/// Name and material of the next face.
 struct CurrentGroup {
   std::string name;
   int material = -1;
-  std::optional<std::uint32_t> mesh;  ///< None until a face is there.
+  std::optional<std::uint32_t> mesh;  ///< None before the first face.
 };
 
 class ObjParser {
@@ -75,7 +75,7 @@ class ObjParser {
       return InputError(file_.string(), "has no faces", "is it a Wavefront OBJ, cut short?");
     }
     for (Mesh& mesh : model_.meshes) {
-      // Texture coordinates that no face of the mesh has are no use to anybody.
+      // Drops texture coordinates that no face of the mesh uses.
       if (!built_.has_uvs[static_cast<std::size_t>(&mesh - model_.meshes.data())]) mesh.uvs.clear();
     }
     if (has_colors_) model_.unsupported_features.insert(kVertexColors);
@@ -93,7 +93,7 @@ class ObjParser {
   Result<void> Statement(std::string_view keyword) {
     if (keyword == "v") {
       PLEINAIR_RETURN_IF_ERROR(Vector<3>(&listed_.positions, 3));
-      // Beyond the place, its weight at most; colors are three more.
+      // After the position may come one weight; a color has three numbers.
       has_colors_ |= !lines_.Word().empty() && !lines_.Word().empty();
       return {};
     }
@@ -112,7 +112,7 @@ class ObjParser {
     return {};
   }
 
-  /// `N` numbers of which the first `needed` must be there; what follows them is passed over.
+  /// Reads `N` numbers, of which the first `needed` are mandatory. The rest of the line is ignored.
   template <std::size_t N>
   Result<void> Vector(std::vector<std::array<float, N>>* list, std::size_t needed) {
     std::array<float, N> values{};
@@ -131,7 +131,7 @@ class ObjParser {
     return {};
   }
 
-  /// Index as written (from 1, or negative from the end) to one from 0.
+  /// Converts an index as written (from 1, or negative from the end) to one from 0.
   Result<std::int64_t> Index(std::string_view word, std::size_t count, const char* what) const {
     std::int64_t index = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
@@ -211,7 +211,7 @@ class ObjParser {
     std::array<float, 2> uv{};
     if (corner.uv != kNone) {
       uv = listed_.uvs[static_cast<std::size_t>(corner.uv)];
-      uv[1] = 1.0F - uv[1];  // OBJ counts v from the picture's bottom.
+      uv[1] = 1.0F - uv[1];  // OBJ's v starts at the image's bottom.
       built_.has_uvs[mesh_index] = true;
     }
     mesh.uvs.push_back(uv);
@@ -235,7 +235,7 @@ class ObjParser {
     return found->second;
   }
 
-  /// A name that no library defines gets the default material, as viewers do.
+  /// An undefined name gets the default material, as in viewers.
   void UseMaterial(const std::string& name) {
     const auto [found, is_new] =
         materials_.try_emplace(name, static_cast<int>(model_.materials.size()));

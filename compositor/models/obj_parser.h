@@ -11,19 +11,19 @@
 
 namespace pleinair::compositor {
 
-/// Where an OBJ's companions come from: files in LoadModel, made up in tests and fuzzing.
+/// Source of an OBJ's companion files: the file system in LoadModel, synthetic in tests and
+/// fuzzing.
 struct ObjCompanions {
-  /// The text of a material library.
+  /// Returns the text of a material library.
   std::function<Result<std::string>(const std::filesystem::path&)> read_text;
-  /// A decoded texture.
+  /// Returns a decoded texture.
   std::function<Result<Image<std::uint8_t>>(const std::filesystem::path&)> read_texture;
 };
 
-/// Parses Wavefront OBJ: v, vt, vn, f (any polygon, indices from either end), o, g, usemtl,
-/// mtllib; line continuations; other statements are passed over. One mesh for each pair of name
-/// and material. Normals that the file lacks are left zero. `file` is for messages and for
-/// finding companions beside it.
-/// Errors: name the file and line.
+/// Parses Wavefront OBJ: v, vt, vn, f (any polygon, indices from either end), o, g, usemtl, mtllib,
+/// and line continuations. Other statements are ignored. The model has one mesh per pair of name
+/// and material. Missing normals are zero. `file` serves messages and the search for companions
+/// beside it. Errors name the file and line.
 Result<Model> ParseObj(std::string_view text, const std::filesystem::path& file,
                        const ObjCompanions& companions);
 

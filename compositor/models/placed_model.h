@@ -7,12 +7,12 @@
 
 namespace pleinair::compositor {
 
-/// A model placed in the scene, for the light.
+/// A model placed in the scene, for the light computation.
 struct PlacedModel {
   std::shared_ptr<const Model> model;
   Mat3 linear;              ///< Rotation and scale, marker from model coordinates.
-  Vec3 translation_m;       ///< Of the model's origin, marker coordinates.
-  bool is_phantom = false;  ///< Stand-in for a real surface, otherwise a virtual object.
+  Vec3 translation_m;       ///< Position of the model's origin, marker coordinates.
+  bool is_phantom = false;  ///< Geometry of a real surface; else a virtual object.
 };
 
 }  // namespace pleinair::compositor

@@ -19,7 +19,7 @@ std::array<float, 3> ToFloats(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Vertices equal in every bit get one number.
+/// Gives equal numbers to vertices that are equal in every bit.
 template <std::size_t N>
 class Welder {
  public:
@@ -40,13 +40,13 @@ class Welder {
   std::unordered_map<std::array<float, N>, std::uint32_t, BytesHash> ids_;
 };
 
-/// A corner-wise view of all triangles of a placed model.
+/// A triangle of a placed model, by its corners.
 struct Triangle {
   std::uint32_t mesh = 0;
   std::array<std::uint32_t, 3> corners{};  ///< Indices into the mesh's vertices.
   std::array<std::uint32_t, 3> welded{};   ///< Position numbers, shared among meshes.
   Vec3 area_normal;                        ///< Twice the area, in the file's winding.
-  double agreement = 0.0;                  ///< Area times how far the file's normals agree.
+  double agreement = 0.0;                  ///< Area times the agreement with the file's normals.
   std::uint32_t component = 0;
   bool flip = false;
 };
@@ -85,8 +85,8 @@ void ForEachEdge(const std::vector<EdgeUse>& edges, const Visit& visit) {
   }
 }
 
-/// Numbers the components (joined where exactly two triangles share an edge), and flips triangles
-/// so that those neighbours agree. Returns the number of components.
+/// Numbers the components, joined where exactly two triangles share an edge. Flips triangles so
+/// that these neighbours agree. Returns the number of components.
 std::uint32_t FloodComponents(const std::vector<EdgeUse>& edges, std::vector<Triangle>* triangles) {
   struct Neighbour {
     std::uint32_t triangle;
@@ -151,8 +151,8 @@ struct PlacedVertices {
   std::vector<Vec3> normals;
 };
 
-/// Rotates, scales and moves a mesh. Normals go by the cofactor matrix, which is right for
-/// unequal scales and mirrors too.
+/// Rotates, scales and moves a mesh. Normals transform by the cofactor matrix, which is also
+/// correct for non-uniform scales and mirrors.
 PlacedVertices Place(const Mesh& mesh, const PlacedModel& placed) {
   const auto& m = placed.linear.m;
   const Vec3 column0{m[0], m[3], m[6]}, column1{m[1], m[4], m[7]}, column2{m[2], m[5], m[8]};
@@ -162,7 +162,7 @@ PlacedVertices Place(const Mesh& mesh, const PlacedModel& placed) {
   const Vec3 cofactor2 = Cross(column0, column1) * sign;
   PlacedVertices out;
   for (const auto& position : mesh.positions) {
-    // Rounded as they will be stored, so that welding sees what others see.
+    // Rounded to the stored precision, so that welding compares the values that others see.
     out.positions.push_back(
         ToVec3(ToFloats(placed.linear * ToVec3(position) + placed.translation_m)));
   }
@@ -214,7 +214,7 @@ class SurfaceBuilder {
   Welder<8> welder_;
 };
 
-/// Of the meshes that are drawn alone, or of all others.
+/// Collects the triangles of the render-only meshes, or of all others.
 std::vector<Triangle> CollectTriangles(const Model& model,
                                        const std::vector<PlacedVertices>& placed,
                                        bool drawn_alone) {
@@ -244,8 +244,8 @@ std::vector<Triangle> CollectTriangles(const Model& model,
   return triangles;
 }
 
-/// Turns the triangles as their neighbours and volumes ask for; whether each of their components
-/// is closed.
+/// Orients triangles by their neighbours, enclosed volumes and normals. Returns for each component
+/// whether it is closed.
 std::vector<bool> Orient(const std::vector<PlacedVertices>& vertices,
                          std::vector<Triangle>* to_turn) {
   std::vector<Triangle>& triangles = *to_turn;
@@ -253,7 +253,7 @@ std::vector<bool> Orient(const std::vector<PlacedVertices>& vertices,
   const std::uint32_t count = FloodComponents(edges, &triangles);
   std::vector<bool> closed = ClosedComponents(edges, triangles, count);
 
-  // Six times the enclosed volume (divergence theorem), and how far the file's normals agree.
+  // Six times the enclosed volume (divergence theorem), and the agreement with the file's normals.
   std::vector<double> volume(count), agreement(count);
   std::vector<Vec3> reference(count);
   std::vector<bool> seen(count);

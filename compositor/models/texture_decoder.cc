@@ -14,7 +14,7 @@
 
 namespace {
 
-/// For an empty PNG chunk the decoder copies no bytes to a null pointer, which memcpy forbids.
+/// For an empty PNG chunk, the decoder copies zero bytes to a null pointer, which memcpy forbids.
 void* CopyBytes(void* to, const void* from, std::size_t size) {
   return size == 0 ? to : std::memcpy(to, from, size);
 }
@@ -55,13 +55,13 @@ std::int64_t BigEndian(std::string_view bytes) {
   return value;
 }
 
-/// The size that a PNG's IHDR chunk states (PNG specification, 11.2.2).
+/// The size in a PNG's IHDR chunk (PNG specification, 11.2.2).
 std::optional<ImageSize> PngSize(std::string_view content) {
   if (content.size() < 24 || content.substr(12, 4) != "IHDR") return std::nullopt;
   return ImageSize{BigEndian(content.substr(16, 4)), BigEndian(content.substr(20, 4))};
 }
 
-/// The size in a JPEG's frame header (ITU-T T.81, B.2.2), looked for segment by segment.
+/// The size in a JPEG's frame header (ITU-T T.81, B.2.2), found by a scan over the segments.
 std::optional<ImageSize> JpegSize(std::string_view content) {
   std::size_t at = 2;
   while (at + 4 <= content.size() && content[at] == '\xFF') {
@@ -70,7 +70,7 @@ std::optional<ImageSize> JpegSize(std::string_view content) {
       ++at;
       continue;
     }
-    // SOF0…SOF15, among which DHT, JPG and DAC have their codes.
+    // SOF0…SOF15; DHT, JPG and DAC have codes in this range.
     const bool is_frame =
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (is_frame) {
@@ -82,8 +82,8 @@ std::optional<ImageSize> JpegSize(std::string_view content) {
   return std::nullopt;
 }
 
-/// The size in the picture's header, where one is found. The decoder says no more of a picture
-/// beyond its limit than that it does not know the format.
+/// The size in the image's header, if found. For an image above its limit, the decoder reports only
+/// an unknown format.
 std::optional<ImageSize> StatedSize(std::span<const std::byte> bytes) {
   const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (content.starts_with("\x89PNG")) return PngSize(content);
@@ -93,8 +93,8 @@ std::optional<ImageSize> StatedSize(std::span<const std::byte> bytes) {
 
 constexpr const char* kConvert = "convert it to PNG or JPEG of at most 16384 × 16384 pixels";
 
-/// A PNG ends with its IEND chunk, a JPEG with the EOI marker: the decoder itself passes over a
-/// missing end of the data and would leave the rest of the picture grey.
+/// A PNG ends with its IEND chunk, a JPEG with the EOI marker. The decoder ignores a missing end
+/// and would return the rest of the image grey.
 bool IsCutShort(std::span<const std::byte> bytes) {
   const auto* text = reinterpret_cast<const char*>(bytes.data());
   const std::string_view content(text, bytes.size());

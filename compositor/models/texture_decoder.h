@@ -11,13 +11,13 @@
 
 namespace pleinair::compositor {
 
-/// Decodes a PNG or JPEG picture to 3 or 4 channels (grey becomes 3), 8 bits, rows top-down. The
-/// size in its header is checked before anything is decoded: at most 16384 × 16384.
-/// `where` names the picture in errors: too large, cut short, another format.
+/// Decodes a PNG or JPEG image to 3 or 4 channels (grey becomes 3), 8 bits, rows top-down. The size
+/// in the header is checked before decoding: at most 16384 × 16384. Errors: too large, cut short,
+/// another format. `where` names the image in errors.
 Result<Image<std::uint8_t>> DecodeTexture(std::span<const std::byte> bytes,
                                           const std::string& where);
 
-/// The same from a file.
+/// Reads and decodes a file in the same way.
 Result<Image<std::uint8_t>> ReadTexture(const std::filesystem::path& file);
 
 }  // namespace pleinair::compositor
