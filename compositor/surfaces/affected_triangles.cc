@@ -7,7 +7,7 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr float kSameSun = 1e-3F;  // Radians: a fifth of the sun's radius, a quarter of a minute.
+constexpr float kSameSun = 1e-3F;  // Radians: 1/5 solar radius, 1/4 minute of motion.
 
 }  // namespace
 
@@ -63,7 +63,7 @@ AffectedTriangles::Sorted AffectedTriangles::ChangeOf(const SunWindow& window,
   const bool inside = high.x > 0.0F && high.y > 0.0F && low.x < window.side && low.y < window.side;
   if (sunlit && inside && objects.Touches(low, high)) return {kSun, false};
   if (!sky_changes && reductions.affected_triangles) return {kNothing, false};
-  // A sun that has moved on casts other shadows than it did for the light.
+  // A sun that has moved casts other shadows than those of the computed visibility.
   const bool known = reductions.sun_visibility && !sun_visibility_.by_triangle.empty() &&
                      glm::distance(window.to_sun, sun_visibility_.to_sun) < kSameSun;
   const SunVisibility reach =

@@ -14,59 +14,59 @@
 
 namespace pleinair::compositor {
 
-/// Sorts a phantom's triangles by what virtual objects may change of their light: what they leave
-/// alone needs no shading, and what has all of the sun or none of it anyway no look into shadow
+/// Classifies a phantom's triangles as shadow receivers, by how virtual objects may change their
+/// light. Unaffected triangles need no shading. Triangles in full sun or full shadow need no shadow
 /// maps.
 class AffectedTriangles {
  public:
-  /// In the order of the sorted triangles.
+  /// Kinds of change, in the order of the sorted triangles.
   enum Change {
-    kSun,        ///< The sun's light may change.
-    kSunlitSky,  ///< Only the sky's, and the sun shines on it unless something hides it.
-    kLinearSky,  ///< Only the sky's, phantoms leave it all of the sun or none shines on it, and the
-                 ///< ratio is linear along it.
+    kSun,        ///< Direct sunlight may change.
+    kSunlitSky,  ///< Only skylight changes; the sun lights it unless phantoms occlude the sun.
+    kLinearSky,  ///< Only skylight changes; the sun lights all of it or none, and the ratio is
+                 ///< linear along it.
     kNothing,
     kChanges
   };
 
   explicit AffectedTriangles(const LitMesh& phantom);
-  /// Another light on the same triangles: counts from the next Sort() on.
+  /// Sets new light for the same triangles, valid from the next Sort().
   void SetLight(const LitMesh& phantom);
 
-  /// Sorts; one past the last index of each kind is in ends(). `objects`: of the same window.
-  /// `sun_normal_lux`: linear Rec.709, for linear_ratios(). Without a reduction, triangles are of
-  /// the kind that needs more shading.
+  /// Sorts the triangles; ends() then has one past the last index of each kind. `objects` belongs
+  /// to the same window. `sun_normal_lux`: linear Rec.709, for linear_ratios(). Without a
+  /// reduction, triangles are of the kind that needs more shading.
   void Sort(const SunWindow& window, const SunFootprint& objects, const glm::vec3& sun_normal_lux,
             const DrawReductions& reductions = {});
   std::span<const std::uint32_t> indices() const { return indices_; }
   const std::array<int, kChanges>& ends() const { return ends_; }
-  /// What objects change of the kLinearSky triangles, in their order.
+  /// The shadow ratios of the kLinearSky triangles, in their order.
   std::span<const LinearShadowRatio> linear_ratios() const { return linear_ratios_; }
-  /// The most of any place on them, of how far from 1 the ratio is, times the metres to the eye:
-  /// what the air before it counts by.
+  /// Max. of |1 − ratio| times the distance to the eye in metres, over the kLinearSky triangles.
+  /// The fog scales it to the max. effect of aerial perspective on the ratio.
   float MaxLinearChangeFarFrom(const glm::vec3& eye_m) const;
 
-  /// A change of light, relative, that no 8-bit picture shows: a quarter of a code at white.
+  /// Relative change of light that is invisible in 8 bits: a quarter of a pixel value at white.
   static constexpr float kNoticeable = 0.002F;
 
  private:
   struct Sorted {
     Change change;
-    bool in_sun;  // Of kLinearSky: all of the sun, not none.
+    bool in_sun;  // For kLinearSky: full sun instead of none.
   };
-  /// By vertex: the light besides the sun's own, with the virtual objects and without.
+  /// Irradiance at the vertices without direct sunlight, with and without the virtual objects.
   struct AmbientLight {
     std::vector<glm::vec3> with, without;
     std::vector<bool> changes;  // Whether the two differ.
   };
   struct SunOnTriangles {
-    std::vector<SunVisibility> by_triangle;  // As the mesh has them, or empty.
-    glm::vec3 to_sun{0.0F};                  // Where the sun stood for that.
+    std::vector<SunVisibility> by_triangle;  // The mesh's entries, or empty.
+    glm::vec3 to_sun{0.0F};                  // Sun direction of these entries.
   };
   Sorted ChangeOf(const SunWindow& window, const SunFootprint& objects,
                   const DrawReductions& reductions, std::size_t first_index) const;
-  /// Nothing where the ratio is not linear along the triangle. `sun_normal_lux`: as far as it
-  /// reaches.
+  /// Returns nothing if the ratio is not linear along the triangle. `sun_normal_lux`: the sun that
+  /// reaches it.
   std::optional<LinearShadowRatio> LinearRatioOf(std::size_t first_index, const glm::vec3& to_sun,
                                                  const glm::vec3& sun_normal_lux) const;
 

@@ -6,7 +6,7 @@
 namespace pleinair::compositor {
 
 bool SunOnPhantoms::IsAsGoodAs(const SunOnPhantoms& other) const {
-  // What the sky changes beside it hardly depends on it.
+  // Relative. The objects' effect on skylight hardly depends on the sun.
   constexpr float kSameSun = 0.02F;
   return window == other.window && whole == other.whole &&
          glm::all(glm::lessThanEqual(glm::abs(normal_lux - other.normal_lux),
@@ -64,7 +64,7 @@ void DrawReduction::SortPhantoms(const SunOnPhantoms& sun,
 }
 
 bool DrawReduction::SortObject(std::size_t object, const glm::vec3& to_sun) {
-  // Without a sun nothing can be asked of it.
+  // Without a sun, Sort() is right with or without the reduction.
   if (!reductions_.sun_facing_triangles && to_sun != glm::vec3(0.0F)) {
     return objects_[object].IncludeAll();
   }

@@ -11,18 +11,18 @@ glm::vec3 LinearShadowRatio::Between(const glm::vec3& ambient_with,
 
 bool LinearShadowRatio::IsLinear(const std::array<glm::vec3, 2>& with,
                                  const std::array<glm::vec3, 2>& without) {
-  constexpr float kHardlySeen = 0.004F;  // Half a code of 8 bits at white, less below.
+  constexpr float kHardlySeen = 0.004F;  // Half an 8-bit pixel value at white, less below.
   const glm::vec3 none(0.0F);
   const glm::vec3 middle = Between(with[0] + with[1], without[0] + without[1], none);
   const glm::vec3 mean =
       0.5F * (Between(with[0], without[0], none) + Between(with[1], without[1], none));
-  // False where one is no number.
+  // False if a value is NaN.
   return glm::all(glm::lessThan(glm::abs(middle - mean), glm::vec3(kHardlySeen)));
 }
 
 LinearShadowRatio LinearShadowRatio::Of(const std::array<glm::vec3, 3>& corners_m,
                                         const std::array<glm::vec3, 3>& ratios) {
-  // In double precision: of a small triangle far from the origin large terms cancel.
+  // Double precision, because large terms cancel for a small triangle far from the origin.
   const glm::dvec3 a(corners_m[0]), ab = glm::dvec3(corners_m[1]) - a,
                                     ac = glm::dvec3(corners_m[2]) - a;
   const glm::dvec3 across = glm::cross(ab, ac);
@@ -34,7 +34,7 @@ LinearShadowRatio LinearShadowRatio::Of(const std::array<glm::vec3, 3>& corners_
   float low = ratios[0].x, high = ratios[0].x;
   for (int c = 0; c < 3; ++c) {
     const double at_a = ratios[0][c], at_b = ratios[1][c], at_c = ratios[2][c];
-    // The gradient along the plane that has these differences along both edges.
+    // The gradient in the plane with these differences along both edges.
     const glm::dvec3 gradient =
         has_area
             ? ((at_b - at_a) * glm::cross(ac, across) + (at_c - at_a) * glm::cross(across, ab)) /

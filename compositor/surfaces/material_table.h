@@ -11,17 +11,18 @@
 
 namespace pleinair::compositor {
 
-/// Materials and places of the virtual objects' surfaces in a texture, for shaders that learn from
-/// a picture of numbers what each pixel shows (shaders/material_table.glsl). Textures are no part
-/// of it: they are read where triangles are drawn. Needs a current OpenGL context; move-only.
+/// Material table: materials and transforms of the virtual objects' surfaces in a texture, for
+/// shaders that read the visibility buffer (shaders/material_table.glsl). It has no textures,
+/// because the pass that draws the triangles samples them. Needs a current OpenGL context;
+/// move-only.
 class MaterialTable {
  public:
-  /// How it is laid out: twins of shaders/visibility_buffer_layout.glsl.
+  /// Layout; twins of shaders/visibility_buffer_layout.glsl.
   static constexpr int kTexelsPerSurface = 5, kSurfacesPerRow = 819;
 
-  /// What `surface`, from 0 on, is made of, and where it stands: marker from where it was lit.
+  /// Sets the material of `surface` (from 0), and its transform: marker from where it was lit.
   void Set(std::size_t surface, const Material& material, const glm::mat4& marker_from_lit);
-  /// Hands what was Set() to the shaders. Errors (system): more surfaces than a texture holds (6
+  /// Uploads the entries for the shaders. Errors (system): more surfaces than a texture holds (6
   /// million with llvmpipe), no memory.
   Result<void> Upload();
 

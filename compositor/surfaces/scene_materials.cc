@@ -10,7 +10,7 @@
 namespace pleinair::compositor {
 namespace {
 
-/// Whether a material does not cover all that it is drawn on.
+/// Returns whether a material may have holes or transparency.
 bool IsSeenThrough(const Model& model, const Material& material) {
   if (material.alpha == Material::Alpha::kIgnored) return false;
   const int texture = material.base_color_texture;
@@ -18,7 +18,7 @@ bool IsSeenThrough(const Model& model, const Material& material) {
          (texture >= 0 && model.textures[static_cast<std::size_t>(texture)].channels() == 4);
 }
 
-/// Whether it differs from place to place.
+/// Returns whether a texture varies the material.
 bool IsTextured(const Material& material) {
   return material.base_color_texture >= 0 || material.metallic_roughness_texture >= 0;
 }

@@ -10,8 +10,8 @@
 
 namespace pleinair::compositor {
 
-/// The materials of a scene's models, with their textures in the renderer's memory. Needs a current
-/// OpenGL context; move-only.
+/// The materials of a scene's models, with their textures in GPU memory. Needs a current OpenGL
+/// context; move-only.
 class SceneMaterials {
  public:
   SceneMaterials() = default;
@@ -22,23 +22,23 @@ class SceneMaterials {
     return scene_[static_cast<std::size_t>(placed_model)]
         .model->materials[static_cast<std::size_t>(material)];
   }
-  /// Binds a material's base color to unit 0, metallic and roughness to unit 1: white where it has
-  /// no texture of them.
+  /// Binds a material's base color to unit 0, metallic and roughness to unit 1. A missing texture
+  /// is replaced by white.
   void BindTextures(int placed_model, const Material& material) const;
 
   std::size_t model_count() const { return scene_.size(); }
-  /// Some of the objects have textures or alpha.
+  /// Returns whether an object has textures or alpha.
   bool HasTextures() const { return has_textures_; }
-  /// Some mirror their surroundings: a metal or a coat does.
+  /// Returns whether an object is glossy: it has a metal or a coat.
   bool HasGloss() const { return has_gloss_; }
-  /// Some have holes or are glass.
+  /// Returns whether an object has holes or glass.
   bool HasAlpha() const { return has_alpha_; }
 
  private:
   std::vector<PlacedModel> scene_;
   bool has_textures_ = false, has_alpha_ = false, has_gloss_ = false;
   gl::GlTexture white_;
-  std::vector<std::vector<gl::GlTexture>> model_textures_;  // A list a placed model.
+  std::vector<std::vector<gl::GlTexture>> model_textures_;  // One list per placed model.
 };
 
 }  // namespace pleinair::compositor

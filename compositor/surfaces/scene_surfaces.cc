@@ -41,7 +41,7 @@ Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
 
 Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
   geometries_.clear();
-  placement_.Clear();  // It points into the surfaces.
+  placement_.Clear();  // It refers to the surfaces.
   surfaces_.clear();
   surfaces_.reserve(lit.size());
   reduction_.Clear();
@@ -124,7 +124,7 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
   sorted.reserve(reduction_.objects().size());
   for (SurfaceBuffers& surface : surfaces_) {
     if (!surface.IsDrawnObject()) continue;
-    // Angles stay where a model is moved, but a scale does not.
+    // The transpose keeps the angles between sun and normals. The division removes the scale.
     const glm::dmat3 moved(placement_.MovedBy(surface.placed_model()));
     const glm::dvec3 lit_to_sun = glm::transpose(moved) * glm::dvec3(to_sun);
     const double size = glm::length(lit_to_sun);

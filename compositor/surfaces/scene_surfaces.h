@@ -18,12 +18,12 @@
 
 namespace pleinair::compositor {
 
-/// A scene's lit surfaces in the renderer's memory, each where its model stands now. Needs a
-/// current OpenGL context; move-only.
+/// A scene's lit surfaces in GPU memory, each at its model's current place. Needs a current OpenGL
+/// context; move-only.
 class SceneSurfaces {
  public:
   SceneSurfaces() = default;
-  /// Without surfaces until SetLit(). Errors as UploadTextures().
+  /// Makes a scene without surfaces until SetLit(). Errors as UploadTextures().
   static Result<SceneSurfaces> Create(const std::vector<PlacedModel>& scene);
 
   /// As Composer::SetLight() and Composer::MoveModel().
@@ -33,34 +33,35 @@ class SceneSurfaces {
   /// As Composer::SetOptions() for ComposerOptions::reductions.
   void Use(const DrawReductions& reductions) { reduction_.Use(reductions); }
 
-  /// Where the surfaces stand now.
+  /// The surfaces' current placement.
   const SurfacePlacement& placement() const { return placement_; }
   const SceneMaterials& materials() const { return materials_; }
 
-  /// Tells what of the phantoms the objects may change under `sun`. Errors (system): no memory.
+  /// Classifies the phantoms' triangles by what objects may change under `sun`. Errors (system): no
+  /// memory.
   Result<void> SortPhantoms(const SunOnPhantoms& sun);
-  /// Draws the numbers that the phantoms' triangles have in triangles(), of those that change;
-  /// `program` of shaders/triangle_id.frag is in use.
+  /// Draws the triangle numbers of triangles() for the affected triangles of the phantoms.
+  /// `program` with shaders/triangle_id.frag must be in use.
   void DrawPhantoms(const gl::GlProgram& program) const;
   const VisibilityBuffer& triangles() const { return phantom_buffer_; }
-  /// AffectedTriangles::MaxLinearChangeFarFrom() of all phantoms.
+  /// Max. of AffectedTriangles::MaxLinearChangeFarFrom() over all phantoms.
   float MaxLinearChangeFarFrom(const glm::vec3& eye_m) const {
     return reduction_.MaxLinearChangeFarFrom(eye_m);
   }
-  /// Tells which of the objects' triangles may face the sun, `to_sun` zero: none, and where the
-  /// objects stand. Errors (system): no memory.
+  /// Updates the objects' sun-facing triangles and placement. A zero `to_sun` means that no
+  /// triangle faces the sun. Errors (system): no memory.
   Result<void> SortObjects(const glm::vec3& to_sun);
-  /// Draws the numbers that the objects' triangles have in object_triangles(), with their textures;
-  /// `program` of shaders/triangle_id.frag is in use.
+  /// Draws the triangle numbers of object_triangles(), with the objects' textures. `program` with
+  /// shaders/triangle_id.frag must be in use.
   void DrawObjects(const gl::GlProgram& program) const;
   const VisibilityBuffer& object_triangles() const { return object_buffer_; }
-  /// By the values of object_triangles().
+  /// Indexed by the values of object_triangles().
   const MaterialTable& object_materials() const { return object_materials_; }
-  /// Draws everything with `program`, which is in use: places alone.
+  /// Draws the geometry of all surfaces with `program`, which must be in use.
   void Draw(const gl::GlProgram& program) const;
 
  private:
-  /// Whether the surfaces are those of `lit`, so that there is nothing new but their light.
+  /// Returns whether the surfaces are those of `lit`, so that only their light is new.
   bool HasSurfacesOf(const std::vector<LitMesh>& lit) const;
   Result<void> SetSurfaces(const std::vector<LitMesh>& lit);
   const Material& MaterialOf(const SurfaceBuffers& surface) const {
@@ -71,10 +72,10 @@ class SceneSurfaces {
   std::vector<SurfaceBuffers> surfaces_;
   std::vector<std::uint64_t> geometries_;  // LitMesh::geometry of the surfaces.
   SurfacePlacement placement_;
-  DrawReduction reduction_;  // Of the phantoms and the drawn objects among them, in order.
+  DrawReduction reduction_;  // Phantoms and drawn objects among the surfaces, in order.
   VisibilityBuffer phantom_buffer_, object_buffer_;
   MaterialTable object_materials_;
-  // object_buffer_ is as reduction_ has the objects, object_materials_ as they stand.
+  // Whether object_buffer_ matches reduction_, and object_materials_ the current placement.
   bool objects_sorted_ = false, objects_placed_ = false;
 };
 

@@ -10,23 +10,24 @@
 
 namespace pleinair::compositor {
 
-/// Sorts a virtual object's triangles by whether the sun may shine on them: those that are turned
-/// away from it, some half of a body, need no look into shadow maps.
+/// Sun-facing triangle culling: sorts a virtual object's triangles by whether the sun may shine on
+/// them. Those that face away, about half of a body, need no shadow lookup.
 class SunFacingTriangles {
  public:
   explicit SunFacingTriangles(const LitMesh& object);
 
-  /// Sorts anew where the sun has moved by more than kMargin allows; returns whether it did.
-  /// `to_sun`: unit, as the object stands in its mesh; zero without a sun, which none faces.
+  /// Sorts again if the sun has moved by more than kMargin allows. Returns whether it sorted.
+  /// `to_sun`: unit, in the frame of the object's mesh; zero without a sun, which no triangle
+  /// faces.
   bool Sort(const glm::vec3& to_sun);
-  /// Counts all triangles as facing the sun until Sort(); returns whether it did not before.
+  /// Counts all triangles as sun-facing until Sort(). Returns whether this changed anything.
   bool IncludeAll();
-  /// Those that may face the sun first.
+  /// The triangles that may face the sun come first.
   std::span<const std::uint32_t> indices() const { return indices_; }
   int facing_end() const { return facing_end_; }
 
-  /// A triangle is turned away where the cosines between sun and normals at its corners are below
-  /// minus this: some degrees, which the sun may move before triangles are sorted again.
+  /// A triangle faces away if the cosine between sun and normal is below −kMargin at all corners.
+  /// The sun may move by some degrees before triangles are sorted again.
   static constexpr float kMargin = 0.05F;
 
  private:

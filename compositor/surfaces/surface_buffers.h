@@ -15,20 +15,20 @@
 
 namespace pleinair::compositor {
 
-/// A mesh in the renderer's memory, for shaders/scene_surface.vert: where it is, not how it is lit
-/// (VisibilityBuffer).
+/// A mesh in GPU memory for shaders/scene_surface.vert: its geometry without its light, which
+/// VisibilityBuffer has.
 class SurfaceBuffers {
  public:
   static Result<SurfaceBuffers> Create(const LitMesh& mesh);
 
-  /// Other indices of the same number.
+  /// Replaces the indices by as many others.
   void SetIndices(std::span<const std::uint32_t> indices);
 
   void Draw() const { Draw(0, index_count_); }
-  /// Draws the indices from `begin` to before `end`.
+  /// Draws the indices in [begin, end).
   void Draw(int begin, int end) const;
   bool is_phantom() const { return is_phantom_; }
-  /// Of a virtual object, and to be seen.
+  /// Returns whether it belongs to a virtual object and is visible.
   bool IsDrawnObject() const { return !is_phantom_ && role_ != MeshRole::kShadowOnly; }
   bool CastsShadow() const { return role_ != MeshRole::kRenderOnly; }
   int placed_model() const { return placed_model_; }
@@ -47,8 +47,7 @@ class SurfaceBuffers {
   gl::GlVertexArray vertex_array_;
 };
 
-/// A model's textures as the renderer samples them: those of colors decoded from sRGB, mip-mapped,
-/// repeating.
+/// Uploads a model's textures, mip-mapped and repeating. Color textures are decoded from sRGB.
 Result<std::vector<gl::GlTexture>> UploadTextures(const Model& model);
 
 }  // namespace pleinair::compositor

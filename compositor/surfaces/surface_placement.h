@@ -13,40 +13,40 @@
 
 namespace pleinair::compositor {
 
-/// Where a scene's surfaces stand now, as their models were moved since they were lit: their bounds
-/// and what shadow maps draw of them. Marker coordinates, metres.
+/// Current placement of a scene's surfaces, whose models may have moved since they were lit. It has
+/// their bounds and shadow casters. Marker coordinates, metres.
 class SurfacePlacement {
  public:
-  /// Forgets all surfaces; those added from now on are others for the shadow maps.
+  /// Removes all surfaces. Shadow maps treat surfaces added later as new ones.
   void Clear();
-  /// The next of the surfaces, in their order.
+  /// Adds the next surface, in order.
   void Add(const LitMesh& mesh);
-  /// All of `models` placed models stand where they were lit. `surfaces`: those that were added;
-  /// casters() points to them.
+  /// Resets all `models` placed models to where they were lit. `surfaces`: the added surfaces;
+  /// casters() refers to them.
   void Reset(std::size_t models, std::span<const SurfaceBuffers> surfaces);
   /// As Composer::MoveModel().
   void Move(int placed_model, const Mat3& linear, Vec3 translation_m,
             std::span<const SurfaceBuffers> surfaces);
 
-  /// Marker from where the model was lit.
+  /// Transform to marker coordinates from where the model was lit.
   const glm::dmat4& MovedBy(int placed_model) const {
     return moved_[static_cast<std::size_t>(placed_model)];
   }
-  /// For shadow maps: of everything, and of the phantoms alone.
+  /// Casters for shadow maps: of all surfaces, and of the phantoms alone.
   std::span<const shadows::ShadowCaster> casters() const { return casters_; }
   std::span<const shadows::ShadowCaster> phantom_casters() const { return phantom_casters_; }
   const shadows::Box& object_bounds() const { return object_bounds_; }
   const shadows::Box& bounds() const { return bounds_; }
 
  private:
-  /// Casters and bounds with the models where they were moved to.
+  /// Computes casters and bounds at the models' current places.
   void Place(std::span<const SurfaceBuffers> surfaces);
 
-  std::vector<shadows::Box> lit_bounds_;  // By surface, where it was lit.
-  std::vector<glm::dmat4> moved_;         // By placed model.
+  std::vector<shadows::Box> lit_bounds_;  // One per surface, where it was lit.
+  std::vector<glm::dmat4> moved_;         // One per placed model.
   std::vector<shadows::ShadowCaster> casters_, phantom_casters_;
   shadows::Box object_bounds_, bounds_;
-  std::uint64_t revision_ = 0;  // Of the surfaces; the shadow maps follow it.
+  std::uint64_t revision_ = 0;  // Revision of the surfaces, which the shadow maps follow.
 };
 
 }  // namespace pleinair::compositor

@@ -11,10 +11,10 @@
 
 namespace pleinair::compositor {
 
-/// Writes `texels` into `texture`, whole rows of `width`, which it fills up, each of them
-/// `texels_each` of the texture's; into a new one, read texel by texel, where the rows are more
-/// than it has. Errors (system): more rows than a texture holds, no memory. Needs a current OpenGL
-/// context.
+/// Uploads `texels` to `texture` as rows of `width` elements, and pads `texels` to whole rows. Each
+/// element has `texels_each` texels of the texture. If the texture has too few rows, a new one with
+/// nearest-texel sampling replaces it. Errors (system): more rows than a texture holds, no memory.
+/// Needs a current OpenGL context.
 template <typename T>
 Result<void> UploadRows(std::vector<T>& texels, int width, GLenum internal_format, GLenum format,
                         GLenum type, gl::GlTexture* texture, int texels_each = 1) {

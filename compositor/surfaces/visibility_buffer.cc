@@ -28,7 +28,7 @@ std::vector<std::uint32_t> ComponentsOf(const LitMesh& mesh, std::uint32_t first
     const std::uint32_t a = root_of(mesh.indices[i]), b = root_of(mesh.indices[i - i % 3]);
     parents[std::max(a, b)] = std::min(a, b);
   }
-  // A piece's root is its first vertex: numbered when it is met.
+  // A component's root is its first vertex, so it is numbered first.
   std::vector<std::uint32_t> components(parents.size());
   for (std::uint32_t vertex = 0; vertex < components.size(); ++vertex) {
     const std::uint32_t root = root_of(vertex);
@@ -68,7 +68,7 @@ Result<void> VisibilityBuffer::SetLight(std::span<const LitMesh* const> meshes) 
       const auto& [x, y, z] = mesh->positions[i];
       const auto& [nx, ny, nz] = mesh->normals[i];
       const auto& [r, g, b] = mesh->ambient_with[i];
-      // Of the virtual objects there is no light without them.
+      // Virtual objects have no light in the case without them.
       const auto& [r0, g0, b0] =
           mesh->is_phantom ? mesh->ambient_without[i] : mesh->ambient_with[i];
       vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {r0, g0, b0, nz}});
