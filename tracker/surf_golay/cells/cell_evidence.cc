@@ -13,7 +13,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// What a wrong cell under a cover that is there takes off: half of the cells there are right.
+/// Deduction for a wrong cell under an occluder that is present: half of the cells there match.
 constexpr double kUnderCover_bits = -1.0;
 
 double CellBits(float likelihood, bool white_in_code) {
@@ -21,11 +21,11 @@ double CellBits(float likelihood, bool white_in_code) {
   return 1.0 - std::log2(1.0 + std::exp(-right));
 }
 
-/// What it takes off where a cell that is plainly of the other color lies straight between two
-/// that the cover hides: few things have holes there.
+/// Deduction if a cell that is clearly of the other color lies straight between two occluded cells:
+/// few occluders have holes there.
 constexpr double kSeenBetween_bits = 2.0;
 
-/// The cells of a set that hang together with one of them, corners included.
+/// The cells of a set that are connected to one of them, diagonally too.
 std::uint32_t HangingTogether(std::uint32_t cells, int from) {
   std::uint32_t reached = 1U << from;
   for (bool more = true; more;) {
@@ -47,8 +47,8 @@ std::uint32_t HangingTogether(std::uint32_t cells, int from) {
   return reached;
 }
 
-/// Whether the straight line from the middle of one cell to that of another passes near the middle
-/// of a third: within 0.36 of a cell's side, so that a cover of both hides most of it.
+/// Whether the straight line between the centres of two cells passes near the centre of a third:
+/// within 0.36 of a cell's side. An occluder of both then hides most of the third.
 constexpr bool LiesBetween(int cell, int one, int other) {
   const int along_x = sg::CodeCellColumn(other) - sg::CodeCellColumn(one);
   const int along_y = sg::CodeCellRow(other) - sg::CodeCellRow(one);
@@ -116,7 +116,7 @@ std::optional<double> EvidenceUnderCover::Bits(int number) const {
       bits += cell;
       continue;
     }
-    // The dearest is paid for in full, the others as a cover's.
+    // The most improbable cell counts in full, the others as occluded.
     bits += std::max(kUnderCover_bits, std::max(dearest, cell));
     dearest = std::min(dearest, cell);
     for (CellSet others = wrong >> k >> 1 << k << 1; others != 0; others &= others - 1) {
@@ -127,7 +127,7 @@ std::optional<double> EvidenceUnderCover::Bits(int number) const {
   for (CellSet cells = between & (white_cover ? appears_black_ : appears_white_); cells != 0;
        cells &= cells - 1) {
     const int k = std::countr_zero(cells);
-    // As far as it is plain.
+    // Weighted by how clear the cell is.
     bits -= kSeenBetween_bits * std::max(0.0, white_cover ? black_bits_[k] : white_bits_[k]);
   }
   return bits + dearest;

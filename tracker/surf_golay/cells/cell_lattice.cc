@@ -13,19 +13,21 @@ namespace {
 constexpr int kTile_px = 32;
 constexpr double kMinStep_px = 3.5, kMaxStep_px = 30.0;
 constexpr double kMaxArm_px = 60.0;
-constexpr int kMaxArmSteps = 3;  ///< Steps that an edge between two corners may be long.
+constexpr int kMaxArmSteps = 3;  ///< Maximum length, in steps, of an edge between two corners.
 constexpr std::size_t kMaxArms = 6;
-/// The strongest corners of a tile are tried as corners of a lattice; all count as its nodes.
+/// The strongest corners of a tile are tried as the origin of a lattice; all corners count as its
+/// nodes.
 constexpr int kMaxStartsPerTile = 8;
 constexpr double kMinEdgeShare = 0.6;
 constexpr double kMinSine = 0.34, kMaxStepRatio = 3.0;
-/// Distance from a node, in steps, at which a corner is on it; grows with the distance from where
-/// the lattice was found, since perspective bends it.
+/// Maximum distance of a corner from its node, in steps. It grows with the distance from the
+/// lattice's origin, since perspective bends the lattice.
 constexpr double kOnNode = 0.12, kOnNodePerStep = 0.02;
 constexpr double kOffNodeCost = 0.6;
 constexpr double kMinScore = 6.0;
 constexpr std::size_t kMaxLattices = 12;
-/// Corners at the 5×5 nodes around the one where a lattice was found that make it worth a count.
+/// Minimum number of corners, at the 5×5 nodes around a lattice's origin, that make a full count
+/// worthwhile.
 constexpr int kNear = 2, kMinNearCorners = 7;
 constexpr double kOnNear = 0.2;
 constexpr int kMapReach_px = 3;
@@ -34,7 +36,7 @@ constexpr int kMinNodes = 7;
 
 double Squared(Vec2 a) { return a.x * a.x + a.y * a.y; }
 
-/// The nearest whole number, of those above -1024.
+/// The nearest integer, for values above -1024.
 int Nearest(double value) { return static_cast<int>(value + 1024.5) - 1024; }
 
 }  // namespace
@@ -107,7 +109,7 @@ bool CellLattice::Promising(const Lattice& lattice) const {
     for (int u = -kNear; u <= kNear; ++u) hits += corner_at(u, v);
   }
   if (hits < kMinNearCorners) return false;
-  // In a texture there are as many between the nodes.
+  // A texture has as many corners between the nodes.
   for (int v = -kNear; v < kNear; ++v) {
     for (int u = -kNear; u < kNear; ++u) hits -= corner_at(u + 0.5, v + 0.5);
   }
@@ -115,7 +117,7 @@ bool CellLattice::Promising(const Lattice& lattice) const {
 }
 
 double CellLattice::EdgeShare(ImageView<const std::uint8_t> grey, Vec2 from, Vec2 to) {
-  // Away from the corners, where the edge is alone.
+  // Away from the corners, where there is one edge only.
   constexpr int kSamples = 4;
   const Vec2 direction = to - from;
   const double length = Norm(direction);
@@ -140,7 +142,7 @@ void CellLattice::FindArms(ImageView<const std::uint8_t> grey, const CornerPoint
     if (squared < kMinStep_px * kMinStep_px || squared > kMaxArm_px * kMaxArm_px) return;
     arms_.push_back({other.at_px - corner.at_px, static_cast<float>(squared)});
   });
-  // Near ones first, as far as they are edges.
+  // The nearest ones first, if the image has an edge there.
   std::ranges::sort(arms_, {}, &Arm::squared_length);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < arms_.size() && kept < kMaxArms; ++i) {
@@ -170,7 +172,7 @@ void CellLattice::Score(Lattice* lattice) const {
       off[at] += static_cast<float>(kOffNodeCost);
     }
   });
-  // Sums over all nodes above and left: each window of 6×6 nodes is four of them.
+  // Prefix sums over all nodes above and left: a window of 6×6 nodes needs four of them.
   std::array<float, (kAround + 1) * (kAround + 1)> sums{};
   for (int v = 0; v < kAround; ++v) {
     float row = 0.0F;
@@ -218,7 +220,7 @@ bool CellLattice::Fit(const Lattice& lattice, double scale, LatticeGuess* guess)
   const auto undistorted = [&](Vec2 reduced_px) {
     return lens_.Undistort((reduced_px.x + 0.5) * scale - 0.5, (reduced_px.y + 0.5) * scale - 0.5);
   };
-  // From nodes (0…5 each way) to undistorted pixels; affine at first, then a homography.
+  // Maps nodes (0…5 each way) to undistorted pixels: affine at first, then a homography.
   const Vec2 origin = undistorted(lattice.corner + lattice.along * lattice.first_u +
                                   lattice.down * lattice.first_v);
   const Vec2 a = lattice.along * scale, b = lattice.down * scale;
@@ -240,7 +242,7 @@ bool CellLattice::Fit(const Lattice& lattice, double scale, LatticeGuess* guess)
       if (!(u >= 0 && v >= 0 && u <= kReach && v <= kReach)) return;
       if (std::max(std::fabs(at.x - u), std::fabs(at.y - v)) > tolerance) return;
       ++nodes;
-      // Correction of the nodes' coordinates that a homography near the identity makes.
+      // Correction of the nodes' coordinates by a homography near the identity.
       const double s = u - 0.5 * kReach, t = v - 0.5 * kReach;
       Eigen::Matrix<double, 8, 1> row_u, row_v;
       row_u << s, t, 1, 0, 0, 0, -s * s, -s * t;
@@ -249,7 +251,8 @@ bool CellLattice::Fit(const Lattice& lattice, double scale, LatticeGuess* guess)
       right += row_u * (at.x - u) + row_v * (at.y - v);
     });
     if (nodes < kMinNodes) return false;
-    // Perspective is weak over so small a square: held back where the corners hardly show it.
+    // Perspective is weak over so small a square: a prior limits it where the corners hardly
+    // determine it.
     normal(6, 6) += 20.0;
     normal(7, 7) += 20.0;
     normal.diagonal().array() += 1e-6;

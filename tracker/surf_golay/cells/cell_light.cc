@@ -9,20 +9,21 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr float kWhiteShare = 0.75F, kBlackShare = 0.2F;
-/// Black over white of ordinary prints: enough to take the little black out of a white pixel.
+/// Ratio of black to white on ordinary prints: accurate enough to subtract black from a white
+/// pixel.
 constexpr float kOrdinaryBlack = 0.06F;
-/// Change of the plane of log-light that is none: a fifth of a per cent.
+/// Change of the plane of log-light below which the fit has converged: a fifth of a per cent.
 constexpr double kStillLogLight = 0.002;
 constexpr double kBrightestQuantile = 0.9, kNarrowScale = 0.06;
-constexpr float kDarkest = 2e-4F;  ///< Linear light: below an 8-bit code's first step.
+constexpr float kDarkest = 2e-4F;  ///< Linear light: below the first step of an 8-bit value.
 constexpr std::size_t kMinSamples = 12, kMaxSamples = 600;
 constexpr double kDoubtfulBlock = 0.55, kRightBlock = 0.9;  ///< Correlations.
 constexpr float kDoubtfulWeight = 0.2F;
 constexpr double kMinNoise = 0.006;
-/// Where so much of the white is clipped, the blocks' gains tell how bright it really is.
+/// Share of clipped white above which the block gains determine the brightness of white.
 constexpr double kClippedShare = 0.5;
-/// Scatter of log white that noise and texture alone may leave, above which an edge is looked for,
-/// and the share of it that an edge must explain.
+/// Residual spread of log white above which an edge is searched for: noise and texture alone may
+/// cause less. An edge must reduce the spread to the second share.
 constexpr double kEdgeSpread = 0.12, kEdgeGain = 0.6;
 constexpr int kEdgeDirections = 24, kEdgeOffsets = 33;
 constexpr double kEdgeReach = 1.05;
@@ -70,7 +71,8 @@ void MarkerLightEstimator::FitPlane(bool brightest, MarkerLight* light) {
       normal += w * row * row.transpose();
       right += w * value * row;
     }
-    // A weak prior for even light keeps prints flat of which one side alone is observed.
+    // A weak prior for uniform light keeps the plane flat if only one side of the marker is
+    // observed.
     const double prior = 0.02 * normal(0, 0);
     normal(1, 1) += prior;
     normal(2, 2) += prior;
@@ -88,8 +90,8 @@ void MarkerLightEstimator::FitPlane(bool brightest, MarkerLight* light) {
 }
 
 std::optional<ShadowEdge> MarkerLightEstimator::FitEdge() const {
-  // Two levels on either side of a line: the split that leaves the least sum of squares. Prefix
-  // sums over offsets make a direction cost one pass.
+  // Two levels on either side of a line: the split with the minimum sum of squares. With prefix
+  // sums over offsets a direction needs one pass.
   struct Bin {
     double w = 0, s = 0, ss = 0;
   };
@@ -163,8 +165,8 @@ bool MarkerLightEstimator::Measure(const MarkerPattern& pattern, const BlockFit&
     if (fit.block_of()[n] < 0 || ++count % stride != 0) continue;
     const float share = fit.image().white[n];
     const bool clipped = !(observed.inverse_variance[n] > 0.0F);
-    // A block that is part paper, part cover has levels of its own: only those count that look
-    // right as a whole.
+    // A block of part paper, part occluder has light levels of its own: only blocks that match as a
+    // whole count.
     const MarkerBlock& block = fit.blocks()[fit.block_of()[n]];
     const float right = std::clamp(
         static_cast<float>((block.correlation - kDoubtfulBlock) / (kRightBlock - kDoubtfulBlock)),
@@ -190,8 +192,8 @@ bool MarkerLightEstimator::Measure(const MarkerPattern& pattern, const BlockFit&
     if (!FromBlocks(fit, light)) return false;
     light->white_clips = true;
     if (brightest) {
-      // The few pixels at edges that do not clip tell the white badly; the black tells it as well
-      // as the marker's ink is ordinary.
+      // The few unclipped pixels at edges determine the white badly. The black determines it, as
+      // far as the marker's ink is ordinary.
       const double black = light->black_share * std::exp(light->log_white);
       light->log_white = std::log(black / kOrdinaryBlack);
       light->black_share = kOrdinaryBlack;

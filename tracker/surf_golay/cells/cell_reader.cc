@@ -8,46 +8,48 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Deviation of a cell's share that no noise tells: uneven light, ink, the blur's shape.
+/// Deviation of a cell's share of white that noise does not explain: uneven light, ink, the shape
+/// of the blur.
 constexpr double kSystematicShare = 0.025, kMinUnevenness = 0.008, kSystematicGlare = 0.03,
                  kSystematicPerBlur = 0.05;
-/// Of glare, as a share of it, how much may be left on a cell or taken from it.
+/// Share of the glare that may remain on a cell or be wrongly subtracted from it.
 constexpr double kUnsurePerGlare = 0.15;
-/// Prior probability that a cell is covered: alone, and when all around it are.
+/// Prior probability that a cell is occluded: alone, and if all cells around it are.
 constexpr double kCoveredAlone = 0.03, kCoveredAmong = 0.6;
-/// Density of the share that is observed where a cell is covered.
+/// Probability density of the observed share of white if a cell is occluded.
 constexpr double kCoveredDensity = 0.5;
-/// Left-over inside a cell, in shares and beyond noise, that speaks for a cover.
+/// Residual inside a cell, in shares of white beyond noise, that indicates an occluder.
 constexpr double kUnevenShare = 0.10;
-/// White brighter than this clips: a clipped pixel is white there, and glare elsewhere.
+/// A white above this linear value clips: a clipped pixel is white there, and glare elsewhere.
 constexpr double kWhiteClips = 0.93;
-/// In the core of a highlight noise and compression leave some pixels just below the brightest.
+/// Noise and compression put some pixels in the core of a highlight just below the maximum.
 constexpr float kNearlyClips = 0.92F;
 constexpr double kRidge = 1e-4;
-constexpr double kKnown_px = 1000.0;  ///< Pixels that a share that is known counts as.
+constexpr double kKnown_px = 1000.0;  ///< Weight of a known share of white, in pixels.
 constexpr double kMinObserved_px = 0.3;
-/// A pixel that sees so much of one cell is a witness of its own; those of a cell together are
-/// worth a few independent ones, since what covers a cell covers neighbouring pixels alike.
+/// Minimum share of one cell in a pixel that counts as a witness of its own. All the witnesses of a
+/// cell together are worth a few independent ones: an occluder affects neighbouring pixels alike.
 constexpr float kWholeShare = 0.85F;
 constexpr double kPixelCovered = 0.3, kWitnesses = 1.3, kMinWitnesses = 6.0;
-/// How much less a partly covered cell says when all around it are covered.
+/// Reduction of the evidence of a partly occluded cell if all cells around it are occluded.
 constexpr double kMimicry = 0.6;
 constexpr int kRoundsWhenClipped = 3;
 
-/// Glare is told at nodes half a cell apart, from a cell before the content to one beyond: the
-/// border there is known, and tells it where cells are drowned.
+/// Glare is estimated at nodes half a cell apart, from a cell before the content to one beyond. The
+/// pattern of the border is known, and determines the glare where cells are saturated.
 constexpr double kGlareReach = sg::kCell;
 constexpr int kGlareNodes = 2 * sg::kCells + 5;
 constexpr std::array<int, 4> kNodeSteps{0, 1, kGlareNodes, kGlareNodes + 1};
-constexpr double kGlaring = 1.12;    ///< Share of white of a cell that glares,
-constexpr int kMinGlaringCells = 2;  ///< … and how many must.
+constexpr double kGlaring = 1.12;    ///< Share of white of a cell with glare,
+constexpr int kMinGlaringCells = 2;  ///< … and the minimum number of such cells.
 constexpr double kGlareBend = 0.02, kGlareSize = 0.00003;
 
 double GlareNode(double module) {
   return (module - (sg::kQuiet + sg::kContent - kGlareReach)) / (0.5 * sg::kCell);
 }
 
-/// Φ(z), the normal distribution function, between values 1/64 apart: right to 1e-5.
+/// Φ(z), the normal distribution function, interpolated between values 1/64 apart: accurate to
+/// 1e-5.
 double NormalBelow(double z) {
   constexpr int kPerUnit = 64, kMax = 4;
   static const auto kTable = [] {
@@ -63,7 +65,7 @@ double NormalBelow(double z) {
   return kTable[i] + (at - i) * (kTable[i + 1] - kTable[i]);
 }
 
-/// Shares of a blurred pixel along one axis that fall into each of the cells' columns.
+/// Shares of a blurred pixel that fall into each column of cells, along one axis.
 void ColumnShares(double at, double sigma, std::array<double, sg::kCells>* shares) {
   double below = NormalBelow((sg::kQuiet + sg::kContent - at) / sigma);
   for (int i = 0; i < sg::kCells; ++i) {
@@ -140,7 +142,7 @@ double CellReader::GlareAt(const Pixel& pixel, const Eigen::VectorXd& found) {
 }
 
 bool CellReader::SolveWithGlare(Eigen::VectorXd* found, Eigen::MatrixXd* inverse) {
-  // No cell is whiter than white: what is left of one that is belongs to the glare.
+  // No cell is brighter than white: the excess of one that is belongs to the glare.
   CellFlags white{};
   for (bool more = true; more;) {
     if (!Solve(true, white, found, inverse)) return false;
@@ -181,7 +183,8 @@ bool CellReader::Solve(bool with_glare, const CellFlags& known_white, Eigen::Vec
   normal.diagonal().head(sg::kCodeCells).array() += ridge;
   for (int k = 0; k < sg::kCodeCells; ++k) normal(k, k) += known_white[k] ? kKnown_px : 0.0;
   if (with_glare) {
-    // Glare is smooth: its second differences are small; and it is mostly not there.
+    // Glare is smooth, so its second differences are small. It is mostly absent, so it is small
+    // too.
     const double bend = kGlareBend * pixels_a_cell, size = kGlareSize * pixels_a_cell;
     const auto node = [](int x, int y) { return sg::kCodeCells + y * kGlareNodes + x; };
     const auto bends = [&](int a, int b, int c) {
@@ -206,7 +209,7 @@ bool CellReader::Solve(bool with_glare, const CellFlags& known_white, Eigen::Vec
     for (int k = 0; k < sg::kCodeCells; ++k) right[k] += known_white[k] ? kKnown_px : 0.0;
     for (Pixel& pixel : pixels_) {
       if (round > 0 && pixel.least >= 0.0F) {
-        // What a clipped pixel would show: what the cells found so far predict, if that clips.
+        // A clipped pixel takes the value that the cells found so far predict, if that clips.
         float predicted = 0.0F;
         for (int a = 0; a < pixel.cells; ++a) {
           predicted += pixel.share[a] * static_cast<float>((*found)[pixel.cell[a]]);
@@ -239,16 +242,16 @@ void CellReader::ReadCells(const MarkerPattern& blank, const BlockFit& fit,
   for (int k = 0; k < sg::kCodeCells; ++k) glaring += found[k] > kGlaring;
   const Eigen::VectorXd& white = found;
 
-  // A pixel's noise depends on whether it sees black or white.
+  // The noise of a pixel differs between black and white.
   const double white_noise2 = light.white_noise * light.white_noise;
   const double black_noise2 = light.black_noise * light.black_noise;
   const double cell_px =
       sg::kCell / std::max(1e-6F, std::hypot(fit.map().column_x[observed.value.size() / 2],
                                              fit.map().column_y[observed.value.size() / 2]));
-  // Where the border is even, so must the cells be.
+  // Where the border is uniform, the cells are uniform too.
   const double by_blur =
       kSystematicPerBlur * state.blur_px / observed.rays.window.Scale() / cell_px;
-  // Glare is only roughly told apart from what it lies on.
+  // Glare is separated only roughly from the surface under it.
   const double rough = by_blur + (with_glare ? kSystematicGlare : 0.0);
   const Unevenness systematic{
       std::clamp(light.black_noise, kMinUnevenness, kSystematicShare) + rough,
@@ -287,14 +290,14 @@ void CellReader::ReadCells(const MarkerPattern& blank, const BlockFit& fit,
     reading->deviation[k] = static_cast<float>(std::sqrt(std::max(0.0, inverse(k, k) * noise2)));
     reading->observed[k] = observed_share[k] > kMinObserved_px;
     if (!reading->observed[k]) continue;
-    // Noise that is everywhere is no sign of a cover.
+    // Noise of the whole marker is no sign of an occluder.
     const double beyond = left[k] / observed_share[k] - 1.5 * noise2;
     reading->misfit[k] = static_cast<float>(std::sqrt(std::max(0.0, beyond)));
     if (whole[k] >= kMinWitnesses) {
       reading->witness[k] = static_cast<float>(kWitnesses * witness[k] / whole[k]);
     }
   }
-  // Light that drowns cells wholly may leave little on those around them.
+  // Light that saturates cells completely may add little to the cells around them.
   for (int k = 0; k < sg::kCodeCells; ++k) glaring += drowned_ && !reading->observed[k];
   reading->glaring = !light.white_clips && glaring >= kMinGlaringCells;
   for (int k = 0; k < sg::kCodeCells; ++k) glare[k] /= std::max(1.0, observed_share[k]);
@@ -312,9 +315,9 @@ void CellReader::Judge(const Unevenness& systematic,
     return std::exp(-0.5 * off * off / sigma2) / std::sqrt(2.0 * std::numbers::pi * sigma2);
   };
   for (int k = 0; k < sg::kCodeCells; ++k) {
-    // What no pixel tells of is drowned in light, or outside the image; nothing lies on it.
+    // A cell without observed pixels is saturated or outside the image; it is not occluded.
     if (!reading->observed[k]) continue;
-    // How much likelier the cell's looks are when something covers it.
+    // Likelihood of the cell's observation if something occludes it.
     const double uneven = reading->misfit[k] / (kUnevenShare + kUnsurePerGlare * glare[k]);
     evidence[k] = std::exp(std::min(20.0, 2.0 * uneven * uneven)) * kCoveredDensity;
     const double clean = 0.5 * (density(k, 0.0) + density(k, 1.0));
@@ -323,7 +326,7 @@ void CellReader::Judge(const Unevenness& systematic,
   }
   for (int k = 0; k < sg::kCodeCells; ++k) {
     if (!reading->observed[k]) continue;
-    // What covers a cell mostly covers some of its neighbours too.
+    // What occludes a cell mostly occludes some of its neighbours too.
     double around = 0.0, neighbours = 0.0;
     for (int other = 0; other < sg::kCodeCells; ++other) {
       const int dx = std::abs(sg::CodeCellColumn(other) - sg::CodeCellColumn(k));
@@ -337,7 +340,7 @@ void CellReader::Judge(const Unevenness& systematic,
     const double spoiled = prior * evidence[k];
     const float mean = static_cast<float>(std::log((density(k, 1.0) * (1.0 - prior) + spoiled) /
                                                    (density(k, 0.0) * (1.0 - prior) + spoiled)));
-    // Of a cell that is partly covered the pixels that are as white as white can be still tell.
+    // The fully white pixels of a partly occluded cell still are evidence.
     const float part =
         reading->witness[k] * static_cast<float>(1.0 - kMimicry * around / neighbours);
     reading->likelihoods[k] = std::fabs(part) > std::fabs(mean) ? part : mean;

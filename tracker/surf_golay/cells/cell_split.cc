@@ -7,14 +7,14 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kMinCellsOfAColor = 4;
-/// Added to a share before its logarithm is taken: black is nowhere quite black.
+/// Added to a share of white before its logarithm is taken: no black is quite black.
 constexpr double kFloor = 0.04;
 constexpr double kMinGap = 0.5, kPlainGap = 1.1;  ///< Natural logarithms of ratios.
 constexpr double kPlain = 5.0;                    ///< Log-likelihood ratio of a plain cell.
-/// Left-over inside a cell, as a share of the light at the gap, that leaves it as likely as not.
+/// Residual inside a cell, as a share of the light at the gap, that makes the cell undecided.
 constexpr double kUneven = 0.5;
-/// How much lighter than the marker's black, in shares of the darkest white, leaves a cell as
-/// likely black as not: ink throws back little under any light, and a hand more.
+/// Excess over the marker's black, in shares of the darkest white, at which a black cell is
+/// undecided. Ink reflects little under any light, a hand more.
 constexpr double kGreyer = 0.15;
 
 }  // namespace
@@ -46,13 +46,13 @@ CellSplits SplitCells(const CellReading& cells) {
   for (int i = 0; i < splits.count; ++i) {
     const double plain = kPlain * std::min(1.0, gaps[i].size / kPlainGap);
     const double at_gap = std::exp(gaps[i].middle);
-    // There are at least so many black cells, so that none is blacker than the last of them.
+    // There are at least this many black cells, so none is blacker than the last of them.
     const double black = std::exp(level[order[kMinCellsOfAColor - 1]]);
     const double darkest_white = std::exp(gaps[i].middle + 0.5 * gaps[i].size);
     for (int n = 0; n < observed; ++n) {
       const int k = order[n];
       const bool white = level[k] > gaps[i].middle;
-      // What covers a part of a cell, or a shadow's edge across it, shows as unevenness.
+      // An occluder of a part of a cell, or a shadow edge across it, makes the cell uneven.
       const double light = white ? std::exp(level[k]) : at_gap;
       const double uneven = cells.misfit[k] / (kUneven * light);
       const double greyer =

@@ -6,12 +6,12 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kReach = 2;       ///< The structure tensor is summed over 5×5 pixels,
-constexpr int kPlaceReach = 3;  ///< … a corner placed by 7×7.
-constexpr int kRival = 2;       ///< A corner is the strongest of 5×5 pixels.
+constexpr int kReach = 2;       ///< The structure tensor is summed over 5×5 pixels;
+constexpr int kPlaceReach = 3;  ///< … a corner is localised over 7×7 pixels.
+constexpr int kRival = 2;       ///< A corner is the maximum of 5×5 pixels.
 constexpr int kBorder = kPlaceReach + 1;
 constexpr float kMinRoundness = 0.25F;
-/// Two edges of 12 codes that meet in the window: five pixels long and two wide each.
+/// Two edges of 12 digital numbers that meet in the window: each five pixels long and two wide.
 constexpr float kMinWeight = 400.0F;
 constexpr int kTile_px = 48;
 constexpr std::size_t kMaxPerTile = 24;
@@ -51,7 +51,7 @@ Vec2 CornerPoints::Place(ImageView<const std::uint8_t> grey, int x, int y) const
   const double determinant = xx * yy - xy * xy;
   const Vec2 offset{(yy * bx - xy * by) / determinant, (xx * by - xy * bx) / determinant};
   const Vec2 pixel{static_cast<double>(x), static_cast<double>(y)};
-  // Farther away it is another corner's edges that meet.
+  // Farther away, the edges of another corner meet.
   if (!(std::fabs(offset.x) < kPlaceReach && std::fabs(offset.y) < kPlaceReach)) return pixel;
   return pixel + offset;
 }
@@ -65,8 +65,8 @@ const std::vector<CornerPoint>& CornerPoints::Find(ImageView<const std::uint8_t>
   for (std::vector<float>* column : {&column_xx_, &column_xy_, &column_yy_}) {
     column->assign(width, 0.0F);
   }
-  // All terms are quarters of whole numbers below 2²⁴: sums that are added to and taken from stay
-  // exact.
+  // All terms are quarters of integers below 2²⁴, so sums stay exact when terms are added and
+  // subtracted.
   for (int y = 1; y <= 2 * kReach; ++y) AddRow(grey, y, 1.0F);
   for (int y = 1 + kReach; y + kReach < height - 1; ++y) {
     AddRow(grey, y + kReach, 1.0F);
@@ -93,7 +93,7 @@ const std::vector<CornerPoint>& CornerPoints::Find(ImageView<const std::uint8_t>
       for (int v = -kRival; strongest && v <= kRival; ++v) {
         const float* other = row + static_cast<std::ptrdiff_t>(v) * width + x;
         for (int u = -kRival; u <= kRival; ++u) {
-          // Of equals the last one counts.
+          // If several are equal, the last one counts.
           const bool later = v > 0 || (v == 0 && u > 0);
           if (later ? other[u] >= weight : other[u] > weight) strongest = false;
         }
@@ -111,7 +111,7 @@ const std::vector<CornerPoint>& CornerPoints::Find(ImageView<const std::uint8_t>
 }
 
 void CornerPoints::KeepStrongest(int width) {
-  // found_ is sorted by rows: the tiles of one row of tiles lie together, once sorted by columns.
+  // found_ is sorted by rows: the tiles of one row of tiles are contiguous once sorted by columns.
   const auto tile = [&](const CornerPoint& corner) {
     const int columns = (width + kTile_px - 1) / kTile_px;
     return static_cast<int>(corner.at_px.y) / kTile_px * columns +

@@ -13,40 +13,42 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Share of the marker that looks as predicted, and what its cells must tell there beyond those
-/// that pick one of the numbers in use. Chosen on images without markers, with markers of another
-/// border and with covered ones.
+/// Share of the marker that matches the prediction, and the confidence its cells must then give
+/// beyond the bits that select one of the numbers in use. Chosen on images without markers, with
+/// markers of another border and with occluded ones.
 struct RequiredConfidence {
   double visible;
   double bits;
 };
 constexpr std::array<RequiredConfidence, 7> kRequiredConfidence{
     {{0.9, 0.0}, {0.8, 0.7}, {0.7, 1.5}, {0.6, 2.5}, {0.4, 5.0}, {0.3, 5.5}, {0.1, 10.0}}};
-/// Covers leave few blocks that look right as a whole, where all the bits of border between them
-/// together do: a border that correlates so well, pixel by pixel, leaves so much to prove, if that
-/// share of the marker is observed. (Of ten readings in 1,050 images without a marker none had more
-/// than 0.23 and none more than 3 bits.)
+/// Occluders may spare few whole blocks while all the pixels of the border together still match.
+/// The correlation of the border, pixel by pixel, then lowers the required bits, if
+/// kVisibleByBorder of the marker is observed. In 1,050 images without a marker, none of ten
+/// readings had a correlation above 0.23 and none had more than 3 bits.
 struct ConfidenceByBorder {
   double correlation;
   double bits;
 };
 constexpr std::array<ConfidenceByBorder, 2> kConfidenceByBorder{{{kPlainBorder, 5.5}, {0.32, 8.0}}};
 constexpr double kVisibleByBorder = 0.03;
-/// Two numbers look like checkerboards, of which the world is full.
+/// Two numbers are checkerboard patterns, which are common in the world.
 constexpr double kCheckeredPenalty_bits = 6.0;
 constexpr GolayWord kAllCells = (1U << kGolayBits) - 1;
-/// Agreement of the cells with a number, in use or not, that is plainly the one printed: with one
-/// cell of 24 wrong it is 0.917, with two 0.833. One that differs from it in eight cells of one
-/// color is then not taken for covered there, of which each number has five others on average.
+/// Agreement of the cells with a number, in use or not, above which that marker is certainly the
+/// one observed. With one wrong cell of 24 the agreement is 0.917, with two 0.833. A number that
+/// differs from it in eight cells of one color is then not read as occluded there; each number has
+/// five such others on average.
 constexpr float kAnotherLiesOpen = 0.87F;
 
-/// Log-likelihood ratio below which a cell leaves open what is printed there.
+/// Log-likelihood ratio below which a cell is undecided.
 constexpr float kSaysLittle = 1.5F;
-/// Twice a log-likelihood ratio (SoftGolayDecoding::margin) below which two numbers look alike.
+/// Decision margin, twice a log-likelihood ratio (SoftGolayDecoding::margin), below which two
+/// numbers are ambiguous.
 constexpr float kAlikeMargin = 8.0F;
-/// -log2 of the chance that 8, 9, … cells drawn at random hold all those in which some other marker
-/// differs: 759 C(16, n - 8) / C(24, n) up to 11, by the code's 759 words of weight 8 (corrections
-/// of overlaps begin at 12, where 47 % do).
+/// -log2 of the probability that 8, 9, … cells drawn at random contain all the cells in which some
+/// other marker differs: 759 C(16, n - 8) / C(24, n) up to 11, by the code's 759 words of weight 8.
+/// Overlap corrections begin at 12, where the probability is 47 %.
 constexpr int kMinDifferingCells = 8;
 constexpr std::array<double, 5> kAlikeByChance_bits{9.92, 6.75, 4.43, 2.55, 1.09};
 

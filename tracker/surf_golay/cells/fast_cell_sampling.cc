@@ -10,14 +10,15 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kAlongSide = 8;  ///< Places along each side where rim and quiet zone are looked at.
-/// Standard deviation of the quiet zone's light, as a share of it, that is a plane no more; that of
-/// the rim; and the rim's light over the quiet zone's that leaves black and white apart.
+constexpr int kAlongSide = 8;  ///< Sample positions along each side of rim and quiet zone.
+/// Maximum standard deviation of the quiet zone's light from a plane, as a share of it; the same of
+/// the rim; maximum ratio of the rim's light to the quiet zone's that separates black and white.
 constexpr float kUnevenWhite = 0.15F, kUnevenBlack = 0.12F, kBrightestBlack = 0.4F;
-/// Share of white that a cell may be off black or white, and what a plain one tells (nats).
+/// Maximum difference of a cell's share of white from black or white, and the log-likelihood ratio
+/// of a plain cell (nats).
 constexpr float kOffPlain = 0.36F, kPlain = 6.0F;
 
-/// Linear light at places on the marker, bilinear.
+/// Samples linear light on the marker, bilinearly.
 class Sampler {
  public:
   Sampler(ImageView<const std::uint8_t> grey, const LensGrid& lens,
@@ -48,7 +49,7 @@ class Sampler {
   const Mat3 undistorted_from_modules_;
 };
 
-/// White's light, a plane over the marker, and black's as a share of it.
+/// White light as a plane over the marker, and black as a share of it.
 struct PlainLight {
   float middle = 0.0F, by_column = 0.0F, by_row = 0.0F, black_share = 0.0F;
   float White(double column, double row) const {
@@ -60,7 +61,7 @@ struct PlainLight {
 
 std::optional<PlainLight> LightOf(const Sampler& sampler) {
   constexpr int kSamples = 4 * kAlongSide;
-  constexpr double kWhite = 0.5 * sg::kQuiet, kBlack = 1.5 * sg::kQuiet;  // Middles of the rings.
+  constexpr double kWhite = 0.5 * sg::kQuiet, kBlack = 1.5 * sg::kQuiet;  // Centres of the rings.
   struct Sample {
     double column, row;
     float light;
@@ -69,7 +70,7 @@ std::optional<PlainLight> LightOf(const Sampler& sampler) {
   const auto ring = [&](double first, std::array<Sample, kSamples>* samples) {
     constexpr double kMiddle = 0.5 * sg::kModules;
     for (int k = 0; k < kSamples; ++k) {
-      // Turned by a quarter from side to side, so that the places are as symmetric as the marker.
+      // Rotated by a quarter turn from side to side: the samples are as symmetric as the marker.
       double along = ((k / 4 + 0.5) / kAlongSide - 0.5) * sg::kEdge, across = first - kMiddle;
       for (int turn = 0; turn < k % 4; ++turn) {
         const double before = along;
@@ -126,7 +127,7 @@ std::optional<CellLikelihoods> SampleCellsFast(ImageView<const std::uint8_t> gre
   CellLikelihoods likelihoods{};
   for (int row = 0; row < sg::kCells; ++row) {
     for (int column = 0; column < sg::kCells; ++column) {
-      // The middle of the cell and the middles of its quarters.
+      // The centre of the cell and the centres of its quarters.
       constexpr std::array<Vec2, 5> kPlaces{{{2, 2}, {1, 1}, {3, 1}, {1, 3}, {3, 3}}};
       float share = 0.0F;
       for (const Vec2& place : kPlaces) {
@@ -141,7 +142,7 @@ std::optional<CellLikelihoods> SampleCellsFast(ImageView<const std::uint8_t> gre
       if (!(std::fabs(share - nearest) < kOffPlain)) return std::nullopt;
       const int cell = sg::CodeCell(column, row);
       if (cell < 0) {
-        if (nearest == 0.0F) return std::nullopt;  // The one in the middle is always white.
+        if (nearest == 0.0F) return std::nullopt;  // The central cell is always white.
         continue;
       }
       likelihoods[cell] = kPlain * (2.0F * nearest - 1.0F);

@@ -8,23 +8,24 @@
 namespace pleinair::tracker {
 namespace {
 
-/// How much likelier than the next the number of a marker must be, in nats.
+/// Minimum decision margin of a marker's number over the second, in nats.
 constexpr float kMinMargin = 8.0F;
-/// Wrong cells from which on something may cover them, how much more must tell for a number that is
-/// read beneath it than for the next, and what a bit is as a margin (SoftGolayDecoding::margin).
+/// Minimum number of wrong cells that an occluder may explain; minimum evidence for a number read
+/// under an occluder beyond the second; a bit as a margin (SoftGolayDecoding::margin).
 constexpr int kMinHidden = 2;
 constexpr double kMinApart_bits = 8.0, kMarginPerBit = 2.0 * std::numbers::ln2;
-/// Share of the border that tells the light over the whole marker; and what it takes off a proof
-/// that the cells themselves had to tell it.
+/// Visible share of the border that determines the light of the whole marker; deduction from the
+/// confidence if the cells had to determine it instead.
 constexpr double kVisibleForLight = 0.8, kSplitPenalty_bits = 2.0;
-/// The same where so much of the border shows a light without clipping and edges of shadows: cells
-/// that part otherwise contradict it, and what covers half of them has a color of its own.
+/// Visible share of the border that shows a light without clipping and shadow edges. A split of the
+/// cells then contradicts that light, and an occluder of half of the cells has a color of its own,
+/// so more bits are deducted.
 constexpr double kShowsLight = 0.5, kSplitAgainstLight_bits = 6.0;
-/// What glare takes off the proof where the border is plainly a marker's: nothing lies on the cells
-/// that it drowns, so that twelve plain ones are enough, and the blocks that it touches look less
-/// like the marker without being covered.
+/// Added to the confidence under glare if the border clearly is a marker's. Nothing lies on the
+/// cells that glare saturates, so twelve plain cells suffice. The blocks in glare match the marker
+/// less well without being occluded.
 constexpr double kDrowned_bits = 1.0;
-constexpr double kShowsGlare = 0.3;  ///< Share of the border that makes glare worth solving for.
+constexpr double kShowsGlare = 0.3;  ///< Minimum visible share of the border for solving for glare.
 
 }  // namespace
 
@@ -40,7 +41,7 @@ std::optional<DecodedNumber> NumberDecoder::Decode(const MarkerPattern& blank,
       if (margin < kMinMargin || (best && bits <= best->confidence_bits)) return;
       best = {number, margin, bits};
     };
-    // A number in use must not be one that many others would beat.
+    // The decision margin is reduced if many numbers that are not in use match better.
     take(decoding.number, decoding.margin - decoding.shortfall,
          ConfidenceBits(likelihoods, decoding.number, in_use_.NumbersInUse()) - penalty_bits -
              AmbiguityBits(by_light != nullptr ? *by_light : likelihoods, decoding.number,
@@ -49,15 +50,15 @@ std::optional<DecodedNumber> NumberDecoder::Decode(const MarkerPattern& blank,
         in_use_.NumbersInUse() > kMinNumbersForConfidence) {
       return;
     }
-    // Plainly a marker, and of the few that it can be one alone, if something that looks like ink
-    // or paper lies on it.
+    // The border clearly is a marker's, and only one of the few possible numbers fits if something
+    // like ink or paper lies on it.
     const auto covered = ReadUnderCover(likelihoods, in_use_, any_number_);
     if (covered && covered->apart_bits >= kMinApart_bits) {
       take(covered->number, static_cast<float>(kMarginPerBit * covered->apart_bits),
            covered->confidence_bits - penalty_bits);
     }
   };
-  // Several explanations of the light; the one that proves its number best is taken.
+  // There are several explanations of the light; the one with the most confident number wins.
   for (const bool brightest : {false, true}) {
     MarkerLight light;
     if (!light_estimator_.Measure(blank, border.fit, border.observed, brightest, &light)) break;
@@ -65,13 +66,13 @@ std::optional<DecodedNumber> NumberDecoder::Decode(const MarkerPattern& blank,
     cell_reader_.ReadCells(blank, border.fit, border.observed, state, light, false, &cells);
     decode(cells.likelihoods, 0.0);
     if (best && best->margin > kSafeMargin) break;
-    // Where the border shows the light well, a cell that is neither black nor white is covered.
+    // Where the border shows the light well, a cell that is neither black nor white is occluded.
     if (visible_border < kVisibleForLight || light.white_clips || light.edge) {
       const bool against_light = visible_border > kShowsLight && !light.white_clips && !light.edge;
       const CellSplits splits = SplitCells(cells);
       for (int i = 0; i < splits.count; ++i) {
         if (against_light) {
-          // What the light says is covered leaves open which of two prints lies there.
+          // Cells that are occluded under that light do not decide between two markers.
           decode(splits.likelihoods[i], kSplitAgainstLight_bits, &cells.likelihoods);
         } else {
           decode(splits.likelihoods[i], kSplitPenalty_bits);

@@ -7,9 +7,9 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Predicted shares of white that far apart are the same.
+/// Difference of predicted shares of white below which they count as equal.
 constexpr float kEven = 0.02F;
-/// Median of |x - y| of two Gaussian numbers over their standard deviation: √2 Φ⁻¹(3/4).
+/// Median of |x - y| of two Gaussian numbers, divided by their standard deviation: √2 Φ⁻¹(3/4).
 constexpr double kMedianDifference = 0.9539;
 
 template <typename T>
