@@ -11,16 +11,16 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kFirstSteps = 2, kGuessSteps = 5;
-/// Guesses of the S-G search that are looked at together; of which so many are fitted, and so many
-/// may turn out not to be readable, before the others are given up.
+/// Number of S-G search hypotheses that are ranked together; the maximum number that is fitted; the
+/// maximum number that may prove unreadable before the search ends.
 constexpr int kGuessesAtOnce = 14, kMaxFits = 9, kMaxFailures = 4;
-/// Votes times fit that make a guess worth more than a glance. In images without a marker a
-/// quarter of the best guesses is.
+/// Minimum product of votes and fit that makes a hypothesis worth a fit. In images without a marker
+/// a quarter of the best hypotheses reach it.
 constexpr double kMinWorth = 1.2;
-/// Correlation of a guess's border, pixel by pixel, that makes it worth reading as it is. (Of 3,530
-/// guesses in images without a marker none had more than 0.27.)
+/// Minimum correlation of a hypothesis's border, pixel by pixel, that makes it worth decoding
+/// without a fit. In images without a marker none of 3,530 hypotheses had more than 0.27.
 constexpr double kPlainGuess = 0.3;
-/// Share of the border that must look right after a guess was fitted coarsely.
+/// Minimum share of the border that matches after the coarse fit of a hypothesis.
 constexpr double kGuessedVisible = 0.15;
 
 }  // namespace
@@ -39,7 +39,7 @@ bool BorderFinder::Find(ImageView<const std::uint8_t> grey, BorderSearch::Sizes 
       taken_.push_back(found.reading.corners.px);
     search_->Find(grey, taken_, sizes, refill, &guesses_);
     tried_.clear();
-    // As long as guesses turn out to be markers, more of them may.
+    // While hypotheses prove to be markers, more of them may.
     for (std::size_t first = 0; first < guesses_.size(); first += kGuessesAtOnce) {
       const std::size_t count = std::min<std::size_t>(kGuessesAtOnce, guesses_.size() - first);
       if (!TryGuesses(std::span(guesses_).subspan(first, count))) break;
@@ -52,7 +52,7 @@ bool BorderFinder::Find(ImageView<const std::uint8_t> grey, BorderSearch::Sizes 
 }
 
 bool BorderFinder::TryGuesses(std::span<const BorderGuess> guesses) {
-  // A few steps of the fit tell most wrong guesses from those that are worth more.
+  // A few steps of the fit separate most wrong hypotheses from the better ones.
   ranked_guesses_.clear();
   for (const BorderGuess& guess : guesses) {
     if (image_.found.IsTaken(guess.modules_from_undistorted)) continue;
@@ -62,7 +62,7 @@ bool BorderFinder::TryGuesses(std::span<const BorderGuess> guesses) {
     const double correlation =
         image_.reader.FitBorder(kFirstSteps, SgReader::Detail::kProbe, &ranked.state);
     ranked.rank = guess.votes * (correlation + image_.reader.VisibleBorder());
-    // Covers draw a fit away that the border's pixels are plainly observed without.
+    // An occluder may draw the fit away although the pixels of the border match clearly.
     const double observed = image_.upright.UprightCorrelation(ranked.guess);
     ranked.plain = observed >= kPlainGuess;
     if (ranked.plain) ranked.rank = std::max(ranked.rank, 2.0 * guess.votes * observed);
@@ -106,7 +106,7 @@ std::optional<SgReading> BorderFinder::DecodeFitted(BlockFitState* state, bool* 
   *tried = true;
   std::optional<SgReading> reading = image_.reader.DecodeFast(*state);
   if (!reading) reading = image_.reader.DecodeFull(*state);
-  // Covers that look like ink or paper draw a fine fit away from a guess that was better.
+  // An occluder that looks like ink or paper draws a fine fit away from a better hypothesis.
   if (!reading && image_.upright.UprightCorrelation(*state) > kPlainBorder)
     reading = image_.DecodeAsGuessed(*state);
   return reading;

@@ -13,10 +13,11 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr double kMiddle = 0.5 * sg::kModules;
-/// Matches farther apart than this (of unit descriptors) say nothing.
+/// Maximum distance of unit descriptors that match; larger ones are no evidence.
 constexpr double kMaxDistance = 0.75;
 constexpr double kMin_px = 14.0, kMaxShare = 1.6;  ///< Of the image's height.
-constexpr double kSamePlace = 0.12;  ///< Guesses closer than this, in shares of size, are one.
+constexpr double kSamePlace =
+    0.12;  ///< Minimum distance of two distinct hypotheses, in shares of their size.
 
 Vec2 ApplyAffine(const std::array<double, 6>& m, Vec2 p) {
   return {m[0] * p.x + m[1] * p.y + m[2], m[3] * p.x + m[4] * p.y + m[5]};
@@ -151,8 +152,8 @@ void BorderSearch::Gather(std::vector<BorderGuess>* guesses) {
 
 bool BorderSearch::FitGuess(const std::vector<int>& members, const BorderVote& seed,
                             BorderGuess* guess) {
-  // Least squares of an affine image on all that agree, held towards the seed's own shape: what a
-  // match of one view implies is already near, and few matches tell little more.
+  // Least squares of an affine map on all agreeing matches, with the seed's own shape as a prior. A
+  // match of one view is already near, and a few matches add little.
   double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   Vec2 by_one, by_x, by_y;
   const auto add = [&](Vec2 modules, Vec2 undistorted, double weight) {

@@ -18,18 +18,19 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Tilts (1 / cos of the angle) and how many directions of each.
+/// Tilts (1 / cos of the angle) and the number of directions of each.
 struct Tilt {
   double tilt;
   int directions;
 };
 constexpr std::array<Tilt, 6> kTilts{
     {{1.0, 1}, {1.42, 4}, {2.0, 5}, {2.85, 7}, {4.0, 9}, {5.6, 10}}};
-/// Edge of the untilted square in px: near and far.
+/// Edge of the untilted marker square: near and far.
 constexpr std::array<double, 2> kEdges_px{150.0, 60.0};
-constexpr int kDraws = 4;            ///< Contents and surroundings that are tried,
-constexpr int kComesBack = 3;        ///< … of which a keypoint must be found in so many.
-constexpr double kMargin_px = 24.0;  ///< Of surroundings around the marker.
+constexpr int kDraws = 4;  ///< Number of random contents and surroundings;
+constexpr int kComesBack =
+    3;  ///< … and the minimum number of them in which a keypoint must be found.
+constexpr double kMargin_px = 24.0;  ///< Surroundings around the marker.
 constexpr double kBlur_px = 0.7;
 constexpr double kInk = 0.04, kPaper = 0.8;
 constexpr int kMaxKeypoints = 200;
@@ -46,7 +47,7 @@ class TemplateMaker {
   BorderTemplates Make() {
     for (const double edge : kEdges_px) {
       for (const Tilt& tilt : kTilts) {
-        // Far and very flat, a border has no keypoints left.
+        // Far and at a large tilt, a border has no keypoints.
         if (edge < 100.0 && tilt.tilt > 3.0) continue;
         for (int k = 0; k < tilt.directions; ++k) {
           AddView(edge, tilt.tilt, std::numbers::pi * k / tilt.directions);
@@ -129,7 +130,7 @@ class TemplateMaker {
     keypoint.angle_rad = std::atan2(sine, cosine);
     const Vec3 modules = modules_from_view * Vec3{keypoint.view.x, keypoint.view.y, 1.0};
     keypoint.modules = {modules.x, modules.y};
-    // What lies off the marker, or is drowned in the content, tells nothing.
+    // A keypoint off the marker, or dominated by the content, is no evidence.
     if (keypoint.modules.x < 0 || keypoint.modules.x > sg::kModules || keypoint.modules.y < 0 ||
         keypoint.modules.y > sg::kModules) {
       return;

@@ -10,9 +10,10 @@
 namespace pleinair::tracker {
 namespace {
 
-/// The corners of cells are looked for in an image of at most this width.
+/// Maximum width of the image in which the corners of cells are searched for.
 constexpr int kMaxLatticeWidth_px = 900;
-/// Correlation with the border of which little is observed; placements that are read.
+/// Minimum correlation with a mostly occluded border; maximum number of placements that are
+/// decoded.
 constexpr double kCoveredCorrelation = 0.1;
 constexpr std::size_t kMaxPlacements = 6;
 }  // namespace
@@ -25,7 +26,7 @@ void CellFinder::Find(int image_width) {
   lattice_.Find(image_.upright.reduced().Level(level), 1 << level, &lattices_);
   placements_.clear();
   for (const LatticeGuess& guess : lattices_) {
-    // A row of cells without a corner may be at either end: also one cell to each side.
+    // A row of cells without a corner may be at either end: try one cell to each side too.
     for (int shift = 0; shift < 9; ++shift) {
       Mat3 by;
       const int column = shift % 3 - 1, row = shift / 3 - 1;

@@ -6,14 +6,16 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Predicted shares of white well inside a shape, and observed ones that are of the other color
-/// there.
+/// Limits of the predicted share of white well inside a shape, and of the observed one that is of
+/// the other color there.
 constexpr float kWhite = 0.95F, kBlack = 0.05F, kDark = 0.6F, kDarkest = 0.2F;
-/// The same on edges that tell.
+/// The same on edges that are reliable.
 constexpr float kEdgeWhite = 0.35F, kEdgeBlack = 0.5F, kEdgeNoise = 0.1F;
-/// Ink is as dark in the shade as it is in the light: what is lighter by more than noise is none.
+/// Limits of the share of white on black. Ink is as dark in shadow as in light: what is lighter by
+/// more than noise is no ink.
 constexpr float kMinLight = 0.15F, kMaxLight = 0.4F, kNoises = 5.0F;
-/// A pixel's own square beside the blur, and how many standard deviations an edge reaches.
+/// Standard deviation of a pixel's own square, beside the blur; reach of an edge, in standard
+/// deviations.
 constexpr double kPixelSigma_px = 0.29, kReachSigmas = 2.0;
 
 }  // namespace
@@ -52,7 +54,7 @@ void CoverMask::Lay(const BlockFit& fit, double blur_px, Edges edges, ObservedPa
                   (predicted < kEdgeBlack && share > predicted + min_light_)
             : (predicted > kWhite && share < dark) || (predicted < kBlack && share > min_light_);
   }
-  // Along rows, then along columns, each pixel keeps those within reach from counting.
+  // Along rows, then along columns, each occluded pixel excludes those within reach.
   const auto spread = [&](const std::vector<unsigned char>& from, int count, int step, int lines,
                           int line_step, std::vector<unsigned char>* to) {
     for (int line = 0; line < lines; ++line) {

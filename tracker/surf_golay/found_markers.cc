@@ -7,7 +7,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Of the side: two fits that are so far apart are surely not one.
+/// Distance of two fits, in shares of the side, above which they are certainly two markers.
 constexpr double kOtherPlace = 0.15;
 
 bool Inside(const std::array<Vec2, 4>& quad, Vec2 point) {
@@ -23,8 +23,8 @@ Vec2 CentreOf(const std::array<Vec2, 4>& quad) {
   return (quad[0] + quad[1] + quad[2] + quad[3]) * 0.25;
 }
 
-/// Whether a reading of which little is observed lies, otherwise, where the border of a marker lies
-/// open: what covers its cells then passed for another's.
+/// Whether a reading with a small visible share lies, with other corners, on the unoccluded border
+/// of a marker. An occluder of that marker's cells was then read as another marker's.
 bool ContradictsBorder(const SgReading& reading, std::span<const Mat3> unread_borders) {
   if (reading.visible_fraction >= kSurelyVisible) return false;
   const std::array<Vec2, 4> corners = UndistortedSquareCorners(reading.modules_from_undistorted);
@@ -51,7 +51,7 @@ bool FoundMarkers::IsTaken(const Mat3& modules_from_undistorted, double visible)
 bool FoundMarkers::Add(const SgReading& reading, DetectionPath path,
                        std::span<const Mat3> unread_borders) {
   if (ContradictsBorder(reading, unread_borders)) return false;
-  // Two prints cannot lie in one place: the one of which more is observed is there.
+  // Two markers cannot be in one place: the one with the larger visible share is there.
   const std::array<Vec2, 4> corners = UndistortedSquareCorners(reading.modules_from_undistorted);
   for (FoundMarker& found : markers_) {
     const std::array<Vec2, 4>& other = found.corners_undistorted;

@@ -7,8 +7,8 @@
 namespace pleinair::tracker {
 namespace {
 
-/// A marker that was not observed for so many frames is forgotten; a search for its border is tried
-/// in each of the first few and then now and then.
+/// Frames after which a marker that is not observed is forgotten; first frames in which its border
+/// is searched for each time. After these the search is occasional.
 constexpr int kForgetAfter = 90, kSearchAtOnce = 5;
 
 }  // namespace
@@ -46,7 +46,7 @@ void KnownMarkers::Remember(const std::vector<FoundMarker>& found) {
   for (const FoundMarker& marker : found) {
     const SgReading& reading = marker.reading;
     const std::array<Vec2, 4> corners = UndistortedSquareCorners(reading.modules_from_undistorted);
-    // The nearest of its number: a number may hang in two places.
+    // The nearest marker of its number: a number may be in two places.
     KnownMarker* same = nullptr;
     for (KnownMarker& known : markers_) {
       if (known.number != reading.number || known.frames_unseen == 0) continue;

@@ -9,9 +9,10 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kFineSide_px = 100.0;  ///< Of a marker that is measured.
-/// Blur of a reduced image below which its edges tell their places no more: a pixel then sees
-/// much the same wherever in it the edge lies.
+constexpr double kFineSide_px = 100.0;  ///< Maximum side at which a marker is measured, unless its
+                                        ///< blur is too small for a reduced image.
+/// Minimum blur in a reduced image. Below it edges do not determine their position: a pixel's value
+/// hardly depends on where in the pixel the edge lies.
 constexpr double kSharpestReduced_px = 0.2;
 constexpr double kMaxClippedShare = 0.08;  ///< Share of pixels.
 constexpr std::size_t kMaxPixels = 400'000;
@@ -74,7 +75,7 @@ bool MarkerWindows::TakeFine(const BlockFitState& state, PixelWindow* window,
     ++level;
   }
   level = std::min(std::max(level, halvings_for_noise_), ReducedImages::kLevels - 1);
-  // The largest prints take more pixels than there is room for.
+  // The largest markers have more pixels than the maximum.
   while (!Window(state.modules_from_undistorted, level, window)) {
     if (++level >= ReducedImages::kLevels) return false;
   }
@@ -83,8 +84,8 @@ bool MarkerWindows::TakeFine(const BlockFitState& state, PixelWindow* window,
     TakeLinearWindow(lens_, grey_, *window, observed,
                      noisy ? Clipping::kByNoise : Clipping::kByLight);
     if (level == 0) return true;
-    // A reduced pixel is lost when one of its pixels is clipped by light: where many are, the
-    // image's own tell more.
+    // A reduced pixel is lost if light clips one of its pixels. Where many are lost, the full-size
+    // pixels are better evidence.
     const auto clipped =
         std::count(observed->inverse_variance.begin(), observed->inverse_variance.end(), 0.0F);
     if (clipped < kMaxClippedShare * static_cast<double>(window->size())) return true;

@@ -9,10 +9,10 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr int kBandFirst = 2, kBandLast = 9;  ///< Rings of modules that are looked at.
+constexpr int kBandFirst = 2, kBandLast = 9;  ///< First and last ring of modules that are sampled.
 
-/// Place of a module when the marker is turned clockwise `k` times a quarter, mirrored before from
-/// 4 on.
+/// Position of a module after `k` quarter turns of the marker clockwise; from 4 on, the marker is
+/// mirrored first.
 std::array<int, 2> Turned(int column, int row, int k) {
   if (k >= 4) column = sg::kEdge - 1 - column;
   for (int i = 0; i < k % 4; ++i) {
@@ -69,7 +69,7 @@ std::array<BorderOrientation, 2> OrientationTest::Evaluate(ImageView<const std::
     const float w = 1.0F / (h[6] * u_[i] + h[7] * v_[i] + h[8]);
     const float x = (h[0] * u_[i] + h[1] * v_[i] + h[2]) * w + 0.5F;
     const float y = (h[3] * u_[i] + h[4] * v_[i] + h[5]) * w + 0.5F;
-    // In this order what is not a number becomes 0 as well.
+    // This order of the operands turns NaN into 0 too.
     x_[i] = static_cast<std::int32_t>(std::min(right, std::max(0.0F, x)));
     y_[i] = static_cast<std::int32_t>(std::min(bottom, std::max(0.0F, y)));
   }
@@ -89,8 +89,8 @@ std::array<BorderOrientation, 2> OrientationTest::Evaluate(ImageView<const std::
     BorderOrientation here;
     here.correlation = products[k] / spread;
     here.mirrored = k >= 4;
-    // The marker's top-left corner, turned k times clockwise, lies at the quadrilateral's corner k;
-    // mirrored before, it begins at the next.
+    // After k clockwise turns the marker's top-left corner lies at the quadrilateral's corner k. A
+    // mirrored one begins at the next corner.
     here.first_corner = k < 4 ? k : (k + 1) % 4;
     if (here.correlation > best[0].correlation) {
       best[1] = best[0];

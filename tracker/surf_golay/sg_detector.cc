@@ -8,16 +8,16 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Correlation of a quadrilateral with the border that makes it worth a fit, by single pixels and
-/// after one.
+/// Minimum correlation of a quadrilateral with the border: by single pixels; its maximum deficit
+/// against the best orientation; and after a fit.
 constexpr double kProbedCorrelation = 0.35, kRivalCorrelation = 0.12, kFittedCorrelation = 0.45;
 constexpr int kQuadSteps = 4;
-/// Frames between two searches for markers that are new: for quadrilaterals, for borders of which
-/// something is covered, and for those while a marker that was there is missing.
+/// Frames between two searches for new markers: for quadrilaterals, for occluded borders, and for
+/// the latter while a known marker is missing.
 constexpr int kFastEvery = 5, kSearchEvery = 30, kMissingSearchEvery = 15;
 constexpr double kTrackedVisible = 0.12;
-/// Where so little is left of what the frame before showed, the marker may have jumped and be
-/// followed to a wrong place, rather than a cover have come.
+/// Visible share, relative to the frame before, below which a marker is searched for again. It may
+/// have jumped and be tracked to a wrong place, rather than be occluded.
 constexpr double kCoveredAtOnce = 0.85;
 
 }  // namespace
@@ -133,7 +133,7 @@ void SgDetector::SearchImage(ImageView<const std::uint8_t> grey) {
     return;
   }
   const bool any = borders_.Find(grey, BorderSearch::Sizes::kLarge);
-  // Among several there may be small ones.
+  // Among several markers there may be small ones.
   if (any && image_.found.markers().size() < kMinFoundToSearchOn) return;
   if (!borders_.Find(grey, BorderSearch::Sizes::kAll, any) && !any) cells_.Find(grey.width());
 }

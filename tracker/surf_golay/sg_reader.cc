@@ -13,48 +13,51 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kProbeSide_px = 36.0;  ///< Longest side of a marker that is only glanced at.
-/// Correlation of a border below which it is looked for in a reduced image as well, how much
-/// better it must be observed there, and the side that must be left of it.
+constexpr double kProbeSide_px = 36.0;  ///< Maximum side of a marker that is only probed.
+/// Correlation of a border below which a reduced image is tried too; the minimum increase of the
+/// correlation there; the minimum side of the reduced marker.
 constexpr double kNoisyCorrelation = 0.65, kClearer = 0.3, kMinReducedSide_px = 30.0;
 constexpr double kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
-/// The sharpest marker's blur is found from one this large in a few steps.
+/// Maximum blur at which the fit starts; from it the fit reaches the sharpest marker's blur in a
+/// few steps.
 constexpr double kMaxPlainBlur_px = 1.2;
-/// Share of a marker that lies open: what covers one side only can draw the fit to its own edge.
+/// Minimum visible share: an occluder of one side alone can draw the fit to its own edge.
 constexpr double kPlainVisible = 0.985;
 constexpr double kMinSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
 constexpr double kMinVisibleBorder = 0.06;
-constexpr double kOpenBorder = 0.9;  ///< Share that looks right of a border that nothing covers.
+constexpr double kOpenBorder = 0.9;  ///< Minimum matching share of an unoccluded border.
 constexpr int kReadSteps = 4;
-/// Corners that far apart put a cell's middle where it was: cells need not be read again.
+/// Maximum distance of corners between two fits whose cells need not be decoded again.
 constexpr double kSameCells_modules = 0.5;
-/// Noise, in shares of white, from which on pixels are weighed by what is predicted of them, and
-/// steps of the fit with these weights.
+/// Noise, in shares of white, from which on pixels are weighted by their predicted variance; steps
+/// of the fit with these weights.
 constexpr double kPlainNoise = 0.02;
 constexpr int kNoisySteps = 3;
 constexpr int kFollowSteps = 4;
 constexpr double kFarFollowBlur_px = 0.9, kFollowBlur_px = 0.3;
-/// Correlation of a followed marker that surely is where it was looked for.
+/// Correlation of a tracked marker that certainly is at the predicted position.
 constexpr double kExpected = 0.95;
-/// Mean correlation of the content's blocks that makes a followed marker's number sure, and likely.
+/// Mean correlation of the content's blocks at which a tracked marker's number is certain, and
+/// likely.
 constexpr double kContentSure = 0.9, kContentRight = 0.4;
-/// Margin of a number that is plain to see, in nats: eight cells of 6 nats, either way, at least.
+/// Decision margin of a clearly visible number, in nats: at least eight cells of 6 nats, either
+/// way.
 constexpr float kPlainMargin = 96.0F;
-/// Share of a marker that must be observed at least where its number is known, and where nothing
-/// tells that it is still that.
+/// Minimum visible share of a tracked marker: if its number is known, and if no evidence confirms
+/// the number.
 constexpr double kBarelyVisible = 0.1, kWellVisible = 0.3;
 constexpr double kMiddle = 0.5 * sg::kModules;
 
-/// Step of a fit from nearby, in pixels, that is short enough to be the last: it leaves a fortieth
-/// of itself. Of large prints, whose corners are told best, that must be less; of small ones noise
-/// moves the corners by more.
+/// Length in pixels of a step, from nearby, that may be the last: the remaining error is a fortieth
+/// of it. Large markers determine their corners best and need a shorter step. Noise moves the
+/// corners of small ones by more.
 double LastStepPx(double side_px) {
   constexpr double kSmall_px = 90.0, kLarge_px = 130.0;
   return side_px < kSmall_px ? 0.06 : side_px < kLarge_px ? 0.04 : 0.02;
 }
 
-/// How far apart two homographies put the corners of a marker, in modules.
+/// Maximum distance of a marker's corners under two homographies, in modules.
 double ModulesApart(const Mat3& modules_from_undistorted,
                     const Mat3& other_modules_from_undistorted) {
   const Mat3 other = modules_from_undistorted * Adjugate(other_modules_from_undistorted);
@@ -66,9 +69,9 @@ double ModulesApart(const Mat3& modules_from_undistorted,
   return farthest;
 }
 
-/// Whether a reading explains more of the marker than another of the same number. What covers the
-/// border has edges that pass for the outer ones, but nothing passes for what lies inside: only
-/// where that fits alike, how much is observed decides.
+/// Whether a reading explains more of the marker than another of the same number. An occluder of
+/// the border has edges that resemble the outer ones, but none that resemble the inside. Only if
+/// the inside fits alike, the visible share decides.
 bool Explains(const SgReading& reading, const SgReading& other) {
   constexpr double kAlike = 0.01;
   const double better = reading.inner_correlation - other.inner_correlation;
@@ -114,7 +117,7 @@ double SgReader::FitBorderThroughNoise(int steps, BlockFitState* state) {
   const BlockFitState guess = *state;
   windows_.SetHalvingsForNoise(0);
   double correlation = FitBorder(steps, Detail::kFine, state);
-  // Noise averages out; what a cover hides does not come back.
+  // Reduction averages out noise, but does not restore what an occluder hides.
   while (correlation > 0.0 && correlation < kNoisyCorrelation &&
          windows_.SidePx(guess.modules_from_undistorted) / (2 << windows_.halvings_for_noise()) >
              kMinReducedSide_px) {
@@ -167,8 +170,8 @@ std::optional<SgReading> SgReader::Track(int number, const BlockFitState& guess)
     return fitted_.fit.Run(patterns_.OfNumber(number), MarkerPart::kWhole, fitted_.observed, blocks,
                            options, &state);
   };
-  // Much blur finds a marker from farther away, less of it nearer to where it is, which mostly is
-  // where it was expected.
+  // A large blur finds a marker from farther away. A small one finds it near the predicted
+  // position, where it mostly is.
   if (!fit(kFollowBlur_px) || fitted_.fit.Correlation() < kExpected) {
     state = guess;
     if (!fit(kFarFollowBlur_px) || !fit(kFollowBlur_px)) return std::nullopt;
@@ -176,7 +179,7 @@ std::optional<SgReading> SgReader::Track(int number, const BlockFitState& guess)
   state.blur_px = guess.blur_px;
   std::optional<SgReading> reading = Measure(number, state, LastStepPx(side));
   if (!reading || reading->visible_fraction < kBarelyVisible) return std::nullopt;
-  // By the code: where the content is observed it must be this number's.
+  // Check the code: where the content is observed, it must be this number's.
   double right = 0.0, observed = 0.0;
   const int along = fitted_.fit.blocks_along();
   for (int row = 0; row < along; ++row) {
@@ -195,8 +198,8 @@ std::optional<SgReading> SgReader::Track(int number, const BlockFitState& guess)
   reading->margin = NumberDecoder::kSafeMargin;
   RefineBeneathCovers(&*reading);
   if (observed > 0.0 && right > kContentSure * observed) return reading;
-  // Something covers the content, unless it is that of another marker: numbers share up to two
-  // thirds of their cells.
+  // Something occludes the content, or it is another marker's: two numbers share up to two thirds
+  // of their cells.
   const std::optional<SgReading> other =
       DecodeFull({reading->modules_from_undistorted, reading->blur_px});
   if (other && other->number != number) return std::nullopt;
@@ -235,7 +238,7 @@ std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess, int bo
   BlockFitState state = guess;
   state.blur_px = kFirstBlur_px;
   FitBorderThroughNoise(border_steps, &state);
-  // Where nearly all of the border is covered no block of it may look right as a whole.
+  // Where nearly all of the border is occluded, it may have no block that matches as a whole.
   if (border_steps > 0 && VisibleBorder() < kMinVisibleBorder) return std::nullopt;
   std::optional<DecodedNumber> number = DecodeNumber(state);
   if (!number) {
@@ -245,12 +248,12 @@ std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess, int bo
   std::optional<SgReading> reading = Measure(number->number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kNearlyAllVisible) {
-    // What covers the border has edges of its own, which can pass for the marker's; the content,
-    // known by now, pulls the fit away from them if that explains more.
+    // An occluder of the border has edges of its own that resemble the marker's. The decoded
+    // content pulls the fit away from them, if that explains more.
     BlockFitState by_content = state;
     if (FitContent(number->number, &by_content)) {
       std::optional<SgReading> other = Measure(number->number, by_content);
-      // From a guess of another size it was cut into other blocks, which compare with none.
+      // A guess of another size has other blocks, which are not comparable.
       if (other && other->blocks_along != reading->blocks_along) DescribeAnew(&*other);
       if (other && Explains(*other, *reading)) reading = std::move(other);
     }
@@ -258,7 +261,7 @@ std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess, int bo
   RefineBeneathCovers(&*reading);
   if (ModulesApart(state.modules_from_undistorted, reading->modules_from_undistorted) >
       kSameCells_modules) {
-    // Where the marker turned out to lie its cells must still tell the same.
+    // At the measured position the cells must decode to the same number.
     BlockFitState measured{reading->modules_from_undistorted, reading->blur_px};
     const int read_first = number->number;
     FitBorder(0, Detail::kFine, &measured);
@@ -288,7 +291,7 @@ void SgReader::MeasureThroughNoise(int number, BlockFitOptions options, BlockFit
                                    SgReading* reading) {
   fitted_.fit.UsePredictedVariance(&fitted_.observed);
   options.steps = kNoisySteps;
-  // What the first fit found is still to be judged.
+  // The result of the first fit is still to be validated.
   if (!other_.fit.Run(patterns_.OfNumber(number), MarkerPart::kWhole, fitted_.observed,
                       fitted_.fit.blocks_along(), options, &state)) {
     return;

@@ -1,4 +1,4 @@
-// How SgReader measures prints that are partly covered.
+// How SgReader measures partly occluded markers.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,9 +12,10 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kContentSteps = 4;
-/// Beneath covers: noise of the black, as a share of white, where the light is not told, and of the
-/// white below which edges tell covers; steps and robust shares of the fits, the latter at least so
-/// many times the noise; and what of the correlation inside may be lost by them.
+/// Under occluders: maximum noise of the black, in shares of white, of a usable light model; noise
+/// of the white below which edges indicate occluders reliably; steps of the fits; their robust
+/// shares, and the minimum ratio of these to the noise; maximum loss of inner correlation by the
+/// fits.
 constexpr double kMaxUncertainBlack = 0.25, kPlainWhite = 0.1;
 constexpr int kBeneathSteps = 6;
 constexpr std::array<double, 2> kBeneathShares{0.3, 0.15};
@@ -29,7 +30,7 @@ int SgReader::FineBlocks(const PixelWindow& window, const BlockFitState& state) 
 }
 
 bool SgReader::FitContent(int number, BlockFitState* state) {
-  // Coarsely first: a fit that a cover has drawn away may be half a cell off.
+  // Coarsely first: an occluder may have drawn the fit away by half a cell.
   for (const Detail detail : {Detail::kCoarse, Detail::kFine}) {
     PixelWindow window;
     const bool taken = detail == Detail::kCoarse
@@ -112,7 +113,8 @@ std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockF
     if (!fit(sharp)) return std::nullopt;
     if (light.white_noise < kPlainWhite) edges = CoverMask::Edges::kReliable;
   }
-  // Covers throw shadows, too: at last each block has its own light again, and all of them a slope.
+  // Occluders cast shadows too: in the last fit each block has its own light again, and all have a
+  // common slope.
   options.fit_light = true;
   cover_.Lay(fitted_.fit, state.blur_px / window.Scale(), edges, &fitted_.observed);
   cover_.RestoreValues(&fitted_.observed);

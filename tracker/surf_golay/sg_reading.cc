@@ -11,12 +11,12 @@
 namespace pleinair::tracker {
 namespace {
 
-constexpr double kMinInformativeShare = 0.15;  ///< Blocks that count at least, as a share of all.
-/// What no residual tells: flatness of the marker, calibration, the lens's blur that is no
-/// Gaussian.
+constexpr double kMinInformativeShare = 0.15;  ///< Minimum share of blocks that count.
+/// Corner error that no residual shows: flatness of the marker, calibration, non-Gaussian blur of
+/// the lens.
 constexpr double kSystematicCorner_px = 0.002;
 
-/// Correlation of the blocks that do not touch the marker's edge, by their contrast.
+/// Mean correlation of the blocks that do not touch the marker's edge, weighted by contrast.
 double InnerCorrelation(const BlockFit& fit) {
   const int side = fit.blocks_along();
   double sum = 0.0, share = 0.0;
@@ -32,8 +32,8 @@ double InnerCorrelation(const BlockFit& fit) {
   return share > 0.0 ? sum / share : 0.0;
 }
 
-/// Blocks where the marker is plain tell nothing by themselves: they take the mean of those around
-/// them that tell something.
+/// A block in a uniform part of the marker is no evidence by itself: it takes the mean of the
+/// informative blocks around it.
 void JudgePlainBlocks(const BlockFit& fit, std::vector<float>* visible) {
   const std::vector<MarkerBlock>& blocks = fit.blocks();
   const int side = fit.blocks_along();
@@ -65,7 +65,7 @@ void DescribeAppearance(const BlockFit& fit, SgReading* reading) {
   reading->visible.clear();
   double observed = 0.0, all = 0.0;
   for (const MarkerBlock& block : fit.blocks()) {
-    // Blocks that clip all over, or lie outside the image, tell nothing.
+    // Blocks that clip completely, or lie outside the image, are no evidence.
     const bool informative = block.contrast > fit.min_contrast();
     const double visible =
         informative ? std::clamp((block.correlation - 0.4) / 0.4, 0.0, 1.0) : 0.0;
@@ -88,7 +88,7 @@ void DescribeFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState&
 
 SgCorners CornersOfFit(const LensGrid& lens, const BlockFit& fit, const BlockFitState& state) {
   SgCorners told;
-  // The corners, their plane's second axis down as the fit has it.
+  // The corners in the fit's frame: the second axis of the plane points down.
   const Mat3 undistorted_from_modules = Adjugate(state.modules_from_undistorted);
   const auto pixel_of = [&](Vec2 unit_down) {
     return lens.PixelOfUndistorted(

@@ -7,9 +7,9 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr double kProbeSide_px = 70.0;
-/// Correlation of its border, pixel by pixel, below which a marker of which not even so much is
-/// observed (kSurelyVisible) is a little beside. (Of 108 the one that was had .16, of the others
-/// none less than .34.)
+/// Minimum correlation of the border, pixel by pixel, for a marker with a visible share below
+/// kSurelyVisible. A lower one means that the reading is slightly displaced. Of 108 such markers
+/// the one displaced had 0.16, the others 0.34 or more.
 constexpr double kShiftedCorrelation = 0.25;
 
 }  // namespace
@@ -40,11 +40,11 @@ double UprightTest::UprightCorrelation(const BlockFitState& state) {
 }
 
 bool UprightTest::IsUpright(const SgReading& reading) {
-  // Rim and margin look the same from all sides, and a turned content reads as some other word: the
-  // border's shapes must fit better this way round than any other.
+  // Rim and quiet zone look the same from all sides, and a rotated content decodes to another word.
+  // So the shapes of the border must fit better in this orientation than in any other.
   const BorderOrientation best = Orientations(reading.corners.px)[0];
   if (best.first_corner != 0 || best.mirrored) return false;
-  // Edges of covers pass for the marker's rim, but not for its border's shapes.
+  // Edges of occluders resemble the marker's rim, but not the shapes of its border.
   return reading.visible_fraction >= kSurelyVisible || best.correlation >= kShiftedCorrelation;
 }
 

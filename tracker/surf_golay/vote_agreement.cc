@@ -60,7 +60,7 @@ HWY_EXPORT(Agreeing);
 }  // namespace
 
 void VoteData::Resize(std::size_t count) {
-  // Whole vectors are read at the end.
+  // The vector loop reads whole vectors at the end.
   for (auto* values : {&centre_x, &centre_y, &size_px, &rotation_rad, &keypoint_x, &keypoint_y,
                        &modules_x, &modules_y}) {
     values->resize(count + kVoteSlack);

@@ -7,8 +7,8 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Two matches agree when each is observed where the other expects it, in shares of the marker's
-/// size.
+/// Two matches agree if each is observed where the other predicts it: tolerances of position in
+/// shares of the marker's size, of scale as a ratio, and of rotation.
 constexpr float kPlaceTolerance = 0.13F, kScaleTolerance = 1.6F, kTurnTolerance_rad = 0.6F;
 
 }  // namespace
@@ -88,7 +88,7 @@ double VoteBins::Supporters(const Bin& bin, int place, std::vector<int>* members
   const auto add = [&](int j) {
     const BorderVote& vote = votes_[binned_[j]];
     if (members != nullptr) members->push_back(binned_[j]);
-    // Several templates of one keypoint are one witness.
+    // Several templates of one keypoint count as one witness.
     if (vote.keypoint != last_keypoint) sum += vote.weight;
     last_keypoint = vote.keypoint;
   };
