@@ -14,7 +14,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// sums[x] = sum over the box whose left edge is x, between two rows of the integral image.
+/// sums[x]: sum over the box whose left edge is x, between two rows of the integral image.
 void SumBoxes(const std::uint32_t* above, const std::uint32_t* below, int box, int count,
               std::int32_t* sums) {
   const hn::ScalableTag<std::uint32_t> du;
@@ -60,8 +60,8 @@ namespace {
 HWY_EXPORT(SumBoxes);
 HWY_EXPORT(ScaleSums);
 
-/// A box of every size up to twice the largest scale of four octaves or so, at most a factor 1.5
-/// apart beyond 2; sampled at least twice a box, so that interpolation between samples is harmless.
+/// Box sizes up to about twice the largest scale of four octaves, at most a factor 1.5 apart beyond
+/// 2. A box is sampled at least twice, so that interpolation between samples does no harm.
 struct BoxAndStep {
   int box, step;
 };

@@ -16,10 +16,10 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kDimensions = 64;
-constexpr int kBlock = 32;      ///< Templates side by side in memory.
-constexpr int kFrameBlock = 4;  ///< Descriptors of the frame taken together.
+constexpr int kBlock = 32;      ///< Templates that are adjacent in memory.
+constexpr int kFrameBlock = 4;  ///< Descriptors of the frame that are processed together.
 
-/// A block of templates against all descriptors of the frame.
+/// Task: match a block of templates against all descriptors of the frame.
 struct MatchTask {
   const float* block;                  ///< [dimension][kBlock]
   const float* block_squared_lengths;  ///< [kBlock]
@@ -29,13 +29,13 @@ struct MatchTask {
   const std::int32_t* frame_indices;
   int frame_size;
   int k;
-  float* frame_worst;  ///< [frame_size], of the k nearest so far.
+  float* frame_worst;  ///< [frame_size]: distance of the worst of the k nearest so far.
   DescriptorMatch* templates_of_frame;
-  float* nearest_distances;       ///< [k][kBlock], of the templates, nearest first.
-  std::int32_t* nearest_indices;  ///< [k][kBlock], of the frame.
+  float* nearest_distances;       ///< [k][kBlock]: of the templates, nearest first.
+  std::int32_t* nearest_indices;  ///< [k][kBlock]: of the frame.
 };
 
-/// Puts a match into the k nearest, behind its equals; returns the distance of the last of them.
+/// Inserts a match into the k nearest, after equal ones; returns the distance of the last of them.
 inline float Insert(std::int32_t index, float distance, int k, DescriptorMatch* nearest) {
   const auto squared_distance = static_cast<std::int32_t>(distance);
   int place = k - 1;
@@ -61,7 +61,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// distances[j][t] = |frame - template|^2 = |frame|^2 + |template|^2 - 2 frame . template. Products
-/// of 8-bit values and sums of 64 of them are whole numbers below 2^24: exact in floats.
+/// of 8-bit values and sums of 64 of them are integers below 2^24: exact in floats.
 void Distances(const MatchTask& task, int first, float (*distances)[kBlock]) {
   const hn::CappedTag<float, 16> d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(d));
@@ -102,8 +102,8 @@ void Distances(const MatchTask& task, int first, float (*distances)[kBlock]) {
   }
 }
 
-/// Puts one descriptor of the frame into the k nearest of each of a vector of templates, behind its
-/// equals; those that are further away move down by one.
+/// Inserts one descriptor of the frame into the k nearest of each of a vector of templates, after
+/// equal ones; more distant ones move down by one.
 template <class D, class V>
 void InsertIntoTemplates(D d, const MatchTask& task, int t, V distance, std::int32_t frame_index) {
   const hn::RebindToSigned<D> di;
@@ -232,7 +232,7 @@ void DescriptorMatcher::Match(std::span<const QuantisedDescriptor> frame, int k,
     for (std::size_t first = 0; first < templates.indices.size(); first += kBlock) {
       alignas(64) float distances[kMaxNeighbours * kBlock];
       alignas(64) std::int32_t indices[kMaxNeighbours * kBlock];
-      // Where nobody asks for a template's nearest none is near enough.
+      // If no output of the templates' nearest is requested, no distance is small enough.
       std::fill_n(distances, k * kBlock,
                   frame_of_templates != nullptr ? std::numeric_limits<float>::infinity() : -1.0f);
       std::fill_n(indices, k * kBlock, DescriptorMatch::kNone);

@@ -11,8 +11,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One row of 2 width - 1 pixels from two of `width` (the same one twice on even rows): pixels and
-/// the means between them, rounded up as pairs of pairs.
+/// One row of 2 width - 1 pixels from two of `width` (the same one twice on even rows): the pixels
+/// and the means between them. Means are rounded up, as means of pairs of pairs.
 void DoubleRow(const std::uint8_t* upper, const std::uint8_t* lower, int width,
                std::uint8_t* doubled) {
   const hn::ScalableTag<std::uint8_t> d;

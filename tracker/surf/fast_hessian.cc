@@ -12,15 +12,15 @@ namespace {
 
 /// Vector code reads and writes whole vectors at the end of a row of responses.
 constexpr int kRowPadding = IntegralImage::kPadding;
-/// A row begins this many elements into its memory: the neighbourhood looks one to the left.
+/// Elements before the start of a row: the neighbourhood reads one to the left.
 constexpr int kRowFront = 16;
-/// Columns of the image that are searched together: of a filter of 27 px 30 KB of sums.
+/// Columns of the image that are searched together: a filter of 27 px then uses 30 KB of sums.
 constexpr int kStrip_px = 256;
 
-/// Maximum of the parabola through the 3 x 3 x 3 neighbourhood, relative to its middle sample, in
+/// Maximum of the parabola through the 3 x 3 x 3 neighbourhood, relative to its central sample, in
 /// samples (Brown and Lowe, "Invariant Features from Interest Point Groups", BMVC 2002):
-/// -(Hessian)^-1 gradient. Empty where it lies further than a sample away: the parabola does not
-/// describe the neighbourhood then.
+/// -(Hessian)^-1 gradient. Returns nullopt if it is more than a sample away: the parabola then does
+/// not fit the neighbourhood.
 struct Offset {
   float x, y, layer;
 };
@@ -69,7 +69,7 @@ float* FastHessian::RingRow(int layer, int sample_y) {
 void FastHessian::Detect(const IntegralImage& integral, int octaves, int first_step,
                          float threshold, std::vector<SurfKeypoint>* maxima) {
   for (int octave = 0; octave < octaves; ++octave) {
-    // The neighbourhood needs three samples whose largest filter lies inside.
+    // The neighbourhood needs three samples whose largest filter is inside the image.
     const int step = StepOfOctave(octave, first_step);
     const int needed = FilterSize(octave, 2) + 2 * step;
     if (std::min(integral.width(), integral.height()) < needed) return;
@@ -89,7 +89,7 @@ void FastHessian::DetectOctave(const IntegralImage& integral, int octave, int st
     if (row.size() < needed) row.resize(needed);
   }
   candidates_.resize(columns + kRowPadding);
-  // The next octave has every sample of this one, or every second in both directions.
+  // The next octave shares every sample of this one, or every second in both directions.
   const int ratio = next_step / step;
   const int next_columns = (columns + ratio - 1) / ratio;
   const int next_rows = (rows + ratio - 1) / ratio;
@@ -112,7 +112,7 @@ void FastHessian::DetectStrip(const IntegralImage& integral, int octave, int ste
                               std::vector<SurfKeypoint>* maxima) {
   const int columns = (integral.width() + step - 1) / step;
   const int rows = (integral.height() + step - 1) / step;
-  // … with the neighbours of the strip's samples.
+  // Includes the neighbours of the strip's samples.
   const SampleRange around{std::max(0, strip.first - 1), std::min(columns, strip.last + 1)};
   const int next_first = (strip.first + ratio - 1) / ratio;
   const int next_last = (strip.last + ratio - 1) / ratio;
@@ -141,7 +141,7 @@ void FastHessian::FindMaxima(const IntegralImage& integral, int octave, int step
                              SampleRange strip, float threshold,
                              std::vector<SurfKeypoint>* maxima) {
   for (int layer = 1; layer + 1 < kLayers; ++layer) {
-    // Only where the largest filter of the neighbourhood lies inside the image everywhere.
+    // Only where the largest filter of the neighbourhood is inside the image at all its samples.
     const int margin = FilterSize(octave, layer + 1) / 2;
     const int y = sample_y * step;
     if (y - step < margin || y + step + margin >= integral.height()) continue;

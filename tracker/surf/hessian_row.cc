@@ -14,8 +14,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Differences between rows, so that each box below is one subtraction: [0] of D_xx, [1] of D_yy
-/// with its middle lobe taken thrice (weights 1, -2, 1), [2] of D_xy, upper minus lower boxes.
+/// Differences of rows, so that each box below is one subtraction. [0]: D_xx. [1]: D_yy with three
+/// times its middle lobe (weights 1, -2, 1). [2]: D_xy, upper minus lower boxes.
 /// `rows` of the integral image: 0, 1 above and below the 2l - 1 rows of D_xx; 2, 3 above and below
 /// D_yy and 4, 5 its middle lobe; 6, 7 above and below the upper boxes of D_xy and 8, 9 the lower.
 void SubtractRows(const std::uint32_t* const* rows, int begin, int end,
@@ -34,8 +34,8 @@ void SubtractRows(const std::uint32_t* const* rows, int begin, int end,
   }
 }
 
-/// Sorts a row by x modulo `step` (2 or 4): phase p is at phases + p * phase_stride. After it,
-/// samples that are `step` apart in the image lie side by side.
+/// Sorts a row by x modulo `step` (2 or 4): phase p is at phases + p * phase_stride. Samples that
+/// are `step` apart in the image are then adjacent.
 void SplitPhases(const std::int32_t* row, int count, int step, std::ptrdiff_t phase_stride,
                  std::int32_t* phases) {
   const hn::ScalableTag<std::int32_t> d;
@@ -60,9 +60,10 @@ void SplitPhases(const std::int32_t* row, int count, int step, std::ptrdiff_t ph
   }
 }
 
-/// The determinants of samples begin..end - 1. `edges`, the differences above from each sample of
-/// 0 on: 0, 1 left and right of D_xx and 2, 3 of its middle lobe; 4, 5 left and right of D_yy; 6, 7
-/// left and right of the left boxes of D_xy and 8, 9 of the right.
+/// Computes the determinants of samples begin..end - 1.
+/// `edges`, the differences above from sample 0 on: 0, 1 left and right of D_xx and 2, 3 of its
+/// middle lobe; 4, 5 left and right of D_yy; 6, 7 left and right of the left boxes of D_xy and 8, 9
+/// of the right.
 void Determinants(const std::int32_t* const* edges, int begin, int end, float inverse_area,
                   float* responses) {
   const hn::ScalableTag<float> df;
@@ -95,8 +96,8 @@ HWY_EXPORT(SubtractRows);
 HWY_EXPORT(SplitPhases);
 HWY_EXPORT(Determinants);
 
-/// Grows, never shrinks: different filters and octaves share the memory. From a whole cache line
-/// on.
+/// Grows, never shrinks: filters and octaves share the memory. The result is aligned to a cache
+/// line.
 std::int32_t* AtLeast(std::size_t size, std::vector<std::int32_t>* values) {
   constexpr std::uintptr_t kLine = 64;
   if (values->size() < size + kLine) values->resize(size + kLine);
@@ -104,8 +105,8 @@ std::int32_t* AtLeast(std::size_t size, std::vector<std::int32_t>* values) {
   return values->data() + (kLine - address % kLine) % kLine / sizeof(std::int32_t);
 }
 
-/// x-difference of the integral image's elements, observed from sample i = 0, with samples `step` =
-/// 1, 2 or 4 apart.
+/// Column at an x-offset from sample i = 0 in the sorted phases, with samples `step` = 1, 2 or 4
+/// apart.
 const std::int32_t* EdgeAt(const std::int32_t* phases, std::ptrdiff_t phase_stride, int step,
                            int offset) {
   const int phase = offset & (step - 1);
@@ -119,7 +120,7 @@ void ComputeHessianRow(const IntegralImage& integral, int filter_size, int step,
   const int width = integral.width();
   const int margin = filter_size / 2;
   const int lobe = filter_size / 3;
-  // Samples whose filter lies inside the image.
+  // Samples whose filter is inside the image.
   const int inside = width - 1 - margin < 0 ? 0 : (width - 1 - margin) / step + 1;
   const int begin = std::max(samples.first, (margin + step - 1) / step);
   const int end = std::min(samples.last, inside);
@@ -134,7 +135,7 @@ void ComputeHessianRow(const IntegralImage& integral, int filter_size, int step,
       row(1 - lobe), row(lobe),                                             // D_xx
       row(-margin),  row(margin + 1), row(-half_lobe), row(half_lobe + 1),  // D_yy
       row(-lobe),    row(0),          row(1),          row(lobe + 1)};      // D_xy
-  // Whole vectors of the row, from where the first filter begins to where the last one ends.
+  // Whole vectors of the row, from the start of the first filter to the end of the last one.
   constexpr int kVector = 16;
   const int from = (begin * step - margin) / kVector * kVector;
   const int to = (end - 1) * step + margin + 2;

@@ -13,10 +13,10 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// below[x] = above[x] + sum over grey[0..x], for x < width, row by row: that of row r + 1 is `to`
-/// + (r + 1) `to_stride`. Sums four pixels at once: within a 128-bit block by two shifted
-/// additions, across blocks by a running total, on which the next block has to wait: hence several
-/// rows side by side.
+/// below[x] = above[x] + sum over grey[0..x], for x < width, row by row: row r + 1 is at `to` + (r
+/// + 1) `to_stride`. Sums four pixels at once: two shifted additions within a 128-bit block, a
+/// running total across blocks. Each block waits for the total before it, so several rows are
+/// processed side by side.
 template <int kRows>
 void AddSome(const std::uint8_t* grey, std::ptrdiff_t stride, int width, std::uint32_t* to,
              std::ptrdiff_t to_stride) {

@@ -7,14 +7,15 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Position and scale decide between equals, so that the order does not depend on how they came.
+/// Position and scale decide between equal responses, so that the result does not depend on the
+/// input's order.
 bool IsStronger(const SurfKeypoint& a, const SurfKeypoint& b) {
   return std::tie(b.response, a.y, a.x, a.scale) < std::tie(a.response, b.y, b.x, b.scale);
 }
 
 }  // namespace
 
-// Busy images have twenty times as many keypoints as are kept: only those are sorted.
+// Textured images have twenty times as many keypoints as are kept: only the kept ones are sorted.
 void KeypointSelection::KeepFairShares(int width, int height, int bucket_px, int max_keypoints,
                                        std::vector<SurfKeypoint>* keypoints) {
   const auto limit = static_cast<std::ptrdiff_t>(std::max(max_keypoints, 0));
@@ -27,7 +28,7 @@ void KeypointSelection::KeepFairShares(int width, int height, int bucket_px, int
       keypoints->resize(static_cast<std::size_t>(limit));
     } else {
       PartByBuckets(width, height, bucket_px, *keypoints);
-      // Every rank below `share` fits.
+      // All keypoints of a rank below `share` fit.
       std::ptrdiff_t kept = 0, share = 0;
       while (kept + with_rank_[share] <= limit) kept += with_rank_[share++];
       keypoints->clear();
@@ -52,7 +53,7 @@ void KeypointSelection::PartByBuckets(int width, int height, int bucket_px,
                                       const std::vector<SurfKeypoint>& keypoints) {
   const int columns = (width - 1) / bucket_px + 1;
   const int rows = (height - 1) / bucket_px + 1;
-  // Counts first, then where each bucket begins, which moves to its end as it is filled.
+  // Counts first, then the start of each bucket, which advances to its end as the bucket is filled.
   bucket_ends_.assign(static_cast<std::size_t>(columns) * rows, 0);
   bucket_of_.resize(keypoints.size());
   for (std::size_t i = 0; i < keypoints.size(); ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// `grid` in elements of the level. Two neighbours in a row are fetched together.
+/// `grid` is in elements of the level. Two neighbours in a row are loaded together.
 void Sample(const BoxLevel& level, const PatchGrid& grid, const float* columns, const float* rows,
             int count, float* values) {
   const hn::CappedTag<float, 16> df;

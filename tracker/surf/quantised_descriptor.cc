@@ -17,7 +17,7 @@ QuantisedDescriptor Quantise(const SurfDescriptor& descriptor, bool bright) {
   quantised.bright = bright;
   for (std::size_t i = 0; i < descriptor.size(); ++i) {
     const float value = std::clamp(descriptor[i] * factor, -127.0f, 127.0f);
-    // Half away from zero, without a library call.
+    // Rounds half away from zero, without a library call.
     quantised.values[i] = static_cast<std::int8_t>(value + std::copysign(0.5f, value));
   }
   return quantised;

@@ -23,7 +23,7 @@ int FindMaxima(const ResponseNeighbourhood& neighbourhood, int begin, int end, f
     const auto value = hn::LoadU(df, middle + i);
     auto is_maximum = hn::And(hn::Gt(value, limit), hn::FirstN(df, end - i));
     if (hn::AllFalse(df, is_maximum)) continue;
-    // Strictly above the neighbours before it, not below those after it.
+    // Strictly above the earlier neighbours, not below the later ones.
     const auto max_of_row = [&](const float* row) {
       return hn::Max(hn::Max(hn::LoadU(df, row + i - 1), hn::LoadU(df, row + i)),
                      hn::LoadU(df, row + i + 1));

@@ -18,13 +18,13 @@ namespace {
 constexpr int kCells = 4;                        ///< In each direction.
 constexpr int kCellSamples = 5;                  ///< In each direction.
 constexpr int kSamples = kCells * kCellSamples;  ///< In each direction.
-constexpr int kColumns = 24;                     ///< Of a row of boxes or samples in memory.
+constexpr int kColumns = 24;                     ///< Row stride of boxes and samples in memory.
 constexpr int kBoxes = 512;  ///< (kSamples + 1) rows, and some to fill whole vectors.
 constexpr int kChannels = 4;
-constexpr int kReach = kCellSamples / 2;  ///< Samples that a cell reaches beyond its own.
+constexpr int kReach = kCellSamples / 2;  ///< Samples by which a cell extends beyond its own.
 
-/// Weight of sample `i` of a row or column, counted from a cell's first, in that cell: 1 at its
-/// middle, 0 at the middle of the next.
+/// Weight in a cell of sample `i` of a row or column, counted from the cell's first: 1 at the
+/// cell's centre, 0 at the centre of the next.
 constexpr float CellWeight(int i) {
   const int from_middle = i < kReach ? kReach - i : i - kReach;
   return 1.0f - static_cast<float>(from_middle) / kCellSamples;
@@ -39,8 +39,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// sums[(band * kColumns + column) * kChannels + channel], over the rows of samples that reach into
-/// each band of cells.
+/// sums[(band * kColumns + column) * kChannels + channel], over the rows of samples that extend
+/// into each band of cells.
 void SumBands(const float* boxes, const float* weights, float* sums) {
   const hn::CappedTag<float, 8> df;
   for (int band = 0; band < kCells; ++band) {

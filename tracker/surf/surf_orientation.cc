@@ -16,13 +16,13 @@
 #define PLEINAIR_TRACKER_SURF_ORIENTATION_GRID
 namespace pleinair::tracker {
 namespace {
-constexpr int kRadius = 6;                            ///< In scales.
-constexpr int kColumns = 16;                          ///< Of a row of boxes or wavelets in memory.
-constexpr int kBoxes = (2 * kRadius + 3) * kColumns;  ///< One more than wavelets all round.
+constexpr int kRadius = 6;    ///< In scales.
+constexpr int kColumns = 16;  ///< Row stride of boxes and wavelets in memory.
+constexpr int kBoxes = (2 * kRadius + 3) * kColumns;  ///< One more than wavelets on each side.
 constexpr int kWavelets = (2 * kRadius + 1) * kColumns;
 constexpr float kSigma = 2.5f;      ///< Of the weights, in scales.
-constexpr int kBins = 72;           ///< Of 5 degrees.
-constexpr int kWindow = kBins / 2;  ///< A half-turn.
+constexpr int kBins = 72;           ///< Bins of 5 degrees.
+constexpr int kWindow = kBins / 2;  ///< Half a turn.
 }  // namespace
 }  // namespace pleinair::tracker
 #endif
@@ -33,7 +33,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Weighted responses of the wavelets, and the bin of the direction of each.
+/// Computes the weighted responses of the wavelets, and the direction bin of each.
 void Wavelets(const float* boxes, const float* weights, float* dx, float* dy, std::int32_t* bins) {
   const hn::CappedTag<float, 16> df;
   const hn::RebindToSigned<decltype(df)> di;
@@ -50,17 +50,17 @@ void Wavelets(const float* boxes, const float* weights, float* dx, float* dy, st
     hn::StoreU(x, df, dx + i);
     hn::StoreU(y, df, dy + i);
 
-    // Arctangent of the first octant: Abramowitz and Stegun, 4.4.49, error below 1e-5 rad.
+    // Arctangent in the first octant: Abramowitz and Stegun, 4.4.49, error below 1e-5 rad.
     const auto abs_x = hn::Abs(x), abs_y = hn::Abs(y);
     const auto larger = hn::Max(abs_x, abs_y);
-    const auto tiny = hn::Set(df, 1e-20f);  // Keeps 0 / 0 away; no response is that small.
+    const auto tiny = hn::Set(df, 1e-20f);  // Avoids 0 / 0; no response is that small.
     const auto t = hn::Div(hn::Min(abs_x, abs_y), hn::Max(larger, tiny));
     const auto t2 = hn::Mul(t, t);
     auto series = hn::MulAdd(t2, hn::Set(df, 0.0208351f), hn::Set(df, -0.0851330f));
     series = hn::MulAdd(t2, series, hn::Set(df, 0.1801410f));
     series = hn::MulAdd(t2, series, hn::Set(df, -0.3302995f));
     series = hn::MulAdd(t2, series, hn::Set(df, 0.9998660f));
-    // In bins, unfolded to the whole turn.
+    // In bins, extended to the full turn.
     auto turn = hn::Mul(hn::Mul(t, series), hn::Set(df, kBins / 6.2831853f));
     turn = hn::IfThenElse(hn::Gt(abs_y, abs_x), hn::Sub(hn::Set(df, kBins / 4.0f), turn), turn);
     turn = hn::IfThenElse(hn::Lt(x, hn::Zero(df)), hn::Sub(hn::Set(df, kBins / 2.0f), turn), turn);
@@ -113,7 +113,7 @@ float DominantDirection(BoxLevels* levels, float x, float y, float scale) {
   alignas(64) std::int32_t bins[kWavelets];
   HWY_DYNAMIC_DISPATCH(Wavelets)(boxes, tables.weights.data(), dx, dy, bins);
 
-  // Sums up to each bin, over one turn and a window more: a window is a difference of two.
+  // Prefix sums of the bins over one turn plus a window: each window is a difference of two sums.
   float bin_x[kBins] = {};
   float bin_y[kBins] = {};
   for (const std::int32_t i : tables.in_circle) {
