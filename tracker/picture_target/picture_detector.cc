@@ -12,14 +12,15 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr double kHalf = 0.5 * kTargetSide;
-/// Guesses at one target that may fail before it is given up in this frame.
+/// Maximum number of failed hypotheses of one target in a frame; the others are skipped.
 constexpr int kMaxFailures = 4;
-/// A target that has just gone is searched for in each of so many frames, then every few.
+/// First frames in which a lost target is searched for each time, and the interval of frames after
+/// them.
 constexpr int kSearchAtOnce = 5, kSearchEvery = 3;
-/// How far the corners may be from those of any pose, in shares of a side; and in pixels, where
-/// that is less.
+/// Maximum reprojection error of the corners under any pose, in shares of a side; in pixels where
+/// that is more.
 constexpr double kMaxMisfit = 0.02, kMinMisfit_px = 0.5;
-/// Mirror images are looked for in single pictures, and now and then in consecutive ones.
+/// Mirror images are searched for in single images, and at this interval of consecutive frames.
 constexpr int kMirroredSearchInterval = 30;
 
 std::array<Vec2, 4> UndistortedCorners(const Mat3& target_from_undistorted) {
@@ -167,13 +168,13 @@ std::optional<Candidate> PictureDetector::CandidateOf(std::size_t target,
   detection.visibility = reading.visible;
   candidate.corner_covariance_px2.emplace();
   reader_.Corners(reading, 1.0, 1.0, &detection.corners_px, &*candidate.corner_covariance_px2);
-  // The pose comes from a square in the picture's middle.
+  // The pose comes from a square in the target's centre.
   PoseSquare square;
   const double edge_m = std::min(of.width_m, of.height_m);
   square.edge = Metres(edge_m);
   reader_.Corners(reading, edge_m / of.width_m, edge_m / of.height_m, &square.corners_px,
                   &square.corner_covariance_px2);
-  // Eight motions fit more shapes than the target can show to a camera.
+  // A homography's eight motions fit more shapes than a target can show to a camera.
   const std::optional<PoseEstimate> pose = EstimatePlanarPose(
       lens_.camera(), square.corners_px, square.corner_covariance_px2, square.edge);
   if (!pose) return std::nullopt;

@@ -16,15 +16,16 @@ namespace {
 constexpr int kMinBlocksAlong = 3, kMaxBlocksAlong = 12;
 constexpr int kMinBlockPixels = 6;
 constexpr double kDoubtfulCorrelation = 0.3, kCredibleCorrelation = 0.8;
-constexpr float kMaxReach_modules = 3.2F;  ///< Of small targets too little would be left otherwise.
-/// Residual at which a pixel keeps a quarter of its weight: so many times what is usually left over
-/// of blocks that fit, but no more and no less than so many standard deviations of the predicted
-/// light, and no less than what noise does.
+constexpr float kMaxReach_modules =
+    3.2F;  ///< A larger reach would exclude too many pixels of small targets.
+/// Residual at which a pixel keeps a quarter of its weight: a multiple of the median residual of
+/// matching blocks. It is limited to a range of standard deviations of the predicted light, and
+/// from below by noise.
 constexpr double kRobustShareOfRest = 3.0, kMaxRobustShare = 1.2, kMinRobustShare = 0.15;
 constexpr double kMinRobust = 0.03;
-/// A block tells something from so much of its details on, in deviations of the noise.
+/// Minimum detail of an informative block, in standard deviations of the noise.
 constexpr double kTellingOverNoise = 1.5;
-/// Tiles of 4×4 pixels where blocks and the target itself are so many pixels wide at least.
+/// Minimum widths of blocks and of the target, in pixels, for tiles of 4×4 pixels.
 constexpr double kMinBlockOfTiles_px = 7.0, kMinTargetOfTiles_px = 24.0;
 constexpr double kDamping = 1e-7;
 
@@ -36,7 +37,7 @@ SquareSides SidesOfTarget(const Mat3& target_from_undistorted) {
   return SidesOf(Adjugate(kUnitFromTarget * target_from_undistorted));
 }
 
-/// What BlockSums wants to know of a marker: its side.
+/// The side of a marker, as BlockSums requires it.
 const MarkerPattern& SidePattern() {
   static const MarkerPattern kPattern{.modules = static_cast<int>(kTargetSide),
                                       .edge_modules = static_cast<int>(kTargetSide),
@@ -74,7 +75,7 @@ void PictureFit::Predict(const PicturePyramid& pyramid, const ObservedPatch& obs
   known.modules = static_cast<float>(kTargetSide);
   known.reach_px = static_cast<float>(0.5 + 1.3 * blur);
   known.max_reach_modules = kMaxReach_modules;
-  known.unknown_half = -known.modules;  // All is known.
+  known.unknown_half = -known.modules;  // The whole target is known.
   sums_->blocks.Lay(SidePattern(), known, observed, map_, sums_->ranges, tile_, blocks_along_);
 }
 
@@ -174,7 +175,8 @@ bool PictureFit::Run(const PicturePyramid& pyramid, const ObservedPatch& observe
   for (int step = 0;; ++step) {
     Predict(pyramid, observed, *state);
     if (step == 0) FitLevels(observed, options.min_weight);
-    // The light of the step before, or without weights, tells what fits; and that the light.
+    // The light of the previous step (none in the first) determines the robust weights, and these
+    // the light.
     FitLevels(observed, options.min_weight);
     AddUp(observed, options.fit_blur);
     if (step >= options.steps) return true;
@@ -218,7 +220,7 @@ void PictureFit::Compare(const ObservedPatch& observed) {
     for (int a = 0, at = 0; a < 5; ++a) {
       for (int b = 0; b <= a; ++b, ++at) products(a, b) = products(b, a) = detail.products[at];
     }
-    // Partial correlation: what is left of the last two when the first three have explained theirs.
+    // Partial correlation: the last two after removal of what the first three explain.
     const Eigen::Matrix<double, 2, 2> rest =
         products.bottomRightCorner<2, 2>() -
         products.bottomLeftCorner<2, 3>() *
@@ -227,13 +229,13 @@ void PictureFit::Compare(const ObservedPatch& observed) {
     block.detail_correlation = rest(0, 1) / std::sqrt(rest(0, 0) * rest(1, 1));
     const double contrast = std::sqrt(rest(0, 0) / count);
     block.informative = contrast >= kMinContrast;
-    // The mean square of the spatial frequency says how far apart samples are independent.
+    // The mean square of the spatial frequency determines how far apart samples are independent.
     const double slope2 =
         detail.slope2 - (detail.slope_x * detail.slope_x + detail.slope_y * detail.slope_y) / count;
     block.samples = count * std::max(0.0, slope2) / rest(0, 0) / (4.0 * std::numbers::pi);
     const double codes = 255.0 * std::sqrt(detail.inverse_variance / count);
-    // The light on the block is about what is observed of what should be: that holds if covered,
-    // too.
+    // The light on the block is about the ratio of its observed to its predicted mean, also if it
+    // is occluded.
     detail.contrast_codes = codes * contrast * block.observed / block.mean;
     detail.rest_codes =
         codes * std::sqrt(rest(1, 1) / count *
@@ -241,7 +243,7 @@ void PictureFit::Compare(const ObservedPatch& observed) {
     rests_.push_back(detail.rest_codes);
   }
   if (rests_.empty()) return;
-  // What covers blocks leaves much, what is noise the same everywhere.
+  // Occluded blocks have large residuals; those of noise are equal everywhere.
   const auto low = rests_.begin() + static_cast<std::ptrdiff_t>(rests_.size() / 4);
   std::nth_element(rests_.begin(), low, rests_.end());
   for (std::size_t k = 0; k < blocks_.size(); ++k) {

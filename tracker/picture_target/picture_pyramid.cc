@@ -11,7 +11,7 @@ namespace {
 constexpr double kBrightestShare = 0.02;
 constexpr int kMinSide_px = 4;
 
-/// Linear light that all but the brightest pixels do not exceed.
+/// Linear light that only the brightest pixels exceed.
 float WhiteOf(ImageView<const std::uint8_t> picture) {
   std::array<std::size_t, 256> counts{};
   for (int y = 0; y < picture.height(); ++y) {

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kKernelSigmas = 3.0;
 constexpr double kSharpestBlur_px = 0.12;
-/// From this blur on one sample a pixel is enough where texels are no smaller than pixels.
+/// From this blur on one sample per pixel suffices if texels are no smaller than pixels.
 constexpr double kSmoothBlur_px = 1.0;
-constexpr double kMaxSamples = 5.0;  ///< Along a pixel.
+constexpr double kMaxSamples = 5.0;  ///< Maximum, along a pixel's side.
 constexpr float kAround_px = 2.0F;   ///< Predicted beyond the target's edge.
 constexpr int kProbes = 6;           ///< Along each side of the window.
 
@@ -44,7 +44,7 @@ void Sample(const MapRow& map, const Image<float>& level, Vec2 texels_per_unit, 
         const float tx =
             scale_x * (map.column[x] + map.column_x[x] * dx + map.column_y[x] * dy) - 0.5F;
         const float ty = scale_y * (map.row[x] + map.row_x[x] * dx + map.row_y[x] * dy) - 0.5F;
-        // Beyond the picture its outermost texels go on; what is no number looks at the first.
+        // Beyond the target its outermost texels continue; NaN samples the first one.
         const float cx = std::min(tx > 0.0F ? tx : 0.0F, last_x);
         const float cy = std::min(ty > 0.0F ? ty : 0.0F, last_y);
         const int ix = static_cast<int>(cx), iy = static_cast<int>(cy);
@@ -79,7 +79,7 @@ void PictureRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
     const double t = (k + 0.5) * bin - 0.5 - *pad;
     const double weight = bin * BlurredBox(t, sigma);
     kernel_[k] = static_cast<float>(weight);
-    // The picture is ∫ marker(p + t) K(t) dt, so that its slope is -∫ marker(p + t) K'(t) dt.
+    // The image is ∫ marker(p + t) K(t) dt, so its slope is -∫ marker(p + t) K'(t) dt.
     kernel_slope_[k] =
         static_cast<float>(BlurredBox(t - 0.5 * bin, sigma) - BlurredBox(t + 0.5 * bin, sigma));
     sum += weight;
@@ -94,7 +94,8 @@ PictureRaster::Sampling PictureRaster::ChooseSampling(const PicturePyramid& pyra
   const int stride = window.width + 2 * kWindowBorder;
   const Mat3& m = target_from_undistorted;
   const double per_x = pyramid.width() / kTargetSide, per_y = pyramid.height() / kTargetSide;
-  double narrowest = 0.0, widest = 0.0;  // Texels that a pixel covers, across and along.
+  double narrowest = 0.0,
+         widest = 0.0;  // Texels per pixel, in the directions of the fewest and of the most.
   int probes = 0;
   for (int j = 0; j <= kProbes; ++j) {
     for (int i = 0; i <= kProbes; ++i) {
@@ -119,7 +120,7 @@ PictureRaster::Sampling PictureRaster::ChooseSampling(const PicturePyramid& pyra
   if (probes == 0) return sampling;
   const int last = pyramid.levels() - 1;
   sampling.level = static_cast<int>(std::clamp(std::floor(narrowest / probes), 0.0, 1.0 * last));
-  // Of what is observed very flat, a coarser level rather than ever more samples.
+  // At large tilts use a coarser level rather than ever more samples.
   while (sampling.level < last && widest / (1 << sampling.level) > kMaxSamples) ++sampling.level;
   const double finest = widest / (1 << sampling.level);
   const bool smooth = finest <= 1.0 && blur_px >= kSmoothBlur_px;

@@ -16,12 +16,13 @@ namespace {
 
 constexpr std::string_view kMagic = "PLEINTGT";
 constexpr std::size_t kHeader = kMagic.size() + 3 * sizeof(std::uint32_t);
-/// The largest picture, views and keypoints that a target may have take 1.0 MB.
+/// A target with the maximum size of image, views and keypoints takes 1.0 MB.
 constexpr std::size_t kMaxBytes = 2'000'000;
 constexpr double kMaxViewEntry = 1e4, kMinDeterminant = 1e-4;
 constexpr float kMaxViewSide_px = 4096.0F, kMinScale = 0.1F, kMaxScale = 1000.0F;
 constexpr float kMaxAngle_rad = 4.0F;
-constexpr double kBesideTarget = 1.0;  ///< Target units that a keypoint may lie off it.
+constexpr double kBesideTarget =
+    1.0;  ///< Maximum distance of a keypoint from the target, in target units.
 constexpr double kMaxAspect = 8.0;
 
 constexpr std::size_t kKeypointBytes = 2 + 4 * sizeof(float) + 64;
@@ -29,7 +30,7 @@ constexpr std::size_t kViewBytes = 6 * sizeof(double);
 
 bool Within(double value, double least, double most) { return value >= least && value <= most; }
 
-/// What is wrong with the content, or nothing.
+/// Description of a fault in the content; empty if there is none.
 using Fault = std::string;
 
 Fault ReadPicture(LittleEndianReader* reader, PictureTarget* target) {
@@ -69,7 +70,7 @@ Fault ReadViews(LittleEndianReader* reader, PictureTarget* target) {
       if (!Within(entry, -kMaxViewEntry, kMaxViewEntry)) return "one of its views is none";
     }
     const auto& m = view.from_target;
-    // Neither flat nor mirrored.
+    // Neither degenerate nor mirrored.
     if (!(m[0] * m[4] - m[1] * m[3] > kMinDeterminant)) return "one of its views is none";
     target->views.push_back(view);
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMaxAspect = 6.0;
 
-/// Where each pixel of a side of `to` pixels begins and ends on one of `from`.
+/// The pixels of a side of `from` pixels that one pixel of a side of `to` pixels covers.
 struct Share {
   int first = 0;
   std::vector<double> weights;
@@ -32,7 +32,7 @@ std::vector<Share> SharesOf(int from, int to) {
   return shares;
 }
 
-/// Means of areas in linear light.
+/// Reduces the image by area means in linear light.
 GreyImage Reduced(ImageView<const std::uint8_t> grey, int width, int height) {
   const auto& linear = LinearFromSrgb8();
   const std::vector<Share> columns = SharesOf(grey.width(), width);
@@ -60,7 +60,7 @@ GreyImage Reduced(ImageView<const std::uint8_t> grey, int width, int height) {
 
 bool IsTargetName(const std::string& name) {
   if (name.empty() || name.size() > kMaxTargetName) return false;
-  int more = 0;  // Bytes of the character that must follow.
+  int more = 0;  // Number of continuation bytes that must follow.
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
     if (more > 0) {

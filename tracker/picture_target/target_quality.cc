@@ -12,18 +12,18 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr int kCoverageCells = 6, kContrastCells = 8;
-/// Keypoints this near, in unit descriptors, and this far apart, in target units, repeat each
-/// other.
+/// Keypoints are similar if they are at most this near, in unit descriptors, and at least this far
+/// apart, in target units.
 constexpr double kSameDescriptor = 0.13, kElsewhere = 4.0;
-constexpr double kMinContrast = 0.03;  ///< Standard deviation, of white.
-constexpr int kManyFeatures = 100;     ///< As many as a target can use.
+constexpr double kMinContrast = 0.03;  ///< Standard deviation, in shares of white.
+constexpr int kManyFeatures = 100;     ///< Number of features beyond which a target gains nothing.
 constexpr double kNearlySquare = 1.15;
 constexpr double kDoubtfulTurn = 0.8;
 constexpr int kThumbnail = 48;
 
 using Thumbnail = std::array<double, kThumbnail * kThumbnail>;
 
-/// The picture in so few pixels, whatever its shape.
+/// Reduces the image to a thumbnail, without keeping its shape.
 Thumbnail ThumbnailOf(const Image<float>& picture) {
   Thumbnail thumbnail{};
   std::array<int, kThumbnail * kThumbnail> counts{};
@@ -73,7 +73,7 @@ double TurnedLikeness(const PictureTarget& target, const PicturePyramid& pyramid
   return likeness;
 }
 
-/// Share of cells whose light varies enough.
+/// Share of cells with enough contrast.
 double ContrastShare(const Image<float>& picture) {
   int telling = 0;
   for (int row = 0; row < kContrastCells; ++row) {
@@ -95,7 +95,7 @@ double ContrastShare(const Image<float>& picture) {
   return static_cast<double>(telling) / (kContrastCells * kContrastCells);
 }
 
-/// The frontal view's keypoints: how many, where, and how many of them look alike.
+/// Rates the frontal view's keypoints: their number, their distribution and how many are similar.
 void RateFeatures(const PictureTarget& target, TargetQuality* quality) {
   std::vector<Vec2> places;
   std::vector<const QuantisedDescriptor*> descriptors;
@@ -143,7 +143,7 @@ TargetQuality RateTarget(const PictureTarget& target) {
   const PicturePyramid pyramid(target.picture.view());
   quality.contrast = ContrastShare(pyramid.level(0));
   quality.turned_likeness = TurnedLikeness(target, pyramid);
-  // Each makes good what the others have; none makes up for another.
+  // The factors multiply: none compensates for another.
   struct Factor {
     double good;  ///< 0…1.
     const char* advice;

@@ -10,7 +10,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Longest side of a target that is fitted coarsely, in between, and finely.
+/// Maximum side of a target in the coarse, the middle and the fine fit.
 constexpr double kCoarseSide_px = 64.0, kMiddleSide_px = 160.0, kFineSide_px = 340.0;
 constexpr int kMaxLevel = 5;
 constexpr double kCoarseBlock_px = 9.0, kFineBlock_px = 12.0;
@@ -18,30 +18,30 @@ constexpr PictureFitOptions kCoarseFit{
     .steps = 8, .fit_projection = false, .min_weight = 0.02, .done_px = 0.1};
 constexpr PictureFitOptions kMiddleFit{.steps = 8, .min_weight = 0.01, .done_px = 0.05};
 constexpr PictureFitOptions kFineFit{.steps = 20, .fit_blur = true};
-/// Blur that is taken for certain in reduced pictures, in their pixels.
+/// Blur assumed in reduced images, in their pixels.
 constexpr double kReducedBlur_px = 1.0;
-constexpr double kMinSide_px = 16.0;  ///< Of the longer side; and of the shorter:
+constexpr double kMinSide_px = 16.0;  ///< Minimum of the longer side; and of the shorter:
 constexpr double kMinShort_px = 7.0;
 constexpr std::size_t kMaxWindow = 400'000;
-/// Fits in between by which less of the target looks as predicted are not looked at finely; from
-/// the second on nothing better is tried.
+/// Visible share after the middle fit below which the fine fit is skipped; share from which on no
+/// other fit is tried.
 constexpr double kHopeless = 0.08, kGoodEnough = 0.9;
-/// A block is hidden up to the first correlation and observed from the second on.
+/// A block is occluded up to the first correlation and visible from the second on.
 constexpr double kHidden = 0.4, kSeen = 0.8;
-/// What makes it the target: so much of it looks right, and that times the evidence is so much.
-/// Photographs without the target reach 9, and with it 30 is little, of a target of 40 pixels or
-/// with 60 % covered (docs/measurements/picture-targets.md).
+/// Minimum visible share of a detected target, and minimum product of that share and the evidence.
+/// Images without the target reach 9. With it 30 is low: a target of 40 pixels, or with 60 %
+/// occluded (docs/measurements/picture-targets.md).
 constexpr double kMinVisible = 0.15, kMinEvidence = 15.0;
-/// Independent samples of a block that moving and lighting it fits anyhow, and those beyond that
-/// make it tell all it can.
+/// Number of a block's independent samples that the fit of motion and light explains anyway; number
+/// beyond those at which the block's evidence counts in full.
 constexpr double kFittedSamples = 3.0, kEnoughSamples = 8.0;
-constexpr double kSurest = 0.995;              ///< Correlation that is as good as 1.
-constexpr double kMinInformativeShare = 0.15;  ///< Blocks that count at least, as a share of all.
-/// What no residual tells: flatness of the marker, its edges, calibration.
+constexpr double kSurest = 0.995;              ///< Correlation that counts as 1.
+constexpr double kMinInformativeShare = 0.15;  ///< Minimum share of blocks that count.
+/// Corner error that no residual shows: flatness of the marker, its edges, calibration.
 constexpr double kSystematicCorner_px = 0.02;
 constexpr double kHalf = 0.5 * kTargetSide;
 
-/// Longest and shortest side and area in undistorted pixels; nothing where the horizon crosses the
+/// Longest and shortest side and area in undistorted pixels; nullopt where the horizon crosses the
 /// target.
 struct Extent {
   double longest = 0.0, shortest = 1e9;
@@ -77,7 +77,7 @@ double VisibleOf(double correlation) {
   return std::clamp((correlation - kHidden) / (kSeen - kHidden), 0.0, 1.0);
 }
 
-/// Blocks that tell nothing are as visible as those around them that do.
+/// Uninformative blocks take the visibility of the informative ones around them.
 void FillIn(int along, std::vector<char>* known, std::vector<float>* visible) {
   for (bool missing = true, found = true; missing && found;) {
     missing = found = false;
@@ -149,8 +149,8 @@ std::optional<TargetReading> TargetReader::Read(const PicturePyramid& pyramid,
   PictureFitState state = guess;
   double visible = Fit(pyramid, kMiddleSide_px, kMiddleFit, &state);
   if (visible < kGoodEnough) {
-    // Too far off for that, or something lies in front: the coarser picture brings some closer and
-    // misleads others.
+    // The guess is too far off, or an occluder is in front. A coarser image brings some guesses
+    // closer and misleads others.
     PictureFitState other = guess;
     Fit(pyramid, kCoarseSide_px, kCoarseFit, &other);
     const double other_visible = Fit(pyramid, kMiddleSide_px, kMiddleFit, &other);
@@ -182,17 +182,17 @@ std::optional<TargetReading> TargetReader::Measure(const PicturePyramid& pyramid
   std::vector<char> known;
   double observed = 0.0, all = 0.0;
   for (const TargetBlock& block : fit_.blocks()) {
-    // Blocks that are even, clip all over, or lie outside the picture tell nothing.
+    // Blocks that are uniform, clip completely, or are outside the image are no evidence.
     const double correlation =
         block.informative && block.gain > 0.0 ? block.detail_correlation : 0.0;
     const double visible = VisibleOf(correlation);
     reading.visible.push_back(static_cast<float>(visible));
-    // What luck unrelated samples would need, in nats a pair: -½ ln(1 - r²).
+    // Evidence against a chance correlation, in nats per pair of samples: -½ ln(1 - r²).
     const double sure = std::clamp(correlation, 0.0, kSurest);
     const double independent =
         std::clamp((block.samples - kFittedSamples) / kEnoughSamples, 0.0, 1.0);
     reading.evidence -= independent * std::log(1.0 - sure * sure);
-    // What lies outside the picture is not observed, and not known by its neighbours either.
+    // A block outside the image is not observed, and its neighbours do not determine it either.
     known.push_back(block.informative || block.pixels == 0 ? 1 : 0);
     observed += visible;
     all += block.informative ? 1.0 : 0.0;

@@ -17,11 +17,11 @@ constexpr SurfOptions kSurfOptions{.octaves = 3,
                                    .double_size = true,
                                    .descriptor_window_scales = kTargetDescriptorWindow_scales};
 constexpr int kNeighbours = 4;  ///< Candidates of each keypoint of the frame.
-/// Matches farther apart than this (of unit descriptors) say nothing.
+/// Maximum distance of unit descriptors that match; larger ones are no evidence.
 constexpr double kMaxDistance = 0.7;
-constexpr double kMin_px = 20.0, kMaxShare = 3.0;  ///< Of the picture's height.
-/// Two matches agree when each is observed where the other expects it, in shares of the target's
-/// size.
+constexpr double kMin_px = 20.0, kMaxShare = 3.0;  ///< Shares of the image's height.
+/// Two matches agree if each is observed where the other predicts it: tolerances of position in
+/// shares of the target's size, of scale as a ratio, and of rotation.
 constexpr double kPlaceTolerance = 0.12, kScaleTolerance = 1.6, kTurnTolerance_rad = 0.6;
 constexpr double kBin_rad = 0.6;  ///< Width of the angle filter's bins, which overlap by half.
 constexpr int kBins = static_cast<int>(2.0 * std::numbers::pi / (0.5 * kBin_rad)) + 1;
@@ -29,16 +29,18 @@ constexpr std::size_t kSeedsOfBin = 60;
 constexpr std::size_t kMaxGuesses = 12;
 constexpr int kMaxFits = 30;
 constexpr int kMinKeypoints = 4;  ///< "each bin with ≥ 4 matches", Prochazka et al. 2012, §3.2.
-constexpr double kSamePlace = 0.12;  ///< Guesses closer than this, in shares of size, are one.
-/// What is let into a fit may agree less with its seed, whose own picture is only affine.
+constexpr double kSamePlace =
+    0.12;  ///< Minimum distance of two distinct hypotheses, in shares of their size.
+/// Looser tolerances for the matches of a fit: the seed's own map is only affine.
 constexpr double kLooserPlace = 0.5, kLooserScale = 2.5, kLooserTurn_rad = 0.9;
 constexpr int kFitRounds = 8;
-/// A keypoint is off by a share of its scale, and by some of a pixel at least.
+/// Position error of a keypoint, as a share of its scale, and its minimum.
 constexpr double kOffOfScale = 0.5, kMinOffset_px = 0.6;
-/// Distance, in such deviations, at which a match loses half its weight: first round and last.
+/// Distance, in such standard deviations, at which a match loses half its weight: first and last
+/// round.
 constexpr double kFirstReach = 12.0, kLastReach = 1.5;
-/// How far, in shares of size, corners may be from where the seed puts them; and how large the
-/// perspective's terms usually are.
+/// Prior standard deviation of the corners about their positions under the seed, in shares of size;
+/// that of the perspective terms.
 constexpr double kOffOfSeed = 0.15, kUsualPerspective = 0.15;
 constexpr double kHalf = 0.5 * kTargetSide;
 
@@ -46,8 +48,8 @@ Vec2 ApplyAffine(const std::array<double, 6>& m, Vec2 p) {
   return {m[0] * p.x + m[1] * p.y + m[2], m[3] * p.x + m[4] * p.y + m[5]};
 }
 
-/// The descriptor of the mirror image, left for right. Mirrored, a keypoint's own second axis
-/// points the other way: subregions swap rows, and sums along that axis change sign.
+/// The descriptor of the mirror image, left for right. The second axis of a mirrored keypoint is
+/// reversed: subregions swap rows, and sums along that axis change sign.
 QuantisedDescriptor Mirrored(const QuantisedDescriptor& of) {
   QuantisedDescriptor mirror;
   mirror.bright = of.bright;
@@ -180,8 +182,8 @@ bool TargetSearch::Agrees(const Vote& hypothesis, const Vote& vote) const {
 }
 
 void TargetSearch::Rank() {
-  // The angle filter: bins of the turn between target and frame, each overlapping its neighbours by
-  // half, so that every pair of matches of one target meets in some bin.
+  // The angle filter: bins of the rotation between target and frame. Each overlaps its neighbours
+  // by half, so every pair of matches of one target shares a bin.
   for (auto& bin : bins_) bin.clear();
   for (std::size_t v = 0; v < votes_.size(); ++v) {
     const double turn = votes_[v].rotation_rad / (2.0 * std::numbers::pi) + 0.5;
@@ -194,14 +196,14 @@ void TargetSearch::Rank() {
     std::sort(bin.begin(), bin.end(), [&](int a, int b) {
       return votes_[a].weight > votes_[b].weight || (votes_[a].weight == votes_[b].weight && a < b);
     });
-    // The likeliest matches say where; all of the bin say how many agree.
+    // The most likely matches are seeds of positions; all matches of the bin count as votes.
     for (std::size_t i = 0; i < std::min(bin.size(), kSeedsOfBin); ++i) {
       const Vote& seed = votes_[bin[i]];
       witnesses_.StartCount();
       Ranked ranked{bin[i], 0, 0.0};
       for (const int other : bin) {
         const Vote& vote = votes_[other];
-        // Several candidates of one keypoint are one witness; the likeliest comes first.
+        // Several candidates of one keypoint count as one witness; the most likely comes first.
         if (witnesses_.IsCounted(vote.keypoint) || !Agrees(seed, vote)) continue;
         witnesses_.Count(vote.keypoint);
         ranked.votes += vote.weight;
@@ -222,7 +224,7 @@ void TargetSearch::Gather(bool mirrored, std::vector<TargetGuess>* guesses) {
   for (const Ranked& candidate : ranked_) {
     if (guesses->size() >= kMaxGuesses || fits >= kMaxFits) break;
     const Vote& seed = votes_[candidate.seed];
-    // What the seed says is known already where a guess says the same.
+    // The seed adds nothing if a hypothesis predicts the same.
     const bool known = std::any_of(guesses->begin(), guesses->end(), [&](const TargetGuess& other) {
       if (other.target != models_[seed.model].target) return false;
       const Mat3 undistorted_from_target = Adjugate(other.target_from_undistorted);
@@ -254,7 +256,7 @@ void TargetSearch::Gather(bool mirrored, std::vector<TargetGuess>* guesses) {
     guesses->push_back(guess);
   }
   if (!mirrored) return;
-  // Back from the mirror.
+  // Undoes the mirroring.
   constexpr Mat3 kMirror{{-1, 0, 0, 0, 1, 0, 0, 0, 1}};
   for (TargetGuess& guess : *guesses)
     guess.target_from_undistorted = guess.target_from_undistorted * kMirror;
@@ -262,11 +264,11 @@ void TargetSearch::Gather(bool mirrored, std::vector<TargetGuess>* guesses) {
 
 bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
   // Gauss–Newton on a homography of the target's square (±1) with Cauchy's weights, from the seed's
-  // affine picture on; the reach shrinks, so that the matches that agree best decide in the end.
+  // affine map. The reach shrinks, so that the best-agreeing matches decide in the end.
   const auto& m = seed.from_target;
   const Vec2 middle = ApplyAffine(m, {kHalf, kHalf});
   const double size = seed.size_px;
-  // x = (h0 u + h1 v + h2) / (h6 u + h7 v + 1) in shares of size from the seed's middle.
+  // x = (h0 u + h1 v + h2) / (h6 u + h7 v + 1) in shares of size from the seed's centre.
   std::array<double, 8> h{kHalf * m[0] / size,
                           kHalf * m[1] / size,
                           0,
@@ -283,7 +285,7 @@ bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
     if (Turned(vote.rotation_rad, seed.rotation_rad) > kLooserTurn_rad) continue;
     const double ratio = vote.size_px / size;
     if (ratio > kLooserScale || ratio < 1.0 / kLooserScale) continue;
-    // Not where the seed expects it at all.
+    // Skips matches far from where the seed predicts them.
     const Vec2 expected = ApplyAffine(m, model.place), here = Here(vote);
     if (Norm(here - expected) > kLooserPlace * size) continue;
     members_.push_back(
@@ -336,7 +338,7 @@ bool TargetSearch::FitGuess(const Vote& seed, TargetGuess* guess) {
     if (!move.allFinite()) return false;
     for (int k = 0; k < 8; ++k) h[k] += move[k];
   }
-  // In front of the camera and the right way round, all over.
+  // The target must be in front of the camera and not mirrored, at all its points.
   if (std::fabs(h[6]) + std::fabs(h[7]) > 0.8) return false;
   const Mat3 shares_from_unit{{h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1}};
   if (!(h[0] * (h[4] - h[5] * h[7]) - h[1] * (h[3] - h[5] * h[6]) +

@@ -16,30 +16,31 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Tilts (1 / cos of the angle) and how many directions of each.
+/// Tilts (1 / cos of the angle) and the number of directions of each.
 struct Tilt {
   double tilt;
   int directions;
 };
 constexpr std::array<Tilt, 5> kTilts{{{1.0, 1}, {1.42, 4}, {2.0, 5}, {2.85, 7}, {4.0, 9}}};
-/// The longer side of the untilted picture in px, the steepest tilt that it is looked at under, and
-/// how many keypoints of a view are kept.
+/// Longer side of the untilted image in px, its maximum tilt, and the number of keypoints that are
+/// kept of a view.
 struct Distance {
   double side_px, steepest;
   std::size_t keypoints;
 };
 constexpr std::array<Distance, 3> kDistances{
     {{320.0, 4.0, 130}, {140.0, 2.85, 90}, {70.0, 2.0, 60}}};
-/// On pictures this small the keypoints are those of the doubled octave.
+/// In smaller images the keypoints are those of the doubled octave.
 constexpr double kSmall_px = 100.0;
-constexpr int kDraws = 4;            ///< Blurs, noises, distances and surroundings that are tried,
-constexpr int kComesBack = 3;        ///< … of which a keypoint must be found in so many.
-constexpr double kMargin_px = 20.0;  ///< Of surroundings around the picture.
+constexpr int kDraws = 4;  ///< Number of random blurs, noises, distances and surroundings;
+constexpr int kComesBack =
+    3;  ///< … and the minimum number of them in which a keypoint must be found.
+constexpr double kMargin_px = 20.0;  ///< Surroundings around the image.
 constexpr double kMinBlur_px = 0.5, kMaxBlur_px = 1.1, kMaxZoom = 0.12;
 constexpr double kNoise_codes = 2.0;
-constexpr double kPaper = 0.75;  ///< Linear light of the picture's white.
+constexpr double kPaper = 0.75;  ///< Linear light of the image's white.
 
-/// The picture compressed `tilt` times across `direction`, its longer side `side_px` untilted.
+/// The image compressed `tilt` times across `direction`; its longer side is `side_px` if untilted.
 struct ViewShape {
   double a, b, d, e;
   int width, height;
@@ -63,7 +64,7 @@ ViewShape ShapeOf(const PictureTarget& target, double side_px, double tilt, doub
   return shape;
 }
 
-/// `shape` observed `zoom` times as large, the target's middle `shift` off the picture's.
+/// `shape` magnified `zoom` times, with the target's centre `shift` from the image's.
 TargetView ViewOf(const ViewShape& shape, double zoom, Vec2 shift) {
   const double half = 0.5 * kTargetSide;
   const double a = zoom * shape.a, b = zoom * shape.b, d = zoom * shape.d, e = zoom * shape.e;
@@ -123,7 +124,7 @@ class ViewMaker {
     Keep(view, distance.keypoints);
   }
 
-  /// Draws the picture as a camera would see it.
+  /// Renders the target as a camera would observe it.
   ImageView<const std::uint8_t> Draw(const TargetView& view) {
     const double blur = kMinBlur_px + (kMaxBlur_px - kMinBlur_px) * draws_.Uniform();
     raster_.Render(pyramid_, TargetFromView(view), rays_, blur, &map_, &picture_, &ranges_);
@@ -143,7 +144,7 @@ class ViewMaker {
     return grey_.view();
   }
 
-  /// Puts a keypoint of a drawn view, in the coordinates of `view`, with those of other draws.
+  /// Clusters a keypoint of a drawn view, in the coordinates of `view`, with those of other draws.
   void Collect(const TargetView& view, const TargetView& drawn, double zoom, int draw,
                DescribedKeypoint observed) {
     const Vec2 place = PlaceOnTarget(drawn, {observed.keypoint.x, observed.keypoint.y});
@@ -157,7 +158,7 @@ class ViewMaker {
 
   void Keep(const TargetView& view, std::size_t most) {
     std::erase_if(clusters_, [](const KeypointCluster& c) { return c.size() < kComesBack; });
-    // Those that come back most often, then the strongest.
+    // First those found most often, then the strongest.
     std::stable_sort(clusters_.begin(), clusters_.end(),
                      [](const KeypointCluster& a, const KeypointCluster& b) {
                        const std::size_t times_a = std::min<std::size_t>(a.size(), kDraws);
