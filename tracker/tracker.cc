@@ -19,8 +19,8 @@
 namespace pleinair::tracker {
 namespace {
 
-/// What AprilTag's corners are worth where the marker's own pixels give none better: on sRGB grey
-/// its edges lie a third of a pixel inside the black square
+/// Standard deviation of AprilTag's corners, used if the marker's own pixels give none better. On
+/// an sRGB grey image its edges lie a third of a pixel inside the black square
 /// (tests/tracker/refinement/marker_alignment_test.cc).
 constexpr double kRawCornerSigma_px = 0.4;
 
@@ -136,7 +136,7 @@ class DetectingTracker final : public Tracker {
     return observation;
   }
 
-  /// The nearest observation of the same marker in the image before; null where there is none.
+  /// The nearest observation of the same marker in the previous image; null if there is none.
   const MarkerObservation* Before(const MarkerDetection& detection) const {
     const MarkerObservation* nearest = nullptr;
     for (const MarkerObservation& observation : before_) {

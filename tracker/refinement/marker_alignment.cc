@@ -17,16 +17,16 @@ namespace {
 /// Node spacing of the level fields.
 constexpr double kNodeSpacing_px = 30.0;
 constexpr int kMaxNodes = 6;
-/// An edge of the square lies at most this far from where the detector saw it, more when blurred;
-/// and more where the contrast is so many residuals that the prediction must be right. (A camera's
-/// sharpening leaves 10 to 20 of 255 codes unexplained.)
+/// Maximum distance of a square's edge from the detected one. It increases with blur, and where the
+/// contrast exceeds kModestContrast residuals: the prediction must then be right. (A camera's
+/// sharpening causes residuals of 10 to 20 of 255 digital numbers.)
 constexpr double kEdgeMayMove_px = 0.58, kMaxEdgeMotion_px = 2.0, kEdgeMayMovePerBlur = 0.6;
 constexpr double kModestContrast = 25.0;
-/// What no residual tells: flatness of the marker, calibration, the lens's blur that is no
-/// Gaussian.
+/// Corner error that no residual shows: flatness of the marker, calibration, non-Gaussian blur of
+/// the lens.
 constexpr double kSystematicCorner_px = 0.005;
 
-/// Black and contrast of a marker, everywhere the same.
+/// Uniform black and contrast of a marker.
 struct Levels {
   double black = 0.0, contrast = 0.0;  ///< Linear light.
 
@@ -35,7 +35,7 @@ struct Levels {
   }
 };
 
-/// Straight line of linear light over predicted coverage; nothing where there is no contrast.
+/// Straight line of linear light over predicted coverage; nullopt without contrast.
 std::optional<Levels> FitLevels(const MarkerPattern& pattern, const Mat3& rays_from_marker,
                                 const std::vector<MarkerPixel>& pixels) {
   const Mat3 marker_from_rays = Adjugate(rays_from_marker);
@@ -75,10 +75,10 @@ void FillCorners(const CameraModel& camera, const MarkerFit& fit, MarkerAlignmen
       CovarianceOfCorners(corners, fit.MotionCovariance(), kSystematicCorner_px);
 }
 
-/// How far a corner may lie from where the detector saw it.
+/// Maximum distance of a corner from the detected one.
 double MayMove_px(const MarkerAlignment& alignment, double contrast_codes, int corner) {
-  // Where a detector sees the edges of an sRGB image a third of a pixel, and more where it is
-  // blurred, inside the square, the corner is off by that over the sine of its half angle.
+  // A detector places the edges of an sRGB image a third of a pixel inside the square, more where
+  // it is blurred. The corner is then off by that over the sine of its half angle.
   const Vec2 here = alignment.corners_px[corner];
   const Vec2 a = alignment.corners_px[(corner + 1) % 4] - here;
   const Vec2 b = alignment.corners_px[(corner + 3) % 4] - here;
@@ -91,14 +91,14 @@ double MayMove_px(const MarkerAlignment& alignment, double contrast_codes, int c
   return edge_px / half_angle_sine;
 }
 
-/// Share of a square that must look right for its pixels to be fitted. In a square that is touched
-/// by what covers the marker, that is what bends the fit.
+/// Minimum matching share of a square whose pixels are fitted. The fit is distorted by squares that
+/// an occluder touches.
 constexpr float kSeen = 0.95F;
-/// Where part of the marker is covered, the corners come from what was misled by that: they may
-/// move so many times as far.
+/// Factor of the maximum motion if part of the marker is occluded: the occluder misled the
+/// detector's corners too.
 constexpr double kCoveredMayMoveTimes = 4.0;
 
-/// Leaves out the pixels of covered squares; the share that stays.
+/// Removes the pixels of occluded squares; returns the share that remains.
 double ExcludeCovered(const MarkerPattern& pattern, const Mat3& rays_from_marker,
                       const VisibilityGrid& visibility, std::vector<MarkerPixel>* pixels) {
   if (visibility.side <= 0 || pixels->empty()) return 1.0;
@@ -117,14 +117,15 @@ double ExcludeCovered(const MarkerPattern& pattern, const Mat3& rays_from_marker
   return static_cast<double>(pixels->size()) / static_cast<double>(before);
 }
 
-/// `max_motion_beside_cut_px`: where sides that the image's edge cuts off meet, at the least.
+/// `max_motion_beside_cut_px`: minimum of the maximum motion where sides meet that the image's edge
+/// cuts.
 bool Plausible(const MarkerAlignment& alignment, double contrast_codes,
                const std::array<Vec2, 4>& corners_px, const std::array<bool, 4>& observed,
                double may_move_times, double max_motion_beside_cut_px) {
   for (int i = 0; i < 4; ++i) {
     const Vec2 corner = alignment.corners_px[i];
     if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return false;
-    // Only the corner opposite to those that are cut off has both of its sides whole.
+    // Only the corner opposite the cut ones has two complete sides.
     const bool beside_cut = !observed[i] || !observed[(i + 1) % 4] || !observed[(i + 3) % 4];
     const double may_move_px = std::max(beside_cut ? max_motion_beside_cut_px : 0.0,
                                         may_move_times * MayMove_px(alignment, contrast_codes, i));
@@ -184,7 +185,7 @@ std::optional<MarkerAlignment> AlignMarker(const CameraModel& camera, const Mark
   alignment.visible_fraction = gathered.observed_share * fit.AgreeingShare();
   FillCorners(camera, fit, &alignment);
   const double may_move_times = kept < 1.0 ? kCoveredMayMoveTimes : 1.0;
-  // Sides that the image's edge cuts off meet anywhere, but not so far off that no cell is read.
+  // Cut sides may meet anywhere, but within a distance at which cells are still decoded.
   const double module_px = side_px / pattern.edge_modules;
   if (!Plausible(alignment, levels->ContrastCodes(), corners_px, CornersSeen(grey, corners_px),
                  may_move_times, module_px)) {

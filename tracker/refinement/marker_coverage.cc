@@ -9,12 +9,12 @@ namespace pleinair::tracker {
 namespace {
 
 constexpr double kReachSigmas = 3.2;  ///< Φ(-3.2) = 0.0007: a sixth of an 8-bit step.
-constexpr int kMaxModules = 24;       ///< Most columns that one blurred sample may reach.
+constexpr int kMaxModules = 24;  ///< Maximum number of columns within reach of one blurred sample.
 constexpr std::array<double, 2> kComb_px{-0.25, 0.25};
 constexpr double kSubSquareVariance_px2 = 0.25 / 12.0;
 
-/// The normal distribution and its density from a table: cubic Hermite interpolation, right to 4e-9
-/// (step⁴/384 times the fourth derivative), in a fifth of the time of erfc() and exp().
+/// The normal distribution and its density from a table: cubic Hermite interpolation, accurate to
+/// 4e-9 (step⁴/384 times the fourth derivative), in a fifth of the time of erfc() and exp().
 class NormalTable {
  public:
   NormalTable() {
@@ -27,7 +27,7 @@ class NormalTable {
     }
   }
 
-  /// |z| at most kReachSigmas, but for rounding.
+  /// |z| is at most kReachSigmas, plus rounding.
   void Evaluate(double z, double* below, double* density) const {
     const double at = std::clamp(z * kEntriesPerSigma + kMiddle, 0.0, kEntries - 1.0 - 1e-9);
     const int i = static_cast<int>(at);
@@ -49,11 +49,11 @@ class NormalTable {
   std::array<Entry, kEntries> entries_;
 };
 
-/// Shares of a Gaussian that fall into the columns it reaches, with derivatives.
+/// Shares of a Gaussian in the columns within its reach, with derivatives.
 struct Shares {
   int first = 0;
   int count = 0;
-  // The first `count` are set. Clearing all of them for every pixel would take time.
+  // The first `count` entries are set. Clearing all of them for each pixel would take time.
   std::array<double, kMaxModules> share;
   std::array<double, kMaxModules> d_position;
   std::array<double, kMaxModules> d_log_sigma;

@@ -14,18 +14,20 @@ constexpr int kBlurParameter = 8;
 constexpr int kFirstLevel = 9;
 
 constexpr double kMinBlur_px = 0.05, kMaxBlur_px = 12.0;
-/// The blur is never below 0.05 px; a weak prior in the logarithm (±1) keeps sharp images, which
-/// do not tell it, from drifting there.
+/// The blur is never below 0.05 px. Sharp images do not determine it; a weak prior in the logarithm
+/// (±1) keeps it from drifting there.
 constexpr double kBlurPriorSigma = 1.0;
-/// Levels of neighbouring nodes differ by about this share of the marker's contrast.
+/// Standard deviation between the levels of neighbouring nodes, as a share of the marker's
+/// contrast.
 constexpr double kLevelPriorShare = 0.3;
 /// Tukey's biweight: 95 % efficient for Gaussian noise (Huber & Ronchetti 2009).
 constexpr double kTukey = 4.685;
 constexpr int kMaxIterations = 25;
-/// A large marker is first fitted to about so many of its pixels; all of them then need few steps.
+/// A large marker is first fitted to about this many of its pixels; the fit to all of them then
+/// needs few steps.
 constexpr std::size_t kCoarsePixels = 1200;
-/// Residuals of neighbouring pixels go together (JPEG blocks, texture of the paper, edges of
-/// shadows); the covariance is scaled by what blocks of this side show.
+/// Side of the blocks that scale the covariance. Residuals of neighbouring pixels are correlated:
+/// JPEG blocks, texture of the paper, shadow edges.
 constexpr int kBlock_px = 8;
 
 }  // namespace
@@ -68,8 +70,8 @@ MarkerFit::NormalEquations MarkerFit::EquationsOf(const std::vector<Predicted>& 
     const double weight = kept * kept / variance_[n];
 
     const double g_u = by_coverage * coverage.d_u, g_v = by_coverage * coverage.d_v;
-    // The homography moves by rays_from_marker (I + Δ), so that a pixel's marker coordinates change
-    // by minus the flow of Δ.
+    // The homography moves by rays_from_marker (I + Δ), so a pixel's marker coordinates change by
+    // minus the flow of Δ.
     const double along = g_u * u + g_v * v;
     jacobian = {-g_u,      -g_u * u,  -g_u * v,
                 -g_v,      -g_v * u,  -g_v * v,
@@ -163,7 +165,7 @@ bool MarkerFit::Optimize(std::vector<MarkerPixel> pixels) {
   pixels_ = std::move(pixels);
   variance_.assign(pixels_.size(), 1.0);
   double damping = 1e-3;
-  // The noise falls as the fit gets better; it is held while steps are compared.
+  // The noise decreases as the fit improves; it is constant while steps are compared.
   Predict(state_, &predicted_);
   NormalEquations equations = EquationsOf(predicted_, state_, nullptr);
   MarkerNoise noise = EstimateMarkerNoise(equations.residuals);
@@ -220,7 +222,7 @@ double MarkerFit::AgreeingShare() const {
 double MarkerFit::CorrelationFactor(const BlockGradients& blocks,
                                     const Eigen::MatrixXd& covariance) {
   // Clustered sandwich estimate of a covariance (Liang & Zeger 1986): H⁻¹ (Σ_blocks g gᵀ) H⁻¹ in
-  // place of H⁻¹. With few blocks the matrix is too ragged to use; its mean ratio is not.
+  // place of H⁻¹. With few blocks the matrix is inaccurate; its mean ratio to H⁻¹ is usable.
   Eigen::MatrixXd sandwich = Eigen::MatrixXd::Zero(kHomographyParameters, kHomographyParameters);
   for (const auto& [place, gradient] : blocks) {
     const Eigen::VectorXd moved = (covariance * gradient).head<kHomographyParameters>();

@@ -7,13 +7,14 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Rounding to 8 bits alone leaves 0.29 codes.
+/// Minimum residual: rounding to 8 bits alone causes 0.29 digital numbers.
 constexpr double kMinResidual_codes = 0.3;
 /// Standard deviation of a Gaussian over its median absolute deviation.
 constexpr double kSigmaPerMedian = 1.4826;
-/// Fewer pixels than this do not tell the noise of their kind.
+/// Minimum number of pixels that determine the noise of their kind.
 constexpr std::size_t kEnough = 20;
-/// An edge pixel tells its own noise where this is worth many times the noise off the edges.
+/// Minimum edge gain of a pixel that determines the noise at edges: its noise is then many times
+/// that off the edges.
 constexpr double kEdgePixelGain_codes = 12.0;
 
 double Median(std::vector<double>* values) {
@@ -41,8 +42,8 @@ MarkerNoise EstimateMarkerNoise(const std::vector<MarkerResidual>& residuals) {
   noise.flat_codes = flat.size() < kEnough
                          ? RobustScale(residuals)
                          : std::max(kMinResidual_codes, kSigmaPerMedian * Median(&flat));
-  // Half of the edge pixels are to lie within the median of a Gaussian of variance flat² + share²
-  // gain²; each pixel says from which share² on it does.
+  // Half of the edge pixels shall lie within the median of a Gaussian of variance flat² + share²
+  // gain². Each pixel gives the share² from which on it does.
   std::vector<double> share_squared;
   for (const MarkerResidual& residual : residuals) {
     if (residual.edge_gain < kEdgePixelGain_codes) continue;

@@ -9,7 +9,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Pixels near edges, and others, that are looked at; more cost time and gain nothing.
+/// Maximum number of pixels near edges, and of others; more cost time without a gain.
 constexpr std::size_t kMaxEdgePixels = 6000, kMaxFlatPixels = 2000;
 
 }  // namespace
@@ -33,7 +33,7 @@ MarkerPixels GatherMarkerPixels(const CameraModel& camera, const MarkerPattern& 
   const int right = std::min(grey.width() - 1, static_cast<int>(std::ceil(high.x)));
   const int bottom = std::min(grey.height() - 1, static_cast<int>(std::ceil(high.y)));
   const Mat3 marker_from_rays = Adjugate(rays_from_marker);
-  // Bounds the work on huge prints: a coarser raster of pixels, the same in x and y.
+  // Bounds the work on very large markers: a coarser raster of pixels, the same in x and y.
   const double area_px = std::max(0.0, high.x - low.x) * std::max(0.0, high.y - low.y);
   const int stride = std::max(1, static_cast<int>(std::sqrt(area_px / 250'000.0)));
 
@@ -56,7 +56,7 @@ MarkerPixels GatherMarkerPixels(const CameraModel& camera, const MarkerPattern& 
           (UndistortPixel(camera, {1.0 * x, y + 0.5}) - UndistortPixel(camera, {1.0 * x, y - 0.5}));
       const Vec2 d_x = Apply(marker_from_rays, pixel.ray + pixel.ray_d_x) - marker;
       const Vec2 d_y = Apply(marker_from_rays, pixel.ray + pixel.ray_d_y) - marker;
-      // What lies beyond the quiet zone is unknown: the pixel must not see it.
+      // The surface beyond the quiet zone is unknown: it must not contribute to the pixel.
       const double footprint = std::max(std::hypot(d_x.x, d_y.x), std::hypot(d_x.y, d_y.y));
       const double module = 2.0 / pattern.edge_modules;
       if (beyond > std::max(extent - 0.8 * footprint, 1.0 + std::min(0.5 * footprint, module))) {

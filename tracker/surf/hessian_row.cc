@@ -105,8 +105,8 @@ std::int32_t* AtLeast(std::size_t size, std::vector<std::int32_t>* values) {
   return values->data() + (kLine - address % kLine) % kLine / sizeof(std::int32_t);
 }
 
-/// Column at an x-offset from sample i = 0 in the sorted phases, with samples `step` = 1, 2 or 4
-/// apart.
+/// Row differences at an x-offset from sample i = 0, in the sorted phases, with samples `step` = 1,
+/// 2 or 4 apart.
 const std::int32_t* EdgeAt(const std::int32_t* phases, std::ptrdiff_t phase_stride, int step,
                            int offset) {
   const int phase = offset & (step - 1);

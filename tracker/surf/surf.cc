@@ -42,8 +42,8 @@ void Surf::Detect(ImageView<const std::uint8_t> grey, std::vector<SurfKeypoint>*
   if (s.options.double_size && double_size) {
     DoubleSize(grey, &s.doubled);
     s.doubled_integral.Compute(s.doubled.view());
-    // Same sample spacing in the given image as in the other octaves. Twice the density costs 3 ms
-    // more (640x480) and finds no more keypoints (docs/method/surf.md).
+    // The samples are as far apart in the given image as those of the undoubled octaves. Twice the
+    // density costs 3 ms more (640x480) and finds no more keypoints (docs/method/surf.md).
     s.doubled_hessian.Detect(s.doubled_integral, 1, 2 * s.options.first_step, s.options.threshold,
                              keypoints);
     for (SurfKeypoint& keypoint : *keypoints) {
