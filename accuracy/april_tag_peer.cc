@@ -70,7 +70,7 @@ class AprilTagPeer final : public Detector {
       apriltag_detection_t* tag = nullptr;
       zarray_get(found, i, &tag);
       Detected detected{.number = tag->id};
-      // Counter-clockwise from the bottom-left; the library's pixels have their corner at 0.
+      // Counter-clockwise from the bottom-left. In the library's pixels integers are corners.
       for (int k = 0; k < 4; ++k) {
         detected.corners_px[k] = {tag->p[3 - k][0] - 0.5, tag->p[3 - k][1] - 0.5};
       }

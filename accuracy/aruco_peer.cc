@@ -12,8 +12,8 @@ namespace {
 struct Family {
   const char* name;
   cv::aruco::PREDEFINED_DICTIONARY_NAME dictionary;
-  int bits;   ///< Of the code, along a side; a ring of black around them.
-  int turns;  ///< Quarter turns clockwise from its first corner to the print's top-left one.
+  int bits;   ///< Bits of the code along a side; a black ring surrounds them.
+  int turns;  ///< Quarter turns clockwise from its first corner to the marker's top-left one.
 };
 constexpr std::array<Family, 4> kFamilies{{
     {"4X4_50", cv::aruco::DICT_4X4_50, 4, 0},
@@ -21,7 +21,7 @@ constexpr std::array<Family, 4> kFamilies{{
     {"tag25h9", cv::aruco::DICT_APRILTAG_25h9, 5, 2},
     {"tag16h5", cv::aruco::DICT_APRILTAG_16h5, 4, 2},
 }};
-constexpr int kQuiet = 1;  // Modules of white margin on each side.
+constexpr int kQuiet = 1;  // Modules of quiet zone on each side.
 
 class ArucoPeer final : public Detector {
  public:
@@ -31,7 +31,7 @@ class ArucoPeer final : public Detector {
         family_(family),
         dictionary_(cv::aruco::getPredefinedDictionary(family.dictionary)),
         parameters_(cv::aruco::DetectorParameters::create()) {
-    cv::setNumThreads(1);  // As the others.
+    cv::setNumThreads(1);  // Like the other detectors.
     parameters_->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
   }
 

@@ -11,7 +11,7 @@
 namespace pleinair::accuracy {
 namespace {
 
-/// Random values on a grid, joined smoothly, `cell_px` apart.
+/// Adds random values on a grid of spacing `cell_px`, smoothly interpolated.
 void AddNoise(double cell_px, double amplitude, RandomStream* random, Image<float>* log_light) {
   const int width = log_light->width(), height = log_light->height();
   const int columns = static_cast<int>(width / cell_px) + 3;
@@ -36,7 +36,7 @@ void AddNoise(double cell_px, double amplitude, RandomStream* random, Image<floa
   }
 }
 
-/// Something flat before the ground: in its own turned coordinates, -1…1 both ways.
+/// A flat object in front of the ground. Its own rotated coordinates are -1…1 in both axes.
 struct Thing {
   enum Kind { kBox, kDisc, kGrating, kCheckers, kSigns, kFrame };
   Kind kind;
@@ -47,12 +47,12 @@ struct Thing {
   std::uint32_t word;
 };
 
-/// Whether a cell of a thing has its other tone.
+/// Whether a cell of an object has its second tone.
 bool HasOtherTone(const Thing& thing, int column, int row) {
   if (thing.kind == Thing::kGrating) return column % 2 != 0;
   if (thing.kind == Thing::kCheckers) return (column + row) % 2 != 0;
   if (thing.kind != Thing::kSigns) return false;
-  // A bit a cell: as irregular as print, or as a marker's code.
+  // One bit per cell: as irregular as text, or as a marker's code.
   return Philox(
              {static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), thing.word, 0},
              {0, 0})[0] %
@@ -60,7 +60,7 @@ bool HasOtherTone(const Thing& thing, int column, int row) {
          0;
 }
 
-/// The tones of a thing's cells, row by row.
+/// The tones of an object's cells, row by row.
 std::vector<double> CellTones(const Thing& thing) {
   std::vector<double> tones;
   for (int row = 0; row < thing.cells; ++row) {
@@ -71,11 +71,11 @@ std::vector<double> CellTones(const Thing& thing) {
   return tones;
 }
 
-/// The tone at a point of it; negative beside it.
+/// The tone at a point of an object; negative outside it.
 double ToneOf(const Thing& thing, const std::vector<double>& cells, double u, double v) {
   if (std::fabs(u) > 1.0 || std::fabs(v) > 1.0) return -1.0;
   if (thing.kind == Thing::kDisc) return u * u + v * v <= 1.0 ? thing.tone : -1.0;
-  // A picture frame or a window: the closed square that detectors look for.
+  // A picture frame or a window: the closed square that detectors search for.
   if (thing.kind == Thing::kFrame) {
     return std::max(std::fabs(u), std::fabs(v)) > 0.8 ? thing.tone : thing.other_tone;
   }
@@ -112,7 +112,7 @@ void Paint(const Thing& thing, Image<float>* light) {
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
       const double from_x = x - thing.middle.x, from_y = y - thing.middle.y;
-      // Farther than a pixel's half diagonal beside it.
+      // More than a pixel's half diagonal outside it.
       if (std::fabs(from_x * cosine + from_y * sine) > thing.half_width + 1.0 ||
           std::fabs(from_y * cosine - from_x * sine) > thing.half_height + 1.0) {
         continue;
@@ -140,7 +140,7 @@ void Paint(const Thing& thing, Image<float>* light) {
 Image<float> MakeBackground(int width, int height, std::uint64_t seed, std::string_view key) {
   RandomStream random(seed, "background/" + std::string(key));
   Image<float> light(width, height);
-  const double roughness = random.Uniform(0.5, 0.8);  // Amplitude of an octave over the last one's.
+  const double roughness = random.Uniform(0.5, 0.8);  // Amplitude ratio of successive octaves.
   double amplitude = random.Uniform(0.25, 0.8);
   double cell_px = height / 2.0;
   while (cell_px > 1.5) {
@@ -149,7 +149,7 @@ Image<float> MakeBackground(int width, int height, std::uint64_t seed, std::stri
     cell_px /= 2.0;
   }
   const double middle = std::log(random.Uniform(0.05, 0.4));
-  const double slope = random.Uniform(-0.8, 0.8);  // Brighter above or below.
+  const double slope = random.Uniform(-0.8, 0.8);  // Brighter at the top or at the bottom.
   for (int y = 0; y < height; ++y) {
     const double ramp = slope * (y / (height - 1.0) - 0.5);
     for (int x = 0; x < width; ++x) {

@@ -13,7 +13,7 @@ namespace {
 namespace math = boost::math;
 namespace policies = boost::math::policies;
 
-/// No exceptions, and the same figures whatever a machine's long double is.
+/// No exceptions; results do not depend on a machine's long double.
 using Policy = policies::policy<
     policies::promote_double<false>, policies::domain_error<policies::ignore_error>,
     policies::pole_error<policies::ignore_error>, policies::overflow_error<policies::ignore_error>,

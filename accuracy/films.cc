@@ -17,9 +17,9 @@ namespace {
 
 constexpr int kFilmMarker = 7;
 constexpr double kExposure_s = 0.010;
-constexpr double kFilmPeriod_s = 4.0;  // An occluder's coming and going.
+constexpr double kFilmPeriod_s = 4.0;  // Period of an occluder's motion in and out.
 
-/// A sum of sines with random phases: how a hand wanders and trembles.
+/// A sum of sines with random phases: the drift and tremor of a hand.
 class Wander {
  public:
   struct Wave {

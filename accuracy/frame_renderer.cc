@@ -20,11 +20,11 @@ namespace {
 constexpr double kInk = 0.035, kPaper = 0.82;
 
 /// Finer pixels along a pixel's side, in which markers are drawn and blurred by the lens. Each is
-/// an exact mean over a box of the print, so that they only follow its turn and the perspective,
-/// and that the lens's point spread is sampled finely.
+/// an exact mean over a box of the marker, so the finer pixels only have to follow its rotation and
+/// the perspective, and to sample the lens's point spread function finely.
 constexpr int kFine = 3;
 
-/// Bilinear; 0 outside.
+/// Bilinear interpolation; 0 outside.
 float Sample(const Image<float>& image, double x, double y) {
   const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
   const auto across = static_cast<float>(x - column), down = static_cast<float>(y - row);
@@ -35,7 +35,7 @@ float Sample(const Image<float>& image, double x, double y) {
          down * ((1 - across) * at(column, row + 1) + across * at(column + 1, row + 1));
 }
 
-/// 8-bit codes of linear light 0…1 by a table so fine that it is exact but within 1e-4 of a step.
+/// 8-bit values of linear light 0…1, from a table: exact except within 1e-4 of a step.
 class SrgbTable {
  public:
   SrgbTable() : codes_(kSteps + 1) {
@@ -54,14 +54,14 @@ class SrgbTable {
 
 }  // namespace
 
-/// Undistorted rays of all pixels and how they change from pixel to pixel.
+/// Undistorted rays of all pixels, and their differences from pixel to pixel.
 struct FrameRenderer::LensRays {
   struct Ray {
     Vec2 middle, per_x, per_y;
   };
   explicit LensRays(const CameraModel& camera)
       : width(camera.width), rays(static_cast<std::size_t>(camera.width) * camera.height) {
-    // A pixel beyond each side gives the central differences at the rim.
+    // One pixel beyond each side gives central differences at the image's edge.
     const int wide = camera.width + 2;
     std::vector<Vec2> middles(static_cast<std::size_t>(wide) * (camera.height + 2));
     for (int y = -1; y <= camera.height; ++y) {
@@ -143,7 +143,7 @@ void FrameRenderer::PaintPixel(const MarkerSpec& marker, const MarkerTexture& te
   const double modules_per_unit = texture.modules() / (2.0 * texture.extent());
   const Mat3 plane_from_rays = PlaneFromRays(marker.camera_from_marker, kMarkerEdge);
   const LensRays::Ray& ray = rays_->At(pixel.x, pixel.y);
-  // How far neighbouring samples lie apart on the print.
+  // Distances of neighbouring samples on the marker.
   const Vec2 middle = tracker::Apply(plane_from_rays, ray.middle);
   const Vec2 step_x =
       (tracker::Apply(plane_from_rays, ray.middle + ray.per_x) - middle) * modules_per_unit;
@@ -193,7 +193,7 @@ void FrameRenderer::AddLightPatterns(const FrameSpec& frame, const MarkerTruth& 
         return (away.x * std::cos(light.angle) + away.y * std::sin(light.angle)) / edge;
       };
       double value = (*picture)(x, y);
-      if (photo.gradient) {  // Its ratio over one edge, flat far away.
+      if (photo.gradient) {  // The ratio is over one edge; uniform far away.
         const double ratio = photo.gradient->value;
         const double at = std::clamp(along(*photo.gradient), -0.7, 0.7);
         value *= 1.3 / std::sqrt(ratio) * std::exp(-std::log(ratio) * at);
@@ -203,7 +203,7 @@ void FrameRenderer::AddLightPatterns(const FrameSpec& frame, const MarkerTruth& 
         const double dark = 1.0 / photo.shadow->value;
         value *= dark + (1.0 - dark) / (1.0 + std::exp(std::clamp(-at_px / 0.6, -60.0, 60.0)));
       }
-      if (photo.glare) {  // A saturated spot over about `value` per cent of the marker.
+      if (photo.glare) {  // A saturated spot that covers about `value` per cent of the marker.
         const double radius = edge * std::sqrt(photo.glare->value / 100.0 / M_PI);
         const double distance = Norm(away - photo.glare->offset * edge) / radius;
         value += 1.6 * std::exp(-std::log(2.0) * std::pow(distance, 4));

@@ -5,7 +5,7 @@
 namespace pleinair::accuracy {
 namespace {
 
-/// Of one measure: the scores of each recording's pictures.
+/// Figure of one measure: the scores of each recording's images.
 LightFigure FigureOf(const std::vector<double>& scores) {
   LightFigure figure{.count = static_cast<std::int64_t>(scores.size())};
   if (scores.empty()) return figure;

@@ -18,12 +18,13 @@ Transform<Camera, Marker> PoseAtPixel(const CameraModel& camera, Vec2 centre_px,
                                       Metres size, Radians tilt, Radians tilt_axis, Radians roll) {
   const Vec2 ray = UndistortPixel(camera, centre_px);
   const Vec3 direction = Normalized(Vec3{ray.x, ray.y, 1.0});
-  // Smallest turn that takes the optical axis to the line of sight.
+  // The smallest rotation that takes the optical axis to the line of sight.
   const Vec3 cross = Cross({0, 0, 1}, direction);
   const double sine = Norm(cross);
   const Mat3 facing =
       sine > 1e-12 ? RotationAbout(cross * (1.0 / sine), std::atan2(sine, direction.z)) : Mat3{};
-  // The marker's y is up and its z towards the viewer: half a turn about x from the camera's axes.
+  // The marker's y is up and its z points to the viewer: half a turn about x from the camera's
+  // axes.
   constexpr Mat3 kUpright{{1, 0, 0, 0, -1, 0, 0, 0, -1}};
   const Mat3 tilted =
       RotationAbout({std::cos(tilt_axis.value()), std::sin(tilt_axis.value()), 0.0}, tilt.value());
@@ -58,7 +59,7 @@ Mat3 PlaneFromRays(const Transform<Camera, Marker>& camera_from_marker, Metres s
 PixelBox BoxOf(const CameraModel& camera, const Transform<Camera, Marker>& camera_from_marker,
                Metres size, double extent) {
   constexpr int kSteps = 16;          // Along a side, since lenses bend sides.
-  constexpr double kMargin_px = 3.0;  // A pixel's own width, and what bends between two steps.
+  constexpr double kMargin_px = 3.0;  // A pixel's own width, and the bend between two steps.
   constexpr double kAll = 1e9;
   const double half = 0.5 * size.value() * extent;
   PixelBox box;
@@ -68,7 +69,7 @@ PixelBox BoxOf(const CameraModel& camera, const Transform<Camera, Marker>& camer
       const Vec2 from = tracker::kSquareCorners[side], to = tracker::kSquareCorners[(side + 1) % 4];
       const Vec2 at = (from * (1.0 - along) + to * along) * half;
       const Point<Camera> point = camera_from_marker * Point<Marker>{{at.x, at.y, 0.0}};
-      // Partly behind the camera: it may be seen anywhere.
+      // Partly behind the camera: it may appear anywhere.
       if (point.xyz.z < 1e-6) return {-kAll, kAll, -kAll, kAll};
       const Vec2 pixel = ProjectToPixel(camera, point);
       box = {std::min(box.left, pixel.x - kMargin_px), std::max(box.right, pixel.x + kMargin_px),

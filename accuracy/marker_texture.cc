@@ -28,7 +28,7 @@ double MarkerTexture::Integral(double x, double y) const {
 }
 
 double MarkerTexture::White(Vec2 at, double half_width, double half_height) const {
-  constexpr double kMin = 1e-6;  // A box without area has no mean.
+  constexpr double kMin = 1e-6;  // Minimum half side: a box without area has no mean.
   const auto inside = [this](double value) {
     return std::clamp(value, 0.0, static_cast<double>(modules_));
   };

@@ -7,7 +7,7 @@
 namespace pleinair::accuracy {
 namespace {
 
-/// Polynomial with its constant term first.
+/// Polynomial; the constant term is first.
 template <std::size_t kCount>
 double Polynomial(const std::array<double, kCount>& coefficients, double x) {
   double value = 0.0;

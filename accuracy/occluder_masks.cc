@@ -11,22 +11,22 @@ namespace pleinair::accuracy {
 namespace {
 
 constexpr int kTexels = Occluder::kTexels;
-/// Texels of the marker's square along an axis: from the first to before the last.
+/// Texels of the marker's square along an axis: the first, and one after the last.
 constexpr int kFirstTexel = static_cast<int>(-Occluder::kFirst * Occluder::kTexelsPerEdge);
 constexpr int kLastTexel = kFirstTexel + Occluder::kTexelsPerEdge;
-constexpr double kBorder = (1.0 - kContentShare) / 2.0;  // Its width, edges.
+constexpr double kBorder = (1.0 - kContentShare) / 2.0;  // The border's width, in edges.
 
-/// Middle of a texel along an axis, edges.
+/// Centre of a texel along an axis, in edges.
 double PlaceOf(int texel) { return Occluder::kFirst + (texel + 0.5) / Occluder::kTexelsPerEdge; }
 
-/// Signed distance of an occluder's outline at a point (u right, v down, edges), or -1 and 1.
+/// Signed distance to an occluder's outline at a point (u right, v down, edges), or -1 and 1.
 using Outline = std::function<double(double u, double v)>;
 
 double Box(double u, double v, double u0, double v0, double u1, double v1) {
   return u > u0 && u < u1 && v > v0 && v < v1 ? -1.0 : 1.0;
 }
 
-/// Signed distance to a finger: all points within `radius` of a segment.
+/// Signed distance to a finger: all points within `radius` of a line segment.
 double Capsule(Vec2 at, Vec2 from, Vec2 to, double radius) {
   const Vec2 along = to - from, away = at - from;
   const double length2 = std::max(along.x * along.x + along.y * along.y, 1e-9);
@@ -34,7 +34,7 @@ double Capsule(Vec2 at, Vec2 from, Vec2 to, double radius) {
   return Norm(away - along * share) - radius;
 }
 
-/// The point that quarter turns about the marker's middle bring to (u, v).
+/// The point that quarter turns about the marker's centre move to (u, v).
 Vec2 TurnedBack(double u, double v, int quarters) {
   Vec2 at{u, v};
   for (int i = 0; i < quarters; ++i) at = {1.0 - at.y, at.x};
@@ -52,7 +52,7 @@ Image<float> Rasterize(const Outline& outline, int quarters) {
   return distance;
 }
 
-/// The outline for a parameter 0…1 whose mask covers `share`.
+/// The outline whose mask covers `share`, for a parameter 0…1.
 Outline Bisect(const std::function<Outline(double)>& family, double share, bool of_content) {
   const auto covered = [&](double parameter) {
     const Outline outline = family(parameter);
@@ -79,7 +79,8 @@ Outline Bisect(const std::function<Outline(double)>& family, double share, bool 
   return family(best);
 }
 
-/// A corner covered along both sides for a length of `reach` and to the border's depth at most.
+/// A corner that is covered along both sides for a length of `reach`, at most to the border's
+/// depth.
 double Corner(double u, double v, double reach, double beyond) {
   const double depth = std::min(reach, kBorder);
   return std::min(Box(u, v, -beyond, -beyond, reach, depth),
@@ -90,7 +91,7 @@ bool InContent(double u, double v) {
   return std::fabs(u - 0.5) < kContentShare / 2 && std::fabs(v - 0.5) < kContentShare / 2;
 }
 
-/// Finger tips that hold the rim.
+/// Finger tips that hold the marker's edge.
 std::function<Outline(double)> Fingers(double share, RandomStream* random) {
   struct Finger {
     double place, depth, turn;
@@ -120,7 +121,7 @@ std::function<Outline(double)> Fingers(double share, RandomStream* random) {
   };
 }
 
-/// A palm with four fingers that comes in over one side.
+/// A palm with four fingers that enters across one side.
 std::function<Outline(double)> Hand(RandomStream* random) {
   const double spacing = random->Uniform(.15, .19), offset = random->Uniform(-.08, .08);
   std::array<double, 4> lengths{};
@@ -139,7 +140,7 @@ std::function<Outline(double)> Hand(RandomStream* random) {
   };
 }
 
-/// One finger over the border into the content: first deeper, then thicker.
+/// One finger across the border into the content: first deeper, then thicker.
 std::function<Outline(double)> Finger(RandomStream* random) {
   const double x = random->Uniform(.38, .62), lean = random->Uniform(-.15, .15);
   return [=](double reach) -> Outline {
@@ -175,7 +176,7 @@ std::function<Outline(double)> Blobs(bool content, RandomStream* random) {
       field(x, y) = static_cast<float>(value);
     }
   }
-  constexpr double kSpan = 3.0;  // The parameter goes over so many standard deviations, both ways.
+  constexpr double kSpan = 3.0;  // Range of the parameter, in standard deviations both ways.
   return [field = std::move(field), content](double parameter) -> Outline {
     const double level = (2.0 * parameter - 1.0) * kSpan;
     return [&field, content, level](double u, double v) {
@@ -189,7 +190,7 @@ std::function<Outline(double)> Blobs(bool content, RandomStream* random) {
   };
 }
 
-/// Bars and corners, with how far they reach beyond the marker.
+/// Bars and corners; `beyond` is how far they extend beyond the marker.
 std::function<Outline(double)> Flat(const std::string& pattern, double beyond) {
   const double o = beyond;
   return [pattern, o](double p) -> Outline {

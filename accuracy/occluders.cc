@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kTexels = Occluder::kTexels;
 
-/// Linear reflectances of skin, for luminance (from five linear RGB albedos of skins).
+/// Linear reflectances of skin, as luminance (from five linear RGB albedos of skins).
 constexpr std::array<double, 5> kSkin{0.348, 0.471, 0.225, 0.127, 0.560};
 
-/// Skin: darker towards the outline, where it turns away, and grained.
+/// Skin: darker towards the outline, where it curves away, and grained.
 Image<float> PaintSkin(const Image<float>& distance, RandomStream* random) {
-  constexpr double kRoundness = 0.07;  // Edges.
+  constexpr double kRoundness = 0.07;  // In edges.
   constexpr double kGrain = 0.25, kGrainBlur_texels = 2.2;
   const double base =
       kSkin[random->Below(static_cast<int>(kSkin.size()))] * random->Uniform(.8, 1.1);
@@ -36,7 +36,7 @@ Image<float> PaintSkin(const Image<float>& distance, RandomStream* random) {
   return light;
 }
 
-/// Card or cloth: one tone, black to white, with a ramp.
+/// Card or cloth: one tone between black and white, with a ramp.
 Image<float> PaintFlat(RandomStream* random) {
   constexpr std::array<std::array<double, 2>, 4> kTones{
       {{.02, .1}, {.15, .5}, {.6, .85}, {.1, .5}}};
@@ -54,9 +54,9 @@ Image<float> PaintFlat(RandomStream* random) {
   return light;
 }
 
-/// The soft shadow that it throws beside itself.
+/// The soft shadow that it casts beside itself.
 Image<float> PaintShadow(const Image<float>& cover, RandomStream* random) {
-  constexpr double kSoftness = 0.02, kMaxShift = 0.035;  // Edges.
+  constexpr double kSoftness = 0.02, kMaxShift = 0.035;  // In edges.
   const int dx = static_cast<int>(
       std::lround(random->Uniform(-kMaxShift, kMaxShift) * Occluder::kTexelsPerEdge));
   const int dy = static_cast<int>(
@@ -75,7 +75,7 @@ Image<float> PaintShadow(const Image<float>& cover, RandomStream* random) {
 }
 
 double ExtentOf(const Image<float>& cover) {
-  constexpr double kShadowReach = 0.08;  // Edges.
+  constexpr double kShadowReach = 0.08;  // In edges.
   int low = kTexels, high = -1;
   for (int y = 0; y < kTexels; ++y) {
     for (int x = 0; x < kTexels; ++x) {

@@ -9,7 +9,7 @@
 namespace pleinair::accuracy {
 namespace {
 
-/// One frame under both detectors.
+/// One frame, scored for both detectors.
 struct FramePair {
   const FrameRecord* ours = nullptr;
   const FrameRecord* peer = nullptr;
@@ -35,7 +35,7 @@ std::vector<FramePair> PairFrames(const std::vector<FrameRecord>& records, const
 
 using Block = std::vector<FramePair>;
 
-/// Pairs that may be taken for independent of each other.
+/// Blocks of pairs that may be treated as independent.
 std::vector<Block> BlocksOf(const std::vector<FramePair>& pairs) {
   std::map<std::string, std::vector<FramePair>> films;
   std::vector<Block> blocks;
@@ -57,7 +57,7 @@ std::vector<Block> BlocksOf(const std::vector<FramePair>& pairs) {
   return blocks;
 }
 
-/// Calls `use` with each marker as both have seen it, of the blocks with these indices.
+/// Calls `use` with each marker's two records, for the blocks with these indices.
 void ForMarkers(const std::vector<Block>& blocks, const std::vector<std::size_t>& indices,
                 const std::function<void(const MarkerRecord&, const MarkerRecord&)>& use) {
   for (const std::size_t index : indices) {
@@ -99,7 +99,7 @@ std::optional<PeerSummary> CompareWithPeer(const std::vector<FrameRecord>& recor
     });
     return our_hits / peer_hits;
   };
-  // Of medians, over the markers that both hit.
+  // Ratio of medians, over the markers that both detectors hit.
   const auto median_ratio = [&](double (*error)(const MarkerRecord&)) {
     return [&blocks, error](const std::vector<std::size_t>& indices) {
       std::vector<double> our_errors, peer_errors;

@@ -20,7 +20,7 @@ int Mirrored(int at, int size) {
   return at < size ? at : period - at;
 }
 
-/// The picture with `rim` mirrored pixels around it.
+/// The image with `rim` mirrored pixels around it.
 Image<float> WithRim(const Image<float>& light, int rim) {
   Image<float> wide(light.width() + 2 * rim, light.height() + 2 * rim);
   for (int y = 0; y < wide.height(); ++y) {

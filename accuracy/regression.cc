@@ -52,7 +52,7 @@ std::vector<std::pair<std::string, std::vector<Scene>>> PairScenes(
   return sweeps;
 }
 
-/// Something counted in a frame, of which more is worse.
+/// A count per frame; more is worse.
 using Count = std::int64_t (*)(const FrameRecord&);
 /// An error of a hit.
 using ErrorOf = std::optional<double> (*)(const MarkerRecord&);
@@ -83,7 +83,7 @@ Change CompareCounts(const std::vector<Scene>& scenes, Count count) {
   return change;
 }
 
-/// The rate of hits; of counts, those of markers that were not hit.
+/// The hit rate; its counts are those of markers that were not hit.
 Change CompareRates(const std::vector<Scene>& scenes) {
   Change change = CompareCounts(scenes, [](const FrameRecord& record) {
     return static_cast<std::int64_t>(record.markers.size()) - CountOutcome(record, Outcome::kHit);
@@ -141,7 +141,7 @@ std::optional<double> TranslationError(const MarkerRecord& marker) {
          Norm(marker.true_camera_from_marker.translation_m);
 }
 
-/// All figures of some scenes.
+/// Adds all figures of these scenes.
 void AddChanges(const std::string& sweep, const std::vector<Scene>& scenes,
                 std::vector<Change>* changes) {
   const auto add = [&](const char* measure, Change change) {
@@ -164,7 +164,7 @@ void AddChanges(const std::string& sweep, const std::vector<Scene>& scenes,
   add("translation_percent", CompareErrors(scenes, TranslationError));
 }
 
-/// Composed pictures that both runs have.
+/// Adds the composited images that both runs have.
 void AddLightChanges(const std::vector<ImageRecord>& before, const std::vector<ImageRecord>& after,
                      std::vector<Change>* changes) {
   std::map<std::pair<std::string, std::string>, const ImageRecord*> after_by_name;

@@ -57,7 +57,7 @@ bool IsFilm(const FrameRecord& record) {
 }
 
 double AngleBetween(const Mat3& a, const Mat3& b) {
-  // From the chord: the cosine has no precision near 0.
+  // Computed from the chord: the cosine is imprecise near 0.
   double square = 0.0;
   for (int i = 0; i < 9; ++i) square += (a.m[i] - b.m[i]) * (a.m[i] - b.m[i]);
   return 2.0 * std::asin(std::min(1.0, std::sqrt(square / 8.0)));

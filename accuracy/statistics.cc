@@ -42,7 +42,7 @@ Interval WilsonInterval(std::int64_t hits, std::int64_t trials, double confidenc
   const double n = static_cast<double>(trials), p = static_cast<double>(hits) / n;
   const double middle = (p + z * z / (2 * n)) / (1 + z * z / n);
   const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  // At the ends the formula gives 0 and 1 but for rounding.
+  // At the ends the formula gives 0 and 1, except for rounding.
   return {hits == 0 ? 0.0 : middle - half, hits == trials ? 1.0 : middle + half};
 }
 
@@ -55,7 +55,8 @@ double Percentile(std::vector<double> values, double share) {
   if (below + 1 == static_cast<std::ptrdiff_t>(values.size())) return low;
   const double high = *std::min_element(values.begin() + below + 1, values.end());
   const double part = place - static_cast<double>(below);
-  // Nothing lies between two infinite values, nor a part of the way from or to one.
+  // Between two infinite values there is no value; neither is there a fraction of the way from or
+  // to one.
   if (part == 0.0 || low == high || std::isinf(low)) return low;
   return low + part * (high - low);
 }

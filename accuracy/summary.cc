@@ -16,7 +16,7 @@
 namespace pleinair::accuracy {
 namespace {
 
-/// What a cell is made of.
+/// Data of the frames of one cell.
 struct Gathered {
   CellSummary cell;
   std::int64_t frames_with_false = 0;
@@ -76,7 +76,7 @@ struct Gathered {
   }
 };
 
-/// Cells in the order in which their first frames come, the whole sweep before its parts.
+/// Cells in the order of their first frames; the whole sweep is before its parts.
 class Cells {
  public:
   void Add(const FrameRecord& record) {
@@ -112,7 +112,7 @@ class Cells {
 
 std::vector<AmbiguityBin> BinAmbiguity(const std::vector<FrameRecord>& records,
                                        const std::string& detector) {
-  // The first holds those that are certain.
+  // The first bin holds the unambiguous poses.
   constexpr std::array<double, 5> kEdges{0.0, tracker::kCertainRatio, 0.01, 0.1, 1.0};
   std::vector<AmbiguityBin> bins(kEdges.size() - 1);
   for (std::size_t i = 0; i < bins.size(); ++i) {

@@ -8,7 +8,7 @@
 namespace pleinair::accuracy {
 namespace {
 
-/// Whether the square with a margin of 13 % of its edge lies in the picture.
+/// Whether the square, with a margin of 13 % of its edge, is inside the image.
 bool IsInImage(const CameraModel& camera, const Transform<Camera, Marker>& pose) {
   constexpr double kMargin = 0.13, kRim_px = 3.0;
   const auto corners = SquareCorners(camera, pose, kMarkerEdge * (1.0 + 2.0 * kMargin));
@@ -21,7 +21,7 @@ bool IsInImage(const CameraModel& camera, const Transform<Camera, Marker>& pose)
 }  // namespace
 
 MarkerSpec PlaceMarker(const CameraModel& camera, const PlaceWanted& wanted, RandomStream* random) {
-  // Anywhere first; near the middle where a large print does not fit elsewhere.
+  // Anywhere first; then near the centre, where alone a large marker may fit.
   constexpr int kTries = 200, kAnywhere = 100;
   MarkerSpec marker{.side_px = wanted.side_px, .tilt_deg = wanted.tilt_deg};
   for (int attempt = 0; attempt < kTries; ++attempt) {

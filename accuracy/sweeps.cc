@@ -26,7 +26,7 @@ class SweepMaker {
   }
   const CameraModel& camera() const { return camera_; }
 
-  /// Where a frame's random numbers come from.
+  /// The random number stream of a frame.
   RandomStream Stream(const std::string& what, const std::string& pattern, double level,
                       int repeat) const {
     return RandomStream(options_.seed,
@@ -45,7 +45,7 @@ class SweepMaker {
 
   void Add(FrameSpec frame) { runs_.push_back({false, {std::move(frame)}}); }
 
-  /// `repeats` frames of one marker at each level, changed by `change`.
+  /// Adds `repeats` frames of one marker at each level, modified by `change`.
   using Change = std::function<void(RandomStream*, PlaceWanted*, FrameSpec*)>;
   void AddLevels(const std::string& pattern, const std::vector<double>& levels, int repeats,
                  const Change& change) {
@@ -165,7 +165,7 @@ void MakeLight(SweepMaker* maker) {
   }
 }
 
-/// 0…count-1 in a random order (Fisher & Yates).
+/// 0…count-1 in random order (Fisher & Yates).
 std::vector<int> Shuffled(int count, RandomStream* random) {
   std::vector<int> order(count);
   for (int i = 0; i < count; ++i) order[i] = i;
@@ -173,7 +173,7 @@ std::vector<int> Shuffled(int count, RandomStream* random) {
   return order;
 }
 
-/// Where so many different markers stand in a grid, in no order.
+/// Positions of `count` different markers on a grid, in random order.
 struct MarkerGrid {
   MarkerGrid(const CameraModel& camera, int count, RandomStream* random) {
     const int columns = std::max(
@@ -212,7 +212,7 @@ void MakeMany(SweepMaker* maker) {
   }
 }
 
-/// Prints so small that their two planar poses look nearly alike, many in a picture.
+/// Many markers per image, so small that their two planar poses are nearly ambiguous.
 void MakeAmbiguity(SweepMaker* maker) {
   constexpr int kMarkers = 48;
   const CameraModel& camera = maker->camera();
@@ -241,7 +241,7 @@ void MakeAmbiguity(SweepMaker* maker) {
           photo.noise.shot = 2e-4 * gain;
           photo.noise.read = 0.004 * std::sqrt(gain);
         }
-        // A tenth of the print at most.
+        // At most about a tenth of the marker.
         if (pattern == "blur" || mixed) {
           photo.lens.defocus_px = level * random.Uniform(0, .08);
           photo.motion.length_px = level * random.Uniform(0, .08);
@@ -258,7 +258,7 @@ void MakeNegative(SweepMaker* maker) {
   for (int i = 0; i < maker->Count(150); ++i) maker->Add(maker->Frame("", 0, i));
 }
 
-/// One scene, many draws of the noise.
+/// One scene with many samples of the noise.
 void MakeJitter(SweepMaker* maker) {
   for (const double side : {160, 120, 80, 60, 42, 30, 24, 18}) {
     for (const int tilt : {5, 40}) {

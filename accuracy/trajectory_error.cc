@@ -13,7 +13,7 @@ namespace {
 using Pose = Transform<Marker, Camera>;
 
 struct Match {
-  std::size_t place;  ///< In the truth.
+  std::size_t place;  ///< Index in the ground truth.
   const Pose* found;
   const Pose* truth;
 };
@@ -31,9 +31,9 @@ std::vector<Match> MatchByTime(const Trajectory& found, const Trajectory& truth)
   return matches;
 }
 
-/// RMS distance of camera positions after the rigid motion that makes it least: Umeyama 1991,
+/// RMS distance of camera positions after the rigid alignment that minimises it: Umeyama 1991,
 /// "Least-squares estimation of transformation parameters between two point patterns", without
-/// scale. Sturm et al. 2012, Eq. (3) and what follows it.
+/// scale. Sturm et al. 2012, Eq. (3) and the text after it.
 double AlignedRmse(const std::vector<Match>& matches) {
   Eigen::Matrix3Xd found(3, matches.size()), truth(3, matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -55,7 +55,7 @@ std::optional<TrajectoryError> CompareTrajectories(const Trajectory& found,
   const std::vector<Match> matches = MatchByTime(found, truth);
   if (matches.empty()) return std::nullopt;
   TrajectoryError error{.poses = static_cast<std::int64_t>(matches.size())};
-  // Fewer than three points leave the alignment undetermined, and its residual is 0.
+  // Fewer than three points do not determine the alignment, and its residual is 0.
   if (matches.size() >= 3) error.ate_rmse_m = AlignedRmse(matches);
   double unaligned2 = 0.0, translation2 = 0.0, rotation2 = 0.0;
   for (std::size_t i = 0; i < matches.size(); ++i) {
