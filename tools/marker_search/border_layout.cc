@@ -16,7 +16,7 @@ bool InBand(int x, int y) {
 
 BorderLayout::Placed DrawPlace(const std::vector<BorderShape>& shapes, RandomDraws* draws) {
   const BorderShape shape = shapes[draws->Below(static_cast<int>(shapes.size()))];
-  // Along a random side, the corners belonging to both.
+  // The place lies along a random side. Both sides that meet at a corner include it.
   const int along = kBandBegin + draws->Below(kEdge - 2 * kBandBegin - 1);
   const int across = kBandBegin + draws->Below(kBandEnd - kBandBegin - 1);
   switch (draws->Below(4)) {
@@ -42,7 +42,7 @@ std::optional<BorderLayout> BorderLayout::Of(const tracker::sg::Border& border) 
   for (int y = 0; y < kEdge; ++y) {
     for (int x = 0; x < kEdge; ++x) {
       if (left[y][x] != '.') continue;
-      // Everything that hangs together with this module.
+      // Collects the connected component of this module.
       std::vector<std::pair<int, int>> modules{{x, y}};
       left[y][x] = '#';
       int x0 = x, y0 = y;
@@ -94,7 +94,7 @@ BorderLayout BorderLayout::Varied(const ShapeLibrary& library, RandomDraws* draw
     varied.Remove(index);
     bool changed = false;
     switch (draws->Below(8)) {
-      case 0:  // A step or two aside.
+      case 0:  // Shifted by at most two modules along each axis.
       case 1:
         placed.x += draws->Below(5) - 2;
         placed.y += draws->Below(5) - 2;
@@ -105,12 +105,12 @@ BorderLayout BorderLayout::Varied(const ShapeLibrary& library, RandomDraws* draw
         if (draws->Below(2) == 1) placed.shape = placed.shape.Mirrored();
         changed = varied.Add(placed);
         break;
-      case 3:  // Another of its kind.
+      case 3:  // Replaced by a shape of the same kind.
       case 4:
         placed.shape = alike[draws->Below(static_cast<int>(alike.size()))];
         changed = varied.Add(placed);
         break;
-      case 5: {  // Two change places.
+      case 5: {  // Two shapes swapped.
         const int other = draws->Below(static_cast<int>(varied.shapes_.size()));
         Placed swapped = varied.shapes_[other];
         varied.Remove(other);
@@ -119,7 +119,7 @@ BorderLayout BorderLayout::Varied(const ShapeLibrary& library, RandomDraws* draw
         changed = varied.Add(placed) && varied.Add(swapped);
         break;
       }
-      case 6:  // Elsewhere, pushing small shapes away.
+      case 6:  // Moved elsewhere; small shapes in the way are removed.
       {
         placed = DrawPlace({placed.shape}, draws);
         for (std::size_t i = varied.shapes_.size(); i-- > 0;) {
@@ -132,7 +132,7 @@ BorderLayout BorderLayout::Varied(const ShapeLibrary& library, RandomDraws* draw
         changed = varied.Add(placed);
         break;
       }
-      default:  // Gone; a small shape where there is room, or a large one in its stead.
+      default:  // A large shape becomes a small one; a small one is replaced by a random shape.
         if (placed.IsLarge()) {
           changed = varied.Add(DrawPlace(library.small, draws));
         } else {

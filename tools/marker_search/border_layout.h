@@ -18,31 +18,31 @@ class BorderLayout {
  public:
   struct Placed {
     BorderShape shape;
-    int x = 0, y = 0;  ///< Module of its top-left corner, from the black square's.
+    int x = 0, y = 0;  ///< Module of its top-left corner, relative to the black square's.
     bool IsLarge() const { return shape.Width() > 3 || shape.Height() > 3; }
   };
 
   BorderLayout();
 
-  /// The shapes of a border; none where one of them breaks the rules.
+  /// The layout of a given border. Returns nullopt if one of its shapes breaks the rules.
   static std::optional<BorderLayout> Of(const tracker::sg::Border& border);
 
-  /// `large_shapes` large shapes (fewer if there is no room) and as many small ones as fit.
+  /// Places up to `large_shapes` large shapes, then as many small ones as fit.
   static BorderLayout Random(const ShapeLibrary& library, int large_shapes, RandomDraws* draws);
 
-  /// This one with one thing changed: a shape moved, turned, mirrored, reshaped, added, removed, or
-  /// changed for another.
+  /// This layout with one change: a shape is moved, turned, mirrored, replaced, added or removed,
+  /// or two shapes are swapped.
   BorderLayout Varied(const ShapeLibrary& library, RandomDraws* draws) const;
 
-  /// At least so many modules look otherwise after each turn and mirroring.
+  /// True if at least `modules` modules differ after each turn and mirroring.
   bool IsAsymmetric(int modules) const;
 
-  /// Puts a shape where it lies in the band and has black around it; false where it cannot be.
+  /// Adds a shape. Returns false unless it lies in the band and has a black margin around it.
   bool Add(const Placed& placed);
   void Remove(std::size_t index);
 
   const std::vector<Placed>& shapes() const { return shapes_; }
-  /// Valid as long as this layout is unchanged.
+  /// Valid until this layout changes.
   tracker::sg::Border border() const;
 
  private:

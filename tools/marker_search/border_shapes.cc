@@ -7,9 +7,9 @@ namespace pleinair::marker_search {
 namespace {
 
 constexpr int kMax = BorderShape::kMax;
-/// Squares of 2×2 modules lie at so many places along a side.
+/// Positions of a square of 2×2 modules along a side.
 constexpr int kPlaces = kMax - 1;
-/// A large shape fills at least so much of its bounding box: slender ones have no blob in them.
+/// Minimum filled share of a large shape's bounding box: slender shapes give no blob response.
 constexpr double kCompact = 0.55;
 
 constexpr std::uint32_t Square(int x, int y) { return 0b1100011U << (kMax * y + x); }
@@ -21,7 +21,7 @@ BorderShape ToTopLeft(BorderShape shape) {
   return shape;
 }
 
-/// Bits of `within` that are reached from those of `from`, step by step through `neighbours`.
+/// Bits of `within` that are connected to those of `from` through `neighbours`.
 template <typename Neighbours>
 std::uint32_t Spread(std::uint32_t from, std::uint32_t within, Neighbours neighbours) {
   std::uint32_t reached = from & within;
@@ -32,7 +32,7 @@ std::uint32_t Spread(std::uint32_t from, std::uint32_t within, Neighbours neighb
   }
 }
 
-/// Bits beside bits of a grid `side` wide.
+/// Neighbours of the set bits in a grid of width `side`.
 std::uint32_t Beside(std::uint32_t bits, int side) {
   std::uint32_t beside = bits << side | bits >> side;
   for (int i = 0; i < side * side; ++i) {

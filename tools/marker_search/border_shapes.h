@@ -19,22 +19,22 @@ struct BorderShape {
   int Width() const;
   int Height() const;
   int Area() const;
-  BorderShape Mirrored() const;  ///< Left and right change places.
-  BorderShape Turned() const;    ///< By a quarter.
+  BorderShape Mirrored() const;  ///< Swaps left and right.
+  BorderShape Turned() const;    ///< By a quarter turn.
 
-  /// It is covered by squares of 2×2 modules, each of which overlaps another by half, on from one
-  /// to the next: nowhere thinner than 2 modules, and of one piece.
+  /// True if squares of 2×2 modules cover the shape and each overlaps the next by half. Such a
+  /// shape is connected and at least 2 modules thick everywhere.
   bool IsThick() const;
-  /// Black inside it is closed off from the black around.
+  /// True if the shape encloses black modules.
   bool HasHole() const;
-  /// Equal to itself turned or mirrored in no way.
+  /// True if no turn or mirroring maps the shape to itself.
   bool IsAsymmetric() const;
 };
 
-/// All shapes that may stand in a border, each in all its turned and mirrored forms.
+/// All valid border shapes, each in all its turned and mirrored forms.
 struct ShapeLibrary {
-  std::vector<BorderShape> large;  ///< 4 or 5 modules both ways, compact, asymmetric.
-  std::vector<BorderShape> small;  ///< 2 or 3 modules both ways.
+  std::vector<BorderShape> large;  ///< 4 or 5 modules wide and high, compact, asymmetric.
+  std::vector<BorderShape> small;  ///< 2 or 3 modules wide and high.
 };
 ShapeLibrary MakeShapeLibrary();
 

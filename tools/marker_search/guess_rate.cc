@@ -16,11 +16,11 @@ using tracker::sg::kModules;
 
 constexpr int kSide_px = 320;
 constexpr int kFirstGuesses = 10;
-constexpr double kNear = 0.12;  ///< Of the edge: corners no farther from their places.
-constexpr double kBandInner = 11.0, kBandOuter = 16.0;  ///< Modules from the middle.
+constexpr double kNear = 0.12;  ///< Maximum corner error, relative to the edge.
+constexpr double kBandInner = 11.0, kBandOuter = 16.0;  ///< Modules from the centre.
 constexpr int kMaxPatches = 40;
 
-/// What lies on the border: the half-plane beside a line through the middle, or patches.
+/// Occluder of the border: the half-plane beside a line through the centre, or patches.
 struct Cover {
   bool patches = false;
   double angle_rad = 0.0;

@@ -11,7 +11,7 @@ std::string DrawSvg(const tracker::MarkerPattern& print) {
       "height=\"480\" shape-rendering=\"crispEdges\">\n"
       "<path fill=\"#fff\" d=\"M0 0h{0}v{0}H0z\"/>\n<path d=\"",
       side);
-  // Runs of black rows, those of the same place in the next rows joined to them: no hairlines.
+  // Merges runs of black modules with equal runs in the rows below, so that no hairlines appear.
   std::vector<std::uint8_t> white = print.white;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {

@@ -7,10 +7,10 @@
 
 namespace pleinair::marker_search {
 
-/// A print as a drawing, one unit a module.
+/// A marker as an SVG drawing, one unit per module.
 std::string DrawSvg(const tracker::MarkerPattern& print);
 
-/// A border as the rows of the array in sg_layout.h.
+/// A border as rows of the array in sg_layout.h.
 std::string WriteRows(const tracker::sg::Border& border);
 
 }  // namespace pleinair::marker_search

@@ -18,24 +18,25 @@ using tracker::sg::kModules;
 
 constexpr double kPi = std::numbers::pi;
 constexpr float kThreshold = 0.0002F;
-/// Keypoints between these distances from the middle, in modules along the nearer axis, are the
-/// border's; nearer they are the content's, farther the surroundings'.
+/// Keypoints between these distances from the centre belong to the border. Nearer ones belong to
+/// the content, farther ones to the surroundings. In modules: max(|x|, |y|).
 constexpr double kInnermost = 9.0, kOutermost = 21.0;
-/// Two keypoints are of one place …
-constexpr double kSamePlace = 2.0;        ///< Modules, or
-constexpr double kSamePlaceScales = 0.8;  ///< … this share of the scale.
+/// Two keypoints are at the same place within the larger of these distances.
+constexpr double kSamePlace = 2.0;        ///< Modules.
+constexpr double kSamePlaceScales = 0.8;  ///< Relative to the keypoint's scale.
 constexpr double kSameScale = 1.6, kSameTurn_rad = 0.45;
-constexpr double kOtherPlace = 4.0;    ///< Modules: certainly another one.
-constexpr double kMaxDistance = 0.75;  ///< Descriptors farther apart are not compared.
-/// The difference of distances at which right and wrong compete.
+constexpr double kOtherPlace = 4.0;    ///< Modules: certainly a different place.
+constexpr double kMaxDistance = 0.75;  ///< Greater descriptor distances count as no match.
+/// Width of the transition between a right and a wrong match, in descriptor distance.
 constexpr double kConfusion = 0.05;
 constexpr double kWeakResponse = 0.0005;
-/// Of a keypoint must be uncovered to be described: the Gaussian over its descriptor is 3.3 wide.
+/// Uncovered radius that a keypoint's description needs, in scales. The descriptor's Gaussian
+/// has σ = 3.3 scales.
 constexpr double kClearScales = 4.5;
-/// Keypoints' worths that make a half of the border found half the time.
+/// Sum of the keypoints' worths at which half of a border is found with probability ½.
 constexpr double kEnough = 2.0;
 constexpr int kHalves = 8;
-/// Few: what is near to some texture is near to many.
+/// Descriptors per texture. A few suffice: a descriptor close to one texture is close to many.
 constexpr int kPerTexture = 60;
 constexpr double kUnit2 =
     static_cast<double>(tracker::QuantisedDescriptor::kUnit) * tracker::QuantisedDescriptor::kUnit;
@@ -44,7 +45,7 @@ double Distance(const DescriptorMatch& match) {
   return match.index == DescriptorMatch::kNone ? 2.0 : std::sqrt(match.squared_distance / kUnit2);
 }
 
-/// Halton's sequence: evenly spread however many are taken (Halton 1960).
+/// Halton sequence: evenly spread for any number of samples (Halton 1960).
 double Halton(int index, int base) {
   double value = 0.0, digit = 1.0;
   for (int i = index; i > 0; i /= base) {
@@ -84,7 +85,7 @@ LayoutScorer::LayoutScorer(const std::vector<GreyImage>& textures, int views, st
     sought.tilt_rad = 75.0 * kRadiansPerDegree * Halton(begin + i, 3);
     sought.direction_rad = 2.0 * kPi * Halton(begin + i, 5);
     sought.roll_rad = 2.0 * kPi * Halton(begin + i, 7);
-    // What is known is never quite as it is seen; templates are made at two sizes.
+    // The template differs slightly from the query view. Templates exist at two sizes.
     MarkerView& known = pair.known;
     known.edge_px = sought.edge_px > 95.0 ? 150.0 : 60.0;
     known.tilt_rad =
@@ -158,7 +159,7 @@ void LayoutScorer::Compare() {
              std::fabs(std::remainder(point.angle_rad - other.angle_rad, 2.0 * kPi)) <
                  kSameTurn_rad;
     };
-    // Beyond the last neighbour nothing is known: no nearer than that.
+    // The distance beyond the last neighbour is unknown; the last one is its lower bound.
     point.own = 2.0;
     point.other = Distance(nearest_[i * kMax + kMax - 1]);
     for (int k = kMax; k-- > 0;) {

@@ -9,16 +9,16 @@
 namespace pleinair::marker_search {
 namespace {
 
-/// Random layouts get so much of the budget, and are first seen in so many views.
+/// Share of the budget for random layouts, and number of views of their first score.
 constexpr double kRandomShare = 0.2;
 constexpr int kFirstViews = 8;
 constexpr int kClimbers = 6, kLastClimbers = 2;
 constexpr int kLargeShapes = 12;
-/// Of all modules, of which about 540 belong to the border.
+/// Minimum number of modules that must differ; about 540 modules belong to the border.
 constexpr int kMinAsymmetry = 150;
-/// A change is given up when after part of the views it is so far behind.
+/// A change is rejected early if its first score is lower by this amount.
 constexpr double kHopeless = 0.02;
-/// Changes for the worse are taken as in simulated annealing (Kirkpatrick et al. 1983).
+/// Changes that lower the score are accepted as in simulated annealing (Kirkpatrick et al. 1983).
 constexpr double kFirstTemperature = 0.004;
 
 class Search {
@@ -32,7 +32,7 @@ class Search {
     const long begin = spent_;
     for (std::size_t climbers = pool_.size();;
          climbers = std::max<std::size_t>(kLastClimbers, climbers / 2)) {
-      // Each halving has an equal share of what is left.
+      // Each halving receives an equal share of the remaining budget.
       SortPool();
       if (pool_.size() > climbers) pool_.resize(climbers);
       const bool last = pool_.size() <= kLastClimbers;
@@ -75,7 +75,7 @@ class Search {
         if (drawn.size() % 200 == 0) progress_(fmt::format("{} random layouts", drawn.size()));
       }
     }
-    // Twice as many as will be improved are looked at again, in all views.
+    // Twice as many layouts as the search keeps are scored again on all views.
     std::sort(drawn.begin(), drawn.end(),
               [](const ScoredLayout& a, const ScoredLayout& b) { return a.score > b.score; });
     if (drawn.size() > 2 * kClimbers) drawn.resize(2 * kClimbers);

@@ -13,10 +13,10 @@ namespace pleinair::marker_search {
 
 struct LayoutSearchOptions {
   std::uint64_t seed = 1;
-  /// How many views may be rendered and scored, all layouts together. The result depends on this
-  /// and on the seed, not on how fast the machine is.
+  /// Number of views to render and score, over all layouts. The result depends on the budget and
+  /// the seed, not on the machine's speed.
   long budget = 100'000;
-  /// Begin with one layout instead of with random ones.
+  /// Initial layout; random layouts if unset.
   std::optional<BorderLayout> start;
 };
 
@@ -25,9 +25,9 @@ struct ScoredLayout {
   double score = 0.0;
 };
 
-/// Draws many layouts, scores them on few views, keeps the best, and improves those by one change
-/// after another; the number of those that are improved is halved as it goes on. Returns the last
-/// ones, best first by all of `scorer`'s views. `progress` gets a line now and then.
+/// Draws random layouts, scores them on a few views and improves the best ones by single changes.
+/// The number of layouts under improvement is halved repeatedly. Returns the last ones, best first
+/// by all of `scorer`'s views. `progress` receives a status line from time to time.
 std::vector<ScoredLayout> SearchLayouts(LayoutScorer* scorer, const LayoutSearchOptions& options,
                                         const std::function<void(const std::string&)>& progress);
 

@@ -1,4 +1,4 @@
-// Looks for the border of the S-G marker (docs/method/sg-marker.md#border).
+// Searches for the border of the S-G marker (docs/method/sg-marker.md#border).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ struct Options {
 };
 
 constexpr int kTextures = 24;
-/// Views that no search has seen, by which the last layouts are compared.
+/// Number of views that no search has used, for the comparison of the last layouts.
 constexpr int kFinalViews = 240;
 constexpr std::uint64_t kViewsSeed = 7, kFinalSeed = 1009;
 
@@ -56,7 +56,7 @@ void PrintRate(const char* name, const GuessRate& r) {
       100.0 * r.by_tilt[2]);
 }
 
-/// A border out of a file of 40 rows of '#' and '.', other characters being ignored.
+/// Reads a border from a file of 40 rows of '#' and '.'. Other characters are ignored.
 std::optional<BorderLayout> ReadLayout(const std::string& file) {
   std::ifstream in(file);
   std::array<std::string, kEdge> rows;

@@ -21,7 +21,7 @@ constexpr int kLightSteps = 4096;
 }  // namespace
 
 Mat3 MarkerView::PixelsFromModules(Vec2 centre) const {
-  // The print in edges about its middle, turned about the axis in its plane, then rolled.
+  // The marker, in units of its edge, is turned about an axis in its plane, then rolled.
   const double ct = std::cos(tilt_rad), st = std::sin(tilt_rad);
   const double ax = std::cos(direction_rad), ay = std::sin(direction_rad);
   // Rodrigues' formula for the first two columns.

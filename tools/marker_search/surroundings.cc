@@ -12,9 +12,9 @@
 namespace pleinair::marker_search {
 namespace {
 
-/// Octaves of smooth noise; each is `persistence` as strong as the next coarser one. One half makes
-/// amplitudes fall as 1/f (Field, "Relations between the statistics of natural images and the
-/// response properties of cortical cells", 1987).
+/// Octaves of smooth noise. Each octave's amplitude is `persistence` times that of the next coarser
+/// one. With ½ the amplitudes fall as 1/f (Field, "Relations between the statistics of natural
+/// images and the response properties of cortical cells", 1987).
 GreyImage Noise(double persistence, RandomDraws* draws) {
   std::vector<double> sum(static_cast<std::size_t>(kTextureSide_px) * kTextureSide_px);
   double strength = 1.0;
@@ -42,8 +42,8 @@ GreyImage Noise(double persistence, RandomDraws* draws) {
   return noise;
 }
 
-/// Polygons on top of each other, many small and few large ones: the "dead leaves" of Lee, Mumford
-/// & Huang, "Occlusion models for natural images" (2001).
+/// Overlapping polygons, many small and few large: the "dead leaves" model of Lee, Mumford & Huang,
+/// "Occlusion models for natural images" (2001).
 GreyImage Polygons(RandomDraws* draws) {
   GreyImage image(kTextureSide_px, kTextureSide_px);
   std::fill_n(image.data(), image.size(), static_cast<std::uint8_t>(draws->Below(256)));

@@ -11,11 +11,11 @@ namespace pleinair::marker_search {
 
 inline constexpr int kTextureSide_px = 512;
 
-/// Pictures of what may lie around and on markers, kTextureSide_px square: noise whose spectrum
-/// falls with the frequency as natural pictures' does, and heaps of polygons.
+/// Textures for the surroundings and occluders of markers, square, with side kTextureSide_px. Half
+/// are noise with the spectrum of natural images, half are overlapping polygons.
 std::vector<GreyImage> MakeTextures(int count, RandomDraws* draws);
 
-/// The middle of photographs, as such textures.
+/// The centres of photographs, as such textures.
 Result<std::vector<GreyImage>> ReadPhotographs(const std::vector<std::string>& files);
 
 }  // namespace pleinair::marker_search

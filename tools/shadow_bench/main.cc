@@ -1,5 +1,5 @@
-// Milliseconds of every shadow method in the bench's own scenes, one JSON line each: what a GPU
-// makes of the paper's Table 1 (ratios to the plain map).
+// Measures every shadow method in the bench's own scenes and prints one JSON line each, in
+// milliseconds. For the paper's Table 1 (ratios to the plain map) on a GPU.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -27,7 +27,7 @@ Result<void> Run(int width, int height) {
       double plain_ms = 0.0;
       for (const ShadowMethodTraits& traits : ShadowMethods()) {
         PLEINAIR_RETURN_IF_ERROR(renderer.SetMethod(CommonOptions(traits.method, resolution)));
-        PLEINAIR_RETURN_IF_ERROR(renderer.Draw(view));  // Compiles and warms up.
+        PLEINAIR_RETURN_IF_ERROR(renderer.Draw(view));  // Compiles shaders and fills caches.
         PLEINAIR_ASSIGN_OR_RETURN(const FrameTime time, renderer.Time(view, kFrames));
         if (traits.method == ShadowMethod::kPlain) plain_ms = time.total_ms();
         std::printf(

@@ -1,4 +1,4 @@
-// What libepoxy does elsewhere; see epoxy/gl.h here.
+// Replaces libepoxy's function loading; see epoxy/gl.h in this folder.
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -6,7 +6,7 @@
 
 namespace {
 
-// libEGL's dispatcher gives entries that serve whatever context is current later.
+// libEGL's dispatcher returns entry points that serve any context made current later.
 template <typename Function>
 Function Entry(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));

@@ -3,7 +3,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-// As libepoxy has them.
+// Same definitions as libepoxy.
 bool epoxy_has_egl_extension(EGLDisplay display, const char* extension);
 extern PFNEGLGETPLATFORMDISPLAYEXTPROC pleinair_eglGetPlatformDisplayEXT;
 extern PFNEGLQUERYDEVICESEXTPROC pleinair_eglQueryDevicesEXT;

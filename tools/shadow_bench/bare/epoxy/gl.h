@@ -1,7 +1,7 @@
 #pragma once
 
-// Stands in for libepoxy where only EGL is installed: the OpenGL functions that the renderer calls,
-// fetched by eglGetProcAddress before main (bare_gl.cc).
+// Replaces libepoxy where only EGL is installed. eglGetProcAddress loads the OpenGL functions that
+// the renderer calls, before main (bare_gl.cc).
 
 #include <GL/glcorearb.h>
 

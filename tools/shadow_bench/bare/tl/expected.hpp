@@ -1,6 +1,6 @@
 #pragma once
 
-// Stands in for tl::expected where only a compiler is installed: the standard's own (C++23).
+// Replaces tl::expected by the standard's own (C++23) where only a compiler is installed.
 
 #include <expected>
 #include <type_traits>
