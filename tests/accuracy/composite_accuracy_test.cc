@@ -1,5 +1,5 @@
-// The composite of the bundled recording against what a path tracer made of the same place with the
-// object standing in it.
+// Compares the composite of the bundled recording with a path-traced image of the same scene that
+// contains the object.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -25,15 +25,15 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// The frames for which the recording has a true picture.
+// The frames for which the recording has a ground-truth image.
 constexpr std::array<int, 2> kKeyFrames{36, 72};
 
-/// Where to take a frame's picture from: "{:04}" stands for its number.
+/// Pattern of the frames' file names; "{:04}" is the frame number.
 constexpr const char* kJpegFrames = "frames/{:04}.jpg";
 constexpr const char* kLosslessFrames = "key/{:04}_background.png";
 
-/// Some of the recording's frames, with what a person would know of the place and nothing
-/// else: no truth is there that the program could read.
+/// Some of the recording's frames with a scene that a user could describe. It contains no ground
+/// truth that the program could read.
 void MakeRecordingWithoutTruth(const fs::path& folder, std::span<const int> frames,
                                const char* pictures) {
   const fs::path bundled = e2e::BundledRecording();
@@ -65,7 +65,7 @@ void MakeRecordingWithoutTruth(const fs::path& folder, std::span<const int> fram
   e2e::WriteFile(folder / "scene.json", scene.dump());
 }
 
-/// The object in its own color, as if light were everywhere the same.
+/// The object in its own color, as if the light were uniform.
 cv::Mat PastedUnlit(const KeyFrame& key) {
   const json scene = json::parse(e2e::ReadFile(e2e::BundledRecording() / "scene.json"));
   const json& albedo = scene["virtual_object"]["albedo_linear_rec709"];
@@ -83,7 +83,7 @@ cv::Mat PastedUnlit(const KeyFrame& key) {
   return pasted;
 }
 
-/// As good as any composite into the recording's JPEG frames can be.
+/// The best possible composite into the recording's JPEG frames.
 cv::Mat ThroughJpeg(const cv::Mat& picture) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 95});
@@ -92,7 +92,7 @@ cv::Mat ThroughJpeg(const cv::Mat& picture) {
 
 struct Row {
   std::string name;
-  std::vector<Score> scores;  ///< One a key frame.
+  std::vector<Score> scores;  ///< One per key frame.
   Score Mean() const {
     Score mean;
     for (const Score& score : scores) {
@@ -123,7 +123,7 @@ void Print(const std::vector<Row>& rows) {
 
 class CompositeOfCourtyardMidday : public testing::Test {
  protected:
-  /// What the program makes of the key frames, scored; a failure leaves the row short.
+  /// Scores of the program's composites of the key frames. A failure shortens the list.
   Row Replay(const std::string& name, const char* pictures) const {
     const e2e::TemporaryFolder folder;
     MakeRecordingWithoutTruth(folder / "site", kKeyFrames, pictures);
@@ -165,13 +165,13 @@ TEST_F(CompositeOfCourtyardMidday, LooksLikeThePathTracedTruth) {
     EXPECT_LE(score.shadow, 1.4);
     EXPECT_LE(score.around, 1.0);
   }
-  // The scale on which that is little.
+  // For comparison of magnitudes.
   EXPECT_GT(untouched.Mean().object, 10.0);
   EXPECT_GT(untouched.Mean().shadow, 10.0);
   EXPECT_GT(unlit.Mean().object, 10.0);
 }
 
-/// Mean color of a picture over level places of the scene, [x, y] in marker coordinates.
+/// Mean color of an image over level regions of the scene, [x, y] in marker coordinates.
 app::Lab MeanColor(const cv::Mat& picture, const json& camera, const json& pose,
                    const std::vector<std::array<double, 2>>& places) {
   std::array<double, 3> sum{};
@@ -200,7 +200,7 @@ TEST_F(CompositeOfCourtyardMidday, ShowsWhitePaperBesideTheMarkersWhiteAsWhiteAs
   MakeRecordingWithoutTruth(folder / "site", kKeyFrames, kJpegFrames);
   const json scene = json::parse(e2e::ReadFile(folder / "site/scene.json"));
   const double white = scene["marker"]["albedo_white"];
-  // A sheet as large as a hand, at the left of the board, in the print's own white.
+  // A sheet as large as a hand, left of the white margin, in the marker's white.
   e2e::WriteFile(folder / "site/object.obj",
                  "mtllib object.mtl\nusemtl paper\nv -0.50 -0.2 0.003\nv -0.32 -0.2 0.003\n"
                  "v -0.32 0.2 0.003\nv -0.50 0.2 0.003\nf 1 2 3 4\n");
@@ -227,14 +227,13 @@ TEST_F(CompositeOfCourtyardMidday, ShowsWhitePaperBesideTheMarkersWhiteAsWhiteAs
     fmt::print("frame {:04}: white paper beside the marker's white, CIEDE2000 {:.2f}\n",
                kKeyFrames[i], difference);
     EXPECT_LT(difference, 3.0);
-    // And it is there: the paving under it is far from white.
+    // The sheet is visible: the paving under it is far from white.
     const cv::Mat before = cv::imread(folder / fmt::format("site/frames/{:04}.jpg", i));
     EXPECT_GT(app::Ciede2000(MeanColor(before, scene["intrinsics"], pose, paper), printed), 10.0);
   }
 }
 
-// To the right of the object and its shadow stands a real pole, whose outline is where light could
-// go astray.
+// A real pole stands right of the object and its shadow. Light could leak at its outline.
 TEST_F(CompositeOfCourtyardMidday, KeepsWhatStandsFarFromTheObject) {
   const e2e::TemporaryFolder folder;
   MakeRecordingWithoutTruth(folder / "site", std::array{0}, kJpegFrames);

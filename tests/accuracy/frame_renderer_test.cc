@@ -26,7 +26,7 @@ FrameSpec FrontFrame(double side_px) {
       .frames.at(0);
 }
 
-// The tracker's tests render with 144 point samples a pixel and nothing in common but the geometry.
+// The tracker's test renderer uses 144 point samples per pixel and shares only the geometry.
 TEST(FrameRenderer, SeesWhatASlowRendererOfPointSamplesSees) {
   const CameraModel camera = SweepCamera("640x480");
   FrameSpec frame = FrontFrame(42);
@@ -39,7 +39,7 @@ TEST(FrameRenderer, SeesWhatASlowRendererOfPointSamplesSees) {
   marker.black = 0.035;
   marker.white = 0.82;
   const GreyImage theirs = tracker::RenderMarkers(camera, {marker}, {});
-  // Within the black square the background does not matter.
+  // Inside the black square the background has no effect.
   Vec2 middle;
   for (const Vec2 corner : ours.truth[0].corners_px) middle = middle + corner * 0.25;
   double sum = 0.0;
@@ -52,11 +52,11 @@ TEST(FrameRenderer, SeesWhatASlowRendererOfPointSamplesSees) {
       ++count;
     }
   }
-  EXPECT_LT(sum / count, 0.8);  // Of 255.
-  EXPECT_LE(largest, 8);        // Twelve point samples know an edge to a twelfth of its contrast.
+  EXPECT_LT(sum / count, 0.8);  // Pixel values of 255.
+  EXPECT_LE(largest, 8);  // Twelve point samples resolve an edge to a twelfth of its contrast.
 }
 
-// FNV-1a of a frame with occluder, blur, shadow and noise: the same from every compiler.
+// FNV-1a hash of a frame with occluder, blur, shadow and noise. It is the same for every compiler.
 TEST(FrameRenderer, GivesTheSameBytesEverywhere) {
   const CameraModel camera = SweepCamera("640x480");
   const auto frames = MakeSweep("wild", camera, {.seed = 7, .scale = 0.02});
@@ -113,8 +113,8 @@ TEST(Sweeps, GiveASubsetOfTheSameFramesAtASmallerScale) {
   }
 }
 
-// Their prints, corner order and pixel origin: right numbers and corners within a tenth of a pixel
-// of the truth on average would be impossible with any of them wrong.
+// Checks the peers' markers, corner order and pixel origin. If one were wrong, the numbers or the
+// mean corner error below a tenth of a pixel would be impossible.
 TEST(Peers, FindTheirOwnPrints) {
   const CameraModel camera = SweepCamera("640x480");
   const FrameSpec frame = FrontFrame(200);

@@ -17,8 +17,8 @@ struct RoundCone {
   double from_radius, to_radius;
 };
 
-/// What the hand looks like at one place: signed distance to its outline (negative inside), height
-/// above the outline's plane and the slope of the surface, all in palm widths.
+/// Geometry of the hand at one point, in palm widths: signed distance to the outline (negative
+/// inside), height above the outline's plane, and surface slope.
 struct Surface {
   double distance = 1e9;
   double height = 0.0;
@@ -35,8 +35,8 @@ double Smooth(double from, double to, double value) {
   return t * t * (3 - 2 * t);
 }
 
-/// Palm, fingers of two parts each, thumb and forearm; y towards the fingertips, x to the thumb's
-/// other side.
+/// Palm, fingers of two parts each, thumb and forearm. y points to the fingertips, x away from the
+/// thumb.
 std::vector<RoundCone> HandParts(double spread) {
   std::vector<RoundCone> parts;
   for (const double x : {-0.27, -0.09, 0.09, 0.27}) {
@@ -80,17 +80,17 @@ Surface SurfaceAt(const std::vector<RoundCone>& parts, Vec2 at) {
   return surface;
 }
 
-/// Light that the skin sends back, display-linear BGR in the sunlight of the recordings, in which
-/// white paper shows as about 0.9.
+/// Light reflected by the skin, display-linear BGR, in the recordings' sunlight. White paper has
+/// about 0.9 there.
 std::array<double, 3> SkinLight(const Surface& surface, Vec2 at, double turn) {
-  const Vec2 slope = Turned(surface.slope, turn);  // Now x right and y up in the picture.
+  const Vec2 slope = Turned(surface.slope, turn);  // x right and y up in the image.
   const double up = std::sqrt(std::max(0.0, 1 - slope.x * slope.x - slope.y * slope.y));
   constexpr double kSunX = -0.45, kSunY = 0.55, kSunUp = 0.70;
   const double lambert = std::max(0.0, kSunX * slope.x + kSunY * slope.y + kSunUp * up);
-  // Between fingers and along the outline less of the sky is seen.
+  // Less of the sky is visible between the fingers and along the outline.
   const double open = Smooth(-0.02, -0.12, surface.distance);
   const double light = 0.16 * (0.35 + 0.65 * open) * (0.5 + 0.5 * up) + 0.95 * lambert;
-  // Creases and blotches, so that the skin is no even surface.
+  // Creases and blotches make the skin uneven.
   const double grain = 1 + 0.05 * std::sin(9 * at.x + 4 * std::sin(5 * at.y)) +
                        0.04 * std::sin(31 * at.y + 3 * std::sin(11 * at.x));
   const double redness = Smooth(1.0, 1.5, at.y);  // Fingertips.
@@ -128,7 +128,7 @@ cv::Mat PaintHand(const HandPlace& place, cv::Mat* bgr) {
 }
 
 HandPlace PassingHand(double share, Vec2 middle_px, double side_px) {
-  // In over the lower right corner, across the marker to its left half, and back out downwards.
+  // Enters over the lower right corner, crosses the marker to its left half and leaves downwards.
   struct Key {
     double share, x, y, turn, spread;  // x right, y down, sides of the marker.
   };

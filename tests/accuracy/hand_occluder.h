@@ -7,22 +7,22 @@
 
 namespace pleinair::accuracy {
 
-/// Where a painted hand is. Its own coordinates: the unit is the palm's width, the origin the
-/// middle of the palm, y along the fingers.
+/// Pose of a painted hand. Hand coordinates: unit is the palm's width, origin its centre, y along
+/// the fingers.
 struct HandPlace {
-  Vec2 palm_px;  ///< Middle of the palm.
+  Vec2 palm_px;  ///< Centre of the palm.
   double palm_width_px = 0;
-  double turn = 0;    ///< Of the fingers from the picture's upward direction, clockwise, rad.
-  double spread = 0;  ///< Of the fingers: 0 closed … 1 wide apart.
+  double turn = 0;  ///< Direction of the fingers, clockwise from the image's upward direction, rad.
+  double spread = 0;  ///< Spread of the fingers: 0 closed … 1 wide apart.
 };
 
-/// Paints a right hand with its forearm, and the soft shadow beside it, over an sRGB picture (BGR):
-/// a union of round cones, shaded as skin by the sun from the upper left. Nothing is random.
-/// Returns how much of each pixel the hand covers, 0…1 (CV_32F); the shadow does not count.
+/// Paints a right hand with its forearm and soft shadow over an sRGB image (BGR). The hand is a
+/// union of round cones, shaded as skin by the sun from the upper left. It is deterministic.
+/// Returns the coverage of each pixel by the hand without its shadow, 0…1 (CV_32F).
 cv::Mat PaintHand(const HandPlace& place, cv::Mat* bgr);
 
-/// A hand that comes in from the lower right, passes over a marker and goes out again, at a share
-/// 0…1 of its way. `middle_px`: where the marker is; `side_px`: how large it looks.
+/// A hand that enters from the lower right, crosses a marker and leaves, at fraction 0…1 of its
+/// trajectory. `middle_px`: the marker's centre; `side_px`: its apparent size.
 HandPlace PassingHand(double share, Vec2 middle_px, double side_px);
 
 }  // namespace pleinair::accuracy

@@ -4,22 +4,23 @@
 
 namespace pleinair::accuracy {
 
-/// A frame of the bundled recording for which it has a true picture.
+/// A frame of the bundled recording with a ground-truth image.
 struct KeyFrame {
   cv::Mat background, truth;    ///< sRGB, BGR: without and with the object.
-  cv::Mat object_mask, shadow;  ///< How much of a pixel the object covers; where it takes light.
+  cv::Mat object_mask, shadow;  ///< Coverage by the object; region that it darkens.
 };
 
 KeyFrame ReadKeyFrame(int frame);
 
-/// Mean CIEDE2000 against the truth.
+/// Mean CIEDE2000 difference from the ground truth.
 struct Score {
-  double object = 0.0;  ///< Where the object covers more than half of a pixel.
-  double shadow = 0.0;  ///< Where it takes more than 4 % of the light, itself excluded.
-  double around = 0.0;  ///< Both with 25 pixels around them.
+  double object = 0.0;  ///< Pixels that the object covers by more than half.
+  double shadow = 0.0;  ///< Pixels where the object removes more than 4 % of the light, without the
+                        ///< object itself.
+  double around = 0.0;  ///< Both regions with 25 pixels around them.
 };
 
-/// `leave_out`: where it is not zero nothing is compared; may be empty.
+/// `leave_out`: pixels that are not zero are ignored; may be empty.
 Score Compare(const cv::Mat& picture, const KeyFrame& key, const cv::Mat& leave_out = {});
 
 }  // namespace pleinair::accuracy

@@ -1,5 +1,5 @@
-// The bundled recording with a hand that passes over its marker: the virtual object stays where it
-// is. The hand is painted into the frames here; nothing more is bundled.
+// Tests that the virtual object stays in place while a hand passes over the marker of the bundled
+// recording. The hand is painted into the frames here.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,11 +29,11 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int kFrames = 90;
-// Of the distance: for the camera's place, and for every point of the virtual object.
+// Relative to the distance, for the camera's position and for every point of the virtual object.
 constexpr double kMaxDisplacement = 0.005;
 constexpr int kMaxGap = 3;
 
-/// What the hand covers of a marker, 0…1.
+/// Share of a marker that the hand covers, 0…1.
 struct Covered {
   double border = 0.0, content = 0.0;
 };
@@ -59,7 +59,7 @@ class OccludedMarker : public testing::Test {
     return ProjectToPixel(camera_, camera_from_marker * Point<Marker>{{x_m, y_m, 0.0}});
   }
 
-  /// A frame with the hand in it, and what the hand covers of the picture.
+  /// A frame with the painted hand, and the hand's coverage of the image.
   cv::Mat Frame(int frame, cv::Mat* covered) const {
     const std::array<Vec2, 4> corners{
         PixelOf(frame, -half_m_, half_m_), PixelOf(frame, half_m_, half_m_),
@@ -72,7 +72,8 @@ class OccludedMarker : public testing::Test {
     return picture;
   }
 
-  /// By the middles of the marker's modules: 40 along each side, the code in the middle 20.
+  /// Sampled at the centres of the marker's modules: 40 along each side, of which the code in the
+  /// middle has 20.
   Covered CoveredOf(int frame, const cv::Mat& covered) const {
     constexpr int kModules = 40, kFirst = 10, kLast = 29;
     int border = 0, content = 0, border_covered = 0, content_covered = 0;
@@ -93,8 +94,8 @@ class OccludedMarker : public testing::Test {
             static_cast<double>(content_covered) / content};
   }
 
-  /// A recording of some of the frames with the hand in them, and a scene that holds no truth. The
-  /// JPEG compression is the recording's own.
+  /// Writes some frames with the painted hand and a scene without ground truth. The JPEG quality is
+  /// the recording's own.
   void MakeRecording(const fs::path& folder, int first, int last, bool with_object) {
     e2e::MakeShortRecording(folder, 1, with_object);
     json stamps = json::array();
@@ -118,11 +119,11 @@ class OccludedMarker : public testing::Test {
   std::vector<e2e::TumPose> truth_;
   CameraModel camera_;
   double half_m_ = 0.0;
-  std::vector<Covered> covered_;  ///< Of each frame made, as are the hands.
+  std::vector<Covered> covered_;  ///< One per written frame.
   std::vector<cv::Mat> hands_;
 };
 
-/// Some points of the virtual object, in marker coordinates.
+/// Sample points of the virtual object, in marker coordinates.
 std::vector<Point<Marker>> ObjectPoints() {
   std::ifstream in(e2e::BundledRecording() / "object.obj");
   std::vector<Point<Marker>> points;
@@ -137,8 +138,8 @@ std::vector<Point<Marker>> ObjectPoints() {
   return points;
 }
 
-/// The farthest that a point of the object is moved by an error of the pose, over its distance from
-/// the camera.
+/// Maximum displacement of an object point by the pose error, relative to its distance from the
+/// camera.
 double LargestDisplacement(const std::vector<Point<Marker>>& points, const e2e::TumPose& found,
                            const e2e::TumPose& truth) {
   const auto camera_from_marker = found.marker_from_camera.Inverse();
@@ -154,7 +155,7 @@ double LargestDisplacement(const std::vector<Point<Marker>>& points, const e2e::
 TEST_F(OccludedMarker, KeepsTheVirtualObjectInPlace) {
   const e2e::TemporaryFolder folder;
   MakeRecording(folder / "site", 0, kFrames - 1, false);
-  // What this is about: much of the marker is covered, for long.
+  // Precondition of the test: the hand covers much of the marker for many frames.
   double border = 0.0, content = 0.0;
   for (const Covered& covered : covered_) {
     border = std::max(border, covered.border);
@@ -207,7 +208,7 @@ TEST_F(OccludedMarker, KeepsTheVirtualObjectInPlace) {
   std::fflush(stdout);
 }
 
-// The marker is the light meter too, and a hand lies on it in all of these frames.
+// The exposure estimate also uses the marker, and a hand covers it in all of these frames.
 TEST_F(OccludedMarker, LightsTheVirtualObjectAsWithoutTheHand) {
   constexpr int kFirst = 22, kKeyFrame = 36;
   const e2e::TemporaryFolder folder;
@@ -222,7 +223,7 @@ TEST_F(OccludedMarker, LightsTheVirtualObjectAsWithoutTheHand) {
       cv::imread(folder / fmt::format("out/frames/{:04}.png", kKeyFrame - kFirst));
   const KeyFrame key = ReadKeyFrame(kKeyFrame);
   ASSERT_EQ(picture.size(), key.truth.size());
-  // The hand and its shadow are not in the true picture.
+  // The ground-truth image contains neither the hand nor its shadow.
   cv::Mat hand;
   cv::dilate(hands_.back() > 0, hand,
              cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(61, 61)));
@@ -239,7 +240,7 @@ TEST_F(OccludedMarker, PutsTheHandBeforeTheVirtualObject) {
   constexpr int kFirst = 28, kLast = 30;
   const e2e::TemporaryFolder folder;
   MakeRecording(folder / "site", kFirst, kLast, true);
-  // The object on the marker itself, behind the hand.
+  // The object on the marker, behind the hand.
   e2e::WriteFile(folder / "site/scene.toml",
                  e2e::ReadFile(folder / "site/scene.toml") + "translation_m = [-0.68, -0.03, 0]\n");
   std::vector<cv::Mat> pictures;

@@ -16,7 +16,7 @@ struct Wanted {
   std::uint64_t seed = 1;
 };
 
-/// 120 frames of two sweeps and the ten of one jitter scene, which has an error of its own.
+/// 120 frames of two sweeps, and ten of one jitter scene with its own error.
 RunRecords MakeRun(const Wanted& wanted) {
   RandomStream random(wanted.seed, "run");
   RunRecords records;
@@ -89,7 +89,8 @@ TEST(Regression, CallsNoiseWorseAsSeldomAsItSays) {
     };
     flagged_same += any_worse(0.001, false);
     flagged_other += any_worse(0.05, false);
-    // The draws of one jitter scene are not as many scenes: taken so, they would be flagged.
+    // The frames of one jitter scene are not independent. Counted as independent they would be
+    // flagged.
     const auto changes = CompareRuns(before, after, {.detector = "ours", .same_scenes = false});
     EXPECT_EQ(Find(changes, "jitter", "corner_px")->pairs, 1);
   }
@@ -97,7 +98,7 @@ TEST(Regression, CallsNoiseWorseAsSeldomAsItSays) {
   EXPECT_LE(flagged_other, 0.05 * kRepeats + 3 * std::sqrt(0.05 * 0.95 * kRepeats));
 }
 
-/// Six key frames of two recordings, each as hard as its number says, with a random part.
+/// Six key frames of two recordings. The error rises with the frame number and has a random part.
 RunRecords MakeLight(double object_de, double random_de, std::uint64_t seed) {
   RandomStream random(seed, "light");
   RunRecords run;
@@ -126,7 +127,7 @@ TEST(Regression, FlagsComposedPicturesThatGotWorseAndNotThoseThatNobodySees) {
   EXPECT_FALSE(Find(worse, "light", "dE_shadow")->worse);
   const auto back = CompareRuns(MakeLight(0.2, 0.01, 2), before, {.detector = "ours"});
   EXPECT_TRUE(Find(back, "light", "dE_obj")->better);
-  // The same everywhere, but a hundredth: significant, and of no account.
+  // A uniform change of a hundredth: significant but negligible.
   for (const Change& change : CompareRuns(before, MakeLight(0.01, 0.0, 1), {.detector = "ours"})) {
     EXPECT_FALSE(change.worse) << change.measure;
   }

@@ -35,7 +35,8 @@ TEST(Score, TellsHitsMisplacedMissedAndFalse) {
   FrameRecord record;
   Detected other = Shifted(a, {0, 0});
   other.number = 9;
-  // About 100 px of edge: the tolerance is 3 px. The nearer of two counts, the other is false.
+  // The edge is about 100 px, the tolerance 3 px. The nearer of two detections counts; the other is
+  // false.
   Score({a, b, c}, {Shifted(a, {2.5, 0}), Shifted(a, {0.1, 0}), Shifted(b, {0, 4}), other},
         &record);
   ASSERT_EQ(record.markers.size(), 3U);
@@ -77,7 +78,7 @@ TEST(AngleBetween, IsExactForSmallAndLargeTurns) {
   }
 }
 
-/// A camera that goes round the marker.
+/// A camera that moves around the marker.
 Trajectory Circle(int frames, const Transform<Marker, Marker>& moved, double drift_m = 0.0) {
   Trajectory path;
   for (int i = 0; i < frames; ++i) {
@@ -90,11 +91,12 @@ Trajectory Circle(int frames, const Transform<Marker, Marker>& moved, double dri
   return path;
 }
 
-// Sturm et al. 2012, section IV: what both errors are of paths whose errors are known.
+// Sturm et al. 2012, section IV: both errors for trajectories with known errors.
 TEST(TrajectoryError, IsThatOfPathsWhoseErrorsAreKnown) {
   const Transform<Marker, Marker> none;
   const Trajectory truth = Circle(60, none);
-  // A path that is moved as a whole: the absolute error goes with the alignment, and no step errs.
+  // A rigidly moved trajectory: alignment removes the absolute error, and the relative error is
+  // zero.
   const Transform<Marker, Marker> moved{RotationAbout({0, 1, 0}, 0.2), {0.3, 0.0, 0.4}};
   auto error = CompareTrajectories(Circle(60, moved), truth);
   ASSERT_TRUE(error.has_value());
@@ -103,11 +105,11 @@ TEST(TrajectoryError, IsThatOfPathsWhoseErrorsAreKnown) {
   EXPECT_NEAR(error->ate_rmse_m, 0.0, 1e-12);
   EXPECT_GT(error->ate_unaligned_rmse_m, 0.3);
   EXPECT_NEAR(error->rpe_translation_rmse_m, 0.0, 1e-12);
-  // A camera that drifts by 1 mm a step errs by 1 mm in each.
+  // A camera that drifts by 1 mm per step has a relative error of 1 mm.
   error = CompareTrajectories(Circle(60, none, 0.001), truth);
   EXPECT_NEAR(error->rpe_translation_rmse_m, 0.001, 1e-9);
   EXPECT_NEAR(error->rpe_rotation_rmse_deg, 0.0, 1e-9);
-  // Frames without a pose are in neither: a gap is no step.
+  // Frames without a pose count in neither error: a gap is not a step.
   Trajectory with_gap = truth;
   with_gap.erase(with_gap.begin() + 10, with_gap.begin() + 20);
   error = CompareTrajectories(with_gap, truth);
@@ -116,8 +118,9 @@ TEST(TrajectoryError, IsThatOfPathsWhoseErrorsAreKnown) {
   EXPECT_FALSE(CompareTrajectories({}, truth).has_value());
 }
 
-// By hand: a camera at the corners of a square that errs by 1 cm, up and down in turn. No rigid
-// motion makes that less (the errors' moments vanish), and each step errs by 2 cm.
+// Calculated by hand: a camera at the corners of a square, with alternating errors of ±1 cm in
+// height. No rigid motion reduces them (the errors' moments vanish). Each step has an error of 2
+// cm.
 TEST(TrajectoryError, IsWhatOneWorksOutByHand) {
   const std::array<Vec3, 4> corners{Vec3{1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}};
   Trajectory truth, found;
@@ -134,8 +137,8 @@ TEST(TrajectoryError, IsWhatOneWorksOutByHand) {
   EXPECT_NEAR(error->rpe_rotation_rmse_deg, 0.0, 1e-12);
 }
 
-// What the TUM RGB-D benchmark's evaluate_ate and evaluate_rpe do, written anew in NumPy after
-// Sturm et al. 2012 (Horn's alignment by singular values), gives for these two paths.
+// Results of the TUM RGB-D benchmark's evaluate_ate and evaluate_rpe for these trajectories. They
+// were reimplemented in NumPy after Sturm et al. 2012 (Horn's alignment by singular values).
 TEST(TrajectoryError, IsThatOfTheBenchmarksTools) {
   Trajectory truth, found;
   for (int i = 0; i < 12; ++i) {
@@ -155,7 +158,7 @@ TEST(TrajectoryError, IsThatOfTheBenchmarksTools) {
 
 TEST(Films, CountHowOftenAMarkerIsLostToldAndFoundAgain) {
   RunRecords run;
-  // Missed at first, then tracks of 3, 1 and 2 frames; the first loss is told by the detector.
+  // Missed at first, then tracks of 3, 1 and 2 frames. The detector reports the first loss.
   const std::string seen = ".###..#..##";
   for (std::size_t i = 0; i < seen.size(); ++i) {
     FrameRecord frame{.frame = static_cast<std::int64_t>(i), .sweep = "sequence"};

@@ -1,4 +1,4 @@
-// Every published formula against published values.
+// Tests every published formula against published values.
 #include "accuracy/statistics.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(RandomStream, HasMeanAndVarianceOfItsDistributions) {
     sum2 += normal * normal;
     uniform += random.Uniform();
   }
-  // Five standard errors each.
+  // Tolerance: five standard errors.
   EXPECT_NEAR(sum / kDraws, 0.0, 5.0 / std::sqrt(kDraws));
   EXPECT_NEAR(sum2 / kDraws, 1.0, 5.0 * std::sqrt(2.0 / kDraws));
   EXPECT_NEAR(uniform / kDraws, 0.5, 5.0 * std::sqrt(1.0 / 12 / kDraws));
@@ -104,20 +104,20 @@ TEST(McNemar, SumsTheBinomialDistribution) {
   EXPECT_NEAR(SignTestGreater(10, 2), (1.0 + 12 + 66) / 4096, 1e-15);
 }
 
-// Wilcoxon, Katti & Wilcox 1970, table II: the smaller sum of ranks of 10 pairs is at most 8 with
-// probability 0.0244, at most 10 with 0.0420.
+// Wilcoxon, Katti & Wilcox 1970, table II, 10 pairs. The smaller rank sum is at most 8 with
+// probability 0.0244 and at most 10 with 0.0420.
 TEST(SignedRank, GivesThePublishedProbabilities) {
   std::vector<double> differences(10);
   std::iota(differences.begin(), differences.end(), 1.0);
-  differences[7] = -8;  // Sum of negative ranks 8.
+  differences[7] = -8;  // The sum of negative ranks becomes 8.
   EXPECT_NEAR(SignedRankGreater(differences), 0.0244, 5e-5);
-  differences[1] = -2;  // 10.
+  differences[1] = -2;  // The sum becomes 10.
   EXPECT_NEAR(SignedRankGreater(differences), 0.0420, 5e-5);
   EXPECT_EQ(SignedRankGreater({0.0, 0.0}), 1.0);
 }
 
 TEST(SignedRank, IsRightAboutHowOftenItIsWrong) {
-  // Of 2,000 samples without an effect 5 % may have p < 0.05: 100 ± 5 standard deviations.
+  // 5 % of 2,000 samples without an effect may have p < 0.05: 100 ± 5 standard deviations.
   RandomStream random(3, "signed rank");
   int below = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -155,8 +155,8 @@ TEST(Bootstrap, CoversTheMeanAsOftenAsItSays) {
   EXPECT_GT(covered, 0.88 * kTrials);
 }
 
-// The share of drawings without a given one of ten is 0.9^10 = 35 %, without one of two given ones
-// 1 - (1 - 2 0.9^10 + 0.8^10) = 59 %.
+// A drawing omits a given one of ten with probability 0.9^10 = 35 %. It omits one of two given ones
+// with 1 - (1 - 2 0.9^10 + 0.8^10) = 59 %.
 TEST(Bootstrap, IsOpenWhereTheDataBoundNothing) {
   using Drawing = std::vector<std::size_t>;
   const auto times = [](const Drawing& drawn, std::size_t index) {
@@ -167,12 +167,12 @@ TEST(Bootstrap, IsOpenWhereTheDataBoundNothing) {
   EXPECT_GE(open.low, 2.0);
   EXPECT_LE(open.low, 5.0);
   EXPECT_TRUE(std::isinf(open.high));
-  // 0/0 is left out,
+  // 0/0 is omitted,
   const Interval some = BootstrapInterval(
       10, [&](const Drawing& drawn) { return times(drawn, 0) / times(drawn, 0); }, "some");
   EXPECT_EQ(some.low, 1.0);
   EXPECT_EQ(some.high, 1.0);
-  // … unless it is the rule.
+  // … unless it occurs in most drawings.
   const Interval few = BootstrapInterval(
       10,
       [&](const Drawing& drawn) {
@@ -195,8 +195,8 @@ TEST(Student, GivesThePublishedQuantiles) {
   }
 }
 
-// Student 1908, "The probable error of a mean": additional hours of sleep gained by ten patients
-// under one drug rather than another. Figures: R's t.test of these data (`sleep`), t = 4.0621.
+// Student 1908, "The probable error of a mean": additional hours of sleep of ten patients under two
+// drugs. Expected values from R's t.test of these data (`sleep`), t = 4.0621.
 TEST(MeanInterval, IsThatOfStudentsOwnExample) {
   const std::vector<double> hours{1.2, 2.4, 1.3, 1.3, 0.0, 1.0, 1.8, 0.8, 4.6, 1.4};
   const auto interval = MeanInterval(hours);

@@ -1,4 +1,4 @@
-// Loaded before the C library's where leaks are looked for: libraries stay where they are. OpenGL's
-// driver is unloaded with the last window or context, and with it go the only pointers to what it
-// keeps once a process: the leak checker would call that lost, and could not say whose it was.
+// Preloaded by leak tests so that libraries stay loaded. OpenGL's driver is unloaded with the last
+// window or context. The only pointers to its per-process memory disappear with it. The leak
+// checker would report that memory as lost and could not name its owner.
 extern "C" int dlclose(void* /*library*/) { return 0; }

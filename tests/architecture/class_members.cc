@@ -15,8 +15,8 @@ using Tokens = std::vector<Token>;
 
 bool IsWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-/// Cuts a text into words, numbers and punctuation. Comments and directives are left out, a string
-/// or character literal becomes an empty string.
+/// Splits a text into words, numbers and punctuation. Omits comments and directives. A string or
+/// character literal becomes an empty string.
 class Lexer {
  public:
   explicit Lexer(std::string_view text) : text_(text) {}
@@ -55,7 +55,7 @@ class Lexer {
       const auto length = static_cast<std::size_t>(end - rest.begin());
       Add(std::string(rest.substr(0, length)), length);
     } else {
-      // ">>" may close two template argument lists, "<<" opens none.
+      // ">>" may close two template argument lists; "<<" opens none.
       static constexpr std::array<std::string_view, 7> kPairs = {
           "::", "<<", "->", "<=", ">=", "==", "&&"};
       const bool pair = std::find(kPairs.begin(), kPairs.end(), rest.substr(0, 2)) != kPairs.end();
@@ -91,7 +91,7 @@ class Lexer {
   bool line_begins_ = true;
 };
 
-/// Index after the bracket that closes the one at `open`; the end if none does.
+/// Index after the bracket that closes the one at `open`; the end if there is none.
 std::size_t AfterClosing(const Tokens& tokens, std::size_t open, std::size_t end) {
   const std::string& opening = tokens[open].text;
   const std::string closing = opening == "(" ? ")" : opening == "[" ? "]" : "}";
@@ -103,7 +103,7 @@ std::size_t AfterClosing(const Tokens& tokens, std::size_t open, std::size_t end
   return end;
 }
 
-/// Index after the '>' that closes the '<' at `open`; open + 1 if that is a comparison.
+/// Index after the '>' that closes the '<' at `open`; open + 1 if the '<' is a comparison.
 std::size_t AfterTemplateArguments(const Tokens& tokens, std::size_t open, std::size_t end) {
   int depth = 0;
   for (std::size_t i = open; i < end;) {
@@ -120,8 +120,8 @@ std::size_t AfterTemplateArguments(const Tokens& tokens, std::size_t open, std::
   return open + 1;
 }
 
-/// The data members that a declaration at the depth of a class declares. `declaration` has neither
-/// its ';' nor the braces of nested classes.
+/// Number of data members that a declaration in class scope declares. `declaration` contains
+/// neither its ';' nor the braces of nested classes.
 std::size_t CountDeclarators(const Tokens& declaration) {
   if (declaration.empty()) return 0;
   static constexpr std::array<std::string_view, 5> kNoMembers = {"using", "typedef", "friend",
@@ -192,7 +192,7 @@ ClassHead ParseHead(const Tokens& tokens, std::size_t keyword, std::size_t end) 
       in_bases = in_bases || text == ":";
       ++i;
     } else if (text == "::" || IsWordCharacter(text.front())) {
-      // `struct stat status{}` names a type of C and a variable.
+      // `struct stat status{}` names a C type and a variable.
       if (text != "::" && !head.name.empty() && !head.name.ends_with("::")) return {};
       head.name += text;
       ++i;
@@ -217,7 +217,7 @@ class Parser {
     return i < tokens_.size() && tokens_[i].text == text;
   }
 
-  /// Index after the class whose keyword stands at `i`; `i` if none is defined there.
+  /// Index after the class whose keyword is at `i`; `i` if it defines none.
   std::size_t ParseClass(std::size_t i, std::size_t end, const std::string& around) {
     if (!(Is(i, "class") || Is(i, "struct")) || (i > 0 && Is(i - 1, "enum"))) return i;
     const ClassHead head = ParseHead(tokens_, i, end);
@@ -236,8 +236,8 @@ class Parser {
     }
   }
 
-  /// Whether the '{' after `declaration` opens the body of a function, or of an enumeration, union
-  /// or extern block, rather than an initialiser.
+  /// True if the '{' after `declaration` opens a function body, enumeration, union or extern block,
+  /// and not an initialiser.
   static bool OpensBody(const Tokens& declaration) {
     for (std::size_t i = 0; i < declaration.size();) {
       const std::string& text = declaration[i].text;
@@ -280,7 +280,7 @@ class Parser {
       } else if (Is(i, "{") && OpensBody(declaration)) {
         const std::size_t after = AfterClosing(tokens_, i, end);
         FindClasses(i, after, name);
-        // Members that a constructor initialises by braces stand before its body.
+        // Constructor initialisers with braces precede the body.
         const bool initialiser = Is(after, ",") || Is(after, "{");
         const bool type = declaration.front().text == "enum" || declaration.front().text == "union";
         if (!initialiser || type) declaration.clear();

@@ -10,16 +10,16 @@ namespace pleinair::architecture {
 /// A class or struct of a source text.
 struct ClassMembers {
   int line = 0;
-  std::string name;         ///< With the classes around it: "Camera::Worker".
-  std::size_t members = 0;  ///< Its own data members; static ones and those of bases do not count.
+  std::string name;         ///< With the enclosing classes: "Camera::Worker".
+  std::size_t members = 0;  ///< Non-static data members, without those of base classes.
 };
 
-/// The classes and structs that a C++ text defines, nested and local ones too, in the order of
-/// their closing braces. Reads the text without a preprocessor: each declarator of `double a, b;`
-/// counts, an unnamed union counts as nothing. Macros that open or close braces are not understood.
+/// The classes and structs that a C++ text defines, nested and local ones included, in the order of
+/// their closing braces. There is no preprocessor. Each declarator of `double a, b;` counts; an
+/// unnamed union does not. Macros that contain unbalanced braces are not supported.
 std::vector<ClassMembers> ParseClasses(std::string_view text);
 
-/// Whether a text is SIMD code, compiled once for each target by Highway.
+/// True if a text is SIMD code, which Highway compiles once for each target.
 bool IsSimdCode(std::string_view text);
 
 }  // namespace pleinair::architecture

@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::IsEmpty;
 
-/// A class with more data members has more than one job (CONTRIBUTING.md).
+/// A class with more data members has more than one responsibility (CONTRIBUTING.md).
 constexpr std::size_t kMaxMembers = 12;
 
 std::size_t MembersOf(std::string_view text) {

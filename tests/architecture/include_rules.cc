@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::set<std::string, std::less<>>;
 
-/// Who may include whom, besides itself; the order of the modules (docs/design: the house).
+/// Modules that each module may include, besides itself; in the order of docs/design.
 const std::map<std::string, Names, std::less<>>& AllowedModules() {
   static const std::map<std::string, Names, std::less<>> kAllowed = {
       {"base", {}},
@@ -39,12 +39,12 @@ const std::map<std::string, Names, std::less<>>& AllowedModules() {
   return kAllowed;
 }
 
-/// The folders inside compositor from the ground up: a folder may include those before it.
+/// The folders inside compositor, lowest first: a folder may include those before it.
 constexpr std::array kCompositorFolders = {"models",   "light",  "photometry",
                                            "surfaces", "passes", "picture"};
 
-/// Position of a file in that order. GLSL twins and plain options lie below all folders, the
-/// composer above.
+/// Index of a file in that order. GLSL twins and plain options lie below all folders; the composer
+/// lies above.
 std::size_t CompositorFloor(const fs::path& file) {
   const fs::path in_compositor = file.lexically_relative("compositor");
   if (in_compositor == "composer_options.h") return 0;
@@ -54,13 +54,14 @@ std::size_t CompositorFloor(const fs::path& file) {
   return 1 + static_cast<std::size_t>(at - kCompositorFolders.begin());
 }
 
-/// Libraries and how to know them by the beginning of an include.
+/// Libraries, identified by the prefix of an include.
 struct Library {
   const char* name;
   std::vector<const char*> beginnings;
-  Names forbidden_modules;           ///< May not include it at all.
-  bool forbidden_in_public_headers;  ///< Of any module but app, which has none.
-  const char* except_below = "";     ///< A folder whose purpose it is; empty: none.
+  Names forbidden_modules;           ///< Modules that may not include it.
+  bool forbidden_in_public_headers;  ///< In public headers of every module except app, which has
+                                     ///< none.
+  const char* except_below = "";     ///< The folder that may include it; empty: none.
 };
 
 const std::vector<Library>& Libraries() {
@@ -107,9 +108,8 @@ const std::vector<Library>& Libraries() {
   return kLibraries;
 }
 
-/// Headers that users of a library see: those directly in a module's folder. Helpers between the
-/// .cc files of one module may speak a library's types if they say so in their first lines:
-/// "// Internal: …".
+/// Public headers: those directly in a module's folder. Helper headers between the .cc files of one
+/// module may use library types if their first lines contain "// Internal: …".
 bool IsPublicHeader(const fs::path& file, std::string_view text) {
   if (file.extension() != ".h") return false;
   const std::size_t first_include = text.find("#include");

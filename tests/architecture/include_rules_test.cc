@@ -98,7 +98,7 @@ TEST(IncludeRules, CatchOpenCvWhereABareMachineMustBuild) {
 TEST(IncludeRules, CatchOpenGlInTheTracker) {
   EXPECT_THAT(FindBreaches("tracker/pose.cc", "  #  include <epoxy/gl.h>"),
               ElementsAre(HasSubstr("tracker may not know OpenGL")));
-  // The window draws; the rest of app leaves that to compositor.
+  // Only app/window draws; the rest of app leaves that to compositor.
   EXPECT_THAT(FindBreaches("session/marker_tracks.cc", "#include <epoxy/gl.h>"),
               ElementsAre(HasSubstr("session may not know OpenGL")));
   EXPECT_THAT(FindBreaches("app/window/live_window.cc", "#include <GLFW/glfw3.h>"), IsEmpty());

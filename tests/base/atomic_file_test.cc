@@ -67,7 +67,7 @@ TEST_F(AtomicFile, TargetThatIsAFolderLeavesNoTemporaryFile) {
   EXPECT_EQ(FilesInFolder(), 1U);
 }
 
-// A limit on the file's size stops the write halfway, as a full disk does.
+// A limit on the file size interrupts the write, as a full disk does.
 TEST_F(AtomicFile, WriteThatStopsHalfwayKeepsTheOldFileAndNoPart) {
   ASSERT_TRUE(WriteFileAtomically(folder_ / "out.bin", "old"));
   rlimit before{};

@@ -9,7 +9,7 @@ CameraModel Lens(DistortionModel model, std::array<double, 8> distortion) {
   return {640, 480, 585, 588, 326.3, 235.8, model, distortion};
 }
 
-// Worst distance between a point of the picture and itself after undistorting and distorting.
+// Maximum distance between an image point and itself after undistortion and distortion.
 double WorstRoundTripPx(const CameraModel& camera) {
   double worst = 0.0;
   for (int v = 0; v < camera.height; v += 20) {
@@ -39,7 +39,7 @@ TEST(CameraModel, PinholeProjectsByHand) {
   EXPECT_DOUBLE_EQ(pixel.y, 235.8 - 588.0 / 4);
 }
 
-// The equidistant lens without coefficients has its radius equal to the angle: at 45° f·π/4.
+// An equidistant lens without coefficients maps the angle to the radius: f·π/4 at 45°.
 TEST(CameraModel, EquidistantRadiusIsTheAngle) {
   const CameraModel camera = Lens(DistortionModel::kEquidistant, {});
   EXPECT_TRUE(camera.HasDistortion());

@@ -36,7 +36,7 @@ TEST(LittleEndian, GivesNothingOnceBytesAreMissing) {
   LittleEndianReader reader("abc");
   EXPECT_EQ(reader.Get<std::uint32_t>(), 0U);
   EXPECT_FALSE(reader.complete());
-  // Not even what would have fitted: it stood elsewhere.
+  // Reads nothing further, even if it would fit: the position is undefined.
   EXPECT_EQ(reader.Take(1), "");
   EXPECT_FALSE(reader.complete());
   LittleEndianReader whole("abc");

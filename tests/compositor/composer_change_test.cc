@@ -1,4 +1,4 @@
-// What is drawn once models have moved or another light was made.
+// Tests drawing after models have moved or the light has changed.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(Composer, ShadesAMovedModelWhereItStandsNow) {
   const RgbImage picture = EvenPicture(77);
   ASSERT_TRUE((*composer)->Compose(picture.view(), kFromAbove,
                                    {kExposureScale, kExposureScale, kExposureScale}));
-  // Half as large, a quarter turned and 0.4 m aside.
+  // Half the size, a quarter turn, shifted by 0.4 m.
   (*composer)->MoveModel(0, {{0, -0.5, 0, 0.5, 0, 0, 0, 0, 0.5}}, {0.4, 0.2, 0});
   const auto moved = (*composer)->Compose(picture.view(), kFromAbove,
                                           {kExposureScale, kExposureScale, kExposureScale});
@@ -62,22 +62,22 @@ TEST(Composer, DrawsAFurtherLightAsIfItWereTheFirst) {
   const Bytes in_sun = light(composer->get(), sunny);
   (*composer)->MoveModel(1, Mat3{}, {0.3, 0.0, 0.0});
   EXPECT_NE(compose(composer->get()), in_sun);
-  // A light puts the models back to where it was made.
+  // A new light resets the models to their positions at its computation.
   const Bytes under_clouds = light(composer->get(), overcast);
   EXPECT_NE(under_clouds, in_sun);
   EXPECT_EQ(under_clouds, light(other->get(), overcast));
   EXPECT_EQ(light(composer->get(), sunny), in_sun);
 }
 
-/// A wall's shadow runs over the ground beside the cube's.
+/// A wall's shadow on the ground beside the cube's.
 class SunReachOfWallTest : public ::testing::Test {
  protected:
   struct Pictures {
     RgbImage known, looked_up, misled;
   };
 
-  /// Composed with what the light says of the sun's reach, without, and with no sun said to reach
-  /// what all of it reaches.
+  /// Images composed with the light's sun visibility, without it, and with a wrong one that marks
+  /// fully lit triangles as unlit.
   Pictures Compose(const sky::SkyModel& day) {
     const auto solver = LightSolver::Create(scene_, {.rays_per_vertex = 64});
     const auto composer = Composer::Create(kCamera, scene_, {});
@@ -126,7 +126,7 @@ TEST_F(SunReachOfWallTest, IsDrawnAsShadowMapsWouldHaveIt) {
   EXPECT_GT(MaxDifference(pictures.misled, pictures.looked_up), 5) << "it is what is drawn";
 }
 
-/// An overcast sky in air so thick that half of what is three metres away is seen.
+/// An overcast sky in air that transmits half of the light over three metres.
 class OvercastInHaze : public SouthernSun {
  public:
   OvercastInHaze() : SouthernSun(0.0) {}
@@ -158,7 +158,7 @@ TEST(Composer, LeavesTheAirBeforeAContactShadowFromTheFirstFrameOn) {
                                           {kExposureScale, kExposureScale, kExposureScale});
   ASSERT_TRUE(again.has_value());
   EXPECT_TRUE(std::equal(in_haze.data(), in_haze.data() + in_haze.size(), again->data()));
-  // In clear air the picture shows the ratio; half of this one's light is the air's.
+  // In clear air the image shows the ratio. Here half of the light is airlight.
   const RgbImage clear = compose(overcast);
   const double before = LinearFromSrgb8()[150],
                air = kExposureScale * OvercastInHaze::kAirlight / 2;
@@ -167,14 +167,14 @@ TEST(Composer, LeavesTheAirBeforeAContactShadowFromTheFirstFrameOn) {
     const double ratio = SeenAt(clear, beside) / before;
     const double kept = (1.0 - ratio) * air;
     EXPECT_GT(kept, 0.012);
-    // A code is 0.004 there, and the fog is that of the way to the middle.
+    // A pixel value step is 0.004 there. The airlight is that of the distance to the centre.
     EXPECT_NEAR(SeenAt(in_haze, beside) - SeenAt(clear, beside), kept, 0.006);
   }
 }
 
 TEST(Composer, BelievesNoDarkCornerOfAPhantom) {
-  // Hardly any light reaches one corner of a triangle, and of that the object takes half: where its
-  // light is, at the others, a twentieth.
+  // Hardly any light reaches one corner of a triangle, and the object takes half of it. At the
+  // other corners it takes a twentieth.
   const PlacedModel floor = Place(MakeBox({-1, -1, 0}, {1, 1, 0}, 0.3F), true);
   const std::vector<PlacedModel> scene{floor, kCube};
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 16, .near_edge_m = 0.5});
@@ -202,7 +202,7 @@ TEST(Composer, BelievesNoDarkCornerOfAPhantom) {
 }
 
 TEST(Composer, MovesTheShadowOfAModelThatTurnsWithinItsBox) {
-  // Two posts on a square's diagonal, turned to the other one.
+  // Two posts on one diagonal of a square, then turned to the other.
   Model posts = MakeBox({-0.35, -0.35, 0.001}, {-0.25, -0.25, 0.2}, 0.5F);
   posts.meshes.push_back(MakeBox({0.25, 0.25, 0.001}, {0.35, 0.35, 0.2}, 0.5F).meshes[0]);
   const std::vector<PlacedModel> scene{kGround, Place(posts, false)};

@@ -1,4 +1,4 @@
-// Haze and fog between the camera and what is drawn.
+// Tests haze and fog between the camera and the drawn surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace pleinair::compositor {
 namespace {
 
-/// The same light in air so thick that half of what is three metres away is seen.
+/// The same light in air that transmits half of the light over three metres.
 class HazySouthernSun : public SouthernSun {
  public:
   AirBetween AirTo(Direction<World>, Metres distance) const override {
@@ -54,7 +54,7 @@ TEST(Composer, SeesTheObjectThroughAsMuchFogAsItIsToldTo) {
 }
 
 TEST(Composer, DrawsFogOfDifferentPartitionsWithoutASeam) {
-  // A virtual lawn from under the camera to the horizon, and its fog by the formula.
+  // A virtual lawn from below the camera to the horizon, with fog by the formula.
   const std::vector<PlacedModel> scene{Place(MakeBox({-400, -400, 0}, {400, 400, 0}, 0.5F), false)};
   const Transform<Camera, Marker> eye_level{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {0, 2, 0}};
   const HazySouthernSun day;
@@ -93,7 +93,7 @@ TEST(Composer, DrawsFogOfDifferentPartitionsWithoutASeam) {
     EXPECT_NEAR(
         seen, kExposureScale * (radiance * left + HazySouthernSun::kAirlight * (1.0 - left)), 0.02)
         << "row " << y << ", " << distance << " m";
-    // Fog may thicken from row to row; a seam would be a step.
+    // Fog may thicken from row to row. A seam would be a step.
     if (last >= 0.0 && distance < 60.0) {
       EXPECT_NEAR(seen, last, 0.02) << "row " << y;
     }
@@ -102,7 +102,7 @@ TEST(Composer, DrawsFogOfDifferentPartitionsWithoutASeam) {
   EXPECT_GE(partitions_seen, 3);
 }
 
-/// The same light in air that leaves 60 % of what is 200 m away.
+/// The same light in air that transmits 60 % over 200 m.
 class HazySouthernField : public SouthernSun {
  public:
   AirBetween AirTo(Direction<World>, Metres distance) const override {
@@ -110,7 +110,7 @@ class HazySouthernField : public SouthernSun {
     return {{left, left, left}, LinearRgb{1.0, 1.0, 1.0} * (kAirlight * (1.0 - left))};
   }
   static constexpr double kLeft = 0.6, kAirlight = 6000.0;
-  /// How a surface 200 m away shows.
+  /// Linear value of a surface 200 m away.
   static double Shown(double radiance) {
     return kExposureScale * (radiance * kLeft + kAirlight * (1.0 - kLeft));
   }
@@ -140,19 +140,19 @@ TEST(Composer, FadesAShadowOnARealSurface200MetresAwayAsHazeFadesARealOne) {
                                          static_cast<int>(std::lround(pixel.y)), 1)];
   };
   const double sunlit = 0.3 * (kSkyLux + kSunLux * std::numbers::sqrt2 / 2) / std::numbers::pi;
-  // As a near picture would have it, to know what the tower leaves of the light.
+  // A near view gives the share of the light that the tower leaves.
   const double ratio = shadow(kExposureScale * sunlit, 0.0) / (kExposureScale * sunlit);
   EXPECT_NEAR(ratio, 0.23, 0.06);
   EXPECT_NEAR(shadow(HazySouthernField::Shown(sunlit), 1.0),
               HazySouthernField::Shown(ratio * sunlit), 0.006);
   EXPECT_LT(shadow(HazySouthernField::Shown(sunlit), 0.0),
             HazySouthernField::Shown(ratio * sunlit) - 0.04);
-  // Half the air: half the optical depth.
+  // Half the air has half the optical depth.
   const double left = std::sqrt(HazySouthernField::kLeft);
   const double air = kExposureScale * HazySouthernField::kAirlight * (1.0 - left);
   EXPECT_NEAR(shadow(kExposureScale * sunlit * left + air, 0.5),
               kExposureScale * ratio * sunlit * left + air, 0.006);
-  // Shade that the picture has there already is known for it through the haze.
+  // The composer detects existing shadows in the image through the haze.
   const double shaded = HazySouthernField::Shown(0.3 * kSkyLux / std::numbers::pi);
   EXPECT_NEAR(shadow(shaded, 1.0), shaded, 0.015);
   EXPECT_LT(shadow(shaded, 0.0), 0.7 * shaded);

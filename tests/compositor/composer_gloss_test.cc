@@ -1,4 +1,4 @@
-// What metals and coats mirror, and thin sheets.
+// Tests reflections of metals, coats and thin sheets.
 
 #include <gtest/gtest.h>
 
@@ -18,13 +18,14 @@ TEST(Composer, MirrorsTheSkyInPolishedMetal) {
   plate.materials[0].metallic = 1.0F;
   plate.materials[0].roughness = 0.1F;
   const RgbImage composed = Compose({Place(plate, false)}, EvenPicture(0));
-  // The sun, 45° off, is mirrored elsewhere.
+  // The sun, 45° off, is reflected elsewhere.
   EXPECT_NEAR(SeenAt(composed, {0, 0, 0.1}), kExposureScale * 0.7 * kSkyLux * std::numbers::inv_pi,
               0.01);
 }
 
 TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
-  // A black plate shows its coat alone. The sun, 45° off, is mirrored elsewhere but by a rough one.
+  // A black plate shows only its coat. The sun, 45° off, is reflected elsewhere unless the coat is
+  // rough.
   const auto seen = [](float roughness, float f0, double sun_lux) {
     Model plate = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
     plate.materials[0].roughness = roughness;
@@ -36,7 +37,7 @@ TEST(Composer, TellsACoatsRoughnessFromItsReflectance) {
   EXPECT_GT(seen(0.5F, 0.1F, kSunLux), seen(0.5F, 0.1F, 0.0) + 0.02);
 }
 
-/// A square of 1 m about the marker's middle that faces `normal`, its corners either way round.
+/// A square of 1 m around the marker's centre that faces `normal`, with either winding.
 Model SquareFacing(Vec3 normal, float albedo, bool turned) {
   Model square = MakeBox({-0.5, -0.5, 0}, {0.5, 0.5, 0}, albedo);
   const Vec3 x{1, 0, 0}, y = Cross(normal, x);
@@ -55,7 +56,7 @@ Model SquareFacing(Vec3 normal, float albedo, bool turned) {
 }
 
 TEST(Composer, LightsAThinSheetsFarSideByTheSkyAlone) {
-  // The sun stands 8° behind the side that is seen.
+  // The sun is 8° behind the visible side.
   const Vec3 normal{0.0, 0.8, 0.6};
   constexpr double kAlbedo = 0.6, kSkySeen = 0.8, kLandAlbedo = 0.2;
   const double land = kLandAlbedo * (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
@@ -70,7 +71,8 @@ TEST(Composer, LightsAThinSheetsFarSideByTheSkyAlone) {
 }
 
 TEST(Composer, ShowsTheSunsHighlightAsTheMicrofacetModelHasIt) {
-  // A black coat that faces half way between the sun, 45° high in the south, and the eye above.
+  // A black coat. Its normal bisects the directions to the sun, 45° high in the south, and to the
+  // eye above.
   const double c = std::cos(std::numbers::pi / 8);
   Model plate = SquareFacing({0.0, -std::sin(std::numbers::pi / 8), c}, 0.0F, false);
   constexpr double kF0 = 0.04, kRoughness = 0.5, kAlpha2 = 0.0625;
@@ -79,7 +81,7 @@ TEST(Composer, ShowsTheSunsHighlightAsTheMicrofacetModelHasIt) {
   const auto seen = [&](double sun_lux) {
     return SeenAt(Compose({Place(plate, false)}, EvenPicture(0), kCamera, sun_lux), {0, 0, 0});
   };
-  // Walter et al. 2007, Eq. (33) at the normal itself; Heitz 2014, Eq. (99); Schlick 1994.
+  // Walter et al. 2007, Eq. (33) at the normal; Heitz 2014, Eq. (99); Schlick 1994.
   const double distribution = 1.0 / (std::numbers::pi * kAlpha2);
   const double visibility = 0.25 / (c * std::sqrt(c * c * (1 - kAlpha2) + kAlpha2));
   const double fresnel = kF0 + (1 - kF0) * std::pow(1 - c, 5);

@@ -1,4 +1,4 @@
-// What a virtual object shows in a pixel: its material, texture and pieces of surface.
+// Tests the pixels of virtual objects: material, texture and partial coverage.
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@
 namespace pleinair::compositor {
 namespace {
 
-/// A level square of a metre whose texture's u runs along x, v against y; 0.1 m above the marker.
+/// A level square of 1 m, 0.1 m above the marker. Its texture's u runs along x, v against y.
 Model TexturedSquare(Image<std::uint8_t> texture) {
   Model square = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 1.0F);
   square.meshes[0].uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
@@ -48,13 +48,13 @@ TEST(Composer, ColorsAnObjectByItsTextureAndLeavesTheCameraWhatIsCutOut) {
   EXPECT_NEAR(SeenAt(composed, {0.35, -0.25, 0.1}), Level(0.6), 0.02);
   EXPECT_NEAR(SeenAt(composed, {0.35, 0.35, 0.1}), Level(0.6), 0.02);
   EXPECT_EQ(SeenAt(composed, {-0.35, 0.35, 0.1}), LinearFromSrgb8()[77]);
-  // An object without a texture beside it keeps its own color.
+  // An adjacent object without a texture keeps its own color.
   EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), Level(0.5), 0.02);
 }
 
 TEST(Composer, SmoothsASlantedEdgeInFourSteps) {
-  // Black before white, turned a little: in linear light what is left of a pixel's white is what
-  // the square leaves free, in quarters.
+  // Black in front of white, slightly turned. In linear light a pixel keeps the uncovered share of
+  // white, in quarters.
   const double c = std::cos(0.1), s = std::sin(0.1);
   const PlacedModel square{
       std::make_shared<const Model>(MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F)),
@@ -63,7 +63,7 @@ TEST(Composer, SmoothsASlantedEdgeInFourSteps) {
       false};
   constexpr std::uint8_t kWhite = 200;
   const RgbImage composed = Compose({square}, EvenPicture(kWhite));
-  std::array<int, 5> pixels{};  // By quarters that are covered.
+  std::array<int, 5> pixels{};  // By covered quarters.
   for (int y = 0; y < composed.height(); ++y) {
     for (int x = 0; x < composed.width(); ++x) {
       const double covered = 1 - LinearFromSrgb8()[composed(x, y, 1)] / LinearFromSrgb8()[kWhite];
@@ -72,7 +72,7 @@ TEST(Composer, SmoothsASlantedEdgeInFourSteps) {
       ++pixels[static_cast<std::size_t>(quarters)];
     }
   }
-  // Four edges of some hundred pixels.
+  // Four edges of some hundred pixels each.
   for (const int quarters : {1, 2, 3}) EXPECT_GT(pixels[quarters], 30) << quarters;
   EXPECT_GT(pixels[0], 1000);
   EXPECT_GT(pixels[4], 1000);
@@ -93,14 +93,14 @@ TEST(Composer, SeparatesMetalFromPaintByTheTexture) {
     }
   }
   const RgbImage composed = Compose({Place(plate, false)}, EvenPicture(0));
-  // The sun, 45° off, is mirrored elsewhere but by a rougher surface.
+  // The sun, 45° off, is reflected elsewhere unless the surface is rougher.
   EXPECT_NEAR(SeenAt(composed, {-0.3, 0, 0.1}),
               kExposureScale * 0.7 * kSkyLux * std::numbers::inv_pi, 0.01);
   EXPECT_NEAR(SeenAt(composed, {0.3, 0, 0.1}), Level(0.7), 0.01);
 }
 
-/// Mean over the middle of a picture, of that of the light behind which a scene lets through; its
-/// surfaces are black.
+/// Share of the background light that a scene of black surfaces transmits; mean over the centre of
+/// the image.
 double LetThrough(const std::vector<PlacedModel>& scene, const CameraModel& camera = kCamera) {
   constexpr std::uint8_t kBehind = 200;
   RgbImage picture(camera.width, camera.height, 3);
@@ -127,7 +127,7 @@ TEST(Composer, ShowsThroughGlassWhatLiesBehind) {
   for (const float opacity : {0.1F, 0.3F, 0.5F, 0.9F}) {
     EXPECT_NEAR(LetThrough({pane(opacity, 0.1F, Alpha::kBlended)}), 1.0F - opacity, 0.02);
   }
-  // Samples tell it: of two panes the second does not hide behind the first.
+  // The samples of the first pane must not hide the second.
   const double both =
       LetThrough({pane(0.5F, 0.1F, Alpha::kBlended), pane(0.5F, 0.3F, Alpha::kBlended)});
   EXPECT_NEAR(both, 0.25, 0.03);
@@ -136,7 +136,7 @@ TEST(Composer, ShowsThroughGlassWhatLiesBehind) {
 }
 
 TEST(Composer, DrawsWhatCastsNoShadow) {
-  // As thin glass stands in a model, alone in the scene.
+  // Thin glass as in a model, alone in the scene.
   Model pane = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
   pane.materials[0].opacity = 0.3F;
   pane.materials[0].alpha = Material::Alpha::kBlended;
@@ -145,8 +145,8 @@ TEST(Composer, DrawsWhatCastsNoShadow) {
 }
 
 TEST(Composer, DrawsTheEdgesOfHolesAsFineAsThoseOfSurfaces) {
-  // Where a hole's edge lies, in pixels, by how much a row of pixels is covered; the square is
-  // moved by parts of a pixel.
+  // Position of a hole's edge in pixels, from the coverage of a row of pixels. The square moves by
+  // fractions of a pixel.
   constexpr int kSide = 64, kRow = 120, kFirst = 130, kLast = 190;
   Image<std::uint8_t> texture(kSide, kSide, 4);
   for (int y = 0; y < kSide; ++y) {
@@ -171,7 +171,8 @@ TEST(Composer, DrawsTheEdgesOfHolesAsFineAsThoseOfSurfaces) {
 }
 
 TEST(Composer, CoversAsMuchOfAMinifiedCardAsItsTextureDoes) {
-  // 24 × 24 cells of a card that is 16 pixels wide; light meets it with the holes cut out.
+  // 24 × 24 cells of a card that is 16 pixels wide. The light solver receives it with the holes cut
+  // out.
   constexpr int kSide = 128, kCell = 16, kRepeats = 3;
   const CameraModel small{.width = 80, .height = 60, .fx = 75, .fy = 75, .cx = 39.5, .cy = 29.5};
   Image<std::uint8_t> texture(kSide, kSide, 4);
@@ -198,7 +199,7 @@ TEST(Composer, CoversAsMuchOfAMinifiedCardAsItsTextureDoes) {
   ApplyAlphaCutout(&card);
   ASSERT_EQ(card.meshes.size(), 2U);
   EXPECT_NEAR(LetThrough({Place(card, false)}, small), 0.5, 0.03);
-  // Drawn as the light meets it, the holes would count twice.
+  // If the cut-out geometry were drawn, the holes would count twice.
   card.meshes.pop_back();
   card.meshes[0].role = MeshRole::kAll;
   EXPECT_GT(LetThrough({Place(card, false)}, small), 0.56);
@@ -218,14 +219,14 @@ TEST(Composer, ShadesTheGroundByWhatIsLeftOfACardAlone) {
   const RgbImage composed = Compose({kGround, Place(card, false)}, EvenPicture(150), kCamera,
                                     kSunLux, {}, {}, /*assume_unmodelled_shadows=*/false);
   const double lit = LinearFromSrgb8()[150];
-  // The sun, 45° high in the south, comes through the hole to the ground seen through it.
+  // The sun, 45° high in the south, shines through the hole onto the ground visible through it.
   EXPECT_GT(SeenAt(composed, {0, 0.1, 0}), 0.75 * lit);
   EXPECT_LT(SeenAt(composed, {0, 0.57, 0}), 0.4 * lit);
 }
 
 TEST(Composer, KeepsTheEdgesOfHolesSharpWhereTexelsAreFinerThanPixels) {
-  // Ten texels a pixel. Pixels that are neither covered nor free, over places of a straight edge
-  // that lies within a texel of the minified texture.
+  // Ten texels per pixel. Counts partly covered pixels over positions of a straight edge that lies
+  // within one texel of the minified texture.
   constexpr int kSide = 1024, kRow = 120, kFirst = 130, kLast = 190, kPlaces = 4;
   constexpr int kHole = kSide / 2 + 3;
   Image<std::uint8_t> texture(kSide, kSide, 4);
@@ -245,14 +246,14 @@ TEST(Composer, KeepsTheEdgesOfHolesSharpWhereTexelsAreFinerThanPixels) {
       covered += share / full;
       between += share > 0.02 * full && share < 0.98 * full ? 1 : 0;
     }
-    covered += static_cast<double>(i) / kPlaces;  // As far as it was moved.
+    covered += static_cast<double>(i) / kPlaces;  // The displacement.
   }
   EXPECT_LE(between, 3);
   EXPECT_NEAR(covered / kPlaces, kLast - kCamera.cx - 0.5 - (kHole / 1024.0 - 0.5) / pixel_m, 0.15);
 }
 
 TEST(Composer, SeesTheMeanOfATextureThatIsFinerThanPixels) {
-  // Some ten texels of a checkered texture in a pixel of the picture.
+  // About ten texels of a checkered texture per image pixel.
   constexpr int kSide = 1024;
   Image<std::uint8_t> texture(kSide, kSide, 3);
   for (int y = 0; y < kSide; ++y) {
@@ -269,8 +270,8 @@ TEST(Composer, SeesTheMeanOfATextureThatIsFinerThanPixels) {
 }
 
 TEST(Composer, MixesTwoStoreysOfOneSurfaceThatMeetInAPixel) {
-  // A sheet that steps down by 0.3 m where the middle of a column sees its upper storey's edge; the
-  // storeys share vertices and normals. A real wall shades the lower one alone.
+  // A sheet steps down by 0.3 m; the upper level's edge projects to the centre of a column. Both
+  // levels share vertices and normals. A real wall shades only the lower level.
   constexpr int kColumn = 157, kRow = 105;
   const auto edge = static_cast<float>((kColumn - kCamera.cx) / kCamera.fx * 2.7);
   Model stepped = MakeBox({-0.3, -0.3, 0}, {0.3, 0.3, 0}, 0.5F);
@@ -297,9 +298,9 @@ TEST(Composer, MixesTwoStoreysOfOneSurfaceThatMeetInAPixel) {
 }
 
 TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
-  // A board 6 m above the ground, whose shadow's edge is 8 cm wide, turned so that it lies at every
-  // place of the window's cells; triangles are of a cell's size. A map that leaves all of the sun
-  // makes the composer draw all of the window as it may change.
+  // A board 6 m above the ground has a shadow edge 8 cm wide. It is turned so that the edge crosses
+  // the window's cells at every position. Triangles have the size of a cell. A transmittance map
+  // without shadows makes the composer treat the whole window as changing.
   Model ground = MakeBox({-1, -1, 0}, {1, 1, 0}, 0.3F);
   Mesh& grid = ground.meshes[0];
   const std::array<float, 3> up = grid.normals[0];

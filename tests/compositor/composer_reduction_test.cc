@@ -1,4 +1,4 @@
-// What is drawn in full against what is drawn with reductions, of a real scene's size.
+// Compares drawing with reductions to full drawing, in a real scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,15 +19,15 @@ int MaxDifference(const RgbImage& a, const RgbImage& b) {
   return most;
 }
 
-/// Values that differ by more than two steps of eight bits.
+/// Number of values that differ by more than two steps of 8 bits.
 std::ptrdiff_t CountNoticeable(const RgbImage& a, const RgbImage& b) {
   std::ptrdiff_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i) count += std::abs(a.data()[i] - b.data()[i]) > 2;
   return count;
 }
 
-/// linear_shadow_ratio takes one of the 921,600 values three steps off; the others one step at
-/// most.
+/// With linear_shadow_ratio some of the 921,600 values may differ by up to three steps. Otherwise
+/// the limit is one step.
 void ExpectNear(const RgbImage& drawn, const RgbImage& in_full, bool linear_shadow_ratio) {
   EXPECT_LE(MaxDifference(drawn, in_full), linear_shadow_ratio ? 3 : 1);
   EXPECT_LE(CountNoticeable(drawn, in_full), linear_shadow_ratio ? 5 : 0);

@@ -1,6 +1,6 @@
 #pragma once
 
-// A small scene whose light can be worked out by hand: a cube on ground, seen from above.
+// A small scene whose light can be calculated by hand: a cube on the ground, seen from above.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace pleinair::compositor {
 
 inline constexpr double kSkyLux = 20000, kSunLux = 80000;
 
-/// An even sky and a sun in the south, 45° high, or no sun at all.
+/// A uniform sky with or without a sun in the south, 45° high.
 class SouthernSun : public sky::SkyModel {
  public:
   explicit SouthernSun(double sun_lux = kSunLux) : sun_lux_(sun_lux) {}
@@ -37,7 +37,7 @@ class SouthernSun : public sky::SkyModel {
   double sun_lux_;
 };
 
-/// An axis-aligned box, or with zero height an upward rectangle.
+/// An axis-aligned box; with zero height a rectangle that faces up.
 inline Model MakeBox(Vec3 low, Vec3 high, float albedo) {
   Model model;
   Material material;
@@ -74,9 +74,9 @@ inline PlacedModel Place(const Model& model, bool is_phantom) {
 
 inline const CameraModel kCamera{
     .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 159.5, .cy = 119.5};
-// Three metres above the marker, looking straight down; picture up is the marker's +y (north).
+// Three metres above the marker, looking straight down; image up is the marker's +y (north).
 inline const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 3}};
-// Display-linear value per radiance: white ground in full light shows as 0.8.
+// Linear value per radiance: white ground in full light has 0.8.
 inline const double kExposureScale =
     0.8 * std::numbers::pi / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
 
@@ -114,7 +114,7 @@ inline RgbImage EvenPicture(std::uint8_t code) {
   return picture;
 }
 
-/// Linear value of the green channel where a point of the scene is seen.
+/// Linear value of the green channel at the projection of a scene point.
 inline double SeenAt(const RgbImage& picture, Vec3 point, const CameraModel& camera = kCamera) {
   const Vec2 pixel = ProjectToPixel(camera, kFromAbove * Point<Marker>{point});
   return LinearFromSrgb8()[picture(static_cast<int>(std::lround(pixel.x)),
@@ -122,13 +122,13 @@ inline double SeenAt(const RgbImage& picture, Vec3 point, const CameraModel& cam
 }
 
 inline const double kLevelLux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
-/// Display-linear value of a level face of so much reflectance.
+/// Linear value of a level face with this reflectance.
 inline double Level(double albedo) {
   return kExposureScale * albedo * kLevelLux * std::numbers::inv_pi;
 }
 
-/// Draws the scene in the southern sun. No shade of trees is looked for: then what no object hides
-/// from the sun is not asked for it.
+/// Draws the scene in the southern sun without a test for unmodelled shadows. Pixels that no object
+/// shades are then not tested for sun visibility.
 inline std::unique_ptr<Composer> ComposerInTheSun(const std::vector<PlacedModel>& scene) {
   static const SouthernSun light;
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});

@@ -1,4 +1,4 @@
-// The renderer on small scenes whose light can be worked out by hand.
+// Tests the renderer on small scenes whose light can be calculated by hand.
 
 #include "compositor/composer.h"
 
@@ -25,7 +25,7 @@ TEST(Composer, KeepsTheBytesThatNoVirtualThingTouches) {
   for (std::size_t i = 0; i < noise.size(); ++i) {
     noise.data()[i] = static_cast<std::uint8_t>(random() & 0xFFU);
   }
-  // The cube without real surfaces: nothing but its own pixels can change.
+  // The cube without real surfaces changes only its own pixels.
   const RgbImage composed = Compose({kCube}, noise);
   int changed = 0;
   for (int y = 0; y < noise.height(); ++y) {
@@ -53,41 +53,41 @@ TEST(Composer, CastsTheShadowAwayFromTheSunAndLeavesTheSkysShare) {
   const RgbImage picture = EvenPicture(200);
   const double before = LinearFromSrgb8()[200];
   const RgbImage composed = Compose({kGround, kCube}, picture);
-  // The sun stands in the south: the shadow reaches 0.3 m to the north of the cube.
+  // The sun is in the south: the shadow reaches 0.3 m north of the cube.
   const double share = SeenAt(composed, {0, 0.30, 0}) / before;
   const double sky_share = kSkyLux / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
   EXPECT_LT(share, sky_share);
   EXPECT_GT(share, 0.5 * sky_share);
-  // Just beyond the shadow's end and to the south there is but a little less sky.
+  // Just beyond the shadow's end and to the south only slightly less of the sky is visible.
   EXPECT_NEAR(SeenAt(composed, {0, 0.60, 0}) / before, 1.0, 0.04);
   EXPECT_NEAR(SeenAt(composed, {0.6, 0.3, 0}) / before, 1.0, 0.04);
 }
 
 TEST(Composer, NeverDarkensARealShadowTwice) {
-  // A real wall in the south keeps the sun from everything that the cube could shade.
+  // A real wall in the south shades every point that the cube could shade.
   const PlacedModel wall = Place(MakeBox({-3, -0.8, 0}, {3, -0.7, 2.5}, 0.3F), true);
   const RgbImage picture = EvenPicture(120);
   const double before = LinearFromSrgb8()[120];
   const RgbImage composed = Compose({kGround, wall, kCube}, picture);
-  // Darkened by a shadow of the cube's own it would keep a quarter.
+  // A second shadow from the cube would leave a quarter.
   EXPECT_NEAR(SeenAt(composed, {0, 0.35, 0}) / before, 0.95, 0.1);
   EXPECT_NEAR(SeenAt(composed, {0, 0.8, 0}) / before, 1.0, 0.04);
 }
 
 TEST(Composer, DarkensNothingThatATreeShadesAlready) {
-  // West of the middle the ground lies in the shade of something that no phantom stands for.
+  // West of the centre the ground lies in an unmodelled shadow.
   const double lit = 0.3 * 0.8;
   const double shade = lit * kSkyLux / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2);
   RgbImage picture = EvenPicture(Srgb8FromLinear(lit));
   for (int y = 0; y < picture.height(); ++y) {
     std::fill_n(picture.view().row(y), 3 * picture.width() / 2, Srgb8FromLinear(shade));
   }
-  // Both in the cube's shadow, clear of the tree's edge.
+  // Both points lie in the cube's shadow, away from the tree shadow's edge.
   const Vec3 sunlit{0.08, 0.32, 0.0}, shaded{-0.08, 0.32, 0.0};
   const RgbImage composed = Compose({kGround, kCube}, picture);
   EXPECT_LT(SeenAt(composed, sunlit), 1.1 * shade);
   EXPECT_GT(SeenAt(composed, shaded), 0.75 * shade) << "the cube takes some of the sky";
-  // Where pictures are not asked, the tree's shade is darkened as sunlit ground is.
+  // Without the test for unmodelled shadows, the tree's shadow is darkened like sunlit ground.
   const RgbImage unasked = Compose({kGround, kCube}, picture, kCamera, kSunLux, {}, {}, false);
   EXPECT_NEAR(SeenAt(unasked, sunlit), SeenAt(composed, sunlit), 0.02);
   EXPECT_LT(SeenAt(unasked, shaded), 0.4 * shade);
@@ -101,8 +101,8 @@ TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
   const SouthernSun light;
   ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
                                     (*solver)->RadianceFromBelow(light, Mat3{})));
-  // On the ground the tree's shade ends north of the cube, where the cube's shadow falls: its west
-  // half lies in shade.
+  // On the ground the tree's shadow ends north of the cube. The west half of the cube's shadow
+  // overlaps it.
   const Vec3 to_sun = light.ToSun().xyz;
   std::vector<SunlitSample> surface_samples;
   for (int i = 0; i < 100; ++i) {
@@ -133,7 +133,7 @@ TEST(Composer, ShadesTheObjectWhereARealWallKeepsTheSunFromIt) {
   const double sky_alone = kExposureScale * 0.5 * kSkyLux / std::numbers::pi;
   const double shaded = SeenAt(Compose({kGround, wall, kCube}, EvenPicture(120)), {0, 0, 0.3});
   EXPECT_LT(shaded, 1.05 * sky_alone);
-  EXPECT_GT(shaded, 0.5 * sky_alone);  // The wall hides some of the sky.
+  EXPECT_GT(shaded, 0.5 * sky_alone);  // The wall occludes part of the sky.
 }
 
 TEST(Composer, HidesTheObjectBehindAPhantom) {
@@ -144,7 +144,7 @@ TEST(Composer, HidesTheObjectBehindAPhantom) {
 }
 
 TEST(Composer, MixesTheLightOfRealSurfacesThatMeetInAPixel) {
-  // A sunlit shelf a metre above the cube's shadow; its edge runs through the middle of a column.
+  // A sunlit shelf a metre above the cube's shadow; its edge runs through the centre of a column.
   constexpr int kColumn = 162, kRow = 90;
   const double edge = (kColumn - kCamera.cx) / kCamera.fx * 2.0;
   const PlacedModel shelf = Place(MakeBox({edge, 0.1, 0.98}, {0.3, 0.3, 1.0}, 0.3F), true);
@@ -163,7 +163,7 @@ TEST(Composer, DrawsTheObjectWhereADistortedLensSeesIt) {
       MakeBox({corner.x - 0.2, corner.y - 0.2, 0.0}, {corner.x + 0.2, corner.y + 0.2, 0.1}, 0.9F),
       false);
   const RgbImage composed = Compose({block}, EvenPicture(0), camera);
-  // Three millimetres of the scene are a third of a pixel: the edges must lie between 0.17 m and
+  // Three millimetres of the scene are a third of a pixel. The edges must lie between 0.17 m and
   // 0.23 m, about three pixels either way.
   for (const double sign : {-1.0, 1.0}) {
     EXPECT_GT(SeenAt(composed, corner + Vec3{sign * 0.17, 0, 0}, camera), 0.2);
@@ -187,13 +187,13 @@ TEST(Composer, TintsPartitionsAndShowsTheMapsInTheDebugView) {
   options.show_shadow_maps = true;
   const RgbImage plain = Compose({kGround, kCube}, EvenPicture(200));
   const RgbImage shown = Compose({kGround, kCube}, EvenPicture(200), kCamera, kSunLux, options);
-  // Beside the cube, in the finest partition: red. Far off, in the second: green.
+  // Beside the cube, in the finest partition: red. Far away, in the second: green.
   const int x = 159, near_y = 110, far_y = 8;
   EXPECT_EQ(shown(x, near_y, 0), plain(x, near_y, 0));
   EXPECT_NEAR(shown(x, near_y, 1), 0.45 * plain(x, near_y, 1), 2);
   EXPECT_NEAR(shown(x, far_y, 0), 0.5 * plain(x, far_y, 0), 2);
   EXPECT_EQ(shown(x, far_y, 1), plain(x, far_y, 1));
-  // The maps: the cube nearer to the sun, hence darker than the ground around it.
+  // The depth maps: the cube is nearer to the sun and therefore darker than the ground.
   int darkest = 255, brightest = 0;
   for (int y = kCamera.height - 60; y < kCamera.height - 4; ++y) {
     for (int column = 4; column < 60; ++column) {
@@ -216,7 +216,7 @@ TEST(Composer, DrawsShadowMapsOfTheSizesAskedFor) {
   }
   EXPECT_GT(differing, 100) << "the shadow's edge follows the texels";
   options.shadow_method = ComposerOptions{}.shadow_method;
-  options.shadow_sizes[1] = 100;  // Its maps have a pyramid, of halves.
+  options.shadow_sizes[1] = 100;  // Maps of this method have a pyramid, which needs powers of two.
   const auto refused = Composer::Create(kCamera, {kGround, kCube}, options);
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error().kind, ErrorKind::kInput);
@@ -232,8 +232,8 @@ TEST(Composer, DrawsAfterAChangeOfOptionsAsOneMadeWithThem) {
   ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
                                     (*solver)->RadianceFromBelow(light, Mat3{})));
   const RgbImage picture = EvenPicture(200);
-  // Maps stay as they are, are drawn finer because the picture is (1280 pixels wide), then coarser
-  // as asked, by another method and by the first one again.
+  // Unchanged maps, then finer ones for a wide image (1280 pixels), then coarser ones on request.
+  // Then another method, and the first one again.
   ComposerOptions half, large, sized, paper;
   half.supersampling = 0.5;
   large.supersampling = 4.0;
@@ -259,8 +259,8 @@ TEST(Composer, CastsTheSameShadowByThePapersMethod) {
   EXPECT_NEAR(SeenAt(paper, {0, 0.8, 0}), SeenAt(ours, {0, 0.8, 0}), 0.06);
 }
 
-/// A white slab's edge as the picture spreads it: standard deviation of the steps across it, in
-/// linear light and pixels.
+/// Width of a white slab's edge in the image: standard deviation of the steps across it, in linear
+/// light and pixels.
 double EdgeSpread(const RgbImage& picture, int row) {
   double all = 0.0, mean = 0.0, square = 0.0;
   for (int x = 100; x < 159; ++x) {
@@ -284,7 +284,7 @@ TEST(Composer, BlursWhatIsDrawnAsTheCameraDoes) {
     EXPECT_NEAR(EdgeSpread(composed, 120), blur_px, 0.06 * blur_px + 0.05);
     EXPECT_EQ(composed(2, 2, 1), 0);
   }
-  // As sharp as a pixel is wide, where the camera is.
+  // At the camera's position the edge is as sharp as a pixel.
   CameraLook sharp;
   sharp.blur_px = 0.3;
   EXPECT_LT(EdgeSpread(Compose({slab}, black, kCamera, kSunLux, {}, sharp), 120), 0.55);
@@ -316,12 +316,12 @@ TEST(Composer, GivesWhatIsDrawnTheCamerasGrain) {
   const double variance = square / count - mean * mean;
   EXPECT_NEAR(variance / (2e-5 + 4e-4 * mean), 1.0, 0.1);
   EXPECT_NEAR((crossed / count - mean * red_mean) / variance, 0.5, 0.1);
-  // The camera's own pixels have theirs already.
+  // The camera image is already blurred.
   EXPECT_EQ(composed(10, 10, 1), 60);
 }
 
 TEST(Composer, ReadsAndWritesTheCamerasOwnCodes) {
-  // A camera whose codes are light itself.
+  // A camera whose pixel values are linear light.
   ComposerOptions options;
   const std::vector<double> ends{0.0, 1.0};
   options.response = *CameraResponse::FromSamples(ends, {ends, ends, ends});
@@ -334,7 +334,7 @@ TEST(Composer, ReadsAndWritesTheCamerasOwnCodes) {
   };
   const double lux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
   EXPECT_NEAR(seen({0, 0, 0.3}), kExposureScale * 0.5 * lux / std::numbers::pi, 0.01);
-  // The same share of the light is left in the shadow as with any other codes.
+  // The shadow keeps the same share of the light as with any other response.
   const double share = seen({0, 0.30, 0}) / (128 / 255.0);
   const RgbImage srgb = Compose({kGround, kCube}, EvenPicture(188));
   EXPECT_NEAR(share, SeenAt(srgb, {0, 0.30, 0}) / LinearFromSrgb8()[188], 0.02);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The bundled courtyard in the light that it was recorded in, as a Composer gets it.
+// The bundled courtyard in its recorded light, as input of a Composer.
 
 #include <filesystem>
 #include <fstream>
@@ -41,8 +41,8 @@ class Courtyard {
     from_below_ = solver->RadianceFromBelow(day_, Mat3{});
   }
 
-  /// A composer with the courtyard's light that assumes no unmodelled shadows: where it does, it
-  /// shades all of the sun's window.
+  /// A composer with the courtyard's light, without unmodelled shadows. With them it would shade
+  /// the whole sun window.
   std::unique_ptr<Composer> MakeComposer(const ComposerOptions& options) const {
     auto composer = Composer::Create(camera_, scene_, options).value();
     CHECK_EQ(composer->SetLight(lit_, day_, Mat3{}, from_below_).has_value(), true);
@@ -51,9 +51,9 @@ class Courtyard {
   }
 
   RgbImage Picture() const { return ReadTexture(Folder() / "key/0036_background.png").value(); }
-  /// Of every frame.
+  /// For every frame.
   const std::vector<Transform<Camera, Marker>>& poses() const { return poses_; }
-  /// Paving of albedo 0.3 in full light shows as 0.3.
+  /// Paving of albedo 0.3 in full light has the linear value 0.3.
   LinearRgb ExposureScale() const {
     const LinearRgb light =
         day_.SkyHorizontalIrradiance() + day_.SunNormalIrradiance() * day_.ToSun().xyz.z;

@@ -1,4 +1,4 @@
-// What each of the composer's reductions saves, on the bundled courtyard.
+// Measures the time that each of the composer's reductions saves, on the bundled courtyard.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 namespace pleinair::compositor {
 namespace {
 
-/// Composes the recording's frames in turn, all with the picture of one: what the camera has in it
-/// costs nothing.
+/// Composes the recording's frames in turn, all with the image of one frame, so that decoding costs
+/// nothing.
 void Compose(benchmark::State& state, const DrawReductions& reductions) {
   static const testing::Courtyard courtyard;
   static const RgbImage picture = courtyard.Picture();
@@ -23,7 +23,7 @@ void Compose(benchmark::State& state, const DrawReductions& reductions) {
         .has_value();
   };
   std::size_t frame = 0;
-  draw(frame);  // Shaders compile and maps are drawn with the first.
+  draw(frame);  // The first frame compiles shaders and draws maps.
   for (auto _ : state) {
     if (!draw(++frame)) state.SkipWithError("not composed");
   }

@@ -8,8 +8,8 @@
 
 namespace pleinair::compositor::testing {
 
-/// A camera that compresses light much less than sRGB, each channel in its own way: light is the
-/// code to the power of 1.3, 1.5 and 1.7.
+/// A camera that compresses light much less than sRGB, differently per channel: light is the pixel
+/// value to the power of 1.3, 1.5 and 1.7.
 inline CameraResponse GentleResponse() {
   std::vector<double> encoded;
   std::array<std::vector<double>, 3> light;

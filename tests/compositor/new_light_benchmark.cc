@@ -1,4 +1,4 @@
-// How long a new light keeps the thread that draws, of a torus of a million triangles.
+// Measures how long a new light blocks the drawing thread, with a torus of a million triangles.
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
 
@@ -37,7 +37,7 @@ std::shared_ptr<Model> Torus() {
   return testing::ModelOf(std::move(mesh), {0.5F, 0.5F, 0.5F});
 }
 
-/// `surfaces`: how many scenes the lights are of, in turn; of one, only the light is new.
+/// `surfaces`: number of sets of surfaces that alternate; with one, only the light changes.
 void SetLight(benchmark::State& state) {
   const testing::UniformDay day({3000, 4000, 6000}, {60e3, 55e3, 45e3}, {0.3, -0.5, 0.8});
   const CameraModel camera{.width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};

@@ -20,10 +20,10 @@ TEST(RecordingTruth, LiesBetweenItsNeighboursAndNowhereElse) {
   EXPECT_NEAR(between->translation_m.x, 0.5, 1e-12);
   EXPECT_NEAR(accuracy::AngleBetween(between->rotation, Mat3{}), 0.05, 1e-12);
   EXPECT_NEAR(PoseAt(poses, 200, 100)->translation_m.x, 1.0, 1e-12);
-  // Beyond the ends a quarter of a period counts.
+  // Beyond the ends the tolerance is a quarter of a period.
   EXPECT_TRUE(PoseAt(poses, 225, 100).has_value());
   EXPECT_FALSE(PoseAt(poses, 226, 100).has_value());
-  // In a gap, too.
+  // The same holds in a gap.
   EXPECT_FALSE(PoseAt(poses, 150, 40).has_value());
 }
 
@@ -45,7 +45,7 @@ TEST(RecordingTruth, IsAlignedThoughAThirdOfThePosesFlipped) {
   const auto aligned = AlignReference(pairs);
   ASSERT_TRUE(aligned.has_value());
   EXPECT_LT(accuracy::AngleBetween(aligned->rotation, marker_from_reference.rotation), 1e-4);
-  // 23 m from the marker, a ten-thousandth of a radian is 2 mm.
+  // At 23 m from the marker, 1e-4 rad equals 2 mm.
   EXPECT_LT(Norm(aligned->translation_m - marker_from_reference.translation_m), 2e-3);
   EXPECT_FALSE(AlignReference({}).has_value());
 }

@@ -1,4 +1,4 @@
-// The measures of `pleinair bench shadows`, where the answer is known.
+// Tests the measures of `pleinair bench shadows` where the result is known.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,8 +59,8 @@ TEST(ShadowErrors, LeaveOutPixelsThatAreNotToCount) {
   EXPECT_NEAR(errors.leak_mean, 0.5, 1e-6);
 }
 
-// corrections of the segment's share: V(0.5) = 0.8045, V(0.8) = 0.9480; 9.3 mm a metre, sun
-// overhead.
+// Corrections of the circular segment's share: V(0.5) = 0.8045, V(0.8) = 0.9480. The penumbra grows
+// by 9.3 mm per metre under a sun overhead.
 TEST(StraightEdge, HasThePublishedShareAndTheSunsWidth) {
   const shadows::StraightEdge edge{{0.0, 0.0, 1.0}, 1.0, 1.0};
   const glm::dvec3 overhead(0.0, 0.0, 1.0);
@@ -108,7 +108,7 @@ TEST(ExampleModels, AreWhatTheToolWrites) {
     int words = 0;
     while (written >> here) {
       ASSERT_TRUE(file >> there) << model.file << " ends at word " << words;
-      // Another machine's sine may round the last digit elsewhere.
+      // Another machine's sine may round the last digit differently.
       if (here != there) {
         ASSERT_NEAR(std::stod(here), std::stod(there), 1.5e-4) << model.file << " word " << words;
       }

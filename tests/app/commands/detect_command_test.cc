@@ -1,4 +1,4 @@
-// What `pleinair detect` prints about a rendered image, field by field.
+// Tests what `pleinair detect` prints for a rendered image, field by field.
 #include "app/commands/detect_command.h"
 
 #include <gmock/gmock.h>
@@ -109,7 +109,7 @@ TEST_F(DetectCommand, PrintsEveryFieldOfTheContractOneLineAPicture) {
                        found["covariance"][6 * j + i].get<double>());
     }
   }
-  // The other planar solution has a pose of its own, or there is none and it is null.
+  // The second planar solution has its own pose, or is null.
   const json& alternative = found.at("alternative");
   if (!alternative.is_null()) {
     EXPECT_EQ(alternative.at("camera_from_marker").at("rotation").size(), 9U);

@@ -59,10 +59,10 @@ TEST(Doctor, RejectsAPrincipalPointOutsideThePicture) {
 
 TEST(Doctor, RejectsADistortionThatFoldsBackInsideThePicture) {
   CameraModel camera = Plausible();
-  // r (1 − 0.9 r²) is greatest at r = 0.61 with 0.41: 243 px, while the corner is 400 px away.
+  // r (1 − 0.9 r²) has its maximum 0.41 at r = 0.61: 243 px, while the corner is 400 px away.
   camera.distortion = {-0.9, 0, 0, 0, 0, 0, 0, 0};
   EXPECT_EQ(VerdictOf(camera, "distortion"), Verdict::kBad);
-  // The same beyond the corners does no harm: greatest at r = 1.29 with 0.86, 516 px.
+  // A maximum beyond the corners is harmless: 0.86 at r = 1.29, 516 px.
   camera.distortion = {-0.2, 0, 0, 0, 0, 0, 0, 0};
   EXPECT_EQ(VerdictOf(camera, "distortion"), Verdict::kGood);
 }

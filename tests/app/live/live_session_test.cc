@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A folder of its own for one test, gone afterwards.
+/// A temporary folder for one test, removed afterwards.
 class Folder {
  public:
   Folder()
@@ -33,7 +33,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// Grey frames, as fast as they are taken or with a pause before each.
+/// Grey frames, without delay or with a pause before each.
 class GreyFrames : public devices::FrameSource {
  public:
   GreyFrames(int count, milliseconds pause) : count_(count), pause_(pause) {}
@@ -68,7 +68,7 @@ LiveOptions Options() {
   return options;
 }
 
-/// Draws all frames; gives the first byte of each picture.
+/// Draws all frames and returns the first byte of each image.
 std::vector<int> DrawAll(LiveSession* session) {
   std::vector<int> seen;
   while (!session->finished()) {

@@ -78,7 +78,7 @@ TEST(LocalDay, BeginsAtTheClocksMidnight) {
        {"2025-02-29", "2025-6-21", "21.06.2025", "2025-13-01", "1500-01-01", "2025-06-211", ""}) {
     EXPECT_FALSE(ParseDay(date, UtcOffset{}, "--day")) << date;
   }
-  // Which day is wrong comes before whose.
+  // An invalid date is reported before an unknown zone.
   EXPECT_THAT(ParseDay("2025-02-30", std::nullopt, "--day").error().what, HasSubstr("not a day"));
   EXPECT_THAT(ParseDay("2025-02-28", std::nullopt, "--day").error().what, HasSubstr("whose clock"));
 }

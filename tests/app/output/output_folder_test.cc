@@ -27,13 +27,13 @@ class OutputFolderTest : public ::testing::Test {
     std::ofstream(file) << "x";
   }
 
-  /// A replay's report in the folder, with these outputs as JSON.
+  /// Writes a replay report with these outputs into the folder.
   void WriteReport(const std::string& outputs, int frames = 2) const {
     std::ofstream(root_ / "report.json") << R"({"program": "pleinair", "frames": )" << frames
                                          << R"(, "outputs": [)" << outputs << "]}";
   }
 
-  /// Everything below the folder, relative.
+  /// Relative paths of everything below the folder.
   std::set<std::string> Files() const {
     std::set<std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(root_)) {
@@ -160,7 +160,7 @@ TEST_F(OutputFolderTest, FramesAreRemovedOnlyAsFarAsTheReportCountsThem) {
 TEST_F(OutputFolderTest, StagingOfDeadProcessesIsRemovedAndThatOfLivingOnesKept) {
   const pid_t child = fork();
   if (child == 0) _exit(0);
-  ASSERT_EQ(waitpid(child, nullptr, 0), child);  // From here on nobody has this number.
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);  // From here on no process has this id.
   const auto staging = [&](pid_t process) {
     return root_ / (".pleinair.part" + std::to_string(process));
   };

@@ -29,7 +29,7 @@ TEST(ModelWarnings, ReportOnceOfAFileWhatOfItDoesNotShow) {
   model.file = "lamp.glb";
   model.materials.resize(2);
   model.materials[0].unsupported_features = {"normal maps", "emission"};
-  model.materials[1].unsupported_features = {"KHR_materials_sheen"};  // Of nothing.
+  model.materials[1].unsupported_features = {"KHR_materials_sheen"};  // Unused.
   model.meshes.emplace_back();
   const auto place = [](const compositor::Model& of, bool is_phantom) {
     compositor::PlacedModel placed;

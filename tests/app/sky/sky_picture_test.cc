@@ -19,7 +19,7 @@ Direction<World> Towards(double azimuth_deg, double elevation_deg) {
   return {{std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)}};
 }
 
-/// Even light everywhere, and a sun of 50 klx.
+/// Uniform light from everywhere, and a sun of 50 klx.
 class EvenSky : public sky::SkyModel {
  public:
   explicit EvenSky(Direction<World> to_sun) : to_sun_(to_sun) {}
@@ -110,7 +110,7 @@ double TotalLight(const LightImage& picture, const SkyPictureOptions& options) {
   return total;
 }
 
-// Whatever the size of the pixels and wherever the sun stands.
+// For every pixel size and sun position.
 TEST(SkyPicture, SpreadsTheDiscsLightWithoutLosingAny) {
   for (const SkyProjection projection : {SkyProjection::kFisheye, SkyProjection::kLatLong}) {
     for (const int width : {16, 64, 250, 1000}) {
@@ -188,11 +188,11 @@ TEST(ToneMap, KeepsOrderAndHueAndStaysOnTheScreen) {
     EXPECT_GE(shown(x, 0, 2), shown(x - 1, 0, 2)) << x;
   }
   EXPECT_LT(shown(0, 0, 1), 30);
-  EXPECT_EQ(shown(255, 0, 0), 255);  // Far above white: white.
+  EXPECT_EQ(shown(255, 0, 0), 255);  // Far above white is clipped to white.
 }
 
-// tan(45°) at the horizon; circles of the sky stay circles: the sun's path at an equinox runs
-// through east and west, and its centre lies on the meridian.
+// Stereographic: tan(45°) at the horizon, and circles of the sky stay circles. At an equinox the
+// sun's path runs through east and west, and its centre lies on the meridian.
 TEST(SunPath, IsStereographic) {
   const Vec2 zenith = ProjectOnSunPath(Radians(0.0), FromDegrees(90.0));
   const Vec2 north = ProjectOnSunPath(Radians(0.0), Radians(0.0));
@@ -203,7 +203,7 @@ TEST(SunPath, IsStereographic) {
   EXPECT_NEAR(east.x - zenith.x, radius, 1e-9);
   const Vec2 middle = ProjectOnSunPath(FromDegrees(180.0), FromDegrees(30.0));
   EXPECT_NEAR(middle.y - zenith.y, radius * std::tan(FromDegrees(30.0).value()), 1e-9);
-  // The great circle through east, west and 40° in the south (the equator of latitude 50°).
+  // The great circle through east, west and 40° in the south is the equator at latitude 50°.
   const double tilt = FromDegrees(40.0).value();
   const Vec2 centre{zenith.x, zenith.y - radius * std::tan(tilt)};
   for (double t = 0.1; t < pi; t += 0.3) {
@@ -225,12 +225,12 @@ TEST(SunPath, DrawsTwelveDaysAndTheHoursOfTheClock) {
        {"Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"}) {
     EXPECT_TRUE(has(std::string("21 ") + month)) << month;
   }
-  // Sunrise at midsummer is at 4:52 summer time = 3:52 of this clock, sunset at 20:15.
+  // At midsummer the sun rises at 4:52 summer time = 3:52 of this clock and sets at 20:15.
   EXPECT_FALSE(has("3"));
   EXPECT_TRUE(has("5") && has("12") && has("20"));
   EXPECT_FALSE(has("21"));
   EXPECT_TRUE(drawing.discs.empty());
-  // Everything lies in the picture, and the sun's ways in its circle.
+  // Everything lies inside the image, and the sun's paths inside its circle.
   for (const exports::DrawingLine& line : drawing.lines) {
     for (const Vec2 p : line.points) EXPECT_LT(Norm(p - Vec2{500.0, 550.0}), 410.0);
   }

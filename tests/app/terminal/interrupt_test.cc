@@ -30,7 +30,7 @@ TEST(InterruptGuardDeathTest, EndsTheProgramWhenSignalsGoOn) {
         const InterruptGuard guard;
         raise(SIGINT);
         raise(SIGINT);
-        sleep(3);  // Longer than what counts as the same wish.
+        sleep(3);  // Longer than the interval in which a second signal counts as the same request.
         raise(SIGINT);
         _exit(0);
       },

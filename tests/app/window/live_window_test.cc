@@ -23,7 +23,7 @@ namespace {
 using devices::FakeCamera;
 using std::chrono::milliseconds;
 
-/// A screen without a screen, ended with the test.
+/// A virtual display that ends with the test.
 class Screen {
  public:
   Screen() {
@@ -62,7 +62,7 @@ TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
   devices::LiveCameraOptions camera_options;
   camera_options.uri = {devices::CameraUri::Backend::kV4l2, devices::CameraUri::Key::kNode,
                         "/dev/video0"};
-  camera_options.stall_limit = std::chrono::hours(1);  // Where the test itself is held up.
+  camera_options.stall_limit = std::chrono::hours(1);  // The test itself may be delayed.
   auto opened = devices::LiveCamera::OpenWith(
       camera_options, [&](const devices::CameraUri& uri, const devices::FormatRequest& requested) {
         return fake.Open(uri, requested);
@@ -95,7 +95,7 @@ TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
   std::atomic<std::int64_t> shown_before = 0, shown_after = 0;
   std::thread hand([&] {
     std::int64_t number = 0;
-    // Sends until so many more have been on the screen.
+    // Sends frames until the given number of further frames has been displayed.
     const auto send_until_shown = [&](std::int64_t more) {
       const std::int64_t enough = (*session)->statistics().frames.shown + more;
       while (!over && (*session)->statistics().frames.shown < enough) {
@@ -107,7 +107,7 @@ TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
     send_until_shown(3);
     shown_before = (*session)->statistics().frames.shown;
     fake.Unplug();
-    std::this_thread::sleep_for(milliseconds(300));  // The window draws without it.
+    std::this_thread::sleep_for(milliseconds(300));  // The window draws without new frames.
     fake.Plug();
     while (!over && told_connected < 2) std::this_thread::sleep_for(milliseconds(5));
     send_until_shown(3);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kWidth = 320.0F, kHeight = 1600.0F;
 
-/// The panel with hands, and no window around it: ImGui gets what GLFW would tell it.
+/// Operates the panel without a window: passes ImGui the events that GLFW would send.
 class PanelInHands : public testing::Test {
  protected:
   void SetUp() override {
@@ -43,7 +43,7 @@ class PanelInHands : public testing::Test {
     }
   }
 
-  /// Points at the control whose name ImGui hashes to this; tells whether it is there.
+  /// Moves the pointer to the control with this ImGui id. Returns false if there is none.
   bool Point(ImGuiID control) {
     ImGuiIO& io = ImGui::GetIO();
     for (int y = 2; y < static_cast<int>(kHeight); y += 6) {
@@ -57,7 +57,7 @@ class PanelInHands : public testing::Test {
     return false;
   }
   static ImGuiID Of(const char* label) { return ImGui::FindWindowByName("Scene")->GetID(label); }
-  /// Of those whose names repeat: the label within a number, or within a label.
+  /// For repeated names: the label within a number, or within a label.
   static ImGuiID Of(ImGuiID outer, const char* label) { return ImHashStr(label, 0, outer); }
   static ImGuiID Of(ImGuiID outer, int number) { return ImHashData(&number, sizeof number, outer); }
 
@@ -79,7 +79,7 @@ class PanelInHands : public testing::Test {
   void Push(ImGuiID control) {
     if (Point(control)) Click();
   }
-  /// Into a slider as into a field: with control held, a click lets one type.
+  /// Control-click turns a slider into a text field.
   void Type(ImGuiID control, const char* text) {
     if (!Point(control)) return;
     Click(/*with_control=*/true);
@@ -128,7 +128,7 @@ TEST_F(PanelInHands, ACityIsFoundByTypingAndTheTimeIsThatOfTheDayThatIsTyped) {
   Push(Of("city"));
   ImGui::GetIO().AddInputCharactersUTF8("reykj");
   Frames(8);
-  // The only one left lies under the field.
+  // The only remaining one lies below the field.
   ImGuiWindow* list = ImGui::GetCurrentContext()->OpenPopupStack[0].Window;
   ASSERT_NE(list, nullptr);
   ImGui::GetIO().MousePos = {list->Pos.x + 30.0F, list->Pos.y + ImGui::GetFontSize() * 2.8F};

@@ -27,7 +27,7 @@ WindowState State() {
   scene.objects = {object};
   WindowState state = WindowState::For(scene, {});
   state.boxes = {{"box", {-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}}};
-  // A camera 3 m above the print that looks straight down, its right along the print's x.
+  // A camera 3 m above the marker looks straight down; its right is the marker's x.
   state.frame.camera.width = 640;
   state.frame.camera.height = 480;
   state.frame.camera.fx = state.frame.camera.fy = 600.0;

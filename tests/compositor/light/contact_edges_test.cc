@@ -43,7 +43,8 @@ double TotalLength(const ContactEdges& lines) {
 TEST(ContactEdges, GoRoundTheFootOfABox) {
   const ContactEdges lines = LinesOf(
       {Phantom(Ground(3.0, kGrey)), Phantom(BoxModel({0.5, -1.0, 0.0}, {0.8, 1.0, 1.5}, kGrey))});
-  // Each side's two triangles meet the ground's one or two: the foot, and pieces of it again.
+  // Two triangles of each side intersect one or two of the ground: the foot line, and parts of it
+  // again.
   ASSERT_FALSE(lines.segments().empty());
   EXPECT_GE(TotalLength(lines), 4.5);
   for (const auto& segment : lines.segments()) {
@@ -70,7 +71,7 @@ TEST(ContactEdges, AreFoundAcrossASmallGapAndNotAcrossALargeOne) {
 }
 
 TEST(ContactEdges, AreNotWhereNothingIsSeenOfTheOtherSurface) {
-  // A body's own edges, layers of ground, and what is virtual.
+  // Excluded: a body's own edges, layers of ground, and virtual objects.
   EXPECT_TRUE(LinesOf({Phantom(BoxModel({0, 0, 0}, {1, 1, 1}, kGrey))}).segments().empty());
   EXPECT_TRUE(LinesOf({Phantom(Ground(3.0, kGrey)), Phantom(Ground(1.0, kGrey, false, 0.01))})
                   .segments()
@@ -81,7 +82,7 @@ TEST(ContactEdges, AreNotWhereNothingIsSeenOfTheOtherSurface) {
 }
 
 TEST(ContactEdges, AreTheInnerEdgesOfARoom) {
-  // The six faces of a cube see each other along its twelve edges, if it is open (no lid: eight).
+  // The six faces of an open cube face each other along its twelve edges (eight without a lid).
   Mesh room;
   testing::AddQuad(&room, {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}});
   testing::AddQuad(&room, {{{-1, -1, 0}, {-1, -1, 1}, {1, -1, 1}, {1, -1, 0}}});
@@ -96,7 +97,7 @@ TEST(ContactEdges, AreTheInnerEdgesOfARoom) {
   EXPECT_FALSE(lines.IsWithin({0.3F, 1.0F, 1.0F}, 0.5)) << "the rim";
 }
 
-/// Square cards of a side, turned every way, about places on a grid of a step.
+/// Square cards of a side in all orientations, on a grid with this step.
 std::shared_ptr<Model> Cards(int count, double side_m, double step_m) {
   Mesh mesh;
   for (int i = 0; i < count; ++i) {
@@ -113,7 +114,8 @@ std::shared_ptr<Model> Cards(int count, double side_m, double step_m) {
 }
 
 TEST(ContactEdges, AreFewHoweverManyCardsCross) {
-  // Cards of 15 cm, 4 cm apart, cross some forty others each; of 1 m, nearly all.
+  // Cards of 15 cm, 4 cm apart, intersect about forty others each. Cards of 1 m intersect nearly
+  // all.
   const ContactEdges some = LinesOf({Phantom(Cards(20, 0.15, 0.04))});
   EXPECT_GT(some.segments().size(), 20U);
   EXPECT_LE(some.segments().size(), ContactEdges::kMaxSegments);
@@ -122,7 +124,7 @@ TEST(ContactEdges, AreFewHoweverManyCardsCross) {
 }
 
 TEST(ContactEdges, AreNotAmongFineLeavesButWhereTheyTouchAWall) {
-  // What crosses among leaves of 5 cm needs no more vertices; the box' foot keeps its line.
+  // Intersections of leaves of 5 cm need no further vertices. The foot of the box keeps its line.
   const PlacedModel ground = Phantom(Ground(3.0, kGrey));
   const PlacedModel wall = Phantom(BoxModel({1.0, -1.0, 0.0}, {1.3, 1.0, 1.5}, kGrey));
   PlacedModel leaves = Phantom(Cards(3000, 0.05, 0.02));
@@ -134,7 +136,7 @@ TEST(ContactEdges, AreNotAmongFineLeavesButWhereTheyTouchAWall) {
 }
 
 TEST(ContactEdges, GoRoundABoxOfFineTriangles) {
-  // The ground is coarse: its vertices are too few at the foot of whatever stands there.
+  // The ground is coarse: it has too few vertices at the foot of any object.
   Mesh fence;
   for (int i = 0; i < 20; ++i) {
     const double x = 0.05 * i;

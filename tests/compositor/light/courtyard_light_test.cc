@@ -1,5 +1,5 @@
-// The light among the surfaces of a real scene's size against paths followed one by one, where the
-// camera of a recording sees it.
+// Compares indirect illumination in a real scene with a path tracer, at points that a recording's
+// camera sees.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -29,7 +29,7 @@ using testing::Phantom;
 using testing::UniformDay;
 
 const std::string kFolder = tests::SourceTree() / "recordings/courtyard_midday/";
-constexpr int kStrata = 48;  // Squared, paths a place.
+constexpr int kStrata = 48;  // Squared: paths per point.
 
 /// Brighter towards the horizon and the sun.
 class Day : public UniformDay {
@@ -45,7 +45,7 @@ struct Ray {
   Vec3 eye, direction;
 };
 
-/// The lines of sight of an even grid of pixels of the recording's key frames, 36 and 72.
+/// Rays through an even grid of pixels of the recording's key frames, 36 and 72.
 std::vector<Ray> LinesOfSight() {
   constexpr int kStep_px = 32;
   std::vector<Ray> rays;
@@ -71,7 +71,7 @@ std::vector<Ray> LinesOfSight() {
   return rays;
 }
 
-/// A place on a lit mesh.
+/// A point on a lit mesh.
 struct Place {
   std::size_t mesh = 0;
   std::array<std::uint32_t, 3> corners{};
@@ -89,7 +89,7 @@ struct Place {
   }
 };
 
-/// What the lines of sight meet first.
+/// The first hits of the rays.
 std::vector<Place> PlacesSeen(const std::vector<LitMesh>& meshes) {
   std::vector<RayMesh> targets;
   targets.reserve(meshes.size());
@@ -101,7 +101,7 @@ std::vector<Place> PlacesSeen(const std::vector<LitMesh>& meshes) {
     if (!(*scene)->Intersect(RayTargets::kPhantoms, ray.eye, ray.direction, &hit)) continue;
     Place place{hit.mesh, {}, {1.0 - hit.u - hit.v, hit.u, hit.v}, {}, {}};
     if (hit.back) {
-      // The two sides of an open surface lie in one place, their corners the other way round.
+      // The two sides of an open surface coincide, with opposite winding.
       const bool after = hit.mesh + 1 < meshes.size() &&
                          meshes[hit.mesh + 1].positions == meshes[hit.mesh].positions;
       place.mesh = after ? hit.mesh + 1 : hit.mesh - 1;
@@ -120,7 +120,7 @@ std::vector<Place> PlacesSeen(const std::vector<LitMesh>& meshes) {
   return places;
 }
 
-/// What paths followed to their end bring to the places.
+/// Path-traced light at the points.
 std::vector<LinearRgb> Truths(const PathTracer& oracle, const std::vector<Place>& places) {
   std::vector<LinearRgb> truths(places.size());
   ParallelFor(places.size(), 0, [&](std::size_t i) {
@@ -149,7 +149,7 @@ TEST(PathTracer, BringsWhatClosedFormsHaveOfAnOpenPlaceAndOneBesideAWall) {
   const LinearRgb open =
       PathTracer({ground.get()}, overcast).Irradiance({{0, 0, 0}}, {0, 0, 1}, 32, 1);
   EXPECT_NEAR(open.g, 2 * std::numbers::pi, 1e-6);
-  // A wall without end sees half the sky and half the land, and is all that the place sees.
+  // The point sees only an infinite wall, which sees half the sky and half the land.
   const auto wall = testing::BoxModel({1.0, -99.0, -99.0}, {1.1, 99.0, 99.0}, {0.5F, 0.5F, 0.5F});
   const LinearRgb beside =
       PathTracer({wall.get()}, overcast).Irradiance({{0, 0, 0}}, {1, 0, 0}, 64, 1);
@@ -164,7 +164,7 @@ TEST(CourtyardLight, AgreesWithPathsFollowedOneByOneToThreePercent) {
   const auto shared_phantom = std::make_shared<const Model>(*phantom);
   const auto shared_object = std::make_shared<const Model>(*object);
   const Day day;
-  // As the program has them.
+  // The same options as the program.
   const auto solver =
       LightSolver::Create({Phantom(shared_phantom), testing::Object(shared_object)}, {});
   ASSERT_TRUE(solver);

@@ -42,7 +42,7 @@ TEST(EnvironmentMap, BlursTheHorizonMoreTheRougherTheSurface) {
 }
 
 TEST(EnvironmentMap, TurnsWithTheMarker) {
-  // A marker whose +z axis is the world's north: half of its directions from +z see the ground.
+  // The marker's +z axis is the world's north: half of the directions around +z hit the ground.
   const Mat3 marker_from_world{{1, 0, 0, 0, 0, -1, 0, 1, 0}};
   const EnvironmentMap map = BuildEnvironmentMap(EvenSky(), marker_from_world, {0, 0, 0});
   // Marker −y is up in the world: azimuth atan2(−1, 0) = −π/2, a quarter of the width.

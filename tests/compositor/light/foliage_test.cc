@@ -20,7 +20,7 @@ using testing::Ground;
 using testing::ModelOf;
 using testing::UniformDay;
 
-/// Square pieces of side `size` in all positions, within `reach` of `middle` along each axis.
+/// Squares of side `size` in random orientations, within `reach` of `middle` along each axis.
 Mesh Scattered(int count, double size, Vec3 middle, Vec3 reach) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> spread(-1.0, 1.0);
@@ -66,7 +66,7 @@ TEST(Foliage, AreNeitherFewNorLargeNorAnObjects) {
 
 TEST(Foliage, AreNotWhatLiesInOnePlane) {
   SurfaceMesh rest;
-  // Blades of a lawn, of its height or shorter; a fence's links aslant.
+  // Blades of a lawn, at its height or shorter; the oblique links of a fence.
   EXPECT_FALSE(LeavesOf(Scattered(400, 0.08, {0, 0, 0.05}, {2, 2, 0.02}), &rest));
   Mesh links;
   for (int i = 0; i < 100; ++i) {
@@ -114,7 +114,7 @@ TEST(Foliage, HideWhatStandsBehindFromWhatIsMeasured) {
 }
 
 TEST(Foliage, LetSunAndSkyThroughAndAreDrawnAllTheSame) {
-  // So dense that hardly a ray from the middle of the ground would pass.
+  // So dense that hardly any ray from the centre of the ground passes.
   const Mesh crown = Scattered(4000, 0.2, {0, 0, 2}, {1, 1, 0.6});
   const auto solver = LightSolver::Create({{Ground(1.5, {0.3F, 0.3F, 0.3F}), {}, {}, true},
                                            {ModelOf(crown, {0.1F, 0.2F, 0.05F}), {}, {}, true}},
@@ -125,7 +125,7 @@ TEST(Foliage, LetSunAndSkyThroughAndAreDrawnAllTheSame) {
   const auto drawn_leaves = std::count_if(lit.begin(), lit.end(), [](const LitMesh& mesh) {
     return mesh.placed_model == 1 && mesh.is_phantom && mesh.role == MeshRole::kRenderOnly;
   });
-  EXPECT_EQ(drawn_leaves, 2);  // Either side.
+  EXPECT_EQ(drawn_leaves, 2);  // One for each side.
 }
 
 }  // namespace

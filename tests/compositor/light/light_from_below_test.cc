@@ -1,4 +1,4 @@
-// What glossy virtual objects mirror below the horizon.
+// Tests what glossy virtual objects reflect from below the horizon.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -19,7 +19,7 @@ using testing::UniformDay;
 
 constexpr double kSky = 5e3, kSun = 60e3;
 const UniformDay kDay({kSky, kSky, kSky}, {kSun, kSun, kSun}, {0.6, 0.0, 0.8});
-// On level ground in the open.
+// On level, unoccluded ground.
 const double kSkyLevel = kSky * std::numbers::pi, kLevel = kSkyLevel + 0.8 * kSun;
 constexpr double kLand = 0.2;
 
@@ -61,7 +61,7 @@ TEST(RadianceFromBelow, DoesNotKnowTheColorOfHoles) {
 }
 
 TEST(RadianceFromBelow, OfAYardInTheShadeOfAWallLacksTheSun) {
-  // The wall hides some of the sky, too, and sends a little light back.
+  // The wall also occludes part of the sky and reflects a little light.
   const double shaded =
       FromBelow({Phantom(Ground(4.0, {0.4F, 0.4F, 0.4F})),
                  Phantom(BoxModel({4.0, -50.0, 0.0}, {4.2, 50.0, 12.0}, {})), Vase()});

@@ -14,7 +14,7 @@
 
 namespace pleinair::compositor::testing {
 
-/// A sky of one radiance everywhere, and a sun where the test wants it.
+/// A sky of uniform radiance, and a sun at a chosen position.
 class UniformDay : public sky::SkyModel {
  public:
   explicit UniformDay(LinearRgb radiance, LinearRgb sun = {}, Vec3 to_sun = {0.0, 0.0, 1.0})
@@ -33,7 +33,7 @@ class UniformDay : public sky::SkyModel {
 
 using Float3 = std::array<float, 3>;
 
-/// Adds a quadrilateral, counter-clockwise seen from its front.
+/// Adds a quadrilateral, counter-clockwise from its front.
 inline void AddQuad(Mesh* mesh, std::array<Vec3, 4> corners) {
   const auto base = static_cast<std::uint32_t>(mesh->positions.size());
   const Vec3 normal = Normalized(Cross(corners[1] - corners[0], corners[2] - corners[0]));
@@ -65,7 +65,7 @@ inline std::shared_ptr<Model> Ground(double half, Float3 albedo, bool upside_dow
   return ModelOf(std::move(mesh), albedo);
 }
 
-/// Box between two corners, faces outwards (or inwards).
+/// Box between two corners, with faces outwards or inwards.
 inline std::shared_ptr<Model> BoxModel(Vec3 low, Vec3 high, Float3 albedo, bool inwards = false) {
   const auto corner = [&](int i) {
     return Vec3{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
@@ -91,7 +91,7 @@ inline PlacedModel Object(std::shared_ptr<const Model> model) {
 
 inline double Green(const Float3& rgb) { return rgb[1]; }
 
-/// The vertex of the lit meshes nearest to a point, among those whose normal is near `normal`.
+/// The vertex of the lit meshes nearest to a point, among those with a similar normal.
 struct FoundVertex {
   Float3 with{}, without{};
   double distance_m = 1e9;

@@ -34,7 +34,7 @@ std::unique_ptr<LightSolver> MakeSolver(const std::vector<PlacedModel>& scene,
   return solver ? *std::move(solver) : nullptr;
 }
 
-/// Brighter towards the zenith and, steeply, towards the sun, as a clear sky is.
+/// Brighter towards the zenith and, steeply, towards the sun, like a clear sky.
 class ClearDay : public UniformDay {
  public:
   ClearDay() : UniformDay({1000.0, 2000.0, 4000.0}, {70e3, 65e3, 55e3}, {-0.1, -0.7, 0.7}) {}
@@ -72,7 +72,7 @@ TEST(LightSolver, GivesOpenGroundTheWholeSky) {
 }
 
 TEST(LightSolver, TurnsTheSkyWithTheMarker) {
-  // The marker hangs upright: its y axis points up, its z axis south.
+  // The marker is vertical: its y axis points up, its z axis south.
   Mat3 marker_from_world;
   marker_from_world.m = {1, 0, 0, 0, 0, 1, 0, -1, 0};
   const auto solver = MakeSolver({Phantom(Ground(1.0, {0.0F, 0.0F, 0.0F}))});
@@ -81,7 +81,7 @@ TEST(LightSolver, TurnsTheSkyWithTheMarker) {
   const LinearRgb wall = solver->phantoms().Ambient(above, {0, 0, 1}, day, marker_from_world)[0];
   const LinearRgb level = solver->phantoms().Ambient(above, {0, 1, 0}, day, marker_from_world)[0];
   EXPECT_NEAR(level.g, kPi, 0.01 * kPi);
-  // Half the sky, and half the land: albedo 0.2 under the whole sky.
+  // Half the sky and half the land; the land has albedo 0.2 under the whole sky.
   EXPECT_NEAR(wall.g, 0.5 * kPi + 0.5 * 0.2 * kPi, 0.01 * kPi);
 }
 
@@ -98,8 +98,8 @@ TEST(LightSolver, LeavesHalfTheSkyToAWallOnDarkGround) {
 }
 
 TEST(LightSolver, ShadesGroundBesideALongWallByItsViewFactor) {
-  // A wall of height h, 40 m long; at distance d the strip takes (1 − cos θ)/2 of the sky,
-  // tan θ = h/d (view factor from a level strip to an infinitely long wall).
+  // A wall of height h, 40 m long. At distance d it occludes (1 − cos θ)/2 of the sky, tan θ = h/d
+  // (view factor from a level strip to an infinitely long wall).
   const auto meshes =
       MakeSolver({Phantom(Ground(4.0, {0.0F, 0.0F, 0.0F})),
                   Object(BoxModel({-0.3, -20.0, 0.0}, {0.0, 20.0, 1.0}, {0.0F, 0.0F, 0.0F}))},
@@ -126,7 +126,7 @@ TEST(LightSolver, ShadesGroundBesideALongWallByItsViewFactor) {
 }
 
 TEST(LightSolver, KeepsHalfTheSkyBesideABox) {
-  // Ground vertices inside the box must not darken the triangles that reach under its side.
+  // Ground vertices inside the box must not darken the triangles that extend below its side.
   const auto meshes =
       MakeSolver({Phantom(Ground(5.0, {0.0F, 0.0F, 0.0F})),
                   Object(BoxModel({-1.013, -1.013, 0.0}, {1.013, 1.013, 2.0}, {0.0F, 0.0F, 0.0F}))})
@@ -146,10 +146,10 @@ TEST(LightSolver, KeepsHalfTheSkyBesideABox) {
 
 struct TopLight {
   double area_m2 = 0.0;
-  double mean = 0.0;  ///< Green, by area.
+  double mean = 0.0;  ///< Green, weighted by area.
 };
 
-/// The first model's upper sides.
+/// Upper sides of the first model.
 TopLight MeanOnTop(const std::vector<LitMesh>& meshes) {
   double sum = 0.0, area = 0.0;
   for (const LitMesh& mesh : meshes) {
@@ -171,8 +171,8 @@ TopLight MeanOnTop(const std::vector<LitMesh>& meshes) {
 }
 
 TEST(LightSolver, AgreesWithTheFormFactorOfParallelSquares) {
-  // Two unit squares one side apart exchange F = 0.1998 (Howell's catalogue, C-11, X = Y = 1):
-  // the lower one's mean sky is lessened by it where the upper one is black.
+  // Two parallel unit squares at unit distance have F = 0.1998 (Howell's catalogue, C-11, X = Y =
+  // 1). A black upper square reduces the lower one's mean skylight by that share.
   Mesh upper;
   AddQuad(&upper, {{{-0.5, -0.5, 1.0}, {0.5, -0.5, 1.0}, {0.5, 0.5, 1.0}, {-0.5, 0.5, 1.0}}});
   const auto meshes = MakeSolver({Object(Ground(0.5, {0.0F, 0.0F, 0.0F})),
@@ -184,8 +184,8 @@ TEST(LightSolver, AgreesWithTheFormFactorOfParallelSquares) {
 }
 
 TEST(LightSolver, BouncesTheFormFactorOfPerpendicularSquares) {
-  // Unit squares with a common edge: F = 0.2000 (Howell's catalogue, C-14, H = W = 1). The sun,
-  // level, lights the upright square alone; the ground's mean light is then ρ E F.
+  // Unit squares with a common edge: F = 0.2000 (Howell's catalogue, C-14, H = W = 1). The
+  // horizontal sun lights only the upright square; the ground's mean light is then ρ E F.
   Mesh upright;
   AddQuad(&upright, {{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 0.0, 1.0}, {0.0, 0.0, 1.0}}});
   Mesh level;
@@ -199,13 +199,13 @@ TEST(LightSolver, BouncesTheFormFactorOfPerpendicularSquares) {
 }
 
 TEST(LightSolver, LightsAConvexBodyByTheTiltOfItsFacesAlone) {
-  // The white furnace's check: nothing on a convex body shades or lights another part of it.
+  // The white furnace test: no part of a convex body shades or lights another.
   const auto meshes =
       MakeSolver({Object(BoxModel({-0.3, -0.3, 0.5}, {0.3, 0.3, 1.1}, {0.0F, 0.0F, 0.0F}))})
           ->Solve(UniformDay({1.0, 1.0, 1.0}), Mat3{});
   for (const LitMesh& mesh : meshes) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-      // Share of the hemisphere above the horizon: (1 + n·up)/2; the rest is land of albedo 0.2.
+      // Visible share of the sky: (1 + n·up)/2; the rest is land of albedo 0.2.
       const double above = (1.0 + mesh.normals[i][2]) / 2.0;
       EXPECT_NEAR(mesh.ambient_with[i][1], kPi * (above + 0.2 * (1.0 - above)), 0.01 * kPi);
     }
@@ -235,7 +235,7 @@ TEST(LightSolver, LetsAMetalSendAsMuchLightBackAsAMattThingOfItsColor) {
 }
 
 TEST(LightSolver, WarmsTheSunsSideOfABodyAtDawnAndLeavesTheOtherBlue) {
-  // Grey all over, under the clear sky that scenes get, the sun 4 degrees high in the east.
+  // Uniformly grey, under a clear sky with the sun 4 degrees high in the east.
   const auto sky = sky::CreateDaylight({sky::SkyCondition::kClear, 0.0});
   const double elevation = 4.0 * kPi / 180.0;
   const Vec3 to_sun{std::cos(elevation), 0.0, std::sin(elevation)};
@@ -260,7 +260,8 @@ TEST(LightSolver, WarmsTheSunsSideOfABodyAtDawnAndLeavesTheOtherBlue) {
 }
 
 TEST(LightSolver, ChangesNothingFarFromTheObject) {
-  // A small box behind a wall: on the other side nothing sees it, and the ratio is exactly 1.
+  // A small box behind a wall: it is invisible from the other side, so the ratio there is exactly
+  // 1.
   const auto meshes =
       MakeSolver({Phantom(Ground(6.0, {0.0F, 0.0F, 0.0F})),
                   Phantom(BoxModel({-0.2, -6.5, 0.0}, {0.0, 6.5, 3.0}, {0.4F, 0.4F, 0.4F})),
@@ -334,7 +335,7 @@ TEST(LightSolver, LightsAPhantomWoundInwardsFromOutside) {
 }
 
 TEST(LightSolver, AgreesWithPathsFollowedOneByOne) {
-  // Vertices with interpolation against a path tracer over the same phantoms, with all bounces.
+  // Interpolated vertices against a path tracer over the same phantoms, with all bounces.
   const auto solver =
       MakeSolver({Phantom(Ground(4.0, {0.4F, 0.35F, 0.3F})),
                   Phantom(BoxModel({0.5, -2.0, 0.0}, {0.8, 2.0, 1.5}, {0.6F, 0.3F, 0.2F}))},
@@ -366,7 +367,7 @@ TEST(LightSolver, AgreesWithPathsFollowedOneByOne) {
 }
 
 TEST(LightSolver, SoftensTheSunsEdgeOverItsDisc) {
-  // A half plane 10 m above: with u the distance from the shadow's middle over 10 m · tan 0.2666°,
+  // A half plane 10 m above. With u = distance from the shadow's centre over 10 m · tan 0.2666°,
   // the visible share is 1/2 + (u √(1−u²) + asin u)/π.
   Mesh half;
   AddQuad(

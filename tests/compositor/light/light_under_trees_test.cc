@@ -1,4 +1,4 @@
-// What surfaces reflect where trees that no phantom stands for keep a part of the sun from them.
+// Tests reflected light where unmodelled trees keep part of the sun from surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using testing::Object;
 using testing::Phantom;
 using testing::UniformDay;
 
-/// Light on the side of a box, over a few places.
+/// Light on the side of a box, at a few points.
 float MeanOnSide(const std::vector<LitMesh>& meshes) {
   float sum = 0.0F;
   for (const double y : {-0.15, -0.05, 0.05, 0.15}) {
@@ -37,7 +37,7 @@ TEST(LightUnderTrees, SendsBackFromTheGroundTheSunThatTreesLeaveIt) {
                            {.near_edge_m = 0.1});
   const UniformDay day({0, 0, 0}, {60e3, 60e3, 60e3}, {0.3, 0.2, 1});
   const auto on_side = [&](double share) {
-    // One cell is the same everywhere.
+    // A single cell is uniform.
     SunTransmittanceMap map =
         BuildSunTransmittanceMap(day.ToSun().xyz, std::vector<SunlitSample>{{{}, share, 0.1}});
     return MeanOnSide(solver->SolveUnderTrees(day, Mat3{}, map));
@@ -45,15 +45,15 @@ TEST(LightUnderTrees, SendsBackFromTheGroundTheSunThatTreesLeaveIt) {
   const float open = MeanOnSide(solver->Solve(day, Mat3{}));
   EXPECT_GT(open, 1e3F);
   EXPECT_EQ(on_side(1.0), open);
-  // Land beyond the phantoms lies in the sun.
+  // Land beyond the phantoms is sunlit.
   const float land = on_side(0.0);
   EXPECT_LT(land, 0.15F * open);
-  EXPECT_NEAR(on_side(0.5), 0.5 * (open + land), 0.03 * open);  // Rays' noise.
+  EXPECT_NEAR(on_side(0.5), 0.5 * (open + land), 0.03 * open);  // Ray noise.
 }
 
 TEST(LightUnderTrees, IsEvenBetweenSamplesThatLieFarApart) {
-  // Grazed ground shows fewer surface samples along the line of sight than the map has cells: the
-  // sun that grows across them grows between them, too.
+  // At grazing angles there are fewer surface samples along the line of sight than cells of the
+  // map. Sunlight that grows across the samples must also grow between them.
   const auto share = [](Vec3 at) { return 0.5 + 0.4 * at.y; };
   std::vector<SunlitSample> surface_samples;
   for (int i = 0; i < 100; ++i) {
@@ -69,7 +69,7 @@ TEST(LightUnderTrees, IsEvenBetweenSamplesThatLieFarApart) {
     const Vec3 at{0.013, -0.7 + 0.01 * i, 0.0};
     farthest = std::max(farthest, std::fabs(map.At(at) - share(at)));
   }
-  EXPECT_LT(farthest, 0.02);  // Of 0.032 from one row of surface samples to the next.
+  EXPECT_LT(farthest, 0.02);  // One row of surface samples differs from the next by 0.032.
 }
 
 }  // namespace

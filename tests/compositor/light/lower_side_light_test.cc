@@ -1,4 +1,4 @@
-// The lower side of ground: where it sees the land alone no rays are followed, elsewhere they are.
+// Tests the lower side of ground. Points that see only land need no rays; others do.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using testing::UniformDay;
 
 constexpr Vec3 kDown{0.0, 0.0, -1.0};
 
-/// The vertices of a level sheet's lower side, with the light that paths give for them.
+/// The vertices of a level sheet's lower side, with path-traced light.
 struct LowerSide {
   std::vector<Point<Marker>> points;
   std::vector<double> light, paths;
@@ -55,7 +55,8 @@ TEST(LowerSideLight, IsTheLandsAlone) {
 }
 
 TEST(LowerSideLight, IsKeptOffByALittleBodyBelow) {
-  // Black, 30 cm wide: it takes most of what the vertices close above it see, and little of others.
+  // Black, 30 cm wide: it occludes most directions of the vertices close above it, and few of
+  // others.
   const LowerSide side =
       Below({kSheet, Phantom(BoxModel({-0.15, -0.15, 0.7}, {0.15, 0.15, 0.9}, {}))});
   ASSERT_EQ(side.light.size(), side.paths.size());

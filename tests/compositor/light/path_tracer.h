@@ -19,10 +19,10 @@
 
 namespace pleinair::compositor::testing {
 
-/// A path tracer as textbooks have it (Kajiya 1986, "The Rendering Equation"), for matt models in
-/// one color a material: an oracle that shares nothing with what it judges but models and Embree.
-/// Every path is followed until chance ends it; the sun is asked for at each surface it meets, the
-/// sky where it leaves. What it meets is lit on the side it is met from. Marker and world are one.
+/// A textbook path tracer (Kajiya 1986, "The Rendering Equation") for diffuse models with one color
+/// per material. It is an independent reference: it shares only models and Embree with the code
+/// under test. Russian roulette ends each path. The path samples the sun at each surface and the
+/// sky where it leaves the scene. Surfaces are two-sided. The marker and world frames coincide.
 class PathTracer {
  public:
   PathTracer(const std::vector<const Model*>& models, const sky::SkyModel& day)
@@ -34,15 +34,15 @@ class PathTracer {
       }
     }
     rtcCommitScene(scene_.get());
-    // Beyond the models lies level land.
+    // Beyond the models there is level land.
     constexpr double kLandAlbedo = 0.2;
     const LinearRgb level = day.SkyHorizontalIrradiance() +
                             day.SunNormalIrradiance() * std::fmax(0.0, day.ToSun().xyz.z);
     land_ = level * (kLandAlbedo / std::numbers::pi);
   }
 
-  /// Light on a small surface at `point` that faces `normal`, but the sun's own: the mean over
-  /// `strata`² paths, each of which leaves by a part of the hemisphere of its own.
+  /// Irradiance of a surface element at `point` with `normal`, without direct sun: the mean over
+  /// `strata`² paths. Each starts in its own stratum of the hemisphere.
   LinearRgb Irradiance(Point<Marker> point, Vec3 normal, int strata, std::uint32_t seed) const {
     Random random{std::mt19937(seed)};
     LinearRgb sum;
@@ -83,7 +83,7 @@ class PathTracer {
     albedos_.push_back(albedo);
   }
 
-  /// About `normal`, with the density of the cosine (Malley's method).
+  /// A cosine-distributed direction around `normal` (Malley's method).
   static Vec3 Leaving(Vec3 normal, double u, double v) {
     const Vec3 aside = std::fabs(normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 s = Normalized(Cross(aside, normal)), t = Cross(normal, s);
@@ -134,7 +134,7 @@ class PathTracer {
       if (cosine > 0.0 && IsLitBySun(from)) {
         sum = sum + share * day_.SunNormalIrradiance() * (cosine * std::numbers::inv_pi);
       }
-      // Russian roulette; what goes on counts for what does not.
+      // Russian roulette: surviving paths are weighted for the ended ones.
       const double goes_on = std::fmin(0.9, std::fmax(std::fmax(share.r, share.g), share.b));
       if ((*random)() >= goes_on) return sum;
       share = share * (1.0 / goes_on);

@@ -19,7 +19,8 @@ using testing::UniformDay;
 Vec3 At(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 TEST(SunVisibility, IsAllInTheOpenNoneInAShadowAndSomeOnItsEdge) {
-  // A wall 0.8 m high along y = 0, a sun 45° high in the south: shade from y = 0 to 0.8.
+  // A wall 0.8 m high along y = 0, the sun 45° high in the south: the shadow reaches from y = 0 to
+  // 0.8.
   const std::vector<PlacedModel> scene{
       Phantom(Ground(4.0, {0.3F, 0.3F, 0.3F})),
       Phantom(BoxModel({-6.0, -0.1, -0.1}, {6.0, 0.0, 0.8}, {0.5F, 0.5F, 0.5F}))};
@@ -88,7 +89,7 @@ TEST(SunVisibility, SeesAStripOfShadeAQuarterOfATriangleWideWhereverItFalls) {
   triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   triangle.normals.assign(3, {0, 0, 1});
   triangle.indices = {0, 1, 2};
-  // Along the edge opposite to the second corner, under a sun overhead.
+  // Along the edge opposite the second corner, with the sun overhead.
   for (const float from : {0.02F, 0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F, 0.7F, 0.74F}) {
     const float to = from + 0.24F;
     const RayMesh strip{

@@ -24,7 +24,7 @@ Float3 ToFloats(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// A standing ring with bulges, smooth, `around` × `across` vertices; its foot is at 0.
+/// A smooth, wavy, upright ring of `around` × `across` vertices; its foot is at height 0.
 Mesh BulgyRing(int around, int across) {
   const auto at = [&](double i, double k) {
     const double u = 2.0 * std::numbers::pi * i / around, v = 2.0 * std::numbers::pi * k / across;
@@ -53,7 +53,7 @@ std::vector<SurfaceMesh> SurfacesOf(const PlacedModel& placed) {
   return OrientedSurfaces(placed, 0);
 }
 
-/// Light that depends on place and normal alone, `of` them, averaged over each patch.
+/// Light `of` position and normal, averaged over each patch.
 template <typename Light>
 std::vector<Float3> PatchMeans(const SurfaceMesh& mesh, const SurfacePatches& patches,
                                const Light& of) {
@@ -99,7 +99,7 @@ TEST(SurfacePatches, GiveLightThatChangesLinearlyBackAsItWas) {
     squares += off * off;
     worst = std::max(worst, std::fabs(off));
   }
-  // A patch's edge would show as a step between neighbouring vertices that the light has not.
+  // A patch boundary would appear as a step between neighbouring vertices.
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const auto off = [&](std::uint32_t v) {
       return values[v][0] - light(mesh.positions[v], mesh.normals[v]);
@@ -115,7 +115,7 @@ TEST(SurfacePatches, GiveLightThatChangesLinearlyBackAsItWas) {
 }
 
 TEST(SurfacePatches, KeepLayersApart) {
-  // Two sheets, the lower 3 mm below the upper, both looking up.
+  // Two sheets, the lower 3 mm below the upper, both facing up.
   Mesh mesh;
   for (const double z : {0.0, 0.003}) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -180,12 +180,12 @@ TEST(SurfacePatches, LightADenseBodyAsItsVerticesWould) {
         sum += full[m].ambient_with[v][c];
       }
     }
-    if (sum == 0.0) continue;  // The ground's side towards the earth.
+    if (sum == 0.0) continue;  // The ground's lower side.
     const auto count = static_cast<double>(3 * full[m].positions.size());
     const double relative = std::sqrt(squares / count) / (sum / count);
     std::printf("%s of %zu vertices: %.2f %% RMS\n", full[m].is_phantom ? "ground" : "ring",
                 full[m].positions.size(), 100 * relative);
-    // Of the ring's, what 192 rays leave of noise in the reference is most.
+    // Most of the ring's error is the noise of the reference's 192 rays.
     EXPECT_LT(relative, full[m].is_phantom ? 0.002 : 0.04);
   }
 }

@@ -45,7 +45,8 @@ TEST(Tessellation, KeepsEdgesShortNearObjectsAndLongFarAway) {
 }
 
 TEST(Tessellation, KeepsEdgesShorterWherePhantomsMeet) {
-  // The object stands 4 m from a wall: 1.04 m in the open there, a third of it at the wall's foot.
+  // The object is 4 m from a wall. The edge length is 1.04 m on open ground and a third of that at
+  // the wall's foot.
   std::vector<SurfaceMesh> surfaces = Scene();
   for (SurfaceMesh& surface : OrientedSurfaces(
            Phantom(BoxModel({4.2, -5.0, 0.0}, {4.5, 5.0, 2.0}, {0.5F, 0.5F, 0.5F})), 2)) {
@@ -103,7 +104,8 @@ TEST(Tessellation, StaysBelowItsLimit) {
 }
 
 TEST(Tessellation, IsNotMadeCoarserByContacts) {
-  // The wall's foot takes more vertices than there are: it goes without, and nothing else changes.
+  // The wall's foot needs more vertices than the limit allows. It is not refined, and nothing else
+  // changes.
   std::vector<SurfaceMesh> apart = Scene(), touching = Scene();
   const auto count = [](const std::vector<SurfaceMesh>& surfaces) {
     std::size_t vertices = 0;

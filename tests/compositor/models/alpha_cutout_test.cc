@@ -14,7 +14,8 @@
 namespace pleinair::compositor {
 namespace {
 
-/// A square of a metre, two triangles, with `repeats` of a texture of 128 texels a side a side.
+/// A square of 1 m, two triangles, with a texture of 128 × 128 texels, repeated `repeats` times per
+/// side.
 Model Card(float repeats, bool (*is_hole)(double, double)) {
   constexpr int kSide = 128;
   Model model;
@@ -41,8 +42,7 @@ bool LeftHalf(double u, double) { return u < 0.5; }
 bool Everywhere(double, double) { return true; }
 bool Nowhere(double, double) { return false; }
 
-/// Area of what is left for the light, and the part of it for which `inside` says so of a
-/// triangle's middle.
+/// Area of the geometry that casts shadows, counting triangles whose centroid satisfies `inside`.
 template <typename Inside>
 double Area(const Model& model, const Inside& inside) {
   double area = 0.0;
@@ -70,13 +70,13 @@ TEST(ApplyAlphaCutout, LeavesWhatIsNoHole) {
   Model card = Card(1.0F, RoundHole);
   ApplyAlphaCutout(&card);
   const double hole = std::numbers::pi * 0.3 * 0.3;
-  // All that is drawn is there, and up to a 64th of the side and a texel beyond it.
+  // The geometry covers all opaque texels and exceeds them by up to a 64th of the side and a texel.
   EXPECT_NEAR(Area(card), 1.0 - hole, 2 * std::numbers::pi * 0.3 * (1.0 / 64 + 1.0 / 128));
   EXPECT_EQ(Area(card, [](double x, double y) { return std::hypot(x - 0.5, y - 0.5) < 0.26; }),
             0.0);
   EXPECT_NEAR(Area(card, [](double x, double y) { return !RoundHole(x, y); }), 1.0 - hole, 0.01);
   EXPECT_LT(card.meshes[0].indices.size() / 3, 2000U);
-  // What is drawn is whole.
+  // The drawn mesh is complete.
   ASSERT_EQ(card.meshes.size(), 2U);
   EXPECT_EQ(card.meshes[0].role, MeshRole::kShadowOnly);
   EXPECT_EQ(card.meshes[1].role, MeshRole::kRenderOnly);
@@ -106,7 +106,7 @@ TEST(ApplyAlphaCutout, ChangesNothingWhereNoHoleIsCut) {
   card.materials[0].alpha = Material::Alpha::kIgnored;
   ApplyAlphaCutout(&card);
   EXPECT_EQ(card.meshes[0].indices.size(), 6U);
-  // Whatever the file has for coordinates.
+  // For any texture coordinates in the file.
   card = Card(1.0F, RoundHole);
   card.meshes[0].uvs[0] = {1e30F, -1e30F};
   ApplyAlphaCutout(&card);
@@ -122,7 +122,7 @@ TEST(ApplyAlphaCutout, LetsLightThroughGlassThatHidesLessThanHalf) {
   const auto card_of = [](float opacity, bool (*is_hole)(double, double)) {
     Model card = Card(1.0F, is_hole);
     card.materials[0].alpha = Material::Alpha::kBlended;
-    card.materials[0].alpha_cutoff = 0.1F;  // Says nothing of glass.
+    card.materials[0].alpha_cutoff = 0.1F;  // No effect on blended materials.
     card.materials[0].opacity = opacity;
     ApplyAlphaCutout(&card);
     return card;
@@ -138,7 +138,7 @@ TEST(ApplyAlphaCutout, LetsLightThroughGlassThatHidesLessThanHalf) {
   EXPECT_DOUBLE_EQ(Area(card_of(0.4F, Nowhere)), 0.0);
   EXPECT_NEAR(Area(card_of(0.9F, RoundHole)), 1.0 - std::numbers::pi * 0.3 * 0.3, 0.05);
   EXPECT_DOUBLE_EQ(Area(card_of(0.9F, Everywhere)), 0.0);
-  // All of it is drawn as it is, as thin as may be.
+  // The drawn mesh is unchanged, however thin it is.
   for (const float opacity : {0.9F, 0.4F}) {
     for (const auto is_hole : {Nowhere, RoundHole, Everywhere}) {
       EXPECT_EQ(drawn(card_of(opacity, is_hole)), 6U);

@@ -24,8 +24,8 @@ std::string Bytes(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// A textured triangle: three corners, normals, texture coordinates, 16-bit indices, in one file
-/// of buffers; a test replaces what it wants to break.
+/// A textured triangle in one buffer: three corners, normals, texture coordinates, 16-bit indices.
+/// Each test replaces the part that it wants to break.
 struct TriangleFile {
   std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 2, 0};
   std::vector<float> uvs{0, 0, 1, 0, 0, 1};
@@ -36,12 +36,12 @@ struct TriangleFile {
   std::string position_accessor =
       R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,0]})";
   std::string extra;
-  /// What stands beside the material's roughness, beside its name, and after the attributes.
+  /// Additional JSON beside the material's roughness, beside its name, and after the attributes.
   std::string coat, alpha, attributes, color_texture = R"({"index":0})";
 
   std::string Buffer() const {
     std::string buffer = Bytes(positions) + Bytes(uvs) + Bytes(indices);
-    buffer.resize(68);  // The picture starts at a multiple of four.
+    buffer.resize(68);  // The image starts at a multiple of four.
     return buffer + picture;
   }
 
@@ -102,10 +102,10 @@ TEST(GltfModel, ReadsGeometryMaterialAndTexture) {
   const Mesh& mesh = model->meshes[0];
   EXPECT_EQ(mesh.name, "leaf");
   ASSERT_EQ(mesh.indices.size(), 3U);
-  // y-up to z-up: (0, 2, 0) is up.
+  // y up becomes z up: (0, 2, 0) points up.
   EXPECT_EQ(mesh.positions[mesh.indices[2]], (std::array<float, 3>{0.0F, 0.0F, 2.0F}));
   EXPECT_EQ(mesh.uvs[mesh.indices[2]], (std::array<float, 2>{0.0F, 1.0F}));
-  // The front looked to +z in the file, which is −y here.
+  // The front faced +z in the file, which is −y here.
   EXPECT_EQ(mesh.normals[0], (std::array<float, 3>{0.0F, -1.0F, 0.0F}));
   const Material& material = model->materials[mesh.material];
   EXPECT_EQ(material.name, "green");
@@ -144,12 +144,12 @@ TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
   auto model = file.Load();
   ASSERT_TRUE(model) << model.error().Message();
   const Material& material = model->materials[0];
-  // One picture, read as color and as numbers.
+  // One image, read as color and as data.
   ASSERT_EQ(model->textures.size(), 2U);
   EXPECT_NE(material.metallic_roughness_texture, material.base_color_texture);
   EXPECT_FLOAT_EQ(material.metallic, 1.0F);
   EXPECT_FLOAT_EQ(material.roughness, 0.3F);
-  // With texture coordinates of its own, as its mean.
+  // With texture coordinates of its own set the texture is replaced by its mean.
   file.coat = R"("metallicRoughnessTexture":{"index":0,"texCoord":1},)";
   model = file.Load();
   ASSERT_TRUE(model);
@@ -173,7 +173,7 @@ TEST(GltfModel, ReportsWhatItLeavesOut) {
   file.extra = R"(,"skins":[{"joints":[0]}],"animations":[{"channels":[],"samplers":[]}])";
   EXPECT_THAT(UnsupportedFeatures(*file.Load()),
               ElementsAre("animations", "colours of vertices", "skins"));
-  // Nobody sees a material that nothing has.
+  // No primitive uses this material.
   file = {};
   file.color_texture = R"({"index":0}}},{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{)"
                        R"("metallicFactor":1)";
@@ -189,8 +189,8 @@ TEST(GltfModel, MovesTextureCoordinatesAsTheFileAsks) {
   const auto model = file.Load();
   ASSERT_TRUE(model) << model.error().Message();
   const Mesh& mesh = model->meshes[0];
-  // As the extension's text and example have it, a quarter turn takes (u, v) to (v, −u); the matrix
-  // printed there turns the other way.
+  // By the extension's text and example, a quarter turn maps (u, v) to (v, −u). The matrix printed
+  // there turns the other way.
   EXPECT_NEAR(mesh.uvs[mesh.indices[1]][0], 0.5, 1e-6);
   EXPECT_NEAR(mesh.uvs[mesh.indices[1]][1], 1.0 - 2.0, 1e-6);
   EXPECT_NEAR(mesh.uvs[mesh.indices[2]][0], 0.5 + 3.0, 1e-6);
@@ -231,7 +231,7 @@ TEST(GltfModel, PlacesNodesInsideNodes) {
   ASSERT_TRUE(model) << model.error().Message();
   const Mesh& mesh = model->meshes[0];
   EXPECT_EQ(mesh.positions[0], (std::array<float, 3>{10.0F, 0.0F, 5.0F}));
-  // Mirrored, the winding turns: the front still looks to the file's +z.
+  // Mirroring reverses the winding: the front still faces the file's +z.
   EXPECT_EQ(mesh.normals[0], (std::array<float, 3>{0.0F, -1.0F, 0.0F}));
 }
 
@@ -303,7 +303,7 @@ TEST(GltfModel, ReadsOnlyFilesAndOnlyFromItsFolder) {
   for (const char* uri : {R"("uri":".",)", R"("uri":"inner",)", R"("uri":"/dev/zero",)"}) {
     EXPECT_FALSE(LoadModel(folder.Write("m.gltf", TriangleFile().Json(uri)))) << uri;
   }
-  // One of that name in the working folder is not the model's.
+  // A file of that name in the working folder does not belong to the model.
   const TemporaryFolder working;
   working.Write("data.bin", TriangleFile().Buffer());
   const std::filesystem::path before = std::filesystem::current_path();
@@ -326,14 +326,14 @@ TEST(GltfModel, TakesNamesFromItsFolderButNoAbsoluteOnes) {
   };
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
-  // glTF 2.0, "URIs": relative paths, of which ".." may be a part.
+  // glTF 2.0, "URIs": relative paths, which may contain "..".
   write("../data.bin");
   EXPECT_TRUE(LoadModel(inner / "m.gltf"));
   EXPECT_TRUE(LoadModel("inner/m.gltf"));
   std::filesystem::current_path(inner);
   EXPECT_TRUE(LoadModel("m.gltf"));
   std::filesystem::current_path(folder.path());
-  // The file is there, and so is one of that name behind the folder's.
+  // The file exists, and so does one of that name outside the folder.
   for (const std::string& uri : {data.string(), std::string("/data.bin")}) {
     write(uri);
     EXPECT_FALSE(LoadModel(folder.path() / "m.gltf")) << uri;

@@ -11,7 +11,7 @@
 
 namespace pleinair::compositor::testing {
 
-/// A folder of its own for each test, removed afterwards.
+/// A temporary folder for each test, removed afterwards.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -50,7 +50,7 @@ inline void AppendPngChunk(const std::string& type, const std::string& data, std
   AppendBigEndian(~crc, png);
 }
 
-/// A PNG whose header states this size, without pixels.
+/// A PNG whose header has this size, without pixels.
 inline std::string PngHeader(std::uint32_t width, std::uint32_t height) {
   std::string png("\x89PNG\r\n\x1a\n", 8);
   std::string header;
@@ -61,7 +61,7 @@ inline std::string PngHeader(std::uint32_t width, std::uint32_t height) {
   return png;
 }
 
-/// A small RGB picture as PNG, stored without compression (RFC 1950, RFC 1951).
+/// A small RGB image as PNG, stored without compression (RFC 1950, RFC 1951).
 inline std::string MakePng(std::uint32_t width, std::uint32_t height,
                            const std::vector<std::array<std::uint8_t, 3>>& pixels) {
   std::string rows;

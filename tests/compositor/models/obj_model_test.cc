@@ -72,7 +72,7 @@ TEST(ObjModel, ReadsWindowsLineEndsCommentsAndContinuations) {
 }
 
 TEST(ObjModel, FillsConcavePolygonsWithoutOverlap) {
-  // An L: a fan from its first corner would cover ground outside it.
+  // An L shape: a fan from its first corner would cover ground outside it.
   const auto model =
       LoadObj("v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 2 3 4 5 6 1\n");
   ASSERT_TRUE(model) << model.error().Message();

@@ -52,13 +52,13 @@ TEST(RenderCamera, PutsAPointWhereTheRealLensSeesIt) {
       CornerOriginFromPixel({render.fx * ray.x + render.cx, render.fy * ray.y + render.cy});
   EXPECT_NEAR(positions(150, 10, 0), drawn.x, 1e-3);
   EXPECT_NEAR(positions(150, 10, 1), drawn.y, 1e-3);
-  // And the lens takes that ray back to its pixel.
+  // The lens maps that ray back to its pixel.
   const Vec2 back = ProjectToPixel(kDistorted, Point<Camera>{{ray.x, ray.y, 1.0}});
   EXPECT_NEAR(back.x, 150, 1e-6);
   EXPECT_NEAR(back.y, 10, 1e-6);
 }
 
-// Two metres before the marker's middle, turned about two axes.
+// Two metres in front of the marker's centre, turned about two axes.
 const CameraModel kPinhole{
     .width = 160, .height = 120, .fx = 150, .fy = 151, .cx = 70.5, .cy = 60.25};
 const Transform<Camera, Marker> kTilted{{{0.8, 0.6, 0, 0.48, -0.64, -0.6, -0.36, 0.48, -0.8}},

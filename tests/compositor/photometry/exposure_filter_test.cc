@@ -8,7 +8,7 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr LinearRgb kExposureScale{0.002, 0.001, 0.003};
-constexpr LinearRgb kError{0.01, 0.02, 0.03};  // Of each reading, relative.
+constexpr LinearRgb kError{0.01, 0.02, 0.03};  // Relative error of each exposure estimate.
 
 void Add(int count, const LinearRgb& exposure_scale, ExposureFilter* filter) {
   for (int i = 0; i < count; ++i) filter->Add(exposure_scale, kError);
@@ -42,7 +42,7 @@ TEST(ExposureFilter, EstimatesHowMuchTheExposureChanged) {
   EXPECT_DOUBLE_EQ(filter.Change(), 1.0);
   Add(5, kExposureScale, &filter);
   EXPECT_DOUBLE_EQ(filter.Change(), 1.0);
-  // Three of five are the new light; of the channel that changed most, and back again.
+  // Three of five estimates have the new light, in the channel that changed most; and back again.
   Add(3, {kExposureScale.r, kExposureScale.g / 2.5, kExposureScale.b * 1.5}, &filter);
   EXPECT_NEAR(filter.Change(), 2.5, 1e-12);
   Add(20, kExposureScale, &filter);
@@ -65,7 +65,7 @@ TEST(ExposureFilter, EstimatesHowCertainItsMedianIs) {
   EXPECT_DOUBLE_EQ(filter.Error().r, kError.r) << "a single reading's own";
   Add(14, kExposureScale, &filter);
   EXPECT_DOUBLE_EQ(filter.Error().g, kError.g) << "frames share what is wrong of a print";
-  // Five of fifteen above and five below by 8 %: a median deviation of 8 % in green alone.
+  // Five of fifteen are 8 % higher and five 8 % lower: a median deviation of 8 % in green alone.
   ExposureFilter scattered;
   for (int i = 0; i < 5; ++i) {
     for (const double off : {0.92, 1.0, 1.08}) {

@@ -89,7 +89,7 @@ TEST(ReportJson, StatesHowTheMarkerWasFoundAndWhenItWasLost) {
   EXPECT_EQ(poses["found_by"], nlohmann::json::parse(R"({"fast":1,"surf-golay":1,"tracked":1})"));
   EXPECT_EQ(poses["visible_fraction"]["min"], 0.4);
   EXPECT_EQ(poses["visible_fraction"]["median"], 1.0);
-  // Frame 3, and 5 to 8; before frame 1 there was nothing to lose.
+  // Frame 3 and frames 5 to 8. Before frame 1 there was no track to lose.
   EXPECT_EQ(poses["lost"], nlohmann::json::parse(R"({"frames":5,"longest":4})"));
   EXPECT_THAT(ReportHtml(report), HasSubstr("frames in which it was lost (longest: 4)"));
 }
@@ -102,7 +102,7 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
 
 using Source = compositor::MeasuredLight::Source;
 
-/// A sun, a heading and a exposure scale that frames told of.
+/// A sun, a heading and an exposure scale estimated from frames.
 session::LightSummary MeasuredSummary() {
   session::LightSummary light;
   light.sun.azimuth = FromDegrees(151.2);

@@ -36,12 +36,12 @@ TEST(TimeLapse, ShowsTheHoursOfAClockOnTheRecordingsDay) {
   ASSERT_EQ(moments->times.size(), 97U);
   EXPECT_EQ(Clock(*moments, 0), "2025-06-21T05:00:00+02:00");
   EXPECT_EQ(Clock(*moments, 96), "2025-06-21T21:00:00+02:00");
-  // Without an offset it is the hour nearest to the sun's: Prague lies 14.4° east.
+  // Without an offset the zone is the full hour nearest to solar time: Prague lies 14.4° east.
   const auto solar = MomentsOf(*ParseTimeLapse("05:00..05:20", "600s"), Prague());
   ASSERT_TRUE(solar);
   EXPECT_EQ(solar->times.size(), 3U);
   EXPECT_EQ(solar->times[0].ToString(), "2025-06-21T04:00:00Z");
-  // East of the date line the day on the clock began before the day of UTC.
+  // East of the date line the local day begins before the UTC day.
   scene::PlaceTime tonga = Prague();
   tonga.longitude_deg = -175.2;
   const auto east = MomentsOf(*ParseTimeLapse("06:00..07:00+13:00", "1h"), tonga);
@@ -52,7 +52,7 @@ TEST(TimeLapse, ShowsTheHoursOfAClockOnTheRecordingsDay) {
 TEST(TimeLapse, OfADayLastsFromBeforeSunriseUntilAfterSunset) {
   const auto moments = MomentsOf(*ParseTimeLapse("day", "15min"), Prague());
   ASSERT_TRUE(moments);
-  // Sunrise 4:52, sunset 21:14 by the clock of Prague's summer.
+  // In Prague's summer time the sun rises at 4:52 and sets at 21:14.
   EXPECT_EQ(FormatLocal(moments->times.front(), {120}).substr(0, 16), "2025-06-21T04:22");
   EXPECT_LE(FormatLocal(moments->times.back(), {120}), "2025-06-21T21:46");
   EXPECT_GE(FormatLocal(moments->times.back(), {120}), "2025-06-21T21:29");
@@ -73,7 +73,7 @@ TEST(TimeLapse, RefusesWhatIsNoPartOfADay) {
   EXPECT_FALSE(MomentsOf(*ParseTimeLapse("00:00..24:00", "1s"), Prague())) << "too many pictures";
 }
 
-/// A white box of 40 cm on grey ground, under Prague's midsummer sky, seen from above; north is up.
+/// A white box of 40 cm on grey ground under Prague's midsummer sky, seen from above, north up.
 class DayOfABox : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -118,7 +118,7 @@ class DayOfABox : public ::testing::Test {
     EXPECT_TRUE(picture);
     return picture ? *std::move(picture) : RgbImage(96, 96, 3);
   }
-  /// The code of a point of the scene.
+  /// The pixel value at a point of the scene.
   std::array<double, 3> Code(
       const RgbImage& picture, Vec3 point,
       const Transform<Camera, Marker>& camera_from_marker = camera_from_marker_) const {
@@ -130,10 +130,10 @@ class DayOfABox : public ::testing::Test {
 
   static inline const CameraModel camera_{
       96, 96, 96, 96, 47.5, 47.5, DistortionModel::kBrownConrady, {}};
-  /// 4 m above the middle, looking down.
+  /// 4 m above the origin, looking down.
   static inline const Transform<Camera, Marker> camera_from_marker_{{{1, 0, 0, 0, -1, 0, 0, 0, -1}},
                                                                     {0, 0, 4}};
-  /// 4 m away to the east and to the west, 20 cm high, looking at the box.
+  /// 4 m to the east and to the west, 20 cm high, looking at the box.
   static inline const Transform<Camera, Marker> from_east_{{{0, 1, 0, 0, 0, -1, -1, 0, 0}},
                                                            {0, 0.2, 4}};
   static inline const Transform<Camera, Marker> from_west_{{{0, -1, 0, 0, 0, -1, 1, 0, 0}},
@@ -156,12 +156,12 @@ TEST_F(DayOfABox, IsWarmInTheSunAndBlueInTheShadeAtSunriseGreyAtNoonAndBlackAtNi
   const RgbImage noon = Picture(11.0), sunrise = Picture(3.3), night = Picture(-1.0);
   const auto grey = Code(noon, top);
   EXPECT_NEAR(grey[0], grey[2], 8.0);
-  // White paper shows as 0.8 of linear light, code 231, as long as nothing hides the sky.
+  // White paper has 0.8 in linear light, pixel value 231, if nothing hides the sky.
   EXPECT_NEAR(grey[1], 231.0, 6.0);
   EXPECT_GT(Code(noon, ground)[1], 100.0);
   const auto dawn = Code(sunrise, top);
   EXPECT_LT(dawn[1], 0.9 * grey[1]);
-  // The sun stands in the northeast: the east side has it, the west side has the sky alone.
+  // The sun is in the northeast: it lights the east side; the west side receives skylight only.
   const auto east = Code(Picture(3.3, from_east_), {0.2, 0.0, 0.2}, from_east_);
   const auto west = Code(Picture(3.3, from_west_), {-0.2, 0.0, 0.2}, from_west_);
   EXPECT_GT(east[0], 1.3 * east[2]);

@@ -22,7 +22,7 @@ using testing::UniformDay;
 
 constexpr Vec3 kUp{0.0, 0.0, 1.0};
 
-/// A box that stands `x` metres along a yard.
+/// A box at `x` metres along a yard.
 std::shared_ptr<const LightSolver> YardWithABoxAt(double x, double edge_m = 0.2) {
   auto solver = LightSolver::Create(
       {Phantom(Ground(1.0, {0.3F, 0.3F, 0.3F})),
@@ -32,7 +32,7 @@ std::shared_ptr<const LightSolver> YardWithABoxAt(double x, double edge_m = 0.2)
   return solver ? *std::move(solver) : nullptr;
 }
 
-/// Waits for something that another thread brings about.
+/// Waits for an effect of another thread.
 template <typename Condition>
 void WaitUntil(const Condition& condition) {
   while (!condition()) std::this_thread::yield();
@@ -55,7 +55,7 @@ TEST(CoefficientWorker, LeavesTheLastLightInUseUntilThatOfAMovedObjectIsWhole) {
   WaitUntil([&] { return worker.Newest() != nullptr; });
   EXPECT_EQ(worker.Newest()->solver, before);
 
-  // The computation is held in its middle until ten frames have been drawn.
+  // The computation is blocked halfway until ten frames have been drawn.
   std::mutex mutex;
   std::condition_variable changed;
   int frames = 0;
@@ -91,7 +91,7 @@ TEST(CoefficientWorker, FollowsSomeWayBehindAMotionWithoutARest) {
   for (int i = 0; i < 9; ++i) places.push_back(YardWithABoxAt(0.1 * i - 0.6));
   CoefficientWorker worker;
   std::atomic<int> next = 1, whole = 0;
-  // Before any computation is whole, the object has moved on.
+  // The object moves before any computation is complete.
   CoefficientProgress move_on = [&](double share) {
     if (share == 0.0 && next < 9) {
       const int to = next++;
@@ -106,7 +106,7 @@ TEST(CoefficientWorker, FollowsSomeWayBehindAMotionWithoutARest) {
 }
 
 TEST(CoefficientWorker, GoesWithoutFinishing) {
-  // So much to compute that all of it is not done by chance before the worker goes.
+  // The computation is long, so that it cannot be complete before the worker is destroyed.
   const auto solver = YardWithABoxAt(0.0, 0.05);
   CoefficientOptions options = FewRays();
   options.rays_per_vertex = 256;

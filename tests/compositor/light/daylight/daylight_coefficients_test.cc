@@ -47,14 +47,14 @@ std::vector<std::array<float, 3>> Product(const CoefficientMatrix& matrix,
   return light;
 }
 
-/// Under radiance 1 from everywhere, the land too.
+/// Irradiance under uniform radiance 1, from the land too.
 std::vector<std::array<float, 3>> UnderUniformLight(const DaylightCoefficients& coefficients) {
   const int total = coefficients.Patches().total();
   return Product(coefficients.with, std::vector<LinearRgb>(total, {1, 1, 1}),
                  std::vector<LinearRgb>(total));
 }
 
-/// Mean over a mesh side, by area.
+/// Mean over a mesh side, weighted by area.
 double MeanOver(const PatchScene& scene, std::size_t mesh_side,
                 const std::vector<std::array<float, 3>>& light, double* area_m2 = nullptr) {
   const PatchScene::MeshSide& s = scene.mesh_sides[mesh_side];
@@ -130,7 +130,7 @@ TEST(SkyPatches, KeepTheSunsIrradianceWhereverItStands) {
 TEST(DaylightCoefficients, GiveAnUnoccludedPatchTheSkysHorizontalIlluminance) {
   const PatchScene scene = SceneOf({Phantom(Ground(1.0, {0.3F, 0.3F, 0.3F}))});
   const auto coefficients = ComputeCoefficients(scene, kUp, {}, {});
-  // Steep towards the zenith, as no patch is.
+  // A steep gradient towards the zenith, which no patch resolves.
   class Steep : public UniformDay {
    public:
     Steep() : UniformDay({1, 1, 1}) {}
@@ -157,9 +157,9 @@ TEST(DaylightCoefficients, SumToAWholeHemisphereOnAConvexBody) {
 }
 
 TEST(DaylightCoefficients, AreReciprocal) {
-  // An upright square of 1 m² at the edge of a level rectangle of 2 m². Black, so that each lacks
-  // of the uniform light what the other takes: E = π (1 − F); A1 F12 = A2 F21, and F12 from
-  // Howell's catalogue, C-14, is 0.2329 for H = 2, W = 1, upright to level.
+  // An upright square of 1 m² at the edge of a level rectangle of 2 m². Both are black, so each
+  // lacks the uniform light that the other occludes: E = π (1 − F); A1 F12 = A2 F21. F12 = 0.2329
+  // for H = 2, W = 1, upright to level (Howell's catalogue, C-14).
   Mesh upright, level;
   AddQuad(&upright, {{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}});
   AddQuad(&level, {{{0, -2, 0}, {1, -2, 0}, {1, 0, 0}, {0, 0, 0}}});
@@ -167,7 +167,7 @@ TEST(DaylightCoefficients, AreReciprocal) {
       SceneOf({Object(ModelOf(upright, {0, 0, 0})), Object(ModelOf(level, {0, 0, 0}))}, 0.05);
   const auto light =
       UnderUniformLight(ComputeCoefficients(scene, kUp, {.rays_per_vertex = 512}, {}));
-  // The side that faces the other one has less light.
+  // The side that faces the other surface receives less light.
   double area1 = 0.0, area2 = 0.0, least1 = 1e9, least2 = 1e9;
   for (std::size_t mesh_side = 0; mesh_side < scene.mesh_sides.size(); ++mesh_side) {
     const bool first = scene.mesh_sides[mesh_side].mesh.placed_model == 0;
@@ -180,8 +180,8 @@ TEST(DaylightCoefficients, AreReciprocal) {
 }
 
 TEST(DaylightCoefficients, KeepAllLightInAWhiteBox) {
-  // An open box under uniform light. As its walls grow white every path gets out again, and the
-  // light is π everywhere (the furnace test); what a grey of ρ loses is linear in 1 − ρ near white.
+  // An open box under uniform light. As its walls approach white every path escapes, and the light
+  // is π everywhere (the furnace test). The loss with grey ρ is linear in 1 − ρ near white.
   const auto mean = [](float albedo) {
     Mesh box;
     AddQuad(&box, {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}});
@@ -227,7 +227,7 @@ class Yard : public ::testing::Test {
   }
 };
 
-/// Root mean square difference of the light with objects, over that of the first.
+/// RMS difference of the light with objects, relative to the RMS of the first.
 double Difference(const std::vector<LitMesh>& solved, const std::vector<LitMesh>& relit) {
   EXPECT_EQ(solved.size(), relit.size());
   double square = 0.0, total = 0.0;
@@ -262,13 +262,13 @@ TEST_F(Yard, IsRelitAsItIsSolved) {
       return Difference((*solver)->Solve(day, Mat3{}),
                         (*solver)->Relight(coefficients, day, Mat3{}));
     };
-    // Of the sky alone the same rays give the same light, and the finer patches' own rays nearly;
-    // the sun's is softened over its patches.
+    // Under the sky alone the same rays give the same light; the rays of the finer patches nearly
+    // do. The sun is spread over its patches.
     EXPECT_LT(off(overcast), division == 1 ? 0.005 : 0.01) << division;
     EXPECT_LT(off(sunny), 0.03) << division;
     softened[division] = off(UniformDay({}, sun, to_sun));
   }
-  // The finer they are, the less.
+  // Finer patches spread the sun less.
   EXPECT_LT(softened[2], 0.65 * softened[1]);
   EXPECT_LT(softened[4], 0.4 * softened[1]);
 }
@@ -290,13 +290,13 @@ TEST_F(Yard, ComesOutOfTheCacheAsItWentIn) {
   EXPECT_TRUE(found.from_cache);
   EXPECT_EQ(found.with.codes(), made.with.codes());
   EXPECT_EQ(found.without.scales(), made.without.scales());
-  // Another geometry, color or direction of up is another entry.
+  // Another geometry, color or up direction is another entry.
   auto models = Models();
   models[0] = Phantom(Ground(3.0, {0.4F, 0.35F, 0.31F}));
   auto other = LightSolver::Create(models, {.near_edge_m = 0.2});
   EXPECT_FALSE((*other)->Coefficients(kUp, options, {}).from_cache);
   EXPECT_FALSE((*solver)->Coefficients({0, 1, 0}, options, {}).from_cache);
-  // A damaged file is not believed.
+  // A damaged file is rejected.
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::fstream file(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(5000);
@@ -328,7 +328,7 @@ TEST(AddInterreflections, AddsWithVectorUnitsAsOneByOne) {
 }
 
 TEST(CoefficientMatrix, MultipliesWithVectorUnitsAsOneByOne) {
-  constexpr std::size_t kVertices = 77;  // No multiple of anything.
+  constexpr std::size_t kVertices = 77;  // Not a multiple of any vector width.
   CoefficientMatrix matrix(kVertices, 146);
   for (std::size_t v = 0; v < kVertices; ++v) {
     for (int chunk = 0; chunk < matrix.chunks(); ++chunk) {
@@ -355,7 +355,7 @@ TEST(CoefficientMatrix, MultipliesWithVectorUnitsAsOneByOne) {
   for (std::size_t v = 0; v < kVertices; ++v) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(fast[v][c], slow[v][c], 1e-5 * slow[v][c]);
   }
-  // A part of the vertices, wherever it begins and ends.
+  // A range of the vertices with any begin and end.
   for (const std::size_t first : {0U, 1U, 15U, 16U, 30U}) {
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, kVertices - first}) {
       std::vector<std::array<float, 3>> part(count);
