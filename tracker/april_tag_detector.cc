@@ -24,7 +24,7 @@ struct Family {
   const char* name;
   apriltag_family_t* (*create)();
   void (*destroy)(apriltag_family_t*);
-  /// Correctable bit errors. The sparser the family's codewords, the more can be allowed: with two
+  /// Correctable bit errors. The sparser the family's codewords, the more can be allowed. With two
   /// corrected bits a random square passes as tag16h5 in one of 17 cases, as tag36h11 in one of
   /// 45,000 (words × patterns × rotations / 2^bits).
   int corrected_bits;
@@ -41,8 +41,8 @@ constexpr std::array<Family, 4> kFamilies{{
 /// photographs of tests/tracker/data has 45; underexposed images have less.
 constexpr float kMinDecisionMargin = 8.0F;
 
-/// AprilTag thresholds by tiles of 4×4 pixels and reads out of bounds in images with less than one
-/// ring of them; smaller images are padded to this size.
+/// AprilTag thresholds by tiles of 4×4 pixels, and reads out of bounds in images with less than one
+/// ring of them. Smaller images are padded to this size.
 constexpr int kMinSide_px = 16;
 
 struct FamilyDeleter {

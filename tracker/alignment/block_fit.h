@@ -115,7 +115,7 @@ class BlockFit {
     int tile_px = 4;
     int modules = 0, edge_modules = 0;  ///< As in MarkerPattern.
   };
-  /// Residual from which a pixel counts as covered, and the noise from which it is derived.
+  /// Residual from which a pixel counts as occluded, and the noise from which it is derived.
   struct Robustness {
     double share = 0.0;        ///< Residual, in shares of white, at which a pixel's weight is ½.
     double noise_share = 0.0;  ///< First quartile of the blocks' noise, in shares of white.
@@ -140,7 +140,7 @@ class BlockFit {
   Grid grid_;
   double min_contrast_ = 0.0;
   Robustness robustness_;
-  double blur_px_ = 0.0;  ///< Of the last prediction, in image pixels.
+  double blur_px_ = 0.0;  ///< Blur of the last prediction, in image pixels.
   std::vector<MarkerBlock> blocks_;
   std::vector<std::int16_t> block_of_;
   std::vector<float> weight_;

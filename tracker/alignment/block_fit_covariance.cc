@@ -16,8 +16,8 @@ constexpr double kMinWidening = 0.8;
 constexpr double kHiddenShift_px = 0.25;
 
 /// E[ψ'] / E[w] of the robust weight w(z) = (1 + z²)⁻², ψ = w z, for Gaussian residuals of standard
-/// deviation z: the factor by which the equations, with w in place of ψ', overestimate the
-/// information (an M-estimate's variance is E[ψ²] / E[ψ']², Huber & Ronchetti 2009, section 3.2). 1
+/// deviation z. The equations have w in place of ψ' and overestimate the information by this
+/// factor. An M-estimate's variance is E[ψ²] / E[ψ']² (Huber & Ronchetti 2009, section 3.2). 1
 /// without noise, 0.31 at z = 1; accurate to 5 % below z = 2.
 double KnownShare(double z) { return 1.0 / (1.0 + 3.7 * z * z / (1.0 + 0.55 * z)); }
 
@@ -27,11 +27,11 @@ double KnownShare(double z) { return 1.0 / (1.0 + 3.7 * z * z / (1.0 + 0.55 * z)
 // (m0 + m1 u + m2 v - (m6 u + m7 v) u, m3 + m4 u + m5 v - (m6 u + m7 v) v).
 //
 // If the noise of all pixels were equal and independent, the covariance would be σ² H⁻¹. It is not:
-// residuals from texture, shadow edges, or a blur that is not Gaussian are correlated between
-// neighbouring pixels, and occur at the edges that determine the position. A clustered sandwich
-// estimate (Liang & Zeger 1986), H⁻¹ (Σ_cells g gᵀ) H⁻¹ with g the gradient of each cell of the
-// marker, includes all that. With few cells that matrix is inaccurate; its mean ratio to σ² H⁻¹ is
-// accurate enough, and scales σ² H⁻¹.
+// residuals from texture, shadow edges, or a non-Gaussian blur are correlated between neighbouring
+// pixels. They occur at the edges that determine the position. A clustered sandwich estimate (Liang
+// & Zeger 1986) includes all that: H⁻¹ (Σ_cells g gᵀ) H⁻¹ with g the gradient of each cell of the
+// marker. With few cells that matrix is inaccurate; its mean ratio to σ² H⁻¹ is accurate enough,
+// and scales σ² H⁻¹.
 std::array<double, 64> BlockFit::MotionCovariance() const {
   using Parameters = Eigen::Matrix<double, kParameters, 1>;
   using Square = Eigen::Matrix<double, kParameters, kParameters>;
@@ -84,7 +84,7 @@ std::array<double, 64> BlockFit::MotionCovariance() const {
   const double widening = independent.ldlt().solve(together).trace() / (kMotions * known * known);
 
   // An edge of blur b, with a share u of its contrast in the residuals, may be displaced by up to u
-  // b, and all edges of a kind by the same amount: no sample shows it.
+  // b. All edges of a kind may be displaced by the same amount, and no sample shows it.
   const double trusted = correlation / telling;
   const double hidden_px = blur_px_ * std::sqrt(std::max(0.0, 1.0 - trusted * trusted));
   const double hidden = hidden_px / kHiddenShift_px;

@@ -43,8 +43,8 @@ struct CellScores {
 };
 
 /// The gradient of the light over the marker as two more parameters of a fit, with the blocks'
-/// light eliminated: φ_u = u' (gain p + offset), and φ_v likewise, with u' and v' in half edges
-/// from the centre of each block. Inner products with the final weights.
+/// light eliminated. φ_u = u' (gain p + offset), and φ_v likewise; u' and v' are half edges from
+/// the centre of each block. Inner products with the final weights.
 struct SlopeEquations {
   std::array<std::array<double, 2>, 2> own{};                ///< φ with φ,
   std::array<std::array<double, kFitParameters>, 2> with{};  ///< … with gain J,

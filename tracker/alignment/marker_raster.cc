@@ -49,8 +49,8 @@ void MarkerRaster::SetKernel(double blur_px, int per_pixel, int* pad) {
   const int taps = (2 * *pad + 1) * per_pixel;
   kernel_.resize(taps);
   kernel_slope_.resize(taps);
-  // The blurred box of a pixel, averaged over each bin, is a second difference of ∫Φ(x/σ): one
-  // pixel apart (bins divide pixels) and one bin apart.
+  // The blurred box of a pixel, averaged over each bin, is a second difference of ∫Φ(x/σ). The
+  // steps are one pixel and one bin; bins divide pixels.
   const int edges = taps + per_pixel + 1;
   below_.resize(edges);
   primitive_.resize(edges);

@@ -44,8 +44,7 @@ struct MotionStepOptions {
 /// One step of the fit.
 struct MotionStep {
   std::array<double, kFitParameters> move{};
-  double moved_px = 0.0;  ///< Distance that the farthest corner would move, before the step was
-                          ///< limited.
+  double moved_px = 0.0;  ///< Maximum motion of a corner, before the step was limited.
 
   /// unit(before)_from_unit(after), up to scale.
   Mat3 BeforeFromAfter() const;

@@ -48,9 +48,9 @@ void TakeEvenWindow(const LensGrid& lens, ImageView<const std::uint8_t> grey,
                     const PixelWindow& window, ObservedPatch* observed);
 
 /// The pixels of an image of `width` x `height`, reduced `level` times, that show the square [0,
-/// side]² of a plane, plus `margin` pixels on every side, clipped to the image.
-/// `plane_from_undistorted` defines the plane. `places` points of each side are projected, because
-/// lenses bend the sides. Returns nullopt if the horizon crosses the square.
+/// side]² of a plane. `plane_from_undistorted` defines the plane. The window has `margin` more
+/// pixels on every side and is clipped to the image. `places` points of each side are projected,
+/// because lenses bend the sides. Returns nullopt if the horizon crosses the square.
 std::optional<PixelWindow> WindowOfSquare(const LensGrid& lens, const Mat3& plane_from_undistorted,
                                           double side, int places, int width, int height, int level,
                                           int margin);

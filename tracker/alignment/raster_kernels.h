@@ -24,7 +24,7 @@ struct RayRow {
   float origin_x, origin_y;
 };
 
-/// The modules around each node (corner of modules) of a marker: bit 4 j + i is the module i - 2
+/// The modules around each node (corner of modules) of a marker. Bit 4 j + i is the module i - 2
 /// columns and j - 2 rows from the node.
 struct NodeTable {
   const std::uint32_t* around;
@@ -63,8 +63,8 @@ struct RasterKernels {
 const RasterKernels& ScalarRasterKernels();
 const RasterKernels& SimdRasterKernels();
 
-/// With at most this many samples along a pixel, and a pixel of at most this many modules along
-/// either axis, all samples lie next to the node nearest to the pixel's centre.
+/// Limits of a pixel: samples along its side, and modules along either axis. Within them all
+/// samples lie next to the node nearest to the pixel's centre.
 inline constexpr int kMaxSamplesNearCentre = 2;
 inline constexpr float kMaxSlopeNearCentre = 1.98F;
 inline constexpr float kMinBox2_modules2 = 1e-6F;

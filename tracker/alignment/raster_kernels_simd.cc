@@ -87,8 +87,8 @@ RowRanges Ranges(const MapRow& map, float modules, float near_px, float far_px, 
   return {near.end > 0 ? near : RowRange{}, far.end > 0 ? far : RowRange{}};
 }
 
-/// From the modules around a node to the share of white in a box whose parts right of and below the
-/// node are `s` and `t`. The four modules are bits 0, 1, 4, 5.
+/// Computes the share of white in a box from the modules around a node. `s` and `t` are the parts
+/// of the box right of and below the node. The four modules are bits 0, 1, 4, 5.
 HWY_INLINE Floats Blend(Ints around, Floats s, Floats t) {
   const Floats rest = hn::Sub(hn::Set(kFloats, 1.0F), s);
   const auto if_bit = [&](std::int32_t bit, Floats value) {

@@ -11,9 +11,9 @@
 
 namespace pleinair::tracker {
 
-/// Shared by the rasters of markers and of targets: the position on the marker of each row of a
-/// window, its samples, and the ring buffer of blurred rows for the blur along columns. Buffers are
-/// reused, so that nothing is allocated after the largest window.
+/// Shared by the rasters of markers and of targets. For each row of a window it holds the position
+/// on the marker and the samples. A ring buffer of blurred rows is for the blur along columns.
+/// Buffers are reused, so that nothing is allocated after the largest window.
 class RasterRows {
  public:
   /// Resizes a raster's results to the window.

@@ -7,8 +7,9 @@
 
 namespace pleinair::tracker {
 
-/// An image pyramid: each level's pixel is the mean of four of the level before. It averages 8-bit
-/// values: suited to finding markers, not to measuring them. Levels are computed on first use.
+/// An image pyramid: each pixel is the mean of four pixels of the next finer level. It averages
+/// 8-bit values: suited to finding markers, not to measuring them. Levels are computed on first
+/// use.
 class ReducedImages {
  public:
   static constexpr int kLevels = 6;

@@ -10,21 +10,21 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Radius of a pixel's footprint beyond its own half, in standard deviations of the blur; and the
-/// width of the quiet zone that is always used (block_fit.cc).
+/// Radius of a pixel's footprint beyond its own half, in standard deviations of the blur. Width of
+/// the quiet zone that is always used (block_fit.cc).
 constexpr double kSeen_sigmas = 2.5, kKeptQuiet_modules = 2.4;
 /// Distance beyond the marker's edge, in pixels, where hardly any light of the marker is left.
 constexpr float kBeyond_px = 1.2F;
 
 /// Share of a pixel's light that comes from beyond a straight edge `d` pixels from its centre, for
-/// 0 to kReach_px: the pixel's box and the blur's Gaussian, ∫Φ over the box.
+/// 0 to kReach_px. It is ∫Φ of the blur's Gaussian over the pixel's box.
 class LightFromBeyond {
  public:
   static constexpr int kPerPixel = 16;
   explicit LightFromBeyond(double blur_px) {
     const double sigma = std::max(blur_px, 0.1);
     reach_px_ = static_cast<float>(std::min(0.5 + kSeen_sigmas * sigma, kMax - 0.2));
-    const auto primitive = [&](double x) {  // Of Φ(-x/σ), from minus infinity's side.
+    const auto primitive = [&](double x) {  // Primitive of Φ(-x/σ), from minus infinity.
       const double z = x / sigma;
       return x * 0.5 * std::erfc(z / std::numbers::sqrt2) -
              sigma * std::exp(-0.5 * z * z) * 0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2;

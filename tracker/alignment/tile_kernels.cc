@@ -91,7 +91,7 @@ void Reduce(const float* sums, std::ptrdiff_t sums_stride, int count, int tile, 
   }
 }
 
-/// A sum with p_u and p_v in place of p_x and p_y, times the factors of each parameter: the motion
+/// A sum with p_u and p_v in place of p_x and p_y, times the factors of each parameter. The motion
 /// moves the observation at (u, v) by (m0 + m1 u + m2 v - (m6 u + m7 v) u, m3 + … v).
 std::array<double, kFitParameters> AlongMotions(double pu, double pv, double b, double u,
                                                 double v) {

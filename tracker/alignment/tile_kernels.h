@@ -40,13 +40,14 @@ struct LightOfColumns {
   const float* inverse;  ///< 1 / (gain × robust share); 0 where the light is unknown.
 };
 
-/// Sums over pixels: their number, then with the inverse variance w: w, w p, w i, w p², w p i, w i²
-/// (p: share of white, i: observed value), then with the robust weight r: r, r p, r i, r p², r p i.
+/// Sums over pixels, with p the share of white and i the observed value. First their number. With
+/// the inverse variance w: w, w p, w i, w p², w p i, w i². With the robust weight r: r, r p, r i, r
+/// p², r p i.
 inline constexpr int kLevelSums = 12;
 
 /// Sums over pixels with the final weight w, residual r, slopes x and y of p, and its derivative b
-/// by the blur's variance: w, wp, wp², wr, wrp, wr², wx, wy, wpx, wpy, wrx, wry, wx², wxy, wy²; if
-/// the blur is fitted, also wb, wpb, wrb, wxb, wyb, wb².
+/// by the blur's variance. Order: w, wp, wp², wr, wrp, wr², wx, wy, wpx, wpy, wrx, wry, wx², wxy,
+/// wy². If the blur is fitted, also wb, wpb, wrb, wxb, wyb, wb².
 inline constexpr int kSlopeSums = 15, kBlurSums = 6, kMotionSums = kSlopeSums + kBlurSums;
 
 struct SlopeRows {
@@ -90,7 +91,8 @@ struct TileKernels {
                int count, float* usable);
   void (*levels)(const PixelRows& rows, const LightOfColumns& light, std::ptrdiff_t sums_stride,
                  float* sums);
-  /// `belief` is the block weight of each column; `weight` receives each pixel's final weight.
+  /// `robust_weight` is the block weight of each column; `weight` receives each pixel's final
+  /// weight.
   void (*motions)(const PixelRows& rows, const SlopeRows& slopes, const LightOfColumns& light,
                   const float* robust_weight, float* weight, std::ptrdiff_t sums_stride,
                   float* sums);

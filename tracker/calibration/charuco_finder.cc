@@ -18,8 +18,8 @@ struct Square {
   int column = 0, row = 0;
 };
 
-/// Squares with markers, in the order of the markers' numbers. Since OpenCV 4.6 boards with an even
-/// number of rows begin with a black square; before they began with a white one ("legacy").
+/// Squares with markers, in the order of the markers' numbers. Boards with an even number of rows
+/// begin with a black square since OpenCV 4.6, and with a white one in older versions ("legacy").
 std::vector<Square> MarkerSquares(const CalibrationBoard& board, bool legacy) {
   const int black = legacy && board.rows % 2 == 0 ? 1 : 0;
   std::vector<Square> squares;
@@ -112,7 +112,7 @@ class CharucoFinder final : public BoardFinder {
     return markers;
   }
 
-  /// Each marker searches for its diagonal neighbours: in its own coordinates their centres are
+  /// Each marker searches for its diagonal neighbours. In its own coordinates their centres are
   /// equally far in x and y, by the same number of its sides for all.
   Layout Judge(const SeenMarkers& markers, bool legacy) const {
     Layout layout;

@@ -20,7 +20,7 @@ constexpr const char* kRemedy =
 
 std::vector<LensKind> KindsToTry(const LensCalibrationOptions& options) {
   if (options.kind) return {*options.kind};
-  // From the fewest parameters to the most.
+  // In ascending number of parameters.
   return {LensKind::kRadtan4, LensKind::kRadtan5, LensKind::kEquidistant, LensKind::kRational};
 }
 

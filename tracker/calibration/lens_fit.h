@@ -12,7 +12,7 @@
 
 namespace pleinair::tracker {
 
-/// Lens models by number of free distortion coefficients, fewest first.
+/// Lens models in ascending number of free distortion coefficients.
 enum class LensKind {
   kPinhole,     ///< No distortion.
   kRadtan4,     ///< k1 k2 p1 p2.

@@ -18,9 +18,10 @@ struct LensUncertainty {
                            ///< meaningless.
 };
 
-/// Standard deviations of the lens parameters with unknown poses: from the inverse of the normal
-/// equations, with the poses eliminated view by view (Triggs et al. 2000, "Bundle adjustment", §6.1
-/// and §9), times the variance of the residuals, which is taken as at least `min_noise_px`².
+/// Standard deviations of the lens parameters with unknown poses. They come from the inverse of the
+/// normal equations, with the poses eliminated view by view (Triggs et al. 2000, "Bundle
+/// adjustment", §6.1 and §9). The factor is the variance of the residuals, at least
+/// `min_noise_px`².
 LensUncertainty Uncertainty(const LensFit& fit, const std::vector<PlaneView>& views,
                             double min_noise_px);
 

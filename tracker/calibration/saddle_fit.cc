@@ -56,8 +56,8 @@ double Equations(const Vector& at, const std::vector<Sample>& samples, Matrix* m
 }
 
 /// On a circle the sign of sin(φ − a) sin(φ − b) = ½ (cos(a − b) − cos(2φ − a − b)) changes four
-/// times: the phase of the second harmonic is a + b. The initial angle between the edges is a right
-/// angle.
+/// times, so the phase of the second harmonic is a + b. The initial angle between the edges is a
+/// right angle.
 Vector Start(const std::vector<Sample>& samples, cv::Point2d start) {
   double mean = 0.0, cosine = 0.0, sine = 0.0;
   for (const Sample& sample : samples) mean += sample.light / static_cast<double>(samples.size());

@@ -13,9 +13,8 @@ namespace pleinair::tracker {
 ///   level + contrast × erf(d1 / √2σ) × erf(d2 / √2σ),   d1, d2 the distances from the two edges.
 ///
 /// Levenberg–Marquardt fits position, both directions, blur σ, level and contrast to every pixel
-/// within `half` of the start, so that noise averages out along the edges. Returns nullopt if the
-/// fit diverges or explains less than 0.9 of the window's variance: then something covers the
-/// corner.
+/// within `half` of the start. Noise thus averages out along the edges. Returns nullopt if the fit
+/// diverges or explains less than 0.9 of the window's variance: the corner is then occluded.
 std::optional<cv::Point2d> FitSaddle(const cv::Mat& linear, cv::Point2d start, int half);
 
 }  // namespace pleinair::tracker

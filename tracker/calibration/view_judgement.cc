@@ -14,8 +14,8 @@ namespace {
 constexpr double kMinShare = 0.25;
 constexpr double kMinHalf = 0.12;
 constexpr double kMaxFocalDeviation = 0.01;   // Relative.
-constexpr double kMaxCentreDeviation = 0.02;  // Of the image's longer side.
-constexpr double kMaxRmsShare = 0.005;        // Of the image's longer side: 3 px of 640.
+constexpr double kMaxCentreDeviation = 0.02;  // Relative to the image's longer side.
+constexpr double kMaxRmsShare = 0.005;        // Relative to the image's longer side: 3 px of 640.
 // Common error of the corners of one view: this, or this share of their own noise.
 constexpr double kCommonError_px = 0.05;
 constexpr double kCommonShare = 0.5;

@@ -87,7 +87,8 @@ std::optional<int> SoftGolayDecoder::NumberOfCells(GolayWord cells) const {
 
 SoftGolayDecoding SoftGolayDecoder::Decode(const CellLikelihoods& cells) const {
   SoftGolayDecoding decoding;
-  std::array<std::int32_t, kGolayBits> weights;  // Of the codeword's bits, before whitening.
+  std::array<std::int32_t, kGolayBits>
+      weights;  // Weights of the codeword's bits, before whitening.
   std::int64_t evidence = 0;
   for (int i = 0; i < kGolayBits; ++i) {
     const std::int32_t weight = Quantize(cells[i]);

@@ -12,7 +12,7 @@
 namespace pleinair::tracker {
 
 /// ln(P(observed | white) / P(observed | black)) of the 24 printed cells, row by row from the
-/// top-left without the centre cell: positive = white, 0 = erased (covered, or both colors equally
+/// top-left without the centre cell. Positive: white; 0: erased (occluded, or both colors equally
 /// likely). NaN counts as erased; values are clamped to ±1000.
 using CellLikelihoods = std::array<float, kGolayBits>;
 
@@ -55,8 +55,8 @@ class SoftGolayDecoder {
   SoftGolayDecoding Decode(const CellLikelihoods& cells) const;
 
   /// The number in use whose marker has exactly these cells (1 = white). Decode() of such cells
-  /// returns the same number, with a margin of at least 16 times the smallest of their likelihoods,
-  /// because markers differ in at least eight cells.
+  /// returns the same number, because markers differ in at least eight cells. Its margin is then at
+  /// least 16 times the smallest of their likelihoods.
   std::optional<int> NumberOfCells(GolayWord cells) const;
 
  private:

@@ -26,7 +26,7 @@ FittedCorner CornerAt(Vec2 unit, const PixelOf& pixel_of) {
   return {unit, pixel_of(unit), slope({kStep, 0.0}), slope({0.0, kStep})};
 }
 
-/// Covariance of corners (px², row-major, x and y of each in turn) from `motion`, the row-major
+/// Covariance of corners (px², row-major, x and y of each in turn). `motion`: the row-major
 /// covariance of the eight motion parameters m of a fit. m moves the observation at (u, v), in half
 /// edges, by
 ///

@@ -75,7 +75,7 @@ class PlanarPoseProblem {
         corners_in_marker_(CornersInMarker(size)) {}
 
   /// Both solutions of IPPE: the first-order plane homography at the square's centre gives the
-  /// rotation up to a reflection (Collins & Bartoli 2014, §4; the steps as in OpenCV's ippe.cpp).
+  /// rotation up to a reflection. Collins & Bartoli 2014, §4; the steps as in OpenCV's ippe.cpp.
   /// Returns their number.
   int Starts(std::array<Transform<Camera, Marker>, 2>* starts) const {
     std::array<Vec2, 4> rays;
@@ -222,8 +222,8 @@ class PlanarPoseProblem {
   const std::array<Vec3, 4> corners_in_marker_;
 };
 
-/// Likelihood ratio of two poses with these squared errors, under the multivariate t distribution
-/// (Lange, Little & Taylor 1989, "Robust statistical modeling using the t distribution", Eq. (1)).
+/// Likelihood ratio of two poses with these squared errors, under the multivariate t distribution.
+/// Lange, Little & Taylor 1989, "Robust statistical modeling using the t distribution", Eq. (1).
 double LikelihoodRatio(double chi2, double other_chi2) {
   return std::pow((kTailFreedom + other_chi2) / (kTailFreedom + chi2),
                   0.5 * (kTailFreedom + kMisfitFreedom));

@@ -22,8 +22,8 @@ CornerCovariance IsotropicCornerCovariance(double sigma_px);
 /// Both solutions of the planar problem start from IPPE (Collins & Bartoli 2014, "Infinitesimal
 /// plane-based pose estimation") on undistorted rays. They are refined in distorted pixels,
 /// weighted by the corners' covariance. The better fit comes first; there is no alternative if both
-/// converge to the same pose. If the corners do not separate the two (χ² differs by less than 9,
-/// odds of 90 to 1), `likely_rotation` decides, for example that of the previous frame. Without it,
+/// converge to the same pose. The corners may not separate the two: χ² differs by less than 9, odds
+/// of 90 to 1. Then `likely_rotation` decides, for example that of the previous frame. Without it,
 /// the covariance includes the other solution with its probability. Returns nullopt if the corners
 /// admit no pose in front of the camera.
 std::optional<PoseEstimate> EstimatePlanarPose(const CameraModel& camera,

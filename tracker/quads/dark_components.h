@@ -25,10 +25,10 @@ struct DarkComponent {
   int first_run, last_run;
 };
 
-/// Connected components of a mask by union-find over the runs of its rows (He, Chao, Suzuki, "A
-/// run-based two-scan labeling algorithm", IEEE TIP 17(5), 2008, section III), in one scan: the
-/// runs of a component form a linked list, so that a merge has constant cost and a component's
-/// outline needs no second scan.
+/// Connected components of a mask by union-find over the runs of its rows, in one scan. He, Chao,
+/// Suzuki, "A run-based two-scan labeling algorithm", IEEE TIP 17(5), 2008, section III. The runs
+/// of a component form a linked list. A merge thus has constant cost, and a component's outline
+/// needs no second scan.
 class DarkComponents {
  public:
   /// Finds the components of at least one pixel. Buffers keep their capacity.

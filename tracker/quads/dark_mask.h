@@ -63,12 +63,12 @@ const DarkMaskKernels& ScalarDarkMaskKernels();
 const DarkMaskKernels& SimdDarkMaskKernels();
 
 /// Adaptive threshold as in AprilTag 3 (Wang & Olson, "AprilTag 2: Efficient and robust fiducial
-/// detection", IROS 2016, section III-A): marks pixels darker than a threshold between the extremes
+/// detection", IROS 2016, section III-A). Marks pixels darker than a threshold between the extremes
 /// of 4×4 tiles, taken over 3×3 tiles. Tiles in neighbourhoods of low contrast have no dark pixels.
-/// Deviations: the threshold need not be half way. The minimum contrast is not a fixed number of
-/// 8-bit values but depends on the noise of this image (up to `most.codes`) and on the
-/// neighbourhood's brightness, so that dark exposures work and noise makes no speckle. The last
-/// columns and rows that do not fill a tile (up to three) are never dark.
+/// Deviations: the threshold need not be half way. The minimum contrast depends on the noise of
+/// this image (up to `most.codes`) and on the neighbourhood's brightness. Thus dark exposures work
+/// and noise makes no speckle. The last columns and rows that do not fill a tile (up to three) are
+/// never dark.
 void ComputeDarkMask(ImageView<const std::uint8_t> grey, DarkContrast most,
                      const DarkMaskKernels& kernels, DarkMaskBuffers* buffers, BitMask* mask);
 

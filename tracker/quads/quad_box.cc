@@ -8,7 +8,7 @@ namespace {
 
 /// Bounding boxes that differ by less than this share on each side belong to one square, …
 constexpr double kSameBox = 0.04;
-/// … and up to this many pixels of the reduced image: what thresholds remove at the corners of a
+/// … and up to this many pixels of the reduced image. What thresholds remove at the corners of a
 /// rotated square does not grow with its size.
 constexpr double kLostCorner_px = 2.5;
 

@@ -13,14 +13,14 @@
 namespace pleinair::tracker {
 namespace {
 
-/// At full size only the thinnest borders are searched, and speckle costs most: the contrast of a
+/// At full size only the thinnest borders are searched, and speckle costs most. The contrast of a
 /// neighbourhood must be at least half its brightness, and above the noise.
 constexpr DarkContrast kFullSize{.codes = 150, .halvings = 1, .eighths = 5};
-/// Half size covers markers with low contrast, noise and blur.
+/// Half size detects markers with low contrast, noise and blur.
 constexpr DarkContrast kHalfSize{.codes = 64, .halvings = 2, .eighths = 4};
 /// Where a shadow edge crosses a marker, the quiet zone in shadow is darker than half way to the
-/// sunlit quiet zone, and merges with the border. With a quarter of the way, shadow edges up to
-/// 16:1 are handled.
+/// sunlit one. It then merges with the border. With a quarter of the way, shadow edges up to 16:1
+/// are handled.
 constexpr DarkContrast kShadowEdges{.codes = 150, .halvings = 1, .eighths = 2};
 
 constexpr float kMinContrast = 6.0F;  // 8-bit values; quantisation and noise leave 4 within black.
@@ -84,8 +84,8 @@ void QuadDetector::Work::DetectAt(ImageView<const std::uint8_t> level, int scale
   for (std::size_t i = 0; i < found.size(); ++i) {
     const DarkComponent& c = found[i];
     const int width = c.max_x - c.min_x + 1, height = c.max_y - c.min_y + 1;
-    // A closed border has at least about as many pixels as its box is wide and high; and a whole
-    // marker has a quiet zone around it.
+    // A closed border has at least about as many pixels as its box is wide and high. A whole marker
+    // has a quiet zone around it.
     if (width < min_extent || height < min_extent || c.area < width + height ||
         c.parent != static_cast<int>(i) || c.min_x == 0 || c.min_y == 0 ||
         c.max_x == level.width() - 1 || c.max_y == level.height() - 1) {

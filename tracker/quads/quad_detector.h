@@ -26,11 +26,11 @@ struct QuadDetectorOptions {
 /// Detects the outer squares of markers: a closed black border with white around it, each a tenth
 /// of the edge wide. First stage of the fast path; the content is decoded afterwards.
 ///
-/// Steps: adaptive thresholds (dark_mask.h) at full size for the thinnest borders, at half size
-/// because means of four pixels have less noise, and at half size with a lower threshold for
-/// markers with a shadow edge; connected components; the best quadrilateral in each convex hull;
-/// refinement of its sides to the steepest gradient. A quadrilateral is kept if all four sides are
-/// darker inside than outside by a similar factor.
+/// Steps: adaptive thresholds (dark_mask.h), connected components, the best quadrilateral in each
+/// convex hull, refinement of its sides to the steepest gradient. Thresholds apply at full size for
+/// the thinnest borders, and at half size because means of four pixels have less noise. A third
+/// threshold, lower and at half size, is for markers with a shadow edge. A quadrilateral is kept if
+/// all four sides are darker inside than outside by a similar factor.
 ///
 /// Not thread-safe: buffers are reused, so that only the first image allocates. Deterministic, in
 /// the order of the results too.

@@ -10,8 +10,8 @@
 
 namespace pleinair::tracker {
 
-/// Contrast along the four sides of a quadrilateral, from pairs of samples: one in the middle of
-/// the quiet zone, one in the middle of the black border.
+/// Contrast along the four sides of a quadrilateral, from pairs of samples. One sample is at half
+/// the width of the quiet zone, the other at half that of the black border.
 struct RimEvidence {
   float contrast = 0.0F;  ///< Quiet zone minus border, 8-bit values, mean over the pairs.
   float min_side = 0.0F;  ///< The same for the weakest side, relative to its quiet zone's mean.
@@ -24,9 +24,9 @@ struct RimEvidence {
   float Doubt() const { return ratio + 0.5F * spread; }
 };
 
-/// Refines each side to the steepest outward rise of intensity within a few pixels:
-/// gradient-weighted mean positions across the side, a line through them, corners at the
-/// intersections (as in Wang & Olson 2016, section III-C). Works in linear light, because in 8-bit
+/// Refines each side to the steepest outward rise of intensity within a few pixels.
+/// Gradient-weighted mean positions across the side determine a line; the lines' intersections are
+/// the corners (as in Wang & Olson 2016, section III-C). Works in linear light, because in 8-bit
 /// values an edge is shifted by up to 0.4 px towards its dark side. Returns false if no edge is
 /// found or the result is not a convex quadrilateral inside the image.
 bool RefineQuad(ImageView<const std::uint8_t> grey, double reach_px, int samples,
